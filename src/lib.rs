@@ -1,0 +1,43 @@
+//! Exact Delaunay triangulation of point clouds.
+//!
+//! The result is a function of the input alone: the Delaunay triangulation of the input's exact coordinates, where
+//! ties are broken as if point *i* (input index) had the lifted height |pᵢ|² + δᵢ with δ₀ ≫ δ₁ ≫ … > 0 infinitesimal.
+//! It is unique, has no tetrahedron of zero volume, and every distinct point is a vertex of it.
+//!
+//! ```
+//! let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
+//! let mesh = gdel::delaunay3d(&points, &gdel::Options::default())?;
+//! assert_eq!(mesh.tetrahedra.len(), 1);
+//! # Ok::<(), gdel::Error>(())
+//! ```
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod cpu;
+mod error;
+pub mod mesh;
+pub mod options;
+pub mod points;
+pub mod predicates;
+pub mod stats;
+
+pub use error::Error;
+pub use mesh::Mesh3;
+pub use options::{Engine, Options, Progress};
+pub use points::Points;
+
+/// The 3D Delaunay triangulation of `points`.
+///
+/// `points` may be slices or vectors of `[f32; 3]`, `[f64; 3]`, `glam::Vec3` or `glam::DVec3`; for interleaved
+/// coordinates see [`Points::from_interleaved_f32`] and [`Points::from_interleaved_f64`].
+///
+/// Coplanar, collinear, coincident and empty input is no error: the mesh then has no tetrahedra and its
+/// [`dimension`](Mesh3::dimension) says why.
+///
+/// # Errors
+///
+/// [`Error::NotFinite`] names the first coordinate that is NaN or infinite, [`Error::TooManyPoints`] says what would
+/// fit, and [`Error::Cancelled`] follows a progress callback that broke off.
+pub fn delaunay3d<'a>(points: impl Into<Points<'a>>, options: &Options) -> Result<Mesh3, Error> {
+    cpu::delaunay3d(points.into(), options)
+}

@@ -1,0 +1,111 @@
+//! Input points: the forms they come in, and validation.
+
+use crate::Error;
+
+/// Borrowed input points, one `[x, y, z]` each. Every finite `f32` and `f64` is taken at its exact value.
+#[derive(Debug, Clone, Copy)]
+pub enum Points<'a> {
+    /// Single precision.
+    F32(&'a [[f32; 3]]),
+    /// Double precision.
+    F64(&'a [[f64; 3]]),
+}
+
+impl<'a> Points<'a> {
+    /// Points from x, y, z, x, y, z, …
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotWholePoints`] when the length is not a multiple of 3.
+    pub fn from_interleaved_f32(xyz: &'a [f32]) -> Result<Self, Error> {
+        whole_points(xyz).map(Points::F32)
+    }
+
+    /// Points from x, y, z, x, y, z, …
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotWholePoints`] when the length is not a multiple of 3.
+    pub fn from_interleaved_f64(xyz: &'a [f64]) -> Result<Self, Error> {
+        whole_points(xyz).map(Points::F64)
+    }
+
+    /// The number of points, duplicates included.
+    pub fn len(&self) -> usize {
+        match self {
+            Points::F32(p) => p.len(),
+            Points::F64(p) => p.len(),
+        }
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The exact coordinates of point `i`.
+    ///
+    /// # Panics
+    ///
+    /// When `i` is not below [`len`](Self::len).
+    #[inline]
+    pub fn get(&self, i: usize) -> [f64; 3] {
+        match self {
+            Points::F32(p) => p[i].map(f64::from),
+            Points::F64(p) => p[i],
+        }
+    }
+
+    /// All points in order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = [f64; 3]> + '_ {
+        let points = *self;
+        (0..self.len()).map(move |i| points.get(i))
+    }
+
+    /// Checks that every coordinate is a finite number.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotFinite`] with the first bad point.
+    pub fn validate(&self) -> Result<(), Error> {
+        for (index, p) in self.iter().enumerate() {
+            for (axis, value) in ['x', 'y', 'z'].into_iter().zip(p) {
+                if !value.is_finite() {
+                    let value = match value {
+                        v if v.is_nan() => "NaN",
+                        v if v > 0.0 => "inf",
+                        _ => "-inf",
+                    };
+                    return Err(Error::NotFinite { index, axis, value });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn whole_points<T: bytemuck::Pod>(xyz: &[T]) -> Result<&[[T; 3]], Error> {
+    let (points, rest) = xyz.as_chunks::<3>();
+    if rest.is_empty() { Ok(points) } else { Err(Error::NotWholePoints { length: xyz.len(), dimension: 3 }) }
+}
+
+macro_rules! from_slices {
+    ($($element:ty => $variant:ident),*) => {$(
+        impl<'a> From<&'a [$element]> for Points<'a> {
+            fn from(points: &'a [$element]) -> Self {
+                Points::$variant(bytemuck::cast_slice(points))
+            }
+        }
+        impl<'a> From<&'a Vec<$element>> for Points<'a> {
+            fn from(points: &'a Vec<$element>) -> Self {
+                points.as_slice().into()
+            }
+        }
+        impl<'a, const N: usize> From<&'a [$element; N]> for Points<'a> {
+            fn from(points: &'a [$element; N]) -> Self {
+                points.as_slice().into()
+            }
+        }
+    )*};
+}
+from_slices!([f32; 3] => F32, [f64; 3] => F64, glam::Vec3 => F32, glam::DVec3 => F64);

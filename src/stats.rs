@@ -1,0 +1,61 @@
+//! What a run did, and how long it took.
+
+/// How a mesh came about.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Stats {
+    /// The engine that made the mesh: `"cpu"`.
+    pub engine: &'static str,
+    /// The phases in the order in which they ran, with the seconds that each took. Zeros where there is no clock
+    /// (wasm, where the caller has one).
+    pub phases: Vec<(&'static str, f64)>,
+    /// Signs that the floating-point filter left open, by what decided them.
+    pub exact: ExactCounts,
+}
+
+/// How many signs each stage of the predicates decided, after the floating-point filter.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct ExactCounts {
+    /// Decided by fixed-width integers on the lattice.
+    pub integer: u64,
+    /// Decided by floating-point expansions or big integers, where a point does not fit the lattice.
+    pub expansion: u64,
+    /// Cospherical: decided by the symbolic perturbation.
+    pub symbolic: u64,
+}
+
+impl Stats {
+    /// The seconds that all phases took together.
+    pub fn total_seconds(&self) -> f64 {
+        self.phases.iter().map(|(_, seconds)| seconds).sum()
+    }
+}
+
+/// Times consecutive phases. Reads no clock on `wasm32-unknown-unknown`, which has none.
+pub(crate) struct Stopwatch {
+    #[cfg(not(target_arch = "wasm32"))]
+    started: std::time::Instant,
+}
+
+impl Stopwatch {
+    pub(crate) fn start() -> Self {
+        Stopwatch {
+            #[cfg(not(target_arch = "wasm32"))]
+            started: std::time::Instant::now(),
+        }
+    }
+
+    /// The seconds since the start or the last lap.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn lap(&mut self) -> f64 {
+        let now = std::time::Instant::now();
+        let seconds = (now - self.started).as_secs_f64();
+        self.started = now;
+        seconds
+    }
+
+    /// Zero: there is no clock.
+    #[cfg(target_arch = "wasm32")]
+    pub(crate) fn lap(&mut self) -> f64 {
+        0.0
+    }
+}
