@@ -15,6 +15,7 @@
 
 pub mod cpu;
 mod error;
+pub mod lattice;
 pub mod mesh;
 pub mod options;
 pub mod points;

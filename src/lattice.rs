@@ -1,0 +1,185 @@
+//! Coordinates as integers on a common power-of-two lattice.
+//!
+//! A point's lattice coordinate is `round(x·2ᵏ) − origin`, with one *k* for the three axes, the largest for which all
+//! of them fit. Scaling by 2ᵏ is exact, so nothing is lost but what the rounding drops, and whether it dropped anything
+//! is known for each point. 31 bits hold grids, voxels and LAS files exactly; 62 bits nearly all `f32` and most `f64`
+//! data.
+
+use crate::Points;
+
+/// How the input lies on the lattice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Width {
+    /// Every coordinate is exact in 31 bits: 0 ≤ q < 2³¹.
+    Narrow,
+    /// Coordinates take 62 bits, 0 ≤ q < 2⁶²; they may be rounded.
+    Wide,
+}
+
+impl Width {
+    /// The bits of a coordinate.
+    pub const fn bits(self) -> u32 {
+        match self {
+            Width::Narrow => 31,
+            Width::Wide => 62,
+        }
+    }
+}
+
+/// The lattice of one input.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lattice {
+    width: Width,
+    /// *k*: coordinates are multiplied by 2ᵏ.
+    exponent: i32,
+    /// The lattice coordinate of the least coordinate of each axis, before it is subtracted; `None` for an axis on which
+    /// all points agree (its lattice coordinates are all 0).
+    origin: [Option<i128>; 3],
+}
+
+/// A lattice coordinate, and whether it stands for the exact value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Coordinate {
+    /// 0 ≤ q < 2^bits.
+    pub value: i64,
+    /// Nothing was rounded.
+    pub exact: bool,
+}
+
+/// |x| = `mantissa`·2^`exponent`, for finite `x`; the mantissa is odd, or 0 for 0.
+pub(crate) fn decompose(x: f64) -> (u64, i32) {
+    let bits = x.to_bits();
+    let biased = (bits >> 52 & 0x7ff) as i32;
+    let fraction = bits & ((1 << 52) - 1);
+    let (mantissa, exponent) = if biased == 0 { (fraction, -1074) } else { (fraction | 1 << 52, biased - 1075) };
+    if mantissa == 0 {
+        return (0, 0);
+    }
+    let zeros = mantissa.trailing_zeros();
+    (mantissa >> zeros, exponent + zeros as i32)
+}
+
+/// `round(x·2^exponent)`, halves up, and whether it is exact. The result must fit, which |x|·2^exponent < 2¹²⁶ ensures.
+fn scale(x: f64, exponent: i32) -> (i128, bool) {
+    let (mantissa, e) = decompose(x);
+    if mantissa == 0 {
+        return (0, true);
+    }
+    let signed = if x < 0.0 { -i128::from(mantissa) } else { i128::from(mantissa) };
+    match e + exponent {
+        shift @ 0.. => (signed << shift, true),
+        shift @ -100..0 => ((signed + (1 << (-shift - 1))) >> -shift, false),
+        _ => (0, false),
+    }
+}
+
+impl Lattice {
+    /// The lattice of `points`, which must be finite.
+    pub fn fit(points: Points<'_>) -> Self {
+        let mut low = [f64::INFINITY; 3];
+        let mut high = [f64::NEG_INFINITY; 3];
+        for p in points.iter() {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(p[axis]);
+                high[axis] = high[axis].max(p[axis]);
+            }
+        }
+        let varies: [bool; 3] = std::array::from_fn(|axis| low[axis] < high[axis]);
+        let fitting = |width: Width| {
+            (0..3).filter(|&axis| varies[axis]).map(|axis| largest_exponent(low[axis], high[axis], width.bits())).min()
+        };
+        let lattice = |width: Width| {
+            let exponent = fitting(width).unwrap_or(0);
+            let origin = std::array::from_fn(|axis| varies[axis].then(|| scale(low[axis], exponent).0));
+            Lattice { width, exponent, origin }
+        };
+        let narrow = lattice(Width::Narrow);
+        let exact = points.iter().all(|p| narrow.coordinates(p).iter().all(|c| c.exact));
+        if exact { narrow } else { lattice(Width::Wide) }
+    }
+
+    /// How many bits the coordinates take.
+    pub fn width(&self) -> Width {
+        self.width
+    }
+
+    /// *k*: one lattice step is 2⁻ᵏ.
+    pub fn exponent(&self) -> i32 {
+        self.exponent
+    }
+
+    /// The lattice coordinates of a point of the input that the lattice was fitted to.
+    #[inline]
+    pub fn coordinates(&self, p: [f64; 3]) -> [Coordinate; 3] {
+        std::array::from_fn(|axis| match self.origin[axis] {
+            None => Coordinate { value: 0, exact: true },
+            Some(origin) => {
+                let (scaled, exact) = scale(p[axis], self.exponent);
+                Coordinate { value: (scaled - origin) as i64, exact }
+            }
+        })
+    }
+}
+
+/// The largest *k* for which `round(high·2ᵏ) − round(low·2ᵏ)` < 2^`bits`; `low` < `high`.
+fn largest_exponent(low: f64, high: f64, bits: u32) -> i32 {
+    // The halves never overflow; a subnormal that loses its last bit here is mended by the search below, since the
+    // estimate is only where it starts.
+    let range = high / 2.0 - low / 2.0;
+    let (mantissa, e) = decompose(if range > 0.0 { range } else { f64::from_bits(1) });
+    // range·2 has its leading bit at e + bits(mantissa).
+    let leading = e + 1 + (64 - mantissa.leading_zeros() as i32);
+    let mut k = bits as i32 - leading + 2;
+    while {
+        let span = scale(high, k).0 - scale(low, k).0;
+        span >> bits != 0
+    } {
+        k -= 1;
+    }
+    k
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(points: &[[f64; 3]]) -> Lattice {
+        let lattice = Lattice::fit(points.into());
+        let bits = lattice.width().bits();
+        let mut highest = 0;
+        for &p in points {
+            for c in lattice.coordinates(p) {
+                assert!(c.value >= 0 && c.value >> bits == 0, "{p:?} gives {c:?}");
+                highest = highest.max(c.value);
+            }
+        }
+        if points.iter().any(|p| p != &points[0]) {
+            assert!(highest >> (bits - 2) != 0, "the lattice is coarser than it need be: {highest:#x}");
+        }
+        lattice
+    }
+
+    #[test]
+    fn extremes_fit() {
+        let values = [0.0, 1.0, -1.0, 1e300, -1e300, f64::MAX, f64::MIN, f64::MIN_POSITIVE, 5e-324, -5e-324, 1e-5];
+        for a in values {
+            for b in values {
+                check(&[[a, b, 1.0], [b, a, 1e9]]);
+                check(&[[a, 1e300, 1.0], [b, 1e300, 1.0]]);
+            }
+        }
+    }
+
+    #[test]
+    fn grids_are_narrow_and_exact() {
+        assert_eq!(check(&[[0.0, 0.0, 0.0], [512.0, 3.0, 5.0]]).width(), Width::Narrow);
+        assert_eq!(check(&[[1e7, 5e6, 0.125], [1e7 + 1000.5, 5e6, 17.0]]).width(), Width::Narrow);
+        assert_eq!(check(&[[0.1, 0.2, 0.3], [1.0, 1.0, 1.0]]).width(), Width::Wide);
+    }
+
+    #[test]
+    fn rounding_is_noticed() {
+        let lattice = check(&[[0.0; 3], [1.0; 3], [1e-30, 0.5, 1.0 / 3.0]]);
+        assert_eq!(lattice.coordinates([1e-30, 0.5, 1.0 / 3.0]).map(|c| c.exact), [false, true, true]);
+    }
+}
