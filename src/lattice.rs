@@ -108,6 +108,11 @@ impl Lattice {
         self.exponent
     }
 
+    /// The axes on which the points do not all agree.
+    pub fn varies(&self) -> [bool; 3] {
+        self.origin.map(|o| o.is_some())
+    }
+
     /// The lattice coordinates of a point of the input that the lattice was fitted to.
     #[inline]
     pub fn coordinates(&self, p: [f64; 3]) -> [Coordinate; 3] {

@@ -1,0 +1,150 @@
+//! Signs for lattice coordinates, in fixed-width integers.
+//!
+//! For *b*-bit coordinates, differences have b + 1 bits with their sign, an orientation needs 3b + 3 and an in-sphere
+//! determinant 5b + 6. The narrow forms take 31-bit coordinates and stay within 64- and 128-bit integers but for the last
+//! sum; the wide forms take 62-bit ones.
+
+use super::Sign;
+
+type Point = [i64; 3];
+
+fn minus(a: Point, b: Point) -> Point {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// The sign of det(b − a, c − a, d − a) for coordinates 0 ≤ q < 2³¹.
+#[inline]
+pub fn orient3d_narrow(a: Point, b: Point, c: Point, d: Point) -> Sign {
+    let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));
+    // Differences are below 2³¹, so the 2×2 minors are below 2⁶³.
+    let x = i128::from(u[0]) * i128::from(v[1] * w[2] - v[2] * w[1]);
+    let y = i128::from(u[1]) * i128::from(v[2] * w[0] - v[0] * w[2]);
+    let z = i128::from(u[2]) * i128::from(v[0] * w[1] - v[1] * w[0]);
+    (x + y + z).signum() as Sign
+}
+
+/// Positive when e is inside the sphere through the positively oriented a, b, c, d, for coordinates 0 ≤ q < 2³¹.
+#[inline]
+pub fn insphere_narrow(a: Point, b: Point, c: Point, d: Point, e: Point) -> Sign {
+    let (a, b, c, d) = (minus(a, e), minus(b, e), minus(c, e), minus(d, e));
+    let minor = |p: Point, q: Point| p[0] * q[1] - q[0] * p[1];
+    let (ab, bc, cd, da) = (minor(a, b), minor(b, c), minor(c, d), minor(d, a));
+    let (ac, bd) = (minor(a, c), minor(b, d));
+    let times = |p: Point, m: i64| i128::from(p[2]) * i128::from(m);
+    let abc = times(a, bc) - times(b, ac) + times(c, ab);
+    let bcd = times(b, cd) - times(c, bd) + times(d, bc);
+    let cda = times(c, da) + times(d, ac) + times(a, cd);
+    let dab = times(d, ab) + times(a, bd) + times(b, da);
+    // Below 3·2⁶².
+    let lift = |p: Point| p.iter().map(|&x| (x * x) as u64).sum::<u64>();
+    // The terms are below 2⁹⁶·2⁶⁴: kept as high·2⁶⁴ + low, with the carries of the low halves in their own upper half.
+    let mut high = 0i128;
+    let mut low = 0i128;
+    for (positive, m, l) in [(true, bcd, lift(a)), (false, cda, lift(b)), (true, dab, lift(c)), (false, abc, lift(d))] {
+        let m = if positive { m } else { -m };
+        let upper = (m >> 64) * i128::from(l);
+        let lower = u128::from(m as u64) * u128::from(l);
+        high += upper + (lower >> 64) as i128;
+        low += i128::from(lower as u64);
+    }
+    high += low >> 64;
+    match high.signum() {
+        0 => (low as u64 != 0) as Sign,
+        sign => sign as Sign,
+    }
+}
+
+/// high·2⁶⁴ + low.
+#[derive(Clone, Copy)]
+struct I192 {
+    high: i128,
+    low: u64,
+}
+
+impl I192 {
+    #[inline]
+    fn product(m: i128, s: i64) -> Self {
+        let upper = (m >> 64) * i128::from(s);
+        let lower = i128::from(m as u64) * i128::from(s);
+        I192 { high: upper + (lower >> 64), low: lower as u64 }
+    }
+
+    #[inline]
+    fn plus(self, other: Self) -> Self {
+        let (low, carry) = self.low.overflowing_add(other.low);
+        I192 { high: self.high + other.high + i128::from(carry), low }
+    }
+
+    #[inline]
+    fn sum(terms: [(i128, i64); 3]) -> Self {
+        let [a, b, c] = terms.map(|(m, s)| Self::product(m, s));
+        a.plus(b).plus(c)
+    }
+}
+
+#[inline]
+fn minor_wide(p: Point, q: Point, i: usize, j: usize) -> i128 {
+    i128::from(p[i]) * i128::from(q[j]) - i128::from(p[j]) * i128::from(q[i])
+}
+
+/// The sign of det(b − a, c − a, d − a) for coordinates 0 ≤ q < 2⁶².
+#[inline]
+pub fn orient3d_wide(a: Point, b: Point, c: Point, d: Point) -> Sign {
+    let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));
+    let det =
+        I192::sum([(minor_wide(v, w, 1, 2), u[0]), (minor_wide(v, w, 2, 0), u[1]), (minor_wide(v, w, 0, 1), u[2])]);
+    match det.high.signum() {
+        0 => (det.low != 0) as Sign,
+        sign => sign as Sign,
+    }
+}
+
+/// Positive when e is inside the sphere through the positively oriented a, b, c, d, for coordinates 0 ≤ q < 2⁶².
+#[inline]
+pub fn insphere_wide(a: Point, b: Point, c: Point, d: Point, e: Point) -> Sign {
+    let (a, b, c, d) = (minus(a, e), minus(b, e), minus(c, e), minus(d, e));
+    let minor = |p: Point, q: Point| minor_wide(p, q, 0, 1);
+    let (ab, bc, cd, da) = (minor(a, b), minor(b, c), minor(c, d), minor(d, a));
+    let (ac, bd) = (minor(a, c), minor(b, d));
+    let abc = I192::sum([(bc, a[2]), (ac, -b[2]), (ab, c[2])]);
+    let bcd = I192::sum([(cd, b[2]), (bd, -c[2]), (bc, d[2])]);
+    let cda = I192::sum([(da, c[2]), (ac, d[2]), (cd, a[2])]);
+    let dab = I192::sum([(ab, d[2]), (bd, a[2]), (da, b[2])]);
+    // Below 3·2¹²⁴.
+    let lift = |p: Point| p.iter().map(|&x| (i128::from(x) * i128::from(x)) as u128).sum::<u128>();
+    // The sum of the four products, in 64-bit columns that keep their carries in their upper halves.
+    let mut columns = [0i128; 5];
+    for (positive, m, l) in [(true, bcd, lift(a)), (false, cda, lift(b)), (true, dab, lift(c)), (false, abc, lift(d))] {
+        let product = column_product(m, l);
+        for (column, p) in columns.iter_mut().zip(product) {
+            *column += if positive { p } else { -p };
+        }
+    }
+    let mut rest = 0;
+    for i in 0..4 {
+        columns[i + 1] += columns[i] >> 64;
+        rest |= columns[i] as u64;
+    }
+    match columns[4].signum() {
+        0 => (rest != 0) as Sign,
+        sign => sign as Sign,
+    }
+}
+
+/// m·l as a sum of columns, Σ cᵢ·2^(64·i).
+#[inline]
+fn column_product(m: I192, l: u128) -> [i128; 5] {
+    let (m0, m1, m2) = (m.low, m.high as u64, (m.high >> 64) as i64);
+    let (l0, l1) = (l as u64, (l >> 64) as u64);
+    let unsigned = |x: u64, y: u64| {
+        let p = u128::from(x) * u128::from(y);
+        (i128::from(p as u64), (p >> 64) as i128)
+    };
+    let signed = |x: i64, y: u64| {
+        let p = i128::from(x) * i128::from(y);
+        (i128::from(p as u64), p >> 64)
+    };
+    let (p00, p01, p10, p11) = (unsigned(m0, l0), unsigned(m0, l1), unsigned(m1, l0), unsigned(m1, l1));
+    let (p20, p21) = (signed(m2, l0), signed(m2, l1));
+    [p00.0, p00.1 + p01.0 + p10.0, p01.1 + p10.1 + p11.0 + p20.0, p11.1 + p20.1 + p21.0, p21.1]
+}
