@@ -15,6 +15,8 @@
 
 pub mod cpu;
 mod error;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 pub mod lattice;
 pub mod mesh;
 pub mod options;
