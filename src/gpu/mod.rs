@@ -8,6 +8,8 @@
 //! * [`shader`] assembles WGSL from `shaders/`; [`Kernel`] is one compute pipeline made of it.
 //! * [`Recorder`] encodes many dispatches in one compute pass, and [`Profiler`] times its stages.
 //! * [`Storage`] is a typed storage buffer; [`Readback`] brings results to the host through reused staging buffers.
+//! * [`vertex`] is the form in which points reach the GPU.
+//! * [`twin`] has the kernels' twins, which compute the same on the CPU.
 
 mod buffers;
 mod device;
@@ -16,6 +18,8 @@ mod profile;
 mod readback;
 mod recorder;
 pub mod shader;
+pub mod twin;
+pub mod vertex;
 
 pub use buffers::Storage;
 pub use device::{AdapterChoice, AdapterSummary, Gpu, adapters};

@@ -12,7 +12,15 @@ macro_rules! sources {
 }
 
 /// The files of `shaders/`, by name.
-const SOURCES: &[(&str, &str)] = sources![];
+const SOURCES: &[(&str, &str)] = sources![
+    "shared/exact_narrow",
+    "shared/exact_wide",
+    "shared/filter",
+    "shared/filter_narrow",
+    "shared/filter_wide",
+    "shared/limbs",
+    "shared/predicates",
+];
 
 /// The kernels: the files that can be assembled into a shader of their own, which are those outside `shared/`.
 pub fn kernels() -> impl Iterator<Item = &'static str> {

@@ -1,0 +1,3 @@
+//! The kernels' twins: the same functions on the CPU, for tests on the same buffers.
+
+pub mod predicates;
