@@ -8,6 +8,7 @@
 //! * [`shader`] assembles WGSL from `shaders/`; [`Kernel`] is one compute pipeline made of it.
 //! * [`Recorder`] encodes many dispatches in one compute pass, and [`Profiler`] times its stages.
 //! * [`Storage`] is a typed storage buffer; [`Readback`] brings results to the host through reused staging buffers.
+//! * [`stages`] has the host half of each stage.
 //! * [`vertex`] is the form in which points reach the GPU.
 //! * [`twin`] has the kernels' twins, which compute the same on the CPU.
 
@@ -18,6 +19,7 @@ mod profile;
 mod readback;
 mod recorder;
 pub mod shader;
+pub mod stages;
 pub mod twin;
 pub mod vertex;
 

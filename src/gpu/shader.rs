@@ -13,13 +13,25 @@ macro_rules! sources {
 
 /// The files of `shaders/`, by name.
 const SOURCES: &[(&str, &str)] = sources![
+    "compact",
+    "hilbert_keys",
+    "scan_parts",
+    "scan_reduce",
+    "scan_sums",
+    "sort_count",
+    "sort_scan",
+    "sort_scatter",
     "shared/exact_narrow",
     "shared/exact_wide",
     "shared/filter",
     "shared/filter_narrow",
     "shared/filter_wide",
+    "shared/hilbert",
     "shared/limbs",
     "shared/predicates",
+    "shared/radix",
+    "shared/scan",
+    "shared/workgroup_scan",
 ];
 
 /// The kernels: the files that can be assembled into a shader of their own, which are those outside `shared/`.

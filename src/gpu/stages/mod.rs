@@ -1,0 +1,6 @@
+//! The host half of each stage, in the order of the data.
+
+pub mod compact;
+pub mod hilbert;
+pub mod scan;
+pub mod sort;
