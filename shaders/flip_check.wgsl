@@ -6,7 +6,7 @@
 @group(0) @binding(2) var<storage, read> tets: array<vec4u>;
 @group(0) @binding(3) var<storage, read> neighbors: array<vec4u>;
 @group(0) @binding(4) var<storage, read_write> status: array<Status>;
-@group(0) @binding(5) var<storage, read_write> active: array<Active>;
+@group(0) @binding(5) var<storage, read_write> actives: array<Active>;
 //!include shared/signs
 //!include shared/bids
 
@@ -23,7 +23,7 @@ fn main(
     let list = half_of(iteration);
     let bits = control.bid_bits;
     for (var i = id.x; i < entries; i += groups.x * 256) {
-        let t = active[list + i].tet;
+        let t = actives[list + i].tet;
         let tet = tets[t];
         let near = neighbors[t];
         let flags = atomicLoad(&status[t].flags);
@@ -76,7 +76,7 @@ fn main(
                 check &= ~(1u << k);
             }
         }
-        active[list + i].outcome = flip | (suspect << SUSPECT_SHIFT) | check;
+        actives[list + i].outcome = flip | (suspect << SUSPECT_SHIFT) | check;
         if flip != 0 {
             let bid = bid_of(i, iteration, bits);
             atomicMax(&status[t].vote, bid);

@@ -8,7 +8,7 @@
 @group(0) @binding(1) var<storage, read_write> tets: array<vec4u>;
 @group(0) @binding(2) var<storage, read_write> neighbors: array<vec4u>;
 @group(0) @binding(3) var<storage, read_write> status: array<Status>;
-@group(0) @binding(4) var<storage, read_write> active: array<Active>;
+@group(0) @binding(4) var<storage, read_write> actives: array<Active>;
 @group(0) @binding(5) var<storage, read_write> free: array<atomic<u32>>;
 @group(0) @binding(6) var<storage, read_write> messages: array<vec4u>;
 @group(0) @binding(7) var<storage, read_write> history: array<FlipNode>;
@@ -88,7 +88,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
     let mark = changed_mark(iteration, bits);
     let first = control.first_node;
     for (var i = id.x; i < entries; i += groups.x * 256) {
-        let entry = active[list + i];
+        let entry = actives[list + i];
         let kind = (entry.outcome >> KIND_SHIFT) & 3;
         if kind == 0 {
             continue;
@@ -188,12 +188,12 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
             messages[w] = replaced(replaced(vec4u(NONE), pw.x, 4 * t + 1), pw.y, 4 * u + 2);
             freed = w;
         }
-        active[list + i].outcome = DONE | (freed << SLOT_SHIFT) | kind;
+        actives[list + i].outcome = DONE | (freed << SLOT_SHIFT) | kind;
     }
     if id.x == 0 {
         control.linking = iteration;
         if entries != 0 {
-            atomicStore(&control.active[(iteration + 1) & 1], 0u);
+            atomicStore(&control.listed[(iteration + 1) & 1], 0u);
         }
     }
 }

@@ -7,7 +7,7 @@
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read_write> neighbors: array<vec4u>;
 @group(0) @binding(2) var<storage, read_write> status: array<Status>;
-@group(0) @binding(3) var<storage, read_write> active: array<Active>;
+@group(0) @binding(3) var<storage, read_write> actives: array<Active>;
 @group(0) @binding(4) var<storage, read_write> free: array<atomic<u32>>;
 @group(0) @binding(5) var<storage, read> messages: array<vec4u>;
 //!include shared/bids
@@ -53,7 +53,7 @@ fn main(
         var count = 0u;
         var tet = vec3u(0);
         if start + local < entries {
-            let entry = active[list + start + local];
+            let entry = actives[list + start + local];
             tet.x = entry.tet;
             if (entry.outcome & DONE) == 0 {
                 // The flip that changed this tetrahedron, if one did, lists it.
@@ -85,11 +85,11 @@ fn main(
         var at = atomicAdd(&wanted, count);
         workgroupBarrier();
         if local == 0 {
-            given = atomicAdd(&control.active[(iteration + 1) & 1], atomicLoad(&wanted));
+            given = atomicAdd(&control.listed[(iteration + 1) & 1], atomicLoad(&wanted));
         }
         at += workgroupUniformLoad(&given) + next;
         for (var k = 0u; k < count; k++) {
-            active[at + k] = Active(tet[k], 0);
+            actives[at + k] = Active(tet[k], 0);
         }
     }
     workgroupBarrier();

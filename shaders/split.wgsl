@@ -8,7 +8,7 @@
 @group(0) @binding(1) var<storage, read_write> tets: array<vec4u>;
 @group(0) @binding(2) var<storage, read_write> neighbors: array<vec4u>;
 @group(0) @binding(3) var<storage, read_write> status: array<Status>;
-@group(0) @binding(4) var<storage, read_write> active: array<Active>;
+@group(0) @binding(4) var<storage, read_write> actives: array<Active>;
 @group(0) @binding(5) var<storage, read_write> free: array<u32>;
 @group(0) @binding(6) var<storage, read> picks: array<vec4u>;
 @group(0) @binding(7) var<storage, read> waiting: array<Waiting>;
@@ -57,7 +57,7 @@ fn main(
             given = 0;
             if atomicLoad(&splits) != 0 {
                 atomicAdd(&control.inserted, atomicLoad(&splits));
-                given = atomicAdd(&control.active[half], atomicLoad(&wanted));
+                given = atomicAdd(&control.listed[half], atomicLoad(&wanted));
             }
         }
         at += workgroupUniformLoad(&given) + list;
@@ -78,7 +78,7 @@ fn main(
                 }
                 atomicStore(&status[slot].flags, 1u << k);
                 if k > 0 || listed == 0 {
-                    active[at] = Active(slot, 0);
+                    actives[at] = Active(slot, 0);
                     at += 1;
                 }
             }

@@ -20,7 +20,7 @@ struct Control {
 
     iteration: u32,
     linking: u32,
-    active: array<atomic<u32>, 2>,
+    listed: array<atomic<u32>, 2>,
     round: u32,
     next_node: atomic<u32>,
     first_node: u32,

@@ -97,7 +97,7 @@ pub struct Counters {
     /// The flip iteration, as linking sees it: no kernel writes the one that it reads.
     pub linking: u32,
     /// Entries in the two halves of the active list; iteration *i* uses half *i* mod 2.
-    pub active: [u32; 2],
+    pub listed: [u32; 2],
     /// The insertion round, from 1.
     pub round: u32,
     /// Nodes of the history are numbered through all rounds: this is the next number.

@@ -30,9 +30,9 @@ pub fn flip_commit(state: &mut State) {
     if state.is_idle(iteration) {
         return;
     }
-    state.counters.active[((iteration + 1) & 1) as usize] = 0;
+    state.counters.listed[((iteration + 1) & 1) as usize] = 0;
     let half = state.half();
-    for i in 0..state.counters.active[half] as usize {
+    for i in 0..state.counters.listed[half] as usize {
         let Some(flip) = flip_of(state, i) else { continue };
         let old = if flip.kind == FLIP_23 { &flip.old[..2] } else { &flip.old[..] };
         let bid = state.bid(i);

@@ -16,7 +16,7 @@ pub fn flip_link(state: &mut State) {
     }
     let half = (iteration & 1) as usize;
     let mark = state.changed_mark(iteration);
-    for i in 0..state.counters.active[half] as usize {
+    for i in 0..state.counters.listed[half] as usize {
         let Active { tet: t, outcome } = state.active[half][i];
         if outcome & DONE == 0 {
             // The flip that changed this tetrahedron lists it.
@@ -62,7 +62,7 @@ fn join(state: &mut State, mark: u32, t: u32, face: u32) {
 }
 
 fn append(state: &mut State, half: usize, tet: u32) {
-    let at = &mut state.counters.active[half];
+    let at = &mut state.counters.listed[half];
     state.active[half][*at as usize] = Active { tet, outcome: 0 };
     *at += 1;
 }
