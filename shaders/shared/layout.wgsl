@@ -17,6 +17,11 @@ struct Control {
     first_1: u32,
     first_2: u32,
     first_3: u32,
+    start_0: u32,
+    start_1: u32,
+    start_2: u32,
+    start_3: u32,
+    blocks_before: u32,
 
     iteration: u32,
     linking: u32,
@@ -32,7 +37,7 @@ struct Control {
     iterations: u32,
     visits: u32,
     failed: atomic<u32>,
-    tets: u32,
+    aside: atomic<u32>,
 }
 
 struct Status {

@@ -120,8 +120,8 @@ pub struct Counters {
     pub visits: u32,
     /// Failed vertices.
     pub failed: u32,
-    /// Tetrahedra, with the infinite ones.
-    pub tets: u32,
+    /// Vertices that share their lattice coordinates with another.
+    pub aside: u32,
 }
 
 /// A flip was put off because no slot was found for its third tetrahedron.
@@ -151,6 +151,10 @@ pub struct Params {
     pub entries_before: u32,
     /// The first tetrahedron.
     pub first: [u32; 4],
+    /// The first tetrahedron, as places in the input.
+    pub start: [u32; 4],
+    /// Blocks that there were before there were more.
+    pub blocks_before: u32,
 }
 
 /// A point that waits to be inserted.

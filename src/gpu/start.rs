@@ -22,17 +22,18 @@ fn orient3d(width: Width, [a, b, c, d]: [[i64; 3]; 4]) -> Sign {
     }
 }
 
-/// A first tetrahedron for `points`, as large as a sample of them gives.
+/// A first tetrahedron for `count` points, as large as a sample of them gives.
 ///
 /// Nothing if all points are coplanar, or if the lattice has no point inside the tetrahedron that was found.
-pub fn first_tetrahedron(width: Width, points: &[[i64; 3]]) -> Option<Start> {
-    let stride = points.len().div_ceil(SAMPLE).max(1);
-    largest(width, points, stride).or_else(|| if stride > 1 { largest(width, points, 1) } else { None })
+pub fn first_tetrahedron(width: Width, count: usize, position: impl Fn(usize) -> [i64; 3]) -> Option<Start> {
+    let stride = count.div_ceil(SAMPLE).max(1);
+    largest(width, count, stride, &position)
+        .or_else(|| if stride > 1 { largest(width, count, 1, &position) } else { None })
 }
 
-fn largest(width: Width, points: &[[i64; 3]], stride: usize) -> Option<Start> {
-    let sample = || (0..points.len()).step_by(stride);
-    let float = |i: usize| points[i].map(|x| x as f64);
+fn largest(width: Width, count: usize, stride: usize, position: &dyn Fn(usize) -> [i64; 3]) -> Option<Start> {
+    let sample = || (0..count).step_by(stride);
+    let float = |i: usize| position(i).map(|x| x as f64);
     let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
     let cross = |u: [f64; 3], v: [f64; 3]| {
         [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
@@ -48,7 +49,7 @@ fn largest(width: Width, points: &[[i64; 3]], stride: usize) -> Option<Start> {
     let normal = cross(u, minus(float(c), float(a)));
     let d = farthest(&|i| dot(normal, minus(float(i), float(a))).abs())?;
     let mut first = [a, b, c, d];
-    let corners = |first: [usize; 4]| first.map(|i| points[i]);
+    let corners = |first: [usize; 4]| first.map(position);
     // Where the volume is lost in rounding, any point that is not coplanar with the three will do.
     if orient3d(width, corners(first)) == 0 {
         first[3] = sample().find(|&d| orient3d(width, corners([a, b, c, d])) != 0)?;

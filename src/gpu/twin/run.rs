@@ -46,8 +46,7 @@ impl Default for Settings {
 
 /// Runs Phase 1 on `sites`, which are sorted along the Hilbert curve and distinct. Nothing if they are coplanar.
 pub fn run(width: Width, mut sites: Vec<Vertex>, settings: &Settings) -> Option<State> {
-    let points: Vec<[i64; 3]> = sites.iter().map(|s| s.position).collect();
-    let begin = first_tetrahedron(width, &points)?;
+    let begin = first_tetrahedron(width, sites.len(), |i| sites[i].position)?;
     sites.push(Vertex { position: begin.kernel, index: sites.iter().map(|s| s.index).max()? + 1 });
     let mut state = State::new(width, sites, settings.tail, settings.history);
     state.params.pick = settings.pick as u32;
