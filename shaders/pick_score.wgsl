@@ -21,9 +21,11 @@ fn triple(a: vec3f, b: vec3f, c: vec3f) -> f32 {
     return dot(a, cross(b, c));
 }
 
-fn largest(a: vec3f, b: vec3f, c: vec3f) -> f32 {
+// A power of two that brings the largest of these below 2.
+fn scale_of(a: vec3f, b: vec3f, c: vec3f) -> f32 {
     let m = max(max(abs(a), abs(b)), abs(c));
-    return max(max(max(m.x, m.y), m.z), 1);
+    let largest = max(max(max(m.x, m.y), m.z), 1);
+    return bitcast<f32>(0x7f000000 - (bitcast<u32>(largest) & 0x7f800000));
 }
 
 fn score_of(tet: vec4u, p: u32) -> u32 {
@@ -34,10 +36,10 @@ fn score_of(tet: vec4u, p: u32) -> u32 {
         let a = tet[(k + 1) % 4];
         let u = from_to(a, tet[(k + 2) % 4]);
         let v = from_to(a, tet[(k + 3) % 4]);
-        let scale = 1 / largest(u, v, vec3f(0));
+        let scale = scale_of(u, v, vec3f(0));
         return bitcast<u32>(abs(triple(u * scale, v * scale, from_to(a, p) * scale))) + 1;
     }
-    let scale = 1 / largest(from_to(tet.x, tet.y), from_to(tet.x, tet.z), from_to(tet.x, tet.w));
+    let scale = scale_of(from_to(tet.x, tet.y), from_to(tet.x, tet.z), from_to(tet.x, tet.w));
     let a = from_to(p, tet.x) * scale;
     let b = from_to(p, tet.y) * scale;
     let c = from_to(p, tet.z) * scale;

@@ -28,6 +28,16 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         same[v] = found;
         if found != NONE {
             atomicAdd(&control.aside, 1u);
+            // The first tetrahedron was chosen before anyone knew. Its corners have different coordinates.
+            if v == control.first_0 {
+                control.first_0 = found;
+            } else if v == control.first_1 {
+                control.first_1 = found;
+            } else if v == control.first_2 {
+                control.first_2 = found;
+            } else if v == control.first_3 {
+                control.first_3 = found;
+            }
         }
     }
 }

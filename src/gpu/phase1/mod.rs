@@ -55,15 +55,15 @@ pub struct Settings {
     pub min_active: u32,
     /// Workgroups of a dispatch, at most. Kernels stride over what there is to do.
     pub workgroups: u32,
-    /// Blocks in the tail at the start, for every 64 points.
-    pub tail: u32,
+    /// There is a block in the tail for so many points, at the start and again whenever slots run out.
+    pub points_per_tail_block: u32,
     /// Nodes of the history, for every point.
     pub history: u32,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { pick: Pick::Circumcenter, insert_all: false, min_active: 256, workgroups: 1024, tail: 1, history: 3 }
+        Settings { pick: Pick::Circumcenter, insert_all: false, min_active: 0, workgroups: 1024, points_per_tail_block: 16, history: 3 }
     }
 }
 
@@ -200,6 +200,11 @@ fn bid_bits(blocks: u32) -> u32 {
     33 - (blocks * BLOCK).leading_zeros()
 }
 
+/// Blocks that are added to the tail at a time: at least 64, so that few points do not need many steps.
+fn tail_blocks(points: u32, settings: &Settings) -> u32 {
+    64 + points / settings.points_per_tail_block.max(1)
+}
+
 impl<'a> Run<'a> {
     /// The most points: tetrahedra are numbered in 30 bits, and there are eight slots a point and some.
     pub const MAX_POINTS: usize = 120_000_000;
@@ -224,7 +229,7 @@ impl<'a> Run<'a> {
             return Err(Error::TooManyPoints { points: count, limit: Self::MAX_POINTS });
         }
         let points = count as u32;
-        let blocks = points + 1 + 64 + settings.tail * (points / 64);
+        let blocks = points + 1 + tail_blocks(points, &settings);
         let params = Params {
             infinite: points,
             blocks,
@@ -393,10 +398,11 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Half as many slots again.
+    /// More slots in the tail.
     fn grow(&mut self, recorder: &mut Recorder<'_>) -> Result<(), Error> {
         let before = self.params.blocks;
-        let blocks = before.saturating_add(before / 2).min((1 << 30) / BLOCK - 1);
+        let more = tail_blocks(self.params.infinite, &self.settings);
+        let blocks = before.saturating_add(more).min((1 << 30) / BLOCK - 1);
         if blocks == before {
             return Err(Error::TooManyPoints { points: self.params.infinite as usize, limit: 0 });
         }

@@ -47,7 +47,7 @@ pub fn locate(state: &mut State) {
     for point in 0..state.params.infinite {
         // The kernel point, not infinity, whose number it has: the predicate, not `State::orient`.
         let orient = |four: [u32; 4]| predicates::orient3d(state.width, four.map(|v| state.points[v as usize]));
-        let tet = if first.contains(&point) {
+        let tet = if first.contains(&point) || state.same[point as usize] != NONE {
             NONE
         } else {
             let k = child_of(first, state.params.infinite, point, orient);

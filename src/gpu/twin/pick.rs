@@ -46,11 +46,11 @@ pub fn score(state: &State, t: u32, p: u32) -> u32 {
         // The hull grows most by the point that is farthest from the facet.
         let [a, b, c] = [1, 2, 3].map(|i| vertices[(k + i) % 4]);
         let (u, v) = (difference(b, a), difference(c, a));
-        let scale = 1.0 / largest(&[u, v]);
+        let scale = scale_of(&[u, v]);
         let [u, v, w] = [u, v, difference(p, a)].map(|d| d.map(|x| x * scale));
         return triple(u, v, w).abs().to_bits() + 1;
     }
-    let scale = 1.0 / largest(&[1, 2, 3].map(|i| difference(vertices[i], vertices[0])));
+    let scale = scale_of(&[1, 2, 3].map(|i| difference(vertices[i], vertices[0])));
     let d = vertices.map(|v| difference(v, p).map(|x| x * scale));
     if state.params.pick == Pick::Centroid as u32 {
         let off: [f32; 3] = std::array::from_fn(|i| d[0][i] + d[1][i] + d[2][i] + d[3][i]);
@@ -64,8 +64,10 @@ pub fn score(state: &State, t: u32, p: u32) -> u32 {
     inside.abs().to_bits() + 1
 }
 
-fn largest(vectors: &[[f32; 3]]) -> f32 {
-    vectors.iter().flatten().fold(f32::MIN_POSITIVE, |m, x| m.max(x.abs()))
+/// A power of two that brings the largest of these below 2.
+fn scale_of(vectors: &[[f32; 3]]) -> f32 {
+    let largest = vectors.iter().flatten().fold(1.0f32, |m, x| m.max(x.abs()));
+    f32::from_bits(0x7f00_0000 - (largest.to_bits() & 0x7f80_0000))
 }
 
 fn triple(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> f32 {
