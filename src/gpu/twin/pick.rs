@@ -40,7 +40,9 @@ pub fn score(state: &State, t: u32, p: u32) -> u32 {
     if state.params.pick == Pick::Random as u32 {
         return (p ^ state.counters.inserted.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) >> 1 | 1;
     }
-    let q = |v: u32| state.points[v as usize].position;
+    // Of wide coordinates, the high words.
+    let drop = state.width.bits() - 31;
+    let q = |v: u32| state.points[v as usize].position.map(|x| x >> drop);
     let difference = |v: u32, w: u32| -> [f32; 3] { std::array::from_fn(|i| (q(v)[i] - q(w)[i]) as f32) };
     if let Some(k) = vertices.iter().position(|&v| v == infinite) {
         // The hull grows most by the point that is farthest from the facet.

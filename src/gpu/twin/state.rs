@@ -68,7 +68,7 @@ impl State {
             history: vec![FlipNode::default(); history as usize],
             waiting: vec![Waiting { point: NONE, tet: NONE }; infinite as usize],
             scores: vec![0; infinite as usize],
-            failed: vec![0; points.len()],
+            failed: vec![0; infinite as usize],
             counters: Counters { first_node: 1, next_node: 1, ..Counters::default() },
             points,
         }
