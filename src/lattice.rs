@@ -73,6 +73,12 @@ fn scale(x: f64, exponent: i32) -> (i128, bool) {
     }
 }
 
+/// Whether x·2^exponent is an integer.
+fn is_exact(x: f64, exponent: i32) -> bool {
+    let (mantissa, e) = decompose(x);
+    mantissa == 0 || e + exponent >= 0
+}
+
 impl Lattice {
     /// The lattice of `points`, which must be finite.
     pub fn fit(points: Points<'_>) -> Self {
@@ -94,7 +100,7 @@ impl Lattice {
             Lattice { width, exponent, origin }
         };
         let narrow = lattice(Width::Narrow);
-        let exact = points.iter().all(|p| narrow.coordinates(p).iter().all(|c| c.exact));
+        let exact = points.iter().all(|p| (0..3).all(|axis| !varies[axis] || is_exact(p[axis], narrow.exponent)));
         if exact { narrow } else { lattice(Width::Wide) }
     }
 
@@ -111,6 +117,12 @@ impl Lattice {
     /// The axes on which the points do not all agree.
     pub fn varies(&self) -> [bool; 3] {
         self.origin.map(|o| o.is_some())
+    }
+
+    /// `round(x·2ᵏ)` of the least coordinate of each axis, which is taken off; `None` for an axis on which all points
+    /// agree.
+    pub fn origin(&self) -> [Option<i128>; 3] {
+        self.origin
     }
 
     /// The lattice coordinates of a point of the input that the lattice was fitted to.

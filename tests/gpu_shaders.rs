@@ -5,6 +5,7 @@ use gdel::{
     gpu::{
         shader,
         stages::{
+            points::{InputCounts, InputParams},
             scan::{self, ScanParams},
             sort::{self, SortParams},
         },
@@ -91,6 +92,12 @@ fn host_and_shaders_agree() {
     let (module, _) = validate("sort", &shader::assemble("sort_count", Width::Narrow));
     assert_layout!(module, SortParams { count, shift });
     assert_eq!(constant(&module, "RADIX_TILE") as usize, sort::TILE);
+    let (module, _) = validate("points", &shader::assemble("points_keys", Width::Narrow));
+    assert_layout!(
+        module,
+        InputParams { count, exponent, doubles, varies, origin_low, table_mask, origin_high, width, wanted }
+    );
+    assert_layout!(module, InputCounts { united, duplicates, rounded, unused, stands_for, found });
     let expected = "@group(0) @binding(0) var<storage, read> vertices: array<vec4i>;\n//!include shared/predicates";
     let (module, _) = validate("predicates", &shader::assemble_text(expected, Width::Narrow));
     assert_eq!(constant(&module, "INFINITE"), vertex::INFINITE);

@@ -15,6 +15,9 @@ macro_rules! sources {
 const SOURCES: &[(&str, &str)] = sources![
     "compact",
     "hilbert_keys",
+    "points_gather",
+    "points_keys",
+    "points_unite",
     "scan_parts",
     "scan_reduce",
     "scan_sums",
@@ -27,6 +30,8 @@ const SOURCES: &[(&str, &str)] = sources![
     "shared/filter_narrow",
     "shared/filter_wide",
     "shared/hilbert",
+    "shared/input",
+    "shared/input_counts",
     "shared/limbs",
     "shared/predicates",
     "shared/radix",

@@ -1,5 +1,7 @@
 //! The host half of each stage, in the order of the data.
 
+pub mod points;
+
 pub mod compact;
 pub mod hilbert;
 pub mod scan;
