@@ -15,6 +15,7 @@
 
 pub mod cpu;
 mod error;
+mod hilbert;
 pub mod lattice;
 pub mod mesh;
 pub mod options;
