@@ -57,6 +57,7 @@ impl EdgeMap {
 
     /// Calls `link(f, g)` once for each edge of the closed surface of `facets`: `f` and `g` are the names that `name`
     /// gives to the two directed edges, `name(facet, k)` being that opposite corner `k`.
+    #[inline(never)]
     pub(super) fn link_all(
         &mut self,
         facets: &[[u32; 3]],

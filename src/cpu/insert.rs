@@ -19,25 +19,25 @@ const EXPECTED_TETRAHEDRA: usize = 7;
 /// How often progress is reported, in points.
 const REPORT: usize = 1 << 12;
 
-/// What the insertion of the current point has found out about a tetrahedron.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum State {
-    Unknown,
-    /// Its circumsphere holds the point.
-    Conflict,
+/// What the insertion of the current point has found out about a tetrahedron: the two highest bits of its first vertex,
+/// so that no other cache line need be fetched for them.
+mod state {
+    pub(super) const MASK: u32 = 3 << 30;
+    pub(super) const UNKNOWN: u32 = 0;
+    /// The circumsphere holds the point.
+    pub(super) const CONFLICT: u32 = 1 << 30;
     /// It does not, but a neighbour's does.
-    Beyond,
+    pub(super) const BEYOND: u32 = 2 << 30;
     /// The slot is unused.
-    Free,
+    pub(super) const FREE: u32 = 3 << 30;
 }
 
 /// A growing triangulation.
 pub(super) struct Inserted {
-    /// Vertices, positively oriented. A ghost has the infinite vertex last, and is oriented as if that lay outside.
+    /// Vertices, positively oriented, with a [`state`] in the first. A ghost has the infinite vertex last, and is oriented as if that lay outside.
     tetrahedra: Vec<[u32; 4]>,
     /// Across the facet opposite vertex *k*: 4·(tetrahedron) + (facet seen from there).
     neighbors: Vec<[u32; 4]>,
-    states: Vec<State>,
     /// The infinite vertex: the number of vertices.
     infinite: u32,
 }
@@ -78,7 +78,7 @@ pub(super) fn insert_all(vertices: &Vertices<'_>, options: &Options) -> Result<I
         last = mesh.insert(vertices, p as u32, start, &mut scratch)?;
     }
     for slot in scratch.free {
-        mesh.states[slot as usize] = State::Free;
+        mesh.tetrahedra[slot as usize][0] = state::FREE;
     }
     Ok(mesh)
 }
@@ -86,12 +86,7 @@ pub(super) fn insert_all(vertices: &Vertices<'_>, options: &Options) -> Result<I
 impl Inserted {
     /// One tetrahedron of the vertices 0 to 3, and the four ghosts on its facets.
     fn initial(infinite: u32) -> Self {
-        let mut mesh = Inserted {
-            tetrahedra: vec![[0, 1, 2, 3]],
-            neighbors: vec![[0; 4]],
-            states: vec![State::Unknown; 5],
-            infinite,
-        };
+        let mut mesh = Inserted { tetrahedra: vec![[0, 1, 2, 3]], neighbors: vec![[0; 4]], infinite };
         for (k, facet) in FACETS.iter().enumerate() {
             let [a, b, c] = facet.map(|v| v as u32);
             mesh.tetrahedra.push([a, b, c, infinite]);
@@ -117,7 +112,6 @@ impl Inserted {
         self.tetrahedra
             .try_reserve_exact(more)
             .and_then(|()| self.neighbors.try_reserve_exact(more))
-            .and_then(|()| self.states.try_reserve_exact(more))
             .map_err(|_| Error::OutOfMemory { tetrahedra })
     }
 
@@ -126,17 +120,32 @@ impl Inserted {
         self.neighbors[g as usize / 4][g as usize % 4] = f;
     }
 
+    fn vertices(&self, t: u32) -> [u32; 4] {
+        let [a, b, c, d] = self.tetrahedra[t as usize];
+        [a & !state::MASK, b, c, d]
+    }
+
+    fn state(&self, t: u32) -> u32 {
+        self.tetrahedra[t as usize][0] & state::MASK
+    }
+
+    fn set_state(&mut self, t: u32, state: u32) {
+        let first = &mut self.tetrahedra[t as usize][0];
+        *first = *first & !state::MASK | state;
+    }
+
     fn is_ghost(&self, t: u32) -> bool {
         self.tetrahedra[t as usize][3] == self.infinite
     }
 
     /// A tetrahedron that holds vertex `p`, or a ghost whose facet sees it: a walk that crosses facets towards `p` from
     /// tetrahedron `start`. It ends, since the power distance to `p` falls with every step.
+    #[inline(never)]
     fn locate(&self, vertices: &Vertices<'_>, p: u32, start: u32) -> u32 {
         let mut t = if self.is_ghost(start) { self.neighbors[start as usize][3] >> 2 } else { start };
         let mut came_through = 4;
         'walk: loop {
-            let v = self.tetrahedra[t as usize];
+            let v = self.vertices(t);
             for k in 0..4 {
                 if k == came_through {
                     continue;
@@ -160,17 +169,18 @@ impl Inserted {
     /// facet's plane, its circumdisc, which the circumsphere on the other side of the facet cuts out of the plane.
     #[inline]
     fn in_conflict(&self, vertices: &Vertices<'_>, t: u32, p: u32) -> bool {
-        let v = self.tetrahedra[t as usize];
+        let v = self.vertices(t);
         if v[3] != self.infinite {
             return vertices.insphere(v, p) > 0;
         }
         match vertices.orient3d(v[0], v[1], v[2], p) {
-            0 => vertices.insphere(self.tetrahedra[self.neighbors[t as usize][3] as usize / 4], p) > 0,
+            0 => vertices.insphere(self.vertices(self.neighbors[t as usize][3] >> 2), p) > 0,
             side => side > 0,
         }
     }
 
     /// Inserts vertex `p`, which is in conflict with tetrahedron `start`; gives a tetrahedron at `p`.
+    #[inline(never)]
     fn insert(&mut self, vertices: &Vertices<'_>, p: u32, start: u32, scratch: &mut Scratch) -> Result<u32, Error> {
         self.find_cavity(vertices, p, start, scratch);
         let Scratch { conflict, boundary, beyond, filled, free, edges } = scratch;
@@ -183,8 +193,7 @@ impl Inserted {
             };
             filled.push(new);
             self.tetrahedra[new as usize] = [p, a, b, c];
-            self.states[new as usize] = State::Unknown;
-            self.states[across as usize / 4] = State::Unknown;
+            self.set_state(across >> 2, state::UNKNOWN);
             self.join(4 * new, across);
         }
         edges.link_all(boundary, |facet, corner| 4 * filled[facet] + 1 + corner as u32, |f, g| self.join(f, g));
@@ -192,26 +201,28 @@ impl Inserted {
     }
 
     /// Marks and lists the tetrahedra in conflict with `p`, and the facets around them, breadth-first.
+    #[inline(never)]
     fn find_cavity(&mut self, vertices: &Vertices<'_>, p: u32, start: u32, scratch: &mut Scratch) {
         let Scratch { conflict, boundary, beyond, .. } = scratch;
         boundary.clear();
         beyond.clear();
         conflict.push(start);
-        self.states[start as usize] = State::Conflict;
+        self.set_state(start, state::CONFLICT);
         let mut next = 0;
         while let Some(&t) = conflict.get(next) {
             next += 1;
-            let corners = self.tetrahedra[t as usize];
+            let corners = self.vertices(t);
             for (k, across) in self.neighbors[t as usize].into_iter().enumerate() {
                 let other = across >> 2;
-                match self.states[other as usize] {
-                    State::Conflict => continue,
-                    State::Unknown if self.in_conflict(vertices, other, p) => {
-                        self.states[other as usize] = State::Conflict;
+                match self.state(other) {
+                    state::CONFLICT => continue,
+                    state::UNKNOWN if self.in_conflict(vertices, other, p) => {
+                        self.set_state(other, state::CONFLICT);
                         conflict.push(other);
                         continue;
                     }
-                    _ => self.states[other as usize] = State::Beyond,
+                    state::UNKNOWN => self.set_state(other, state::BEYOND),
+                    _ => {}
                 }
                 let [a, b, c] = FACETS[k].map(|i| corners[i]);
                 boundary.push(match self.infinite {
@@ -234,7 +245,6 @@ impl Inserted {
         }
         self.tetrahedra.push([0; 4]);
         self.neighbors.push([0; 4]);
-        self.states.push(State::Unknown);
         Ok(count as u32)
     }
 
@@ -242,24 +252,23 @@ impl Inserted {
     /// `names[v]`.
     pub(super) fn into_mesh(mut self, names: Vec<u32>) -> (Vec<[u32; 4]>, Vec<[i32; 4]>) {
         const OUTSIDE: u32 = u32::MAX;
-        for t in 0..self.tetrahedra.len() {
-            if self.states[t] != State::Free && self.is_ghost(t as u32) {
-                let inside = self.neighbors[t][3];
+        for t in 0..self.tetrahedra.len() as u32 {
+            if self.state(t) != state::FREE && self.is_ghost(t) {
+                let inside = self.neighbors[t as usize][3];
                 self.neighbors[inside as usize / 4][inside as usize % 4] = OUTSIDE;
-                self.states[t] = State::Free;
+                self.set_state(t, state::FREE);
             }
         }
         let mut count = self.tetrahedra.len();
         let mut t = 0;
         while t < count {
-            if self.states[t] != State::Free {
+            if self.state(t as u32) != state::FREE {
                 t += 1;
                 continue;
             }
             // The last tetrahedron moves into the gap, and its neighbours are told.
             count -= 1;
-            if self.states[count] != State::Free {
-                self.states[t] = self.states[count];
+            if self.state(count as u32) != state::FREE {
                 self.tetrahedra[t] = self.tetrahedra[count];
                 self.neighbors[t] = self.neighbors[count];
                 for k in 0..4 {
