@@ -13,7 +13,7 @@ pub(super) struct EdgeMap {
     vertices: Vec<u32>,
     /// Entry (i, j) belongs to the directed edge from the i-th to the j-th vertex of the boundary. A closed surface has
     /// every edge that is looked up, so nothing needs clearing here either.
-    matrix: Vec<u32>,
+    matrix: Box<[u32; MATRIX * MATRIX]>,
     table: HashMap<(u32, u32), u32, std::hash::BuildHasherDefault<EdgeHasher>>,
 }
 
@@ -33,13 +33,18 @@ impl std::hash::Hasher for EdgeHasher {
     }
 }
 
+/// Where the matrix has the edge; the mask, which changes nothing, spares the bounds check.
+fn cell(from: usize, to: usize) -> usize {
+    (from * MATRIX + to) & (MATRIX * MATRIX - 1)
+}
+
 impl EdgeMap {
     /// For meshes of `vertices` vertices, the infinite one included.
     pub(super) fn new(vertices: usize) -> Self {
         EdgeMap {
             place: vec![0; vertices],
             vertices: Vec::with_capacity(MATRIX),
-            matrix: vec![0; MATRIX * MATRIX],
+            matrix: Box::new([0; MATRIX * MATRIX]),
             table: HashMap::default(),
         }
     }
@@ -57,7 +62,6 @@ impl EdgeMap {
 
     /// Calls `link(f, g)` once for each edge of the closed surface of `facets`: `f` and `g` are the names that `name`
     /// gives to the two directed edges, `name(facet, k)` being that opposite corner `k`.
-    #[inline(never)]
     pub(super) fn link_all(
         &mut self,
         facets: &[[u32; 3]],
@@ -70,14 +74,14 @@ impl EdgeMap {
             for (f, facet) in facets.iter().enumerate() {
                 let [i, j, k] = facet.map(|v| self.place_of(v));
                 for (corner, from, to) in [(0, j, k), (1, k, i), (2, i, j)] {
-                    self.matrix[from * MATRIX + to] = name(f, corner);
+                    self.matrix[cell(from, to)] = name(f, corner);
                 }
             }
             for (f, facet) in facets.iter().enumerate() {
                 let [i, j, k] = facet.map(|v| self.place[v as usize] as usize);
                 for (corner, from, to) in [(0, j, k), (1, k, i), (2, i, j)] {
                     if from < to {
-                        link(name(f, corner), self.matrix[to * MATRIX + from]);
+                        link(name(f, corner), self.matrix[cell(to, from)]);
                     }
                 }
             }

@@ -140,7 +140,6 @@ impl Inserted {
 
     /// A tetrahedron that holds vertex `p`, or a ghost whose facet sees it: a walk that crosses facets towards `p` from
     /// tetrahedron `start`. It ends, since the power distance to `p` falls with every step.
-    #[inline(never)]
     fn locate(&self, vertices: &Vertices<'_>, p: u32, start: u32) -> u32 {
         let mut t = if self.is_ghost(start) { self.neighbors[start as usize][3] >> 2 } else { start };
         let mut came_through = 4;
@@ -180,7 +179,6 @@ impl Inserted {
     }
 
     /// Inserts vertex `p`, which is in conflict with tetrahedron `start`; gives a tetrahedron at `p`.
-    #[inline(never)]
     fn insert(&mut self, vertices: &Vertices<'_>, p: u32, start: u32, scratch: &mut Scratch) -> Result<u32, Error> {
         self.find_cavity(vertices, p, start, scratch);
         let Scratch { conflict, boundary, beyond, filled, free, edges } = scratch;
@@ -201,7 +199,6 @@ impl Inserted {
     }
 
     /// Marks and lists the tetrahedra in conflict with `p`, and the facets around them, breadth-first.
-    #[inline(never)]
     fn find_cavity(&mut self, vertices: &Vertices<'_>, p: u32, start: u32, scratch: &mut Scratch) {
         let Scratch { conflict, boundary, beyond, .. } = scratch;
         boundary.clear();
