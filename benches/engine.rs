@@ -1,0 +1,32 @@
+//! Whole triangulations by the CPU engine, in points a second.
+
+use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use gdel::{
+    Options, cpu,
+    generate::{Distribution, generate},
+};
+
+fn full_grid(side: u32) -> Vec<[f64; 3]> {
+    (0..side.pow(3)).map(|i| [i % side, i / side % side, i / side.pow(2)].map(f64::from)).collect()
+}
+
+fn engine(c: &mut Criterion) {
+    let mut group = c.benchmark_group("cpu");
+    group.sample_size(10);
+    let inputs = [
+        ("uniform", generate(Distribution::Uniform, 10_000, 1)),
+        ("uniform", generate(Distribution::Uniform, 100_000, 1)),
+        ("sphere", generate(Distribution::Sphere, 100_000, 1)),
+        ("grid", full_grid(46)),
+    ];
+    for (name, points) in inputs {
+        let triangulate = || cpu::delaunay3d((&points).into(), &Options::default()).expect("finite points");
+        group.throughput(Throughput::Elements(points.len() as u64));
+        group.bench_function(BenchmarkId::new(name, points.len()), |b| {
+            b.iter_with_large_drop(triangulate);
+        });
+    }
+}
+
+criterion_group!(benches, engine);
+criterion_main!(benches);
