@@ -1,6 +1,6 @@
 //! Whole triangulations by the CPU engine, in points a second.
 
-use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gdel::{
     Options, cpu,
     generate::{Distribution, generate},

@@ -43,3 +43,8 @@ pub use points::Points;
 pub fn delaunay3d<'a>(points: impl Into<Points<'a>>, options: &Options) -> Result<Mesh3, Error> {
     cpu::delaunay3d(points.into(), options)
 }
+
+/// Compiles and runs the README's example.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
