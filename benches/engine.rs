@@ -1,9 +1,10 @@
-//! Whole triangulations by the CPU engine, in points a second.
+//! Whole triangulations by the CPU engine, in points a second. Each passes the verifier before it is timed.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gdel::{
     Options, cpu,
     generate::{Distribution, generate},
+    verify::verify3d,
 };
 
 fn full_grid(side: u32) -> Vec<[f64; 3]> {
@@ -21,6 +22,8 @@ fn engine(c: &mut Criterion) {
     ];
     for (name, points) in inputs {
         let triangulate = || cpu::delaunay3d((&points).into(), &Options::default()).expect("finite points");
+        let report = verify3d(&points, &triangulate()).expect("finite points");
+        assert!(report.passed(), "{name}: {report:?}");
         group.throughput(Throughput::Elements(points.len() as u64));
         group.bench_function(BenchmarkId::new(name, points.len()), |b| {
             b.iter_with_large_drop(triangulate);
