@@ -1,6 +1,7 @@
 //! Which new tetrahedra share a facet: each directed edge of a cavity's boundary belongs to one facet, its reverse to
 //! the adjacent one.
 
+use super::insert::Facet;
 use std::collections::HashMap;
 
 /// Boundaries of more vertices than this use a hash table instead of the matrix.
@@ -11,6 +12,8 @@ pub(super) struct EdgeMap {
     /// Where each mesh vertex stands in `vertices`, if it does: `vertices[place[v]] == v`. So nothing needs clearing.
     place: Vec<u32>,
     vertices: Vec<u32>,
+    /// The places of each facet's corners.
+    places: Vec<[u32; 3]>,
     /// Entry (i, j) belongs to the directed edge from the i-th to the j-th vertex of the boundary. A closed surface has
     /// every edge that is looked up, so nothing needs clearing here either.
     matrix: Box<[u32; MATRIX * MATRIX]>,
@@ -34,8 +37,8 @@ impl std::hash::Hasher for EdgeHasher {
 }
 
 /// Where the matrix has the edge; the mask, which changes nothing, spares the bounds check.
-fn cell(from: usize, to: usize) -> usize {
-    (from * MATRIX + to) & (MATRIX * MATRIX - 1)
+fn cell(from: u32, to: u32) -> usize {
+    (from as usize * MATRIX + to as usize) & (MATRIX * MATRIX - 1)
 }
 
 impl EdgeMap {
@@ -44,58 +47,56 @@ impl EdgeMap {
         EdgeMap {
             place: vec![0; vertices],
             vertices: Vec::with_capacity(MATRIX),
+            places: Vec::new(),
             matrix: Box::new([0; MATRIX * MATRIX]),
             table: HashMap::default(),
         }
     }
 
-    fn place_of(&mut self, v: u32) -> usize {
-        let place = self.place[v as usize] as usize;
-        if self.vertices.get(place) == Some(&v) {
+    fn place_of(&mut self, v: u32) -> u32 {
+        let place = self.place[v as usize];
+        if self.vertices.get(place as usize) == Some(&v) {
             return place;
         }
-        let place = self.vertices.len();
-        self.place[v as usize] = place as u32;
+        let place = self.vertices.len() as u32;
+        self.place[v as usize] = place;
         self.vertices.push(v);
         place
     }
 
-    /// Calls `link(f, g)` once for each edge of the closed surface of `facets`: `f` and `g` are the names that `name`
-    /// gives to the two directed edges, `name(facet, k)` being that opposite corner `k`.
+    /// Calls `link(f, [a, b, c])` for each facet of a closed surface: a, b and c are the names of what lies across the
+    /// edges opposite its corners 0, 1 and 2, where `name(f, k)` is the name of facet `f` as seen across the edge opposite
+    /// corner `k`.
     pub(super) fn link_all(
         &mut self,
-        facets: &[[u32; 3]],
+        facets: &[Facet],
         name: impl Fn(usize, usize) -> u32,
-        mut link: impl FnMut(u32, u32),
+        mut link: impl FnMut(usize, [u32; 3]),
     ) {
         // A triangulated sphere of F facets has F/2 + 2 vertices.
         if facets.len() / 2 + 2 <= MATRIX {
             self.vertices.clear();
+            self.places.clear();
             for (f, facet) in facets.iter().enumerate() {
-                let [i, j, k] = facet.map(|v| self.place_of(v));
-                for (corner, from, to) in [(0, j, k), (1, k, i), (2, i, j)] {
-                    self.matrix[cell(from, to)] = name(f, corner);
-                }
+                let [a, b, c] = facet.corners;
+                let [i, j, k] = [self.place_of(a), self.place_of(b), self.place_of(c)];
+                self.places.push([i, j, k]);
+                self.matrix[cell(j, k)] = name(f, 0);
+                self.matrix[cell(k, i)] = name(f, 1);
+                self.matrix[cell(i, j)] = name(f, 2);
             }
-            for (f, facet) in facets.iter().enumerate() {
-                let [i, j, k] = facet.map(|v| self.place[v as usize] as usize);
-                for (corner, from, to) in [(0, j, k), (1, k, i), (2, i, j)] {
-                    if from < to {
-                        link(name(f, corner), self.matrix[cell(to, from)]);
-                    }
-                }
+            for (f, &[i, j, k]) in self.places.iter().enumerate() {
+                link(f, [self.matrix[cell(k, j)], self.matrix[cell(i, k)], self.matrix[cell(j, i)]]);
             }
         } else {
             self.table.clear();
-            for (f, &[a, b, c]) in facets.iter().enumerate() {
-                for (corner, from, to) in [(0, b, c), (1, c, a), (2, a, b)] {
-                    match self.table.remove(&(to, from)) {
-                        Some(other) => link(name(f, corner), other),
-                        None => {
-                            self.table.insert((from, to), name(f, corner));
-                        }
-                    }
-                }
+            for (f, facet) in facets.iter().enumerate() {
+                let [a, b, c] = facet.corners;
+                self.table.extend([((b, c), name(f, 0)), ((c, a), name(f, 1)), ((a, b), name(f, 2))]);
+            }
+            for (f, facet) in facets.iter().enumerate() {
+                let [a, b, c] = facet.corners;
+                link(f, [(c, b), (a, c), (b, a)].map(|edge| self.table[&edge]));
             }
         }
     }

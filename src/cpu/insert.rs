@@ -42,13 +42,19 @@ pub(super) struct Inserted {
     infinite: u32,
 }
 
+/// A facet of a cavity.
+#[derive(Clone, Copy)]
+pub(super) struct Facet {
+    /// Counter-clockwise as seen from outside of the cavity; an infinite vertex comes last.
+    pub(super) corners: [u32; 3],
+    /// What lies beyond: 4·(tetrahedron) + (facet seen from there).
+    beyond: u32,
+}
+
 /// Lists that every insertion uses anew.
 struct Scratch {
     conflict: Vec<u32>,
-    /// The facets of the cavity, counter-clockwise as seen from outside of it; an infinite vertex comes last.
-    boundary: Vec<[u32; 3]>,
-    /// What lies beyond each facet, packed.
-    beyond: Vec<u32>,
+    boundary: Vec<Facet>,
     /// The slots of the new tetrahedra.
     filled: Vec<u32>,
     free: Vec<u32>,
@@ -64,7 +70,6 @@ pub(super) fn insert_all(vertices: &Vertices<'_>, options: &Options) -> Result<I
     let mut scratch = Scratch {
         conflict: Vec::new(),
         boundary: Vec::new(),
-        beyond: Vec::new(),
         filled: Vec::new(),
         free: Vec::new(),
         edges: EdgeMap::new(n + 1),
@@ -181,36 +186,39 @@ impl Inserted {
     /// Inserts vertex `p`, which is in conflict with tetrahedron `start`; gives a tetrahedron at `p`.
     fn insert(&mut self, vertices: &Vertices<'_>, p: u32, start: u32, scratch: &mut Scratch) -> Result<u32, Error> {
         self.find_cavity(vertices, p, start, scratch);
-        let Scratch { conflict, boundary, beyond, filled, free, edges } = scratch;
+        let Scratch { conflict, boundary, filled, free, edges } = scratch;
         free.append(conflict);
         filled.clear();
-        for (&[a, b, c], &across) in boundary.iter().zip(beyond.iter()) {
+        for &Facet { corners: [a, b, c], beyond } in boundary.iter() {
             let new = match free.pop() {
                 Some(slot) => slot,
                 None => self.push()?,
             };
             filled.push(new);
             self.tetrahedra[new as usize] = [p, a, b, c];
-            self.set_state(across >> 2, state::UNKNOWN);
-            self.join(4 * new, across);
+            self.set_state(beyond >> 2, state::UNKNOWN);
+            self.neighbors[beyond as usize / 4][beyond as usize % 4] = 4 * new;
         }
-        edges.link_all(boundary, |facet, corner| 4 * filled[facet] + 1 + corner as u32, |f, g| self.join(f, g));
+        edges.link_all(
+            boundary,
+            |f, corner| 4 * filled[f] + 1 + corner as u32,
+            |f, [a, b, c]| self.neighbors[filled[f] as usize] = [boundary[f].beyond, a, b, c],
+        );
         Ok(filled[filled.len() - 1])
     }
 
     /// Marks and lists the tetrahedra in conflict with `p`, and the facets around them, breadth-first.
     fn find_cavity(&mut self, vertices: &Vertices<'_>, p: u32, start: u32, scratch: &mut Scratch) {
-        let Scratch { conflict, boundary, beyond, .. } = scratch;
+        let Scratch { conflict, boundary, .. } = scratch;
         boundary.clear();
-        beyond.clear();
         conflict.push(start);
         self.set_state(start, state::CONFLICT);
         let mut next = 0;
         while let Some(&t) = conflict.get(next) {
             next += 1;
             let corners = self.vertices(t);
-            for (k, across) in self.neighbors[t as usize].into_iter().enumerate() {
-                let other = across >> 2;
+            for (facet, beyond) in FACETS.iter().zip(self.neighbors[t as usize]) {
+                let other = beyond >> 2;
                 match self.state(other) {
                     state::CONFLICT => continue,
                     state::UNKNOWN if self.in_conflict(vertices, other, p) => {
@@ -221,13 +229,13 @@ impl Inserted {
                     state::UNKNOWN => self.set_state(other, state::BEYOND),
                     _ => {}
                 }
-                let [a, b, c] = FACETS[k].map(|i| corners[i]);
-                boundary.push(match self.infinite {
+                let [a, b, c] = facet.map(|i| corners[i]);
+                let corners = match self.infinite {
                     i if i == a => [b, c, a],
                     i if i == b => [c, a, b],
                     _ => [a, b, c],
-                });
-                beyond.push(across);
+                };
+                boundary.push(Facet { corners, beyond });
             }
         }
     }
