@@ -15,6 +15,7 @@
 
 pub mod cpu;
 mod error;
+pub mod generate;
 mod hilbert;
 pub mod lattice;
 pub mod mesh;
@@ -22,6 +23,7 @@ pub mod options;
 pub mod points;
 pub mod predicates;
 pub mod stats;
+pub mod verify;
 
 pub use error::Error;
 pub use mesh::Mesh3;
