@@ -73,6 +73,9 @@ fn read(path: &Path) -> Result<Vec<u8>, FileError> {
 ///
 /// [`FileError`].
 pub fn read_points(path: &Path) -> Result<PointCloud, FileError> {
+    if path.is_dir() {
+        return Err(FileError::Read { path: path.into(), source: io::ErrorKind::IsADirectory.into() });
+    }
     let known = PointFormat::ALL.iter().flat_map(|f| f.extensions()).copied();
     let format = by_extension(path, "point clouds", PointFormat::from_extension, known)?;
     format.read(read(path)?).map_err(|source| FileError::Format { path: path.into(), source })
@@ -193,7 +196,12 @@ fn temporary(path: &Path) -> io::Result<NamedTempFile> {
     // As any new file, less what the umask takes; temporary files are private otherwise.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
+    builder.tempfile_in(folder).map_err(|error| {
+        // The bare error of the system: the crate adds the temporary name, which tells the user nothing.
+        let bare =
+            error.get_ref().and_then(|outer| outer.source()).and_then(|source| source.downcast_ref::<io::Error>());
+        bare.and_then(io::Error::raw_os_error).map_or(error, io::Error::from_raw_os_error)
+    })
 }
 
 fn prepare(path: &Path, content: Content<'_>) -> Result<Prepared, FileError> {

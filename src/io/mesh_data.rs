@@ -1,6 +1,6 @@
 //! Meshes as files give and take them.
 
-use crate::{Mesh3, Points};
+use crate::{Mesh3, Points, verify::Statement};
 
 /// A mesh as a file gives it: nothing about it has been checked.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -10,6 +10,12 @@ pub struct MeshData {
     /// Entry *k* is the tetrahedron across the facet opposite vertex *k*, -1 outside; `None` when the file does not
     /// say.
     pub neighbors: Option<Vec<[i32; 4]>>,
+}
+
+impl<'a> From<&'a MeshData> for Statement<'a> {
+    fn from(mesh: &'a MeshData) -> Self {
+        Statement { neighbors: mesh.neighbors.as_deref(), ..Statement::of_tetrahedra(&mesh.tetrahedra) }
+    }
 }
 
 /// The hull's triangles and their vertices, counted anew.
