@@ -17,6 +17,8 @@ pub mod cpu;
 mod error;
 pub mod generate;
 mod hilbert;
+#[cfg(feature = "io")]
+pub mod io;
 pub mod lattice;
 pub mod mesh;
 pub mod options;
