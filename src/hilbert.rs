@@ -5,7 +5,7 @@
 const STEPS: [[(u8, u8); 8]; 24] = steps();
 
 const fn rotate_left(bits: u32, by: u32) -> u32 {
-    (bits << by % 3 | bits >> (3 - by % 3)) & 7
+    ((bits << (by % 3)) | (bits >> (3 - by % 3))) & 7
 }
 
 /// A state is the octant where the curve enters (*e*) and the axis along which it leaves (*d*): `3·e + d`.

@@ -150,11 +150,11 @@ impl Inserted {
         let mut came_through = 4;
         'walk: loop {
             let v = self.vertices(t);
-            for k in 0..4 {
+            for (k, facet) in FACETS.iter().enumerate() {
                 if k == came_through {
                     continue;
                 }
-                let [a, b, c] = FACETS[k].map(|i| v[i]);
+                let [a, b, c] = facet.map(|i| v[i]);
                 if vertices.orient3d(a, b, c, p) > 0 {
                     let across = self.neighbors[t as usize][k];
                     t = across >> 2;

@@ -107,9 +107,8 @@ impl<'a> Array<'a> {
     /// Indices; those that are no `i32` become an error.
     pub(super) fn indices(&self) -> Result<Vec<[i64; 4]>, FormatError> {
         match (self.kind, self.size) {
-            (b'i', 8) => self.rows(i64::from_le_bytes),
-            // Larger than any index, as a number or as the negative that it becomes.
-            (b'u', 8) => self.rows(|b| i64::from_le_bytes(b)),
+            // A u64 that is no i64 becomes negative, which no index is.
+            (b'i' | b'u', 8) => self.rows(i64::from_le_bytes),
             (b'i', 4) => self.rows(|b| i32::from_le_bytes(b).into()),
             (b'u', 4) => self.rows(|b| u32::from_le_bytes(b).into()),
             _ => Err(self.unsupported("indices")),
