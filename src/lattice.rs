@@ -27,11 +27,13 @@ impl Width {
 }
 
 /// The lattice of one input.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Lattice {
     width: Width,
     /// *k*: coordinates are multiplied by 2ᵏ.
     exponent: i32,
+    /// 2ᵏ where `f64` has it, else NaN.
+    factor: f64,
     /// The lattice coordinate of the least coordinate of each axis, before it is subtracted; `None` for an axis on which
     /// all points agree (its lattice coordinates are all 0).
     origin: [Option<i128>; 3],
@@ -97,7 +99,11 @@ impl Lattice {
         let lattice = |width: Width| {
             let exponent = fitting(width).unwrap_or(0);
             let origin = std::array::from_fn(|axis| varies[axis].then(|| scale(low[axis], exponent).0));
-            Lattice { width, exponent, origin }
+            let factor = match exponent {
+                -1000..=1000 => f64::from_bits(((1023 + exponent) as u64) << 52),
+                _ => f64::NAN,
+            };
+            Lattice { width, exponent, factor, origin }
         };
         let narrow = lattice(Width::Narrow);
         let exact = points.iter().all(|p| (0..3).all(|axis| !varies[axis] || is_exact(p[axis], narrow.exponent)));
@@ -131,7 +137,15 @@ impl Lattice {
         std::array::from_fn(|axis| match self.origin[axis] {
             None => Coordinate { value: 0, exact: true },
             Some(origin) => {
-                let (scaled, exact) = scale(p[axis], self.exponent);
+                // Most coordinates become integers that need no rounding; NaN is none of them.
+                let scaled = p[axis] * self.factor;
+                let integer = scaled as i64;
+                let underflow = integer == 0 && p[axis] != 0.0;
+                let (scaled, exact) = if integer as f64 == scaled && integer.unsigned_abs() < 1 << 62 && !underflow {
+                    (i128::from(integer), true)
+                } else {
+                    scale(p[axis], self.exponent)
+                };
                 Coordinate { value: (scaled - origin) as i64, exact }
             }
         })
