@@ -5,7 +5,7 @@
 
 use gdel::gpu::phase1::{Input, Phase1, Phase1Output, Pick, Settings};
 use gdel::gpu::start::first_tetrahedron;
-use gdel::gpu::{AdapterChoice, Gpu, Profiler, vertex};
+use gdel::gpu::{AdapterChoice, Gpu, Profiler};
 use gdel::lattice::Lattice;
 use pollster::block_on;
 use rand::{RngExt, SeedableRng};
@@ -62,17 +62,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let points = generate(&kind, count);
     let clock = std::time::Instant::now();
     let lattice = Lattice::fit((&points).into());
-    let words = vertex::words(&lattice, (0..).zip(points.iter().map(|p| p.map(f64::from))).collect::<Vec<_>>().into_iter());
     let position = |i: usize| lattice.coordinates(points[i].map(f64::from)).map(|c| c.value);
     let start = first_tetrahedron(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
     let lattice_ms = clock.elapsed().as_secs_f64() * 1e3;
-    let input = Input { width: lattice.width(), words: &words, start };
+    let input = Input { points: (&points).into(), lattice: &lattice, start };
 
     let clock = std::time::Instant::now();
     let phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
     let pipelines_ms = clock.elapsed().as_secs_f64() * 1e3;
     let mut runs: Vec<Phase1Output> = Vec::new();
-    for _ in 0..repeats + 1 {
+    for _ in 0..repeats.max(1) + 1 {
         runs.push(block_on(phase1.run(&gpu, input, &settings, None))?);
     }
     let mut stages = Vec::new();
@@ -84,14 +83,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     runs.remove(0);
     runs.sort_by(|a, b| a.stats.milliseconds.total_cmp(&b.stats.milliseconds));
     let all: Vec<String> = runs.iter().map(|r| format!("{:.2}", r.stats.milliseconds)).collect();
-    let Phase1Output { stats, tets, failed, set_aside, .. } = &runs[runs.len() / 2];
+    let Phase1Output { stats, tets, failed, united, .. } = &runs[runs.len() / 2];
     let counters = &stats.counters;
     let stages: Vec<String> = stages.iter().map(|(name, ms)| format!("\"{name}\":{ms:.3}")).collect();
     println!(
         "{{\"input\":\"{kind}\",\"points\":{count},\"adapter\":\"{}\",\"width\":\"{:?}\",\"ms\":{:.2},\"all_ms\":[{}],\
          \"mesh_readback_ms\":{:.2},\"lattice_ms\":{lattice_ms:.1},\"pipelines_ms\":{pipelines_ms:.0},\"rounds\":{},\
          \"flip_iterations\":{},\"visits\":{},\"flips_23\":{},\"flips_32\":{},\"exact\":{},\"tets\":{},\"failed\":{},\
-         \"set_aside\":{},\"readbacks\":{},\"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
+         \"united\":{},\"readbacks\":{},\"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
         gpu.adapter().name,
         lattice.width(),
         stats.milliseconds,
@@ -105,7 +104,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         counters.exact,
         tets.len(),
         failed.len(),
-        set_aside.len(),
+        united.len(),
         stats.readbacks,
         stats.dispatches,
         stats.bytes,

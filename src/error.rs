@@ -74,6 +74,18 @@ pub enum Error {
         /// What it reports.
         message: String,
     },
+    /// The input's triangulation is larger than an index can name, as only contrived inputs' are.
+    #[error("the triangulation has more than {limit} tetrahedra, the most that this engine holds")]
+    TooManyTetrahedra {
+        /// The most that the engine holds.
+        limit: usize,
+    },
+    /// The machine has no memory left for the mesh.
+    #[error("out of memory: there is no room for {tetrahedra} tetrahedra")]
+    OutOfMemory {
+        /// The tetrahedra that room was asked for.
+        tetrahedra: usize,
+    },
     /// The progress callback asked to stop.
     #[error("cancelled")]
     Cancelled,

@@ -27,11 +27,13 @@ impl Width {
 }
 
 /// The lattice of one input.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Lattice {
     width: Width,
     /// *k*: coordinates are multiplied by 2ᵏ.
     exponent: i32,
+    /// 2ᵏ where `f64` has it, else NaN.
+    factor: f64,
     /// The lattice coordinate of the least coordinate of each axis, before it is subtracted; `None` for an axis on which
     /// all points agree (its lattice coordinates are all 0).
     origin: [Option<i128>; 3],
@@ -73,6 +75,12 @@ fn scale(x: f64, exponent: i32) -> (i128, bool) {
     }
 }
 
+/// Whether x·2^exponent is an integer.
+fn is_exact(x: f64, exponent: i32) -> bool {
+    let (mantissa, e) = decompose(x);
+    mantissa == 0 || e + exponent >= 0
+}
+
 impl Lattice {
     /// The lattice of `points`, which must be finite.
     pub fn fit(points: Points<'_>) -> Self {
@@ -91,10 +99,14 @@ impl Lattice {
         let lattice = |width: Width| {
             let exponent = fitting(width).unwrap_or(0);
             let origin = std::array::from_fn(|axis| varies[axis].then(|| scale(low[axis], exponent).0));
-            Lattice { width, exponent, origin }
+            let factor = match exponent {
+                -1000..=1000 => f64::from_bits(((1023 + exponent) as u64) << 52),
+                _ => f64::NAN,
+            };
+            Lattice { width, exponent, factor, origin }
         };
         let narrow = lattice(Width::Narrow);
-        let exact = points.iter().all(|p| narrow.coordinates(p).iter().all(|c| c.exact));
+        let exact = points.iter().all(|p| (0..3).all(|axis| !varies[axis] || is_exact(p[axis], narrow.exponent)));
         if exact { narrow } else { lattice(Width::Wide) }
     }
 
@@ -113,13 +125,27 @@ impl Lattice {
         self.origin.map(|o| o.is_some())
     }
 
+    /// `round(x·2ᵏ)` of the least coordinate of each axis, which is taken off; `None` for an axis on which all points
+    /// agree.
+    pub fn origin(&self) -> [Option<i128>; 3] {
+        self.origin
+    }
+
     /// The lattice coordinates of a point of the input that the lattice was fitted to.
     #[inline]
     pub fn coordinates(&self, p: [f64; 3]) -> [Coordinate; 3] {
         std::array::from_fn(|axis| match self.origin[axis] {
             None => Coordinate { value: 0, exact: true },
             Some(origin) => {
-                let (scaled, exact) = scale(p[axis], self.exponent);
+                // Most coordinates become integers that need no rounding; NaN is none of them.
+                let scaled = p[axis] * self.factor;
+                let integer = scaled as i64;
+                let underflow = integer == 0 && p[axis] != 0.0;
+                let (scaled, exact) = if integer as f64 == scaled && integer.unsigned_abs() < 1 << 62 && !underflow {
+                    (i128::from(integer), true)
+                } else {
+                    scale(p[axis], self.exponent)
+                };
                 Coordinate { value: (scaled - origin) as i64, exact }
             }
         })

@@ -15,14 +15,19 @@
 
 pub mod cpu;
 mod error;
+pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod hilbert;
+#[cfg(feature = "io")]
+pub mod io;
 pub mod lattice;
 pub mod mesh;
 pub mod options;
 pub mod points;
 pub mod predicates;
 pub mod stats;
+pub mod verify;
 
 pub use error::Error;
 pub use mesh::Mesh3;
@@ -44,3 +49,8 @@ pub use points::Points;
 pub fn delaunay3d<'a>(points: impl Into<Points<'a>>, options: &Options) -> Result<Mesh3, Error> {
     cpu::delaunay3d(points.into(), options)
 }
+
+/// Compiles and runs the README's example.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

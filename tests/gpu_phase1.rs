@@ -5,11 +5,11 @@ mod common;
 
 use common::phase1::{self as inputs, Input as Points};
 use gdel::gpu::layout::{Active, Counters, FlipNode, Status, Waiting};
-use gdel::gpu::phase1::{Input, Phase1, Run, Settings};
+use gdel::gpu::phase1::{Input, Phase1, Pick, Run, Settings};
 use gdel::gpu::start::first_tetrahedron;
 use gdel::gpu::twin::{State, predicates::Vertex};
 use gdel::gpu::{AdapterChoice, Gpu, Readback, Storage, vertex};
-use gdel::lattice::Width;
+use gdel::lattice::{Lattice, Width};
 use pollster::block_on;
 
 fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {
@@ -41,8 +41,9 @@ fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
     State {
         width,
         params,
-        points: vertices(width, &read(gpu, &b.vertices)),
-        same: read(gpu, &b.same),
+        points: vertices(width, &read(gpu, &b.points.vertices)),
+        first: [0; 4],
+        united: read(gpu, &b.points.pairs).into_iter().map(|[key, _]| key == u32::MAX).collect(),
         tets: read(gpu, &b.tets),
         neighbors: read(gpu, &b.neighbors),
         status: read::<Status>(gpu, &b.status),
@@ -57,26 +58,21 @@ fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
     }
 }
 
-fn words(points: &Points) -> Vec<[i32; 4]> {
-    let mut words = Vec::new();
-    for (index, &q) in (0..).zip(&points.positions) {
-        vertex::append_words(&mut words, points.width, q, index);
-    }
-    words
-}
-
-fn run_and_validate(gpu: &Gpu, kernels: &Phase1, points: &Points, settings: Settings) {
-    let words = words(points);
+fn run_and_validate(gpu: &Gpu, kernels: &[Phase1; 2], points: &Points, settings: Settings) {
     let count = points.positions.len();
-    let start = first_tetrahedron(points.width, count, |i| points.positions[i]).expect("not coplanar");
-    let input = Input { width: points.width, words: &words, start };
+    let lattice = Lattice::fit((&points.positions).into());
+    let width = lattice.width();
+    let kernels = &kernels[usize::from(width == Width::Wide)];
+    let position = |i: usize| lattice.coordinates(points.positions[i]).map(|c| c.value);
+    let start = first_tetrahedron(width, count, position).expect("not coplanar");
+    let input = Input { points: (&points.positions).into(), lattice: &lattice, start };
     let mut run = block_on(Run::new(kernels, gpu, input, settings, None)).unwrap();
     let mut more = true;
     while more {
         more = block_on(run.round()).unwrap();
-        state_of(gpu, points.width, &run).validate();
+        state_of(gpu, width, &run).validate();
     }
-    let mut state = state_of(gpu, points.width, &run);
+    let mut state = state_of(gpu, width, &run);
     let before: Counters = state.counters;
     let output = block_on(run.finish()).unwrap();
 
@@ -92,15 +88,14 @@ fn run_and_validate(gpu: &Gpu, kernels: &Phase1, points: &Points, settings: Sett
             assert_eq!(output.neighbors[(across >> 2) as usize][(across & 3) as usize], (4 * t + k) as u32);
         }
     }
-    let aside: Vec<u32> = output.set_aside.iter().map(|&[v, _]| v).collect();
     for (v, &t) in (0..).zip(&output.tet_of) {
-        assert_eq!(t == u32::MAX, aside.contains(&v));
-        assert!(t == u32::MAX || output.tets[t as usize].contains(&v));
+        assert_eq!(t == u32::MAX, v >= count - points.sharing && v < count, "{}: vertex {v}", points.name);
+        assert!(t == u32::MAX || output.tets[t as usize].contains(&(v as u32)));
     }
-    assert_eq!(aside.len(), points.sharing, "{}", points.name);
-    for [v, w] in output.set_aside {
-        assert_eq!(state.points[v as usize].position, state.points[w as usize].position);
-        assert!(state.points[v as usize].index > state.points[w as usize].index);
+    assert_eq!(output.united.len(), points.sharing, "{}", points.name);
+    for [p, q] in output.united {
+        assert_eq!(points.positions[p as usize], points.positions[q as usize]);
+        assert!(p > q);
     }
     let mut order = output.order.clone();
     order.sort_unstable();
@@ -118,25 +113,28 @@ fn run_and_validate(gpu: &Gpu, kernels: &Phase1, points: &Points, settings: Sett
     assert_eq!(expected.len(), output.tets.len());
 }
 
+fn kernels(gpu: &Gpu) -> [Phase1; 2] {
+    [Width::Narrow, Width::Wide].map(|width| block_on(Phase1::new(gpu, width)).unwrap())
+}
+
 #[test]
 fn every_round_is_valid() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let kernels = kernels(&gpu);
     let settings = Settings { workgroups: 8, ..Settings::default() };
-    for width in [Width::Narrow, Width::Wide] {
-        let kernels = block_on(Phase1::new(&gpu, width)).unwrap();
-        for points in inputs::all(width) {
-            println!("{} {width:?} {}", points.name, points.positions.len());
-            run_and_validate(&gpu, &kernels, &points, settings);
-        }
+    for points in inputs::all(Width::Narrow).iter().chain(&inputs::all(Width::Wide)) {
+        run_and_validate(&gpu, &kernels, points, settings);
     }
+    let uniform = &inputs::all(Width::Narrow)[1];
+    let some = Settings { min_active: 100, pick: Pick::Centroid, ..settings };
+    run_and_validate(&gpu, &kernels, uniform, some);
+    run_and_validate(&gpu, &kernels, uniform, Settings { insert_all: true, pick: Pick::Random, ..settings });
 }
 
 /// Slots and history that are far too small: flips wait, buffers grow, and nothing is lost.
 #[test]
 fn small_buffers_grow() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
-    let kernels = block_on(Phase1::new(&gpu, Width::Narrow)).unwrap();
-    let settings =
-        Settings { workgroups: 8, points_per_tail_block: 1 << 20, history: 0, ..Settings::default() };
-    run_and_validate(&gpu, &kernels, &inputs::two_lines(Width::Narrow, 300), settings);
+    let settings = Settings { workgroups: 8, points_per_tail_block: 1 << 20, history: 0, ..Settings::default() };
+    run_and_validate(&gpu, &kernels(&gpu), &inputs::two_lines(Width::Narrow, 300), settings);
 }

@@ -10,6 +10,7 @@ use std::collections::{BTreeSet, HashMap};
 use bytemuck::Pod;
 use gdel::gpu::layout::{Active, CHECK, Counters, DONE, NONE, Waiting};
 use gdel::gpu::phase1::{Buffers, PARAM_WORDS, Pick};
+use gdel::gpu::stages::points::{DevicePoints, InputCounts};
 use gdel::gpu::start::first_tetrahedron;
 use gdel::gpu::twin::{self, State, predicates::Vertex};
 use gdel::gpu::{AdapterChoice, Gpu, Kernel, Readback, Recorder, Storage, vertex};
@@ -32,8 +33,15 @@ fn read<T: Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {
 impl Device {
     fn new(width: Width, state: &State) -> Self {
         let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
-        let points = state.params.infinite as usize;
-        let buffers = Buffers::new(&gpu, width, points, state.params.blocks, state.params.history).unwrap();
+        let count = state.params.infinite as usize;
+        let points = DevicePoints {
+            vertices: Storage::new(&gpu, "vertices", (count + 1) * vertex::stride(width)).unwrap(),
+            pairs: Storage::with_contents(&gpu, "pairs", &vec![[0; 2]; count]).unwrap(),
+            united_with: Storage::new(&gpu, "united", count).unwrap(),
+            counts: Storage::with_contents(&gpu, "counts", &[InputCounts { found: state.first, ..Default::default() }])
+                .unwrap(),
+        };
+        let buffers = Buffers::new(&gpu, points, state.params.blocks, state.params.history).unwrap();
         Device { gpu, buffers, width, kernels: RefCell::default() }
     }
 
@@ -45,8 +53,7 @@ impl Device {
         }
         b.control.write(gpu, 0, bytemuck::cast_slice(&[state.params]));
         b.control.write(gpu, PARAM_WORDS, bytemuck::cast_slice(&[state.counters]));
-        b.vertices.write(gpu, 0, &words);
-        b.same.write(gpu, 0, &state.same);
+        b.points.vertices.write(gpu, 0, &words);
         b.tets.write(gpu, 0, &state.tets);
         b.neighbors.write(gpu, 0, &state.neighbors);
         b.status.write(gpu, 0, &state.status);
@@ -85,12 +92,15 @@ impl Device {
 
     fn bindings(&self, kernel: &str) -> Vec<&wgpu::Buffer> {
         let b = &self.buffers;
-        let (control, vertices, tets) = (b.control.buffer(), b.vertices.buffer(), b.tets.buffer());
+        let (control, vertices, tets) = (b.control.buffer(), b.points.vertices.buffer(), b.tets.buffer());
         let (neighbors, status, active) = (b.neighbors.buffer(), b.status.buffer(), b.active.buffer());
         let (free, messages, history) = (b.free.buffer(), b.messages.buffer(), b.history.buffer());
         let (waiting, scores, failed) = (b.waiting.buffer(), b.scores.buffer(), b.failed.buffer());
         match kernel {
-            "locate" => vec![control, vertices, b.same.buffer(), waiting, tets, neighbors, free],
+            "locate" => {
+                let (pairs, counts) = (b.points.pairs.buffer(), b.points.counts.buffer());
+                vec![control, vertices, pairs, counts, waiting, tets, neighbors, free]
+            }
             "pick_score" => vec![control, vertices, tets, waiting, messages, scores],
             "pick_point" => vec![control, waiting, messages, scores],
             "split" => vec![control, tets, neighbors, status, active, free, messages, waiting],
@@ -182,10 +192,10 @@ fn compare(width: Width, pick: Pick) {
     points.push(Vertex { position: start.kernel, index: 1000 });
     let mut state = State::new(width, points, 64, 4096);
     state.params.pick = pick as u32;
-    state.params.first = start.first;
+    state.first = start.first;
     let device = Device::new(width, &state);
     device.equal("locate", &mut state, |s| {
-        let first = s.params.first;
+        let first = s.first;
         twin::start(s, first);
         twin::locate(s);
     });

@@ -18,12 +18,17 @@ use pollster::block_on;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// 0, 1, around every size at which a kernel takes another step, and large.
-fn sizes() -> impl Iterator<Item = usize> {
-    let steps = [2, 32, 256, 1024, sort::TILE, 256 * sort::TILE, 1024 * scan::GROUPS];
+/// 0, 1, around the sizes at which a kernel takes another step, and large.
+fn sizes<const N: usize>(steps: [usize; N]) -> impl Iterator<Item = usize> {
     let around = steps.into_iter().flat_map(|n| [n - 1, n, n + 1]);
     [0, 1].into_iter().chain(around).chain([3_000_000])
 }
+
+/// The sizes at which a scan takes another step: an invocation's, a workgroup's, and that of all workgroups.
+const SCAN_STEPS: [usize; 4] = [4, 256, 1024, 1024 * scan::GROUPS];
+
+/// The sizes at which a sort takes another step: a mask's word, a row, a tile, and a row of tiles.
+const SORT_STEPS: [usize; 4] = [32, 256, sort::TILE, 256 * sort::TILE];
 
 fn open() -> Gpu {
     block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a GPU or lavapipe")
@@ -45,7 +50,7 @@ fn scan_is_the_exclusive_prefix_sum() {
     let gpu = open();
     let scan = Scan::new(&gpu);
     let mut rng = Pcg64Mcg::seed_from_u64(1);
-    for n in sizes() {
+    for n in sizes(SCAN_STEPS) {
         let values: Vec<u32> = (0..n).map(|_| rng.random_range(0..1000)).collect();
         let mut sum = 0;
         let mut expected = Vec::new();
@@ -83,7 +88,7 @@ fn compaction_keeps_the_marked_in_order() {
     let gpu = open();
     let compact = Compact::new(&gpu);
     let mut rng = Pcg64Mcg::seed_from_u64(2);
-    for (i, n) in sizes().enumerate() {
+    for (i, n) in sizes(SCAN_STEPS).enumerate() {
         let share = [0.5, 0.01, 1.0, 0.0][i % 4];
         let marks: Vec<u32> = (0..n).map(|_| u32::from(rng.random_bool(share))).collect();
         let expected: Vec<u32> = (0..n as u32).filter(|&i| marks[i as usize] == 1).collect();
@@ -116,7 +121,7 @@ fn sort_is_stable_and_by_key() {
     let gpu = open();
     let sort = Sort::new(&gpu);
     let mut rng = Pcg64Mcg::seed_from_u64(3);
-    for n in sizes() {
+    for n in sizes(SORT_STEPS) {
         check_sort(&gpu, &sort, (0..n).map(|_| rng.random()).collect(), 32);
     }
     // Many equal keys, an odd number of passes, and bits above the sorted ones.

@@ -13,14 +13,6 @@ struct Control {
     pick: u32,
     entries: u32,
     entries_before: u32,
-    first_0: u32,
-    first_1: u32,
-    first_2: u32,
-    first_3: u32,
-    start_0: u32,
-    start_1: u32,
-    start_2: u32,
-    start_3: u32,
     blocks_before: u32,
 
     iteration: u32,
@@ -37,7 +29,7 @@ struct Control {
     iterations: u32,
     visits: u32,
     failed: atomic<u32>,
-    aside: atomic<u32>,
+    aside: u32,
 }
 
 struct Status {

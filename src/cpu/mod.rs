@@ -1,5 +1,20 @@
-//! The CPU engine.
-use crate::{Error, Mesh3, Options, Points};
+//! The CPU engine: Bowyer–Watson insertion, point by point, with exact predicates.
+//!
+//! `points → lattice → insertion order → insert → drop the ghosts → input indices → mesh`
+
+mod adjacency;
+mod insert;
+mod order;
+
+pub use order::Order;
+
+use crate::{
+    Error, Mesh3, Options, Points,
+    lattice::Lattice,
+    mesh::hull_of,
+    predicates::{collinear, vertices::Vertices},
+    stats::{Stats, Stopwatch},
+};
 
 /// The triangulation of `points` by incremental insertion.
 ///
@@ -7,7 +22,59 @@ use crate::{Error, Mesh3, Options, Points};
 ///
 /// As for [`delaunay3d`](crate::delaunay3d).
 pub fn delaunay3d(points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
-    points.validate()?;
+    delaunay3d_in_order(points, options, Order::default())
+}
+
+/// [`delaunay3d`] with an insertion order of choice, on which the set of tetrahedra does not depend.
+///
+/// # Errors
+///
+/// As for [`delaunay3d`](crate::delaunay3d).
+pub fn delaunay3d_in_order(points: Points<'_>, options: &Options, order: Order) -> Result<Mesh3, Error> {
+    if points.len() > insert::MOST_POINTS {
+        return Err(Error::TooManyPoints { points: points.len(), limit: insert::MOST_POINTS });
+    }
+    let mut stopwatch = Stopwatch::start();
+    let mut stats = Stats { engine: "cpu", ..Stats::default() };
     options.report("sort", 0.0)?;
-    todo!()
+    points.validate()?;
+    let lattice = Lattice::fit(points);
+    let order::Distinct { mut order, duplicate_of } = order::insertion_order(points, &lattice, order);
+    let dimension = spanning_first(points, &mut order);
+    let mut mesh = Mesh3 { duplicate_of, dimension, ..Mesh3::default() };
+    stats.phases.push(("sort", stopwatch.lap()));
+    if dimension == 3 {
+        let vertices = Vertices::new(points, &lattice, order);
+        let inserted = insert::insert_all(&vertices, options)?;
+        stats.phases.push(("insert", stopwatch.lap()));
+        stats.exact = vertices.exact_counts();
+        (mesh.tetrahedra, mesh.neighbors) = inserted.into_mesh(vertices.into_input_indices());
+        mesh.hull = hull_of(&mesh.tetrahedra, &mesh.neighbors);
+        stats.phases.push(("finish", stopwatch.lap()));
+    }
+    options.report("finish", 1.0)?;
+    mesh.stats = stats;
+    Ok(mesh)
+}
+
+/// Moves the first affinely independent points of `order` to its front, as many as there are up to four, positively
+/// oriented if there are four; gives the affine dimension of them all.
+fn spanning_first(points: Points<'_>, order: &mut [u32]) -> u8 {
+    let point = |i: u32| points.get(i as usize);
+    // Each move keeps the order of the points that it jumps over.
+    let bring = |order: &mut [u32], from: usize, to: usize| order[to..=from].rotate_right(1);
+    if order.len() < 2 {
+        return 0;
+    }
+    let (a, b) = (point(order[0]), point(order[1]));
+    let Some(at) = (2..order.len()).find(|&k| !collinear(a, b, point(order[k]))) else { return 1 };
+    bring(order, at, 2);
+    let c = point(order[2]);
+    let orient = |d: u32| crate::predicates::orient3d(a, b, c, point(d));
+    let Some(at) = (3..order.len()).find(|&k| orient(order[k]) != 0) else { return 2 };
+    bring(order, at, 3);
+    if orient(order[3]) < 0 {
+        order.swap(0, 1);
+    }
+    3
 }

@@ -120,7 +120,7 @@ pub struct Counters {
     pub visits: u32,
     /// Failed vertices.
     pub failed: u32,
-    /// Vertices that share their lattice coordinates with another.
+    /// Points that another one stands for, because it lies at the same place.
     pub aside: u32,
 }
 
@@ -149,10 +149,6 @@ pub struct Params {
     pub entries: u32,
     /// Entries that the list had before it was compacted.
     pub entries_before: u32,
-    /// The first tetrahedron.
-    pub first: [u32; 4],
-    /// The first tetrahedron, as places in the input.
-    pub start: [u32; 4],
     /// Blocks that there were before there were more.
     pub blocks_before: u32,
 }

@@ -325,7 +325,7 @@ mod tests {
         fn cospherical(points in prop::array::uniform5((0usize..1 << 20).prop_map(|i| {
             // Rational points of the unit sphere are cospherical up to rounding; those of a sphere of integers exactly.
             let corners = [[0, 0, 9], [1, 4, 8], [4, 4, 7], [3, 6, 6]];
-            let mut p = corners[i % 4].map(|c| f64::from(c));
+            let mut p = corners[i % 4].map(f64::from);
             p.rotate_left(i / 4 % 3);
             for (axis, x) in p.iter_mut().enumerate() {
                 if i >> (5 + axis) & 1 == 1 { *x = -*x; }

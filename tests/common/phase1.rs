@@ -8,12 +8,12 @@ use rand_pcg::Pcg32;
 
 type Point = [i64; 3];
 
-/// Lattice points in input order, which is random.
+/// Points in input order, which is random.
 #[derive(Debug, Clone)]
 pub struct Input {
     pub name: &'static str,
     pub width: Width,
-    pub positions: Vec<Point>,
+    pub positions: Vec<[f64; 3]>,
     /// How many share their position with one before.
     pub sharing: usize,
 }
@@ -22,10 +22,9 @@ fn input(name: &'static str, width: Width, mut positions: Vec<Point>) -> Input {
     positions.shuffle(&mut Pcg32::seed_from_u64(99));
     let distinct: HashSet<&Point> = positions.iter().collect();
     let sharing = positions.len() - distinct.len();
-    // On a wide lattice the low words count too.
-    if width == Width::Wide {
-        positions.iter_mut().for_each(|q| *q = q.map(|x| x * 0x4000_0003));
-    }
+    // Too many bits for a narrow lattice, but not for `f64`.
+    let factor = if width == Width::Wide { 0x4000_0003 } else { 1 };
+    let positions = positions.into_iter().map(|q| q.map(|x| (x * factor) as f64)).collect();
     Input { name, width, positions, sharing }
 }
 
@@ -51,7 +50,7 @@ pub fn all(width: Width) -> Vec<Input> {
     let layers = random(600, 8, 64).into_iter().map(|[x, y, z]| [x * 97, y * 31, 4 * (z % 2)]).collect();
     vec![
         input("five", width, vec![[0, 0, 0], [40, 0, 0], [0, 40, 0], [0, 0, 40], [44, 44, 44]]),
-        input("uniform", width, random(3000, 5, 1 << 24)),
+        input("uniform", width, random(3000, 5, 1 << 22)),
         input("cube", width, grid([2, 2, 2])),
         input("grid", width, grid([9, 9, 9])),
         input("thin grid", width, grid([24, 24, 2])),

@@ -5,9 +5,8 @@ use crate::{
     gpu::{
         Gpu, Recorder, Storage,
         layout::{Active, BLOCK, Counters, FlipNode, Params, Status, Waiting},
-        vertex,
+        stages::points::DevicePoints,
     },
-    lattice::Width,
 };
 
 /// Words of [`Params`], after which the [`Counters`] stand in the buffer `control`.
@@ -22,10 +21,8 @@ pub const COUNTER_WORDS: usize = size_of::<Counters>() / 4;
 pub struct Buffers {
     /// Parameters and counters.
     pub control: Storage<u32>,
-    /// The vertices, and the kernel point.
-    pub vertices: Storage<[i32; 4]>,
-    /// For each vertex one of the same coordinates, or none.
-    pub same: Storage<u32>,
+    /// The vertices, and the kernel point; the order; what stands for what.
+    pub points: DevicePoints,
     /// The vertices of each slot.
     pub tets: Storage<[u32; 4]>,
     /// The neighbours of each slot.
@@ -49,17 +46,16 @@ pub struct Buffers {
 }
 
 impl Buffers {
-    /// Zeroed buffers for `points` points.
+    /// Zeroed buffers for these points.
     ///
     /// # Errors
     ///
-    /// [`Error::BufferTooLarge`] and [`Error::TooManyPoints`].
-    pub fn new(gpu: &Gpu, width: Width, points: usize, blocks: u32, history: u32) -> Result<Self, Error> {
+    /// [`Error::BufferTooLarge`].
+    pub fn new(gpu: &Gpu, points: DevicePoints, blocks: u32, history: u32) -> Result<Self, Error> {
+        let count = points.pairs.len();
         let slots = blocks as usize * BLOCK as usize;
         Ok(Buffers {
             control: Storage::new(gpu, "control", PARAM_WORDS + COUNTER_WORDS)?,
-            vertices: Storage::new(gpu, "vertices", (points + 1) * vertex::stride(width))?,
-            same: Storage::new(gpu, "shared coordinates", points)?,
             tets: Storage::new(gpu, "tetrahedra", slots)?,
             neighbors: Storage::new(gpu, "neighbours", slots)?,
             status: Storage::new(gpu, "status", slots)?,
@@ -67,9 +63,10 @@ impl Buffers {
             free: Storage::new(gpu, "free slots", blocks as usize)?,
             messages: Storage::new(gpu, "messages", slots)?,
             history: Storage::new(gpu, "history", history as usize)?,
-            waiting: Storage::new(gpu, "waiting points", points)?,
-            scores: Storage::new(gpu, "scores", points)?,
-            failed: Storage::new(gpu, "failed vertices", points)?,
+            waiting: Storage::new(gpu, "waiting points", count)?,
+            scores: Storage::new(gpu, "scores", count)?,
+            failed: Storage::new(gpu, "failed vertices", count)?,
+            points,
         })
     }
 
@@ -105,8 +102,7 @@ impl Buffers {
     pub fn bytes(&self) -> u64 {
         let Buffers {
             control,
-            vertices,
-            same,
+            points,
             tets,
             neighbors,
             status,
@@ -118,8 +114,8 @@ impl Buffers {
             scores,
             failed,
         } = self;
-        let words = control.bytes() + same.bytes() + free.bytes() + scores.bytes() + failed.bytes();
+        let words = control.bytes() + points.united_with.bytes() + free.bytes() + scores.bytes() + failed.bytes();
         let slots = tets.bytes() + neighbors.bytes() + status.bytes() + active.bytes() + messages.bytes();
-        words + slots + vertices.bytes() + history.bytes() + waiting.bytes()
+        words + slots + points.vertices.bytes() + points.pairs.bytes() + history.bytes() + waiting.bytes()
     }
 }

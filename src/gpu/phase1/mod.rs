@@ -1,13 +1,13 @@
 //! Phase 1: parallel insertion and flipping (§3.1), from lattice points to a nearly Delaunay triangulation.
 //!
-//! 1. *Order*: Hilbert keys, radix sort, gather; points that share all lattice coordinates are set aside.
+//! 1. *Points*: lattice, points at the same place, order along the Hilbert curve ([`points`](super::stages::points)).
 //! 2. *Rounds*, until no point waits: every tetrahedron with waiting points picks one and is split; flip iterations
 //!    until (nearly) none is active; the waiting points follow the history of the flips.
 //! 3. *Last flips*, until no tetrahedron is active.
 //! 4. *Finish*: failed vertices, the mesh without gaps, and the one large readback.
 //!
-//! What it costs, for *n* points in *r* rounds of *k* flip iterations (uniform, 1 M: r = 11, k ≈ 16): dispatches, 15 to
-//! order, 5 + 3·k a round, 8 to finish, about 650 in all; a flip iteration visits its active tetrahedra (42·n in all, 14·n
+//! What it costs, for *n* points in *r* rounds of *k* flip iterations (uniform, 1 M: r = 11, k ≈ 16): dispatches, 15 for
+//! the points, 5 + 3·k a round, 8 to finish, about 650 in all; a flip iteration visits its active tetrahedra (42·n in all, 14·n
 //! flips) at 4 to 10 sectors of 32 bytes each, so 10 to 15 GB of traffic for 1 M points, most of it in the cache. Readbacks:
 //! one of 132 bytes a round, one or two for the last flips, 7 to finish.
 //!
@@ -25,11 +25,14 @@ use super::layout::{BLOCK, Counters, NONE, Params, SLOTS_FULL};
 use super::stages::finish::{Compacted, Finish};
 use super::stages::flip::{BoundFlip, Flip};
 use super::stages::insert::{BoundInsert, Insert};
-use super::stages::order::Order;
+use super::stages::points::PointStage;
 use super::stages::relocate::{BoundRelocate, Relocate};
 use super::start::Start;
 use super::{Gpu, Kernel, Profiler, Readback, Recorder, Storage, vertex};
-use crate::{Error, lattice::Width};
+use crate::{
+    Error, Points,
+    lattice::{Lattice, Width},
+};
 
 /// Which of its waiting points a tetrahedron inserts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -70,11 +73,11 @@ impl Default for Settings {
 /// The points of a run.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// The width of the lattice.
-    pub width: Width,
-    /// The points as kernels see them ([`vertex`]), in input order.
-    pub words: &'a [[i32; 4]],
-    /// The first tetrahedron, by places in `words`.
+    /// The points, in input order.
+    pub points: Points<'a>,
+    /// The lattice that is fitted to them.
+    pub lattice: &'a Lattice,
+    /// The first tetrahedron, by input indices.
     pub start: Start,
 }
 
@@ -111,10 +114,12 @@ pub struct Phase1Output {
     pub order: Vec<u32>,
     /// The vertices with a facet that is not locally Delaunay, ascending.
     pub failed: Vec<u32>,
-    /// One tetrahedron of each vertex, infinity last; [`NONE`] for those that were set aside.
+    /// One tetrahedron of each vertex, infinity last; [`NONE`] for
+    /// the last ones of the order, which others stand for.
     pub tet_of: Vec<u32>,
-    /// Vertices that are in no tetrahedron, with the vertex that has the same lattice coordinates.
-    pub set_aside: Vec<[u32; 2]>,
+    /// Input indices of points that are vertices of no tetrahedron, with that of the point at the same place of the
+    /// lattice: exact duplicates, and points that were rounded to the same place, which Phase 2 has to insert.
+    pub united: Vec<[u32; 2]>,
     /// What the run did.
     pub stats: Phase1Stats,
 }
@@ -122,8 +127,7 @@ pub struct Phase1Output {
 /// The kernels of Phase 1, for points of one width.
 #[derive(Debug)]
 pub struct Phase1 {
-    width: Width,
-    order: Order,
+    points: PointStage,
     insert: Insert,
     flip: Flip,
     relocate: Relocate,
@@ -140,8 +144,7 @@ impl Phase1 {
     pub async fn new(gpu: &Gpu, width: Width) -> Result<Self, Error> {
         gpu.catching("pipelines", || {
             Ok(Phase1 {
-                width,
-                order: Order::new(gpu, width),
+                points: PointStage::new(gpu),
                 insert: Insert::new(gpu, width),
                 flip: Flip::new(gpu, width),
                 relocate: Relocate::new(gpu, width),
@@ -183,10 +186,8 @@ pub struct Run<'a> {
     insert: BoundInsert,
     flip: BoundFlip,
     relocate: BoundRelocate,
-    /// Key and place in the input of each vertex.
-    pairs: Storage<[u32; 2]>,
-    /// Commands that the next submission begins with.
-    unsorted: Option<Storage<[i32; 4]>>,
+    /// Nothing is located yet.
+    first: bool,
     /// Flip iterations to record for a round.
     iterations: u32,
     /// An upper bound of the iteration that the kernels count.
@@ -220,11 +221,10 @@ impl<'a> Run<'a> {
         gpu: &'a Gpu,
         input: Input<'_>,
         settings: Settings,
-        profiler: Option<&'a mut Profiler>,
+        mut profiler: Option<&'a mut Profiler>,
     ) -> Result<Self, Error> {
         let clock = crate::stats::Stopwatch::start();
-        let stride = vertex::stride(input.width);
-        let count = input.words.len() / stride;
+        let count = input.points.len();
         if count > Self::MAX_POINTS {
             return Err(Error::TooManyPoints { points: count, limit: Self::MAX_POINTS });
         }
@@ -238,21 +238,24 @@ impl<'a> Run<'a> {
             min_active: settings.min_active,
             pick: settings.pick as u32,
             entries: points,
-            start: input.start.first,
             ..Params::default()
         };
         let mut run = gpu
             .catching("Phase 1", || {
-                let buffers = Buffers::new(gpu, input.width, count, blocks, params.history)?;
-                let unsorted = Storage::with_contents(gpu, "points", input.words)?;
+                // The device orders the points while the host makes the other buffers.
+                let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
+                let Input { points, lattice, start } = input;
+                let points = kernels.points.record(gpu, &mut recorder, points, lattice, start.first)?;
                 let mut kernel_point = Vec::new();
-                vertex::append_words(&mut kernel_point, input.width, input.start.kernel, points);
-                buffers.vertices.write(gpu, count * stride, &kernel_point);
+                vertex::append_words(&mut kernel_point, lattice.width(), start.kernel, params.infinite);
+                points.vertices.write(gpu, count * kernel_point.len(), &kernel_point);
+                let dispatches = recorder.dispatches();
+                recorder.submit(gpu);
+                let buffers = Buffers::new(gpu, points, blocks, params.history)?;
                 Ok(Run {
                     insert: kernels.insert.bind(gpu, &buffers),
                     flip: kernels.flip.bind(gpu, &buffers),
                     relocate: kernels.relocate.bind(gpu, &buffers)?,
-                    pairs: Storage::new(gpu, "keys and points", 0)?,
                     kernels,
                     gpu,
                     settings,
@@ -261,10 +264,10 @@ impl<'a> Run<'a> {
                     params,
                     counters: Counters { first_node: 1, next_node: 1, ..Counters::default() },
                     buffers,
-                    unsorted: Some(unsorted),
+                    first: true,
                     iterations: 12,
                     counted: 0,
-                    stats: Phase1Stats::default(),
+                    stats: Phase1Stats { dispatches, ..Phase1Stats::default() },
                     clock,
                 })
             })
@@ -302,7 +305,7 @@ impl<'a> Run<'a> {
     pub async fn round(&mut self) -> Result<bool, Error> {
         let gpu = self.gpu;
         let before = self.counters;
-        let inserts = self.unsorted.is_some() || self.waiting() > 0;
+        let inserts = self.first || self.waiting() > 0;
         let (submission, pending) = gpu.catching("Phase 1", || self.submit_round(inserts)).await?;
         let words = self.readback.receive(gpu, &submission, pending).await?;
         let read: Counters = *bytemuck::from_bytes(bytemuck::cast_slice(&words));
@@ -332,13 +335,11 @@ impl<'a> Run<'a> {
         if self.counters.overflow & SLOTS_FULL != 0 {
             self.grow(&mut recorder)?;
         }
-        if let Some(unsorted) = self.unsorted.take() {
-            self.counters.overflow = 0;
+        if std::mem::take(&mut self.first) {
             self.write_control();
             let fill = self.kernels.fill_free.bind(gpu, &[self.buffers.control.buffer(), self.buffers.free.buffer()]);
-            recorder.stage("sort");
+            recorder.stage("locate");
             recorder.dispatch(&self.kernels.fill_free, &fill, workgroups);
-            self.pairs = self.kernels.order.record(gpu, &mut recorder, &self.buffers, &unsorted, workgroups)?;
             self.kernels.insert.record_first(&mut recorder, &self.insert, workgroups);
         } else {
             let waiting = self.waiting();
@@ -454,17 +455,17 @@ impl<'a> Run<'a> {
         let points = self.params.infinite as usize;
         let aside = if self.counters.aside > 0 { points } else { 0 };
         let failed = if self.counters.failed > 0 { points } else { 0 };
-        let (submission, tets, neighbors, tet_of, pairs, failed, same) = gpu
+        let (submission, tets, neighbors, tet_of, pairs, failed, united) = gpu
             .catching("the result of Phase 1", || {
                 let mut recorder = Recorder::new(gpu, None);
                 let encoder = recorder.encoder();
                 let tets = self.readback.copy(gpu, encoder, &compacted.tets, 0, count);
                 let neighbors = self.readback.copy(gpu, encoder, &compacted.neighbors, 0, count);
                 let tet_of = self.readback.copy(gpu, encoder, &compacted.tet_of, 0, points + 1);
-                let pairs = self.readback.copy(gpu, encoder, &self.pairs, 0, points);
+                let pairs = self.readback.copy(gpu, encoder, &self.buffers.points.pairs, 0, points);
                 let failed = self.readback.copy(gpu, encoder, &self.buffers.failed, 0, failed);
-                let same = self.readback.copy(gpu, encoder, &self.buffers.same, 0, aside);
-                Ok((recorder.submit(gpu), tets, neighbors, tet_of, pairs, failed, same))
+                let united = self.readback.copy(gpu, encoder, &self.buffers.points.united_with, 0, aside);
+                Ok((recorder.submit(gpu), tets, neighbors, tet_of, pairs, failed, united))
             })
             .await?;
         let tets = self.readback.receive(gpu, &submission, tets).await?;
@@ -472,7 +473,7 @@ impl<'a> Run<'a> {
         let tet_of = self.readback.receive(gpu, &submission, tet_of).await?;
         let pairs = self.readback.receive(gpu, &submission, pairs).await?;
         let failed = self.readback.receive(gpu, &submission, failed).await?;
-        let same = self.readback.receive(gpu, &submission, same).await?;
+        let united = self.readback.receive(gpu, &submission, united).await?;
 
         let mut stats = self.stats;
         stats.readback_milliseconds = self.clock.lap() * 1e3;
@@ -485,7 +486,7 @@ impl<'a> Run<'a> {
             order: pairs.into_iter().map(|[_, point]| point).collect(),
             failed: (0..).zip(failed).filter(|&(_, failed)| failed != 0).map(|(v, _)| v).collect(),
             tet_of: tet_of.into_iter().map(|t: u32| t.wrapping_sub(1)).collect(),
-            set_aside: (0..).zip(same).filter(|&(_, same)| same != NONE).map(|(v, same)| [v, same]).collect(),
+            united: (0..).zip(united).filter(|&(_, other)| other != NONE).map(|(point, other)| [point, other]).collect(),
             stats,
         })
     }

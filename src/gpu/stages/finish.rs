@@ -63,7 +63,7 @@ impl Finish {
         let slots = b.tets.len();
         let failed = self.mark_failed.bind(
             gpu,
-            &[control, b.vertices.buffer(), tets, neighbors, b.status.buffer(), b.failed.buffer()],
+            &[control, b.points.vertices.buffer(), tets, neighbors, b.status.buffer(), b.failed.buffer()],
         );
         recorder.stage("mark failed");
         recorder.dispatch(&self.mark_failed, &failed, workgroups);

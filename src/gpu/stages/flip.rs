@@ -41,7 +41,7 @@ impl Flip {
         let (status, active, free) = (b.status.buffer(), b.active.buffer(), b.free.buffer());
         let messages = b.messages.buffer();
         BoundFlip {
-            check: self.check.bind(gpu, &[control, b.vertices.buffer(), tets, neighbors, status, active]),
+            check: self.check.bind(gpu, &[control, b.points.vertices.buffer(), tets, neighbors, status, active]),
             commit: self
                 .commit
                 .bind(gpu, &[control, tets, neighbors, status, active, free, messages, b.history.buffer()]),

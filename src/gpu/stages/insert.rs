@@ -40,11 +40,12 @@ impl Insert {
 
     /// The bind groups for these buffers.
     pub fn bind(&self, gpu: &Gpu, b: &Buffers) -> BoundInsert {
-        let (control, vertices, tets) = (b.control.buffer(), b.vertices.buffer(), b.tets.buffer());
+        let (control, vertices, tets) = (b.control.buffer(), b.points.vertices.buffer(), b.tets.buffer());
         let (neighbors, status, waiting) = (b.neighbors.buffer(), b.status.buffer(), b.waiting.buffer());
         let (picks, scores, free) = (b.messages.buffer(), b.scores.buffer(), b.free.buffer());
+        let (pairs, counts) = (b.points.pairs.buffer(), b.points.counts.buffer());
         BoundInsert {
-            locate: self.locate.bind(gpu, &[control, vertices, b.same.buffer(), waiting, tets, neighbors, free]),
+            locate: self.locate.bind(gpu, &[control, vertices, pairs, counts, waiting, tets, neighbors, free]),
             pick_score: self.pick_score.bind(gpu, &[control, vertices, tets, waiting, picks, scores]),
             pick_point: self.pick_point.bind(gpu, &[control, waiting, picks, scores]),
             split: self

@@ -1,11 +1,16 @@
 //! The host half of each stage, in the order of the data.
 
-pub mod compact;
-pub mod finish;
-pub mod flip;
-pub mod hilbert;
+pub mod points;
+
 pub mod insert;
-pub mod order;
+
+pub mod flip;
+
 pub mod relocate;
+
+pub mod finish;
+
+pub mod compact;
+pub mod hilbert;
 pub mod scan;
 pub mod sort;

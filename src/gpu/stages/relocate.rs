@@ -54,7 +54,7 @@ impl Relocate {
         Ok(BoundRelocate {
             relocate: self.relocate.bind(
                 gpu,
-                &[control, b.vertices.buffer(), b.status.buffer(), b.history.buffer(), waiting],
+                &[control, b.points.vertices.buffer(), b.status.buffer(), b.history.buffer(), waiting],
             ),
             mark: self.mark.bind(gpu, &[control, waiting, marks.buffer()]),
             compact: self.compact.bind(gpu, &[control, waiting, offsets.buffer(), compacted.buffer()]),

@@ -13,7 +13,7 @@ use super::state::replaced;
 ///
 /// Slot 0 of the block holds `first`, slot 1 + k the one beyond its facet k: the facet's corners and infinity.
 pub fn start(state: &mut State, first: [u32; 4]) {
-    state.params.first = first;
+    state.first = first;
     let infinite = state.params.infinite;
     let base = infinite * BLOCK;
     let outer = |k: usize| base + 1 + k as u32;
@@ -42,12 +42,12 @@ pub fn start(state: &mut State, first: [u32; 4]) {
 ///
 /// Seen from the kernel point, the four facets of the first tetrahedron divide all directions.
 pub fn locate(state: &mut State) {
-    let first = state.params.first;
+    let first = state.first;
     let base = state.params.infinite * BLOCK;
     for point in 0..state.params.infinite {
         // The kernel point, not infinity, whose number it has: the predicate, not `State::orient`.
         let orient = |four: [u32; 4]| predicates::orient3d(state.width, four.map(|v| state.points[v as usize]));
-        let tet = if first.contains(&point) || state.same[point as usize] != NONE {
+        let tet = if first.contains(&point) || state.united[point as usize] {
             NONE
         } else {
             let k = child_of(first, state.params.infinite, point, orient);

@@ -15,8 +15,10 @@ pub struct State {
     pub params: Params,
     /// Vertices, and the kernel point.
     pub points: Vec<Vertex>,
-    /// For each vertex one of the same coordinates that stands for it, or [`NONE`].
-    pub same: Vec<u32>,
+    /// The first tetrahedron.
+    pub first: [u32; 4],
+    /// Whether another vertex stands for each, because it lies at the same place.
+    pub united: Vec<bool>,
     /// The vertices of each slot; all zero in a free one.
     pub tets: Vec<[u32; 4]>,
     /// The neighbours of each slot.
@@ -58,7 +60,8 @@ impl State {
                 bid_bits: 33 - (slots as u32).leading_zeros(),
                 ..Params::default()
             },
-            same: vec![NONE; infinite as usize],
+            first: [0; 4],
+            united: vec![false; infinite as usize],
             tets: vec![[0; 4]; slots],
             neighbors: vec![[NONE; 4]; slots],
             status: vec![Status::default(); slots],

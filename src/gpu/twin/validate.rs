@@ -70,9 +70,9 @@ impl State {
         let located: Vec<&Waiting> = self.waiting.iter().filter(|w| w.tet != NONE).collect();
         let waiting: HashSet<u32> = located.iter().map(|w| w.point).collect();
         for p in 0..self.params.infinite {
-            let states = [present.contains(&p), waiting.contains(&p), self.same[p as usize] != NONE];
+            let states = [present.contains(&p), waiting.contains(&p), self.united[p as usize]];
             let count = states.into_iter().filter(|&s| s).count();
-            assert_eq!(count, 1, "point {p}: inserted, waiting, set aside: {states:?}");
+            assert_eq!(count, 1, "point {p}: inserted, waiting, united: {states:?}");
         }
         for &&Waiting { point: p, tet: t } in &located {
             let tet = self.tets[t as usize];

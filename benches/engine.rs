@@ -1,0 +1,35 @@
+//! Whole triangulations by the CPU engine, in points a second. Each passes the verifier before it is timed.
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use gdel::{
+    Options, cpu,
+    generate::{Distribution, generate},
+    verify::verify3d,
+};
+
+fn full_grid(side: u32) -> Vec<[f64; 3]> {
+    (0..side.pow(3)).map(|i| [i % side, i / side % side, i / side.pow(2)].map(f64::from)).collect()
+}
+
+fn engine(c: &mut Criterion) {
+    let mut group = c.benchmark_group("cpu");
+    group.sample_size(10);
+    let inputs = [
+        ("uniform", generate(Distribution::Uniform, 10_000, 1)),
+        ("uniform", generate(Distribution::Uniform, 100_000, 1)),
+        ("sphere", generate(Distribution::Sphere, 100_000, 1)),
+        ("grid", full_grid(46)),
+    ];
+    for (name, points) in inputs {
+        let triangulate = || cpu::delaunay3d((&points).into(), &Options::default()).expect("finite points");
+        let report = verify3d(&points, &triangulate()).expect("finite points");
+        assert!(report.passed(), "{name}: {report:?}");
+        group.throughput(Throughput::Elements(points.len() as u64));
+        group.bench_function(BenchmarkId::new(name, points.len()), |b| {
+            b.iter_with_large_drop(triangulate);
+        });
+    }
+}
+
+criterion_group!(benches, engine);
+criterion_main!(benches);

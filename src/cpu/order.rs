@@ -1,0 +1,127 @@
+//! The order in which points are inserted: duplicates out, then rounds of growing size (BRIO: Amenta, Choi and Rote
+//! 2003), each along the Hilbert curve.
+
+use crate::{Points, hilbert, lattice::Lattice, mesh::NONE};
+
+/// An insertion order for the engine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Order {
+    /// Biased randomised rounds, each along the Hilbert curve.
+    #[default]
+    Brio,
+    /// A random order: the mesh must not depend on it, which tests check.
+    Shuffled(u64),
+}
+
+/// The distinct points in insertion order, and what the others duplicate.
+pub(super) struct Distinct {
+    pub(super) order: Vec<u32>,
+    /// One entry a point, as in [`Mesh3::duplicate_of`](crate::Mesh3::duplicate_of).
+    pub(super) duplicate_of: Vec<i32>,
+}
+
+/// Bits of a coordinate that one sorting key covers.
+const KEY_BITS: u32 = 20;
+
+/// Each round of the insertion takes this many bits' power of the points that the next one takes.
+const ROUND_BITS: u32 = 3;
+/// No round but the first has fewer points than this.
+const LEAST_ROUND: usize = 1000;
+
+pub(super) fn insertion_order(points: Points<'_>, lattice: &Lattice, order: Order) -> Distinct {
+    let along_curve = hilbert_order(points, lattice);
+    let mut duplicate_of = vec![NONE; points.len()];
+    let mut distinct: Vec<u32> = Vec::with_capacity(along_curve.len());
+    for i in along_curve {
+        // Equal points are neighbours in the order, the lowest index first.
+        match distinct.last() {
+            Some(&last) if points.get(last as usize) == points.get(i as usize) => {
+                duplicate_of[i as usize] = last as i32
+            }
+            _ => distinct.push(i),
+        }
+    }
+    let order = match order {
+        Order::Brio => rounds(distinct),
+        Order::Shuffled(seed) => {
+            distinct.sort_unstable_by_key(|&i| mix(u64::from(i) ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)));
+            distinct
+        }
+    };
+    Distinct { order, duplicate_of }
+}
+
+/// All points along the Hilbert curve; where lattice cells coincide, by coordinates and then by index.
+fn hilbert_order(points: Points<'_>, lattice: &Lattice) -> Vec<u32> {
+    let bits = lattice.width().bits();
+    let cell = |i: u32, done: u32| {
+        lattice.coordinates(points.get(i as usize)).map(|c| {
+            let rest = c.value as u64 & ((1 << (bits - done)) - 1);
+            (rest >> (bits - done).saturating_sub(KEY_BITS)) as u32
+        })
+    };
+    let mut keyed: Vec<(u64, u32)> =
+        (0..points.len() as u32).map(|i| (hilbert::index(cell(i, 0), KEY_BITS), i)).collect();
+    keyed.sort_unstable();
+    // Runs of equal keys are sorted by the bits that the key did not cover; a run has its start, end and covered bits.
+    let mut runs = Vec::new();
+    let push_runs = |keyed: &[(u64, u32)], start: usize, done: u32, runs: &mut Vec<_>| {
+        let mut at = start;
+        for run in keyed.chunk_by(|a, b| a.0 == b.0) {
+            if run.len() > 1 {
+                runs.push((at, at + run.len(), done));
+            }
+            at += run.len();
+        }
+    };
+    push_runs(&keyed, 0, KEY_BITS, &mut runs);
+    while let Some((start, end, done)) = runs.pop() {
+        let run = &mut keyed[start..end];
+        if done < bits {
+            let next = KEY_BITS.min(bits - done);
+            for entry in run.iter_mut() {
+                entry.0 = hilbert::index(cell(entry.1, done), next);
+            }
+            run.sort_unstable();
+            push_runs(run, start, done + next, &mut runs);
+        } else {
+            run.sort_unstable_by(|&(_, i), &(_, j)| {
+                let (p, q) = (points.get(i as usize), points.get(j as usize));
+                // −0 and 0 are the same coordinate.
+                p.partial_cmp(&q).unwrap_or(std::cmp::Ordering::Equal).then(i.cmp(&j))
+            });
+        }
+    }
+    keyed.into_iter().map(|(_, i)| i).collect()
+}
+
+/// Splits an order into rounds at random, keeping the order within each; small rounds first.
+fn rounds(order: Vec<u32>) -> Vec<u32> {
+    let mut last = 0;
+    while order.len() >> (ROUND_BITS * (last + 1)) >= LEAST_ROUND {
+        last += 1;
+    }
+    let round = |i: u32| last - last.min(mix(u64::from(i)).trailing_zeros() / ROUND_BITS);
+    let mut starts = vec![0; last as usize + 2];
+    for &i in &order {
+        starts[round(i) as usize + 1] += 1;
+    }
+    for r in 1..starts.len() {
+        starts[r] += starts[r - 1];
+    }
+    let mut sorted = vec![0; order.len()];
+    for &i in &order {
+        let start: &mut usize = &mut starts[round(i) as usize];
+        sorted[*start] = i;
+        *start += 1;
+    }
+    sorted
+}
+
+/// The finaliser of SplitMix64: a hash, so that the same input gives the same order on every machine.
+fn mix(mut x: u64) -> u64 {
+    x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    x = (x ^ x >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ x >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ x >> 31
+}

@@ -1,0 +1,72 @@
+//! The 3D Hilbert curve (Hamilton and Rau-Chaplin, *Compact Hilbert indices*, 2008, without the compaction).
+
+/// For each of the 24 states and each octant (bit *k* set in the upper half of axis *k*): the octant's place along the
+/// curve, and the state within it.
+const STEPS: [[(u8, u8); 8]; 24] = steps();
+
+const fn rotate_left(bits: u32, by: u32) -> u32 {
+    ((bits << (by % 3)) | (bits >> (3 - by % 3))) & 7
+}
+
+/// A state is the octant where the curve enters (*e*) and the axis along which it leaves (*d*): `3·e + d`.
+const fn steps() -> [[(u8, u8); 8]; 24] {
+    let mut table = [[(0, 0); 8]; 24];
+    let mut state = 0;
+    while state < 24 {
+        let (e, d) = (state as u32 / 3, state as u32 % 3);
+        let mut place = 0;
+        while place < 8 {
+            let octant = rotate_left(place ^ place >> 1, d + 1) ^ e;
+            let entry = if place == 0 { 0 } else { (place - 1) & !1 };
+            let entry = entry ^ entry >> 1;
+            let direction = match place {
+                0 => 0,
+                p if p % 2 == 0 => (p - 1).trailing_ones(),
+                p => p.trailing_ones(),
+            };
+            let next_e = e ^ rotate_left(entry, d + 1);
+            let next_d = (d + direction + 1) % 3;
+            table[state][octant as usize] = (place as u8, (3 * next_e + next_d) as u8);
+            place += 1;
+        }
+        state += 1;
+    }
+    table
+}
+
+/// The place along the curve of the cell with the given coordinates, of which the lowest `bits` ≤ 21 count.
+pub fn index(cell: [u32; 3], bits: u32) -> u64 {
+    let mut state = 0;
+    let mut index = 0;
+    for bit in (0..bits).rev() {
+        let octant = (cell[0] >> bit & 1) | (cell[1] >> bit & 1) << 1 | (cell[2] >> bit & 1) << 2;
+        let (place, next) = STEPS[state][octant as usize];
+        index = index << 3 | u64::from(place);
+        state = usize::from(next);
+    }
+    index
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn consecutive_cells_are_neighbours() {
+        for bits in 1..=5 {
+            let side = 1u32 << bits;
+            let mut cells = vec![None; (side * side * side) as usize];
+            for x in 0..side {
+                for y in 0..side {
+                    for z in 0..side {
+                        assert_eq!(cells[index([x, y, z], bits) as usize].replace([x, y, z]), None);
+                    }
+                }
+            }
+            for pair in cells.windows(2) {
+                let (a, b) = (pair[0].unwrap(), pair[1].unwrap());
+                assert_eq!((0..3).map(|k| a[k].abs_diff(b[k])).sum::<u32>(), 1, "{a:?} {b:?}");
+            }
+        }
+    }
+}

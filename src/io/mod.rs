@@ -1,0 +1,36 @@
+//! File formats: point clouds in, meshes and hulls out.
+//!
+//! Everything here works on bytes and [`std::io::Write`]; only [`files`] knows paths. A reader takes a whole file, so
+//! what a header promises is checked against what is there before anything is allocated, and every error says where in
+//! the file it is.
+//!
+//! Crates read the formats where one was found that neither panics nor allocates on a broken file's word, or that can
+//! be guarded against it; the modules that read a format themselves say why.
+
+mod error;
+pub mod files;
+mod format;
+mod las;
+mod mesh_data;
+mod npy;
+mod npz;
+mod obj;
+mod pcd;
+mod ply;
+mod point_cloud;
+mod raw;
+mod stl;
+mod tetgen;
+mod text;
+mod vtu;
+
+pub use error::{FormatError, Position};
+pub use format::{HullFormat, MeshFormat, PointFormat};
+pub use mesh_data::MeshData;
+pub use npz::{read_npz, write_npz};
+pub use obj::write_hull_obj;
+pub use ply::write_hull_ply;
+pub use point_cloud::{PointBuf, PointCloud};
+pub use stl::write_hull_stl;
+pub use tetgen::{read_ele, read_neigh, write_ele, write_neigh, write_node};
+pub use vtu::{read_vtu, write_vtu};

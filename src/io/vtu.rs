@@ -1,0 +1,282 @@
+//! VTK's XML unstructured grid.
+//!
+//! Written and read here, with `quick-xml` for the XML: `vtkio`'s last release is from 2021 and builds on parsers of
+//! 2017.
+
+use super::{FormatError, MeshData, error::quote};
+use crate::{Mesh3, Points};
+use base64::{
+    Engine, alphabet,
+    engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig},
+};
+use flate2::read::ZlibDecoder;
+use quick_xml::{
+    Reader,
+    events::{BytesStart, Event},
+};
+use std::io::{self, Read, Write};
+
+/// VTK's number for tetrahedra.
+const TETRA: u8 = 10;
+
+/// Writes points and tetrahedra, as binary data appended to the XML, which is exact and the fastest to load.
+///
+/// # Errors
+///
+/// When `to` cannot be written.
+pub fn write_vtu<W: Write>(mut to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
+    let (number, size) = match points {
+        Points::F32(_) => ("Float32", 4),
+        Points::F64(_) => ("Float64", 8),
+    };
+    let cells = mesh.tetrahedra.len() as u64;
+    let lengths = [points.len() as u64 * 3 * size, cells * 4 * 8, cells * 8, cells];
+    // Each array has its length in eight bytes before it.
+    let mut end = 0;
+    let [coordinates, connectivity, offsets, types] = lengths.map(|length| {
+        let start = end;
+        end += 8 + length;
+        start
+    });
+    write!(
+        to,
+        r#"<?xml version="1.0"?>
+<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">
+  <UnstructuredGrid>
+    <Piece NumberOfPoints="{}" NumberOfCells="{cells}">
+      <Points>
+        <DataArray type="{number}" Name="Points" NumberOfComponents="3" format="appended" offset="{coordinates}"/>
+      </Points>
+      <Cells>
+        <DataArray type="Int64" Name="connectivity" format="appended" offset="{connectivity}"/>
+        <DataArray type="Int64" Name="offsets" format="appended" offset="{offsets}"/>
+        <DataArray type="UInt8" Name="types" format="appended" offset="{types}"/>
+      </Cells>
+    </Piece>
+  </UnstructuredGrid>
+  <AppendedData encoding="raw">
+_"#,
+        points.len()
+    )?;
+    let [coordinates, connectivity, offsets, types] = lengths.map(u64::to_le_bytes);
+    to.write_all(&coordinates)?;
+    match points {
+        Points::F32(p) => p.as_flattened().iter().try_for_each(|x| to.write_all(&x.to_le_bytes()))?,
+        Points::F64(p) => p.as_flattened().iter().try_for_each(|x| to.write_all(&x.to_le_bytes()))?,
+    }
+    to.write_all(&connectivity)?;
+    mesh.tetrahedra.as_flattened().iter().try_for_each(|&v| to.write_all(&u64::from(v).to_le_bytes()))?;
+    to.write_all(&offsets)?;
+    (1..=cells).try_for_each(|cell| to.write_all(&(4 * cell).to_le_bytes()))?;
+    to.write_all(&types)?;
+    (0..cells).try_for_each(|_| to.write_all(&[TETRA]))?;
+    to.write_all(b"\n  </AppendedData>\n</VTKFile>\n")
+}
+
+/// Reads the tetrahedra; all forms of data are known: ASCII, base64, appended, compressed with zlib.
+///
+/// # Errors
+///
+/// Where the file is broken, and how; when it has cells that are no tetrahedra.
+pub fn read_vtu(bytes: &[u8]) -> Result<MeshData, FormatError> {
+    let file = File::parse(bytes)?;
+    let types = file.integers("types")?;
+    if let Some(cell) = types.iter().position(|&t| t != i64::from(TETRA)) {
+        return Err(FormatError::byte(0, format!("cell {cell} is no tetrahedron, but of VTK's type {}", types[cell])));
+    }
+    let connectivity = file.integers("connectivity")?;
+    let (tetrahedra, rest) = connectivity.as_chunks::<4>();
+    if !rest.is_empty() || tetrahedra.len() != types.len() {
+        let what = format!("{} tetrahedra do not have {} vertices", types.len(), connectivity.len());
+        return Err(FormatError::byte(0, what));
+    }
+    if let Some(v) = connectivity.iter().find(|&&v| u32::try_from(v).is_err()) {
+        return Err(FormatError::byte(0, format!("{v} is no index of a point")));
+    }
+    Ok(MeshData { tetrahedra: tetrahedra.iter().map(|t| t.map(|v| v as u32)).collect(), neighbors: None })
+}
+
+/// The data arrays of a file, not yet decoded.
+struct File<'a> {
+    arrays: Vec<DataArray<'a>>,
+    big_endian: bool,
+    /// Bytes of the lengths that go before binary data.
+    length_size: usize,
+    is_compressed: bool,
+    /// What follows the underscore of the appended data, and whether it is base64.
+    appended: Option<(&'a [u8], bool)>,
+}
+
+struct DataArray<'a> {
+    name: String,
+    scalar: String,
+    format: String,
+    offset: usize,
+    text: &'a [u8],
+    /// Where the array stands in the file, for errors.
+    at: usize,
+}
+
+impl<'a> File<'a> {
+    fn parse(bytes: &'a [u8]) -> Result<Self, FormatError> {
+        let mut file =
+            File { arrays: Vec::new(), big_endian: false, length_size: 4, is_compressed: false, appended: None };
+        let mut xml = Reader::from_reader(bytes);
+        loop {
+            let at = position(&xml);
+            let event = xml.read_event().map_err(|error| FormatError::byte(at, error.to_string()))?;
+            let is_empty = matches!(event, Event::Empty(_));
+            match event {
+                Event::Start(tag) | Event::Empty(tag) => match tag.name().as_ref() {
+                    "VTKFile" => {
+                        file.big_endian = attribute(&tag, "byte_order") == "BigEndian";
+                        file.length_size = if attribute(&tag, "header_type") == "UInt64" { 8 } else { 4 };
+                        file.is_compressed = match attribute(&tag, "compressor").as_str() {
+                            "" => false,
+                            "vtkZLibDataCompressor" => true,
+                            other => {
+                                let what = format!("{} is not supported", quote(other.as_bytes()));
+                                return Err(FormatError::byte(at, what));
+                            }
+                        };
+                    }
+                    "DataArray" => {
+                        let start = position(&xml);
+                        let length =
+                            if is_empty { 0 } else { bytes[start..].iter().take_while(|&&b| b != b'<').count() };
+                        let offset = attribute(&tag, "offset").parse().unwrap_or(0);
+                        file.arrays.push(DataArray {
+                            name: attribute(&tag, "Name"),
+                            scalar: attribute(&tag, "type"),
+                            format: attribute(&tag, "format"),
+                            offset,
+                            text: &bytes[start..start + length],
+                            at,
+                        });
+                    }
+                    "AppendedData" => {
+                        // What follows may be raw bytes, which are no XML.
+                        let data = &bytes[position(&xml)..];
+                        let start = data.iter().position(|&b| b == b'_').map_or(data.len(), |at| at + 1);
+                        file.appended = Some((&data[start..], attribute(&tag, "encoding") == "base64"));
+                        return Ok(file);
+                    }
+                    _ => {}
+                },
+                Event::Eof => return Ok(file),
+                _ => {}
+            }
+        }
+    }
+
+    /// The array of that name as integers.
+    fn integers(&self, name: &str) -> Result<Vec<i64>, FormatError> {
+        let array = self
+            .arrays
+            .iter()
+            .find(|array| array.name == name)
+            .ok_or_else(|| FormatError::byte(0, format!("there is no data array `{name}`")))?;
+        let broken = |what: &str| FormatError::byte(array.at, format!("data array `{name}`: {what}"));
+        let block = match array.format.as_str() {
+            "ascii" => {
+                let words = array.text.split(|b| b.is_ascii_whitespace()).filter(|word| !word.is_empty());
+                let numbers = words.map(|word| std::str::from_utf8(word).ok()?.parse().ok());
+                return numbers.collect::<Option<_>>().ok_or_else(|| broken("not all of its values are integers"));
+            }
+            "binary" => self.unpack(&decode_base64(array.text).ok_or_else(|| broken("its base64 is broken"))?),
+            "appended" => {
+                let (data, is_base64) = self.appended.ok_or_else(|| broken("there is no appended data"))?;
+                let data = data.get(array.offset..).ok_or_else(|| broken("its offset is behind the file's end"))?;
+                if is_base64 {
+                    let end = data.iter().position(|&b| b == b'<').unwrap_or(data.len());
+                    self.unpack(&decode_base64(&data[..end]).ok_or_else(|| broken("its base64 is broken"))?)
+                } else {
+                    self.unpack(data)
+                }
+            }
+            other => return Err(broken(&format!("the format {} is not known", quote(other.as_bytes())))),
+        };
+        let block = block.ok_or_else(|| broken("its data is broken or ends too early"))?;
+        self.decode(&block, &array.scalar).ok_or_else(|| broken("it does not hold integers"))
+    }
+
+    /// A length (4 or 8 bytes) at the start of `data`, and what follows it.
+    fn length<'d>(&self, data: &'d [u8]) -> Option<(usize, &'d [u8])> {
+        let (bytes, rest) = data.split_at_checked(self.length_size)?;
+        let value = bytes.iter().enumerate().fold(0u64, |value, (i, &byte)| {
+            let shift = if self.big_endian { self.length_size - 1 - i } else { i };
+            value | u64::from(byte) << (8 * shift)
+        });
+        Some((usize::try_from(value).ok()?, rest))
+    }
+
+    /// The array's bytes: after their length, or in compressed blocks after the number of blocks, the size of a block,
+    /// of the last one, and the compressed sizes of all.
+    fn unpack(&self, data: &[u8]) -> Option<Vec<u8>> {
+        let (length, mut rest) = self.length(data)?;
+        if !self.is_compressed {
+            return rest.get(..length).map(<[u8]>::to_vec);
+        }
+        let sizes = rest.split_off(..2 * self.length_size)?;
+        let (block_size, _) = self.length(sizes)?;
+        let mut compressed_sizes = rest.split_off(..length.checked_mul(self.length_size)?)?;
+        let mut result = Vec::new();
+        for _ in 0..length {
+            let (size, others) = self.length(compressed_sizes)?;
+            compressed_sizes = others;
+            let block = rest.split_off(..size)?;
+            ZlibDecoder::new(block).take(block_size as u64).read_to_end(&mut result).ok()?;
+        }
+        Some(result)
+    }
+
+    fn decode(&self, block: &[u8], scalar: &str) -> Option<Vec<i64>> {
+        let size = match scalar {
+            "Int8" | "UInt8" => 1,
+            "Int32" | "UInt32" => 4,
+            "Int64" | "UInt64" => 8,
+            _ => return None,
+        };
+        let is_signed = scalar.starts_with('I');
+        let values = block.chunks_exact(size);
+        if !values.remainder().is_empty() {
+            return None;
+        }
+        let value = |bytes: &[u8]| {
+            let mut wide = [0; 8];
+            wide[..size].copy_from_slice(bytes);
+            if self.big_endian {
+                wide[..size].reverse();
+            }
+            // Shifted to the top and back, which spreads the sign.
+            let unused = 64 - 8 * size as u32;
+            let value = i64::from_le_bytes(wide) << unused;
+            if is_signed { value >> unused } else { (value as u64 >> unused) as i64 }
+        };
+        Some(values.map(value).collect())
+    }
+}
+
+fn position(xml: &Reader<&[u8]>) -> usize {
+    xml.buffer_position() as usize
+}
+
+/// The attribute's value, empty where there is none. No attribute that matters has anything to unescape.
+fn attribute(tag: &BytesStart<'_>, name: &str) -> String {
+    tag.try_get_attribute(name).ok().flatten().map(|attribute| attribute.value.into_owned()).unwrap_or_default()
+}
+
+/// Decodes base64 that may consist of several pieces, each with its padding: VTK encodes a length and the data after
+/// it one by one.
+fn decode_base64(text: &[u8]) -> Option<Vec<u8>> {
+    const ENGINE: GeneralPurpose = GeneralPurpose::new(
+        &alphabet::STANDARD,
+        GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
+    );
+    let text: Vec<u8> = text.iter().copied().filter(|b| !b.is_ascii_whitespace()).collect();
+    let mut result = Vec::with_capacity(text.len() / 4 * 3);
+    for piece in text.split(|&b| b == b'=').filter(|piece| !piece.is_empty()) {
+        ENGINE.decode_vec(piece, &mut result).ok()?;
+    }
+    Some(result)
+}

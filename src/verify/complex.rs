@@ -1,0 +1,278 @@
+//! What is true of the vertex indices alone: which tetrahedra share facets, the boundary, the counts.
+
+use super::report::{Defect, Findings};
+use crate::mesh::{FACETS, NONE};
+
+/// The mark for "no tetrahedron" in [`Complex::across`].
+const OUTSIDE: u32 = u32::MAX;
+
+/// A facet of one tetrahedron.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Side {
+    /// The tetrahedron.
+    pub(super) tetrahedron: usize,
+    /// The vertex that the facet is opposite to, 0 to 3.
+    pub(super) k: usize,
+}
+
+/// Tetrahedra with the adjacency that follows from their vertices.
+#[derive(Default)]
+pub(super) struct Complex<'a> {
+    pub(super) tetrahedra: &'a [[u32; 4]],
+    /// The tetrahedron across each facet; none where the facet has one tetrahedron only, or more than two.
+    across: Vec<[u32; 4]>,
+    /// The facets of one tetrahedron only.
+    pub(super) hull: Vec<Side>,
+    pub(super) vertices: usize,
+    pub(super) edges: usize,
+    pub(super) facets: usize,
+    bad_facets: Findings,
+}
+
+pub(super) fn check_indices(tetrahedra: &[[u32; 4]], points: usize) -> Findings {
+    let mut findings = Findings::default();
+    if tetrahedra.len() > i32::MAX as usize {
+        let detail = format!("{} tetrahedra are more than a neighbor's index can name", tetrahedra.len());
+        findings.add(|| Defect::in_mesh(detail));
+    }
+    for (t, vertices) in tetrahedra.iter().enumerate() {
+        if let Some(v) = vertices.iter().find(|&&v| v as usize >= points) {
+            findings.add(|| Defect::at_tetrahedron(t, format!("vertex {v} is not one of the {points} points")));
+        } else if (0..4).any(|i| vertices[..i].contains(&vertices[i])) {
+            findings.add(|| Defect::at_tetrahedron(t, format!("the vertices {vertices:?} are not four points")));
+        }
+    }
+    findings
+}
+
+impl<'a> Complex<'a> {
+    /// Needs vertices that are indices of points, four different ones a tetrahedron.
+    pub(super) fn new(tetrahedra: &'a [[u32; 4]], points: usize) -> Self {
+        let across = vec![[OUTSIDE; 4]; tetrahedra.len()];
+        let mut complex = Complex { tetrahedra, across, ..Complex::default() };
+        let stars = LowerStars::new(tetrahedra, points);
+        // Every edge and every facet is met in the star of its lowest vertex.
+        let mut seen_from = vec![OUTSIDE; points];
+        let mut facets = Vec::new();
+        for v in 0..points as u32 {
+            facets.clear();
+            for &t in stars.of(v) {
+                let vertices = tetrahedra[t as usize];
+                for w in vertices.into_iter().filter(|&w| w > v) {
+                    complex.edges += usize::from(seen_from[w as usize] != v);
+                    seen_from[w as usize] = v;
+                }
+                for (k, facet) in FACETS.iter().enumerate() {
+                    let (outward, [a, b, c]) = sorted(facet.map(|i| vertices[i]));
+                    if a == v {
+                        facets.push(([b, c], outward, Side { tetrahedron: t as usize, k }));
+                    }
+                }
+            }
+            facets.sort_unstable_by_key(|&(others, _, side)| (others, side.tetrahedron));
+            for sides in facets.chunk_by(|(a, ..), (b, ..)| a == b) {
+                complex.join(sides);
+            }
+        }
+        complex.vertices = count_used(tetrahedra, points);
+        complex
+    }
+
+    /// Takes in one facet, given all its sides; which way each of them turns is the second entry.
+    fn join(&mut self, sides: &[([u32; 2], bool, Side)]) {
+        self.facets += 1;
+        match *sides {
+            [(_, _, side)] => self.hull.push(side),
+            [(_, turn, a), (_, other_turn, b)] => {
+                self.across[a.tetrahedron][a.k] = b.tetrahedron as u32;
+                self.across[b.tetrahedron][b.k] = a.tetrahedron as u32;
+                if turn == other_turn {
+                    let detail = format!("on the same side of facet {} as tetrahedron {}", a.k, b.tetrahedron);
+                    self.bad_facets.add(|| Defect::at_tetrahedron(a.tetrahedron, detail));
+                }
+            }
+            [(_, _, a), ..] => {
+                let detail = format!("facet {} belongs to {} tetrahedra", a.k, sides.len());
+                self.bad_facets.add(|| Defect::at_tetrahedron(a.tetrahedron, detail));
+            }
+            [] => {}
+        }
+    }
+
+    /// The corners of a facet, counter-clockwise as seen from outside a positively oriented tetrahedron.
+    pub(super) fn corners(&self, side: Side) -> [u32; 3] {
+        FACETS[side.k].map(|i| self.tetrahedra[side.tetrahedron][i])
+    }
+
+    /// The vertex of a facet's tetrahedron that is not on the facet.
+    pub(super) fn apex(&self, side: Side) -> u32 {
+        self.tetrahedra[side.tetrahedron][side.k]
+    }
+
+    /// The facets between two tetrahedra, each once, with the vertex beyond.
+    pub(super) fn inner_facets(&self) -> impl Iterator<Item = (Side, u32)> {
+        let sides = (0..self.tetrahedra.len()).flat_map(|tetrahedron| (0..4).map(move |k| Side { tetrahedron, k }));
+        sides.filter_map(|side| {
+            let beyond = self.across[side.tetrahedron][side.k];
+            if beyond == OUTSIDE || (beyond as usize) < side.tetrahedron {
+                return None;
+            }
+            let corners = self.corners(side);
+            let apex = self.tetrahedra[beyond as usize].into_iter().find(|v| !corners.contains(v))?;
+            Some((side, apex))
+        })
+    }
+
+    pub(super) fn check_facets(&mut self) -> Findings {
+        std::mem::take(&mut self.bad_facets)
+    }
+
+    pub(super) fn check_neighbors(&self, stated: &[[i32; 4]]) -> Findings {
+        let mut findings = Findings::default();
+        if stated.len() != self.tetrahedra.len() {
+            let detail = format!("neighbors of {} tetrahedra, not of {}", stated.len(), self.tetrahedra.len());
+            findings.add(|| Defect::in_mesh(detail));
+            return findings;
+        }
+        for (t, (stated, across)) in stated.iter().zip(&self.across).enumerate() {
+            for k in 0..4 {
+                let expected = if across[k] == OUTSIDE { NONE } else { across[k] as i32 };
+                if stated[k] != expected {
+                    findings.add(|| {
+                        let detail = format!("the neighbor across facet {k} is {expected}, not {}", stated[k]);
+                        Defect::at_tetrahedron(t, detail)
+                    });
+                }
+            }
+        }
+        findings
+    }
+
+    pub(super) fn check_hull(&self, stated: &[[u32; 3]]) -> Findings {
+        let mut findings = Findings::default();
+        let mut stated: Vec<_> = stated.iter().map(|&triangle| from_lowest(triangle)).collect();
+        stated.sort_unstable();
+        let mut expected: Vec<_> = self.hull.iter().map(|&side| (from_lowest(self.corners(side)), side)).collect();
+        expected.sort_unstable_by_key(|&(triangle, _)| triangle);
+        let mut stated = stated.into_iter().peekable();
+        for (triangle, side) in expected {
+            while let Some(extra) = stated.next_if(|&s| s < triangle) {
+                findings.add(|| Defect::in_mesh(format!("{extra:?} is not a triangle of the hull, or not once")));
+            }
+            if stated.next_if_eq(&triangle).is_none() {
+                findings.add(|| {
+                    Defect::at_tetrahedron(side.tetrahedron, format!("the hull lacks its triangle {triangle:?}"))
+                });
+            }
+        }
+        for extra in stated {
+            findings.add(|| Defect::in_mesh(format!("{extra:?} is not a triangle of the hull, or not once")));
+        }
+        findings
+    }
+
+    /// Also finds the two hull triangles at each edge of a closed hull, from either of which the edge is `k` of the
+    /// triangle's corners *k* and *k* + 1.
+    pub(super) fn check_hull_closed(&self, ridges: &mut Vec<[(Side, usize); 2]>) -> Findings {
+        let mut findings = Findings::default();
+        let mut edges = Vec::with_capacity(3 * self.hull.len());
+        for &side in &self.hull {
+            let corners = self.corners(side);
+            for k in 0..3 {
+                let (a, b) = (corners[k], corners[(k + 1) % 3]);
+                edges.push(((a.min(b), a.max(b)), a < b, (side, k)));
+            }
+        }
+        edges.sort_unstable_by_key(|&(edge, ..)| edge);
+        for around in edges.chunk_by(|(a, ..), (b, ..)| a == b) {
+            match *around {
+                [(_, true, a), (_, false, b)] | [(_, false, a), (_, true, b)] => ridges.push([a, b]),
+                [((a, b), _, (side, _)), ..] => findings.add(|| {
+                    let detail = format!("its edge {a}-{b} is in {} hull triangles", around.len());
+                    Defect::at_tetrahedron(side.tetrahedron, detail)
+                }),
+                [] => {}
+            }
+        }
+        findings
+    }
+
+    pub(super) fn check_euler_characteristic(&self) -> Findings {
+        let mut findings = Findings::default();
+        let [vertices, edges, facets, tetrahedra] = [self.vertices, self.edges, self.facets, self.tetrahedra.len()];
+        // No tetrahedra are no ball, but right where the points do not span space; the vertices tell.
+        if tetrahedra > 0 && vertices + facets != edges + tetrahedra + 1 {
+            findings.add(|| {
+                Defect::in_mesh(format!(
+                    "{vertices} vertices - {edges} edges + {facets} facets - {tetrahedra} tetrahedra is not 1"
+                ))
+            });
+        }
+        findings
+    }
+}
+
+/// For each vertex, the tetrahedra in which it is not the highest.
+struct LowerStars {
+    /// Where the list of each vertex begins in `tetrahedra`, and at last its end.
+    begin: Vec<usize>,
+    tetrahedra: Vec<u32>,
+}
+
+impl LowerStars {
+    fn new(tetrahedra: &[[u32; 4]], points: usize) -> Self {
+        let lower = |vertices: &[u32; 4]| {
+            let mut vertices = *vertices;
+            vertices.sort_unstable();
+            [vertices[0], vertices[1], vertices[2]].map(|v| v as usize)
+        };
+        let mut begin = vec![0; points + 1];
+        for v in tetrahedra.iter().flat_map(lower) {
+            begin[v] += 1;
+        }
+        let mut end = 0;
+        for b in &mut begin {
+            end += *b;
+            *b = end;
+        }
+        // Filled from the back, each list's end moves to its beginning.
+        let mut list = vec![0; end];
+        for (t, vertices) in tetrahedra.iter().enumerate().rev() {
+            for v in lower(vertices) {
+                begin[v] -= 1;
+                list[begin[v]] = t as u32;
+            }
+        }
+        LowerStars { begin, tetrahedra: list }
+    }
+
+    fn of(&self, v: u32) -> &[u32] {
+        &self.tetrahedra[self.begin[v as usize]..self.begin[v as usize + 1]]
+    }
+}
+
+/// The triangle's vertices ascending, and whether that turns the same way.
+fn sorted([a, b, c]: [u32; 3]) -> (bool, [u32; 3]) {
+    let mut ascending = [a, b, c];
+    ascending.sort_unstable();
+    ((a < b) as u8 + (b < c) as u8 + (c < a) as u8 == 2, ascending)
+}
+
+/// The same triangle, from its lowest vertex.
+fn from_lowest([a, b, c]: [u32; 3]) -> [u32; 3] {
+    if a <= b && a <= c {
+        [a, b, c]
+    } else if b <= c {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    }
+}
+
+fn count_used(tetrahedra: &[[u32; 4]], points: usize) -> usize {
+    let mut used = vec![false; points];
+    for &v in tetrahedra.as_flattened() {
+        used[v as usize] = true;
+    }
+    used.into_iter().filter(|&used| used).count()
+}

@@ -1,0 +1,256 @@
+//! What the verifier found, check by check.
+
+use std::fmt;
+
+/// A property of the Delaunay triangulation that the verifier decides.
+///
+/// Together they are sufficient: a mesh that passes all of them *is* the triangulation that
+/// [`delaunay3d`](crate::delaunay3d) defines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Check {
+    /// The dimension that the mesh states is the affine dimension of the points.
+    Dimension,
+    /// The duplicates that the mesh states are those of the points, each with the lowest index of its coordinates.
+    Duplicates,
+    /// Every tetrahedron has four different vertices that are indices of points.
+    Indices,
+    /// The vertices are the distinct points, all of them where the points span three dimensions, and each is named by
+    /// the lowest index of its coordinates.
+    Vertices,
+    /// Every tetrahedron is positively oriented; none is flat.
+    Orientation,
+    /// No facet belongs to more than two tetrahedra, and two that share a facet lie on either side of it.
+    Facets,
+    /// The neighbours that the mesh states are the tetrahedra across the facets.
+    Neighbors,
+    /// No tetrahedron's circumsphere has the opposite vertex of a neighbour strictly inside.
+    Delaunay,
+    /// Where the opposite vertex of a neighbour lies on the circumsphere, the symbolic perturbation of the heights puts
+    /// it outside.
+    CanonicalTies,
+    /// The hull triangles that the mesh states are the facets of a single tetrahedron, turned outwards.
+    Hull,
+    /// Every edge of the hull is between exactly two hull triangles.
+    HullClosed,
+    /// The hull has no concave edge and no fold.
+    HullConvex,
+    /// Vertices − edges + facets − tetrahedra = 1, as in a ball.
+    EulerCharacteristic,
+    /// The tetrahedra cover the hull's inside once: all hull triangles are seen from one point inside, and no second
+    /// tetrahedron contains that point.
+    Covering,
+}
+
+impl Check {
+    /// Every check, in the order in which they run.
+    pub const ALL: [Check; 14] = [
+        Check::Dimension,
+        Check::Duplicates,
+        Check::Indices,
+        Check::Vertices,
+        Check::Orientation,
+        Check::Facets,
+        Check::Neighbors,
+        Check::Delaunay,
+        Check::CanonicalTies,
+        Check::Hull,
+        Check::HullClosed,
+        Check::HullConvex,
+        Check::EulerCharacteristic,
+        Check::Covering,
+    ];
+
+    /// A short name, such as `hull-convex`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Check::Dimension => "dimension",
+            Check::Duplicates => "duplicates",
+            Check::Indices => "indices",
+            Check::Vertices => "vertices",
+            Check::Orientation => "orientation",
+            Check::Facets => "facets",
+            Check::Neighbors => "neighbors",
+            Check::Delaunay => "delaunay",
+            Check::CanonicalTies => "canonical-ties",
+            Check::Hull => "hull",
+            Check::HullClosed => "hull-closed",
+            Check::HullConvex => "hull-convex",
+            Check::EulerCharacteristic => "euler-characteristic",
+            Check::Covering => "covering",
+        }
+    }
+
+    /// The checks without which this one has no meaning.
+    fn requires(self) -> &'static [Check] {
+        match self {
+            Check::Dimension | Check::Duplicates | Check::Indices => &[],
+            Check::Vertices | Check::Orientation | Check::Facets => &[Check::Indices],
+            Check::Neighbors | Check::Hull | Check::HullClosed | Check::EulerCharacteristic => &[Check::Facets],
+            Check::Delaunay | Check::CanonicalTies => &[Check::Orientation, Check::Facets],
+            Check::HullConvex => &[Check::Orientation, Check::HullClosed],
+            Check::Covering => &[Check::HullConvex, Check::EulerCharacteristic],
+        }
+    }
+}
+
+impl fmt::Display for Check {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Where a check fails, and how.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Defect {
+    /// The index of the tetrahedron, where there is one to blame.
+    pub tetrahedron: Option<usize>,
+    /// The index of the point, where there is one to blame.
+    pub point: Option<usize>,
+    /// What is wrong, in words.
+    pub detail: String,
+}
+
+impl Defect {
+    pub(super) fn in_mesh(detail: String) -> Self {
+        Defect { detail, ..Defect::default() }
+    }
+
+    pub(super) fn at_tetrahedron(tetrahedron: usize, detail: String) -> Self {
+        Defect { tetrahedron: Some(tetrahedron), detail, ..Defect::default() }
+    }
+
+    pub(super) fn at_point(point: usize, detail: String) -> Self {
+        Defect { point: Some(point), detail, ..Defect::default() }
+    }
+}
+
+impl fmt::Display for Defect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(tetrahedron) = self.tetrahedron {
+            write!(f, "tetrahedron {tetrahedron}: ")?;
+        }
+        if let Some(point) = self.point {
+            write!(f, "point {point}: ")?;
+        }
+        f.write_str(&self.detail)
+    }
+}
+
+/// How a check ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// The property holds.
+    Passed,
+    /// The property does not hold.
+    Failed {
+        /// The first place where it fails.
+        first: Defect,
+        /// In how many places it fails.
+        count: usize,
+    },
+    /// The mesh does not state what would be checked.
+    NotStated,
+    /// Not decided, because the check named here failed or was not decided.
+    Blocked(Check),
+}
+
+/// The defects of one check: the first of them, and their number.
+#[derive(Debug, Default)]
+pub(super) struct Findings {
+    first: Option<Defect>,
+    count: usize,
+}
+
+impl Findings {
+    pub(super) fn add(&mut self, defect: impl FnOnce() -> Defect) {
+        self.first.get_or_insert_with(defect);
+        self.count += 1;
+    }
+}
+
+impl From<Findings> for Outcome {
+    fn from(Findings { first, count }: Findings) -> Self {
+        first.map_or(Outcome::Passed, |first| Outcome::Failed { first, count })
+    }
+}
+
+/// How many there are of everything.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Points, duplicates included.
+    pub points: usize,
+    /// Points without duplicates.
+    pub distinct_points: usize,
+    /// Points that are corners of tetrahedra.
+    pub vertices: usize,
+    /// Edges of tetrahedra.
+    pub edges: usize,
+    /// Facets of tetrahedra, those on the hull included.
+    pub facets: usize,
+    /// Tetrahedra.
+    pub tetrahedra: usize,
+    /// Facets of a single tetrahedron.
+    pub hull_triangles: usize,
+}
+
+/// The outcome of every check.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Report {
+    /// Each check with its outcome, in the order of [`Check::ALL`].
+    pub outcomes: Vec<(Check, Outcome)>,
+    /// The affine dimension of the points, 0 to 3.
+    pub dimension: u8,
+    /// What the points and the mesh consist of. Only points and tetrahedra are counted where the indices are broken.
+    pub counts: Counts,
+}
+
+impl Report {
+    /// Whether the mesh is the Delaunay triangulation of the points.
+    pub fn passed(&self) -> bool {
+        self.outcomes.iter().all(|(_, outcome)| matches!(outcome, Outcome::Passed | Outcome::NotStated))
+    }
+
+    /// The checks that failed, with the first defect of each and the number of its defects.
+    pub fn failures(&self) -> impl Iterator<Item = (Check, &Defect, usize)> {
+        self.outcomes.iter().filter_map(|(check, outcome)| match outcome {
+            Outcome::Failed { first, count } => Some((*check, first, *count)),
+            _ => None,
+        })
+    }
+
+    /// The outcome of one check.
+    pub fn outcome(&self, check: Check) -> Option<&Outcome> {
+        self.outcomes.iter().find(|(c, _)| *c == check).map(|(_, outcome)| outcome)
+    }
+
+    /// Decides the next check, unless one that it requires was not passed.
+    pub(super) fn decide(&mut self, check: Check, outcome: impl FnOnce() -> Outcome) {
+        let passed = |required: &&Check| matches!(self.outcome(**required), Some(Outcome::Passed));
+        let outcome = match check.requires().iter().find(|required| !passed(required)) {
+            Some(&required) => Outcome::Blocked(required),
+            None => outcome(),
+        };
+        self.outcomes.push((check, outcome));
+    }
+}
+
+/// One line a check, for a terminal.
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, (check, outcome)) in self.outcomes.iter().enumerate() {
+            if i > 0 {
+                writeln!(f)?;
+            }
+            write!(f, "{check:<21}")?;
+            match outcome {
+                Outcome::Passed => write!(f, "passed")?,
+                Outcome::Failed { first, count: 1 } => write!(f, "FAILED  {first}")?,
+                Outcome::Failed { first, count } => write!(f, "FAILED  {first} (and {} more)", count - 1)?,
+                Outcome::NotStated => write!(f, "-       not stated by the mesh")?,
+                Outcome::Blocked(required) => write!(f, "-       not decided without {required}")?,
+            }
+        }
+        Ok(())
+    }
+}
