@@ -4,12 +4,12 @@
 //! 2. *Rounds*, until no point waits: every tetrahedron with waiting points picks one and is split; flip iterations
 //!    until (nearly) none is active; the waiting points follow the history of the flips.
 //! 3. *Last flips*, until no tetrahedron is active.
-//! 4. *Finish*: failed vertices, the mesh without gaps, and the one large readback.
+//! 4. *Finish*: failed vertices, the mesh without gaps, what rounding leaves open, and the one large readback.
 //!
 //! What it costs, for *n* points in *r* rounds of *k* flip iterations (uniform, 1 M: r = 11, k ≈ 16): dispatches, 15 for
 //! the points, 5 + 3·k a round, 8 to finish, about 650 in all; a flip iteration visits its active tetrahedra (42·n in all, 14·n
 //! flips) at 4 to 10 sectors of 32 bytes each, so 10 to 15 GB of traffic for 1 M points, most of it in the cache. Readbacks:
-//! one of 132 bytes a round, one or two for the last flips, 7 to finish.
+//! one of 132 bytes a round, one or two for the last flips, 9 to finish.
 //!
 //! Flip iterations are recorded ahead, as many as the last round took and a few more: those that find nothing to do cost
 //! microseconds, and what they leave undone is taken up in the next round. No flip is lost for want of room: when the
@@ -96,7 +96,7 @@ pub struct Phase1Stats {
     pub bytes: u64,
     /// Milliseconds from the upload to the end of the last kernel, on the host's clock; 0 where there is none.
     pub milliseconds: f64,
-    /// Milliseconds of the readback of the mesh, on the host's clock.
+    /// Milliseconds of the readback of the result, on the host's clock.
     pub readback_milliseconds: f64,
 }
 
@@ -120,6 +120,10 @@ pub struct Phase1Output {
     /// Input indices of points that are vertices of no tetrahedron, with that of the point at the same place of the
     /// lattice: exact duplicates, and points that were rounded to the same place, which Phase 2 has to insert.
     pub united: Vec<[u32; 2]>,
+    /// Where coordinates were rounded to the lattice: tetrahedra, ascending, of which it does not prove everything, with
+    /// what is open: whether facet *k* is locally Delaunay (bit *k*), or the orientation (bit 4). Each facet is listed
+    /// with its tetrahedron of the lower number.
+    pub uncertain: Vec<[u32; 2]>,
     /// What the run did.
     pub stats: Phase1Stats,
 }
@@ -455,7 +459,8 @@ impl<'a> Run<'a> {
         let points = self.params.infinite as usize;
         let aside = if self.counters.aside > 0 { points } else { 0 };
         let failed = if self.counters.failed > 0 { points } else { 0 };
-        let (submission, tets, neighbors, tet_of, pairs, failed, united) = gpu
+        let open = self.counters.uncertain as usize;
+        let (submission, tets, neighbors, tet_of, pairs, failed, united, uncertain) = gpu
             .catching("the result of Phase 1", || {
                 let mut recorder = Recorder::new(gpu, None);
                 let encoder = recorder.encoder();
@@ -465,7 +470,8 @@ impl<'a> Run<'a> {
                 let pairs = self.readback.copy(gpu, encoder, &self.buffers.points.pairs, 0, points);
                 let failed = self.readback.copy(gpu, encoder, &self.buffers.failed, 0, failed);
                 let united = self.readback.copy(gpu, encoder, &self.buffers.points.united_with, 0, aside);
-                Ok((recorder.submit(gpu), tets, neighbors, tet_of, pairs, failed, united))
+                let uncertain = self.readback.copy(gpu, encoder, &compacted.uncertain, 0, open);
+                Ok((recorder.submit(gpu), tets, neighbors, tet_of, pairs, failed, united, uncertain))
             })
             .await?;
         let tets = self.readback.receive(gpu, &submission, tets).await?;
@@ -474,6 +480,10 @@ impl<'a> Run<'a> {
         let pairs = self.readback.receive(gpu, &submission, pairs).await?;
         let failed = self.readback.receive(gpu, &submission, failed).await?;
         let united = self.readback.receive(gpu, &submission, united).await?;
+
+        let uncertain = self.readback.receive(gpu, &submission, uncertain).await?;
+        let mut uncertain: Vec<[u32; 2]> = uncertain.into_iter().map(|a| [a.tet, a.outcome]).collect();
+        uncertain.sort_unstable();
 
         let mut stats = self.stats;
         stats.readback_milliseconds = self.clock.lap() * 1e3;
@@ -487,6 +497,7 @@ impl<'a> Run<'a> {
             failed: (0..).zip(failed).filter(|&(_, failed)| failed != 0).map(|(v, _)| v).collect(),
             tet_of: tet_of.into_iter().map(|t: u32| t.wrapping_sub(1)).collect(),
             united: (0..).zip(united).filter(|&(_, other)| other != NONE).map(|(point, other)| [point, other]).collect(),
+            uncertain,
             stats,
         })
     }
