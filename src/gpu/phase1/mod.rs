@@ -50,13 +50,15 @@ pub struct Settings {
     pub pick: Pick,
     /// Insert all points before flipping (§5.3).
     pub insert_all: bool,
-    /// With fewer active tetrahedra than this, flipping waits for the next round; except at the end.
+    /// With fewer active tetrahedra than this, and than one for 1,024 points that are inserted, flipping waits for the
+    /// next round; except at the end.
     pub min_active: u32,
     /// Workgroups of a dispatch, at most. Kernels stride over what there is to do.
     pub workgroups: u32,
     /// There is a block in the tail for so many points, at the start and again whenever slots run out.
     pub points_per_tail_block: u32,
-    /// Nodes of the history, for every point.
+    /// Nodes of the history, for every point, if the device can bind so many. Uniform points take 3.1 in the round that
+    /// takes most; flips for which there is no room wait for the next round.
     pub history: u32,
 }
 
@@ -65,7 +67,7 @@ impl Default for Settings {
         Settings {
             pick: Pick::Circumcenter,
             insert_all: false,
-            min_active: 0,
+            min_active: 1024,
             workgroups: 1024,
             points_per_tail_block: 16,
             history: 3,

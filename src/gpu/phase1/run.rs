@@ -7,7 +7,7 @@ use crate::{
     Error,
     gpu::{
         Gpu, Pending, Profiler, Readback, Recorder,
-        layout::{BLOCK, Counters, NONE, Params, SLOTS_FULL},
+        layout::{BLOCK, Counters, FlipNode, NONE, Params, SLOTS_FULL},
         stages::{finish::Compacted, flip::BoundFlip, insert::BoundInsert, relocate::BoundRelocate},
         vertex, workgroups,
     },
@@ -70,10 +70,11 @@ impl<'a> Run<'a> {
         }
         let points = count as u32;
         let blocks = points + 1 + tail_blocks(points, &settings);
+        let bindable = gpu.max_storage_bytes() / size_of::<FlipNode>() as u64;
         let params = Params {
             infinite: points,
             blocks,
-            history: (settings.history * points).max(64),
+            history: (u64::from(settings.history) * u64::from(points)).clamp(64, bindable.max(64)) as u32,
             bid_bits: bid_bits(blocks),
             min_active: settings.min_active,
             pick: settings.pick as u32,
@@ -171,7 +172,9 @@ impl<'a> Run<'a> {
         let workgroups = self.workgroups();
         let mut profiler = self.profiler.take();
         let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
-        self.params.min_active = if inserts { self.settings.min_active } else { 0 };
+        // In a small triangulation every flip that waits costs failed vertices in the end.
+        let few = self.settings.min_active.min(self.counters.inserted >> 10);
+        self.params.min_active = if inserts { few } else { 0 };
         if self.counters.overflow & SLOTS_FULL != 0 {
             self.grow(&mut recorder)?;
         }
