@@ -11,7 +11,7 @@
 //! flips) at 4 to 10 sectors of 32 bytes each, so 10 to 15 GB of traffic for 1 M points, most of it in the cache. Readbacks:
 //! one of 132 bytes a round, one or two for the last flips, 9 to finish.
 //!
-//! Flip iterations are recorded ahead, as many as the last round took and a few more: those that find nothing to do cost
+//! Flip iterations are recorded ahead, half as many again as the last round took: those that find nothing to do cost
 //! microseconds, and what they leave undone is taken up in the next round. No flip is lost for want of room: when the
 //! slots or the history run out, flips wait in the active list until there is more.
 
@@ -70,7 +70,7 @@ impl Default for Settings {
             min_active: 1024,
             workgroups: 1024,
             points_per_tail_block: 16,
-            history: 3,
+            history: 4,
         }
     }
 }

@@ -106,7 +106,7 @@ impl<'a> Run<'a> {
                     counters: Counters { first_node: 1, next_node: 1, ..Counters::default() },
                     buffers,
                     first: true,
-                    iterations: 12,
+                    iterations: 20,
                     counted: 0,
                     stats: Phase1Stats { dispatches, ..Phase1Stats::default() },
                     clock,
@@ -153,11 +153,8 @@ impl<'a> Run<'a> {
         self.counters = read;
         self.counted = read.iteration;
         let used = read.iterations - before.iterations;
-        if used >= self.iterations {
-            self.iterations = (2 * self.iterations).min(64);
-        } else {
-            self.iterations = (used + 4).max(8);
-        }
+        // Rounds grow at first: a flip that waits for the next round costs more than an idle iteration.
+        self.iterations = if used >= self.iterations { (2 * used).min(64) } else { (used + used / 2).clamp(20, 64) };
         if inserts {
             self.stats.rounds += 1;
             if read.inserted == before.inserted && self.waiting() > 0 {
