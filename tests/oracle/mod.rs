@@ -68,7 +68,7 @@ fn without<const D: usize>(points: &[&[BigInt; D]], k: usize) -> BigInt {
 /// brings the last point inside.
 fn cofactors<const D: usize>(points: &[&[BigInt; D]]) -> Vec<BigInt> {
     let last = points.len() - 1;
-    let signed = |k: usize| if (last - k) % 2 == 0 { -without(points, k) } else { without(points, k) };
+    let signed = |k: usize| if (last - k).is_multiple_of(2) { -without(points, k) } else { without(points, k) };
     (0..points.len()).map(signed).collect()
 }
 
