@@ -188,7 +188,7 @@ fn input_without_permission() {
     let folder = folder();
     let file = folder.path().join("p.xyz");
     fs::write(&file, "1 2 3\n").unwrap();
-    fs::set_permissions(&file, fs::Permissions::from_mode(0)).unwrap();
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o0)).unwrap();
     if fs::read(&file).is_err() {
         fails(folder.path(), &["triangulate", "p.xyz"], "p.xyz: cannot be read: Permission denied");
     }

@@ -176,7 +176,7 @@ pub fn pcd(encoding: &str, points: &[[f32; 3]]) -> Vec<u8> {
 
 /// Three points and a NaN.
 pub fn pcd_ascii() -> &'static str {
-    "# .PCD v.7\nVERSION .7\nFIELDS x y z rgb\nSIZE 4 4 8 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 2\n\
+    "# .PCD v.7\nVERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 2\n\
      VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 4\nDATA ascii\n0.1 0.2 0.3 1\nnan nan nan 0\n4 5 6 2\n7 8 9 3\n"
 }
 
@@ -220,6 +220,7 @@ pub fn las(format: u8, is_compressed: bool, extra_bytes: u16) -> Vec<u8> {
             z,
             gps_time: has.has_gps_time.then_some(x),
             color: has.has_color.then(Default::default),
+            nir: has.has_nir.then_some(1),
             extra_bytes: vec![9; extra_bytes.into()],
             ..Default::default()
         };
