@@ -32,6 +32,48 @@ pub enum Error {
         /// The most that this engine can take.
         limit: usize,
     },
+    /// There is no GPU, or it gives no device.
+    #[error("no GPU can be used: {reason}")]
+    NoAdapter {
+        /// What the system says.
+        reason: String,
+    },
+    /// No GPU of this machine has the wanted index or name.
+    #[error("there is no GPU {wanted:?}; this machine has {available:?}")]
+    AdapterNotFound {
+        /// The index or the part of a name that was asked for.
+        wanted: String,
+        /// The names of the GPUs that there are, in the order of their indices.
+        available: Vec<String>,
+    },
+    /// The GPU was reset, unplugged or taken away while it was at work.
+    #[error("the GPU was lost: {reason}")]
+    DeviceLost {
+        /// What the driver or the browser says.
+        reason: String,
+    },
+    /// The GPU has not enough free memory.
+    #[error("the GPU ran out of memory: {what}")]
+    OutOfDeviceMemory {
+        /// What the memory was for.
+        what: &'static str,
+    },
+    /// A buffer would be larger than kernels on this GPU can see.
+    #[error("the buffer of {label} would need {bytes} bytes, but this GPU binds at most {limit}")]
+    BufferTooLarge {
+        /// What the buffer holds.
+        label: &'static str,
+        /// The size that it would have.
+        bytes: u128,
+        /// The largest size that this GPU can bind.
+        limit: u64,
+    },
+    /// The GPU reports what should not happen: a defect of this crate or of the driver.
+    #[error("the GPU reports: {message}")]
+    Gpu {
+        /// What it reports.
+        message: String,
+    },
     /// The input's triangulation is larger than an index can name, as only contrived inputs' are.
     #[error("the triangulation has more than {limit} tetrahedra, the most that this engine holds")]
     TooManyTetrahedra {

@@ -119,6 +119,12 @@ impl Lattice {
         self.origin.map(|o| o.is_some())
     }
 
+    /// `round(x·2ᵏ)` of the least coordinate of each axis, which is taken off; `None` for an axis on which all points
+    /// agree.
+    pub fn origin(&self) -> [Option<i128>; 3] {
+        self.origin
+    }
+
     /// The lattice coordinates of a point of the input that the lattice was fitted to.
     #[inline]
     pub fn coordinates(&self, p: [f64; 3]) -> [Coordinate; 3] {

@@ -16,6 +16,8 @@
 pub mod cpu;
 mod error;
 pub mod generate;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 mod hilbert;
 #[cfg(feature = "io")]
 pub mod io;

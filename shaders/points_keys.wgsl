@@ -1,0 +1,48 @@
+// The sort key of every point: its place along the Hilbert curve, from the ten highest bits of its lattice coordinates.
+// Points at the same place as one of a lower number go to the end.
+//!include shared/input
+//!include shared/hilbert
+//!include shared/input_counts
+
+@group(0) @binding(0) var<storage, read> params: InputParams;
+@group(0) @binding(1) var<storage, read> input: array<u32>;
+@group(0) @binding(2) var<storage, read> table: array<u32>;
+@group(0) @binding(3) var<storage, read> slots: array<u32>;
+// Key and point.
+@group(0) @binding(4) var<storage, read_write> pairs: array<vec2u>;
+// For each point the lowest one at the same place; NONE for that point itself.
+@group(0) @binding(5) var<storage, read_write> united_with: array<u32>;
+@group(0) @binding(6) var<storage, read_write> counts: InputCounts;
+
+const NONE: u32 = 0xffffffff;
+const LAST_KEY: u32 = 0xffffffff;
+
+fn same_coordinates(a: u32, b: u32) -> bool {
+    return all(coordinate_bits(a, 0) == coordinate_bits(b, 0)) && all(coordinate_bits(a, 1) == coordinate_bits(b, 1))
+        && all(coordinate_bits(a, 2) == coordinate_bits(b, 2));
+}
+
+@compute @workgroup_size(256)
+fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    for (var point = id.x; point < params.count; point += groups.x * 256) {
+        let first = table[slots[point]] - 1;
+        let united = first != point;
+        let place = lattice_point(point);
+        pairs[point] = vec2u(select(hilbert_key(place.high >> vec3u(21)), LAST_KEY, united), point);
+        united_with[point] = select(NONE, first, united);
+        if united {
+            atomicAdd(&counts.united, 1);
+            if same_coordinates(point, first) {
+                atomicAdd(&counts.duplicates, 1);
+            }
+        }
+        if !place.exact {
+            atomicAdd(&counts.rounded, 1);
+        }
+        for (var k = 0u; k < 4; k++) {
+            if params.wanted[k] == point {
+                counts.stands_for[k] = first;
+            }
+        }
+    }
+}

@@ -1,0 +1,25 @@
+// Second of three kernels of an exclusive scan, one workgroup: the parts' sums become their offsets, and the sum of all is
+// put behind them.
+//!include shared/scan
+//!include shared/workgroup_scan
+
+@group(0) @binding(0) var<storage, read_write> sums: array<u32>;
+
+@compute @workgroup_size(256)
+fn main(@builtin(local_invocation_index) local: u32) {
+    const EACH = SCAN_GROUPS / 256;
+    var sum = 0u;
+    for (var i = 0u; i < EACH; i++) {
+        sum += sums[local * EACH + i];
+    }
+    let scanned = workgroup_scan(sum, local);
+    var before = scanned.before;
+    for (var i = 0u; i < EACH; i++) {
+        let value = sums[local * EACH + i];
+        sums[local * EACH + i] = before;
+        before += value;
+    }
+    if local == 0 {
+        sums[SCAN_GROUPS] = scanned.total;
+    }
+}

@@ -1,0 +1,14 @@
+// Mirrors gpu::stages::points::InputCounts.
+struct InputCounts {
+    // Points at the same place of the lattice as one of a lower number.
+    united: atomic<u32>,
+    // Those of them that have the same coordinates too.
+    duplicates: atomic<u32>,
+    // Points with a coordinate that was rounded to the lattice.
+    rounded: atomic<u32>,
+    unused: u32,
+    // The points that stand for the wanted ones.
+    stands_for: array<u32, 4>,
+    // The vertices of the wanted points.
+    found: array<u32, 4>,
+}

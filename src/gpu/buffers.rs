@@ -1,0 +1,123 @@
+//! Typed storage buffers.
+
+use std::marker::PhantomData;
+
+use bytemuck::Pod;
+
+use super::Gpu;
+use crate::Error;
+
+/// A storage buffer of `T`, which kernels see as `array<T>`.
+///
+/// It can be copied from and to. Its contents are zero until they are written.
+#[derive(Debug, Clone)]
+pub struct Storage<T> {
+    buffer: wgpu::Buffer,
+    label: &'static str,
+    len: usize,
+    elements: PhantomData<T>,
+}
+
+const USAGES: wgpu::BufferUsages =
+    wgpu::BufferUsages::STORAGE.union(wgpu::BufferUsages::COPY_SRC).union(wgpu::BufferUsages::COPY_DST);
+
+impl<T: Pod> Storage<T> {
+    /// A buffer of `len` elements; of one when `len` is 0, because an empty buffer cannot be bound.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::BufferTooLarge`] when the device cannot bind that much. That it has not enough memory is found by
+    /// [`Gpu::catching`].
+    pub fn new(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
+        Self::create(gpu, label, len, USAGES, false)
+    }
+
+    /// A buffer that timestamps are written to.
+    pub(super) fn for_queries(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
+        Self::create(gpu, label, len, USAGES | wgpu::BufferUsages::QUERY_RESOLVE, false)
+    }
+
+    /// A buffer that holds `contents`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Storage::new`].
+    pub fn with_contents(gpu: &Gpu, label: &'static str, contents: &[T]) -> Result<Self, Error> {
+        if contents.is_empty() {
+            return Self::new(gpu, label, 0);
+        }
+        let storage = Self::create(gpu, label, contents.len(), USAGES, true)?;
+        let bytes: &[u8] = bytemuck::cast_slice(contents);
+        storage
+            .buffer
+            .get_mapped_range_mut(..)
+            .map_err(|e| gpu.failure(&e.to_string()))?
+            .slice(..bytes.len())
+            .copy_from_slice(bytes);
+        storage.buffer.unmap();
+        Ok(storage)
+    }
+
+    fn create(
+        gpu: &Gpu,
+        label: &'static str,
+        len: usize,
+        usage: wgpu::BufferUsages,
+        mapped_at_creation: bool,
+    ) -> Result<Self, Error> {
+        let limit = gpu.max_storage_bytes();
+        // In 128 bits no length overflows. Sizes are multiples of 4, as copies need.
+        let bytes = (len.max(1) as u128 * size_of::<T>() as u128).next_multiple_of(4);
+        let size = u64::try_from(bytes).ok().filter(|&size| size <= limit).ok_or(Error::BufferTooLarge {
+            label,
+            bytes,
+            limit,
+        })?;
+        let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation };
+        Ok(Storage { buffer: gpu.device().create_buffer(&descriptor), label, len, elements: PhantomData })
+    }
+
+    /// Makes room for `len` elements: at least half as many again as there are now, if the device can bind them, so
+    /// that growing step by step costs no more than a constant number of copies of each element. The first elements
+    /// are copied by a command in `encoder`; bind groups of the old buffer must be made anew.
+    ///
+    /// # Errors
+    ///
+    /// As [`Storage::new`]; the buffer is unchanged then.
+    pub fn grow(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, len: usize) -> Result<(), Error> {
+        if len <= self.len {
+            return Ok(());
+        }
+        let bindable = usize::try_from(gpu.max_storage_bytes()).unwrap_or(usize::MAX) / size_of::<T>().max(1);
+        let amortised = self.len.saturating_add(self.len / 2).min(bindable);
+        let larger = Self::new(gpu, self.label, len.max(amortised))?;
+        encoder.copy_buffer_to_buffer(&self.buffer, 0, &larger.buffer, 0, self.buffer.size());
+        *self = larger;
+        Ok(())
+    }
+
+    /// Writes `contents` at element `start`, before the commands of the next submission.
+    pub fn write(&self, gpu: &Gpu, start: usize, contents: &[T]) {
+        gpu.queue().write_buffer(&self.buffer, (start * size_of::<T>()) as u64, bytemuck::cast_slice(contents));
+    }
+
+    /// The number of elements.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there are no elements.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// The size on the device, in bytes.
+    pub fn bytes(&self) -> u64 {
+        self.buffer.size()
+    }
+
+    /// The buffer.
+    pub fn buffer(&self) -> &wgpu::Buffer {
+        &self.buffer
+    }
+}

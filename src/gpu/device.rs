@@ -1,0 +1,197 @@
+//! The device: adapters, limits, and errors as values.
+
+use std::sync::{Arc, OnceLock};
+
+use crate::Error;
+
+/// Which adapter to open.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub enum AdapterChoice {
+    /// The one that the system recommends for speed.
+    #[default]
+    Default,
+    /// By its place in [`adapters`].
+    Index(usize),
+    /// The first whose name contains this, whatever the case of its letters.
+    Name(String),
+}
+
+/// An adapter, as [`adapters`] lists it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AdapterSummary {
+    /// The name that the driver gives, for example `NVIDIA H200`. Browsers may leave it empty.
+    pub name: String,
+    /// `vulkan`, `metal`, `dx12` or `webgpu`.
+    pub backend: String,
+    /// The driver and its version; empty in browsers.
+    pub driver: String,
+    /// It computes on the CPU: correct, but slower than the CPU engine.
+    pub software: bool,
+    /// The largest buffer that a kernel can see, in bytes: what bounds the size of the input.
+    pub max_storage_buffer_bytes: u64,
+    /// Stages can be timed on the device.
+    pub timestamps: bool,
+}
+
+impl AdapterSummary {
+    fn new(info: wgpu::AdapterInfo, limits: &wgpu::Limits, features: wgpu::Features) -> Self {
+        AdapterSummary {
+            name: info.name,
+            backend: info.backend.to_str().to_owned(),
+            driver: [info.driver, info.driver_info].join(" ").trim().to_owned(),
+            software: info.device_type == wgpu::DeviceType::Cpu,
+            max_storage_buffer_bytes: limits.max_storage_buffer_binding_size.min(limits.max_buffer_size),
+            timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
+        }
+    }
+
+    fn of(adapter: &wgpu::Adapter) -> Self {
+        AdapterSummary::new(adapter.get_info(), &adapter.limits(), adapter.features())
+    }
+}
+
+/// The adapters of this machine, in the order that [`AdapterChoice::Index`] counts.
+pub async fn adapters() -> Vec<AdapterSummary> {
+    enumerate(&instance()).await.iter().map(AdapterSummary::of).collect()
+}
+
+fn instance() -> wgpu::Instance {
+    wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle())
+}
+
+async fn enumerate(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
+    instance.enumerate_adapters(wgpu::Backends::all()).await
+}
+
+/// A device and its queue.
+#[derive(Debug, Clone)]
+pub struct Gpu {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    adapter: AdapterSummary,
+    /// Why the device was lost, once it was.
+    lost: Arc<OnceLock<String>>,
+}
+
+impl Gpu {
+    /// Opens an adapter.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoAdapter`] when there is none or it gives no device, [`Error::AdapterNotFound`] when there is none of
+    /// that index or name.
+    pub async fn open(choice: &AdapterChoice) -> Result<Self, Error> {
+        let instance = instance();
+        let adapter = choose(&instance, choice).await?;
+        let limits = adapter.limits();
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("gdel"),
+            required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+            required_limits: wgpu::Limits {
+                max_buffer_size: limits.max_buffer_size,
+                max_storage_buffer_binding_size: limits.max_storage_buffer_binding_size,
+                ..wgpu::Limits::default()
+            },
+            ..Default::default()
+        };
+        let (device, queue) =
+            adapter.request_device(&descriptor).await.map_err(|e| Error::NoAdapter { reason: e.to_string() })?;
+        let gpu = Gpu::from_device(device, queue);
+        let lost = Arc::clone(&gpu.lost);
+        gpu.device.set_device_lost_callback(move |reason, message| {
+            // A second loss tells nothing new.
+            let _ = lost.set(if message.is_empty() { format!("{reason:?}") } else { message });
+        });
+        Ok(gpu)
+    }
+
+    /// Uses the caller's device. Its limits are taken as they are: the defaults of WebGPU are enough, larger buffers allow
+    /// larger inputs. Its handlers for errors and loss are left alone, so that its loss comes out as [`Error::Gpu`].
+    pub fn from_device(device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        let adapter = AdapterSummary::new(device.adapter_info(), &device.limits(), device.features());
+        Gpu { device, queue, adapter, lost: Arc::default() }
+    }
+
+    /// The device.
+    pub fn device(&self) -> &wgpu::Device {
+        &self.device
+    }
+
+    /// The queue.
+    pub fn queue(&self) -> &wgpu::Queue {
+        &self.queue
+    }
+
+    /// What the device runs on.
+    pub fn adapter(&self) -> &AdapterSummary {
+        &self.adapter
+    }
+
+    /// The largest storage buffer that this device can bind, in bytes.
+    pub fn max_storage_bytes(&self) -> u64 {
+        self.adapter.max_storage_buffer_bytes
+    }
+
+    /// Runs `body`, which creates resources or submits commands, and turns what the device reports for it into an
+    /// error. In browsers the answer takes a trip to the GPU process, so create many resources in one `body`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfDeviceMemory`], [`Error::DeviceLost`], the errors of `body`, and [`Error::Gpu`] for what should
+    /// not happen.
+    pub async fn catching<T>(&self, what: &'static str, body: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+        let (result, reports) = {
+            use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
+            let [a, b, c] = [Validation, Internal, OutOfMemory].map(|filter| self.device.push_error_scope(filter));
+            let result = body();
+            // The scopes are a stack; popped here and not after the await, because they belong to this thread.
+            let [c, b, a] = [c, b, a].map(wgpu::ErrorScopeGuard::pop);
+            (result, [c, b, a])
+        };
+        for report in reports {
+            match report.await {
+                None => {}
+                Some(wgpu::Error::OutOfMemory { .. }) => return Err(Error::OutOfDeviceMemory { what }),
+                Some(error) => return Err(self.failure(&error.to_string())),
+            }
+        }
+        match self.lost.get() {
+            Some(reason) => Err(Error::DeviceLost { reason: reason.clone() }),
+            None => result,
+        }
+    }
+
+    /// The error for an operation that failed: the loss of the device, if that is why.
+    pub(crate) fn failure(&self, message: &str) -> Error {
+        // Natively the loss is told only when the device is polled; that this fails in its turn tells nothing new.
+        let _ = self.device.poll(wgpu::PollType::Poll);
+        match self.lost.get() {
+            Some(reason) => Error::DeviceLost { reason: reason.clone() },
+            None => Error::Gpu { message: message.to_owned() },
+        }
+    }
+}
+
+async fn choose(instance: &wgpu::Instance, choice: &AdapterChoice) -> Result<wgpu::Adapter, Error> {
+    let matching = |adapters: Vec<wgpu::Adapter>, wanted: String, matches: &dyn Fn(usize, &str) -> bool| {
+        let names: Vec<String> = adapters.iter().map(|a| a.get_info().name).collect();
+        match names.iter().enumerate().position(|(i, name)| matches(i, name)) {
+            Some(i) => Ok(adapters[i].clone()),
+            None => Err(Error::AdapterNotFound { wanted, available: names }),
+        }
+    };
+    match choice {
+        AdapterChoice::Default => instance
+            .request_adapter(&wgpu::RequestAdapterOptions {
+                power_preference: wgpu::PowerPreference::HighPerformance,
+                ..Default::default()
+            })
+            .await
+            .map_err(|e| Error::NoAdapter { reason: e.to_string() }),
+        AdapterChoice::Index(index) => matching(enumerate(instance).await, index.to_string(), &|i, _| i == *index),
+        AdapterChoice::Name(part) => {
+            let wanted = part.to_lowercase();
+            matching(enumerate(instance).await, part.clone(), &|_, name| name.to_lowercase().contains(&wanted))
+        }
+    }
+}

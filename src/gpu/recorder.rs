@@ -1,0 +1,60 @@
+//! Recording: many dispatches in one compute pass, and one submission.
+
+use super::{Gpu, Kernel, Profiler};
+
+/// Records commands for one submission.
+pub struct Recorder<'a> {
+    encoder: wgpu::CommandEncoder,
+    pass: Option<wgpu::ComputePass<'static>>,
+    profiler: Option<&'a mut Profiler>,
+    dispatches: usize,
+}
+
+impl<'a> Recorder<'a> {
+    /// Starts recording. With a profiler each stage is a compute pass of its own, because browsers write timestamps
+    /// only at the ends of passes; without one all stages share a pass.
+    pub fn new(gpu: &Gpu, profiler: Option<&'a mut Profiler>) -> Self {
+        let encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("gdel") });
+        Recorder { encoder, pass: None, profiler, dispatches: 0 }
+    }
+
+    /// The dispatches from here on are timed under `name`.
+    pub fn stage(&mut self, name: &'static str) {
+        if let Some(profiler) = &mut self.profiler {
+            self.pass = None;
+            let timestamp_writes = profiler.begin(name);
+            let descriptor = wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes };
+            self.pass = Some(self.encoder.begin_compute_pass(&descriptor).forget_lifetime());
+        }
+    }
+
+    /// Runs `kernel` in a grid of `workgroups` in one dimension.
+    pub fn dispatch(&mut self, kernel: &Kernel, bindings: &wgpu::BindGroup, workgroups: u32) {
+        let encoder = &mut self.encoder;
+        let pass = self.pass.get_or_insert_with(|| encoder.begin_compute_pass(&Default::default()).forget_lifetime());
+        pass.set_pipeline(kernel.pipeline());
+        pass.set_bind_group(0, bindings, &[]);
+        pass.dispatch_workgroups(workgroups, 1, 1);
+        self.dispatches += 1;
+    }
+
+    /// The encoder, for copies; this ends the compute pass.
+    pub fn encoder(&mut self) -> &mut wgpu::CommandEncoder {
+        self.pass = None;
+        &mut self.encoder
+    }
+
+    /// The dispatches so far.
+    pub fn dispatches(&self) -> usize {
+        self.dispatches
+    }
+
+    /// Submits what was recorded.
+    pub fn submit(mut self, gpu: &Gpu) -> wgpu::SubmissionIndex {
+        self.pass = None;
+        if let Some(profiler) = &mut self.profiler {
+            profiler.resolve(gpu, &mut self.encoder);
+        }
+        gpu.queue().submit([self.encoder.finish()])
+    }
+}

@@ -1,0 +1,8 @@
+//! The host half of each stage, in the order of the data.
+
+pub mod points;
+
+pub mod compact;
+pub mod hilbert;
+pub mod scan;
+pub mod sort;

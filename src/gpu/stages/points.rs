@@ -1,0 +1,161 @@
+//! From points in host memory to vertices on the device: upload, duplicates, lattice, and order along the Hilbert curve
+//! (§4.3).
+//!
+//! 1. The coordinates' bits are uploaded as they are; the device puts them on the lattice.
+//! 2. A hash table unites the points at the same place of the lattice; the lowest number stands for all. They are exact
+//!    duplicates, or were rounded to the same place.
+//! 3. Every point gets its place along the Hilbert curve as key, those that another stands for the last one.
+//! 4. The keys are sorted; ties stay in the order of the input.
+//! 5. The vertices are written in that order.
+//!
+//! So vertex *v* is point `pairs[v][1]`, and the points that others stand for are behind all vertices.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::sort::Sort;
+use crate::{
+    Error, Points,
+    gpu::{Gpu, Kernel, Recorder, Storage, vertex, workgroups},
+    lattice::{Lattice, Width},
+};
+
+/// What the kernels are told. Mirrors `InputParams` in `shaders/shared/input.wgsl`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct InputParams {
+    /// The number of points.
+    pub count: u32,
+    /// The lattice's *k*: coordinates are multiplied by 2ᵏ.
+    pub exponent: i32,
+    /// 1 for `f64` input, 0 for `f32`.
+    pub doubles: u32,
+    /// Bit *a* is set where the points do not all agree on axis *a*.
+    pub varies: u32,
+    /// The lowest 32 bits of what is taken off.
+    pub origin_low: [u32; 3],
+    /// The size of the hash table, a power of two, less one.
+    pub table_mask: u32,
+    /// The next 32 bits of what is taken off.
+    pub origin_high: [u32; 3],
+    /// The bits of a lattice coordinate.
+    pub width: u32,
+    /// Points whose vertices are wanted.
+    pub wanted: [u32; 4],
+}
+
+/// What the kernels count. Mirrors `InputCounts` in `shaders/shared/input_counts.wgsl`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct InputCounts {
+    /// Points at the same place of the lattice as one of a lower number.
+    pub united: u32,
+    /// Those of them that have the same coordinates too.
+    pub duplicates: u32,
+    /// Points with a coordinate that was rounded to the lattice.
+    pub rounded: u32,
+    /// Zero.
+    pub unused: u32,
+    /// The points that stand for the wanted ones.
+    pub stands_for: [u32; 4],
+    /// The vertices of the wanted points.
+    pub found: [u32; 4],
+}
+
+/// The bits of a sort key: 30 for the place along the curve, and the largest for points that others stand for.
+const KEY_BITS: u32 = 32;
+
+/// The kernels.
+#[derive(Debug)]
+pub struct PointStage {
+    unite: Kernel,
+    keys: Kernel,
+    gather: Kernel,
+    sort: Sort,
+}
+
+/// The points on the device. Valid when the recorded commands have run.
+#[derive(Debug)]
+pub struct DevicePoints {
+    /// The vertices, as [`vertex`] lays them out, in the order of `pairs`; the last word of a wide one is 1 if it was
+    /// rounded. There is room for one more, the vertex at infinity.
+    pub vertices: Storage<[i32; 4]>,
+    /// Sort key and point of each vertex.
+    pub pairs: Storage<[u32; 2]>,
+    /// For each point the one that stands for it, or `u32::MAX` if it is a vertex itself.
+    pub united_with: Storage<u32>,
+    /// One element.
+    pub counts: Storage<InputCounts>,
+}
+
+impl PointStage {
+    /// The kernels.
+    pub fn new(gpu: &Gpu) -> Self {
+        let [unite, keys, gather] =
+            ["points_unite", "points_keys", "points_gather"].map(|name| Kernel::new(gpu, name, Width::Narrow, &[]));
+        PointStage { unite, keys, gather, sort: Sort::new(gpu) }
+    }
+
+    /// Uploads `points`, which `lattice` was fitted to, and records what makes vertices of them. The vertices of the
+    /// points `wanted` come out in the counts.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::TooManyPoints`] beyond 2³⁰, and those of [`Storage::new`].
+    pub fn record(
+        &self,
+        gpu: &Gpu,
+        recorder: &mut Recorder<'_>,
+        points: Points<'_>,
+        lattice: &Lattice,
+        wanted: [u32; 4],
+    ) -> Result<DevicePoints, Error> {
+        const LIMIT: usize = 1 << 30;
+        let n = points.len();
+        if n > LIMIT {
+            return Err(Error::TooManyPoints { points: n, limit: LIMIT });
+        }
+        let slots = (2 * n.max(1)).next_power_of_two();
+        let (bits, doubles): (&[u32], bool) = match points {
+            Points::F32(p) => (bytemuck::cast_slice(p), false),
+            Points::F64(p) => (bytemuck::cast_slice(p), true),
+        };
+        let origin = lattice.origin().map(|origin| origin.unwrap_or(0));
+        let params = InputParams {
+            count: n as u32,
+            exponent: lattice.exponent(),
+            doubles: u32::from(doubles),
+            varies: (0..3).map(|axis| u32::from(lattice.varies()[axis]) << axis).sum(),
+            origin_low: origin.map(|origin| origin as u32),
+            table_mask: slots as u32 - 1,
+            origin_high: origin.map(|origin| (origin >> 32) as u32),
+            width: lattice.width().bits(),
+            wanted,
+        };
+        let params = Storage::with_contents(gpu, "point parameters", &[params])?;
+        let input = Storage::with_contents(gpu, "input points", bits)?;
+        let table = Storage::<u32>::new(gpu, "table of points", slots)?;
+        let slots = Storage::<u32>::new(gpu, "slots of points", n)?;
+        let vertices = Storage::new(gpu, "vertices", (n + 1) * vertex::stride(lattice.width()))?;
+        let mut pairs = Storage::new(gpu, "sort pairs", n)?;
+        let mut scratch = Storage::new(gpu, "sort scratch", n)?;
+        let united_with = Storage::new(gpu, "united points", n)?;
+        let counts = Storage::new(gpu, "point counts", 1)?;
+
+        let [params, input, table, slots] = [params.buffer(), input.buffer(), table.buffer(), slots.buffer()];
+        let unite = self.unite.bind(gpu, &[params, input, table, slots]);
+        let keys =
+            self.keys.bind(gpu, &[params, input, table, slots, pairs.buffer(), united_with.buffer(), counts.buffer()]);
+        let sort = self.sort.bind(gpu, &mut pairs, &mut scratch, KEY_BITS)?;
+        let gather = self.gather.bind(gpu, &[params, input, pairs.buffer(), vertices.buffer(), counts.buffer()]);
+        let groups = workgroups(n as u32);
+        recorder.stage("unite");
+        recorder.dispatch(&self.unite, &unite, groups);
+        recorder.stage("keys");
+        recorder.dispatch(&self.keys, &keys, groups);
+        recorder.stage("sort");
+        self.sort.record(recorder, &sort);
+        recorder.stage("gather");
+        recorder.dispatch(&self.gather, &gather, groups);
+        Ok(DevicePoints { vertices, pairs, united_with, counts })
+    }
+}
