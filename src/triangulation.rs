@@ -41,6 +41,16 @@ impl Triangulation {
         Triangulation { tetrahedra, neighbors, infinite }
     }
 
+    /// The vertices of each tetrahedron; those of unused slots mean nothing.
+    pub fn tetrahedra(&self) -> &[[u32; 4]] {
+        &self.tetrahedra
+    }
+
+    /// The neighbours of each tetrahedron.
+    pub fn neighbors(&self) -> &[[u32; 4]] {
+        &self.neighbors
+    }
+
     pub(crate) fn reserve(&mut self, tetrahedra: usize) -> Result<(), Error> {
         let more = tetrahedra.saturating_sub(self.tetrahedra.len());
         self.tetrahedra

@@ -54,7 +54,7 @@ pub(super) struct Splaying<'a> {
     /// Entries of the ledger that may be unsettled.
     queue: Vec<Key>,
     /// The most signs that may be asked for.
-    budget: u64,
+    most_signs: u64,
     pub(super) stats: SplayStats,
 }
 
@@ -73,7 +73,7 @@ fn key(mut v: [u32; 4]) -> Key {
 }
 
 impl<'a> Splaying<'a> {
-    pub(super) fn new(space: &'a Space<'a>, mesh: &'a Triangulation, incident: &'a [u32], budget: u64) -> Self {
+    pub(super) fn new(space: &'a Space<'a>, mesh: &'a Triangulation, incident: &'a [u32], most_signs: u64) -> Self {
         Splaying {
             space,
             mesh,
@@ -84,7 +84,7 @@ impl<'a> Splaying<'a> {
             changes: Changes::default(),
             ledger: FxHashMap::default(),
             queue: Vec::new(),
-            budget,
+            most_signs,
             stats: SplayStats::default(),
         }
     }
@@ -98,7 +98,7 @@ impl<'a> Splaying<'a> {
             }
             if v != self.space.infinite() && self.star_of[v as usize] == 0 {
                 self.build(v, true)?;
-                self.check_budget()?;
+                self.check_work()?;
             }
         }
         while let Some(key) = self.queue.pop() {
@@ -107,7 +107,7 @@ impl<'a> Splaying<'a> {
             }
             self.stats.checks += 1;
             self.settle(key)?;
-            self.check_budget()?;
+            self.check_work()?;
         }
         Ok(())
     }
@@ -130,8 +130,8 @@ impl<'a> Splaying<'a> {
         Ok((remove, add))
     }
 
-    fn check_budget(&self) -> Result<(), GaveUp> {
-        if self.space.signs() > self.budget { Err(GaveUp::Work) } else { Ok(()) }
+    fn check_work(&self) -> Result<(), GaveUp> {
+        if self.space.signs() > self.most_signs { Err(GaveUp::Work) } else { Ok(()) }
     }
 
     /// The bits of all stars that a tetrahedron should be in.

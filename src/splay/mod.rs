@@ -51,7 +51,7 @@ pub enum Outcome {
 /// Why there is no result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GaveUp {
-    /// As much work was done as the CPU engine takes for the whole.
+    /// There is more work to do than the caller allows.
     Work,
     /// What there was is no triangulation.
     Inconsistent(&'static str),
@@ -82,7 +82,7 @@ pub struct SplayStats {
     pub added: usize,
     /// Missing points that were inserted.
     pub inserted: usize,
-    /// Signs that the stars asked for.
+    /// Signs that were asked for.
     pub signs: u64,
 }
 
@@ -104,12 +104,15 @@ impl From<Error> for Stop {
     }
 }
 
-/// Signs a vertex past which splaying gives up: the CPU engine asks for about as many.
-const SIGNS_PER_VERTEX: u64 = 100;
-/// Signs that are granted to every input.
-const LEAST_SIGNS: u64 = 1 << 20;
+impl NearDelaunay {
+    /// About as many signs as the CPU engine asks for to make the triangulation from nothing.
+    pub fn signs_from_nothing(&self) -> u64 {
+        16 * self.triangulation.tetrahedra().len() as u64
+    }
+}
 
-/// The Delaunay triangulation of `vertices`, of which `near` is nearly one. `report` learns now and then which share of
+/// The Delaunay triangulation of `vertices`, of which `near` is nearly one. It gives up when the stars ask for more than
+/// `most_signs`, the measure of its work; see [`NearDelaunay::signs_from_nothing`]. `report` learns now and then which share of
 /// the work is done, and can stop it.
 ///
 /// # Errors
@@ -118,9 +121,10 @@ const LEAST_SIGNS: u64 = 1 << 20;
 pub fn splay(
     vertices: &Vertices<'_>,
     near: NearDelaunay,
+    most_signs: u64,
     report: &dyn Fn(f64) -> Result<(), Error>,
 ) -> Result<Outcome, Error> {
-    match try_splay(vertices, near, report) {
+    match try_splay(vertices, near, most_signs, report) {
         Ok((triangulation, stats)) => Ok(Outcome::Delaunay(Box::new(triangulation), stats)),
         Err(Stop::GaveUp(reason)) => Ok(Outcome::GaveUp(reason)),
         Err(Stop::Error(error)) => Err(error),
@@ -130,6 +134,7 @@ pub fn splay(
 fn try_splay(
     vertices: &Vertices<'_>,
     near: NearDelaunay,
+    most_signs: u64,
     report: &dyn Fn(f64) -> Result<(), Error>,
 ) -> Result<(Triangulation, SplayStats), Stop> {
     let NearDelaunay { triangulation: mut mesh, mut incident, mut failed, doubtful, missing } = near;
@@ -152,8 +157,7 @@ fn try_splay(
     failed.sort_unstable();
     failed.dedup();
 
-    let budget = SIGNS_PER_VERTEX * vertices.len() as u64 + LEAST_SIGNS + space.signs();
-    let mut splaying = Splaying::new(&space, &mesh, &incident, budget);
+    let mut splaying = Splaying::new(&space, &mesh, &incident, most_signs);
     splaying.run(&failed, report)?;
     let (remove, add) = splaying.difference()?;
     let mut stats = splaying.stats;

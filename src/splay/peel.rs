@@ -2,14 +2,16 @@
 //! coordinates decides there), give way to ghosts on their other side.
 //!
 //! A flat tetrahedron under one hull facet shows its fourth vertex inside that facet: a flip of the two into three ghosts.
-//! One under two hull facets is a flip of the three into two ghosts. Each flip peels one, so it ends. What cannot be
-//! peeled so is left for the stars.
+//! One under two hull facets is a flip of the three into two ghosts. Each flip peels one, so it ends. A flip must not put
+//! on the hull what is there already, which happens where tetrahedra are flat in the true coordinates only. What cannot be
+//! peeled is left for the stars.
 
 use super::space::{Space, replaced};
 use crate::{
     Error,
     triangulation::{Triangulation, state},
 };
+use rustc_hash::FxHashSet;
 
 /// Peels the tetrahedra of `flat` that can be; those that cannot are left in it. Gives the slots of new ghosts, some of
 /// which may have been replaced again. `incident` has a tetrahedron of each vertex, before and after.
@@ -26,7 +28,7 @@ pub(super) fn peel(
         let mut kept = Vec::new();
         for &t in flat.iter() {
             let start = made.len();
-            peel_one(mesh, space, t, free, &mut made)?;
+            peel_one(mesh, space, t, incident, free, &mut made)?;
             if made.len() == start {
                 kept.push(t);
             }
@@ -48,6 +50,7 @@ fn peel_one(
     mesh: &mut Triangulation,
     space: &Space<'_>,
     t: u32,
+    incident: &[u32],
     free: &mut Vec<u32>,
     made: &mut Vec<u32>,
 ) -> Result<(), Error> {
@@ -68,7 +71,7 @@ fn peel_one(
     let fits = |i: usize| space.orient(moved(i)) >= 0;
     match y {
         None => {
-            if !(0..3).all(fits) {
+            if !(0..3).all(fits) || is_on_hull(mesh, v[x], incident[v[x] as usize]) {
                 return Ok(());
             }
             let slots = [ghost, t, take(mesh, free)?];
@@ -89,7 +92,7 @@ fn peel_one(
             let Some(iy) = in_t.iter().position(|&k| k == y) else { return Ok(()) };
             let (ia, ib) = ((iy + 1) % 3, (iy + 2) % 3);
             let other = across[y] >> 2;
-            if beyond[iy] >> 2 != other || !fits(ia) || !fits(ib) {
+            if beyond[iy] >> 2 != other || !fits(ia) || !fits(ib) || is_hull_edge(mesh, t, x, y) {
                 return Ok(());
             }
             let o = mesh.vertices(other);
@@ -110,6 +113,42 @@ fn peel_one(
         }
     }
     Ok(())
+}
+
+/// Whether vertex `v`, with `start` at it, is a vertex of the hull.
+fn is_on_hull(mesh: &Triangulation, v: u32, start: u32) -> bool {
+    let mut seen = FxHashSet::from_iter([start]);
+    let mut stack = vec![start];
+    while let Some(t) = stack.pop() {
+        if mesh.is_ghost(t) {
+            return true;
+        }
+        let corners = mesh.vertices(t);
+        let across = (0..4).filter(|&k| corners[k] != v).map(|k| mesh.neighbors[t as usize][k] >> 2);
+        stack.extend(across.filter(|&other| seen.insert(other)));
+    }
+    false
+}
+
+/// Whether the edge from corner `x` to corner `y` of tetrahedron `t` is an edge of the hull.
+fn is_hull_edge(mesh: &Triangulation, t: u32, x: usize, y: usize) -> bool {
+    let (vx, vy) = (mesh.vertices(t)[x], mesh.vertices(t)[y]);
+    let mut at = t;
+    let mut through = (0..4).find(|&k| k != x && k != y).unwrap_or(0);
+    // Around the edge: out through the one facet at it that was not the way in.
+    loop {
+        let across = mesh.neighbors[at as usize][through];
+        at = across >> 2;
+        if at == t {
+            return false;
+        }
+        if mesh.is_ghost(at) {
+            return true;
+        }
+        let corners = mesh.vertices(at);
+        let out = (0..4).find(|&k| k != across as usize % 4 && corners[k] != vx && corners[k] != vy);
+        through = out.unwrap_or(0);
+    }
 }
 
 /// An unused slot.

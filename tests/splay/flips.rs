@@ -45,7 +45,12 @@ impl<'a> Soup<'a> {
         if slot != last {
             let moved = self.tetrahedra[last];
             for k in 0..4 {
-                self.facets.get_mut(&facet(moved, k)).unwrap().iter_mut().filter(|s| **s == last).for_each(|s| *s = slot);
+                self.facets
+                    .get_mut(&facet(moved, k))
+                    .unwrap()
+                    .iter_mut()
+                    .filter(|s| **s == last)
+                    .for_each(|s| *s = slot);
             }
         }
         self.tetrahedra.swap_remove(slot);
@@ -75,7 +80,7 @@ impl<'a> Soup<'a> {
         let Some((other, apex)) = self.across(slot, k) else { return false };
         let t = self.tetrahedra[slot];
         let [a, b, c] = FACETS[k].map(|i| t[i]);
-        let three = [[a, b, t[k], apex], [b, c, t[k], apex], [c, a, t[k], apex]].map(|[a, b, c, d]| [b, a, c, d]);
+        let three = [[a, b, t[k], apex], [b, c, t[k], apex], [c, a, t[k], apex]];
         if three.iter().all(|&t| self.orient(t) > 0) {
             self.replace(vec![slot, other], &three);
             return true;
@@ -88,7 +93,7 @@ impl<'a> Soup<'a> {
             if !self.tetrahedra[third].contains(&apex) {
                 continue;
             }
-            let two = [[a, t[k], apex, c], [b, apex, t[k], c]];
+            let two = [[c, a, t[k], apex], [b, c, t[k], apex]];
             if two.iter().all(|&t| self.orient(t) > 0) {
                 self.replace(vec![slot, other, third], &two);
                 return true;
@@ -174,4 +179,41 @@ pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay {
         doubtful,
         missing,
     }
+}
+
+/// What a GPU would tell about `near`: which vertices have a facet that is not locally Delaunay, and which tetrahedra are
+/// flat or inverted. The others are beyond doubt.
+pub fn found_out(vertices: &Vertices<'_>, near: &NearDelaunay) -> NearDelaunay {
+    let (tetrahedra, neighbors) = (near.triangulation.tetrahedra(), near.triangulation.neighbors());
+    let infinite = vertices.len() as u32;
+    let bad = |t: usize| {
+        let [a, b, c, d] = tetrahedra[t];
+        d != infinite && vertices.orient3d(a, b, c, d) <= 0
+    };
+    let mut doubtful = Vec::new();
+    let mut failed = Vec::new();
+    for (slot, &t) in tetrahedra.iter().enumerate() {
+        let across = neighbors[slot];
+        if bad(slot) || (t[3] == infinite && bad(across[3] as usize / 4)) {
+            doubtful.push(slot as u32);
+            continue;
+        }
+        for k in 0..4 {
+            let apex = tetrahedra[across[k] as usize / 4][across[k] as usize % 4];
+            let conflict = match (t[3] == infinite, apex == infinite) {
+                (_, true) => -1,
+                (false, false) => vertices.insphere(t, apex),
+                // Beyond its own facet is the inside.
+                (true, false) if k == 3 => -1,
+                (true, false) => match vertices.orient3d(t[0], t[1], t[2], apex) {
+                    0 => vertices.insphere(tetrahedra[across[3] as usize / 4], apex),
+                    side => side,
+                },
+            };
+            if conflict > 0 {
+                failed.extend(FACETS[k].map(|i| t[i]).iter().filter(|&&v| v != infinite));
+            }
+        }
+    }
+    NearDelaunay { doubtful, failed, ..near.clone() }
 }
