@@ -20,7 +20,8 @@ fn uniform(n: usize) -> Vec<[f64; 3]> {
     let mut points: Vec<[f64; 3]> = (0..n).map(|_| rng.random()).collect();
     let morton = |p: &[f64; 3]| {
         let q = p.map(|x| (x * 1024.0) as u64);
-        (0..10).fold(0, |key, bit| key | q.iter().zip(0..).fold(0, |k, (x, axis)| k | (x >> bit & 1) << (3 * bit + axis)))
+        (0..10)
+            .fold(0, |key, bit| key | q.iter().zip(0..).fold(0, |k, (x, axis)| k | (x >> bit & 1) << (3 * bit + axis)))
     };
     points.sort_by_cached_key(morton);
     points

@@ -1,6 +1,6 @@
 //! Tetrahedra and their neighbours while they are being made, the outside of the hull included.
 
-use crate::{Error, mesh::NONE};
+use crate::{Error, mesh::NONE, predicates::vertices::Vertices};
 
 /// Tetrahedra are numbered below 2³⁰, since a neighbour is packed with its facet into 32 bits.
 pub(crate) const MOST_TETRAHEDRA: usize = 1 << 30;
@@ -33,12 +33,24 @@ pub struct Triangulation {
 }
 
 impl Triangulation {
-    /// A triangulation from its arrays, neither of which is checked. The infinite vertex, `infinite`, is the number of
-    /// vertices, and comes last in ghosts. Tetrahedra are positively oriented, ghosts as if the infinite vertex lay
-    /// outside the hull. Entry *k* of `neighbors` is across the facet opposite vertex *k*, packed as 4·(tetrahedron) +
-    /// (facet as it is numbered there).
+    /// A triangulation from its arrays, which are not checked. `infinite`, the number of vertices, is the infinite vertex.
+    /// Tetrahedra are positively oriented, ghosts as if the infinite vertex lay outside the hull. Entry *k* of `neighbors`
+    /// is across the facet opposite vertex *k*, packed as 4·(tetrahedron) + (facet as it is numbered there). Vertices of
+    /// ghosts change places, so that the infinite one comes last.
     pub fn new(tetrahedra: Vec<[u32; 4]>, neighbors: Vec<[u32; 4]>, infinite: u32) -> Self {
-        Triangulation { tetrahedra, neighbors, infinite }
+        let mut mesh = Triangulation { tetrahedra, neighbors, infinite };
+        for t in 0..mesh.tetrahedra.len() {
+            let Some(k) = mesh.tetrahedra[t][..3].iter().position(|&v| v == infinite) else { continue };
+            for four in [&mut mesh.tetrahedra[t], &mut mesh.neighbors[t]] {
+                // Two exchanges keep the orientation.
+                four.swap(k, 3);
+                four.swap((k + 1) % 3, (k + 2) % 3);
+            }
+            for (k, across) in mesh.neighbors[t].into_iter().enumerate() {
+                mesh.neighbors[across as usize / 4][across as usize % 4] = (4 * t + k) as u32;
+            }
+        }
+        mesh
     }
 
     /// The vertices of each tetrahedron; those of unused slots mean nothing.
@@ -49,6 +61,16 @@ impl Triangulation {
     /// The neighbours of each tetrahedron.
     pub fn neighbors(&self) -> &[[u32; 4]] {
         &self.neighbors
+    }
+
+    /// The finite tetrahedra that are flat or inverted.
+    pub fn flat_or_inverted(&self, vertices: &Vertices<'_>) -> Vec<u32> {
+        let used = (0..self.tetrahedra.len() as u32).filter(|&t| self.state(t) != state::FREE && !self.is_ghost(t));
+        used.filter(|&t| {
+            let [a, b, c, d] = self.vertices(t);
+            vertices.orient3d(a, b, c, d) <= 0
+        })
+        .collect()
     }
 
     pub(crate) fn reserve(&mut self, tetrahedra: usize) -> Result<(), Error> {

@@ -161,7 +161,8 @@ pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay {
     hull.sort_unstable();
     for f in hull {
         let [a, b, c] = FACETS[f as usize % 4].map(|i| tetrahedra[f as usize / 4][i]);
-        all.push([a, b, c, infinite]);
+        // Anywhere: Phase 1 does not care.
+        all.push([[a, b, c, infinite], [infinite, c, b, a], [c, infinite, a, b]][f as usize % 3]);
         neighbors.push([NONE; 4]);
     }
     match_facets(&all, &mut neighbors, &mut open, tetrahedra.len());
@@ -186,15 +187,13 @@ pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay {
 pub fn found_out(vertices: &Vertices<'_>, near: &NearDelaunay) -> NearDelaunay {
     let (tetrahedra, neighbors) = (near.triangulation.tetrahedra(), near.triangulation.neighbors());
     let infinite = vertices.len() as u32;
-    let bad = |t: usize| {
-        let [a, b, c, d] = tetrahedra[t];
-        d != infinite && vertices.orient3d(a, b, c, d) <= 0
-    };
+    let mut bad = vec![false; tetrahedra.len()];
+    near.triangulation.flat_or_inverted(vertices).iter().for_each(|&t| bad[t as usize] = true);
     let mut doubtful = Vec::new();
     let mut failed = Vec::new();
     for (slot, &t) in tetrahedra.iter().enumerate() {
         let across = neighbors[slot];
-        if bad(slot) || (t[3] == infinite && bad(across[3] as usize / 4)) {
+        if bad[slot] || (t[3] == infinite && bad[across[3] as usize / 4]) {
             doubtful.push(slot as u32);
             continue;
         }
