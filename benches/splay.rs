@@ -34,7 +34,7 @@ fn benchmark(c: &mut Criterion) {
         let points = uniform(n);
         let mut rng = Pcg64Mcg::seed_from_u64(2);
         // The Delaunay triangulation of points that are a little off.
-        let off = 3e-5 / (n as f64).cbrt();
+        let off = 3.6e-6 / (n as f64).cbrt();
         let displaced: Vec<_> = points.iter().map(|p| p.map(|x| x + off * (rng.random::<f64>() - 0.5))).collect();
         let mesh = cpu::delaunay3d((&displaced).into(), &Options::default()).expect("finite points");
         let lattice = Lattice::fit((&points).into());

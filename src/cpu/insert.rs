@@ -38,7 +38,7 @@ struct Scratch {
 }
 
 /// Triangulates all vertices, of which the first four are positively oriented.
-pub(super) fn insert_all(vertices: &Vertices<'_>, options: &Options) -> Result<Triangulation, Error> {
+pub(crate) fn insert_all(vertices: &Vertices<'_>, options: &Options) -> Result<Triangulation, Error> {
     let n = vertices.len();
     let mut mesh = initial(n as u32);
     mesh.reserve(n * EXPECTED_TETRAHEDRA)?;

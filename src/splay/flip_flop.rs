@@ -161,3 +161,82 @@ impl Flipping {
         Some(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        Options,
+        cpu::insert::insert_all,
+        lattice::Lattice,
+        predicates::vertices::Vertices,
+        splay::star::{Changes, LinkFinder},
+    };
+
+    fn link(star: &Star) -> Vec<[u32; 3]> {
+        let mut link: Vec<[u32; 3]> = star.used().map(|t| t.vertices).collect();
+        for t in &mut link {
+            let least = (0..3).min_by_key(|&k| t[k]).unwrap();
+            t.rotate_left(least);
+        }
+        link.sort_unstable();
+        link
+    }
+
+    /// Flips edges of a convex star wherever it stays a star, then has Flip-Flop undo that; gives how often it was stuck.
+    fn spoil_and_mend(points: &[[f64; 3]]) -> usize {
+        let lattice = Lattice::fit(points.into());
+        let vertices = Vertices::new(points.into(), &lattice, (0..points.len() as u32).collect());
+        assert!(vertices.orient3d(0, 1, 2, 3) > 0);
+        let mesh = insert_all(&vertices, &Options::default()).unwrap();
+        let space = Space::new(&vertices, mesh.infinite, [0, 1, 2, 3]);
+        let mut stuck = 0;
+        let mut flips = 0;
+        for v in 0..vertices.len() as u32 {
+            let start = (0..mesh.tetrahedra.len() as u32).find(|&t| mesh.vertices(t).contains(&v)).unwrap();
+            let mut star = LinkFinder::new(mesh.tetrahedra.len()).star(&mesh, v, start).unwrap();
+            let convex = link(&star);
+            let mut spoiling = Flipping { budget: usize::MAX, flips: 0, edges: Vec::new() };
+            let mut random = v;
+            for _ in 0..100 {
+                random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                let edge = 4 * ((random >> 8) % star.triangles.len() as u32) + (random >> 4) % 3;
+                let Corners { a, b, c, d } = Corners::of(&star, edge).unwrap();
+                if [[c, a, d], [d, b, c]].iter().all(|&t| space.orient(star.tetrahedron(t)) > 0) {
+                    spoiling.flip(&mut star, edge).unwrap();
+                }
+            }
+            flips += spoiling.flips;
+            match flip_flop(&mut star, &space) {
+                Some(_) => assert_eq!(link(&star), convex, "vertex {v}"),
+                None => stuck += 1,
+            }
+            let neighbors = convex.iter().flatten().copied();
+            let star = Star::from_points(&space, v, neighbors, &mut Changes::default()).unwrap();
+            assert_eq!(link(&star), convex, "vertex {v}, from points");
+        }
+        assert!(flips > 0);
+        stuck
+    }
+
+    #[test]
+    fn flips_are_undone() {
+        let mut x = 1u64;
+        let mut random = || {
+            x = x.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (x >> 33) as f64 / 2f64.powi(31)
+        };
+        let mut points: Vec<[f64; 3]> = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        points.extend((0..300).map(|_| [random(), random(), random()]));
+        assert_eq!(spoil_and_mend(&points), 0);
+    }
+
+    #[test]
+    fn flips_on_a_grid_are_undone() {
+        let mut points: Vec<[f64; 3]> = (0..64).map(|i| [i % 4, i / 4 % 4, i / 16].map(f64::from)).collect();
+        // The corner and its three neighbours first.
+        points.swap(2, 4);
+        points.swap(3, 16);
+        assert_eq!(spoil_and_mend(&points), 0);
+    }
+}

@@ -86,3 +86,65 @@ pub(super) fn replaced(mut four: [u32; 4], k: usize, v: u32) -> [u32; 4] {
     four[k] = v;
     four
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::Lattice;
+
+    /// A 3³ grid: nearly everything is a tie.
+    fn on_grid(test: impl Fn(&Space<'_>)) {
+        let points: Vec<[f64; 3]> = (0..27).map(|i| [i % 3, i / 3 % 3, i / 9].map(f64::from)).collect();
+        let lattice = Lattice::fit((&points).into());
+        let vertices = Vertices::new((&points).into(), &lattice, (0..27).rev().collect());
+        test(&Space::new(&vertices, 27, [0, 1, 3, 9]));
+    }
+
+    fn fives() -> impl Iterator<Item = [u32; 5]> {
+        // Every fifth vertex number modulo 28 comes up in every place.
+        (0..28u32.pow(3))
+            .map(|i| {
+                let (a, b, c) = (i % 28, i / 28 % 28, i / 28 / 28);
+                [a, b, c, (a + 3 * b + 5 * c + 1) % 28, (7 * a + b + 2 * c + 11) % 28]
+            })
+            .filter(|five| (0..5).all(|i| (0..i).all(|j| five[i] != five[j])))
+    }
+
+    #[test]
+    fn exchanging_two_vertices_changes_the_sign() {
+        on_grid(|space| {
+            for [a, b, c, d, e] in fives() {
+                let sign = space.conflict([a, b, c, d], e);
+                assert_eq!(space.conflict([a, b, c, e], d), -sign, "{:?}", [a, b, c, d, e]);
+                assert_eq!(space.conflict([b, a, c, d], e), -sign, "{:?}", [a, b, c, d, e]);
+                assert_eq!(space.conflict([b, c, a, d], e), sign, "{:?}", [a, b, c, d, e]);
+                assert_eq!(space.orient([a, b, d, c]), -space.orient([a, b, c, d]));
+            }
+        });
+    }
+
+    #[test]
+    fn only_coplanar_points_tie() {
+        on_grid(|space| {
+            for five @ [a, b, c, d, e] in fives() {
+                let coplanar = (0..5).all(|k| space.orient(crate::predicates::symbolic::without(five, k)) == 0);
+                // No four points of this grid are collinear.
+                let tie = coplanar && !five.contains(&space.infinite());
+                assert_eq!(space.conflict([a, b, c, d], e) == 0, tie, "{five:?}");
+            }
+        });
+    }
+
+    #[test]
+    fn coplanar_points_of_the_hull_are_triangulated_by_their_circles() {
+        // Four points of the face z = 0, seen from below, and one that is inside the circle of three but not on it.
+        let points =
+            [[0.0, 0.0, 0.0], [0.0, 4.0, 0.0], [4.0, 0.0, 0.0], [1.0, 1.0, 5.0], [3.0, 3.0, 0.0], [9.0, 9.0, 0.0]];
+        let lattice = Lattice::fit((&points).into());
+        let vertices = Vertices::new((&points).into(), &lattice, (0..6).collect());
+        let space = Space::new(&vertices, 6, [0, 2, 1, 3]);
+        assert!(space.orient([0, 1, 2, 6]) > 0);
+        assert!(space.conflict([0, 1, 2, 6], 4) > 0);
+        assert!(space.conflict([0, 1, 2, 6], 5) < 0);
+    }
+}

@@ -9,7 +9,8 @@ use gdel::{
     Options, Points, cpu,
     lattice::Lattice,
     predicates::vertices::Vertices,
-    splay::{NearDelaunay, Outcome, SplayStats, splay},
+    splay::{GaveUp, NONE, NearDelaunay, Outcome, SplayStats, splay},
+    verify::{Statement, verify3d},
 };
 use inputs::Cloud;
 use rand::{RngExt, seq::SliceRandom};
@@ -28,36 +29,35 @@ fn canonical(mut tetrahedra: Vec<[u32; 4]>) -> Vec<[u32; 4]> {
     tetrahedra
 }
 
-/// Splays, and demands the exact answer.
+/// Splays, once with nothing but doubts, and once with just those that are justified; demands the exact answer.
 fn check(name: &str, vertices: &Vertices<'_>, near: NearDelaunay, answer: &[[u32; 4]]) -> SplayStats {
-    // With nothing but doubts, and with just those that are justified.
     let known = found_out(vertices, &near);
-    check_one(name, vertices, near, answer);
-    check_one(name, vertices, known, answer)
+    let (doubting, _) = splayed(name, vertices, near);
+    let (tetrahedra, stats) = splayed(name, vertices, known);
+    let answer = canonical(answer.iter().map(|t| t.map(|v| vertices.input_index(v))).collect());
+    assert_eq!(canonical(doubting), answer, "{name}");
+    assert_eq!(canonical(tetrahedra), answer, "{name}");
+    stats
 }
 
-fn check_one(name: &str, vertices: &Vertices<'_>, near: NearDelaunay, answer: &[[u32; 4]]) -> SplayStats {
+/// The tetrahedra that splaying gives, which the verifier accepts.
+fn splayed(name: &str, vertices: &Vertices<'_>, near: NearDelaunay) -> (Vec<[u32; 4]>, SplayStats) {
     let started = std::time::Instant::now();
     let (mesh, stats) = match splay(vertices, near, u64::MAX, &|_| Ok(())).unwrap() {
         Outcome::Delaunay(mesh, stats) => (mesh, stats),
         Outcome::GaveUp(reason) => panic!("{name}: gave up: {reason:?}"),
     };
     println!("{name}: {} vertices, {:.1?}, {stats:?}", vertices.len(), started.elapsed());
-    let names: Vec<u32> = (0..vertices.len() as u32).collect();
+    let names: Vec<u32> = (0..vertices.len() as u32).map(|v| vertices.input_index(v)).collect();
     let (tetrahedra, neighbors) = mesh.into_mesh(&names);
-    for (t, n) in neighbors.iter().enumerate() {
-        for (k, &other) in n.iter().enumerate() {
-            if other >= 0 {
-                let mut shared = tetrahedra[t].to_vec();
-                shared.remove(k);
-                assert!(shared.iter().all(|v| tetrahedra[other as usize].contains(v)), "{name}: neighbours of {t}");
-                assert!(neighbors[other as usize].contains(&(t as i32)), "{name}: {other} does not know {t}");
-            }
-        }
-    }
-    assert!(tetrahedra.iter().all(|&[a, b, c, d]| vertices.orient3d(a, b, c, d) > 0), "{name}: orientation");
-    assert_eq!(canonical(tetrahedra), canonical(answer.to_vec()), "{name}");
-    stats
+    let mut points = vec![[0.0; 3]; names.len()];
+    names.iter().zip(0..).for_each(|(&i, v)| points[i as usize] = vertices.point(v));
+    let hull = gdel::mesh::hull_of(&tetrahedra, &neighbors);
+    let statement =
+        Statement { neighbors: Some(&neighbors), hull: Some(&hull), ..Statement::of_tetrahedra(&tetrahedra) };
+    let report = verify3d(&points, statement).unwrap();
+    assert!(report.passed(), "{name}: {:?}", report.failures().next());
+    (tetrahedra, stats)
 }
 
 /// A random numbering of the points.
@@ -177,7 +177,7 @@ fn displaced_points() {
 
 #[test]
 fn displaced_grids_have_flat_tetrahedra() {
-    for side in [4, 5, 9, 16] {
+    for side in [4, 5, 9, 14] {
         for by in [1e-9, 0.1] {
             from_displaced(&format!("grid {side}, displaced by {by}"), &inputs::grid(side), by, 9);
         }
@@ -186,6 +186,7 @@ fn displaced_grids_have_flat_tetrahedra() {
 
 #[test]
 fn stuck_flipping_is_mended() {
+    let mut stuck = 0;
     for (name, points) in [
         ("uniform", inputs::uniform(600, 10)),
         ("gaussian", inputs::gaussian(600, 11)),
@@ -196,8 +197,10 @@ fn stuck_flipping_is_mended() {
     ] {
         let all = from_split_and_flip(&format!("{name}, insert all"), &points, points.len(), 16);
         let some = from_split_and_flip(&format!("{name}, insert 20"), &points, 20, 16);
-        println!("{name}: {} {}", all.failed, some.failed);
+        assert!(some.failed <= all.failed, "{name}");
+        stuck += all.failed;
     }
+    assert!(stuck > 0);
 }
 
 #[test]
@@ -215,5 +218,67 @@ fn small_inputs_of_all_kinds() {
                 from_displaced(&format!("{name}, seed {seed}, displaced by {by}"), points, by, seed);
             }
         }
+    }
+}
+
+/// A triangulation that takes work.
+fn spoilt(points: &Cloud) -> NearDelaunay {
+    let mut rng = inputs::random(20);
+    let displaced: Cloud = points.iter().map(|p| p.map(|x| x + 0.1 * (rng.random::<f64>() - 0.5))).collect();
+    near(points.len() as u32, &exact(&displaced, &shuffled(points.len(), 21)))
+}
+
+#[test]
+fn too_much_work_is_given_up() {
+    let points = inputs::uniform(200, 19);
+    let lattice = Lattice::fit((&points).into());
+    let vertices = Vertices::new((&points).into(), &lattice, shuffled(points.len(), 21));
+    let enough = match splay(&vertices, spoilt(&points), u64::MAX, &|_| Ok(())).unwrap() {
+        Outcome::Delaunay(_, stats) => stats.signs,
+        Outcome::GaveUp(reason) => panic!("{reason:?}"),
+    };
+    for most_signs in [0, enough / 4, enough / 2, enough - enough / 8] {
+        let outcome = splay(&vertices, spoilt(&points), most_signs, &|_| Ok(())).unwrap();
+        assert!(matches!(outcome, Outcome::GaveUp(GaveUp::Work)), "{most_signs} of {enough}");
+    }
+}
+
+#[test]
+fn what_is_no_triangulation_is_given_up() {
+    let points = inputs::uniform(200, 22);
+    let lattice = Lattice::fit((&points).into());
+    let vertices = Vertices::new((&points).into(), &lattice, shuffled(points.len(), 21));
+    let near = spoilt(&points);
+    let no_tetrahedra = NearDelaunay { incident: vec![NONE; points.len() + 1], ..near.clone() };
+    let wrong_tetrahedra = NearDelaunay { incident: near.incident.iter().rev().copied().collect(), ..near };
+    for near in [no_tetrahedra, wrong_tetrahedra] {
+        let outcome = splay(&vertices, near, u64::MAX, &|_| Ok(())).unwrap();
+        assert!(matches!(outcome, Outcome::GaveUp(GaveUp::Inconsistent(_))), "{outcome:?}");
+    }
+}
+
+#[test]
+fn a_caller_can_stop_it() {
+    let points = inputs::uniform(200, 23);
+    let lattice = Lattice::fit((&points).into());
+    let vertices = Vertices::new((&points).into(), &lattice, shuffled(points.len(), 21));
+    let outcome = splay(&vertices, spoilt(&points), u64::MAX, &|_| Err(gdel::Error::Cancelled));
+    assert_eq!(outcome.err(), Some(gdel::Error::Cancelled));
+}
+
+#[test]
+fn missing_points_are_inserted() {
+    for (name, points) in clouds(1000, 24) {
+        let mut indices = shuffled(points.len(), 25);
+        // The points of the first part are triangulated; the rest has the highest vertex numbers.
+        let part = points.len() * 9 / 10;
+        indices[..part].sort_unstable();
+        let some: Cloud = indices[..part].iter().map(|&i| points[i as usize]).collect();
+        let mesh = cpu::delaunay3d((&some).into(), &Options::default()).unwrap();
+        let answer = exact(&points, &indices);
+        let lattice = Lattice::fit((&points).into());
+        let vertices = Vertices::new((&points).into(), &lattice, indices);
+        let stats = check(name, &vertices, near(points.len() as u32, &mesh.tetrahedra), &answer);
+        assert_eq!(stats.inserted, points.len() - part, "{name}");
     }
 }
