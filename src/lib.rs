@@ -26,7 +26,9 @@ pub mod mesh;
 pub mod options;
 pub mod points;
 pub mod predicates;
+pub mod splay;
 pub mod stats;
+pub mod triangulation;
 pub mod verify;
 
 pub use error::Error;
