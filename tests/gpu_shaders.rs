@@ -3,6 +3,7 @@
 
 use gdel::{
     gpu::{
+        layout::{self, Active, Counters, FlipNode, Params, Status, Waiting},
         shader,
         stages::{
             points::{InputCounts, InputParams},
@@ -101,4 +102,72 @@ fn host_and_shaders_agree() {
     let expected = "@group(0) @binding(0) var<storage, read> vertices: array<vec4i>;\n//!include shared/predicates";
     let (module, _) = validate("predicates", &shader::assemble_text(expected, Width::Narrow));
     assert_eq!(constant(&module, "INFINITE"), vertex::INFINITE);
+}
+
+#[test]
+fn phase1_layouts_agree() {
+    let wgsl = "//!include shared/layout
+        @group(0) @binding(0) var<storage, read_write> control: Control;
+        @group(0) @binding(1) var<storage, read_write> status: array<Status>;
+        @group(0) @binding(2) var<storage, read_write> actives: array<Active>;
+        @group(0) @binding(3) var<storage, read_write> history: array<FlipNode>;
+        @group(0) @binding(4) var<storage, read_write> waiting: array<Waiting>;";
+    let (module, _) = validate("layout", &shader::assemble_text(wgsl, Width::Narrow));
+    assert_layout!(module, Status { flags, vote, last, first });
+    assert_layout!(module, Active { tet, outcome });
+    assert_layout!(module, FlipNode { vertices, kind, tets, next });
+    assert_layout!(module, Waiting { point, tet });
+    // Parameters, then counters.
+    let (_, ty) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("Control")).expect("a structure");
+    let naga::TypeInner::Struct { members, span } = &ty.inner else { panic!("not a structure") };
+    assert_eq!(*span as usize, size_of::<Params>() + size_of::<Counters>());
+    let offset = |name: &str| {
+        members.iter().find(|m| m.name.as_deref() == Some(name)).unwrap_or_else(|| panic!("no {name}")).offset as usize
+    };
+    macro_rules! assert_offsets {
+        ($name:ident, $start:expr, $($field:ident),*) => {
+            $(assert_eq!(offset(stringify!($field)), $start + std::mem::offset_of!($name, $field), stringify!($field));)*
+        };
+    }
+    assert_offsets!(
+        Params, 0, infinite, blocks, history, bid_bits, min_active, pick, entries, entries_before, blocks_before
+    );
+    assert_offsets!(
+        Counters,
+        size_of::<Params>(),
+        iteration,
+        linking,
+        listed,
+        round,
+        next_node,
+        first_node,
+        inserted,
+        flips_23,
+        flips_32,
+        exact,
+        overflow,
+        iterations,
+        visits,
+        failed,
+        aside
+    );
+    let constants = [
+        ("NONE", layout::NONE),
+        ("BLOCK", layout::BLOCK),
+        ("CHECK", layout::CHECK),
+        ("SUSPECT_SHIFT", layout::SUSPECT_SHIFT),
+        ("HELD_SHIFT", layout::HELD_SHIFT),
+        ("KIND_SHIFT", layout::KIND_SHIFT),
+        ("FACET_SHIFT", layout::FACET_SHIFT),
+        ("EDGE_SHIFT", layout::EDGE_SHIFT),
+        ("FLIP_23", layout::FLIP_23),
+        ("FLIP_32", layout::FLIP_32),
+        ("DONE", layout::DONE),
+        ("SLOT_SHIFT", layout::SLOT_SHIFT),
+        ("SLOTS_FULL", layout::SLOTS_FULL),
+        ("HISTORY_FULL", layout::HISTORY_FULL),
+    ];
+    for (name, value) in constants {
+        assert_eq!(constant(&module, name), value, "{name}");
+    }
 }

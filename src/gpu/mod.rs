@@ -15,11 +15,15 @@
 mod buffers;
 mod device;
 mod kernel;
+pub mod layout;
+pub mod phase1;
 mod profile;
 mod readback;
 mod recorder;
 pub mod shader;
+
 pub mod stages;
+pub mod start;
 pub mod twin;
 pub mod vertex;
 

@@ -1,3 +1,4 @@
 //! What several test programs share.
 
 pub mod cases;
+pub mod phase1;

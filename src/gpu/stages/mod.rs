@@ -2,6 +2,14 @@
 
 pub mod points;
 
+pub mod insert;
+
+pub mod flip;
+
+pub mod relocate;
+
+pub mod finish;
+
 pub mod compact;
 pub mod hilbert;
 pub mod scan;

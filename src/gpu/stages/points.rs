@@ -74,7 +74,7 @@ pub struct PointStage {
 }
 
 /// The points on the device. Valid when the recorded commands have run.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct DevicePoints {
     /// The vertices, as [`vertex`] lays them out, in the order of `pairs`; the last word of a wide one is 1 if it was
     /// rounded. There is room for one more, the vertex at infinity.

@@ -1,0 +1,114 @@
+//! Times Phase 1: `phase1 [uniform|gaussian|thin-sphere|sphere|grid] [POINTS] [ADAPTER] [REPEATS]`.
+//!
+//! Prints a line of JSON: medians over the repeats, after one run to warm up, and the stages of one more run, which is
+//! slower because each dispatch is timed.
+
+use gdel::gpu::phase1::{Input, Phase1, Phase1Output, Pick, Settings};
+use gdel::gpu::start::first_tetrahedron;
+use gdel::gpu::{AdapterChoice, Gpu, Profiler};
+use gdel::lattice::Lattice;
+use pollster::block_on;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+fn generate(kind: &str, count: usize) -> Vec<[f32; 3]> {
+    let mut rng = Pcg64Mcg::seed_from_u64(1);
+    let normal = |rng: &mut Pcg64Mcg| {
+        let (u, v): (f64, f64) = (rng.random(), rng.random());
+        (-2.0 * (1.0 - u).ln()).sqrt() * (std::f64::consts::TAU * v).cos()
+    };
+    let mut point = || -> [f64; 3] {
+        let direction = |rng: &mut Pcg64Mcg, radius: f64| {
+            let p: [f64; 3] = std::array::from_fn(|_| normal(rng));
+            let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+            p.map(|x| x / length * radius)
+        };
+        match kind {
+            "uniform" => std::array::from_fn(|_| rng.random()),
+            "gaussian" => std::array::from_fn(|_| normal(&mut rng)),
+            "thin-sphere" => {
+                let radius = rng.random_range(1.0..1.01);
+                direction(&mut rng, radius)
+            }
+            "sphere" => direction(&mut rng, 1.0),
+            "grid" => std::array::from_fn(|_| f64::from(rng.random_range(0..512u32))),
+            _ => panic!("no distribution is called {kind:?}"),
+        }
+    };
+    (0..count).map(|_| point().map(|x| x as f32)).collect()
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let argument = |i: usize, default: &str| arguments.get(i).cloned().unwrap_or(default.to_owned());
+    let kind = argument(0, "uniform");
+    let count: usize = argument(1, "100000").parse()?;
+    let adapter = argument(2, "");
+    let repeats: usize = argument(3, "5").parse()?;
+    let option = |name: &str, default: u32| -> u32 {
+        std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(default)
+    };
+    let defaults = Settings::default();
+    let settings = Settings {
+        pick: [Pick::Circumcenter, Pick::Centroid, Pick::Random][option("PICK", 0) as usize % 3],
+        insert_all: option("INSERT_ALL", 0) != 0,
+        min_active: option("MIN_ACTIVE", defaults.min_active),
+        workgroups: option("WORKGROUPS", defaults.workgroups),
+        ..defaults
+    };
+
+    let choice = if adapter.is_empty() { AdapterChoice::Default } else { AdapterChoice::Name(adapter) };
+    let gpu = block_on(Gpu::open(&choice))?;
+    let points = generate(&kind, count);
+    let clock = std::time::Instant::now();
+    let lattice = Lattice::fit((&points).into());
+    let position = |i: usize| lattice.coordinates(points[i].map(f64::from)).map(|c| c.value);
+    let start = first_tetrahedron(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
+    let lattice_ms = clock.elapsed().as_secs_f64() * 1e3;
+    let input = Input { points: (&points).into(), lattice: &lattice, start };
+
+    let clock = std::time::Instant::now();
+    let phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
+    let pipelines_ms = clock.elapsed().as_secs_f64() * 1e3;
+    let mut runs: Vec<Phase1Output> = Vec::new();
+    for _ in 0..repeats.max(1) + 1 {
+        runs.push(block_on(phase1.run(&gpu, input, &settings, None))?);
+    }
+    let mut stages = Vec::new();
+    if let Some(mut profiler) = Profiler::new(&gpu)? {
+        block_on(phase1.run(&gpu, input, &settings, Some(&mut profiler)))?;
+        let last = gpu.queue().submit([]);
+        stages = block_on(profiler.milliseconds(&gpu, &last))?.to_vec();
+    }
+    runs.remove(0);
+    runs.sort_by(|a, b| a.stats.milliseconds.total_cmp(&b.stats.milliseconds));
+    let all: Vec<String> = runs.iter().map(|r| format!("{:.2}", r.stats.milliseconds)).collect();
+    let Phase1Output { stats, tets, failed, united, .. } = &runs[runs.len() / 2];
+    let counters = &stats.counters;
+    let stages: Vec<String> = stages.iter().map(|(name, ms)| format!("\"{name}\":{ms:.3}")).collect();
+    println!(
+        "{{\"input\":\"{kind}\",\"points\":{count},\"adapter\":\"{}\",\"width\":\"{:?}\",\"ms\":{:.2},\"all_ms\":[{}],\
+         \"mesh_readback_ms\":{:.2},\"lattice_ms\":{lattice_ms:.1},\"pipelines_ms\":{pipelines_ms:.0},\"rounds\":{},\
+         \"flip_iterations\":{},\"visits\":{},\"flips_23\":{},\"flips_32\":{},\"exact\":{},\"tets\":{},\"failed\":{},\
+         \"united\":{},\"readbacks\":{},\"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
+        gpu.adapter().name,
+        lattice.width(),
+        stats.milliseconds,
+        all.join(","),
+        stats.readback_milliseconds,
+        stats.rounds,
+        counters.iterations,
+        counters.visits,
+        counters.flips_23,
+        counters.flips_32,
+        counters.exact,
+        tets.len(),
+        failed.len(),
+        united.len(),
+        stats.readbacks,
+        stats.dispatches,
+        stats.bytes,
+        stages.join(",")
+    );
+    Ok(())
+}

@@ -1,0 +1,41 @@
+// Marks the vertices of the facets that are not locally Delaunay (§3.2.1). One invocation a slot.
+//
+// Only facets that a flip iteration found so and could not flip need another look: what lies around them may have changed
+// since.
+//!include shared/layout
+@group(0) @binding(0) var<storage, read_write> control: Control;
+@group(0) @binding(1) var<storage, read> vertices: array<vec4i>;
+@group(0) @binding(2) var<storage, read> tets: array<vec4u>;
+@group(0) @binding(3) var<storage, read> neighbors: array<vec4u>;
+@group(0) @binding(4) var<storage, read_write> status: array<Status>;
+@group(0) @binding(5) var<storage, read_write> failed: array<atomic<u32>>;
+//!include shared/signs
+
+fn fail(v: u32) {
+    if v != control.infinite && atomicExchange(&failed[v], 1u) == 0 {
+        atomicAdd(&control.failed, 1u);
+    }
+}
+
+@compute @workgroup_size(256)
+fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    for (var t = id.x; t < control.blocks * BLOCK; t += groups.x * 256) {
+        let suspect = (atomicLoad(&status[t].flags) >> SUSPECT_SHIFT) & CHECK;
+        let tet = tets[t];
+        if suspect == 0 || all(tet == vec4u(0)) {
+            continue;
+        }
+        let near = neighbors[t];
+        for (var k = 0u; k < 4; k++) {
+            if ((suspect >> k) & 1) != 0 && inside(tet, tets[near[k] >> 2][near[k] & 3]) {
+                let c = facet(k);
+                fail(tet[c.x]);
+                fail(tet[c.y]);
+                fail(tet[c.z]);
+            }
+        }
+    }
+    if exact_signs != 0 {
+        atomicAdd(&control.exact, exact_signs);
+    }
+}

@@ -1,0 +1,164 @@
+//! What the kernels of Phase 1 keep in GPU buffers.
+//!
+//! Every structure here has a counterpart of the same name and layout in `shaders/shared/layout.wgsl`; a test compares
+//! their sizes and constants.
+//!
+//! **Points** are sorted along the Hilbert curve; a *vertex* is a place in that order. Vertex `n` (the number of points)
+//! is the vertex at infinity. Its record holds the *kernel point*, a point inside the first tetrahedron, and infinity
+//! lies opposite to it: replacing infinity by the kernel point flips the sign of an orientation.
+//!
+//! **Tetrahedra** live in slots. Slots 8v … 8v + 7 are the *block* of vertex *v*, so that a tetrahedron is near its
+//! vertices in memory without any sorting; the block of infinity starts the initial tetrahedra, and the blocks after it
+//! are the *tail*, which serves when the blocks of all vertices of a flip are full. `free` has one word a block whose low
+//! bits tell which of its slots are free.
+//!
+//! **Neighbours** are packed as 4·tetrahedron + face: entry *k* of a tetrahedron is the facet opposite its vertex *k*, as
+//! the tetrahedron on the other side numbers it.
+
+use bytemuck::{Pod, Zeroable};
+
+/// Nothing: no tetrahedron, no node, no vertex.
+pub const NONE: u32 = u32::MAX;
+
+/// Slots in a block.
+pub const BLOCK: u32 = 8;
+
+/// What a tetrahedron is doing.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Status {
+    /// Facets to check (bits 0–3): the tetrahedron is in the active list exactly when there are some. Facets that were
+    /// found not locally Delaunay but not flippable (bits 4–7). The insertion round in which waiting points may lie
+    /// inside (bits 16–31).
+    pub flags: u32,
+    /// The highest bid for this tetrahedron: the flip iteration above, the bidder's number below.
+    pub vote: u32,
+    /// The node of the history that made this tetrahedron, times 4, plus which of its tetrahedra it is.
+    pub last: u32,
+    /// The first node of the round that changed the tetrahedron in this slot as it was when the round began.
+    pub first: u32,
+}
+
+/// The facets to check, in [`Status::flags`].
+pub const CHECK: u32 = 0xf;
+/// Where the facets that are not locally Delaunay and not flippable start in [`Status::flags`].
+pub const SUSPECT_SHIFT: u32 = 4;
+/// Where the insertion round starts in [`Status::flags`].
+pub const HELD_SHIFT: u32 = 16;
+
+/// An entry of the active list.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Active {
+    /// The tetrahedron.
+    pub tet: u32,
+    /// What the current flip iteration found: the facets still to check (bits 0–3), the facets that cannot be flipped
+    /// (bits 4–7), the kind of the proposed flip (bits 8–9), its facet (bits 10–11) and edge (bits 12–13). A flip that
+    /// was carried out leaves its kind, and the slot that a 3-2 flip gives back from bit 4 on, below [`DONE`].
+    pub outcome: u32,
+}
+
+/// Where the kind of flip is in [`Active::outcome`].
+pub const KIND_SHIFT: u32 = 8;
+/// Where the facet is in [`Active::outcome`].
+pub const FACET_SHIFT: u32 = 10;
+/// Where the edge is in [`Active::outcome`].
+pub const EDGE_SHIFT: u32 = 12;
+/// A flip of two tetrahedra into three, in [`Active::outcome`] and [`FlipNode::kind`].
+pub const FLIP_23: u32 = 1;
+/// A flip of three tetrahedra into two.
+pub const FLIP_32: u32 = 2;
+/// The flip was carried out.
+pub const DONE: u32 = 1 << 31;
+/// Where the slot that was given back is in [`Active::outcome`], with [`DONE`].
+pub const SLOT_SHIFT: u32 = 2;
+
+/// A flip in the history.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct FlipNode {
+    /// The ring around the edge, x₀, x₁, x₂, then the ends of the edge, d and e: the tetrahedra (xᵢ, xᵢ₊₁, d, e) are
+    /// positively oriented.
+    pub vertices: [u32; 5],
+    /// [`FLIP_23`] or [`FLIP_32`].
+    pub kind: u32,
+    /// The tetrahedra that it made: 2-3, (xᵢ, xᵢ₊₁, d, e); 3-2, that with e and that with d.
+    pub tets: [u32; 3],
+    /// The nodes that changed these later, or [`NONE`].
+    pub next: [u32; 3],
+}
+
+/// The counters that the kernels share.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Counters {
+    /// The flip iteration, as checking and committing see it.
+    pub iteration: u32,
+    /// The flip iteration, as linking sees it: no kernel writes the one that it reads.
+    pub linking: u32,
+    /// Entries in the two halves of the active list; iteration *i* uses half *i* mod 2.
+    pub listed: [u32; 2],
+    /// The insertion round, from 1.
+    pub round: u32,
+    /// Nodes of the history are numbered through all rounds: this is the next number.
+    pub next_node: u32,
+    /// The number of the first node of this round.
+    pub first_node: u32,
+    /// Points inserted so far, the first four included.
+    pub inserted: u32,
+    /// 2-3 flips so far.
+    pub flips_23: u32,
+    /// 3-2 flips so far.
+    pub flips_32: u32,
+    /// Signs that took exact arithmetic so far.
+    pub exact: u32,
+    /// What was too small: [`SLOTS_FULL`], [`HISTORY_FULL`].
+    pub overflow: u32,
+    /// Flip iterations that had something to do.
+    pub iterations: u32,
+    /// Tetrahedra looked at in all flip iterations.
+    pub visits: u32,
+    /// Failed vertices.
+    pub failed: u32,
+    /// Points that another one stands for, because it lies at the same place.
+    pub aside: u32,
+}
+
+/// A flip was put off because no slot was found for its third tetrahedron.
+pub const SLOTS_FULL: u32 = 1;
+/// A flip was put off because the history was full.
+pub const HISTORY_FULL: u32 = 2;
+
+/// What the kernels are told. In the buffer `control` it stands before the [`Counters`].
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Params {
+    /// Points, and the vertex at infinity.
+    pub infinite: u32,
+    /// Blocks, those of the tail included.
+    pub blocks: u32,
+    /// Nodes that the history can hold.
+    pub history: u32,
+    /// Bits of a bidder's number in [`Status::vote`].
+    pub bid_bits: u32,
+    /// With fewer active tetrahedra than this a flip iteration does nothing.
+    pub min_active: u32,
+    /// How a tetrahedron picks its point: a [`Pick`](super::phase1::Pick).
+    pub pick: u32,
+    /// Entries of the list of waiting points.
+    pub entries: u32,
+    /// Entries that the list had before it was compacted.
+    pub entries_before: u32,
+    /// Blocks that there were before there were more.
+    pub blocks_before: u32,
+}
+
+/// A point that waits to be inserted.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Waiting {
+    /// The point.
+    pub point: u32,
+    /// The tetrahedron that it lies in; [`NONE`] once it is inserted.
+    pub tet: u32,
+}

@@ -1,0 +1,70 @@
+//! Flipping: check, commit, link (§3.1, §4.2).
+
+use crate::{
+    gpu::{Gpu, Kernel, Recorder, phase1::Buffers},
+    lattice::Width,
+};
+
+/// The kernels of flipping.
+#[derive(Debug)]
+pub struct Flip {
+    check: Kernel,
+    commit: Kernel,
+    link: Kernel,
+    clear_votes: Kernel,
+}
+
+/// The bind groups of flipping.
+#[derive(Debug)]
+pub struct BoundFlip {
+    check: wgpu::BindGroup,
+    commit: wgpu::BindGroup,
+    link: wgpu::BindGroup,
+    clear_votes: wgpu::BindGroup,
+}
+
+impl Flip {
+    /// The kernels.
+    pub fn new(gpu: &Gpu, width: Width) -> Self {
+        let kernel = |name| Kernel::new(gpu, name, width, &[]);
+        Flip {
+            check: kernel("flip_check"),
+            commit: kernel("flip_commit"),
+            link: kernel("flip_link"),
+            clear_votes: kernel("clear_votes"),
+        }
+    }
+
+    /// The bind groups for these buffers.
+    pub fn bind(&self, gpu: &Gpu, b: &Buffers) -> BoundFlip {
+        let (control, tets, neighbors) = (b.control.buffer(), b.tets.buffer(), b.neighbors.buffer());
+        let (status, active, free) = (b.status.buffer(), b.active.buffer(), b.free.buffer());
+        let messages = b.messages.buffer();
+        BoundFlip {
+            check: self.check.bind(gpu, &[control, b.points.vertices.buffer(), tets, neighbors, status, active]),
+            commit: self
+                .commit
+                .bind(gpu, &[control, tets, neighbors, status, active, free, messages, b.history.buffer()]),
+            link: self.link.bind(gpu, &[control, neighbors, status, active, free, messages]),
+            clear_votes: self.clear_votes.bind(gpu, &[control, status]),
+        }
+    }
+
+    /// Records flip iterations. Those that find too few active tetrahedra do nothing.
+    pub fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundFlip, iterations: u32, workgroups: u32) {
+        for _ in 0..iterations {
+            recorder.stage("flip: check");
+            recorder.dispatch(&self.check, &bound.check, workgroups);
+            recorder.stage("flip: commit");
+            recorder.dispatch(&self.commit, &bound.commit, workgroups);
+            recorder.stage("flip: link");
+            recorder.dispatch(&self.link, &bound.link, workgroups);
+        }
+    }
+
+    /// Records that flip iterations are counted from the start again.
+    pub fn record_clear_votes(&self, recorder: &mut Recorder<'_>, bound: &BoundFlip, workgroups: u32) {
+        recorder.stage("clear votes");
+        recorder.dispatch(&self.clear_votes, &bound.clear_votes, workgroups);
+    }
+}

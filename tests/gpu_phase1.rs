@@ -1,0 +1,140 @@
+//! Phase 1 on the GPU: a valid triangulation after every round, and every stage against the twins of its kernels.
+#![cfg(feature = "gpu")]
+
+mod common;
+
+use common::phase1::{self as inputs, Input as Points};
+use gdel::gpu::layout::{Active, Counters, FlipNode, Status, Waiting};
+use gdel::gpu::phase1::{Input, Phase1, Pick, Run, Settings};
+use gdel::gpu::start::first_tetrahedron;
+use gdel::gpu::twin::{State, predicates::Vertex};
+use gdel::gpu::{AdapterChoice, Gpu, Readback, Storage, vertex};
+use gdel::lattice::{Lattice, Width};
+use pollster::block_on;
+
+fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {
+    block_on(Readback::default().read(gpu, storage, 0, storage.len())).unwrap()
+}
+
+/// The vertices of a buffer.
+fn vertices(width: Width, words: &[[i32; 4]]) -> Vec<Vertex> {
+    words
+        .chunks(vertex::stride(width))
+        .map(|words| Vertex {
+            position: std::array::from_fn(|axis| match words {
+                [high, low] => i64::from(high[axis]) << 31 | i64::from(low[axis]),
+                _ => i64::from(words[0][axis]),
+            }),
+            index: words[0][3] as u32,
+        })
+        .collect()
+}
+
+/// The buffers of a run, as the twins have them.
+fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
+    let b = run.buffers();
+    let (params, counters) = run.control();
+    let active: Vec<Active> = read(gpu, &b.active);
+    let (even, odd) = active.split_at(active.len() / 2);
+    let mut waiting: Vec<Waiting> = read(gpu, &b.waiting);
+    waiting.truncate(params.entries as usize);
+    State {
+        width,
+        params,
+        points: vertices(width, &read(gpu, &b.points.vertices)),
+        first: [0; 4],
+        united: read(gpu, &b.points.pairs).into_iter().map(|[key, _]| key == u32::MAX).collect(),
+        tets: read(gpu, &b.tets),
+        neighbors: read(gpu, &b.neighbors),
+        status: read::<Status>(gpu, &b.status),
+        free: read(gpu, &b.free),
+        messages: read(gpu, &b.messages),
+        active: [even.to_vec(), odd.to_vec()],
+        history: read::<FlipNode>(gpu, &b.history),
+        waiting,
+        scores: read(gpu, &b.scores),
+        failed: read(gpu, &b.failed),
+        counters,
+    }
+}
+
+fn run_and_validate(gpu: &Gpu, kernels: &[Phase1; 2], points: &Points, settings: Settings) {
+    let count = points.positions.len();
+    let lattice = Lattice::fit((&points.positions).into());
+    let width = lattice.width();
+    let kernels = &kernels[usize::from(width == Width::Wide)];
+    let position = |i: usize| lattice.coordinates(points.positions[i]).map(|c| c.value);
+    let start = first_tetrahedron(width, count, position).expect("not coplanar");
+    let input = Input { points: (&points.positions).into(), lattice: &lattice, start };
+    let mut run = block_on(Run::new(kernels, gpu, input, settings, None)).unwrap();
+    let mut more = true;
+    while more {
+        more = block_on(run.round()).unwrap();
+        state_of(gpu, width, &run).validate();
+    }
+    let mut state = state_of(gpu, width, &run);
+    let before: Counters = state.counters;
+    let output = block_on(run.finish()).unwrap();
+
+    gdel::gpu::twin::mark_failed(&mut state);
+    let failed: Vec<u32> = (0..).zip(&state.failed).filter(|&(_, &f)| f != 0).map(|(v, _)| v).collect();
+    assert_eq!(output.failed, failed, "{}", points.name);
+    state.validate_end();
+
+    let mut expected: Vec<[u32; 4]> = state.tets.iter().copied().filter(|t| *t != [0; 4]).collect();
+    assert_eq!(output.tets, expected, "{}: the mesh keeps the order of the slots", points.name);
+    for (t, near) in output.neighbors.iter().enumerate() {
+        for (k, across) in near.iter().enumerate() {
+            assert_eq!(output.neighbors[(across >> 2) as usize][(across & 3) as usize], (4 * t + k) as u32);
+        }
+    }
+    for (v, &t) in (0..).zip(&output.tet_of) {
+        assert_eq!(t == u32::MAX, v >= count - points.sharing && v < count, "{}: vertex {v}", points.name);
+        assert!(t == u32::MAX || output.tets[t as usize].contains(&(v as u32)));
+    }
+    assert_eq!(output.united.len(), points.sharing, "{}", points.name);
+    for [p, q] in output.united {
+        assert_eq!(points.positions[p as usize], points.positions[q as usize]);
+        assert!(p > q);
+    }
+    let mut order = output.order.clone();
+    order.sort_unstable();
+    assert!(order.into_iter().eq(0..count as u32));
+    let limit = 2 * output.stats.rounds as usize + 10;
+    assert!(
+        output.stats.readbacks <= limit + before.iterations as usize / 64 + 4,
+        "{}: {} readbacks in {} rounds",
+        points.name,
+        output.stats.readbacks,
+        output.stats.rounds
+    );
+    expected.sort_unstable();
+    expected.dedup();
+    assert_eq!(expected.len(), output.tets.len());
+}
+
+fn kernels(gpu: &Gpu) -> [Phase1; 2] {
+    [Width::Narrow, Width::Wide].map(|width| block_on(Phase1::new(gpu, width)).unwrap())
+}
+
+#[test]
+fn every_round_is_valid() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let kernels = kernels(&gpu);
+    let settings = Settings { workgroups: 8, ..Settings::default() };
+    for points in inputs::all(Width::Narrow).iter().chain(&inputs::all(Width::Wide)) {
+        run_and_validate(&gpu, &kernels, points, settings);
+    }
+    let uniform = &inputs::all(Width::Narrow)[1];
+    let some = Settings { min_active: 100, pick: Pick::Centroid, ..settings };
+    run_and_validate(&gpu, &kernels, uniform, some);
+    run_and_validate(&gpu, &kernels, uniform, Settings { insert_all: true, pick: Pick::Random, ..settings });
+}
+
+/// Slots and history that are far too small: flips wait, buffers grow, and nothing is lost.
+#[test]
+fn small_buffers_grow() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let settings = Settings { workgroups: 8, points_per_tail_block: 1 << 20, history: 0, ..Settings::default() };
+    run_and_validate(&gpu, &kernels(&gpu), &inputs::two_lines(Width::Narrow, 300), settings);
+}

@@ -1,0 +1,248 @@
+//! Every kernel of Phase 1 against its twin, on the same buffers.
+//!
+//! The points have coordinates, or high words of them, below 8, so that the scores are exact in `f32` and ties of every kind abound. After each
+//! kernel the device gets the twin's buffers again, so that each is compared on its own.
+#![cfg(feature = "gpu")]
+
+use std::cell::RefCell;
+use std::collections::{BTreeSet, HashMap};
+
+use bytemuck::Pod;
+use gdel::gpu::layout::{Active, CHECK, Counters, DONE, NONE, Waiting};
+use gdel::gpu::phase1::{Buffers, PARAM_WORDS, Pick};
+use gdel::gpu::stages::points::{DevicePoints, InputCounts};
+use gdel::gpu::start::first_tetrahedron;
+use gdel::gpu::twin::{self, State, predicates::Vertex};
+use gdel::gpu::{AdapterChoice, Gpu, Kernel, Readback, Recorder, Storage, vertex};
+use gdel::lattice::Width;
+use pollster::block_on;
+use rand::{SeedableRng, seq::SliceRandom};
+use rand_pcg::Pcg32;
+
+struct Device {
+    gpu: Gpu,
+    buffers: Buffers,
+    width: Width,
+    kernels: RefCell<HashMap<&'static str, Kernel>>,
+}
+
+fn read<T: Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {
+    block_on(Readback::default().read(gpu, storage, 0, storage.len())).unwrap()
+}
+
+impl Device {
+    fn new(width: Width, state: &State) -> Self {
+        let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+        let count = state.params.infinite as usize;
+        let points = DevicePoints {
+            vertices: Storage::new(&gpu, "vertices", (count + 1) * vertex::stride(width)).unwrap(),
+            pairs: Storage::with_contents(&gpu, "pairs", &vec![[0; 2]; count]).unwrap(),
+            united_with: Storage::new(&gpu, "united", count).unwrap(),
+            counts: Storage::with_contents(&gpu, "counts", &[InputCounts { found: state.first, ..Default::default() }])
+                .unwrap(),
+        };
+        let buffers = Buffers::new(&gpu, points, state.params.blocks, state.params.history).unwrap();
+        Device { gpu, buffers, width, kernels: RefCell::default() }
+    }
+
+    fn upload(&self, state: &State) {
+        let (gpu, b) = (&self.gpu, &self.buffers);
+        let mut words = Vec::new();
+        for v in &state.points {
+            vertex::append_words(&mut words, self.width, v.position, v.index);
+        }
+        b.control.write(gpu, 0, bytemuck::cast_slice(&[state.params]));
+        b.control.write(gpu, PARAM_WORDS, bytemuck::cast_slice(&[state.counters]));
+        b.points.vertices.write(gpu, 0, &words);
+        b.tets.write(gpu, 0, &state.tets);
+        b.neighbors.write(gpu, 0, &state.neighbors);
+        b.status.write(gpu, 0, &state.status);
+        b.active.write(gpu, 0, &state.active[0]);
+        b.active.write(gpu, state.tets.len(), &state.active[1]);
+        b.free.write(gpu, 0, &state.free);
+        b.messages.write(gpu, 0, &state.messages);
+        b.history.write(gpu, 0, &state.history);
+        b.waiting.write(gpu, 0, &state.waiting);
+        b.scores.write(gpu, 0, &state.scores);
+        b.failed.write(gpu, 0, &state.failed);
+    }
+
+    fn download(&self, like: &State) -> State {
+        let (gpu, b) = (&self.gpu, &self.buffers);
+        let active: Vec<Active> = read(gpu, &b.active);
+        let (even, odd) = active.split_at(active.len() / 2);
+        let control: Vec<u32> = read(gpu, &b.control);
+        let counters: Counters = *bytemuck::from_bytes(bytemuck::cast_slice(&control[PARAM_WORDS..]));
+        State {
+            tets: read(gpu, &b.tets),
+            neighbors: read(gpu, &b.neighbors),
+            status: read(gpu, &b.status),
+            free: read(gpu, &b.free),
+            messages: read(gpu, &b.messages),
+            active: [even.to_vec(), odd.to_vec()],
+            history: read(gpu, &b.history),
+            waiting: read::<Waiting>(gpu, &b.waiting)[..like.waiting.len()].to_vec(),
+            scores: read(gpu, &b.scores),
+            failed: read(gpu, &b.failed),
+            // The twins do not count these.
+            counters: Counters { exact: like.counters.exact, failed: like.counters.failed, ..counters },
+            ..like.clone()
+        }
+    }
+
+    fn bindings(&self, kernel: &str) -> Vec<&wgpu::Buffer> {
+        let b = &self.buffers;
+        let (control, vertices, tets) = (b.control.buffer(), b.points.vertices.buffer(), b.tets.buffer());
+        let (neighbors, status, active) = (b.neighbors.buffer(), b.status.buffer(), b.active.buffer());
+        let (free, messages, history) = (b.free.buffer(), b.messages.buffer(), b.history.buffer());
+        let (waiting, scores, failed) = (b.waiting.buffer(), b.scores.buffer(), b.failed.buffer());
+        match kernel {
+            "locate" => {
+                let (pairs, counts) = (b.points.pairs.buffer(), b.points.counts.buffer());
+                vec![control, vertices, pairs, counts, waiting, tets, neighbors, free]
+            }
+            "pick_score" => vec![control, vertices, tets, waiting, messages, scores],
+            "pick_point" => vec![control, waiting, messages, scores],
+            "split" => vec![control, tets, neighbors, status, active, free, messages, waiting],
+            "relocate_split" => vec![control, vertices, tets, status, messages, waiting],
+            "flip_check" => vec![control, vertices, tets, neighbors, status, active],
+            "flip_commit" => vec![control, tets, neighbors, status, active, free, messages, history],
+            "flip_link" => vec![control, neighbors, status, active, free, messages],
+            "relocate" => vec![control, vertices, status, history, waiting],
+            "clear_votes" => vec![control, status],
+            "mark_failed" => vec![control, vertices, tets, neighbors, status, failed],
+            _ => panic!("no bindings are known for {kernel}"),
+        }
+    }
+
+    fn run(&self, name: &'static str) {
+        let mut kernels = self.kernels.borrow_mut();
+        let kernel = kernels.entry(name).or_insert_with(|| Kernel::new(&self.gpu, name, self.width, &[]));
+        let bindings = kernel.bind(&self.gpu, &self.bindings(name));
+        let mut recorder = Recorder::new(&self.gpu, None);
+        recorder.dispatch(kernel, &bindings, 3);
+        recorder.submit(&self.gpu);
+    }
+
+    /// Runs a kernel on `state`'s buffers, and its twin on `state`. Returns the device's buffers.
+    fn both(&self, name: &'static str, state: &mut State, twin: impl Fn(&mut State)) -> State {
+        self.upload(state);
+        self.run(name);
+        twin(state);
+        let device = self.download(state);
+        assert_eq!(device.counters, state.counters, "{name}");
+        device
+    }
+
+    /// The same for a kernel whose results are the same to the last bit.
+    fn equal(&self, name: &'static str, state: &mut State, twin: impl Fn(&mut State)) {
+        let device = self.both(name, state, twin);
+        assert_eq!(device.tets, state.tets, "{name}");
+        assert_eq!(device.neighbors, state.neighbors, "{name}");
+        assert_eq!(device.status, state.status, "{name}");
+        assert_eq!(device.free, state.free, "{name}");
+        assert_eq!(device.messages, state.messages, "{name}");
+        assert_eq!(device.active, state.active, "{name}");
+        assert_eq!(device.history, state.history, "{name}");
+        assert_eq!(device.waiting, state.waiting, "{name}");
+        assert_eq!(device.scores, state.scores, "{name}");
+        assert_eq!(device.failed, state.failed, "{name}");
+    }
+}
+
+/// What the choice of slots and numbers in the history leaves the same: the tetrahedra by their vertices, with the
+/// facets to check and the neighbours across each facet, and the flips of the history.
+fn essence(state: &State) -> (BTreeSet<Vec<u32>>, BTreeSet<Vec<u32>>) {
+    let tets = (0..state.tets.len()).filter(|&t| state.is_used(t)).map(|t| {
+        let mut record = state.tets[t].to_vec();
+        record.push(state.status[t].flags);
+        for across in state.neighbors[t] {
+            record.extend(state.tets[(across >> 2) as usize]);
+            record.push(across & 3);
+        }
+        record
+    });
+    let nodes = (state.counters.next_node - state.counters.first_node) as usize;
+    let flips = state.history[..nodes].iter().map(|node| {
+        let mut record = node.vertices.to_vec();
+        record.push(node.kind);
+        record.extend(node.next.map(|next| match next {
+            NONE => NONE,
+            next => state.history[(next - state.counters.first_node) as usize].vertices[0],
+        }));
+        record
+    });
+    (tets.collect(), flips.collect())
+}
+
+fn listed(state: &State, half: usize) -> BTreeSet<u32> {
+    state.active[half][..state.counters.listed[half] as usize].iter().map(|a| a.tet).collect()
+}
+
+fn compare(width: Width, pick: Pick) {
+    let mut positions: Vec<[i64; 3]> = (0..512).map(|i| [i & 7, i >> 3 & 7, i >> 6]).collect();
+    positions.shuffle(&mut Pcg32::seed_from_u64(4));
+    positions.truncate(250);
+    if width == Width::Wide {
+        positions.iter_mut().for_each(|q| *q = q.map(|x| x << 31 | 5));
+    }
+    let start = first_tetrahedron(width, positions.len(), |i| positions[i]).expect("not coplanar");
+    let mut points: Vec<Vertex> =
+        (0..).zip(&positions).map(|(index, &position)| Vertex { position, index: index ^ 0x55 }).collect();
+    points.push(Vertex { position: start.kernel, index: 1000 });
+    let mut state = State::new(width, points, 64, 4096);
+    state.params.pick = pick as u32;
+    state.first = start.first;
+    let device = Device::new(width, &state);
+    device.equal("locate", &mut state, |s| {
+        let first = s.first;
+        twin::start(s, first);
+        twin::locate(s);
+    });
+    while !state.waiting.is_empty() {
+        state.messages.fill([0; 4]);
+        device.equal("pick_score", &mut state, twin::pick_score);
+        device.equal("pick_point", &mut state, twin::pick_point);
+
+        let split = device.both("split", &mut state, twin::split);
+        assert_eq!((&split.tets, &split.neighbors), (&state.tets, &state.neighbors));
+        assert_eq!((&split.status, &split.free), (&state.status, &state.free));
+        let half = state.half();
+        assert_eq!(listed(&split, half), listed(&state, half), "split");
+
+        device.equal("relocate_split", &mut state, twin::relocate_split);
+        while !state.is_idle(state.counters.iteration) {
+            device.equal("flip_check", &mut state, twin::flip_check);
+            device.upload(&state);
+            device.run("flip_commit");
+            device.run("flip_link");
+            twin::flip_commit(&mut state);
+            let done = state.active[half_of(&state)].iter().filter(|a| a.outcome & DONE != 0).count();
+            twin::flip_link(&mut state);
+            let after = device.download(&state);
+            assert!(done > 0 || state.counters.listed[state.half()] == 0, "an iteration without progress");
+            assert_eq!(after.counters, state.counters, "flip");
+            assert_eq!(essence(&after), essence(&state), "flip");
+            after.validate_mesh();
+            state.validate_mesh();
+        }
+        device.equal("relocate", &mut state, twin::relocate);
+        state.waiting.retain(|w| w.tet != NONE);
+        state.params.entries = state.waiting.len() as u32;
+    }
+    // Every facet is suspect, so that there is something to look at.
+    state.status.iter_mut().for_each(|s| s.flags |= CHECK << 4);
+    device.equal("mark_failed", &mut state, twin::mark_failed);
+    device.equal("clear_votes", &mut state, twin::run::clear_votes);
+}
+
+fn half_of(state: &State) -> usize {
+    (state.counters.linking & 1) as usize
+}
+
+#[test]
+fn kernels_agree_with_their_twins() {
+    compare(Width::Narrow, Pick::Circumcenter);
+    compare(Width::Wide, Pick::Centroid);
+    compare(Width::Narrow, Pick::Random);
+}
