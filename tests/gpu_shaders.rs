@@ -130,7 +130,17 @@ fn phase1_layouts_agree() {
         };
     }
     assert_offsets!(
-        Params, 0, infinite, blocks, history, bid_bits, min_active, pick, entries, entries_before, blocks_before
+        Params,
+        0,
+        infinite,
+        blocks,
+        history,
+        bid_bits,
+        min_active,
+        pick,
+        entries,
+        entries_before,
+        blocks_before
     );
     assert_offsets!(
         Counters,

@@ -2,8 +2,8 @@
 
 use gdel::gpu::phase1::Pick;
 use gdel::gpu::twin::State;
-use gdel::gpu::twin::run::{Settings, run};
 use gdel::gpu::twin::predicates::{Vertex, insphere, orient3d};
+use gdel::gpu::twin::run::{Settings, run};
 use gdel::lattice::Width;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -20,9 +20,11 @@ fn sites(mut points: Vec<Point>) -> Vec<Vertex> {
     for i in (1..order.len()).rev() {
         order.swap(i, rng.random_range(0..=i));
     }
-    let mut sites: Vec<Vertex> = points.into_iter().zip(order).map(|(q, index)| Vertex { position: q, index }).collect();
+    let mut sites: Vec<Vertex> =
+        points.into_iter().zip(order).map(|(q, index)| Vertex { position: q, index }).collect();
     let bits = sites.iter().flat_map(|s| s.position).max().map_or(0, |m| 64 - m.leading_zeros());
-    let morton = |q: Point| (0..bits).rev().fold(0u128, |key, b| q.iter().fold(key, |k, x| k << 1 | (x >> b & 1) as u128));
+    let morton =
+        |q: Point| (0..bits).rev().fold(0u128, |key, b| q.iter().fold(key, |k, x| k << 1 | (x >> b & 1) as u128));
     sites.sort_by_key(|s| morton(s.position));
     sites
 }
@@ -60,8 +62,16 @@ fn degenerate() {
         .collect();
     let layers = random(600, 8, 64).into_iter().map(|[x, y, z]| [x * 97, y * 31, 4 * (z % 2)]).collect();
     let two_lines = (0..40).map(|i| if i % 2 == 0 { [4 * i, 0, 0] } else { [0, 4 * i, 40] }).collect();
-    let inputs: Vec<Vec<Point>> =
-        vec![grid([2, 2, 2]), grid([3, 3, 3]), grid([8, 8, 8]), grid([30, 30, 2]), grid([40, 2, 2]), sphere, layers, two_lines];
+    let inputs: Vec<Vec<Point>> = vec![
+        grid([2, 2, 2]),
+        grid([3, 3, 3]),
+        grid([8, 8, 8]),
+        grid([30, 30, 2]),
+        grid([40, 2, 2]),
+        sphere,
+        layers,
+        two_lines,
+    ];
     for (i, points) in inputs.into_iter().enumerate() {
         println!("input {i}, {} points", points.len());
         let (state, bad) = valid(points, Settings::default());

@@ -35,9 +35,8 @@ fn largest(width: Width, count: usize, stride: usize, position: &dyn Fn(usize) -
     let sample = || (0..count).step_by(stride);
     let float = |i: usize| position(i).map(|x| x as f64);
     let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-    let cross = |u: [f64; 3], v: [f64; 3]| {
-        [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
-    };
+    let cross =
+        |u: [f64; 3], v: [f64; 3]| [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
     let farthest = |measure: &dyn Fn(usize) -> f64| sample().max_by(|&i, &j| measure(i).total_cmp(&measure(j)));
     let square = |u: [f64; 3]| dot(u, u);

@@ -28,7 +28,7 @@ use super::stages::insert::{BoundInsert, Insert};
 use super::stages::points::PointStage;
 use super::stages::relocate::{BoundRelocate, Relocate};
 use super::start::Start;
-use super::{Gpu, Kernel, Profiler, Readback, Recorder, Storage, vertex};
+use super::{Gpu, Kernel, Profiler, Readback, Recorder, vertex};
 use crate::{
     Error, Points,
     lattice::{Lattice, Width},
@@ -66,7 +66,14 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { pick: Pick::Circumcenter, insert_all: false, min_active: 0, workgroups: 1024, points_per_tail_block: 16, history: 3 }
+        Settings {
+            pick: Pick::Circumcenter,
+            insert_all: false,
+            min_active: 0,
+            workgroups: 1024,
+            points_per_tail_block: 16,
+            history: 3,
+        }
     }
 }
 
@@ -439,8 +446,7 @@ impl<'a> Run<'a> {
                 let compacted = self.kernels.finish.record(gpu, &mut recorder, &self.buffers, blocks, workgroups)?;
                 self.stats.dispatches += recorder.dispatches();
                 let encoder = recorder.encoder();
-                let counters =
-                    self.readback.copy(gpu, encoder, &self.buffers.control, PARAM_WORDS, COUNTER_WORDS);
+                let counters = self.readback.copy(gpu, encoder, &self.buffers.control, PARAM_WORDS, COUNTER_WORDS);
                 let count = self.readback.copy(gpu, encoder, &compacted.sums, Compacted::COUNT, 1);
                 Ok((compacted, recorder.submit(gpu), counters, count))
             })
@@ -486,7 +492,11 @@ impl<'a> Run<'a> {
             order: pairs.into_iter().map(|[_, point]| point).collect(),
             failed: (0..).zip(failed).filter(|&(_, failed)| failed != 0).map(|(v, _)| v).collect(),
             tet_of: tet_of.into_iter().map(|t: u32| t.wrapping_sub(1)).collect(),
-            united: (0..).zip(united).filter(|&(_, other)| other != NONE).map(|(point, other)| [point, other]).collect(),
+            united: (0..)
+                .zip(united)
+                .filter(|&(_, other)| other != NONE)
+                .map(|(point, other)| [point, other])
+                .collect(),
             stats,
         })
     }

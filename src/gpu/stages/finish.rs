@@ -61,10 +61,9 @@ impl Finish {
     ) -> Result<Compacted, Error> {
         let (control, tets, neighbors) = (b.control.buffer(), b.tets.buffer(), b.neighbors.buffer());
         let slots = b.tets.len();
-        let failed = self.mark_failed.bind(
-            gpu,
-            &[control, b.points.vertices.buffer(), tets, neighbors, b.status.buffer(), b.failed.buffer()],
-        );
+        let failed = self
+            .mark_failed
+            .bind(gpu, &[control, b.points.vertices.buffer(), tets, neighbors, b.status.buffer(), b.failed.buffer()]);
         recorder.stage("mark failed");
         recorder.dispatch(&self.mark_failed, &failed, workgroups);
 

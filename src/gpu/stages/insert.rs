@@ -48,9 +48,7 @@ impl Insert {
             locate: self.locate.bind(gpu, &[control, vertices, pairs, counts, waiting, tets, neighbors, free]),
             pick_score: self.pick_score.bind(gpu, &[control, vertices, tets, waiting, picks, scores]),
             pick_point: self.pick_point.bind(gpu, &[control, waiting, picks, scores]),
-            split: self
-                .split
-                .bind(gpu, &[control, tets, neighbors, status, b.active.buffer(), free, picks, waiting]),
+            split: self.split.bind(gpu, &[control, tets, neighbors, status, b.active.buffer(), free, picks, waiting]),
             relocate_split: self.relocate_split.bind(gpu, &[control, vertices, tets, status, picks, waiting]),
         }
     }

@@ -52,10 +52,9 @@ impl Relocate {
         // The scores are of no use any more when the list is compacted.
         let marks = &b.scores;
         Ok(BoundRelocate {
-            relocate: self.relocate.bind(
-                gpu,
-                &[control, b.points.vertices.buffer(), b.status.buffer(), b.history.buffer(), waiting],
-            ),
+            relocate: self
+                .relocate
+                .bind(gpu, &[control, b.points.vertices.buffer(), b.status.buffer(), b.history.buffer(), waiting]),
             mark: self.mark.bind(gpu, &[control, waiting, marks.buffer()]),
             compact: self.compact.bind(gpu, &[control, waiting, offsets.buffer(), compacted.buffer()]),
             scan: self.scan.bind(gpu, &params, marks, &offsets)?,

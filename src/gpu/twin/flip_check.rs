@@ -46,8 +46,7 @@ fn proposal(state: &State, t: u32) -> (u32, Vec<u32>) {
         }
         let corners = FACETS[k];
         let x = corners.map(|c| tet[c]);
-        let negative: Vec<usize> =
-            (0..3).filter(|&i| state.orient([x[i], x[(i + 1) % 3], tet[k], e]) < 0).collect();
+        let negative: Vec<usize> = (0..3).filter(|&i| state.orient([x[i], x[(i + 1) % 3], tet[k], e]) < 0).collect();
         let found = |kind: u32, edge: usize| {
             let flip = kind << KIND_SHIFT | (k as u32) << FACET_SHIFT | (edge as u32) << EDGE_SHIFT;
             flip | suspect << SUSPECT_SHIFT | check
