@@ -80,7 +80,7 @@ impl<'a> Splaying<'a> {
             incident,
             stars: Vec::new(),
             star_of: vec![0; mesh.infinite as usize + 1],
-            links: LinkFinder::new(mesh.tetrahedra.len()),
+            links: LinkFinder::default(),
             changes: Changes::default(),
             ledger: FxHashMap::default(),
             queue: Vec::new(),
