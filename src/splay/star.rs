@@ -133,8 +133,7 @@ impl Star {
         let mut star = Star { vertex, triangles: Vec::new(), free: Vec::new(), recent: 0, epoch: 0 };
         let facet = |k: usize| FACETS[k].map(|i| first[i]);
         let inverted = space.conflict(star.tetrahedron(facet(0)), first[0]) > 0;
-        for k in 0..4 {
-            let [i, j, l] = FACETS[k];
+        for (k, [i, j, l]) in FACETS.into_iter().enumerate() {
             // The edge that facets k and i share lies opposite corner i of one and corner k of the other.
             let edge = |i: usize| {
                 let corner = if inverted { [0, 2, 1].map(|c| FACETS[i][c]) } else { FACETS[i] };
