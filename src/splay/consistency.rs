@@ -80,7 +80,7 @@ impl<'a> Splaying<'a> {
             incident,
             stars: Vec::new(),
             star_of: vec![0; mesh.infinite as usize + 1],
-            links: LinkFinder::new(mesh.tetrahedra.len()),
+            links: LinkFinder::default(),
             changes: Changes::default(),
             ledger: FxHashMap::default(),
             queue: Vec::new(),
@@ -93,7 +93,7 @@ impl<'a> Splaying<'a> {
     /// vertices that is done, and can stop.
     pub(super) fn run(&mut self, failed: &[u32], report: &dyn Fn(f64) -> Result<(), Error>) -> Result<(), Stop> {
         for (done, &v) in failed.iter().enumerate() {
-            if done % REPORT == 0 {
+            if done.is_multiple_of(REPORT) {
                 report(done as f64 / failed.len() as f64)?;
             }
             if v != self.space.infinite() && self.star_of[v as usize] == 0 {
@@ -102,7 +102,7 @@ impl<'a> Splaying<'a> {
             }
         }
         while let Some(key) = self.queue.pop() {
-            if self.stats.checks % REPORT == 0 {
+            if self.stats.checks.is_multiple_of(REPORT) {
                 report(1.0)?;
             }
             self.stats.checks += 1;
@@ -151,8 +151,10 @@ impl<'a> Splaying<'a> {
                 Some(flips) => self.stats.flips += flips,
                 None => {
                     self.stats.from_points += 1;
-                    let points = before.iter().flat_map(|t| t.vertices);
-                    star = Star::from_points(self.space, v, points, &mut self.changes)?;
+                    let mut points: Vec<u32> = before.iter().flat_map(|t| t.vertices).collect();
+                    points.sort_unstable();
+                    points.dedup();
+                    star = Star::from_points(self.space, v, points.into_iter(), &mut self.changes)?;
                 }
             }
             self.compare(&mut star, &before);

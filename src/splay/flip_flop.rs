@@ -194,7 +194,7 @@ mod tests {
         let mut flips = 0;
         for v in 0..vertices.len() as u32 {
             let start = (0..mesh.tetrahedra.len() as u32).find(|&t| mesh.vertices(t).contains(&v)).unwrap();
-            let mut star = LinkFinder::new(mesh.tetrahedra.len()).star(&mesh, v, start).unwrap();
+            let mut star = LinkFinder::default().star(&mesh, v, start).unwrap();
             let convex = link(&star);
             let mut spoiling = Flipping { budget: usize::MAX, flips: 0, edges: Vec::new() };
             let mut random = v;

@@ -167,7 +167,9 @@ fn try_splay(
     let start = filled.last().or(incident.iter().find(|&&t| t != NONE)).copied().unwrap_or(0);
     stats.signs = space.signs();
     stats.inserted = missing.len();
-    cpu::insert::insert_points(&mut mesh, vertices, missing, start, |_| report(1.0))?;
+    if !missing.is_empty() {
+        cpu::insert::insert_points(&mut mesh, vertices, missing, start, |_| report(1.0))?;
+    }
     stats.peeled = peeled;
     stats.failed = failed.len();
     (stats.removed, stats.added) = (remove.len(), add.len());

@@ -75,11 +75,10 @@ fn peel_one(
                 return Ok(());
             }
             let slots = [ghost, t, take(mesh, free)?];
-            for i in 0..3 {
-                mesh.tetrahedra[slots[i] as usize] = moved(i);
+            for (i, slot) in slots.into_iter().enumerate() {
+                mesh.tetrahedra[slot as usize] = moved(i);
             }
-            for i in 0..3 {
-                let slot = 4 * slots[i];
+            for (i, slot) in slots.map(|slot| 4 * slot).into_iter().enumerate() {
                 mesh.join(slot + 3, across[in_t[i]]);
                 mesh.join(slot + i as u32, beyond[i]);
                 let j = (i + 1) % 3;

@@ -7,6 +7,8 @@
 
 use super::{GaveUp, space::Space};
 use crate::{mesh::FACETS, triangulation::Triangulation};
+use rustc_hash::FxHashMap;
+use std::collections::hash_map::Entry;
 
 /// No tetrahedron, no vertex.
 pub(super) const NONE: u32 = u32::MAX;
@@ -58,47 +60,45 @@ pub(super) struct Changes {
 }
 
 /// Finds the tetrahedra around a vertex.
+#[derive(Default)]
 pub(super) struct LinkFinder {
-    /// Where each tetrahedron stands in `around`, if it does: so nothing needs clearing.
-    place: Vec<u32>,
+    /// Where each tetrahedron stands in `around`.
+    place: FxHashMap<u32, u32>,
     /// Tetrahedra and the corner of theirs that is the vertex.
     around: Vec<(u32, usize)>,
 }
 
 impl LinkFinder {
-    /// For triangulations of at most `slots` tetrahedra.
-    pub(super) fn new(slots: usize) -> Self {
-        LinkFinder { place: vec![0; slots], around: Vec::new() }
-    }
-
-    fn place_of(&self, t: u32) -> Option<usize> {
-        let place = self.place[t as usize] as usize;
-        self.around.get(place).filter(|&&(other, _)| other == t).map(|_| place)
-    }
+    /// Tables larger than this are given up, since to clear them takes longer than most stars do.
+    const MOST_TO_CLEAR: usize = 1 << 10;
 
     fn visit(&mut self, mesh: &Triangulation, t: u32, vertex: u32) -> Result<(), GaveUp> {
-        let corner = mesh.vertices(t).iter().position(|&v| v == vertex);
-        let corner = corner.ok_or(GaveUp::Inconsistent("a link leads to a tetrahedron without its vertex"))?;
-        self.place[t as usize] = self.around.len() as u32;
-        self.around.push((t, corner));
+        if let Entry::Vacant(entry) = self.place.entry(t) {
+            let corner = mesh.vertices(t).iter().position(|&v| v == vertex);
+            let corner = corner.ok_or(GaveUp::Inconsistent("a link leads to a tetrahedron without its vertex"))?;
+            entry.insert(self.around.len() as u32);
+            self.around.push((t, corner));
+        }
         Ok(())
     }
 
     /// The star of `vertex`, of which `start` is one tetrahedron.
     pub(super) fn star(&mut self, mesh: &Triangulation, vertex: u32, start: u32) -> Result<Star, GaveUp> {
-        self.around.clear();
-        if start as usize >= self.place.len() {
+        if start as usize >= mesh.tetrahedra.len() {
             return Err(GaveUp::Inconsistent("a vertex has no tetrahedron"));
         }
+        self.around.clear();
+        if self.place.capacity() > Self::MOST_TO_CLEAR {
+            self.place = FxHashMap::default();
+        }
+        self.place.clear();
         self.visit(mesh, start, vertex)?;
         let mut next = 0;
         while let Some(&(t, corner)) = self.around.get(next) {
             next += 1;
             for k in FACETS[corner] {
                 let across = mesh.neighbors[t as usize][k] >> 2;
-                if self.place_of(across).is_none() {
-                    self.visit(mesh, across, vertex)?;
-                }
+                self.visit(mesh, across, vertex)?;
             }
         }
         let mut triangles = Vec::with_capacity(self.around.len() + self.around.len() / 2);
@@ -107,7 +107,7 @@ impl LinkFinder {
             let facet = FACETS[corner];
             let neighbors = facet.map(|k| {
                 let across = mesh.neighbors[t as usize][k];
-                let place = self.place[(across >> 2) as usize];
+                let place = self.place[&(across >> 2)];
                 let corner = self.around[place as usize].1;
                 let edge = FACETS[corner].iter().position(|&f| f == (across & 3) as usize);
                 // Were it the corner itself, the facet would not have the vertex, which the visit rules out.
@@ -133,8 +133,7 @@ impl Star {
         let mut star = Star { vertex, triangles: Vec::new(), free: Vec::new(), recent: 0, epoch: 0 };
         let facet = |k: usize| FACETS[k].map(|i| first[i]);
         let inverted = space.conflict(star.tetrahedron(facet(0)), first[0]) > 0;
-        for k in 0..4 {
-            let [i, j, l] = FACETS[k];
+        for (k, [i, j, l]) in FACETS.into_iter().enumerate() {
             // The edge that facets k and i share lies opposite corner i of one and corner k of the other.
             let edge = |i: usize| {
                 let corner = if inverted { [0, 2, 1].map(|c| FACETS[i][c]) } else { FACETS[i] };

@@ -3,6 +3,8 @@
 
 mod flips;
 mod inputs;
+#[cfg(feature = "gpu")]
+mod phase1;
 
 use flips::{Soup, found_out, near};
 use gdel::{
