@@ -1,42 +1,15 @@
-//! Times Phase 1: `phase1 [uniform|gaussian|thin-sphere|sphere|grid] [POINTS] [ADAPTER] [REPEATS]`.
+//! Times Phase 1: `phase1 [uniform|gaussian|ball|thin-sphere|sphere|grid] [POINTS] [ADAPTER] [REPEATS]`, on coordinates
+//! rounded to `f32`.
 //!
-//! Prints a line of JSON: medians over the repeats, after one run to warm up, and the stages of one more run, which is
+//! The variables PICK (0–2), INSERT_ALL (0, 1), MIN_ACTIVE, WORKGROUPS and SEED change the settings. Prints a line of JSON: medians over the repeats, after one run to warm up, and the stages of one more run, which is
 //! slower because each dispatch is timed.
 
+use gdel::generate::{Distribution, generate};
 use gdel::gpu::phase1::{Input, Phase1, Phase1Output, Pick, Settings};
 use gdel::gpu::start::first_tetrahedron;
 use gdel::gpu::{AdapterChoice, Gpu, Profiler};
 use gdel::lattice::Lattice;
 use pollster::block_on;
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Mcg;
-
-fn generate(kind: &str, count: usize) -> Vec<[f32; 3]> {
-    let mut rng = Pcg64Mcg::seed_from_u64(1);
-    let normal = |rng: &mut Pcg64Mcg| {
-        let (u, v): (f64, f64) = (rng.random(), rng.random());
-        (-2.0 * (1.0 - u).ln()).sqrt() * (std::f64::consts::TAU * v).cos()
-    };
-    let mut point = || -> [f64; 3] {
-        let direction = |rng: &mut Pcg64Mcg, radius: f64| {
-            let p: [f64; 3] = std::array::from_fn(|_| normal(rng));
-            let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
-            p.map(|x| x / length * radius)
-        };
-        match kind {
-            "uniform" => std::array::from_fn(|_| rng.random()),
-            "gaussian" => std::array::from_fn(|_| normal(&mut rng)),
-            "thin-sphere" => {
-                let radius = rng.random_range(1.0..1.01);
-                direction(&mut rng, radius)
-            }
-            "sphere" => direction(&mut rng, 1.0),
-            "grid" => std::array::from_fn(|_| f64::from(rng.random_range(0..512u32))),
-            _ => panic!("no distribution is called {kind:?}"),
-        }
-    };
-    (0..count).map(|_| point().map(|x| x as f32)).collect()
-}
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -59,7 +32,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let choice = if adapter.is_empty() { AdapterChoice::Default } else { AdapterChoice::Name(adapter) };
     let gpu = block_on(Gpu::open(&choice))?;
-    let points = generate(&kind, count);
+    let distribution = Distribution::ALL
+        .into_iter()
+        .find(|d| d.name() == kind)
+        .ok_or(format!("no distribution is called {kind:?}"))?;
+    let points: Vec<[f32; 3]> =
+        generate(distribution, count, option("SEED", 1).into()).into_iter().map(|p| p.map(|x| x as f32)).collect();
     let clock = std::time::Instant::now();
     let lattice = Lattice::fit((&points).into());
     let position = |i: usize| lattice.coordinates(points[i].map(f64::from)).map(|c| c.value);
@@ -83,14 +61,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     runs.remove(0);
     runs.sort_by(|a, b| a.stats.milliseconds.total_cmp(&b.stats.milliseconds));
     let all: Vec<String> = runs.iter().map(|r| format!("{:.2}", r.stats.milliseconds)).collect();
-    let Phase1Output { stats, tets, failed, united, .. } = &runs[runs.len() / 2];
+    let Phase1Output { stats, tets, failed, united, uncertain, .. } = &runs[runs.len() / 2];
     let counters = &stats.counters;
     let stages: Vec<String> = stages.iter().map(|(name, ms)| format!("\"{name}\":{ms:.3}")).collect();
     println!(
         "{{\"input\":\"{kind}\",\"points\":{count},\"adapter\":\"{}\",\"width\":\"{:?}\",\"ms\":{:.2},\"all_ms\":[{}],\
          \"mesh_readback_ms\":{:.2},\"lattice_ms\":{lattice_ms:.1},\"pipelines_ms\":{pipelines_ms:.0},\"rounds\":{},\
          \"flip_iterations\":{},\"visits\":{},\"flips_23\":{},\"flips_32\":{},\"exact\":{},\"tets\":{},\"failed\":{},\
-         \"united\":{},\"readbacks\":{},\"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
+         \"united\":{},\"uncertain\":{},\"readbacks\":{},\"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
         gpu.adapter().name,
         lattice.width(),
         stats.milliseconds,
@@ -105,6 +83,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         tets.len(),
         failed.len(),
         united.len(),
+        uncertain.len(),
         stats.readbacks,
         stats.dispatches,
         stats.bytes,

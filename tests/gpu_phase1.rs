@@ -1,15 +1,15 @@
 //! Phase 1 on the GPU: a valid triangulation after every round, and every stage against the twins of its kernels.
 #![cfg(feature = "gpu")]
 
-mod common;
+mod phase1_inputs;
 
-use common::phase1::{self as inputs, Input as Points};
 use gdel::gpu::layout::{Active, Counters, FlipNode, Status, Waiting};
 use gdel::gpu::phase1::{Input, Phase1, Pick, Run, Settings};
 use gdel::gpu::start::first_tetrahedron;
 use gdel::gpu::twin::{State, predicates::Vertex};
 use gdel::gpu::{AdapterChoice, Gpu, Readback, Storage, vertex};
 use gdel::lattice::{Lattice, Width};
+use phase1_inputs::{self as inputs, Input as Points};
 use pollster::block_on;
 
 fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {

@@ -30,6 +30,7 @@ struct Control {
     visits: u32,
     failed: atomic<u32>,
     aside: u32,
+    uncertain: atomic<u32>,
 }
 
 struct Status {

@@ -122,6 +122,8 @@ pub struct Counters {
     pub failed: u32,
     /// Points that another one stands for, because it lies at the same place.
     pub aside: u32,
+    /// Tetrahedra of which the lattice does not prove everything.
+    pub uncertain: u32,
 }
 
 /// A flip was put off because no slot was found for its third tetrahedron.

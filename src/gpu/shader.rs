@@ -13,6 +13,7 @@ macro_rules! sources {
 
 /// The files of `shaders/`, by name.
 const SOURCES: &[(&str, &str)] = sources![
+    "certify",
     "clear_votes",
     "compact",
     "fill_free",

@@ -16,7 +16,7 @@ pub const COUNTER_WORDS: usize = size_of::<Counters>() / 4;
 
 /// The buffers that the stages share; [`layout`](crate::gpu::layout) explains them.
 ///
-/// A point takes about 850 bytes: 8 slots of 80 bytes each, 3 nodes of the history of 48, and some words a point.
+/// A point takes about 950 bytes: 8.5 slots of 80 bytes each, 4 nodes of the history of 48, and some words a point.
 #[derive(Debug, Clone)]
 pub struct Buffers {
     /// Parameters and counters.

@@ -1,9 +1,13 @@
-//! The end of Phase 1: failed vertices (§3.2.1), and the mesh without gaps.
+//! The end of Phase 1: failed vertices (§3.2.1), the mesh without gaps, and what rounding leaves open.
 
 use super::scan::{GROUPS, Scan, ScanParams};
 use crate::{
     Error,
-    gpu::{Gpu, Kernel, Recorder, Storage, layout::BLOCK, phase1::Buffers},
+    gpu::{
+        Gpu, Kernel, Recorder, Storage,
+        layout::{Active, BLOCK},
+        phase1::Buffers,
+    },
     lattice::Width,
 };
 
@@ -13,6 +17,8 @@ pub struct Finish {
     mark_failed: Kernel,
     mesh_mark: Kernel,
     mesh_compact: Kernel,
+    /// Where coordinates can be rounded.
+    certify: Option<Kernel>,
     scan: Scan,
 }
 
@@ -27,6 +33,8 @@ pub struct Compacted {
     pub tet_of: Storage<u32>,
     /// Entry [`GROUPS`] is the number of tetrahedra.
     pub sums: Storage<u32>,
+    /// Tetrahedra of which the lattice does not prove everything, with what is open, as `shaders/certify.wgsl` has it.
+    pub uncertain: Storage<Active>,
 }
 
 impl Compacted {
@@ -42,6 +50,7 @@ impl Finish {
             mark_failed: kernel("mark_failed"),
             mesh_mark: kernel("mesh_mark"),
             mesh_compact: kernel("mesh_compact"),
+            certify: (width == Width::Wide).then(|| kernel("certify")),
             scan: Scan::new(gpu),
         }
     }
@@ -77,6 +86,8 @@ impl Finish {
             neighbors: Storage::new(gpu, "compacted neighbours", slots)?,
             tet_of: Storage::new(gpu, "tetrahedra of vertices", b.failed.len() + 1)?,
             sums: scan.sums().clone(),
+            // The active list is empty; its buffer has two entries a slot.
+            uncertain: b.active.clone(),
         };
         let mark = self.mesh_mark.bind(gpu, &[control, tets, marks.buffer()]);
         let compact = self.mesh_compact.bind(
@@ -95,6 +106,22 @@ impl Finish {
         recorder.dispatch(&self.mesh_mark, &mark, workgroups);
         self.scan.record(recorder, &scan);
         recorder.dispatch(&self.mesh_compact, &compact, workgroups);
+        if let Some(kernel) = &self.certify {
+            let certify = kernel.bind(
+                gpu,
+                &[
+                    control,
+                    b.points.vertices.buffer(),
+                    compacted.tets.buffer(),
+                    compacted.neighbors.buffer(),
+                    compacted.sums.buffer(),
+                    b.points.counts.buffer(),
+                    compacted.uncertain.buffer(),
+                ],
+            );
+            recorder.stage("certify");
+            recorder.dispatch(kernel, &certify, workgroups);
+        }
         Ok(compacted)
     }
 }

@@ -168,10 +168,10 @@ fn two_to_three(state: &mut State, flip: &Flip, tets: [u32; 3]) -> u32 {
             outer[1][places[1][opposite]],
         ];
     }
-    for i in 0..3 {
+    for (i, tet) in tets.into_iter().enumerate() {
         let opposite = (i + 2) % 3;
-        state.messages[u][places[0][opposite]] = 4 * tets[i] + 2;
-        state.messages[t][places[1][opposite]] = 4 * tets[i] + 3;
+        state.messages[u][places[0][opposite]] = 4 * tet + 2;
+        state.messages[t][places[1][opposite]] = 4 * tet + 3;
     }
     0
 }

@@ -20,8 +20,7 @@ pub fn start(state: &mut State, first: [u32; 4]) {
     let slot = base as usize;
     state.tets[slot] = first;
     state.neighbors[slot] = std::array::from_fn(|k| 4 * outer(k) + 3);
-    for k in 0..4 {
-        let corners = FACETS[k];
+    for (k, corners) in FACETS.iter().enumerate() {
         let slot = outer(k) as usize;
         state.tets[slot] = [first[corners[0]], first[corners[1]], first[corners[2]], infinite];
         state.neighbors[slot] = std::array::from_fn(|i| match i {

@@ -14,14 +14,14 @@ pub fn mark_failed(state: &mut State) {
         if !state.is_used(t) {
             continue;
         }
-        for k in 0..4 {
+        for (k, corners) in FACETS.iter().enumerate() {
             if state.status[t].flags >> SUSPECT_SHIFT >> k & 1 == 0 {
                 continue;
             }
             let across = state.neighbors[t][k];
             let e = state.tets[(across >> 2) as usize][(across & 3) as usize];
             if state.inside(state.tets[t], e) {
-                for corner in FACETS[k] {
+                for &corner in corners {
                     let v = state.tets[t][corner];
                     if v != state.params.infinite {
                         state.failed[v as usize] = 1;

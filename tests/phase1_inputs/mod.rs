@@ -12,7 +12,6 @@ type Point = [i64; 3];
 #[derive(Debug, Clone)]
 pub struct Input {
     pub name: &'static str,
-    pub width: Width,
     pub positions: Vec<[f64; 3]>,
     /// How many share their position with one before.
     pub sharing: usize,
@@ -25,7 +24,7 @@ fn input(name: &'static str, width: Width, mut positions: Vec<Point>) -> Input {
     // Too many bits for a narrow lattice, but not for `f64`.
     let factor = if width == Width::Wide { 0x4000_0003 } else { 1 };
     let positions = positions.into_iter().map(|q| q.map(|x| (x * factor) as f64)).collect();
-    Input { name, width, positions, sharing }
+    Input { name, positions, sharing }
 }
 
 fn random(count: usize, seed: u64, size: i64) -> Vec<Point> {
