@@ -73,7 +73,7 @@ impl Hybrid {
 
         options.report("splay", 0.8)?;
         let vertices = Vertices::new(points, &lattice, output.order.clone());
-        let (near, duplicate_of) = near_delaunay(points, &vertices, &lattice, output);
+        let (near, duplicate_of) = near_delaunay(points, &vertices, output);
         let most_signs = near.signs_from_nothing();
         let report = |share: f64| options.report("splay", 0.8 + 0.15 * share);
         let triangulation = match splay::splay(&vertices, near, most_signs, &report)? {
@@ -99,14 +99,8 @@ fn fall_back(points: Points<'_>, options: &Options, why: &'static str) -> Result
     Ok(mesh)
 }
 
-/// The result of Phase 1 in the form that splaying takes, with all that Phase 1 may have decided for rounded coordinates
-/// marked as doubtful; and what duplicates what.
-fn near_delaunay(
-    points: Points<'_>,
-    vertices: &Vertices<'_>,
-    lattice: &Lattice,
-    output: Phase1Output,
-) -> (NearDelaunay, Vec<i32>) {
+/// The result of Phase 1 in the form that splaying takes, and what duplicates what.
+fn near_delaunay(points: Points<'_>, vertices: &Vertices<'_>, output: Phase1Output) -> (NearDelaunay, Vec<i32>) {
     let infinite = points.len() as u32;
     let mut duplicate_of = vec![NONE; points.len()];
     let missing = missing_points(points, &output.united, &mut duplicate_of);
@@ -118,14 +112,10 @@ fn near_delaunay(
         }
     }
     let triangulation = Triangulation::new(output.tets, output.neighbors, infinite);
-    let rounded = |v: u32| v != infinite && lattice.coordinates(vertices.point(v)).iter().any(|c| !c.exact);
     let mut doubtful = triangulation.flat_or_inverted(vertices);
-    if lattice.width() == Width::Wide && (0..infinite).any(rounded) {
-        let tetrahedra = (0..).zip(triangulation.tetrahedra());
-        doubtful.extend(tetrahedra.filter(|(_, tet)| tet.iter().any(|&v| rounded(v))).map(|(t, _)| t));
-        doubtful.sort_unstable();
-        doubtful.dedup();
-    }
+    doubtful.extend(output.uncertain.iter().map(|&[t, _]| t));
+    doubtful.sort_unstable();
+    doubtful.dedup();
     let mut incident = output.tet_of;
     incident.truncate(points.len());
     let missing = missing.iter().map(|&i| vertex_of[i as usize]).collect();
