@@ -75,12 +75,6 @@ fn scale(x: f64, exponent: i32) -> (i128, bool) {
     }
 }
 
-/// Whether x·2^exponent is an integer.
-fn is_exact(x: f64, exponent: i32) -> bool {
-    let (mantissa, e) = decompose(x);
-    mantissa == 0 || e + exponent >= 0
-}
-
 impl Lattice {
     /// The lattice of `points`, which must be finite.
     pub fn fit(points: Points<'_>) -> Self {
@@ -106,7 +100,7 @@ impl Lattice {
             Lattice { width, exponent, factor, origin }
         };
         let narrow = lattice(Width::Narrow);
-        let exact = points.iter().all(|p| (0..3).all(|axis| !varies[axis] || is_exact(p[axis], narrow.exponent)));
+        let exact = points.iter().all(|p| narrow.coordinates(p).iter().all(|c| c.exact));
         if exact { narrow } else { lattice(Width::Wide) }
     }
 

@@ -19,6 +19,8 @@ pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod hilbert;
+#[cfg(feature = "gpu")]
+pub mod hybrid;
 #[cfg(feature = "io")]
 pub mod io;
 pub mod lattice;
@@ -26,7 +28,9 @@ pub mod mesh;
 pub mod options;
 pub mod points;
 pub mod predicates;
+pub mod splay;
 pub mod stats;
+pub mod triangulation;
 pub mod verify;
 
 pub use error::Error;
@@ -47,7 +51,14 @@ pub use points::Points;
 /// [`Error::NotFinite`] names the first coordinate that is NaN or infinite, [`Error::TooManyPoints`] says what would
 /// fit, and [`Error::Cancelled`] follows a progress callback that broke off.
 pub fn delaunay3d<'a>(points: impl Into<Points<'a>>, options: &Options) -> Result<Mesh3, Error> {
-    cpu::delaunay3d(points.into(), options)
+    match options.engine {
+        Engine::Auto | Engine::Cpu => cpu::delaunay3d(points.into(), options),
+        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+        Engine::Gpu => pollster::block_on(async {
+            let gpu = gpu::Gpu::open(&gpu::AdapterChoice::Default).await?;
+            hybrid::Hybrid::new(gpu).await?.delaunay3d(points.into(), options).await
+        }),
+    }
 }
 
 /// Compiles and runs the README's example.

@@ -5,11 +5,15 @@ use std::{fmt, ops::ControlFlow, sync::Arc};
 /// Which engine computes the triangulation. All give the same set of tetrahedra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Engine {
-    /// The fastest that this machine has.
+    /// The CPU engine, for now.
     #[default]
     Auto,
     /// Incremental insertion on one core.
     Cpu,
+    /// Flipping on the graphics card, splaying on the CPU. Opens the default adapter anew in every call: those with more
+    /// than one input keep a [`Hybrid`](crate::hybrid::Hybrid).
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    Gpu,
 }
 
 /// How far a run has come.

@@ -3,8 +3,10 @@
 /// How a mesh came about.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Stats {
-    /// The engine that made the mesh: `"cpu"`.
+    /// The engine that made the mesh: `"cpu"` or `"gpu"`.
     pub engine: &'static str,
+    /// Why the CPU engine took over, where another was asked for.
+    pub fallback: Option<&'static str>,
     /// The phases in the order in which they ran, with the seconds that each took. Zeros where there is no clock
     /// (wasm, where the caller has one).
     pub phases: Vec<(&'static str, f64)>,

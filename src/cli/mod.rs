@@ -8,7 +8,7 @@ mod verify;
 
 use clap::{Parser, Subcommand};
 use gdel::io::files::FileError;
-use std::{io, path::PathBuf, process::ExitCode};
+use std::{io, panic, path::PathBuf, process::ExitCode};
 
 /// Exact 3D Delaunay triangulation of point clouds.
 #[derive(Parser)]
@@ -40,6 +40,12 @@ enum Failure {
 
 /// Parses the arguments (clap exits with 2 when they are wrong) and runs the command.
 pub(crate) fn main() -> ExitCode {
+    let report = panic::take_hook();
+    panic::set_hook(Box::new(move |info| {
+        if !gdel::io::panics_are_caught() {
+            report(info);
+        }
+    }));
     let result = match Cli::parse().command {
         Command::Triangulate(arguments) => triangulate::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),

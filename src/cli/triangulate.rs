@@ -43,10 +43,13 @@ pub(super) struct Arguments {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum EngineName {
-    /// The fastest that this machine has
+    /// The CPU engine, for now
     Auto,
     /// Incremental insertion on one core
     Cpu,
+    /// Flipping on the graphics card, splaying on the CPU
+    #[cfg(feature = "gpu")]
+    Gpu,
 }
 
 impl From<EngineName> for Engine {
@@ -54,6 +57,8 @@ impl From<EngineName> for Engine {
         match name {
             EngineName::Auto => Engine::Auto,
             EngineName::Cpu => Engine::Cpu,
+            #[cfg(feature = "gpu")]
+            EngineName::Gpu => Engine::Gpu,
         }
     }
 }

@@ -6,41 +6,17 @@
 use super::adjacency::EdgeMap;
 use crate::{
     Error, Options,
-    mesh::{FACETS, NONE},
+    mesh::FACETS,
     predicates::vertices::Vertices,
+    triangulation::{MOST_TETRAHEDRA, Triangulation, state},
 };
 
-/// Tetrahedra are numbered below 2³⁰, since a neighbour is packed with its facet into 32 bits.
-const MOST_TETRAHEDRA: usize = 1 << 30;
 /// The most points that the engine takes: none of the usual inputs has 8 tetrahedra a point.
 pub(super) const MOST_POINTS: usize = MOST_TETRAHEDRA / 8;
 /// Tetrahedra of a uniform distribution per point: 6.77, and some ghosts.
 const EXPECTED_TETRAHEDRA: usize = 7;
 /// How often progress is reported, in points.
 const REPORT: usize = 1 << 12;
-
-/// What the insertion of the current point has found out about a tetrahedron: the two highest bits of its first vertex,
-/// so that no other cache line need be fetched for them.
-mod state {
-    pub(super) const MASK: u32 = 3 << 30;
-    pub(super) const UNKNOWN: u32 = 0;
-    /// The circumsphere holds the point.
-    pub(super) const CONFLICT: u32 = 1 << 30;
-    /// It does not, but a neighbour's does.
-    pub(super) const BEYOND: u32 = 2 << 30;
-    /// The slot is unused.
-    pub(super) const FREE: u32 = 3 << 30;
-}
-
-/// A growing triangulation.
-pub(super) struct Inserted {
-    /// Vertices, positively oriented, with a [`state`] in the first. A ghost has the infinite vertex last, and is oriented as if that lay outside.
-    tetrahedra: Vec<[u32; 4]>,
-    /// Across the facet opposite vertex *k*: 4·(tetrahedron) + (facet seen from there).
-    neighbors: Vec<[u32; 4]>,
-    /// The infinite vertex: the number of vertices.
-    infinite: u32,
-}
 
 /// A facet of a cavity.
 #[derive(Clone, Copy)]
@@ -62,87 +38,69 @@ struct Scratch {
 }
 
 /// Triangulates all vertices, of which the first four are positively oriented.
-pub(super) fn insert_all(vertices: &Vertices<'_>, options: &Options) -> Result<Inserted, Error> {
+pub(crate) fn insert_all(vertices: &Vertices<'_>, options: &Options) -> Result<Triangulation, Error> {
     let n = vertices.len();
-    let mut mesh = Inserted::initial(n as u32);
-    let expected = n * EXPECTED_TETRAHEDRA;
-    mesh.reserve(expected)?;
+    let mut mesh = initial(n as u32);
+    mesh.reserve(n * EXPECTED_TETRAHEDRA)?;
+    let report = |inserted: usize| options.report("insert", (4 + inserted) as f64 / n as f64);
+    insert_points(&mut mesh, vertices, 4..n as u32, 0, report)?;
+    Ok(mesh)
+}
+
+/// Inserts vertices that a Delaunay triangulation does not have yet; best if neighbours in the order are neighbours in
+/// space, and `start` is a tetrahedron near the first. `report` learns now and then how many are inserted, and can stop.
+pub(crate) fn insert_points(
+    mesh: &mut Triangulation,
+    vertices: &Vertices<'_>,
+    points: impl IntoIterator<Item = u32>,
+    start: u32,
+    report: impl Fn(usize) -> Result<(), Error>,
+) -> Result<(), Error> {
     let mut scratch = Scratch {
         conflict: Vec::new(),
         boundary: Vec::new(),
         filled: Vec::new(),
         free: Vec::new(),
-        edges: EdgeMap::new(n + 1),
+        edges: EdgeMap::new(vertices.len() + 1),
     };
-    let mut last = 0;
-    for p in 4..n {
-        if p % REPORT == 0 {
-            options.report("insert", p as f64 / n as f64)?;
+    let mut last = start;
+    for (inserted, p) in points.into_iter().enumerate() {
+        if inserted % REPORT == 0 {
+            report(inserted)?;
         }
-        let start = mesh.locate(vertices, p as u32, last);
-        last = mesh.insert(vertices, p as u32, start, &mut scratch)?;
+        let start = mesh.locate(vertices, p, last);
+        last = mesh.insert(vertices, p, start, &mut scratch)?;
     }
     for slot in scratch.free {
-        mesh.tetrahedra[slot as usize][0] = state::FREE;
+        mesh.set_state(slot, state::FREE);
     }
-    Ok(mesh)
+    Ok(())
 }
 
-impl Inserted {
-    /// One tetrahedron of the vertices 0 to 3, and the four ghosts on its facets.
-    fn initial(infinite: u32) -> Self {
-        let mut mesh = Inserted { tetrahedra: vec![[0, 1, 2, 3]], neighbors: vec![[0; 4]], infinite };
-        for (k, facet) in FACETS.iter().enumerate() {
-            let [a, b, c] = facet.map(|v| v as u32);
-            mesh.tetrahedra.push([a, b, c, infinite]);
-            mesh.neighbors.push([0; 4]);
-            mesh.join(k as u32, 4 * (k as u32 + 1) + 3);
+/// One tetrahedron of the vertices 0 to 3, and the four ghosts on its facets.
+fn initial(infinite: u32) -> Triangulation {
+    let mut mesh = Triangulation { tetrahedra: vec![[0, 1, 2, 3]], neighbors: vec![[0; 4]], infinite };
+    for (k, facet) in FACETS.iter().enumerate() {
+        let [a, b, c] = facet.map(|v| v as u32);
+        mesh.tetrahedra.push([a, b, c, infinite]);
+        mesh.neighbors.push([0; 4]);
+        mesh.join(k as u32, 4 * (k as u32 + 1) + 3);
+    }
+    // Ghosts i and j share the facet opposite i's corner j and j's corner i.
+    for i in 0..4u32 {
+        for j in 0..i {
+            let facet = |ghost: u32, corner: u32| {
+                let place = mesh.tetrahedra[ghost as usize + 1].iter().position(|&v| v == corner);
+                4 * (ghost + 1) + place.map_or(0, |k| k as u32)
+            };
+            let (f, g) = (facet(i, j), facet(j, i));
+            mesh.join(f, g);
         }
-        // Ghosts i and j share the facet opposite i's corner j and j's corner i.
-        for i in 0..4u32 {
-            for j in 0..i {
-                let facet = |ghost: u32, corner: u32| {
-                    let place = mesh.tetrahedra[ghost as usize + 1].iter().position(|&v| v == corner);
-                    4 * (ghost + 1) + place.map_or(0, |k| k as u32)
-                };
-                let (f, g) = (facet(i, j), facet(j, i));
-                mesh.join(f, g);
-            }
-        }
-        mesh
     }
+    mesh
+}
 
-    fn reserve(&mut self, tetrahedra: usize) -> Result<(), Error> {
-        let more = tetrahedra.saturating_sub(self.tetrahedra.len());
-        self.tetrahedra
-            .try_reserve_exact(more)
-            .and_then(|()| self.neighbors.try_reserve_exact(more))
-            .map_err(|_| Error::OutOfMemory { tetrahedra })
-    }
-
-    fn join(&mut self, f: u32, g: u32) {
-        self.neighbors[f as usize / 4][f as usize % 4] = g;
-        self.neighbors[g as usize / 4][g as usize % 4] = f;
-    }
-
-    fn vertices(&self, t: u32) -> [u32; 4] {
-        let [a, b, c, d] = self.tetrahedra[t as usize];
-        [a & !state::MASK, b, c, d]
-    }
-
-    fn state(&self, t: u32) -> u32 {
-        self.tetrahedra[t as usize][0] & state::MASK
-    }
-
-    fn set_state(&mut self, t: u32, state: u32) {
-        let first = &mut self.tetrahedra[t as usize][0];
-        *first = *first & !state::MASK | state;
-    }
-
-    fn is_ghost(&self, t: u32) -> bool {
-        self.tetrahedra[t as usize][3] == self.infinite
-    }
-
+impl Triangulation {
     /// A tetrahedron that holds vertex `p`, or a ghost whose facet sees it: a walk that crosses facets towards `p` from
     /// tetrahedron `start`. It ends, since the power distance to `p` falls with every step.
     fn locate(&self, vertices: &Vertices<'_>, p: u32, start: u32) -> u32 {
@@ -238,62 +196,5 @@ impl Inserted {
                 boundary.push(Facet { corners, beyond });
             }
         }
-    }
-
-    fn push(&mut self) -> Result<u32, Error> {
-        let count = self.tetrahedra.len();
-        if count == MOST_TETRAHEDRA {
-            return Err(Error::TooManyTetrahedra { limit: MOST_TETRAHEDRA });
-        }
-        if count == self.tetrahedra.capacity() {
-            self.reserve((count + count / 2).min(MOST_TETRAHEDRA))?;
-        }
-        self.tetrahedra.push([0; 4]);
-        self.neighbors.push([0; 4]);
-        Ok(count as u32)
-    }
-
-    /// Tetrahedra and neighbours without ghosts and unused slots, in the arrays where they lie; vertex *v* becomes
-    /// `names[v]`.
-    pub(super) fn into_mesh(mut self, names: Vec<u32>) -> (Vec<[u32; 4]>, Vec<[i32; 4]>) {
-        const OUTSIDE: u32 = u32::MAX;
-        for t in 0..self.tetrahedra.len() as u32 {
-            if self.state(t) != state::FREE && self.is_ghost(t) {
-                let inside = self.neighbors[t as usize][3];
-                self.neighbors[inside as usize / 4][inside as usize % 4] = OUTSIDE;
-                self.set_state(t, state::FREE);
-            }
-        }
-        let mut count = self.tetrahedra.len();
-        let mut t = 0;
-        while t < count {
-            if self.state(t as u32) != state::FREE {
-                t += 1;
-                continue;
-            }
-            // The last tetrahedron moves into the gap, and its neighbours are told.
-            count -= 1;
-            if self.state(count as u32) != state::FREE {
-                self.tetrahedra[t] = self.tetrahedra[count];
-                self.neighbors[t] = self.neighbors[count];
-                for k in 0..4 {
-                    let across = self.neighbors[t][k];
-                    if across != OUTSIDE {
-                        self.neighbors[across as usize / 4][across as usize % 4] = 4 * t as u32 + k as u32;
-                    }
-                }
-            }
-        }
-        let Inserted { mut tetrahedra, mut neighbors, .. } = self;
-        tetrahedra.truncate(count);
-        neighbors.truncate(count);
-        for v in tetrahedra.as_flattened_mut() {
-            *v = names[*v as usize];
-        }
-        let mut neighbors: Vec<[i32; 4]> = bytemuck::cast_vec(neighbors);
-        for n in neighbors.as_flattened_mut() {
-            *n = if *n as u32 == OUTSIDE { NONE } else { (*n as u32 >> 2) as i32 };
-        }
-        (tetrahedra, neighbors)
     }
 }

@@ -3,7 +3,7 @@
 //! `points → lattice → insertion order → insert → drop the ghosts → input indices → mesh`
 
 mod adjacency;
-mod insert;
+pub(crate) mod insert;
 mod order;
 
 pub use order::Order;
@@ -48,7 +48,7 @@ pub fn delaunay3d_in_order(points: Points<'_>, options: &Options, order: Order) 
         let inserted = insert::insert_all(&vertices, options)?;
         stats.phases.push(("insert", stopwatch.lap()));
         stats.exact = vertices.exact_counts();
-        (mesh.tetrahedra, mesh.neighbors) = inserted.into_mesh(vertices.into_input_indices());
+        (mesh.tetrahedra, mesh.neighbors) = inserted.into_mesh(&vertices.into_input_indices());
         mesh.hull = hull_of(&mesh.tetrahedra, &mesh.neighbors);
         stats.phases.push(("finish", stopwatch.lap()));
     }

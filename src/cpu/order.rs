@@ -20,8 +20,8 @@ pub(super) struct Distinct {
     pub(super) duplicate_of: Vec<i32>,
 }
 
-/// Bits of a coordinate that one sorting key covers.
-const KEY_BITS: u32 = 20;
+/// Bits of a coordinate that one sorting key covers: three times as many fit beside an index in 64 bits.
+const KEY_BITS: u32 = 10;
 
 /// Each round of the insertion takes this many bits' power of the points that the next one takes.
 const ROUND_BITS: u32 = 3;
@@ -54,20 +54,21 @@ pub(super) fn insertion_order(points: Points<'_>, lattice: &Lattice, order: Orde
 /// All points along the Hilbert curve; where lattice cells coincide, by coordinates and then by index.
 fn hilbert_order(points: Points<'_>, lattice: &Lattice) -> Vec<u32> {
     let bits = lattice.width().bits();
-    let cell = |i: u32, done: u32| {
-        lattice.coordinates(points.get(i as usize)).map(|c| {
-            let rest = c.value as u64 & ((1 << (bits - done)) - 1);
-            (rest >> (bits - done).saturating_sub(KEY_BITS)) as u32
-        })
+    // A point's place on the curve through the cells of the next `KEY_BITS` bits after `done`, above its index.
+    let key = |i: u32, done: u32| {
+        let left = bits - done;
+        let cell = lattice
+            .coordinates(points.get(i as usize))
+            .map(|c| ((c.value as u64 & ((1 << left) - 1)) >> left.saturating_sub(KEY_BITS)) as u32);
+        hilbert::index(cell, KEY_BITS.min(left)) << 32 | u64::from(i)
     };
-    let mut keyed: Vec<(u64, u32)> =
-        (0..points.len() as u32).map(|i| (hilbert::index(cell(i, 0), KEY_BITS), i)).collect();
+    let mut keyed: Vec<u64> = (0..points.len() as u32).map(|i| key(i, 0)).collect();
     keyed.sort_unstable();
-    // Runs of equal keys are sorted by the bits that the key did not cover; a run has its start, end and covered bits.
+    // Runs of equal keys are sorted by the bits that the keys did not cover; a run has its start, end and covered bits.
     let mut runs = Vec::new();
-    let push_runs = |keyed: &[(u64, u32)], start: usize, done: u32, runs: &mut Vec<_>| {
+    let push_runs = |keyed: &[u64], start: usize, done: u32, runs: &mut Vec<_>| {
         let mut at = start;
-        for run in keyed.chunk_by(|a, b| a.0 == b.0) {
+        for run in keyed.chunk_by(|a, b| a >> 32 == b >> 32) {
             if run.len() > 1 {
                 runs.push((at, at + run.len(), done));
             }
@@ -78,21 +79,21 @@ fn hilbert_order(points: Points<'_>, lattice: &Lattice) -> Vec<u32> {
     while let Some((start, end, done)) = runs.pop() {
         let run = &mut keyed[start..end];
         if done < bits {
-            let next = KEY_BITS.min(bits - done);
             for entry in run.iter_mut() {
-                entry.0 = hilbert::index(cell(entry.1, done), next);
+                *entry = key(*entry as u32, done);
             }
             run.sort_unstable();
-            push_runs(run, start, done + next, &mut runs);
+            push_runs(run, start, done + KEY_BITS.min(bits - done), &mut runs);
         } else {
-            run.sort_unstable_by(|&(_, i), &(_, j)| {
+            run.sort_unstable_by(|&i, &j| {
+                let (i, j) = (i as u32, j as u32);
                 let (p, q) = (points.get(i as usize), points.get(j as usize));
                 // −0 and 0 are the same coordinate.
                 p.partial_cmp(&q).unwrap_or(std::cmp::Ordering::Equal).then(i.cmp(&j))
             });
         }
     }
-    keyed.into_iter().map(|(_, i)| i).collect()
+    keyed.into_iter().map(|entry| entry as u32).collect()
 }
 
 /// Splits an order into rounds at random, keeping the order within each; small rounds first.

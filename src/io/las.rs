@@ -7,9 +7,20 @@ use super::{FormatError, PointBuf, PointCloud};
 use las::raw;
 use laz::{LazItemType, LazVlr};
 use std::{
+    cell::Cell,
     io::Cursor,
     panic::{AssertUnwindSafe, catch_unwind},
 };
+
+thread_local! {
+    static PANICS_ARE_CAUGHT: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether this thread runs a decoder whose panics become errors. A program's panic hook asks this to know when to be
+/// silent.
+pub fn panics_are_caught() -> bool {
+    PANICS_ARE_CAUGHT.get()
+}
 
 /// The extended variable-length records' place and number, in the header of LAS 1.4.
 const EVLR: std::ops::Range<usize> = 235..247;
@@ -24,7 +35,10 @@ pub(super) fn read(mut bytes: Vec<u8>) -> Result<PointCloud, FormatError> {
         // Nothing in these is about coordinates, and the crate allocates what they say.
         bytes[EVLR].fill(0);
     }
-    catch_unwind(AssertUnwindSafe(|| decode(bytes))).unwrap_or_else(|_| {
+    PANICS_ARE_CAUGHT.set(true);
+    let result = catch_unwind(AssertUnwindSafe(|| decode(bytes)));
+    PANICS_ARE_CAUGHT.set(false);
+    result.unwrap_or_else(|_| {
         Err(FormatError::byte(header.offset_to_point_data as usize, "the compressed data is broken"))
     })
 }

@@ -26,6 +26,7 @@ mod vtu;
 
 pub use error::{FormatError, Position};
 pub use format::{HullFormat, MeshFormat, PointFormat};
+pub use las::panics_are_caught;
 pub use mesh_data::MeshData;
 pub use npz::{read_npz, write_npz};
 pub use obj::write_hull_obj;

@@ -3,7 +3,7 @@
 use super::{FormatError, PointBuf, PointCloud, mesh_data::HullSurface};
 use crate::{Mesh3, Points};
 use serde::{Deserialize, de::IgnoredAny};
-use serde_ply::{DeserializeError, PlyFormat, PlyReader, PropertyType, ScalarType};
+use serde_ply::{DeserializeError, ElementDef, PlyFormat, PlyReader, PropertyType, ScalarType};
 use std::io::{self, BufRead, ErrorKind, Read, Write};
 
 #[derive(Deserialize)]
@@ -53,36 +53,45 @@ enum ElementError {
 fn read_elements(input: impl BufRead) -> Result<PointBuf, ElementError> {
     let data = |element: &str, error: &DeserializeError| ElementError::Data(format!("{element}: {}", describe(error)));
     let mut reader = PlyReader::from_reader(input).map_err(|error| data("header", &error))?;
-    let mut points = None;
-    while let Some(element) = reader.current_element() {
-        let name = element.name.clone();
-        if element.properties.is_empty() && element.count > 0 {
-            // There would be no end of these: they take no bytes.
-            return Err(ElementError::Header(format!("the element `{name}` has no properties")));
-        }
-        if name == "vertex" && points.is_none() {
-            let is_single = ["x", "y", "z"].map(|axis| match element.get_property(axis).map(|p| &p.property_type) {
-                Some(PropertyType::Scalar(ScalarType::F64 | ScalarType::I32 | ScalarType::U32)) => Ok(false),
-                Some(PropertyType::Scalar(_)) => Ok(true),
-                Some(PropertyType::List { .. }) => {
-                    Err(ElementError::Header(format!("the vertices' property `{axis}` is a list")))
-                }
-                None => Err(ElementError::Header(format!("the vertices have no property `{axis}`"))),
-            });
-            let [x, y, z] = is_single;
-            points = Some(if x? & y? & z? {
-                let vertices = reader.next_element::<Vec<Vertex<f32>>>().map_err(|error| data(&name, &error))?;
-                PointBuf::F32(vertices.into_iter().map(Into::into).collect())
-            } else {
-                let vertices = reader.next_element::<Vec<Vertex<f64>>>().map_err(|error| data(&name, &error))?;
-                PointBuf::F64(vertices.into_iter().map(Into::into).collect())
-            });
-        } else {
+    let elements = &reader.header().elem_defs;
+    if let Some(endless) = elements.iter().find(|element| element.properties.is_empty() && element.count > 0) {
+        // There would be no end of these: they take no bytes.
+        return Err(ElementError::Header(format!("the element `{}` has no properties", endless.name)));
+    }
+    let vertex = elements.iter().position(|element| element.name == "vertex");
+    let vertex = vertex.ok_or_else(|| ElementError::Header("there is no element `vertex`".into()))?;
+    let is_single = coordinates_are_single(&elements[vertex]).map_err(ElementError::Header)?;
+    let names: Vec<String> = elements.iter().map(|element| element.name.clone()).collect();
+
+    let mut points = PointBuf::F32(Vec::new());
+    for (i, name) in names.iter().enumerate() {
+        let in_element = |error| data(name, &error);
+        if i != vertex {
             // Those after the vertices are read too: a file that ends in them is broken, and its user should know.
-            reader.next_element::<Skipped>().map_err(|error| data(&name, &error))?;
+            reader.next_element::<Skipped>().map_err(in_element)?;
+        } else if is_single {
+            let vertices = reader.next_element::<Vec<Vertex<f32>>>().map_err(in_element)?;
+            points = PointBuf::F32(vertices.into_iter().map(Into::into).collect());
+        } else {
+            let vertices = reader.next_element::<Vec<Vertex<f64>>>().map_err(in_element)?;
+            points = PointBuf::F64(vertices.into_iter().map(Into::into).collect());
         }
     }
-    points.ok_or_else(|| ElementError::Header("there is no element `vertex`".into()))
+    Ok(points)
+}
+
+/// Whether `f32` holds every value of x, y and z.
+fn coordinates_are_single(vertex: &ElementDef) -> Result<bool, String> {
+    let mut all_single = true;
+    for axis in ["x", "y", "z"] {
+        all_single &= match vertex.get_property(axis).map(|property| &property.property_type) {
+            Some(PropertyType::Scalar(ScalarType::F64 | ScalarType::I32 | ScalarType::U32)) => false,
+            Some(PropertyType::Scalar(_)) => true,
+            Some(PropertyType::List { .. }) => return Err(format!("the vertices' property `{axis}` is a list")),
+            None => return Err(format!("the vertices have no property `{axis}`")),
+        };
+    }
+    Ok(all_single)
 }
 
 /// Rows of whatever properties, read and dropped.

@@ -1,7 +1,7 @@
 //! VTK's XML unstructured grid.
 //!
-//! Written and read here, with `quick-xml` for the XML: `vtkio`'s last release is from 2021 and builds on parsers of
-//! 2017.
+//! Written and read here, with `quick-xml` for the XML: the newest `vtkio` (0.7) is a
+//! release candidate.
 
 use super::{FormatError, MeshData, error::quote};
 use crate::{Mesh3, Points};

@@ -44,42 +44,49 @@ enum ExactStage {
     Wide { lattice: Vec<[i64; 3]>, rounded: Option<Vec<bool>> },
 }
 
-/// x·2^exponent; exact unless the result is subnormal.
-fn scale(x: f64, exponent: i32) -> f64 {
-    let power = |e: i32| f64::from_bits(((1023 + e) as u64) << 52);
-    let half = exponent.clamp(-2000, 2000) / 2;
-    let quarter = half / 2;
-    x * power(quarter) * power(half - quarter) * power(quarter) * power(exponent.clamp(-2000, 2000) - half - quarter)
+/// Multiplication by a power of two that `f64` need not have, as two that it has.
+struct Scale([f64; 2]);
+
+impl Scale {
+    fn new(exponent: i32) -> Self {
+        // |exponent| is at most 62 + 1074.
+        let half = exponent.clamp(-2000, 2000) / 2;
+        Scale([half, exponent.clamp(-2000, 2000) - half].map(|e| f64::from_bits(((1023 + e) as u64) << 52)))
+    }
+
+    /// Exact unless the result is subnormal.
+    fn apply(&self, x: f64) -> f64 {
+        x * self.0[0] * self.0[1]
+    }
 }
 
 impl<'a> Vertices<'a> {
     /// Vertex *v* is `input` point `indices[v]`. The points must be finite and `lattice` fitted to them.
     pub fn new(input: Points<'a>, lattice: &Lattice, indices: Vec<u32>) -> Self {
-        let point = |&i: &u32| input.get(i as usize);
-        let (coordinates, exact): (Vec<_>, _) = match lattice.width() {
+        let mut coordinates = Vec::with_capacity(indices.len());
+        let exact = match lattice.width() {
             Width::Narrow => {
-                let narrow = |i| lattice.coordinates(point(i)).map(|c| c.value as f64);
-                (indices.iter().map(narrow).collect(), ExactStage::Narrow)
+                let narrow = |&i: &u32| lattice.coordinates(input.get(i as usize)).map(|c| c.value as f64);
+                coordinates.extend(indices.iter().map(narrow));
+                ExactStage::Narrow
             }
             Width::Wide => {
                 let exponent = lattice.exponent() - (Width::Wide.bits() - Width::Narrow.bits()) as i32;
+                let scale = Scale::new(exponent);
                 let varies = lattice.varies();
-                let scaled = |i| {
-                    let p = point(i);
-                    std::array::from_fn(|axis| if varies[axis] { scale(p[axis], exponent) } else { 0.0 })
-                };
-                let coordinates = indices.iter().map(scaled).collect();
+                let mut words = Vec::with_capacity(indices.len());
                 let mut rounded = Vec::new();
-                let words = indices.iter().enumerate().map(|(v, i)| {
-                    let q = lattice.coordinates(point(i));
+                for (v, &i) in indices.iter().enumerate() {
+                    let p = input.get(i as usize);
+                    coordinates.push(std::array::from_fn(|axis| if varies[axis] { scale.apply(p[axis]) } else { 0.0 }));
+                    let q = lattice.coordinates(p);
+                    words.push(q.map(|c| c.value));
                     if q.iter().any(|c| !c.exact) {
                         rounded.resize(indices.len(), false);
                         rounded[v] = true;
                     }
-                    q.map(|c| c.value)
-                });
-                let words = words.collect();
-                (coordinates, ExactStage::Wide { lattice: words, rounded: (!rounded.is_empty()).then_some(rounded) })
+                }
+                ExactStage::Wide { lattice: words, rounded: (!rounded.is_empty()).then_some(rounded) }
             }
         };
         let mut low = [f64::INFINITY; 3];
@@ -91,9 +98,8 @@ impl<'a> Vertices<'a> {
             }
         }
         let [x, y, z] = std::array::from_fn(|axis| (high[axis] - low[axis]).max(0.0));
-        // The permanents are at most 6·x·y·z and 4·(x² + y² + z²)·6·x·y·z; the last factor covers the roundings here.
-        let orient3d_bound = ORIENT3D * 6.0 * x * y * z * (1.0 + 64.0 * EPSILON) + UNDERFLOW;
-        let insphere_bound = INSPHERE * 24.0 * x * y * z * (x * x + y * y + z * z) * (1.0 + 64.0 * EPSILON) + UNDERFLOW;
+        let orient3d_bound = orient3d_bound([x, y, z]);
+        let insphere_bound = insphere_bound([x, y, z]);
         Vertices { input, indices, coordinates, exact, orient3d_bound, insphere_bound, counts: Cell::default() }
     }
 
@@ -142,7 +148,6 @@ impl<'a> Vertices<'a> {
         self.orient3d_unfiltered([a, b, c, d], u, v, w, det)
     }
 
-    #[cold]
     #[inline(never)]
     fn orient3d_unfiltered(&self, vertices: [u32; 4], u: [f64; 3], v: [f64; 3], w: [f64; 3], det: f64) -> Sign {
         let perm = |i: usize, j: usize| (v[i] * w[j]).abs() + (v[j] * w[i]).abs();
@@ -175,7 +180,7 @@ impl<'a> Vertices<'a> {
 
     /// Positive when e is inside the sphere through the positively oriented a, b, c, d. Ties are broken symbolically:
     /// never zero for five different vertices, at least four of which are not coplanar.
-    #[inline]
+    #[inline(always)]
     pub fn insphere(&self, [a, b, c, d]: [u32; 4], e: u32) -> Sign {
         let pe = self.coordinates[e as usize];
         let [pa, pb, pc, pd] = [a, b, c, d].map(|v| minus(self.coordinates[v as usize], pe));
@@ -186,9 +191,12 @@ impl<'a> Vertices<'a> {
         self.insphere_unfiltered([a, b, c, d, e], [pa, pb, pc, pd], det)
     }
 
-    #[cold]
     #[inline(never)]
     fn insphere_unfiltered(&self, vertices: [u32; 5], [a, b, c, d]: [[f64; 3]; 4], det: f64) -> Sign {
+        let extent = |axis: usize| a[axis].abs().max(b[axis].abs()).max(c[axis].abs().max(d[axis].abs()));
+        if det.abs() > insphere_bound([extent(0), extent(1), extent(2)]) {
+            return if det > 0.0 { 1 } else { -1 };
+        }
         if det.abs() > INSPHERE * insphere_permanent(a, b, c, d) + UNDERFLOW {
             return if det > 0.0 { 1 } else { -1 };
         }
@@ -228,6 +236,18 @@ impl<'a> Vertices<'a> {
         *field(&mut counts) += 1;
         self.counts.set(counts);
     }
+}
+
+/// The error of an orientation's floating-point value where no difference of coordinates exceeds x, y and z: the permanent
+/// is at most 6·x·y·z. The last factor covers the roundings here.
+fn orient3d_bound([x, y, z]: [f64; 3]) -> f64 {
+    ORIENT3D * 6.0 * x * y * z * (1.0 + 64.0 * EPSILON) + UNDERFLOW
+}
+
+/// Likewise for an in-sphere determinant, whose permanent is at most 4·(x² + y² + z²)·6·x·y·z.
+#[inline]
+fn insphere_bound([x, y, z]: [f64; 3]) -> f64 {
+    INSPHERE * 24.0 * x * y * z * (x * x + y * y + z * z) * (1.0 + 64.0 * EPSILON) + UNDERFLOW
 }
 
 fn unrounded(rounded: &Option<Vec<bool>>, vertices: &[u32]) -> bool {
@@ -332,7 +352,7 @@ mod tests {
             }
             p
         })), scale in -1100i32..900, nudge: bool) {
-            let mut points = points.map(|p| p.map(|x| super::scale(x, scale)));
+            let mut points = points.map(|p| p.map(|x| Scale::new(scale).apply(x)));
             if nudge { points[2][0] = points[2][0].next_up(); }
             agree(&points)?;
         }

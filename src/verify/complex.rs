@@ -15,6 +15,18 @@ pub(super) struct Side {
     pub(super) k: usize,
 }
 
+/// One side of a facet, as met in the star of the facet's lowest vertex.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct FacetSide {
+    /// The facet's other vertices, ascending.
+    others: [u32; 2],
+    tetrahedron: u32,
+    /// The vertex of the tetrahedron that the facet is opposite to, 0 to 3.
+    k: u8,
+    /// Which way the ascending vertices turn, as seen from outside the tetrahedron.
+    turn: bool,
+}
+
 /// Tetrahedra with the adjacency that follows from their vertices.
 #[derive(Default)]
 pub(super) struct Complex<'a> {
@@ -51,10 +63,12 @@ impl<'a> Complex<'a> {
         let across = vec![[OUTSIDE; 4]; tetrahedra.len()];
         let mut complex = Complex { tetrahedra, across, ..Complex::default() };
         let stars = LowerStars::new(tetrahedra, points);
-        // Every edge and every facet is met in the star of its lowest vertex.
+        // Every edge and every facet is met in the star of its lowest vertex. Vertices in the order in which they appear
+        // are near each other, and so are their tetrahedra in memory.
+        let order = first_appearances(tetrahedra, points);
         let mut seen_from = vec![OUTSIDE; points];
         let mut facets = Vec::new();
-        for v in 0..points as u32 {
+        for &v in &order {
             facets.clear();
             for &t in stars.of(v) {
                 let vertices = tetrahedra[t as usize];
@@ -62,38 +76,36 @@ impl<'a> Complex<'a> {
                     complex.edges += usize::from(seen_from[w as usize] != v);
                     seen_from[w as usize] = v;
                 }
-                for (k, facet) in FACETS.iter().enumerate() {
-                    let (outward, [a, b, c]) = sorted(facet.map(|i| vertices[i]));
-                    if a == v {
-                        facets.push(([b, c], outward, Side { tetrahedron: t as usize, k }));
-                    }
+                for k in lowest_of(v, vertices) {
+                    let (turn, [_, b, c]) = sorted(FACETS[k].map(|i| vertices[i]));
+                    facets.push(FacetSide { others: [b, c], tetrahedron: t, k: k as u8, turn });
                 }
             }
-            facets.sort_unstable_by_key(|&(others, _, side)| (others, side.tetrahedron));
-            for sides in facets.chunk_by(|(a, ..), (b, ..)| a == b) {
+            facets.sort_unstable();
+            for sides in facets.chunk_by(|a, b| a.others == b.others) {
                 complex.join(sides);
             }
         }
-        complex.vertices = count_used(tetrahedra, points);
+        complex.vertices = order.len();
         complex
     }
 
-    /// Takes in one facet, given all its sides; which way each of them turns is the second entry.
-    fn join(&mut self, sides: &[([u32; 2], bool, Side)]) {
+    /// Takes in one facet, given all its sides.
+    fn join(&mut self, sides: &[FacetSide]) {
         self.facets += 1;
         match *sides {
-            [(_, _, side)] => self.hull.push(side),
-            [(_, turn, a), (_, other_turn, b)] => {
-                self.across[a.tetrahedron][a.k] = b.tetrahedron as u32;
-                self.across[b.tetrahedron][b.k] = a.tetrahedron as u32;
-                if turn == other_turn {
-                    let detail = format!("on the same side of facet {} as tetrahedron {}", a.k, b.tetrahedron);
-                    self.bad_facets.add(|| Defect::at_tetrahedron(a.tetrahedron, detail));
+            [a] => self.hull.push(Side { tetrahedron: a.tetrahedron as usize, k: a.k as usize }),
+            [a, b] => {
+                self.across[a.tetrahedron as usize][a.k as usize] = b.tetrahedron;
+                self.across[b.tetrahedron as usize][b.k as usize] = a.tetrahedron;
+                if a.turn == b.turn {
+                    let detail = || format!("on the same side of facet {} as tetrahedron {}", a.k, b.tetrahedron);
+                    self.bad_facets.add(|| Defect::at_tetrahedron(a.tetrahedron as usize, detail()));
                 }
             }
-            [(_, _, a), ..] => {
-                let detail = format!("facet {} belongs to {} tetrahedra", a.k, sides.len());
-                self.bad_facets.add(|| Defect::at_tetrahedron(a.tetrahedron, detail));
+            [a, ..] => {
+                let detail = || format!("facet {} belongs to {} tetrahedra", a.k, sides.len());
+                self.bad_facets.add(|| Defect::at_tetrahedron(a.tetrahedron as usize, detail()));
             }
             [] => {}
         }
@@ -269,10 +281,19 @@ fn from_lowest([a, b, c]: [u32; 3]) -> [u32; 3] {
     }
 }
 
-fn count_used(tetrahedra: &[[u32; 4]], points: usize) -> usize {
-    let mut used = vec![false; points];
-    for &v in tetrahedra.as_flattened() {
-        used[v as usize] = true;
-    }
-    used.into_iter().filter(|&used| used).count()
+/// The facets of which `v` is the lowest vertex, each by the vertex that it is opposite to.
+fn lowest_of(v: u32, vertices: [u32; 4]) -> impl Iterator<Item = usize> {
+    let lower = vertices.into_iter().filter(|&w| w < v).count();
+    (0..4).filter(move |&k| match lower {
+        0 => vertices[k] != v,
+        1 => vertices[k] < v,
+        _ => false,
+    })
+}
+
+/// The vertices of the tetrahedra, each once.
+fn first_appearances(tetrahedra: &[[u32; 4]], points: usize) -> Vec<u32> {
+    let mut seen = vec![false; points];
+    let new = |v: &u32| !std::mem::replace(&mut seen[*v as usize], true);
+    tetrahedra.as_flattened().iter().copied().filter(new).collect()
 }

@@ -144,7 +144,7 @@ pub enum Outcome {
     Passed,
     /// The property does not hold.
     Failed {
-        /// The first place where it fails.
+        /// One place where it fails.
         first: Defect,
         /// In how many places it fails.
         count: usize,

@@ -1,0 +1,150 @@
+//! The engine `gpu`: Phase 1 on the device, Phase 2 on the CPU (the paper's §3).
+//!
+//! `points → lattice → Phase 1 → what it may have missed → splay → drop the ghosts → input indices → mesh`
+
+use crate::{
+    Error, Mesh3, Options, Points, cpu,
+    gpu::{
+        Gpu,
+        phase1::{Input, Phase1, Phase1Output, Settings},
+        start::first_tetrahedron,
+    },
+    lattice::{Lattice, Width},
+    mesh::{NONE, hull_of},
+    predicates::vertices::Vertices,
+    splay::{self, GaveUp, NearDelaunay, Outcome},
+    stats::{Stats, Stopwatch},
+    triangulation::Triangulation,
+};
+
+/// A device with the kernels of Phase 1 compiled for it: make one and use it for many inputs.
+#[derive(Debug)]
+pub struct Hybrid {
+    gpu: Gpu,
+    narrow: Phase1,
+    wide: Phase1,
+}
+
+impl Hybrid {
+    /// Compiles the kernels for `gpu`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Gpu::catching`].
+    pub async fn new(gpu: Gpu) -> Result<Self, Error> {
+        let narrow = Phase1::new(&gpu, Width::Narrow).await?;
+        let wide = Phase1::new(&gpu, Width::Wide).await?;
+        Ok(Hybrid { gpu, narrow, wide })
+    }
+
+    /// The device.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// The triangulation of `points`: the same set of tetrahedra as every engine's.
+    ///
+    /// Input that is no work for a device, because its points are coplanar or nearly so, and input on which splaying
+    /// gives up, is left to the CPU engine; [`Stats::fallback`] then says why.
+    ///
+    /// # Errors
+    ///
+    /// As for [`delaunay3d`](crate::delaunay3d), and those of the device.
+    pub async fn delaunay3d(&self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
+        let mut stopwatch = Stopwatch::start();
+        options.report("lattice", 0.0)?;
+        points.validate()?;
+        let lattice = Lattice::fit(points);
+        let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
+        let Some(start) = first_tetrahedron(lattice.width(), points.len(), position) else {
+            return fall_back(points, options, "the points are coplanar, or nearly");
+        };
+        let mut stats = Stats { engine: "gpu", ..Stats::default() };
+        stats.phases.push(("lattice", stopwatch.lap()));
+
+        options.report("phase 1", 0.05)?;
+        let phase1 = match lattice.width() {
+            Width::Narrow => &self.narrow,
+            Width::Wide => &self.wide,
+        };
+        let input = Input { points, lattice: &lattice, start };
+        let output = phase1.run(&self.gpu, input, &Settings::default(), None).await?;
+        stats.phases.push(("phase 1", stopwatch.lap()));
+
+        options.report("splay", 0.8)?;
+        let vertices = Vertices::new(points, &lattice, output.order.clone());
+        let (near, duplicate_of) = near_delaunay(points, &vertices, output);
+        let most_signs = near.signs_from_nothing();
+        let report = |share: f64| options.report("splay", 0.8 + 0.15 * share);
+        let triangulation = match splay::splay(&vertices, near, most_signs, &report)? {
+            Outcome::Delaunay(triangulation, _) => triangulation,
+            Outcome::GaveUp(GaveUp::Work) => return fall_back(points, options, "splaying was too much work"),
+            Outcome::GaveUp(GaveUp::Inconsistent(what)) => return fall_back(points, options, what),
+        };
+        stats.phases.push(("splay", stopwatch.lap()));
+
+        options.report("finish", 0.95)?;
+        stats.exact = vertices.exact_counts();
+        let (tetrahedra, neighbors) = triangulation.into_mesh(&vertices.into_input_indices());
+        let hull = hull_of(&tetrahedra, &neighbors);
+        stats.phases.push(("finish", stopwatch.lap()));
+        options.report("finish", 1.0)?;
+        Ok(Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats })
+    }
+}
+
+fn fall_back(points: Points<'_>, options: &Options, why: &'static str) -> Result<Mesh3, Error> {
+    let mut mesh = cpu::delaunay3d(points, options)?;
+    mesh.stats.fallback = Some(why);
+    Ok(mesh)
+}
+
+/// The result of Phase 1 in the form that splaying takes, and what duplicates what.
+fn near_delaunay(points: Points<'_>, vertices: &Vertices<'_>, output: Phase1Output) -> (NearDelaunay, Vec<i32>) {
+    let infinite = points.len() as u32;
+    let mut duplicate_of = vec![NONE; points.len()];
+    let missing = missing_points(points, &output.united, &mut duplicate_of);
+    let mut vertex_of = Vec::new();
+    if !missing.is_empty() {
+        vertex_of.resize(points.len(), 0);
+        for (v, &point) in (0..).zip(&output.order) {
+            vertex_of[point as usize] = v;
+        }
+    }
+    let triangulation = Triangulation::new(output.tets, output.neighbors, infinite);
+    let mut doubtful = triangulation.flat_or_inverted(vertices);
+    doubtful.extend(output.uncertain.iter().map(|&[t, _]| t));
+    doubtful.sort_unstable();
+    doubtful.dedup();
+    let mut incident = output.tet_of;
+    incident.truncate(points.len());
+    let missing = missing.iter().map(|&i| vertex_of[i as usize]).collect();
+    (NearDelaunay { triangulation, incident, failed: output.failed, doubtful, missing }, duplicate_of)
+}
+
+/// Of the points that others stand for, because they lie at the same place of the lattice: exact duplicates are noted in
+/// `duplicate_of`, the first of each other place is returned.
+fn missing_points(points: Points<'_>, united: &[[u32; 2]], duplicate_of: &mut [i32]) -> Vec<u32> {
+    let point = |i: u32| points.get(i as usize);
+    let mut apart = Vec::new();
+    for &[i, representative] in united {
+        if point(i) == point(representative) {
+            duplicate_of[i as usize] = representative as i32;
+        } else {
+            apart.push((representative, i));
+        }
+    }
+    // Equal points become neighbours, the lowest index first.
+    apart.sort_by(|&(r, i), &(s, j)| {
+        let by_place = point(i).partial_cmp(&point(j)).unwrap_or(std::cmp::Ordering::Equal);
+        r.cmp(&s).then(by_place).then(i.cmp(&j))
+    });
+    let mut missing: Vec<u32> = Vec::new();
+    for (_, i) in apart {
+        match missing.last() {
+            Some(&first) if point(first) == point(i) => duplicate_of[i as usize] = first as i32,
+            _ => missing.push(i),
+        }
+    }
+    missing
+}

@@ -1,0 +1,201 @@
+//! Phase 2 (§3.2): from a triangulation that is nearly Delaunay to the Delaunay triangulation, by adaptive star splaying.
+//!
+//! `doubtful tetrahedra → peel flat ones → failed vertices → convex stars → consistent stars → patch → missing points`
+//!
+//! All signs are those of the true coordinates, with the ties that define the answer. The work is proportional to what
+//! has to change: neither the triangulation nor its hull is ever looked at as a whole. Where that turns out to be too
+//! much, or the triangulation was none, splaying gives up, and says so.
+
+mod consistency;
+mod flip_flop;
+mod patch;
+mod peel;
+mod space;
+mod star;
+
+use crate::{
+    Error, cpu,
+    predicates::vertices::Vertices,
+    triangulation::{Triangulation, state},
+};
+use consistency::Splaying;
+use space::Space;
+
+/// No tetrahedron, in [`NearDelaunay::incident`].
+pub const NONE: u32 = star::NONE;
+
+/// What Phase 1 makes: a triangulation that is nearly Delaunay, and where it may not be.
+#[derive(Debug, Clone)]
+pub struct NearDelaunay {
+    /// All tetrahedra, ghosts included. Inverted and flat ones are no harm as long as they are among the doubtful.
+    pub triangulation: Triangulation,
+    /// A tetrahedron at each vertex; [`NONE`] for those that are missing.
+    pub incident: Vec<u32>,
+    /// The vertices of all facets that are known not to be locally Delaunay, ghosts' facets included.
+    pub failed: Vec<u32>,
+    /// The tetrahedra that may be flat or inverted, or have a facet that is not locally Delaunay for other reasons.
+    pub doubtful: Vec<u32>,
+    /// The vertices that the triangulation lacks; best if neighbours in the order are neighbours in space.
+    pub missing: Vec<u32>,
+}
+
+/// What splaying came to.
+#[derive(Debug)]
+pub enum Outcome {
+    /// The Delaunay triangulation.
+    Delaunay(Box<Triangulation>, SplayStats),
+    /// None, for this reason: the CPU engine has to make it.
+    GaveUp(GaveUp),
+}
+
+/// Why there is no result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GaveUp {
+    /// There is more work to do than the caller allows.
+    Work,
+    /// What there was is no triangulation.
+    Inconsistent(&'static str),
+}
+
+/// What splaying did.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct SplayStats {
+    /// Flat tetrahedra on the hull that were peeled off.
+    pub peeled: usize,
+    /// Failed vertices.
+    pub failed: usize,
+    /// Stars that were made convex: those of failed vertices, and some that had flat or inverted tetrahedra.
+    pub built: usize,
+    /// Of these, the ones that were built from their points, where Flip-Flop could not start or was stuck.
+    pub from_points: usize,
+    /// Stars that were taken from the triangulation as they are.
+    pub pulled: usize,
+    /// Flips of Flip-Flop.
+    pub flips: usize,
+    /// Points that were inserted into stars.
+    pub insertions: usize,
+    /// Checks whether all stars agree about a tetrahedron.
+    pub checks: usize,
+    /// Tetrahedra that were removed from the triangulation.
+    pub removed: usize,
+    /// Tetrahedra that were added to it.
+    pub added: usize,
+    /// Missing points that were inserted.
+    pub inserted: usize,
+    /// Signs that were asked for.
+    pub signs: u64,
+}
+
+/// Why splaying ends early.
+enum Stop {
+    GaveUp(GaveUp),
+    Error(Error),
+}
+
+impl From<GaveUp> for Stop {
+    fn from(reason: GaveUp) -> Self {
+        Stop::GaveUp(reason)
+    }
+}
+
+impl From<Error> for Stop {
+    fn from(error: Error) -> Self {
+        Stop::Error(error)
+    }
+}
+
+impl NearDelaunay {
+    /// About as many signs as the CPU engine asks for to make the triangulation from nothing.
+    pub fn signs_from_nothing(&self) -> u64 {
+        16 * self.triangulation.tetrahedra().len() as u64
+    }
+}
+
+/// The Delaunay triangulation of `vertices`, of which `near` is nearly one. It gives up when the stars ask for more than
+/// `most_signs`, the measure of its work; see [`NearDelaunay::signs_from_nothing`]. `report` learns now and then which share of
+/// the work is done, and can stop it.
+///
+/// # Errors
+///
+/// What `report` returns, [`Error::TooManyTetrahedra`] and [`Error::OutOfMemory`].
+pub fn splay(
+    vertices: &Vertices<'_>,
+    near: NearDelaunay,
+    most_signs: u64,
+    report: &dyn Fn(f64) -> Result<(), Error>,
+) -> Result<Outcome, Error> {
+    match try_splay(vertices, near, most_signs, report) {
+        Ok((triangulation, stats)) => Ok(Outcome::Delaunay(Box::new(triangulation), stats)),
+        Err(Stop::GaveUp(reason)) => Ok(Outcome::GaveUp(reason)),
+        Err(Stop::Error(error)) => Err(error),
+    }
+}
+
+fn try_splay(
+    vertices: &Vertices<'_>,
+    near: NearDelaunay,
+    most_signs: u64,
+    report: &dyn Fn(f64) -> Result<(), Error>,
+) -> Result<(Triangulation, SplayStats), Stop> {
+    let NearDelaunay { triangulation: mut mesh, mut incident, mut failed, doubtful, missing } = near;
+    let kernel = kernel(&mesh, vertices).ok_or(GaveUp::Inconsistent("all tetrahedra are flat"))?;
+    let space = Space::new(vertices, mesh.infinite, kernel);
+    let mut free = Vec::new();
+
+    let mut flat: Vec<u32> =
+        doubtful.iter().copied().filter(|&t| !mesh.is_ghost(t) && space.orient(mesh.vertices(t)) == 0).collect();
+    let found = flat.len();
+    let mut suspect = peel::peel(&mut mesh, &space, &mut flat, &mut incident, &mut free)?;
+    let peeled = found - flat.len();
+
+    suspect.extend(doubtful);
+    for t in suspect {
+        if mesh.state(t) != state::FREE {
+            add_failed(&mesh, &space, t, &mut failed);
+        }
+    }
+    failed.sort_unstable();
+    failed.dedup();
+
+    let mut splaying = Splaying::new(&space, &mesh, &incident, most_signs);
+    splaying.run(&failed, report)?;
+    let (remove, add) = splaying.difference()?;
+    let mut stats = splaying.stats;
+    drop(splaying);
+    let filled = patch::patch(&mut mesh, &space, &remove, &add, &mut free)?;
+
+    let start = filled.last().or(incident.iter().find(|&&t| t != NONE)).copied().unwrap_or(0);
+    stats.signs = space.signs();
+    stats.inserted = missing.len();
+    if !missing.is_empty() {
+        cpu::insert::insert_points(&mut mesh, vertices, missing, start, |_| report(1.0))?;
+    }
+    stats.peeled = peeled;
+    stats.failed = failed.len();
+    (stats.removed, stats.added) = (remove.len(), add.len());
+    Ok((mesh, stats))
+}
+
+/// The first tetrahedron that is positively oriented.
+fn kernel(mesh: &Triangulation, vertices: &Vertices<'_>) -> Option<[u32; 4]> {
+    let mut finite = (0..mesh.tetrahedra.len() as u32).filter(|&t| mesh.state(t) != state::FREE && !mesh.is_ghost(t));
+    finite.find_map(|t| {
+        let [a, b, c, d] = mesh.vertices(t);
+        (vertices.orient3d(a, b, c, d) > 0).then_some([a, b, c, d])
+    })
+}
+
+/// Adds the vertices of a tetrahedron that is not positively oriented, or else of those of its facets that are not
+/// locally Delaunay.
+fn add_failed(mesh: &Triangulation, space: &Space<'_>, t: u32, failed: &mut Vec<u32>) {
+    let v = mesh.vertices(t);
+    let mut add = |vertices: &[usize]| failed.extend(vertices.iter().map(|&i| v[i]).filter(|&v| v != mesh.infinite));
+    if space.orient(v) <= 0 {
+        return add(&[0, 1, 2, 3]);
+    }
+    for (k, facet) in crate::mesh::FACETS.iter().enumerate() {
+        if !patch::is_locally_delaunay(mesh, space, t, k) {
+            add(facet);
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! The command `gdel` as its users meet it.
+#![cfg(feature = "cli")]
+
+use std::{
+    fs,
+    path::Path,
+    process::{Command, Output, Stdio},
+};
+
+fn gdel(folder: &Path, arguments: &[&str]) -> Output {
+    command(folder, arguments).output().expect("the program runs")
+}
+
+fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_gdel"));
+    command.current_dir(folder).args(arguments).stdin(Stdio::null());
+    command
+}
+
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a temporary folder")
+}
+
+#[track_caller]
+fn succeeds(folder: &Path, arguments: &[&str]) -> String {
+    let output = gdel(folder, arguments);
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments:?}: {stderr}");
+    // No progress bar where stderr is no terminal.
+    assert_eq!(stderr, "");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// Checks for exit code 1, and one line on stderr that contains `message`.
+#[track_caller]
+fn fails(folder: &Path, arguments: &[&str], message: &str) {
+    fails_with(gdel(folder, arguments), message);
+}
+
+#[track_caller]
+fn fails_with(output: Output, message: &str) {
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{stderr}");
+    assert_eq!(stderr.lines().count(), 1, "{stderr}");
+    assert!(stderr.starts_with("gdel: ") && stderr.contains(message), "{stderr}");
+}
+
+fn files(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+const BUNNY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/bunny.ply");
+
+#[test]
+fn bunny_to_all_outputs_and_back() {
+    let folder = folder();
+    let path = folder.path();
+    let outputs = ["-o", "b.ele", "-o", "b.vtu", "-o", "b.npz", "-o", "h.ply", "-o", "h.obj", "-o", "h.stl"];
+    let summary = succeeds(path, &[&["triangulate", BUNNY, "--verify"], &outputs[..]].concat());
+    assert!(summary.contains("tetrahedra      246218") && summary.contains("verified"), "{summary}");
+    assert_eq!(files(path), ["b.ele", "b.neigh", "b.node", "b.npz", "b.vtu", "h.obj", "h.ply", "h.stl"]);
+    for mesh in ["b.node", "b.ele", "b.neigh", "b.vtu", "b.npz"] {
+        succeeds(path, &["verify", BUNNY, mesh]);
+    }
+    // All points of a hull are on its hull, so each of the three files has the same one.
+    for hull in ["h.ply", "h.obj", "h.stl"] {
+        assert_eq!(stats(path, &[hull])[0]["hull_triangles"], 3120, "{hull}");
+    }
+}
+
+/// The objects that `triangulate --stats json` prints.
+#[track_caller]
+fn stats(folder: &Path, arguments: &[&str]) -> Vec<serde_json::Value> {
+    let output = succeeds(folder, &[&["triangulate", "--stats", "json"], arguments].concat());
+    output.lines().map(|line| serde_json::from_str(line).expect("a JSON object a line")).collect()
+}
+
+#[test]
+fn stats_as_json_for_each_run() {
+    let folder = folder();
+    fs::write(folder.path().join("p.csv"), "x,y,z\n0,0,0\n1,0,0\n0,1,0\n0,0,1\n0,0,1\n").unwrap();
+    let runs = stats(folder.path(), &["p.csv", "--repeat", "3", "--engine", "cpu"]);
+    assert_eq!(runs.len(), 3);
+    for run in runs {
+        let expected = [("points", 5), ("duplicates", 1), ("dimension", 3), ("tetrahedra", 1), ("hull_triangles", 4)];
+        for (key, value) in expected {
+            assert_eq!(run[key], value, "{run}");
+        }
+        assert_eq!(run["engine"], "cpu");
+        let seconds = run["seconds"].as_object().unwrap();
+        let total = seconds["total"].as_f64().unwrap();
+        let phases: f64 = seconds.iter().filter(|(name, _)| *name != "total").map(|(_, s)| s.as_f64().unwrap()).sum();
+        assert!(seconds.len() > 1 && phases > 0.0 && phases <= total, "{run}");
+    }
+}
+
+#[test]
+fn points_without_return_are_reported() {
+    let folder = folder();
+    let header =
+        "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT 1\nPOINTS 3\nDATA ascii\n";
+    fs::write(folder.path().join("p.pcd"), format!("{header}0 0 0\nnan nan nan\n1 0 0\n")).unwrap();
+    let run = &stats(folder.path(), &["p.pcd"])[0];
+    assert_eq!((&run["points"], &run["no_return"], &run["dimension"]), (&2.into(), &1.into(), &1.into()));
+    assert!(succeeds(folder.path(), &["triangulate", "p.pcd"]).contains("1 without a return"));
+}
+
+#[test]
+fn flat_input_has_a_dimension_and_no_tetrahedra() {
+    let folder = folder();
+    fs::write(folder.path().join("p.xyz"), "0 0 0\n1 0 0\n0 1 0\n1 1 0\n").unwrap();
+    let summary = succeeds(folder.path(), &["triangulate", "p.xyz", "-o", "m.node", "--verify"]);
+    assert!(summary.contains("coplanar"), "{summary}");
+    assert_eq!(fs::read_to_string(folder.path().join("m.ele")).unwrap(), "0 4 0\n");
+}
+
+#[test]
+fn generated_points_depend_on_the_seed_alone() {
+    let folder = folder();
+    let path = folder.path();
+    for kind in ["uniform", "gaussian", "ball", "sphere", "thin-sphere", "grid"] {
+        succeeds(path, &["generate", kind, "50", "--seed", "7", "-o", "a.f64"]);
+        succeeds(path, &["generate", kind, "50", "--seed", "7", "-o", "b.f64"]);
+        succeeds(path, &["generate", kind, "50", "--seed", "8", "-o", "c.f64"]);
+        let [a, b, c] = ["a.f64", "b.f64", "c.f64"].map(|name| fs::read(path.join(name)).unwrap());
+        assert_eq!(a.len(), 50 * 24);
+        assert!(a == b && a != c, "{kind}");
+    }
+    for name in ["p.ply", "p.obj", "p.xyz", "p.csv", "p.npy", "p.f64"] {
+        succeeds(path, &["generate", "ball", "40", "-o", name]);
+        succeeds(path, &["triangulate", name, "-o", "ball.ele"]);
+        // The same points whatever the format.
+        succeeds(path, &["triangulate", "p.ply", "-o", "same.ele"]);
+        assert_eq!(fs::read(path.join("ball.ele")).unwrap(), fs::read(path.join("same.ele")).unwrap(), "{name}");
+    }
+}
+
+#[test]
+fn verify_says_what_is_wrong_and_where() {
+    let folder = folder();
+    let path = folder.path();
+    succeeds(path, &["generate", "uniform", "30", "-o", "p.xyz"]);
+    succeeds(path, &["triangulate", "p.xyz", "-o", "m.ele"]);
+    let ele = fs::read_to_string(path.join("m.ele")).unwrap();
+    let flipped: Vec<String> = ele
+        .lines()
+        .map(|line| match line.split(' ').collect::<Vec<_>>()[..] {
+            ["3", a, b, c, d] => format!("3 {b} {a} {c} {d}"),
+            _ => line.into(),
+        })
+        .collect();
+    fs::write(path.join("m.ele"), flipped.join("\n")).unwrap();
+    fs::remove_file(path.join("m.neigh")).unwrap();
+    fails(path, &["verify", "p.xyz", "m.ele"], "m.ele: not the Delaunay triangulation: orientation: tetrahedron 3");
+    fs::write(path.join("m.ele"), "1 4 0\n0 0 1 2 99\n").unwrap();
+    fails(path, &["verify", "p.xyz", "m.ele"], "tetrahedron 0");
+}
+
+#[test]
+fn input_that_cannot_be_read() {
+    let folder = folder();
+    let path = folder.path();
+    fs::create_dir(path.join("folder.ply")).unwrap();
+    fs::write(path.join("p.doc"), "1 2 3").unwrap();
+    fs::write(path.join("p"), "1 2 3").unwrap();
+    fs::write(path.join("empty.xyz"), "").unwrap();
+    fs::write(path.join("bad.xyz"), "1 2 3\n4 5 six\n").unwrap();
+    fails(path, &["triangulate", "none.ply"], "none.ply: cannot be read: No such file");
+    fails(path, &["triangulate", "folder.ply"], "folder.ply: cannot be read: is a directory");
+    fails(path, &["triangulate", "."], ".: cannot be read: is a directory");
+    fails(path, &["triangulate", "p.doc"], "p.doc: unknown extension, point clouds end in .ply");
+    fails(path, &["triangulate", "p"], "p: unknown extension");
+    fails(path, &["triangulate", "empty.xyz"], "empty.xyz: byte 0: the file is empty");
+    fails(path, &["triangulate", "bad.xyz"], "bad.xyz: line 2: `six` is not a number");
+    fails(path, &["verify", "bad.xyz", "m.ele"], "bad.xyz: line 2");
+    fails(path, &["generate", "ball", "3", "-o", "p.las"], "p.las: unknown extension");
+    assert_eq!(files(path).len(), 5);
+}
+
+/// Runs as root, who may read everything, cannot check this.
+#[cfg(unix)]
+#[test]
+fn input_without_permission() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder();
+    let file = folder.path().join("p.xyz");
+    fs::write(&file, "1 2 3\n").unwrap();
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o0)).unwrap();
+    if fs::read(&file).is_err() {
+        fails(folder.path(), &["triangulate", "p.xyz"], "p.xyz: cannot be read: Permission denied");
+    }
+}
+
+#[test]
+fn outputs_that_cannot_be_written() {
+    let folder = folder();
+    let path = folder.path();
+    fs::write(path.join("p.xyz"), "0 0 0\n1 0 0\n0 1 0\n0 0 1\n").unwrap();
+    fs::create_dir(path.join("folder.vtu")).unwrap();
+    fails(path, &["triangulate", "p.xyz", "-o", "none/m.vtu"], "none/m.vtu: cannot be written: No such file");
+    fails(path, &["triangulate", "p.xyz", "-o", "folder.vtu"], "folder.vtu: cannot be written: is a directory");
+    if cfg!(target_os = "linux") {
+        // Nobody, not even root, makes files there.
+        fails(path, &["triangulate", "p.xyz", "-o", "/proc/m.vtu"], "/proc/m.vtu: cannot be written");
+        fails(path, &["generate", "ball", "9", "-o", "/proc/p.xyz"], "/proc/p.xyz: cannot be written");
+    }
+    assert_eq!(files(path), ["folder.vtu", "p.xyz"]);
+}
+
+/// A limit on file sizes stands for the full disk: the system fails writes in the same way.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_leaves_old_files_and_no_new_ones() {
+    let folder = folder();
+    let path = folder.path();
+    succeeds(path, &["generate", "ball", "5000", "-o", "p.f64"]);
+    fs::write(path.join("m.vtu"), "the old file").unwrap();
+    let script = format!(
+        "ulimit -f 100; trap '' XFSZ; exec '{}' triangulate p.f64 -o m.vtu -o n.ele",
+        env!("CARGO_BIN_EXE_gdel")
+    );
+    let output = Command::new("sh").args(["-c", &script]).current_dir(path).output().unwrap();
+    fails_with(output, "m.vtu: cannot be written: File too large");
+    assert_eq!(files(path), ["m.vtu", "p.f64"]);
+    assert_eq!(fs::read(path.join("m.vtu")).unwrap(), b"the old file");
+}
+
+#[cfg(unix)]
+#[test]
+fn outputs_have_the_usual_permissions() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder();
+    let path = folder.path();
+    succeeds(path, &["generate", "ball", "5", "-o", "p.xyz"]);
+    fs::write(path.join("usual"), "").unwrap();
+    let mode = |name| fs::metadata(path.join(name)).unwrap().permissions().mode();
+    assert_eq!(mode("p.xyz"), mode("usual"));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_an_error_and_a_closed_one_is_not() {
+    let folder = folder();
+    fs::write(folder.path().join("p.xyz"), "0 0 0\n").unwrap();
+    let arguments = ["triangulate", "p.xyz"];
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = command(folder.path(), &arguments).stdout(full).stderr(Stdio::piped()).spawn().unwrap();
+    fails_with(output.wait_with_output().unwrap(), "standard output: No space left");
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let output = command(folder.path(), &arguments).stdout(writer).stderr(Stdio::piped()).spawn().unwrap();
+    let output = output.wait_with_output().unwrap();
+    assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+}
+
+#[test]
+fn wrong_usage_is_2() {
+    let folder = folder();
+    for arguments in [
+        &["triangulate"][..],
+        &["triangulate", "p.xyz", "-o", "m.doc"],
+        &["triangulate", "p.xyz", "--engine", "abacus"],
+        &["triangulate", "p.xyz", "--repeat", "0"],
+        &["generate", "torus", "5", "-o", "p.xyz"],
+        &["generate", "ball", "-5", "-o", "p.xyz"],
+        &["verify", "p.xyz"],
+        &["fly"],
+    ] {
+        assert_eq!(gdel(folder.path(), arguments).status.code(), Some(2), "{arguments:?}");
+    }
+}

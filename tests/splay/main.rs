@@ -1,0 +1,286 @@
+//! Star splaying, from triangulations that are Delaunay but for some flips, insertions or displaced points: the outcome
+//! must be the CPU engine's triangulation.
+
+mod flips;
+mod inputs;
+#[cfg(feature = "gpu")]
+mod phase1;
+
+use flips::{Soup, found_out, near};
+use gdel::{
+    Options, Points, cpu,
+    lattice::Lattice,
+    predicates::vertices::Vertices,
+    splay::{GaveUp, NONE, NearDelaunay, Outcome, SplayStats, splay},
+    verify::{Statement, verify3d},
+};
+use inputs::Cloud;
+use rand::{RngExt, seq::SliceRandom};
+
+/// The exact answer, as vertex numbers of the order `indices` of the points.
+fn exact(points: &Cloud, indices: &[u32]) -> Vec<[u32; 4]> {
+    let mesh = cpu::delaunay3d(points.into(), &Options::default()).unwrap();
+    let mut vertex = vec![0; points.len()];
+    indices.iter().enumerate().for_each(|(v, &i)| vertex[i as usize] = v as u32);
+    mesh.tetrahedra.iter().map(|t| t.map(|i| vertex[i as usize])).collect()
+}
+
+fn canonical(mut tetrahedra: Vec<[u32; 4]>) -> Vec<[u32; 4]> {
+    tetrahedra.iter_mut().for_each(|t| t.sort_unstable());
+    tetrahedra.sort_unstable();
+    tetrahedra
+}
+
+/// Splays, once with nothing but doubts, and once with just those that are justified; demands the exact answer.
+fn check(name: &str, vertices: &Vertices<'_>, near: NearDelaunay, answer: &[[u32; 4]]) -> SplayStats {
+    let known = found_out(vertices, &near);
+    let (doubting, _) = splayed(name, vertices, near);
+    let (tetrahedra, stats) = splayed(name, vertices, known);
+    let answer = canonical(answer.iter().map(|t| t.map(|v| vertices.input_index(v))).collect());
+    assert_eq!(canonical(doubting), answer, "{name}");
+    assert_eq!(canonical(tetrahedra), answer, "{name}");
+    stats
+}
+
+/// The tetrahedra that splaying gives, which the verifier accepts.
+fn splayed(name: &str, vertices: &Vertices<'_>, near: NearDelaunay) -> (Vec<[u32; 4]>, SplayStats) {
+    let started = std::time::Instant::now();
+    let (mesh, stats) = match splay(vertices, near, u64::MAX, &|_| Ok(())).unwrap() {
+        Outcome::Delaunay(mesh, stats) => (mesh, stats),
+        Outcome::GaveUp(reason) => panic!("{name}: gave up: {reason:?}"),
+    };
+    println!("{name}: {} vertices, {:.1?}, {stats:?}", vertices.len(), started.elapsed());
+    let names: Vec<u32> = (0..vertices.len() as u32).map(|v| vertices.input_index(v)).collect();
+    let (tetrahedra, neighbors) = mesh.into_mesh(&names);
+    let mut points = vec![[0.0; 3]; names.len()];
+    names.iter().zip(0..).for_each(|(&i, v)| points[i as usize] = vertices.point(v));
+    let hull = gdel::mesh::hull_of(&tetrahedra, &neighbors);
+    let statement =
+        Statement { neighbors: Some(&neighbors), hull: Some(&hull), ..Statement::of_tetrahedra(&tetrahedra) };
+    let report = verify3d(&points, statement).unwrap();
+    assert!(report.passed(), "{name}: {:?}", report.failures().next());
+    (tetrahedra, stats)
+}
+
+/// A random numbering of the points.
+fn shuffled(n: usize, seed: u64) -> Vec<u32> {
+    let mut indices: Vec<u32> = (0..n as u32).collect();
+    indices.shuffle(&mut inputs::random(seed));
+    indices
+}
+
+/// Flips anything that can be flipped, here and there.
+fn with_random_flips(name: &str, points: &Cloud, flips: usize, seed: u64) -> SplayStats {
+    let indices = shuffled(points.len(), seed);
+    let answer = exact(points, &indices);
+    let lattice = Lattice::fit(points.into());
+    let vertices = Vertices::new(points.into(), &lattice, indices);
+    let mut soup = Soup::new(&vertices, &answer);
+    let mut rng = inputs::random(seed);
+    let mut flipped = 0;
+    for _ in 0..50 * flips {
+        if flipped < flips && soup.flip(rng.random_range(0..soup.tetrahedra.len()), rng.random_range(0..4)) {
+            flipped += 1;
+        }
+    }
+    check(name, &vertices, soup.finish(), &answer)
+}
+
+/// The Delaunay triangulation of points a little off the true ones: ties are broken otherwise, and tetrahedra are flat
+/// or inverted in the true coordinates.
+fn from_displaced(name: &str, points: &Cloud, by: f64, seed: u64) -> SplayStats {
+    let mut rng = inputs::random(seed);
+    let displaced: Cloud = points.iter().map(|p| p.map(|x| x + by * (rng.random::<f64>() - 0.5))).collect();
+    let indices = shuffled(points.len(), seed);
+    let near = near(points.len() as u32, &exact(&displaced, &indices));
+    let answer = exact(points, &indices);
+    let lattice = Lattice::fit(points.into());
+    let vertices = Vertices::new(points.into(), &lattice, indices);
+    check(name, &vertices, near, &answer)
+}
+
+/// All points that are not on the hull are inserted by splitting, `batch` at a time; then flips go as far as they can.
+fn from_split_and_flip(name: &str, points: &Cloud, batch: usize, seed: u64) -> SplayStats {
+    let indices = shuffled(points.len(), seed);
+    let mesh = cpu::delaunay3d(points.into(), &Options::default()).unwrap();
+    let mut vertex = vec![0; points.len()];
+    indices.iter().enumerate().for_each(|(v, &i)| vertex[i as usize] = v as u32);
+    let mut on_hull: Vec<u32> = mesh.hull.as_flattened().to_vec();
+    on_hull.sort_unstable();
+    on_hull.dedup();
+    let hull_points: Cloud = on_hull.iter().map(|&i| points[i as usize]).collect();
+    let first = cpu::delaunay3d((&hull_points).into(), &Options::default()).unwrap();
+    let first: Vec<[u32; 4]> =
+        first.tetrahedra.iter().map(|t| t.map(|i| vertex[on_hull[i as usize] as usize])).collect();
+
+    let lattice = Lattice::fit(points.into());
+    let vertices = Vertices::new(points.into(), &lattice, indices);
+    let mut soup = Soup::new(&vertices, &first);
+    let inside: Vec<u32> = (0..points.len() as u32).filter(|i| on_hull.binary_search(i).is_err()).collect();
+    for batch in inside.chunks(batch) {
+        // A point on a facet stays out.
+        batch.iter().for_each(|&i| {
+            soup.split(vertex[i as usize]);
+        });
+        soup.lawson();
+    }
+    let answer: Vec<[u32; 4]> = mesh.tetrahedra.iter().map(|t| t.map(|i| vertex[i as usize])).collect();
+    check(name, &vertices, soup.finish(), &answer)
+}
+
+fn clouds(n: usize, seed: u64) -> Vec<(&'static str, Cloud)> {
+    vec![
+        ("uniform", inputs::uniform(n, seed)),
+        ("gaussian", inputs::gaussian(n, seed)),
+        ("ball", inputs::ball(n, seed)),
+        ("sphere", inputs::sphere(n, seed)),
+        ("thin sphere", inputs::thin_sphere(n, seed)),
+        ("clusters", inputs::clusters(n, seed)),
+        ("skew lines", inputs::skew_lines(n.min(300), seed)),
+        ("prism", inputs::prism(n, seed)),
+        ("grid sample", inputs::grid_sample(n, 16, seed)),
+    ]
+}
+
+fn is_spatial(points: &Cloud) -> bool {
+    points.len() >= 4 && Points::from(points).len() == points.len() && {
+        cpu::delaunay3d(points.into(), &Options::default()).unwrap().dimension == 3
+    }
+}
+
+#[test]
+fn an_exact_triangulation_is_left_alone() {
+    for (name, points) in clouds(1000, 1) {
+        let stats = with_random_flips(name, &points, 0, 1);
+        assert_eq!(stats, SplayStats::default(), "{name}");
+    }
+}
+
+#[test]
+fn random_flips_are_undone() {
+    for (name, points) in clouds(2000, 2) {
+        for flips in [1, 10, 300, 3000] {
+            let stats = with_random_flips(&format!("{name}, {flips} flips"), &points, flips, 3);
+            // No facet between two skew lines can be flipped.
+            assert!(stats.added > 0 || name == "skew lines", "{name}");
+        }
+    }
+    with_random_flips("uniform 20,000", &inputs::uniform(20_000, 4), 2000, 5);
+}
+
+#[test]
+fn displaced_points() {
+    for (name, points) in clouds(1000, 7) {
+        for by in [1e-12, 1e-6, 1e-3, 1e-2] {
+            from_displaced(&format!("{name}, displaced by {by}"), &points, by, 8);
+        }
+    }
+}
+
+#[test]
+fn displaced_grids_have_flat_tetrahedra() {
+    for side in [4, 5, 9, 14] {
+        for by in [1e-9, 0.1] {
+            from_displaced(&format!("grid {side}, displaced by {by}"), &inputs::grid(side), by, 9);
+        }
+    }
+}
+
+#[test]
+fn stuck_flipping_is_mended() {
+    let mut stuck = 0;
+    for (name, points) in [
+        ("uniform", inputs::uniform(600, 10)),
+        ("gaussian", inputs::gaussian(600, 11)),
+        ("ball", inputs::ball(600, 12)),
+        ("thin sphere", inputs::thin_sphere(600, 13)),
+        ("clusters", inputs::clusters(600, 14)),
+        ("grid", inputs::grid_sample(600, 12, 15)),
+    ] {
+        let all = from_split_and_flip(&format!("{name}, insert all"), &points, points.len(), 16);
+        let some = from_split_and_flip(&format!("{name}, insert 20"), &points, 20, 16);
+        assert!(some.failed <= all.failed, "{name}");
+        stuck += all.failed;
+    }
+    assert!(stuck > 0);
+}
+
+#[test]
+fn small_inputs_of_all_kinds() {
+    for seed in 0..400 {
+        let mut rng = inputs::random(seed);
+        let n = rng.random_range(5..120);
+        let side = rng.random_range(2..6);
+        let mut all = clouds(n, seed);
+        all.push(("small grid", inputs::grid_sample(n, side, seed)));
+        let (name, points) = &all[seed as usize % all.len()];
+        if is_spatial(points) {
+            with_random_flips(&format!("{name}, seed {seed}"), points, n, seed);
+            for by in [1e-9, 0.03, 0.3] {
+                from_displaced(&format!("{name}, seed {seed}, displaced by {by}"), points, by, seed);
+            }
+        }
+    }
+}
+
+/// A triangulation that takes work.
+fn spoilt(points: &Cloud) -> NearDelaunay {
+    let mut rng = inputs::random(20);
+    let displaced: Cloud = points.iter().map(|p| p.map(|x| x + 0.1 * (rng.random::<f64>() - 0.5))).collect();
+    near(points.len() as u32, &exact(&displaced, &shuffled(points.len(), 21)))
+}
+
+#[test]
+fn too_much_work_is_given_up() {
+    let points = inputs::uniform(200, 19);
+    let lattice = Lattice::fit((&points).into());
+    let vertices = Vertices::new((&points).into(), &lattice, shuffled(points.len(), 21));
+    let enough = match splay(&vertices, spoilt(&points), u64::MAX, &|_| Ok(())).unwrap() {
+        Outcome::Delaunay(_, stats) => stats.signs,
+        Outcome::GaveUp(reason) => panic!("{reason:?}"),
+    };
+    for most_signs in [0, enough / 4, enough / 2, enough - enough / 8] {
+        let outcome = splay(&vertices, spoilt(&points), most_signs, &|_| Ok(())).unwrap();
+        assert!(matches!(outcome, Outcome::GaveUp(GaveUp::Work)), "{most_signs} of {enough}");
+    }
+}
+
+#[test]
+fn what_is_no_triangulation_is_given_up() {
+    let points = inputs::uniform(200, 22);
+    let lattice = Lattice::fit((&points).into());
+    let vertices = Vertices::new((&points).into(), &lattice, shuffled(points.len(), 21));
+    let near = spoilt(&points);
+    let no_tetrahedra = NearDelaunay { incident: vec![NONE; points.len() + 1], ..near.clone() };
+    let wrong_tetrahedra = NearDelaunay { incident: near.incident.iter().rev().copied().collect(), ..near };
+    for near in [no_tetrahedra, wrong_tetrahedra] {
+        let outcome = splay(&vertices, near, u64::MAX, &|_| Ok(())).unwrap();
+        assert!(matches!(outcome, Outcome::GaveUp(GaveUp::Inconsistent(_))), "{outcome:?}");
+    }
+}
+
+#[test]
+fn a_caller_can_stop_it() {
+    let points = inputs::uniform(200, 23);
+    let lattice = Lattice::fit((&points).into());
+    let vertices = Vertices::new((&points).into(), &lattice, shuffled(points.len(), 21));
+    let outcome = splay(&vertices, spoilt(&points), u64::MAX, &|_| Err(gdel::Error::Cancelled));
+    assert_eq!(outcome.err(), Some(gdel::Error::Cancelled));
+}
+
+#[test]
+fn missing_points_are_inserted() {
+    for (name, points) in clouds(1000, 24) {
+        let mut indices = shuffled(points.len(), 25);
+        // The points of the first part are triangulated; the rest has the highest vertex numbers.
+        let part = points.len() * 9 / 10;
+        indices[..part].sort_unstable();
+        let some: Cloud = indices[..part].iter().map(|&i| points[i as usize]).collect();
+        let mesh = cpu::delaunay3d((&some).into(), &Options::default()).unwrap();
+        let answer = exact(&points, &indices);
+        let lattice = Lattice::fit((&points).into());
+        let vertices = Vertices::new((&points).into(), &lattice, indices);
+        let stats = check(name, &vertices, near(points.len() as u32, &mesh.tetrahedra), &answer);
+        assert_eq!(stats.inserted, points.len() - part, "{name}");
+    }
+}

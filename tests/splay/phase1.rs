@@ -1,0 +1,72 @@
+//! Both phases, without a GPU: the kernels' twins make the triangulation that is splayed.
+
+use crate::{check, exact, inputs, inputs::Cloud};
+use gdel::{
+    gpu::twin::{
+        State,
+        predicates::Vertex,
+        run::{Settings, run},
+    },
+    lattice::{Lattice, Width},
+    predicates::vertices::Vertices,
+    splay::{NONE, NearDelaunay, SplayStats},
+    triangulation::Triangulation,
+};
+
+/// The triangulation without the gaps between tetrahedra, and what has failed; flat tetrahedra are doubtful.
+fn near(state: &State, vertices: &Vertices<'_>) -> NearDelaunay {
+    let used: Vec<usize> = (0..state.tets.len()).filter(|&t| state.is_used(t)).collect();
+    let mut number = vec![NONE; state.tets.len()];
+    used.iter().zip(0..).for_each(|(&t, n)| number[t] = n);
+    let tetrahedra: Vec<[u32; 4]> = used.iter().map(|&t| state.tets[t]).collect();
+    let renumbered = |&t: &usize| state.neighbors[t].map(|across| 4 * number[across as usize / 4] + across % 4);
+    let neighbors = used.iter().map(renumbered).collect();
+    let mut incident = vec![NONE; vertices.len() + 1];
+    tetrahedra.iter().zip(0..).for_each(|(t, n)| t.iter().for_each(|&v| incident[v as usize] = n));
+    let triangulation = Triangulation::new(tetrahedra, neighbors, vertices.len() as u32);
+    let doubtful = triangulation.flat_or_inverted(vertices);
+    let failed = (0..vertices.len() as u32).filter(|&v| state.failed[v as usize] != 0).collect();
+    NearDelaunay { triangulation, incident, failed, doubtful, missing: Vec::new() }
+}
+
+fn both_phases(name: &str, points: &Cloud, settings: &Settings) -> SplayStats {
+    // Integers, so that the lattice is narrow, in the order of their first coordinate.
+    let mut indices: Vec<u32> = (0..points.len() as u32).collect();
+    indices.sort_by(|&i, &j| points[i as usize].partial_cmp(&points[j as usize]).unwrap());
+    let lattice = Lattice::fit(points.into());
+    assert_eq!(lattice.width(), Width::Narrow);
+    let position = |i: u32| lattice.coordinates(points[i as usize]).map(|c| c.value);
+    let sites = indices.iter().map(|&index| Vertex { position: position(index), index }).collect();
+    let state = run(Width::Narrow, sites, settings).expect("not flat");
+    let answer = exact(points, &indices);
+    let vertices = Vertices::new(points.into(), &lattice, indices);
+    check(name, &vertices, near(&state, &vertices), &answer)
+}
+
+fn on_integers(points: &Cloud, steps: f64) -> Cloud {
+    inputs::distinct(points.iter().map(|p| p.map(|x| (x * steps).round())).collect())
+}
+
+#[test]
+fn phase_1_and_splaying_make_the_exact_triangulation() {
+    let mut failed = 0;
+    for seed in 0..3 {
+        let clouds = [
+            ("uniform", on_integers(&inputs::uniform(800, seed), 1e6)),
+            ("sphere", on_integers(&inputs::sphere(800, seed), 1e6)),
+            ("thin sphere", on_integers(&inputs::thin_sphere(800, seed), 1e6)),
+            ("clusters", on_integers(&inputs::clusters(500, seed), 1e6)),
+            ("prism", on_integers(&inputs::prism(500, seed), 32.0)),
+            ("skew lines", on_integers(&inputs::skew_lines(60, seed), 1e6)),
+            ("grid sample", inputs::grid_sample(600, 9, seed)),
+            ("grid", inputs::grid(7)),
+        ];
+        for (name, points) in &clouds {
+            for insert_all in [false, true] {
+                let settings = Settings { insert_all, ..Settings::default() };
+                failed += both_phases(&format!("{name}, insert all: {insert_all}"), points, &settings).failed;
+            }
+        }
+    }
+    assert!(failed > 0);
+}
