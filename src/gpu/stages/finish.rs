@@ -29,7 +29,7 @@ pub struct Compacted {
     pub tets: Storage<[u32; 4]>,
     /// Neighbours, 4·tetrahedron + face.
     pub neighbors: Storage<[u32; 4]>,
-    /// One tetrahedron of each vertex, plus 1; 0 for a vertex that was set aside. Infinity comes last.
+    /// One tetrahedron of each vertex, plus 1; 0 for one that another stands for. Infinity comes last.
     pub tet_of: Storage<u32>,
     /// Entry [`GROUPS`] is the number of tetrahedra.
     pub sums: Storage<u32>,
