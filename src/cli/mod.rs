@@ -1,5 +1,7 @@
 //! The command line: what can be asked for, and how it ends.
 
+#[cfg(feature = "gpu")]
+mod adapters;
 mod generate;
 mod progress;
 mod report;
@@ -23,6 +25,9 @@ enum Command {
     Triangulate(triangulate::Arguments),
     Generate(generate::Arguments),
     Verify(verify::Arguments),
+    /// List the graphics devices of this machine
+    #[cfg(feature = "gpu")]
+    Adapters,
 }
 
 /// Why a command failed. The text is one line.
@@ -50,6 +55,8 @@ pub(crate) fn main() -> ExitCode {
         Command::Triangulate(arguments) => triangulate::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        #[cfg(feature = "gpu")]
+        Command::Adapters => adapters::run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

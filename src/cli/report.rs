@@ -16,6 +16,9 @@ pub(super) struct Report<'a> {
     tetrahedra: usize,
     hull_triangles: usize,
     engine: &'a str,
+    /// Why the CPU engine took over, where another was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fallback: Option<&'static str>,
     seconds: Seconds<'a>,
 }
 
@@ -46,6 +49,7 @@ impl<'a> Report<'a> {
             tetrahedra: mesh.tetrahedra.len(),
             hull_triangles: mesh.hull.len(),
             engine: mesh.stats.engine,
+            fallback: mesh.stats.fallback,
             seconds: Seconds { total, phases: &mesh.stats.phases },
         }
     }
@@ -73,6 +77,9 @@ impl fmt::Display for Report<'_> {
         writeln!(f, "tetrahedra      {}", self.tetrahedra)?;
         writeln!(f, "hull triangles  {}", self.hull_triangles)?;
         write!(f, "seconds         {:.3} ({}", self.seconds.total.as_secs_f64(), self.engine)?;
+        if let Some(why) = self.fallback {
+            write!(f, ", since {why}")?;
+        }
         for (phase, seconds) in self.seconds.phases {
             write!(f, ", {phase} {seconds:.3}")?;
         }

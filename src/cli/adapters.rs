@@ -1,0 +1,22 @@
+//! `gdel adapters`: the graphics devices of this machine.
+
+use super::Failure;
+use std::io::{self, Write};
+
+pub(super) fn run() -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    let adapters = pollster::block_on(gdel::gpu::adapters());
+    if adapters.is_empty() {
+        writeln!(out, "none: there is no driver for Vulkan, Metal or Direct3D 12")?;
+    }
+    for (index, adapter) in adapters.iter().enumerate() {
+        let software = if adapter.software { ", software" } else { "" };
+        let mib = adapter.max_storage_buffer_bytes >> 20;
+        writeln!(
+            out,
+            "{index}  {} ({}{software}; buffers of up to {mib} MiB; {})",
+            adapter.name, adapter.backend, adapter.driver
+        )?;
+    }
+    Ok(())
+}
