@@ -214,6 +214,16 @@ fn bunny() {
     assert_eq!(mesh.duplicate_of.len(), 35_947);
 }
 
+#[cfg(feature = "io")]
+#[test]
+#[ignore = "needs scripts/fetch-dragon.sh, and minutes"]
+fn dragon() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/.cache/dragon.ply");
+    let cloud = gdel::io::files::read_points(std::path::Path::new(path)).expect("run scripts/fetch-dragon.sh");
+    let mesh = check(&cloud, 1);
+    assert_eq!(mesh.duplicates(), 2_100);
+}
+
 #[test]
 fn extreme_scales() {
     let cloud = generate(Distribution::Uniform, 400, 1);

@@ -245,7 +245,7 @@ impl<'a> Run<'a> {
         let more = tail_blocks(self.params.infinite, &self.settings);
         let blocks = before.saturating_add(more).min((1 << 30) / BLOCK - 1);
         if blocks == before {
-            return Err(Error::TooManyPoints { points: self.params.infinite as usize, limit: 0 });
+            return Err(Error::TooManyTetrahedra { limit: 1 << 30 });
         }
         self.buffers = self.buffers.with_blocks(self.gpu, recorder, blocks)?;
         (self.params.blocks_before, self.params.blocks) = (before, blocks);
