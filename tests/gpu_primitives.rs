@@ -1,18 +1,13 @@
-//! Hilbert keys, sort, scan and compaction on the GPU, against the CPU, for sizes around those of every block.
+//! Sort, scan and compaction on the GPU, against the CPU, for sizes around those of every block.
 #![cfg(feature = "gpu")]
 
-use gdel::{
-    gpu::{
-        AdapterChoice, Gpu, Readback, Recorder, Storage,
-        stages::{
-            compact::Compact,
-            hilbert::{Hilbert, KEY_BITS},
-            scan::{self, Scan, ScanParams},
-            sort::{self, Sort},
-        },
-        twin, vertex,
+use gdel::gpu::{
+    AdapterChoice, Gpu, Readback, Recorder, Storage,
+    stages::{
+        compact::Compact,
+        scan::{self, Scan, ScanParams},
+        sort::{self, Sort},
     },
-    lattice::Width,
 };
 use pollster::block_on;
 use rand::{RngExt, SeedableRng};
@@ -130,27 +125,4 @@ fn sort_is_stable_and_by_key() {
     }
     check_sort(&gpu, &sort, vec![5; 10_000], 32);
     check_sort(&gpu, &sort, (0..10_000).rev().collect(), 32);
-}
-
-#[test]
-fn hilbert_keys_are_those_of_the_twin() {
-    let gpu = open();
-    let mut rng = Pcg64Mcg::seed_from_u64(4);
-    for width in [Width::Narrow, Width::Wide] {
-        let hilbert = Hilbert::new(&gpu, width);
-        for n in [0, 1, 255, 256, 257, 100_000] {
-            let position = |rng: &mut Pcg64Mcg| std::array::from_fn(|_| rng.random_range(0..1i64 << width.bits()));
-            let positions: Vec<[i64; 3]> = (0..n).map(|_| position(&mut rng)).collect();
-            let mut words = Vec::new();
-            for (&p, index) in positions.iter().zip(0..) {
-                vertex::append_words(&mut words, width, p, index);
-            }
-            let key = |p: &[i64; 3]| twin::hilbert::hilbert_key(p.map(|q| (q >> (width.bits() - KEY_BITS / 3)) as u32));
-            let expected: Vec<[u32; 2]> = positions.iter().zip(0..).map(|(p, i)| [key(p), i]).collect();
-            let vertices = Storage::with_contents(&gpu, "vertices", &words).unwrap();
-            let pairs = Storage::new(&gpu, "pairs", n).unwrap();
-            let result = run(&gpu, &pairs, |recorder| hilbert.record(&gpu, recorder, &vertices, &pairs));
-            assert!(result == expected, "{n} points");
-        }
-    }
 }

@@ -20,7 +20,6 @@ const SOURCES: &[(&str, &str)] = sources![
     "flip_check",
     "flip_commit",
     "flip_link",
-    "hilbert_keys",
     "locate",
     "mark_failed",
     "mesh_compact",

@@ -11,6 +11,5 @@ pub mod relocate;
 pub mod finish;
 
 pub mod compact;
-pub mod hilbert;
 pub mod scan;
 pub mod sort;
