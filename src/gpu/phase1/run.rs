@@ -294,21 +294,24 @@ impl<'a> Run<'a> {
         let tets = finite + counters.ghosts as usize;
         let aside = if counters.aside > 0 { count } else { 0 };
         let readback = &mut kernels.readback;
-        let (submission, tets, neighbors, tet_of, failed, united, doubtful) = gpu
+        let (first, tets, submission, neighbors, tet_of, failed, united, doubtful) = gpu
             .catching("the result of Phase 1", || {
+                // The host takes the first part while the device sends the second.
+                let bound = &memory.finish;
+                let mut recorder = Recorder::new(gpu, None);
+                let tets_read = readback.copy(gpu, recorder.encoder(), &bound.tets, 0, tets);
+                let first = recorder.submit(gpu);
                 let mut recorder = Recorder::new(gpu, None);
                 let encoder = recorder.encoder();
-                let bound = &memory.finish;
-                let tets_read = readback.copy(gpu, encoder, &bound.tets, 0, tets);
                 let neighbors = readback.copy(gpu, encoder, &bound.neighbors, 0, tets);
                 let tet_of = readback.copy(gpu, encoder, &bound.tet_of, 0, count + 1);
                 let failed = readback.copy(gpu, encoder, &bound.failed, 0, counters.failed as usize);
                 let united = readback.copy(gpu, encoder, &memory.buffers.points.united_with, 0, aside);
                 let doubtful = readback.copy(gpu, encoder, &bound.doubtful, 0, counters.doubtful as usize);
-                Ok((recorder.submit(gpu), tets_read, neighbors, tet_of, failed, united, doubtful))
+                Ok((first, tets_read, recorder.submit(gpu), neighbors, tet_of, failed, united, doubtful))
             })
             .await?;
-        let tets = readback.receive(gpu, &submission, tets).await?;
+        let tets = readback.receive(gpu, &first, tets).await?;
         let neighbors = readback.receive(gpu, &submission, neighbors).await?;
         let mut tet_of = readback.receive(gpu, &submission, tet_of).await?;
         let mut failed = readback.receive(gpu, &submission, failed).await?;
