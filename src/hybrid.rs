@@ -6,14 +6,15 @@ use crate::{
     Error, Mesh3, Options, Points, cpu,
     gpu::{
         Gpu,
-        phase1::{Input, Phase1, Phase1Output, Settings},
+        phase1::{Input, Phase1, Phase1Output, Run, Settings},
         start::first_tetrahedron,
     },
     lattice::{Lattice, Width},
     mesh::{NONE, hull_of},
     predicates::vertices::Vertices,
     splay::{self, GaveUp, NearDelaunay, Outcome},
-    stats::{Stats, Stopwatch},
+    stats::{Fallback, Stats, Stopwatch},
+    trace::Tracer,
     triangulation::Triangulation,
 };
 
@@ -57,9 +58,10 @@ impl Hybrid {
         let lattice = Lattice::fit(points);
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let Some(start) = first_tetrahedron(lattice.width(), points.len(), position) else {
-            return fall_back(points, options, "the points are coplanar, or nearly");
+            return fall_back(points, options, Fallback::Coplanar, Stats::default());
         };
         let mut stats = Stats { engine: "gpu", ..Stats::default() };
+        let mut tracer = options.trace.then(Tracer::default);
         stats.phases.push(("lattice", stopwatch.lap()));
 
         options.report("phase 1", 0.05)?;
@@ -68,18 +70,39 @@ impl Hybrid {
             Width::Wide => &self.wide,
         };
         let input = Input { points, lattice: &lattice, start };
-        let output = phase1.run(&self.gpu, input, &Settings::default(), None).await?;
+        let mut run = Run::new(phase1, &self.gpu, input, Settings::default(), None).await?;
+        loop {
+            let more = run.round().await?;
+            if let Some(tracer) = &mut tracer {
+                tracer.round(&self.gpu, &run).await?;
+            }
+            let inserted = 1.0 - f64::from(run.waiting()) / points.len() as f64;
+            options.report("phase 1", 0.05 + 0.6 * inserted)?;
+            if !more {
+                break;
+            }
+        }
+        let output = run.finish().await?;
+        stats.gpu = Some(output.stats.summary(&self.gpu.adapter().name));
         stats.phases.push(("phase 1", stopwatch.lap()));
 
         options.report("splay", 0.8)?;
         let vertices = Vertices::new(points, &lattice, output.order.clone());
         let (near, duplicate_of) = near_delaunay(points, &vertices, output);
+        if let Some(tracer) = &mut tracer {
+            tracer.facets(&near.triangulation, &vertices);
+        }
         let most_signs = near.signs_from_nothing();
         let report = |share: f64| options.report("splay", 0.8 + 0.15 * share);
         let triangulation = match splay::splay(&vertices, near, most_signs, &report)? {
-            Outcome::Delaunay(triangulation, _) => triangulation,
-            Outcome::GaveUp(GaveUp::Work) => return fall_back(points, options, "splaying was too much work"),
-            Outcome::GaveUp(GaveUp::Inconsistent(what)) => return fall_back(points, options, what),
+            Outcome::Delaunay(triangulation, splay) => {
+                stats.splay = Some(splay);
+                triangulation
+            }
+            Outcome::GaveUp(GaveUp::Work) => return fall_back(points, options, Fallback::Work, stats),
+            Outcome::GaveUp(GaveUp::Inconsistent(what)) => {
+                return fall_back(points, options, Fallback::Inconsistent(what), stats);
+            }
         };
         stats.phases.push(("splay", stopwatch.lap()));
 
@@ -88,14 +111,16 @@ impl Hybrid {
         let (tetrahedra, neighbors) = triangulation.into_mesh(&vertices.into_input_indices());
         let hull = hull_of(&tetrahedra, &neighbors);
         stats.phases.push(("finish", stopwatch.lap()));
+        stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
         options.report("finish", 1.0)?;
         Ok(Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats })
     }
 }
 
-fn fall_back(points: Points<'_>, options: &Options, why: &'static str) -> Result<Mesh3, Error> {
+/// The CPU engine's mesh, with what the GPU did before.
+fn fall_back(points: Points<'_>, options: &Options, why: Fallback, before: Stats) -> Result<Mesh3, Error> {
     let mut mesh = cpu::delaunay3d(points, options)?;
-    mesh.stats.fallback = Some(why);
+    mesh.stats = Stats { fallback: Some(why), gpu: before.gpu, ..mesh.stats };
     Ok(mesh)
 }
 

@@ -30,6 +30,8 @@ pub mod points;
 pub mod predicates;
 pub mod splay;
 pub mod stats;
+#[cfg(feature = "gpu")]
+mod trace;
 pub mod triangulation;
 pub mod verify;
 

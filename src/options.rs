@@ -35,6 +35,9 @@ pub struct Options {
     pub engine: Engine,
     /// Called a few hundred times in a run, in the calling thread.
     pub on_progress: Option<OnProgress>,
+    /// Whether the GPU engine shall keep [`Stats::trace`](crate::stats::Stats::trace). All tetrahedra are read back after
+    /// every round and their facets tested once more, so a run takes several times as long: for small inputs.
+    pub trace: bool,
 }
 
 impl fmt::Debug for Options {
@@ -42,6 +45,7 @@ impl fmt::Debug for Options {
         f.debug_struct("Options")
             .field("engine", &self.engine)
             .field("on_progress", &self.on_progress.as_ref().map(|_| "…"))
+            .field("trace", &self.trace)
             .finish()
     }
 }

@@ -164,7 +164,8 @@ fn phase1_layouts_agree() {
         visits,
         failed,
         aside,
-        uncertain
+        uncertain,
+        not_locally_delaunay
     );
     let constants = [
         ("NONE", layout::NONE),

@@ -31,6 +31,7 @@ struct Control {
     failed: atomic<u32>,
     aside: u32,
     uncertain: atomic<u32>,
+    not_locally_delaunay: atomic<u32>,
 }
 
 struct Status {

@@ -124,6 +124,8 @@ pub struct Counters {
     pub aside: u32,
     /// Tetrahedra of which the lattice does not prove everything.
     pub uncertain: u32,
+    /// Facets that are not locally Delaunay, found at the end.
+    pub not_locally_delaunay: u32,
 }
 
 /// A flip was put off because no slot was found for its third tetrahedron.

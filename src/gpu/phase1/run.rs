@@ -11,6 +11,7 @@ use crate::{
         stages::{finish::Compacted, flip::BoundFlip, insert::BoundInsert, relocate::BoundRelocate},
         vertex, workgroups,
     },
+    stats::{Round, Stopwatch},
 };
 
 /// A run that is under way.
@@ -33,7 +34,8 @@ pub struct Run<'a> {
     /// An upper bound of the iteration that the kernels count.
     counted: u32,
     stats: Phase1Stats,
-    clock: crate::stats::Stopwatch,
+    clock: Stopwatch,
+    round_clock: Stopwatch,
 }
 
 /// The bits of a bidder's number: twice as many as there are slots, because the upper half is for marks.
@@ -63,7 +65,7 @@ impl<'a> Run<'a> {
         settings: Settings,
         mut profiler: Option<&'a mut Profiler>,
     ) -> Result<Self, Error> {
-        let clock = crate::stats::Stopwatch::start();
+        let (clock, round_clock) = (Stopwatch::start(), Stopwatch::start());
         let count = input.points.len();
         if count > Self::MAX_POINTS {
             return Err(Error::TooManyPoints { points: count, limit: Self::MAX_POINTS });
@@ -108,8 +110,9 @@ impl<'a> Run<'a> {
                     first: true,
                     iterations: 20,
                     counted: 0,
-                    stats: Phase1Stats { dispatches, ..Phase1Stats::default() },
+                    stats: Phase1Stats { dispatches, submits: 1, ..Phase1Stats::default() },
                     clock,
+                    round_clock,
                 })
             })
             .await?;
@@ -155,11 +158,16 @@ impl<'a> Run<'a> {
         let used = read.iterations - before.iterations;
         // Rounds grow at first: a flip that waits for the next round costs more than an idle iteration.
         self.iterations = if used >= self.iterations { (2 * used).min(64) } else { (used + used / 2).clamp(20, 64) };
-        if inserts {
-            self.stats.rounds += 1;
-            if read.inserted == before.inserted && self.waiting() > 0 {
-                return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
-            }
+        self.stats.submits += 1;
+        self.stats.rounds.push(Round {
+            inserted: read.inserted - before.inserted,
+            active: self.active(),
+            flips: read.flips_23 + read.flips_32 - before.flips_23 - before.flips_32,
+            iterations: used,
+            milliseconds: self.round_clock.lap() * 1e3,
+        });
+        if inserts && read.inserted == before.inserted && self.waiting() > 0 {
+            return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
         }
         Ok(self.waiting() > 0 || self.active() > 0)
     }
@@ -323,6 +331,7 @@ impl<'a> Run<'a> {
         let mut stats = self.stats;
         stats.readback_milliseconds = self.clock.lap() * 1e3;
         stats.counters = self.counters;
+        stats.submits += 2;
         stats.readbacks = self.readback.count();
         stats.bytes = self.buffers.bytes() + compacted.neighbors.bytes() + 2 * compacted.neighbors.bytes() / 4;
         Ok(Phase1Output {
