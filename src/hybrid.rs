@@ -24,6 +24,7 @@ pub struct Hybrid {
     gpu: Gpu,
     narrow: Phase1,
     wide: Phase1,
+    settings: Settings,
 }
 
 impl Hybrid {
@@ -35,7 +36,12 @@ impl Hybrid {
     pub async fn new(gpu: Gpu) -> Result<Self, Error> {
         let narrow = Phase1::new(&gpu, Width::Narrow).await?;
         let wide = Phase1::new(&gpu, Width::Wide).await?;
-        Ok(Hybrid { gpu, narrow, wide })
+        Ok(Hybrid { gpu, narrow, wide, settings: Settings::default() })
+    }
+
+    /// The same with other settings for Phase 1, for experiments: they change the time, and not the mesh.
+    pub fn with_settings(self, settings: Settings) -> Self {
+        Hybrid { settings, ..self }
     }
 
     /// The device.
@@ -52,6 +58,7 @@ impl Hybrid {
     ///
     /// As for [`delaunay3d`](crate::delaunay3d), and those of the device.
     pub async fn delaunay3d(&self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
+        let options = &options.monotone();
         let mut stopwatch = Stopwatch::start();
         options.report("lattice", 0.0)?;
         points.validate()?;
@@ -70,7 +77,7 @@ impl Hybrid {
             Width::Wide => &self.wide,
         };
         let input = Input { points, lattice: &lattice, start };
-        let mut run = Run::new(phase1, &self.gpu, input, Settings::default(), None).await?;
+        let mut run = Run::new(phase1, &self.gpu, input, self.settings, None).await?;
         loop {
             let more = run.round().await?;
             if let Some(tracer) = &mut tracer {

@@ -2,6 +2,7 @@
 
 use bytemuck::Zeroable;
 
+use super::buffers::largest_bytes;
 use super::{Buffers, COUNTER_WORDS, Input, PARAM_WORDS, Phase1, Phase1Output, Phase1Stats, Settings};
 use crate::{
     Error,
@@ -43,6 +44,22 @@ fn bid_bits(blocks: u32) -> u32 {
     33 - (blocks * BLOCK).leading_zeros()
 }
 
+/// The blocks for so many points: theirs, that of infinity, and a tail.
+fn first_blocks(points: u32, settings: &Settings) -> u32 {
+    points + 1 + tail_blocks(points, settings)
+}
+
+/// The most points whose buffers a device can bind.
+fn most_points(limit: u64, settings: &Settings) -> usize {
+    let fits = |points: &u32| largest_bytes(first_blocks(*points, settings)) <= limit.into();
+    let (mut fitting, mut too_many) = (0, Run::MAX_POINTS as u32 + 1);
+    while too_many - fitting > 1 {
+        let middle = fitting + (too_many - fitting) / 2;
+        *(if fits(&middle) { &mut fitting } else { &mut too_many }) = middle;
+    }
+    fitting as usize
+}
+
 /// Blocks that are added to the tail at a time: at least 64, so that few points do not need many steps.
 fn tail_blocks(points: u32, settings: &Settings) -> u32 {
     64 + points / settings.points_per_tail_block.max(1)
@@ -71,7 +88,12 @@ impl<'a> Run<'a> {
             return Err(Error::TooManyPoints { points: count, limit: Self::MAX_POINTS });
         }
         let points = count as u32;
-        let blocks = points + 1 + tail_blocks(points, &settings);
+        let blocks = first_blocks(points, &settings);
+        let (bytes, limit) = (largest_bytes(blocks), gpu.max_storage_bytes());
+        if bytes > limit.into() {
+            let points = Some(most_points(limit, &settings));
+            return Err(Error::BufferTooLarge { label: "tetrahedra", bytes, limit, points });
+        }
         let bindable = gpu.max_storage_bytes() / size_of::<FlipNode>() as u64;
         let params = Params {
             infinite: points,
@@ -254,6 +276,12 @@ impl<'a> Run<'a> {
         let blocks = before.saturating_add(more).min((1 << 30) / BLOCK - 1);
         if blocks == before {
             return Err(Error::TooManyTetrahedra { limit: 1 << 30 });
+        }
+        let (bytes, limit) = (largest_bytes(blocks), self.gpu.max_storage_bytes());
+        if bytes > limit.into() {
+            // Points that lie like these.
+            let points = u128::from(self.params.infinite) * u128::from(limit) / bytes;
+            return Err(Error::BufferTooLarge { label: "tetrahedra", bytes, limit, points: Some(points as usize) });
         }
         self.buffers = self.buffers.with_blocks(self.gpu, recorder, blocks)?;
         (self.params.blocks_before, self.params.blocks) = (before, blocks);
