@@ -6,7 +6,7 @@ use crate::{
     hybrid::Hybrid,
     stats::Fallback,
 };
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use async_lock::Mutex;
 
 /// From so many points on, [`Engine::Auto`] takes the GPU engine if it is open.
 ///
@@ -23,7 +23,7 @@ pub const OPENING_POINTS: usize = 100_000;
 /// Both engines, for any number of inputs.
 ///
 /// [`delaunay3d`](crate::delaunay3d) has one of these for the whole process. Make another to choose the adapter, or where
-/// nothing may block (browsers).
+/// nothing may block (browsers). The device does one run at a time; others wait for it.
 #[derive(Debug, Default)]
 pub struct Engines {
     adapter: AdapterChoice,
@@ -33,7 +33,7 @@ pub struct Engines {
 #[derive(Debug, Default)]
 struct State {
     /// The GPU engine, while it is open.
-    hybrid: Option<Arc<Hybrid>>,
+    hybrid: Option<Hybrid>,
     /// Whether [`Engine::Auto`] may take it though it is software.
     given: bool,
     /// Why [`Engine::Auto`] does not try to open it again.
@@ -51,7 +51,7 @@ impl Engines {
     /// Engines with this GPU engine, which [`Engine::Auto`] takes even if it is software. When its device is lost, the
     /// default adapter replaces it.
     pub fn with_hybrid(hybrid: Hybrid) -> Self {
-        let state = State { hybrid: Some(Arc::new(hybrid)), given: true, ..State::default() };
+        let state = State { hybrid: Some(hybrid), given: true, ..State::default() };
         Engines { state: Mutex::new(state), ..Engines::default() }
     }
 
@@ -60,6 +60,16 @@ impl Engines {
     pub fn shared() -> &'static Engines {
         static SHARED: std::sync::LazyLock<Engines> = std::sync::LazyLock::new(Engines::default);
         &SHARED
+    }
+
+    /// The GPU, opened if it is not. The kernels are compiled for it, too.
+    ///
+    /// # Errors
+    ///
+    /// As [`Gpu::open`] and [`Hybrid::new`].
+    pub async fn gpu(&self) -> Result<Gpu, Error> {
+        let mut state = self.state.lock().await;
+        Ok(state.open(&self.adapter).await?.gpu().clone())
     }
 
     /// The triangulation of `points` by the engine that `options` name: see [`delaunay3d`](crate::delaunay3d).
@@ -71,100 +81,94 @@ impl Engines {
         match options.engine {
             Engine::Cpu => cpu::delaunay3d(points, options),
             Engine::Gpu => {
-                let hybrid = self.hybrid().await?;
-                let result = hybrid.delaunay3d(points, options).await;
-                self.forget_if_lost(&hybrid, &result);
-                result
+                let mut state = self.state.lock().await;
+                state.open(&self.adapter).await?;
+                state.run(points, options).await
             }
-            Engine::Auto => self.auto(points, options).await,
-        }
-    }
-
-    /// The GPU engine, opened if it is not.
-    ///
-    /// # Errors
-    ///
-    /// As [`Gpu::open`] and [`Hybrid::new`].
-    pub async fn hybrid(&self) -> Result<Arc<Hybrid>, Error> {
-        if let Some(hybrid) = &self.state().hybrid {
-            return Ok(Arc::clone(hybrid));
-        }
-        let gpu = Gpu::open(&self.adapter).await?;
-        self.keep(gpu).await
-    }
-
-    async fn auto(&self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
-        let options = &options.monotone();
-        let why = match self.hybrid_if_it_pays(points.len()).await {
-            Ok(hybrid) => {
-                let result = hybrid.delaunay3d(points, options).await;
-                self.forget_if_lost(&hybrid, &result);
-                match result {
-                    Err(error) if error.is_of_the_gpu() => Fallback::GpuFailed(error),
-                    result => return result,
-                }
-            }
-            Err(why) => why,
-        };
-        let mut mesh = cpu::delaunay3d(points, options)?;
-        mesh.stats.fallback = Some(why);
-        Ok(mesh)
-    }
-
-    /// The GPU engine for an input of `points` points, or why the CPU engine is to be preferred.
-    async fn hybrid_if_it_pays(&self, points: usize) -> Result<Arc<Hybrid>, Fallback> {
-        if points < LEAST_POINTS {
-            return Err(Fallback::FewPoints { points, least: LEAST_POINTS });
-        }
-        {
-            let mut state = self.state();
-            if let Some(why) = &state.unusable {
-                return Err(why.clone());
-            }
-            match &state.hybrid {
-                Some(hybrid) if hybrid.gpu().adapter().software && !state.given => return Err(software(hybrid.gpu())),
-                Some(hybrid) => return Ok(Arc::clone(hybrid)),
-                None => {}
-            }
-            let least = OPENING_POINTS.saturating_sub(state.missed);
-            if points < least {
-                state.missed += points;
-                return Err(Fallback::FewPoints { points, least });
+            Engine::Auto => {
+                let options = &options.monotone();
+                let why = match self.try_gpu(points, options).await {
+                    Ok(result) => return result,
+                    Err(why) => why,
+                };
+                let mut mesh = cpu::delaunay3d(points, options)?;
+                mesh.stats.fallback = Some(why);
+                Ok(mesh)
             }
         }
-        let opened = match Gpu::open(&self.adapter).await {
-            Ok(gpu) if gpu.adapter().software => Err(software(&gpu)),
-            Ok(gpu) => self.keep(gpu).await.map_err(Fallback::NoGpu),
-            Err(error) => Err(Fallback::NoGpu(error)),
-        };
-        if let Err(why) = &opened {
-            self.state().unusable = Some(why.clone());
+    }
+
+    /// What the GPU engine makes of the points, or why the CPU engine has to.
+    async fn try_gpu(&self, points: Points<'_>, options: &Options) -> Result<Result<Mesh3, Error>, Fallback> {
+        if points.len() < LEAST_POINTS {
+            return Err(Fallback::FewPoints { points: points.len(), least: LEAST_POINTS });
         }
-        opened
-    }
-
-    /// Compiles the kernels for `gpu`, and keeps them unless somebody else was faster.
-    async fn keep(&self, gpu: Gpu) -> Result<Arc<Hybrid>, Error> {
-        let hybrid = Arc::new(Hybrid::new(gpu).await?);
-        Ok(Arc::clone(self.state().hybrid.get_or_insert(hybrid)))
-    }
-
-    /// Lets the next input open the GPU anew, where it was lost with this one.
-    fn forget_if_lost(&self, hybrid: &Arc<Hybrid>, result: &Result<Mesh3, Error>) {
-        let mut state = self.state();
-        let is_kept = state.hybrid.as_ref().is_some_and(|kept| Arc::ptr_eq(kept, hybrid));
-        if is_kept && matches!(result, Err(Error::DeviceLost { .. })) {
-            state.hybrid = None;
-            state.given = false;
+        let mut state = self.state.lock().await;
+        state.open_if_it_pays(&self.adapter, points.len()).await?;
+        match state.run(points, options).await {
+            Err(error) if error.is_of_the_gpu() => Err(Fallback::GpuFailed(error)),
+            result => Ok(result),
         }
-    }
-
-    fn state(&self) -> MutexGuard<'_, State> {
-        // Nothing that holds the lock can leave a half-made state.
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-fn software(gpu: &Gpu) -> Fallback {
-    Fallback::SoftwareGpu(gpu.adapter().name.clone())
+impl State {
+    /// The GPU engine, opened if it is not.
+    async fn open(&mut self, adapter: &AdapterChoice) -> Result<&mut Hybrid, Error> {
+        let hybrid = match self.hybrid.take() {
+            Some(hybrid) => hybrid,
+            None => Hybrid::new(Gpu::open(adapter).await?).await?,
+        };
+        Ok(self.hybrid.insert(hybrid))
+    }
+
+    /// Opens the GPU engine for an input of `points` points if it is not open, or says why not to take it.
+    async fn open_if_it_pays(&mut self, adapter: &AdapterChoice, points: usize) -> Result<(), Fallback> {
+        if let Some(why) = &self.unusable {
+            return Err(why.clone());
+        }
+        if let Some(hybrid) = &self.hybrid {
+            return if self.given { Ok(()) } else { hardware(hybrid.gpu()) };
+        }
+        let least = OPENING_POINTS.saturating_sub(self.missed);
+        if points < least {
+            self.missed += points;
+            return Err(Fallback::FewPoints { points, least });
+        }
+        let opened = match Gpu::open(adapter).await {
+            Ok(gpu) => match hardware(&gpu) {
+                Ok(()) => Hybrid::new(gpu).await.map_err(Fallback::NoGpu),
+                Err(why) => Err(why),
+            },
+            Err(error) => Err(Fallback::NoGpu(error)),
+        };
+        match opened {
+            Ok(hybrid) => {
+                self.hybrid = Some(hybrid);
+                Ok(())
+            }
+            Err(why) => Err(self.unusable.insert(why).clone()),
+        }
+    }
+
+    /// Runs the GPU engine, which is open. If its device gets lost, the next run has to open it anew.
+    async fn run(&mut self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
+        let Some(hybrid) = &mut self.hybrid else {
+            return Err(Error::NoAdapter { reason: "it is not open".to_owned() });
+        };
+        let result = hybrid.delaunay3d(points, options).await;
+        if matches!(result, Err(Error::DeviceLost { .. })) {
+            self.hybrid = None;
+            self.given = false;
+        }
+        result
+    }
+}
+
+/// An adapter that is none is no use to [`Engine::Auto`].
+fn hardware(gpu: &Gpu) -> Result<(), Fallback> {
+    match gpu.adapter().software {
+        true => Err(Fallback::SoftwareGpu(gpu.adapter().name.clone())),
+        false => Ok(()),
+    }
 }

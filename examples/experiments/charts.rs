@@ -1,10 +1,13 @@
 //! Charts as SVG.
 
 use plotters::{
-    coord::{Shift, combinators::LogCoord, types::RangedCoordf64},
+    coord::{
+        Shift,
+        ranged1d::{AsRangedCoord, ValueFormatter},
+    },
     prelude::*,
 };
-use std::{error::Error, ops::Range, path::Path};
+use std::{error::Error, path::Path};
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
@@ -78,15 +81,15 @@ impl Lines {
 
     fn draw_on<Y>(&self, area: &Area<'_>, right: f64, y: Y, bottom: f64) -> Result<(), Box<dyn Error>>
     where
-        Y: IntoAxis,
-        Y::Axis: 'static,
+        Y: AsRangedCoord<Value = f64>,
+        Y::CoordDescType: ValueFormatter<f64>,
     {
         let mut chart = ChartBuilder::on(area)
             .caption(&self.title, ("sans-serif", 20))
             .margin(12)
             .x_label_area_size(44)
             .y_label_area_size(72)
-            .build_cartesian_2d(0.0..right, y.into_axis())?;
+            .build_cartesian_2d(0.0..right, y)?;
         chart.configure_mesh().x_desc(self.x).y_desc(self.y).draw()?;
         for (i, (name, points)) in self.series.iter().enumerate() {
             let points: Vec<(f64, f64)> = points.iter().map(|&(x, y)| (x, y.max(bottom))).collect();
@@ -102,26 +105,6 @@ impl Lines {
             .background_style(WHITE.mix(0.8))
             .draw()?;
         Ok(())
-    }
-}
-
-/// A vertical axis of numbers, linear or logarithmic.
-trait IntoAxis {
-    type Axis: Ranged<ValueType = f64> + ValueFormatter<f64>;
-    fn into_axis(self) -> Self::Axis;
-}
-
-impl IntoAxis for Range<f64> {
-    type Axis = RangedCoordf64;
-    fn into_axis(self) -> RangedCoordf64 {
-        self.into()
-    }
-}
-
-impl IntoAxis for plotters::coord::combinators::LogRangeExt<f64> {
-    type Axis = LogCoord<f64>;
-    fn into_axis(self) -> LogCoord<f64> {
-        self.into()
     }
 }
 

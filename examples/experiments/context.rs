@@ -91,13 +91,13 @@ impl Context {
     }
 
     /// The GPU engine's run with the median time.
-    pub fn on_gpu<'a>(&self, hybrid: &Hybrid, points: impl Into<Points<'a>>) -> Result<Timed, Box<dyn Error>> {
+    pub fn on_gpu<'a>(&self, hybrid: &mut Hybrid, points: impl Into<Points<'a>>) -> Result<Timed, Box<dyn Error>> {
         let points = points.into();
         self.median(|| block_on(hybrid.delaunay3d(points, &Options::default())))
     }
 
     /// What the GPU engine says about a run that is not timed.
-    pub fn once_on_gpu(&self, hybrid: &Hybrid, points: Points<'_>) -> Result<Stats, Box<dyn Error>> {
+    pub fn once_on_gpu(&self, hybrid: &mut Hybrid, points: Points<'_>) -> Result<Stats, Box<dyn Error>> {
         Ok(block_on(hybrid.delaunay3d(points, &Options::default()))?.stats)
     }
 
@@ -125,7 +125,7 @@ impl Context {
         Ok(runs.get(runs.len() / 2).copied())
     }
 
-    fn median(&self, run: impl Fn() -> Result<Mesh3, gdel::Error>) -> Result<Timed, Box<dyn Error>> {
+    fn median(&self, mut run: impl FnMut() -> Result<Mesh3, gdel::Error>) -> Result<Timed, Box<dyn Error>> {
         run()?;
         let mut runs = Vec::with_capacity(self.repeat);
         for _ in 0..self.repeat {

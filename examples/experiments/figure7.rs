@@ -37,7 +37,7 @@ fn task(stage: &str) -> &'static str {
 }
 
 pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
-    let hybrid = context.hybrid(Settings::default())?;
+    let mut hybrid = context.hybrid(Settings::default())?;
     let size = context.sizes(&[SIZE])[0];
     let mut table = Table::new([
         "input",
@@ -55,7 +55,7 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
     let mut shares: Vec<(String, Vec<f64>)> = TASKS.iter().map(|task| (task.to_string(), Vec::new())).collect();
     for distribution in DISTRIBUTIONS {
         let points = context.points(distribution, size);
-        let timed = context.on_gpu(&hybrid, &points)?;
+        let timed = context.on_gpu(&mut hybrid, &points)?;
         let mut spent = [0.0; TASKS.len()];
         let mut add = |task: &str, milliseconds: f64| {
             let place = TASKS.iter().position(|name| *name == task);

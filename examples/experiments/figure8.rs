@@ -13,13 +13,13 @@ use std::error::Error;
 const SIZE: usize = 500_000;
 
 pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
-    let hybrid = context.hybrid(Settings::default())?;
+    let mut hybrid = context.hybrid(Settings::default())?;
     let size = context.sizes(&[SIZE])[0];
     let mut table =
         Table::new(["input", "points", "failed", "built", "pulled", "built, %", "pulled, %", "all, %", "fallback"]);
     let (mut groups, mut built, mut pulled) = (Vec::new(), Vec::new(), Vec::new());
     let mut add = |name: &str, points: Points<'_>| -> Result<(), Box<dyn Error>> {
-        let stats = context.once_on_gpu(&hybrid, points)?;
+        let stats = context.once_on_gpu(&mut hybrid, points)?;
         let splay = stats.splay.unwrap_or_default();
         let [b, p] = [splay.built, splay.pulled].map(|stars| 100.0 * stars as f64 / points.len() as f64);
         table.push([

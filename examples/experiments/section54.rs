@@ -25,10 +25,10 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
     let mut table = Table::new(["pick", "input", "points", "failed vertices", "flips", "total, ms", "fallback"]);
     let mut failed = Vec::new();
     for (name, pick) in PICKS {
-        let hybrid = context.hybrid(Settings { pick, ..Settings::default() })?;
+        let mut hybrid = context.hybrid(Settings { pick, ..Settings::default() })?;
         let mut failed_here = Vec::new();
         for &(input, points) in &inputs {
-            let timed = context.on_gpu(&hybrid, points)?;
+            let timed = context.on_gpu(&mut hybrid, points)?;
             let gpu = timed.stats.gpu.unwrap_or_default();
             table.push([
                 json!(name),
@@ -44,8 +44,13 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
         failed.push((name, failed_here));
     }
     // A bar for each way and input.
-    let of = |i: usize| failed.iter().map(move |(name, failed)| (format!("{}, {name}", inputs[i].0), failed[i]));
-    let (groups, heights) = (0..inputs.len()).flat_map(of).unzip();
+    let (mut groups, mut heights) = (Vec::new(), Vec::new());
+    for (i, (input, _)) in inputs.iter().enumerate() {
+        for (name, failed) in &failed {
+            groups.push(format!("{input}, {name}"));
+            heights.push(failed[i]);
+        }
+    }
     let chart = Chart::Bars(Bars {
         name: "failed",
         title: "Failed vertices by the point that is inserted".to_owned(),

@@ -14,17 +14,22 @@ use gdel::{
     verify::verify3d,
 };
 use pollster::block_on;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 
-static HYBRID: LazyLock<Hybrid> = LazyLock::new(open);
+static HYBRID: LazyLock<Mutex<Hybrid>> = LazyLock::new(|| Mutex::new(open()));
 
 fn open() -> Hybrid {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a Vulkan driver: scripts/setup.sh");
     block_on(Hybrid::new(gpu)).expect("the kernels compile")
 }
 
+/// The engine that the tests share.
+fn hybrid() -> MutexGuard<'static, Hybrid> {
+    HYBRID.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 fn triangulate<'a>(points: impl Into<Points<'a>>) -> Mesh3 {
-    block_on(HYBRID.delaunay3d(points.into(), &Options::default())).expect("triangulates")
+    block_on(hybrid().delaunay3d(points.into(), &Options::default())).expect("triangulates")
 }
 
 /// Both engines agree, and the GPU's did the work.

@@ -1,6 +1,6 @@
 //! Every way in which a run can end, and that the next one works.
 
-use crate::{HYBRID, clouds, open, same, triangulate};
+use crate::{clouds, hybrid, open, same, triangulate};
 use gdel::{
     Engine, Engines, Error, Mesh3, Options, Progress,
     engines::LEAST_POINTS,
@@ -44,7 +44,7 @@ fn assert_monotone(reports: &[Progress]) {
 #[test]
 fn progress_goes_through_all_phases_and_never_back() {
     let points = points();
-    let (mesh, reports) = reports(|options| block_on(HYBRID.delaunay3d((&points).into(), options)));
+    let (mesh, reports) = reports(|options| block_on(hybrid().delaunay3d((&points).into(), options)));
     let mut phases: Vec<&str> = reports.iter().map(|progress| progress.phase).collect();
     let rounds = phases.iter().filter(|phase| **phase == "phase 1").count();
     assert!(rounds >= mesh.stats.gpu.expect("used").rounds.len());
@@ -56,7 +56,7 @@ fn progress_goes_through_all_phases_and_never_back() {
 #[test]
 fn progress_goes_on_where_the_cpu_engine_takes_over() {
     let flat: Vec<_> = points().iter().map(|&[x, y, _]| [x, y, 1.0]).collect();
-    let (mesh, reports) = reports(|options| block_on(HYBRID.delaunay3d((&flat).into(), options)));
+    let (mesh, reports) = reports(|options| block_on(hybrid().delaunay3d((&flat).into(), options)));
     assert_eq!(mesh.stats.fallback, Some(Fallback::Coplanar));
     assert!(reports.iter().any(|progress| progress.phase == "sort"));
     assert_monotone(&reports);
@@ -72,7 +72,7 @@ fn a_run_can_be_cancelled_in_every_phase() {
             *seen += usize::from(progress.phase == phase);
             if *seen == nth { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let result = block_on(HYBRID.delaunay3d((&points).into(), &options));
+        let result = block_on(hybrid().delaunay3d((&points).into(), &options));
         assert_eq!(result.map(|_| ()), Err(Error::Cancelled), "{phase} {nth}");
     }
     same(&points, &triangulate(&points));
@@ -86,7 +86,7 @@ fn lose_the_device(
     phase: &'static str,
     round: usize,
 ) -> Result<Mesh3, Error> {
-    let device = block_on(engines.hybrid()).expect("opens").gpu().device().clone();
+    let device = block_on(engines.gpu()).expect("opens").device().clone();
     let seen = Mutex::new(0);
     let on_progress = watched(move |progress| {
         let mut seen = seen.lock().expect("no panic");
@@ -153,8 +153,8 @@ fn auto_does_not_take_a_software_adapter() {
         why.push(mesh.stats.fallback);
     }
     assert!(matches!(why[0], Some(Fallback::FewPoints { .. })), "opening does not pay yet: {why:?}");
-    if HYBRID.gpu().adapter().software {
-        let name = HYBRID.gpu().adapter().name.clone();
+    if hybrid().gpu().adapter().software {
+        let name = hybrid().gpu().adapter().name.clone();
         assert_eq!(why[4], Some(Fallback::SoftwareGpu(name)));
     }
 }
@@ -189,7 +189,7 @@ fn with_small_buffers(bytes: u64) -> Hybrid {
 
 #[test]
 fn an_input_that_is_too_large_is_an_error_that_says_what_would_fit() {
-    let hybrid = with_small_buffers(1 << 20);
+    let mut hybrid = with_small_buffers(1 << 20);
     let points = generate(Distribution::Uniform, 20_000, 3);
     let error = block_on(hybrid.delaunay3d((&points).into(), &Options::default())).expect_err("1 MiB is not enough");
     let Error::BufferTooLarge { bytes, limit, points: Some(fitting), .. } = error else { panic!("{error:?}") };
@@ -208,7 +208,7 @@ fn an_input_that_is_too_large_is_an_error_that_says_what_would_fit() {
 /// Two skew lines have a quadratic number of tetrahedra, so the buffers have to grow past what there may be.
 #[test]
 fn a_triangulation_that_outgrows_the_device_is_an_error() {
-    let hybrid = with_small_buffers(1 << 20);
+    let mut hybrid = with_small_buffers(1 << 20);
     let lines = clouds::two_skew_lines(400);
     let error = block_on(hybrid.delaunay3d((&lines).into(), &Options::default())).expect_err("1 MiB is not enough");
     let Error::BufferTooLarge { points: Some(fitting), .. } = error else { panic!("{error:?}") };
