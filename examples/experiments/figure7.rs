@@ -95,7 +95,7 @@ fn kernels(context: &Context, points: &[[f64; 3]]) -> Result<Vec<(&'static str, 
     let position = |i: usize| lattice.coordinates(points[i]).map(|c| c.value);
     let start = first_tetrahedron(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
     let input = Input { points: points.into(), lattice: &lattice, start };
-    let phase1 = block_on(Phase1::new(gpu, lattice.width()))?;
+    let mut phase1 = block_on(Phase1::new(gpu, lattice.width()))?;
     block_on(phase1.run(gpu, input, &Settings::default(), None))?;
     block_on(phase1.run(gpu, input, &Settings::default(), Some(&mut profiler)))?;
     let last = gpu.queue().submit([]);
