@@ -32,6 +32,8 @@ pub mod splay;
 pub mod stats;
 pub mod triangulation;
 pub mod verify;
+#[cfg(all(feature = "wasm", target_arch = "wasm32"))]
+mod wasm;
 
 pub use error::Error;
 pub use mesh::Mesh3;
