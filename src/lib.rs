@@ -26,6 +26,7 @@ pub mod io;
 pub mod lattice;
 pub mod mesh;
 pub mod options;
+mod parallel;
 pub mod points;
 pub mod predicates;
 pub mod splay;
