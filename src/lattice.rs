@@ -1,6 +1,6 @@
 //! Coordinates as integers on a common power-of-two lattice.
 //!
-//! A point's lattice coordinate is `round(x·2ᵏ) − origin`, with one *k* for the three axes, the largest for which all
+//! A point's lattice coordinate is `round(x·2ᵏ) − origin`, with one *k* for all axes, the largest for which all
 //! of them fit. Scaling by 2ᵏ is exact, so nothing is lost but what the rounding drops, and whether it dropped anything
 //! is known for each point. 31 bits hold grids, voxels and LAS files exactly; 62 bits nearly all `f32` and most `f64`
 //! data.
@@ -26,9 +26,9 @@ impl Width {
     }
 }
 
-/// The lattice of one input.
+/// The lattice of one input, in space or in the plane.
 #[derive(Debug, Clone)]
-pub struct Lattice {
+pub struct Lattice<const D: usize = 3> {
     width: Width,
     /// *k*: coordinates are multiplied by 2ᵏ.
     exponent: i32,
@@ -36,7 +36,7 @@ pub struct Lattice {
     factor: f64,
     /// The lattice coordinate of the least coordinate of each axis, before it is subtracted; `None` for an axis on which
     /// all points agree (its lattice coordinates are all 0).
-    origin: [Option<i128>; 3],
+    origin: [Option<i128>; D],
 }
 
 /// A lattice coordinate, and whether it stands for the exact value.
@@ -75,20 +75,20 @@ fn scale(x: f64, exponent: i32) -> (i128, bool) {
     }
 }
 
-impl Lattice {
+impl<const D: usize> Lattice<D> {
     /// The lattice of `points`, which must be finite.
-    pub fn fit(points: Points<'_>) -> Self {
-        let mut low = [f64::INFINITY; 3];
-        let mut high = [f64::NEG_INFINITY; 3];
+    pub fn fit(points: Points<'_, D>) -> Self {
+        let mut low = [f64::INFINITY; D];
+        let mut high = [f64::NEG_INFINITY; D];
         for p in points.iter() {
-            for axis in 0..3 {
+            for axis in 0..D {
                 low[axis] = low[axis].min(p[axis]);
                 high[axis] = high[axis].max(p[axis]);
             }
         }
-        let varies: [bool; 3] = std::array::from_fn(|axis| low[axis] < high[axis]);
+        let varies: [bool; D] = std::array::from_fn(|axis| low[axis] < high[axis]);
         let fitting = |width: Width| {
-            (0..3).filter(|&axis| varies[axis]).map(|axis| largest_exponent(low[axis], high[axis], width.bits())).min()
+            (0..D).filter(|&axis| varies[axis]).map(|axis| largest_exponent(low[axis], high[axis], width.bits())).min()
         };
         let lattice = |width: Width| {
             let exponent = fitting(width).unwrap_or(0);
@@ -115,19 +115,19 @@ impl Lattice {
     }
 
     /// The axes on which the points do not all agree.
-    pub fn varies(&self) -> [bool; 3] {
+    pub fn varies(&self) -> [bool; D] {
         self.origin.map(|o| o.is_some())
     }
 
     /// `round(x·2ᵏ)` of the least coordinate of each axis, which is taken off; `None` for an axis on which all points
     /// agree.
-    pub fn origin(&self) -> [Option<i128>; 3] {
+    pub fn origin(&self) -> [Option<i128>; D] {
         self.origin
     }
 
     /// The lattice coordinates of a point of the input that the lattice was fitted to.
     #[inline]
-    pub fn coordinates(&self, p: [f64; 3]) -> [Coordinate; 3] {
+    pub fn coordinates(&self, p: [f64; D]) -> [Coordinate; D] {
         std::array::from_fn(|axis| match self.origin[axis] {
             None => Coordinate { value: 0, exact: true },
             Some(origin) => {

@@ -1,138 +1,9 @@
-//! A point set prepared for fast exact predicates: floating-point filters, then lattice integers, then expansions.
+//! The predicates of space.
 
-use super::{Sign, exact, integer, symbolic};
-use crate::{
-    Points,
-    lattice::{Lattice, Width},
-    stats::ExactCounts,
-};
-use std::cell::Cell;
+use super::{ERRORS, ExactStage, UNDERFLOW, Vertices, in_sphere_bound, minus, unrounded};
+use crate::predicates::{Sign, exact, integer, symbolic};
 
-/// The roundoff of Shewchuk's `insphere` is at most this times its permanent (*Adaptive precision floating-point
-/// arithmetic*, 1997, §4.4: (16 + 224 ε) ε with ε = 2⁻⁵³), which counts the rounded differences in.
-const INSPHERE: f64 = (16.0 + 224.0 * EPSILON) * EPSILON;
-/// Likewise for `orient3d`: (7 + 56 ε) ε.
-const ORIENT3D: f64 = (7.0 + 56.0 * EPSILON) * EPSILON;
-const EPSILON: f64 = f64::EPSILON / 2.0;
-
-/// Added to every error bound: coordinates are scaled to a range of 2³¹, so all that underflow can cost, 2⁻¹⁰⁷⁴ in any
-/// of some hundred operations and times at most 2¹⁵⁷ of later factors, is far below it.
-const UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
-
-/// Points in an order of the engine's choosing (*vertices*), with the predicates on them.
-///
-/// The signs are those of the exact input coordinates; the symbolic ties are those of the input indices.
-pub struct Vertices<'a> {
-    input: Points<'a>,
-    /// The input index of each vertex.
-    indices: Vec<u32>,
-    /// Input coordinates times a power of two that brings the range of every axis below 2³¹; for a narrow lattice, the
-    /// lattice coordinates.
-    coordinates: Vec<[f64; 3]>,
-    exact: ExactStage,
-    /// Error bounds of the determinants' floating-point values that hold for all arguments.
-    orient3d_bound: f64,
-    insphere_bound: f64,
-    counts: Cell<ExactCounts>,
-}
-
-/// What decides the signs that the filters leave open.
-enum ExactStage {
-    /// 31-bit integers, which the `coordinates` are.
-    Narrow,
-    /// 62-bit integers, where none of the points is rounded.
-    Wide { lattice: Vec<[i64; 3]>, rounded: Option<Vec<bool>> },
-}
-
-/// Multiplication by a power of two that `f64` need not have, as two that it has.
-struct Scale([f64; 2]);
-
-impl Scale {
-    fn new(exponent: i32) -> Self {
-        // |exponent| is at most 62 + 1074.
-        let half = exponent.clamp(-2000, 2000) / 2;
-        Scale([half, exponent.clamp(-2000, 2000) - half].map(|e| f64::from_bits(((1023 + e) as u64) << 52)))
-    }
-
-    /// Exact unless the result is subnormal.
-    fn apply(&self, x: f64) -> f64 {
-        x * self.0[0] * self.0[1]
-    }
-}
-
-impl<'a> Vertices<'a> {
-    /// Vertex *v* is `input` point `indices[v]`. The points must be finite and `lattice` fitted to them.
-    pub fn new(input: Points<'a>, lattice: &Lattice, indices: Vec<u32>) -> Self {
-        let mut coordinates = Vec::with_capacity(indices.len());
-        let exact = match lattice.width() {
-            Width::Narrow => {
-                let narrow = |&i: &u32| lattice.coordinates(input.get(i as usize)).map(|c| c.value as f64);
-                coordinates.extend(indices.iter().map(narrow));
-                ExactStage::Narrow
-            }
-            Width::Wide => {
-                let exponent = lattice.exponent() - (Width::Wide.bits() - Width::Narrow.bits()) as i32;
-                let scale = Scale::new(exponent);
-                let varies = lattice.varies();
-                let mut words = Vec::with_capacity(indices.len());
-                let mut rounded = Vec::new();
-                for (v, &i) in indices.iter().enumerate() {
-                    let p = input.get(i as usize);
-                    coordinates.push(std::array::from_fn(|axis| if varies[axis] { scale.apply(p[axis]) } else { 0.0 }));
-                    let q = lattice.coordinates(p);
-                    words.push(q.map(|c| c.value));
-                    if q.iter().any(|c| !c.exact) {
-                        rounded.resize(indices.len(), false);
-                        rounded[v] = true;
-                    }
-                }
-                ExactStage::Wide { lattice: words, rounded: (!rounded.is_empty()).then_some(rounded) }
-            }
-        };
-        let mut low = [f64::INFINITY; 3];
-        let mut high = [f64::NEG_INFINITY; 3];
-        for p in &coordinates {
-            for axis in 0..3 {
-                low[axis] = low[axis].min(p[axis]);
-                high[axis] = high[axis].max(p[axis]);
-            }
-        }
-        let [x, y, z] = std::array::from_fn(|axis| (high[axis] - low[axis]).max(0.0));
-        let orient3d_bound = orient3d_bound([x, y, z]);
-        let insphere_bound = insphere_bound([x, y, z]);
-        Vertices { input, indices, coordinates, exact, orient3d_bound, insphere_bound, counts: Cell::default() }
-    }
-
-    /// The number of vertices.
-    pub fn len(&self) -> usize {
-        self.indices.len()
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.indices.is_empty()
-    }
-
-    /// The exact coordinates of vertex `v`.
-    pub fn point(&self, v: u32) -> [f64; 3] {
-        self.input.get(self.indices[v as usize] as usize)
-    }
-
-    /// The input index of vertex `v`.
-    pub fn input_index(&self, v: u32) -> u32 {
-        self.indices[v as usize]
-    }
-
-    /// The input index of every vertex.
-    pub fn into_input_indices(self) -> Vec<u32> {
-        self.indices
-    }
-
-    /// What the filters left open so far.
-    pub fn exact_counts(&self) -> ExactCounts {
-        self.counts.get()
-    }
-
+impl Vertices<'_> {
     /// The sign of det(b − a, c − a, d − a).
     #[inline]
     pub fn orient3d(&self, a: u32, b: u32, c: u32, d: u32) -> Sign {
@@ -142,7 +13,7 @@ impl<'a> Vertices<'a> {
         let det = u[0] * (v[2] * w[1] - v[1] * w[2])
             + u[1] * (v[0] * w[2] - v[2] * w[0])
             + u[2] * (v[1] * w[0] - v[0] * w[1]);
-        if det.abs() > self.orient3d_bound {
+        if det.abs() > self.orientation_bound {
             return if det > 0.0 { 1 } else { -1 };
         }
         self.orient3d_unfiltered([a, b, c, d], u, v, w, det)
@@ -152,7 +23,7 @@ impl<'a> Vertices<'a> {
     fn orient3d_unfiltered(&self, vertices: [u32; 4], u: [f64; 3], v: [f64; 3], w: [f64; 3], det: f64) -> Sign {
         let perm = |i: usize, j: usize| (v[i] * w[j]).abs() + (v[j] * w[i]).abs();
         let permanent = u[0].abs() * perm(1, 2) + u[1].abs() * perm(2, 0) + u[2].abs() * perm(0, 1);
-        if det.abs() > ORIENT3D * permanent + UNDERFLOW {
+        if det.abs() > ERRORS[3].orientation * permanent + UNDERFLOW {
             return if det > 0.0 { 1 } else { -1 };
         }
         self.orient3d_exact(vertices)
@@ -185,7 +56,7 @@ impl<'a> Vertices<'a> {
         let pe = self.coordinates[e as usize];
         let [pa, pb, pc, pd] = [a, b, c, d].map(|v| minus(self.coordinates[v as usize], pe));
         let det = insphere_determinant(pa, pb, pc, pd);
-        if det.abs() > self.insphere_bound {
+        if det.abs() > self.in_sphere_bound {
             return if det > 0.0 { 1 } else { -1 };
         }
         self.insphere_unfiltered([a, b, c, d, e], [pa, pb, pc, pd], det)
@@ -194,10 +65,10 @@ impl<'a> Vertices<'a> {
     #[inline(never)]
     fn insphere_unfiltered(&self, vertices: [u32; 5], [a, b, c, d]: [[f64; 3]; 4], det: f64) -> Sign {
         let extent = |axis: usize| a[axis].abs().max(b[axis].abs()).max(c[axis].abs().max(d[axis].abs()));
-        if det.abs() > insphere_bound([extent(0), extent(1), extent(2)]) {
+        if det.abs() > in_sphere_bound([extent(0), extent(1), extent(2)]) {
             return if det > 0.0 { 1 } else { -1 };
         }
-        if det.abs() > INSPHERE * insphere_permanent(a, b, c, d) + UNDERFLOW {
+        if det.abs() > ERRORS[3].in_sphere * insphere_permanent(a, b, c, d) + UNDERFLOW {
             return if det > 0.0 { 1 } else { -1 };
         }
         let sign = match &self.exact {
@@ -226,37 +97,6 @@ impl<'a> Vertices<'a> {
             self.orient3d(a, b, c, d)
         })
     }
-
-    fn narrow(&self, v: u32) -> [i64; 3] {
-        self.coordinates[v as usize].map(|x| x as i64)
-    }
-
-    fn count(&self, field: impl Fn(&mut ExactCounts) -> &mut u64) {
-        let mut counts = self.counts.get();
-        *field(&mut counts) += 1;
-        self.counts.set(counts);
-    }
-}
-
-/// The error of an orientation's floating-point value where no difference of coordinates exceeds x, y and z: the permanent
-/// is at most 6·x·y·z. The last factor covers the roundings here.
-fn orient3d_bound([x, y, z]: [f64; 3]) -> f64 {
-    ORIENT3D * 6.0 * x * y * z * (1.0 + 64.0 * EPSILON) + UNDERFLOW
-}
-
-/// Likewise for an in-sphere determinant, whose permanent is at most 4·(x² + y² + z²)·6·x·y·z.
-#[inline]
-fn insphere_bound([x, y, z]: [f64; 3]) -> f64 {
-    INSPHERE * 24.0 * x * y * z * (x * x + y * y + z * z) * (1.0 + 64.0 * EPSILON) + UNDERFLOW
-}
-
-fn unrounded(rounded: &Option<Vec<bool>>, vertices: &[u32]) -> bool {
-    rounded.as_ref().is_none_or(|rounded| vertices.iter().all(|&v| !rounded[v as usize]))
-}
-
-#[inline]
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 #[inline]
@@ -287,7 +127,8 @@ fn insphere_permanent(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> f64
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::Scale, *};
+    use crate::lattice::Lattice;
     use proptest::prelude::*;
 
     /// Every sign that `Vertices` gives for the first five points agrees with the exact predicates on `f64`.
