@@ -6,15 +6,17 @@ use crate::{
     Error, Mesh3, Options, Points, cpu,
     gpu::{
         Gpu,
-        phase1::{Input, Phase1, Phase1Output, Settings},
+        phase1::{Input, Phase1, Phase1Output, Run, Settings},
         start::first_tetrahedron,
     },
     lattice::{Lattice, Width},
-    mesh::{NONE, hull_of},
+    mesh::NONE,
+    parallel,
     predicates::vertices::Vertices,
     splay::{self, GaveUp, NearDelaunay, Outcome},
-    stats::{Stats, Stopwatch},
-    triangulation::Triangulation,
+    stats::{Fallback, Stats, Stopwatch},
+    trace::Tracer,
+    triangulation::{FiniteMesh, Triangulation},
 };
 
 /// A device with the kernels of Phase 1 compiled for it: make one and use it for many inputs.
@@ -23,6 +25,7 @@ pub struct Hybrid {
     gpu: Gpu,
     narrow: Phase1,
     wide: Phase1,
+    settings: Settings,
 }
 
 impl Hybrid {
@@ -34,7 +37,12 @@ impl Hybrid {
     pub async fn new(gpu: Gpu) -> Result<Self, Error> {
         let narrow = Phase1::new(&gpu, Width::Narrow).await?;
         let wide = Phase1::new(&gpu, Width::Wide).await?;
-        Ok(Hybrid { gpu, narrow, wide })
+        Ok(Hybrid { gpu, narrow, wide, settings: Settings::default() })
+    }
+
+    /// The same with other settings for Phase 1, for experiments: they change the time, and not the mesh.
+    pub fn with_settings(self, settings: Settings) -> Self {
+        Hybrid { settings, ..self }
     }
 
     /// The device.
@@ -50,76 +58,98 @@ impl Hybrid {
     /// # Errors
     ///
     /// As for [`delaunay3d`](crate::delaunay3d), and those of the device.
-    pub async fn delaunay3d(&self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
+    pub async fn delaunay3d(&mut self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
+        let options = &options.monotone();
         let mut stopwatch = Stopwatch::start();
         options.report("lattice", 0.0)?;
-        points.validate()?;
-        let lattice = Lattice::fit(points);
+        let threads = parallel::available();
+        points.validate_in_threads(threads)?;
+        let lattice = Lattice::fit_in_threads(threads, points);
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let Some(start) = first_tetrahedron(lattice.width(), points.len(), position) else {
-            return fall_back(points, options, "the points are coplanar, or nearly");
+            return fall_back(points, options, Fallback::Coplanar, Stats::default());
         };
         let mut stats = Stats { engine: "gpu", ..Stats::default() };
+        let mut tracer = options.trace.then(Tracer::default);
         stats.phases.push(("lattice", stopwatch.lap()));
 
         options.report("phase 1", 0.05)?;
+        // Points of the other width are likely to come never again, or not soon.
         let phase1 = match lattice.width() {
-            Width::Narrow => &self.narrow,
-            Width::Wide => &self.wide,
+            Width::Narrow => {
+                self.wide.release();
+                &mut self.narrow
+            }
+            Width::Wide => {
+                self.narrow.release();
+                &mut self.wide
+            }
         };
         let input = Input { points, lattice: &lattice, start };
-        let output = phase1.run(&self.gpu, input, &Settings::default(), None).await?;
-        stats.phases.push(("phase 1", stopwatch.lap()));
+        let mut run = Run::new(phase1, &self.gpu, input, self.settings, None).await?;
+        loop {
+            let more = run.round().await?;
+            if let Some(tracer) = &mut tracer {
+                tracer.round(&self.gpu, &run).await?;
+            }
+            let inserted = 1.0 - f64::from(run.waiting()) / points.len() as f64;
+            options.report("phase 1", 0.05 + 0.6 * inserted)?;
+            if !more {
+                break;
+            }
+        }
+        let output = run.finish().await?;
+        stats.gpu = Some(output.stats.summary(&self.gpu.adapter().name));
+        let readback = output.stats.readback_milliseconds / 1e3;
+        stats.phases.push(("phase 1", stopwatch.lap() - readback));
+        stats.phases.push(("readback", readback));
 
         options.report("splay", 0.8)?;
-        let vertices = Vertices::new(points, &lattice, output.order.clone());
-        let (near, duplicate_of) = near_delaunay(points, &vertices, output);
+        let vertices = Vertices::of_input(points, &lattice);
+        let (near, duplicate_of) = near_delaunay(points, output);
+        if let Some(tracer) = &mut tracer {
+            tracer.facets(&near.triangulation, &vertices);
+        }
         let most_signs = near.signs_from_nothing();
         let report = |share: f64| options.report("splay", 0.8 + 0.15 * share);
         let triangulation = match splay::splay(&vertices, near, most_signs, &report)? {
-            Outcome::Delaunay(triangulation, _) => triangulation,
-            Outcome::GaveUp(GaveUp::Work) => return fall_back(points, options, "splaying was too much work"),
-            Outcome::GaveUp(GaveUp::Inconsistent(what)) => return fall_back(points, options, what),
+            Outcome::Delaunay(triangulation, splay) => {
+                stats.splay = Some(splay);
+                triangulation
+            }
+            Outcome::GaveUp(GaveUp::Work) => return fall_back(points, options, Fallback::Work, stats),
+            Outcome::GaveUp(GaveUp::Inconsistent(what)) => {
+                return fall_back(points, options, Fallback::Inconsistent(what), stats);
+            }
         };
         stats.phases.push(("splay", stopwatch.lap()));
 
         options.report("finish", 0.95)?;
         stats.exact = vertices.exact_counts();
-        let (tetrahedra, neighbors) = triangulation.into_mesh(&vertices.into_input_indices());
-        let hull = hull_of(&tetrahedra, &neighbors);
+        let FiniteMesh { tetrahedra, neighbors, hull } = triangulation.into_mesh(None, threads);
         stats.phases.push(("finish", stopwatch.lap()));
+        stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
         options.report("finish", 1.0)?;
         Ok(Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats })
     }
 }
 
-fn fall_back(points: Points<'_>, options: &Options, why: &'static str) -> Result<Mesh3, Error> {
+/// The CPU engine's mesh, with what the GPU did before.
+fn fall_back(points: Points<'_>, options: &Options, why: Fallback, before: Stats) -> Result<Mesh3, Error> {
     let mut mesh = cpu::delaunay3d(points, options)?;
-    mesh.stats.fallback = Some(why);
+    mesh.stats = Stats { fallback: Some(why), gpu: before.gpu, ..mesh.stats };
     Ok(mesh)
 }
 
 /// The result of Phase 1 in the form that splaying takes, and what duplicates what.
-fn near_delaunay(points: Points<'_>, vertices: &Vertices<'_>, output: Phase1Output) -> (NearDelaunay, Vec<i32>) {
-    let infinite = points.len() as u32;
+fn near_delaunay(points: Points<'_>, output: Phase1Output) -> (NearDelaunay, Vec<i32>) {
+    let Phase1Output { tets, neighbors, failed, tet_of: mut incident, united, doubtful, .. } = output;
     let mut duplicate_of = vec![NONE; points.len()];
-    let missing = missing_points(points, &output.united, &mut duplicate_of);
-    let mut vertex_of = Vec::new();
-    if !missing.is_empty() {
-        vertex_of.resize(points.len(), 0);
-        for (v, &point) in (0..).zip(&output.order) {
-            vertex_of[point as usize] = v;
-        }
-    }
-    let triangulation = Triangulation::new(output.tets, output.neighbors, infinite);
-    let mut doubtful = triangulation.flat_or_inverted(vertices);
-    doubtful.extend(output.uncertain.iter().map(|&[t, _]| t));
-    doubtful.sort_unstable();
-    doubtful.dedup();
-    let mut incident = output.tet_of;
+    let missing = missing_points(points, &united, &mut duplicate_of);
     incident.truncate(points.len());
-    let missing = missing.iter().map(|&i| vertex_of[i as usize]).collect();
-    (NearDelaunay { triangulation, incident, failed: output.failed, doubtful, missing }, duplicate_of)
+    let triangulation = Triangulation::new(tets, neighbors, points.len() as u32);
+    let doubtful = doubtful.into_iter().map(|[t, _]| t).collect();
+    (NearDelaunay { triangulation, incident, failed, doubtful, missing }, duplicate_of)
 }
 
 /// Of the points that others stand for, because they lie at the same place of the lattice: exact duplicates are noted in

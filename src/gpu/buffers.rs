@@ -72,6 +72,7 @@ impl<T: Pod> Storage<T> {
             label,
             bytes,
             limit,
+            points: None,
         })?;
         let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation };
         Ok(Storage { buffer: gpu.device().create_buffer(&descriptor), label, len, elements: PhantomData })
@@ -114,6 +115,12 @@ impl<T: Pod> Storage<T> {
     /// The size on the device, in bytes.
     pub fn bytes(&self) -> u64 {
         self.buffer.size()
+    }
+
+    /// The same buffer, seen as elements of another type.
+    pub fn seen_as<U: Pod>(&self) -> Storage<U> {
+        let len = self.len * size_of::<T>() / size_of::<U>();
+        Storage { buffer: self.buffer.clone(), label: self.label, len, elements: PhantomData }
     }
 
     /// The buffer.

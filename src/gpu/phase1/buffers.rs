@@ -45,8 +45,13 @@ pub struct Buffers {
     pub failed: Storage<u32>,
 }
 
+/// The bytes of the largest of the buffers: with 16 bytes a slot, several have this size, and no other is larger.
+pub(super) fn largest_bytes(blocks: u32) -> u128 {
+    u128::from(blocks) * u128::from(BLOCK) * size_of::<[u32; 4]>() as u128
+}
+
 impl Buffers {
-    /// Zeroed buffers for these points.
+    /// Buffers for these points.
     ///
     /// # Errors
     ///
@@ -98,11 +103,19 @@ impl Buffers {
         Ok(larger)
     }
 
-    /// The bytes that all of them take.
+    /// Records that what must be zero in the beginning is: slots without tetrahedra, their status, no failed vertices.
+    pub fn record_clear(&self, recorder: &mut Recorder<'_>) {
+        let encoder = recorder.encoder();
+        encoder.clear_buffer(self.tets.buffer(), 0, None);
+        encoder.clear_buffer(self.status.buffer(), 0, None);
+        encoder.clear_buffer(self.failed.buffer(), 0, None);
+    }
+
+    /// The bytes that they take, but for the points.
     pub fn bytes(&self) -> u64 {
         let Buffers {
             control,
-            points,
+            points: _,
             tets,
             neighbors,
             status,
@@ -114,8 +127,8 @@ impl Buffers {
             scores,
             failed,
         } = self;
-        let words = control.bytes() + points.united_with.bytes() + free.bytes() + scores.bytes() + failed.bytes();
+        let words = control.bytes() + free.bytes() + waiting.bytes() + scores.bytes() + failed.bytes();
         let slots = tets.bytes() + neighbors.bytes() + status.bytes() + active.bytes() + messages.bytes();
-        words + slots + points.vertices.bytes() + points.pairs.bytes() + history.bytes() + waiting.bytes()
+        words + slots + history.bytes()
     }
 }

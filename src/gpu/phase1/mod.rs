@@ -16,6 +16,7 @@
 //! slots or the history run out, flips wait in the active list until there is more.
 
 mod buffers;
+mod memory;
 mod run;
 
 pub use buffers::{Buffers, COUNTER_WORDS, PARAM_WORDS};
@@ -24,10 +25,11 @@ pub use run::Run;
 use super::layout::Counters;
 use super::stages::{finish::Finish, flip::Flip, insert::Insert, points::PointStage, relocate::Relocate};
 use super::start::Start;
-use super::{Gpu, Kernel, Profiler};
+use super::{Gpu, Kernel, Profiler, Readback};
 use crate::{
     Error, Points,
     lattice::{Lattice, Width},
+    stats::{GpuStats, Round},
 };
 
 /// Which of its waiting points a tetrahedron inserts.
@@ -89,12 +91,14 @@ pub struct Input<'a> {
 /// What a run did.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Phase1Stats {
-    /// Insertion rounds.
-    pub rounds: u32,
+    /// The insertion rounds, the first with the ordering of the points; then the rounds of the last flips.
+    pub rounds: Vec<Round>,
     /// The kernels' counters.
     pub counters: Counters,
     /// Dispatches.
     pub dispatches: usize,
+    /// Submissions.
+    pub submits: usize,
     /// Readbacks.
     pub readbacks: usize,
     /// The most bytes of GPU memory that were held at a time.
@@ -105,35 +109,58 @@ pub struct Phase1Stats {
     pub readback_milliseconds: f64,
 }
 
+impl Phase1Stats {
+    /// The same for users, on an adapter of this name.
+    pub fn summary(&self, adapter: &str) -> GpuStats {
+        let Counters { flips_23, flips_32, iterations, exact, not_locally_delaunay, failed, aside, .. } = self.counters;
+        GpuStats {
+            adapter: adapter.to_owned(),
+            rounds: self.rounds.clone(),
+            flips_23: flips_23.into(),
+            flips_32: flips_32.into(),
+            flip_iterations: iterations.into(),
+            exact_tests: exact.into(),
+            not_locally_delaunay: not_locally_delaunay.into(),
+            failed_vertices: failed.into(),
+            united: aside.into(),
+            readbacks: self.readbacks as u64,
+            dispatches: self.dispatches as u64,
+            submits: self.submits as u64,
+            bytes: self.bytes,
+        }
+    }
+}
+
 /// A triangulation whose only facets that are not locally Delaunay cannot be flipped.
 ///
-/// It has infinite tetrahedra, and all its tetrahedra are positively oriented in the sense of the perturbed predicates:
-/// there can be flat ones.
+/// Vertices are places in the input. All tetrahedra are positively oriented in the sense of the perturbed predicates: there
+/// can be flat ones.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Phase1Output {
-    /// Four vertices a tetrahedron; the number of points is the vertex at infinity.
+    /// Four vertices a tetrahedron, the finite ones first. The infinite ones have the vertex at infinity, the number of
+    /// points, last.
     pub tets: Vec<[u32; 4]>,
     /// Entry *k* is 4·tetrahedron + face across the facet opposite vertex *k*.
     pub neighbors: Vec<[u32; 4]>,
-    /// The place in the input of each vertex.
-    pub order: Vec<u32>,
+    /// The number of finite tetrahedra.
+    pub finite: usize,
     /// The vertices with a facet that is not locally Delaunay, ascending.
     pub failed: Vec<u32>,
-    /// One tetrahedron of each vertex, infinity last; [`NONE`](super::layout::NONE) for
-    /// the last ones of the order, which others stand for.
+    /// One tetrahedron of each vertex, infinity last; [`NONE`](super::layout::NONE) for those that others stand for.
     pub tet_of: Vec<u32>,
-    /// Input indices of points that are vertices of no tetrahedron, with that of the point at the same place of the
-    /// lattice: exact duplicates, and points that were rounded to the same place, which Phase 2 has to insert.
+    /// Points that are vertices of no tetrahedron, with that of the point at the same place of the lattice: exact
+    /// duplicates, and points that were rounded to the same place, which Phase 2 has to insert.
     pub united: Vec<[u32; 2]>,
-    /// Where coordinates were rounded to the lattice: tetrahedra, ascending, of which it does not prove everything, with
-    /// what is open: whether facet *k* is locally Delaunay (bit *k*), or the orientation (bit 4). Each facet is listed
-    /// with its tetrahedron of the lower number.
-    pub uncertain: Vec<[u32; 2]>,
+    /// Tetrahedra, ascending, that are flat (bit 4); and where coordinates were rounded to the lattice, those of which it
+    /// does not prove everything: whether facet *k* is locally Delaunay (bit *k*), or the orientation (bit 4). Each facet
+    /// is listed with one of its tetrahedra.
+    pub doubtful: Vec<[u32; 2]>,
     /// What the run did.
     pub stats: Phase1Stats,
 }
 
-/// The kernels of Phase 1, for points of one width.
+/// The kernels of Phase 1, for points of one width, and the buffers of the last run, which serve the next one if that has
+/// as many points of the same precision.
 #[derive(Debug)]
 pub struct Phase1 {
     points: PointStage,
@@ -142,6 +169,8 @@ pub struct Phase1 {
     relocate: Relocate,
     finish: Finish,
     fill_free: Kernel,
+    readback: Readback,
+    kept: memory::Kept,
 }
 
 impl Phase1 {
@@ -159,9 +188,17 @@ impl Phase1 {
                 relocate: Relocate::new(gpu, width),
                 finish: Finish::new(gpu, width),
                 fill_free: Kernel::new(gpu, "fill_free", width, &[]),
+                readback: Readback::default(),
+                kept: memory::Kept::default(),
             })
         })
         .await
+    }
+
+    /// Gives the buffers of the last run back.
+    pub fn release(&mut self) {
+        self.readback = Readback::default();
+        self.kept = memory::Kept::default();
     }
 
     /// Runs Phase 1.
@@ -170,7 +207,7 @@ impl Phase1 {
     ///
     /// As [`Run::new`], [`Run::round`] and [`Run::finish`].
     pub async fn run(
-        &self,
+        &mut self,
         gpu: &Gpu,
         input: Input<'_>,
         settings: &Settings,

@@ -37,11 +37,13 @@ const UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
 /// The signs are those of the exact input coordinates; the symbolic ties are those of the input indices.
 pub struct Vertices<'a, const D: usize = 3> {
     input: Points<'a, D>,
-    /// The input index of each vertex.
+    lattice: Lattice<D>,
+    /// The input index of each vertex; empty when the vertices are the input points in their order.
     indices: Vec<u32>,
     /// Input coordinates times a power of two that brings the range of every axis below 2³¹; for a narrow lattice, the
-    /// lattice coordinates.
+    /// lattice coordinates. Empty when they are computed anew each time.
     coordinates: Vec<[f64; D]>,
+    scaling: Scaling<D>,
     exact: ExactStage<D>,
     /// Error bounds of the determinants' floating-point values that hold for all arguments.
     orientation_bound: f64,
@@ -56,8 +58,16 @@ pub type Vertices2<'a> = Vertices<'a, 2>;
 enum ExactStage<const D: usize> {
     /// 31-bit integers, which the `coordinates` are.
     Narrow,
-    /// 62-bit integers, where none of the points is rounded.
-    Wide { lattice: Vec<[i64; D]>, rounded: Option<Vec<bool>> },
+    /// 62-bit integers, where none of the points is rounded. Empty when they are computed anew each time.
+    Wide { positions: Vec<[i64; D]>, rounded: Vec<bool> },
+}
+
+/// How coordinates come from the input.
+enum Scaling<const D: usize> {
+    /// They are the lattice coordinates.
+    Lattice,
+    /// They are the input's times a power of two, but 0 where an axis does not vary.
+    By(Scale, [bool; D]),
 }
 
 /// Multiplication by a power of two that `f64` need not have, as two that it has.
@@ -77,72 +87,73 @@ impl Scale {
 }
 
 impl<'a, const D: usize> Vertices<'a, D> {
-    /// Vertex *v* is `input` point `indices[v]`. The points must be finite and `lattice` fitted to them.
+    /// Vertex *v* is `input` point `indices[v]`, and its coordinates lie at place *v* of an array, which is best for many
+    /// signs. The points must be finite and `lattice` fitted to them.
     pub fn new(input: Points<'a, D>, lattice: &Lattice<D>, indices: Vec<u32>) -> Self {
-        let mut coordinates = Vec::with_capacity(indices.len());
-        let exact = match lattice.width() {
-            Width::Narrow => {
-                let narrow = |&i: &u32| lattice.coordinates(input.get(i as usize)).map(|c| c.value as f64);
-                coordinates.extend(indices.iter().map(narrow));
-                ExactStage::Narrow
+        let mut vertices = Vertices::of_input(input, lattice);
+        vertices.coordinates.reserve_exact(indices.len());
+        let coordinates = indices.iter().map(|&i| vertices.computed(i));
+        vertices.coordinates = coordinates.collect();
+        if let ExactStage::Wide { positions, rounded } = &mut vertices.exact {
+            positions.reserve_exact(indices.len());
+            rounded.reserve_exact(indices.len());
+            for &i in &indices {
+                let q = lattice.coordinates(input.get(i as usize));
+                positions.push(q.map(|c| c.value));
+                rounded.push(q.iter().any(|c| !c.exact));
             }
+        }
+        vertices.indices = indices;
+        vertices
+    }
+
+    /// The vertices are the points of `input` in their order. Nothing is stored, which is best for few signs.
+    pub fn of_input(input: Points<'a, D>, lattice: &Lattice<D>) -> Self {
+        let (scaling, exact) = match lattice.width() {
+            Width::Narrow => (Scaling::Lattice, ExactStage::Narrow),
             Width::Wide => {
                 let exponent = lattice.exponent() - (Width::Wide.bits() - Width::Narrow.bits()) as i32;
-                let scale = Scale::new(exponent);
-                let varies = lattice.varies();
-                let mut words = Vec::with_capacity(indices.len());
-                let mut rounded = Vec::new();
-                for (v, &i) in indices.iter().enumerate() {
-                    let p = input.get(i as usize);
-                    coordinates.push(std::array::from_fn(|axis| if varies[axis] { scale.apply(p[axis]) } else { 0.0 }));
-                    let q = lattice.coordinates(p);
-                    words.push(q.map(|c| c.value));
-                    if q.iter().any(|c| !c.exact) {
-                        rounded.resize(indices.len(), false);
-                        rounded[v] = true;
-                    }
-                }
-                ExactStage::Wide { lattice: words, rounded: (!rounded.is_empty()).then_some(rounded) }
+                let exact = ExactStage::Wide { positions: Vec::new(), rounded: Vec::new() };
+                (Scaling::By(Scale::new(exponent), lattice.varies()), exact)
             }
         };
-        let mut low = [f64::INFINITY; D];
-        let mut high = [f64::NEG_INFINITY; D];
-        for p in &coordinates {
-            for axis in 0..D {
-                low[axis] = low[axis].min(p[axis]);
-                high[axis] = high[axis].max(p[axis]);
-            }
-        }
-        let extents: [f64; D] = std::array::from_fn(|axis| (high[axis] - low[axis]).max(0.0));
-        Vertices {
+        let mut vertices = Vertices {
             input,
-            indices,
-            coordinates,
+            lattice: lattice.clone(),
+            indices: Vec::new(),
+            coordinates: Vec::new(),
+            scaling,
             exact,
-            orientation_bound: orientation_bound(extents),
-            in_sphere_bound: in_sphere_bound(extents),
+            orientation_bound: 0.0,
+            in_sphere_bound: 0.0,
             counts: Cell::default(),
-        }
+        };
+        let [low, high] = lattice.bounds().map(|corner| vertices.scaled(corner));
+        let extents: [f64; D] = std::array::from_fn(|axis| (high[axis] - low[axis]).max(0.0));
+        vertices.orientation_bound = orientation_bound(extents);
+        vertices.in_sphere_bound = in_sphere_bound(extents);
+        vertices
     }
 
     /// The number of vertices.
     pub fn len(&self) -> usize {
-        self.indices.len()
+        if self.indices.is_empty() { self.input.len() } else { self.indices.len() }
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.indices.is_empty()
+        self.len() == 0
     }
 
     /// The exact coordinates of vertex `v`.
     pub fn point(&self, v: u32) -> [f64; D] {
-        self.input.get(self.indices[v as usize] as usize)
+        self.input.get(self.input_index(v) as usize)
     }
 
     /// The input index of vertex `v`.
+    #[inline]
     pub fn input_index(&self, v: u32) -> u32 {
-        self.indices[v as usize]
+        self.indices.get(v as usize).copied().unwrap_or(v)
     }
 
     /// The input index of every vertex.
@@ -155,8 +166,56 @@ impl<'a, const D: usize> Vertices<'a, D> {
         self.counts.get()
     }
 
+    /// The coordinates of vertex `v`, stored or not: an array that is empty costs what a bounds check costs.
+    #[inline(always)]
+    fn coordinate(&self, v: u32) -> [f64; D] {
+        match self.coordinates.get(v as usize) {
+            Some(&p) => p,
+            None => self.computed(v),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn computed(&self, i: u32) -> [f64; D] {
+        self.scaled(self.input.get(i as usize))
+    }
+
+    fn scaled(&self, p: [f64; D]) -> [f64; D] {
+        match &self.scaling {
+            Scaling::Lattice => self.lattice.coordinates(p).map(|c| c.value as f64),
+            Scaling::By(scale, varies) => {
+                std::array::from_fn(|axis| if varies[axis] { scale.apply(p[axis]) } else { 0.0 })
+            }
+        }
+    }
+
+    /// The lattice coordinates of these vertices, if none of them is rounded.
+    fn wide<const N: usize>(
+        &self,
+        positions: &[[i64; D]],
+        rounded: &[bool],
+        vertices: [u32; N],
+    ) -> Option<[[i64; D]; N]> {
+        let mut all = [[0; D]; N];
+        for (q, v) in all.iter_mut().zip(vertices) {
+            *q = match (positions.get(v as usize), rounded.get(v as usize)) {
+                (Some(&q), Some(false)) => q,
+                (Some(_), Some(true)) => return None,
+                _ => {
+                    let computed = self.lattice.coordinates(self.point(v));
+                    if computed.iter().any(|c| !c.exact) {
+                        return None;
+                    }
+                    computed.map(|c| c.value)
+                }
+            };
+        }
+        Some(all)
+    }
+
     fn narrow(&self, v: u32) -> [i64; D] {
-        self.coordinates[v as usize].map(|x| x as i64)
+        self.coordinate(v).map(|x| x as i64)
     }
 
     fn count(&self, field: impl Fn(&mut ExactCounts) -> &mut u64) {
@@ -184,10 +243,6 @@ fn in_sphere_bound<const D: usize>(extents: [f64; D]) -> f64 {
 #[inline]
 fn greatest_permanent<const D: usize>(extents: [f64; D]) -> f64 {
     extents.iter().zip(1..).map(|(x, factor)| x * f64::from(factor)).product()
-}
-
-fn unrounded(rounded: &Option<Vec<bool>>, vertices: &[u32]) -> bool {
-    rounded.as_ref().is_none_or(|rounded| vertices.iter().all(|&v| !rounded[v as usize]))
 }
 
 #[inline]

@@ -1,13 +1,13 @@
 //! The predicates of the plane.
 
-use super::{ERRORS, ExactStage, UNDERFLOW, Vertices2, in_sphere_bound, minus, unrounded};
+use super::{ERRORS, ExactStage, UNDERFLOW, Vertices2, in_sphere_bound, minus};
 use crate::predicates::{Sign, exact, integer, symbolic};
 
 impl Vertices2<'_> {
     /// The sign of det(b − a, c − a): positive when a, b, c turn counter-clockwise, the y axis pointing up.
     #[inline]
     pub fn orient2d(&self, a: u32, b: u32, c: u32) -> Sign {
-        let [pa, pb, pc] = [a, b, c].map(|v| self.coordinates[v as usize]);
+        let [pa, pb, pc] = [a, b, c].map(|v| self.coordinate(v));
         let (u, v) = (minus(pa, pc), minus(pb, pc));
         let det = u[0] * v[1] - u[1] * v[0];
         if det.abs() > self.orientation_bound {
@@ -33,16 +33,17 @@ impl Vertices2<'_> {
                 let [a, b, c] = vertices.map(|v| self.narrow(v));
                 integer::orient2d_narrow(a, b, c)
             }
-            ExactStage::Wide { lattice, rounded } if unrounded(rounded, &vertices) => {
-                self.count(|c| &mut c.integer);
-                let [a, b, c] = vertices.map(|v| lattice[v as usize]);
-                integer::orient2d_wide(a, b, c)
-            }
-            ExactStage::Wide { .. } => {
-                self.count(|c| &mut c.expansion);
-                let [a, b, c] = vertices.map(|v| self.point(v));
-                exact::orient2d(a, b, c)
-            }
+            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+                Some([a, b, c]) => {
+                    self.count(|c| &mut c.integer);
+                    integer::orient2d_wide(a, b, c)
+                }
+                None => {
+                    self.count(|c| &mut c.expansion);
+                    let [a, b, c] = vertices.map(|v| self.point(v));
+                    exact::orient2d(a, b, c)
+                }
+            },
         }
     }
 
@@ -50,8 +51,8 @@ impl Vertices2<'_> {
     /// zero for four different vertices, at least three of which are not collinear.
     #[inline]
     pub fn incircle(&self, [a, b, c]: [u32; 3], d: u32) -> Sign {
-        let pd = self.coordinates[d as usize];
-        let [pa, pb, pc] = [a, b, c].map(|v| minus(self.coordinates[v as usize], pd));
+        let pd = self.coordinate(d);
+        let [pa, pb, pc] = [a, b, c].map(|v| minus(self.coordinate(v), pd));
         let minor = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
         let det = lift(pa) * minor(pb, pc) + lift(pb) * minor(pc, pa) + lift(pc) * minor(pa, pb);
         if det.abs() > self.in_sphere_bound {
@@ -77,16 +78,17 @@ impl Vertices2<'_> {
                 let [a, b, c, d] = vertices.map(|v| self.narrow(v));
                 integer::incircle_narrow(a, b, c, d)
             }
-            ExactStage::Wide { lattice, rounded } if unrounded(rounded, &vertices) => {
-                self.count(|c| &mut c.integer);
-                let [a, b, c, d] = vertices.map(|v| lattice[v as usize]);
-                integer::incircle_wide(a, b, c, d)
-            }
-            ExactStage::Wide { .. } => {
-                self.count(|c| &mut c.expansion);
-                let [a, b, c, d] = vertices.map(|v| self.point(v));
-                exact::incircle(a, b, c, d)
-            }
+            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+                Some([a, b, c, d]) => {
+                    self.count(|c| &mut c.integer);
+                    integer::incircle_wide(a, b, c, d)
+                }
+                None => {
+                    self.count(|c| &mut c.expansion);
+                    let [a, b, c, d] = vertices.map(|v| self.point(v));
+                    exact::incircle(a, b, c, d)
+                }
+            },
         };
         if sign != 0 {
             return sign;

@@ -1,13 +1,13 @@
 //! The predicates of space.
 
-use super::{ERRORS, ExactStage, UNDERFLOW, Vertices, in_sphere_bound, minus, unrounded};
+use super::{ERRORS, ExactStage, UNDERFLOW, Vertices, in_sphere_bound, minus};
 use crate::predicates::{Sign, exact, integer, symbolic};
 
 impl Vertices<'_> {
     /// The sign of det(b − a, c − a, d − a).
     #[inline]
     pub fn orient3d(&self, a: u32, b: u32, c: u32, d: u32) -> Sign {
-        let [pa, pb, pc, pd] = [a, b, c, d].map(|v| self.coordinates[v as usize]);
+        let [pa, pb, pc, pd] = [a, b, c, d].map(|v| self.coordinate(v));
         let (u, v, w) = (minus(pa, pd), minus(pb, pd), minus(pc, pd));
         // det(b − a, c − a, d − a) = −det(a − d, b − d, c − d).
         let det = u[0] * (v[2] * w[1] - v[1] * w[2])
@@ -36,16 +36,17 @@ impl Vertices<'_> {
                 let [a, b, c, d] = vertices.map(|v| self.narrow(v));
                 integer::orient3d_narrow(a, b, c, d)
             }
-            ExactStage::Wide { lattice, rounded } if unrounded(rounded, &vertices) => {
-                self.count(|c| &mut c.integer);
-                let [a, b, c, d] = vertices.map(|v| lattice[v as usize]);
-                integer::orient3d_wide(a, b, c, d)
-            }
-            ExactStage::Wide { .. } => {
-                self.count(|c| &mut c.expansion);
-                let [a, b, c, d] = vertices.map(|v| self.point(v));
-                exact::orient3d(a, b, c, d)
-            }
+            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+                Some([a, b, c, d]) => {
+                    self.count(|c| &mut c.integer);
+                    integer::orient3d_wide(a, b, c, d)
+                }
+                None => {
+                    self.count(|c| &mut c.expansion);
+                    let [a, b, c, d] = vertices.map(|v| self.point(v));
+                    exact::orient3d(a, b, c, d)
+                }
+            },
         }
     }
 
@@ -53,8 +54,8 @@ impl Vertices<'_> {
     /// never zero for five different vertices, at least four of which are not coplanar.
     #[inline(always)]
     pub fn insphere(&self, [a, b, c, d]: [u32; 4], e: u32) -> Sign {
-        let pe = self.coordinates[e as usize];
-        let [pa, pb, pc, pd] = [a, b, c, d].map(|v| minus(self.coordinates[v as usize], pe));
+        let pe = self.coordinate(e);
+        let [pa, pb, pc, pd] = [a, b, c, d].map(|v| minus(self.coordinate(v), pe));
         let det = insphere_determinant(pa, pb, pc, pd);
         if det.abs() > self.in_sphere_bound {
             return if det > 0.0 { 1 } else { -1 };
@@ -77,16 +78,17 @@ impl Vertices<'_> {
                 let [a, b, c, d, e] = vertices.map(|v| self.narrow(v));
                 integer::insphere_narrow(a, b, c, d, e)
             }
-            ExactStage::Wide { lattice, rounded } if unrounded(rounded, &vertices) => {
-                self.count(|c| &mut c.integer);
-                let [a, b, c, d, e] = vertices.map(|v| lattice[v as usize]);
-                integer::insphere_wide(a, b, c, d, e)
-            }
-            ExactStage::Wide { .. } => {
-                self.count(|c| &mut c.expansion);
-                let [a, b, c, d, e] = vertices.map(|v| self.point(v));
-                exact::insphere(a, b, c, d, e)
-            }
+            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+                Some([a, b, c, d, e]) => {
+                    self.count(|c| &mut c.integer);
+                    integer::insphere_wide(a, b, c, d, e)
+                }
+                None => {
+                    self.count(|c| &mut c.expansion);
+                    let [a, b, c, d, e] = vertices.map(|v| self.point(v));
+                    exact::insphere(a, b, c, d, e)
+                }
+            },
         };
         if sign != 0 {
             return sign;
