@@ -5,7 +5,6 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import { after } from 'node:test';
 import { parse } from './fingerprints.mjs';
 
 export const root = dirname(dirname(dirname(fileURLToPath(import.meta.url))));
@@ -16,7 +15,7 @@ export const pinned = parse(readFileSync(join(root, 'tests/data/fingerprints.txt
 /** An empty folder that goes when the tests are done. */
 export function scratch() {
   const folder = mkdtempSync(join(tmpdir(), 'gdel-wasm-'));
-  after(() => rmSync(folder, { recursive: true, force: true, maxRetries: 5 }));
+  process.on('exit', () => rmSync(folder, { recursive: true, force: true, maxRetries: 5 }));
   return folder;
 }
 
