@@ -19,14 +19,14 @@ use rand_pcg::Pcg64Mcg;
 
 struct Bench {
     gpu: Gpu,
-    stage: PointStage,
+    stage: PointStage<3>,
+    plane: PointStage<2>,
 }
 
 impl Bench {
     fn new() -> Self {
         let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a GPU or lavapipe");
-        let stage = PointStage::new(&gpu);
-        Bench { gpu, stage }
+        Bench { stage: PointStage::new(&gpu), plane: PointStage::new(&gpu), gpu }
     }
 
     /// Runs the stage and compares everything with the CPU; returns the width and the counts.

@@ -33,6 +33,8 @@ struct Control {
     doubtful: atomic<u32>,
     ghosts: atomic<u32>,
     open: atomic<u32>,
+    flips_22: atomic<u32>,
+    hull: atomic<u32>,
 }
 
 struct Status {

@@ -128,6 +128,10 @@ pub struct Counters {
     pub ghosts: u32,
     /// Entries of the active list that the filter left open in this flip iteration.
     pub open: u32,
+    /// In the plane: flips so far.
+    pub flips_22: u32,
+    /// In the plane: edges of the hull.
+    pub hull: u32,
 }
 
 /// A flip was put off because no slot was found for its third tetrahedron.
