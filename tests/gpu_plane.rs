@@ -78,7 +78,7 @@ fn run_and_validate(gpu: &Gpu, planes: &mut [Plane; 2], name: &str, points: &[[f
     mesh.hull.sort_unstable();
     expected.hull.sort_unstable();
     assert_eq!(mesh, expected, "{name}");
-    assert_eq!(mesh.corners.len() + mesh.hull.len() + 2, 2 * distinct.len(), "{name}: Euler");
+    assert_eq!(mesh.triangles.len() + mesh.hull.len() + 2, 2 * distinct.len(), "{name}: Euler");
     assert!(
         output.stats.readbacks as u32 <= output.stats.rounds + output.stats.counters.iterations / 64 + 10,
         "{name}: {} readbacks in {} rounds",

@@ -228,9 +228,9 @@ fn compare(width: Width, pick: Pick) {
     device.buffers.offsets.write(&device.gpu, 0, &offsets);
     device.run("plane/mesh_compact");
     let mesh = twin::mesh_compact(&state, &offsets);
-    let count = mesh.corners.len();
-    assert_eq!(read(&device.gpu, &device.buffers.messages.seen_as::<[u32; 3]>())[..count], mesh.corners);
-    assert_eq!(read(&device.gpu, &device.buffers.status.seen_as::<[u32; 3]>())[..count], mesh.across);
+    let count = mesh.triangles.len();
+    assert_eq!(read(&device.gpu, &device.buffers.messages.seen_as::<[u32; 3]>())[..count], mesh.triangles);
+    assert_eq!(read(&device.gpu, &device.buffers.status.seen_as::<[i32; 3]>())[..count], mesh.halfedges);
     let control: Vec<u32> = read(&device.gpu, &device.buffers.control);
     let counters: &Counters = bytemuck::from_bytes(bytemuck::cast_slice(&control[PARAM_WORDS..]));
     let hull: Vec<[u32; 2]> = read(&device.gpu, &device.buffers.waiting.seen_as());

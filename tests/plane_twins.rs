@@ -19,8 +19,7 @@ fn sites(points: &[[i64; 2]]) -> Vec<Vertex> {
             distinct.push(*p);
         }
     }
-    let mut sites: Vec<Vertex> =
-        (0..).zip(distinct).map(|(index, position)| Vertex { position, index }).collect();
+    let mut sites: Vec<Vertex> = (0..).zip(distinct).map(|(index, position)| Vertex { position, index }).collect();
     sites.sort_by_key(|v| hilbert_key(v.position.map(|x| (x & 0x7fff) as u32)));
     sites
 }
@@ -35,11 +34,12 @@ fn valid(points: &[[i64; 2]], settings: Settings) -> State {
     let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
     let mesh = mesh_compact(&state, &offsets);
     // Euler: a triangulation of a polygon.
-    assert_eq!(mesh.corners.len() + mesh.hull.len() + 2, 2 * count);
-    for (t, across) in mesh.across.iter().enumerate() {
-        for (k, &e) in across.iter().enumerate().filter(|&(_, &e)| e != u32::MAX) {
-            assert_eq!(mesh.across[e as usize / 3][e as usize % 3], (3 * t + k) as u32);
-        }
+    assert_eq!(mesh.triangles.len() + mesh.hull.len() + 2, 2 * count);
+    let (halfedges, from) = (mesh.halfedges.as_flattened(), mesh.triangles.as_flattened());
+    let to = |e: usize| from[e / 3 * 3 + (e + 1) % 3];
+    for (e, &against) in halfedges.iter().enumerate().filter(|&(_, &against)| against >= 0) {
+        assert_eq!(halfedges[against as usize], e as i32);
+        assert_eq!([from[e], to(e)], [to(against as usize), from[against as usize]]);
     }
     state
 }

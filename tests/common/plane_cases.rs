@@ -25,14 +25,8 @@ pub enum Family {
 }
 
 /// All families.
-pub const FAMILIES: &[Family] = &[
-    Family::Uniform,
-    Family::Corners,
-    Family::SmallGrid,
-    Family::Collinear,
-    Family::Cocircular,
-    Family::Clustered,
-];
+pub const FAMILIES: &[Family] =
+    &[Family::Uniform, Family::Corners, Family::SmallGrid, Family::Collinear, Family::Cocircular, Family::Clustered];
 
 impl Family {
     /// Asserts that the numbers of zeros and of signs that the filter decided, for orientation and in-circle, are about

@@ -26,8 +26,10 @@ pub fn all() -> Vec<(&'static str, Vec<Point>)> {
     }
     circle.sort_unstable();
     circle.dedup();
-    let clusters =
-        random(400, 21, 40).into_iter().enumerate().map(|(i, [x, y])| [x + (i as i64 % 3) * 100_000, y + 50_000 * (i as i64 % 2)]);
+    let clusters = random(400, 21, 40)
+        .into_iter()
+        .enumerate()
+        .map(|(i, [x, y])| [x + (i as i64 % 3) * 100_000, y + 50_000 * (i as i64 % 2)]);
     let parabola = (-60i64..60).map(|x| [x + 60, x * x]);
     let mut inputs = vec![
         ("three", vec![[0, 0], [40, 0], [0, 40]]),

@@ -25,11 +25,11 @@ pub struct Buffers {
     pub triangles: Storage<[u32; 4]>,
     /// The neighbours of each slot, and 0.
     pub neighbors: Storage<[u32; 4]>,
-    /// The status of each slot; neighbours of the answer in the end.
+    /// The status of each slot; half-edges of the answer in the end.
     pub status: Storage<Status>,
     /// Both halves of the active list; what rounding leaves open in the end.
     pub active: Storage<Active>,
-    /// Messages of a flip iteration; scores and points while they are picked; corners of the answer in the end.
+    /// Messages of a flip iteration; scores and points while they are picked; triangles of the answer in the end.
     pub messages: Storage<[u32; 4]>,
     /// The flips of a round.
     pub history: Storage<EdgeFlip>,

@@ -144,13 +144,7 @@ impl Kernels {
     }
 
     /// Records flip iterations. Those that find too few active triangles do nothing.
-    pub(super) fn record_flips(
-        &self,
-        recorder: &mut Recorder<'_>,
-        bound: &Bound,
-        iterations: u32,
-        workgroups: u32,
-    ) {
+    pub(super) fn record_flips(&self, recorder: &mut Recorder<'_>, bound: &Bound, iterations: u32, workgroups: u32) {
         for _ in 0..iterations {
             recorder.stage("flip: check");
             recorder.dispatch(&self.flip_check, &bound.flip_check, workgroups);

@@ -96,15 +96,15 @@ pub struct PlaneStats {
     pub readback_milliseconds: f64,
 }
 
-/// The triangles of the answer, in input indices.
+/// The answer, in input indices and as [`Mesh2`](crate::plane::Mesh2) has it, but for the hull.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Mesh {
-    /// Three corners a triangle, positively oriented, none flat.
-    pub corners: Vec<[u32; 3]>,
-    /// Entry *k* is across the edge opposite corner *k*: 3·triangle + the corner opposite to it there, or
-    /// [`NONE`](super::layout::NONE).
-    pub across: Vec<[u32; 3]>,
-    /// The ends of each edge of the hull, in no order, with the triangulation on the left.
+    /// Three vertices a triangle, clockwise with the *y* axis up, none flat.
+    pub triangles: Vec<[u32; 3]>,
+    /// Entry *k* is the half-edge that runs against the one from vertex *k* to the next, 3·(triangle) + (vertex); -1 on the
+    /// hull.
+    pub halfedges: Vec<[i32; 3]>,
+    /// The half-edges of the hull, from where to where, in no order.
     pub hull: Vec<[u32; 2]>,
 }
 

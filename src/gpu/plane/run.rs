@@ -41,9 +41,8 @@ impl Memory {
         points: DevicePoints,
         history: u32,
     ) -> Result<Self, Error> {
-        let fits = |b: &Buffers| {
-            b.points.vertices.buffer() == points.vertices.buffer() && b.history.len() == history as usize
-        };
+        let fits =
+            |b: &Buffers| b.points.vertices.buffer() == points.vertices.buffer() && b.history.len() == history as usize;
         match kept {
             Some(memory) if fits(&memory.buffers) => Ok(memory),
             _ => {
@@ -110,8 +109,7 @@ impl<'a> Run<'a> {
                 let Input { points: input, lattice, start } = input;
                 let wanted = [start.first[0], start.first[1], start.first[2], start.first[2]];
                 let buffers = &mut point_buffers;
-                let device =
-                    plane.points.record(gpu, &mut recorder, buffers, input, lattice, wanted, settings.sort)?;
+                let device = plane.points.record(gpu, &mut recorder, buffers, input, lattice, wanted, settings.sort)?;
                 let mut kernel_point = Vec::new();
                 vertex::append_words(&mut kernel_point, lattice.width(), start.kernel, false);
                 device.vertices.write(gpu, count * kernel_point.len(), &kernel_point);
@@ -321,19 +319,19 @@ async fn read_mesh(
     triangles: usize,
     hull: usize,
 ) -> Result<Mesh, Error> {
-    let (submission, corners, across, hull) = gpu
+    let (submission, vertices, halfedges, hull) = gpu
         .catching("the result of the plane", || {
             let mut recorder = Recorder::new(gpu, None);
             let encoder = recorder.encoder();
-            let corners = readback.copy(gpu, encoder, &b.messages.seen_as(), 0, triangles);
-            let across = readback.copy(gpu, encoder, &b.status.seen_as(), 0, triangles);
+            let vertices = readback.copy(gpu, encoder, &b.messages.seen_as(), 0, triangles);
+            let halfedges = readback.copy(gpu, encoder, &b.status.seen_as(), 0, triangles);
             let hull = readback.copy(gpu, encoder, &b.waiting.seen_as(), 0, hull);
-            Ok((recorder.submit(gpu), corners, across, hull))
+            Ok((recorder.submit(gpu), vertices, halfedges, hull))
         })
         .await?;
     Ok(Mesh {
-        corners: readback.receive(gpu, &submission, corners).await?,
-        across: readback.receive(gpu, &submission, across).await?,
+        triangles: readback.receive(gpu, &submission, vertices).await?,
+        halfedges: readback.receive(gpu, &submission, halfedges).await?,
         hull: readback.receive(gpu, &submission, hull).await?,
     })
 }

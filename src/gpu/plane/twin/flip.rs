@@ -1,8 +1,6 @@
 //! Edge flips: proposed, carried out, linked (§5.6).
 
-use crate::gpu::layout::{
-    Active, CHECK, DONE, FACET_SHIFT, HELD_SHIFT, HISTORY_FULL, KIND_SHIFT, NONE, Status,
-};
+use crate::gpu::layout::{Active, CHECK, DONE, FACET_SHIFT, HELD_SHIFT, HISTORY_FULL, KIND_SHIFT, NONE, Status};
 use crate::gpu::plane::layout::{EdgeFlip, FLIP_22};
 
 use super::State;
