@@ -175,6 +175,7 @@ fn phase1_layouts_agree() {
         doubtful,
         ghosts,
         open,
+        not_locally_delaunay,
         flips_22,
         hull
     );

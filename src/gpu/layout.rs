@@ -128,6 +128,8 @@ pub struct Counters {
     pub ghosts: u32,
     /// Entries of the active list that the filter left open in this flip iteration.
     pub open: u32,
+    /// Facets that are not locally Delaunay, found at the end.
+    pub not_locally_delaunay: u32,
     /// In the plane: flips so far.
     pub flips_22: u32,
     /// In the plane: edges of the hull.

@@ -12,14 +12,14 @@ use crate::{
     Error, Options, Points2, cpu,
     gpu::{
         Gpu,
-        plane::{Answer, Input, Mesh, Plane, PlaneOutput, Settings, Unproven, start::first_triangle},
+        plane::{Answer, Input, Mesh, Plane, PlaneOutput, Run, Settings, Unproven, start::first_triangle},
     },
     hybrid::missing_points,
     lattice::{Lattice, Width},
     mesh::NONE,
     parallel,
     predicates::vertices::Vertices2,
-    stats::{ExactCounts, Stats, Stopwatch},
+    stats::{Fallback, Stats, Stopwatch},
 };
 
 /// A device with the kernels of the plane compiled for it: make one and use it for many inputs.
@@ -73,6 +73,7 @@ impl Hybrid2 {
         options: &Options,
         settings: &Settings,
     ) -> Result<Mesh2, Error> {
+        let options = &options.monotone();
         let mut stopwatch = Stopwatch::start();
         options.report("lattice", 0.0)?;
         let threads = parallel::available();
@@ -80,7 +81,7 @@ impl Hybrid2 {
         let lattice = Lattice::fit_in_threads(threads, points);
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let Some(start) = first_triangle(points.len(), position) else {
-            return fall_back(points, options, "the points are collinear, or nearly");
+            return fall_back(points, options, Fallback::Collinear, Stats::default());
         };
         let mut stats = Stats { engine: "gpu", ..Stats::default() };
         stats.phases.push(("lattice", stopwatch.lap()));
@@ -98,13 +99,18 @@ impl Hybrid2 {
             }
         };
         let input = Input { points, lattice: &lattice, start };
-        let PlaneOutput { answer, united, stats: device } = plane.run(&self.gpu, input, settings, None).await?;
+        let mut run = Run::new(plane, &self.gpu, input, *settings, None).await?;
+        while run.round().await? {
+            let inserted = 1.0 - f64::from(run.waiting()) / points.len() as f64;
+            options.report("phase 1", 0.05 + 0.7 * inserted)?;
+        }
+        let PlaneOutput { answer, united, stats: device } = run.finish().await?;
+        stats.gpu = Some(device.summary(&self.gpu.adapter().name));
         let readback = device.readback_milliseconds / 1e3;
         stats.phases.push(("phase 1", stopwatch.lap() - readback));
         stats.phases.push(("readback", readback));
 
         options.report("finish", 0.8)?;
-        stats.exact.integer = device.counters.exact.into();
         let mut duplicate_of = vec![NONE; points.len()];
         let missing = missing_points(points, &united, &mut duplicate_of);
         let (triangles, halfedges, hull) = match answer {
@@ -117,14 +123,10 @@ impl Hybrid2 {
                 let most_flips = 3 * points.len() as u64;
                 let mesh = match lawson::lawson(&vertices, near, most_flips, &report)? {
                     Outcome::Delaunay(mesh, _) => mesh,
-                    Outcome::GaveUp(GaveUp::Work) => return fall_back(points, options, "flipping was too much work"),
-                    Outcome::GaveUp(GaveUp::Folded) => {
-                        return fall_back(points, options, "rounding had folded the triangulation over itself");
-                    }
+                    Outcome::GaveUp(GaveUp::Work) => return fall_back(points, options, Fallback::Flips, stats),
+                    Outcome::GaveUp(GaveUp::Folded) => return fall_back(points, options, Fallback::Folded, stats),
                 };
-                let ExactCounts { integer, expansion, symbolic } = vertices.exact_counts();
-                stats.exact.integer += integer;
-                (stats.exact.expansion, stats.exact.symbolic) = (expansion, symbolic);
+                stats.exact = vertices.exact_counts();
                 stats.phases.push(("flip", stopwatch.lap()));
                 mesh.into_mesh(&(0..points.len() as u32).collect::<Vec<_>>())
             }
@@ -135,9 +137,10 @@ impl Hybrid2 {
     }
 }
 
-fn fall_back(points: Points2<'_>, options: &Options, why: &'static str) -> Result<Mesh2, Error> {
+/// The CPU engine's mesh, with what the GPU did before.
+fn fall_back(points: Points2<'_>, options: &Options, why: Fallback, before: Stats) -> Result<Mesh2, Error> {
     let mut mesh = super::delaunay2d_in_order(points, options, cpu::Order::default())?;
-    mesh.stats.fallback = Some(why);
+    mesh.stats = Stats { fallback: Some(why), gpu: before.gpu, ..mesh.stats };
     Ok(mesh)
 }
 

@@ -48,13 +48,15 @@ use crate::{
 ///
 /// As for [`delaunay3d`](crate::delaunay3d).
 pub fn delaunay2d<'a>(points: impl Into<Points2<'a>>, options: &Options) -> Result<Mesh2, Error> {
+    let points = points.into();
     match options.engine {
-        Engine::Auto | Engine::Cpu => delaunay2d_in_order(points.into(), options, Order::default()),
+        Engine::Auto | Engine::Cpu => delaunay2d_in_order(points, options, Order::default()),
         #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-        Engine::Gpu => pollster::block_on(async {
-            let gpu = crate::gpu::Gpu::open(&crate::gpu::AdapterChoice::Default).await?;
-            hybrid::Hybrid2::new(gpu).await?.delaunay2d(points.into(), options).await
-        }),
+        Engine::Gpu => pollster::block_on(crate::Engines::shared().delaunay2d(points, options)),
+        #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
+        Engine::Gpu => {
+            Err(Error::NoAdapter { reason: "a browser's GPU cannot be waited for: use `Engines`".to_owned() })
+        }
     }
 }
 

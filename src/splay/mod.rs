@@ -59,6 +59,7 @@ pub enum GaveUp {
 
 /// What splaying did.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SplayStats {
     /// Flat tetrahedra on the hull that were peeled off.
     pub peeled: usize,

@@ -12,7 +12,7 @@ use gdel::{
     lattice::Lattice,
     predicates::vertices::Vertices,
     splay::{GaveUp, NONE, NearDelaunay, Outcome, SplayStats, splay},
-    triangulation::{FiniteMesh, Triangulation},
+    triangulation::FiniteMesh,
     verify::{Statement, verify3d},
 };
 use inputs::Cloud;

@@ -30,6 +30,7 @@ use crate::{
     Error,
     lattice::{Lattice, Width},
     points::Points2,
+    stats::{GpuStats, Round},
 };
 use kernels::Kernels;
 use start::Start;
@@ -80,12 +81,14 @@ pub struct Input<'a> {
 /// What a run did.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PlaneStats {
-    /// Insertion rounds.
-    pub rounds: u32,
+    /// The insertion rounds, then the rounds in which the last flips were done.
+    pub rounds: Vec<Round>,
     /// The kernels' counters.
     pub counters: Counters,
     /// Dispatches.
     pub dispatches: usize,
+    /// Submissions.
+    pub submits: usize,
     /// Readbacks.
     pub readbacks: usize,
     /// The bytes of GPU memory that were held.
@@ -94,6 +97,26 @@ pub struct PlaneStats {
     pub milliseconds: f64,
     /// Milliseconds of the readback of the result, on the host's clock.
     pub readback_milliseconds: f64,
+}
+
+impl PlaneStats {
+    /// The same for users, on an adapter of this name.
+    pub fn summary(&self, adapter: &str) -> GpuStats {
+        let Counters { flips_22, iterations, exact, aside, .. } = self.counters;
+        GpuStats {
+            adapter: adapter.to_owned(),
+            rounds: self.rounds.clone(),
+            flips_22: flips_22.into(),
+            flip_iterations: iterations.into(),
+            exact_tests: exact.into(),
+            united: aside.into(),
+            readbacks: self.readbacks as u64,
+            dispatches: self.dispatches as u64,
+            submits: self.submits as u64,
+            bytes: self.bytes,
+            ..GpuStats::default()
+        }
+    }
 }
 
 /// The answer, in input indices and as [`Mesh2`](crate::plane::Mesh2) has it, but for the hull.

@@ -3,7 +3,7 @@
 use super::{
     Answer, Buffers, Input, Mesh, Plane, PlaneOutput, PlaneStats, Settings, Unproven,
     kernels::{Bound, Kernels},
-    layout::{EdgeFlip, blocks},
+    layout::{EdgeFlip, PLANE_BLOCK, blocks},
     vertex,
 };
 use crate::{
@@ -15,7 +15,7 @@ use crate::{
         stages::points::{DevicePoints, PointBuffers},
         workgroups,
     },
-    stats::Stopwatch,
+    stats::{Round, Stopwatch},
 };
 
 /// What a run holds on the device.
@@ -73,6 +73,7 @@ pub struct Run<'a> {
     counted: u32,
     stats: PlaneStats,
     clock: Stopwatch,
+    round_clock: Stopwatch,
 }
 
 impl<'a> Run<'a> {
@@ -92,12 +93,20 @@ impl<'a> Run<'a> {
         settings: Settings,
         mut profiler: Option<&'a mut Profiler>,
     ) -> Result<Self, Error> {
-        let clock = Stopwatch::start();
+        let (clock, round_clock) = (Stopwatch::start(), Stopwatch::start());
         let count = input.points.len();
         if count > Self::MAX_POINTS {
             return Err(Error::TooManyPoints { points: count, limit: Self::MAX_POINTS });
         }
         let points = count as u32;
+        // The buffers of the slots are the largest.
+        let slot = size_of::<[u32; 4]>() as u64;
+        let (bytes, limit) = (slot * u64::from(blocks(points) * BLOCK), gpu.max_storage_bytes());
+        if bytes > limit {
+            let fitting = (limit / slot).saturating_sub(2 * u64::from(BLOCK)) / u64::from(PLANE_BLOCK);
+            let points = Some(fitting as usize);
+            return Err(Error::BufferTooLarge { label: "triangles", bytes: bytes.into(), limit, points });
+        }
         let bindable = gpu.max_storage_bytes() / size_of::<EdgeFlip>() as u64;
         let history = (u64::from(settings.history) * u64::from(points)).clamp(64, bindable.max(64)) as u32;
         // What is kept is lost if the run fails.
@@ -141,8 +150,9 @@ impl<'a> Run<'a> {
             first: true,
             iterations: 20,
             counted: 0,
-            stats: PlaneStats { dispatches, ..PlaneStats::default() },
+            stats: PlaneStats { dispatches, submits: 1, ..PlaneStats::default() },
             clock,
+            round_clock,
         })
     }
 
@@ -183,11 +193,16 @@ impl<'a> Run<'a> {
         let used = read.iterations - before.iterations;
         // Rounds grow at first: a flip that waits for the next round costs more than an idle iteration.
         self.iterations = if used >= self.iterations { (2 * used).min(64) } else { (used + used / 2).clamp(20, 64) };
-        if inserts {
-            self.stats.rounds += 1;
-            if read.inserted == before.inserted && self.waiting() > 0 {
-                return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
-            }
+        self.stats.submits += 1;
+        self.stats.rounds.push(Round {
+            inserted: read.inserted - before.inserted,
+            active: self.active(),
+            flips: read.flips_22 - before.flips_22,
+            iterations: used,
+            milliseconds: self.round_clock.lap() * 1e3,
+        });
+        if inserts && read.inserted == before.inserted && self.waiting() > 0 {
+            return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
         }
         Ok(self.waiting() > 0 || self.active() > 0)
     }
@@ -301,6 +316,7 @@ impl<'a> Run<'a> {
         let united = readback.read(gpu, &memory.buffers.points.united_with, 0, aside).await?;
         stats.readback_milliseconds = clock.lap() * 1e3;
         stats.counters = counters;
+        stats.submits += 2;
         stats.readbacks = readback.count() - read_before;
         stats.bytes = memory.buffers.bytes() + memory.bound.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
         plane.kept = Kept { points, memory: Some(memory) };
@@ -319,18 +335,21 @@ async fn read_mesh(
     triangles: usize,
     hull: usize,
 ) -> Result<Mesh, Error> {
-    let (submission, vertices, halfedges, hull) = gpu
+    let (first, vertices, submission, halfedges, hull) = gpu
         .catching("the result of the plane", || {
+            // The host takes the first part while the device sends the second.
+            let mut recorder = Recorder::new(gpu, None);
+            let vertices = readback.copy(gpu, recorder.encoder(), &b.messages.seen_as(), 0, triangles);
+            let first = recorder.submit(gpu);
             let mut recorder = Recorder::new(gpu, None);
             let encoder = recorder.encoder();
-            let vertices = readback.copy(gpu, encoder, &b.messages.seen_as(), 0, triangles);
             let halfedges = readback.copy(gpu, encoder, &b.status.seen_as(), 0, triangles);
             let hull = readback.copy(gpu, encoder, &b.waiting.seen_as(), 0, hull);
-            Ok((recorder.submit(gpu), vertices, halfedges, hull))
+            Ok((first, vertices, recorder.submit(gpu), halfedges, hull))
         })
         .await?;
     Ok(Mesh {
-        triangles: readback.receive(gpu, &submission, vertices).await?,
+        triangles: readback.receive(gpu, &first, vertices).await?,
         halfedges: readback.receive(gpu, &submission, halfedges).await?,
         hull: readback.receive(gpu, &submission, hull).await?,
     })
