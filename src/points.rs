@@ -65,7 +65,7 @@ impl<'a, const D: usize> Points<'a, D> {
     /// # Panics
     ///
     /// When there are fewer.
-    pub(crate) fn range(&self, range: std::ops::Range<usize>) -> Self {
+    pub(crate) fn range(&self, range: std::ops::Range<usize>) -> Points<'a, D> {
         match self {
             Points::F32(p) => Points::F32(&p[range]),
             Points::F64(p) => Points::F64(&p[range]),
