@@ -76,6 +76,13 @@ impl Engines {
         Ok(state.open(&self.adapter).await?.gpu().clone())
     }
 
+    /// Gives the device back now, and not when the last reference to it goes. A later run opens it anew.
+    pub async fn close(&self) {
+        if let Some(hybrid) = self.state.lock().await.hybrid.take() {
+            hybrid.gpu().device().destroy();
+        }
+    }
+
     /// The triangulation of `points` by the engine that `options` name: see [`delaunay3d`](crate::delaunay3d).
     ///
     /// # Errors

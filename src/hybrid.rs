@@ -112,7 +112,7 @@ impl Hybrid {
         }
         let most_signs = near.signs_from_nothing();
         let report = |share: f64| options.report("splay", 0.8 + 0.15 * share);
-        let triangulation = match splay::splay(&vertices, near, most_signs, &report)? {
+        let triangulation = match splay::splay(&vertices, near, most_signs, threads, &report)? {
             Outcome::Delaunay(triangulation, splay) => {
                 stats.splay = Some(splay);
                 triangulation

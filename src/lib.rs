@@ -38,6 +38,8 @@ pub mod stats;
 mod trace;
 pub mod triangulation;
 pub mod verify;
+#[cfg(all(feature = "wasm", target_arch = "wasm32"))]
+mod wasm;
 
 #[cfg(feature = "gpu")]
 pub use engines::Engines;

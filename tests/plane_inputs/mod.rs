@@ -34,9 +34,9 @@ pub fn all() -> Vec<(&'static str, Vec<Point>)> {
     let mut inputs = vec![
         ("three", vec![[0, 0], [40, 0], [0, 40]]),
         ("four", vec![[0, 0], [40, 0], [0, 40], [40, 40]]),
-        ("uniform", random(3000, 5, 1 << 22)),
+        ("uniform", random(1500, 5, 1 << 22)),
         ("square", grid(2, 2)),
-        ("grid", grid(23, 23)),
+        ("grid", grid(19, 19)),
         ("ribbon", grid(150, 2)),
         ("line and a point", (0..100).map(|i| [4 * i, 8 * i]).chain([[40, 0]]).collect()),
         ("two lines", (0..120).map(|i| [4 * i, 40 * (i % 2)]).collect()),

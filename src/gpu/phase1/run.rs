@@ -18,6 +18,11 @@ use crate::{
     stats::{Round, Stopwatch},
 };
 
+/// Where few signs are left open, exact checks wait for each other: one alone takes longer than all filters of an iteration.
+const SELDOM: u32 = 4;
+/// Where more than one sign for this many visited tetrahedra is left open, they do not wait, since there would be no progress.
+const MANY_EXACT: u64 = 16;
+
 /// A run that is under way.
 pub struct Run<'a> {
     kernels: &'a mut Phase1,
@@ -34,6 +39,8 @@ pub struct Run<'a> {
     first: bool,
     /// Flip iterations to record for a round.
     iterations: u32,
+    /// Exact checks follow the filter in every so many iterations of a round.
+    exact_every: u32,
     /// An upper bound of the iteration that the kernels count.
     counted: u32,
     stats: Phase1Stats,
@@ -138,6 +145,7 @@ impl<'a> Run<'a> {
             kernels,
             first: true,
             iterations: 20,
+            exact_every: SELDOM,
             counted: 0,
             stats: Phase1Stats { dispatches, submits: 1, ..Phase1Stats::default() },
             clock,
@@ -181,6 +189,9 @@ impl<'a> Run<'a> {
         self.counters = read;
         self.counted = read.iteration;
         let used = read.iterations - before.iterations;
+        let exact = u64::from(read.exact.wrapping_sub(before.exact));
+        let often = exact * MANY_EXACT > u64::from(read.visits.wrapping_sub(before.visits));
+        self.exact_every = if often { 1 } else { SELDOM };
         // Rounds grow at first: a flip that waits for the next round costs more than an idle iteration.
         self.iterations = if used >= self.iterations { (2 * used).min(64) } else { (used + used / 2).clamp(20, 64) };
         self.stats.submits += 1;
@@ -265,7 +276,7 @@ impl<'a> Run<'a> {
                 self.counted = 1;
             }
             let now = left.min(last - self.counted);
-            self.kernels.flip.record(recorder, &self.memory.flip, now, self.workgroups());
+            self.kernels.flip.record(recorder, &self.memory.flip, now, self.exact_every, self.workgroups());
             self.counted += now;
             left -= now;
         }

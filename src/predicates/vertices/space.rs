@@ -149,7 +149,7 @@ mod tests {
         Ok(())
     }
 
-    fn near(exponent: std::ops::RangeInclusive<i32>) -> impl Strategy<Value = f64> {
+    fn near(exponent: std::ops::RangeInclusive<i32>) -> impl Strategy<Value = f64> + Clone {
         (-9i32..10, exponent, -1i32..2).prop_map(|(m, e, nudge)| {
             let x = f64::from(m) * 2f64.powi(e);
             if nudge == 0 || x == 0.0 { x } else { f64::from_bits(x.to_bits().wrapping_add_signed(nudge.into())) }

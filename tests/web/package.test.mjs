@@ -1,0 +1,33 @@
+// The package's form: what publint and "are the types wrong?" say, and its sizes.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { gzipSync } from 'node:zlib';
+import { publint } from 'publint';
+import { formatMessage } from 'publint/utils';
+import { pack, root } from './package.mjs';
+
+const kilobytes = (file) => gzipSync(readFileSync(join(root, 'web/dist', file)), { level: 9 }).length / 1e3;
+
+test('publint has nothing to say', async () => {
+  const pkg = JSON.parse(readFileSync(join(root, 'web/package.json')));
+  const { messages } = await publint({ pkgDir: join(root, 'web'), strict: true });
+  assert.deepEqual(messages.map((message) => formatMessage(message, pkg, { color: false })), []);
+});
+
+test('the types are not wrong', () => {
+  execFileSync(process.execPath, [join(root, 'node_modules/@arethetypeswrong/cli/dist/index.js'), pack(), '--profile', 'esm-only'], {
+    stdio: 'inherit',
+  });
+});
+
+test('the engine’s wasm is below 250 kB and all JavaScript below 25 kB, gzipped', () => {
+  const wasm = kilobytes('gdel.wasm');
+  const js = kilobytes('index.js') + kilobytes('worker.js');
+  console.log(`gdel.wasm ${wasm.toFixed(1)} kB, index.js and worker.js ${js.toFixed(1)} kB`);
+  assert.ok(wasm < 250);
+  assert.ok(js < 25);
+});
