@@ -5,4 +5,4 @@ import './styles/stage.css';
 import './styles/panel.css';
 import { App } from './app';
 
-new App().start();
+new App();

@@ -5,6 +5,8 @@ import { type Distribution, DISTRIBUTIONS, type Sample, SAMPLES, type Source } f
 import { COLOR_MAPS, type ColorMapName } from './view/colormap';
 import type { CameraPose } from './view/viewer';
 
+export type Up = 'y' | 'z';
+
 export const LAYERS = ['tetrahedra', 'edges', 'points', 'hull', 'facets'] as const;
 export type Layer = (typeof LAYERS)[number];
 
@@ -19,10 +21,22 @@ export interface Settings {
   alpha: number | null;
   normal: [number, number, number];
   keep: number;
+  /** The axis that points up. */
+  up: Up;
   /** How far the tetrahedra are pulled apart: 0 not at all, 1 to twice the size. */
   apart: number;
   layers: Record<Layer, boolean>;
   camera: CameraPose;
+}
+
+/** What suits a source: the carved solid of a scan, all of a synthetic cloud. */
+export function filterFor(source: Source): Filter['kind'] {
+  return source.kind === 'generator' ? 'all' : 'carve';
+}
+
+/** Scans of the land have z up, models y. */
+export function upFor(source: Source): Up {
+  return source.kind === 'file' && /\.(las|laz|pcd|pts|xyz|asc|txt|csv|tsv)$/i.test(source.file.name) ? 'z' : 'y';
 }
 
 export const HOME: CameraPose = [0.5, 0.24, 2.75, 0, 0, 0];
@@ -38,6 +52,7 @@ export function defaults(): Settings {
     alpha: null,
     normal: [0, 0, 1],
     keep: 0.5,
+    up: 'y',
     apart: 0,
     layers: { tetrahedra: true, edges: true, points: true, hull: false, facets: false },
     camera: HOME,
@@ -51,7 +66,9 @@ export function toHash(settings: Settings): string {
   const { source } = settings;
   if (source.kind === 'sample') hash.set('points', source.sample);
   if (source.kind === 'generator') hash.set('points', [source.distribution, source.count, source.seed].join('~'));
-  for (const key of ['engine', 'color', 'map', 'filter'] as const) {
+  start.filter = filterFor(source);
+  start.up = upFor(source);
+  for (const key of ['engine', 'color', 'map', 'filter', 'up'] as const) {
     if (settings[key] !== start[key]) hash.set(key, settings[key]);
   }
   if (settings.alpha !== null) hash.set('alpha', String(Number(settings.alpha.toPrecision(4))));
@@ -76,7 +93,8 @@ export function fromHash(hash: string): Settings {
   settings.engine = choice('engine', ['auto', 'gpu', 'cpu'], settings.engine);
   settings.color = choice('color', ['quality', 'volume', 'circumradius', 'phase'], settings.color);
   settings.map = choice('map', Object.keys(COLOR_MAPS) as ColorMapName[], settings.map);
-  settings.filter = choice('filter', ['all', 'alpha', 'carve'], settings.filter);
+  settings.filter = choice('filter', ['all', 'alpha', 'carve'], filterFor(settings.source));
+  settings.up = choice('up', ['y', 'z'], upFor(settings.source));
   const alpha = Number(given.get('alpha'));
   if (alpha > 0 && alpha < Infinity) settings.alpha = alpha;
   const [nx, ny, nz, keep] = numbers(given.get('cut'), 4) ?? [...settings.normal, settings.keep];

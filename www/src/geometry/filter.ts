@@ -98,7 +98,7 @@ function carve(
 }
 
 /**
- * An alpha that suits a cloud: eight times the typical distance between neighbouring points, measured as the median of the
+ * An alpha that suits a cloud: ten times the typical distance between neighbouring points, measured as the median of the
  * shortest edges of a sample of tetrahedra.
  */
 export function typicalAlpha(points: ArrayLike<number>, tetrahedra: Uint32Array): number {
@@ -121,5 +121,5 @@ export function typicalAlpha(points: ArrayLike<number>, tetrahedra: Uint32Array)
     shortest[i] = Math.sqrt(least);
   }
   shortest.sort();
-  return samples > 0 ? 8 * shortest[samples >> 1] : 0;
+  return samples > 0 ? 10 * shortest[samples >> 1] : 0;
 }

@@ -10,11 +10,14 @@ export interface ColorScale {
   kind: 'linear' | 'log' | 'phases';
 }
 
-/** The scale for a quantity: quality from 0 to 1, lengths and volumes from the 1st to the 99th percentile, by logarithm. */
-export function scaleFor(by: ColorBy, measures: Measures): ColorScale {
+/**
+ * The scale for a quantity of the tetrahedra that a filter keeps: quality from 0 to 1, lengths and volumes from the 1st to the
+ * 99th percentile, by logarithm.
+ */
+export function scaleFor(by: ColorBy, measures: Measures, kept: Uint8Array): ColorScale {
   if (by === 'quality') return { by, domain: [0, 1], kind: 'linear' };
   if (by === 'phase') return { by, domain: [0, 1], kind: 'phases' };
-  const [low, high] = percentiles(measures[by], 0.01, 0.99);
+  const [low, high] = percentiles(measures[by], 0.01, 0.99, kept);
   return { by, domain: [low, high], kind: 'log' };
 }
 
@@ -32,12 +35,12 @@ export function mapping(
   return (t) => Math.min(1, Math.max(0, (Math.log(values[t]) - start) * perStep));
 }
 
-/** Two percentiles of the positive, finite values of a sample. */
-export function percentiles(values: Float32Array, low: number, high: number): [number, number] {
+/** Two percentiles of the positive, finite values of a sample of those kept. */
+export function percentiles(values: Float32Array, low: number, high: number, kept?: Uint8Array): [number, number] {
   const step = Math.max(1, Math.floor(values.length / 20_000));
   const sample: number[] = [];
   for (let i = 0; i < values.length; i += step) {
-    if (values[i] > 0 && values[i] < Infinity) sample.push(values[i]);
+    if (values[i] > 0 && values[i] < Infinity && kept?.[i] !== 0) sample.push(values[i]);
   }
   if (sample.length === 0) return [1, 1];
   const sorted = Float32Array.from(sample).sort();

@@ -9,10 +9,10 @@ import { type ColorBy, type ColorScale, mapping, percentiles, scaleFor } from '.
 import { boundaryOf, type Surface, surfaceOf } from '../geometry/surface';
 
 /** At most so many tetrahedra are drawn one by one when they are pulled apart. */
-export const MOST_PIECES = 250_000;
+export const MOST_PIECES = 300_000;
 
-/** Up to so many points, the triangulation after each round is kept. */
-export const MOST_POINTS_TO_STEP = 5_000;
+/** Of up to so many points, a run can be recorded: the triangulation after each round, and what flipping left. */
+export const MOST_POINTS_TO_RECORD = 40_000;
 
 export type Engine = 'auto' | 'gpu' | 'cpu';
 
@@ -28,12 +28,15 @@ export interface Summary {
   stats: Stats;
   /** An alpha that suits these points, and the range that is worth a slider. */
   alpha: { typical: number; range: [number, number] };
-  /** The facets that were not locally Delaunay after Phase 1; null where the engine has no Phase 1. */
-  nonDelaunayFacets: number | null;
-  /** The tetrahedra that splaying made; null likewise. */
-  splayed: number | null;
-  /** How many steps there are to look at. */
-  rounds: number;
+  /** What was recorded of the run: null where nothing was. */
+  trace: {
+    /** The rounds whose triangulation can be looked at. */
+    rounds: number;
+    /** The facets that were not locally Delaunay after Phase 1. */
+    nonDelaunayFacets: number;
+    /** The tetrahedra that splaying made. */
+    splayed: number;
+  } | null;
 }
 
 /** What is to be drawn. */
@@ -76,7 +79,6 @@ export interface Picked {
 
 /** One set of points, its mesh, and what has been worked out about it so far. */
 export class Model {
-  readonly frame: Frame;
   readonly positions: Float32Array;
   private readonly drawable: Tetrahedralisation;
   private readonly created: Uint8Array | null;
@@ -88,18 +90,18 @@ export class Model {
   private constructor(
     readonly points: Float32Array | Float64Array,
     readonly mesh: Mesh3,
-    private readonly milliseconds: number,
+    readonly milliseconds: number,
+    frame: Frame,
   ) {
-    this.frame = frameOf(points);
-    this.positions = toFrame(points, this.frame);
+    this.positions = toFrame(points, frame);
     this.drawable = { positions: this.positions, tetrahedra: mesh.tetrahedra, neighbors: mesh.neighbors };
     this.created = mesh.trace?.created ?? null;
   }
 
-  static async make(points: Float32Array | Float64Array, options: RunOptions): Promise<Model> {
+  static async make(points: Float32Array | Float64Array, options: RunOptions, frame?: Frame): Promise<Model> {
     const started = performance.now();
     const mesh = await delaunay3d(points, options);
-    return new Model(points, mesh, performance.now() - started);
+    return new Model(points, mesh, performance.now() - started, frame ?? frameOf(points));
   }
 
   summary(): Summary {
@@ -116,9 +118,13 @@ export class Model {
       milliseconds: this.milliseconds,
       stats: mesh.stats,
       alpha: { typical: typicalAlpha(this.points, mesh.tetrahedra), range: [low, high] },
-      nonDelaunayFacets: mesh.trace ? mesh.trace.nonDelaunayFacets.length / 3 : null,
-      splayed: this.created ? this.created.reduce((sum, phase) => sum + phase, 0) : null,
-      rounds: mesh.trace?.rounds.length ?? 0,
+      trace: mesh.trace
+        ? {
+            rounds: mesh.trace.rounds.length,
+            nonDelaunayFacets: mesh.trace.nonDelaunayFacets.length / 3,
+            splayed: mesh.trace.created.reduce((sum, phase) => sum + phase, 0),
+          }
+        : null,
     };
   }
 
@@ -133,7 +139,7 @@ export class Model {
     const heights = this.heightsAlong(plane.normal);
     const level = levelOf(plane, heights);
     const boundary = boundaryOf(this.drawable, kept, heights, level);
-    const scale = scaleFor(color, this.measured);
+    const scale = scaleFor(color, this.measured, kept.kept);
     const value = mapping(scale, this.measured, this.created);
     const { tetrahedra } = this.drawable;
     return {
@@ -160,8 +166,10 @@ export class Model {
       neighbors: new Int32Array(tetrahedra.length).fill(-1),
     });
     const level = levelOf(plane, heights);
-    const owners = Uint32Array.from(heights.height.keys()).filter((t) => heights.height[t] <= level);
-    const scale = scaleFor(color === 'phase' ? 'quality' : color, measures);
+    const owners = Uint32Array.from(heights.height.keys())
+      .filter((t) => heights.height[t] <= level)
+      .slice(0, MOST_PIECES);
+    const scale = scaleFor(color === 'phase' ? 'quality' : color, measures, new Uint8Array(tetrahedra.length / 4).fill(1));
     return {
       surface: null,
       pieces: piecesOf(this.positions, tetrahedra, owners, mapping(scale, measures, null)),

@@ -12,10 +12,10 @@ export const DISTRIBUTIONS = {
 
 export type Distribution = keyof typeof DISTRIBUTIONS;
 
-/** The bundled scans, with the alpha, in their own units, that carves the solid out of the hull. */
+/** The bundled scans. */
 export const SAMPLES = {
-  bunny: { title: 'Stanford bunny', file: 'bunny.ply', alpha: 0.009 },
-  dragon: { title: 'Stanford dragon', file: 'dragon.ply.gz', alpha: 0.004 },
+  bunny: { title: 'Stanford bunny', file: 'bunny.ply', points: 35_947 },
+  dragon: { title: 'Stanford dragon', file: 'dragon.ply.gz', points: 437_645 },
 } as const;
 
 export type Sample = keyof typeof SAMPLES;

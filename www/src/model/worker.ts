@@ -1,7 +1,9 @@
 import * as Comlink from 'comlink';
-import { verify } from 'gdel-wasm';
+import { GdelError, verify } from 'gdel-wasm';
 import type { Ray } from '../geometry/pick';
-import { type DrawRequest, type Drawing, type Engine, Model, MOST_POINTS_TO_STEP, type Picked, type Summary } from './model';
+import { Live, type LiveFrame } from './live';
+import { type DrawRequest, type Drawing, type Engine, Model, type Picked, type Summary } from './model';
+import { type Format, type SavedFile, save } from './save';
 import { load, type Source } from './source';
 
 export type Progress = (progress: { phase: string; fraction: number }) => void;
@@ -9,15 +11,34 @@ export type Progress = (progress: { phase: string; fraction: number }) => void;
 /** The points and the mesh live in this worker, so that the page never waits for them. */
 class ModelWorker {
   private model: Model | null = null;
+  private live: Live | null = null;
   private abort = new AbortController();
 
-  /** Gets the points and triangulates them. The old model stays until the new one is there. */
-  async run(source: Source, engine: Engine, onProgress: Progress): Promise<Summary> {
-    this.cancel();
-    const { signal } = (this.abort = new AbortController());
-    const points = await load(source, { signal, onProgress });
-    this.model = await Model.make(points, { engine, signal, onProgress });
-    return this.model.summary();
+  /** Gets the points and triangulates them. The old mesh stays until the new one is there. */
+  run(source: Source, engine: Engine, onProgress: Progress): Promise<Summary> {
+    return named(async () => {
+      const signal = this.begin();
+      const points = await load(source, { signal, onProgress });
+      this.model = await Model.make(points, { engine, signal, onProgress });
+      return this.model.summary();
+    });
+  }
+
+  /** Triangulates the present points once more, on the GPU, and keeps what happened on the way. */
+  record(onProgress: Progress): Promise<Summary> {
+    return named(async () => {
+      const options = { engine: 'gpu', signal: this.begin(), onProgress, outputs: [...ALL, 'trace'] } as const;
+      this.model = await Model.make(this.current.points, options);
+      return this.model.summary();
+    });
+  }
+
+  /** Triangulates the present points once more, for the comparison. */
+  time(engine: Engine): Promise<{ milliseconds: number; tetrahedra: number }> {
+    return named(async () => {
+      const again = await Model.make(this.current.points, { engine, signal: this.begin(), outputs: [] });
+      return { milliseconds: again.milliseconds, tetrahedra: again.mesh.tetrahedra.length / 4 };
+    });
   }
 
   cancel(): void {
@@ -25,16 +46,21 @@ class ModelWorker {
   }
 
   draw(request: DrawRequest): Drawing {
-    const drawing = this.current.draw(request);
-    return drawing;
+    return this.current.draw(request);
   }
 
   pick(ray: Ray, apart: number): Picked | null {
     return this.model?.pick(ray, apart) ?? null;
   }
 
+  /** The points as drawn. */
   positions(): Float32Array {
     return this.current.positions;
+  }
+
+  /** The points as given. */
+  points(): Float32Array | Float64Array {
+    return this.current.points;
   }
 
   hull(): Float32Array {
@@ -46,7 +72,23 @@ class ModelWorker {
   }
 
   verify() {
-    return verify(this.current.points, this.current.mesh);
+    return named(async () => verify(this.current.points, this.current.mesh));
+  }
+
+  save(format: Format): Promise<SavedFile[]> {
+    return named(() => save(this.current.mesh, format));
+  }
+
+  /** Moves the points of the live mode to a moment, in seconds, and triangulates them. */
+  async liveFrame(count: number, engine: Engine, seconds: number, request: DrawRequest): Promise<LiveFrame> {
+    if (this.live?.count !== count) this.live = await Live.make(count);
+    return this.live.frame(engine, seconds, request);
+  }
+
+  private begin(): AbortSignal {
+    this.abort.abort();
+    this.abort = new AbortController();
+    return this.abort.signal;
   }
 
   private get current(): Model {
@@ -55,6 +97,16 @@ class ModelWorker {
   }
 }
 
+const ALL = ['neighbors', 'hull', 'duplicateOf'] as const;
+
+/** Errors lose all but name and message on their way to the page: the code becomes the name. */
+async function named<T>(work: () => Promise<T>): Promise<T> {
+  try {
+    return await work();
+  } catch (error) {
+    throw error instanceof GdelError ? Object.assign(new Error(error.message), { name: error.code }) : error;
+  }
+}
+
 export type { ModelWorker };
-export const unused = MOST_POINTS_TO_STEP;
 Comlink.expose(new ModelWorker());

@@ -12,13 +12,13 @@ export const QUANTITIES: Record<ColorBy, string> = {
 
 const UNITS: Record<ColorBy, string> = {
   quality: '3 r/R, 1 is regular',
-  volume: 'cubic units of the file',
-  circumradius: 'units of the file',
+  volume: 'file units³',
+  circumradius: 'file units',
   phase: '',
 };
 
 /** What the colours mean, and how much of the mesh is to be seen. */
-export function showLegend({ scale, shown, total }: Drawing, map: ColorMapName): void {
+export function showLegend({ scale, shown, total, milliseconds }: Drawing, map: ColorMapName): void {
   const unit = UNITS[scale.by];
   byId('legend-title').textContent = QUANTITIES[scale.by] + (unit && `, ${unit}`);
   const [low, high] = scale.domain;
@@ -28,5 +28,6 @@ export function showLegend({ scale, shown, total }: Drawing, map: ColorMapName):
     : gradient(map);
   byId('legend-low').textContent = phases ? '1: inserted, flipped' : measured(low);
   byId('legend-high').textContent = phases ? '2: splayed' : measured(high);
+  byId('shown').title = `${milliseconds.toFixed(1)} ms to cut`;
   byId('shown').textContent = shown === total ? `all ${count(total)} shown` : `${count(shown)} of ${count(total)} shown`;
 }

@@ -19,6 +19,8 @@ export class Look {
   readonly planeNormal = uniform(new Vector3(1, 0, 0));
   /** Points below this height along the plane's normal are not drawn: the tetrahedra are there. */
   readonly pointsAbove = uniform(-1e9);
+  /** 1 to draw them all the same. */
+  readonly pointsEverywhere = uniform(0);
   readonly map = new DataTexture(texels('viridis'), 256, 1, RGBAFormat, UnsignedByteType);
 
   constructor() {
@@ -79,7 +81,11 @@ export function pointsMaterial(look: Look, positions: InstancedBufferAttribute):
   const position = instancedBufferAttribute<'vec3'>(positions, 'vec3');
   const material = new PointsNodeMaterial({ sizeAttenuation: false, transparent: true, depthWrite: false });
   material.positionNode = position;
-  material.sizeNode = select(position.dot(look.planeNormal).greaterThan(look.pointsAbove), look.pointSize, float(0));
+  material.sizeNode = select(
+    position.dot(look.planeNormal).greaterThan(look.pointsAbove).or(look.pointsEverywhere.greaterThan(0)),
+    look.pointSize,
+    float(0),
+  );
   material.colorNode = look.ink;
   material.opacityNode = look.pointOpacity;
   return material;

@@ -1,6 +1,6 @@
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import {
-  BufferAttribute, BufferGeometry, Color, InstancedBufferAttribute, InstancedBufferGeometry, LineSegments, type Material, Mesh,
+  BufferAttribute, BufferGeometry, Color, Group, InstancedBufferAttribute, InstancedBufferGeometry, LineSegments, type Material, Mesh,
   type Object3D, PerspectiveCamera, Raycaster, Scene, Sphere, Spherical, Sprite, Vector2, Vector3, WebGPURenderer,
 } from 'three/webgpu';
 import { FACETS } from '../geometry/mesh';
@@ -19,6 +19,8 @@ const EVERYWHERE = new Sphere(new Vector3(), Infinity);
 export class Viewer {
   readonly look = new Look();
   private readonly scene = new Scene();
+  /** Holds all layers, turned so that the model's own up is up. */
+  private readonly model = new Group();
   private readonly camera = new PerspectiveCamera(38, 1, 0.01, 100);
   private readonly controls: OrbitControls;
   private frame = 0;
@@ -31,6 +33,7 @@ export class Viewer {
     private readonly canvas: HTMLCanvasElement,
     onCamera: () => void,
   ) {
+    this.scene.add(this.model);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.minDistance = 0.05;
     this.controls.maxDistance = 20;
@@ -89,18 +92,28 @@ export class Viewer {
   showPoints(positions: Float32Array | null): void {
     const old = this.layers.points;
     if (old) {
-      this.scene.remove(old);
+      this.model.remove(old);
       old.material.dispose();
       this.layers.points = null;
     }
     if (positions && positions.length > 0) {
       const points = new Sprite(pointsMaterial(this.look, new InstancedBufferAttribute(positions, 3)));
       points.count = positions.length / 3;
+      // Many points on a small canvas would cover everything.
+      const { clientWidth, clientHeight } = this.canvas;
+      this.look.pointOpacity.value = Math.min(0.5, Math.max(0.04, 0.068 * Math.sqrt((clientWidth * clientHeight) / points.count)));
       points.renderOrder = 1;
       points.frustumCulled = false;
-      this.scene.add(points);
+      this.model.add(points);
       this.layers.points = points;
     }
+    this.render();
+  }
+
+  /** Shows or hides what a layer holds, without giving it up. */
+  setVisible(layer: 'surface' | 'pieces' | 'hull' | 'facets' | 'points', visible: boolean): void {
+    const object = this.layers[layer];
+    if (object) object.visible = visible && (layer === 'points' || object.geometry.hasAttribute('position'));
     this.render();
   }
 
@@ -112,6 +125,13 @@ export class Viewer {
   setTheme(ink: string, accent: string): void {
     this.look.ink.value = new Color(ink);
     this.look.accent.value = new Color(accent);
+    this.render();
+  }
+
+  /** Which of the model's axes points up. */
+  setUp(up: 'y' | 'z'): void {
+    this.model.rotation.x = up === 'z' ? -Math.PI / 2 : 0;
+    this.model.updateMatrixWorld();
     this.render();
   }
 
@@ -135,25 +155,20 @@ export class Viewer {
     this.pose = [a + azimuth, Math.min(1.55, Math.max(-1.55, e + elevation)), d * zoom, ...target];
   }
 
-  /** The direction in which the camera looks from the target, of length 1. */
+  /** The direction from the model to the camera, in the model's axes, of length 1. */
   get towardsCamera(): [number, number, number] {
-    const { x, y, z } = this.camera.position.clone().sub(this.controls.target).normalize();
-    return [x, y, z];
+    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
+    return direction.applyQuaternion(this.model.quaternion.clone().invert()).toArray();
   }
 
-  /** The ray through a place on the canvas, in CSS pixels from its top left corner. */
+  /** The ray through a place on the canvas, in CSS pixels from its top left corner, in the model's axes. */
   ray(x: number, y: number): Ray {
     const { clientWidth, clientHeight } = this.canvas;
     const caster = new Raycaster();
     this.camera.updateMatrixWorld();
     caster.setFromCamera(new Vector2((x / clientWidth) * 2 - 1, 1 - (y / clientHeight) * 2), this.camera);
-    const { origin, direction } = caster.ray;
+    const { origin, direction } = caster.ray.applyMatrix4(this.model.matrixWorld.clone().invert());
     return { origin: origin.toArray(), direction: direction.toArray() };
-  }
-
-  /** The shown surface as a three.js mesh, for export. */
-  get surface(): Mesh {
-    return this.layers.surface;
   }
 
   /** Draws soon, once however often it is called before. */
@@ -174,7 +189,7 @@ export class Viewer {
     object.renderOrder = order;
     object.visible = false;
     object.frustumCulled = false;
-    this.scene.add(object);
+    this.model.add(object);
     return object;
   }
 
