@@ -33,6 +33,7 @@ export class App implements Page {
   viewer: Viewer | null = null;
   summary: Summary | null = null;
   lastDrawing: Drawing | null = null;
+  live = false;
   private readonly parts: Part[];
   private round: number | null = null;
   /** Counts the runs: what an earlier one still says is no longer of interest. */
@@ -43,7 +44,9 @@ export class App implements Page {
 
   constructor() {
     wireMessage();
-    wireTabs();
+    wireTabs((panel) => {
+      for (const part of this.parts) part.showed?.(panel);
+    });
     wireTheme(() => this.viewer && paint(this.viewer));
     wireDrop(this);
     wireKeyboard(this);
@@ -131,7 +134,11 @@ export class App implements Page {
   private async startViewer(): Promise<void> {
     try {
       const { Viewer } = await import('./view/viewer');
-      this.viewer = await Viewer.create(byId<HTMLCanvasElement>('canvas'), () => this.cameraMoved());
+      this.viewer = await Viewer.create(
+        byId<HTMLCanvasElement>('canvas'),
+        () => this.cameraMoved(),
+        () => showMessage('The graphics card was reset, and the drawing with it. Reload the page to see it again.'),
+      );
     } catch {
       showMessage('This browser can draw neither with WebGPU nor with WebGL 2. Triangulating and downloading work all the same.');
       return;
@@ -156,7 +163,7 @@ export class App implements Page {
   /** Draws what the settings say. Of settings that change while a drawing is made, only the last are drawn. */
   private async draw(): Promise<void> {
     this.look();
-    if (this.drawing || !this.viewer || !this.summary) return;
+    if (this.drawing || this.live || !this.viewer || !this.summary) return;
     this.drawing = true;
     try {
       for (let request = this.request(); JSON.stringify(request) !== this.drawn; request = this.request()) {

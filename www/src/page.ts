@@ -12,6 +12,8 @@ export interface Page {
   readonly viewer: Viewer | null;
   /** What the last run gave; null before the first has ended. */
   readonly summary: Summary | null;
+  /** Whether points move: then the live mode draws, not the page. */
+  live: boolean;
   /** What is on the screen; null before anything is. */
   readonly lastDrawing: Drawing | null;
   /** Gets points and triangulates them. Says what goes wrong on the page; resolves to whether there is a new mesh. */
@@ -26,9 +28,14 @@ export interface Page {
   showRound(round: number | null): void;
 }
 
-/** Called when there is a new mesh, and when settings have changed. */
+/** A part of the page, which is told of what happens. */
 export interface Part {
+  /** There is a new mesh. */
   ran?(summary: Summary): void;
+  /** Settings have changed. */
   changed?(settings: Settings): void;
+  /** There is a new drawing. */
   drew?(drawing: Drawing): void;
+  /** A panel has come to the front. */
+  showed?(panel: string): void;
 }

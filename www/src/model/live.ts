@@ -5,8 +5,6 @@ import { type DrawRequest, type Drawing, type Engine, Model } from './model';
 /** One frame of the live mode. */
 export interface LiveFrame {
   drawing: Drawing;
-  /** The points as drawn. */
-  positions: Float32Array;
   tetrahedra: number;
   /** For the triangulation alone. */
   milliseconds: number;
@@ -26,15 +24,11 @@ export class Live {
     return new Live(count, await generate('ball', count, { seed: 1 }));
   }
 
-  async frame(engine: Engine, seconds: number, request: DrawRequest): Promise<LiveFrame> {
+  async frame(engine: Engine, seconds: number, request: DrawRequest): Promise<{ model: Model; frame: LiveFrame }> {
     this.moveTo(seconds);
     const model = await Model.make(this.moved, { engine, outputs: ['neighbors'] }, UNIT);
-    return {
-      drawing: model.draw(request),
-      positions: model.positions,
-      tetrahedra: model.mesh.tetrahedra.length / 4,
-      milliseconds: model.milliseconds,
-    };
+    const { milliseconds, mesh } = model;
+    return { model, frame: { drawing: model.draw(request), tetrahedra: mesh.tetrahedra.length / 4, milliseconds } };
   }
 
   private moveTo(seconds: number): void {

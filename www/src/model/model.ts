@@ -11,6 +11,9 @@ import { boundaryOf, type Surface, surfaceOf } from '../geometry/surface';
 /** At most so many tetrahedra are drawn one by one when they are pulled apart. */
 export const MOST_PIECES = 300_000;
 
+/** At most so many facets are drawn: more would take gigabytes. */
+const MOST_FACETS = 4_000_000;
+
 /** Of up to so many points, a run can be recorded: the triangulation after each round, and what flipping left. */
 export const MOST_POINTS_TO_RECORD = 40_000;
 
@@ -58,6 +61,8 @@ export interface Drawing {
   /** How many tetrahedra the filter and the plane leave, and of how many. */
   shown: number;
   total: number;
+  /** Facets that are not drawn, because there are too many. */
+  leftOut: number;
   /** How high the plane lies in the frame. Infinite where it cuts nothing. */
   level: number;
   /** How long this took. */
@@ -143,13 +148,14 @@ export class Model {
     const value = mapping(scale, this.measured, this.created);
     const { tetrahedra } = this.drawable;
     return {
-      surface: pieces ? null : surfaceOf(this.drawable, boundary.facets, value),
+      surface: pieces ? null : surfaceOf(this.drawable, boundary.facets.subarray(0, MOST_FACETS), value),
       pieces: pieces
         ? piecesOf(this.positions, tetrahedra, outermost(this.drawable, kept, heights, level, boundary, MOST_PIECES), value)
         : null,
       scale,
       shown: boundary.shown,
       total: tetrahedra.length / 4,
+      leftOut: pieces ? 0 : Math.max(0, boundary.facets.length - MOST_FACETS),
       level,
       milliseconds: performance.now() - started,
     };
@@ -176,6 +182,7 @@ export class Model {
       scale,
       shown: owners.length,
       total: tetrahedra.length / 4,
+      leftOut: 0,
       level,
       milliseconds: performance.now() - started,
     };

@@ -12,6 +12,8 @@ export type Progress = (progress: { phase: string; fraction: number }) => void;
 class ModelWorker {
   private model: Model | null = null;
   private live: Live | null = null;
+  /** What the page shows: the mesh, or the last frame of the live mode. */
+  private shown: Model | null = null;
   private abort = new AbortController();
 
   /** Gets the points and triangulates them. The old mesh stays until the new one is there. */
@@ -20,6 +22,7 @@ class ModelWorker {
       const signal = this.begin();
       const points = await load(source, { signal, onProgress });
       this.model = await Model.make(points, { engine, signal, onProgress });
+      onProgress({ phase: 'Measuring tetrahedra', fraction: 1 });
       return this.model.summary();
     });
   }
@@ -46,11 +49,12 @@ class ModelWorker {
   }
 
   draw(request: DrawRequest): Drawing {
+    this.shown = this.current;
     return this.current.draw(request);
   }
 
   pick(ray: Ray, apart: number): Picked | null {
-    return this.model?.pick(ray, apart) ?? null;
+    return this.shown?.pick(ray, apart) ?? null;
   }
 
   /** The points as drawn. */
@@ -82,7 +86,9 @@ class ModelWorker {
   /** Moves the points of the live mode to a moment, in seconds, and triangulates them. */
   async liveFrame(count: number, engine: Engine, seconds: number, request: DrawRequest): Promise<LiveFrame> {
     if (this.live?.count !== count) this.live = await Live.make(count);
-    return this.live.frame(engine, seconds, request);
+    const { model, frame } = await this.live.frame(engine, seconds, request);
+    this.shown = model;
+    return frame;
   }
 
   private begin(): AbortSignal {

@@ -18,7 +18,7 @@ const UNITS: Record<ColorBy, string> = {
 };
 
 /** What the colours mean, and how much of the mesh is to be seen. */
-export function showLegend({ scale, shown, total, milliseconds }: Drawing, map: ColorMapName): void {
+export function showLegend({ scale, shown, total, leftOut, milliseconds }: Drawing, map: ColorMapName): void {
   const unit = UNITS[scale.by];
   byId('legend-title').textContent = QUANTITIES[scale.by] + (unit && `, ${unit}`);
   const [low, high] = scale.domain;
@@ -29,5 +29,6 @@ export function showLegend({ scale, shown, total, milliseconds }: Drawing, map: 
   byId('legend-low').textContent = phases ? '1: inserted, flipped' : measured(low);
   byId('legend-high').textContent = phases ? '2: splayed' : measured(high);
   byId('shown').title = `${milliseconds.toFixed(1)} ms to cut`;
-  byId('shown').textContent = shown === total ? `all ${count(total)} shown` : `${count(shown)} of ${count(total)} shown`;
+  const missing = leftOut > 0 ? `, ${count(leftOut)} facets left out` : '';
+  byId('shown').textContent = (shown === total ? `all ${count(total)} shown` : `${count(shown)} of ${count(total)} shown`) + missing;
 }

@@ -14,6 +14,7 @@ export function live(page: Page): Part {
 
   const stop = () => {
     running = 0;
+    page.live = false;
     button.setAttribute('aria-pressed', 'false');
     button.textContent = 'Start';
   };
@@ -22,8 +23,12 @@ export function live(page: Page): Part {
     const run = (running = performance.now());
     button.setAttribute('aria-pressed', 'true');
     button.textContent = 'Stop';
+    page.live = true;
     times.hidden = false;
     const frames: number[] = [];
+    page.viewer?.showPoints(null);
+    page.viewer?.showHull(null);
+    page.viewer?.showFacets(null);
     let charted = 0;
     let last = performance.now();
     while (running === run && page.viewer) {
@@ -38,9 +43,6 @@ export function live(page: Page): Part {
         round: null,
       });
       if (running !== run) return;
-      viewer.showPoints(null);
-      viewer.showHull(null);
-      viewer.showFacets(null);
       viewer.showSurface(frame.drawing.surface);
       viewer.showPieces(frame.drawing.pieces);
       showLegend(frame.drawing, settings.map);

@@ -15,24 +15,32 @@ export function runPanel(page: Page): Part {
   const shade = byId<HTMLInputElement>('shade');
   shade.addEventListener('change', () => page.change({ layers: { ...page.settings.layers, facets: shade.checked } }));
 
-  const ran = async (summary: Summary) => {
-    stepper(summary);
-    showFigures(summary);
-    showRepair(summary);
-    const { phases, rounds, engine } = summary.stats;
-    const title = `${titleOf(page.settings.source)}, ${count(summary.points)}, ${engine.toUpperCase()}`;
-    const again = runs.findIndex((run) => run.title === title);
-    if (again >= 0) runs.splice(again, 1);
-    runs.unshift({ title, phases });
-    runs.length = Math.min(runs.length, RUNS);
+  /** Charts wait until somebody looks: their library is as large as the rest of the page. */
+  let charted = true;
+  const chart = async () => {
+    if (charted || byId('run').hidden) return;
+    charted = true;
+    const rounds = page.summary?.stats.gpu?.rounds ?? [];
     byId('breakdown').replaceChildren(await breakdownChart(runs));
     byId('rounds-section').hidden = rounds.length === 0;
     if (rounds.length > 0) byId('rounds-chart').replaceChildren(await roundsChart(rounds), await timelineChart(rounds));
   };
 
   return {
-    ran: (summary) => void ran(summary),
+    ran(summary) {
+      stepper(summary);
+      showFigures(summary);
+      showRepair(summary);
+      const title = `${titleOf(page.settings.source)}, ${count(summary.points)}, ${summary.stats.engine.toUpperCase()}`;
+      const again = runs.findIndex((run) => run.title === title);
+      if (again >= 0) runs.splice(again, 1);
+      runs.unshift({ title, phases: summary.stats.phases });
+      runs.length = Math.min(runs.length, RUNS);
+      charted = false;
+      void chart();
+    },
     changed: ({ layers }) => (shade.checked = layers.facets),
+    showed: () => void chart(),
   };
 }
 

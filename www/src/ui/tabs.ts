@@ -1,7 +1,7 @@
 import { byId } from './dom';
 
 /** Makes the tab list of the panel work, with the mouse and with the arrow keys. */
-export function wireTabs(): void {
+export function wireTabs(onShow: (panel: string) => void): void {
   const tabs = [...document.querySelectorAll<HTMLButtonElement>('[role=tab]')];
   const show = (chosen: HTMLButtonElement) => {
     for (const tab of tabs) {
@@ -10,6 +10,7 @@ export function wireTabs(): void {
       tab.tabIndex = on ? 0 : -1;
       byId(tab.getAttribute('aria-controls')!).hidden = !on;
     }
+    onShow(chosen.getAttribute('aria-controls')!);
   };
   tabs.forEach((tab, i) => {
     tab.addEventListener('click', () => show(tab));

@@ -54,8 +54,9 @@ export class Viewer {
   }
 
   /** Fails where the browser can draw neither with WebGPU nor with WebGL 2. */
-  static async create(canvas: HTMLCanvasElement, onCamera: () => void): Promise<Viewer> {
+  static async create(canvas: HTMLCanvasElement, onCamera: () => void, onLost: () => void): Promise<Viewer> {
     const renderer = new WebGPURenderer({ canvas, antialias: true, alpha: true });
+    renderer.onDeviceLost = onLost;
     await renderer.init();
     return new Viewer(renderer, canvas, onCamera);
   }
