@@ -1,4 +1,6 @@
 import { generate, readPoints } from 'gdel-wasm';
+import bunny from '../../samples/bunny.f32.gz?url';
+import dragon from '../../samples/dragon.f32.gz?url';
 
 /** The synthetic distributions of the paper's section 5.1. */
 export const DISTRIBUTIONS = {
@@ -14,8 +16,8 @@ export type Distribution = keyof typeof DISTRIBUTIONS;
 
 /** The bundled scans. */
 export const SAMPLES = {
-  bunny: { title: 'Stanford bunny', file: 'bunny.ply', points: 35_947 },
-  dragon: { title: 'Stanford dragon', file: 'dragon.ply.gz', points: 437_645 },
+  bunny: { title: 'Stanford bunny', url: bunny, points: 35_947 },
+  dragon: { title: 'Stanford dragon', url: dragon, points: 437_645 },
 } as const;
 
 export type Sample = keyof typeof SAMPLES;
@@ -45,26 +47,30 @@ export async function load(source: Source, options: LoadOptions): Promise<Float3
     options.onProgress({ phase: 'Generating points', fraction: 0 });
     return generate(distribution, count, { seed });
   }
-  const phase = source.kind === 'sample' ? `Fetching the ${titleOf(source)}` : `Reading ${source.file.name}`;
+  if (source.kind === 'sample') {
+    options.onProgress({ phase: `Fetching the ${titleOf(source)}`, fraction: 0 });
+    return fetchSample(source.sample, options.signal);
+  }
+  const { file } = source;
+  const phase = `Reading ${file.name}`;
   options.onProgress({ phase, fraction: 0 });
-  const { data, name } = source.kind === 'sample' ? await fetchSample(source.sample, options.signal) : { data: source.file, name: source.file.name };
-  const { points } = await readPoints(data, {
-    name,
+  const { points } = await readPoints(file, {
+    name: file.name,
     signal: options.signal,
     onProgress: ({ fraction }) => options.onProgress({ phase, fraction }),
   });
   return points;
 }
 
-async function fetchSample(sample: Sample, signal: AbortSignal): Promise<{ data: ArrayBuffer; name: string }> {
-  const { file, title } = SAMPLES[sample];
-  const response = await fetch(`${import.meta.env.BASE_URL}samples/${file}`, { signal });
+async function fetchSample(sample: Sample, signal: AbortSignal): Promise<Float32Array> {
+  const { url, title } = SAMPLES[sample];
+  const response = await fetch(url, { signal });
   if (!response.ok) throw new Error(`The ${title} could not be fetched: the server answered ${response.status}.`);
   const data = await response.arrayBuffer();
-  return { data: isGzip(data) ? await gunzip(data) : data, name: file.replace(/\.gz$/, '') };
+  return new Float32Array(isGzip(data) ? await gunzip(data) : data);
 }
 
-// Some servers unpack such files themselves, so the name does not say.
+// Some servers unpack such files themselves.
 function isGzip(data: ArrayBuffer): boolean {
   const [first, second] = new Uint8Array(data, 0, Math.min(2, data.byteLength));
   return first === 0x1f && second === 0x8b;
