@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let input = Input { points: (&points).into(), lattice: &lattice, start };
 
     let clock = std::time::Instant::now();
-    let phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
+    let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
     let pipelines_ms = clock.elapsed().as_secs_f64() * 1e3;
     let mut runs: Vec<Phase1Output> = Vec::new();
     for _ in 0..repeats.max(1) + 1 {
@@ -61,14 +61,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     runs.remove(0);
     runs.sort_by(|a, b| a.stats.milliseconds.total_cmp(&b.stats.milliseconds));
     let all: Vec<String> = runs.iter().map(|r| format!("{:.2}", r.stats.milliseconds)).collect();
-    let Phase1Output { stats, tets, failed, united, uncertain, .. } = &runs[runs.len() / 2];
+    let Phase1Output { stats, tets, failed, united, doubtful, .. } = &runs[runs.len() / 2];
     let counters = &stats.counters;
     let stages: Vec<String> = stages.iter().map(|(name, ms)| format!("\"{name}\":{ms:.3}")).collect();
     println!(
         "{{\"input\":\"{kind}\",\"points\":{count},\"adapter\":\"{}\",\"width\":\"{:?}\",\"ms\":{:.2},\"all_ms\":[{}],\
          \"mesh_readback_ms\":{:.2},\"lattice_ms\":{lattice_ms:.1},\"pipelines_ms\":{pipelines_ms:.0},\"rounds\":{},\
          \"flip_iterations\":{},\"visits\":{},\"flips_23\":{},\"flips_32\":{},\"exact\":{},\"tets\":{},\"failed\":{},\
-         \"united\":{},\"uncertain\":{},\"readbacks\":{},\"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
+         \"united\":{},\"doubtful\":{},\"readbacks\":{},\"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
         gpu.adapter().name,
         lattice.width(),
         stats.milliseconds,
@@ -83,7 +83,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         tets.len(),
         failed.len(),
         united.len(),
-        uncertain.len(),
+        doubtful.len(),
         stats.readbacks,
         stats.dispatches,
         stats.bytes,

@@ -1,6 +1,9 @@
 #!/usr/bin/env bash
 # Installs what building and testing gdel needs, starting from a Debian 12 with rustup, Node 20 and git. It says what it
 # does and skips what is there: a second run starts at once.
+#
+# `scripts/setup.sh web` also installs what the npm package needs: wasm-pack, wasm-bindgen and the npm packages;
+# `scripts/setup.sh web-tests` the browsers on top.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -10,10 +13,20 @@ fail() {
   exit 1
 }
 
-# System packages: the linker that rustc calls, and a software Vulkan driver (lavapipe) for the tests of the GPU code.
+what=${1:-rust}
+case $what in
+  rust | web | web-tests) ;;
+  *) fail "usage: scripts/setup.sh [web | web-tests]" ;;
+esac
+
+# System packages: the linker that rustc calls, and a software Vulkan driver (lavapipe) for the tests of the GPU code;
+# two browsers for those of the npm package.
+packages=(gcc libc6-dev libvulkan1 mesa-vulkan-drivers)
+[[ $what != web-tests ]] || packages+=(chromium firefox-esr)
+
 install_packages() {
   local missing=() package
-  for package in gcc libc6-dev libvulkan1 mesa-vulkan-drivers; do
+  for package in "${packages[@]}"; do
     [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null) == installed ]] ||
       missing+=("$package")
   done
@@ -59,10 +72,42 @@ install_rust_parts() {
   done
 }
 
+# A tool from crates.io, into .cache/tools, unless that version is there or on the PATH. The tools do not have to be fast,
+# but to compile fast.
+install_tool() {
+  local command=$1 crate=$2 version=$3
+  shift 3
+  for candidate in ".cache/tools/bin/$command" "$command"; do
+    [[ $("$candidate" --version 2>/dev/null) != "$command $version" ]] || return 0
+  done
+  say "compiling $crate $version: a few minutes"
+  CARGO_PROFILE_RELEASE_OPT_LEVEL=1 CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
+    cargo install --quiet --root .cache/tools --version "$version" "$@" "$crate"
+}
+
+install_web_parts() {
+  local node=0
+  node=$(node --version 2>/dev/null | sed 's/^v\([0-9]*\).*/\1/') || true
+  [[ ${node:-0} -ge 20 ]] || fail "Node 20 or later is needed: see https://nodejs.org"
+
+  # The glue that wasm-bindgen writes has to be of the version that the crate was compiled with.
+  local bindgen
+  bindgen=$(sed -n '/^name = "wasm-bindgen"$/{n;s/^version = "\(.*\)"$/\1/p}' Cargo.lock)
+  install_tool wasm-bindgen wasm-bindgen-cli "$bindgen" --no-default-features --bin wasm-bindgen
+  install_tool wasm-pack wasm-pack 0.15.1
+
+  if [[ ! node_modules/.package-lock.json -nt package-lock.json ]]; then
+    say "installing the npm packages"
+    npm ci --no-audit --no-fund --loglevel=error
+    touch node_modules/.package-lock.json
+  fi
+}
+
 if [[ -n $(command -v apt-get) ]]; then
   install_packages
 else
-  say "no apt-get here: a C linker and a Vulkan driver (Mesa's lavapipe will do) have to be there already"
+  say "no apt-get here: these packages of Debian, or what they are elsewhere, have to be there: ${packages[*]}"
 fi
 install_rust_parts
+[[ $what == rust ]] || install_web_parts
 say "ready"

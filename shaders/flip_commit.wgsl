@@ -3,6 +3,8 @@
 // A flip owns its tetrahedra, so it overwrites them in place; the outer facets of the new ones keep their old neighbours
 // until flip_link, and each old tetrahedron gets a message that says where its outer facets went. A flip that finds no
 // slot, or no room in the history, is put off: it stays in the active list.
+//
+// Numbers in the history are taken for a whole workgroup at a time: millions of flips would queue for the one counter.
 //!include shared/layout
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read_write> tets: array<vec4u>;
@@ -15,8 +17,11 @@
 //!include shared/bids
 
 const PROBES: u32 = 16;
-// The history has no room.
-const NO_ROOM: u32 = 0xfffffffe;
+
+var<workgroup> entries_here: u32;
+// Flips of this workgroup whose tetrahedra may hold waiting points, and the number of the first in the history.
+var<workgroup> held_here: atomic<u32>;
+var<workgroup> first_here: u32;
 
 // Takes a free slot: from the block of a vertex of the flip, else from one of a few blocks of the tail; NONE if there is
 // none.
@@ -46,21 +51,6 @@ fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
     return slot;
 }
 
-// A number in the history for a flip whose tetrahedra have these flags: NONE where no waiting point can lie in them.
-fn node_for(held: bool) -> u32 {
-    var node = NONE;
-    if held {
-        let room = control.first_node + control.history;
-        node = NO_ROOM;
-        // The number is not raised far beyond the end, so that it never overflows.
-        if atomicLoad(&control.next_node) < room {
-            node = atomicAdd(&control.next_node, 1u);
-            node = select(node, NO_ROOM, node >= room);
-        }
-    }
-    return node;
-}
-
 // Makes the node that made tetrahedron t, or t's place in the list of first nodes, point to `node`.
 fn link_node(t: u32, node: u32, first: u32) {
     if atomicLoad(&status[t].flags) >> HELD_SHIFT == control.round {
@@ -79,67 +69,80 @@ fn renew(t: u32, flags: u32, mark: u32, last: u32) {
     status[t].last = last;
 }
 
-@compute @workgroup_size(256)
-fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let iteration = control.iteration;
-    let entries = entries_of(iteration);
-    let list = half_of(iteration);
-    let bits = control.bid_bits;
-    let mark = changed_mark(iteration, bits);
-    let first = control.first_node;
-    for (var i = id.x; i < entries; i += groups.x * 256) {
-        let entry = actives[list + i];
-        let kind = (entry.outcome >> KIND_SHIFT) & 3;
-        if kind == 0 {
-            continue;
-        }
+// A flip that won all of its tetrahedra.
+struct Flip {
+    kind: u32,
+    // The tetrahedra; the third only of three.
+    t: u32,
+    u: u32,
+    w: u32,
+    // The facet of t, and its corners.
+    k: u32,
+    c: vec3u,
+    // Waiting points may lie in them.
+    held: bool,
+}
+
+// The flip that entry i proposes; kind 0 if it proposes none, or has lost.
+fn winner(i: u32, entry: Active, iteration: u32, bits: u32) -> Flip {
+    var flip = Flip(0, entry.tet, 0, 0, 0, vec3u(0), false);
+    let kind = (entry.outcome >> KIND_SHIFT) & 3;
+    if kind != 0 {
         let t = entry.tet;
         let bid = bid_of(i, iteration, bits);
-        let near_t = neighbors[t];
+        let near = neighbors[t];
         let k = (entry.outcome >> FACET_SHIFT) & 3;
         let turn = (entry.outcome >> EDGE_SHIFT) & 3;
         let f = facet(k);
         let c = vec3u(f[turn], f[(turn + 1) % 3], f[(turn + 2) % 3]);
-        let u = near_t[k] >> 2;
-        let w = near_t[c.z] >> 2;
+        let u = near[k] >> 2;
+        let w = near[c.z] >> 2;
         var won = atomicLoad(&status[t].vote) == bid && atomicLoad(&status[u].vote) == bid;
         if kind == FLIP_32 {
             won = won && atomicLoad(&status[w].vote) == bid;
         }
-        if !won {
-            continue;
-        }
-        let round = control.round;
-        var held = atomicLoad(&status[t].flags) >> HELD_SHIFT == round || atomicLoad(&status[u].flags) >> HELD_SHIFT == round;
-        if kind == FLIP_32 {
-            held = held || atomicLoad(&status[w].flags) >> HELD_SHIFT == round;
-        }
-        let node = node_for(held);
-        if node == NO_ROOM {
-            atomicOr(&control.overflow, HISTORY_FULL);
-            continue;
-        }
-        let tet_t = tets[t];
-        let tet_u = tets[u];
-        let near_u = neighbors[u];
-        let x = vec3u(tet_t[c.x], tet_t[c.y], tet_t[c.z]);
-        let apex = tet_u[near_t[k] & 3];
-        // As FlipNode has it: the ring and the ends of the edge.
-        var ring = x;
-        var d = tet_t[k];
-        var e = apex;
-        var third = w;
-        if kind == FLIP_23 {
-            third = free_slot(ring, d, e, t, iteration);
-            if third == NONE {
-                atomicOr(&control.overflow, SLOTS_FULL);
-                continue;
+        if won {
+            let round = control.round;
+            var held = atomicLoad(&status[t].flags) >> HELD_SHIFT == round
+                || atomicLoad(&status[u].flags) >> HELD_SHIFT == round;
+            if kind == FLIP_32 {
+                held = held || atomicLoad(&status[w].flags) >> HELD_SHIFT == round;
             }
-        } else {
-            ring = vec3u(d, x.z, apex);
-            d = x.x;
-            e = x.y;
+            flip = Flip(kind, t, u, w, k, c, held);
         }
+    }
+    return flip;
+}
+
+// Carries out a flip. `node` is its number in the history, NONE where no waiting point can lie in its tetrahedra. Returns
+// the entry's outcome; 0 when there is no slot.
+fn carry_out(flip: Flip, node: u32, iteration: u32, mark: u32) -> u32 {
+    let first = control.first_node;
+    let kind = flip.kind;
+    let t = flip.t;
+    let u = flip.u;
+    let w = flip.w;
+    let c = flip.c;
+    let tet_t = tets[t];
+    let tet_u = tets[u];
+    let near_t = neighbors[t];
+    let near_u = neighbors[u];
+    let x = vec3u(tet_t[c.x], tet_t[c.y], tet_t[c.z]);
+    let apex = tet_u[near_t[flip.k] & 3];
+    // As FlipNode has it: the ring and the ends of the edge.
+    var ring = x;
+    var d = tet_t[flip.k];
+    var e = apex;
+    var third = w;
+    if kind == FLIP_23 {
+        third = free_slot(ring, d, e, t, iteration);
+    } else {
+        ring = vec3u(d, x.z, apex);
+        d = x.x;
+        e = x.y;
+    }
+    var outcome = 0u;
+    if third != NONE {
         if node != NONE {
             link_node(t, node, first);
             link_node(u, node, first);
@@ -150,7 +153,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
                 array(ring.x, ring.y, ring.z, d, e), kind, array(t, u, third), array(NONE, NONE, NONE)
             );
         }
-        let flags = select(round << HELD_SHIFT, 0u, node == NONE);
+        let flags = select(control.round << HELD_SHIFT, 0u, node == NONE);
         let last = select(node << 2, 0u, node == NONE);
         let step = select(1u, 0u, node == NONE);
         let check = select(0x7u, 0xcu, kind == FLIP_23);
@@ -188,10 +191,69 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
             messages[w] = replaced(replaced(vec4u(NONE), pw.x, 4 * t + 1), pw.y, 4 * u + 2);
             freed = w;
         }
-        actives[list + i].outcome = DONE | (freed << SLOT_SHIFT) | kind;
+        outcome = DONE | (freed << SLOT_SHIFT) | kind;
     }
-    if id.x == 0 {
+    return outcome;
+}
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let iteration = control.iteration;
+    if local == 0 {
+        entries_here = entries_of(iteration);
+    }
+    let entries = workgroupUniformLoad(&entries_here);
+    let list = half_of(iteration);
+    let bits = control.bid_bits;
+    let mark = changed_mark(iteration, bits);
+    let room = control.first_node + control.history;
+    for (var start = group.x * 256; start < entries; start += groups.x * 256) {
+        if local == 0 {
+            atomicStore(&held_here, 0u);
+        }
+        workgroupBarrier();
+        let i = start + local;
+        var flip = Flip(0, 0, 0, 0, 0, vec3u(0), false);
+        var node = NONE;
+        if i < entries {
+            flip = winner(i, actives[list + i], iteration, bits);
+            if flip.held {
+                node = atomicAdd(&held_here, 1u);
+            }
+        }
+        workgroupBarrier();
+        if local == 0 {
+            // The counter is not raised far beyond the end, so that it never overflows.
+            let wanted = atomicLoad(&held_here);
+            first_here = room;
+            if wanted != 0 && atomicLoad(&control.next_node) < room {
+                first_here = atomicAdd(&control.next_node, wanted);
+            }
+        }
+        let first_number = workgroupUniformLoad(&first_here);
+        if flip.held {
+            node += first_number;
+        }
+        if flip.kind != 0 {
+            if flip.held && node >= room {
+                atomicOr(&control.overflow, HISTORY_FULL);
+            } else {
+                let outcome = carry_out(flip, node, iteration, mark);
+                if outcome != 0 {
+                    actives[list + i].outcome = outcome;
+                } else {
+                    atomicOr(&control.overflow, SLOTS_FULL);
+                }
+            }
+        }
+    }
+    if local == 0 && group.x == 0 {
         control.linking = iteration;
+        atomicStore(&control.open, 0u);
         if entries != 0 {
             atomicStore(&control.listed[(iteration + 1) & 1], 0u);
         }

@@ -8,12 +8,15 @@
 @group(0) @binding(2) var<storage, read> tets: array<vec4u>;
 @group(0) @binding(3) var<storage, read> neighbors: array<vec4u>;
 @group(0) @binding(4) var<storage, read_write> status: array<Status>;
+// Whether each vertex failed.
 @group(0) @binding(5) var<storage, read_write> failed: array<atomic<u32>>;
+// The places in the input of those that did.
+@group(0) @binding(6) var<storage, read_write> failed_points: array<u32>;
 //!include shared/signs
 
 fn fail(v: u32) {
     if v != control.infinite && atomicExchange(&failed[v], 1u) == 0 {
-        atomicAdd(&control.failed, 1u);
+        failed_points[atomicAdd(&control.failed, 1u)] = index_of(v);
     }
 }
 
@@ -27,7 +30,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         }
         let near = neighbors[t];
         for (var k = 0u; k < 4; k++) {
-            if ((suspect >> k) & 1) != 0 && inside(tet, tets[near[k] >> 2][near[k] & 3]) {
+            if ((suspect >> k) & 1) != 0 && conflict(tet, tets[near[k] >> 2][near[k] & 3]) > 0 {
                 let c = facet(k);
                 fail(tet[c.x]);
                 fail(tet[c.y]);

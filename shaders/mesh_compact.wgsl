@@ -1,14 +1,25 @@
-// Copies the tetrahedra without the gaps between them, and notes one tetrahedron of each vertex. One invocation a slot.
+// Copies the tetrahedra to their numbers, with the points of the input as vertices, and notes one tetrahedron of each. The
+// vertices of infinite ones change places, so that infinity comes last. One invocation a slot.
 //!include shared/layout
 @group(0) @binding(0) var<storage, read_write> control: Control;
-@group(0) @binding(1) var<storage, read> tets: array<vec4u>;
-@group(0) @binding(2) var<storage, read> neighbors: array<vec4u>;
-// The number of each tetrahedron without gaps.
-@group(0) @binding(3) var<storage, read> offsets: array<u32>;
-@group(0) @binding(4) var<storage, read_write> compacted_tets: array<vec4u>;
-@group(0) @binding(5) var<storage, read_write> compacted_neighbors: array<vec4u>;
-// One more than the highest tetrahedron of each vertex.
-@group(0) @binding(6) var<storage, read_write> tet_of: array<atomic<u32>>;
+@group(0) @binding(1) var<storage, read> vertices: array<vec4i>;
+@group(0) @binding(2) var<storage, read> tets: array<vec4u>;
+@group(0) @binding(3) var<storage, read> neighbors: array<vec4u>;
+// As mesh_number makes them.
+@group(0) @binding(4) var<storage, read> numbers: array<u32>;
+@group(0) @binding(5) var<storage, read_write> compacted_tets: array<vec4u>;
+@group(0) @binding(6) var<storage, read_write> compacted_neighbors: array<vec4u>;
+// One more than the highest tetrahedron of each point; infinity comes last.
+@group(0) @binding(7) var<storage, read_write> tet_of: array<atomic<u32>>;
+//!include shared/exact_{width}
+
+// Where corner k goes when infinity goes from `place` to the end: two exchanges, which keep the orientation.
+fn moved(k: u32, place: u32) -> u32 {
+    let next = (place + 1) % 3;
+    let other = (place + 2) % 3;
+    let turned = select(select(select(k, next, k == other), other, k == next), place, k == 3);
+    return select(select(turned, 3u, k == place), k, place == 3);
+}
 
 @compute @workgroup_size(256)
 fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
@@ -17,16 +28,21 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         if all(tet == vec4u(0)) {
             continue;
         }
-        let number = offsets[t];
+        let number = numbers[t] >> 2;
+        let place = numbers[t] & 3;
         let near = neighbors[t];
-        compacted_tets[number] = tet;
-        var renumbered = near & vec4u(3);
+        var points = vec4u(0);
+        var across = vec4u(0);
         for (var k = 0u; k < 4; k++) {
-            renumbered[k] |= 4 * offsets[near[k] >> 2];
-            if atomicLoad(&tet_of[tet[k]]) <= number {
-                atomicMax(&tet_of[tet[k]], number + 1);
+            let point = index_of(tet[k]);
+            let there = numbers[near[k] >> 2];
+            points[moved(k, place)] = point;
+            across[moved(k, place)] = (there & ~3u) | moved(near[k] & 3, there & 3);
+            if atomicLoad(&tet_of[point]) <= number {
+                atomicMax(&tet_of[point], number + 1);
             }
         }
-        compacted_neighbors[number] = renumbered;
+        compacted_tets[number] = points;
+        compacted_neighbors[number] = across;
     }
 }

@@ -1,4 +1,4 @@
-// Marks the slots that hold tetrahedra. One invocation a slot.
+// Marks the slots that hold finite tetrahedra. One invocation a slot.
 //!include shared/layout
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read> tets: array<vec4u>;
@@ -7,6 +7,7 @@
 @compute @workgroup_size(256)
 fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     for (var t = id.x; t < control.blocks * BLOCK; t += groups.x * 256) {
-        marks[t] = select(1u, 0u, all(tets[t] == vec4u(0)));
+        let tet = tets[t];
+        marks[t] = select(1u, 0u, all(tet == vec4u(0)) || any(tet == vec4u(control.infinite)));
     }
 }

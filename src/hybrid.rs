@@ -10,11 +10,12 @@ use crate::{
         start::first_tetrahedron,
     },
     lattice::{Lattice, Width},
-    mesh::{NONE, hull_of},
+    mesh::NONE,
+    parallel,
     predicates::vertices::Vertices,
     splay::{self, GaveUp, NearDelaunay, Outcome},
     stats::{Stats, Stopwatch},
-    triangulation::Triangulation,
+    triangulation::{FiniteMesh, Triangulation},
 };
 
 /// A device with the kernels of Phase 1 compiled for it: make one and use it for many inputs.
@@ -50,11 +51,12 @@ impl Hybrid {
     /// # Errors
     ///
     /// As for [`delaunay3d`](crate::delaunay3d), and those of the device.
-    pub async fn delaunay3d(&self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
+    pub async fn delaunay3d(&mut self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
         let mut stopwatch = Stopwatch::start();
         options.report("lattice", 0.0)?;
-        points.validate()?;
-        let lattice = Lattice::fit(points);
+        let threads = parallel::available();
+        points.validate_in_threads(threads)?;
+        let lattice = Lattice::fit_in_threads(threads, points);
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let Some(start) = first_tetrahedron(lattice.width(), points.len(), position) else {
             return fall_back(points, options, "the points are coplanar, or nearly");
@@ -63,17 +65,26 @@ impl Hybrid {
         stats.phases.push(("lattice", stopwatch.lap()));
 
         options.report("phase 1", 0.05)?;
+        // Points of the other width are likely to come never again, or not soon.
         let phase1 = match lattice.width() {
-            Width::Narrow => &self.narrow,
-            Width::Wide => &self.wide,
+            Width::Narrow => {
+                self.wide.release();
+                &mut self.narrow
+            }
+            Width::Wide => {
+                self.narrow.release();
+                &mut self.wide
+            }
         };
         let input = Input { points, lattice: &lattice, start };
         let output = phase1.run(&self.gpu, input, &Settings::default(), None).await?;
-        stats.phases.push(("phase 1", stopwatch.lap()));
+        let readback = output.stats.readback_milliseconds / 1e3;
+        stats.phases.push(("phase 1", stopwatch.lap() - readback));
+        stats.phases.push(("readback", readback));
 
         options.report("splay", 0.8)?;
-        let vertices = Vertices::new(points, &lattice, output.order.clone());
-        let (near, duplicate_of) = near_delaunay(points, &vertices, output);
+        let vertices = Vertices::of_input(points, &lattice);
+        let (near, duplicate_of) = near_delaunay(points, output);
         let most_signs = near.signs_from_nothing();
         let report = |share: f64| options.report("splay", 0.8 + 0.15 * share);
         let triangulation = match splay::splay(&vertices, near, most_signs, &report)? {
@@ -85,8 +96,7 @@ impl Hybrid {
 
         options.report("finish", 0.95)?;
         stats.exact = vertices.exact_counts();
-        let (tetrahedra, neighbors) = triangulation.into_mesh(&vertices.into_input_indices());
-        let hull = hull_of(&tetrahedra, &neighbors);
+        let FiniteMesh { tetrahedra, neighbors, hull } = triangulation.into_mesh(None, threads);
         stats.phases.push(("finish", stopwatch.lap()));
         options.report("finish", 1.0)?;
         Ok(Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats })
@@ -100,26 +110,14 @@ fn fall_back(points: Points<'_>, options: &Options, why: &'static str) -> Result
 }
 
 /// The result of Phase 1 in the form that splaying takes, and what duplicates what.
-fn near_delaunay(points: Points<'_>, vertices: &Vertices<'_>, output: Phase1Output) -> (NearDelaunay, Vec<i32>) {
-    let infinite = points.len() as u32;
+fn near_delaunay(points: Points<'_>, output: Phase1Output) -> (NearDelaunay, Vec<i32>) {
+    let Phase1Output { tets, neighbors, failed, tet_of: mut incident, united, doubtful, .. } = output;
     let mut duplicate_of = vec![NONE; points.len()];
-    let missing = missing_points(points, &output.united, &mut duplicate_of);
-    let mut vertex_of = Vec::new();
-    if !missing.is_empty() {
-        vertex_of.resize(points.len(), 0);
-        for (v, &point) in (0..).zip(&output.order) {
-            vertex_of[point as usize] = v;
-        }
-    }
-    let triangulation = Triangulation::new(output.tets, output.neighbors, infinite);
-    let mut doubtful = triangulation.flat_or_inverted(vertices);
-    doubtful.extend(output.uncertain.iter().map(|&[t, _]| t));
-    doubtful.sort_unstable();
-    doubtful.dedup();
-    let mut incident = output.tet_of;
+    let missing = missing_points(points, &united, &mut duplicate_of);
     incident.truncate(points.len());
-    let missing = missing.iter().map(|&i| vertex_of[i as usize]).collect();
-    (NearDelaunay { triangulation, incident, failed: output.failed, doubtful, missing }, duplicate_of)
+    let triangulation = Triangulation::new(tets, neighbors, points.len() as u32);
+    let doubtful = doubtful.into_iter().map(|[t, _]| t).collect();
+    (NearDelaunay { triangulation, incident, failed, doubtful, missing }, duplicate_of)
 }
 
 /// Of the points that others stand for, because they lie at the same place of the lattice: exact duplicates are noted in

@@ -5,7 +5,7 @@
 //! is known for each point. 31 bits hold grids, voxels and LAS files exactly; 62 bits nearly all `f32` and most `f64`
 //! data.
 
-use crate::Points;
+use crate::{Points, parallel};
 
 /// How the input lies on the lattice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,6 +37,8 @@ pub struct Lattice {
     /// The lattice coordinate of the least coordinate of each axis, before it is subtracted; `None` for an axis on which
     /// all points agree (its lattice coordinates are all 0).
     origin: [Option<i128>; 3],
+    /// The least and the greatest coordinate of each axis.
+    bounds: [[f64; 3]; 2],
 }
 
 /// A lattice coordinate, and whether it stands for the exact value.
@@ -78,14 +80,26 @@ fn scale(x: f64, exponent: i32) -> (i128, bool) {
 impl Lattice {
     /// The lattice of `points`, which must be finite.
     pub fn fit(points: Points<'_>) -> Self {
-        let mut low = [f64::INFINITY; 3];
-        let mut high = [f64::NEG_INFINITY; 3];
-        for p in points.iter() {
-            for axis in 0..3 {
-                low[axis] = low[axis].min(p[axis]);
-                high[axis] = high[axis].max(p[axis]);
+        Lattice::fit_in_threads(1, points)
+    }
+
+    /// The same in up to `threads` threads.
+    pub(crate) fn fit_in_threads(threads: usize, points: Points<'_>) -> Self {
+        let bounds = parallel::map_ranges(threads, points.len(), |range| {
+            let mut low = [f64::INFINITY; 3];
+            let mut high = [f64::NEG_INFINITY; 3];
+            for p in points.range(range).iter() {
+                for axis in 0..3 {
+                    low[axis] = low[axis].min(p[axis]);
+                    high[axis] = high[axis].max(p[axis]);
+                }
             }
-        }
+            [low, high]
+        });
+        let empty = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        let [low, high] = bounds.into_iter().fold(empty, |[low, high], [l, h]| {
+            [std::array::from_fn(|a| low[a].min(l[a])), std::array::from_fn(|a| high[a].max(h[a]))]
+        });
         let varies: [bool; 3] = std::array::from_fn(|axis| low[axis] < high[axis]);
         let fitting = |width: Width| {
             (0..3).filter(|&axis| varies[axis]).map(|axis| largest_exponent(low[axis], high[axis], width.bits())).min()
@@ -97,11 +111,17 @@ impl Lattice {
                 -1000..=1000 => f64::from_bits(((1023 + exponent) as u64) << 52),
                 _ => f64::NAN,
             };
-            Lattice { width, exponent, factor, origin }
+            Lattice { width, exponent, factor, origin, bounds: [low, high] }
         };
         let narrow = lattice(Width::Narrow);
-        let exact = points.iter().all(|p| narrow.coordinates(p).iter().all(|c| c.exact));
-        if exact { narrow } else { lattice(Width::Wide) }
+        let is_exact = |p| narrow.coordinates(p).iter().all(|c| c.exact);
+        let exact = parallel::map_ranges(threads, points.len(), |range| points.range(range).iter().all(is_exact));
+        if exact.into_iter().all(|exact| exact) { narrow } else { lattice(Width::Wide) }
+    }
+
+    /// The least and the greatest coordinate of each axis of the input.
+    pub fn bounds(&self) -> [[f64; 3]; 2] {
+        self.bounds
     }
 
     /// How many bits the coordinates take.

@@ -26,12 +26,15 @@ pub mod io;
 pub mod lattice;
 pub mod mesh;
 pub mod options;
+mod parallel;
 pub mod points;
 pub mod predicates;
 pub mod splay;
 pub mod stats;
 pub mod triangulation;
 pub mod verify;
+#[cfg(all(feature = "wasm", target_arch = "wasm32"))]
+mod wasm;
 
 pub use error::Error;
 pub use mesh::Mesh3;

@@ -1,6 +1,6 @@
 //! Input points: the forms they come in, and validation.
 
-use crate::Error;
+use crate::{Error, parallel};
 
 /// Borrowed input points, one `[x, y, z]` each. Every finite `f32` and `f64` is taken at its exact value.
 #[derive(Debug, Clone, Copy)]
@@ -56,6 +56,18 @@ impl<'a> Points<'a> {
         }
     }
 
+    /// The points with these numbers.
+    ///
+    /// # Panics
+    ///
+    /// When there are fewer.
+    pub(crate) fn range(&self, range: std::ops::Range<usize>) -> Points<'a> {
+        match self {
+            Points::F32(p) => Points::F32(&p[range]),
+            Points::F64(p) => Points::F64(&p[range]),
+        }
+    }
+
     /// All points in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = [f64; 3]> + '_ {
         let points = *self;
@@ -68,19 +80,25 @@ impl<'a> Points<'a> {
     ///
     /// [`Error::NotFinite`] with the first bad point.
     pub fn validate(&self) -> Result<(), Error> {
-        for (index, p) in self.iter().enumerate() {
-            for (axis, value) in ['x', 'y', 'z'].into_iter().zip(p) {
-                if !value.is_finite() {
-                    let value = match value {
-                        v if v.is_nan() => "NaN",
-                        v if v > 0.0 => "inf",
-                        _ => "-inf",
-                    };
-                    return Err(Error::NotFinite { index, axis, value });
-                }
-            }
-        }
-        Ok(())
+        self.validate_in_threads(1)
+    }
+
+    /// The same in up to `threads` threads.
+    pub(crate) fn validate_in_threads(&self, threads: usize) -> Result<(), Error> {
+        let is_finite = |p: &[f64; 3]| p.iter().all(|x| x.is_finite());
+        let bad = parallel::map_ranges(threads, self.len(), |range| {
+            let start = range.start;
+            self.range(range).iter().position(|p| !is_finite(&p)).map(|i| start + i)
+        });
+        let Some(index) = bad.into_iter().flatten().next() else { return Ok(()) };
+        let p = self.get(index);
+        let axis = (0..3).find(|&axis| !p[axis].is_finite()).unwrap_or(0);
+        let value = match p[axis] {
+            v if v.is_nan() => "NaN",
+            v if v > 0.0 => "inf",
+            _ => "-inf",
+        };
+        Err(Error::NotFinite { index, axis: ['x', 'y', 'z'][axis], value })
     }
 }
 

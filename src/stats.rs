@@ -1,5 +1,8 @@
 //! What a run did, and how long it took.
 
+// The standard library's clock, and `performance.now()` on `wasm32-unknown-unknown`, where that has none.
+use web_time::Instant;
+
 /// How a mesh came about.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Stats {
@@ -7,8 +10,7 @@ pub struct Stats {
     pub engine: &'static str,
     /// Why the CPU engine took over, where another was asked for.
     pub fallback: Option<&'static str>,
-    /// The phases in the order in which they ran, with the seconds that each took. Zeros where there is no clock
-    /// (wasm, where the caller has one).
+    /// The phases in the order in which they ran, with the seconds that each took.
     pub phases: Vec<(&'static str, f64)>,
     /// Signs that the floating-point filter left open, by what decided them.
     pub exact: ExactCounts,
@@ -32,32 +34,21 @@ impl Stats {
     }
 }
 
-/// Times consecutive phases. Reads no clock on `wasm32-unknown-unknown`, which has none.
+/// Times consecutive phases.
 pub(crate) struct Stopwatch {
-    #[cfg(not(target_arch = "wasm32"))]
-    started: std::time::Instant,
+    started: Instant,
 }
 
 impl Stopwatch {
     pub(crate) fn start() -> Self {
-        Stopwatch {
-            #[cfg(not(target_arch = "wasm32"))]
-            started: std::time::Instant::now(),
-        }
+        Stopwatch { started: Instant::now() }
     }
 
     /// The seconds since the start or the last lap.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn lap(&mut self) -> f64 {
-        let now = std::time::Instant::now();
+        let now = Instant::now();
         let seconds = (now - self.started).as_secs_f64();
         self.started = now;
         seconds
-    }
-
-    /// Zero: there is no clock.
-    #[cfg(target_arch = "wasm32")]
-    pub(crate) fn lap(&mut self) -> f64 {
-        0.0
     }
 }

@@ -1,6 +1,6 @@
 //! Tetrahedra and their neighbours while they are being made, the outside of the hull included.
 
-use crate::{Error, mesh::NONE, predicates::vertices::Vertices};
+use crate::{Error, mesh::NONE, parallel};
 
 /// Tetrahedra are numbered below 2³⁰, since a neighbour is packed with its facet into 32 bits.
 pub(crate) const MOST_TETRAHEDRA: usize = 1 << 30;
@@ -34,23 +34,11 @@ pub struct Triangulation {
 
 impl Triangulation {
     /// A triangulation from its arrays, which are not checked. `infinite`, the number of vertices, is the infinite vertex.
-    /// Tetrahedra are positively oriented, ghosts as if the infinite vertex lay outside the hull. Entry *k* of `neighbors`
-    /// is across the facet opposite vertex *k*, packed as 4·(tetrahedron) + (facet as it is numbered there). Vertices of
-    /// ghosts change places, so that the infinite one comes last.
+    /// Tetrahedra are positively oriented; ghosts, which have the infinite vertex last, as if it lay outside the hull.
+    /// Entry *k* of `neighbors` is across the facet opposite vertex *k*, packed as 4·(tetrahedron) + (facet as it is
+    /// numbered there).
     pub fn new(tetrahedra: Vec<[u32; 4]>, neighbors: Vec<[u32; 4]>, infinite: u32) -> Self {
-        let mut mesh = Triangulation { tetrahedra, neighbors, infinite };
-        for t in 0..mesh.tetrahedra.len() {
-            let Some(k) = mesh.tetrahedra[t][..3].iter().position(|&v| v == infinite) else { continue };
-            for four in [&mut mesh.tetrahedra[t], &mut mesh.neighbors[t]] {
-                // Two exchanges keep the orientation.
-                four.swap(k, 3);
-                four.swap((k + 1) % 3, (k + 2) % 3);
-            }
-            for (k, across) in mesh.neighbors[t].into_iter().enumerate() {
-                mesh.neighbors[across as usize / 4][across as usize % 4] = (4 * t + k) as u32;
-            }
-        }
-        mesh
+        Triangulation { tetrahedra, neighbors, infinite }
     }
 
     /// The vertices of each tetrahedron; those of unused slots mean nothing.
@@ -61,16 +49,6 @@ impl Triangulation {
     /// The neighbours of each tetrahedron.
     pub fn neighbors(&self) -> &[[u32; 4]] {
         &self.neighbors
-    }
-
-    /// The finite tetrahedra that are flat or inverted.
-    pub fn flat_or_inverted(&self, vertices: &Vertices<'_>) -> Vec<u32> {
-        let used = (0..self.tetrahedra.len() as u32).filter(|&t| self.state(t) != state::FREE && !self.is_ghost(t));
-        used.filter(|&t| {
-            let [a, b, c, d] = self.vertices(t);
-            vertices.orient3d(a, b, c, d) <= 0
-        })
-        .collect()
     }
 
     pub(crate) fn reserve(&mut self, tetrahedra: usize) -> Result<(), Error> {
@@ -118,47 +96,70 @@ impl Triangulation {
         self.tetrahedra[t as usize][3] == self.infinite
     }
 
-    /// Tetrahedra and neighbours without ghosts and unused slots, in the arrays where they lie; vertex *v* becomes
-    /// `names[v]`.
-    pub fn into_mesh(mut self, names: &[u32]) -> (Vec<[u32; 4]>, Vec<[i32; 4]>) {
+    /// The mesh without ghosts and unused slots, in the arrays where it lies: tetrahedra, neighbours, and the facets of the
+    /// hull, counter-clockwise as seen from outside. With `names`, vertex *v* becomes `names[v]`. Works in up to `threads`
+    /// threads.
+    pub fn into_mesh(mut self, names: Option<&[u32]>, threads: usize) -> FiniteMesh {
         const OUTSIDE: u32 = u32::MAX;
-        for t in 0..self.tetrahedra.len() as u32 {
-            if self.state(t) != state::FREE && self.is_ghost(t) {
-                let inside = self.neighbors[t as usize][3];
-                self.neighbors[inside as usize / 4][inside as usize % 4] = OUTSIDE;
-                self.set_state(t, state::FREE);
-            }
-        }
-        let mut count = self.tetrahedra.len();
-        let mut t = 0;
-        while t < count {
-            if self.state(t as u32) != state::FREE {
-                t += 1;
+        let slots = self.tetrahedra.len();
+        let is_gap = |&t: &u32| self.state(t) == state::FREE || self.is_ghost(t);
+        let gaps = parallel::map_ranges(threads, slots, |range| {
+            (range.start as u32..range.end as u32).filter(is_gap).collect::<Vec<_>>()
+        })
+        .concat();
+        let mut hull = Vec::new();
+        for &t in &gaps {
+            if self.state(t) == state::FREE {
                 continue;
             }
-            // The last tetrahedron moves into the gap, and its neighbours are told.
-            count -= 1;
-            if self.state(count as u32) != state::FREE {
-                self.tetrahedra[t] = self.tetrahedra[count];
-                self.neighbors[t] = self.neighbors[count];
-                for k in 0..4 {
-                    let across = self.neighbors[t][k];
-                    if across != OUTSIDE {
-                        self.neighbors[across as usize / 4][across as usize % 4] = 4 * t as u32 + k as u32;
-                    }
+            let [a, b, c, _] = self.tetrahedra[t as usize];
+            hull.push([a, b, c]);
+            let inside = self.neighbors[t as usize][3];
+            self.neighbors[inside as usize / 4][inside as usize % 4] = OUTSIDE;
+        }
+        gaps.iter().for_each(|&t| self.set_state(t, state::FREE));
+        // The last tetrahedra move into the gaps, and their neighbours are told.
+        let count = slots - gaps.len();
+        let mut last = slots;
+        for gap in gaps.into_iter().map(|t| t as usize).take_while(|&t| t < count) {
+            last -= 1;
+            while self.state(last as u32) == state::FREE {
+                last -= 1;
+            }
+            self.tetrahedra[gap] = self.tetrahedra[last];
+            self.neighbors[gap] = self.neighbors[last];
+            for k in 0..4 {
+                let across = self.neighbors[gap][k];
+                if across != OUTSIDE {
+                    self.neighbors[across as usize / 4][across as usize % 4] = (4 * gap + k) as u32;
                 }
             }
         }
         let Triangulation { mut tetrahedra, mut neighbors, .. } = self;
         tetrahedra.truncate(count);
         neighbors.truncate(count);
-        for v in tetrahedra.as_flattened_mut() {
-            *v = names[*v as usize];
+        if let Some(names) = names {
+            let rename = |v: &mut u32| *v = names[*v as usize];
+            parallel::for_chunks(threads, &mut tetrahedra, |_, chunk| chunk.iter_mut().flatten().for_each(rename));
+            hull.iter_mut().flatten().for_each(rename);
         }
         let mut neighbors: Vec<[i32; 4]> = bytemuck::cast_vec(neighbors);
-        for n in neighbors.as_flattened_mut() {
-            *n = if *n as u32 == OUTSIDE { NONE } else { (*n as u32 >> 2) as i32 };
-        }
-        (tetrahedra, neighbors)
+        parallel::for_chunks(threads, &mut neighbors, |_, chunk| {
+            for n in chunk.as_flattened_mut() {
+                *n = if *n as u32 == OUTSIDE { NONE } else { (*n as u32 >> 2) as i32 };
+            }
+        });
+        FiniteMesh { tetrahedra, neighbors, hull }
     }
+}
+
+/// What [`Mesh3`](crate::Mesh3) says of a triangulation.
+#[derive(Debug, Clone)]
+pub struct FiniteMesh {
+    /// As [`Mesh3::tetrahedra`](crate::Mesh3::tetrahedra).
+    pub tetrahedra: Vec<[u32; 4]>,
+    /// As [`Mesh3::neighbors`](crate::Mesh3::neighbors).
+    pub neighbors: Vec<[i32; 4]>,
+    /// As [`Mesh3::hull`](crate::Mesh3::hull).
+    pub hull: Vec<[u32; 3]>,
 }

@@ -24,18 +24,15 @@ fn signs_that_are_not_listed_are_those_of_the_true_coordinates() {
     let position = |i: usize| lattice.coordinates(points[i]).map(|c| c.value);
     let start = first_tetrahedron(Width::Wide, points.len(), position).expect("not coplanar");
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
-    let kernels = block_on(Phase1::new(&gpu, Width::Wide)).unwrap();
+    let mut kernels = block_on(Phase1::new(&gpu, Width::Wide)).unwrap();
     let input = Input { points: (&points).into(), lattice: &lattice, start };
     let output = block_on(kernels.run(&gpu, input, &Settings { workgroups: 8, ..Settings::default() }, None)).unwrap();
 
     let infinite = points.len() as u32;
-    let open: HashMap<u32, u32> = output.uncertain.iter().map(|&[t, open]| (t, open)).collect();
+    let open: HashMap<u32, u32> = output.doubtful.iter().map(|&[t, open]| (t, open)).collect();
     let is_open = |t: usize, bit: usize| open.get(&(t as u32)).is_some_and(|open| open >> bit & 1 != 0);
-    let truth = |v: u32| points[output.order[v as usize] as usize];
-    let on_lattice = |v: u32| {
-        let index = output.order[v as usize];
-        Vertex { position: position(index as usize), index }
-    };
+    let truth = |v: u32| points[v as usize];
+    let on_lattice = |v: u32| Vertex { position: position(v as usize), index: v };
     let (mut wrong, mut proven) = (0, 0);
     for (t, tet) in output.tets.iter().enumerate() {
         if tet.contains(&infinite) {
@@ -50,7 +47,8 @@ fn signs_that_are_not_listed_are_those_of_the_true_coordinates() {
         }
         for (k, across) in output.neighbors[t].iter().enumerate() {
             let (u, e) = ((across >> 2) as usize, output.tets[(across >> 2) as usize][(across & 3) as usize]);
-            if u < t || e == infinite || is_open(t, k) {
+            // Listed with one of the two.
+            if u < t || e == infinite || is_open(t, k) || is_open(u, (across & 3) as usize) {
                 continue;
             }
             proven += 1;

@@ -22,6 +22,7 @@ use rand_pcg::Pcg32;
 struct Device {
     gpu: Gpu,
     buffers: Buffers,
+    failed_points: Storage<u32>,
     width: Width,
     kernels: RefCell<HashMap<&'static str, Kernel>>,
 }
@@ -42,7 +43,8 @@ impl Device {
                 .unwrap(),
         };
         let buffers = Buffers::new(&gpu, points, state.params.blocks, state.params.history).unwrap();
-        Device { gpu, buffers, width, kernels: RefCell::default() }
+        let failed_points = Storage::new(&gpu, "failed points", count).unwrap();
+        Device { gpu, buffers, failed_points, width, kernels: RefCell::default() }
     }
 
     fn upload(&self, state: &State) {
@@ -105,12 +107,12 @@ impl Device {
             "pick_point" => vec![control, waiting, messages, scores],
             "split" => vec![control, tets, neighbors, status, active, free, messages, waiting],
             "relocate_split" => vec![control, vertices, tets, status, messages, waiting],
-            "flip_check" => vec![control, vertices, tets, neighbors, status, active],
+            "flip_check" | "flip_check_exact" => vec![control, vertices, tets, neighbors, status, active, messages],
             "flip_commit" => vec![control, tets, neighbors, status, active, free, messages, history],
             "flip_link" => vec![control, neighbors, status, active, free, messages],
             "relocate" => vec![control, vertices, status, history, waiting],
             "clear_votes" => vec![control, status],
-            "mark_failed" => vec![control, vertices, tets, neighbors, status, failed],
+            "mark_failed" => vec![control, vertices, tets, neighbors, status, failed, self.failed_points.buffer()],
             _ => panic!("no bindings are known for {kernel}"),
         }
     }
@@ -132,6 +134,18 @@ impl Device {
         let device = self.download(state);
         assert_eq!(device.counters, state.counters, "{name}");
         device
+    }
+
+    /// Checking is one function for the twin, and two kernels.
+    fn check(&self, state: &mut State) {
+        self.upload(state);
+        self.run("flip_check");
+        self.run("flip_check_exact");
+        twin::flip_check(state);
+        let device = self.download(state);
+        assert_eq!(device.status, state.status, "check");
+        assert_eq!(device.active, state.active, "check");
+        assert_eq!(Counters { open: 0, ..device.counters }, state.counters, "check");
     }
 
     /// The same for a kernel whose results are the same to the last bit.
@@ -212,7 +226,7 @@ fn compare(width: Width, pick: Pick) {
 
         device.equal("relocate_split", &mut state, twin::relocate_split);
         while !state.is_idle(state.counters.iteration) {
-            device.equal("flip_check", &mut state, twin::flip_check);
+            device.check(&mut state);
             device.upload(&state);
             device.run("flip_commit");
             device.run("flip_link");
@@ -233,6 +247,13 @@ fn compare(width: Width, pick: Pick) {
     // Every facet is suspect, so that there is something to look at.
     state.status.iter_mut().for_each(|s| s.flags |= CHECK << 4);
     device.equal("mark_failed", &mut state, twin::mark_failed);
+    let mut failed: Vec<u32> =
+        (0..).zip(&state.failed).filter(|&(_, &f)| f != 0).map(|(v, _): (usize, _)| state.points[v].index).collect();
+    let mut points = read(&device.gpu, &device.failed_points);
+    points.truncate(failed.len());
+    failed.sort_unstable();
+    points.sort_unstable();
+    assert_eq!(points, failed);
     device.equal("clear_votes", &mut state, twin::run::clear_votes);
 }
 

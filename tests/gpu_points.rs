@@ -38,7 +38,7 @@ impl Bench {
         let lattice = Lattice::fit(points);
         let device = block_on(gpu.catching("test", || {
             let mut recorder = Recorder::new(gpu, None);
-            let device = self.stage.record(gpu, &mut recorder, points, &lattice, wanted)?;
+            let device = self.stage.record(gpu, &mut recorder, &mut None, points, &lattice, wanted)?;
             recorder.submit(gpu);
             Ok(device)
         }))

@@ -10,15 +10,16 @@ use gdel::{
 };
 use pollster::block_on;
 use proptest::prelude::*;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, Mutex, PoisonError};
 
-static HYBRID: LazyLock<Hybrid> = LazyLock::new(|| {
+static HYBRID: LazyLock<Mutex<Hybrid>> = LazyLock::new(|| {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a Vulkan driver: scripts/setup.sh");
-    block_on(Hybrid::new(gpu)).expect("the kernels compile")
+    Mutex::new(block_on(Hybrid::new(gpu)).expect("the kernels compile"))
 });
 
 fn triangulate(points: &[[f64; 3]]) -> Mesh3 {
-    block_on(HYBRID.delaunay3d(points.into(), &Options::default())).expect("triangulates")
+    let mut hybrid = HYBRID.lock().unwrap_or_else(PoisonError::into_inner);
+    block_on(hybrid.delaunay3d(points.into(), &Options::default())).expect("triangulates")
 }
 
 /// Both engines agree, and the GPU's did the work.

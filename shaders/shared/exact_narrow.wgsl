@@ -33,6 +33,11 @@ fn load_high(v: u32) -> vec3i {
     return vertices[v].xyz;
 }
 
+// The place of a vertex in the input.
+fn index_of(v: u32) -> u32 {
+    return u32(vertices[v].w);
+}
+
 fn load_vertex(v: u32) -> Vertex {
     let words = vertices[v];
     return Vertex(words.xyz, u32(words.w));

@@ -33,6 +33,11 @@ fn load_high(v: u32) -> vec3i {
     return vertices[2 * v].xyz;
 }
 
+// The place of a vertex in the input.
+fn index_of(v: u32) -> u32 {
+    return u32(vertices[2 * v].w);
+}
+
 fn load_vertex(v: u32) -> Vertex {
     let words = vertices[2 * v];
     let high = vec3u(words.xyz);

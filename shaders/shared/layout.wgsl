@@ -30,7 +30,9 @@ struct Control {
     visits: u32,
     failed: atomic<u32>,
     aside: u32,
-    uncertain: atomic<u32>,
+    doubtful: atomic<u32>,
+    ghosts: atomic<u32>,
+    open: atomic<u32>,
 }
 
 struct Status {

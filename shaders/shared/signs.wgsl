@@ -17,25 +17,12 @@ fn orient_finite(v: vec4u) -> i32 {
     return sign;
 }
 
-// The orientation of four vertices. Infinity lies opposite to the kernel point.
-fn orient(v: vec4u) -> i32 {
-    let sign = orient_finite(v);
-    return select(sign, -sign, any(v == vec4u(control.infinite)));
-}
-
-// Whether e is inside the circumsphere of a positively oriented tetrahedron. For an infinite one that is the half-space
-// beyond its hull facet; infinity is inside none.
-fn inside(tet: vec4u, e: u32) -> bool {
-    let at_infinity = tet == vec4u(control.infinite);
-    var sign = -1;
-    if any(at_infinity) {
-        sign = orient_finite(select(tet, vec4u(e), at_infinity));
-    } else if e != control.infinite {
-        sign = insphere_filter(load_high(tet.x), load_high(tet.y), load_high(tet.z), load_high(tet.w), load_high(e));
-        if sign == 0 {
-            exact_signs += 1;
-            sign = insphere(load_vertex(tet.x), load_vertex(tet.y), load_vertex(tet.z), load_vertex(tet.w), load_vertex(e));
-        }
+fn insphere_finite(tet: vec4u, e: u32) -> i32 {
+    var sign = insphere_filter(load_high(tet.x), load_high(tet.y), load_high(tet.z), load_high(tet.w), load_high(e));
+    if sign == 0 {
+        exact_signs += 1;
+        sign = insphere(load_vertex(tet.x), load_vertex(tet.y), load_vertex(tet.z), load_vertex(tet.w), load_vertex(e));
     }
-    return sign > 0;
+    return sign;
 }
+//!include shared/signs_at_infinity

@@ -11,7 +11,6 @@ pub use order::Order;
 use crate::{
     Error, Mesh3, Options, Points,
     lattice::Lattice,
-    mesh::hull_of,
     predicates::{collinear, vertices::Vertices},
     stats::{Stats, Stopwatch},
 };
@@ -48,8 +47,8 @@ pub fn delaunay3d_in_order(points: Points<'_>, options: &Options, order: Order) 
         let inserted = insert::insert_all(&vertices, options)?;
         stats.phases.push(("insert", stopwatch.lap()));
         stats.exact = vertices.exact_counts();
-        (mesh.tetrahedra, mesh.neighbors) = inserted.into_mesh(&vertices.into_input_indices());
-        mesh.hull = hull_of(&mesh.tetrahedra, &mesh.neighbors);
+        let finite = inserted.into_mesh(Some(&vertices.into_input_indices()), 1);
+        (mesh.tetrahedra, mesh.neighbors, mesh.hull) = (finite.tetrahedra, finite.neighbors, finite.hull);
         stats.phases.push(("finish", stopwatch.lap()));
     }
     options.report("finish", 1.0)?;

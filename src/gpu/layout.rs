@@ -122,8 +122,12 @@ pub struct Counters {
     pub failed: u32,
     /// Points that another one stands for, because it lies at the same place.
     pub aside: u32,
-    /// Tetrahedra of which the lattice does not prove everything.
-    pub uncertain: u32,
+    /// Tetrahedra that are flat, or of which the lattice does not prove everything.
+    pub doubtful: u32,
+    /// Infinite tetrahedra, counted when they are numbered.
+    pub ghosts: u32,
+    /// Entries of the active list that the filter left open in this flip iteration.
+    pub open: u32,
 }
 
 /// A flip was put off because no slot was found for its third tetrahedron.

@@ -4,7 +4,7 @@ use bytemuck::Pod;
 use futures_channel::oneshot;
 
 use super::{Gpu, Storage};
-use crate::Error;
+use crate::{Error, parallel};
 
 /// A pool of staging buffers.
 ///
@@ -76,7 +76,7 @@ impl Readback {
             let bytes = (pending.len * size_of::<T>()) as u64;
             let view = pending.staging.get_mapped_range(..bytes.next_multiple_of(4));
             let view = view.map_err(|e| gpu.failure(&e.to_string()))?;
-            bytemuck::pod_collect_to_vec(&view[..bytes as usize])
+            copied(&view[..bytes as usize], pending.len)
         };
         pending.staging.unmap();
         self.idle.push(pending.staging);
@@ -110,7 +110,7 @@ impl Readback {
         self.count
     }
 
-    /// The smallest idle staging buffer that is large enough, or a new one.
+    /// The smallest idle staging buffer that is large enough, or a new one, a little larger for next time.
     fn staging(&mut self, gpu: &Gpu, bytes: u64) -> wgpu::Buffer {
         let fitting =
             (0..self.idle.len()).filter(|&i| self.idle[i].size() >= bytes).min_by_key(|&i| self.idle[i].size());
@@ -118,10 +118,20 @@ impl Readback {
             Some(i) => self.idle.swap_remove(i),
             None => gpu.device().create_buffer(&wgpu::BufferDescriptor {
                 label: Some("staging"),
-                size: bytes.next_power_of_two(),
+                size: bytes.next_multiple_of((bytes.next_power_of_two() / 8).max(4)),
                 usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             }),
         }
     }
+}
+
+/// `len` elements from their bytes. Pages of fresh memory are what takes long here, so threads share them.
+fn copied<T: Pod>(bytes: &[u8], len: usize) -> Vec<T> {
+    let mut result: Vec<T> = bytemuck::zeroed_vec(len);
+    let target: &mut [u8] = bytemuck::cast_slice_mut(&mut result);
+    parallel::for_chunks(parallel::available(), target, |start, chunk| {
+        chunk.copy_from_slice(&bytes[start..start + chunk.len()]);
+    });
+    result
 }

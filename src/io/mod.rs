@@ -8,6 +8,7 @@
 //! be guarded against it; the modules that read a format themselves say why.
 
 mod error;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod files;
 mod format;
 mod las;

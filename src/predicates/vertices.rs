@@ -24,11 +24,13 @@ const UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
 /// The signs are those of the exact input coordinates; the symbolic ties are those of the input indices.
 pub struct Vertices<'a> {
     input: Points<'a>,
-    /// The input index of each vertex.
+    lattice: Lattice,
+    /// The input index of each vertex; empty when the vertices are the input points in their order.
     indices: Vec<u32>,
     /// Input coordinates times a power of two that brings the range of every axis below 2³¹; for a narrow lattice, the
-    /// lattice coordinates.
+    /// lattice coordinates. Empty when they are computed anew each time.
     coordinates: Vec<[f64; 3]>,
+    scaling: Scaling,
     exact: ExactStage,
     /// Error bounds of the determinants' floating-point values that hold for all arguments.
     orient3d_bound: f64,
@@ -40,8 +42,16 @@ pub struct Vertices<'a> {
 enum ExactStage {
     /// 31-bit integers, which the `coordinates` are.
     Narrow,
-    /// 62-bit integers, where none of the points is rounded.
-    Wide { lattice: Vec<[i64; 3]>, rounded: Option<Vec<bool>> },
+    /// 62-bit integers, where none of the points is rounded. Empty when they are computed anew each time.
+    Wide { positions: Vec<[i64; 3]>, rounded: Vec<bool> },
+}
+
+/// How coordinates come from the input.
+enum Scaling {
+    /// They are the lattice coordinates.
+    Lattice,
+    /// They are the input's times a power of two, but 0 where an axis does not vary.
+    By(Scale, [bool; 3]),
 }
 
 /// Multiplication by a power of two that `f64` need not have, as two that it has.
@@ -61,66 +71,73 @@ impl Scale {
 }
 
 impl<'a> Vertices<'a> {
-    /// Vertex *v* is `input` point `indices[v]`. The points must be finite and `lattice` fitted to them.
+    /// Vertex *v* is `input` point `indices[v]`, and its coordinates lie at place *v* of an array, which is best for many
+    /// signs. The points must be finite and `lattice` fitted to them.
     pub fn new(input: Points<'a>, lattice: &Lattice, indices: Vec<u32>) -> Self {
-        let mut coordinates = Vec::with_capacity(indices.len());
-        let exact = match lattice.width() {
-            Width::Narrow => {
-                let narrow = |&i: &u32| lattice.coordinates(input.get(i as usize)).map(|c| c.value as f64);
-                coordinates.extend(indices.iter().map(narrow));
-                ExactStage::Narrow
-            }
-            Width::Wide => {
-                let exponent = lattice.exponent() - (Width::Wide.bits() - Width::Narrow.bits()) as i32;
-                let scale = Scale::new(exponent);
-                let varies = lattice.varies();
-                let mut words = Vec::with_capacity(indices.len());
-                let mut rounded = Vec::new();
-                for (v, &i) in indices.iter().enumerate() {
-                    let p = input.get(i as usize);
-                    coordinates.push(std::array::from_fn(|axis| if varies[axis] { scale.apply(p[axis]) } else { 0.0 }));
-                    let q = lattice.coordinates(p);
-                    words.push(q.map(|c| c.value));
-                    if q.iter().any(|c| !c.exact) {
-                        rounded.resize(indices.len(), false);
-                        rounded[v] = true;
-                    }
-                }
-                ExactStage::Wide { lattice: words, rounded: (!rounded.is_empty()).then_some(rounded) }
-            }
-        };
-        let mut low = [f64::INFINITY; 3];
-        let mut high = [f64::NEG_INFINITY; 3];
-        for p in &coordinates {
-            for axis in 0..3 {
-                low[axis] = low[axis].min(p[axis]);
-                high[axis] = high[axis].max(p[axis]);
+        let mut vertices = Vertices::of_input(input, lattice);
+        vertices.coordinates.reserve_exact(indices.len());
+        let coordinates = indices.iter().map(|&i| vertices.computed(i));
+        vertices.coordinates = coordinates.collect();
+        if let ExactStage::Wide { positions, rounded } = &mut vertices.exact {
+            positions.reserve_exact(indices.len());
+            rounded.reserve_exact(indices.len());
+            for &i in &indices {
+                let q = lattice.coordinates(input.get(i as usize));
+                positions.push(q.map(|c| c.value));
+                rounded.push(q.iter().any(|c| !c.exact));
             }
         }
-        let [x, y, z] = std::array::from_fn(|axis| (high[axis] - low[axis]).max(0.0));
-        let orient3d_bound = orient3d_bound([x, y, z]);
-        let insphere_bound = insphere_bound([x, y, z]);
-        Vertices { input, indices, coordinates, exact, orient3d_bound, insphere_bound, counts: Cell::default() }
+        vertices.indices = indices;
+        vertices
+    }
+
+    /// The vertices are the points of `input` in their order. Nothing is stored, which is best for few signs.
+    pub fn of_input(input: Points<'a>, lattice: &Lattice) -> Self {
+        let (scaling, exact) = match lattice.width() {
+            Width::Narrow => (Scaling::Lattice, ExactStage::Narrow),
+            Width::Wide => {
+                let exponent = lattice.exponent() - (Width::Wide.bits() - Width::Narrow.bits()) as i32;
+                let exact = ExactStage::Wide { positions: Vec::new(), rounded: Vec::new() };
+                (Scaling::By(Scale::new(exponent), lattice.varies()), exact)
+            }
+        };
+        let mut vertices = Vertices {
+            input,
+            lattice: lattice.clone(),
+            indices: Vec::new(),
+            coordinates: Vec::new(),
+            scaling,
+            exact,
+            orient3d_bound: 0.0,
+            insphere_bound: 0.0,
+            counts: Cell::default(),
+        };
+        let [low, high] = lattice.bounds().map(|corner| vertices.scaled(corner));
+        let extents = std::array::from_fn(|axis| (high[axis] - low[axis]).max(0.0));
+        vertices.orient3d_bound = orient3d_bound(extents);
+        vertices.insphere_bound = insphere_bound(extents);
+        vertices
     }
 
     /// The number of vertices.
     pub fn len(&self) -> usize {
-        self.indices.len()
+        if self.indices.is_empty() { self.input.len() } else { self.indices.len() }
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.indices.is_empty()
+        self.len() == 0
     }
 
     /// The exact coordinates of vertex `v`.
     pub fn point(&self, v: u32) -> [f64; 3] {
-        self.input.get(self.indices[v as usize] as usize)
+        self.input.get(self.input_index(v) as usize)
     }
 
     /// The input index of vertex `v`.
+    #[inline]
     pub fn input_index(&self, v: u32) -> u32 {
-        self.indices[v as usize]
+        self.indices.get(v as usize).copied().unwrap_or(v)
     }
 
     /// The input index of every vertex.
@@ -133,10 +150,34 @@ impl<'a> Vertices<'a> {
         self.counts.get()
     }
 
+    /// The coordinates of vertex `v`, stored or not: an array that is empty costs what a bounds check costs.
+    #[inline(always)]
+    fn coordinate(&self, v: u32) -> [f64; 3] {
+        match self.coordinates.get(v as usize) {
+            Some(&p) => p,
+            None => self.computed(v),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn computed(&self, i: u32) -> [f64; 3] {
+        self.scaled(self.input.get(i as usize))
+    }
+
+    fn scaled(&self, p: [f64; 3]) -> [f64; 3] {
+        match &self.scaling {
+            Scaling::Lattice => self.lattice.coordinates(p).map(|c| c.value as f64),
+            Scaling::By(scale, varies) => {
+                std::array::from_fn(|axis| if varies[axis] { scale.apply(p[axis]) } else { 0.0 })
+            }
+        }
+    }
+
     /// The sign of det(b − a, c − a, d − a).
     #[inline]
     pub fn orient3d(&self, a: u32, b: u32, c: u32, d: u32) -> Sign {
-        let [pa, pb, pc, pd] = [a, b, c, d].map(|v| self.coordinates[v as usize]);
+        let [pa, pb, pc, pd] = [a, b, c, d].map(|v| self.coordinate(v));
         let (u, v, w) = (minus(pa, pd), minus(pb, pd), minus(pc, pd));
         // det(b − a, c − a, d − a) = −det(a − d, b − d, c − d).
         let det = u[0] * (v[2] * w[1] - v[1] * w[2])
@@ -165,16 +206,17 @@ impl<'a> Vertices<'a> {
                 let [a, b, c, d] = vertices.map(|v| self.narrow(v));
                 integer::orient3d_narrow(a, b, c, d)
             }
-            ExactStage::Wide { lattice, rounded } if unrounded(rounded, &vertices) => {
-                self.count(|c| &mut c.integer);
-                let [a, b, c, d] = vertices.map(|v| lattice[v as usize]);
-                integer::orient3d_wide(a, b, c, d)
-            }
-            ExactStage::Wide { .. } => {
-                self.count(|c| &mut c.expansion);
-                let [a, b, c, d] = vertices.map(|v| self.point(v));
-                exact::orient3d(a, b, c, d)
-            }
+            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+                Some([a, b, c, d]) => {
+                    self.count(|c| &mut c.integer);
+                    integer::orient3d_wide(a, b, c, d)
+                }
+                None => {
+                    self.count(|c| &mut c.expansion);
+                    let [a, b, c, d] = vertices.map(|v| self.point(v));
+                    exact::orient3d(a, b, c, d)
+                }
+            },
         }
     }
 
@@ -182,8 +224,8 @@ impl<'a> Vertices<'a> {
     /// never zero for five different vertices, at least four of which are not coplanar.
     #[inline(always)]
     pub fn insphere(&self, [a, b, c, d]: [u32; 4], e: u32) -> Sign {
-        let pe = self.coordinates[e as usize];
-        let [pa, pb, pc, pd] = [a, b, c, d].map(|v| minus(self.coordinates[v as usize], pe));
+        let pe = self.coordinate(e);
+        let [pa, pb, pc, pd] = [a, b, c, d].map(|v| minus(self.coordinate(v), pe));
         let det = insphere_determinant(pa, pb, pc, pd);
         if det.abs() > self.insphere_bound {
             return if det > 0.0 { 1 } else { -1 };
@@ -206,16 +248,17 @@ impl<'a> Vertices<'a> {
                 let [a, b, c, d, e] = vertices.map(|v| self.narrow(v));
                 integer::insphere_narrow(a, b, c, d, e)
             }
-            ExactStage::Wide { lattice, rounded } if unrounded(rounded, &vertices) => {
-                self.count(|c| &mut c.integer);
-                let [a, b, c, d, e] = vertices.map(|v| lattice[v as usize]);
-                integer::insphere_wide(a, b, c, d, e)
-            }
-            ExactStage::Wide { .. } => {
-                self.count(|c| &mut c.expansion);
-                let [a, b, c, d, e] = vertices.map(|v| self.point(v));
-                exact::insphere(a, b, c, d, e)
-            }
+            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+                Some([a, b, c, d, e]) => {
+                    self.count(|c| &mut c.integer);
+                    integer::insphere_wide(a, b, c, d, e)
+                }
+                None => {
+                    self.count(|c| &mut c.expansion);
+                    let [a, b, c, d, e] = vertices.map(|v| self.point(v));
+                    exact::insphere(a, b, c, d, e)
+                }
+            },
         };
         if sign != 0 {
             return sign;
@@ -227,8 +270,32 @@ impl<'a> Vertices<'a> {
         })
     }
 
+    /// The lattice coordinates of these vertices, if none of them is rounded.
+    fn wide<const N: usize>(
+        &self,
+        positions: &[[i64; 3]],
+        rounded: &[bool],
+        vertices: [u32; N],
+    ) -> Option<[[i64; 3]; N]> {
+        let mut all = [[0; 3]; N];
+        for (q, v) in all.iter_mut().zip(vertices) {
+            *q = match (positions.get(v as usize), rounded.get(v as usize)) {
+                (Some(&q), Some(false)) => q,
+                (Some(_), Some(true)) => return None,
+                _ => {
+                    let computed = self.lattice.coordinates(self.point(v));
+                    if computed.iter().any(|c| !c.exact) {
+                        return None;
+                    }
+                    computed.map(|c| c.value)
+                }
+            };
+        }
+        Some(all)
+    }
+
     fn narrow(&self, v: u32) -> [i64; 3] {
-        self.coordinates[v as usize].map(|x| x as i64)
+        self.coordinate(v).map(|x| x as i64)
     }
 
     fn count(&self, field: impl Fn(&mut ExactCounts) -> &mut u64) {
@@ -248,10 +315,6 @@ fn orient3d_bound([x, y, z]: [f64; 3]) -> f64 {
 #[inline]
 fn insphere_bound([x, y, z]: [f64; 3]) -> f64 {
     INSPHERE * 24.0 * x * y * z * (x * x + y * y + z * z) * (1.0 + 64.0 * EPSILON) + UNDERFLOW
-}
-
-fn unrounded(rounded: &Option<Vec<bool>>, vertices: &[u32]) -> bool {
-    rounded.as_ref().is_none_or(|rounded| vertices.iter().all(|&v| !rounded[v as usize]))
 }
 
 #[inline]

@@ -36,6 +36,11 @@ fn grid([a, b, c]: [i64; 3]) -> Vec<Point> {
     (0..a * b * c).map(|i| [i % a, i / a % b, i / (a * b)].map(|x| 4 * x)).collect()
 }
 
+/// Points with random coordinates.
+pub fn uniform(width: Width, count: usize) -> Input {
+    input("uniform", width, random(count, 5, 1 << 22))
+}
+
 /// Points on two skew lines: all pairs of segments make tetrahedra, a quadratic number.
 pub fn two_lines(width: Width, count: i64) -> Input {
     let points = (0..count).map(|i| if i % 2 == 0 { [4 * i, 0, 0] } else { [0, 4 * i, 40] }).collect();
@@ -49,7 +54,7 @@ pub fn all(width: Width) -> Vec<Input> {
     let layers = random(600, 8, 64).into_iter().map(|[x, y, z]| [x * 97, y * 31, 4 * (z % 2)]).collect();
     vec![
         input("five", width, vec![[0, 0, 0], [40, 0, 0], [0, 40, 0], [0, 0, 40], [44, 44, 44]]),
-        input("uniform", width, random(3000, 5, 1 << 22)),
+        uniform(width, 3000),
         input("cube", width, grid([2, 2, 2])),
         input("grid", width, grid([9, 9, 9])),
         input("thin grid", width, grid([24, 24, 2])),

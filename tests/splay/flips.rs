@@ -161,8 +161,7 @@ pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay {
     hull.sort_unstable();
     for f in hull {
         let [a, b, c] = FACETS[f as usize % 4].map(|i| tetrahedra[f as usize / 4][i]);
-        // Anywhere: Phase 1 does not care.
-        all.push([[a, b, c, infinite], [infinite, c, b, a], [c, infinite, a, b]][f as usize % 3]);
+        all.push([a, b, c, infinite]);
         neighbors.push([NONE; 4]);
     }
     match_facets(&all, &mut neighbors, &mut open, tetrahedra.len());
@@ -182,13 +181,20 @@ pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay {
     }
 }
 
+/// The finite tetrahedra that are flat or inverted.
+pub fn flat_or_inverted(mesh: &Triangulation, vertices: &Vertices<'_>) -> Vec<u32> {
+    let finite = |t: &[u32; 4]| t[3] != vertices.len() as u32;
+    let bad = |&[a, b, c, d]: &[u32; 4]| vertices.orient3d(a, b, c, d) <= 0;
+    (0..).zip(mesh.tetrahedra()).filter(|(_, t)| finite(t) && bad(t)).map(|(slot, _)| slot).collect()
+}
+
 /// What a GPU would tell about `near`: which vertices have a facet that is not locally Delaunay, and which tetrahedra are
 /// flat or inverted. The others are beyond doubt.
 pub fn found_out(vertices: &Vertices<'_>, near: &NearDelaunay) -> NearDelaunay {
     let (tetrahedra, neighbors) = (near.triangulation.tetrahedra(), near.triangulation.neighbors());
     let infinite = vertices.len() as u32;
     let mut bad = vec![false; tetrahedra.len()];
-    near.triangulation.flat_or_inverted(vertices).iter().for_each(|&t| bad[t as usize] = true);
+    flat_or_inverted(&near.triangulation, vertices).iter().for_each(|&t| bad[t as usize] = true);
     let mut doubtful = Vec::new();
     let mut failed = Vec::new();
     for (slot, &t) in tetrahedra.iter().enumerate() {

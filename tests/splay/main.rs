@@ -12,6 +12,7 @@ use gdel::{
     lattice::Lattice,
     predicates::vertices::Vertices,
     splay::{GaveUp, NONE, NearDelaunay, Outcome, SplayStats, splay},
+    triangulation::{FiniteMesh, Triangulation},
     verify::{Statement, verify3d},
 };
 use inputs::Cloud;
@@ -51,10 +52,9 @@ fn splayed(name: &str, vertices: &Vertices<'_>, near: NearDelaunay) -> (Vec<[u32
     };
     println!("{name}: {} vertices, {:.1?}, {stats:?}", vertices.len(), started.elapsed());
     let names: Vec<u32> = (0..vertices.len() as u32).map(|v| vertices.input_index(v)).collect();
-    let (tetrahedra, neighbors) = mesh.into_mesh(&names);
+    let FiniteMesh { tetrahedra, neighbors, hull } = mesh.into_mesh(Some(&names), 4);
     let mut points = vec![[0.0; 3]; names.len()];
     names.iter().zip(0..).for_each(|(&i, v)| points[i as usize] = vertices.point(v));
-    let hull = gdel::mesh::hull_of(&tetrahedra, &neighbors);
     let statement =
         Statement { neighbors: Some(&neighbors), hull: Some(&hull), ..Statement::of_tetrahedra(&tetrahedra) };
     let report = verify3d(&points, statement).unwrap();

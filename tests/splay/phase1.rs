@@ -1,6 +1,6 @@
 //! Both phases, without a GPU: the kernels' twins make the triangulation that is splayed.
 
-use crate::{check, exact, inputs, inputs::Cloud};
+use crate::{check, exact, flips::flat_or_inverted, inputs, inputs::Cloud};
 use gdel::{
     gpu::twin::{
         State,
@@ -18,13 +18,25 @@ fn near(state: &State, vertices: &Vertices<'_>) -> NearDelaunay {
     let used: Vec<usize> = (0..state.tets.len()).filter(|&t| state.is_used(t)).collect();
     let mut number = vec![NONE; state.tets.len()];
     used.iter().zip(0..).for_each(|(&t, n)| number[t] = n);
-    let tetrahedra: Vec<[u32; 4]> = used.iter().map(|&t| state.tets[t]).collect();
-    let renumbered = |&t: &usize| state.neighbors[t].map(|across| 4 * number[across as usize / 4] + across % 4);
-    let neighbors = used.iter().map(renumbered).collect();
+    let infinite = vertices.len() as u32;
+    // Where the vertices go when infinity goes last: two exchanges keep the orientation.
+    let order = |t: usize| match state.tets[t].iter().position(|&v| v == infinite) {
+        Some(0) => [3, 2, 1, 0],
+        Some(1) => [2, 3, 0, 1],
+        Some(2) => [1, 0, 3, 2],
+        _ => [0, 1, 2, 3],
+    };
+    let tetrahedra: Vec<[u32; 4]> = used.iter().map(|&t| order(t).map(|k| state.tets[t][k])).collect();
+    let renumbered = |across: u32| {
+        let (u, face) = (across as usize / 4, across as usize % 4);
+        // Each of these orders is its own inverse.
+        4 * number[u] + order(u)[face] as u32
+    };
+    let neighbors = used.iter().map(|&t| order(t).map(|k| renumbered(state.neighbors[t][k]))).collect();
     let mut incident = vec![NONE; vertices.len() + 1];
     tetrahedra.iter().zip(0..).for_each(|(t, n)| t.iter().for_each(|&v| incident[v as usize] = n));
-    let triangulation = Triangulation::new(tetrahedra, neighbors, vertices.len() as u32);
-    let doubtful = triangulation.flat_or_inverted(vertices);
+    let triangulation = Triangulation::new(tetrahedra, neighbors, infinite);
+    let doubtful = flat_or_inverted(&triangulation, vertices);
     let failed = (0..vertices.len() as u32).filter(|&v| state.failed[v as usize] != 0).collect();
     NearDelaunay { triangulation, incident, failed, doubtful, missing: Vec::new() }
 }

@@ -46,7 +46,7 @@ pub struct Buffers {
 }
 
 impl Buffers {
-    /// Zeroed buffers for these points.
+    /// Buffers for these points.
     ///
     /// # Errors
     ///
@@ -98,11 +98,19 @@ impl Buffers {
         Ok(larger)
     }
 
-    /// The bytes that all of them take.
+    /// Records that what must be zero in the beginning is: slots without tetrahedra, their status, no failed vertices.
+    pub fn record_clear(&self, recorder: &mut Recorder<'_>) {
+        let encoder = recorder.encoder();
+        encoder.clear_buffer(self.tets.buffer(), 0, None);
+        encoder.clear_buffer(self.status.buffer(), 0, None);
+        encoder.clear_buffer(self.failed.buffer(), 0, None);
+    }
+
+    /// The bytes that they take, but for the points.
     pub fn bytes(&self) -> u64 {
         let Buffers {
             control,
-            points,
+            points: _,
             tets,
             neighbors,
             status,
@@ -114,8 +122,8 @@ impl Buffers {
             scores,
             failed,
         } = self;
-        let words = control.bytes() + points.united_with.bytes() + free.bytes() + scores.bytes() + failed.bytes();
+        let words = control.bytes() + free.bytes() + waiting.bytes() + scores.bytes() + failed.bytes();
         let slots = tets.bytes() + neighbors.bytes() + status.bytes() + active.bytes() + messages.bytes();
-        words + slots + points.vertices.bytes() + points.pairs.bytes() + history.bytes() + waiting.bytes()
+        words + slots + history.bytes()
     }
 }

@@ -16,6 +16,7 @@
 //! slots or the history run out, flips wait in the active list until there is more.
 
 mod buffers;
+mod memory;
 mod run;
 
 pub use buffers::{Buffers, COUNTER_WORDS, PARAM_WORDS};
@@ -24,7 +25,7 @@ pub use run::Run;
 use super::layout::Counters;
 use super::stages::{finish::Finish, flip::Flip, insert::Insert, points::PointStage, relocate::Relocate};
 use super::start::Start;
-use super::{Gpu, Kernel, Profiler};
+use super::{Gpu, Kernel, Profiler, Readback};
 use crate::{
     Error, Points,
     lattice::{Lattice, Width},
@@ -107,33 +108,34 @@ pub struct Phase1Stats {
 
 /// A triangulation whose only facets that are not locally Delaunay cannot be flipped.
 ///
-/// It has infinite tetrahedra, and all its tetrahedra are positively oriented in the sense of the perturbed predicates:
-/// there can be flat ones.
+/// Vertices are places in the input. All tetrahedra are positively oriented in the sense of the perturbed predicates: there
+/// can be flat ones.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Phase1Output {
-    /// Four vertices a tetrahedron; the number of points is the vertex at infinity.
+    /// Four vertices a tetrahedron, the finite ones first. The infinite ones have the vertex at infinity, the number of
+    /// points, last.
     pub tets: Vec<[u32; 4]>,
     /// Entry *k* is 4·tetrahedron + face across the facet opposite vertex *k*.
     pub neighbors: Vec<[u32; 4]>,
-    /// The place in the input of each vertex.
-    pub order: Vec<u32>,
+    /// The number of finite tetrahedra.
+    pub finite: usize,
     /// The vertices with a facet that is not locally Delaunay, ascending.
     pub failed: Vec<u32>,
-    /// One tetrahedron of each vertex, infinity last; [`NONE`](super::layout::NONE) for
-    /// the last ones of the order, which others stand for.
+    /// One tetrahedron of each vertex, infinity last; [`NONE`](super::layout::NONE) for those that others stand for.
     pub tet_of: Vec<u32>,
-    /// Input indices of points that are vertices of no tetrahedron, with that of the point at the same place of the
-    /// lattice: exact duplicates, and points that were rounded to the same place, which Phase 2 has to insert.
+    /// Points that are vertices of no tetrahedron, with that of the point at the same place of the lattice: exact
+    /// duplicates, and points that were rounded to the same place, which Phase 2 has to insert.
     pub united: Vec<[u32; 2]>,
-    /// Where coordinates were rounded to the lattice: tetrahedra, ascending, of which it does not prove everything, with
-    /// what is open: whether facet *k* is locally Delaunay (bit *k*), or the orientation (bit 4). Each facet is listed
-    /// with its tetrahedron of the lower number.
-    pub uncertain: Vec<[u32; 2]>,
+    /// Tetrahedra, ascending, that are flat (bit 4); and where coordinates were rounded to the lattice, those of which it
+    /// does not prove everything: whether facet *k* is locally Delaunay (bit *k*), or the orientation (bit 4). Each facet
+    /// is listed with one of its tetrahedra.
+    pub doubtful: Vec<[u32; 2]>,
     /// What the run did.
     pub stats: Phase1Stats,
 }
 
-/// The kernels of Phase 1, for points of one width.
+/// The kernels of Phase 1, for points of one width, and the buffers of the last run, which serve the next one if that has
+/// as many points of the same precision.
 #[derive(Debug)]
 pub struct Phase1 {
     points: PointStage,
@@ -142,6 +144,8 @@ pub struct Phase1 {
     relocate: Relocate,
     finish: Finish,
     fill_free: Kernel,
+    readback: Readback,
+    kept: memory::Kept,
 }
 
 impl Phase1 {
@@ -159,9 +163,17 @@ impl Phase1 {
                 relocate: Relocate::new(gpu, width),
                 finish: Finish::new(gpu, width),
                 fill_free: Kernel::new(gpu, "fill_free", width, &[]),
+                readback: Readback::default(),
+                kept: memory::Kept::default(),
             })
         })
         .await
+    }
+
+    /// Gives the buffers of the last run back.
+    pub fn release(&mut self) {
+        self.readback = Readback::default();
+        self.kept = memory::Kept::default();
     }
 
     /// Runs Phase 1.
@@ -170,7 +182,7 @@ impl Phase1 {
     ///
     /// As [`Run::new`], [`Run::round`] and [`Run::finish`].
     pub async fn run(
-        &self,
+        &mut self,
         gpu: &Gpu,
         input: Input<'_>,
         settings: &Settings,

@@ -2,30 +2,32 @@
 
 use bytemuck::Zeroable;
 
-use super::{Buffers, COUNTER_WORDS, Input, PARAM_WORDS, Phase1, Phase1Output, Phase1Stats, Settings};
+use super::{
+    Buffers, COUNTER_WORDS, Input, PARAM_WORDS, Phase1, Phase1Output, Phase1Stats, Settings,
+    memory::{Kept, Memory},
+};
 use crate::{
     Error,
     gpu::{
-        Gpu, Pending, Profiler, Readback, Recorder,
+        Gpu, Pending, Profiler, Recorder,
         layout::{BLOCK, Counters, FlipNode, NONE, Params, SLOTS_FULL},
-        stages::{finish::Compacted, flip::BoundFlip, insert::BoundInsert, relocate::BoundRelocate},
+        stages::{finish::BoundFinish, points::PointBuffers},
         vertex, workgroups,
     },
 };
 
 /// A run that is under way.
 pub struct Run<'a> {
-    kernels: &'a Phase1,
+    kernels: &'a mut Phase1,
     gpu: &'a Gpu,
     settings: Settings,
     profiler: Option<&'a mut Profiler>,
-    readback: Readback,
     params: Params,
     counters: Counters,
-    buffers: Buffers,
-    insert: BoundInsert,
-    flip: BoundFlip,
-    relocate: BoundRelocate,
+    points: Option<PointBuffers>,
+    memory: Memory,
+    /// Readbacks before this run.
+    read_before: usize,
     /// Nothing is located yet.
     first: bool,
     /// Flip iterations to record for a round.
@@ -57,7 +59,7 @@ impl<'a> Run<'a> {
     /// [`Error::TooManyPoints`]; [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when the device cannot hold
     /// the buffers.
     pub async fn new(
-        kernels: &'a Phase1,
+        kernels: &'a mut Phase1,
         gpu: &'a Gpu,
         input: Input<'_>,
         settings: Settings,
@@ -69,57 +71,57 @@ impl<'a> Run<'a> {
             return Err(Error::TooManyPoints { points: count, limit: Self::MAX_POINTS });
         }
         let points = count as u32;
-        let blocks = points + 1 + tail_blocks(points, &settings);
         let bindable = gpu.max_storage_bytes() / size_of::<FlipNode>() as u64;
-        let params = Params {
-            infinite: points,
-            blocks,
-            history: (u64::from(settings.history) * u64::from(points)).clamp(64, bindable.max(64)) as u32,
-            bid_bits: bid_bits(blocks),
-            min_active: settings.min_active,
-            pick: settings.pick as u32,
-            entries: points,
-            ..Params::default()
-        };
-        let mut run = gpu
+        let history = (u64::from(settings.history) * u64::from(points)).clamp(64, bindable.max(64)) as u32;
+        // What is kept is lost if the run fails.
+        let Kept { points: mut point_buffers, memory: kept } = std::mem::take(&mut kernels.kept);
+        let (memory, dispatches) = gpu
             .catching("Phase 1", || {
                 // The device orders the points while the host makes the other buffers.
                 let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
-                let Input { points, lattice, start } = input;
-                let points = kernels.points.record(gpu, &mut recorder, points, lattice, start.first)?;
+                let Input { points: input, lattice, start } = input;
+                let buffers = &mut point_buffers;
+                let device = kernels.points.record(gpu, &mut recorder, buffers, input, lattice, start.first)?;
                 let mut kernel_point = Vec::new();
-                vertex::append_words(&mut kernel_point, lattice.width(), start.kernel, params.infinite);
-                points.vertices.write(gpu, count * kernel_point.len(), &kernel_point);
+                vertex::append_words(&mut kernel_point, lattice.width(), start.kernel, points);
+                device.vertices.write(gpu, count * kernel_point.len(), &kernel_point);
                 let dispatches = recorder.dispatches();
                 recorder.submit(gpu);
-                let buffers = Buffers::new(gpu, points, blocks, params.history)?;
-                Ok(Run {
-                    insert: kernels.insert.bind(gpu, &buffers),
-                    flip: kernels.flip.bind(gpu, &buffers),
-                    relocate: kernels.relocate.bind(gpu, &buffers)?,
-                    kernels,
-                    gpu,
-                    settings,
-                    profiler: None,
-                    readback: Readback::default(),
-                    params,
-                    counters: Counters { first_node: 1, next_node: 1, ..Counters::default() },
-                    buffers,
-                    first: true,
-                    iterations: 20,
-                    counted: 0,
-                    stats: Phase1Stats { dispatches, ..Phase1Stats::default() },
-                    clock,
-                })
+                let blocks = points + 1 + tail_blocks(points, &settings);
+                Ok((Memory::new(kernels, gpu, kept, device, blocks, history)?, dispatches))
             })
             .await?;
-        run.profiler = profiler;
-        Ok(run)
+        let blocks = memory.blocks();
+        Ok(Run {
+            gpu,
+            settings,
+            profiler,
+            params: Params {
+                infinite: points,
+                blocks,
+                history,
+                bid_bits: bid_bits(blocks),
+                min_active: settings.min_active,
+                pick: settings.pick as u32,
+                entries: points,
+                ..Params::default()
+            },
+            counters: Counters { first_node: 1, next_node: 1, ..Counters::default() },
+            points: point_buffers,
+            memory,
+            read_before: kernels.readback.count(),
+            kernels,
+            first: true,
+            iterations: 20,
+            counted: 0,
+            stats: Phase1Stats { dispatches, ..Phase1Stats::default() },
+            clock,
+        })
     }
 
     /// The buffers, for tests.
     pub fn buffers(&self) -> &Buffers {
-        &self.buffers
+        &self.memory.buffers
     }
 
     /// The parameters and the counters as of the last round, for tests.
@@ -148,7 +150,7 @@ impl<'a> Run<'a> {
         let before = self.counters;
         let inserts = self.first || self.waiting() > 0;
         let (submission, pending) = gpu.catching("Phase 1", || self.submit_round(inserts)).await?;
-        let words = self.readback.receive(gpu, &submission, pending).await?;
+        let words = self.kernels.readback.receive(gpu, &submission, pending).await?;
         let read: Counters = *bytemuck::from_bytes(bytemuck::cast_slice(&words));
         self.counters = read;
         self.counted = read.iteration;
@@ -177,47 +179,47 @@ impl<'a> Run<'a> {
         }
         if std::mem::take(&mut self.first) {
             self.write_control();
-            let fill = self.kernels.fill_free.bind(gpu, &[self.buffers.control.buffer(), self.buffers.free.buffer()]);
+            self.memory.buffers.record_clear(&mut recorder);
             recorder.stage("locate");
-            recorder.dispatch(&self.kernels.fill_free, &fill, workgroups);
-            self.kernels.insert.record_first(&mut recorder, &self.insert, workgroups);
+            recorder.dispatch(&self.kernels.fill_free, &self.memory.fill_free, workgroups);
+            self.kernels.insert.record_first(&mut recorder, &self.memory.insert, workgroups);
         } else {
             let waiting = self.waiting();
             self.params.entries_before = self.params.entries;
             // Compacting the list costs about as much as walking it a few times.
             if waiting < self.params.entries / 4 * 3 {
-                let entries = self.params.entries;
-                self.kernels.relocate.record_compaction(
-                    gpu,
-                    &mut recorder,
-                    &self.relocate,
-                    &self.buffers,
-                    entries,
-                    workgroups,
-                );
+                let (entries, memory) = (self.params.entries, &self.memory);
+                let relocate = &self.kernels.relocate;
+                relocate.record_compaction(gpu, &mut recorder, &memory.relocate, &memory.buffers, entries, workgroups);
                 self.params.entries = waiting;
             }
             self.counters.overflow = 0;
             self.write_control();
         }
-        self.kernels.insert.record(&mut recorder, &self.insert, &self.buffers, workgroups);
+        let Memory { buffers, insert, .. } = &self.memory;
+        self.kernels.insert.record(&mut recorder, insert, buffers, workgroups);
         if !(self.settings.insert_all && inserts) {
             self.record_flips(&mut recorder);
         }
         if inserts {
-            self.kernels.relocate.record(&mut recorder, &self.relocate, workgroups);
+            self.kernels.relocate.record(&mut recorder, &self.memory.relocate, workgroups);
         }
         self.stats.dispatches += recorder.dispatches();
-        let pending = self.readback.copy(gpu, recorder.encoder(), &self.buffers.control, PARAM_WORDS, COUNTER_WORDS);
+        let pending = self.read_counters(recorder.encoder());
         let submission = recorder.submit(gpu);
         self.profiler = profiler;
         Ok((submission, pending))
     }
 
+    fn read_counters(&mut self, encoder: &mut wgpu::CommandEncoder) -> Pending<u32> {
+        let control = &self.memory.buffers.control;
+        self.kernels.readback.copy(self.gpu, encoder, control, PARAM_WORDS, COUNTER_WORDS)
+    }
+
     /// Parameters as the host knows them, counters as they were last read: no kernel runs between.
     fn write_control(&mut self) {
-        self.buffers.control.write(self.gpu, 0, bytemuck::cast_slice(&[self.params]));
-        self.buffers.control.write(self.gpu, PARAM_WORDS, bytemuck::cast_slice(&[self.counters]));
+        self.memory.buffers.control.write(self.gpu, 0, bytemuck::cast_slice(&[self.params]));
+        self.memory.buffers.control.write(self.gpu, PARAM_WORDS, bytemuck::cast_slice(&[self.counters]));
     }
 
     fn workgroups(&self) -> u32 {
@@ -229,11 +231,11 @@ impl<'a> Run<'a> {
         let mut left = self.iterations;
         while left > 0 {
             if self.counted >= last {
-                self.kernels.flip.record_clear_votes(recorder, &self.flip, self.workgroups());
+                self.kernels.flip.record_clear_votes(recorder, &self.memory.flip, self.workgroups());
                 self.counted = 1;
             }
             let now = left.min(last - self.counted);
-            self.kernels.flip.record(recorder, &self.flip, now, self.workgroups());
+            self.kernels.flip.record(recorder, &self.memory.flip, now, self.workgroups());
             self.counted += now;
             left -= now;
         }
@@ -247,18 +249,13 @@ impl<'a> Run<'a> {
         if blocks == before {
             return Err(Error::TooManyTetrahedra { limit: 1 << 30 });
         }
-        self.buffers = self.buffers.with_blocks(self.gpu, recorder, blocks)?;
+        self.memory = self.memory.with_blocks(self.kernels, self.gpu, recorder, blocks)?;
         (self.params.blocks_before, self.params.blocks) = (before, blocks);
         self.params.bid_bits = bid_bits(blocks);
-        self.insert = self.kernels.insert.bind(self.gpu, &self.buffers);
-        self.flip = self.kernels.flip.bind(self.gpu, &self.buffers);
-        self.relocate = self.kernels.relocate.bind(self.gpu, &self.buffers)?;
-        let (control, free) = (self.buffers.control.buffer(), self.buffers.free.buffer());
-        let fill = self.kernels.fill_free.bind(self.gpu, &[control, free]);
         recorder.stage("grow");
-        recorder.dispatch(&self.kernels.fill_free, &fill, self.workgroups());
+        recorder.dispatch(&self.kernels.fill_free, &self.memory.fill_free, self.workgroups());
         // Bids have another form now.
-        self.kernels.flip.record_clear_votes(recorder, &self.flip, self.workgroups());
+        self.kernels.flip.record_clear_votes(recorder, &self.memory.flip, self.workgroups());
         self.counted = 1;
         Ok(())
     }
@@ -273,70 +270,72 @@ impl<'a> Run<'a> {
         let blocks = self.params.blocks;
         let workgroups = self.workgroups();
         let profiler = self.profiler.take();
-        let (compacted, submission, counters, count) = gpu
+        let (submission, counters, finite) = gpu
             .catching("the end of Phase 1", || {
                 let mut recorder = Recorder::new(gpu, profiler);
-                let compacted = self.kernels.finish.record(gpu, &mut recorder, &self.buffers, blocks, workgroups)?;
+                let bound = &self.memory.finish;
+                self.kernels.finish.record(gpu, &mut recorder, bound, blocks, workgroups);
                 self.stats.dispatches += recorder.dispatches();
                 let encoder = recorder.encoder();
-                let counters = self.readback.copy(gpu, encoder, &self.buffers.control, PARAM_WORDS, COUNTER_WORDS);
-                let count = self.readback.copy(gpu, encoder, &compacted.sums, Compacted::COUNT, 1);
-                Ok((compacted, recorder.submit(gpu), counters, count))
+                let finite = self.kernels.readback.copy(gpu, encoder, &bound.sums, BoundFinish::FINITE, 1);
+                let counters = self.read_counters(encoder);
+                Ok((recorder.submit(gpu), counters, finite))
             })
             .await?;
-        let counters = self.readback.receive(gpu, &submission, counters).await?;
-        let count = self.readback.receive(gpu, &submission, count).await?[0] as usize;
+        let counters = self.kernels.readback.receive(gpu, &submission, counters).await?;
+        let finite = self.kernels.readback.receive(gpu, &submission, finite).await?[0] as usize;
         let mut read = Counters::zeroed();
         bytemuck::bytes_of_mut(&mut read).copy_from_slice(bytemuck::cast_slice(&counters));
         self.counters = read;
         self.stats.milliseconds = self.clock.lap() * 1e3;
 
-        let points = self.params.infinite as usize;
-        let aside = if self.counters.aside > 0 { points } else { 0 };
-        let failed = if self.counters.failed > 0 { points } else { 0 };
-        let open = self.counters.uncertain as usize;
-        let (submission, tets, neighbors, tet_of, pairs, failed, united, uncertain) = gpu
+        let Run { kernels, params, counters, points, memory, read_before, mut stats, mut clock, .. } = self;
+        let count = params.infinite as usize;
+        let tets = finite + counters.ghosts as usize;
+        let aside = if counters.aside > 0 { count } else { 0 };
+        let readback = &mut kernels.readback;
+        let (submission, tets, neighbors, tet_of, failed, united, doubtful) = gpu
             .catching("the result of Phase 1", || {
                 let mut recorder = Recorder::new(gpu, None);
                 let encoder = recorder.encoder();
-                let tets = self.readback.copy(gpu, encoder, &compacted.tets, 0, count);
-                let neighbors = self.readback.copy(gpu, encoder, &compacted.neighbors, 0, count);
-                let tet_of = self.readback.copy(gpu, encoder, &compacted.tet_of, 0, points + 1);
-                let pairs = self.readback.copy(gpu, encoder, &self.buffers.points.pairs, 0, points);
-                let failed = self.readback.copy(gpu, encoder, &self.buffers.failed, 0, failed);
-                let united = self.readback.copy(gpu, encoder, &self.buffers.points.united_with, 0, aside);
-                let uncertain = self.readback.copy(gpu, encoder, &compacted.uncertain, 0, open);
-                Ok((recorder.submit(gpu), tets, neighbors, tet_of, pairs, failed, united, uncertain))
+                let bound = &memory.finish;
+                let tets_read = readback.copy(gpu, encoder, &bound.tets, 0, tets);
+                let neighbors = readback.copy(gpu, encoder, &bound.neighbors, 0, tets);
+                let tet_of = readback.copy(gpu, encoder, &bound.tet_of, 0, count + 1);
+                let failed = readback.copy(gpu, encoder, &bound.failed, 0, counters.failed as usize);
+                let united = readback.copy(gpu, encoder, &memory.buffers.points.united_with, 0, aside);
+                let doubtful = readback.copy(gpu, encoder, &bound.doubtful, 0, counters.doubtful as usize);
+                Ok((recorder.submit(gpu), tets_read, neighbors, tet_of, failed, united, doubtful))
             })
             .await?;
-        let tets = self.readback.receive(gpu, &submission, tets).await?;
-        let neighbors = self.readback.receive(gpu, &submission, neighbors).await?;
-        let tet_of = self.readback.receive(gpu, &submission, tet_of).await?;
-        let pairs = self.readback.receive(gpu, &submission, pairs).await?;
-        let failed = self.readback.receive(gpu, &submission, failed).await?;
-        let united = self.readback.receive(gpu, &submission, united).await?;
+        let tets = readback.receive(gpu, &submission, tets).await?;
+        let neighbors = readback.receive(gpu, &submission, neighbors).await?;
+        let mut tet_of = readback.receive(gpu, &submission, tet_of).await?;
+        let mut failed = readback.receive(gpu, &submission, failed).await?;
+        let united = readback.receive(gpu, &submission, united).await?;
+        let doubtful = readback.receive(gpu, &submission, doubtful).await?;
 
-        let uncertain = self.readback.receive(gpu, &submission, uncertain).await?;
-        let mut uncertain: Vec<[u32; 2]> = uncertain.into_iter().map(|a| [a.tet, a.outcome]).collect();
-        uncertain.sort_unstable();
-
-        let mut stats = self.stats;
-        stats.readback_milliseconds = self.clock.lap() * 1e3;
-        stats.counters = self.counters;
-        stats.readbacks = self.readback.count();
-        stats.bytes = self.buffers.bytes() + compacted.neighbors.bytes() + 2 * compacted.neighbors.bytes() / 4;
+        tet_of.iter_mut().for_each(|t: &mut u32| *t = t.wrapping_sub(1));
+        failed.sort_unstable();
+        let mut doubtful: Vec<[u32; 2]> = doubtful.into_iter().map(|a| [a.tet, a.outcome]).collect();
+        doubtful.sort_unstable();
+        stats.readback_milliseconds = clock.lap() * 1e3;
+        stats.counters = counters;
+        stats.readbacks = readback.count() - read_before;
+        stats.bytes = memory.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
+        kernels.kept = Kept { points, memory: Some(memory) };
         Ok(Phase1Output {
             tets,
             neighbors,
-            order: pairs.into_iter().map(|[_, point]| point).collect(),
-            failed: (0..).zip(failed).filter(|&(_, failed)| failed != 0).map(|(v, _)| v).collect(),
-            tet_of: tet_of.into_iter().map(|t: u32| t.wrapping_sub(1)).collect(),
+            finite,
+            failed,
+            tet_of,
             united: (0..)
                 .zip(united)
                 .filter(|&(_, other)| other != NONE)
                 .map(|(point, other)| [point, other])
                 .collect(),
-            uncertain,
+            doubtful,
             stats,
         })
     }

@@ -1,6 +1,6 @@
-//! The end of Phase 1: failed vertices (§3.2.1), the mesh without gaps, and what rounding leaves open.
+//! The end of Phase 1: failed vertices (§3.2.1), the mesh without gaps, and what is flat or left open by rounding.
 
-use super::scan::{GROUPS, Scan, ScanParams};
+use super::scan::{BoundScan, GROUPS, Scan, ScanParams};
 use crate::{
     Error,
     gpu::{
@@ -15,31 +15,48 @@ use crate::{
 #[derive(Debug)]
 pub struct Finish {
     mark_failed: Kernel,
-    mesh_mark: Kernel,
-    mesh_compact: Kernel,
-    /// Where coordinates can be rounded.
-    certify: Option<Kernel>,
+    mark: Kernel,
+    number: Kernel,
+    compact: Kernel,
+    certify: Kernel,
     scan: Scan,
 }
 
-/// The mesh without gaps, on the device.
+/// The bind groups of the end of Phase 1, and the buffers that it fills.
 #[derive(Debug)]
-pub struct Compacted {
-    /// Vertices of the tetrahedra.
+pub struct BoundFinish {
+    /// The mesh without gaps: vertices of the tetrahedra, as places in the input. Infinite tetrahedra come last, and have
+    /// infinity last.
     pub tets: Storage<[u32; 4]>,
     /// Neighbours, 4·tetrahedron + face.
     pub neighbors: Storage<[u32; 4]>,
-    /// One tetrahedron of each vertex, plus 1; 0 for one that another stands for. Infinity comes last.
+    /// One tetrahedron of each point, plus 1; 0 for one that another stands for. Infinity comes last.
     pub tet_of: Storage<u32>,
-    /// Entry [`GROUPS`] is the number of tetrahedra.
+    /// Entry [`BoundFinish::FINITE`] is the number of finite tetrahedra.
     pub sums: Storage<u32>,
-    /// Tetrahedra of which the lattice does not prove everything, with what is open, as `shaders/certify.wgsl` has it.
-    pub uncertain: Storage<Active>,
+    /// Tetrahedra that are flat or of which the lattice does not prove everything, with what is open, as
+    /// `shaders/certify.wgsl` has it.
+    pub doubtful: Storage<Active>,
+    /// The places in the input of the failed vertices.
+    pub failed: Storage<u32>,
+    params: Storage<ScanParams>,
+    mark_failed: wgpu::BindGroup,
+    mark: wgpu::BindGroup,
+    scan: BoundScan,
+    number: wgpu::BindGroup,
+    compact: wgpu::BindGroup,
+    certify: wgpu::BindGroup,
+    bytes: u64,
 }
 
-impl Compacted {
-    /// Where in [`Compacted::sums`] the number of tetrahedra is.
-    pub const COUNT: usize = GROUPS;
+impl BoundFinish {
+    /// Where in [`BoundFinish::sums`] the number of finite tetrahedra is.
+    pub const FINITE: usize = GROUPS;
+
+    /// The bytes that it takes on the device beside the buffers that it shares.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
 }
 
 impl Finish {
@@ -48,80 +65,91 @@ impl Finish {
         let kernel = |name| Kernel::new(gpu, name, width, &[]);
         Finish {
             mark_failed: kernel("mark_failed"),
-            mesh_mark: kernel("mesh_mark"),
-            mesh_compact: kernel("mesh_compact"),
-            certify: (width == Width::Wide).then(|| kernel("certify")),
+            mark: kernel("mesh_mark"),
+            number: kernel("mesh_number"),
+            compact: kernel("mesh_compact"),
+            certify: kernel("certify"),
             scan: Scan::new(gpu),
         }
     }
 
-    /// Records the search for failed vertices, and the compaction.
+    /// The bind groups for these buffers.
     ///
     /// # Errors
     ///
     /// As [`Storage::new`].
-    pub fn record(
-        &self,
-        gpu: &Gpu,
-        recorder: &mut Recorder<'_>,
-        b: &Buffers,
-        blocks: u32,
-        workgroups: u32,
-    ) -> Result<Compacted, Error> {
-        let (control, tets, neighbors) = (b.control.buffer(), b.tets.buffer(), b.neighbors.buffer());
+    pub fn bind(&self, gpu: &Gpu, b: &Buffers) -> Result<BoundFinish, Error> {
         let slots = b.tets.len();
-        let failed = self
-            .mark_failed
-            .bind(gpu, &[control, b.points.vertices.buffer(), tets, neighbors, b.status.buffer(), b.failed.buffer()]);
-        recorder.stage("mark failed");
-        recorder.dispatch(&self.mark_failed, &failed, workgroups);
-
-        let params = Storage::with_contents(gpu, "scan parameters", &[ScanParams { count: blocks * BLOCK }])?;
+        let params = Storage::new(gpu, "scan parameters", 1)?;
         let marks = Storage::new(gpu, "marks", slots)?;
-        let offsets = Storage::new(gpu, "offsets", slots)?;
-        let scan = self.scan.bind(gpu, &params, &marks, &offsets)?;
-        let compacted = Compacted {
-            // Messages are over; their buffer has one entry a slot.
-            tets: b.messages.clone(),
-            neighbors: Storage::new(gpu, "compacted neighbours", slots)?,
-            tet_of: Storage::new(gpu, "tetrahedra of vertices", b.failed.len() + 1)?,
-            sums: scan.sums().clone(),
-            // The active list is empty; its buffer has two entries a slot.
-            uncertain: b.active.clone(),
-        };
-        let mark = self.mesh_mark.bind(gpu, &[control, tets, marks.buffer()]);
-        let compact = self.mesh_compact.bind(
-            gpu,
+        let numbers = Storage::new(gpu, "numbers of tetrahedra", slots)?;
+        let tet_of = Storage::new(gpu, "tetrahedra of points", b.failed.len() + 1)?;
+        let bytes = marks.bytes() + numbers.bytes() + tet_of.bytes();
+        let scan = self.scan.bind(gpu, &params, &marks, &numbers)?;
+        let sums = scan.sums().clone();
+        // Messages and the active list are over by then, and have as many bytes a slot; so is the status once the failed
+        // vertices are marked, and the scores of points.
+        let (tets, neighbors) = (b.messages.clone(), b.active.seen_as());
+        let (doubtful, failed) = (b.status.seen_as(), b.scores.clone());
+
+        let (control, vertices) = (b.control.buffer(), b.points.vertices.buffer());
+        let (slot_tets, slot_neighbors) = (b.tets.buffer(), b.neighbors.buffer());
+        let buffers: [&[&wgpu::Buffer]; 5] = [
+            &[control, vertices, slot_tets, slot_neighbors, b.status.buffer(), b.failed.buffer(), failed.buffer()],
+            &[control, slot_tets, marks.buffer()],
+            &[control, slot_tets, sums.buffer(), numbers.buffer()],
             &[
                 control,
-                tets,
-                neighbors,
-                offsets.buffer(),
-                compacted.tets.buffer(),
-                compacted.neighbors.buffer(),
-                compacted.tet_of.buffer(),
+                vertices,
+                slot_tets,
+                slot_neighbors,
+                numbers.buffer(),
+                tets.buffer(),
+                neighbors.buffer(),
+                tet_of.buffer(),
             ],
-        );
+            &[
+                control,
+                vertices,
+                slot_tets,
+                slot_neighbors,
+                numbers.buffer(),
+                b.points.counts.buffer(),
+                doubtful.buffer(),
+            ],
+        ];
+        let kernels = [&self.mark_failed, &self.mark, &self.number, &self.compact, &self.certify];
+        let [mark_failed, mark, number, compact, certify] = std::array::from_fn(|i| kernels[i].bind(gpu, buffers[i]));
+        Ok(BoundFinish {
+            tets,
+            neighbors,
+            tet_of,
+            sums,
+            doubtful,
+            failed,
+            params,
+            mark_failed,
+            mark,
+            scan,
+            number,
+            compact,
+            certify,
+            bytes,
+        })
+    }
+
+    /// Records the search for failed vertices, the compaction of `blocks` blocks, and the certification.
+    pub fn record(&self, gpu: &Gpu, recorder: &mut Recorder<'_>, bound: &BoundFinish, blocks: u32, workgroups: u32) {
+        bound.params.write(gpu, 0, &[ScanParams { count: blocks * BLOCK }]);
+        recorder.encoder().clear_buffer(bound.tet_of.buffer(), 0, None);
+        recorder.stage("mark failed");
+        recorder.dispatch(&self.mark_failed, &bound.mark_failed, workgroups);
         recorder.stage("compact mesh");
-        recorder.dispatch(&self.mesh_mark, &mark, workgroups);
-        self.scan.record(recorder, &scan);
-        recorder.dispatch(&self.mesh_compact, &compact, workgroups);
-        if let Some(kernel) = &self.certify {
-            let certify = kernel.bind(
-                gpu,
-                &[
-                    control,
-                    b.points.vertices.buffer(),
-                    compacted.tets.buffer(),
-                    compacted.neighbors.buffer(),
-                    compacted.sums.buffer(),
-                    b.points.counts.buffer(),
-                    compacted.uncertain.buffer(),
-                ],
-            );
-            recorder.stage("certify");
-            recorder.dispatch(kernel, &certify, workgroups);
-        }
-        Ok(compacted)
+        recorder.dispatch(&self.mark, &bound.mark, workgroups);
+        self.scan.record(recorder, &bound.scan);
+        recorder.dispatch(&self.number, &bound.number, workgroups);
+        recorder.dispatch(&self.compact, &bound.compact, workgroups);
+        recorder.stage("certify");
+        recorder.dispatch(&self.certify, &bound.certify, workgroups);
     }
 }

@@ -9,6 +9,7 @@ use crate::{
 #[derive(Debug)]
 pub struct Flip {
     check: Kernel,
+    check_exact: Kernel,
     commit: Kernel,
     link: Kernel,
     clear_votes: Kernel,
@@ -18,6 +19,7 @@ pub struct Flip {
 #[derive(Debug)]
 pub struct BoundFlip {
     check: wgpu::BindGroup,
+    check_exact: wgpu::BindGroup,
     commit: wgpu::BindGroup,
     link: wgpu::BindGroup,
     clear_votes: wgpu::BindGroup,
@@ -29,6 +31,7 @@ impl Flip {
         let kernel = |name| Kernel::new(gpu, name, width, &[]);
         Flip {
             check: kernel("flip_check"),
+            check_exact: kernel("flip_check_exact"),
             commit: kernel("flip_commit"),
             link: kernel("flip_link"),
             clear_votes: kernel("clear_votes"),
@@ -40,8 +43,11 @@ impl Flip {
         let (control, tets, neighbors) = (b.control.buffer(), b.tets.buffer(), b.neighbors.buffer());
         let (status, active, free) = (b.status.buffer(), b.active.buffer(), b.free.buffer());
         let messages = b.messages.buffer();
+        // Messages pass between commit and link; before them, their buffer has the list of open entries.
+        let check = [control, b.points.vertices.buffer(), tets, neighbors, status, active, messages];
         BoundFlip {
-            check: self.check.bind(gpu, &[control, b.points.vertices.buffer(), tets, neighbors, status, active]),
+            check: self.check.bind(gpu, &check),
+            check_exact: self.check_exact.bind(gpu, &check),
             commit: self
                 .commit
                 .bind(gpu, &[control, tets, neighbors, status, active, free, messages, b.history.buffer()]),
@@ -55,6 +61,8 @@ impl Flip {
         for _ in 0..iterations {
             recorder.stage("flip: check");
             recorder.dispatch(&self.check, &bound.check, workgroups);
+            recorder.stage("flip: check exactly");
+            recorder.dispatch(&self.check_exact, &bound.check_exact, workgroups);
             recorder.stage("flip: commit");
             recorder.dispatch(&self.commit, &bound.commit, workgroups);
             recorder.stage("flip: link");

@@ -12,7 +12,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::sort::Sort;
+use super::sort::{BoundSort, Sort};
 use crate::{
     Error, Points,
     gpu::{Gpu, Kernel, Recorder, Storage, vertex, workgroups},
@@ -87,6 +87,22 @@ pub struct DevicePoints {
     pub counts: Storage<InputCounts>,
 }
 
+/// The buffers of the stage, with its bind groups, for points of one number and form.
+#[derive(Debug)]
+pub struct PointBuffers {
+    /// Points, words of input, width.
+    form: (usize, usize, Width),
+    params: Storage<InputParams>,
+    input: Storage<u32>,
+    table: Storage<u32>,
+    device: DevicePoints,
+    unite: wgpu::BindGroup,
+    keys: wgpu::BindGroup,
+    sort: BoundSort,
+    gather: wgpu::BindGroup,
+    bytes: u64,
+}
+
 impl PointStage {
     /// The kernels.
     pub fn new(gpu: &Gpu) -> Self {
@@ -96,7 +112,7 @@ impl PointStage {
     }
 
     /// Uploads `points`, which `lattice` was fitted to, and records what makes vertices of them. The vertices of the
-    /// points `wanted` come out in the counts.
+    /// points `wanted` come out in the counts. `kept` has the buffers of the last time, and is given those of this time.
     ///
     /// # Errors
     ///
@@ -105,19 +121,20 @@ impl PointStage {
         &self,
         gpu: &Gpu,
         recorder: &mut Recorder<'_>,
+        kept: &mut Option<PointBuffers>,
         points: Points<'_>,
         lattice: &Lattice,
         wanted: [u32; 4],
     ) -> Result<DevicePoints, Error> {
-        const LIMIT: usize = 1 << 30;
         let n = points.len();
-        if n > LIMIT {
-            return Err(Error::TooManyPoints { points: n, limit: LIMIT });
-        }
-        let slots = (2 * n.max(1)).next_power_of_two();
         let (bits, doubles): (&[u32], bool) = match points {
             Points::F32(p) => (bytemuck::cast_slice(p), false),
             Points::F64(p) => (bytemuck::cast_slice(p), true),
+        };
+        let form = (n, bits.len(), lattice.width());
+        let buffers = match kept.take() {
+            Some(buffers) if buffers.form == form => buffers,
+            _ => self.allocate(gpu, form)?,
         };
         let origin = lattice.origin().map(|origin| origin.unwrap_or(0));
         let params = InputParams {
@@ -126,36 +143,76 @@ impl PointStage {
             doubles: u32::from(doubles),
             varies: (0..3).map(|axis| u32::from(lattice.varies()[axis]) << axis).sum(),
             origin_low: origin.map(|origin| origin as u32),
-            table_mask: slots as u32 - 1,
+            table_mask: buffers.table.len() as u32 - 1,
             origin_high: origin.map(|origin| (origin >> 32) as u32),
             width: lattice.width().bits(),
             wanted,
         };
-        let params = Storage::with_contents(gpu, "point parameters", &[params])?;
-        let input = Storage::with_contents(gpu, "input points", bits)?;
-        let table = Storage::<u32>::new(gpu, "table of points", slots)?;
+        buffers.params.write(gpu, 0, &[params]);
+        buffers.input.write(gpu, 0, bits);
+        let encoder = recorder.encoder();
+        encoder.clear_buffer(buffers.table.buffer(), 0, None);
+        encoder.clear_buffer(buffers.device.counts.buffer(), 0, None);
+        let groups = workgroups(n as u32);
+        recorder.stage("unite");
+        recorder.dispatch(&self.unite, &buffers.unite, groups);
+        recorder.stage("keys");
+        recorder.dispatch(&self.keys, &buffers.keys, groups);
+        recorder.stage("sort");
+        self.sort.record(recorder, &buffers.sort);
+        recorder.stage("gather");
+        recorder.dispatch(&self.gather, &buffers.gather, groups);
+        let device = buffers.device.clone();
+        *kept = Some(buffers);
+        Ok(device)
+    }
+
+    fn allocate(&self, gpu: &Gpu, form: (usize, usize, Width)) -> Result<PointBuffers, Error> {
+        const LIMIT: usize = 1 << 30;
+        let (n, words, width) = form;
+        if n > LIMIT {
+            return Err(Error::TooManyPoints { points: n, limit: LIMIT });
+        }
+        let params = Storage::new(gpu, "point parameters", 1)?;
+        let input = Storage::<u32>::new(gpu, "input points", words)?;
+        let table = Storage::<u32>::new(gpu, "table of points", (2 * n.max(1)).next_power_of_two())?;
         let slots = Storage::<u32>::new(gpu, "slots of points", n)?;
-        let vertices = Storage::new(gpu, "vertices", (n + 1) * vertex::stride(lattice.width()))?;
         let mut pairs = Storage::new(gpu, "sort pairs", n)?;
         let mut scratch = Storage::new(gpu, "sort scratch", n)?;
         let united_with = Storage::new(gpu, "united points", n)?;
         let counts = Storage::new(gpu, "point counts", 1)?;
-
-        let [params, input, table, slots] = [params.buffer(), input.buffer(), table.buffer(), slots.buffer()];
-        let unite = self.unite.bind(gpu, &[params, input, table, slots]);
-        let keys =
-            self.keys.bind(gpu, &[params, input, table, slots, pairs.buffer(), united_with.buffer(), counts.buffer()]);
+        let vertices = Storage::new(gpu, "vertices", (n + 1) * vertex::stride(width))?;
+        let [unite, keys, gather]: [&[&wgpu::Buffer]; 3] = [
+            &[params.buffer(), input.buffer(), table.buffer(), slots.buffer()],
+            &[
+                params.buffer(),
+                input.buffer(),
+                table.buffer(),
+                slots.buffer(),
+                pairs.buffer(),
+                united_with.buffer(),
+                counts.buffer(),
+            ],
+            &[params.buffer(), input.buffer(), pairs.buffer(), vertices.buffer(), counts.buffer()],
+        ];
+        let (unite, keys) = (self.unite.bind(gpu, unite), self.keys.bind(gpu, keys));
+        let gather = self.gather.bind(gpu, gather);
         let sort = self.sort.bind(gpu, &mut pairs, &mut scratch, KEY_BITS)?;
-        let gather = self.gather.bind(gpu, &[params, input, pairs.buffer(), vertices.buffer(), counts.buffer()]);
-        let groups = workgroups(n as u32);
-        recorder.stage("unite");
-        recorder.dispatch(&self.unite, &unite, groups);
-        recorder.stage("keys");
-        recorder.dispatch(&self.keys, &keys, groups);
-        recorder.stage("sort");
-        self.sort.record(recorder, &sort);
-        recorder.stage("gather");
-        recorder.dispatch(&self.gather, &gather, groups);
-        Ok(DevicePoints { vertices, pairs, united_with, counts })
+        let bytes = params.bytes()
+            + input.bytes()
+            + table.bytes()
+            + slots.bytes()
+            + 2 * pairs.bytes()
+            + united_with.bytes()
+            + vertices.bytes();
+        let device = DevicePoints { vertices, pairs, united_with, counts };
+        Ok(PointBuffers { form, params, input, table, device, unite, keys, sort, gather, bytes })
+    }
+}
+
+impl PointBuffers {
+    /// The bytes that they take on the device.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
     }
 }

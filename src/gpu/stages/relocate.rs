@@ -25,6 +25,14 @@ pub struct BoundRelocate {
     scan: BoundScan,
     params: Storage<ScanParams>,
     compacted: Storage<Waiting>,
+    bytes: u64,
+}
+
+impl BoundRelocate {
+    /// The bytes that it takes on the device beside the buffers that it shares.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
 }
 
 impl Relocate {
@@ -58,6 +66,7 @@ impl Relocate {
             mark: self.mark.bind(gpu, &[control, waiting, marks.buffer()]),
             compact: self.compact.bind(gpu, &[control, waiting, offsets.buffer(), compacted.buffer()]),
             scan: self.scan.bind(gpu, &params, marks, &offsets)?,
+            bytes: compacted.bytes() + offsets.bytes(),
             params,
             compacted,
         })

@@ -1,0 +1,4 @@
+// Nothing is rounded to a narrow lattice.
+fn rounded(v: u32) -> bool {
+    return false;
+}

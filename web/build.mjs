@@ -1,0 +1,120 @@
+// Builds the package into web/dist: wasm by wasm-pack, JavaScript by esbuild, declarations by tsc.
+
+import { execFileSync } from 'node:child_process';
+import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { delimiter, dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
+import * as esbuild from 'esbuild';
+
+const web = dirname(fileURLToPath(import.meta.url));
+const root = dirname(web);
+const dist = join(web, 'dist');
+const pkg = (name) => join(web, 'pkg', name);
+
+/** The wasm modules: the feature of the crate, and the file in the package. */
+const MODULES = {
+  engine: { feature: 'wasm-engine', file: 'gdel.wasm' },
+  tools: { feature: 'wasm-tools', file: 'gdel-tools.wasm' },
+};
+
+const say = (text) => console.log(`build: ${text}`);
+// wasm-bindgen from there, and wasm-opt from the npm package binaryen: Debian's does not know what rustc emits.
+const PATH = [join(root, '.cache/tools/bin'), join(root, 'node_modules/.bin'), process.env.PATH].join(delimiter);
+const run = (command, args) => execFileSync(command, args, { cwd: root, stdio: 'inherit', env: { ...process.env, PATH } });
+
+function buildWasm() {
+  for (const [name, { feature }] of Object.entries(MODULES)) {
+    say(`${name}: wasm-pack`);
+    // prettier-ignore
+    run('wasm-pack', [
+      '--log-level', 'warn', 'build', '--release', '--mode', 'no-install', '--target', 'web', '--no-pack', '--no-typescript',
+      '--out-dir', pkg(name), '--out-name', 'gdel', root, '--', '--locked', '--no-default-features', '--features', feature,
+    ]);
+  }
+}
+
+/** The glue of wasm-bindgen keeps its instance in module variables. Here it becomes a function, of which each call has its
+ * own, and which sees the global object that it is given. */
+const glue = {
+  name: 'glue',
+  setup(build) {
+    build.onResolve({ filter: /^glue:/ }, ({ path }) => ({ path: path.slice('glue:'.length), namespace: 'glue' }));
+    build.onLoad({ filter: /.*/, namespace: 'glue' }, async ({ path }) => {
+      const { outputFiles } = await esbuild.build({
+        entryPoints: [join(pkg(path), 'gdel.js')],
+        bundle: true,
+        write: false,
+        format: 'cjs',
+        target: 'es2022',
+        // Used by the asynchronous initialisation only, which nobody calls.
+        define: { 'import.meta.url': '""' },
+      });
+      const [{ text }] = outputFiles;
+      // wgpu tells errors apart by these classes, which not every environment has as globals.
+      const classes = ['GPUValidationError', 'GPUOutOfMemoryError'].map(
+        (name) => `const ${name} = { [Symbol.hasInstance]: (e) => e?.constructor?.name === '${name}' };`,
+      );
+      const contents = `export default function (globalThis) { const module = { exports: {} }; ${classes.join(' ')}\n${text}\nreturn module.exports; }`;
+      return { contents, loader: 'js' };
+    });
+  },
+};
+
+/** Files as text: the wasm modules, compressed, in base64, and the bundled worker. */
+const inlined = {
+  name: 'inlined',
+  setup(build) {
+    build.onResolve({ filter: /^(base64|text):/ }, ({ path }) => ({ path, namespace: 'inlined' }));
+    build.onLoad({ filter: /.*/, namespace: 'inlined' }, ({ path }) => {
+      const name = path.slice(path.indexOf(':') + 1);
+      if (name === 'worker') return { contents: readFileSync(join(dist, 'worker.js'), 'utf8'), loader: 'text' };
+      const compressed = gzipSync(readFileSync(join(dist, MODULES[name].file)), { level: 9 });
+      return { contents: compressed.toString('base64'), loader: 'text' };
+    });
+  },
+};
+
+async function bundle(entry, outfile, options = {}) {
+  await esbuild.build({
+    entryPoints: [join(web, 'src', entry)],
+    outfile: join(dist, outfile),
+    bundle: true,
+    format: 'esm',
+    target: 'es2022',
+    legalComments: 'none',
+    plugins: [glue, inlined],
+    // Files of the package that stay files of their own.
+    external: ['./worker.js', 'node:*'],
+    ...options,
+  });
+}
+
+async function buildJs() {
+  rmSync(dist, { recursive: true, force: true });
+  mkdirSync(dist);
+  for (const [name, { file }] of Object.entries(MODULES)) cpSync(join(pkg(name), 'gdel_bg.wasm'), join(dist, file));
+  say('JavaScript: esbuild');
+  const runtime = (name) => ({ alias: { '#runtime': join(web, 'src', `runtime-${name}.ts`) } });
+  await bundle('worker.ts', 'worker.js');
+  await bundle('worker-node.ts', 'worker-node.js');
+  await bundle('index.ts', 'index.js', runtime('web'));
+  await bundle('index.ts', 'node.js', runtime('node'));
+  await bundle('index.ts', 'inline.js', { ...runtime('inline'), external: [] });
+  say('declarations: tsc');
+  run(process.execPath, [join(root, 'node_modules/typescript/bin/tsc'), '--project', web]);
+  // The three builds have one interface.
+  cpSync(join(dist, 'index.d.ts'), join(dist, 'inline.d.ts'));
+  for (const file of ['LICENSE-MIT', 'LICENSE-APACHE']) cpSync(join(root, file), join(web, file));
+}
+
+function reportSizes() {
+  const kilobytes = (file) => (gzipSync(readFileSync(join(dist, file)), { level: 9 }).length / 1e3).toFixed(1);
+  for (const file of ['gdel.wasm', 'gdel-tools.wasm', 'index.js', 'worker.js', 'node.js', 'inline.js']) {
+    say(`${file}: ${statSync(join(dist, file)).size} bytes, ${kilobytes(file)} kB gzipped`);
+  }
+}
+
+if (!process.argv.includes('--js') || !existsSync(pkg('tools'))) buildWasm();
+await buildJs();
+reportSizes();

@@ -1,0 +1,19 @@
+// What the build script makes of the wasm packages and of the worker.
+
+/** The JavaScript side of a wasm module, with a state of its own in each call: a broken instance can be replaced. */
+declare module 'glue:*' {
+  const makeGlue: (globalThis: object) => any;
+  export default makeGlue;
+}
+
+/** A compressed wasm module. */
+declare module 'base64:*' {
+  const base64: string;
+  export default base64;
+}
+
+/** The text of the bundled worker. */
+declare module 'text:worker' {
+  const source: string;
+  export default source;
+}

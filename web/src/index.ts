@@ -1,0 +1,29 @@
+/**
+ * Exact 3D Delaunay triangulation in the browser and in Node: WebGPU where there is a GPU, WebAssembly everywhere.
+ *
+ * @packageDocumentation
+ */
+/// <reference lib="esnext.disposable" preserve="true" />
+
+export { createEngine, delaunay3d, Engine } from './engine.js';
+export { GdelError, type GdelErrorCode } from './errors.js';
+export { Mesh3 } from './mesh.js';
+export { generate, readPoints, verify, type ReadOptions } from './tools.js';
+export type {
+  AccessorOptions,
+  AdapterInfo,
+  Check,
+  Distribution,
+  EngineInfo,
+  EngineName,
+  EngineOptions,
+  MeshStatement,
+  Output,
+  PointCloud,
+  Points,
+  Progress,
+  Report,
+  RunOptions,
+  Stats,
+  TaskOptions,
+} from './types.js';

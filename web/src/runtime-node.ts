@@ -1,0 +1,28 @@
+// Node: files beside this one, read and not fetched; worker threads.
+
+import { readFile } from 'node:fs/promises';
+import { Worker } from 'node:worker_threads';
+import type { Runtime } from './runtime.js';
+
+export const runtime: Runtime = {
+  async compile(name) {
+    const url =
+      name === 'engine' ? new URL('./gdel.wasm', import.meta.url) : new URL('./gdel-tools.wasm', import.meta.url);
+    return WebAssembly.compile(await readFile(url));
+  },
+
+  workers: [
+    () => {
+      const worker = new Worker(new URL('./worker-node.js', import.meta.url), { name: 'gdel-wasm' });
+      return {
+        post: (message, transfer) => worker.postMessage(message, transfer),
+        onMessage: (handler) => worker.on('message', handler),
+        onError: (handler) => worker.on('error', handler),
+        terminate: () => void worker.terminate(),
+        keepAlive: (busy) => (busy ? worker.ref() : worker.unref()),
+      };
+    },
+  ],
+
+  code: () => import('./worker.js'),
+};

@@ -1,0 +1,33 @@
+// Browsers and Deno: files beside this one.
+
+import type { Runtime } from './runtime.js';
+import { blobWorker, webWorker } from './web-worker.js';
+
+export const runtime: Runtime = {
+  async compile(name) {
+    // Written out, so that bundlers find the files.
+    const url =
+      name === 'engine' ? new URL('./gdel.wasm', import.meta.url) : new URL('./gdel-tools.wasm', import.meta.url);
+    const response = await fetch(url);
+    if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+    // Streaming compilation needs the right type, which not every server sends.
+    if (response.headers.get('content-type')?.startsWith('application/wasm')) {
+      return WebAssembly.compileStreaming(response);
+    }
+    return WebAssembly.compile(await response.arrayBuffer());
+  },
+
+  workers: [
+    () => webWorker(new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'gdel-wasm' })),
+    // Scripts from another origin, such as a CDN, may not be workers, but their text may.
+    async () => {
+      const url = new URL('./worker.js', import.meta.url);
+      if (url.origin === globalThis.location?.origin) throw new Error('the worker was blocked or could not be loaded');
+      const response = await fetch(url);
+      if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+      return blobWorker(await response.text());
+    },
+  ],
+
+  code: () => import('./worker.js'),
+};

@@ -1,0 +1,162 @@
+/**
+ * Points: x, y, z, x, y, z, … in one typed array, or one row a point. Every finite number is taken at its exact value.
+ *
+ * A `Float32Array` or `Float64Array` is the fastest; anything else is converted to `Float64Array`, a slice at a time so
+ * that the page stays responsive: do not change it before the result is there.
+ */
+export type Points = Float32Array | Float64Array | ArrayLike<ArrayLike<number>>;
+
+/** `'auto'`: the GPU where there is a hardware adapter and enough points, else the CPU. */
+export type EngineName = 'auto' | 'gpu' | 'cpu';
+
+/** The arrays of a mesh that can be left out. */
+export type Output = 'neighbors' | 'hull' | 'duplicateOf';
+
+/** How far a run has come. */
+export interface Progress {
+  /** The phase that is running, as in {@link Stats.phases}. */
+  phase: string;
+  /** The share of the whole run that is done, 0 to 1. It never falls, except where the CPU engine takes over. */
+  fraction: number;
+}
+
+/** For everything that can take long. */
+export interface TaskOptions {
+  /** Aborts the work, within 100 ms; the promise is rejected at once, with the signal's reason if that is not the
+   * usual `AbortError`, else with a {@link GdelError} of code `ABORTED`. */
+  signal?: AbortSignal | undefined;
+  /** Called at most some 50 times a second, the last time with fraction 1. */
+  onProgress?: ((progress: Progress) => void) | undefined;
+}
+
+/** How to triangulate. */
+export interface RunOptions extends TaskOptions {
+  /** Which engine; all give the same set of tetrahedra. Default: the engine's own, `'auto'`. */
+  engine?: EngineName | undefined;
+  /** The arrays to deliver besides `tetrahedra`; those left out are empty. Default: all. */
+  outputs?: readonly Output[] | undefined;
+  /** Give the input's buffer away instead of copying it: the array, and every other view of its buffer, is empty
+   * afterwards. {@link Mesh3.points} gives the coordinates back. Default: false. */
+  transfer?: boolean | undefined;
+}
+
+/** How to triangulate points that are objects. */
+export interface AccessorOptions<T> extends RunOptions {
+  /** The coordinates of an item. */
+  point: (item: T, index: number) => ArrayLike<number>;
+}
+
+/** How to make an engine. */
+export interface EngineOptions {
+  /** The engine of runs that name none, default `'auto'`. With `'gpu'`, `createEngine` fails where no GPU can be used. */
+  engine?: EngineName | undefined;
+  /** A `GPU` object where `navigator.gpu` is missing, such as `create([])` of the npm package `webgpu` in Node. It cannot
+   * be sent to another thread, so runs then take place in the calling one. */
+  gpu?: object | undefined;
+  /** Whether to work in a thread of its own, default true. */
+  worker?: boolean | undefined;
+}
+
+/** A WebGPU adapter, as the browser describes it. Browsers may leave strings empty. */
+export interface AdapterInfo {
+  vendor: string;
+  architecture: string;
+  device: string;
+  description: string;
+  /** It computes on the CPU: correct, but slower than the CPU engine. */
+  software: boolean;
+  /** The largest buffer that a kernel can see, in bytes: what bounds the size of the input. */
+  maxStorageBufferBindingSize: number;
+}
+
+/** What an engine works with. */
+export interface EngineInfo {
+  /** The engine that `'auto'` takes for large inputs. */
+  engine: 'gpu' | 'cpu';
+  /** Why that is the CPU engine; null where it is the GPU. */
+  why: string | null;
+  /** The adapter that was found, used or not. */
+  adapter: AdapterInfo | null;
+  /** Where the work is done. */
+  thread: 'worker' | 'caller';
+  /** Why it is done in the calling thread; null where there is a worker. */
+  whyThread: string | null;
+}
+
+/** What a run did. */
+export interface Stats {
+  /** The engine that made the mesh. */
+  engine: 'gpu' | 'cpu';
+  /** Why the CPU engine made it, where that was not asked for; else null. */
+  why: string | null;
+  /** The adapter, where the GPU engine made the mesh. */
+  adapter: AdapterInfo | null;
+  /** Where the work was done, and why, if that was in the calling thread. */
+  thread: 'worker' | 'caller';
+  whyThread: string | null;
+  /** The phases in the order in which they ran. */
+  phases: { name: string; milliseconds: number }[];
+  /** Milliseconds of the whole run, copies to and from WebAssembly included. */
+  milliseconds: number;
+  /** Signs that the floating-point filter left open, by what decided them. */
+  exact: {
+    /** Integers on the lattice. */
+    integer: number;
+    /** Expansions or big integers, where a point does not fit the lattice. */
+    expansion: number;
+    /** Cospherical points: the symbolic perturbation. */
+    symbolic: number;
+  };
+  /** Bytes of WebAssembly memory: the most that was ever needed, since it never shrinks. */
+  wasmBytes: number;
+}
+
+/** The distributions of {@link generate}. */
+export type Distribution = 'uniform' | 'gaussian' | 'ball' | 'sphere' | 'thin-sphere' | 'grid';
+
+/** Points of a file. */
+export interface PointCloud {
+  /** x, y, z, x, y, z, … in the precision of the file. */
+  points: Float32Array | Float64Array;
+  /** Points of the file that are left out because they hold no measurement (NaN in a PCD file). */
+  noReturn: number;
+}
+
+/** A property that the verifier decides, and how that ended. */
+export interface Check {
+  /** Such as `'orientation'` or `'delaunay'`. */
+  name: string;
+  outcome: 'passed' | 'failed' | 'not stated' | 'not decided';
+  passed: boolean;
+  /** The first defect, in words. */
+  detail: string;
+  /** In how many places the property does not hold. */
+  defects: number;
+}
+
+/** What the verifier found. */
+export interface Report {
+  /** The mesh is the Delaunay triangulation of the points, with the ties broken as documented. */
+  passed: boolean;
+  /** The affine dimension of the points, 0 to 3. */
+  dimension: number;
+  checks: Check[];
+  counts: {
+    points: number;
+    distinctPoints: number;
+    vertices: number;
+    edges: number;
+    facets: number;
+    tetrahedra: number;
+    hullTriangles: number;
+  };
+}
+
+/** What the verifier takes for a mesh: what is missing is not checked. */
+export interface MeshStatement {
+  tetrahedra: Uint32Array;
+  neighbors?: Int32Array | undefined;
+  hull?: Uint32Array | undefined;
+  duplicateOf?: Int32Array | undefined;
+  dimension?: number | undefined;
+}

@@ -1,0 +1,60 @@
+// The worker: one core, one task at a time. Also loaded by the page itself where it may have no worker.
+
+import { buffersOf, makeCore, type Core } from './core.js';
+import type { PlainError } from './errors.js';
+import type { FromWorker, TaskName, Tasks, ToWorker } from './protocol.js';
+
+export { makeCore } from './core.js';
+
+/** The port to whoever made this worker. */
+export interface Port {
+  post(message: FromWorker, transfer: ArrayBuffer[]): void;
+  listen(handler: (message: ToWorker) => void): void;
+}
+
+/** Serves the tasks that come through `port`. */
+export function serve(port: Port): void {
+  let core: Core | undefined;
+  const aborted = new Set<number>();
+
+  async function run(id: number, task: TaskName, args: Tasks[TaskName]['args']) {
+    try {
+      if (!core) throw { code: 'INTERNAL', message: 'the worker was not started', fatal: true } satisfies PlainError;
+      const result = await core.run(task, args, {
+        onProgress: (progress) => port.post({ type: 'progress', id, progress }, []),
+        isAborted: () => aborted.has(id),
+      });
+      port.post({ type: 'done', id, result }, buffersOf(result));
+    } catch (thrown) {
+      port.post({ type: 'failed', id, error: thrown as PlainError }, []);
+    } finally {
+      aborted.delete(id);
+    }
+  }
+
+  port.listen((message) => {
+    if (message.type === 'start') {
+      core = makeCore(message.name, message.module);
+    } else if (message.type === 'run') {
+      void run(message.id, message.task, message.args);
+    } else {
+      aborted.add(message.id);
+    }
+  });
+  port.post({ type: 'ready' }, []);
+}
+
+/** The name of our workers: a page's own worker may load this file too, and its messages are not for us. */
+const WORKER_NAME = 'gdel-wasm';
+
+declare const DedicatedWorkerGlobalScope: { new (): Worker & { name: string } } | undefined;
+
+if (typeof DedicatedWorkerGlobalScope !== 'undefined') {
+  const scope: unknown = globalThis;
+  if (scope instanceof DedicatedWorkerGlobalScope && scope.name === WORKER_NAME) {
+    serve({
+      post: (message, transfer) => scope.postMessage(message, transfer),
+      listen: (handler) => scope.addEventListener('message', (event) => handler(event.data)),
+    });
+  }
+}
