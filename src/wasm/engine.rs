@@ -56,7 +56,7 @@ impl GpuEngine {
     }
 
     /// Triangulates. `report(phase, fraction)` breaks off by returning true.
-    pub async fn delaunay3d(&self, points: JsValue, outputs: Outputs, report: Function) -> Result<JsValue, JsValue> {
+    pub async fn delaunay3d(&mut self, points: JsValue, outputs: Outputs, report: Function) -> Result<JsValue, JsValue> {
         let coordinates = Coordinates::new(&points)?;
         drop(points);
         let options = options(report);

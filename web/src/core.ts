@@ -4,7 +4,7 @@ import makeEngineGlue from 'glue:engine';
 import makeToolsGlue from 'glue:tools';
 import { toPlainError, type PlainError } from './errors.js';
 import type { Control, CoreInfo, ModuleName, TaskName, Tasks } from './protocol.js';
-import type { AdapterInfo } from './types.js';
+import type { AdapterInfo, EngineName } from './types.js';
 
 /** Below so many points, a device takes longer to start than the CPU engine to finish. */
 export const FEW_POINTS = 20_000;
@@ -68,51 +68,56 @@ function engineTasks(module: WebAssembly.Module, gpu: object | undefined) {
   const glue = makeEngineGlue(gpu ? scopeWith(gpu) : globalThis);
   const { memory } = glue.initSync({ module });
 
-  /** The GPU engine, or why there is none. It is opened once, and again after its device was lost. */
-  type Opened = CoreInfo & { gpuEngine: InstanceType<typeof glue.GpuEngine> | null };
-  let opening: Promise<Opened> | undefined;
+  type GpuEngine = InstanceType<typeof glue.GpuEngine>;
+  let opening: Promise<GpuEngine> | undefined;
 
-  async function open(): Promise<Opened> {
-    let adapter: AdapterInfo | null = null;
-    const without = (why: string, error: PlainError): Opened => ({ engine: 'cpu', why, adapter, error, gpuEngine: null });
+  /** The adapter, as far as there is one. */
+  async function look(): Promise<AdapterInfo> {
     const none = (message: string): PlainError => ({ code: 'NO_ADAPTER', message, fatal: false });
     const api = (gpu ?? globalThis.navigator?.gpu) as Gpu | undefined;
-    if (!api) {
-      const why = 'WebGPU is not available here (there is no navigator.gpu)';
-      return without(why, none(why));
-    }
-    const found = await api.requestAdapter({ powerPreference: 'high-performance' });
-    if (!found) {
-      const why = 'WebGPU has no adapter here';
-      return without(why, none(why));
-    }
-    adapter = describe(found);
-    try {
-      const gpuEngine = await glue.GpuEngine.open();
-      const slow = adapter.software
-        ? `the adapter is software (${[adapter.vendor, adapter.architecture].join(' ').trim()}), which is slower than the CPU engine`
-        : null;
-      return { engine: slow ? 'cpu' : 'gpu', why: slow, adapter, error: null, gpuEngine };
-    } catch (thrown) {
-      const error = toPlainError(thrown, memory.buffer.byteLength);
-      if (error.fatal) throw thrown;
-      return without(error.message, error);
-    }
+    if (!api) throw none('WebGPU is not available here (there is no navigator.gpu)');
+    const adapter = await api.requestAdapter({ powerPreference: 'high-performance' });
+    if (!adapter) throw none('WebGPU has no adapter here');
+    return describe(adapter);
   }
 
-  /** Opens the GPU; `auto` does without one that is only software. */
-  function opened(): Promise<Opened> {
-    return (opening ??= open().catch((thrown) => {
+  /** The device with its kernels, which are compiled once, and again after it was lost. */
+  function device(): Promise<GpuEngine> {
+    opening ??= glue.GpuEngine.open().catch((thrown: unknown) => {
       opening = undefined;
       throw thrown;
-    }));
+    });
+    return opening!;
   }
 
+  function close(): void {
+    void opening?.then((gpuEngine) => gpuEngine.destroy(), () => {});
+    opening = undefined;
+  }
+
+  /** What `engine` would use. `auto` takes no adapter that is only software, and spends no time on compiling for it. */
+  async function open(engine: EngineName): Promise<CoreInfo> {
+    let adapter: AdapterInfo | null = null;
+    try {
+      adapter = await look();
+      if (engine === 'auto' && adapter.software) {
+        const name = [adapter.vendor, adapter.architecture, adapter.description].filter(Boolean).join(' ');
+        return { engine: 'cpu', why: `the adapter (${name}) is software, slower than the CPU engine`, adapter };
+      }
+      await device();
+      return { engine: 'gpu', why: null, adapter };
+    } catch (thrown) {
+      const error = toPlainError(thrown, memory.buffer.byteLength);
+      if (engine === 'gpu' || error.fatal) throw thrown;
+      return { engine: 'cpu', why: error.message, adapter };
+    }
+  }
+
+  const infos: { [engine in EngineName]?: CoreInfo } = {};
+  const opened = async (engine: EngineName) => (infos[engine] ??= await open(engine));
+
   const handlers: Handlers = {
-    async open() {
-      const { gpuEngine: _, ...info } = await opened();
-      return info;
-    },
+    open: ({ engine }) => opened(engine),
     async delaunay3d({ points, engine, outputs }, control) {
       const started = performance.now();
       const wanted = () => new glue.Outputs(outputs.includes('neighbors'), outputs.includes('hull'), outputs.includes('duplicateOf'));
@@ -141,30 +146,20 @@ function engineTasks(module: WebAssembly.Module, gpu: object | undefined) {
       if (engine === 'auto' && points.length < 3 * FEW_POINTS) {
         return onCpu(`fewer than ${FEW_POINTS} points are faster on the CPU`);
       }
-      const { gpuEngine, engine: best, adapter, why, error } = await opened();
-      if (!gpuEngine || (engine === 'auto' && best === 'cpu')) {
-        if (engine === 'gpu') throw error;
-        return onCpu(why);
-      }
+      const { engine: best, why, adapter } = await opened(engine);
+      if (best === 'cpu') return onCpu(why);
       try {
-        return finish(await gpuEngine.delaunay3d(points, wanted(), onProgress), adapter, null);
+        return finish(await (await device()).delaunay3d(points, wanted(), onProgress), adapter, null);
       } catch (thrown) {
         const { code, message, fatal } = toPlainError(thrown, memory.buffer.byteLength);
-        if (code === 'DEVICE_LOST' || code === 'GPU') {
-          opening = undefined;
-          gpuEngine.free();
-        }
-        const unfit: string[] = ['DEVICE_LOST', 'GPU', 'OUT_OF_DEVICE_MEMORY', 'BUFFER_TOO_LARGE'];
+        if (code === 'DEVICE_LOST' || code === 'GPU') close();
+        const unfit: string[] = ['DEVICE_LOST', 'GPU', 'NO_ADAPTER', 'OUT_OF_DEVICE_MEMORY', 'BUFFER_TOO_LARGE'];
         if (engine === 'gpu' || fatal || !unfit.includes(code)) throw thrown;
         return onCpu(message);
       }
     },
   };
-  const dispose = () => {
-    void opening?.then(({ gpuEngine }) => gpuEngine?.destroy());
-    opening = undefined;
-  };
-  return { handlers, memory, dispose };
+  return { handlers, memory, dispose: close };
 }
 
 /** Chromium says `isFallbackAdapter`; the names are those of the software rasterisers that browsers and Mesa have. */

@@ -57,18 +57,12 @@ export async function createEngine(options: EngineOptions = {}): Promise<Engine>
   checkEngine(engine);
   const host = new Host('engine', { gpu, worker });
   try {
+    if (engine !== 'cpu') return new Engine(host, engine, await host.run('open', { engine }, [], {}));
     // A run on no points shows that the engine works, and where.
-    if (engine === 'cpu') {
-      const args = { points: new Float64Array(0), engine, outputs: [] };
-      const { thread, whyThread } = await host.run('delaunay3d', args, [], {});
-      return new Engine(host, engine, { engine, why: 'the caller asked for it', adapter: null, thread, whyThread });
-    }
-    const { error, ...info } = await host.run('open', {}, [], {});
-    if (engine === 'gpu') {
-      if (error) throw new GdelError(error.code, error.message);
-      return new Engine(host, engine, { ...info, engine, why: null });
-    }
-    return new Engine(host, engine, info);
+    const args = { points: new Float64Array(0), engine, outputs: [] };
+    const { thread, whyThread } = await host.run('delaunay3d', args, [], {});
+    const why = 'the caller asked for it';
+    return new Engine(host, engine, { engine, why, adapter: null, thread, whyThread });
   } catch (error) {
     host.dispose();
     throw error;

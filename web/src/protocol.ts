@@ -16,16 +16,13 @@ export interface MeshArrays {
   dimension?: number | undefined;
 }
 
-export interface CoreInfo extends Omit<EngineInfo, 'thread' | 'whyThread'> {
-  /** Why `engine: 'gpu'` would fail. */
-  error: PlainError | null;
-}
+export type CoreInfo = Omit<EngineInfo, 'thread' | 'whyThread'>;
 
 export type CoreStats = Omit<Stats, 'thread' | 'whyThread'>;
 
 /** What can be asked for: arguments and result of each task. */
 export interface Tasks {
-  open: { args: {}; result: CoreInfo };
+  open: { args: { engine: EngineName }; result: CoreInfo };
   delaunay3d: {
     args: { points: Coordinates; engine: EngineName; outputs: readonly Output[] };
     result: {
