@@ -1,4 +1,4 @@
-import { generate } from 'gdel-wasm';
+import { type Engine as Gdel, generate } from 'gdel-wasm';
 import { frameOf } from '../geometry/mesh';
 import { type DrawRequest, type Drawing, type Engine, Model } from './model';
 
@@ -24,11 +24,11 @@ export class Live {
     return new Live(count, await generate('ball', count, { seed: 1 }));
   }
 
-  async frame(engine: Engine, seconds: number, request: DrawRequest): Promise<{ model: Model; frame: LiveFrame }> {
+  async frame(gdel: Gdel, engine: Engine, seconds: number, request: DrawRequest): Promise<{ model: Model; frame: LiveFrame }> {
     this.moveTo(seconds);
-    const model = await Model.make(this.moved, { engine, outputs: ['neighbors'] }, UNIT);
-    const { milliseconds, mesh } = model;
-    return { model, frame: { drawing: model.draw(request), tetrahedra: mesh.tetrahedra.length / 4, milliseconds } };
+    const model = await Model.make(gdel, this.moved, { engine, outputs: ['neighbors'] }, UNIT);
+    const { tetrahedra, stats } = model.mesh;
+    return { model, frame: { drawing: model.draw(request), tetrahedra: tetrahedra.length / 4, milliseconds: stats.milliseconds } };
   }
 
   private moveTo(seconds: number): void {

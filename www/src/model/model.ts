@@ -1,4 +1,4 @@
-import { delaunay3d, type Mesh3, type RunOptions, type Stats } from 'gdel-wasm';
+import type { Engine as Gdel, EngineName, Mesh3, RunOptions, Stats } from 'gdel-wasm';
 import { applyFilter, type Filter, type Kept, typicalAlpha } from '../geometry/filter';
 import { type Measures, measure } from '../geometry/measures';
 import { type Frame, frameOf, type Tetrahedralisation, toFrame } from '../geometry/mesh';
@@ -17,7 +17,7 @@ const MOST_FACETS = 4_000_000;
 /** Of up to so many points, a run can be recorded: the triangulation after each round, and what flipping left. */
 export const MOST_POINTS_TO_RECORD = 40_000;
 
-export type Engine = 'auto' | 'gpu' | 'cpu';
+export type Engine = EngineName;
 
 /** What a run gave, in numbers. */
 export interface Summary {
@@ -26,8 +26,6 @@ export interface Summary {
   tetrahedra: number;
   hullTriangles: number;
   dimension: number;
-  /** From points in memory to mesh in memory, on this page's clock. */
-  milliseconds: number;
   stats: Stats;
   /** An alpha that suits these points, and the range that is worth a slider. */
   alpha: { typical: number; range: [number, number] };
@@ -95,7 +93,6 @@ export class Model {
   private constructor(
     readonly points: Float32Array | Float64Array,
     readonly mesh: Mesh3,
-    readonly milliseconds: number,
     frame: Frame,
   ) {
     this.positions = toFrame(points, frame);
@@ -103,10 +100,9 @@ export class Model {
     this.created = mesh.trace?.created ?? null;
   }
 
-  static async make(points: Float32Array | Float64Array, options: RunOptions, frame?: Frame): Promise<Model> {
-    const started = performance.now();
-    const mesh = await delaunay3d(points, options);
-    return new Model(points, mesh, performance.now() - started, frame ?? frameOf(points));
+  static async make(gdel: Gdel, points: Float32Array | Float64Array, options: RunOptions, frame?: Frame): Promise<Model> {
+    const mesh = await gdel.delaunay3d(points, options);
+    return new Model(points, mesh, frame ?? frameOf(points));
   }
 
   summary(): Summary {
@@ -120,7 +116,6 @@ export class Model {
       tetrahedra: mesh.tetrahedra.length / 4,
       hullTriangles: mesh.hull.length / 3,
       dimension: mesh.dimension,
-      milliseconds: this.milliseconds,
       stats: mesh.stats,
       alpha: { typical: typicalAlpha(this.points, mesh.tetrahedra), range: [low, high] },
       trace: mesh.trace

@@ -1,5 +1,5 @@
 import * as Comlink from 'comlink';
-import { GdelError, verify } from 'gdel-wasm';
+import { createEngine, type EngineInfo, GdelError, verify } from 'gdel-wasm';
 import type { Ray } from '../geometry/pick';
 import { Live, type LiveFrame } from './live';
 import { type DrawRequest, type Drawing, type Engine, Model, type Picked, type Summary } from './model';
@@ -10,6 +10,7 @@ export type Progress = (progress: { phase: string; fraction: number }) => void;
 
 /** The points and the mesh live in this worker, so that the page never waits for them. */
 class ModelWorker {
+  private readonly gdel = createEngine();
   private model: Model | null = null;
   private live: Live | null = null;
   /** What the page shows: the mesh, or the last frame of the live mode. */
@@ -21,7 +22,7 @@ class ModelWorker {
     return named(async () => {
       const signal = this.begin();
       const points = await load(source, { signal, onProgress });
-      this.model = await Model.make(points, { engine, signal, onProgress });
+      this.model = await Model.make(await this.gdel, points, { engine, signal, onProgress });
       onProgress({ phase: 'Measuring tetrahedra', fraction: 1 });
       return this.model.summary();
     });
@@ -31,7 +32,7 @@ class ModelWorker {
   record(onProgress: Progress): Promise<Summary> {
     return named(async () => {
       const options = { engine: 'gpu', signal: this.begin(), onProgress, outputs: [...ALL, 'trace'] } as const;
-      this.model = await Model.make(this.current.points, options);
+      this.model = await Model.make(await this.gdel, this.current.points, options);
       return this.model.summary();
     });
   }
@@ -39,9 +40,14 @@ class ModelWorker {
   /** Triangulates the present points once more, for the comparison. */
   time(engine: Engine): Promise<{ milliseconds: number; tetrahedra: number }> {
     return named(async () => {
-      const again = await Model.make(this.current.points, { engine, signal: this.begin(), outputs: [] });
-      return { milliseconds: again.milliseconds, tetrahedra: again.mesh.tetrahedra.length / 4 };
+      const again = await Model.make(await this.gdel, this.current.points, { engine, signal: this.begin(), outputs: [] });
+      return { milliseconds: again.mesh.stats.milliseconds, tetrahedra: again.mesh.tetrahedra.length / 4 };
     });
+  }
+
+  /** What the engines work with here. */
+  info(): Promise<EngineInfo> {
+    return named(async () => (await this.gdel).info);
   }
 
   cancel(): void {
@@ -86,7 +92,7 @@ class ModelWorker {
   /** Moves the points of the live mode to a moment, in seconds, and triangulates them. */
   async liveFrame(count: number, engine: Engine, seconds: number, request: DrawRequest): Promise<LiveFrame> {
     if (this.live?.count !== count) this.live = await Live.make(count);
-    const { model, frame } = await this.live.frame(engine, seconds, request);
+    const { model, frame } = await this.live.frame(await this.gdel, engine, seconds, request);
     this.shown = model;
     return frame;
   }

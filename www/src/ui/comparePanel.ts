@@ -2,6 +2,7 @@ import { type Time, timesChart } from '../charts/times';
 import { runQhull } from '../compare/qhull';
 import type { Page, Part } from '../page';
 import { byId, count, create, duration } from './dom';
+import { nameOf } from './result';
 
 /** The panel that runs the same points on other engines, and the one that proves the mesh. */
 export function comparePanel(page: Page): Part {
@@ -42,7 +43,12 @@ async function compare(page: Page): Promise<void> {
 
   button.textContent = 'Stop';
   try {
+    const { adapter } = await page.model.info();
     for (const [engine, name] of [['gpu', 'GPU engine'], ['cpu', 'CPU engine']] as const) {
+      if (engine === 'gpu' && adapter?.software) {
+        notes.push(`GPU engine: left out, because the adapter is only software (${nameOf(adapter)}).`);
+        continue;
+      }
       say(`Running the ${name} …`);
       try {
         const { milliseconds, tetrahedra: found } = await page.model.time(engine);

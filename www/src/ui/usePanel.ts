@@ -3,6 +3,7 @@ import { titleOf } from '../model/source';
 import type { Page, Part } from '../page';
 import { byId, count, create } from './dom';
 import { showMessage } from './message';
+import { nameOf } from './result';
 
 /** The panel with downloads, the code, and what this machine's WebGPU can do. */
 export function usePanel(page: Page): Part {
@@ -23,10 +24,9 @@ export function usePanel(page: Page): Part {
     }
     setTimeout(() => (copy.textContent = 'Copy'), 2500);
   });
-  void describeMachine(page);
   return {
     changed: () => (byId('code').textContent = codeFor(page)),
-    ran: () => void describeMachine(page),
+    showed: () => byId('use').hidden || void describeMachine(page),
   };
 }
 
@@ -88,15 +88,15 @@ const LIMITS = [
   'maxComputeWorkgroupStorageSize', 'maxComputeWorkgroupsPerDimension',
 ] as const;
 
-async function describeMachine({ viewer }: Page): Promise<void> {
-  const adapter = await navigator.gpu?.requestAdapter();
-  const drawing: [string, string][] = viewer ? [['Drawing', viewer.api]] : [];
-  const rows: [string, string][] = adapter
-    ? [
-        ['Adapter', adapter.info.description || [adapter.info.vendor, adapter.info.architecture].filter(Boolean).join(' ') || 'unnamed'],
-        ...drawing,
-        ...LIMITS.map((limit): [string, string] => [limit, count(adapter.limits[limit])]),
-      ]
-    : [['WebGPU', navigator.gpu ? 'no adapter: the CPU engine does the work' : 'not in this browser: the CPU engine does the work'], ...drawing];
+async function describeMachine({ model, viewer }: Page): Promise<void> {
+  const { adapter, why, thread, whyThread } = await model.info();
+  const rows: [string, string][] = [
+    ['Adapter', adapter ? nameOf(adapter) : 'none'],
+    ['Large inputs', why ? `CPU engine: ${why}` : 'GPU engine'],
+    ['Work is done', thread === 'worker' ? 'in a worker' : `in the page’s worker: ${whyThread}`],
+    ['Drawing', viewer ? viewer.api : 'none'],
+  ];
+  const limits = (await navigator.gpu?.requestAdapter())?.limits;
+  if (limits) rows.push(...LIMITS.map((limit): [string, string] => [limit, count(limits[limit])]));
   byId('machine').replaceChildren(...rows.map(([name, value]) => create('tr', {}, create('th', { scope: 'row' }, name), create('td', {}, value))));
 }
