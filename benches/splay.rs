@@ -43,11 +43,11 @@ fn benchmark(c: &mut Criterion) {
         let mut tetrahedra = mesh.tetrahedra;
         tetrahedra.sort_unstable_by_key(|t| t.iter().min().copied());
         let near = flips::found_out(&vertices, &flips::near(n as u32, &tetrahedra));
-        if let Ok(Outcome::Delaunay(_, stats)) = splay(&vertices, near.clone(), u64::MAX, &|_| Ok(())) {
+        if let Ok(Outcome::Delaunay(_, stats)) = splay(&vertices, near.clone(), u64::MAX, 4, &|_| Ok(())) {
             println!("{stats:?}");
         }
         group.bench_function(BenchmarkId::new("uniform", n), |b| {
-            let run = |near| splay(&vertices, near, u64::MAX, &|_| Ok(()));
+            let run = |near| splay(&vertices, near, u64::MAX, 4, &|_| Ok(()));
             b.iter_batched(|| near.clone(), run, BatchSize::PerIteration);
         });
     }

@@ -74,7 +74,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         stats.milliseconds,
         all.join(","),
         stats.readback_milliseconds,
-        stats.rounds,
+        stats.rounds.iter().filter(|round| round.inserted > 0).count(),
         counters.iterations,
         counters.visits,
         counters.flips_23,

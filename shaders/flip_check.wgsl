@@ -1,5 +1,5 @@
 // Checks the facets of each active tetrahedron as far as the filter decides (§4.4), and lists the entries that it leaves to
-// flip_check_exact. One invocation an entry of the active list.
+// flip_check_exact. Where that does not follow, they stay active. One invocation an entry of the active list.
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read> vertices: array<vec4i>;
 // The entries that are open.

@@ -35,6 +35,11 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
                 fail(tet[c.x]);
                 fail(tet[c.y]);
                 fail(tet[c.z]);
+                // Both sides may be suspect: the one with the lower number counts.
+                let other = near[k] >> 2;
+                if other > t || ((atomicLoad(&status[other].flags) >> (SUSPECT_SHIFT + (near[k] & 3))) & 1) == 0 {
+                    atomicAdd(&control.not_locally_delaunay, 1u);
+                }
             }
         }
     }

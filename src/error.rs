@@ -59,7 +59,7 @@ pub enum Error {
         what: &'static str,
     },
     /// A buffer would be larger than kernels on this GPU can see.
-    #[error("the buffer of {label} would need {bytes} bytes, but this GPU binds at most {limit}")]
+    #[error("the buffer of {label} would need {bytes} bytes, but this GPU binds at most {limit}{}", fitting(.points))]
     BufferTooLarge {
         /// What the buffer holds.
         label: &'static str,
@@ -67,6 +67,8 @@ pub enum Error {
         bytes: u128,
         /// The largest size that this GPU can bind.
         limit: u64,
+        /// About how many points it can take, where the buffer is one of a triangulation.
+        points: Option<usize>,
     },
     /// The GPU reports what should not happen: a defect of this crate or of the driver.
     #[error("the GPU reports: {message}")]
@@ -89,4 +91,22 @@ pub enum Error {
     /// The progress callback asked to stop.
     #[error("cancelled")]
     Cancelled,
+}
+
+/// What can be done instead.
+fn fitting(points: &Option<usize>) -> String {
+    points.map_or_else(String::new, |points| format!(", enough for about {points} points"))
+}
+
+#[cfg(feature = "gpu")]
+impl Error {
+    /// Whether it is the GPU's, so that the CPU engine may still do what this one could not.
+    pub(crate) fn is_of_the_gpu(&self) -> bool {
+        use Error::*;
+        match self {
+            NoAdapter { .. } | AdapterNotFound { .. } | DeviceLost { .. } | OutOfDeviceMemory { .. } => true,
+            BufferTooLarge { .. } | Gpu { .. } | TooManyPoints { .. } | TooManyTetrahedra { .. } => true,
+            NotFinite { .. } | NotWholePoints { .. } | OutOfMemory { .. } | Cancelled => false,
+        }
+    }
 }

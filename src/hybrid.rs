@@ -6,7 +6,7 @@ use crate::{
     Error, Mesh3, Options, Points, cpu,
     gpu::{
         Gpu,
-        phase1::{Input, Phase1, Phase1Output, Settings},
+        phase1::{Input, Phase1, Phase1Output, Run, Settings},
         start::first_tetrahedron,
     },
     lattice::{Lattice, Width},
@@ -14,7 +14,8 @@ use crate::{
     parallel,
     predicates::vertices::Vertices,
     splay::{self, GaveUp, NearDelaunay, Outcome},
-    stats::{Stats, Stopwatch},
+    stats::{Fallback, Stats, Stopwatch},
+    trace::Tracer,
     triangulation::{FiniteMesh, Triangulation},
 };
 
@@ -24,6 +25,7 @@ pub struct Hybrid {
     gpu: Gpu,
     narrow: Phase1,
     wide: Phase1,
+    settings: Settings,
 }
 
 impl Hybrid {
@@ -35,7 +37,12 @@ impl Hybrid {
     pub async fn new(gpu: Gpu) -> Result<Self, Error> {
         let narrow = Phase1::new(&gpu, Width::Narrow).await?;
         let wide = Phase1::new(&gpu, Width::Wide).await?;
-        Ok(Hybrid { gpu, narrow, wide })
+        Ok(Hybrid { gpu, narrow, wide, settings: Settings::default() })
+    }
+
+    /// The same with other settings for Phase 1, for experiments: they change the time, and not the mesh.
+    pub fn with_settings(self, settings: Settings) -> Self {
+        Hybrid { settings, ..self }
     }
 
     /// The device.
@@ -52,6 +59,7 @@ impl Hybrid {
     ///
     /// As for [`delaunay3d`](crate::delaunay3d), and those of the device.
     pub async fn delaunay3d(&mut self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
+        let options = &options.monotone();
         let mut stopwatch = Stopwatch::start();
         options.report("lattice", 0.0)?;
         let threads = parallel::available();
@@ -59,9 +67,10 @@ impl Hybrid {
         let lattice = Lattice::fit_in_threads(threads, points);
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let Some(start) = first_tetrahedron(lattice.width(), points.len(), position) else {
-            return fall_back(points, options, "the points are coplanar, or nearly");
+            return fall_back(points, options, Fallback::Coplanar, Stats::default());
         };
         let mut stats = Stats { engine: "gpu", ..Stats::default() };
+        let mut tracer = options.trace.then(Tracer::default);
         stats.phases.push(("lattice", stopwatch.lap()));
 
         options.report("phase 1", 0.05)?;
@@ -77,7 +86,20 @@ impl Hybrid {
             }
         };
         let input = Input { points, lattice: &lattice, start };
-        let output = phase1.run(&self.gpu, input, &Settings::default(), None).await?;
+        let mut run = Run::new(phase1, &self.gpu, input, self.settings, None).await?;
+        loop {
+            let more = run.round().await?;
+            if let Some(tracer) = &mut tracer {
+                tracer.round(&self.gpu, &run).await?;
+            }
+            let inserted = 1.0 - f64::from(run.waiting()) / points.len() as f64;
+            options.report("phase 1", 0.05 + 0.6 * inserted)?;
+            if !more {
+                break;
+            }
+        }
+        let output = run.finish().await?;
+        stats.gpu = Some(output.stats.summary(&self.gpu.adapter().name));
         let readback = output.stats.readback_milliseconds / 1e3;
         stats.phases.push(("phase 1", stopwatch.lap() - readback));
         stats.phases.push(("readback", readback));
@@ -85,12 +107,20 @@ impl Hybrid {
         options.report("splay", 0.8)?;
         let vertices = Vertices::of_input(points, &lattice);
         let (near, duplicate_of) = near_delaunay(points, output);
+        if let Some(tracer) = &mut tracer {
+            tracer.facets(&near.triangulation, &vertices);
+        }
         let most_signs = near.signs_from_nothing();
         let report = |share: f64| options.report("splay", 0.8 + 0.15 * share);
-        let triangulation = match splay::splay(&vertices, near, most_signs, &report)? {
-            Outcome::Delaunay(triangulation, _) => triangulation,
-            Outcome::GaveUp(GaveUp::Work) => return fall_back(points, options, "splaying was too much work"),
-            Outcome::GaveUp(GaveUp::Inconsistent(what)) => return fall_back(points, options, what),
+        let triangulation = match splay::splay(&vertices, near, most_signs, threads, &report)? {
+            Outcome::Delaunay(triangulation, splay) => {
+                stats.splay = Some(splay);
+                triangulation
+            }
+            Outcome::GaveUp(GaveUp::Work) => return fall_back(points, options, Fallback::Work, stats),
+            Outcome::GaveUp(GaveUp::Inconsistent(what)) => {
+                return fall_back(points, options, Fallback::Inconsistent(what), stats);
+            }
         };
         stats.phases.push(("splay", stopwatch.lap()));
 
@@ -98,14 +128,16 @@ impl Hybrid {
         stats.exact = vertices.exact_counts();
         let FiniteMesh { tetrahedra, neighbors, hull } = triangulation.into_mesh(None, threads);
         stats.phases.push(("finish", stopwatch.lap()));
+        stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
         options.report("finish", 1.0)?;
         Ok(Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats })
     }
 }
 
-fn fall_back(points: Points<'_>, options: &Options, why: &'static str) -> Result<Mesh3, Error> {
+/// The CPU engine's mesh, with what the GPU did before.
+fn fall_back(points: Points<'_>, options: &Options, why: Fallback, before: Stats) -> Result<Mesh3, Error> {
     let mut mesh = cpu::delaunay3d(points, options)?;
-    mesh.stats.fallback = Some(why);
+    mesh.stats = Stats { fallback: Some(why), gpu: before.gpu, ..mesh.stats };
     Ok(mesh)
 }
 

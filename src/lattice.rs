@@ -145,6 +145,20 @@ impl Lattice {
         self.origin
     }
 
+    /// The lattice coordinates of a point of the input that the narrow lattice was fitted to.
+    ///
+    /// There every coordinate times 2ᵏ is an integer, and so is their difference, which fits 31 bits: no operation rounds.
+    #[inline]
+    pub(crate) fn narrow(&self, p: [f64; 3]) -> [f64; 3] {
+        if self.factor.is_nan() {
+            return self.coordinates(p).map(|c| c.value as f64);
+        }
+        std::array::from_fn(|axis| match self.origin[axis] {
+            None => 0.0,
+            Some(_) => p[axis] * self.factor - self.bounds[0][axis] * self.factor,
+        })
+    }
+
     /// The lattice coordinates of a point of the input that the lattice was fitted to.
     #[inline]
     pub fn coordinates(&self, p: [f64; 3]) -> [Coordinate; 3] {

@@ -14,6 +14,8 @@
 #![warn(missing_docs)]
 
 pub mod cpu;
+#[cfg(feature = "gpu")]
+pub mod engines;
 mod error;
 pub mod generate;
 #[cfg(feature = "gpu")]
@@ -31,11 +33,15 @@ pub mod points;
 pub mod predicates;
 pub mod splay;
 pub mod stats;
+#[cfg(feature = "gpu")]
+mod trace;
 pub mod triangulation;
 pub mod verify;
 #[cfg(all(feature = "wasm", target_arch = "wasm32"))]
 mod wasm;
 
+#[cfg(feature = "gpu")]
+pub use engines::Engines;
 pub use error::Error;
 pub use mesh::Mesh3;
 pub use options::{Engine, Options, Progress};
@@ -49,18 +55,27 @@ pub use points::Points;
 /// Coplanar, collinear, coincident and empty input is no error: the mesh then has no tetrahedra and its
 /// [`dimension`](Mesh3::dimension) says why.
 ///
+/// The GPU engine is opened when it is first needed and kept for the process; see [`engines`] for more control, and for a
+/// form that does not block.
+///
 /// # Errors
 ///
 /// [`Error::NotFinite`] names the first coordinate that is NaN or infinite, [`Error::TooManyPoints`] says what would
-/// fit, and [`Error::Cancelled`] follows a progress callback that broke off.
+/// fit, and [`Error::Cancelled`] follows a progress callback that broke off. [`Engine::Gpu`], and only that, can fail with
+/// the errors of a GPU: [`Error::NoAdapter`], [`Error::DeviceLost`], [`Error::OutOfDeviceMemory`],
+/// [`Error::BufferTooLarge`], [`Error::Gpu`].
 pub fn delaunay3d<'a>(points: impl Into<Points<'a>>, options: &Options) -> Result<Mesh3, Error> {
+    let points = points.into();
     match options.engine {
-        Engine::Auto | Engine::Cpu => cpu::delaunay3d(points.into(), options),
+        Engine::Cpu => cpu::delaunay3d(points, options),
         #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-        Engine::Gpu => pollster::block_on(async {
-            let gpu = gpu::Gpu::open(&gpu::AdapterChoice::Default).await?;
-            hybrid::Hybrid::new(gpu).await?.delaunay3d(points.into(), options).await
-        }),
+        Engine::Auto | Engine::Gpu => pollster::block_on(engines::Engines::shared().delaunay3d(points, options)),
+        #[cfg(not(all(feature = "gpu", not(target_arch = "wasm32"))))]
+        Engine::Auto => cpu::delaunay3d(points, options),
+        #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
+        Engine::Gpu => {
+            Err(Error::NoAdapter { reason: "a browser's GPU cannot be waited for: use `Engines`".to_owned() })
+        }
     }
 }
 

@@ -5,14 +5,17 @@ use std::{fmt, ops::ControlFlow, sync::Arc};
 /// Which engine computes the triangulation. All give the same set of tetrahedra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Engine {
-    /// The CPU engine, for now.
+    /// The GPU engine where there is a graphics card and the input is large enough to be worth it
+    /// ([`engines`](crate::engines) has the numbers), else the CPU engine; also when the GPU fails in the middle.
+    /// [`Stats::fallback`](crate::stats::Stats::fallback) says why it was the CPU engine. Without the feature `gpu`, and
+    /// in a browser where nothing may wait, it is the CPU engine.
     #[default]
     Auto,
     /// Incremental insertion on one core.
     Cpu,
-    /// Flipping on the graphics card, splaying on the CPU. Opens the default adapter anew in every call: those with more
-    /// than one input keep a [`Hybrid`](crate::hybrid::Hybrid).
-    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    /// Flipping on the graphics card, splaying on the CPU; an error where the device fails or cannot hold the input. Input
+    /// that is no work for it is left to the CPU engine: see [`Hybrid::delaunay3d`](crate::hybrid::Hybrid::delaunay3d).
+    #[cfg(feature = "gpu")]
     Gpu,
 }
 
@@ -35,6 +38,9 @@ pub struct Options {
     pub engine: Engine,
     /// Called a few hundred times in a run, in the calling thread.
     pub on_progress: Option<OnProgress>,
+    /// Whether the GPU engine shall keep [`Stats::trace`](crate::stats::Stats::trace). All tetrahedra are read back after
+    /// every round and their facets tested once more, so a run takes several times as long: for small inputs.
+    pub trace: bool,
 }
 
 impl fmt::Debug for Options {
@@ -42,11 +48,33 @@ impl fmt::Debug for Options {
         f.debug_struct("Options")
             .field("engine", &self.engine)
             .field("on_progress", &self.on_progress.as_ref().map(|_| "…"))
+            .field("trace", &self.trace)
             .finish()
     }
 }
 
 impl Options {
+    /// Options for a run that may have to begin again: its progress goes on from where it was.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn monotone(&self) -> Options {
+        let on_progress = self.on_progress.clone().map(|callback| {
+            // The share that was done when the run began again, and what was last reported.
+            let state = std::sync::Mutex::new((0.0, 0.0));
+            let continued = move |progress: Progress| {
+                let fraction = {
+                    let mut state = state.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+                    let (base, last) = *state;
+                    let base: f64 = if progress.fraction < last { base + (1.0 - base) * last } else { base };
+                    *state = (base, progress.fraction);
+                    base + (1.0 - base) * progress.fraction
+                };
+                callback(Progress { fraction, ..progress })
+            };
+            Arc::new(continued) as OnProgress
+        });
+        Options { on_progress, ..self.clone() }
+    }
+
     /// Reports progress; an error when the caller wants to stop.
     pub(crate) fn report(&self, phase: &'static str, fraction: f64) -> Result<(), crate::Error> {
         match &self.on_progress {

@@ -1,5 +1,6 @@
 //! Work on slices, shared among the machine's threads where it has any.
 
+use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// More threads than this do not make a pass over memory any faster.
@@ -27,21 +28,28 @@ pub(crate) fn for_chunks<T: Send>(threads: usize, items: &mut [T], work: impl Fn
     });
 }
 
-/// What `work` makes of the ranges that 0 … `len` is cut into, in order, in up to `threads` threads.
-pub(crate) fn map_ranges<R: Send>(
+/// What `work` makes of the ranges that 0 … `len` is cut into, in order, in up to `threads` threads. For elements that cost
+/// no more than to look at them.
+pub(crate) fn map_ranges<R: Send>(threads: usize, len: usize, work: impl Fn(Range<usize>) -> R + Sync) -> Vec<R> {
+    map_grains(threads, len, CHUNK, work)
+}
+
+/// The same for ranges of `grain` elements.
+pub(crate) fn map_grains<R: Send>(
     threads: usize,
     len: usize,
-    work: impl Fn(std::ops::Range<usize>) -> R + Sync,
+    grain: usize,
+    work: impl Fn(Range<usize>) -> R + Sync,
 ) -> Vec<R> {
-    let threads = threads.min(len.div_ceil(CHUNK));
+    let threads = threads.min(len.div_ceil(grain));
     if threads <= 1 {
         return vec![work(0..len)];
     }
-    let queue = Mutex::new((0..len).step_by(CHUNK));
-    let results = Mutex::new(Vec::with_capacity(len.div_ceil(CHUNK)));
+    let queue = Mutex::new((0..len).step_by(grain));
+    let results = Mutex::new(Vec::with_capacity(len.div_ceil(grain)));
     share(threads, || {
         while let Some(start) = next(&queue) {
-            let result = work(start..(start + CHUNK).min(len));
+            let result = work(start..(start + grain).min(len));
             lock(&results).push((start, result));
         }
     });

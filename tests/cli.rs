@@ -97,6 +97,28 @@ fn stats_as_json_for_each_run() {
     }
 }
 
+#[cfg(feature = "gpu")]
+#[test]
+fn stats_of_the_gpu_engine_as_json() {
+    let folder = folder();
+    succeeds(folder.path(), &["generate", "thin-sphere", "900", "-o", "p.npy"]);
+    let runs = stats(folder.path(), &["p.npy", "--repeat", "2", "--engine", "gpu"]);
+    assert_eq!(runs.len(), 2);
+    for run in &runs {
+        assert_eq!((&run["engine"], run.get("fallback")), (&"gpu".into(), None), "{run}");
+        let rounds = run["gpu"]["rounds"].as_array().unwrap();
+        let inserted: u64 = rounds.iter().map(|round| round["inserted"].as_u64().unwrap()).sum();
+        assert_eq!(inserted, 900, "{run}");
+        for key in ["flips_23", "flip_iterations", "exact_tests", "readbacks", "dispatches", "submits", "bytes"] {
+            assert!(run["gpu"][key].as_u64() > Some(0), "{key} in {run}");
+        }
+        assert!(run["splay"]["built"].is_u64() && run["exact"]["integer"].is_u64(), "{run}");
+    }
+    let auto = &stats(folder.path(), &["p.npy", "--engine", "auto"])[0];
+    assert_eq!(auto["engine"], "cpu");
+    assert!(auto["fallback"].as_str().unwrap().contains("900 points are too few"), "{auto}");
+}
+
 #[test]
 fn points_without_return_are_reported() {
     let folder = folder();
@@ -180,18 +202,24 @@ fn input_that_cannot_be_read() {
     assert_eq!(files(path).len(), 5);
 }
 
-/// Runs as root, who may read everything, cannot check this.
 #[cfg(unix)]
 #[test]
 fn input_without_permission() {
-    use std::os::unix::fs::PermissionsExt;
+    use std::os::unix::{fs::PermissionsExt, process::CommandExt};
     let folder = folder();
-    let file = folder.path().join("p.xyz");
-    fs::write(&file, "1 2 3\n").unwrap();
-    fs::set_permissions(&file, fs::Permissions::from_mode(0o0)).unwrap();
-    if fs::read(&file).is_err() {
-        fails(folder.path(), &["triangulate", "p.xyz"], "p.xyz: cannot be read: Permission denied");
+    let path = folder.path();
+    let set_mode = |file: &Path, mode| fs::set_permissions(file, fs::Permissions::from_mode(mode)).unwrap();
+    fs::write(path.join("p.xyz"), "1 2 3\n").unwrap();
+    set_mode(&path.join("p.xyz"), 0o0);
+    let mut command = command(path, &["triangulate", "p.xyz"]);
+    if fs::read(path.join("p.xyz")).is_ok() {
+        // We are root, who may read everything. Nobody may not, not even the program where it is.
+        fs::copy(env!("CARGO_BIN_EXE_gdel"), path.join("gdel")).unwrap();
+        set_mode(path, 0o755);
+        command = Command::new(path.join("gdel"));
+        command.current_dir(path).args(["triangulate", "p.xyz"]).stdin(Stdio::null()).uid(65534);
     }
+    fails_with(command.output().expect("the program runs"), "p.xyz: cannot be read: Permission denied");
 }
 
 #[test]

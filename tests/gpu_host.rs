@@ -107,7 +107,7 @@ fn a_buffer_that_cannot_be_bound_is_a_typed_error() {
     let gpu = open();
     let len = usize::try_from(gpu.max_storage_bytes()).unwrap() / 16 + 1;
     let error = Storage::<[u32; 4]>::new(&gpu, "tetrahedra", len).unwrap_err();
-    let Error::BufferTooLarge { label: "tetrahedra", bytes, limit } = error else { panic!("{error}") };
+    let Error::BufferTooLarge { label: "tetrahedra", bytes, limit, points: None } = error else { panic!("{error}") };
     assert_eq!((bytes, limit), (16 * len as u128, gpu.max_storage_bytes()));
     assert!(matches!(Storage::<[u32; 4]>::new(&gpu, "all", usize::MAX), Err(Error::BufferTooLarge { .. })));
 }

@@ -162,7 +162,8 @@ fn phase1_layouts_agree() {
         aside,
         doubtful,
         ghosts,
-        open
+        open,
+        not_locally_delaunay
     );
     let constants = [
         ("NONE", layout::NONE),

@@ -1,13 +1,15 @@
 //! The inputs that make other codes crash or give wrong meshes: the answer is verified, and does not depend on the order
 //! of insertion.
 
+mod clouds;
+
+use clouds::{grid, shuffled, survey};
 use gdel::{
     Mesh3, Options, Points,
     cpu::{Order, delaunay3d_in_order},
     generate::{Distribution, generate},
     verify::verify3d,
 };
-use std::f64::consts::TAU;
 
 /// Verifies the mesh of the points, and that `shuffles` random insertion orders give the same tetrahedra.
 fn check<'a>(points: impl Into<Points<'a>>, shuffles: u64) -> Mesh3 {
@@ -32,19 +34,6 @@ fn check_flat(points: &[[f64; 3]], dimension: u8) {
     assert_eq!(mesh.dimension, dimension);
     assert!(mesh.tetrahedra.is_empty() && mesh.neighbors.is_empty() && mesh.hull.is_empty());
     assert_eq!(mesh.duplicate_of.len(), points.len());
-}
-
-/// The integer grid with this many points a side, x first.
-fn grid(side: u32) -> Vec<[f64; 3]> {
-    (0..side.pow(3)).map(|i| [i % side, i / side % side, i / side / side].map(f64::from)).collect()
-}
-
-/// The same points under other indices.
-fn shuffled(points: &[[f64; 3]], seed: u64) -> Vec<[f64; 3]> {
-    let keys = generate(Distribution::Uniform, points.len(), seed);
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by(|&i, &j| keys[i][0].total_cmp(&keys[j][0]));
-    order.into_iter().map(|i| points[i]).collect()
 }
 
 #[test]
@@ -109,70 +98,36 @@ fn random_subset_of_a_512_grid() {
 
 #[test]
 fn random_points_of_a_64_grid_with_many_duplicates() {
-    let points: Vec<_> = generate(Distribution::Grid, 100_000, 1).iter().map(|p| p.map(|x| x % 64.0)).collect();
-    let mesh = check(&points, 2);
+    let mesh = check(&clouds::grid_64_with_duplicates(100_000), 2);
     assert!(mesh.duplicates() > 10_000);
 }
 
 #[test]
 fn two_skew_lines() {
-    // Every segment of one line makes a tetrahedron with every segment of the other.
-    let n = 300;
-    let points: Vec<_> = (0..n).flat_map(|i| [[f64::from(i), 0.0, 0.0], [150.0, f64::from(i) - 150.5, 40.0]]).collect();
-    let mesh = check(&points, 2);
+    let mesh = check(&clouds::two_skew_lines(300), 2);
     assert_eq!(mesh.tetrahedra.len(), 299 * 299);
 }
 
 #[test]
 fn circle_and_its_axis() {
-    let n = 400;
-    let circle = (0..n).map(|i| {
-        let angle = TAU * f64::from(i) / f64::from(n);
-        [libm::cos(angle), libm::sin(angle), 0.0]
-    });
-    let axis = (0..n).map(|i| [0.0, 0.0, (f64::from(i) - 199.5) / 100.0]);
-    check(&circle.chain(axis).collect::<Vec<_>>(), 2);
+    check(&clouds::circle_and_its_axis(400), 2);
 }
 
 #[test]
 fn circle_of_integers_and_its_axis() {
-    // All 36 integer points at 65 from the origin: exactly cocircular.
-    let circle =
-        (-65..=65).flat_map(|x| (-65..=65).map(move |y| [x, y, 0])).filter(|[x, y, _]| x * x + y * y == 65 * 65);
-    let points: Vec<_> = circle.chain((-50..50).map(|z| [0, 0, z])).map(|p| p.map(f64::from)).collect();
+    let points = clouds::circle_of_integers_and_its_axis();
     assert_eq!(points.len(), 136);
     check(&points, 3);
 }
 
 #[test]
 fn clusters_at_1e_9_spacing() {
-    let centers = generate(Distribution::Uniform, 40, 1);
-    let within = generate(Distribution::Gaussian, 10_000, 2);
-    let points: Vec<[f64; 3]> = within
-        .iter()
-        .enumerate()
-        .map(|(i, p)| std::array::from_fn(|axis| centers[i % centers.len()][axis] + 1e-9 * p[axis]))
-        .collect();
-    check(&points, 3);
+    check(&clouds::clusters_at_1e_9_spacing(10_000), 3);
 }
 
 #[test]
 fn grids_at_1e_9_spacing() {
-    // Spacing 2⁻³⁰, so exactly cospherical, around corners of the unit cube.
-    let points: Vec<_> = grid(8)
-        .into_iter()
-        .flat_map(|p| {
-            [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 1.0]].map(|c| [0, 1, 2].map(|i| c[i] + p[i] / (1u64 << 30) as f64))
-        })
-        .collect();
-    check(&points, 3);
-}
-
-/// Easting, northing and height of an airborne scan, in whole millimetres.
-fn survey(n: usize) -> Vec<[f64; 3]> {
-    let millimetres = |x: f64| libm::rint(x * 1000.0) / 1000.0;
-    let at = |[x, y, z]: [f64; 3]| [1e7 + 400.0 * x, 1e7 + 400.0 * y, 300.0 + 5.0 * z].map(millimetres);
-    generate(Distribution::Uniform, n, 3).into_iter().map(at).collect()
+    check(&clouds::grids_at_1e_9_spacing(8), 3);
 }
 
 #[test]
@@ -182,17 +137,12 @@ fn offset_by_1e7_in_millimetres() {
 
 #[test]
 fn flat_ground_offset_by_1e7() {
-    // Nearly all points in one plane, one post.
-    let mut points: Vec<_> = survey(5_000).iter().map(|&[x, y, _]| [x, y, 300.0]).collect();
-    points.push([1e7 + 200.0, 1e7 + 200.0, 301.5]);
-    check(&points, 3);
+    check(&clouds::flat_ground(5_000), 3);
 }
 
 #[test]
 fn thirty_percent_duplicates() {
-    let distinct = generate(Distribution::Uniform, 14_000, 1);
-    let points: Vec<_> = distinct.iter().chain(&distinct[..6_000]).copied().collect();
-    let mesh = check(&shuffled(&points, 1), 3);
+    let mesh = check(&clouds::thirty_percent_duplicates(2_000), 3);
     assert_eq!(mesh.duplicates(), 6_000);
 }
 

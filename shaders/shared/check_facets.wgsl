@@ -9,7 +9,7 @@
 @group(0) @binding(5) var<storage, read_write> actives: array<Active>;
 
 // Checks the facets of the tetrahedron of entry i, which is at `at`, until one can be flipped, and bids for the tetrahedra
-// that this flip would change. False, with nothing changed, when a sign is open.
+// that this flip would change. False when a sign is open: then everything is still to be checked.
 fn check_facets(i: u32, at: u32, iteration: u32, bits: u32) -> bool {
     let t = actives[at].tet;
     let tet = tets[t];
@@ -70,7 +70,9 @@ fn check_facets(i: u32, at: u32, iteration: u32, bits: u32) -> bool {
             check &= ~(1u << k);
         }
     }
-    if !open {
+    if open {
+        actives[at].outcome = flags & 0xff;
+    } else {
         actives[at].outcome = flip | (suspect << SUSPECT_SHIFT) | check;
         if flip != 0 {
             let bid = bid_of(i, iteration, bits);

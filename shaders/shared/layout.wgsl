@@ -33,6 +33,7 @@ struct Control {
     doubtful: atomic<u32>,
     ghosts: atomic<u32>,
     open: atomic<u32>,
+    not_locally_delaunay: atomic<u32>,
 }
 
 struct Status {

@@ -1,6 +1,11 @@
 //! What a run says about itself.
 
-use gdel::{Mesh3, io::PointCloud};
+use gdel::{
+    Mesh3,
+    io::PointCloud,
+    splay::SplayStats,
+    stats::{ExactCounts, GpuStats},
+};
 use serde::{Serialize, Serializer, ser::SerializeMap};
 use std::{fmt, time::Duration};
 
@@ -16,10 +21,16 @@ pub(super) struct Report<'a> {
     tetrahedra: usize,
     hull_triangles: usize,
     engine: &'a str,
-    /// Why the CPU engine took over, where another was asked for.
+    /// Why the CPU engine made the mesh, where it was not asked for by name.
     #[serde(skip_serializing_if = "Option::is_none")]
-    fallback: Option<&'static str>,
+    fallback: Option<String>,
     seconds: Seconds<'a>,
+    /// Signs that the filters left open on the CPU.
+    exact: ExactCounts,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gpu: Option<&'a GpuStats>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    splay: Option<&'a SplayStats>,
 }
 
 /// Without reading and writing files.
@@ -49,8 +60,11 @@ impl<'a> Report<'a> {
             tetrahedra: mesh.tetrahedra.len(),
             hull_triangles: mesh.hull.len(),
             engine: mesh.stats.engine,
-            fallback: mesh.stats.fallback,
+            fallback: mesh.stats.fallback.as_ref().map(ToString::to_string),
             seconds: Seconds { total, phases: &mesh.stats.phases },
+            exact: mesh.stats.exact,
+            gpu: mesh.stats.gpu.as_ref(),
+            splay: mesh.stats.splay.as_ref(),
         }
     }
 }
@@ -77,7 +91,7 @@ impl fmt::Display for Report<'_> {
         writeln!(f, "tetrahedra      {}", self.tetrahedra)?;
         writeln!(f, "hull triangles  {}", self.hull_triangles)?;
         write!(f, "seconds         {:.3} ({}", self.seconds.total.as_secs_f64(), self.engine)?;
-        if let Some(why) = self.fallback {
+        if let Some(why) = &self.fallback {
             write!(f, ", since {why}")?;
         }
         for (phase, seconds) in self.seconds.phases {

@@ -43,7 +43,7 @@ pub(super) struct Arguments {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum EngineName {
-    /// The CPU engine, for now
+    /// The GPU engine for large inputs where there is a graphics card, else the CPU engine
     Auto,
     /// Incremental insertion on one core
     Cpu,

@@ -72,6 +72,7 @@ impl<T: Pod> Storage<T> {
             label,
             bytes,
             limit,
+            points: None,
         })?;
         let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation };
         Ok(Storage { buffer: gpu.device().create_buffer(&descriptor), label, len, elements: PhantomData })

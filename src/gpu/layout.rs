@@ -128,6 +128,8 @@ pub struct Counters {
     pub ghosts: u32,
     /// Entries of the active list that the filter left open in this flip iteration.
     pub open: u32,
+    /// Facets that are not locally Delaunay, found at the end.
+    pub not_locally_delaunay: u32,
 }
 
 /// A flip was put off because no slot was found for its third tetrahedron.

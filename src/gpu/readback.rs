@@ -118,7 +118,10 @@ impl Readback {
             Some(i) => self.idle.swap_remove(i),
             None => gpu.device().create_buffer(&wgpu::BufferDescriptor {
                 label: Some("staging"),
-                size: bytes.next_multiple_of((bytes.next_power_of_two() / 8).max(4)),
+                size: bytes
+                    .next_multiple_of((bytes.next_power_of_two() / 8).max(4))
+                    .min(gpu.device().limits().max_buffer_size)
+                    .max(bytes),
                 usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             }),

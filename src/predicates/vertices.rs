@@ -119,6 +119,21 @@ impl<'a> Vertices<'a> {
         vertices
     }
 
+    /// Others of the same points, for another thread, if nothing is stored. They count for themselves.
+    pub(crate) fn again(&self) -> Option<Self> {
+        self.coordinates.is_empty().then(|| Vertices::of_input(self.input, &self.lattice))
+    }
+
+    /// Adds what others of the same points have counted.
+    pub(crate) fn add_counts(&self, more: ExactCounts) {
+        let counts = self.counts.get();
+        self.counts.set(ExactCounts {
+            integer: counts.integer + more.integer,
+            expansion: counts.expansion + more.expansion,
+            symbolic: counts.symbolic + more.symbolic,
+        });
+    }
+
     /// The number of vertices.
     pub fn len(&self) -> usize {
         if self.indices.is_empty() { self.input.len() } else { self.indices.len() }
@@ -167,7 +182,7 @@ impl<'a> Vertices<'a> {
 
     fn scaled(&self, p: [f64; 3]) -> [f64; 3] {
         match &self.scaling {
-            Scaling::Lattice => self.lattice.coordinates(p).map(|c| c.value as f64),
+            Scaling::Lattice => self.lattice.narrow(p),
             Scaling::By(scale, varies) => {
                 std::array::from_fn(|axis| if varies[axis] { scale.apply(p[axis]) } else { 0.0 })
             }

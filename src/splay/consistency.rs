@@ -38,6 +38,8 @@ pub(super) struct Held {
 
 /// How often progress is reported, in failed vertices or unsettled tetrahedra.
 const REPORT: usize = 1 << 10;
+/// Stars that a thread builds together.
+const STARS: usize = 16;
 
 /// The stars, on their way to consistency.
 pub(super) struct Splaying<'a> {
@@ -91,15 +93,24 @@ impl<'a> Splaying<'a> {
 
     /// Makes the stars of the failed vertices convex, and all stars consistent. `report` learns the share of the failed
     /// vertices that is done, and can stop.
-    pub(super) fn run(&mut self, failed: &[u32], report: &dyn Fn(f64) -> Result<(), Error>) -> Result<(), Stop> {
-        for (done, &v) in failed.iter().enumerate() {
-            if done.is_multiple_of(REPORT) {
-                report(done as f64 / failed.len() as f64)?;
+    pub(super) fn run(
+        &mut self,
+        failed: &[u32],
+        threads: usize,
+        report: &dyn Fn(f64) -> Result<(), Error>,
+    ) -> Result<(), Stop> {
+        for (i, batch) in failed.chunks(REPORT).enumerate() {
+            report((i * REPORT) as f64 / failed.len() as f64)?;
+            let (space, mesh, incident) = (self.space, self.mesh, self.incident);
+            let built = space.shared(threads, batch.len(), STARS, |space, range| {
+                let mut links = LinkFinder::default();
+                let vertices = batch[range].iter().filter(|&&v| v != mesh.infinite);
+                vertices.map(|&v| Built::new(space, mesh, incident, &mut links, v, true)).collect::<Vec<_>>()
+            });
+            for built in built.into_iter().flatten() {
+                self.adopt(built?)?;
             }
-            if v != self.space.infinite() && self.star_of[v as usize] == 0 {
-                self.build(v, true)?;
-                self.check_work()?;
-            }
+            self.check_work()?;
         }
         while let Some(key) = self.queue.pop() {
             if self.stats.checks.is_multiple_of(REPORT) {
@@ -139,31 +150,28 @@ impl<'a> Splaying<'a> {
         if key[3] == self.space.infinite() { 0b0111 } else { 0b1111 }
     }
 
-    /// The star of `v`: made convex from what the triangulation has, if that was found to have failed; else taken as it
-    /// is, unless a tetrahedron is flat or inverted.
-    fn build(&mut self, v: u32, failed: bool) -> Result<(), GaveUp> {
-        let mut star = self.links.star(self.mesh, v, self.incident[v as usize])?;
-        let is_oriented = star.is_oriented(self.space);
-        if failed || !is_oriented {
-            self.stats.built += 1;
-            let before = star.triangles.clone();
-            match is_oriented.then(|| flip_flop(&mut star, self.space)).flatten() {
-                Some(flips) => self.stats.flips += flips,
-                None => {
-                    self.stats.from_points += 1;
-                    let mut points: Vec<u32> = before.iter().flat_map(|t| t.vertices).collect();
-                    points.sort_unstable();
-                    points.dedup();
-                    star = Star::from_points(self.space, v, points.into_iter(), &mut self.changes)?;
-                }
+    /// Adds the star of `v`, which has not failed.
+    fn pull(&mut self, v: u32) -> Result<(), GaveUp> {
+        let built = Built::new(self.space, self.mesh, self.incident, &mut self.links, v, false)?;
+        self.adopt(built)
+    }
+
+    /// Adds a star.
+    fn adopt(&mut self, built: Built) -> Result<(), GaveUp> {
+        let Built { mut star, change } = built;
+        match change {
+            None => self.stats.pulled += 1,
+            Some(Change { before, flips }) => {
+                self.stats.built += 1;
+                self.stats.flips += flips.unwrap_or(0);
+                self.stats.from_points += usize::from(flips.is_none());
+                self.compare(&mut star, &before);
+                self.enter(&star)?;
             }
-            self.compare(&mut star, &before);
-            self.enter(&star)?;
-        } else {
-            self.stats.pulled += 1;
         }
+        let vertex = star.vertex;
         self.stars.push(star);
-        self.star_of[v as usize] = self.stars.len() as u32;
+        self.star_of[vertex as usize] = self.stars.len() as u32;
         Ok(())
     }
 
@@ -256,7 +264,7 @@ impl<'a> Splaying<'a> {
         let vertices = &key[..all.count_ones() as usize];
         for &v in vertices {
             if self.star_of[v as usize] == 0 {
-                self.build(v, false)?;
+                self.pull(v)?;
             }
         }
         for &v in vertices {
@@ -288,6 +296,48 @@ impl<'a> Splaying<'a> {
 
     fn star(&self, v: u32) -> &Star {
         &self.stars[self.star_of[v as usize] as usize - 1]
+    }
+}
+
+/// A star that is convex.
+struct Built {
+    star: Star,
+    /// How it was made so, where the triangulation's was not or not known to be.
+    change: Option<Change>,
+}
+
+struct Change {
+    /// The star's triangles in the triangulation.
+    before: Vec<Triangle>,
+    /// The flips of Flip-Flop; `None` where the star was built from its points.
+    flips: Option<usize>,
+}
+
+impl Built {
+    /// The star of `v`: made convex from what the triangulation has, if that was found to have failed; else taken as it
+    /// is, unless a tetrahedron is flat or inverted.
+    fn new(
+        space: &Space<'_>,
+        mesh: &Triangulation,
+        incident: &[u32],
+        links: &mut LinkFinder,
+        v: u32,
+        failed: bool,
+    ) -> Result<Self, GaveUp> {
+        let mut star = links.star(mesh, v, incident[v as usize])?;
+        let is_oriented = star.is_oriented(space);
+        if is_oriented && !failed {
+            return Ok(Built { star, change: None });
+        }
+        let before = star.triangles.clone();
+        let flips = is_oriented.then(|| flip_flop(&mut star, space)).flatten();
+        if flips.is_none() {
+            let mut points: Vec<u32> = before.iter().flat_map(|t| t.vertices).collect();
+            points.sort_unstable();
+            points.dedup();
+            star = Star::from_points(space, v, points.into_iter(), &mut Changes::default())?;
+        }
+        Ok(Built { star, change: Some(Change { before, flips }) })
     }
 }
 

@@ -29,7 +29,7 @@ pub const NONE: u32 = star::NONE;
 pub struct NearDelaunay {
     /// All tetrahedra, ghosts included. Inverted and flat ones are no harm as long as they are among the doubtful.
     pub triangulation: Triangulation,
-    /// A tetrahedron at each vertex; [`NONE`] for those that are missing.
+    /// A tetrahedron at each vertex, a ghost if there is one; [`NONE`] for those that are missing.
     pub incident: Vec<u32>,
     /// The vertices of all facets that are known not to be locally Delaunay, ghosts' facets included.
     pub failed: Vec<u32>,
@@ -59,6 +59,7 @@ pub enum GaveUp {
 
 /// What splaying did.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SplayStats {
     /// Flat tetrahedra on the hull that were peeled off.
     pub peeled: usize,
@@ -86,6 +87,9 @@ pub struct SplayStats {
     pub signs: u64,
 }
 
+/// Suspect tetrahedra that a thread looks at together.
+const SUSPECTS: usize = 256;
+
 /// Why splaying ends early.
 enum Stop {
     GaveUp(GaveUp),
@@ -112,8 +116,9 @@ impl NearDelaunay {
 }
 
 /// The Delaunay triangulation of `vertices`, of which `near` is nearly one. It gives up when the stars ask for more than
-/// `most_signs`, the measure of its work; see [`NearDelaunay::signs_from_nothing`]. `report` learns now and then which share of
-/// the work is done, and can stop it.
+/// `most_signs`, the measure of its work; see [`NearDelaunay::signs_from_nothing`]. Up to
+/// `threads` threads work on it, unless the vertices are stored. `report` learns now and then which share of the work is done,
+/// and can stop it.
 ///
 /// # Errors
 ///
@@ -122,9 +127,10 @@ pub fn splay(
     vertices: &Vertices<'_>,
     near: NearDelaunay,
     most_signs: u64,
+    threads: usize,
     report: &dyn Fn(f64) -> Result<(), Error>,
 ) -> Result<Outcome, Error> {
-    match try_splay(vertices, near, most_signs, report) {
+    match try_splay(vertices, near, most_signs, threads, report) {
         Ok((triangulation, stats)) => Ok(Outcome::Delaunay(Box::new(triangulation), stats)),
         Err(Stop::GaveUp(reason)) => Ok(Outcome::GaveUp(reason)),
         Err(Stop::Error(error)) => Err(error),
@@ -135,6 +141,7 @@ fn try_splay(
     vertices: &Vertices<'_>,
     near: NearDelaunay,
     most_signs: u64,
+    threads: usize,
     report: &dyn Fn(f64) -> Result<(), Error>,
 ) -> Result<(Triangulation, SplayStats), Stop> {
     let NearDelaunay { triangulation: mut mesh, mut incident, mut failed, doubtful, missing } = near;
@@ -149,16 +156,20 @@ fn try_splay(
     let peeled = found - flat.len();
 
     suspect.extend(doubtful);
-    for t in suspect {
-        if mesh.state(t) != state::FREE {
-            add_failed(&mesh, &space, t, &mut failed);
+    for more in space.shared(threads, suspect.len(), SUSPECTS, |space, range| {
+        let mut failed = Vec::new();
+        for &t in suspect[range].iter().filter(|&&t| mesh.state(t) != state::FREE) {
+            add_failed(&mesh, space, t, &mut failed);
         }
+        failed
+    }) {
+        failed.extend(more);
     }
     failed.sort_unstable();
     failed.dedup();
 
     let mut splaying = Splaying::new(&space, &mesh, &incident, most_signs);
-    splaying.run(&failed, report)?;
+    splaying.run(&failed, threads, report)?;
     let (remove, add) = splaying.difference()?;
     let mut stats = splaying.stats;
     drop(splaying);

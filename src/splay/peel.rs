@@ -11,10 +11,10 @@ use crate::{
     Error,
     triangulation::{Triangulation, state},
 };
-use rustc_hash::FxHashSet;
 
 /// Peels the tetrahedra of `flat` that can be; those that cannot are left in it. Gives the slots of new ghosts, some of
-/// which may have been replaced again. `incident` has a tetrahedron of each vertex, before and after.
+/// which may have been replaced again. `incident` has a tetrahedron of each vertex, before and after, and a ghost of those
+/// that are on the hull.
 pub(super) fn peel(
     mesh: &mut Triangulation,
     space: &Space<'_>,
@@ -71,7 +71,7 @@ fn peel_one(
     let fits = |i: usize| space.orient(moved(i)) >= 0;
     match y {
         None => {
-            if !(0..3).all(fits) || is_on_hull(mesh, v[x], incident[v[x] as usize]) {
+            if !(0..3).all(fits) || mesh.is_ghost(incident[v[x] as usize]) {
                 return Ok(());
             }
             let slots = [ghost, t, take(mesh, free)?];
@@ -112,21 +112,6 @@ fn peel_one(
         }
     }
     Ok(())
-}
-
-/// Whether vertex `v`, with `start` at it, is a vertex of the hull.
-fn is_on_hull(mesh: &Triangulation, v: u32, start: u32) -> bool {
-    let mut seen = FxHashSet::from_iter([start]);
-    let mut stack = vec![start];
-    while let Some(t) = stack.pop() {
-        if mesh.is_ghost(t) {
-            return true;
-        }
-        let corners = mesh.vertices(t);
-        let across = (0..4).filter(|&k| corners[k] != v).map(|k| mesh.neighbors[t as usize][k] >> 2);
-        stack.extend(across.filter(|&other| seen.insert(other)));
-    }
-    false
 }
 
 /// Whether the edge from corner `x` to corner `y` of tetrahedron `t` is an edge of the hull.

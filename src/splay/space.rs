@@ -10,8 +10,15 @@
 //! Then no sign vanishes that a convex star asks for, if its vertices surround it in R³ or include the kernel: a flat
 //! tetrahedron cannot be a facet, as its hyperplane, being vertical, has the kernel on one side and infinity on the other.
 
-use crate::predicates::{Sign, vertices::Vertices};
-use std::cell::Cell;
+use crate::{
+    parallel,
+    predicates::{Sign, vertices::Vertices},
+};
+use std::{
+    cell::Cell,
+    ops::Range,
+    sync::{Mutex, PoisonError},
+};
 
 /// A point set and infinity.
 pub(super) struct Space<'a> {
@@ -25,6 +32,36 @@ impl<'a> Space<'a> {
     /// `kernel` are four vertices that are not coplanar.
     pub(super) fn new(vertices: &'a Vertices<'a>, infinite: u32, kernel: [u32; 4]) -> Self {
         Space { vertices, infinite, kernel, signs: Cell::new(0) }
+    }
+
+    /// What `work` makes of the ranges of `grain` elements that 0 … `len` is cut into, in order. In up to `threads` threads,
+    /// each with a space of its own, if there can be several.
+    pub(super) fn shared<R: Send>(
+        &self,
+        threads: usize,
+        len: usize,
+        grain: usize,
+        work: impl Fn(&Space<'_>, Range<usize>) -> R + Sync,
+    ) -> Vec<R> {
+        let source = if threads > 1 && len > grain { self.vertices.again() } else { None };
+        let Some(source) = source else { return vec![work(self, 0..len)] };
+        let (infinite, kernel, source) = (self.infinite, self.kernel, Mutex::new(source));
+        let results = parallel::map_grains(threads, len, grain, |range| {
+            // The lock only copies what is needed to compute the vertices.
+            let vertices = source.lock().unwrap_or_else(PoisonError::into_inner).again();
+            vertices.map(|vertices| {
+                let space = Space::new(&vertices, infinite, kernel);
+                let result = work(&space, range);
+                let signs = space.signs();
+                (result, signs, vertices.exact_counts())
+            })
+        });
+        let results = results.into_iter().flatten().map(|(result, signs, counts)| {
+            self.signs.set(self.signs.get() + signs);
+            self.vertices.add_counts(counts);
+            result
+        });
+        results.collect()
     }
 
     pub(super) fn infinite(&self) -> u32 {

@@ -2,7 +2,7 @@
 
 use std::{ops::ControlFlow, sync::Arc};
 
-use js_sys::{Array, Function, Int32Array, Uint32Array};
+use js_sys::{Array, Function, Int32Array, Uint8Array, Uint32Array};
 use send_wrapper::SendWrapper;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
@@ -11,75 +11,92 @@ use super::{
     points::Coordinates,
 };
 use crate::{
-    Mesh3, Options, cpu,
-    gpu::{AdapterChoice, Gpu},
-    hybrid::Hybrid,
-    stats::Stats,
+    Engine, Engines, Mesh3, Options, Progress,
+    engines::LEAST_POINTS,
+    options::OnProgress,
+    splay::SplayStats,
+    stats::{GpuStats, Round, Stats, Trace},
 };
 
-/// Which arrays of a mesh to copy out of this module's memory, besides the tetrahedra.
+/// What to copy out of this module's memory, besides the tetrahedra.
 #[wasm_bindgen]
 #[derive(Clone, Copy)]
 pub struct Outputs {
     neighbors: bool,
     hull: bool,
     duplicate_of: bool,
+    trace: bool,
 }
 
 #[wasm_bindgen]
 impl Outputs {
     #[wasm_bindgen(constructor)]
-    pub fn new(neighbors: bool, hull: bool, duplicate_of: bool) -> Self {
-        Outputs { neighbors, hull, duplicate_of }
+    pub fn new(neighbors: bool, hull: bool, duplicate_of: bool, trace: bool) -> Self {
+        Outputs { neighbors, hull, duplicate_of, trace }
     }
 }
 
-/// Triangulates with the CPU engine. `report(phase, fraction)` breaks off by returning true.
+/// The number of points from which on the engine `auto` thinks of the GPU.
 #[wasm_bindgen]
-pub fn delaunay3d_cpu(points: &JsValue, outputs: Outputs, report: Function) -> Result<JsValue, JsValue> {
-    let coordinates = Coordinates::new(points)?;
-    Ok(mesh(cpu::delaunay3d(coordinates.points()?, &options(report))?, outputs))
+pub fn least_gpu_points() -> u32 {
+    LEAST_POINTS as u32
 }
 
-/// A device with all kernels compiled.
+/// Both engines, for any number of runs.
 #[wasm_bindgen]
-pub struct GpuEngine {
-    hybrid: Hybrid,
+#[derive(Default)]
+pub struct WasmEngines {
+    engines: Engines,
 }
 
 #[wasm_bindgen]
-impl GpuEngine {
-    /// Opens the adapter that `navigator.gpu` recommends for speed.
-    pub async fn open() -> Result<GpuEngine, JsValue> {
-        let gpu = Gpu::open(&AdapterChoice::Default).await?;
-        Ok(GpuEngine { hybrid: Hybrid::new(gpu).await? })
+impl WasmEngines {
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Self {
+        WasmEngines::default()
     }
 
-    /// Triangulates. `report(phase, fraction)` breaks off by returning true.
-    pub async fn delaunay3d(&mut self, points: JsValue, outputs: Outputs, report: Function) -> Result<JsValue, JsValue> {
+    /// Opens the adapter that `navigator.gpu` recommends for speed, and compiles the kernels.
+    pub async fn open(&self) -> Result<(), JsValue> {
+        self.engines.gpu().await?;
+        Ok(())
+    }
+
+    /// Gives the device back.
+    pub async fn close(&self) {
+        self.engines.close().await;
+    }
+
+    /// Triangulates with the engine `auto`, `gpu` or `cpu`. `report(phase, fraction)` breaks off by returning true.
+    pub async fn delaunay3d(
+        &self,
+        points: JsValue,
+        engine: &str,
+        outputs: Outputs,
+        report: Function,
+    ) -> Result<JsValue, JsValue> {
         let coordinates = Coordinates::new(&points)?;
         drop(points);
-        let options = options(report);
-        Ok(mesh(self.hybrid.delaunay3d(coordinates.points()?, &options).await?, outputs))
-    }
-
-    /// Gives the device back at once, not when the garbage is collected.
-    pub fn destroy(self) {
-        self.hybrid.gpu().device().destroy();
+        let engine = match engine {
+            "gpu" => Engine::Gpu,
+            "cpu" => Engine::Cpu,
+            _ => Engine::Auto,
+        };
+        let options = Options { engine, on_progress: Some(on_progress(report)), trace: outputs.trace };
+        Ok(mesh(self.engines.delaunay3d(coordinates.points()?, &options).await?, outputs))
     }
 }
 
-fn options(report: Function) -> Options {
+fn on_progress(report: Function) -> OnProgress {
     // Nothing moves to another thread: there is none.
     let report = SendWrapper::new(report);
-    let on_progress = move |progress: crate::Progress| {
+    Arc::new(move |progress: Progress| {
         let stop = report.call2(&JsValue::NULL, &progress.phase.into(), &progress.fraction.into());
         match stop {
             Ok(stop) if stop.is_falsy() => ControlFlow::Continue(()),
             _ => ControlFlow::Break(()),
         }
-    };
-    Options { on_progress: Some(Arc::new(on_progress)), ..Options::default() }
+    })
 }
 
 /// Each array is freed as soon as it is copied: a mesh is large, and this memory never shrinks.
@@ -95,6 +112,9 @@ fn mesh(mesh: Mesh3, outputs: Outputs) -> JsValue {
     if outputs.hull {
         set(&result, "hull", Uint32Array::new_from_slice(hull.as_flattened()));
     }
+    if let Some(trace) = &stats.trace {
+        set(&result, "trace", self::trace(trace));
+    }
     if outputs.duplicate_of {
         set(&result, "duplicateOf", Int32Array::new_from_slice(&duplicate_of));
     }
@@ -105,15 +125,83 @@ fn stats(stats: &Stats) -> JsValue {
     let phase =
         |&(name, seconds): &(&str, f64)| object([("name", name.into()), ("milliseconds", (1e3 * seconds).into())]);
     let phases: Array = stats.phases.iter().map(phase).collect();
-    let exact = object([
-        ("integer", (stats.exact.integer as f64).into()),
-        ("expansion", (stats.exact.expansion as f64).into()),
-        ("symbolic", (stats.exact.symbolic as f64).into()),
-    ]);
+    let fallback = stats.fallback.as_ref().map(|why| JsValue::from(why.to_string()));
     object([
         ("engine", stats.engine.into()),
-        ("why", stats.fallback.map_or(JsValue::NULL, JsValue::from)),
+        ("why", fallback.unwrap_or(JsValue::NULL)),
         ("phases", phases.into()),
-        ("exact", exact),
+        (
+            "exact",
+            object([
+                ("integer", number(stats.exact.integer)),
+                ("expansion", number(stats.exact.expansion)),
+                ("symbolic", number(stats.exact.symbolic)),
+            ]),
+        ),
+        ("gpu", stats.gpu.as_ref().map_or(JsValue::NULL, gpu_stats)),
+        ("splay", stats.splay.as_ref().map_or(JsValue::NULL, splay_stats)),
     ])
+}
+
+fn gpu_stats(stats: &GpuStats) -> JsValue {
+    let round = |round: &Round| {
+        object([
+            ("inserted", round.inserted.into()),
+            ("active", round.active.into()),
+            ("flips", round.flips.into()),
+            ("iterations", round.iterations.into()),
+            ("milliseconds", round.milliseconds.into()),
+        ])
+    };
+    let rounds: Array = stats.rounds.iter().map(round).collect();
+    object([
+        ("rounds", rounds.into()),
+        ("flips23", number(stats.flips_23)),
+        ("flips32", number(stats.flips_32)),
+        ("flipIterations", number(stats.flip_iterations)),
+        ("exactTests", number(stats.exact_tests)),
+        ("notLocallyDelaunay", number(stats.not_locally_delaunay)),
+        ("failedVertices", number(stats.failed_vertices)),
+        ("united", number(stats.united)),
+        ("readbacks", number(stats.readbacks)),
+        ("dispatches", number(stats.dispatches)),
+        ("submits", number(stats.submits)),
+        ("bytes", number(stats.bytes)),
+    ])
+}
+
+fn splay_stats(stats: &SplayStats) -> JsValue {
+    let count = |n: usize| number(n as u64);
+    object([
+        ("peeled", count(stats.peeled)),
+        ("failed", count(stats.failed)),
+        ("built", count(stats.built)),
+        ("fromPoints", count(stats.from_points)),
+        ("pulled", count(stats.pulled)),
+        ("flips", count(stats.flips)),
+        ("insertions", count(stats.insertions)),
+        ("checks", count(stats.checks)),
+        ("removed", count(stats.removed)),
+        ("added", count(stats.added)),
+        ("inserted", count(stats.inserted)),
+        ("signs", number(stats.signs)),
+    ])
+}
+
+fn trace(trace: &Trace) -> JsValue {
+    let round =
+        |round: &Vec<[u32; 4]>| object([("tetrahedra", Uint32Array::new_from_slice(round.as_flattened()).into())]);
+    let rounds: Array = trace.rounds.iter().map(round).collect();
+    let facets = Uint32Array::new_from_slice(trace.not_locally_delaunay.as_flattened());
+    let created: Vec<u8> = trace.splayed.iter().map(|&splayed| u8::from(splayed)).collect();
+    object([
+        ("rounds", rounds.into()),
+        ("nonDelaunayFacets", facets.into()),
+        ("created", Uint8Array::new_from_slice(&created).into()),
+    ])
+}
+
+/// Counts as JavaScript has them: exact up to 2⁵³.
+fn number(count: u64) -> JsValue {
+    (count as f64).into()
 }

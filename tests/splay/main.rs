@@ -12,7 +12,7 @@ use gdel::{
     lattice::Lattice,
     predicates::vertices::Vertices,
     splay::{GaveUp, NONE, NearDelaunay, Outcome, SplayStats, splay},
-    triangulation::{FiniteMesh, Triangulation},
+    triangulation::FiniteMesh,
     verify::{Statement, verify3d},
 };
 use inputs::Cloud;
@@ -46,7 +46,7 @@ fn check(name: &str, vertices: &Vertices<'_>, near: NearDelaunay, answer: &[[u32
 /// The tetrahedra that splaying gives, which the verifier accepts.
 fn splayed(name: &str, vertices: &Vertices<'_>, near: NearDelaunay) -> (Vec<[u32; 4]>, SplayStats) {
     let started = std::time::Instant::now();
-    let (mesh, stats) = match splay(vertices, near, u64::MAX, &|_| Ok(())).unwrap() {
+    let (mesh, stats) = match splay(vertices, near, u64::MAX, 4, &|_| Ok(())).unwrap() {
         Outcome::Delaunay(mesh, stats) => (mesh, stats),
         Outcome::GaveUp(reason) => panic!("{name}: gave up: {reason:?}"),
     };
@@ -230,17 +230,40 @@ fn spoilt(points: &Cloud) -> NearDelaunay {
     near(points.len() as u32, &exact(&displaced, &shuffled(points.len(), 21)))
 }
 
+/// The stars of thousands of failed vertices, each built in one of several threads: nothing depends on which.
+#[test]
+fn threads_share_the_stars() {
+    let points = inputs::sphere(3000, 22);
+    let identity: Vec<u32> = (0..points.len() as u32).collect();
+    let mut rng = inputs::random(23);
+    let displaced: Cloud = points.iter().map(|p| p.map(|x| x + 1e-3 * (rng.random::<f64>() - 0.5))).collect();
+    let near = near(points.len() as u32, &exact(&displaced, &identity));
+    let lattice = Lattice::fit((&points).into());
+    let results = [1, 8].map(|threads| {
+        let vertices = Vertices::of_input((&points).into(), &lattice);
+        match splay(&vertices, near.clone(), u64::MAX, threads, &|_| Ok(())).unwrap() {
+            Outcome::Delaunay(mesh, stats) => {
+                (canonical(mesh.into_mesh(None, threads).tetrahedra), stats, vertices.exact_counts())
+            }
+            Outcome::GaveUp(reason) => panic!("{reason:?}"),
+        }
+    });
+    assert!(results[0].1.built > 100, "{:?}", results[0].1);
+    assert_eq!(results[0], results[1]);
+    assert_eq!(results[0].0, exact(&points, &identity));
+}
+
 #[test]
 fn too_much_work_is_given_up() {
     let points = inputs::uniform(200, 19);
     let lattice = Lattice::fit((&points).into());
     let vertices = Vertices::new((&points).into(), &lattice, shuffled(points.len(), 21));
-    let enough = match splay(&vertices, spoilt(&points), u64::MAX, &|_| Ok(())).unwrap() {
+    let enough = match splay(&vertices, spoilt(&points), u64::MAX, 4, &|_| Ok(())).unwrap() {
         Outcome::Delaunay(_, stats) => stats.signs,
         Outcome::GaveUp(reason) => panic!("{reason:?}"),
     };
     for most_signs in [0, enough / 4, enough / 2, enough - enough / 8] {
-        let outcome = splay(&vertices, spoilt(&points), most_signs, &|_| Ok(())).unwrap();
+        let outcome = splay(&vertices, spoilt(&points), most_signs, 4, &|_| Ok(())).unwrap();
         assert!(matches!(outcome, Outcome::GaveUp(GaveUp::Work)), "{most_signs} of {enough}");
     }
 }
@@ -254,7 +277,7 @@ fn what_is_no_triangulation_is_given_up() {
     let no_tetrahedra = NearDelaunay { incident: vec![NONE; points.len() + 1], ..near.clone() };
     let wrong_tetrahedra = NearDelaunay { incident: near.incident.iter().rev().copied().collect(), ..near };
     for near in [no_tetrahedra, wrong_tetrahedra] {
-        let outcome = splay(&vertices, near, u64::MAX, &|_| Ok(())).unwrap();
+        let outcome = splay(&vertices, near, u64::MAX, 4, &|_| Ok(())).unwrap();
         assert!(matches!(outcome, Outcome::GaveUp(GaveUp::Inconsistent(_))), "{outcome:?}");
     }
 }
@@ -264,7 +287,7 @@ fn a_caller_can_stop_it() {
     let points = inputs::uniform(200, 23);
     let lattice = Lattice::fit((&points).into());
     let vertices = Vertices::new((&points).into(), &lattice, shuffled(points.len(), 21));
-    let outcome = splay(&vertices, spoilt(&points), u64::MAX, &|_| Err(gdel::Error::Cancelled));
+    let outcome = splay(&vertices, spoilt(&points), u64::MAX, 4, &|_| Err(gdel::Error::Cancelled));
     assert_eq!(outcome.err(), Some(gdel::Error::Cancelled));
 }
 

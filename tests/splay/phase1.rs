@@ -34,7 +34,11 @@ fn near(state: &State, vertices: &Vertices<'_>) -> NearDelaunay {
     };
     let neighbors = used.iter().map(|&t| order(t).map(|k| renumbered(state.neighbors[t][k]))).collect();
     let mut incident = vec![NONE; vertices.len() + 1];
-    tetrahedra.iter().zip(0..).for_each(|(t, n)| t.iter().for_each(|&v| incident[v as usize] = n));
+    // A ghost where there is one.
+    for ghosts in [false, true] {
+        let some = (0..).zip(&tetrahedra).filter(|(_, t)| (t[3] == infinite) == ghosts);
+        some.for_each(|(n, t)| t.iter().for_each(|&v| incident[v as usize] = n));
+    }
     let triangulation = Triangulation::new(tetrahedra, neighbors, infinite);
     let doubtful = flat_or_inverted(&triangulation, vertices);
     let failed = (0..vertices.len() as u32).filter(|&v| state.failed[v as usize] != 0).collect();

@@ -4,10 +4,7 @@ import makeEngineGlue from 'glue:engine';
 import makeToolsGlue from 'glue:tools';
 import { toPlainError, type PlainError } from './errors.js';
 import type { Control, CoreInfo, ModuleName, TaskName, Tasks } from './protocol.js';
-import type { AdapterInfo, EngineName } from './types.js';
-
-/** Below so many points, a device takes longer to start than the CPU engine to finish. */
-export const FEW_POINTS = 20_000;
+import type { AdapterInfo, EngineName, Output } from './types.js';
 
 /** Progress is told at most so often: a message costs the page more than a phase is worth. */
 const PROGRESS_MILLISECONDS = 20;
@@ -67,9 +64,10 @@ function scopeWith(gpu: object): object {
 function engineTasks(module: WebAssembly.Module, gpu: object | undefined) {
   const glue = makeEngineGlue(gpu ? scopeWith(gpu) : globalThis);
   const { memory } = glue.initSync({ module });
+  const engines = new glue.WasmEngines();
+  const leastGpuPoints: number = glue.least_gpu_points();
 
-  type GpuEngine = InstanceType<typeof glue.GpuEngine>;
-  let opening: Promise<GpuEngine> | undefined;
+  let looking: Promise<AdapterInfo> | undefined;
 
   /** The adapter, as far as there is one. */
   async function look(): Promise<AdapterInfo> {
@@ -81,85 +79,71 @@ function engineTasks(module: WebAssembly.Module, gpu: object | undefined) {
     return describe(adapter);
   }
 
-  /** The device with its kernels, which are compiled once, and again after it was lost. */
-  function device(): Promise<GpuEngine> {
-    opening ??= glue.GpuEngine.open().catch((thrown: unknown) => {
-      opening = undefined;
-      throw thrown;
-    });
-    return opening!;
-  }
-
-  function close(): void {
-    void opening?.then((gpuEngine) => gpuEngine.destroy(), () => {});
-    opening = undefined;
-  }
-
-  /** What `engine` would use. `auto` takes no adapter that is only software, and spends no time on compiling for it. */
-  async function open(engine: EngineName): Promise<CoreInfo> {
+  /** What `engine` would use. The crate makes the choice, but knows less of adapters: their names are not all told to it. */
+  async function choose(engine: EngineName): Promise<CoreInfo> {
     let adapter: AdapterInfo | null = null;
     try {
-      adapter = await look();
+      adapter = await (looking ??= look());
       if (engine === 'auto' && adapter.software) {
         const name = [adapter.vendor, adapter.architecture, adapter.description].filter(Boolean).join(' ');
         return { engine: 'cpu', why: `the adapter (${name}) is software, slower than the CPU engine`, adapter };
       }
-      await device();
       return { engine: 'gpu', why: null, adapter };
     } catch (thrown) {
+      looking = undefined;
       const error = toPlainError(thrown, memory.buffer.byteLength);
       if (engine === 'gpu' || error.fatal) throw thrown;
       return { engine: 'cpu', why: error.message, adapter };
     }
   }
 
-  const infos: { [engine in EngineName]?: CoreInfo } = {};
-  const opened = async (engine: EngineName) => (infos[engine] ??= await open(engine));
-
   const handlers: Handlers = {
-    open: ({ engine }) => opened(engine),
+    async open({ engine }) {
+      const info = await choose(engine);
+      if (info.engine === 'cpu') return info;
+      try {
+        await engines.open();
+        return info;
+      } catch (thrown) {
+        const error = toPlainError(thrown, memory.buffer.byteLength);
+        if (engine === 'gpu' || error.fatal) throw thrown;
+        return { ...info, engine: 'cpu', why: error.message };
+      }
+    },
+
     async delaunay3d({ points, engine, outputs }, control) {
       const started = performance.now();
-      const wanted = () => new glue.Outputs(outputs.includes('neighbors'), outputs.includes('hull'), outputs.includes('duplicateOf'));
-      const onProgress = (phase: string, fraction: number) => {
-        control.onProgress({ phase, fraction });
-        return control.isAborted();
-      };
-      const finish = (mesh: any, adapter: AdapterInfo | null, why: string | null) => ({
+      const undecided = engine === 'gpu' || (engine === 'auto' && points.length >= 3 * leastGpuPoints);
+      const info = undecided ? await choose(engine) : null;
+      const has = (output: Output) => outputs.includes(output);
+      const mesh = await engines.delaunay3d(
+        points,
+        info?.engine === 'cpu' ? 'cpu' : engine,
+        new glue.Outputs(has('neighbors'), has('hull'), has('duplicateOf'), has('trace')),
+        (phase: string, fraction: number) => {
+          control.onProgress({ phase, fraction });
+          return control.isAborted();
+        },
+      );
+      return {
         points,
         tetrahedra: mesh.tetrahedra,
         neighbors: mesh.neighbors ?? new Int32Array(0),
         hull: mesh.hull ?? new Uint32Array(0),
         duplicateOf: mesh.duplicateOf ?? new Int32Array(0),
         dimension: mesh.dimension,
+        ...(mesh.trace && { trace: mesh.trace }),
         stats: {
           ...mesh.stats,
-          why: mesh.stats.why ?? why,
-          adapter: mesh.stats.engine === 'gpu' ? adapter : null,
+          why: mesh.stats.why ?? info?.why ?? null,
+          adapter: mesh.stats.engine === 'gpu' ? (info?.adapter ?? null) : null,
           milliseconds: performance.now() - started,
           wasmBytes: memory.buffer.byteLength,
         },
-      });
-      const onCpu = (why: string | null) => finish(glue.delaunay3d_cpu(points, wanted(), onProgress), null, why);
-
-      if (engine === 'cpu') return onCpu(null);
-      if (engine === 'auto' && points.length < 3 * FEW_POINTS) {
-        return onCpu(`fewer than ${FEW_POINTS} points are faster on the CPU`);
-      }
-      const { engine: best, why, adapter } = await opened(engine);
-      if (best === 'cpu') return onCpu(why);
-      try {
-        return finish(await (await device()).delaunay3d(points, wanted(), onProgress), adapter, null);
-      } catch (thrown) {
-        const { code, message, fatal } = toPlainError(thrown, memory.buffer.byteLength);
-        if (code === 'DEVICE_LOST' || code === 'GPU') close();
-        const unfit: string[] = ['DEVICE_LOST', 'GPU', 'NO_ADAPTER', 'OUT_OF_DEVICE_MEMORY', 'BUFFER_TOO_LARGE'];
-        if (engine === 'gpu' || fatal || !unfit.includes(code)) throw thrown;
-        return onCpu(message);
-      }
+      };
     },
   };
-  return { handlers, memory, dispose: close };
+  return { handlers, memory, dispose: () => void engines.close() };
 }
 
 /** Chromium says `isFallbackAdapter`; the names are those of the software rasterisers that browsers and Mesa have. */

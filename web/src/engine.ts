@@ -12,7 +12,8 @@ import type {
   RunOptions,
 } from './types.js';
 
-const OUTPUTS: readonly Output[] = ['neighbors', 'hull', 'duplicateOf'];
+const ALL_OUTPUTS: readonly Output[] = ['neighbors', 'hull', 'duplicateOf', 'trace'];
+const DEFAULT_OUTPUTS = ALL_OUTPUTS.filter((output) => output !== 'trace');
 const ENGINES: readonly EngineName[] = ['auto', 'gpu', 'cpu'];
 
 /**
@@ -94,11 +95,11 @@ async function triangulate(host: Host, points: unknown, options: RunOptions & { 
   const { signal, onProgress, transfer = false } = options;
   throwIfAborted(signal);
   const engine = options.engine ?? 'auto';
-  const outputs = options.outputs ?? OUTPUTS;
+  const outputs = options.outputs ?? DEFAULT_OUTPUTS;
   checkEngine(engine);
-  const unknown = Array.isArray(outputs) ? outputs.find((output) => !OUTPUTS.includes(output)) : outputs;
+  const unknown = Array.isArray(outputs) ? outputs.find((output) => !ALL_OUTPUTS.includes(output)) : outputs;
   if (unknown !== undefined) {
-    throw new GdelError('BAD_INPUT', `outputs are among ${OUTPUTS.join(', ')}, not ${String(unknown)}`);
+    throw new GdelError('BAD_INPUT', `outputs are among ${ALL_OUTPUTS.join(', ')}, not ${String(unknown)}`);
   }
   if (options.point !== undefined && typeof options.point !== 'function') {
     throw new GdelError('BAD_INPUT', 'the option point is a function');

@@ -17,6 +17,7 @@ export type {
   EngineInfo,
   EngineName,
   EngineOptions,
+  GpuStats,
   MeshStatement,
   Output,
   PointCloud,
@@ -24,6 +25,8 @@ export type {
   Progress,
   Report,
   RunOptions,
+  SplayStats,
   Stats,
   TaskOptions,
+  Trace,
 } from './types.js';

@@ -1,6 +1,6 @@
 import { GdelError } from './errors.js';
 import { write } from './tools.js';
-import type { Output, Stats, TaskOptions } from './types.js';
+import type { Output, Stats, TaskOptions, Trace } from './types.js';
 
 /**
  * A 3D Delaunay triangulation, as plain arrays. All indices are those of the input points, which {@link points} has.
@@ -20,10 +20,12 @@ export class Mesh3 {
   readonly points: Float32Array | Float64Array;
   /** What the run did. */
   readonly stats: Stats;
+  /** How the mesh came about, where `outputs` asked for it and the GPU engine made it. */
+  readonly trace?: Trace;
   readonly #outputs: readonly Output[];
 
   /** @internal */
-  constructor(arrays: Pick<Mesh3, 'tetrahedra' | 'neighbors' | 'hull' | 'duplicateOf' | 'dimension' | 'points' | 'stats'>, outputs: readonly Output[]) {
+  constructor(arrays: Omit<Mesh3, `to${string}`>, outputs: readonly Output[]) {
     this.tetrahedra = arrays.tetrahedra;
     this.neighbors = arrays.neighbors;
     this.hull = arrays.hull;
@@ -31,6 +33,7 @@ export class Mesh3 {
     this.dimension = arrays.dimension;
     this.points = arrays.points;
     this.stats = arrays.stats;
+    if (arrays.trace) this.trace = arrays.trace;
     this.#outputs = outputs;
   }
 

@@ -1,7 +1,7 @@
 // What the page and the worker say to each other.
 
 import type { PlainError } from './errors.js';
-import type { EngineName, EngineInfo, Output, PointCloud, Progress, Report, Stats } from './types.js';
+import type { EngineName, EngineInfo, Output, PointCloud, Progress, Report, Stats, Trace } from './types.js';
 
 /** The two wasm modules. */
 export type ModuleName = 'engine' | 'tools';
@@ -32,6 +32,7 @@ export interface Tasks {
       hull: Uint32Array;
       duplicateOf: Int32Array;
       dimension: 0 | 1 | 2 | 3;
+      trace?: Trace;
       stats: CoreStats;
     };
   };

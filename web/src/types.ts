@@ -9,8 +9,11 @@ export type Points = Float32Array | Float64Array | ArrayLike<ArrayLike<number>>;
 /** `'auto'`: the GPU where there is a hardware adapter and enough points, else the CPU. */
 export type EngineName = 'auto' | 'gpu' | 'cpu';
 
-/** The arrays of a mesh that can be left out. */
-export type Output = 'neighbors' | 'hull' | 'duplicateOf';
+/**
+ * What a run can deliver besides the tetrahedra. `'trace'` is for small inputs: the GPU engine then reads everything back
+ * after every round.
+ */
+export type Output = 'neighbors' | 'hull' | 'duplicateOf' | 'trace';
 
 /** How far a run has come. */
 export interface Progress {
@@ -33,7 +36,7 @@ export interface TaskOptions {
 export interface RunOptions extends TaskOptions {
   /** Which engine; all give the same set of tetrahedra. Default: the engine's own, `'auto'`. */
   engine?: EngineName | undefined;
-  /** The arrays to deliver besides `tetrahedra`; those left out are empty. Default: all. */
+  /** The arrays to deliver besides `tetrahedra`; those left out are empty. Default: all but `'trace'`. */
   outputs?: readonly Output[] | undefined;
   /** Give the input's buffer away instead of copying it: the array, and every other view of its buffer, is empty
    * afterwards. {@link Mesh3.points} gives the coordinates back. Default: false. */
@@ -107,8 +110,83 @@ export interface Stats {
     /** Cospherical points: the symbolic perturbation. */
     symbolic: number;
   };
+  /** What the GPU did, also where the CPU engine had to take over from it; else null. */
+  gpu: GpuStats | null;
+  /** What star splaying did after that. */
+  splay: SplayStats | null;
   /** Bytes of WebAssembly memory: the most that was ever needed, since it never shrinks. */
   wasmBytes: number;
+}
+
+/** What the flipping phase did on the GPU. */
+export interface GpuStats {
+  /** The insertion rounds, then the rounds in which the last flips were done. */
+  rounds: {
+    /** Points that were inserted. */
+    inserted: number;
+    /** Tetrahedra whose facets are still to be checked at the end. */
+    active: number;
+    flips: number;
+    /** Flip iterations that had something to do. */
+    iterations: number;
+    milliseconds: number;
+  }[];
+  /** Flips of two tetrahedra into three. */
+  flips23: number;
+  /** Flips of three tetrahedra into two. */
+  flips32: number;
+  flipIterations: number;
+  /** Signs that took exact arithmetic. */
+  exactTests: number;
+  /** Facets that were not locally Delaunay and could not be flipped. */
+  notLocallyDelaunay: number;
+  /** The vertices of such facets. */
+  failedVertices: number;
+  /** Points that another one at the same place of the lattice stood for. */
+  united: number;
+  readbacks: number;
+  dispatches: number;
+  submits: number;
+  /** The most bytes of GPU memory that were held at a time. */
+  bytes: number;
+}
+
+/** What star splaying did. */
+export interface SplayStats {
+  /** Flat tetrahedra on the hull that were peeled off. */
+  peeled: number;
+  /** Failed vertices. */
+  failed: number;
+  /** Stars that were made convex. */
+  built: number;
+  /** Of these, the ones that were built from their points. */
+  fromPoints: number;
+  /** Stars that were taken from the triangulation as they are. */
+  pulled: number;
+  /** Flips of Flip-Flop. */
+  flips: number;
+  /** Points that were inserted into stars. */
+  insertions: number;
+  /** Checks whether all stars agree about a tetrahedron. */
+  checks: number;
+  /** Tetrahedra that were removed from the triangulation. */
+  removed: number;
+  /** Tetrahedra that were added to it. */
+  added: number;
+  /** Points that only splaying inserted. */
+  inserted: number;
+  /** Signs that were asked for. */
+  signs: number;
+}
+
+/** How a mesh came about, step by step, in the GPU engine. */
+export interface Trace {
+  /** The finite tetrahedra after each of {@link GpuStats.rounds}. The last are what splaying begins with. */
+  rounds: { tetrahedra: Uint32Array }[];
+  /** Three a facet: those between finite tetrahedra that were not locally Delaunay when flipping was done. */
+  nonDelaunayFacets: Uint32Array;
+  /** One a tetrahedron of the mesh: 0 if flipping made it, 1 if splaying did. */
+  created: Uint8Array;
 }
 
 /** The distributions of {@link generate}. */

@@ -45,6 +45,11 @@ pub struct Buffers {
     pub failed: Storage<u32>,
 }
 
+/// The bytes of the largest of the buffers: with 16 bytes a slot, several have this size, and no other is larger.
+pub(super) fn largest_bytes(blocks: u32) -> u128 {
+    u128::from(blocks) * u128::from(BLOCK) * size_of::<[u32; 4]>() as u128
+}
+
 impl Buffers {
     /// Buffers for these points.
     ///

@@ -29,6 +29,7 @@ use super::{Gpu, Kernel, Profiler, Readback};
 use crate::{
     Error, Points,
     lattice::{Lattice, Width},
+    stats::{GpuStats, Round},
 };
 
 /// Which of its waiting points a tetrahedron inserts.
@@ -90,12 +91,14 @@ pub struct Input<'a> {
 /// What a run did.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Phase1Stats {
-    /// Insertion rounds.
-    pub rounds: u32,
+    /// The insertion rounds, the first with the ordering of the points; then the rounds of the last flips.
+    pub rounds: Vec<Round>,
     /// The kernels' counters.
     pub counters: Counters,
     /// Dispatches.
     pub dispatches: usize,
+    /// Submissions.
+    pub submits: usize,
     /// Readbacks.
     pub readbacks: usize,
     /// The most bytes of GPU memory that were held at a time.
@@ -104,6 +107,28 @@ pub struct Phase1Stats {
     pub milliseconds: f64,
     /// Milliseconds of the readback of the result, on the host's clock.
     pub readback_milliseconds: f64,
+}
+
+impl Phase1Stats {
+    /// The same for users, on an adapter of this name.
+    pub fn summary(&self, adapter: &str) -> GpuStats {
+        let Counters { flips_23, flips_32, iterations, exact, not_locally_delaunay, failed, aside, .. } = self.counters;
+        GpuStats {
+            adapter: adapter.to_owned(),
+            rounds: self.rounds.clone(),
+            flips_23: flips_23.into(),
+            flips_32: flips_32.into(),
+            flip_iterations: iterations.into(),
+            exact_tests: exact.into(),
+            not_locally_delaunay: not_locally_delaunay.into(),
+            failed_vertices: failed.into(),
+            united: aside.into(),
+            readbacks: self.readbacks as u64,
+            dispatches: self.dispatches as u64,
+            submits: self.submits as u64,
+            bytes: self.bytes,
+        }
+    }
 }
 
 /// A triangulation whose only facets that are not locally Delaunay cannot be flipped.

@@ -4,6 +4,7 @@ use bytemuck::Zeroable;
 
 use super::{
     Buffers, COUNTER_WORDS, Input, PARAM_WORDS, Phase1, Phase1Output, Phase1Stats, Settings,
+    buffers::largest_bytes,
     memory::{Kept, Memory},
 };
 use crate::{
@@ -14,7 +15,13 @@ use crate::{
         stages::{finish::BoundFinish, points::PointBuffers},
         vertex, workgroups,
     },
+    stats::{Round, Stopwatch},
 };
+
+/// Where few signs are left open, exact checks wait for each other: one alone takes longer than all filters of an iteration.
+const SELDOM: u32 = 4;
+/// Where more than one sign for this many visited tetrahedra is left open, they do not wait, since there would be no progress.
+const MANY_EXACT: u64 = 16;
 
 /// A run that is under way.
 pub struct Run<'a> {
@@ -32,15 +39,34 @@ pub struct Run<'a> {
     first: bool,
     /// Flip iterations to record for a round.
     iterations: u32,
+    /// Exact checks follow the filter in every so many iterations of a round.
+    exact_every: u32,
     /// An upper bound of the iteration that the kernels count.
     counted: u32,
     stats: Phase1Stats,
-    clock: crate::stats::Stopwatch,
+    clock: Stopwatch,
+    round_clock: Stopwatch,
 }
 
 /// The bits of a bidder's number: twice as many as there are slots, because the upper half is for marks.
 fn bid_bits(blocks: u32) -> u32 {
     33 - (blocks * BLOCK).leading_zeros()
+}
+
+/// The blocks for so many points: theirs, that of infinity, and a tail.
+fn first_blocks(points: u32, settings: &Settings) -> u32 {
+    points + 1 + tail_blocks(points, settings)
+}
+
+/// The most points whose buffers a device can bind.
+fn most_points(limit: u64, settings: &Settings) -> usize {
+    let fits = |points: &u32| largest_bytes(first_blocks(*points, settings)) <= limit.into();
+    let (mut fitting, mut too_many) = (0, Run::MAX_POINTS as u32 + 1);
+    while too_many - fitting > 1 {
+        let middle = fitting + (too_many - fitting) / 2;
+        *(if fits(&middle) { &mut fitting } else { &mut too_many }) = middle;
+    }
+    fitting as usize
 }
 
 /// Blocks that are added to the tail at a time: at least 64, so that few points do not need many steps.
@@ -65,12 +91,18 @@ impl<'a> Run<'a> {
         settings: Settings,
         mut profiler: Option<&'a mut Profiler>,
     ) -> Result<Self, Error> {
-        let clock = crate::stats::Stopwatch::start();
+        let (clock, round_clock) = (Stopwatch::start(), Stopwatch::start());
         let count = input.points.len();
         if count > Self::MAX_POINTS {
             return Err(Error::TooManyPoints { points: count, limit: Self::MAX_POINTS });
         }
         let points = count as u32;
+        let blocks = first_blocks(points, &settings);
+        let (bytes, limit) = (largest_bytes(blocks), gpu.max_storage_bytes());
+        if bytes > limit.into() {
+            let points = Some(most_points(limit, &settings));
+            return Err(Error::BufferTooLarge { label: "tetrahedra", bytes, limit, points });
+        }
         let bindable = gpu.max_storage_bytes() / size_of::<FlipNode>() as u64;
         let history = (u64::from(settings.history) * u64::from(points)).clamp(64, bindable.max(64)) as u32;
         // What is kept is lost if the run fails.
@@ -87,7 +119,6 @@ impl<'a> Run<'a> {
                 device.vertices.write(gpu, count * kernel_point.len(), &kernel_point);
                 let dispatches = recorder.dispatches();
                 recorder.submit(gpu);
-                let blocks = points + 1 + tail_blocks(points, &settings);
                 Ok((Memory::new(kernels, gpu, kept, device, blocks, history)?, dispatches))
             })
             .await?;
@@ -113,9 +144,11 @@ impl<'a> Run<'a> {
             kernels,
             first: true,
             iterations: 20,
+            exact_every: SELDOM,
             counted: 0,
-            stats: Phase1Stats { dispatches, ..Phase1Stats::default() },
+            stats: Phase1Stats { dispatches, submits: 1, ..Phase1Stats::default() },
             clock,
+            round_clock,
         })
     }
 
@@ -155,13 +188,21 @@ impl<'a> Run<'a> {
         self.counters = read;
         self.counted = read.iteration;
         let used = read.iterations - before.iterations;
+        let exact = u64::from(read.exact.wrapping_sub(before.exact));
+        let often = exact * MANY_EXACT > u64::from(read.visits.wrapping_sub(before.visits));
+        self.exact_every = if often { 1 } else { SELDOM };
         // Rounds grow at first: a flip that waits for the next round costs more than an idle iteration.
         self.iterations = if used >= self.iterations { (2 * used).min(64) } else { (used + used / 2).clamp(20, 64) };
-        if inserts {
-            self.stats.rounds += 1;
-            if read.inserted == before.inserted && self.waiting() > 0 {
-                return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
-            }
+        self.stats.submits += 1;
+        self.stats.rounds.push(Round {
+            inserted: read.inserted - before.inserted,
+            active: self.active(),
+            flips: read.flips_23 + read.flips_32 - before.flips_23 - before.flips_32,
+            iterations: used,
+            milliseconds: self.round_clock.lap() * 1e3,
+        });
+        if inserts && read.inserted == before.inserted && self.waiting() > 0 {
+            return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
         }
         Ok(self.waiting() > 0 || self.active() > 0)
     }
@@ -235,7 +276,7 @@ impl<'a> Run<'a> {
                 self.counted = 1;
             }
             let now = left.min(last - self.counted);
-            self.kernels.flip.record(recorder, &self.memory.flip, now, self.workgroups());
+            self.kernels.flip.record(recorder, &self.memory.flip, now, self.exact_every, self.workgroups());
             self.counted += now;
             left -= now;
         }
@@ -248,6 +289,12 @@ impl<'a> Run<'a> {
         let blocks = before.saturating_add(more).min((1 << 30) / BLOCK - 1);
         if blocks == before {
             return Err(Error::TooManyTetrahedra { limit: 1 << 30 });
+        }
+        let (bytes, limit) = (largest_bytes(blocks), self.gpu.max_storage_bytes());
+        if bytes > limit.into() {
+            // Points that lie like these.
+            let points = u128::from(self.params.infinite) * u128::from(limit) / bytes;
+            return Err(Error::BufferTooLarge { label: "tetrahedra", bytes, limit, points: Some(points as usize) });
         }
         self.memory = self.memory.with_blocks(self.kernels, self.gpu, recorder, blocks)?;
         (self.params.blocks_before, self.params.blocks) = (before, blocks);
@@ -294,21 +341,24 @@ impl<'a> Run<'a> {
         let tets = finite + counters.ghosts as usize;
         let aside = if counters.aside > 0 { count } else { 0 };
         let readback = &mut kernels.readback;
-        let (submission, tets, neighbors, tet_of, failed, united, doubtful) = gpu
+        let (first, tets, submission, neighbors, tet_of, failed, united, doubtful) = gpu
             .catching("the result of Phase 1", || {
+                // The host takes the first part while the device sends the second.
+                let bound = &memory.finish;
+                let mut recorder = Recorder::new(gpu, None);
+                let tets_read = readback.copy(gpu, recorder.encoder(), &bound.tets, 0, tets);
+                let first = recorder.submit(gpu);
                 let mut recorder = Recorder::new(gpu, None);
                 let encoder = recorder.encoder();
-                let bound = &memory.finish;
-                let tets_read = readback.copy(gpu, encoder, &bound.tets, 0, tets);
                 let neighbors = readback.copy(gpu, encoder, &bound.neighbors, 0, tets);
                 let tet_of = readback.copy(gpu, encoder, &bound.tet_of, 0, count + 1);
                 let failed = readback.copy(gpu, encoder, &bound.failed, 0, counters.failed as usize);
                 let united = readback.copy(gpu, encoder, &memory.buffers.points.united_with, 0, aside);
                 let doubtful = readback.copy(gpu, encoder, &bound.doubtful, 0, counters.doubtful as usize);
-                Ok((recorder.submit(gpu), tets_read, neighbors, tet_of, failed, united, doubtful))
+                Ok((first, tets_read, recorder.submit(gpu), neighbors, tet_of, failed, united, doubtful))
             })
             .await?;
-        let tets = readback.receive(gpu, &submission, tets).await?;
+        let tets = readback.receive(gpu, &first, tets).await?;
         let neighbors = readback.receive(gpu, &submission, neighbors).await?;
         let mut tet_of = readback.receive(gpu, &submission, tet_of).await?;
         let mut failed = readback.receive(gpu, &submission, failed).await?;
@@ -321,6 +371,7 @@ impl<'a> Run<'a> {
         doubtful.sort_unstable();
         stats.readback_milliseconds = clock.lap() * 1e3;
         stats.counters = counters;
+        stats.submits += 2;
         stats.readbacks = readback.count() - read_before;
         stats.bytes = memory.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
         kernels.kept = Kept { points, memory: Some(memory) };

@@ -56,13 +56,23 @@ impl Flip {
         }
     }
 
-    /// Records flip iterations. Those that find too few active tetrahedra do nothing.
-    pub fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundFlip, iterations: u32, workgroups: u32) {
-        for _ in 0..iterations {
+    /// Records flip iterations. Those that find too few active tetrahedra do nothing. What the filter leaves open is decided
+    /// in every `exact_every`th, and in the last one.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        bound: &BoundFlip,
+        iterations: u32,
+        exact_every: u32,
+        workgroups: u32,
+    ) {
+        for i in 1..=iterations {
             recorder.stage("flip: check");
             recorder.dispatch(&self.check, &bound.check, workgroups);
-            recorder.stage("flip: check exactly");
-            recorder.dispatch(&self.check_exact, &bound.check_exact, workgroups);
+            if i.is_multiple_of(exact_every) || i == iterations {
+                recorder.stage("flip: check exactly");
+                recorder.dispatch(&self.check_exact, &bound.check_exact, workgroups);
+            }
             recorder.stage("flip: commit");
             recorder.dispatch(&self.commit, &bound.commit, workgroups);
             recorder.stage("flip: link");

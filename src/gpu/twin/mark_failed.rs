@@ -21,6 +21,11 @@ pub fn mark_failed(state: &mut State) {
             let across = state.neighbors[t][k];
             let e = state.tets[(across >> 2) as usize][(across & 3) as usize];
             if state.inside(state.tets[t], e) {
+                // Both sides may be suspect: the one with the lower number counts.
+                let other = (across >> 2) as usize;
+                if other > t || state.status[other].flags >> SUSPECT_SHIFT >> (across & 3) & 1 == 0 {
+                    state.counters.not_locally_delaunay += 1;
+                }
                 for &corner in corners {
                     let v = state.tets[t][corner];
                     if v != state.params.infinite {

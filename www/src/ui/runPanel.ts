@@ -46,7 +46,7 @@ export function runPanel(page: Page): Part {
 
 function showFigures({ points, duplicates, tetrahedra, hullTriangles, stats }: Summary): void {
   const { gpu, splay, exact } = stats;
-  const rows: [string, number | undefined][] = [
+  const rows: [string, number | null | undefined][] = [
     ['Points', points],
     ['of them exact duplicates', duplicates],
     ['Tetrahedra', tetrahedra],
@@ -62,7 +62,7 @@ function showFigures({ points, duplicates, tetrahedra, hullTriangles, stats }: S
   ];
   byId('figures').replaceChildren(
     ...rows
-      .filter(([, value]) => value !== undefined)
+      .filter(([, value]) => value != null)
       .map(([name, value]) => create('tr', {}, create('th', { scope: 'row' }, name), create('td', {}, count(value!)))),
   );
 }

@@ -1,0 +1,181 @@
+//! The engines behind one function: the GPU engine is opened when it is first needed, and kept for later inputs.
+
+use crate::{
+    Engine, Error, Mesh3, Options, Points, cpu,
+    gpu::{AdapterChoice, Gpu},
+    hybrid::Hybrid,
+    stats::Fallback,
+};
+use async_lock::Mutex;
+
+/// From so many points on, [`Engine::Auto`] takes the GPU engine if it is open.
+///
+/// Measured with `cargo run --release --example experiments -- crossing`. Uniform points, one NVIDIA H200 and one core of
+/// the Xeon beside it, 2026-11-21: the CPU engine takes 2.0 µs a point, the GPU engine 47 ms for 100,000 and never more for
+/// fewer, so they cross at 24,000 points or below.
+pub const LEAST_POINTS: usize = 24_000;
+
+/// The points that the CPU engine triangulates in the time that it takes to open the GPU and compile its kernels: 200 ms on
+/// the same machine. [`Engine::Auto`] opens it when it has been asked for so many in all that the GPU would have taken, so
+/// opening never costs more than was lost by not having done so.
+pub const OPENING_POINTS: usize = 100_000;
+
+/// Both engines, for any number of inputs.
+///
+/// [`delaunay3d`](crate::delaunay3d) has one of these for the whole process. Make another to choose the adapter, or where
+/// nothing may block (browsers). The device does one run at a time; others wait for it.
+#[derive(Debug, Default)]
+pub struct Engines {
+    adapter: AdapterChoice,
+    state: Mutex<State>,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    /// The GPU engine, while it is open.
+    hybrid: Option<Hybrid>,
+    /// Whether [`Engine::Auto`] may take it though it is software.
+    given: bool,
+    /// Why [`Engine::Auto`] does not try to open it again.
+    unusable: Option<Fallback>,
+    /// Points of the inputs that the GPU engine would have been taken for, had it been open.
+    missed: usize,
+}
+
+impl Engines {
+    /// Engines of which that for the GPU will use this adapter.
+    pub fn new(adapter: AdapterChoice) -> Self {
+        Engines { adapter, ..Engines::default() }
+    }
+
+    /// Engines with this GPU engine, which [`Engine::Auto`] takes even if it is software. When its device is lost, the
+    /// default adapter replaces it.
+    pub fn with_hybrid(hybrid: Hybrid) -> Self {
+        let state = State { hybrid: Some(hybrid), given: true, ..State::default() };
+        Engines { state: Mutex::new(state), ..Engines::default() }
+    }
+
+    /// Those of this process.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn shared() -> &'static Engines {
+        static SHARED: std::sync::LazyLock<Engines> = std::sync::LazyLock::new(Engines::default);
+        &SHARED
+    }
+
+    /// The GPU, opened if it is not. The kernels are compiled for it, too.
+    ///
+    /// # Errors
+    ///
+    /// As [`Gpu::open`] and [`Hybrid::new`].
+    pub async fn gpu(&self) -> Result<Gpu, Error> {
+        let mut state = self.state.lock().await;
+        Ok(state.open(&self.adapter).await?.gpu().clone())
+    }
+
+    /// Gives the device back now, and not when the last reference to it goes. A later run opens it anew.
+    pub async fn close(&self) {
+        if let Some(hybrid) = self.state.lock().await.hybrid.take() {
+            hybrid.gpu().device().destroy();
+        }
+    }
+
+    /// The triangulation of `points` by the engine that `options` name: see [`delaunay3d`](crate::delaunay3d).
+    ///
+    /// # Errors
+    ///
+    /// As for [`delaunay3d`](crate::delaunay3d).
+    pub async fn delaunay3d(&self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
+        match options.engine {
+            Engine::Cpu => cpu::delaunay3d(points, options),
+            Engine::Gpu => {
+                let mut state = self.state.lock().await;
+                state.open(&self.adapter).await?;
+                state.run(points, options).await
+            }
+            Engine::Auto => {
+                let options = &options.monotone();
+                let why = match self.try_gpu(points, options).await {
+                    Ok(result) => return result,
+                    Err(why) => why,
+                };
+                let mut mesh = cpu::delaunay3d(points, options)?;
+                mesh.stats.fallback = Some(why);
+                Ok(mesh)
+            }
+        }
+    }
+
+    /// What the GPU engine makes of the points, or why the CPU engine has to.
+    async fn try_gpu(&self, points: Points<'_>, options: &Options) -> Result<Result<Mesh3, Error>, Fallback> {
+        if points.len() < LEAST_POINTS {
+            return Err(Fallback::FewPoints { points: points.len(), least: LEAST_POINTS });
+        }
+        let mut state = self.state.lock().await;
+        state.open_if_it_pays(&self.adapter, points.len()).await?;
+        match state.run(points, options).await {
+            Err(error) if error.is_of_the_gpu() => Err(Fallback::GpuFailed(error)),
+            result => Ok(result),
+        }
+    }
+}
+
+impl State {
+    /// The GPU engine, opened if it is not.
+    async fn open(&mut self, adapter: &AdapterChoice) -> Result<&mut Hybrid, Error> {
+        let hybrid = match self.hybrid.take() {
+            Some(hybrid) => hybrid,
+            None => Hybrid::new(Gpu::open(adapter).await?).await?,
+        };
+        Ok(self.hybrid.insert(hybrid))
+    }
+
+    /// Opens the GPU engine for an input of `points` points if it is not open, or says why not to take it.
+    async fn open_if_it_pays(&mut self, adapter: &AdapterChoice, points: usize) -> Result<(), Fallback> {
+        if let Some(why) = &self.unusable {
+            return Err(why.clone());
+        }
+        if let Some(hybrid) = &self.hybrid {
+            return if self.given { Ok(()) } else { hardware(hybrid.gpu()) };
+        }
+        let least = OPENING_POINTS.saturating_sub(self.missed);
+        if points < least {
+            self.missed += points;
+            return Err(Fallback::FewPoints { points, least });
+        }
+        let opened = match Gpu::open(adapter).await {
+            Ok(gpu) => match hardware(&gpu) {
+                Ok(()) => Hybrid::new(gpu).await.map_err(Fallback::NoGpu),
+                Err(why) => Err(why),
+            },
+            Err(error) => Err(Fallback::NoGpu(error)),
+        };
+        match opened {
+            Ok(hybrid) => {
+                self.hybrid = Some(hybrid);
+                Ok(())
+            }
+            Err(why) => Err(self.unusable.insert(why).clone()),
+        }
+    }
+
+    /// Runs the GPU engine, which is open. If its device gets lost, the next run has to open it anew.
+    async fn run(&mut self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
+        let Some(hybrid) = &mut self.hybrid else {
+            return Err(Error::NoAdapter { reason: "it is not open".to_owned() });
+        };
+        let result = hybrid.delaunay3d(points, options).await;
+        if matches!(result, Err(Error::DeviceLost { .. })) {
+            self.hybrid = None;
+            self.given = false;
+        }
+        result
+    }
+}
+
+/// An adapter that is none is no use to [`Engine::Auto`].
+fn hardware(gpu: &Gpu) -> Result<(), Fallback> {
+    match gpu.adapter().software {
+        true => Err(Fallback::SoftwareGpu(gpu.adapter().name.clone())),
+        false => Ok(()),
+    }
+}

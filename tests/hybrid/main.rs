@@ -1,0 +1,54 @@
+//! The engine `gpu` gives the same set of tetrahedra as the engine `cpu`.
+#![cfg(feature = "gpu")]
+
+#[path = "../clouds/mod.rs"]
+mod clouds;
+mod inputs;
+mod outcomes;
+mod statistics;
+
+use gdel::{
+    Mesh3, Options, Points, cpu,
+    gpu::{AdapterChoice, Gpu},
+    hybrid::Hybrid,
+    verify::verify3d,
+};
+use pollster::block_on;
+use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
+
+static HYBRID: LazyLock<Mutex<Hybrid>> = LazyLock::new(|| Mutex::new(open()));
+
+fn open() -> Hybrid {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a Vulkan driver: scripts/setup.sh");
+    block_on(Hybrid::new(gpu)).expect("the kernels compile")
+}
+
+/// The engine that the tests share.
+fn hybrid() -> MutexGuard<'static, Hybrid> {
+    HYBRID.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn triangulate<'a>(points: impl Into<Points<'a>>) -> Mesh3 {
+    block_on(hybrid().delaunay3d(points.into(), &Options::default())).expect("triangulates")
+}
+
+/// Both engines agree, and the GPU's did the work.
+fn agree<'a>(points: impl Into<Points<'a>>) {
+    let points = points.into();
+    let mesh = triangulate(points);
+    assert_eq!(mesh.stats.fallback, None);
+    assert_eq!(mesh.stats.engine, "gpu");
+    same(points, &mesh);
+}
+
+/// The mesh is the CPU engine's, and the verifier passes.
+fn same<'a>(points: impl Into<Points<'a>>, mesh: &Mesh3) {
+    let points = points.into();
+    let expected = cpu::delaunay3d(points, &Options::default()).expect("triangulates");
+    assert_eq!(mesh.dimension, expected.dimension);
+    assert_eq!(mesh.duplicate_of, expected.duplicate_of);
+    // Not by assert_eq, which would print them all.
+    assert!(mesh.canonical() == expected.canonical(), "the engines disagree");
+    let report = verify3d(points, mesh).expect("verifies");
+    assert!(report.passed(), "{report}");
+}

@@ -1,0 +1,227 @@
+//! Every way in which a run can end, and that the next one works.
+
+use crate::{clouds, hybrid, open, same, triangulate};
+use gdel::{
+    Engine, Engines, Error, Mesh3, Options, Progress,
+    engines::LEAST_POINTS,
+    generate::{Distribution, generate},
+    gpu::{AdapterChoice, Gpu},
+    hybrid::Hybrid,
+    stats::Fallback,
+};
+use pollster::block_on;
+use std::{
+    ops::ControlFlow,
+    sync::{Arc, Mutex},
+};
+
+fn points() -> Vec<[f64; 3]> {
+    generate(Distribution::ThinSphere, 3_000, 9)
+}
+
+fn watched(on_progress: impl Fn(Progress) -> ControlFlow<()> + Send + Sync + 'static) -> Options {
+    Options { on_progress: Some(Arc::new(on_progress)), ..Options::default() }
+}
+
+/// All that a run reports.
+fn reports(run: impl FnOnce(&Options) -> Result<Mesh3, Error>) -> (Mesh3, Vec<Progress>) {
+    let seen = Arc::new(Mutex::new(Vec::new()));
+    let sink = Arc::clone(&seen);
+    let options = watched(move |progress| {
+        sink.lock().expect("no panic").push(progress);
+        ControlFlow::Continue(())
+    });
+    let mesh = run(&options).expect("triangulates");
+    let seen = seen.lock().expect("no panic").clone();
+    (mesh, seen)
+}
+
+fn assert_monotone(reports: &[Progress]) {
+    assert!(reports.is_sorted_by(|a, b| a.fraction <= b.fraction), "{reports:?}");
+    assert!(reports[0].fraction >= 0.0 && reports[reports.len() - 1].fraction == 1.0, "{reports:?}");
+}
+
+#[test]
+fn progress_goes_through_all_phases_and_never_back() {
+    let points = points();
+    let (mesh, reports) = reports(|options| block_on(hybrid().delaunay3d((&points).into(), options)));
+    let mut phases: Vec<&str> = reports.iter().map(|progress| progress.phase).collect();
+    let rounds = phases.iter().filter(|phase| **phase == "phase 1").count();
+    assert!(rounds >= mesh.stats.gpu.expect("used").rounds.len());
+    phases.dedup();
+    assert_eq!(phases, ["lattice", "phase 1", "splay", "finish"]);
+    assert_monotone(&reports);
+}
+
+#[test]
+fn progress_goes_on_where_the_cpu_engine_takes_over() {
+    let flat: Vec<_> = points().iter().map(|&[x, y, _]| [x, y, 1.0]).collect();
+    let (mesh, reports) = reports(|options| block_on(hybrid().delaunay3d((&flat).into(), options)));
+    assert_eq!(mesh.stats.fallback, Some(Fallback::Coplanar));
+    assert!(reports.iter().any(|progress| progress.phase == "sort"));
+    assert_monotone(&reports);
+}
+
+#[test]
+fn a_run_can_be_cancelled_in_every_phase() {
+    let points = points();
+    for (phase, nth) in [("lattice", 1), ("phase 1", 1), ("phase 1", 5), ("splay", 1), ("splay", 2), ("finish", 1)] {
+        let seen = Mutex::new(0);
+        let options = watched(move |progress| {
+            let mut seen = seen.lock().expect("no panic");
+            *seen += usize::from(progress.phase == phase);
+            if *seen == nth { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let result = block_on(hybrid().delaunay3d((&points).into(), &options));
+        assert_eq!(result.map(|_| ()), Err(Error::Cancelled), "{phase} {nth}");
+    }
+    same(&points, &triangulate(&points));
+}
+
+/// Runs until a phase begins for the `round`th time, then destroys the device.
+fn lose_the_device(
+    engines: &Engines,
+    engine: Engine,
+    points: &[[f64; 3]],
+    phase: &'static str,
+    round: usize,
+) -> Result<Mesh3, Error> {
+    let device = block_on(engines.gpu()).expect("opens").device().clone();
+    let seen = Mutex::new(0);
+    let on_progress = watched(move |progress| {
+        let mut seen = seen.lock().expect("no panic");
+        *seen += usize::from(progress.phase == phase);
+        if progress.phase == phase && *seen == round {
+            device.destroy();
+        }
+        ControlFlow::Continue(())
+    });
+    block_on(engines.delaunay3d(points.into(), &Options { engine, ..on_progress }))
+}
+
+#[test]
+fn a_device_lost_in_the_middle_is_an_error_and_the_next_run_opens_another() {
+    let engines = Engines::new(AdapterChoice::Default);
+    let points = points();
+    let all = &Options { engine: Engine::Gpu, ..Options::default() };
+    for (phase, round) in [("lattice", 1), ("phase 1", 1), ("phase 1", 4)] {
+        let result = lose_the_device(&engines, Engine::Gpu, &points, phase, round);
+        assert!(matches!(result, Err(Error::DeviceLost { .. })), "{phase} {round}: {result:?}");
+        let mesh = block_on(engines.delaunay3d((&points).into(), all)).expect("a new device");
+        assert_eq!(mesh.stats.engine, "gpu");
+        same(&points, &mesh);
+    }
+}
+
+#[test]
+fn auto_goes_on_without_the_device_that_it_lost() {
+    let engines = Engines::with_hybrid(open());
+    let points = generate(Distribution::Uniform, LEAST_POINTS, 3);
+    let result = lose_the_device(&engines, Engine::Auto, &points, "phase 1", 2).expect("the CPU engine goes on");
+    assert!(
+        matches!(result.stats.fallback, Some(Fallback::GpuFailed(Error::DeviceLost { .. }))),
+        "{:?}",
+        result.stats.fallback
+    );
+    same(&points, &result);
+}
+
+#[test]
+fn auto_takes_the_gpu_where_it_pays() {
+    let engines = Engines::with_hybrid(open());
+    let points = generate(Distribution::Uniform, LEAST_POINTS, 4);
+    let mesh = block_on(engines.delaunay3d((&points).into(), &Options::default())).expect("triangulates");
+    assert_eq!((mesh.stats.engine, mesh.stats.fallback), ("gpu", None));
+    let few = &points[..LEAST_POINTS - 1];
+    let mesh = block_on(engines.delaunay3d(few.into(), &Options::default())).expect("triangulates");
+    let why = Fallback::FewPoints { points: few.len(), least: LEAST_POINTS };
+    assert_eq!((mesh.stats.engine, mesh.stats.fallback), ("cpu", Some(why)));
+}
+
+/// On machines with a graphics card there is nothing to see here.
+#[test]
+fn auto_does_not_take_a_software_adapter() {
+    let engines = Engines::default();
+    let points = clouds::grid(20);
+    // Grids of 8,000 points: too few at first, and never enough for software.
+    let many: Vec<_> =
+        (0..4).flat_map(|k| points.iter().map(move |&[x, y, z]| [x, y, z + 20.0 * f64::from(k)])).collect();
+    assert!(many.len() >= LEAST_POINTS);
+    let mut why = Vec::new();
+    for _ in 0..5 {
+        let mesh = block_on(engines.delaunay3d((&many).into(), &Options::default())).expect("triangulates");
+        why.push(mesh.stats.fallback);
+    }
+    assert!(matches!(why[0], Some(Fallback::FewPoints { .. })), "opening does not pay yet: {why:?}");
+    if hybrid().gpu().adapter().software {
+        let name = hybrid().gpu().adapter().name.clone();
+        assert_eq!(why[4], Some(Fallback::SoftwareGpu(name)));
+    }
+}
+
+#[test]
+fn a_gpu_that_is_not_there() {
+    let engines = Engines::new(AdapterChoice::Name("no such adapter".to_owned()));
+    let points = points();
+    let gpu = Options { engine: Engine::Gpu, ..Options::default() };
+    let error = block_on(engines.delaunay3d((&points).into(), &gpu)).expect_err("there is none");
+    assert!(matches!(error, Error::AdapterNotFound { .. }), "{error:?}");
+    let many = generate(Distribution::Uniform, 110_000, 3);
+    let mesh = block_on(engines.delaunay3d((&many).into(), &Options::default())).expect("triangulates");
+    assert!(matches!(mesh.stats.fallback, Some(Fallback::NoGpu(_))), "{:?}", mesh.stats.fallback);
+}
+
+/// A GPU engine on the tests' adapter whose buffers can have at most so many bytes.
+fn with_small_buffers(bytes: u64) -> Hybrid {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let adapter = block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).expect("an adapter");
+    let descriptor = wgpu::DeviceDescriptor {
+        required_limits: wgpu::Limits {
+            max_storage_buffer_binding_size: bytes,
+            max_buffer_size: bytes,
+            ..wgpu::Limits::default()
+        },
+        ..Default::default()
+    };
+    let (device, queue) = block_on(adapter.request_device(&descriptor)).expect("a device");
+    block_on(Hybrid::new(Gpu::from_device(device, queue))).expect("the kernels compile")
+}
+
+#[test]
+fn an_input_that_is_too_large_is_an_error_that_says_what_would_fit() {
+    let mut hybrid = with_small_buffers(1 << 20);
+    let points = generate(Distribution::Uniform, 20_000, 3);
+    let error = block_on(hybrid.delaunay3d((&points).into(), &Options::default())).expect_err("1 MiB is not enough");
+    let Error::BufferTooLarge { bytes, limit, points: Some(fitting), .. } = error else { panic!("{error:?}") };
+    assert!(bytes > limit.into() && limit == 1 << 20);
+    assert!((1_000..20_000).contains(&fitting), "{fitting}");
+    assert!(error.to_string().contains(&format!("{fitting} points")), "{error}");
+    // That many do fit, and the engine can still be used.
+    let fewer = &points[..fitting];
+    let mesh = block_on(hybrid.delaunay3d(fewer.into(), &Options::default())).expect("fits");
+    assert_eq!((mesh.stats.engine, &mesh.stats.fallback), ("gpu", &None));
+    same(fewer, &mesh);
+    let one_more = block_on(hybrid.delaunay3d(points[..fitting + 1].into(), &Options::default()));
+    assert!(matches!(one_more, Err(Error::BufferTooLarge { .. })));
+}
+
+/// Two skew lines have a quadratic number of tetrahedra, so the buffers have to grow past what there may be.
+#[test]
+fn a_triangulation_that_outgrows_the_device_is_an_error() {
+    let mut hybrid = with_small_buffers(1 << 20);
+    let lines = clouds::two_skew_lines(400);
+    let error = block_on(hybrid.delaunay3d((&lines).into(), &Options::default())).expect_err("1 MiB is not enough");
+    let Error::BufferTooLarge { points: Some(fitting), .. } = error else { panic!("{error:?}") };
+    assert!(fitting < lines.len());
+    let fewer = clouds::two_skew_lines(40);
+    same(&fewer, &block_on(hybrid.delaunay3d((&fewer).into(), &Options::default())).expect("fits"));
+}
+
+#[test]
+fn auto_goes_on_without_a_gpu_that_is_too_small() {
+    let engines = Engines::with_hybrid(with_small_buffers(1 << 20));
+    let points = generate(Distribution::Uniform, LEAST_POINTS, 3);
+    let mesh = block_on(engines.delaunay3d((&points).into(), &Options::default())).expect("the CPU engine goes on");
+    assert!(matches!(mesh.stats.fallback, Some(Fallback::GpuFailed(Error::BufferTooLarge { .. }))));
+    same(&points, &mesh);
+}

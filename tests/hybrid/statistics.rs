@@ -1,0 +1,85 @@
+//! The statistics and the trace of a run are true.
+
+use crate::{hybrid, triangulate};
+use gdel::{
+    Mesh3, Options,
+    generate::{Distribution, generate},
+    mesh::FACETS,
+    predicates,
+    stats::Round,
+};
+use pollster::block_on;
+use std::collections::{HashMap, HashSet};
+
+#[test]
+fn the_statistics_add_up() {
+    let points = generate(Distribution::ThinSphere, 3_000, 5);
+    let mesh = triangulate(&points);
+    let (gpu, splay) = (mesh.stats.gpu.expect("the GPU worked"), mesh.stats.splay.expect("and splaying"));
+    let sum = |of: fn(&Round) -> u32| gpu.rounds.iter().map(|round| u64::from(of(round))).sum::<u64>();
+    assert_eq!(gpu.adapter, hybrid().gpu().adapter().name);
+    assert_eq!(sum(|round| round.inserted), 3_000);
+    assert_eq!(sum(|round| round.flips), gpu.flips_23 + gpu.flips_32);
+    assert_eq!(sum(|round| round.iterations), gpu.flip_iterations);
+    assert_eq!(gpu.rounds.last().map(|round| round.active), Some(0));
+    assert!(gpu.rounds.iter().all(|round| round.milliseconds > 0.0));
+    assert!(gpu.failed_vertices > 0 && gpu.not_locally_delaunay >= gpu.failed_vertices / 3);
+    assert!(splay.failed >= gpu.failed_vertices as usize && splay.built >= splay.failed);
+    assert!(gpu.submits >= gpu.rounds.len() as u64 && gpu.dispatches > gpu.submits && gpu.readbacks > gpu.submits);
+    assert!(gpu.exact_tests > 0 && gpu.bytes > 500 * 3_000);
+    assert_eq!(mesh.stats.trace, None);
+}
+
+#[test]
+fn the_trace_has_every_round_and_what_splaying_did() {
+    let points = generate(Distribution::ThinSphere, 2_000, 5);
+    let options = Options { trace: true, ..Options::default() };
+    let mesh = block_on(hybrid().delaunay3d((&points).into(), &options)).expect("triangulates");
+    let (trace, gpu) = (mesh.stats.trace.as_ref().expect("asked for"), mesh.stats.gpu.as_ref().expect("used"));
+    assert_eq!(trace.rounds.len(), gpu.rounds.len());
+
+    let mut inserted = 0;
+    for (tetrahedra, round) in trace.rounds.iter().zip(&gpu.rounds) {
+        let present: HashSet<u32> = tetrahedra.iter().flatten().copied().collect();
+        inserted += round.inserted as usize;
+        assert_eq!(present.len(), inserted);
+    }
+
+    // The facets of the last round, each with the tetrahedra at it.
+    let last = &trace.rounds[trace.rounds.len() - 1];
+    let sorted = |facet: [usize; 3], t: [u32; 4]| {
+        let mut corners = facet.map(|k| t[k]);
+        corners.sort_unstable();
+        corners
+    };
+    let mut facets: HashMap<[u32; 3], Vec<([u32; 4], u32)>> = HashMap::new();
+    for &t in last {
+        for (k, facet) in FACETS.into_iter().enumerate() {
+            facets.entry(sorted(facet, t)).or_default().push((t, t[k]));
+        }
+    }
+    let point = |v: u32| points[v as usize];
+    let expected: HashSet<[u32; 3]> = facets
+        .into_iter()
+        .filter(|(_, at)| match at[..] {
+            [(t, _), (_, apex)] => {
+                let [a, b, c, d] = t.map(point);
+                predicates::insphere(a, b, c, d, point(apex)) > 0
+            }
+            _ => false,
+        })
+        .map(|(facet, _)| facet)
+        .collect();
+    let found: HashSet<[u32; 3]> =
+        trace.not_locally_delaunay.iter().map(|&f| sorted([0, 1, 2], [f[0], f[1], f[2], 0])).collect();
+    assert!(!found.is_empty() && found.len() == trace.not_locally_delaunay.len());
+    assert_eq!(found, expected);
+
+    let canonical = |tetrahedra: &[[u32; 4]]| Mesh3 { tetrahedra: tetrahedra.to_vec(), ..Mesh3::default() }.canonical();
+    let before: HashSet<[u32; 4]> = canonical(last).into_iter().collect();
+    assert_eq!(trace.splayed.len(), mesh.tetrahedra.len());
+    for (&t, &splayed) in mesh.tetrahedra.iter().zip(&trace.splayed) {
+        assert_eq!(splayed, !before.contains(&canonical(&[t])[0]));
+    }
+    assert!(trace.splayed.contains(&true) && trace.splayed.contains(&false));
+}
