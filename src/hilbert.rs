@@ -1,4 +1,5 @@
-//! The 3D Hilbert curve (Hamilton and Rau-Chaplin, *Compact Hilbert indices*, 2008, without the compaction).
+//! Hilbert curves of space and of the plane (Hamilton and Rau-Chaplin, *Compact Hilbert indices*, 2008, without the
+//! compaction).
 
 /// For each of the 24 states and each octant (bit *k* set in the upper half of axis *k*): the octant's place along the
 /// curve, and the state within it.
@@ -47,6 +48,29 @@ pub fn index(cell: [u32; 3], bits: u32) -> u64 {
     index
 }
 
+/// For each of the 4 states of the plane's curve and each quadrant (x in bit 1, y in bit 0): the quadrant's place along
+/// the curve, and the state within it. The states are the curve, the curve with its axes exchanged, and the same two
+/// turned by half a turn.
+const PLANE_STEPS: [[(u8, u8); 4]; 4] = [
+    [(0, 1), (1, 0), (3, 3), (2, 0)],
+    [(0, 0), (3, 2), (1, 1), (2, 1)],
+    [(2, 2), (3, 1), (1, 2), (0, 3)],
+    [(2, 3), (1, 3), (3, 0), (0, 2)],
+];
+
+/// The place along the plane's curve of the cell with the given coordinates, of which the lowest `bits` ≤ 32 count.
+pub(crate) fn index_in_plane([x, y]: [u32; 2], bits: u32) -> u64 {
+    let mut state = 0;
+    let mut index = 0;
+    for bit in (0..bits).rev() {
+        let quadrant = (x >> bit & 1) << 1 | (y >> bit & 1);
+        let (place, next) = PLANE_STEPS[state][quadrant as usize];
+        index = index << 2 | u64::from(place);
+        state = usize::from(next);
+    }
+    index
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,6 +90,23 @@ mod tests {
             for pair in cells.windows(2) {
                 let (a, b) = (pair[0].unwrap(), pair[1].unwrap());
                 assert_eq!((0..3).map(|k| a[k].abs_diff(b[k])).sum::<u32>(), 1, "{a:?} {b:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn consecutive_cells_of_the_plane_are_neighbours() {
+        for bits in 1..=6 {
+            let side = 1u32 << bits;
+            let mut cells = vec![None; (side * side) as usize];
+            for x in 0..side {
+                for y in 0..side {
+                    assert_eq!(cells[index_in_plane([x, y], bits) as usize].replace([x, y]), None);
+                }
+            }
+            for pair in cells.windows(2) {
+                let (a, b) = (pair[0].unwrap(), pair[1].unwrap());
+                assert_eq!((0..2).map(|k| a[k].abs_diff(b[k])).sum::<u32>(), 1, "{a:?} {b:?}");
             }
         }
     }

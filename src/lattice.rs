@@ -1,6 +1,6 @@
 //! Coordinates as integers on a common power-of-two lattice.
 //!
-//! A point's lattice coordinate is `round(x·2ᵏ) − origin`, with one *k* for the three axes, the largest for which all
+//! A point's lattice coordinate is `round(x·2ᵏ) − origin`, with one *k* for all axes, the largest for which all
 //! of them fit. Scaling by 2ᵏ is exact, so nothing is lost but what the rounding drops, and whether it dropped anything
 //! is known for each point. 31 bits hold grids, voxels and LAS files exactly; 62 bits nearly all `f32` and most `f64`
 //! data.
@@ -26,9 +26,9 @@ impl Width {
     }
 }
 
-/// The lattice of one input.
+/// The lattice of one input, in space or in the plane.
 #[derive(Debug, Clone)]
-pub struct Lattice {
+pub struct Lattice<const D: usize = 3> {
     width: Width,
     /// *k*: coordinates are multiplied by 2ᵏ.
     exponent: i32,
@@ -36,9 +36,9 @@ pub struct Lattice {
     factor: f64,
     /// The lattice coordinate of the least coordinate of each axis, before it is subtracted; `None` for an axis on which
     /// all points agree (its lattice coordinates are all 0).
-    origin: [Option<i128>; 3],
+    origin: [Option<i128>; D],
     /// The least and the greatest coordinate of each axis.
-    bounds: [[f64; 3]; 2],
+    bounds: [[f64; D]; 2],
 }
 
 /// A lattice coordinate, and whether it stands for the exact value.
@@ -77,32 +77,32 @@ fn scale(x: f64, exponent: i32) -> (i128, bool) {
     }
 }
 
-impl Lattice {
+impl<const D: usize> Lattice<D> {
     /// The lattice of `points`, which must be finite.
-    pub fn fit(points: Points<'_>) -> Self {
+    pub fn fit(points: Points<'_, D>) -> Self {
         Lattice::fit_in_threads(1, points)
     }
 
     /// The same in up to `threads` threads.
-    pub(crate) fn fit_in_threads(threads: usize, points: Points<'_>) -> Self {
+    pub(crate) fn fit_in_threads(threads: usize, points: Points<'_, D>) -> Self {
         let bounds = parallel::map_ranges(threads, points.len(), |range| {
-            let mut low = [f64::INFINITY; 3];
-            let mut high = [f64::NEG_INFINITY; 3];
+            let mut low = [f64::INFINITY; D];
+            let mut high = [f64::NEG_INFINITY; D];
             for p in points.range(range).iter() {
-                for axis in 0..3 {
+                for axis in 0..D {
                     low[axis] = low[axis].min(p[axis]);
                     high[axis] = high[axis].max(p[axis]);
                 }
             }
             [low, high]
         });
-        let empty = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        let empty = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
         let [low, high] = bounds.into_iter().fold(empty, |[low, high], [l, h]| {
             [std::array::from_fn(|a| low[a].min(l[a])), std::array::from_fn(|a| high[a].max(h[a]))]
         });
-        let varies: [bool; 3] = std::array::from_fn(|axis| low[axis] < high[axis]);
+        let varies: [bool; D] = std::array::from_fn(|axis| low[axis] < high[axis]);
         let fitting = |width: Width| {
-            (0..3).filter(|&axis| varies[axis]).map(|axis| largest_exponent(low[axis], high[axis], width.bits())).min()
+            (0..D).filter(|&axis| varies[axis]).map(|axis| largest_exponent(low[axis], high[axis], width.bits())).min()
         };
         let lattice = |width: Width| {
             let exponent = fitting(width).unwrap_or(0);
@@ -120,7 +120,7 @@ impl Lattice {
     }
 
     /// The least and the greatest coordinate of each axis of the input.
-    pub fn bounds(&self) -> [[f64; 3]; 2] {
+    pub fn bounds(&self) -> [[f64; D]; 2] {
         self.bounds
     }
 
@@ -135,13 +135,13 @@ impl Lattice {
     }
 
     /// The axes on which the points do not all agree.
-    pub fn varies(&self) -> [bool; 3] {
+    pub fn varies(&self) -> [bool; D] {
         self.origin.map(|o| o.is_some())
     }
 
     /// `round(x·2ᵏ)` of the least coordinate of each axis, which is taken off; `None` for an axis on which all points
     /// agree.
-    pub fn origin(&self) -> [Option<i128>; 3] {
+    pub fn origin(&self) -> [Option<i128>; D] {
         self.origin
     }
 
@@ -149,7 +149,7 @@ impl Lattice {
     ///
     /// There every coordinate times 2ᵏ is an integer, and so is their difference, which fits 31 bits: no operation rounds.
     #[inline]
-    pub(crate) fn narrow(&self, p: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn narrow(&self, p: [f64; D]) -> [f64; D] {
         if self.factor.is_nan() {
             return self.coordinates(p).map(|c| c.value as f64);
         }
@@ -161,7 +161,7 @@ impl Lattice {
 
     /// The lattice coordinates of a point of the input that the lattice was fitted to.
     #[inline]
-    pub fn coordinates(&self, p: [f64; 3]) -> [Coordinate; 3] {
+    pub fn coordinates(&self, p: [f64; D]) -> [Coordinate; D] {
         std::array::from_fn(|axis| match self.origin[axis] {
             None => Coordinate { value: 0, exact: true },
             Some(origin) => {

@@ -29,6 +29,7 @@ pub mod lattice;
 pub mod mesh;
 pub mod options;
 mod parallel;
+pub mod plane;
 pub mod points;
 pub mod predicates;
 pub mod splay;
@@ -45,7 +46,8 @@ pub use engines::Engines;
 pub use error::Error;
 pub use mesh::Mesh3;
 pub use options::{Engine, Options, Progress};
-pub use points::Points;
+pub use plane::{Mesh2, delaunay2d};
+pub use points::{Points, Points2};
 
 /// The 3D Delaunay triangulation of `points`.
 ///

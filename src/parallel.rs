@@ -1,7 +1,7 @@
 //! Work on slices, shared among the machine's threads where it has any.
 
 use std::ops::Range;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// More threads than this do not make a pass over memory any faster.
 const MOST_THREADS: usize = 16;
@@ -10,7 +10,9 @@ const CHUNK: usize = 1 << 16;
 
 /// The threads to use: 1 where there are no threads, as in the browser.
 pub(crate) fn available() -> usize {
-    std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS)
+    // The system reads files to answer.
+    static THREADS: OnceLock<usize> = OnceLock::new();
+    *THREADS.get_or_init(|| std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS))
 }
 
 /// Calls `work` with every chunk of `items` and the place where it begins, in up to `threads` threads.

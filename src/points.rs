@@ -2,32 +2,36 @@
 
 use crate::{Error, parallel};
 
-/// Borrowed input points, one `[x, y, z]` each. Every finite `f32` and `f64` is taken at its exact value.
+/// Borrowed input points of `D` coordinates each: `[x, y, z]`, or `[x, y]` in the plane. Every finite `f32` and `f64` is
+/// taken at its exact value.
 #[derive(Debug, Clone, Copy)]
-pub enum Points<'a> {
+pub enum Points<'a, const D: usize = 3> {
     /// Single precision.
-    F32(&'a [[f32; 3]]),
+    F32(&'a [[f32; D]]),
     /// Double precision.
-    F64(&'a [[f64; 3]]),
+    F64(&'a [[f64; D]]),
 }
 
-impl<'a> Points<'a> {
-    /// Points from x, y, z, x, y, z, …
+/// Points of the plane.
+pub type Points2<'a> = Points<'a, 2>;
+
+impl<'a, const D: usize> Points<'a, D> {
+    /// Points from x, y, z, x, y, z, …, or from x, y, x, y, … in the plane.
     ///
     /// # Errors
     ///
-    /// [`Error::NotWholePoints`] when the length is not a multiple of 3.
-    pub fn from_interleaved_f32(xyz: &'a [f32]) -> Result<Self, Error> {
-        whole_points(xyz).map(Points::F32)
+    /// [`Error::NotWholePoints`] when the length is not a multiple of `D`.
+    pub fn from_interleaved_f32(coordinates: &'a [f32]) -> Result<Self, Error> {
+        whole_points(coordinates).map(Points::F32)
     }
 
-    /// Points from x, y, z, x, y, z, …
+    /// Points from x, y, z, x, y, z, …, or from x, y, x, y, … in the plane.
     ///
     /// # Errors
     ///
-    /// [`Error::NotWholePoints`] when the length is not a multiple of 3.
-    pub fn from_interleaved_f64(xyz: &'a [f64]) -> Result<Self, Error> {
-        whole_points(xyz).map(Points::F64)
+    /// [`Error::NotWholePoints`] when the length is not a multiple of `D`.
+    pub fn from_interleaved_f64(coordinates: &'a [f64]) -> Result<Self, Error> {
+        whole_points(coordinates).map(Points::F64)
     }
 
     /// The number of points, duplicates included.
@@ -49,7 +53,7 @@ impl<'a> Points<'a> {
     ///
     /// When `i` is not below [`len`](Self::len).
     #[inline]
-    pub fn get(&self, i: usize) -> [f64; 3] {
+    pub fn get(&self, i: usize) -> [f64; D] {
         match self {
             Points::F32(p) => p[i].map(f64::from),
             Points::F64(p) => p[i],
@@ -61,7 +65,7 @@ impl<'a> Points<'a> {
     /// # Panics
     ///
     /// When there are fewer.
-    pub(crate) fn range(&self, range: std::ops::Range<usize>) -> Points<'a> {
+    pub(crate) fn range(&self, range: std::ops::Range<usize>) -> Points<'a, D> {
         match self {
             Points::F32(p) => Points::F32(&p[range]),
             Points::F64(p) => Points::F64(&p[range]),
@@ -69,7 +73,7 @@ impl<'a> Points<'a> {
     }
 
     /// All points in order.
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = [f64; 3]> + '_ {
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = [f64; D]> + '_ {
         let points = *self;
         (0..self.len()).map(move |i| points.get(i))
     }
@@ -85,14 +89,14 @@ impl<'a> Points<'a> {
 
     /// The same in up to `threads` threads.
     pub(crate) fn validate_in_threads(&self, threads: usize) -> Result<(), Error> {
-        let is_finite = |p: &[f64; 3]| p.iter().all(|x| x.is_finite());
+        let is_finite = |p: &[f64; D]| p.iter().all(|x| x.is_finite());
         let bad = parallel::map_ranges(threads, self.len(), |range| {
             let start = range.start;
             self.range(range).iter().position(|p| !is_finite(&p)).map(|i| start + i)
         });
         let Some(index) = bad.into_iter().flatten().next() else { return Ok(()) };
         let p = self.get(index);
-        let axis = (0..3).find(|&axis| !p[axis].is_finite()).unwrap_or(0);
+        let axis = (0..D).find(|&axis| !p[axis].is_finite()).unwrap_or(0);
         let value = match p[axis] {
             v if v.is_nan() => "NaN",
             v if v > 0.0 => "inf",
@@ -102,28 +106,31 @@ impl<'a> Points<'a> {
     }
 }
 
-fn whole_points<T: bytemuck::Pod>(xyz: &[T]) -> Result<&[[T; 3]], Error> {
-    let (points, rest) = xyz.as_chunks::<3>();
-    if rest.is_empty() { Ok(points) } else { Err(Error::NotWholePoints { length: xyz.len(), dimension: 3 }) }
+fn whole_points<T, const D: usize>(coordinates: &[T]) -> Result<&[[T; D]], Error> {
+    let (points, rest) = coordinates.as_chunks::<D>();
+    if rest.is_empty() { Ok(points) } else { Err(Error::NotWholePoints { length: coordinates.len(), dimension: D }) }
 }
 
 macro_rules! from_slices {
-    ($($element:ty => $variant:ident),*) => {$(
-        impl<'a> From<&'a [$element]> for Points<'a> {
+    ($($element:ty => $variant:ident, $dimension:literal);*) => {$(
+        impl<'a> From<&'a [$element]> for Points<'a, $dimension> {
             fn from(points: &'a [$element]) -> Self {
                 Points::$variant(bytemuck::cast_slice(points))
             }
         }
-        impl<'a> From<&'a Vec<$element>> for Points<'a> {
+        impl<'a> From<&'a Vec<$element>> for Points<'a, $dimension> {
             fn from(points: &'a Vec<$element>) -> Self {
                 points.as_slice().into()
             }
         }
-        impl<'a, const N: usize> From<&'a [$element; N]> for Points<'a> {
+        impl<'a, const N: usize> From<&'a [$element; N]> for Points<'a, $dimension> {
             fn from(points: &'a [$element; N]) -> Self {
                 points.as_slice().into()
             }
         }
     )*};
 }
-from_slices!([f32; 3] => F32, [f64; 3] => F64, glam::Vec3 => F32, glam::DVec3 => F64);
+from_slices!(
+    [f32; 3] => F32, 3; [f64; 3] => F64, 3; glam::Vec3 => F32, 3; glam::DVec3 => F64, 3;
+    [f32; 2] => F32, 2; [f64; 2] => F64, 2; glam::Vec2 => F32, 2; glam::DVec2 => F64, 2
+);

@@ -100,6 +100,7 @@ impl Triangulation {
     /// hull, counter-clockwise as seen from outside. With `names`, vertex *v* becomes `names[v]`. Works in up to `threads`
     /// threads.
     pub fn into_mesh(mut self, names: Option<&[u32]>, threads: usize) -> FiniteMesh {
+        // Behind all slots.
         const OUTSIDE: u32 = u32::MAX;
         let slots = self.tetrahedra.len();
         let is_gap = |&t: &u32| self.state(t) == state::FREE || self.is_ghost(t);
@@ -107,23 +108,25 @@ impl Triangulation {
             (range.start as u32..range.end as u32).filter(is_gap).collect::<Vec<_>>()
         })
         .concat();
-        let mut hull = Vec::new();
-        for &t in &gaps {
-            if self.state(t) == state::FREE {
-                continue;
+        let ghosts: Vec<u32> = gaps.iter().copied().filter(|&t| self.state(t) != state::FREE).collect();
+        let mut hull: Vec<[u32; 3]> = bytemuck::zeroed_vec(ghosts.len());
+        parallel::for_chunks(threads, &mut hull, |start, chunk| {
+            for (facet, &t) in chunk.iter_mut().zip(&ghosts[start..]) {
+                let [a, b, c, _] = self.tetrahedra[t as usize];
+                *facet = [a, b, c];
             }
-            let [a, b, c, _] = self.tetrahedra[t as usize];
-            hull.push([a, b, c]);
+        });
+        // References to ghosts behind the last tetrahedron of the mesh tell themselves from others.
+        let count = slots - gaps.len();
+        for &t in ghosts.iter().filter(|&&t| (t as usize) < count) {
             let inside = self.neighbors[t as usize][3];
             self.neighbors[inside as usize / 4][inside as usize % 4] = OUTSIDE;
         }
-        gaps.iter().for_each(|&t| self.set_state(t, state::FREE));
         // The last tetrahedra move into the gaps, and their neighbours are told.
-        let count = slots - gaps.len();
         let mut last = slots;
         for gap in gaps.into_iter().map(|t| t as usize).take_while(|&t| t < count) {
             last -= 1;
-            while self.state(last as u32) == state::FREE {
+            while self.state(last as u32) == state::FREE || self.is_ghost(last as u32) {
                 last -= 1;
             }
             self.tetrahedra[gap] = self.tetrahedra[last];
@@ -146,7 +149,8 @@ impl Triangulation {
         let mut neighbors: Vec<[i32; 4]> = bytemuck::cast_vec(neighbors);
         parallel::for_chunks(threads, &mut neighbors, |_, chunk| {
             for n in chunk.as_flattened_mut() {
-                *n = if *n as u32 == OUTSIDE { NONE } else { (*n as u32 >> 2) as i32 };
+                let across = *n as u32 >> 2;
+                *n = if across as usize >= count { NONE } else { across as i32 };
             }
         });
         FiniteMesh { tetrahedra, neighbors, hull }

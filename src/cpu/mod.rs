@@ -4,12 +4,12 @@
 
 mod adjacency;
 pub(crate) mod insert;
-mod order;
+pub(crate) mod order;
 
 pub use order::Order;
 
 use crate::{
-    Error, Mesh3, Options, Points,
+    Error, Mesh3, Options, Points, hilbert,
     lattice::Lattice,
     predicates::{collinear, vertices::Vertices},
     stats::{Stats, Stopwatch},
@@ -38,7 +38,7 @@ pub fn delaunay3d_in_order(points: Points<'_>, options: &Options, order: Order) 
     options.report("sort", 0.0)?;
     points.validate()?;
     let lattice = Lattice::fit(points);
-    let order::Distinct { mut order, duplicate_of } = order::insertion_order(points, &lattice, order);
+    let order::Distinct { mut order, duplicate_of } = order::insertion_order(points, &lattice, hilbert::index, order);
     let dimension = spanning_first(points, &mut order);
     let mut mesh = Mesh3 { duplicate_of, dimension, ..Mesh3::default() };
     stats.phases.push(("sort", stopwatch.lap()));

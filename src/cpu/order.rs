@@ -1,7 +1,7 @@
 //! The order in which points are inserted: duplicates out, then rounds of growing size (BRIO: Amenta, Choi and Rote
 //! 2003), each along the Hilbert curve.
 
-use crate::{Points, hilbert, lattice::Lattice, mesh::NONE};
+use crate::{Points, lattice::Lattice, mesh::NONE};
 
 /// An insertion order for the engine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -14,33 +14,28 @@ pub enum Order {
 }
 
 /// The distinct points in insertion order, and what the others duplicate.
-pub(super) struct Distinct {
-    pub(super) order: Vec<u32>,
+pub(crate) struct Distinct {
+    pub(crate) order: Vec<u32>,
     /// One entry a point, as in [`Mesh3::duplicate_of`](crate::Mesh3::duplicate_of).
-    pub(super) duplicate_of: Vec<i32>,
+    pub(crate) duplicate_of: Vec<i32>,
 }
 
-/// Bits of a coordinate that one sorting key covers: three times as many fit beside an index in 64 bits.
-const KEY_BITS: u32 = 10;
+/// The place of a cell along a space-filling curve, from its coordinates and how many of their bits count.
+pub(crate) type Curve<const D: usize> = fn([u32; D], u32) -> u64;
 
 /// Each round of the insertion takes this many bits' power of the points that the next one takes.
 const ROUND_BITS: u32 = 3;
 /// No round but the first has fewer points than this.
 const LEAST_ROUND: usize = 1000;
 
-pub(super) fn insertion_order(points: Points<'_>, lattice: &Lattice, order: Order) -> Distinct {
-    let along_curve = hilbert_order(points, lattice);
+pub(crate) fn insertion_order<const D: usize>(
+    points: Points<'_, D>,
+    lattice: &Lattice<D>,
+    curve: Curve<D>,
+    order: Order,
+) -> Distinct {
     let mut duplicate_of = vec![NONE; points.len()];
-    let mut distinct: Vec<u32> = Vec::with_capacity(along_curve.len());
-    for i in along_curve {
-        // Equal points are neighbours in the order, the lowest index first.
-        match distinct.last() {
-            Some(&last) if points.get(last as usize) == points.get(i as usize) => {
-                duplicate_of[i as usize] = last as i32
-            }
-            _ => distinct.push(i),
-        }
-    }
+    let mut distinct = along_curve(points, lattice, curve, &mut duplicate_of);
     let order = match order {
         Order::Brio => rounds(distinct),
         Order::Shuffled(seed) => {
@@ -51,16 +46,23 @@ pub(super) fn insertion_order(points: Points<'_>, lattice: &Lattice, order: Orde
     Distinct { order, duplicate_of }
 }
 
-/// All points along the Hilbert curve; where lattice cells coincide, by coordinates and then by index.
-fn hilbert_order(points: Points<'_>, lattice: &Lattice) -> Vec<u32> {
+/// The distinct points along the curve; where lattice cells coincide, by coordinates.
+fn along_curve<const D: usize>(
+    points: Points<'_, D>,
+    lattice: &Lattice<D>,
+    curve: Curve<D>,
+    duplicate_of: &mut [i32],
+) -> Vec<u32> {
     let bits = lattice.width().bits();
-    // A point's place on the curve through the cells of the next `KEY_BITS` bits after `done`, above its index.
+    // Of each coordinate, so many bits are covered by a key that fits beside an index in 64 bits.
+    let key_bits = 32 / D as u32;
+    // A point's place on the curve through the cells of the next `key_bits` bits after `done`, above its index.
     let key = |i: u32, done: u32| {
         let left = bits - done;
         let cell = lattice
             .coordinates(points.get(i as usize))
-            .map(|c| ((c.value as u64 & ((1 << left) - 1)) >> left.saturating_sub(KEY_BITS)) as u32);
-        hilbert::index(cell, KEY_BITS.min(left)) << 32 | u64::from(i)
+            .map(|c| ((c.value as u64 & ((1 << left) - 1)) >> left.saturating_sub(key_bits)) as u32);
+        curve(cell, key_bits.min(left)) << 32 | u64::from(i)
     };
     let mut keyed: Vec<u64> = (0..points.len() as u32).map(|i| key(i, 0)).collect();
     keyed.sort_unstable();
@@ -75,7 +77,8 @@ fn hilbert_order(points: Points<'_>, lattice: &Lattice) -> Vec<u32> {
             at += run.len();
         }
     };
-    push_runs(&keyed, 0, KEY_BITS, &mut runs);
+    push_runs(&keyed, 0, key_bits, &mut runs);
+    let mut duplicates = 0;
     while let Some((start, end, done)) = runs.pop() {
         let run = &mut keyed[start..end];
         if done < bits {
@@ -83,17 +86,24 @@ fn hilbert_order(points: Points<'_>, lattice: &Lattice) -> Vec<u32> {
                 *entry = key(*entry as u32, done);
             }
             run.sort_unstable();
-            push_runs(run, start, done + KEY_BITS.min(bits - done), &mut runs);
-        } else {
-            run.sort_unstable_by(|&i, &j| {
-                let (i, j) = (i as u32, j as u32);
-                let (p, q) = (points.get(i as usize), points.get(j as usize));
-                // −0 and 0 are the same coordinate.
-                p.partial_cmp(&q).unwrap_or(std::cmp::Ordering::Equal).then(i.cmp(&j))
-            });
+            push_runs(run, start, done + key_bits.min(bits - done), &mut runs);
+            continue;
+        }
+        let point = |entry: u64| points.get(entry as u32 as usize);
+        run.sort_unstable_by(|&i, &j| {
+            // −0 and 0 are the same coordinate.
+            let by_place = point(i).partial_cmp(&point(j)).unwrap_or(std::cmp::Ordering::Equal);
+            by_place.then((i as u32).cmp(&(j as u32)))
+        });
+        for equal in run.chunk_by(|&i, &j| point(i) == point(j)) {
+            for &duplicate in &equal[1..] {
+                duplicate_of[duplicate as u32 as usize] = equal[0] as u32 as i32;
+            }
+            duplicates += equal.len() - 1;
         }
     }
-    keyed.into_iter().map(|entry| entry as u32).collect()
+    let order = keyed.into_iter().map(|entry| entry as u32);
+    if duplicates == 0 { order.collect() } else { order.filter(|&i| duplicate_of[i as usize] == NONE).collect() }
 }
 
 /// Splits an order into rounds at random, keeping the order within each; small rounds first.

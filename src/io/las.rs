@@ -89,7 +89,7 @@ fn decode(bytes: Vec<u8>) -> Result<PointCloud, FormatError> {
 /// Checks what the decompressor of LAZ would allocate: its table of chunks, and in each chunk the layers of the point
 /// formats from 6 on. `start` is the byte where the chunks begin, after the eight bytes that say where their table is.
 fn check_laz(bytes: &[u8], start: usize, vlr: &LazVlr, record: u16) -> Result<(), FormatError> {
-    if vlr.items_size() != record.into() {
+    if vlr.items_size() != u64::from(record) {
         let what = format!("points of {record} bytes cannot be made of items of {} bytes", vlr.items_size());
         return Err(FormatError::byte(start, what));
     }

@@ -1,15 +1,52 @@
 //! Signs for lattice coordinates, in fixed-width integers.
 //!
 //! For *b*-bit coordinates, differences have b + 1 bits with their sign, an orientation needs 3b + 3 and an in-sphere
-//! determinant 5b + 6. The narrow forms take 31-bit coordinates and stay within 64- and 128-bit integers but for the last
-//! sum; the wide forms take 62-bit ones.
+//! determinant 5b + 6; in the plane, 2b + 2 and 4b + 4. The narrow forms take 31-bit coordinates and stay within 64- and
+//! 128-bit integers but for the last sum of `insphere`; the wide forms take 62-bit ones.
 
 use super::Sign;
 
 type Point = [i64; 3];
 
-fn minus(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+fn minus<const D: usize>(a: [i64; D], b: [i64; D]) -> [i64; D] {
+    std::array::from_fn(|axis| a[axis] - b[axis])
+}
+
+/// The sign of det(b − a, c − a) for coordinates 0 ≤ q < 2³¹.
+#[inline]
+pub fn orient2d_narrow(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> Sign {
+    let (u, v) = (minus(b, a), minus(c, a));
+    // Twice the area of a triangle in a square of side 2³¹ − 1.
+    (u[0] * v[1] - u[1] * v[0]).signum() as Sign
+}
+
+/// Positive when d is inside the circle through the counter-clockwise a, b, c, for coordinates 0 ≤ q < 2³¹.
+#[inline]
+pub fn incircle_narrow(a: [i64; 2], b: [i64; 2], c: [i64; 2], d: [i64; 2]) -> Sign {
+    let (a, b, c) = (minus(a, d), minus(b, d), minus(c, d));
+    // The minors are twice the areas of triangles in a square of side 2³¹ − 1: below 2⁶². The squares' sum is below 2⁶³.
+    let minor = |p: [i64; 2], q: [i64; 2]| i128::from(p[0] * q[1] - p[1] * q[0]);
+    let lift = |p: [i64; 2]| i128::from(p[0] * p[0] + p[1] * p[1]);
+    (lift(a) * minor(b, c) + lift(b) * minor(c, a) + lift(c) * minor(a, b)).signum() as Sign
+}
+
+/// The sign of det(b − a, c − a) for coordinates 0 ≤ q < 2⁶².
+#[inline]
+pub fn orient2d_wide(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> Sign {
+    minor_wide(minus(b, a), minus(c, a), 0, 1).signum() as Sign
+}
+
+/// Positive when d is inside the circle through the counter-clockwise a, b, c, for coordinates 0 ≤ q < 2⁶².
+#[inline]
+pub fn incircle_wide(a: [i64; 2], b: [i64; 2], c: [i64; 2], d: [i64; 2]) -> Sign {
+    let (a, b, c) = (minus(a, d), minus(b, d), minus(c, d));
+    // Minors are below 2¹²⁴, lifts below 2¹²⁵.
+    let minor = |p: [i64; 2], q: [i64; 2]| {
+        let value = minor_wide(p, q, 0, 1);
+        I192 { high: value >> 64, low: value as u64 }
+    };
+    let columns = [(a, b, c), (b, c, a), (c, a, b)].map(|(p, q, r)| column_product(minor(q, r), lift_wide(p)));
+    sign_of_columns(std::array::from_fn(|i| columns.iter().map(|column| column[i]).sum()))
 }
 
 /// The sign of det(b − a, c − a, d − a) for coordinates 0 ≤ q < 2³¹.
@@ -83,7 +120,7 @@ impl I192 {
 }
 
 #[inline]
-fn minor_wide(p: Point, q: Point, i: usize, j: usize) -> i128 {
+fn minor_wide<const D: usize>(p: [i64; D], q: [i64; D], i: usize, j: usize) -> i128 {
     i128::from(p[i]) * i128::from(q[j]) - i128::from(p[j]) * i128::from(q[i])
 }
 
@@ -110,16 +147,25 @@ pub fn insphere_wide(a: Point, b: Point, c: Point, d: Point, e: Point) -> Sign {
     let bcd = I192::sum([(cd, b[2]), (bd, -c[2]), (bc, d[2])]);
     let cda = I192::sum([(da, c[2]), (ac, d[2]), (cd, a[2])]);
     let dab = I192::sum([(ab, d[2]), (bd, a[2]), (da, b[2])]);
-    // Below 3·2¹²⁴.
-    let lift = |p: Point| p.iter().map(|&x| (i128::from(x) * i128::from(x)) as u128).sum::<u128>();
-    // The sum of the four products, in 64-bit columns that keep their carries in their upper halves.
     let mut columns = [0i128; 5];
-    for (positive, m, l) in [(true, bcd, lift(a)), (false, cda, lift(b)), (true, dab, lift(c)), (false, abc, lift(d))] {
-        let product = column_product(m, l);
+    for (positive, m, p) in [(true, bcd, a), (false, cda, b), (true, dab, c), (false, abc, d)] {
+        let product = column_product(m, lift_wide(p));
         for (column, p) in columns.iter_mut().zip(product) {
             *column += if positive { p } else { -p };
         }
     }
+    sign_of_columns(columns)
+}
+
+/// The squared length, below D·2¹²⁴.
+#[inline]
+fn lift_wide<const D: usize>(p: [i64; D]) -> u128 {
+    p.iter().map(|&x| (i128::from(x) * i128::from(x)) as u128).sum()
+}
+
+/// The sign of Σ cᵢ·2^(64·i), where the columns keep their carries in their upper halves.
+#[inline]
+fn sign_of_columns(mut columns: [i128; 5]) -> Sign {
     let mut rest = 0;
     for i in 0..4 {
         columns[i + 1] += columns[i] >> 64;

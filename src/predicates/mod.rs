@@ -18,7 +18,7 @@ pub mod symbolic;
 pub mod vertices;
 
 pub use exact::{collinear, incircle, insphere, orient2d, orient3d};
-pub use symbolic::insphere_symbolic;
+pub use symbolic::{incircle_symbolic, insphere_symbolic};
 
 /// −1, 0 or 1.
 pub type Sign = i8;

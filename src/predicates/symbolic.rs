@@ -1,19 +1,22 @@
-//! Ties of the in-sphere test: simulation of simplicity on the lifted heights (Edelsbrunner and Mücke 1990).
+//! Ties of the in-sphere and in-circle tests: simulation of simplicity on the lifted heights (Edelsbrunner and Mücke 1990).
 //!
 //! Point *i* counts as if its lifted height were |pᵢ|² + δᵢ with δ₀ ≫ δ₁ ≫ … > 0. The derivative of the in-sphere
 //! determinant by a point's height is, up to a sign that alternates along the argument list, the orientation of the
-//! other four points. So the first point in index order whose removal leaves four points that are not coplanar decides.
+//! other four points. So the first point in index order whose removal leaves four points that are not coplanar decides;
+//! in the plane, three points that are not collinear.
 
 use super::{Sign, exact};
 
-/// The sign of an in-sphere determinant that vanishes without the perturbation. `indices` are the input indices of the
-/// five arguments; `orient(k)` is the orientation of the other four, in argument order, when argument *k* is left out.
-/// Zero only if all five are coplanar.
+/// The sign of an in-sphere or in-circle determinant that vanishes without the perturbation. `indices` are the input
+/// indices of the arguments; `orient(k)` is the orientation of the others, in argument order, when argument *k* is left
+/// out. Zero only if all are coplanar, or collinear in the plane.
 #[inline]
-pub fn break_tie(indices: [u32; 5], mut orient: impl FnMut(usize) -> Sign) -> Sign {
-    let mut order = [0, 1, 2, 3, 4];
-    order.sort_unstable_by_key(|&k: &usize| indices[k]);
-    order.into_iter().map(|k| if k % 2 == 0 { -orient(k) } else { orient(k) }).find(|&sign| sign != 0).unwrap_or(0)
+pub fn break_tie<const N: usize>(indices: [u32; N], mut orient: impl FnMut(usize) -> Sign) -> Sign {
+    let mut order: [usize; N] = std::array::from_fn(|k| k);
+    order.sort_unstable_by_key(|&k| indices[k]);
+    // Raising the last argument's height moves it outside.
+    let cofactor = |k: usize| if (N - k) % 2 == 1 { -orient(k) } else { orient(k) };
+    order.into_iter().map(cofactor).find(|&sign| sign != 0).unwrap_or(0)
 }
 
 /// Like [`insphere`](exact::insphere), but never zero for distinct points that are not all coplanar. `points` are input
@@ -29,8 +32,21 @@ pub fn insphere_symbolic(points: [(u32, [f64; 3]); 5]) -> Sign {
     }
 }
 
-/// The others, in order, when one of five is left out.
+/// Like [`incircle`](exact::incircle), but never zero for distinct points that are not all collinear. `points` are input
+/// indices, all different, and coordinates.
+pub fn incircle_symbolic(points: [(u32, [f64; 2]); 4]) -> Sign {
+    let [a, b, c, d] = points.map(|(_, p)| p);
+    match exact::incircle(a, b, c, d) {
+        0 => break_tie(points.map(|(i, _)| i), |k| {
+            let [a, b, c] = without(points, k).map(|(_, p)| p);
+            exact::orient2d(a, b, c)
+        }),
+        sign => sign,
+    }
+}
+
+/// The others, in order, when one is left out: `M` is `N` − 1.
 #[inline]
-pub fn without<T: Copy>(five: [T; 5], k: usize) -> [T; 4] {
-    std::array::from_fn(|i| five[i + usize::from(i >= k)])
+pub fn without<T: Copy, const N: usize, const M: usize>(all: [T; N], k: usize) -> [T; M] {
+    std::array::from_fn(|i| all[i + usize::from(i >= k)])
 }

@@ -101,15 +101,17 @@ impl<'a> Splaying<'a> {
     ) -> Result<(), Stop> {
         for (i, batch) in failed.chunks(REPORT).enumerate() {
             report((i * REPORT) as f64 / failed.len() as f64)?;
-            let (space, mesh, incident) = (self.space, self.mesh, self.incident);
-            let built = space.shared(threads, batch.len(), STARS, |space, range| {
-                let mut links = LinkFinder::default();
-                let vertices = batch[range].iter().filter(|&&v| v != mesh.infinite);
-                vertices.map(|&v| Built::new(space, mesh, incident, &mut links, v, true)).collect::<Vec<_>>()
-            });
-            for built in built.into_iter().flatten() {
-                self.adopt(built?)?;
-            }
+            self.build(batch, true, threads)?;
+            self.check_work()?;
+        }
+        // Those that are sure to be needed, while threads can share them.
+        let unsettled = self.queue.iter().filter(|&key| !self.is_settled(*key));
+        let mut needed: Vec<u32> = unsettled.flatten().copied().filter(|&v| self.star_of[v as usize] == 0).collect();
+        needed.sort_unstable();
+        needed.dedup();
+        for batch in needed.chunks(REPORT) {
+            report(1.0)?;
+            self.build(batch, false, threads)?;
             self.check_work()?;
         }
         while let Some(key) = self.queue.pop() {
@@ -148,6 +150,17 @@ impl<'a> Splaying<'a> {
     /// The bits of all stars that a tetrahedron should be in.
     fn all(&self, key: Key) -> u8 {
         if key[3] == self.space.infinite() { 0b0111 } else { 0b1111 }
+    }
+
+    /// Adds the stars of these vertices, which have `failed`, or have not.
+    fn build(&mut self, vertices: &[u32], failed: bool, threads: usize) -> Result<(), GaveUp> {
+        let (space, mesh, incident) = (self.space, self.mesh, self.incident);
+        let built = space.shared(threads, vertices.len(), STARS, |space, range| {
+            let mut links = LinkFinder::default();
+            let finite = vertices[range].iter().filter(|&&v| v != mesh.infinite);
+            finite.map(|&v| Built::new(space, mesh, incident, &mut links, v, failed)).collect::<Vec<_>>()
+        });
+        built.into_iter().flatten().try_for_each(|built| self.adopt(built?))
     }
 
     /// Adds the star of `v`, which has not failed.
@@ -252,12 +265,17 @@ impl<'a> Splaying<'a> {
         Ok(())
     }
 
+    /// Whether all stars have a tetrahedron, or none.
+    fn is_settled(&self, key: Key) -> bool {
+        self.ledger.get(&key).is_none_or(|held| held.by == 0 || held.by == self.all(key))
+    }
+
     /// Brings it about that all stars have a tetrahedron, or none.
     fn settle(&mut self, key: Key) -> Result<(), GaveUp> {
         let all = self.all(key);
         let by = |ledger: &FxHashMap<Key, Held>| ledger.get(&key).map_or(0, |held| held.by);
         let settled = |by: u8| by == 0 || by == all;
-        if settled(by(&self.ledger)) {
+        if self.is_settled(key) {
             return Ok(());
         }
         // Infinity, being the highest, is the last.

@@ -1,29 +1,35 @@
 //! What is true of the points alone: duplicates and dimension.
 
 use super::report::{Defect, Findings};
-use crate::{Error, Points, mesh::NONE, predicates::orient3d};
+use crate::{
+    Error, Points,
+    mesh::NONE,
+    predicates::{orient2d, orient3d},
+};
+use std::cmp::Ordering;
 
 /// The points with what follows from them.
-pub(super) struct Input {
+pub(super) struct Input<const D: usize> {
     /// The exact coordinates, duplicates included.
-    pub(super) points: Vec<[f64; 3]>,
+    pub(super) points: Vec<[f64; D]>,
     /// For each point the lowest index with the same coordinates.
     representative: Vec<u32>,
     /// The number of points without duplicates.
     pub(super) distinct: usize,
-    /// The affine dimension, 0 to 3.
+    /// The affine dimension, 0 to D.
     pub(super) dimension: u8,
 }
 
-impl Input {
-    pub(super) fn new(points: Points<'_>) -> Result<Self, Error> {
+impl<const D: usize> Input<D> {
+    /// `affine_dimension` is that of the points.
+    pub(super) fn new(points: Points<'_, D>, affine_dimension: fn(&[[f64; D]]) -> u8) -> Result<Self, Error> {
         points.validate()?;
         let limit = i32::MAX as usize;
         if points.len() > limit {
             return Err(Error::TooManyPoints { points: points.len(), limit });
         }
         // Adding zero turns −0 into 0, which is the same coordinate.
-        let points: Vec<[f64; 3]> = points.iter().map(|p| p.map(|x| x + 0.0)).collect();
+        let points: Vec<[f64; D]> = points.iter().map(|p| p.map(|x| x + 0.0)).collect();
         let representative = representatives(&points);
         let distinct = (0u32..).zip(&representative).filter(|&(i, &r)| r == i).count();
         let dimension = affine_dimension(&points);
@@ -58,11 +64,16 @@ impl Input {
         findings
     }
 
-    /// Needs vertices that are indices of points.
-    pub(super) fn check_vertices(&self, tetrahedra: &[[u32; 4]]) -> Findings {
+    /// Needs vertices that are indices of points. `what` the simplices are, and how to blame one.
+    pub(super) fn check_vertices<const N: usize>(
+        &self,
+        simplices: &[[u32; N]],
+        what: &str,
+        blame: fn(usize, String) -> Defect,
+    ) -> Findings {
         let mut findings = Findings::default();
         let mut used = vec![false; self.points.len()];
-        for (t, vertices) in tetrahedra.iter().enumerate() {
+        for (t, vertices) in simplices.iter().enumerate() {
             for &v in vertices {
                 used[v as usize] = true;
                 let representative = self.representative[v as usize];
@@ -70,30 +81,39 @@ impl Input {
                     findings.add(|| {
                         let detail =
                             format!("vertex {v} is a duplicate of point {representative}, which stands for it");
-                        Defect::at_tetrahedron(t, detail)
+                        blame(t, detail)
                     });
                 }
             }
         }
-        if self.dimension == 3 {
+        if usize::from(self.dimension) == D {
             for (i, used) in used.into_iter().enumerate() {
                 if !used && self.representative[i] as usize == i {
-                    findings.add(|| Defect::at_point(i, "not a vertex of any tetrahedron".to_owned()));
+                    findings.add(|| Defect::at_point(i, format!("not a vertex of any {what}")));
                 }
             }
         }
         findings
     }
+
+    /// The distinct points by their lowest indices, in the order of their coordinates.
+    pub(super) fn distinct_in_order(&self) -> Vec<u32> {
+        let mut distinct: Vec<u32> =
+            (0u32..).zip(&self.representative).filter(|&(i, &r)| r == i).map(|(i, _)| i).collect();
+        distinct.sort_unstable_by(|&i, &j| compare(&self.points[i as usize], &self.points[j as usize]));
+        distinct
+    }
 }
 
-fn representatives(points: &[[f64; 3]]) -> Vec<u32> {
+/// By the first coordinate, then by the next.
+fn compare<const D: usize>(a: &[f64; D], b: &[f64; D]) -> Ordering {
+    a.iter().zip(b).map(|(x, y)| x.total_cmp(y)).find(|&order| order != Ordering::Equal).unwrap_or(Ordering::Equal)
+}
+
+fn representatives<const D: usize>(points: &[[f64; D]]) -> Vec<u32> {
     let coordinates = |i: u32| points[i as usize];
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
-    order.sort_unstable_by(|&i, &j| {
-        let [a, b] = [i, j].map(coordinates);
-        let axes = a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]));
-        axes.then(i.cmp(&j))
-    });
+    order.sort_unstable_by(|&i, &j| compare(&coordinates(i), &coordinates(j)).then(i.cmp(&j)));
     let mut representative = vec![0; points.len()];
     for equal in order.chunk_by(|&i, &j| coordinates(i) == coordinates(j)) {
         for &i in equal {
@@ -103,7 +123,16 @@ fn representatives(points: &[[f64; 3]]) -> Vec<u32> {
     representative
 }
 
-fn affine_dimension(points: &[[f64; 3]]) -> u8 {
+/// The affine dimension of points of the plane.
+pub(super) fn dimension_in_plane(points: &[[f64; 2]]) -> u8 {
+    let mut points = points.iter().copied();
+    let Some(a) = points.next() else { return 0 };
+    let Some(b) = points.find(|&p| p != a) else { return 0 };
+    if points.any(|p| orient2d(a, b, p) != 0) { 2 } else { 1 }
+}
+
+/// The affine dimension of points of space.
+pub(super) fn dimension_in_space(points: &[[f64; 3]]) -> u8 {
     // As a function of d, orient3d(a, b, c, d) is affine. It vanishes everywhere, so that a, b, c are collinear, exactly
     // when it vanishes at four points that are not coplanar.
     const FRAME: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

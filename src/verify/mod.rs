@@ -10,17 +10,22 @@
 //! 3. The hull has no concave edge, so the body is convex; every distinct point is a vertex, so it is the convex hull.
 //! 4. A triangulation of the convex hull that is locally Delaunay across every facet is a Delaunay triangulation, and one
 //!    that is so for perturbed heights is the only one.
+//!
+//! In the plane it is simpler. Triangles that are all oriented alike and meet across edges from either side cover a point
+//! as often as their boundary winds around it: once inside, if that is a convex polygon that turns once.
 
 mod complex;
 mod geometry;
 mod input;
+mod plane;
 mod report;
 
+pub use plane::{Statement2, verify2d};
 pub use report::{Check, Counts, Defect, Outcome, Report};
 
 use crate::{Error, Mesh3, Points};
 use complex::Complex;
-use input::Input;
+use input::{Input, dimension_in_space};
 
 /// What a mesh states: at least its tetrahedra. What is `None` is not checked.
 #[derive(Debug, Clone, Copy, Default)]
@@ -73,7 +78,7 @@ impl<'a> From<&'a Mesh3> for Statement<'a> {
 /// every point. A defect of the mesh is no error, but a failed check in the [`Report`].
 pub fn verify3d<'p, 'm>(points: impl Into<Points<'p>>, mesh: impl Into<Statement<'m>>) -> Result<Report, Error> {
     let mesh = mesh.into();
-    let input = Input::new(points.into())?;
+    let input = Input::new(points.into(), dimension_in_space)?;
     let mut report = Report { dimension: input.dimension, ..Report::default() };
     report.counts.points = input.points.len();
     report.counts.distinct_points = input.distinct;
@@ -94,7 +99,9 @@ pub fn verify3d<'p, 'm>(points: impl Into<Points<'p>>, mesh: impl Into<Statement
     report.counts.facets = complex.facets;
     report.counts.hull_triangles = complex.hull.len();
 
-    report.decide(Check::Vertices, || input.check_vertices(mesh.tetrahedra).into());
+    report.decide(Check::Vertices, || {
+        input.check_vertices(mesh.tetrahedra, "tetrahedron", Defect::at_tetrahedron).into()
+    });
     report.decide(Check::Orientation, || geometry::check_orientation(&input.points, mesh.tetrahedra).into());
     report.decide(Check::Facets, || complex.check_facets().into());
     report

@@ -5,7 +5,8 @@ use std::fmt;
 /// A property of the Delaunay triangulation that the verifier decides.
 ///
 /// Together they are sufficient: a mesh that passes all of them *is* the triangulation that
-/// [`delaunay3d`](crate::delaunay3d) defines.
+/// [`delaunay3d`](crate::delaunay3d) defines. In the plane, tetrahedra are triangles, facets are edges, the neighbours are
+/// half-edges, and the checks after the convex hull are not needed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Check {
@@ -105,6 +106,8 @@ impl fmt::Display for Check {
 pub struct Defect {
     /// The index of the tetrahedron, where there is one to blame.
     pub tetrahedron: Option<usize>,
+    /// The index of the triangle of a mesh in the plane, where there is one to blame.
+    pub triangle: Option<usize>,
     /// The index of the point, where there is one to blame.
     pub point: Option<usize>,
     /// What is wrong, in words.
@@ -120,6 +123,10 @@ impl Defect {
         Defect { tetrahedron: Some(tetrahedron), detail, ..Defect::default() }
     }
 
+    pub(super) fn at_triangle(triangle: usize, detail: String) -> Self {
+        Defect { triangle: Some(triangle), detail, ..Defect::default() }
+    }
+
     pub(super) fn at_point(point: usize, detail: String) -> Self {
         Defect { point: Some(point), detail, ..Defect::default() }
     }
@@ -129,6 +136,9 @@ impl fmt::Display for Defect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(tetrahedron) = self.tetrahedron {
             write!(f, "tetrahedron {tetrahedron}: ")?;
+        }
+        if let Some(triangle) = self.triangle {
+            write!(f, "triangle {triangle}: ")?;
         }
         if let Some(point) = self.point {
             write!(f, "point {point}: ")?;
@@ -182,16 +192,18 @@ pub struct Counts {
     pub points: usize,
     /// Points without duplicates.
     pub distinct_points: usize,
-    /// Points that are corners of tetrahedra.
+    /// Points that are corners of tetrahedra, or of triangles in the plane.
     pub vertices: usize,
-    /// Edges of tetrahedra.
+    /// Edges.
     pub edges: usize,
-    /// Facets of tetrahedra, those on the hull included.
+    /// Facets of tetrahedra, those on the hull included; triangles in the plane.
     pub facets: usize,
     /// Tetrahedra.
     pub tetrahedra: usize,
     /// Facets of a single tetrahedron.
     pub hull_triangles: usize,
+    /// In the plane, edges of a single triangle.
+    pub hull_edges: usize,
 }
 
 /// The outcome of every check.
@@ -201,7 +213,8 @@ pub struct Report {
     pub outcomes: Vec<(Check, Outcome)>,
     /// The affine dimension of the points, 0 to 3.
     pub dimension: u8,
-    /// What the points and the mesh consist of. Only points and tetrahedra are counted where the indices are broken.
+    /// What the points and the mesh consist of. Where the indices are broken, only points and simplices are
+    /// counted.
     pub counts: Counts,
 }
 

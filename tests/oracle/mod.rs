@@ -140,3 +140,43 @@ fn flat_dimension(distinct: &[&[BigInt; 3]]) -> u8 {
     };
     if others.iter().any(|p| turns(&p)) { 2 } else { 1 }
 }
+
+/// What [`gdel::delaunay2d`] has to give.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Definition2 {
+    /// As [`gdel::Mesh2::canonical`] gives them.
+    pub triangles: Vec<[u32; 3]>,
+    /// As in [`gdel::Mesh2`].
+    pub duplicate_of: Vec<i32>,
+    /// As in [`gdel::Mesh2`].
+    pub dimension: u8,
+}
+
+/// The definition in the plane, for some tens of points.
+pub fn definition2(points: &[[f64; 2]]) -> Definition2 {
+    let points = integers(points);
+    let representatives: Vec<usize> = points.iter().map(|p| points.iter().position(|q| p == q).unwrap()).collect();
+    let duplicate_of = representatives.iter().enumerate().map(|(i, &r)| if r == i { -1 } else { r as i32 }).collect();
+    let distinct: Vec<u32> = (0..points.len()).filter(|&i| representatives[i] == i).map(|i| i as u32).collect();
+    let point = |i: u32| &points[i as usize];
+    let mut triangles = Vec::new();
+    let mut dimension = distinct.len().saturating_sub(1).min(1) as u8;
+    for (i, &a) in distinct.iter().enumerate() {
+        for (j, &b) in distinct.iter().enumerate().skip(i + 1) {
+            for &c in &distinct[j + 1..] {
+                let orientation = sign(&orientation(&[point(a), point(b), point(c)]));
+                let empty = |&d: &u32| {
+                    let four = [a, b, c, d];
+                    four[..3].contains(&d) || in_circumsphere_symbolic(&four, &four.map(point)) * orientation < 0
+                };
+                if orientation != 0 {
+                    dimension = 2;
+                    if distinct.iter().all(empty) {
+                        triangles.push([a, b, c]);
+                    }
+                }
+            }
+        }
+    }
+    Definition2 { triangles, duplicate_of, dimension }
+}

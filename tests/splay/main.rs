@@ -249,8 +249,8 @@ fn threads_share_the_stars() {
         }
     });
     assert!(results[0].1.built > 100, "{:?}", results[0].1);
-    assert_eq!(results[0], results[1]);
-    assert_eq!(results[0].0, exact(&points, &identity));
+    assert!(results[0] == results[1], "{:?} {:?}", results[0].1, results[1].1);
+    assert!(results[0].0 == canonical(exact(&points, &identity)));
 }
 
 #[test]
