@@ -1,6 +1,6 @@
 // Times the packed package's CPU engine, the native engine and the npm package qhull-wasm side by side, and prints ratios.
 //
-//   npm run build && cargo build --release && node benches/js/compare.mjs [--points 100000] [--runs 3] [--without qhull,native]
+//   npm run build && cargo build --release && node benches/js/compare.mjs [--points 100000] [--runs 3] [--native GDEL] [--without qhull,native]
 //
 // All sides take the same uniform points, in turn, on one core. The native binary's time is that which it states; reading
 // its file is left out.
@@ -14,15 +14,16 @@ import { parseArgs } from 'node:util';
 import { loadQhull } from 'qhull-wasm';
 import { createEngine, generate } from '../../web/dist/node.js';
 
+const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
 const { values } = parseArgs({
   options: {
     points: { type: 'string', default: '100000' },
     runs: { type: 'string', default: '3' },
+    native: { type: 'string', default: join(root, 'target/release/gdel') },
     without: { type: 'string', default: '' },
   },
 });
 const [points, runs] = [+values.points, +values.runs];
-const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
 const folder = mkdtempSync(join(tmpdir(), 'gdel-bench-'));
 process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
 
@@ -44,7 +45,7 @@ const sides = {
   },
   async native() {
     const args = ['triangulate', file, '--engine', 'cpu', '--stats', 'json'];
-    const output = execFileSync(join(root, 'target/release/gdel'), args, { encoding: 'utf8' });
+    const output = execFileSync(values.native, args, { encoding: 'utf8' });
     const { seconds, tetrahedra } = JSON.parse(output);
     return [seconds.total, tetrahedra];
   },
