@@ -15,6 +15,7 @@
 @group(0) @binding(6) var<storage, read_write> messages: array<vec4u>;
 @group(0) @binding(7) var<storage, read_write> history: array<FlipNode>;
 //!include shared/bids
+//!include shared/history
 
 const PROBES: u32 = 16;
 
@@ -49,24 +50,6 @@ fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
         }
     }
     return slot;
-}
-
-// Makes the node that made tetrahedron t, or t's place in the list of first nodes, point to `node`.
-fn link_node(t: u32, node: u32, first: u32) {
-    if atomicLoad(&status[t].flags) >> HELD_SHIFT == control.round {
-        let last = status[t].last;
-        if last >> 2 >= first {
-            history[(last >> 2) - first].next[last & 3] = node;
-        } else {
-            status[t].first = node;
-        }
-    }
-}
-
-fn renew(t: u32, flags: u32, mark: u32, last: u32) {
-    atomicStore(&status[t].flags, flags);
-    atomicStore(&status[t].vote, mark);
-    status[t].last = last;
 }
 
 // A flip that won all of its tetrahedra.

@@ -1,4 +1,5 @@
-// The sort key of every point: its place along the Hilbert curve, from the ten highest bits of its lattice coordinates.
+// The sort key of every point: its place along the Hilbert curve, from the ten highest bits of its lattice coordinates, 15
+// in the plane.
 // Points at the same place as one of a lower number go to the end.
 //!include shared/input
 //!include shared/hilbert
@@ -28,7 +29,15 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         let first = table[slots[point]] - 1;
         let united = first != point;
         let place = lattice_point(point);
-        pairs[point] = vec2u(select(hilbert_key(place.high >> vec3u(21)), LAST_KEY, united), point);
+        var key = LAST_KEY;
+        if !united {
+            if params.dimension == 2 {
+                key = plane_hilbert_key(place.high.xy >> vec2u(16));
+            } else {
+                key = hilbert_key(place.high >> vec3u(21));
+            }
+        }
+        pairs[point] = vec2u(key, point);
         united_with[point] = select(NONE, first, united);
         if united {
             atomicAdd(&counts.united, 1);

@@ -1,9 +1,11 @@
 //! The engines behind one function: the GPU engine is opened when it is first needed, and kept for later inputs.
 
 use crate::{
-    Engine, Error, Mesh3, Options, Points, cpu,
+    Engine, Error, Mesh2, Mesh3, Options, Points, cpu,
     gpu::{AdapterChoice, Gpu},
     hybrid::Hybrid,
+    plane::{delaunay2d_in_order, hybrid::Hybrid2},
+    points::Points2,
     stats::Fallback,
 };
 use async_lock::Mutex;
@@ -34,6 +36,8 @@ pub struct Engines {
 struct State {
     /// The GPU engine, while it is open.
     hybrid: Option<Hybrid>,
+    /// The GPU engine for the plane, on the same device, while it is open.
+    plane: Option<Hybrid2>,
     /// Whether [`Engine::Auto`] may take it though it is software.
     given: bool,
     /// Why [`Engine::Auto`] does not try to open it again.
@@ -105,6 +109,25 @@ impl Engines {
         }
     }
 
+    /// The triangulation of points of the plane by the engine that `options` name: see [`delaunay2d`](crate::delaunay2d).
+    ///
+    /// # Errors
+    ///
+    /// As for [`delaunay2d`](crate::delaunay2d).
+    pub async fn delaunay2d(&self, points: Points2<'_>, options: &Options) -> Result<Mesh2, Error> {
+        match options.engine {
+            Engine::Auto | Engine::Cpu => delaunay2d_in_order(points, options, cpu::Order::default()),
+            Engine::Gpu => {
+                let mut state = self.state.lock().await;
+                let result = state.open_plane(&self.adapter).await?.delaunay2d(points, options).await;
+                if matches!(result, Err(Error::DeviceLost { .. })) {
+                    state.close();
+                }
+                result
+            }
+        }
+    }
+
     /// What the GPU engine makes of the points, or why the CPU engine has to.
     async fn try_gpu(&self, points: Points<'_>, options: &Options) -> Result<Result<Mesh3, Error>, Fallback> {
         if points.len() < LEAST_POINTS {
@@ -124,9 +147,34 @@ impl State {
     async fn open(&mut self, adapter: &AdapterChoice) -> Result<&mut Hybrid, Error> {
         let hybrid = match self.hybrid.take() {
             Some(hybrid) => hybrid,
-            None => Hybrid::new(Gpu::open(adapter).await?).await?,
+            None => Hybrid::new(self.device(adapter).await?).await?,
         };
         Ok(self.hybrid.insert(hybrid))
+    }
+
+    /// The GPU engine for the plane, opened if it is not.
+    async fn open_plane(&mut self, adapter: &AdapterChoice) -> Result<&mut Hybrid2, Error> {
+        let plane = match self.plane.take() {
+            Some(plane) => plane,
+            None => Hybrid2::new(self.device(adapter).await?).await?,
+        };
+        Ok(self.plane.insert(plane))
+    }
+
+    /// The device of the engines that are open, or a new one.
+    async fn device(&self, adapter: &AdapterChoice) -> Result<Gpu, Error> {
+        let open = self.hybrid.as_ref().map(Hybrid::gpu).or(self.plane.as_ref().map(Hybrid2::gpu));
+        match open {
+            Some(gpu) => Ok(gpu.clone()),
+            None => Gpu::open(adapter).await,
+        }
+    }
+
+    /// Forgets a device that is lost.
+    fn close(&mut self) {
+        self.hybrid = None;
+        self.plane = None;
+        self.given = false;
     }
 
     /// Opens the GPU engine for an input of `points` points if it is not open, or says why not to take it.
@@ -165,8 +213,7 @@ impl State {
         };
         let result = hybrid.delaunay3d(points, options).await;
         if matches!(result, Err(Error::DeviceLost { .. })) {
-            self.hybrid = None;
-            self.given = false;
+            self.close();
         }
         result
     }

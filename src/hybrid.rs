@@ -146,6 +146,7 @@ fn near_delaunay(points: Points<'_>, output: Phase1Output) -> (NearDelaunay, Vec
     let Phase1Output { tets, neighbors, failed, tet_of: mut incident, united, doubtful, .. } = output;
     let mut duplicate_of = vec![NONE; points.len()];
     let missing = missing_points(points, &united, &mut duplicate_of);
+    let missing = missing.into_iter().map(|[i, _]| i).collect();
     incident.truncate(points.len());
     let triangulation = Triangulation::new(tets, neighbors, points.len() as u32);
     let doubtful = doubtful.into_iter().map(|[t, _]| t).collect();
@@ -153,8 +154,12 @@ fn near_delaunay(points: Points<'_>, output: Phase1Output) -> (NearDelaunay, Vec
 }
 
 /// Of the points that others stand for, because they lie at the same place of the lattice: exact duplicates are noted in
-/// `duplicate_of`, the first of each other place is returned.
-fn missing_points(points: Points<'_>, united: &[[u32; 2]], duplicate_of: &mut [i32]) -> Vec<u32> {
+/// `duplicate_of`, the first of each other place is returned, with the one that stands for it.
+pub(crate) fn missing_points<const D: usize>(
+    points: Points<'_, D>,
+    united: &[[u32; 2]],
+    duplicate_of: &mut [i32],
+) -> Vec<[u32; 2]> {
     let point = |i: u32| points.get(i as usize);
     let mut apart = Vec::new();
     for &[i, representative] in united {
@@ -169,11 +174,11 @@ fn missing_points(points: Points<'_>, united: &[[u32; 2]], duplicate_of: &mut [i
         let by_place = point(i).partial_cmp(&point(j)).unwrap_or(std::cmp::Ordering::Equal);
         r.cmp(&s).then(by_place).then(i.cmp(&j))
     });
-    let mut missing: Vec<u32> = Vec::new();
-    for (_, i) in apart {
+    let mut missing: Vec<[u32; 2]> = Vec::new();
+    for (representative, i) in apart {
         match missing.last() {
-            Some(&first) if point(first) == point(i) => duplicate_of[i as usize] = first as i32,
-            _ => missing.push(i),
+            Some(&[first, _]) if point(first) == point(i) => duplicate_of[i as usize] = first as i32,
+            _ => missing.push([i, representative]),
         }
     }
     missing

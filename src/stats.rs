@@ -46,6 +46,15 @@ pub enum Fallback {
     /// The points are coplanar or so nearly so that the lattice cannot tell.
     #[error("the points are coplanar, or nearly")]
     Coplanar,
+    /// The points of the plane are collinear or so nearly so that the lattice cannot tell.
+    #[error("the points are collinear, or nearly")]
+    Collinear,
+    /// In the plane, what rounding left open took more flips than the CPU engine would have.
+    #[error("flipping was too much work")]
+    Flips,
+    /// In the plane, rounding had folded the triangulation over itself in a way that flips do not undo.
+    #[error("rounding had folded the triangulation over itself")]
+    Folded,
     /// Splaying asked for more signs than the CPU engine would have.
     #[error("splaying was too much work")]
     Work,
@@ -66,6 +75,8 @@ pub struct GpuStats {
     pub flips_23: u64,
     /// Flips of three tetrahedra into two.
     pub flips_32: u64,
+    /// In the plane: flips of two triangles into two.
+    pub flips_22: u64,
     /// Flip iterations that had something to do.
     pub flip_iterations: u64,
     /// Signs that took exact arithmetic.

@@ -44,7 +44,7 @@ fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
     State {
         width,
         params,
-        points: vertices(width, &read(gpu, &b.points.vertices)),
+        points: vertices(width, bytemuck::cast_slice(&read(gpu, &b.points.vertices))),
         first: [0; 4],
         united: read(gpu, &b.points.pairs).into_iter().map(|[key, _]| key == u32::MAX).collect(),
         tets: read(gpu, &b.tets),

@@ -36,7 +36,7 @@ impl Device {
         let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
         let count = state.params.infinite as usize;
         let points = DevicePoints {
-            vertices: Storage::new(&gpu, "vertices", (count + 1) * vertex::stride(width)).unwrap(),
+            vertices: Storage::new(&gpu, "vertices", 4 * (count + 1) * vertex::stride(width)).unwrap(),
             pairs: Storage::with_contents(&gpu, "pairs", &vec![[0; 2]; count]).unwrap(),
             united_with: Storage::new(&gpu, "united", count).unwrap(),
             counts: Storage::with_contents(&gpu, "counts", &[InputCounts { found: state.first, ..Default::default() }])
@@ -55,7 +55,7 @@ impl Device {
         }
         b.control.write(gpu, 0, bytemuck::cast_slice(&[state.params]));
         b.control.write(gpu, PARAM_WORDS, bytemuck::cast_slice(&[state.counters]));
-        b.points.vertices.write(gpu, 0, &words);
+        b.points.vertices.write(gpu, 0, words.as_flattened());
         b.tets.write(gpu, 0, &state.tets);
         b.neighbors.write(gpu, 0, &state.neighbors);
         b.status.write(gpu, 0, &state.status);

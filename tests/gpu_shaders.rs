@@ -96,7 +96,19 @@ fn host_and_shaders_agree() {
     let (module, _) = validate("points", &shader::assemble("points_keys", Width::Narrow));
     assert_layout!(
         module,
-        InputParams { count, exponent, doubles, varies, origin_low, table_mask, origin_high, width, wanted }
+        InputParams {
+            count,
+            exponent,
+            doubles,
+            varies,
+            origin_low,
+            table_mask,
+            origin_high,
+            width,
+            wanted,
+            dimension,
+            unused
+        }
     );
     assert_layout!(module, InputCounts { united, duplicates, rounded, unused, stands_for, found });
     let expected = "@group(0) @binding(0) var<storage, read> vertices: array<vec4i>;\n//!include shared/predicates";
@@ -163,7 +175,9 @@ fn phase1_layouts_agree() {
         doubtful,
         ghosts,
         open,
-        not_locally_delaunay
+        not_locally_delaunay,
+        flips_22,
+        hull
     );
     let constants = [
         ("NONE", layout::NONE),

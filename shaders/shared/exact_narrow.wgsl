@@ -52,11 +52,6 @@ fn lowered(r: Row, by: vec3u) -> Row {
     return Row(r.d - vec3i(by));
 }
 
-fn multiply_i32(a: i32, b: i32) -> vec2u {
-    let p = multiply_add(u32(a), u32(b), 0, 0);
-    return vec2u(p.x, p.y - if_negative(u32(a), u32(b)) - if_negative(u32(b), u32(a)));
-}
-
 fn lift_of(r: Row) -> Lift {
     let xy = add_64(multiply_i32(r.d.x, r.d.x), multiply_i32(r.d.y, r.d.y));
     return Lift(add_64(xy, multiply_i32(r.d.z, r.d.z)));

@@ -1,6 +1,6 @@
 // Input points on the device: their coordinates' bits, and their place on the lattice.
 //
-// Expects: params: InputParams; input: array<u32>, whose elements are the coordinates' bits: x, y, z, one word each for
+// Expects: params: InputParams; input: array<u32>, whose elements are the coordinates' bits: x, y, z or x, y, one word each for
 // f32, low and high word each for f64.
 //!include shared/limbs
 
@@ -23,15 +23,21 @@ struct InputParams {
     width: u32,
     // Points whose vertices are wanted.
     wanted: vec4u,
+    // The coordinates of a point: 3, or 2 in the plane, where z counts as 0.
+    dimension: u32,
+    unused: array<u32, 3>,
 }
 
 // The bits of a coordinate, low and high word; of an f32, the high word. −0 counts as 0.
 fn coordinate_bits(point: u32, axis: u32) -> vec2u {
     var bits = vec2u();
-    if params.doubles != 0 {
-        bits = vec2u(input[6 * point + 2 * axis], input[6 * point + 2 * axis + 1]);
-    } else {
-        bits.y = input[3 * point + axis];
+    let at = params.dimension * point + axis;
+    if axis < params.dimension {
+        if params.doubles != 0 {
+            bits = vec2u(input[2 * at], input[2 * at + 1]);
+        } else {
+            bits.y = input[at];
+        }
     }
     bits.y = select(bits.y, 0, bits.x == 0 && bits.y == 0x80000000);
     return bits;

@@ -34,6 +34,8 @@ struct Control {
     ghosts: atomic<u32>,
     open: atomic<u32>,
     not_locally_delaunay: atomic<u32>,
+    flips_22: atomic<u32>,
+    hull: atomic<u32>,
 }
 
 struct Status {

@@ -46,6 +46,11 @@ fn subtract_64(a: vec2u, b: vec2u) -> vec2u {
     return vec2u(low.x, a.y - b.y - low.y);
 }
 
+fn multiply_i32(a: i32, b: i32) -> vec2u {
+    let p = multiply_add(u32(a), u32(b), 0, 0);
+    return vec2u(p.x, p.y - if_negative(u32(a), u32(b)) - if_negative(u32(b), u32(a)));
+}
+
 // −1, 0 or 1, from the highest limb and the union of the bits of the others.
 fn sign_of(high: u32, rest: u32) -> i32 {
     return select(i32((high | rest) != 0), -1, i32(high) < 0);

@@ -130,6 +130,10 @@ pub struct Counters {
     pub open: u32,
     /// Facets that are not locally Delaunay, found at the end.
     pub not_locally_delaunay: u32,
+    /// In the plane: flips so far.
+    pub flips_22: u32,
+    /// In the plane: edges of the hull.
+    pub hull: u32,
 }
 
 /// A flip was put off because no slot was found for its third tetrahedron.

@@ -17,6 +17,7 @@ mod device;
 mod kernel;
 pub mod layout;
 pub mod phase1;
+pub mod plane;
 mod profile;
 mod readback;
 mod recorder;

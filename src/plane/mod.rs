@@ -6,6 +6,8 @@
 //! δ₀ ≫ δ₁ ≫ … > 0 infinitesimal.
 
 pub mod generate;
+#[cfg(feature = "gpu")]
+pub mod hybrid;
 mod insert;
 pub mod lawson;
 mod mesh;
@@ -15,7 +17,7 @@ pub use mesh::Mesh2;
 pub use triangulation::Triangulation2;
 
 use crate::{
-    Error, Options, Points2,
+    Engine, Error, Options, Points2,
     cpu::{
         Order,
         order::{Distinct, insertion_order},
@@ -47,7 +49,16 @@ use crate::{
 ///
 /// As for [`delaunay3d`](crate::delaunay3d).
 pub fn delaunay2d<'a>(points: impl Into<Points2<'a>>, options: &Options) -> Result<Mesh2, Error> {
-    delaunay2d_in_order(points.into(), options, Order::default())
+    let points = points.into();
+    match options.engine {
+        Engine::Auto | Engine::Cpu => delaunay2d_in_order(points, options, Order::default()),
+        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+        Engine::Gpu => pollster::block_on(crate::Engines::shared().delaunay2d(points, options)),
+        #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
+        Engine::Gpu => {
+            Err(Error::NoAdapter { reason: "a browser's GPU cannot be waited for: use `Engines`".to_owned() })
+        }
+    }
 }
 
 /// [`delaunay2d`] on the CPU with an insertion order of choice, on which the set of triangles does not depend.

@@ -118,6 +118,7 @@ impl Phase1Stats {
             rounds: self.rounds.clone(),
             flips_23: flips_23.into(),
             flips_32: flips_32.into(),
+            flips_22: 0,
             flip_iterations: iterations.into(),
             exact_tests: exact.into(),
             not_locally_delaunay: not_locally_delaunay.into(),

@@ -113,10 +113,11 @@ impl<'a> Run<'a> {
                 let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
                 let Input { points: input, lattice, start } = input;
                 let buffers = &mut point_buffers;
-                let device = kernels.points.record(gpu, &mut recorder, buffers, input, lattice, start.first)?;
+                let device = kernels.points.record(gpu, &mut recorder, buffers, input, lattice, start.first, true)?;
                 let mut kernel_point = Vec::new();
                 vertex::append_words(&mut kernel_point, lattice.width(), start.kernel, points);
-                device.vertices.write(gpu, count * kernel_point.len(), &kernel_point);
+                let kernel_point = kernel_point.as_flattened();
+                device.vertices.write(gpu, count * kernel_point.len(), kernel_point);
                 let dispatches = recorder.dispatches();
                 recorder.submit(gpu);
                 Ok((Memory::new(kernels, gpu, kept, device, blocks, history)?, dispatches))
@@ -229,9 +230,8 @@ impl<'a> Run<'a> {
             self.params.entries_before = self.params.entries;
             // Compacting the list costs about as much as walking it a few times.
             if waiting < self.params.entries / 4 * 3 {
-                let (entries, memory) = (self.params.entries, &self.memory);
-                let relocate = &self.kernels.relocate;
-                relocate.record_compaction(gpu, &mut recorder, &memory.relocate, &memory.buffers, entries, workgroups);
+                let (entries, bound) = (self.params.entries, &self.memory.relocate);
+                self.kernels.relocate.record_compaction(gpu, &mut recorder, bound, entries, workgroups);
                 self.params.entries = waiting;
             }
             self.counters.overflow = 0;

@@ -7,6 +7,7 @@ pub mod insert;
 pub mod flip;
 
 pub mod relocate;
+pub mod waiting;
 
 pub mod finish;
 

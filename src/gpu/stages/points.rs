@@ -15,7 +15,7 @@ use bytemuck::{Pod, Zeroable};
 use super::sort::{BoundSort, Sort};
 use crate::{
     Error, Points,
-    gpu::{Gpu, Kernel, Recorder, Storage, vertex, workgroups},
+    gpu::{Gpu, Kernel, Recorder, Storage, plane, vertex, workgroups},
     lattice::{Lattice, Width},
 };
 
@@ -41,6 +41,10 @@ pub struct InputParams {
     pub width: u32,
     /// Points whose vertices are wanted.
     pub wanted: [u32; 4],
+    /// The coordinates of a point: 3, or 2 in the plane.
+    pub dimension: u32,
+    /// Zero.
+    pub unused: [u32; 3],
 }
 
 /// What the kernels count. Mirrors `InputCounts` in `shaders/shared/input_counts.wgsl`.
@@ -64,9 +68,9 @@ pub struct InputCounts {
 /// The bits of a sort key: 30 for the place along the curve, and the largest for points that others stand for.
 const KEY_BITS: u32 = 32;
 
-/// The kernels.
+/// The kernels, for points of `D` coordinates: 3, or 2 in the plane.
 #[derive(Debug)]
-pub struct PointStage {
+pub struct PointStage<const D: usize = 3> {
     unite: Kernel,
     keys: Kernel,
     gather: Kernel,
@@ -76,9 +80,9 @@ pub struct PointStage {
 /// The points on the device. Valid when the recorded commands have run.
 #[derive(Debug, Clone)]
 pub struct DevicePoints {
-    /// The vertices, as [`vertex`] lays them out, in the order of `pairs`; the last word of a wide one is 1 if it was
-    /// rounded. There is room for one more, the vertex at infinity.
-    pub vertices: Storage<[i32; 4]>,
+    /// The vertices, as [`vertex`] lays them out, or [`plane::vertex`] in the plane, in the order of `pairs`; the last word
+    /// of a wide one in space is 1 if it was rounded. There is room for one more, the vertex at infinity.
+    pub vertices: Storage<i32>,
     /// Sort key and point of each vertex.
     pub pairs: Storage<[u32; 2]>,
     /// For each point the one that stands for it, or `u32::MAX` if it is a vertex itself.
@@ -103,16 +107,21 @@ pub struct PointBuffers {
     bytes: u64,
 }
 
-impl PointStage {
+impl<const D: usize> PointStage<D> {
     /// The kernels.
     pub fn new(gpu: &Gpu) -> Self {
-        let [unite, keys, gather] =
-            ["points_unite", "points_keys", "points_gather"].map(|name| Kernel::new(gpu, name, Width::Narrow, &[]));
-        PointStage { unite, keys, gather, sort: Sort::new(gpu) }
+        let kernel = |name| Kernel::new(gpu, name, Width::Narrow, &[]);
+        PointStage {
+            unite: kernel("points_unite"),
+            keys: kernel("points_keys"),
+            gather: kernel(if D == 2 { "plane/points_gather" } else { "points_gather" }),
+            sort: Sort::new(gpu),
+        }
     }
 
     /// Uploads `points`, which `lattice` was fitted to, and records what makes vertices of them. The vertices of the
-    /// points `wanted` come out in the counts. `kept` has the buffers of the last time, and is given those of this time.
+    /// points `wanted` come out in the counts. `kept` has the buffers of the last time, and is given those of this time. Without `sort` the
+    /// vertices are in the order of the points.
     ///
     /// # Errors
     ///
@@ -122,9 +131,10 @@ impl PointStage {
         gpu: &Gpu,
         recorder: &mut Recorder<'_>,
         kept: &mut Option<PointBuffers>,
-        points: Points<'_>,
-        lattice: &Lattice,
+        points: Points<'_, D>,
+        lattice: &Lattice<D>,
         wanted: [u32; 4],
+        sort: bool,
     ) -> Result<DevicePoints, Error> {
         let n = points.len();
         let (bits, doubles): (&[u32], bool) = match points {
@@ -136,17 +146,20 @@ impl PointStage {
             Some(buffers) if buffers.form == form => buffers,
             _ => self.allocate(gpu, form)?,
         };
-        let origin = lattice.origin().map(|origin| origin.unwrap_or(0));
+        let along: [_; 3] = std::array::from_fn(|axis| lattice.origin().get(axis).copied().flatten());
+        let origin = along.map(|origin| origin.unwrap_or(0));
         let params = InputParams {
             count: n as u32,
             exponent: lattice.exponent(),
             doubles: u32::from(doubles),
-            varies: (0..3).map(|axis| u32::from(lattice.varies()[axis]) << axis).sum(),
+            varies: (0..3).map(|axis| u32::from(along[axis].is_some()) << axis).sum(),
             origin_low: origin.map(|origin| origin as u32),
             table_mask: buffers.table.len() as u32 - 1,
             origin_high: origin.map(|origin| (origin >> 32) as u32),
             width: lattice.width().bits(),
             wanted,
+            dimension: D as u32,
+            unused: [0; 3],
         };
         buffers.params.write(gpu, 0, &[params]);
         buffers.input.write(gpu, 0, bits);
@@ -158,8 +171,10 @@ impl PointStage {
         recorder.dispatch(&self.unite, &buffers.unite, groups);
         recorder.stage("keys");
         recorder.dispatch(&self.keys, &buffers.keys, groups);
-        recorder.stage("sort");
-        self.sort.record(recorder, &buffers.sort);
+        if sort {
+            recorder.stage("sort");
+            self.sort.record(recorder, &buffers.sort);
+        }
         recorder.stage("gather");
         recorder.dispatch(&self.gather, &buffers.gather, groups);
         let device = buffers.device.clone();
@@ -181,7 +196,8 @@ impl PointStage {
         let mut scratch = Storage::new(gpu, "sort scratch", n)?;
         let united_with = Storage::new(gpu, "united points", n)?;
         let counts = Storage::new(gpu, "point counts", 1)?;
-        let vertices = Storage::new(gpu, "vertices", (n + 1) * vertex::stride(width))?;
+        let vertex_words = if D == 2 { plane::vertex::words(width) } else { 4 * vertex::stride(width) };
+        let vertices = Storage::new(gpu, "vertices", (n + 1) * vertex_words)?;
         let [unite, keys, gather]: [&[&wgpu::Buffer]; 3] = [
             &[params.buffer(), input.buffer(), table.buffer(), slots.buffer()],
             &[
@@ -197,6 +213,7 @@ impl PointStage {
         ];
         let (unite, keys) = (self.unite.bind(gpu, unite), self.keys.bind(gpu, keys));
         let gather = self.gather.bind(gpu, gather);
+        // An even number of passes: the pairs end up where they were.
         let sort = self.sort.bind(gpu, &mut pairs, &mut scratch, KEY_BITS)?;
         let bytes = params.bytes()
             + input.bytes()

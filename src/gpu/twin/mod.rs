@@ -27,3 +27,4 @@ pub use pick::{pick_point, pick_score};
 pub use relocate::relocate;
 pub use split::{relocate_split, split};
 pub use state::State;
+pub(in crate::gpu) use state::scramble;

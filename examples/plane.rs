@@ -1,0 +1,145 @@
+//! Times the engine `gpu` in the plane: `plane [uniform|gaussian|thin-circle|circle|grid] [POINTS] [ADAPTER] [REPEATS]`.
+//!
+//! The variables SINGLE (1: coordinates rounded to `f32`), PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE,
+//! WORKGROUPS and SEED change input and settings (the paper's Figure 12). Prints a line of JSON: medians over the repeats,
+//! after one run to warm up, of the whole run and its phases, points in host memory to mesh in host memory; then the same
+//! for the CPU engine (once; CPU=0 leaves it out) and whether both agree; and the stages of one more run on the device,
+//! which is slower because each dispatch is timed.
+
+use gdel::cpu::Order;
+use gdel::gpu::phase1::Pick;
+use gdel::gpu::plane::{Input, Plane, Settings, start::first_triangle};
+use gdel::gpu::{AdapterChoice, Gpu, Profiler};
+use gdel::lattice::Lattice;
+use gdel::plane::{delaunay2d_in_order, hybrid::Hybrid2};
+use gdel::{Options, Points2};
+use pollster::block_on;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use std::time::Instant;
+
+fn points(kind: &str, count: usize, seed: u64) -> Result<Vec<[f64; 2]>, String> {
+    let mut rng = Pcg64Mcg::seed_from_u64(seed);
+    let around = |rng: &mut Pcg64Mcg, radius: f64| {
+        let angle = std::f64::consts::TAU * rng.random::<f64>();
+        [radius * angle.cos(), radius * angle.sin()]
+    };
+    let side = (count as f64).sqrt().ceil() as usize;
+    let point = |i: usize| match kind {
+        "uniform" => Ok(std::array::from_fn(|_| rng.random())),
+        "gaussian" => {
+            let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
+            Ok(around(&mut rng, radius))
+        }
+        "thin-circle" => {
+            let radius = 1.0 + 0.01 * rng.random::<f64>();
+            Ok(around(&mut rng, radius))
+        }
+        "circle" => Ok(around(&mut rng, 1.0)),
+        "grid" => Ok([(i % side) as f64, (i / side) as f64]),
+        _ => Err(format!("no distribution is called {kind:?}")),
+    };
+    (0..count).map(point).collect()
+}
+
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let argument = |i: usize, default: &str| arguments.get(i).cloned().unwrap_or(default.to_owned());
+    let kind = argument(0, "uniform");
+    let count: usize = argument(1, "100000").parse()?;
+    let adapter = argument(2, "");
+    let repeats = argument(3, "5").parse::<usize>()?.max(1);
+    let option = |name: &str, default: u32| -> u32 {
+        std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(default)
+    };
+    let defaults = Settings::default();
+    let settings = Settings {
+        pick: [Pick::Circumcenter, Pick::Centroid, Pick::Random][option("PICK", 0) as usize % 3],
+        insert_all: option("INSERT_ALL", 0) != 0,
+        sort: option("SORT", 1) != 0,
+        min_active: option("MIN_ACTIVE", defaults.min_active),
+        workgroups: option("WORKGROUPS", defaults.workgroups),
+        ..defaults
+    };
+    let doubles = points(&kind, count, option("SEED", 1).into())?;
+    let singles: Vec<[f32; 2]> = doubles.iter().map(|p| p.map(|x| x as f32)).collect();
+    let single = option("SINGLE", 0) != 0;
+    let input: Points2<'_> = if single { (&singles).into() } else { (&doubles).into() };
+
+    let choice = if adapter.is_empty() { AdapterChoice::Default } else { AdapterChoice::Name(adapter) };
+    let gpu = block_on(Gpu::open(&choice))?;
+    let clock = Instant::now();
+    let mut hybrid = block_on(Hybrid2::new(gpu.clone()))?;
+    let pipelines_ms = clock.elapsed().as_secs_f64() * 1e3;
+    let options = Options::default();
+    let mut meshes = Vec::new();
+    let mut whole = Vec::new();
+    for _ in 0..repeats + 1 {
+        let clock = Instant::now();
+        let mesh = block_on(hybrid.delaunay2d_with(input, &options, &settings))?;
+        whole.push(clock.elapsed().as_secs_f64() * 1e3);
+        meshes.push(mesh.stats.clone());
+        if meshes.len() == repeats + 1 && option("CPU", 1) != 0 {
+            let clock = Instant::now();
+            let expected = delaunay2d_in_order(input, &options, Order::default())?;
+            eprintln!(
+                "{{\"cpu_ms\":{:.1},\"same\":{}}}",
+                clock.elapsed().as_secs_f64() * 1e3,
+                expected.canonical() == mesh.canonical() && expected.hull == mesh.hull
+            );
+        }
+    }
+    whole.remove(0);
+    let stats = meshes.pop().unwrap_or_default();
+    let phases = stats.phases.iter().map(|&(name, _)| {
+        let of = |stats: &gdel::stats::Stats| stats.phases.iter().find(|p| p.0 == name).map_or(0.0, |p| p.1 * 1e3);
+        let mut all: Vec<f64> = meshes[1..].iter().chain([&stats]).map(of).collect();
+        format!("\"{name}\":{:.2}", median(&mut all))
+    });
+    let phases: Vec<String> = phases.collect();
+
+    let lattice = Lattice::fit(input);
+    let position = |i: usize| lattice.coordinates(input.get(i)).map(|c| c.value);
+    let start = first_triangle(count, position).ok_or("the points are collinear")?;
+    let device_input = Input { points: input, lattice: &lattice, start };
+    let mut plane = block_on(Plane::new(&gpu, lattice.width()))?;
+    let mut stages = Vec::new();
+    let mut output = block_on(plane.run(&gpu, device_input, &settings, None))?;
+    if let Some(mut profiler) = Profiler::new(&gpu)? {
+        output = block_on(plane.run(&gpu, device_input, &settings, Some(&mut profiler)))?;
+        let last = gpu.queue().submit([]);
+        stages = block_on(profiler.milliseconds(&gpu, &last))?.to_vec();
+    }
+    let stages: Vec<String> = stages.iter().map(|(name, ms)| format!("\"{name}\":{ms:.3}")).collect();
+    let all: Vec<String> = whole.iter().map(|ms| format!("{ms:.2}")).collect();
+    let (device, counters) = (&output.stats, &output.stats.counters);
+    println!(
+        "{{\"input\":\"{kind}\",\"points\":{count},\"single\":{single},\"adapter\":\"{}\",\"width\":\"{:?}\",\"ms\":{:.2},\
+         \"all_ms\":[{}],\"phases_ms\":{{{}}},\"pipelines_ms\":{pipelines_ms:.0},\"fallback\":{:?},\"rounds\":{},\
+         \"flip_iterations\":{},\"visits\":{},\"flips\":{},\"exact\":{},\"hull\":{},\"united\":{},\"readbacks\":{},\
+         \"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
+        gpu.adapter().name,
+        lattice.width(),
+        median(&mut whole),
+        all.join(","),
+        phases.join(","),
+        stats.fallback.map_or(String::new(), |why| why.to_string()),
+        device.rounds.len(),
+        counters.iterations,
+        counters.visits,
+        counters.flips_22,
+        counters.exact,
+        counters.hull,
+        output.united.len(),
+        device.readbacks,
+        device.dispatches,
+        device.bytes,
+        stages.join(",")
+    );
+    Ok(())
+}

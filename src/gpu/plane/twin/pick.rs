@@ -1,0 +1,74 @@
+//! Which point each triangle inserts (§3.1).
+
+use crate::gpu::layout::{NONE, Waiting};
+use crate::gpu::phase1::Pick;
+
+use super::State;
+
+/// Scores each waiting point and finds the best score of each triangle. One thread a waiting point.
+///
+/// It also begins the insertion round.
+pub fn pick_score(state: &mut State) {
+    state.counters.round += 1;
+    state.counters.first_node = state.counters.next_node;
+    for i in 0..state.waiting.len() {
+        let Waiting { point: p, tet: t } = state.waiting[i];
+        if t == NONE {
+            continue;
+        }
+        let score = score(state, t, p);
+        state.scores[i] = score;
+        let best = &mut state.messages[t as usize][0];
+        *best = score.max(*best);
+    }
+}
+
+/// Picks the point with the best score, the last of equals. One thread a waiting point.
+pub fn pick_point(state: &mut State) {
+    for (&Waiting { point: p, tet: t }, &score) in state.waiting.iter().zip(&state.scores) {
+        if t != NONE && score == state.messages[t as usize][0] {
+            let picked = &mut state.messages[t as usize][1];
+            *picked = (p + 1).max(*picked);
+        }
+    }
+}
+
+/// How much a triangle wants a point, at least 1. Scores of different triangles do not compare.
+fn score(state: &State, t: u32, p: u32) -> u32 {
+    let vertices = state.triangle(t);
+    let infinite = state.params.infinite;
+    if state.params.pick == Pick::Random as u32 {
+        return (p ^ state.counters.inserted.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) >> 1 | 1;
+    }
+    // Of wide coordinates, the high words.
+    let drop = state.width.bits() - 31;
+    let q = |v: u32| state.points[v as usize].position.map(|x| x >> drop);
+    let difference = |v: u32, w: u32| -> [f32; 2] { std::array::from_fn(|i| (q(v)[i] - q(w)[i]) as f32) };
+    let scaled = |d: [f32; 2], scale: f32| d.map(|x| x * scale);
+    if let Some(k) = vertices.iter().position(|&v| v == infinite) {
+        // The hull grows most by the point that is farthest from the edge.
+        let [a, b] = [1, 2].map(|i| vertices[(k + i) % 3]);
+        let u = difference(b, a);
+        let scale = scale_of(&[u]);
+        return cross(scaled(u, scale), scaled(difference(p, a), scale)).abs().to_bits() + 1;
+    }
+    let scale = scale_of(&[1, 2].map(|i| difference(vertices[i], vertices[0])));
+    let [a, b, c] = vertices.map(|v| scaled(difference(v, p), scale));
+    let square = |d: [f32; 2]| d[0] * d[0] + d[1] * d[1];
+    if state.params.pick == Pick::Centroid as u32 {
+        return 0x7f80_0000 - square([a[0] + b[0] + c[0], a[1] + b[1] + c[1]]).to_bits();
+    }
+    // The in-circle determinant: for one triangle it grows as the distance from the circumcentre falls.
+    let inside = square(a) * cross(b, c) + square(b) * cross(c, a) + square(c) * cross(a, b);
+    inside.abs().to_bits() + 1
+}
+
+/// A power of two that brings the largest of these below 2.
+fn scale_of(vectors: &[[f32; 2]]) -> f32 {
+    let largest = vectors.iter().flatten().fold(1.0f32, |m, x| m.max(x.abs()));
+    f32::from_bits(0x7f00_0000 - (largest.to_bits() & 0x7f80_0000))
+}
+
+fn cross(a: [f32; 2], b: [f32; 2]) -> f32 {
+    a[0] * b[1] - a[1] * b[0]
+}
