@@ -28,7 +28,7 @@ function buildWasm() {
     say(`${name}: wasm-pack`);
     // prettier-ignore
     run('wasm-pack', [
-      '--log-level', 'warn', 'build', '--release', '--mode', 'no-install', '--target', 'web', '--no-pack', '--no-typescript',
+      '--log-level', 'warn', 'build', '--profile', 'wasm', '--mode', 'no-install', '--target', 'web', '--no-pack', '--no-typescript',
       '--out-dir', pkg(name), '--out-name', 'gdel', root, '--', '--locked', '--no-default-features', '--features', feature,
     ]);
   }

@@ -1,0 +1,84 @@
+// Times the packed package's GPU engine in Node through the npm package `webgpu` (Dawn), and prints JSON.
+//
+//   node benches/js/gpu.mjs [--package FOLDER] [--webgpu FOLDER] [--points 100000,1000000] [--kind uniform] [--runs 5] [--native GDEL]
+//
+// To run it on another machine, carry this file, web/dist and node_modules/webgpu there; of the latter, `index.js`,
+// `package.json` and the `.dawn.node` of its platform in `dist` are enough. --package and --webgpu say where they lie. On
+// Linux it takes libvulkan1 and the driver. With --native, a `gdel` binary triangulates the same points in turn.
+
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { parseArgs } from 'node:util';
+
+const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
+const { values } = parseArgs({
+  options: {
+    package: { type: 'string', default: join(root, 'web/dist') },
+    webgpu: { type: 'string', default: join(root, 'node_modules/webgpu') },
+    points: { type: 'string', default: '100000,1000000' },
+    kind: { type: 'string', default: 'uniform' },
+    runs: { type: 'string', default: '5' },
+    native: { type: 'string' },
+  },
+});
+const load = (folder, file) => import(pathToFileURL(join(resolve(folder), file)));
+const { createEngine, generate } = await load(values.package, 'node.js');
+const { create } = await load(values.webgpu, 'index.js');
+
+const folder = mkdtempSync(join(tmpdir(), 'gdel-bench-'));
+process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
+const median = (numbers) => numbers.slice().sort((a, b) => a - b)[numbers.length >> 1];
+
+const opened = performance.now();
+const engine = await createEngine({ gpu: create([]), engine: 'gpu' });
+const openMilliseconds = performance.now() - opened;
+const runs = +values.runs;
+
+for (const count of values.points.split(',').map(Number)) {
+  const points = await generate(values.kind, count, { seed: 1 });
+  let native = null;
+  if (values.native) {
+    const file = join(folder, 'points.f64');
+    writeFileSync(file, new Uint8Array(points.buffer));
+    const args = ['triangulate', file, '--engine', 'gpu', '--stats', 'json', '--repeat', String(runs + 1)];
+    const lines = execFileSync(values.native, args, { encoding: 'utf8' }).trim().split('\n');
+    // The first run opens the device.
+    native = median(lines.slice(1).map((line) => 1e3 * JSON.parse(line).seconds.total));
+  }
+  const times = [];
+  let mesh;
+  for (let run = -1; run < runs; run++) {
+    const copy = points.slice();
+    const started = performance.now();
+    mesh = await engine.delaunay3d(copy, { engine: 'gpu', transfer: true });
+    if (run >= 0) times.push(performance.now() - started);
+  }
+  const { gpu, splay, phases, why, adapter, wasmBytes } = mesh.stats;
+  const milliseconds = median(times);
+  console.log(
+    JSON.stringify({
+      kind: values.kind,
+      points: count,
+      tetrahedra: mesh.tetrahedra.length / 4,
+      milliseconds,
+      all: times,
+      nativeMilliseconds: native,
+      ratio: native && milliseconds / native,
+      phases,
+      why,
+      submits: gpu?.submits,
+      dispatches: gpu?.dispatches,
+      readbacks: gpu?.readbacks,
+      failedVertices: gpu?.failedVertices,
+      splayed: splay?.built,
+      gpuBytes: gpu?.bytes,
+      wasmBytes,
+      openMilliseconds,
+      adapter,
+    }),
+  );
+}
+engine.dispose();

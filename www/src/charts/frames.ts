@@ -1,0 +1,16 @@
+import { CHART, plot } from './theme';
+
+/** The last frames' times in milliseconds, as a line. */
+export async function framesChart(milliseconds: readonly number[]): Promise<Element> {
+  const Plot = await plot();
+  return Plot.plot({
+    ...CHART,
+    height: 84,
+    marginLeft: 28,
+    marginTop: 6,
+    marginBottom: 6,
+    x: { axis: null },
+    y: { label: null, ticks: 3, grid: true, zero: true },
+    marks: [Plot.areaY(milliseconds, { fill: 'var(--accent)', fillOpacity: 0.15 }), Plot.lineY(milliseconds, { stroke: 'var(--accent)' })],
+  });
+}

@@ -1,0 +1,49 @@
+import type { Measures } from './measures';
+
+export type ColorBy = 'quality' | 'volume' | 'circumradius' | 'phase';
+
+/** How a quantity is laid out on the colour map. */
+export interface ColorScale {
+  by: ColorBy;
+  /** The values at the two ends of the map; what lies beyond has the end's colour. */
+  domain: [number, number];
+  kind: 'linear' | 'log' | 'phases';
+}
+
+/**
+ * The scale for a quantity of the tetrahedra that a filter keeps: quality from 0 to 1, lengths and volumes from the 1st to the
+ * 99th percentile, by logarithm.
+ */
+export function scaleFor(by: ColorBy, measures: Measures, kept: Uint8Array): ColorScale {
+  if (by === 'quality') return { by, domain: [0, 1], kind: 'linear' };
+  if (by === 'phase') return { by, domain: [0, 1], kind: 'phases' };
+  const [low, high] = percentiles(measures[by], 0.01, 0.99, kept);
+  return { by, domain: [low, high], kind: 'log' };
+}
+
+/** From a tetrahedron to its position on the map, 0 to 1. `created`: 1 for those that Phase 2 made. */
+export function mapping(
+  { by, domain: [low, high], kind }: ColorScale,
+  measures: Measures,
+  created: Uint8Array | null,
+): (t: number) => number {
+  if (kind === 'phases') return (t) => (created?.[t] ? 1 : 0);
+  if (by === 'quality') return (t) => measures.radiusRatio[t];
+  const values = measures[by === 'volume' ? 'volume' : 'circumradius'];
+  const start = Math.log(low);
+  const perStep = high > low ? 1 / (Math.log(high) - start) : 0;
+  return (t) => Math.min(1, Math.max(0, (Math.log(values[t]) - start) * perStep));
+}
+
+/** Two percentiles of the positive, finite values of a sample of those kept. */
+export function percentiles(values: Float32Array, low: number, high: number, kept?: Uint8Array): [number, number] {
+  const step = Math.max(1, Math.floor(values.length / 20_000));
+  const sample: number[] = [];
+  for (let i = 0; i < values.length; i += step) {
+    if (values[i] > 0 && values[i] < Infinity && kept?.[i] !== 0) sample.push(values[i]);
+  }
+  if (sample.length === 0) return [1, 1];
+  const sorted = Float32Array.from(sample).sort();
+  const at = (share: number) => sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
+  return [at(low), at(high)];
+}

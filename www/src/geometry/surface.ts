@@ -1,0 +1,73 @@
+import type { Kept } from './filter';
+import { FACETS, type Tetrahedralisation } from './mesh';
+import type { Heights } from './plane';
+
+/** The facets that bound the tetrahedra which a filter keeps below a level. */
+export interface Boundary {
+  /** 4 · tetrahedron + the number of the vertex opposite. */
+  facets: Uint32Array;
+  /** How many tetrahedra are kept below the level. */
+  shown: number;
+}
+
+/** Triangles ready for the graphics card: no two share vertices. */
+export interface Surface {
+  /** Nine coordinates a triangle, counter-clockwise as seen from outside. */
+  positions: Float32Array;
+  /** The position of the triangle's tetrahedron on the colour scale, from 0 to 1, once a corner. */
+  values: Float32Array;
+  /** The triangle's tetrahedron. */
+  owners: Uint32Array;
+}
+
+/** The boundary of the whole tetrahedra whose centroids are at most as high as `level`. */
+export function boundaryOf(
+  { neighbors }: Tetrahedralisation,
+  { kept, rim }: Kept,
+  { height, reach }: Heights,
+  level: number,
+): Boundary {
+  let facets = new Uint32Array(1 << 16);
+  let count = 0;
+  let shown = 0;
+  for (let t = 0; t < kept.length; t++) {
+    if (kept[t] === 0 || height[t] > level) continue;
+    shown++;
+    if (rim[t] === 0 && reach[t] <= level) continue;
+    for (let f = 4 * t; f < 4 * t + 4; f++) {
+      const u = neighbors[f];
+      if (u >= 0 && kept[u] === 1 && height[u] <= level) continue;
+      if (count === facets.length) {
+        const larger = new Uint32Array(2 * count);
+        larger.set(facets);
+        facets = larger;
+      }
+      facets[count++] = f;
+    }
+  }
+  return { facets: facets.slice(0, count), shown };
+}
+
+/** The triangles of some facets. */
+export function surfaceOf(
+  { positions, tetrahedra }: Tetrahedralisation,
+  facets: Uint32Array,
+  value: (t: number) => number,
+): Surface {
+  const corners = new Float32Array(9 * facets.length);
+  const values = new Float32Array(3 * facets.length);
+  const owners = new Uint32Array(facets.length);
+  for (let i = 0; i < facets.length; i++) {
+    const t = facets[i] >>> 2;
+    const k = facets[i] & 3;
+    for (let j = 0; j < 3; j++) {
+      const p = 3 * tetrahedra[4 * t + FACETS[3 * k + j]];
+      corners[9 * i + 3 * j] = positions[p];
+      corners[9 * i + 3 * j + 1] = positions[p + 1];
+      corners[9 * i + 3 * j + 2] = positions[p + 2];
+    }
+    owners[i] = t;
+    values.fill(value(t), 3 * i, 3 * i + 3);
+  }
+  return { positions: corners, values, owners };
+}

@@ -1,0 +1,41 @@
+import type { ModelClient } from './model/client';
+import type { Drawing, Summary } from './model/model';
+import type { Source } from './model/source';
+import type { Settings } from './settings';
+import type { Viewer } from './view/viewer';
+
+/** What the parts of the page may do with the whole. */
+export interface Page {
+  readonly settings: Settings;
+  readonly model: ModelClient;
+  /** Null until three.js is there, and where the browser cannot draw. */
+  readonly viewer: Viewer | null;
+  /** What the last run gave; null before the first has ended. */
+  readonly summary: Summary | null;
+  /** Whether points move: then the live mode draws, not the page. */
+  live: boolean;
+  /** What is on the screen; null before anything is. */
+  readonly lastDrawing: Drawing | null;
+  /** Gets points and triangulates them. Says what goes wrong on the page; resolves to whether there is a new mesh. */
+  run(source: Source): Promise<boolean>;
+  /** Runs the present points again, on the GPU, and keeps what happened on the way. Resolves as {@link run}. */
+  record(): Promise<boolean>;
+  /** Changes settings and draws anew. */
+  change(settings: Partial<Settings>): void;
+  /** Shows the mesh of the last run again, after the live mode. */
+  restore(): void;
+  /** Shows the triangulation after a round of the trace; null for the result. */
+  showRound(round: number | null): void;
+}
+
+/** A part of the page, which is told of what happens. */
+export interface Part {
+  /** There is a new mesh. */
+  ran?(summary: Summary): void;
+  /** Settings have changed. */
+  changed?(settings: Settings): void;
+  /** There is a new drawing. */
+  drew?(drawing: Drawing): void;
+  /** A panel has come to the front. */
+  showed?(panel: string): void;
+}

@@ -1,0 +1,104 @@
+import { type Time, timesChart } from '../charts/times';
+import { runQhull } from '../compare/qhull';
+import type { Page, Part } from '../page';
+import { byId, count, create, duration } from './dom';
+import { nameOf } from './result';
+
+/** The panel that runs the same points on other engines, and the one that proves the mesh. */
+export function comparePanel(page: Page): Part {
+  byId('compare-run').addEventListener('click', () => void compare(page));
+  byId('verify-run').addEventListener('click', () => void prove(page));
+  return {
+    ran() {
+      abort?.abort();
+      byId('times').replaceChildren();
+      byId('times-note').textContent = '';
+      byId('verdicts').replaceChildren();
+      byId('verify-note').textContent = '';
+    },
+  };
+}
+
+let abort: AbortController | null = null;
+
+async function compare(page: Page): Promise<void> {
+  const button = byId<HTMLButtonElement>('compare-run');
+  if (abort) {
+    abort.abort();
+    return;
+  }
+  const { signal } = (abort = new AbortController());
+  signal.addEventListener('abort', () => page.model.cancel());
+  const tetrahedra = page.summary!.tetrahedra;
+  const times: Time[] = [];
+  const notes: string[] = [];
+  const add = async (time: Time, note: string) => {
+    times.push(time);
+    notes.push(note);
+    byId('times').replaceChildren(await timesChart(times));
+    byId('times-note').textContent = notes.join(' ');
+  };
+  const agree = (name: string, found: number) =>
+    found === tetrahedra ? `${name}: the same ${count(found)} tetrahedra.` : `${name}: ${count(found)} tetrahedra, not ${count(tetrahedra)}.`;
+
+  button.textContent = 'Stop';
+  try {
+    const { adapter } = await page.model.info();
+    for (const [engine, name] of [['gpu', 'GPU engine'], ['cpu', 'CPU engine']] as const) {
+      if (engine === 'gpu' && adapter?.software) {
+        notes.push(`GPU engine: left out, because the adapter is only software (${nameOf(adapter)}).`);
+        continue;
+      }
+      say(`Running the ${name} …`);
+      try {
+        const { milliseconds, tetrahedra: found } = await page.model.time(engine);
+        await add({ engine: name, milliseconds, ours: true }, agree(name, found));
+      } catch (error) {
+        if (signal.aborted) throw error;
+        notes.push(`${name}: ${(error as Error).message}`);
+      }
+    }
+    say('Running qhull-wasm; at 100,000 points it takes seconds, at a million most of a minute …');
+    const qhull = await runQhull(await page.model.points(), signal);
+    const flat = qhull.flat ? ` ${count(qhull.flat)} of them have no volume.` : '';
+    await add({ engine: 'qhull-wasm', milliseconds: qhull.milliseconds, ours: false }, agree('qhull-wasm', qhull.tetrahedra) + flat);
+    const fastest = times.filter(({ ours }) => ours).sort((a, b) => a.milliseconds - b.milliseconds)[0];
+    if (fastest) notes.push(`Ratio of qhull-wasm to the ${fastest.engine}: ${(qhull.milliseconds / fastest.milliseconds).toFixed(1)}.`);
+    byId('times-note').textContent = notes.join(' ');
+  } catch (error) {
+    notes.push(signal.aborted ? 'Stopped.' : `qhull-wasm: ${(error as Error).message}`);
+    byId('times-note').textContent = notes.join(' ');
+  } finally {
+    abort = null;
+    button.textContent = 'Run all engines';
+    say('');
+  }
+}
+
+function say(text: string): void {
+  byId('compare-status').textContent = text;
+}
+
+async function prove(page: Page): Promise<void> {
+  const button = byId<HTMLButtonElement>('verify-run');
+  const note = byId('verify-note');
+  button.disabled = true;
+  note.textContent = 'Checking …';
+  const started = performance.now();
+  try {
+    const { checks } = await page.model.verify();
+    byId('verdicts').replaceChildren(
+      ...checks.map(({ name, passed, detail }) => {
+        const verdict = create('li', { className: passed ? 'pass' : 'fail' });
+        verdict.append(create('span', {}, create('span', { className: 'hidden' }, passed ? 'Passed: ' : 'Failed: '), detail ? `${name}: ${detail}` : name));
+        return verdict;
+      }),
+    );
+    const all = checks.every(({ passed }) => passed);
+    note.textContent = `${all ? 'Proven' : 'Not proven'} in ${duration(performance.now() - started)}.`;
+  } catch (error) {
+    note.textContent = (error as Error).message;
+  } finally {
+    button.disabled = false;
+  }
+}

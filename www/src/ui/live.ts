@@ -1,0 +1,74 @@
+import { framesChart } from '../charts/frames';
+import type { Page, Part } from '../page';
+import { byId, count, create, duration } from './dom';
+import { showLegend } from './legend';
+
+const KEPT = 120;
+
+/** The live mode: asks for one frame after the other, as fast as they come, until it is stopped or there is a new mesh. */
+export function live(page: Page): Part {
+  const button = byId<HTMLButtonElement>('live');
+  const number = byId<HTMLInputElement>('live-number');
+  const times = byId('live-times');
+  let running = 0;
+
+  const stop = () => {
+    running = 0;
+    page.live = false;
+    button.setAttribute('aria-pressed', 'false');
+    button.textContent = 'Start';
+  };
+
+  const start = async () => {
+    const run = (running = performance.now());
+    button.setAttribute('aria-pressed', 'true');
+    button.textContent = 'Stop';
+    page.live = true;
+    times.hidden = false;
+    const frames: number[] = [];
+    page.viewer?.showPoints(null);
+    page.viewer?.showHull(null);
+    page.viewer?.showFacets(null);
+    let charted = 0;
+    let last = performance.now();
+    while (running === run && page.viewer) {
+      const { settings, viewer } = page;
+      const points = Math.min(200_000, Math.max(10, Math.round(number.valueAsNumber) || 3000));
+      const seconds = (performance.now() - run) / 1000;
+      const frame = await page.model.liveFrame(points, settings.engine, seconds, {
+        filter: { kind: 'all' },
+        plane: { normal: settings.normal, keep: settings.keep },
+        color: settings.color === 'phase' ? 'quality' : settings.color,
+        pieces: settings.apart > 0,
+        round: null,
+      });
+      if (running !== run) return;
+      viewer.showSurface(frame.drawing.surface);
+      viewer.showPieces(frame.drawing.pieces);
+      showLegend(frame.drawing, settings.map);
+      await viewer.drawn();
+      const now = performance.now();
+      frames.push(frame.milliseconds);
+      if (frames.length > KEPT) frames.shift();
+      if (now - charted > 400) {
+        charted = now;
+        byId('count').textContent = `${count(points)} moving points → ${count(frame.tetrahedra)} tetrahedra`;
+        byId('took').replaceChildren(create('b', {}, duration(frame.milliseconds)), `a frame, ${Math.round(1000 / (now - last))} frames a second`);
+        times.replaceChildren(
+          create('p', { className: 'note' }, 'Milliseconds to triangulate each of the last frames'),
+          await framesChart(frames),
+        );
+      }
+      last = now;
+    }
+  };
+
+  button.addEventListener('click', () => {
+    if (running) {
+      stop();
+      // Back to the mesh before.
+      if (page.summary) page.restore();
+    } else void start().catch(() => stop());
+  });
+  return { ran: stop };
+}

@@ -1,0 +1,131 @@
+import { breakdownChart, type Run } from '../charts/breakdown';
+import { roundsChart, timelineChart } from '../charts/rounds';
+import { MOST_POINTS_TO_RECORD, type Summary } from '../model/model';
+import { titleOf } from '../model/source';
+import type { Page, Part } from '../page';
+import { byId, count, create, share } from './dom';
+
+/** At most so many runs stand side by side in the breakdown. */
+const RUNS = 6;
+
+/** The panel that explains the last run. */
+export function runPanel(page: Page): Part {
+  const runs: Run[] = [];
+  const stepper = stepMode(page);
+  const shade = byId<HTMLInputElement>('shade');
+  shade.addEventListener('change', () => page.change({ layers: { ...page.settings.layers, facets: shade.checked } }));
+
+  /** Charts wait until somebody looks: their library is as large as the rest of the page. */
+  let charted = true;
+  const chart = async () => {
+    if (charted || byId('run').hidden) return;
+    charted = true;
+    const rounds = page.summary?.stats.gpu?.rounds ?? [];
+    byId('breakdown').replaceChildren(await breakdownChart(runs));
+    byId('rounds-section').hidden = rounds.length === 0;
+    if (rounds.length > 0) byId('rounds-chart').replaceChildren(await roundsChart(rounds), await timelineChart(rounds));
+  };
+
+  return {
+    ran(summary) {
+      stepper(summary);
+      showFigures(summary);
+      showRepair(summary);
+      const title = `${titleOf(page.settings.source)}, ${count(summary.points)}, ${summary.stats.engine.toUpperCase()}`;
+      const again = runs.findIndex((run) => run.title === title);
+      if (again >= 0) runs.splice(again, 1);
+      runs.unshift({ title, phases: summary.stats.phases });
+      runs.length = Math.min(runs.length, RUNS);
+      charted = false;
+      void chart();
+    },
+    changed: ({ layers }) => (shade.checked = layers.facets),
+    showed: () => void chart(),
+  };
+}
+
+function showFigures({ points, duplicates, tetrahedra, hullTriangles, stats }: Summary): void {
+  const { gpu, splay, exact } = stats;
+  const rows: [string, number | null | undefined][] = [
+    ['Points', points],
+    ['of them exact duplicates', duplicates],
+    ['Tetrahedra', tetrahedra],
+    ['Triangles of the hull', hullTriangles],
+    ['Rounds of Phase 1', gpu?.rounds.length],
+    ['Flips', gpu && gpu.flips23 + gpu.flips32],
+    ['Failed vertices', gpu?.failedVertices],
+    ['Stars built for them', splay?.built],
+    ['Stars pulled in besides', splay?.pulled],
+    ['Signs decided by exact integers', exact.integer],
+    ['by expansions', exact.expansion],
+    ['by the symbolic perturbation', exact.symbolic],
+  ];
+  byId('figures').replaceChildren(
+    ...rows
+      .filter(([, value]) => value != null)
+      .map(([name, value]) => create('tr', {}, create('th', { scope: 'row' }, name), create('td', {}, count(value!)))),
+  );
+}
+
+function showRepair({ trace, points, tetrahedra, hullTriangles }: Summary): void {
+  const small = points <= MOST_POINTS_TO_RECORD;
+  byId('record-section').hidden = trace !== null || !small;
+  byId('recorded').hidden = trace === null;
+  if (!trace) {
+    byId('repair').textContent =
+      'Phase 1 flips in parallel on the GPU and gets stuck in a few places. There, Phase 2 splays stars. ' +
+      (small
+        ? 'Recorded, a run shows where, and how it came about round by round. That takes several times as long.'
+        : `Runs of up to ${count(MOST_POINTS_TO_RECORD)} points can be recorded to see where.`);
+    return;
+  }
+  const facets = 2 * tetrahedra + hullTriangles / 2;
+  byId('repair').textContent =
+    `${count(trace.nonDelaunayFacets)} facets, ${share(trace.nonDelaunayFacets, facets)} of all, were not locally Delaunay after ` +
+    `Phase 1. Splaying repaired them all: it made ${count(trace.splayed)} of the tetrahedra, ${share(trace.splayed, tetrahedra)}.`;
+}
+
+/** The slider over the rounds of the trace. Returns what to do with a new mesh. */
+function stepMode(page: Page): (summary: Summary) => void {
+  const slider = byId<HTMLInputElement>('step');
+  const label = byId('step-label');
+  const play = byId<HTMLButtonElement>('play');
+  let rounds = 0;
+  let timer = 0;
+
+  const to = (step: number) => {
+    slider.value = String(step);
+    label.textContent = step < rounds ? `After round ${step + 1} of ${rounds}` : 'The result';
+    page.showRound(step < rounds ? step : null);
+  };
+  const stop = () => {
+    clearInterval(timer);
+    timer = 0;
+    play.textContent = 'Play';
+  };
+  slider.addEventListener('input', () => {
+    stop();
+    to(slider.valueAsNumber);
+  });
+  play.addEventListener('click', () => {
+    if (timer) return stop();
+    play.textContent = 'Pause';
+    if (slider.valueAsNumber >= rounds) to(0);
+    timer = window.setInterval(() => {
+      to(slider.valueAsNumber + 1);
+      if (slider.valueAsNumber >= rounds) stop();
+    }, 700);
+  });
+  byId('record').addEventListener('click', () => page.record());
+  byId('record-few').addEventListener('click', async () => {
+    if (await page.run({ kind: 'generator', distribution: 'ball', count: 1_000, seed: 1 })) await page.record();
+  });
+
+  return ({ trace }) => {
+    stop();
+    rounds = trace?.rounds ?? 0;
+    slider.max = String(rounds);
+    slider.value = String(rounds);
+    label.textContent = 'The result';
+  };
+}

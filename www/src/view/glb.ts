@@ -1,0 +1,32 @@
+import { GLTFExporter } from 'three/addons/exporters/GLTFExporter.js';
+import { BufferAttribute, BufferGeometry, Color, Mesh, MeshStandardMaterial } from 'three/webgpu';
+import { trianglesOf } from '../geometry/pieces';
+import type { Page } from '../page';
+import { rgbOf } from './colormap';
+
+/** What the page shows, as a binary glTF file: the surface with its colours. */
+export async function toGLB({ settings, lastDrawing }: Page): Promise<Uint8Array> {
+  if (!lastDrawing) throw new Error('There is nothing to see yet.');
+  const { surface, pieces, scale } = lastDrawing;
+  const positions = surface ? surface.positions : trianglesOf(pieces!, settings.apart);
+  // A piece has 12 corners for its one value; a surface has a value for every corner.
+  const values = surface ? surface.values : pieces!.values;
+  const each = surface ? 1 : 12;
+  const map = scale.kind === 'phases' ? 'phases' : settings.map;
+  const linear = new Color();
+  const palette = Array.from({ length: 256 }, (_, i) => {
+    const [r, g, b] = rgbOf(map, i / 255);
+    return linear.setRGB(r / 255, g / 255, b / 255, 'srgb').toArray();
+  });
+  const colors = new Float32Array(positions.length);
+  for (let i = 0; i < positions.length / 3; i++) colors.set(palette[Math.round(values[Math.floor(i / each)] * 255)], 3 * i);
+
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(positions, 3));
+  geometry.setAttribute('color', new BufferAttribute(colors, 3));
+  geometry.computeVertexNormals();
+  const mesh = new Mesh(geometry, new MeshStandardMaterial({ vertexColors: true, roughness: 1, metalness: 0 }));
+  if (settings.up === 'z') mesh.rotation.x = -Math.PI / 2;
+  const glb = await new GLTFExporter().parseAsync(mesh, { binary: true });
+  return new Uint8Array(glb as ArrayBuffer);
+}

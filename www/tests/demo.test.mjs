@@ -1,0 +1,262 @@
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import AxeBuilder from '@axe-core/playwright';
+import { drawn, drop, generate, launch, numbers, open, pictureOf, serve, shown, slide, tab, text } from './browser.mjs';
+
+const root = fileURLToPath(new URL('../../', import.meta.url));
+const bunny = readFileSync(join(root, 'tests/data/bunny.ply'));
+
+let server;
+before(async () => (server = await serve()));
+after(() => server.close());
+
+describe('drawing with WebGPU, triangulating on the CPU', () => {
+  let browser;
+  let page;
+  before(async () => {
+    browser = await launch();
+    page = await open(browser, server.url);
+  });
+  after(() => browser.close());
+
+  test('shows the bunny at once, carved and cut', async () => {
+    assert.match(await text(page, 'count'), /^35,947 points → 246,218 tetrahedra$/);
+    assert.match(await text(page, 'took'), /^[\d.]+ m?s$/);
+    const counts = await shown(page);
+    assert.equal(counts.total, 246_218);
+    assert.ok(counts.shown > 60_000 && counts.shown < 120_000, `${counts.shown} shown`);
+    await pictureOf(page, 'first-view');
+  });
+
+  test('says that coplanar points have no tetrahedra, and goes on', async () => {
+    await drop(page, 'flat.xyz', '0 0 0\n1 0 0\n0 1 0\n1 1 0\n');
+    await page.waitForFunction(() => document.querySelector('#count').textContent.includes('in one plane'));
+    await pictureOf(page, 'flat');
+  });
+
+  test('cuts, colours and pulls apart', async () => {
+    await generate(page, 'uniform', 5000);
+    await slide(page, 'keep', 1);
+    await page.waitForFunction(() => document.querySelector('#shown').textContent.startsWith('all'));
+    await slide(page, 'keep', 0.5);
+    await page.waitForFunction(() => document.querySelector('#shown').textContent.includes(' of '));
+    const half = await shown(page);
+    assert.ok(half.shown > 0.4 * half.total && half.shown < 0.6 * half.total);
+
+    await tab(page, 'view');
+    for (const [color, title] of [['quality', 'Radius ratio'], ['volume', 'Volume'], ['circumradius', 'Circumradius']]) {
+      await page.selectOption('#color', color);
+      await page.waitForFunction((title) => document.querySelector('#legend-title').textContent.startsWith(title), title);
+      await pictureOf(page, `colour-${color}`);
+    }
+    await slide(page, 'apart', 0.4);
+    await drawn(page);
+    await pictureOf(page, 'apart');
+    await slide(page, 'apart', 0);
+
+    await page.locator('input[name=filter][value=alpha]').evaluate((radio) => radio.click());
+    await slide(page, 'alpha', 0.3);
+    await page.waitForFunction((before) => document.querySelector('#shown').textContent !== before, (await text(page, 'shown')) ?? '');
+    await pictureOf(page, 'alpha');
+  });
+
+  test('tells about the tetrahedron under the pointer', async () => {
+    await generate(page, 'uniform', 5000);
+    await page.mouse.move(520, 450);
+    await page.locator('#tip').waitFor();
+    assert.match(await text(page, 'tip'), /tetrahedron.*vertices.*circumradius/);
+    await pictureOf(page, 'tip');
+  });
+
+  test('turns by the arrow keys', async () => {
+    await page.focus('#canvas');
+    const before = page.url();
+    for (let i = 0; i < 5; i++) await page.keyboard.press('ArrowLeft');
+    await page.waitForFunction((before) => location.href !== before, before);
+    assert.match(page.url(), /camera=/);
+    await page.keyboard.press('[');
+    await page.waitForFunction(() => location.hash.includes('cut='));
+  });
+
+  test('takes a dropped scan', async () => {
+    await drop(page, 'scan.ply', bunny);
+    await page.waitForFunction(() => document.querySelector('#count').textContent.startsWith('35,947'));
+    await drawn(page);
+    assert.equal((await shown(page)).total, 246_218);
+  });
+
+  test('says what is wrong with a broken file, and goes on', async () => {
+    await drop(page, 'broken.ply', bunny.subarray(0, 5000));
+    await page.locator('#message').waitFor();
+    const message = await text(page, 'message-text');
+    assert.match(message, /^broken\.ply: .{10,}/);
+    await pictureOf(page, 'broken-file');
+    await drop(page, 'picture.jpg', Buffer.from([255, 216, 255]));
+    await page.waitForFunction(() => document.querySelector('#message-text').textContent.startsWith('picture.jpg'));
+    await page.click('#message-close');
+    await generate(page, 'gaussian', 1000);
+    assert.ok(await page.locator('#message').isHidden());
+  });
+
+  test('can be cancelled', async () => {
+    const before = await text(page, 'count');
+    await generate(page, 'uniform', 2_000_000, { wait: false });
+    await page.locator('#cancel').click();
+    await page.locator('#message').waitFor();
+    assert.match(await text(page, 'message-text'), /^Cancelled/);
+    assert.equal(await text(page, 'count'), before);
+    assert.ok(await page.locator('#busy').isHidden());
+  });
+
+  test('makes a link that shows the same', async () => {
+    await generate(page, 'thin-sphere', 2000);
+    await tab(page, 'view');
+    await page.selectOption('#color', 'volume');
+    await slide(page, 'keep', 0.7);
+    await page.locator('input[name=normal][value=Y]').evaluate((radio) => radio.click());
+    await page.waitForTimeout(600);
+    await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+    await page.click('#share');
+    const link = await page.evaluate(() => navigator.clipboard.readText());
+    assert.match(link, /thin-sphere~2000/);
+    const other = await open(browser, link);
+    for (const id of ['shown', 'count', 'legend-title', 'legend-low', 'legend-high']) {
+      assert.equal(await text(other, id), await text(page, id), id);
+    }
+    assert.deepEqual(other.problems, []);
+    await other.close();
+  });
+
+  test('compares engines and proves the mesh', async () => {
+    await generate(page, 'grid', 3000);
+    await tab(page, 'compare');
+    await page.click('#compare-run');
+    await page.waitForFunction(() => document.querySelector('#times-note').textContent.includes('Ratio'));
+    const note = await text(page, 'times-note');
+    assert.match(note, /GPU engine: left out/);
+    assert.match(note, /CPU engine: the same/);
+    assert.match(note, /qhull-wasm: /);
+    assert.equal(await page.locator('#times svg rect').count(), 2);
+    await page.click('#verify-run');
+    await page.waitForFunction(() => document.querySelector('#verify-note').textContent.startsWith('Proven'));
+    assert.ok((await page.locator('#verdicts .pass').count()) >= 4);
+    assert.equal(await page.locator('#verdicts .fail').count(), 0);
+    await pictureOf(page, 'compare');
+  });
+
+  test('triangulates moving points live, and stops', async () => {
+    await tab(page, 'points');
+    const before = await text(page, 'count');
+    await page.fill('#live-number', '500');
+    await page.click('#live');
+    await page.waitForFunction(() => document.querySelector('#took').textContent.includes('frames a second'));
+    await page.locator('#live-times svg').waitFor();
+    await pictureOf(page, 'live');
+    await page.click('#live');
+    await page.waitForFunction((before) => document.querySelector('#count').textContent === before, before);
+  });
+
+  test('downloads what the command line proves', async () => {
+    await page.click('#samples button');
+    await page.waitForFunction(() => document.querySelector('#count').textContent.startsWith('35,947'));
+    await drawn(page);
+    await tab(page, 'use');
+    const folder = mkdtempSync(join(tmpdir(), 'gdel-demo-'));
+    const save = async (format, files = 1) => {
+      const arrived = [];
+      const all = new Promise((resolve) => {
+        page.on('download', async function listen(download) {
+          const path = join(folder, download.suggestedFilename());
+          await download.saveAs(path);
+          arrived.push(path);
+          if (arrived.length === files) {
+            page.off('download', listen);
+            resolve(arrived);
+          }
+        });
+      });
+      await page.getByRole('button', { name: format, exact: true }).click();
+      return all;
+    };
+    const gdel = (...args) => execFileSync('cargo', ['run', '--quiet', '--release', '--bin', 'gdel', '--', ...args], { cwd: root });
+    const points = join(folder, 'points.ply');
+    writeFileSync(points, bunny);
+    for (const [format, files, mesh] of [['VTU', 1, '.vtu'], ['NPZ', 1, '.npz'], ['TetGen', 3, '.ele']]) {
+      const saved = await save(format, files);
+      // Fails if the mesh is not the Delaunay triangulation of the points.
+      gdel('verify', points, saved.find((path) => path.endsWith(mesh)));
+    }
+    for (const format of ['PLY', 'OBJ', 'STL']) {
+      const [hull] = await save(format);
+      // The hull's corners are the points of its file.
+      gdel('triangulate', hull);
+    }
+    const [glb] = await save('GLB');
+    assert.equal(readFileSync(glb).subarray(0, 4).toString(), 'glTF');
+    rmSync(folder, { recursive: true });
+  });
+
+  test('has code to copy', async () => {
+    await tab(page, 'use');
+    await page.click('#copy');
+    const code = await page.evaluate(() => navigator.clipboard.readText());
+    assert.match(code, /import \{ delaunay3d, readPoints \} from 'gdel-wasm'/);
+    await pictureOf(page, 'use');
+  });
+
+  test('has done all this without an error in the console', () => {
+    // The browser itself reports the requests that the tests make fail.
+    assert.deepEqual(page.problems, []);
+  });
+
+  for (const colorScheme of ['light', 'dark']) {
+    test(`has no accessibility faults, ${colorScheme}`, async () => {
+      const page = await open(browser, server.url, { colorScheme, reducedMotion: 'reduce' });
+      for (const name of ['points', 'view', 'run', 'compare', 'use']) {
+        await tab(page, name);
+        await pictureOf(page, `${colorScheme}-${name}`);
+        const { violations } = await new AxeBuilder({ page }).analyze();
+        assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`), [], name);
+      }
+      await page.close();
+    });
+  }
+
+  test('fits a phone', async () => {
+    const page = await open(browser, server.url, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, deviceScaleFactor: 2 });
+    const width = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(width <= 390, `${width} pixels wide`);
+    await pictureOf(page, 'phone');
+    await page.touchscreen.tap(190, 300);
+    await page.locator('#tip').waitFor();
+    await tab(page, 'view');
+    const { violations } = await new AxeBuilder({ page }).analyze();
+    assert.deepEqual(violations.map(({ id }) => id), []);
+    await pictureOf(page, 'phone-view');
+    await page.close();
+  });
+});
+
+describe('without WebGPU', () => {
+  test('works on the CPU, draws with WebGL, and says so', async () => {
+    const browser = await launch({ webgpu: false });
+    const page = await open(browser, server.url);
+    assert.match(await text(page, 'engine-used'), /^On the CPU: /);
+    assert.equal((await shown(page)).total, 246_218);
+    await tab(page, 'use');
+    await page.waitForFunction(() => document.querySelector('#machine').textContent.includes('WebGL 2'));
+    await pictureOf(page, 'no-webgpu');
+    await tab(page, 'points');
+    await page.locator('input[name=engine][value=gpu]').evaluate((radio) => radio.click());
+    await page.locator('#message').waitFor();
+    assert.match(await text(page, 'message-text'), /adapter/);
+    assert.ok(numbers(await text(page, 'count')).length > 0);
+    assert.deepEqual(page.problems, []);
+    await browser.close();
+  });
+});
