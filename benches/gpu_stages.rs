@@ -44,7 +44,8 @@ fn points(gpu: &Gpu, stage: &PointStage, points: Points<'_>) {
         let lattice = Lattice::fit(points);
         let fitted = start.elapsed().as_secs_f64() * 1e3;
         let mut recorder = Recorder::new(gpu, Some(&mut profiler));
-        let device = stage.record(gpu, &mut recorder, &mut kept, points, &lattice, [0; 4], true).expect("the points fit");
+        let device =
+            stage.record(gpu, &mut recorder, &mut kept, points, &lattice, [0; 4], true).expect("the points fit");
         let pending = readback.copy(gpu, recorder.encoder(), &device.counts, 0, 1);
         let recorded = start.elapsed().as_secs_f64() * 1e3;
         let submission = recorder.submit(gpu);
