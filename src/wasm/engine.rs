@@ -11,7 +11,7 @@ use super::{
     points::Coordinates,
 };
 use crate::{
-    Engine, Engines, Mesh3, Options, Progress,
+    Engine, Engines, Mesh2, Mesh3, Options, Progress,
     engines::LEAST_POINTS,
     options::OnProgress,
     splay::SplayStats,
@@ -77,14 +77,26 @@ impl WasmEngines {
     ) -> Result<JsValue, JsValue> {
         let coordinates = Coordinates::new(&points)?;
         drop(points);
-        let engine = match engine {
-            "gpu" => Engine::Gpu,
-            "cpu" => Engine::Cpu,
-            _ => Engine::Auto,
-        };
-        let options = Options { engine, on_progress: Some(on_progress(report)), trace: outputs.trace };
-        Ok(mesh(self.engines.delaunay3d(coordinates.points()?, &options).await?, outputs))
+        let options = options(engine, outputs.trace, report);
+        Ok(mesh3(self.engines.delaunay3d(coordinates.points()?, &options).await?, outputs))
     }
+
+    /// The same in the plane, where all outputs but a trace are given.
+    pub async fn delaunay2d(&self, points: JsValue, engine: &str, report: Function) -> Result<JsValue, JsValue> {
+        let coordinates = Coordinates::new(&points)?;
+        drop(points);
+        let options = options(engine, false, report);
+        Ok(mesh2(self.engines.delaunay2d(coordinates.points()?, &options).await?))
+    }
+}
+
+fn options(engine: &str, trace: bool, report: Function) -> Options {
+    let engine = match engine {
+        "gpu" => Engine::Gpu,
+        "cpu" => Engine::Cpu,
+        _ => Engine::Auto,
+    };
+    Options { engine, on_progress: Some(on_progress(report)), trace }
 }
 
 fn on_progress(report: Function) -> OnProgress {
@@ -100,7 +112,7 @@ fn on_progress(report: Function) -> OnProgress {
 }
 
 /// Each array is freed as soon as it is copied: a mesh is large, and this memory never shrinks.
-fn mesh(mesh: Mesh3, outputs: Outputs) -> JsValue {
+fn mesh3(mesh: Mesh3, outputs: Outputs) -> JsValue {
     let Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension, stats } = mesh;
     let result = object([("dimension", dimension.into()), ("stats", self::stats(&stats))]);
     set(&result, "tetrahedra", Uint32Array::new_from_slice(tetrahedra.as_flattened()));
@@ -119,6 +131,17 @@ fn mesh(mesh: Mesh3, outputs: Outputs) -> JsValue {
         set(&result, "duplicateOf", Int32Array::new_from_slice(&duplicate_of));
     }
     result
+}
+
+fn mesh2(mesh: Mesh2) -> JsValue {
+    object([
+        ("dimension", mesh.dimension.into()),
+        ("stats", stats(&mesh.stats)),
+        ("triangles", Uint32Array::new_from_slice(mesh.triangles.as_flattened()).into()),
+        ("halfedges", Int32Array::new_from_slice(mesh.halfedges.as_flattened()).into()),
+        ("hull", Uint32Array::new_from_slice(&mesh.hull).into()),
+        ("duplicateOf", Int32Array::new_from_slice(&mesh.duplicate_of).into()),
+    ])
 }
 
 fn stats(stats: &Stats) -> JsValue {

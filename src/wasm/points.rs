@@ -27,7 +27,7 @@ impl Coordinates {
         Ok(Coordinates::F64(values))
     }
 
-    pub(super) fn points(&self) -> Result<Points<'_>, Error> {
+    pub(super) fn points<const D: usize>(&self) -> Result<Points<'_, D>, Error> {
         match self {
             Coordinates::F32(values) => Points::from_interleaved_f32(values),
             Coordinates::F64(values) => Points::from_interleaved_f64(values),

@@ -76,7 +76,7 @@ impl Mesh {
         dimension: Option<u8>,
     ) -> Result<Mesh, JsValue> {
         let points = Coordinates::new(points)?;
-        points.points()?.validate()?;
+        points.points::<3>()?.validate()?;
         let stated = Stated {
             neighbors: neighbors.is_some(),
             hull: hull.is_some(),
@@ -97,7 +97,7 @@ impl Mesh {
     /// The mesh or its hull as files of a format: `{ extension: bytes }`, more than one only for TetGen.
     pub fn write(&self, format: &str) -> Result<JsValue, JsValue> {
         self.check_indices()?;
-        let points = self.points.points()?;
+        let points = self.points.points::<3>()?;
         let mesh = &self.mesh;
         let file = |extension: &'static str, write: &dyn Fn(&mut Vec<u8>) -> std::io::Result<()>| {
             let mut bytes = Vec::new();
@@ -125,7 +125,7 @@ impl Mesh {
     pub fn verify(&self) -> Result<JsValue, JsValue> {
         let Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension, .. } = &self.mesh;
         let report = verify3d(
-            self.points.points()?,
+            self.points.points::<3>()?,
             Statement {
                 tetrahedra,
                 neighbors: self.stated.neighbors.then_some(neighbors),
@@ -173,7 +173,7 @@ impl Mesh {
 
     /// Writers trust the indices.
     fn check_indices(&self) -> Result<(), JsValue> {
-        let count = self.points.points()?.len();
+        let count = self.points.points::<3>()?.len();
         let vertices = self.mesh.tetrahedra.as_flattened().iter().chain(self.mesh.hull.as_flattened());
         match vertices.copied().find(|&v| v as usize >= count) {
             Some(v) => Err(error("BAD_INPUT", &format!("the mesh names point {v}, but there are {count}")).into()),

@@ -5,11 +5,12 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import Delaunator from 'delaunator';
 import { fingerprint } from './fingerprints.mjs';
 import { importFrom, pinned, project, root } from './package.mjs';
 
 const folder = project();
-const { createEngine, delaunay3d, generate, GdelError, Mesh3, readPoints, verify } = await importFrom(folder);
+const { createEngine, delaunay2d, delaunay3d, generate, GdelError, Mesh3, readPoints, verify } = await importFrom(folder);
 
 const TETRAHEDRON = [
   [0, 0, 0],
@@ -81,6 +82,28 @@ test('coplanar, collinear, equal and no points have their dimension', async () =
     assert.equal(mesh.tetrahedra.length, 0);
   }
   assert.deepEqual((await delaunay3d([[1, 2, 3], [1, 2, 3]])).duplicateOf, Int32Array.of(-1, 0));
+});
+
+test('in the plane, the triangles are those of delaunator', async () => {
+  const points = (await generate('uniform', 3000)).subarray(0, 2 * 4000);
+  const mesh = await delaunay2d(points);
+  const theirs = new Delaunator(points);
+  const canonical = (triangles) => {
+    const rows = [];
+    for (let t = 0; t < triangles.length; t += 3) {
+      const [a, b, c] = triangles.subarray(t, t + 3);
+      rows.push(a < b && a < c ? [a, b, c] : b < c ? [b, c, a] : [c, a, b]);
+    }
+    return rows.map((row) => row.join(' ')).sort();
+  };
+  assert.deepEqual(canonical(mesh.triangles), canonical(theirs.triangles));
+  for (const [e, twin] of mesh.halfedges.entries()) if (twin >= 0) assert.equal(mesh.halfedges[twin], e);
+  assert.deepEqual([...mesh.hull].sort(), [...theirs.hull].sort());
+  assert.equal(mesh.dimension, 2);
+  assert.equal(mesh.coords.length, points.length);
+  assert.equal((await delaunay2d([[0, 0], [1, 1], [2, 2]])).dimension, 1);
+  await rejects(delaunay2d(new Float32Array(3)), 'BAD_INPUT', /multiple of 2/);
+  await rejects(delaunay2d([[0, Infinity]]), 'NOT_FINITE', /point 0: the y/);
 });
 
 test('bad input is a typed error that says what and where', async () => {

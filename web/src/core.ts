@@ -3,7 +3,7 @@
 import makeEngineGlue from 'glue:engine';
 import makeToolsGlue from 'glue:tools';
 import { toPlainError, type PlainError } from './errors.js';
-import type { Control, CoreInfo, ModuleName, TaskName, Tasks } from './protocol.js';
+import type { Control, Coordinates, CoreInfo, CoreStats, ModuleName, TaskName, Tasks } from './protocol.js';
 import type { AdapterInfo, EngineName, Output } from './types.js';
 
 /** Progress is told at most so often: a message costs the page more than a phase is worth. */
@@ -112,37 +112,43 @@ function engineTasks(module: WebAssembly.Module, gpu: object | undefined) {
     },
 
     async delaunay3d({ points, engine, outputs }, control) {
-      const started = performance.now();
-      const undecided = engine === 'gpu' || (engine === 'auto' && points.length >= 3 * leastGpuPoints);
-      const info = undecided ? await choose(engine) : null;
       const has = (output: Output) => outputs.includes(output);
-      const mesh = await engines.delaunay3d(
-        points,
-        info?.engine === 'cpu' ? 'cpu' : engine,
-        new glue.Outputs(has('neighbors'), has('hull'), has('duplicateOf'), has('trace')),
-        (phase: string, fraction: number) => {
-          control.onProgress({ phase, fraction });
-          return control.isAborted();
-        },
+      const wanted = new glue.Outputs(has('neighbors'), has('hull'), has('duplicateOf'), has('trace'));
+      const mesh = await run(points, 3, engine, control, (chosen, report) =>
+        engines.delaunay3d(points, chosen, wanted, report),
       );
-      return {
-        points,
-        tetrahedra: mesh.tetrahedra,
-        neighbors: mesh.neighbors ?? new Int32Array(0),
-        hull: mesh.hull ?? new Uint32Array(0),
-        duplicateOf: mesh.duplicateOf ?? new Int32Array(0),
-        dimension: mesh.dimension,
-        ...(mesh.trace && { trace: mesh.trace }),
-        stats: {
-          ...mesh.stats,
-          why: mesh.stats.why ?? info?.why ?? null,
-          adapter: mesh.stats.engine === 'gpu' ? (info?.adapter ?? null) : null,
-          milliseconds: performance.now() - started,
-          wasmBytes: memory.buffer.byteLength,
-        },
-      };
+      const { neighbors = new Int32Array(0), hull = new Uint32Array(0), duplicateOf = new Int32Array(0) } = mesh;
+      return { ...mesh, neighbors, hull, duplicateOf };
     },
+
+    delaunay2d: ({ points, engine }, control) =>
+      run(points, 2, engine, control, (chosen, report) => engines.delaunay2d(points, chosen, report)),
   };
+
+  /** Chooses an engine, triangulates, and adds to the mesh what only this side knows. */
+  async function run(
+    points: Coordinates,
+    dimension: number,
+    engine: EngineName,
+    control: Control,
+    triangulate: (engine: EngineName, report: (phase: string, fraction: number) => boolean) => Promise<any>,
+  ): Promise<any> {
+    const started = performance.now();
+    const undecided = engine === 'gpu' || (engine === 'auto' && points.length >= dimension * leastGpuPoints);
+    const info = undecided ? await choose(engine) : null;
+    const mesh = await triangulate(info?.engine === 'cpu' ? 'cpu' : engine, (phase, fraction) => {
+      control.onProgress({ phase, fraction });
+      return control.isAborted();
+    });
+    const stats: CoreStats = {
+      ...mesh.stats,
+      why: mesh.stats.why ?? info?.why ?? null,
+      adapter: mesh.stats.engine === 'gpu' ? (info?.adapter ?? null) : null,
+      milliseconds: performance.now() - started,
+      wasmBytes: memory.buffer.byteLength,
+    };
+    return { ...mesh, points, stats };
+  }
   return { handlers, memory, dispose: () => void engines.close() };
 }
 

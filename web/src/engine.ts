@@ -1,6 +1,6 @@
 import { GdelError } from './errors.js';
 import { Host, throwIfAborted } from './host.js';
-import { Mesh3 } from './mesh.js';
+import { Mesh3, type Mesh2 } from './mesh.js';
 import { ownCoordinates } from './points.js';
 import type {
   AccessorOptions,
@@ -8,6 +8,7 @@ import type {
   EngineName,
   EngineOptions,
   Output,
+  PlaneOptions,
   Points,
   RunOptions,
 } from './types.js';
@@ -38,6 +39,13 @@ export class Engine {
   delaunay3d<T>(points: ArrayLike<T>, options: AccessorOptions<T>): Promise<Mesh3>;
   delaunay3d(points: unknown, options: RunOptions = {}): Promise<Mesh3> {
     return triangulate(this.#host, points, { engine: this.#engine, ...options });
+  }
+
+  /** As the function {@link delaunay2d}. */
+  delaunay2d(points: Points, options?: PlaneOptions): Promise<Mesh2>;
+  delaunay2d<T>(points: ArrayLike<T>, options: PlaneOptions & Pick<AccessorOptions<T>, 'point'>): Promise<Mesh2>;
+  delaunay2d(points: unknown, options: PlaneOptions = {}): Promise<Mesh2> {
+    return triangulatePlane(this.#host, points, { engine: this.#engine, ...options });
   }
 
   /** Ends the worker and gives the device back. Runs that are not finished fail with code `DISPOSED`. */
@@ -91,26 +99,55 @@ export function delaunay3d(points: unknown, options: RunOptions = {}): Promise<M
   return triangulate((shared ??= new Host('engine')), points, options);
 }
 
-async function triangulate(host: Host, points: unknown, options: RunOptions & { point?: unknown }): Promise<Mesh3> {
-  const { signal, onProgress, transfer = false } = options;
+/**
+ * The 2D Delaunay triangulation of points x, y, x, y, … or of rows: as {@link delaunay3d} in the plane, with the arrays of
+ * the npm package `delaunator`. `'auto'` is the CPU engine.
+ *
+ * @throws {@link GdelError}, as a rejected promise.
+ */
+export function delaunay2d(points: Points, options?: PlaneOptions): Promise<Mesh2>;
+export function delaunay2d<T>(
+  points: ArrayLike<T>,
+  options: PlaneOptions & Pick<AccessorOptions<T>, 'point'>,
+): Promise<Mesh2>;
+export function delaunay2d(points: unknown, options: PlaneOptions = {}): Promise<Mesh2> {
+  return triangulatePlane((shared ??= new Host('engine')), points, options);
+}
+
+type AnyOptions = RunOptions & { point?: unknown };
+
+async function triangulate(host: Host, points: unknown, options: AnyOptions): Promise<Mesh3> {
+  const { signal, onProgress } = options;
   throwIfAborted(signal);
-  const engine = options.engine ?? 'auto';
   const outputs = options.outputs ?? DEFAULT_OUTPUTS;
-  checkEngine(engine);
   const unknown = Array.isArray(outputs) ? outputs.find((output) => !ALL_OUTPUTS.includes(output)) : outputs;
   if (unknown !== undefined) {
     throw new GdelError('BAD_INPUT', `outputs are among ${ALL_OUTPUTS.join(', ')}, not ${String(unknown)}`);
   }
-  if (options.point !== undefined && typeof options.point !== 'function') {
+  const { args, transfer } = await prepare(points, 3, options);
+  const result = await host.run('delaunay3d', { ...args, outputs }, transfer, { signal, onProgress });
+  const { stats, thread, whyThread, ...arrays } = result;
+  return new Mesh3({ ...arrays, stats: { ...stats, thread, whyThread } }, outputs);
+}
+
+async function triangulatePlane(host: Host, points: unknown, options: AnyOptions): Promise<Mesh2> {
+  const { signal, onProgress } = options;
+  throwIfAborted(signal);
+  const { args, transfer } = await prepare(points, 2, options);
+  const result = await host.run('delaunay2d', args, transfer, { signal, onProgress });
+  const { stats, thread, whyThread, points: coords, ...arrays } = result;
+  return { ...arrays, coords, stats: { ...stats, thread, whyThread } };
+}
+
+/** The arguments of a run, checked. Typed arrays are copied before this returns. */
+async function prepare(points: unknown, dimension: number, { engine = 'auto', transfer = false, signal, point }: AnyOptions) {
+  checkEngine(engine);
+  if (point !== undefined && typeof point !== 'function') {
     throw new GdelError('BAD_INPUT', 'the option point is a function');
   }
-  const point = options.point as AccessorOptions<unknown>['point'] | undefined;
-  const conversion = { dimension: 3, transfer, point, signal };
-  const converted = ownCoordinates(points, conversion);
-  const own = converted instanceof Promise ? await converted : converted;
-  const args = { points: own.coordinates, engine, outputs };
-  const { stats, thread, whyThread, ...arrays } = await host.run('delaunay3d', args, own.transfer, { signal, onProgress });
-  return new Mesh3({ ...arrays, stats: { ...stats, thread, whyThread } }, outputs);
+  const conversion = { dimension, transfer, point: point as AccessorOptions<unknown>['point'] | undefined, signal };
+  const own = await ownCoordinates(points, conversion);
+  return { args: { points: own.coordinates, engine }, transfer: own.transfer };
 }
 
 function checkEngine(engine: unknown): void {

@@ -1,13 +1,13 @@
 /**
- * Exact 3D Delaunay triangulation in the browser and in Node: WebGPU where there is a GPU, WebAssembly everywhere.
+ * Exact 3D and 2D Delaunay triangulation in the browser and in Node: WebGPU where there is a GPU, WebAssembly everywhere.
  *
  * @packageDocumentation
  */
 /// <reference lib="esnext.disposable" preserve="true" />
 
-export { createEngine, delaunay3d, Engine } from './engine.js';
+export { createEngine, delaunay2d, delaunay3d, Engine } from './engine.js';
 export { GdelError, type GdelErrorCode } from './errors.js';
-export { Mesh3 } from './mesh.js';
+export { Mesh3, type Mesh2 } from './mesh.js';
 export { generate, readPoints, verify, type ReadOptions } from './tools.js';
 export type {
   AccessorOptions,
@@ -20,6 +20,7 @@ export type {
   GpuStats,
   MeshStatement,
   Output,
+  PlaneOptions,
   PointCloud,
   Points,
   Progress,

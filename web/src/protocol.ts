@@ -36,6 +36,18 @@ export interface Tasks {
       stats: CoreStats;
     };
   };
+  delaunay2d: {
+    args: { points: Coordinates; engine: EngineName };
+    result: {
+      points: Coordinates;
+      triangles: Uint32Array;
+      halfedges: Int32Array;
+      hull: Uint32Array;
+      duplicateOf: Int32Array;
+      dimension: 0 | 1 | 2;
+      stats: CoreStats;
+    };
+  };
   generate: { args: { kind: string; count: number; seed: bigint }; result: Float64Array };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };
   write: { args: { points: Coordinates; mesh: MeshArrays; format: string }; result: Record<string, Uint8Array> };

@@ -43,6 +43,9 @@ export interface RunOptions extends TaskOptions {
   transfer?: boolean | undefined;
 }
 
+/** How to triangulate in the plane. */
+export type PlaneOptions = Omit<RunOptions, 'outputs'>;
+
 /** How to triangulate points that are objects. */
 export interface AccessorOptions<T> extends RunOptions {
   /** The coordinates of an item. */
