@@ -109,7 +109,7 @@ test('TypeScript, strict, with both resolutions, whatever else is switched on', 
     // prettier-ignore
     execFileSync(process.execPath, [
       compiler, '--noEmit', '--strict', '--exactOptionalPropertyTypes', '--noUncheckedIndexedAccess', '--isolatedModules',
-      '--target', 'es2022', '--lib', 'es2022,dom', '--types', '', '--module', module, '--moduleResolution', moduleResolution, 'main.ts',
+      '--target', 'es2022', '--lib', 'es2022,dom', '--module', module, '--moduleResolution', moduleResolution, 'main.ts',
     ], { cwd: folder, stdio: 'inherit' });
   }
 });

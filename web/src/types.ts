@@ -1,8 +1,8 @@
 /**
  * Points: x, y, z, x, y, z, … in one typed array, or one row a point. Every finite number is taken at its exact value.
  *
- * A `Float32Array` or `Float64Array` is the fastest; anything else is converted to `Float64Array`, a slice at a time so
- * that the page stays responsive: do not change it before the result is there.
+ * A `Float32Array` or `Float64Array` is the fastest; anything else is converted to `Float64Array`. More than 2 MB are copied
+ * or converted a slice at a time so that the page stays responsive: do not change them before the result is there.
  */
 export type Points = Float32Array | Float64Array | ArrayLike<ArrayLike<number>>;
 
