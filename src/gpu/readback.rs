@@ -4,7 +4,7 @@ use bytemuck::Pod;
 use futures_channel::oneshot;
 
 use super::{Gpu, Storage};
-use crate::{Error, parallel};
+use crate::Error;
 
 /// A pool of staging buffers.
 ///
@@ -76,7 +76,7 @@ impl Readback {
             let bytes = (pending.len * size_of::<T>()) as u64;
             let view = pending.staging.get_mapped_range(..bytes.next_multiple_of(4));
             let view = view.map_err(|e| gpu.failure(&e.to_string()))?;
-            copied(&view[..bytes as usize], pending.len)
+            copied(&view, pending.len)
         };
         pending.staging.unmap();
         self.idle.push(pending.staging);
@@ -129,12 +129,24 @@ impl Readback {
     }
 }
 
-/// `len` elements from their bytes. Pages of fresh memory are what takes long here, so threads share them.
-fn copied<T: Pod>(bytes: &[u8], len: usize) -> Vec<T> {
+/// `len` elements from the bytes of a mapped buffer. Pages of fresh memory are what takes long here, so threads share them.
+#[cfg(not(target_arch = "wasm32"))]
+fn copied<T: Pod>(view: &wgpu::BufferView, len: usize) -> Vec<T> {
     let mut result: Vec<T> = bytemuck::zeroed_vec(len);
     let target: &mut [u8] = bytemuck::cast_slice_mut(&mut result);
-    parallel::for_chunks(parallel::available(), target, |start, chunk| {
+    let bytes = &view[..target.len()];
+    crate::parallel::for_chunks(crate::parallel::available(), target, |start, chunk| {
         chunk.copy_from_slice(&bytes[start..start + chunk.len()]);
     });
+    result
+}
+
+/// `len` elements from the bytes of a mapped buffer, which lie outside of the memory of wasm: to look at them as a slice
+/// would copy them once more.
+#[cfg(target_arch = "wasm32")]
+fn copied<T: Pod>(view: &wgpu::BufferView, len: usize) -> Vec<T> {
+    let mut result: Vec<T> = bytemuck::zeroed_vec(len);
+    let target: &mut [u8] = bytemuck::cast_slice_mut(&mut result);
+    view.as_uint8array().subarray(0, target.len() as u32).copy_to(target);
     result
 }
