@@ -13,6 +13,8 @@ fn gdel(folder: &Path, arguments: &[&str]) -> Output {
 
 fn command(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_gdel"));
+    // A software driver of graphics complains on standard error where it is not set.
+    command.env("XDG_RUNTIME_DIR", folder);
     command.current_dir(folder).args(arguments).stdin(Stdio::null());
     command
 }
