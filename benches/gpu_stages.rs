@@ -8,8 +8,9 @@ use std::time::Instant;
 use gdel::{
     Points,
     gpu::{
-        AdapterChoice, Gpu, Kernel, Profiler, Readback, Recorder, Storage, shader, stages::points::PointStage, vertex,
-        workgroups,
+        AdapterChoice, Gpu, Kernel, Profiler, Readback, Recorder, Storage, shader,
+        stages::points::{PointInput, PointStage},
+        vertex, workgroups,
     },
     lattice::{Lattice, Width},
 };
@@ -44,8 +45,8 @@ fn points(gpu: &Gpu, stage: &PointStage, points: Points<'_>) {
         let lattice = Lattice::fit(points);
         let fitted = start.elapsed().as_secs_f64() * 1e3;
         let mut recorder = Recorder::new(gpu, Some(&mut profiler));
-        let device =
-            stage.record(gpu, &mut recorder, &mut kept, points, &lattice, [0; 4], true).expect("the points fit");
+        let input = PointInput { points, lattice: &lattice, wanted: [0; 4], sort: true };
+        let device = stage.record(gpu, &mut recorder, &mut kept, input).expect("the points fit");
         let pending = readback.copy(gpu, recorder.encoder(), &device.counts, 0, 1);
         let recorded = start.elapsed().as_secs_f64() * 1e3;
         let submission = recorder.submit(gpu);

@@ -60,34 +60,39 @@ impl Distribution {
 
 /// `n` random points. The first points of a longer cloud of the same seed are the points of a shorter one.
 pub fn generate(distribution: Distribution, n: usize, seed: u64) -> Vec<[f64; 3]> {
-    let mut random = Random(Pcg64Mcg::seed_from_u64(seed));
+    let mut random = Random::new(seed);
     let point = || match distribution {
         Distribution::Uniform => random.in_cube(),
         Distribution::Gaussian => random.gaussian(),
         Distribution::Ball => random.in_ball(),
         Distribution::Sphere => random.on_sphere(),
         Distribution::ThinSphere => random.in_shell(THIN_SPHERE_RADII),
-        Distribution::Grid => random.on_grid(),
+        Distribution::Grid => random.on_grid(GRID_SIDE),
     };
     std::iter::repeat_with(point).take(n).collect()
 }
 
-struct Random(Pcg64Mcg);
+/// Random numbers, and points of `D` coordinates made of them.
+pub(crate) struct Random(Pcg64Mcg);
 
 impl Random {
+    pub(crate) fn new(seed: u64) -> Self {
+        Random(Pcg64Mcg::seed_from_u64(seed))
+    }
+
     /// Uniform in [0, 1), a multiple of 2⁻⁵³.
-    fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
     }
 
-    fn in_cube(&mut self) -> [f64; 3] {
+    pub(crate) fn in_cube<const D: usize>(&mut self) -> [f64; D] {
         std::array::from_fn(|_| self.unit())
     }
 
     /// By rejection from the cube [−1, 1)³.
-    fn in_ball(&mut self) -> [f64; 3] {
+    pub(crate) fn in_ball<const D: usize>(&mut self) -> [f64; D] {
         loop {
-            let p = self.in_cube().map(|x| 2.0 * x - 1.0);
+            let p: [f64; D] = self.in_cube().map(|x| 2.0 * x - 1.0);
             if squared_norm(p) <= 1.0 {
                 return p;
             }
@@ -95,9 +100,9 @@ impl Random {
     }
 
     /// A point of the ball, projected; not from its very centre, where too few bits are left for a direction.
-    fn on_sphere(&mut self) -> [f64; 3] {
+    pub(crate) fn on_sphere<const D: usize>(&mut self) -> [f64; D] {
         loop {
-            let p = self.in_ball();
+            let p: [f64; D] = self.in_ball();
             let squared = squared_norm(p);
             if squared >= 1e-4 {
                 let norm = squared.sqrt();
@@ -108,17 +113,17 @@ impl Random {
 
     /// Uniform in volume between the two radii.
     fn in_shell(&mut self, [inner, outer]: [f64; 2]) -> [f64; 3] {
-        let direction = self.on_sphere();
+        let direction: [f64; 3] = self.on_sphere();
         let cubed = |r: f64| r * r * r;
         let radius = libm::cbrt(cubed(inner) + self.unit() * (cubed(outer) - cubed(inner)));
         direction.map(|x| x * radius)
     }
 
-    fn on_grid(&mut self) -> [f64; 3] {
-        std::array::from_fn(|_| (self.0.next_u64() % GRID_SIDE) as f64)
+    pub(crate) fn on_grid<const D: usize>(&mut self, side: u64) -> [f64; D] {
+        std::array::from_fn(|_| (self.0.next_u64() % side) as f64)
     }
 
-    fn gaussian(&mut self) -> [f64; 3] {
+    pub(crate) fn gaussian<const D: usize>(&mut self) -> [f64; D] {
         std::array::from_fn(|_| self.normal())
     }
 
@@ -135,8 +140,9 @@ impl Random {
     }
 }
 
-fn squared_norm([x, y, z]: [f64; 3]) -> f64 {
-    x * x + y * y + z * z
+fn squared_norm<const D: usize>(p: [f64; D]) -> f64 {
+    // From the first term on, so that no rounding differs between dimensions.
+    p.into_iter().map(|x| x * x).reduce(|a, b| a + b).unwrap_or(0.0)
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use gdel::{
     Points,
     gpu::{
         AdapterChoice, Gpu, Readback, Recorder, plane,
-        stages::points::{InputCounts, PointStage},
+        stages::points::{InputCounts, PointInput, PointStage},
         twin::hilbert::hilbert_key,
         vertex,
     },
@@ -37,7 +37,12 @@ impl<const D: usize> Bench<D> {
         let lattice = Lattice::fit(points);
         let device = block_on(gpu.catching("test", || {
             let mut recorder = Recorder::new(gpu, None);
-            let device = self.stage.record(gpu, &mut recorder, &mut None, points, &lattice, wanted, true)?;
+            let device = self.stage.record(
+                gpu,
+                &mut recorder,
+                &mut None,
+                PointInput { points, lattice: &lattice, wanted, sort: true },
+            )?;
             recorder.submit(gpu);
             Ok(device)
         }))

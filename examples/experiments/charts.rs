@@ -72,8 +72,8 @@ impl Lines {
         let (right, top) = (most(|p| p.0) * 1.03, most(|p| p.1) * 1.05);
         if self.logarithmic {
             // No logarithm of 0: such points lie on the axis.
-            let least = all().map(|p| p.1).filter(|y| *y > 0.0).fold(f64::INFINITY, f64::min).min(top);
-            self.draw_on(area, right, (least / 2.0..top * 2.0).log_scale(), least / 2.0)
+            let least = all().map(|p| p.1).filter(|y| *y > 0.0).min_by(f64::total_cmp).unwrap_or(1.0);
+            self.draw_on(area, right, (least / 2.0..top.max(least) * 2.0).log_scale(), least / 2.0)
         } else {
             self.draw_on(area, right, 0.0..top, 0.0)
         }

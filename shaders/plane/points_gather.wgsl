@@ -20,7 +20,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         } else {
             vertices[v] = place.high.xy;
         }
-        for (var k = 0u; k < 3; k++) {
+        for (var k = 0u; k < 4; k++) {
             if counts.stands_for[k] == point {
                 counts.found[k] = v;
             }

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "gpu")]
 mod adapters;
+mod dimension;
 mod generate;
 mod progress;
 mod report;
@@ -12,7 +13,7 @@ use clap::{Parser, Subcommand};
 use gdel::io::files::FileError;
 use std::{io, panic, path::PathBuf, process::ExitCode};
 
-/// Exact 3D Delaunay triangulation of point clouds.
+/// Exact 3D and 2D Delaunay triangulation of point clouds.
 #[derive(Parser)]
 #[command(version, about, after_help = "Exit codes: 0 done, 1 bad input or output, 2 wrong usage.")]
 struct Cli {

@@ -1,10 +1,10 @@
 //! What a run says about itself.
 
 use gdel::{
-    Mesh3,
+    Mesh2, Mesh3,
     io::PointCloud,
     splay::SplayStats,
-    stats::{ExactCounts, GpuStats},
+    stats::{ExactCounts, GpuStats, Stats},
 };
 use serde::{Serialize, Serializer, ser::SerializeMap};
 use std::{fmt, time::Duration};
@@ -18,8 +18,9 @@ pub(super) struct Report<'a> {
     no_return: usize,
     duplicates: usize,
     dimension: u8,
-    tetrahedra: usize,
-    hull_triangles: usize,
+    /// Those that the dimension of the mesh has.
+    #[serde(flatten)]
+    counts: Counts,
     engine: &'a str,
     /// Why the CPU engine made the mesh, where it was not asked for by name.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -31,6 +32,13 @@ pub(super) struct Report<'a> {
     gpu: Option<&'a GpuStats>,
     #[serde(skip_serializing_if = "Option::is_none")]
     splay: Option<&'a SplayStats>,
+}
+
+#[derive(Clone, Copy, Serialize)]
+#[serde(untagged)]
+enum Counts {
+    Space { tetrahedra: usize, hull_triangles: usize },
+    Plane { triangles: usize, hull_edges: usize },
 }
 
 /// Without reading and writing files.
@@ -52,19 +60,36 @@ impl Serialize for Seconds<'_> {
 
 impl<'a> Report<'a> {
     pub(super) fn new(cloud: &PointCloud, mesh: &'a Mesh3, total: Duration) -> Self {
+        let counts = Counts::Space { tetrahedra: mesh.tetrahedra.len(), hull_triangles: mesh.hull.len() };
+        Self::with(cloud, counts, mesh.duplicates(), mesh.dimension, &mesh.stats, total)
+    }
+
+    pub(super) fn of_plane(cloud: &PointCloud, mesh: &'a Mesh2, total: Duration) -> Self {
+        let hull_edges = if mesh.dimension == 2 { mesh.hull.len() } else { 0 };
+        let counts = Counts::Plane { triangles: mesh.triangles.len(), hull_edges };
+        Self::with(cloud, counts, mesh.duplicates(), mesh.dimension, &mesh.stats, total)
+    }
+
+    fn with(
+        cloud: &PointCloud,
+        counts: Counts,
+        duplicates: usize,
+        dimension: u8,
+        stats: &'a Stats,
+        total: Duration,
+    ) -> Self {
         Report {
             points: cloud.points.len(),
             no_return: cloud.no_return,
-            duplicates: mesh.duplicates(),
-            dimension: mesh.dimension,
-            tetrahedra: mesh.tetrahedra.len(),
-            hull_triangles: mesh.hull.len(),
-            engine: mesh.stats.engine,
-            fallback: mesh.stats.fallback.as_ref().map(ToString::to_string),
-            seconds: Seconds { total, phases: &mesh.stats.phases },
-            exact: mesh.stats.exact,
-            gpu: mesh.stats.gpu.as_ref(),
-            splay: mesh.stats.splay.as_ref(),
+            duplicates,
+            dimension,
+            counts,
+            engine: stats.engine,
+            fallback: stats.fallback.as_ref().map(ToString::to_string),
+            seconds: Seconds { total, phases: &stats.phases },
+            exact: stats.exact,
+            gpu: stats.gpu.as_ref(),
+            splay: stats.splay.as_ref(),
         }
     }
 }
@@ -79,17 +104,27 @@ impl fmt::Display for Report<'_> {
             write!(f, " and {} without a return, dropped", self.no_return)?;
         }
         writeln!(f)?;
-        if self.dimension < 3 {
+        let (full, simplices) = match self.counts {
+            Counts::Space { .. } => (3, "tetrahedra"),
+            Counts::Plane { .. } => (2, "triangles"),
+        };
+        if self.dimension < full {
             let shape = match (self.dimension, self.points) {
                 (_, 0) => "there are no points",
                 (0, _) => "all points are equal",
                 (1, _) => "all points are collinear",
                 _ => "all points are coplanar",
             };
-            writeln!(f, "dimension       {} ({shape}, so there are no tetrahedra)", self.dimension)?;
+            writeln!(f, "dimension       {} ({shape}, so there are no {simplices})", self.dimension)?;
         }
-        writeln!(f, "tetrahedra      {}", self.tetrahedra)?;
-        writeln!(f, "hull triangles  {}", self.hull_triangles)?;
+        match self.counts {
+            Counts::Space { tetrahedra, hull_triangles } => {
+                writeln!(f, "tetrahedra      {tetrahedra}\nhull triangles  {hull_triangles}")?;
+            }
+            Counts::Plane { triangles, hull_edges } => {
+                writeln!(f, "triangles       {triangles}\nhull edges      {hull_edges}")?;
+            }
+        }
         write!(f, "seconds         {:.3} ({}", self.seconds.total.as_secs_f64(), self.engine)?;
         if let Some(why) = &self.fallback {
             write!(f, ", since {why}")?;

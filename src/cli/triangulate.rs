@@ -1,13 +1,17 @@
 //! `gdel triangulate`: a point cloud in, its Delaunay triangulation out.
 
-use super::{Failure, progress::Progress, report::Report, verify};
+use super::{
+    Failure,
+    dimension::{Dimension, plane_points},
+    progress::Progress,
+    report::Report,
+    verify,
+};
 use clap::{Args, ValueEnum};
 use gdel::{
-    Engine, Mesh3, Options,
-    io::{
-        PointCloud,
-        files::{self, Output},
-    },
+    Engine, Options,
+    io::files::{self, FileError, Output},
+    verify::Report as Proof,
 };
 use std::{
     io::{self, Write},
@@ -27,6 +31,9 @@ pub(super) struct Arguments {
     /// .obj or .stl; may be given several times
     #[arg(short, long = "output", value_name = "OUTPUT", value_parser = parse_output)]
     outputs: Vec<Output>,
+    /// Triangulate space, or the plane: then z is dropped, and all outputs have the triangles
+    #[arg(long, value_enum, default_value_t = Dimension::Three)]
+    dim: Dimension,
     /// Which engine computes; all give the same mesh
     #[arg(long, value_enum, default_value_t = EngineName::Auto)]
     engine: EngineName,
@@ -79,39 +86,67 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         files::read_points(&arguments.input)?
     };
     arguments.outputs.iter().try_for_each(Output::check)?;
-    let mut last = None;
-    for _ in 0..arguments.repeat.get() {
-        // The run before gives its memory back first.
-        drop(last.take());
-        let (mesh, total) = triangulate(arguments, &cloud)?;
-        print(arguments.stats, &Report::new(&cloud, &mesh, total))?;
-        last = Some(mesh);
+    let path = &arguments.input;
+    match arguments.dim {
+        Dimension::Three => {
+            let report = |mesh: &_, total| print(arguments.stats, &Report::new(&cloud, mesh, total));
+            let mesh = triangulate(arguments, |options| gdel::delaunay3d(&cloud, options), report)?;
+            conclude(arguments, || verify::prove(path, &cloud, &mesh))?;
+            write(arguments, |output| output.write((&cloud).into(), &mesh))
+        }
+        Dimension::Two => {
+            let points = plane_points(path, &cloud);
+            let report = |mesh: &_, total| print(arguments.stats, &Report::of_plane(&cloud, mesh, total));
+            let mesh = triangulate(arguments, |options| gdel::delaunay2d(&points, options), report)?;
+            conclude(arguments, || verify::prove2(path, (&points).into(), &mesh))?;
+            write(arguments, |output| output.write2((&points).into(), &mesh))
+        }
     }
-    let Some(mesh) = last else { return Ok(()) };
+}
+
+/// Runs and reports as often as asked for; gives the last mesh.
+fn triangulate<M>(
+    arguments: &Arguments,
+    run: impl Fn(&Options) -> Result<M, gdel::Error>,
+    report: impl Fn(&M, Duration) -> io::Result<()>,
+) -> Result<M, Failure> {
+    let once = || {
+        let (mesh, total) = {
+            let progress = Progress::new("triangulating");
+            let show = progress.reporter();
+            let mut options = Options { engine: arguments.engine.into(), ..Options::default() };
+            options.on_progress = Some(Arc::new(move |progress| {
+                show(progress.phase, progress.fraction);
+                ControlFlow::Continue(())
+            }));
+            let start = Instant::now();
+            let mesh = run(&options).map_err(|source| Failure::Points { path: arguments.input.clone(), source })?;
+            (mesh, start.elapsed())
+        };
+        report(&mesh, total)?;
+        Ok::<M, Failure>(mesh)
+    };
+    // Each run gives its memory back before the next.
+    for _ in 1..arguments.repeat.get() {
+        once()?;
+    }
+    once()
+}
+
+/// Verifies, if that is asked for.
+fn conclude(arguments: &Arguments, prove: impl FnOnce() -> Result<Proof, Failure>) -> Result<(), Failure> {
     if arguments.verify {
-        let report = verify::prove(&arguments.input, &cloud, &mesh)?;
-        verify::conclude(&arguments.input, &report)?;
+        verify::conclude(&arguments.input, &prove()?)?;
         if arguments.stats.is_none() {
             writeln!(io::stdout().lock(), "verified")?;
         }
     }
-    let _progress = Progress::new("writing");
-    arguments.outputs.iter().try_for_each(|output| output.write((&cloud).into(), &mesh))?;
     Ok(())
 }
 
-fn triangulate(arguments: &Arguments, cloud: &PointCloud) -> Result<(Mesh3, Duration), Failure> {
-    let progress = Progress::new("triangulating");
-    let report = progress.reporter();
-    let mut options = Options { engine: arguments.engine.into(), ..Options::default() };
-    options.on_progress = Some(Arc::new(move |progress| {
-        report(progress.phase, progress.fraction);
-        ControlFlow::Continue(())
-    }));
-    let start = Instant::now();
-    let mesh = gdel::delaunay3d(cloud, &options)
-        .map_err(|source| Failure::Points { path: arguments.input.clone(), source })?;
-    Ok((mesh, start.elapsed()))
+fn write(arguments: &Arguments, write: impl Fn(&Output) -> Result<(), FileError>) -> Result<(), Failure> {
+    let _progress = Progress::new("writing");
+    Ok(arguments.outputs.iter().try_for_each(write)?)
 }
 
 fn print(form: Option<StatsForm>, report: &Report<'_>) -> Result<(), io::Error> {

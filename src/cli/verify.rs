@@ -1,10 +1,15 @@
 //! `gdel verify`: the proof that a mesh is the Delaunay triangulation of its points.
 
-use super::{Failure, progress::Progress};
+use super::{
+    Failure,
+    dimension::{Dimension, plane_points},
+    progress::Progress,
+};
 use clap::Args;
 use gdel::{
+    Points2,
     io::{PointCloud, files},
-    verify::{Report, Statement, verify3d},
+    verify::{Report, Statement, Statement2, verify2d, verify3d},
 };
 use std::{
     io::{self, Write},
@@ -18,14 +23,27 @@ pub(super) struct Arguments {
     points: PathBuf,
     /// The mesh: .ele (with the .neigh beside it, if any), .vtu or .npz
     mesh: PathBuf,
+    /// Whether the mesh consists of tetrahedra, or of triangles of the plane
+    #[arg(long, value_enum, default_value_t = Dimension::Three)]
+    dim: Dimension,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let (cloud, mesh) = {
-        let _progress = Progress::new("reading");
-        (files::read_points(&arguments.points)?, files::read_mesh(&arguments.mesh)?)
+    let Arguments { points, mesh, dim } = arguments;
+    let reading = Progress::new("reading");
+    let cloud = files::read_points(points)?;
+    let report = match dim {
+        Dimension::Three => {
+            let mesh = files::read_mesh(mesh)?;
+            drop(reading);
+            prove(points, &cloud, &mesh)?
+        }
+        Dimension::Two => {
+            let mesh = files::read_mesh2(mesh)?;
+            drop(reading);
+            prove2(points, (&plane_points(points, &cloud)).into(), &mesh)?
+        }
     };
-    let report = prove(&arguments.points, &cloud, &mesh)?;
     writeln!(io::stdout().lock(), "{report}")?;
     conclude(&arguments.mesh, &report)
 }
@@ -34,6 +52,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 pub(super) fn prove<'m>(path: &Path, cloud: &PointCloud, mesh: impl Into<Statement<'m>>) -> Result<Report, Failure> {
     let _progress = Progress::new("verifying");
     verify3d(cloud, mesh).map_err(|source| Failure::Points { path: path.into(), source })
+}
+
+/// Checks `mesh` of the plane against the points, which come from the file `path`.
+pub(super) fn prove2<'m>(path: &Path, points: Points2<'_>, mesh: impl Into<Statement2<'m>>) -> Result<Report, Failure> {
+    let _progress = Progress::new("verifying");
+    verify2d(points, mesh).map_err(|source| Failure::Points { path: path.into(), source })
 }
 
 /// A failure that names `path` unless all checks passed.

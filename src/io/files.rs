@@ -1,7 +1,7 @@
 //! Files by path: formats by extension, and writing that leaves nothing half-written.
 
-use super::{FormatError, HullFormat, MeshData, MeshFormat, PointCloud, PointFormat, tetgen};
-use crate::{Mesh3, Points};
+use super::{FormatError, HullFormat, MeshData, MeshData2, MeshFormat, PointCloud, PointFormat, tetgen};
+use crate::{Mesh2, Mesh3, Points, Points2};
 use std::{
     fs,
     io::{self, BufWriter, Write},
@@ -100,6 +100,18 @@ pub fn read_mesh(path: &Path) -> Result<MeshData, FileError> {
     Ok(mesh)
 }
 
+/// Reads a mesh of the plane; the extension says in which format. For any of Triangle's three files the `.ele` is read.
+///
+/// # Errors
+///
+/// [`FileError`].
+pub fn read_mesh2(path: &Path) -> Result<MeshData2, FileError> {
+    let known = MeshFormat::ALL.iter().flat_map(|f| f.extensions());
+    let format = by_extension(path, "meshes", MeshFormat::from_extension, known.copied())?;
+    let path = if format == MeshFormat::TetGen { &path.with_extension("ele") } else { path };
+    format.read2(&read(path)?).map_err(|source| FileError::Format { path: path.into(), source })
+}
+
 /// A file to write, with a format that takes what a triangulation gives.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Output {
@@ -164,6 +176,30 @@ impl Output {
                 vec![prepare(&self.path, &|to| super::write_npz(to, points, mesh))?]
             }
             OutputFormat::Hull(format) => vec![prepare(&self.path, &|to| format.write(to, points, mesh))?],
+        };
+        parts.into_iter().try_for_each(publish)
+    }
+
+    /// Writes the mesh of the plane, also in the formats of surfaces; those of space get z = 0. Files of the same name are
+    /// replaced once all is written; on failure they stay as they are.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::Write`].
+    pub fn write2(&self, points: Points2<'_>, mesh: &Mesh2) -> Result<(), FileError> {
+        let part = |extension: &str, content: Content<'_>| prepare(&self.path.with_extension(extension), content);
+        let whole = |content: Content<'_>| Ok(vec![prepare(&self.path, content)?]);
+        let parts = match self.format {
+            OutputFormat::Mesh(MeshFormat::TetGen) => vec![
+                part("node", &|to| tetgen::write_node(to, points))?,
+                part("ele", &|to| super::write_ele2(to, mesh))?,
+                part("neigh", &|to| super::write_neigh2(to, mesh))?,
+            ],
+            OutputFormat::Mesh(MeshFormat::Vtu) => whole(&|to| super::write_vtu2(to, points, mesh))?,
+            OutputFormat::Mesh(MeshFormat::Npz) => whole(&|to| super::write_npz2(to, points, mesh))?,
+            OutputFormat::Hull(HullFormat::Ply) => whole(&|to| super::write_ply2(to, points, mesh))?,
+            OutputFormat::Hull(HullFormat::Obj) => whole(&|to| super::write_obj2(to, points, mesh))?,
+            OutputFormat::Hull(HullFormat::Stl) => whole(&|to| super::write_stl2(to, points, mesh))?,
         };
         parts.into_iter().try_for_each(publish)
     }

@@ -1,6 +1,8 @@
 //! The formats by file extension.
 
-use super::{FormatError, MeshData, PointCloud, las, npy, npz, obj, pcd, ply, raw, stl, tetgen, text, vtu};
+use super::{
+    FormatError, MeshData, MeshData2, PointCloud, las, npy, npz, obj, pcd, plane, ply, raw, stl, tetgen, text, vtu,
+};
 use crate::{Mesh3, Points};
 use std::io::{self, Write};
 
@@ -61,7 +63,8 @@ formats! {
 formats! {
     /// A format of tetrahedral meshes.
     MeshFormat {
-        /// TetGen: `.node` (points), `.ele` (tetrahedra) and `.neigh` (neighbours), always together, counted from 0.
+        /// TetGen, in the plane Triangle: `.node` (points), `.ele` (tetrahedra) and `.neigh` (neighbours), always together,
+        /// counted from 0.
         TetGen: "ele" | "node" | "neigh",
         /// VTK's XML unstructured grid.
         Vtu: "vtu",
@@ -141,6 +144,19 @@ impl MeshFormat {
             MeshFormat::TetGen => Ok(MeshData { tetrahedra: tetgen::read_ele(bytes)?, neighbors: None }),
             MeshFormat::Vtu => vtu::read_vtu(bytes),
             MeshFormat::Npz => npz::read_npz(bytes),
+        }
+    }
+
+    /// Reads a whole file of this format that has a mesh of the plane; of Triangle's, the `.ele` file.
+    ///
+    /// # Errors
+    ///
+    /// Where the file is broken, and how.
+    pub fn read2(self, bytes: &[u8]) -> Result<MeshData2, FormatError> {
+        match self {
+            MeshFormat::TetGen => plane::read_ele2(bytes),
+            MeshFormat::Vtu => plane::read_vtu2(bytes),
+            MeshFormat::Npz => npz::read_npz2(bytes),
         }
     }
 }

@@ -1,6 +1,9 @@
 //! Meshes as files give and take them.
 
-use crate::{Mesh3, Points, verify::Statement};
+use crate::{
+    Points,
+    verify::{Statement, Statement2},
+};
 
 /// A mesh as a file gives it: nothing about it has been checked.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -18,24 +21,39 @@ impl<'a> From<&'a MeshData> for Statement<'a> {
     }
 }
 
-/// The hull's triangles and their vertices, counted anew.
-pub(super) struct HullSurface<'a> {
-    points: Points<'a>,
-    hull: &'a [[u32; 3]],
-    /// The points on the hull, ascending.
-    on_hull: Vec<u32>,
+/// A mesh of the plane as a file gives it: nothing about it has been checked.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct MeshData2 {
+    /// Three indices of points a triangle, in the sense that [`Mesh2`](crate::Mesh2) has.
+    pub triangles: Vec<[u32; 3]>,
+    /// As in [`Mesh2`](crate::Mesh2); `None` when the file does not say.
+    pub halfedges: Option<Vec<[i32; 3]>>,
 }
 
-impl<'a> HullSurface<'a> {
-    pub(super) fn new(points: Points<'a>, mesh: &'a Mesh3) -> Self {
-        let mut on_hull = mesh.hull.as_flattened().to_vec();
-        on_hull.sort_unstable();
-        on_hull.dedup();
-        HullSurface { points, hull: &mesh.hull, on_hull }
+impl<'a> From<&'a MeshData2> for Statement2<'a> {
+    fn from(mesh: &'a MeshData2) -> Self {
+        Statement2 { halfedges: mesh.halfedges.as_deref(), ..Statement2::of_triangles(&mesh.triangles) }
+    }
+}
+
+/// Triangles and their vertices, counted anew.
+pub(super) struct Surface<'a> {
+    points: Points<'a>,
+    triangles: &'a [[u32; 3]],
+    /// The points that are vertices, ascending.
+    used: Vec<u32>,
+}
+
+impl<'a> Surface<'a> {
+    pub(super) fn new(points: Points<'a>, triangles: &'a [[u32; 3]]) -> Self {
+        let mut used = triangles.as_flattened().to_vec();
+        used.sort_unstable();
+        used.dedup();
+        Surface { points, triangles, used }
     }
 
     pub(super) fn vertices(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
-        self.on_hull.iter().map(|&v| self.points.get(v as usize))
+        self.used.iter().map(|&v| self.points.get(v as usize))
     }
 
     /// Whether the file's points are single precision.
@@ -45,7 +63,7 @@ impl<'a> HullSurface<'a> {
 
     /// Indices into [`vertices`](Self::vertices).
     pub(super) fn triangles(&self) -> impl ExactSizeIterator<Item = [u32; 3]> {
-        // `partition_point` counts the hull's smaller vertices, which is the new number of `v`.
-        self.hull.iter().map(|t| t.map(|v| self.on_hull.partition_point(|&w| w < v) as u32))
+        // `partition_point` counts the smaller vertices, which is the new number of `v`.
+        self.triangles.iter().map(|t| t.map(|v| self.used.partition_point(|&w| w < v) as u32))
     }
 }

@@ -17,6 +17,7 @@ mod npy;
 mod npz;
 mod obj;
 mod pcd;
+mod plane;
 mod ply;
 mod point_cloud;
 mod raw;
@@ -28,9 +29,12 @@ mod vtu;
 pub use error::{FormatError, Position};
 pub use format::{HullFormat, MeshFormat, PointFormat};
 pub use las::panics_are_caught;
-pub use mesh_data::MeshData;
-pub use npz::{read_npz, write_npz};
+pub use mesh_data::{MeshData, MeshData2};
+pub use npz::{read_npz, read_npz2, write_npz, write_npz2};
 pub use obj::write_hull_obj;
+pub use plane::{
+    PlanePoints, drop_z, read_ele2, read_vtu2, write_ele2, write_neigh2, write_obj2, write_ply2, write_stl2, write_vtu2,
+};
 pub use ply::write_hull_ply;
 pub use point_cloud::{PointBuf, PointCloud};
 pub use stl::write_hull_stl;

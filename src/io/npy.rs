@@ -105,7 +105,7 @@ impl<'a> Array<'a> {
     }
 
     /// Indices; those that are no `i32` become an error.
-    pub(super) fn indices(&self) -> Result<Vec<[i64; 4]>, FormatError> {
+    pub(super) fn indices<const N: usize>(&self) -> Result<Vec<[i64; N]>, FormatError> {
         match (self.kind, self.size) {
             // A u64 that is no i64 becomes negative, which no index is.
             (b'i' | b'u', 8) => self.rows(i64::from_le_bytes),
@@ -140,7 +140,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     PointCloud::new(Array::parse(bytes)?.points()?)
 }
 
-pub(super) fn write<W: Write>(to: W, points: Points<'_>) -> io::Result<()> {
+pub(super) fn write<W: Write, const D: usize>(to: W, points: Points<'_, D>) -> io::Result<()> {
     match points {
         Points::F32(p) => write_array(to, "<f4", p, f32::to_le_bytes),
         Points::F64(p) => write_array(to, "<f8", p, f64::to_le_bytes),

@@ -5,7 +5,7 @@
 
 use super::{
     FormatError, PointBuf, PointCloud,
-    mesh_data::HullSurface,
+    mesh_data::Surface,
     text::{fields, lines, number},
 };
 use crate::{Mesh3, Points};
@@ -40,10 +40,14 @@ pub(super) fn write_points<W: Write>(mut to: W, points: Points<'_>) -> io::Resul
 /// # Errors
 ///
 /// When `to` cannot be written.
-pub fn write_hull_obj<W: Write>(mut to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
-    let hull = HullSurface::new(points, mesh);
-    hull.vertices().try_for_each(|[x, y, z]| writeln!(to, "v {x:?} {y:?} {z:?}"))?;
-    hull.triangles().try_for_each(|t| {
+pub fn write_hull_obj<W: Write>(to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
+    write_surface(to, points, &mesh.hull)
+}
+
+pub(super) fn write_surface(mut to: impl Write, points: Points<'_>, triangles: &[[u32; 3]]) -> io::Result<()> {
+    let surface = Surface::new(points, triangles);
+    surface.vertices().try_for_each(|[x, y, z]| writeln!(to, "v {x:?} {y:?} {z:?}"))?;
+    surface.triangles().try_for_each(|t| {
         let [a, b, c] = t.map(|v| v + 1);
         writeln!(to, "f {a} {b} {c}")
     })

@@ -1,6 +1,6 @@
 //! Stanford PLY.
 
-use super::{FormatError, PointBuf, PointCloud, mesh_data::HullSurface};
+use super::{FormatError, PointBuf, PointCloud, mesh_data::Surface};
 use crate::{Mesh3, Points};
 use serde::{Deserialize, de::IgnoredAny};
 use serde_ply::{DeserializeError, ElementDef, PlyFormat, PlyReader, PropertyType, ScalarType};
@@ -161,14 +161,18 @@ pub(super) fn write_points<W: Write>(mut to: W, points: Points<'_>) -> io::Resul
 /// # Errors
 ///
 /// When `to` cannot be written.
-pub fn write_hull_ply<W: Write>(mut to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
-    let hull = HullSurface::new(points, mesh);
-    write_header(&mut to, hull.is_single(), hull.vertices().len())?;
-    writeln!(to, "element face {}\nproperty list uchar int vertex_indices\nend_header", hull.triangles().len())?;
-    for x in hull.vertices().flatten() {
-        if hull.is_single() { to.write_all(&(x as f32).to_le_bytes())? } else { to.write_all(&x.to_le_bytes())? }
+pub fn write_hull_ply<W: Write>(to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
+    write_surface(to, points, &mesh.hull)
+}
+
+pub(super) fn write_surface(mut to: impl Write, points: Points<'_>, triangles: &[[u32; 3]]) -> io::Result<()> {
+    let surface = Surface::new(points, triangles);
+    write_header(&mut to, surface.is_single(), surface.vertices().len())?;
+    writeln!(to, "element face {}\nproperty list uchar int vertex_indices\nend_header", triangles.len())?;
+    for x in surface.vertices().flatten() {
+        if surface.is_single() { to.write_all(&(x as f32).to_le_bytes())? } else { to.write_all(&x.to_le_bytes())? }
     }
-    for triangle in hull.triangles() {
+    for triangle in surface.triangles() {
         to.write_all(&[3])?;
         triangle.iter().try_for_each(|v| to.write_all(&v.to_le_bytes()))?;
     }

@@ -6,7 +6,7 @@
 use super::{
     FormatError, PointBuf, PointCloud,
     error::quote,
-    mesh_data::HullSurface,
+    mesh_data::Surface,
     text::{fields, lines, number},
 };
 use crate::{Mesh3, Points};
@@ -124,17 +124,24 @@ impl<T, Bits: Eq + std::hash::Hash> Distinct<T, Bits> {
 /// # Errors
 ///
 /// When `to` cannot be written.
-pub fn write_hull_stl<W: Write>(mut to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
-    let hull = HullSurface::new(points, mesh);
-    let is_single = hull.vertices().flatten().all(|x| f64::from(x as f32) == x);
+pub fn write_hull_stl<W: Write>(to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
+    write_surface(to, points, &mesh.hull, "convex hull")
+}
+
+/// `name` must be short.
+pub(super) fn write_surface(
+    mut to: impl Write,
+    points: Points<'_>,
+    triangles: &[[u32; 3]],
+    name: &str,
+) -> io::Result<()> {
+    let is_single = Surface::new(points, triangles).vertices().flatten().all(|x| f64::from(x as f32) == x);
     let corners = |t: &[u32; 3]| t.map(|v| points.get(v as usize));
-    match u32::try_from(mesh.hull.len()) {
+    match u32::try_from(triangles.len()) {
         Ok(count) if is_single => {
-            let mut header = [0; HEADER];
-            header[..16].copy_from_slice(b"gdel convex hull");
-            to.write_all(&header)?;
+            to.write_all(format!("{:\0<HEADER$}", format!("gdel {name}")).as_bytes())?;
             to.write_all(&count.to_le_bytes())?;
-            for t in &mesh.hull {
+            for t in triangles {
                 let corners = corners(t);
                 for x in [normal(corners)].iter().chain(&corners).flatten() {
                     to.write_all(&(*x as f32).to_le_bytes())?;
@@ -144,8 +151,8 @@ pub fn write_hull_stl<W: Write>(mut to: W, points: Points<'_>, mesh: &Mesh3) -> 
             Ok(())
         }
         _ => {
-            writeln!(to, "solid hull")?;
-            for t in &mesh.hull {
+            writeln!(to, "solid {name}")?;
+            for t in triangles {
                 let corners = corners(t);
                 let [x, y, z] = normal(corners);
                 writeln!(to, "facet normal {x:?} {y:?} {z:?}\n outer loop")?;
@@ -154,7 +161,7 @@ pub fn write_hull_stl<W: Write>(mut to: W, points: Points<'_>, mesh: &Mesh3) -> 
                 }
                 writeln!(to, " endloop\nendfacet")?;
             }
-            writeln!(to, "endsolid hull")
+            writeln!(to, "endsolid {name}")
         }
     }
 }

@@ -1,4 +1,4 @@
-//! TetGen's text files: `.node`, `.ele` and `.neigh`.
+//! The text files of Triangle and TetGen: `.node`, `.ele` and `.neigh`.
 
 use super::{
     FormatError,
@@ -6,16 +6,23 @@ use super::{
     text::{fields, lines},
 };
 use crate::{Mesh3, Points};
-use std::io::{self, Write};
+use std::{
+    fmt::Display,
+    io::{self, Write},
+};
 
 /// Writes the points: a line of counts, then a line a point, counted from 0.
 ///
 /// # Errors
 ///
 /// When `to` cannot be written.
-pub fn write_node<W: Write>(mut to: W, points: Points<'_>) -> io::Result<()> {
-    writeln!(to, "{} 3 0 0", points.len())?;
-    points.iter().enumerate().try_for_each(|(i, [x, y, z])| writeln!(to, "{i} {x:?} {y:?} {z:?}"))
+pub fn write_node<W: Write, const D: usize>(mut to: W, points: Points<'_, D>) -> io::Result<()> {
+    writeln!(to, "{} {D} 0 0", points.len())?;
+    points.iter().enumerate().try_for_each(|(i, p)| {
+        write!(to, "{i}")?;
+        p.iter().try_for_each(|x| write!(to, " {x:?}"))?;
+        writeln!(to)
+    })
 }
 
 /// Writes the tetrahedra, counted from 0.
@@ -23,9 +30,8 @@ pub fn write_node<W: Write>(mut to: W, points: Points<'_>) -> io::Result<()> {
 /// # Errors
 ///
 /// When `to` cannot be written.
-pub fn write_ele<W: Write>(mut to: W, mesh: &Mesh3) -> io::Result<()> {
-    writeln!(to, "{} 4 0", mesh.tetrahedra.len())?;
-    mesh.tetrahedra.iter().enumerate().try_for_each(|(i, [a, b, c, d])| writeln!(to, "{i} {a} {b} {c} {d}"))
+pub fn write_ele<W: Write>(to: W, mesh: &Mesh3) -> io::Result<()> {
+    write_rows(to, " 0", &mesh.tetrahedra)
 }
 
 /// Writes the neighbours: the *k*-th is across the facet opposite the *k*-th vertex, -1 outside.
@@ -33,9 +39,22 @@ pub fn write_ele<W: Write>(mut to: W, mesh: &Mesh3) -> io::Result<()> {
 /// # Errors
 ///
 /// When `to` cannot be written.
-pub fn write_neigh<W: Write>(mut to: W, mesh: &Mesh3) -> io::Result<()> {
-    writeln!(to, "{} 4", mesh.neighbors.len())?;
-    mesh.neighbors.iter().enumerate().try_for_each(|(i, [a, b, c, d])| writeln!(to, "{i} {a} {b} {c} {d}"))
+pub fn write_neigh<W: Write>(to: W, mesh: &Mesh3) -> io::Result<()> {
+    write_rows(to, "", &mesh.neighbors)
+}
+
+/// The count and length of the rows, `more`, and the rows, counted from 0.
+pub(super) fn write_rows<T: Display, const N: usize>(
+    mut to: impl Write,
+    more: &str,
+    rows: &[[T; N]],
+) -> io::Result<()> {
+    writeln!(to, "{} {N}{more}", rows.len())?;
+    rows.iter().enumerate().try_for_each(|(i, row)| {
+        write!(to, "{i}")?;
+        row.iter().try_for_each(|entry| write!(to, " {entry}"))?;
+        writeln!(to)
+    })
 }
 
 /// Reads the tetrahedra's vertices, counted from 0. A file whose first tetrahedron is number 1 counts from 1.
@@ -44,7 +63,12 @@ pub fn write_neigh<W: Write>(mut to: W, mesh: &Mesh3) -> io::Result<()> {
 ///
 /// Where the file is broken, and how.
 pub fn read_ele(bytes: &[u8]) -> Result<Vec<[u32; 4]>, FormatError> {
-    let rows = read_rows(bytes)?;
+    read_simplices(bytes, "tetrahedra")
+}
+
+/// Likewise for the simplices with `N` vertices that `what` names.
+pub(super) fn read_simplices<const N: usize>(bytes: &[u8], what: &str) -> Result<Vec<[u32; N]>, FormatError> {
+    let rows = read_rows(bytes, what)?;
     rows.into_iter().map(|row| row.resolve(|v| u32::try_from(v).ok())).collect()
 }
 
@@ -54,20 +78,20 @@ pub fn read_ele(bytes: &[u8]) -> Result<Vec<[u32; 4]>, FormatError> {
 ///
 /// Where the file is broken, and how.
 pub fn read_neigh(bytes: &[u8]) -> Result<Vec<[i32; 4]>, FormatError> {
-    let rows = read_rows(bytes)?;
+    let rows = read_rows(bytes, "tetrahedra")?;
     // "None" is -1 in files that count from 1 as well.
     rows.into_iter().map(|row| row.resolve(|t| i32::try_from(t.max(-1)).ok())).collect()
 }
 
-/// Four numbers of a line, less the number of the first row.
-struct Row {
+/// Numbers of a line, less the number of the first row.
+struct Row<const N: usize> {
     line: usize,
-    entries: [i64; 4],
+    entries: [i64; N],
 }
 
-impl Row {
-    fn resolve<T: Copy + Default>(&self, index: impl Fn(i64) -> Option<T>) -> Result<[T; 4], FormatError> {
-        let mut result = [T::default(); 4];
+impl<const N: usize> Row<N> {
+    fn resolve<T: Copy + Default>(&self, index: impl Fn(i64) -> Option<T>) -> Result<[T; N], FormatError> {
+        let mut result = [T::default(); N];
         for (to, &entry) in result.iter_mut().zip(&self.entries) {
             *to = index(entry).ok_or_else(|| FormatError::line(self.line, format!("{entry} is out of range")))?;
         }
@@ -75,16 +99,16 @@ impl Row {
     }
 }
 
-/// The rows under a line with their count: a number, four entries, and whatever else.
-fn read_rows(bytes: &[u8]) -> Result<Vec<Row>, FormatError> {
+/// The rows under a line with their count: a number, `N` entries, and whatever else.
+fn read_rows<const N: usize>(bytes: &[u8], what: &str) -> Result<Vec<Row<N>>, FormatError> {
     let mut content = lines(bytes)
         .map(|(line, content)| (line, content.split(|&b| b == b'#').next().unwrap_or_default().trim_ascii()))
         .filter(|(_, content)| !content.is_empty());
     let (first_line, header) = content.next().ok_or_else(|| FormatError::line(1, "the file is empty"))?;
     let mut header = fields(header);
     let count = integer(header.next(), first_line)?;
-    if integer(header.next(), first_line)? < 4 {
-        return Err(FormatError::line(first_line, "tetrahedra have at least 4 entries a line"));
+    if integer(header.next(), first_line)? < N as i64 {
+        return Err(FormatError::line(first_line, format!("{what} have at least {N} entries a line")));
     }
     let mut rows = Vec::new();
     let mut base = 0;
@@ -99,7 +123,7 @@ fn read_rows(bytes: &[u8]) -> Result<Vec<Row>, FormatError> {
         if number.checked_sub(base) != i64::try_from(rows.len()).ok() || !(0..=1).contains(&base) {
             return Err(FormatError::line(line, format!("row {} is numbered {number}", rows.len())));
         }
-        let mut entries = [0; 4];
+        let mut entries = [0; N];
         for entry in &mut entries {
             let value = integer(fields.next(), line)?;
             *entry = value.saturating_sub(base);

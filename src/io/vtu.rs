@@ -16,6 +16,8 @@ use quick_xml::{
 };
 use std::io::{self, Read, Write};
 
+/// VTK's number for triangles.
+pub(super) const TRIANGLE: u8 = 5;
 /// VTK's number for tetrahedra.
 const TETRA: u8 = 10;
 
@@ -24,13 +26,23 @@ const TETRA: u8 = 10;
 /// # Errors
 ///
 /// When `to` cannot be written.
-pub fn write_vtu<W: Write>(mut to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
+pub fn write_vtu<W: Write>(to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
+    write_cells(to, points, &mesh.tetrahedra, TETRA)
+}
+
+/// Likewise for cells with `N` corners of the type with VTK's number `kind`.
+pub(super) fn write_cells<const N: usize>(
+    mut to: impl Write,
+    points: Points<'_>,
+    corners: &[[u32; N]],
+    kind: u8,
+) -> io::Result<()> {
     let (number, size) = match points {
         Points::F32(_) => ("Float32", 4),
         Points::F64(_) => ("Float64", 8),
     };
-    let cells = mesh.tetrahedra.len() as u64;
-    let lengths = [points.len() as u64 * 3 * size, cells * 4 * 8, cells * 8, cells];
+    let cells = corners.len() as u64;
+    let lengths = [points.len() as u64 * 3 * size, cells * N as u64 * 8, cells * 8, cells];
     // Each array has its length in eight bytes before it.
     let mut end = 0;
     let [coordinates, connectivity, offsets, types] = lengths.map(|length| {
@@ -65,11 +77,11 @@ _"#,
         Points::F64(p) => p.as_flattened().iter().try_for_each(|x| to.write_all(&x.to_le_bytes()))?,
     }
     to.write_all(&connectivity)?;
-    mesh.tetrahedra.as_flattened().iter().try_for_each(|&v| to.write_all(&u64::from(v).to_le_bytes()))?;
+    corners.as_flattened().iter().try_for_each(|&v| to.write_all(&u64::from(v).to_le_bytes()))?;
     to.write_all(&offsets)?;
-    (1..=cells).try_for_each(|cell| to.write_all(&(4 * cell).to_le_bytes()))?;
+    (1..=cells).try_for_each(|cell| to.write_all(&(N as u64 * cell).to_le_bytes()))?;
     to.write_all(&types)?;
-    (0..cells).try_for_each(|_| to.write_all(&[TETRA]))?;
+    (0..cells).try_for_each(|_| to.write_all(&[kind]))?;
     to.write_all(b"\n  </AppendedData>\n</VTKFile>\n")
 }
 
@@ -79,21 +91,31 @@ _"#,
 ///
 /// Where the file is broken, and how; when it has cells that are no tetrahedra.
 pub fn read_vtu(bytes: &[u8]) -> Result<MeshData, FormatError> {
+    Ok(MeshData { tetrahedra: read_cells(bytes, TETRA, "tetrahedr", ["on", "a"])?, neighbors: None })
+}
+
+/// The corners of the cells, all of the type with VTK's number `kind`, whose name ends differently for one and for more.
+pub(super) fn read_cells<const N: usize>(
+    bytes: &[u8],
+    kind: u8,
+    name: &str,
+    [one, more]: [&str; 2],
+) -> Result<Vec<[u32; N]>, FormatError> {
     let file = File::parse(bytes)?;
     let types = file.integers("types")?;
-    if let Some(cell) = types.iter().position(|&t| t != i64::from(TETRA)) {
-        return Err(FormatError::byte(0, format!("cell {cell} is no tetrahedron, but of VTK's type {}", types[cell])));
+    if let Some(cell) = types.iter().position(|&t| t != i64::from(kind)) {
+        return Err(FormatError::byte(0, format!("cell {cell} is no {name}{one}, but of VTK's type {}", types[cell])));
     }
     let connectivity = file.integers("connectivity")?;
-    let (tetrahedra, rest) = connectivity.as_chunks::<4>();
-    if !rest.is_empty() || tetrahedra.len() != types.len() {
-        let what = format!("{} tetrahedra do not have {} vertices", types.len(), connectivity.len());
+    let (cells, rest) = connectivity.as_chunks::<N>();
+    if !rest.is_empty() || cells.len() != types.len() {
+        let what = format!("{} {name}{more} do not have {} vertices", types.len(), connectivity.len());
         return Err(FormatError::byte(0, what));
     }
     if let Some(v) = connectivity.iter().find(|&&v| u32::try_from(v).is_err()) {
         return Err(FormatError::byte(0, format!("{v} is no index of a point")));
     }
-    Ok(MeshData { tetrahedra: tetrahedra.iter().map(|t| t.map(|v| v as u32)).collect(), neighbors: None })
+    Ok(cells.iter().map(|t| t.map(|v| v as u32)).collect())
 }
 
 /// The data arrays of a file, not yet decoded.

@@ -5,7 +5,7 @@ import { type Drawing, type DrawRequest, MOST_POINTS_TO_RECORD, type Summary } f
 import { type Source, titleOf } from './model/source';
 import type { Progress } from './model/worker';
 import type { Page, Part } from './page';
-import { filterFor, fromHash, type Settings, toHash, upFor } from './settings';
+import { colorFor, filterFor, fromHash, type Settings, toHash, upFor } from './settings';
 import { showBusy } from './ui/busy';
 import { comparePanel } from './ui/comparePanel';
 import { byId } from './ui/dom';
@@ -79,6 +79,7 @@ export class App implements Page {
       const summary = await start(Comlink.proxy((progress) => isLast() && showBusy(progress)));
       if (!isLast()) return false;
       if (source !== this.settings.source) {
+        if (source.kind !== this.settings.source.kind) this.settings.color = colorFor(source);
         Object.assign(this.settings, { source, filter: filterFor(source), up: upFor(source), alpha: null });
       }
       this.summary = summary;
@@ -208,7 +209,7 @@ export class App implements Page {
     viewer.setVisible('hull', layers.hull);
     viewer.setVisible('facets', layers.facets);
     viewer.setVisible('points', layers.points);
-    viewer.look.pointsEverywhere.value = layers.tetrahedra ? 0 : 1;
+    viewer.look.pointsEverywhere.value = layers.tetrahedra && this.summary?.dimension === 3 ? 0 : 1;
   }
 
   private cameraMoved(): void {

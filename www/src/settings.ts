@@ -23,7 +23,7 @@ export interface Settings {
   keep: number;
   /** The axis that points up. */
   up: Up;
-  /** How far the tetrahedra are pulled apart: 0 not at all, 1 to twice the size. */
+  /** How far the tetrahedra are pulled apart: 0 not at all, 1 to half their size. */
   apart: number;
   layers: Record<Layer, boolean>;
   camera: CameraPose;
@@ -34,12 +34,17 @@ export function filterFor(source: Source): Filter['kind'] {
   return source.kind === 'generator' ? 'all' : 'carve';
 }
 
+/** What tells most: inside a scan sizes differ by orders of magnitude, in a synthetic cloud shapes do. */
+export function colorFor(source: Source): ColorBy {
+  return source.kind === 'generator' ? 'quality' : 'circumradius';
+}
+
 /** Scans of the land have z up, models y. */
 export function upFor(source: Source): Up {
   return source.kind === 'file' && /\.(las|laz|pcd|pts|xyz|asc|txt|csv|tsv)$/i.test(source.file.name) ? 'z' : 'y';
 }
 
-export const HOME: CameraPose = [0.5, 0.24, 2.75, 0, 0, 0];
+export const HOME: CameraPose = [0.5, 0.24, 2.85, 0, 0, 0];
 
 /** What a visitor sees first. */
 export function defaults(): Settings {
@@ -65,9 +70,10 @@ export function toHash(settings: Settings): string {
   const hash = new URLSearchParams();
   const { source } = settings;
   if (source.kind === 'sample') hash.set('points', source.sample);
-  if (source.kind === 'generator') hash.set('points', [source.distribution, source.count, source.seed].join('~'));
+  if (source.kind === 'generator') hash.set('points', [source.distribution, source.count, source.seed].join('_'));
   start.filter = filterFor(source);
   start.up = upFor(source);
+  start.color = colorFor(source);
   for (const key of ['engine', 'color', 'map', 'filter', 'up'] as const) {
     if (settings[key] !== start[key]) hash.set(key, settings[key]);
   }
@@ -75,8 +81,8 @@ export function toHash(settings: Settings): string {
   const cut = list([...settings.normal, settings.keep]);
   if (cut !== list([...start.normal, start.keep])) hash.set('cut', cut);
   if (settings.apart !== 0) hash.set('apart', short(settings.apart));
-  const layers = LAYERS.filter((layer) => settings.layers[layer]).join('~');
-  if (layers !== LAYERS.filter((layer) => start.layers[layer]).join('~')) hash.set('layers', layers);
+  const layers = LAYERS.filter((layer) => settings.layers[layer]).join('_');
+  if (layers !== LAYERS.filter((layer) => start.layers[layer]).join('_')) hash.set('layers', layers);
   const camera = list(settings.camera);
   if (camera !== list(start.camera)) hash.set('camera', camera);
   return hash.toString();
@@ -91,7 +97,7 @@ export function fromHash(hash: string): Settings {
 
   settings.source = sourceFrom(given.get('points')) ?? settings.source;
   settings.engine = choice('engine', ['auto', 'gpu', 'cpu'], settings.engine);
-  settings.color = choice('color', ['quality', 'volume', 'circumradius', 'phase'], settings.color);
+  settings.color = choice('color', ['quality', 'volume', 'circumradius', 'phase'], colorFor(settings.source));
   settings.map = choice('map', Object.keys(COLOR_MAPS) as ColorMapName[], settings.map);
   settings.filter = choice('filter', ['all', 'alpha', 'carve'], filterFor(settings.source));
   settings.up = choice('up', ['y', 'z'], upFor(settings.source));
@@ -102,7 +108,7 @@ export function fromHash(hash: string): Settings {
   if (length > 0) settings.normal = [nx / length, ny / length, nz / length];
   settings.keep = clamp(keep);
   settings.apart = clamp(Number(given.get('apart')));
-  const layers = given.get('layers')?.split('~');
+  const layers = given.get('layers')?.split('_');
   if (layers) for (const layer of LAYERS) settings.layers[layer] = layers.includes(layer);
   const camera = numbers(given.get('camera'), 6);
   if (camera && camera[2] > 0) settings.camera = camera as CameraPose;
@@ -112,7 +118,7 @@ export function fromHash(hash: string): Settings {
 function sourceFrom(text: string | null): Source | null {
   if (!text) return null;
   if (Object.hasOwn(SAMPLES, text)) return { kind: 'sample', sample: text as Sample };
-  const [distribution, count, seed] = text.split('~');
+  const [distribution, count, seed] = text.split('_');
   const points = Number(count);
   if (!Object.hasOwn(DISTRIBUTIONS, distribution) || !Number.isSafeInteger(points) || points < 1 || points > MOST_POINTS) return null;
   const start = Number(seed);
@@ -128,10 +134,10 @@ function sourceFrom(text: string | null): Source | null {
 export const MOST_POINTS = 10_000_000;
 
 function numbers(text: string | null, count: number): number[] | null {
-  const values = text?.split('~').map(Number);
+  const values = text?.split('_').map(Number);
   return values?.length === count && values.every(Number.isFinite) ? values : null;
 }
 
 const clamp = (x: number) => Math.min(1, Math.max(0, Number.isFinite(x) ? x : 0));
 const short = (x: number) => String(Number(x.toFixed(4)));
-const list = (values: readonly number[]) => values.map(short).join('~');
+const list = (values: readonly number[]) => values.map(short).join('_');

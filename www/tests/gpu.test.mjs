@@ -10,7 +10,7 @@ let page;
 before(async () => {
   server = await serve();
   browser = await launch();
-  page = await open(browser, `${server.url}#points=ball~1000~1`);
+  page = await open(browser, `${server.url}#points=ball_1000_1`);
   page.setDefaultTimeout(900_000);
 });
 after(async () => {

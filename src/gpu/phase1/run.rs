@@ -12,7 +12,10 @@ use crate::{
     gpu::{
         Gpu, Pending, Profiler, Recorder,
         layout::{BLOCK, Counters, FlipNode, NONE, Params, SLOTS_FULL},
-        stages::{finish::BoundFinish, points::PointBuffers},
+        stages::{
+            finish::BoundFinish,
+            points::{PointBuffers, PointInput},
+        },
         vertex, workgroups,
     },
     stats::{Round, Stopwatch},
@@ -113,7 +116,8 @@ impl<'a> Run<'a> {
                 let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
                 let Input { points: input, lattice, start } = input;
                 let buffers = &mut point_buffers;
-                let device = kernels.points.record(gpu, &mut recorder, buffers, input, lattice, start.first, true)?;
+                let input = PointInput { points: input, lattice, wanted: start.first, sort: true };
+                let device = kernels.points.record(gpu, &mut recorder, buffers, input)?;
                 let mut kernel_point = Vec::new();
                 vertex::append_words(&mut kernel_point, lattice.width(), start.kernel, points);
                 let kernel_point = kernel_point.as_flattened();

@@ -12,7 +12,7 @@ use crate::{
         Gpu, Pending, Profiler, Readback, Recorder,
         layout::{BLOCK, Counters, NONE, Params},
         phase1::{COUNTER_WORDS, PARAM_WORDS},
-        stages::points::{DevicePoints, PointBuffers},
+        stages::points::{DevicePoints, PointBuffers, PointInput},
         workgroups,
     },
     stats::{Round, Stopwatch},
@@ -118,7 +118,12 @@ impl<'a> Run<'a> {
                 let Input { points: input, lattice, start } = input;
                 let wanted = [start.first[0], start.first[1], start.first[2], start.first[2]];
                 let buffers = &mut point_buffers;
-                let device = plane.points.record(gpu, &mut recorder, buffers, input, lattice, wanted, settings.sort)?;
+                let device = plane.points.record(
+                    gpu,
+                    &mut recorder,
+                    buffers,
+                    PointInput { points: input, lattice, wanted, sort: settings.sort },
+                )?;
                 let mut kernel_point = Vec::new();
                 vertex::append_words(&mut kernel_point, lattice.width(), start.kernel, false);
                 device.vertices.write(gpu, count * kernel_point.len(), &kernel_point);
@@ -379,7 +384,7 @@ async fn read_unproven(gpu: &Gpu, readback: &mut Readback, b: &Buffers, open: us
         triangles.push([x, y, z].map(|v| pairs.get(v as usize).map_or(v, |&[_, point]| point)));
     }
     let used = number.iter().zip(near).filter(|&(&number, _)| number != NONE);
-    let neighbors = used.map(|(_, [x, y, z, _])| [x, y, z].map(|n| 4 * number[n as usize >> 2] | n & 3)).collect();
+    let neighbors = used.map(|(_, [x, y, z, _])| [x, y, z].map(|n| 4 * number[n as usize >> 2] + (n & 3))).collect();
     let mut doubtful: Vec<[u32; 2]> = open.into_iter().map(|[t, open]| [number[t as usize], open]).collect();
     doubtful.sort_unstable();
     Ok(Unproven { triangles, neighbors, doubtful })

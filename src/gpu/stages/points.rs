@@ -77,6 +77,19 @@ pub struct PointStage<const D: usize = 3> {
     sort: Sort,
 }
 
+/// What is to become vertices.
+#[derive(Debug, Clone, Copy)]
+pub struct PointInput<'a, const D: usize = 3> {
+    /// The points.
+    pub points: Points<'a, D>,
+    /// The lattice that is fitted to them.
+    pub lattice: &'a Lattice<D>,
+    /// Points whose vertices come out in the counts.
+    pub wanted: [u32; 4],
+    /// Whether to sort along the Hilbert curve; else the vertices are in the order of the points.
+    pub sort: bool,
+}
+
 /// The points on the device. Valid when the recorded commands have run.
 #[derive(Debug, Clone)]
 pub struct DevicePoints {
@@ -119,9 +132,8 @@ impl<const D: usize> PointStage<D> {
         }
     }
 
-    /// Uploads `points`, which `lattice` was fitted to, and records what makes vertices of them. The vertices of the
-    /// points `wanted` come out in the counts. `kept` has the buffers of the last time, and is given those of this time. Without `sort` the
-    /// vertices are in the order of the points.
+    /// Uploads the points, and records what makes vertices of them. `kept` has the buffers of the last time, and is given
+    /// those of this time.
     ///
     /// # Errors
     ///
@@ -131,11 +143,9 @@ impl<const D: usize> PointStage<D> {
         gpu: &Gpu,
         recorder: &mut Recorder<'_>,
         kept: &mut Option<PointBuffers>,
-        points: Points<'_, D>,
-        lattice: &Lattice<D>,
-        wanted: [u32; 4],
-        sort: bool,
+        input: PointInput<'_, D>,
     ) -> Result<DevicePoints, Error> {
+        let PointInput { points, lattice, wanted, sort } = input;
         let n = points.len();
         let (bits, doubles): (&[u32], bool) = match points {
             Points::F32(p) => (bytemuck::cast_slice(p), false),

@@ -181,17 +181,11 @@ impl<'a, const D: usize> Vertices<'a, D> {
         self.counts.get()
     }
 
-    /// The coordinates of vertex `v`, stored or not: an array that is empty costs what a bounds check costs.
-    #[inline(always)]
+    /// The coordinates of vertex `v`, stored or not. The predicates ask whether they are stored once for all vertices.
     fn coordinate(&self, v: u32) -> [f64; D] {
-        match self.coordinates.get(v as usize) {
-            Some(&p) => p,
-            None => self.computed(v),
-        }
+        self.coordinates.get(v as usize).copied().unwrap_or_else(|| self.computed(v))
     }
 
-    #[cold]
-    #[inline(never)]
     fn computed(&self, i: u32) -> [f64; D] {
         self.scaled(self.input.get(i as usize))
     }

@@ -7,13 +7,25 @@ impl Vertices2<'_> {
     /// The sign of det(b − a, c − a): positive when a, b, c turn counter-clockwise, the y axis pointing up.
     #[inline]
     pub fn orient2d(&self, a: u32, b: u32, c: u32) -> Sign {
-        let [pa, pb, pc] = [a, b, c].map(|v| self.coordinate(v));
+        if self.coordinates.is_empty() {
+            return self.orient2d_computed([a, b, c]);
+        }
+        self.orient2d_at([a, b, c], [a, b, c].map(|v| self.coordinates[v as usize]))
+    }
+
+    #[inline(never)]
+    fn orient2d_computed(&self, vertices: [u32; 3]) -> Sign {
+        self.orient2d_at(vertices, vertices.map(|v| self.computed(v)))
+    }
+
+    #[inline(always)]
+    fn orient2d_at(&self, vertices: [u32; 3], [pa, pb, pc]: [[f64; 2]; 3]) -> Sign {
         let (u, v) = (minus(pa, pc), minus(pb, pc));
         let det = u[0] * v[1] - u[1] * v[0];
         if det.abs() > self.orientation_bound {
             return if det > 0.0 { 1 } else { -1 };
         }
-        self.orient2d_unfiltered([a, b, c], u, v)
+        self.orient2d_unfiltered(vertices, u, v)
     }
 
     #[inline(never)]
@@ -51,14 +63,26 @@ impl Vertices2<'_> {
     /// zero for four different vertices, at least three of which are not collinear.
     #[inline]
     pub fn incircle(&self, [a, b, c]: [u32; 3], d: u32) -> Sign {
-        let pd = self.coordinate(d);
-        let [pa, pb, pc] = [a, b, c].map(|v| minus(self.coordinate(v), pd));
+        if self.coordinates.is_empty() {
+            return self.incircle_computed([a, b, c, d]);
+        }
+        self.incircle_at([a, b, c, d], [a, b, c, d].map(|v| self.coordinates[v as usize]))
+    }
+
+    #[inline(never)]
+    fn incircle_computed(&self, vertices: [u32; 4]) -> Sign {
+        self.incircle_at(vertices, vertices.map(|v| self.computed(v)))
+    }
+
+    #[inline(always)]
+    fn incircle_at(&self, vertices: [u32; 4], [pa, pb, pc, pd]: [[f64; 2]; 4]) -> Sign {
+        let [pa, pb, pc] = [pa, pb, pc].map(|p| minus(p, pd));
         let minor = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
         let det = lift(pa) * minor(pb, pc) + lift(pb) * minor(pc, pa) + lift(pc) * minor(pa, pb);
         if det.abs() > self.in_sphere_bound {
             return if det > 0.0 { 1 } else { -1 };
         }
-        self.incircle_unfiltered([a, b, c, d], [pa, pb, pc], det)
+        self.incircle_unfiltered(vertices, [pa, pb, pc], det)
     }
 
     #[inline(never)]

@@ -7,7 +7,19 @@ impl Vertices<'_> {
     /// The sign of det(b − a, c − a, d − a).
     #[inline]
     pub fn orient3d(&self, a: u32, b: u32, c: u32, d: u32) -> Sign {
-        let [pa, pb, pc, pd] = [a, b, c, d].map(|v| self.coordinate(v));
+        if self.coordinates.is_empty() {
+            return self.orient3d_computed([a, b, c, d]);
+        }
+        self.orient3d_at([a, b, c, d], [a, b, c, d].map(|v| self.coordinates[v as usize]))
+    }
+
+    #[inline(never)]
+    fn orient3d_computed(&self, vertices: [u32; 4]) -> Sign {
+        self.orient3d_at(vertices, vertices.map(|v| self.computed(v)))
+    }
+
+    #[inline(always)]
+    fn orient3d_at(&self, vertices: [u32; 4], [pa, pb, pc, pd]: [[f64; 3]; 4]) -> Sign {
         let (u, v, w) = (minus(pa, pd), minus(pb, pd), minus(pc, pd));
         // det(b − a, c − a, d − a) = −det(a − d, b − d, c − d).
         let det = u[0] * (v[2] * w[1] - v[1] * w[2])
@@ -16,7 +28,7 @@ impl Vertices<'_> {
         if det.abs() > self.orientation_bound {
             return if det > 0.0 { 1 } else { -1 };
         }
-        self.orient3d_unfiltered([a, b, c, d], u, v, w, det)
+        self.orient3d_unfiltered(vertices, u, v, w, det)
     }
 
     #[inline(never)]
@@ -54,13 +66,25 @@ impl Vertices<'_> {
     /// never zero for five different vertices, at least four of which are not coplanar.
     #[inline(always)]
     pub fn insphere(&self, [a, b, c, d]: [u32; 4], e: u32) -> Sign {
-        let pe = self.coordinate(e);
-        let [pa, pb, pc, pd] = [a, b, c, d].map(|v| minus(self.coordinate(v), pe));
+        if self.coordinates.is_empty() {
+            return self.insphere_computed([a, b, c, d, e]);
+        }
+        self.insphere_at([a, b, c, d, e], [a, b, c, d, e].map(|v| self.coordinates[v as usize]))
+    }
+
+    #[inline(never)]
+    fn insphere_computed(&self, vertices: [u32; 5]) -> Sign {
+        self.insphere_at(vertices, vertices.map(|v| self.computed(v)))
+    }
+
+    #[inline(always)]
+    fn insphere_at(&self, vertices: [u32; 5], [pa, pb, pc, pd, pe]: [[f64; 3]; 5]) -> Sign {
+        let [pa, pb, pc, pd] = [pa, pb, pc, pd].map(|p| minus(p, pe));
         let det = insphere_determinant(pa, pb, pc, pd);
         if det.abs() > self.in_sphere_bound {
             return if det > 0.0 { 1 } else { -1 };
         }
-        self.insphere_unfiltered([a, b, c, d, e], [pa, pb, pc, pd], det)
+        self.insphere_unfiltered(vertices, [pa, pb, pc, pd], det)
     }
 
     #[inline(never)]

@@ -1,5 +1,5 @@
 import { phaseColor } from '../ui/phases';
-import { CHART, plot } from './theme';
+import { CHART, chart } from './theme';
 
 /** One run: a bar of the chart. */
 export interface Run {
@@ -8,11 +8,10 @@ export interface Run {
 }
 
 /** The share of each phase in each run's time: the paper's Figure 7. */
-export async function breakdownChart(runs: readonly Run[]): Promise<Element> {
-  const Plot = await plot();
+export function breakdownChart(runs: readonly Run[]): Promise<Element> {
   const rows = runs.flatMap(({ title, phases }) => phases.map((phase) => ({ title, ...phase })));
   const names = [...new Set(rows.map(({ name }) => name))];
-  return Plot.plot({
+  return chart(`Share of each phase in the time of ${runs.map(({ title }) => title).join('; ')}`, (Plot) => ({
     ...CHART,
     height: 44 + 30 * runs.length,
     marginLeft: 0,
@@ -25,5 +24,5 @@ export async function breakdownChart(runs: readonly Run[]): Promise<Element> {
       Plot.barX(rows, Plot.stackX({ offset: 'normalize', y: 'title', x: 'milliseconds', fill: 'name', order: names, insetLeft: 0.5, insetRight: 0.5 })),
       Plot.text(runs, { y: 'title', x: 0, text: 'title', textAnchor: 'start', dy: -13, fill: 'currentColor' }),
     ],
-  });
+  }));
 }

@@ -1,9 +1,8 @@
-import { CHART, plot } from './theme';
+import { CHART, chart } from './theme';
 
 /** The last frames' times in milliseconds, as a line. */
-export async function framesChart(milliseconds: readonly number[]): Promise<Element> {
-  const Plot = await plot();
-  return Plot.plot({
+export function framesChart(milliseconds: readonly number[]): Promise<Element> {
+  return chart('Milliseconds to triangulate each of the last frames', (Plot) => ({
     ...CHART,
     height: 84,
     marginLeft: 28,
@@ -12,5 +11,5 @@ export async function framesChart(milliseconds: readonly number[]): Promise<Elem
     x: { axis: null },
     y: { label: null, ticks: 3, grid: true, zero: true },
     marks: [Plot.areaY(milliseconds, { fill: 'var(--accent)', fillOpacity: 0.15 }), Plot.lineY(milliseconds, { stroke: 'var(--accent)' })],
-  });
+  }));
 }

@@ -1,4 +1,4 @@
-import { CHART, plot } from './theme';
+import { CHART, chart } from './theme';
 
 /** What happened in one round of Phase 1. */
 export interface Round {
@@ -8,13 +8,12 @@ export interface Round {
 }
 
 /** Points inserted and flips made, round by round. */
-export async function roundsChart(rounds: readonly Round[]): Promise<Element> {
-  const Plot = await plot();
+export function roundsChart(rounds: readonly Round[]): Promise<Element> {
   const rows = rounds.flatMap(({ inserted, flips }, i) => [
     { round: i + 1, what: 'inserted', count: inserted },
     { round: i + 1, what: 'flips', count: flips },
   ]);
-  return Plot.plot({
+  return chart('Points inserted and flips made in each round', (Plot) => ({
     ...CHART,
     height: 190,
     marginLeft: 44,
@@ -28,15 +27,14 @@ export async function roundsChart(rounds: readonly Round[]): Promise<Element> {
       Plot.line(rows, { x: 'round', y: 'count', stroke: 'what', strokeWidth: 1.5 }),
       Plot.dot(rows, { x: 'round', y: 'count', fill: 'what', r: 2.5, title: (d) => `round ${d.round}: ${d.count} ${d.what}` }),
     ],
-  });
+  }));
 }
 
 /** The milliseconds of each round, on a common time axis. */
-export async function timelineChart(rounds: readonly Round[]): Promise<Element> {
-  const Plot = await plot();
+export function timelineChart(rounds: readonly Round[]): Promise<Element> {
   let end = 0;
   const rows = rounds.map(({ milliseconds }, i) => ({ round: i + 1, from: end, to: (end += milliseconds) }));
-  return Plot.plot({
+  return chart('When each round took place', (Plot) => ({
     ...CHART,
     height: 74,
     marginLeft: 0,
@@ -45,5 +43,5 @@ export async function timelineChart(rounds: readonly Round[]): Promise<Element> 
     marks: [
       Plot.rect(rows, { x1: 'from', x2: 'to', y1: 0, y2: 1, fill: 'currentColor', fillOpacity: (d) => (d.round % 2 ? 0.42 : 0.24), inset: 0.5, title: (d) => `round ${d.round}: ${(d.to - d.from).toFixed(1)} ms` }),
     ],
-  });
+  }));
 }

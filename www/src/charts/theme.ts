@@ -4,5 +4,16 @@ export const CHART = {
   style: { background: 'none', color: 'var(--ink)', fontFamily: 'var(--sans)', fontSize: '11px' },
 } as const;
 
-/** Observable Plot, fetched when the first chart is wanted. */
-export const plot = () => import('@observablehq/plot');
+/** Draws a chart with Observable Plot, which is fetched when the first is wanted. To a screen reader it is one picture with a description, not the parts that Plot names. */
+export async function chart(
+  description: string,
+  options: (Plot: typeof import('@observablehq/plot')) => import('@observablehq/plot').PlotOptions,
+): Promise<Element> {
+  const Plot = await import('@observablehq/plot');
+  const drawn = Plot.plot(options(Plot));
+  for (const part of drawn.querySelectorAll('g[aria-label]')) part.removeAttribute('aria-label');
+  const svg = drawn instanceof SVGElement ? drawn : drawn.querySelector('svg:last-of-type')!;
+  svg.setAttribute('role', 'img');
+  svg.setAttribute('aria-label', description);
+  return drawn;
+}

@@ -1,5 +1,5 @@
 import { duration } from '../ui/dom';
-import { CHART, plot } from './theme';
+import { CHART, chart } from './theme';
 
 export interface Time {
   engine: string;
@@ -9,9 +9,8 @@ export interface Time {
 }
 
 /** Times side by side. */
-export async function timesChart(times: readonly Time[]): Promise<Element> {
-  const Plot = await plot();
-  return Plot.plot({
+export function timesChart(times: readonly Time[]): Promise<Element> {
+  return chart(times.map(({ engine, milliseconds }) => `${engine}: ${duration(milliseconds)}`).join(', '), (Plot) => ({
     ...CHART,
     height: 20 + 44 * times.length,
     marginLeft: 0,
@@ -25,5 +24,5 @@ export async function timesChart(times: readonly Time[]): Promise<Element> {
       Plot.text(times, { y: 'engine', x: 0, text: 'engine', textAnchor: 'start', dy: -15, fill: 'currentColor' }),
       Plot.text(times, { y: 'engine', x: 'milliseconds', text: (d) => duration(d.milliseconds), textAnchor: 'start', dx: 6, fill: 'currentColor' }),
     ],
-  });
+  }));
 }

@@ -73,7 +73,10 @@ export function piecesOf(
   return { a, b, c, d, values, owners };
 }
 
-/** The pieces' facets as triangles, nine coordinates each, four a piece, after each has moved by `apart` times its centroid. */
+/**
+ * The pieces' facets as triangles, nine coordinates each, four a piece: moved apart by `apart` times their centroids, and the
+ * whole scaled down to the size it had.
+ */
 export function trianglesOf({ a, b, c, d, owners }: Pieces, apart: number): Float32Array {
   const corners = [a, b, c, d];
   const triangles = new Float32Array(36 * owners.length);
@@ -81,7 +84,7 @@ export function trianglesOf({ a, b, c, d, owners }: Pieces, apart: number): Floa
     for (let axis = 0; axis < 3; axis++) {
       const v = 3 * i + axis;
       const move = apart * 0.25 * (a[v] + b[v] + c[v] + d[v]);
-      for (let j = 0; j < 12; j++) triangles[36 * i + 3 * j + axis] = corners[FACETS[j]][v] + move;
+      for (let j = 0; j < 12; j++) triangles[36 * i + 3 * j + axis] = (corners[FACETS[j]][v] + move) / (1 + apart);
     }
   }
   return triangles;

@@ -204,7 +204,7 @@ export class Model {
     const corners = Float32Array.from(vertices.flatMap((v) => [...this.positions.subarray(3 * v, 3 * v + 3)]));
     for (let axis = 0; axis < 3; axis++) {
       const move = (apart * (corners[axis] + corners[3 + axis] + corners[6 + axis] + corners[9 + axis])) / 4;
-      for (let k = 0; k < 4; k++) corners[3 * k + axis] += move;
+      for (let k = 0; k < 4; k++) corners[3 * k + axis] = (corners[3 * k + axis] + move) / (1 + apart);
     }
     return {
       index,

@@ -63,7 +63,7 @@ async function compare(page: Page): Promise<void> {
     const flat = qhull.flat ? ` ${count(qhull.flat)} of them have no volume.` : '';
     await add({ engine: 'qhull-wasm', milliseconds: qhull.milliseconds, ours: false }, agree('qhull-wasm', qhull.tetrahedra) + flat);
     const fastest = times.filter(({ ours }) => ours).sort((a, b) => a.milliseconds - b.milliseconds)[0];
-    if (fastest) notes.push(`Ratio of qhull-wasm to the ${fastest.engine}: ${(qhull.milliseconds / fastest.milliseconds).toFixed(1)}.`);
+    if (fastest) notes.push(`qhull-wasm took ${(qhull.milliseconds / fastest.milliseconds).toFixed(1)} times as long as the ${fastest.engine}.`);
     byId('times-note').textContent = notes.join(' ');
   } catch (error) {
     notes.push(signal.aborted ? 'Stopped.' : `qhull-wasm: ${(error as Error).message}`);

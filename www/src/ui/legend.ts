@@ -19,6 +19,7 @@ const UNITS: Record<ColorBy, string> = {
 
 /** What the colours mean, and how much of the mesh is to be seen. */
 export function showLegend({ scale, shown, total, leftOut, milliseconds }: Drawing, map: ColorMapName): void {
+  byId('legend').hidden = total === 0;
   const unit = UNITS[scale.by];
   byId('legend-title').textContent = QUANTITIES[scale.by] + (unit && `, ${unit}`);
   const [low, high] = scale.domain;

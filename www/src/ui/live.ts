@@ -1,6 +1,6 @@
 import { framesChart } from '../charts/frames';
 import type { Page, Part } from '../page';
-import { byId, count, create, duration } from './dom';
+import { byId, count, create, duration, measured } from './dom';
 import { showLegend } from './legend';
 
 const KEPT = 120;
@@ -53,7 +53,7 @@ export function live(page: Page): Part {
       if (now - charted > 400) {
         charted = now;
         byId('count').textContent = `${count(points)} moving points → ${count(frame.tetrahedra)} tetrahedra`;
-        byId('took').replaceChildren(create('b', {}, duration(frame.milliseconds)), `a frame, ${Math.round(1000 / (now - last))} frames a second`);
+        byId('took').replaceChildren(create('b', {}, duration(frame.milliseconds)), create('span', {}, `a frame, ${measured(1000 / (now - last))} frames a second`));
         times.replaceChildren(
           create('p', { className: 'note' }, 'Milliseconds to triangulate each of the last frames'),
           await framesChart(frames),

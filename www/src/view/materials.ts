@@ -71,7 +71,8 @@ export function piecesMaterial(look: Look): MeshBasicNodeMaterial {
   const [a, b, c, d] = ['a', 'b', 'c', 'd'].map((name) => attribute<'vec3'>(name, 'vec3'));
   const corner = positionGeometry.x;
   const own = select(corner.lessThan(0.5), a, select(corner.lessThan(1.5), b, select(corner.lessThan(2.5), c, d)));
-  material.positionNode = own.add(a.add(b).add(c).add(d).mul(0.25).mul(look.apart));
+  const centroid = a.add(b).add(c).add(d).mul(0.25);
+  material.positionNode = own.add(centroid.mul(look.apart)).div(look.apart.add(1));
   material.colorNode = shaded(look, varying(attribute<'float'>('value', 'float')));
   return material;
 }

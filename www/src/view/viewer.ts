@@ -100,6 +100,7 @@ export class Viewer {
     if (positions && positions.length > 0) {
       const points = new Sprite(pointsMaterial(this.look, new InstancedBufferAttribute(positions, 3)));
       points.count = positions.length / 3;
+      this.look.pointSize.value = points.count < 1000 ? 4 : 1.5;
       // Many points on a small canvas would cover everything.
       const { clientWidth, clientHeight } = this.canvas;
       this.look.pointOpacity.value = Math.min(0.5, Math.max(0.04, 0.068 * Math.sqrt((clientWidth * clientHeight) / points.count)));
@@ -209,7 +210,9 @@ export class Viewer {
     this.camera.aspect = clientWidth / clientHeight;
     // The smaller side of the canvas sees the same angle, whichever side it is.
     this.camera.fov = (360 / Math.PI) * Math.atan(Math.tan(Math.PI / 9.5) / Math.min(1, this.camera.aspect));
-    this.camera.updateProjectionMatrix();
+    // The title is at the top left: the model makes room, sidewards where there is width, else downwards.
+    const [right, down] = clientWidth > 700 ? [0.07 * clientWidth, 0.02 * clientHeight] : [0, 0.05 * clientHeight];
+    this.camera.setViewOffset(clientWidth, clientHeight, -right, -down, clientWidth, clientHeight);
     this.render();
   }
 }

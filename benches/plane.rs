@@ -1,0 +1,27 @@
+//! Whole 2D triangulations by the CPU engine, in points a second. Each passes the verifier before it is timed.
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use gdel::{
+    Engine, Options, delaunay2d,
+    plane::generate::{Distribution2, generate2d},
+    verify::verify2d,
+};
+
+fn plane(c: &mut Criterion) {
+    let mut group = c.benchmark_group("plane");
+    group.sample_size(10);
+    let options = Options { engine: Engine::Cpu, ..Options::default() };
+    for distribution in Distribution2::ALL {
+        let points = generate2d(distribution, 100_000, 1);
+        let triangulate = || delaunay2d(&points, &options).expect("finite points");
+        let report = verify2d(&points, &triangulate()).expect("finite points");
+        assert!(report.passed(), "{distribution:?}: {report}");
+        group.throughput(Throughput::Elements(points.len() as u64));
+        group.bench_function(BenchmarkId::new(distribution.name(), points.len()), |b| {
+            b.iter_with_large_drop(triangulate);
+        });
+    }
+}
+
+criterion_group!(benches, plane);
+criterion_main!(benches);
