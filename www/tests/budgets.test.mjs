@@ -28,6 +28,7 @@ test('the first view comes within two seconds, and takes less than 500 kB', asyn
   for (let visit = 0; visit < 4; visit++) {
     const context = await browser.newContext({ viewport: { width: 1440, height: 900 } });
     const page = await context.newPage();
+    page.setDefaultTimeout(120_000);
     files = new Set();
     page.on('response', (response) => files.add(new URL(response.url()).pathname));
     await page.goto(server.url);
@@ -45,6 +46,7 @@ test('the first view comes within two seconds, and takes less than 500 kB', asyn
   }
   console.log(`${sum.toFixed(1).padStart(8)} kB gzipped, without samples and three.js`);
   assert.ok(sum < 500, `${sum} kB`);
+  // On a machine with nothing else to do.
   assert.ok(Math.min(...seconds) < 2, `${Math.min(...seconds)} s`);
 });
 
