@@ -6,10 +6,10 @@
 //! 3. *Last flips*, until no tetrahedron is active.
 //! 4. *Finish*: failed vertices, the mesh without gaps, what rounding leaves open, and the one large readback.
 //!
-//! What it costs, for *n* points in *r* rounds of *k* flip iterations (uniform, 1 M: r = 11, k ≈ 16): dispatches, 15 for
-//! the points, 5 + 3·k a round, 8 to finish, about 650 in all; a flip iteration visits its active tetrahedra (42·n in all, 14·n
+//! What it costs, for *n* points in *r* rounds of *k* flip iterations (uniform, 1 M: r = 11, k ≈ 20, of which a third too
+//! many are recorded): dispatches, 15 for the points, 5 + 3¼·k a round, 8 to finish, about 1,400 in all; a flip iteration visits its active tetrahedra (42·n in all, 14·n
 //! flips) at 4 to 10 sectors of 32 bytes each, so 10 to 15 GB of traffic for 1 M points, most of it in the cache. Readbacks:
-//! one of 132 bytes a round, one or two for the last flips, 9 to finish.
+//! one of a hundred bytes a round, one or two for the last flips, 8 to finish.
 //!
 //! Flip iterations are recorded ahead, half as many again as the last round took: those that find nothing to do cost
 //! microseconds, and what they leave undone is taken up in the next round. No flip is lost for want of room: when the
