@@ -1,17 +1,19 @@
 //! Work on slices, shared among the machine's threads where it has any.
 
 use std::ops::Range;
-use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// More threads than this do not make a pass over memory any faster.
+#[cfg(feature = "gpu")]
 const MOST_THREADS: usize = 16;
 /// A chunk of this many elements is worth handing to another thread.
 const CHUNK: usize = 1 << 16;
 
 /// The threads to use: 1 where there are no threads, as in the browser.
+#[cfg(feature = "gpu")]
 pub(crate) fn available() -> usize {
     // The system reads files to answer.
-    static THREADS: OnceLock<usize> = OnceLock::new();
+    static THREADS: std::sync::OnceLock<usize> = std::sync::OnceLock::new();
     *THREADS.get_or_init(|| std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS))
 }
 

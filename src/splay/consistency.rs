@@ -99,10 +99,11 @@ impl<'a> Splaying<'a> {
         threads: usize,
         report: &dyn Fn(f64) -> Result<(), Error>,
     ) -> Result<(), Stop> {
+        report(0.0)?;
         for (i, batch) in failed.chunks(REPORT).enumerate() {
-            report((i * REPORT) as f64 / failed.len() as f64)?;
             self.build(batch, true, threads)?;
             self.check_work()?;
+            report((i * REPORT + batch.len()) as f64 / failed.len() as f64)?;
         }
         // Those that are sure to be needed, while threads can share them.
         let unsettled = self.queue.iter().filter(|&key| !self.is_settled(*key));
