@@ -1,15 +1,19 @@
-//! Times Phase 1: `phase1 [uniform|gaussian|ball|thin-sphere|sphere|grid] [POINTS] [ADAPTER] [REPEATS]`, on coordinates
-//! rounded to `f32`.
+//! Times Phase 1: `phase1 [uniform|gaussian|ball|thin-sphere|sphere|grid|FILE] [POINTS] [ADAPTER] [REPEATS]`, on
+//! coordinates rounded to `f32`.
 //!
-//! The variables PICK (0–2), INSERT_ALL (0, 1), MIN_ACTIVE, WORKGROUPS and SEED change the settings. Prints a line of JSON: medians over the repeats, after one run to warm up, and the stages of one more run, which is
-//! slower because each dispatch is timed.
+//! The variables PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE, SLOTS_PER_ACTIVE, WORKGROUPS and SEED change the
+//! settings. Prints a line of JSON: medians over the repeats, after a second of runs to warm up, since a device raises its
+//! clock slowly; and the stages of one more run, which is slower because each dispatch is timed.
 
+use gdel::Points;
 use gdel::generate::{Distribution, generate};
 use gdel::gpu::phase1::{Input, Phase1, Phase1Output, Pick, Settings};
 use gdel::gpu::start::first_tetrahedron;
 use gdel::gpu::{AdapterChoice, Gpu, Profiler};
+use gdel::io::files::read_points;
 use gdel::lattice::Lattice;
 use pollster::block_on;
+use std::path::Path;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -26,18 +30,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         pick: [Pick::Circumcenter, Pick::Centroid, Pick::Random][option("PICK", 0) as usize % 3],
         insert_all: option("INSERT_ALL", 0) != 0,
         min_active: option("MIN_ACTIVE", defaults.min_active),
+        slots_per_active: option("SLOTS_PER_ACTIVE", defaults.slots_per_active),
         workgroups: option("WORKGROUPS", defaults.workgroups),
+        sort: option("SORT", 1) != 0,
         ..defaults
     };
 
     let choice = if adapter.is_empty() { AdapterChoice::Default } else { AdapterChoice::Name(adapter) };
     let gpu = block_on(Gpu::open(&choice))?;
-    let distribution = Distribution::ALL
-        .into_iter()
-        .find(|d| d.name() == kind)
-        .ok_or(format!("no distribution is called {kind:?}"))?;
-    let points: Vec<[f32; 3]> =
-        generate(distribution, count, option("SEED", 1).into()).into_iter().map(|p| p.map(|x| x as f32)).collect();
+    let doubles: Vec<[f64; 3]> = match Distribution::ALL.into_iter().find(|d| d.name() == kind) {
+        Some(distribution) => generate(distribution, count, option("SEED", 1).into()),
+        None => Points::from(&read_points(Path::new(&kind))?.points).iter().collect(),
+    };
+    let points: Vec<[f32; 3]> = doubles.into_iter().map(|p| p.map(|x| x as f32)).collect();
     let clock = std::time::Instant::now();
     let lattice = Lattice::fit((&points).into());
     let position = |i: usize| lattice.coordinates(points[i].map(f64::from)).map(|c| c.value);
@@ -49,7 +54,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
     let pipelines_ms = clock.elapsed().as_secs_f64() * 1e3;
     let mut runs: Vec<Phase1Output> = Vec::new();
-    for _ in 0..repeats.max(1) + 1 {
+    let warm_up = std::time::Instant::now();
+    while runs.is_empty() || warm_up.elapsed().as_secs_f64() < 1.0 {
+        runs = vec![block_on(phase1.run(&gpu, input, &settings, None))?];
+    }
+    for _ in 0..repeats.max(1) {
         runs.push(block_on(phase1.run(&gpu, input, &settings, None))?);
     }
     let mut stages = Vec::new();
@@ -65,10 +74,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let counters = &stats.counters;
     let stages: Vec<String> = stages.iter().map(|(name, ms)| format!("\"{name}\":{ms:.3}")).collect();
     println!(
-        "{{\"input\":\"{kind}\",\"points\":{count},\"adapter\":\"{}\",\"width\":\"{:?}\",\"ms\":{:.2},\"all_ms\":[{}],\
+        "{{\"input\":\"{kind}\",\"points\":{},\"adapter\":\"{}\",\"width\":\"{:?}\",\"ms\":{:.2},\"all_ms\":[{}],\
          \"mesh_readback_ms\":{:.2},\"lattice_ms\":{lattice_ms:.1},\"pipelines_ms\":{pipelines_ms:.0},\"rounds\":{},\
          \"flip_iterations\":{},\"visits\":{},\"flips_23\":{},\"flips_32\":{},\"exact\":{},\"tets\":{},\"failed\":{},\
          \"united\":{},\"doubtful\":{},\"readbacks\":{},\"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
+        points.len(),
         gpu.adapter().name,
         lattice.width(),
         stats.milliseconds,

@@ -1,6 +1,6 @@
-//! Times the engine `gpu` in the plane: `plane [uniform|gaussian|thin-circle|circle|grid] [POINTS] [ADAPTER] [REPEATS]`.
+//! Times the engine `gpu` in the plane: `plane [DISTRIBUTION] [POINTS] [ADAPTER] [REPEATS]`.
 //!
-//! The variables SINGLE (1: coordinates rounded to `f32`), PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE,
+//! The distributions are those of `gdel generate --dim 2`, and `full-grid`, all points of a square grid. //! The variables SINGLE (1: coordinates rounded to `f32`), PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE,
 //! WORKGROUPS and SEED change input and settings (the paper's Figure 12). Prints a line of JSON: medians over the repeats,
 //! after one run to warm up, of the whole run and its phases, points in host memory to mesh in host memory; then the same
 //! for the CPU engine (once; CPU=0 leaves it out) and whether both agree; and the stages of one more run on the device,
@@ -11,35 +11,23 @@ use gdel::gpu::phase1::Pick;
 use gdel::gpu::plane::{Input, Plane, Settings, start::first_triangle};
 use gdel::gpu::{AdapterChoice, Gpu, Profiler};
 use gdel::lattice::Lattice;
-use gdel::plane::{delaunay2d_in_order, hybrid::Hybrid2};
+use gdel::plane::{
+    delaunay2d_in_order,
+    generate::{Distribution2, generate2d},
+    hybrid::Hybrid2,
+};
 use gdel::{Options, Points2};
 use pollster::block_on;
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Mcg;
 use std::time::Instant;
 
+/// The points of a distribution by its name, and all points of a square grid as `full-grid`.
 fn points(kind: &str, count: usize, seed: u64) -> Result<Vec<[f64; 2]>, String> {
-    let mut rng = Pcg64Mcg::seed_from_u64(seed);
-    let around = |rng: &mut Pcg64Mcg, radius: f64| {
-        let angle = std::f64::consts::TAU * rng.random::<f64>();
-        [radius * angle.cos(), radius * angle.sin()]
-    };
-    let side = (count as f64).sqrt().ceil() as usize;
-    let point = |i: usize| match kind {
-        "uniform" => Ok(std::array::from_fn(|_| rng.random())),
-        "gaussian" => {
-            let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
-            Ok(around(&mut rng, radius))
-        }
-        "thin-circle" => {
-            let radius = 1.0 + 0.01 * rng.random::<f64>();
-            Ok(around(&mut rng, radius))
-        }
-        "circle" => Ok(around(&mut rng, 1.0)),
-        "grid" => Ok([(i % side) as f64, (i / side) as f64]),
-        _ => Err(format!("no distribution is called {kind:?}")),
-    };
-    (0..count).map(point).collect()
+    if kind == "full-grid" {
+        let side = (count as f64).sqrt().ceil() as usize;
+        return Ok((0..count).map(|i| [i % side, i / side].map(|x| x as f64)).collect());
+    }
+    let distribution = Distribution2::ALL.into_iter().find(|d| d.name() == kind);
+    Ok(generate2d(distribution.ok_or(format!("no distribution is called {kind:?}"))?, count, seed))
 }
 
 fn median(values: &mut [f64]) -> f64 {
@@ -121,7 +109,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!(
         "{{\"input\":\"{kind}\",\"points\":{count},\"single\":{single},\"adapter\":\"{}\",\"width\":\"{:?}\",\"ms\":{:.2},\
          \"all_ms\":[{}],\"phases_ms\":{{{}}},\"pipelines_ms\":{pipelines_ms:.0},\"fallback\":{:?},\"rounds\":{},\
-         \"flip_iterations\":{},\"visits\":{},\"flips\":{},\"exact\":{},\"hull\":{},\"united\":{},\"readbacks\":{},\
+         \"flip_iterations\":{},\"visits\":{},\"flips\":{},\"exact\":{},\"hull\":{},\"united\":{},\"questions\":{},\"readbacks\":{},\
          \"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
         gpu.adapter().name,
         lattice.width(),
@@ -136,6 +124,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         counters.exact,
         counters.hull,
         output.united.len(),
+        counters.doubtful,
         device.readbacks,
         device.dispatches,
         device.bytes,

@@ -1,5 +1,5 @@
 // Checks the facets of each active tetrahedron as far as the filter decides (§4.4), and lists the entries that it leaves to
-// flip_check_exact. Where that does not follow, they stay active. One invocation an entry of the active list.
+// flip_check_exact. Where that does not follow, they stay active. One or four invocations an entry of the active list.
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read> vertices: array<vec4i>;
 // The entries that are open.
@@ -24,14 +24,17 @@ fn main(
     let entries = workgroupUniformLoad(&entries_here);
     let list = half_of(iteration);
     let bits = control.bid_bits;
-    for (var start = group.x * 256; start < entries; start += groups.x * 256) {
+    let lanes = sharing(entries, groups.x);
+    let step = groups.x * 256 / lanes;
+    for (var start = group.x * 256 / lanes; start < entries; start += step) {
         if local == 0 {
             atomicStore(&open_here, 0u);
         }
         workgroupBarrier();
-        let i = start + local;
+        let i = start + local / lanes;
         var place = NONE;
-        if i < entries && !check_facets(i, list + i, iteration, bits) {
+        let decided = check_facets(i < entries, i, list + i, iteration, bits, local, lanes);
+        if !decided && local % lanes == 0 {
             place = atomicAdd(&open_here, 1u);
         }
         workgroupBarrier();

@@ -1,5 +1,5 @@
-// Joins the tetrahedra of the flips to those around them, and lists the tetrahedra to check next. One invocation an entry
-// of the active list.
+// Joins the tetrahedra of the flips to those around them, and lists the tetrahedra to check next, unless flip_compact does.
+// One invocation an entry of the active list.
 //
 // An outer neighbour that did not change is told; one that did left a message, which is followed. So each facet is written
 // once.
@@ -45,6 +45,7 @@ fn main(
     let list = half_of(iteration);
     let next = half_of(iteration + 1);
     let mark = changed_mark(iteration, control.bid_bits);
+    let collects = entries < control.compact_from;
     for (var start = group.x * 256; start < entries; start += groups.x * 256) {
         if local == 0 {
             atomicStore(&wanted, 0u);
@@ -82,6 +83,7 @@ fn main(
                 join(tet[k], face, mark);
             }
         }
+        count = select(0u, count, collects);
         var at = atomicAdd(&wanted, count);
         workgroupBarrier();
         if local == 0 {

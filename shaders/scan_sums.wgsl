@@ -3,19 +3,25 @@
 //!include shared/scan
 //!include shared/workgroup_scan
 
-@group(0) @binding(0) var<storage, read_write> sums: array<u32>;
+@group(0) @binding(0) var<storage, read> params: ScanParams;
+@group(0) @binding(1) var<storage, read_write> sums: array<u32>;
+
+// The sum of a part; 0 where there is no part.
+fn sum_of(part: u32) -> u32 {
+    return select(0u, sums[part], part * scan_part_size(params.count) < params.count);
+}
 
 @compute @workgroup_size(256)
 fn main(@builtin(local_invocation_index) local: u32) {
     const EACH = SCAN_GROUPS / 256;
     var sum = 0u;
     for (var i = 0u; i < EACH; i++) {
-        sum += sums[local * EACH + i];
+        sum += sum_of(local * EACH + i);
     }
     let scanned = workgroup_scan(sum, local);
     var before = scanned.before;
     for (var i = 0u; i < EACH; i++) {
-        let value = sums[local * EACH + i];
+        let value = sum_of(local * EACH + i);
         sums[local * EACH + i] = before;
         before += value;
     }

@@ -1,5 +1,5 @@
-// Second of three kernels of a radix sort's pass, one workgroup a digit: the digit's counts become the numbers of its
-// occurrences in the tiles before.
+// Second of three kernels of a radix sort's pass, one workgroup a digit, or one invocation where there are few tiles: the digit's
+// counts become the numbers of its occurrences in the tiles before.
 //!include shared/radix
 //!include shared/workgroup_scan
 
@@ -10,9 +10,18 @@
 
 @compute @workgroup_size(256)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
-    let digit = group.x;
     let tiles = radix_tiles(params.count);
     var before = 0u;
+    if tiles <= RADIX_FEW {
+        for (var tile = 0u; tile < tiles; tile++) {
+            let value = counts[local * tiles + tile];
+            counts[local * tiles + tile] = before;
+            before += value;
+        }
+        totals[local] = before;
+        return;
+    }
+    let digit = group.x;
     for (var step = 0u; step < tiles; step += 256) {
         let tile = step + local;
         let at = digit * tiles + tile;

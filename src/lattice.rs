@@ -5,7 +5,10 @@
 //! is known for each point. 31 bits hold grids, voxels and LAS files exactly; 62 bits nearly all `f32` and most `f64`
 //! data.
 
-use crate::{Points, parallel};
+use crate::{
+    Points,
+    parallel::{self, Threads},
+};
 
 /// How the input lies on the lattice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,11 +83,11 @@ fn scale(x: f64, exponent: i32) -> (i128, bool) {
 impl<const D: usize> Lattice<D> {
     /// The lattice of `points`, which must be finite.
     pub fn fit(points: Points<'_, D>) -> Self {
-        Lattice::fit_in_threads(1, points)
+        Lattice::fit_by(Threads::One, points)
     }
 
-    /// The same in up to `threads` threads.
-    pub(crate) fn fit_in_threads(threads: usize, points: Points<'_, D>) -> Self {
+    /// The same by these threads.
+    pub(crate) fn fit_by(threads: Threads, points: Points<'_, D>) -> Self {
         let bounds = parallel::map_ranges(threads, points.len(), |range| {
             let mut low = [f64::INFINITY; D];
             let mut high = [f64::NEG_INFINITY; D];

@@ -1,6 +1,8 @@
-// Marks the triangles of the answer: finite ones that are not flat. Lists those of which the lattice does not prove
-// everything, where a coordinate was rounded: whose orientation, or whose edges' being locally Delaunay, the filter leaves
-// open. The filter's bound counts rounding in. One invocation a slot.
+// Marks the triangles of the answer: finite ones that are not flat. Where coordinates were rounded, asks the host for the
+// signs that the lattice does not prove of the true ones: orientations of triangles and corners of the hull, and whether
+// edges are locally Delaunay. One invocation a slot.
+//
+// The filter's bound counts rounding in, and the exact value has a bound of its own (shared/plane_rounding_wide).
 //
 // Flat triangles, which only the perturbation of the coordinates makes, lie along the hull: a point between two others on
 // a line is inside every circle through these, so no triangle that is not flat has them for an edge.
@@ -10,18 +12,19 @@
 //!include shared/plane_layout
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read> vertices: array<VertexWords>;
-@group(0) @binding(2) var<storage, read> triangles: array<vec4u>;
-@group(0) @binding(3) var<storage, read> neighbors: array<vec4u>;
+@group(0) @binding(2) var<storage, read> pairs: array<vec2u>;
+@group(0) @binding(3) var<storage, read> triangles: array<vec4u>;
+@group(0) @binding(4) var<storage, read> neighbors: array<vec4u>;
 // The words of InputCounts.
-@group(0) @binding(4) var<storage, read> counts: array<u32>;
-@group(0) @binding(5) var<storage, read_write> marks: array<u32>;
-// Slot; edges (bits 0 to 2) and orientation (bit 3) that are open.
-@group(0) @binding(6) var<storage, read_write> doubtful: array<vec2u>;
-//!include shared/plane_exact_{width}
+@group(0) @binding(5) var<storage, read> counts: array<u32>;
+@group(0) @binding(6) var<storage, read_write> marks: array<u32>;
+// As many as there are slots; what finds no room is counted only.
+@group(0) @binding(7) var<storage, read_write> questions: array<Question>;
+//!include shared/plane_predicates
 //!include shared/plane_filter
+//!include shared/plane_rounding_{width}
 
 const COUNT_ROUNDED: u32 = 2;
-const ORIENTATION: u32 = 8;
 
 fn any_rounded(tri: vec3u) -> bool {
     return rounded(tri.x) || rounded(tri.y) || rounded(tri.z);
@@ -31,11 +34,8 @@ fn orientation_filter(tri: vec3u) -> i32 {
     return orient2d_filter(load_high(tri.x), load_high(tri.y), load_high(tri.z));
 }
 
-fn is_flat(tri: vec3u) -> bool {
-    let p = load_position(tri.x);
-    return sign_of_determinant(determinant(
-        difference(load_position(tri.y), p), difference(load_position(tri.z), p)
-    )) == 0;
+fn rounding_leaves_open(tri: vec3u) -> bool {
+    return any_rounded(tri) && orient2d_rounded(load_position(tri.x), load_position(tri.y), load_position(tri.z)) == 0;
 }
 
 fn edge_is_open(tri: vec3u, k: u32, e: u32, infinite: u32) -> bool {
@@ -45,10 +45,26 @@ fn edge_is_open(tri: vec3u, k: u32, e: u32, infinite: u32) -> bool {
     }
     if any(at_infinity) {
         let beyond = select(tri, vec3u(e), at_infinity);
-        return any_rounded(beyond) && orientation_filter(beyond) == 0;
+        return orientation_filter(beyond) == 0 && rounding_leaves_open(beyond);
     }
     return (any_rounded(tri) || rounded(e))
-        && incircle_filter(load_high(tri.x), load_high(tri.y), load_high(tri.z), load_high(e)) == 0;
+        && incircle_filter(load_high(tri.x), load_high(tri.y), load_high(tri.z), load_high(e)) == 0
+        && incircle_rounded(load_position(tri.x), load_position(tri.y), load_position(tri.z), load_position(e)) == 0;
+}
+
+fn input_index(v: u32) -> u32 {
+    var index = v;
+    if v != control.infinite {
+        index = pairs[v].y;
+    }
+    return index;
+}
+
+fn ask(tri: vec3u, beyond: u32) {
+    let at = atomicAdd(&control.doubtful, 1u);
+    if at < control.blocks * BLOCK {
+        questions[at] = Question(vec3u(input_index(tri.x), input_index(tri.y), input_index(tri.z)), beyond);
+    }
 }
 
 @compute @workgroup_size(256)
@@ -59,23 +75,22 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         let tri = triangles[t].xyz;
         let used = any(tri != vec3u(0));
         var kept = used && !any(tri == vec3u(infinite));
-        var open = 0u;
         if kept && orientation_filter(tri) == 0 {
-            kept = !is_flat(tri);
-            open = select(0u, ORIENTATION, !certain && any_rounded(tri));
+            kept = orient2d_exact(load_position(tri.x), load_position(tri.y), load_position(tri.z)) != 0;
+            if rounding_leaves_open(tri) {
+                ask(tri, select(FLAT, COUNTER_CLOCKWISE, kept));
+            }
         }
         marks[t] = u32(kept);
         if used && !certain {
             let near = neighbors[t];
             for (var k = 0u; k < 3; k++) {
                 let u = near[k] >> 2;
-                if u > t && edge_is_open(tri, k, triangles[u][near[k] & 3], infinite) {
-                    open |= 1u << k;
+                let e = triangles[u][near[k] & 3];
+                if u > t && edge_is_open(tri, k, e, infinite) {
+                    ask(vec3u(tri[k], tri[(k + 1) % 3], tri[(k + 2) % 3]), input_index(e));
                 }
             }
-        }
-        if open != 0 {
-            doubtful[atomicAdd(&control.doubtful, 1u)] = vec2u(t, open);
         }
     }
 }

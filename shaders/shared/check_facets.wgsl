@@ -1,5 +1,9 @@
 // Checking the facets of an active tetrahedron (§3.1, §4.2).
 //
+// One invocation looks at all facets of its entry of the active list, until one can be flipped. Where there are so few entries
+// that most of the device would idle, four invocations share one: each looks at one facet, and the first puts together
+// what they found. The outcome is the same.
+//
 // Expects: orient, conflict, control.
 //!include shared/layout
 //!include shared/bids
@@ -8,80 +12,115 @@
 @group(0) @binding(4) var<storage, read_write> status: array<Status>;
 @group(0) @binding(5) var<storage, read_write> actives: array<Active>;
 
-// Checks the facets of the tetrahedron of entry i, which is at `at`, until one can be flipped, and bids for the tetrahedra
-// that this flip would change. False when a sign is open: then everything is still to be checked.
-fn check_facets(i: u32, at: u32, iteration: u32, bits: u32) -> bool {
-    let t = actives[at].tet;
-    let tet = tets[t];
-    let near = neighbors[t];
-    let flags = atomicLoad(&status[t].flags);
-    var check = flags & CHECK;
-    var suspect = (flags >> SUSPECT_SHIFT) & CHECK & ~check;
-    var flip = 0u;
-    var u = NONE;
-    var w = NONE;
-    var open = false;
-    for (var k = 0u; k < 4 && flip == 0 && !open; k++) {
-        if ((check >> k) & 1) == 0 {
-            continue;
-        }
-        u = near[k] >> 2;
-        let face = near[k] & 3;
-        // Where both sides are to check a facet, the lower one does.
-        let theirs = u < t && ((atomicLoad(&status[u].flags) >> face) & 1) != 0;
-        var violated = false;
-        let beyond = tets[u];
-        let e = beyond[face];
-        if !theirs {
-            let sign = conflict(tet, e);
-            violated = sign > 0;
-            open = sign == 0;
-        }
-        if violated {
-            let c = facet(k);
-            let x = vec3u(tet[c.x], tet[c.y], tet[c.z]);
-            var negative = 0u;
-            var edge = 0u;
-            for (var j = 0u; j < 3 && negative < 2 && !open; j++) {
-                let sign = orient(vec4u(x[j], x[(j + 1) % 3], tet[k], e));
-                open = sign == 0;
-                if sign < 0 {
-                    negative += 1;
-                    edge = j;
-                }
+// What was found out about the facets of an entry: those that need no more checking (bits 0–3), and the proposed flip and the
+// facets that cannot be flipped as in Active.outcome. When a sign is open, then this bit.
+const OPEN: u32 = 0x4000;
+// Nothing is to be found out behind a flip or an open sign.
+const ENOUGH: u32 = OPEN | (3u << KIND_SHIFT);
+
+var<workgroup> found_here: array<u32, 256>;
+
+// How many invocations share one of so many entries.
+fn sharing(entries: u32, groups: u32) -> u32 {
+    return select(1u, 4u, entries <= groups * 64);
+}
+
+// What is found out about facet k of t, which is to be checked.
+fn check_facet(t: u32, tet: vec4u, near: vec4u, k: u32) -> u32 {
+    let u = near[k] >> 2;
+    let face = near[k] & 3;
+    var found = 1u << k;
+    // Where both sides are to check a facet, the lower one does.
+    if u < t && ((atomicLoad(&status[u].flags) >> face) & 1) != 0 {
+        return found;
+    }
+    let beyond = tets[u];
+    let e = beyond[face];
+    let violated = conflict(tet, e);
+    if violated == 0 {
+        return OPEN;
+    }
+    if violated > 0 {
+        let c = facet(k);
+        let x = vec3u(tet[c.x], tet[c.y], tet[c.z]);
+        var negative = 0u;
+        var edge = 0u;
+        for (var j = 0u; j < 3 && negative < 2; j++) {
+            let sign = orient(vec4u(x[j], x[(j + 1) % 3], tet[k], e));
+            if sign == 0 {
+                return OPEN;
             }
-            if negative == 0 {
-                flip = FLIP_23;
-            } else if negative == 1 {
-                let opposite = (edge + 2) % 3;
-                w = near[c[opposite]] >> 2;
-                let there = place_of(beyond, x[opposite]);
-                if neighbors[u][there] >> 2 == w {
-                    flip = FLIP_32;
-                }
-            }
-            if flip != 0 {
-                flip = (flip << KIND_SHIFT) | (k << FACET_SHIFT) | (edge << EDGE_SHIFT);
-            } else {
-                suspect |= 1u << k;
+            if sign < 0 {
+                negative += 1;
+                edge = j;
             }
         }
-        if flip == 0 {
-            check &= ~(1u << k);
+        var kind = 0u;
+        if negative == 0 {
+            kind = FLIP_23;
+        } else if negative == 1 {
+            let opposite = (edge + 2) % 3;
+            let there = place_of(beyond, x[opposite]);
+            kind = select(0u, FLIP_32, neighbors[u][there] >> 2 == near[c[opposite]] >> 2);
+        }
+        if kind != 0 {
+            found = (kind << KIND_SHIFT) | (k << FACET_SHIFT) | (edge << EDGE_SHIFT);
+        } else {
+            found |= 1u << (k + SUSPECT_SHIFT);
         }
     }
-    if open {
-        actives[at].outcome = flags & 0xff;
-    } else {
-        actives[at].outcome = flip | (suspect << SUSPECT_SHIFT) | check;
-        if flip != 0 {
-            let bid = bid_of(i, iteration, bits);
-            atomicMax(&status[t].vote, bid);
-            atomicMax(&status[u].vote, bid);
-            if ((flip >> KIND_SHIFT) & 3) == FLIP_32 {
-                atomicMax(&status[w].vote, bid);
+    return found;
+}
+
+// Checks the facets of the tetrahedron of entry i, which is at `at`, and bids for the tetrahedra that its flip would change.
+// False when a sign is open: then everything is still to be checked. `lanes` invocations in a row share an entry, and the first
+// of them learns this. All of the workgroup must call it, also those that have no entry, and not write found_here again
+// before a barrier.
+fn check_facets(has_entry: bool, i: u32, at: u32, iteration: u32, bits: u32, local: u32, lanes: u32) -> bool {
+    let lane = local % lanes;
+    var found = 0u;
+    var t = NONE;
+    var flags = 0u;
+    var near = vec4u(0);
+    if has_entry {
+        t = actives[at].tet;
+        let tet = tets[t];
+        near = neighbors[t];
+        flags = atomicLoad(&status[t].flags);
+        for (var k = lane; k < 4 && (found & ENOUGH) == 0; k += lanes) {
+            if ((flags >> k) & 1) != 0 {
+                found |= check_facet(t, tet, near, k);
             }
         }
     }
-    return !open;
+    if lanes > 1 {
+        found_here[local] = found;
+        workgroupBarrier();
+        if lane == 0 {
+            for (var other = 1u; other < lanes && (found & ENOUGH) == 0; other++) {
+                found |= found_here[local + other];
+            }
+        }
+    }
+    if has_entry && lane == 0 {
+        if (found & OPEN) != 0 {
+            actives[at].outcome = flags & 0xff;
+        } else {
+            let check = flags & CHECK;
+            let suspect = (flags >> SUSPECT_SHIFT) & CHECK & ~check;
+            actives[at].outcome = (found & ~CHECK) | (suspect << SUSPECT_SHIFT) | (check & ~found);
+            let kind = (found >> KIND_SHIFT) & 3;
+            if kind != 0 {
+                let bid = bid_of(i, iteration, bits);
+                let k = (found >> FACET_SHIFT) & 3;
+                atomicMax(&status[t].vote, bid);
+                atomicMax(&status[near[k] >> 2].vote, bid);
+                if kind == FLIP_32 {
+                    let edge = (found >> EDGE_SHIFT) & 3;
+                    atomicMax(&status[near[facet(k)[(edge + 2) % 3]] >> 2].vote, bid);
+                }
+            }
+        }
+    }
+    return (found & OPEN) == 0;
 }

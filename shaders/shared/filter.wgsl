@@ -49,13 +49,8 @@ fn orient3d_filter(a: vec3i, b: vec3i, c: vec3i, d: vec3i) -> i32 {
     let u = scaled(b - a);
     let v = scaled(c - a);
     let w = scaled(d - a);
-    let value = u.z * minor_filter(v, w) - v.z * minor_filter(u, w) + w.z * minor_filter(u, v);
     let k = widening(max(max(abs(u), abs(v)), abs(w)));
-    let p = abs(u) + k;
-    let q = abs(v) + k;
-    let r = abs(w) + k;
-    let permanent = p.z * minor_permanent(q, r) + q.z * minor_permanent(p, r) + r.z * minor_permanent(p, q);
-    return certain_sign(value, (ORIENT3D_ROUNDING + low_word_error(k)) * permanent);
+    return orient3d_certain(u, v, w, k, ORIENT3D_ROUNDING + low_word_error(k), 0);
 }
 
 fn insphere_filter(a: vec3i, b: vec3i, c: vec3i, d: vec3i, e: vec3i) -> i32 {
@@ -63,6 +58,22 @@ fn insphere_filter(a: vec3i, b: vec3i, c: vec3i, d: vec3i, e: vec3i) -> i32 {
     let q = scaled(b - e);
     let r = scaled(c - e);
     let s = scaled(d - e);
+    let k = widening(max(max(abs(p), abs(q)), max(abs(r), abs(s))));
+    return insphere_certain(p, q, r, s, k, INSPHERE_ROUNDING + low_word_error(k), 0);
+}
+
+// det(u, v, w), if it is certain: `error` times the permanent of what is larger by k, and `least`, are what it may be off by.
+fn orient3d_certain(u: vec3f, v: vec3f, w: vec3f, k: f32, error: f32, least: f32) -> i32 {
+    let value = u.z * minor_filter(v, w) - v.z * minor_filter(u, w) + w.z * minor_filter(u, v);
+    let p = abs(u) + k;
+    let q = abs(v) + k;
+    let r = abs(w) + k;
+    let permanent = p.z * minor_permanent(q, r) + q.z * minor_permanent(p, r) + r.z * minor_permanent(p, q);
+    return certain_sign(value, error * permanent + least);
+}
+
+// The in-sphere determinant of the differences to the last point, likewise.
+fn insphere_certain(p: vec3f, q: vec3f, r: vec3f, s: vec3f, k: f32, error: f32, least: f32) -> i32 {
     let pq = minor_filter(p, q);
     let pr = minor_filter(p, r);
     let ps = minor_filter(p, s);
@@ -71,9 +82,8 @@ fn insphere_filter(a: vec3i, b: vec3i, c: vec3i, d: vec3i, e: vec3i) -> i32 {
     let rs = minor_filter(r, s);
     let value = dot(p, p) * (q.z * rs - r.z * qs + s.z * qr) - dot(q, q) * (p.z * rs - r.z * ps + s.z * pr)
         + dot(r, r) * (p.z * qs - q.z * ps + s.z * pq) - dot(s, s) * (p.z * qr - q.z * pr + r.z * pq);
-    let k = widening(max(max(abs(p), abs(q)), max(abs(r), abs(s))));
-    let error = INSPHERE_ROUNDING + low_word_error(k);
-    return certain_sign(value, error * insphere_permanent(abs(p) + k, abs(q) + k, abs(r) + k, abs(s) + k));
+    let permanent = insphere_permanent(abs(p) + k, abs(q) + k, abs(r) + k, abs(s) + k);
+    return certain_sign(value, error * permanent + least);
 }
 
 fn insphere_permanent(p: vec3f, q: vec3f, r: vec3f, s: vec3f) -> f32 {

@@ -14,6 +14,7 @@ struct Control {
     entries: u32,
     entries_before: u32,
     blocks_before: u32,
+    compact_from: u32,
 
     iteration: u32,
     linking: u32,

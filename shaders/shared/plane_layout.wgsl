@@ -13,6 +13,14 @@ struct EdgeFlip {
     next: vec2u,
 }
 
+struct Question {
+    triangle: vec3u,
+    beyond: u32,
+}
+
+const COUNTER_CLOCKWISE: u32 = 0xffffffff;
+const FLAT: u32 = 0xfffffffe;
+
 // The triangle with vertex k replaced.
 fn with_vertex(tri: vec3u, k: u32, v: u32) -> vec3u {
     return select(tri, vec3u(v), vec3u(0, 1, 2) == vec3u(k));

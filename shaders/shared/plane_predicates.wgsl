@@ -28,6 +28,12 @@ fn orient2d_exact(a: Position, b: Position, c: Position) -> i32 {
     return sign_of_determinant(determinant(difference(b, a), difference(c, a)));
 }
 
+// The in-circle determinant with d as the origin.
+fn incircle_volume(u: Row, v: Row, w: Row) -> Volume {
+    let first = accumulate(zero_volume(), lift_of(u), determinant(v, w));
+    return accumulate(accumulate(first, lift_of(v), determinant(w, u)), lift_of(w), determinant(u, v));
+}
+
 // Exchanges two vertices if they are not in the order of their indices.
 fn put_in_order(a: ptr<function, Vertex>, b: ptr<function, Vertex>, parity: ptr<function, i32>) {
     if (*b).index < (*a).index {

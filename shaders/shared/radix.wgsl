@@ -3,6 +3,8 @@
 // A workgroup takes tiles of this many pairs.
 const RADIX_TILE: u32 = 2048;
 const RADIX_DIGITS: u32 = 256;
+// With so many tiles or fewer, one workgroup scans the counts of all digits.
+const RADIX_FEW: u32 = 8;
 
 // Mirrors gpu::stages::sort::SortParams.
 struct SortParams {

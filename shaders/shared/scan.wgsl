@@ -1,4 +1,5 @@
-// How a scan is shared out: each of SCAN_GROUPS workgroups takes a contiguous part, in steps of SCAN_STEP values.
+// How a scan is shared out: each workgroup takes a contiguous part, in steps of SCAN_STEP values. There are at most SCAN_GROUPS
+// of them, and no more than have values.
 
 const SCAN_GROUPS: u32 = 1024;
 // Four values an invocation.
@@ -10,10 +11,15 @@ struct ScanParams {
     count: u32,
 }
 
+// The values of each part but the last.
+fn scan_part_size(count: u32) -> u32 {
+    let steps = (count + SCAN_STEP - 1) / SCAN_STEP;
+    return (steps + SCAN_GROUPS - 1) / SCAN_GROUPS * SCAN_STEP;
+}
+
 // The values of a workgroup: from x up to, and without, y.
 fn scan_part(count: u32, group: u32) -> vec2u {
-    let steps = (count + SCAN_STEP - 1) / SCAN_STEP;
-    let part = (steps + SCAN_GROUPS - 1) / SCAN_GROUPS * SCAN_STEP;
+    let part = scan_part_size(count);
     let start = min(group * part, count);
     return vec2u(start, min(start + part, count));
 }

@@ -11,6 +11,7 @@ pub use order::Order;
 use crate::{
     Error, Mesh3, Options, Points, hilbert,
     lattice::Lattice,
+    parallel::Threads,
     predicates::{collinear, vertices::Vertices},
     stats::{Stats, Stopwatch},
 };
@@ -47,7 +48,7 @@ pub fn delaunay3d_in_order(points: Points<'_>, options: &Options, order: Order) 
         let inserted = insert::insert_all(&vertices, options)?;
         stats.phases.push(("insert", stopwatch.lap()));
         stats.exact = vertices.exact_counts();
-        let finite = inserted.into_mesh(Some(&vertices.into_input_indices()), 1);
+        let finite = inserted.into_mesh(Some(&vertices.into_input_indices()), Threads::One);
         (mesh.tetrahedra, mesh.neighbors, mesh.hull) = (finite.tetrahedra, finite.neighbors, finite.hull);
         stats.phases.push(("finish", stopwatch.lap()));
     }

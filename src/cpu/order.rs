@@ -2,6 +2,7 @@
 //! 2003), each along the Hilbert curve.
 
 use crate::{Points, lattice::Lattice, mesh::NONE};
+use std::cmp::Ordering;
 
 /// An insertion order for the engine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -25,8 +26,9 @@ pub(crate) type Curve<const D: usize> = fn([u32; D], u32) -> u64;
 
 /// Each round of the insertion takes this many bits' power of the points that the next one takes.
 const ROUND_BITS: u32 = 3;
-/// No round but the first has fewer points than this.
-const LEAST_ROUND: usize = 1000;
+/// No round but the first has fewer points than this. The first is one sweep along the curve, which takes quadratic time
+/// where fans grow: on two lines, say.
+const LEAST_ROUND: usize = 100;
 
 pub(crate) fn insertion_order<const D: usize>(
     points: Points<'_, D>,
@@ -35,13 +37,10 @@ pub(crate) fn insertion_order<const D: usize>(
     order: Order,
 ) -> Distinct {
     let mut duplicate_of = vec![NONE; points.len()];
-    let mut distinct = along_curve(points, lattice, curve, &mut duplicate_of);
+    let distinct = along_curve(points, lattice, curve, &mut duplicate_of);
     let order = match order {
         Order::Brio => rounds(distinct),
-        Order::Shuffled(seed) => {
-            distinct.sort_unstable_by_key(|&i| mix(u64::from(i) ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)));
-            distinct
-        }
+        Order::Shuffled(seed) => shuffled(distinct, seed),
     };
     Distinct { order, duplicate_of }
 }
@@ -89,12 +88,8 @@ fn along_curve<const D: usize>(
             push_runs(run, start, done + key_bits.min(bits - done), &mut runs);
             continue;
         }
+        sort_by_place(points, run);
         let point = |entry: u64| points.get(entry as u32 as usize);
-        run.sort_unstable_by(|&i, &j| {
-            // −0 and 0 are the same coordinate.
-            let by_place = point(i).partial_cmp(&point(j)).unwrap_or(std::cmp::Ordering::Equal);
-            by_place.then((i as u32).cmp(&(j as u32)))
-        });
         for equal in run.chunk_by(|&i, &j| point(i) == point(j)) {
             for &duplicate in &equal[1..] {
                 duplicate_of[duplicate as u32 as usize] = equal[0] as u32 as i32;
@@ -104,6 +99,30 @@ fn along_curve<const D: usize>(
     }
     let order = keyed.into_iter().map(|entry| entry as u32);
     if duplicates == 0 { order.collect() } else { order.filter(|&i| duplicate_of[i as usize] == NONE).collect() }
+}
+
+/// Sorts entries, each an index with a key above it in the upper 32 bits: by key, then by the point's coordinates, then by
+/// index. So equal points become neighbours, the lowest index first.
+pub(crate) fn sort_by_place<const D: usize>(points: Points<'_, D>, entries: &mut [u64]) {
+    let point = |entry: u64| points.get(entry as u32 as usize);
+    sort_by(entries, &|i, j| {
+        // −0 and 0 are the same coordinate.
+        let by_place = point(i).partial_cmp(&point(j)).unwrap_or(Ordering::Equal);
+        (i >> 32).cmp(&(j >> 32)).then(by_place).then(i.cmp(&j))
+    });
+}
+
+/// One copy of the sort, which is large, for all kinds of points.
+fn sort_by(entries: &mut [u64], compare: &dyn Fn(u64, u64) -> Ordering) {
+    entries.sort_unstable_by(|&i, &j| compare(i, j));
+}
+
+/// A random order.
+fn shuffled(order: Vec<u32>, seed: u64) -> Vec<u32> {
+    let key = |i: u32| mix(u64::from(i) ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 32;
+    let mut keyed: Vec<u64> = order.into_iter().map(|i| key(i) << 32 | u64::from(i)).collect();
+    keyed.sort_unstable();
+    keyed.into_iter().map(|entry| entry as u32).collect()
 }
 
 /// Splits an order into rounds at random, keeping the order within each; small rounds first.

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use super::MAX_WORKGROUPS;
 use crate::Error;
 
 /// Which adapter to open.
@@ -125,6 +126,15 @@ impl Gpu {
     /// What the device runs on.
     pub fn adapter(&self) -> &AdapterSummary {
         &self.adapter
+    }
+
+    /// Workgroups of a dispatch, at most, for a kernel that strides. On a CPU each one costs time even if it finds nothing to
+    /// do, and more of them than keep its cores busy gain nothing.
+    pub(crate) fn most_workgroups(&self) -> u32 {
+        match self.adapter.software {
+            true => 2 * std::thread::available_parallelism().map_or(2, |n| n.get() as u32),
+            false => MAX_WORKGROUPS,
+        }
     }
 
     /// The largest storage buffer that this device can bind, in bytes.

@@ -122,7 +122,7 @@ pub struct Counters {
     pub failed: u32,
     /// Points that another one stands for, because it lies at the same place.
     pub aside: u32,
-    /// Tetrahedra that are flat, or of which the lattice does not prove everything.
+    /// Tetrahedra that are flat, or of which the lattice does not prove everything; in the plane, questions to the host.
     pub doubtful: u32,
     /// Infinite tetrahedra, counted when they are numbered.
     pub ghosts: u32,
@@ -163,6 +163,9 @@ pub struct Params {
     pub entries_before: u32,
     /// Blocks that there were before there were more.
     pub blocks_before: u32,
+    /// In space: after a flip iteration with at least this many active tetrahedra, the next ones are found by looking at
+    /// all slots (§4.2).
+    pub compact_from: u32,
 }
 
 /// A point that waits to be inserted.

@@ -14,6 +14,7 @@
 
 mod buffers;
 mod device;
+mod iterations;
 mod kernel;
 pub mod layout;
 pub mod phase1;

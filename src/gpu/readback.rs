@@ -5,6 +5,8 @@ use futures_channel::oneshot;
 
 use super::{Gpu, Storage};
 use crate::Error;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::parallel::{Threads, for_chunks};
 
 /// A pool of staging buffers.
 ///
@@ -22,6 +24,8 @@ pub struct Readback {
 pub struct Pending<T> {
     staging: wgpu::Buffer,
     len: usize,
+    /// The bytes that are mapped, from the start: the elements, and what lies behind them in `staging`, up to [`with_room`].
+    mapped_bytes: u64,
     mapped: oneshot::Receiver<Result<(), wgpu::BufferAsyncError>>,
     elements: std::marker::PhantomData<T>,
 }
@@ -36,19 +40,23 @@ impl Readback {
         start: usize,
         len: usize,
     ) -> Pending<T> {
-        let bytes = ((len * size_of::<T>()) as u64).next_multiple_of(4).max(4);
-        let staging = self.staging(gpu, bytes);
+        // In 64 bits, which `usize` need not have.
+        let bytes_of = |elements: usize| (elements as u64 * size_of::<T>() as u64).next_multiple_of(4).max(4);
+        let bytes = bytes_of(len);
+        let bytes_with_room = bytes_of(with_room(len));
+        let staging = self.staging(gpu, bytes, bytes_with_room);
+        let mapped_bytes = bytes_with_room.min(staging.size());
         if len > 0 {
-            let offset = (start * size_of::<T>()) as u64;
+            let offset = start as u64 * size_of::<T>() as u64;
             encoder.copy_buffer_to_buffer(source.buffer(), offset, &staging, 0, bytes);
         }
         let (sender, mapped) = oneshot::channel();
-        encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, ..bytes, move |result| {
+        encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, ..mapped_bytes, move |result| {
             // The receiver may be gone when a run was cancelled.
             let _ = sender.send(result);
         });
         self.count += 1;
-        Pending { staging, len, mapped, elements: std::marker::PhantomData }
+        Pending { staging, len, mapped_bytes, mapped, elements: std::marker::PhantomData }
     }
 
     /// Waits for a readback that `submission` contains, and for no later one.
@@ -73,8 +81,7 @@ impl Readback {
         let result = if pending.len == 0 {
             Vec::new()
         } else {
-            let bytes = (pending.len * size_of::<T>()) as u64;
-            let view = pending.staging.get_mapped_range(..bytes.next_multiple_of(4));
+            let view = pending.staging.get_mapped_range(..pending.mapped_bytes);
             let view = view.map_err(|e| gpu.failure(&e.to_string()))?;
             copied(&view, pending.len)
         };
@@ -110,16 +117,16 @@ impl Readback {
         self.count
     }
 
-    /// The smallest idle staging buffer that is large enough, or a new one, a little larger for next time.
-    fn staging(&mut self, gpu: &Gpu, bytes: u64) -> wgpu::Buffer {
+    /// The smallest idle staging buffer of as many bytes, or a new one of at least `wanted`, a little larger for next time.
+    fn staging(&mut self, gpu: &Gpu, bytes: u64, wanted: u64) -> wgpu::Buffer {
         let fitting =
             (0..self.idle.len()).filter(|&i| self.idle[i].size() >= bytes).min_by_key(|&i| self.idle[i].size());
         match fitting {
             Some(i) => self.idle.swap_remove(i),
             None => gpu.device().create_buffer(&wgpu::BufferDescriptor {
                 label: Some("staging"),
-                size: bytes
-                    .next_multiple_of((bytes.next_power_of_two() / 8).max(4))
+                size: wanted
+                    .next_multiple_of((wanted.next_power_of_two() / 8).max(4))
                     .min(gpu.device().limits().max_buffer_size)
                     .max(bytes),
                 usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
@@ -129,24 +136,36 @@ impl Readback {
     }
 }
 
+/// So many elements are given room, `len` being read, so that Phase 2 need not move the whole to add a few tetrahedra.
+fn with_room(len: usize) -> usize {
+    len + len / 64
+}
+
 /// `len` elements from the bytes of a mapped buffer. Pages of fresh memory are what takes long here, so threads share them.
 #[cfg(not(target_arch = "wasm32"))]
 fn copied<T: Pod>(view: &wgpu::BufferView, len: usize) -> Vec<T> {
-    let mut result: Vec<T> = bytemuck::zeroed_vec(len);
+    let mut result = bytemuck::zeroed_vec(with_room(len));
+    result.truncate(len);
     let target: &mut [u8] = bytemuck::cast_slice_mut(&mut result);
     let bytes = &view[..target.len()];
-    crate::parallel::for_chunks(crate::parallel::available(), target, |start, chunk| {
+    for_chunks(Threads::All, target, |start, chunk| {
         chunk.copy_from_slice(&bytes[start..start + chunk.len()]);
     });
     result
 }
 
 /// `len` elements from the bytes of a mapped buffer, which lie outside of the memory of wasm: to look at them as a slice
-/// would copy them once more.
+/// would copy them once more. The room is copied along, since to fill it, and the rest, with zeros before takes as long as to copy.
 #[cfg(target_arch = "wasm32")]
 fn copied<T: Pod>(view: &wgpu::BufferView, len: usize) -> Vec<T> {
-    let mut result: Vec<T> = bytemuck::zeroed_vec(len);
-    let target: &mut [u8] = bytemuck::cast_slice_mut(&mut result);
-    view.as_uint8array().subarray(0, target.len() as u32).copy_to(target);
+    let bytes = view.as_uint8array();
+    let words = js_sys::Uint32Array::new_with_byte_offset_and_length(
+        &bytes.buffer(),
+        bytes.byte_offset(),
+        bytes.byte_length() / 4,
+    );
+    let cast = bytemuck::allocation::try_cast_vec(words.to_vec());
+    let mut result: Vec<T> = cast.unwrap_or_else(|(_, words)| bytemuck::allocation::pod_collect_to_vec(&words));
+    result.truncate(len);
     result
 }

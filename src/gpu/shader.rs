@@ -5,86 +5,8 @@
 
 use crate::lattice::Width;
 
-macro_rules! sources {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../../shaders/", $name, ".wgsl")))),*]
-    };
-}
-
-/// The files of `shaders/`, by name.
-const SOURCES: &[(&str, &str)] = sources![
-    "certify",
-    "clear_votes",
-    "compact",
-    "fill_free",
-    "flip_check",
-    "flip_check_exact",
-    "flip_commit",
-    "flip_link",
-    "locate",
-    "mark_failed",
-    "mesh_compact",
-    "mesh_mark",
-    "mesh_number",
-    "pick_point",
-    "pick_score",
-    "plane/flip_check",
-    "plane/flip_commit",
-    "plane/flip_link",
-    "plane/locate",
-    "plane/mesh_compact",
-    "plane/mesh_mark",
-    "plane/pick_score",
-    "plane/points_gather",
-    "plane/relocate",
-    "plane/relocate_split",
-    "plane/split",
-    "points_gather",
-    "points_keys",
-    "points_unite",
-    "relocate",
-    "relocate_split",
-    "scan_parts",
-    "scan_reduce",
-    "scan_sums",
-    "sort_count",
-    "sort_scan",
-    "sort_scatter",
-    "split",
-    "waiting_compact",
-    "waiting_mark",
-    "shared/bids",
-    "shared/check_facets",
-    "shared/child_of",
-    "shared/exact_narrow",
-    "shared/exact_wide",
-    "shared/filter",
-    "shared/filter_narrow",
-    "shared/filter_wide",
-    "shared/hilbert",
-    "shared/history",
-    "shared/input",
-    "shared/input_counts",
-    "shared/layout",
-    "shared/limbs",
-    "shared/limbs_128",
-    "shared/plane_child_of",
-    "shared/plane_exact_narrow",
-    "shared/plane_exact_wide",
-    "shared/plane_filter",
-    "shared/plane_layout",
-    "shared/plane_predicates",
-    "shared/plane_signs",
-    "shared/predicates",
-    "shared/radix",
-    "shared/rounded_narrow",
-    "shared/rounded_wide",
-    "shared/scan",
-    "shared/signs",
-    "shared/signs_at_infinity",
-    "shared/signs_filtered",
-    "shared/workgroup_scan",
-];
+/// The files of `shaders/`, by name, as `build.rs` gathers them: without comments.
+const SOURCES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
 
 /// The kernels: the files that can be assembled into a shader of their own, which are those outside `shared/`.
 pub fn kernels() -> impl Iterator<Item = &'static str> {

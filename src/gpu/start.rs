@@ -32,26 +32,32 @@ pub fn first_tetrahedron(width: Width, count: usize, position: impl Fn(usize) ->
 }
 
 fn largest(width: Width, count: usize, stride: usize, position: &dyn Fn(usize) -> [i64; 3]) -> Option<Start> {
-    let sample = || (0..count).step_by(stride);
-    let float = |i: usize| position(i).map(|x| x as f64);
+    let mut sample = (0..count).step_by(stride);
     let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
     let cross =
         |u: [f64; 3], v: [f64; 3]| [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-    let farthest = |measure: &dyn Fn(usize) -> f64| sample().max_by(|&i, &j| measure(i).total_cmp(&measure(j)));
     let square = |u: [f64; 3]| dot(u, u);
+    // The number and the position of the point with the largest measure.
+    let farthest = |measure: &dyn Fn([f64; 3]) -> f64| {
+        let measured = sample.clone().map(|i| {
+            let p = position(i).map(|x| x as f64);
+            (measure(p), i, p)
+        });
+        measured.max_by(|(m, ..), (n, ..)| m.total_cmp(n)).map(|(_, i, p)| (i, p))
+    };
 
-    let a = farthest(&|i| -float(i)[0] - float(i)[1] - float(i)[2])?;
-    let b = farthest(&|i| square(minus(float(i), float(a))))?;
-    let u = minus(float(b), float(a));
-    let c = farthest(&|i| square(cross(u, minus(float(i), float(a)))))?;
-    let normal = cross(u, minus(float(c), float(a)));
-    let d = farthest(&|i| dot(normal, minus(float(i), float(a))).abs())?;
+    let (a, at) = farthest(&|p| -p[0] - p[1] - p[2])?;
+    let (b, to_b) = farthest(&|p| square(minus(p, at)))?;
+    let u = minus(to_b, at);
+    let (c, to_c) = farthest(&|p| square(cross(u, minus(p, at))))?;
+    let normal = cross(u, minus(to_c, at));
+    let (d, _) = farthest(&|p| dot(normal, minus(p, at)).abs())?;
     let mut first = [a, b, c, d];
     let corners = |first: [usize; 4]| first.map(position);
     // Where the volume is lost in rounding, any point that is not coplanar with the three will do.
     if orient3d(width, corners(first)) == 0 {
-        first[3] = sample().find(|&d| orient3d(width, corners([a, b, c, d])) != 0)?;
+        first[3] = sample.find(|&d| orient3d(width, corners([a, b, c, d])) != 0)?;
     }
     if orient3d(width, corners(first)) < 0 {
         first.swap(0, 1);

@@ -1,23 +1,24 @@
 //! The engine `gpu` in the plane: the paper's Phase 1 on the device, and on the CPU exact edge flips for what the lattice
 //! leaves open (§5.6).
 //!
-//! `points → lattice → device → input indices → mesh`, or, where rounding leaves something open,
-//! `points → lattice → device → flips → missing points → mesh`
+//! `points → lattice → device → signs that rounding leaves open → mesh`, or, where one of these is not what the lattice made
+//! of it, `points → lattice → device → open signs → flips → missing points → mesh`
 
 use super::{
     Mesh2, Triangulation2,
-    lawson::{self, GaveUp, NearDelaunay2, Outcome},
+    certify::{near_delaunay, wrong_signs},
+    lawson::{self, GaveUp, Outcome},
 };
 use crate::{
     Error, Options, Points2, cpu,
     gpu::{
         Gpu,
-        plane::{Answer, Input, Mesh, Plane, PlaneOutput, Run, Settings, Unproven, start::first_triangle},
+        plane::{Input, Mesh, Plane, PlaneOutput, Run, Settings, start::first_triangle},
     },
     hybrid::missing_points,
     lattice::{Lattice, Width},
     mesh::NONE,
-    parallel,
+    parallel::Threads,
     predicates::vertices::Vertices2,
     stats::{Fallback, Stats, Stopwatch},
 };
@@ -26,12 +27,10 @@ use crate::{
 #[derive(Debug)]
 pub struct Hybrid2 {
     gpu: Gpu,
-    narrow: Plane,
     wide: Plane,
+    /// For points that the narrow lattice holds, once there were some: compiling takes long.
+    narrow: Option<Plane>,
 }
-
-/// Triangles, half-edges and hull, as [`Mesh2`] has them.
-type Parts = (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>);
 
 impl Hybrid2 {
     /// Compiles the kernels for `gpu`.
@@ -40,9 +39,8 @@ impl Hybrid2 {
     ///
     /// As [`Gpu::catching`].
     pub async fn new(gpu: Gpu) -> Result<Self, Error> {
-        let narrow = Plane::new(&gpu, Width::Narrow).await?;
         let wide = Plane::new(&gpu, Width::Wide).await?;
-        Ok(Hybrid2 { gpu, narrow, wide })
+        Ok(Hybrid2 { gpu, wide, narrow: None })
     }
 
     /// The device.
@@ -76,9 +74,8 @@ impl Hybrid2 {
         let options = &options.monotone();
         let mut stopwatch = Stopwatch::start();
         options.report("lattice", 0.0)?;
-        let threads = parallel::available();
-        points.validate_in_threads(threads)?;
-        let lattice = Lattice::fit_in_threads(threads, points);
+        points.validate_by(Threads::All)?;
+        let lattice = Lattice::fit_by(Threads::All, points);
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let Some(start) = first_triangle(points.len(), position) else {
             return fall_back(points, options, Fallback::Collinear, Stats::default());
@@ -91,20 +88,28 @@ impl Hybrid2 {
         let plane = match lattice.width() {
             Width::Narrow => {
                 self.wide.release();
-                &mut self.narrow
+                match &mut self.narrow {
+                    Some(narrow) => narrow,
+                    none => none.insert(Plane::new(&self.gpu, Width::Narrow).await?),
+                }
             }
             Width::Wide => {
-                self.narrow.release();
+                if let Some(narrow) = &mut self.narrow {
+                    narrow.release();
+                }
                 &mut self.wide
             }
         };
         let input = Input { points, lattice: &lattice, start };
         let mut run = Run::new(plane, &self.gpu, input, *settings, None).await?;
         while run.round().await? {
+            if run.control().1.iterations > settings.most_iterations {
+                return fall_back(points, options, Fallback::Flips, stats);
+            }
             let inserted = 1.0 - f64::from(run.waiting()) / points.len() as f64;
             options.report("phase 1", 0.05 + 0.7 * inserted)?;
         }
-        let PlaneOutput { answer, united, stats: device } = run.finish().await?;
+        let PlaneOutput { mesh, questions, united, stats: device } = run.finish().await?;
         stats.gpu = Some(device.summary(&self.gpu.adapter().name));
         let readback = device.readback_milliseconds / 1e3;
         stats.phases.push(("phase 1", stopwatch.lap() - readback));
@@ -113,24 +118,29 @@ impl Hybrid2 {
         options.report("finish", 0.8)?;
         let mut duplicate_of = vec![NONE; points.len()];
         let missing = missing_points(points, &united, &mut duplicate_of);
-        let (triangles, halfedges, hull) = match answer {
-            Answer::Proven(mesh) => proven(mesh, points.len()),
-            Answer::Unproven(unproven) => {
-                let report = |share: f64| options.report("flip", 0.8 + 0.15 * share);
-                let vertices = Vertices2::of_input(points, &lattice);
-                let near = near_delaunay(&vertices, unproven, &missing);
-                // As many as the CPU engine would take from nothing.
-                let most_flips = 3 * points.len() as u64;
-                let mesh = match lawson::lawson(&vertices, near, most_flips, &report)? {
-                    Outcome::Delaunay(mesh, _) => mesh,
-                    Outcome::GaveUp(GaveUp::Work) => return fall_back(points, options, Fallback::Flips, stats),
-                    Outcome::GaveUp(GaveUp::Folded) => return fall_back(points, options, Fallback::Folded, stats),
-                };
-                stats.exact = vertices.exact_counts();
-                stats.phases.push(("flip", stopwatch.lap()));
-                mesh.into_mesh(&(0..points.len() as u32).collect::<Vec<_>>())
-            }
-        };
+        let mut wrong = questions;
+        if let Some(questions) = wrong.as_mut().filter(|questions| !questions.is_empty()) {
+            (*questions, stats.exact) = wrong_signs(points, &lattice, questions);
+            stats.phases.push(("check", stopwatch.lap()));
+        }
+        let Mesh { mut triangles, mut halfedges, hull } = mesh;
+        let mut hull = in_order(&hull, points.len());
+        if !missing.is_empty() || !wrong.as_ref().is_some_and(Vec::is_empty) {
+            let report = |share: f64| options.report("flip", 0.8 + 0.15 * share);
+            let vertices = Vertices2::of_input(points, &lattice);
+            let triangulation = Triangulation2::from_mesh(triangles, halfedges, &hull, points.len() as u32);
+            let near = near_delaunay(triangulation, wrong.as_deref(), &missing);
+            // As many as the CPU engine would take from nothing.
+            let most_flips = 3 * points.len() as u64;
+            let triangulation = match lawson::lawson(&vertices, near, most_flips, &report)? {
+                Outcome::Delaunay(triangulation, _) => triangulation,
+                Outcome::GaveUp(GaveUp::Work) => return fall_back(points, options, Fallback::Flips, stats),
+                Outcome::GaveUp(GaveUp::Folded) => return fall_back(points, options, Fallback::Folded, stats),
+            };
+            stats.exact = stats.exact + vertices.exact_counts();
+            (triangles, halfedges, hull) = triangulation.into_mesh(&(0..points.len() as u32).collect::<Vec<_>>());
+            stats.phases.push(("flip", stopwatch.lap()));
+        }
         stats.phases.push(("finish", stopwatch.lap()));
         options.report("finish", 1.0)?;
         Ok(Mesh2 { triangles, halfedges, hull, duplicate_of, dimension: 2, stats })
@@ -144,46 +154,12 @@ fn fall_back(points: Points2<'_>, options: &Options, why: Fallback, before: Stat
     Ok(mesh)
 }
 
-/// What the device gives is the answer but for the order of the hull.
-fn proven(mesh: Mesh, points: usize) -> Parts {
-    let Mesh { triangles, halfedges, hull: edges } = mesh;
+/// The vertices of the hull, from the lowest index, by its edges.
+fn in_order(edges: &[[u32; 2]], points: usize) -> Vec<u32> {
     let mut next = vec![u32::MAX; points];
-    for &[from, to] in &edges {
+    for &[from, to] in edges {
         next[from as usize] = to;
     }
-    let mut hull = Vec::with_capacity(edges.len());
-    if let Some(lowest) = edges.iter().map(|&[from, _]| from).min() {
-        hull.push(lowest);
-        hull.extend(
-            std::iter::successors(Some(next[lowest as usize]), |&v| Some(next[v as usize])).take(edges.len() - 1),
-        );
-    }
-    (triangles, halfedges, hull)
-}
-
-/// The device's result in the form that flipping takes. `missing` are points that are no vertices, each with the one that
-/// stands for it.
-fn near_delaunay(vertices: &Vertices2<'_>, unproven: Unproven, missing: &[[u32; 2]]) -> NearDelaunay2 {
-    let Unproven { triangles, neighbors, doubtful } = unproven;
-    let infinite = vertices.len() as u32;
-    let mut start_of = rustc_hash::FxHashMap::default();
-    start_of.extend(missing.iter().map(|&[_, representative]| (representative, 0)));
-    let mut doubtful: Vec<u32> = doubtful.into_iter().map(|[t, _]| t).collect();
-    for (t, &[a, b, c]) in (0..).zip(&triangles) {
-        if ![a, b, c].contains(&infinite) && vertices.orient2d(a, b, c) <= 0 {
-            doubtful.push(t);
-        }
-        if !start_of.is_empty() {
-            for v in [a, b, c] {
-                start_of.entry(v).and_modify(|start| *start = t);
-            }
-        }
-    }
-    doubtful.sort_unstable();
-    doubtful.dedup();
-    NearDelaunay2 {
-        triangulation: Triangulation2::new(triangles, neighbors, infinite),
-        doubtful,
-        missing: missing.iter().map(|&[i, representative]| (i, start_of[&representative])).collect(),
-    }
+    let lowest = edges.iter().map(|&[from, _]| from).min();
+    std::iter::successors(lowest, |&v| Some(next[v as usize])).take(edges.len()).collect()
 }

@@ -120,7 +120,10 @@ impl Triangulation2 {
         let across = self.neighbors[edge as usize / 4][edge as usize % 4];
         let [p, .., q] = self.around(edge);
         // A ghost's conflict with infinity has no meaning.
-        if q == self.infinite {
+        if p == q {
+            // All that was on either side of the edge has been peeled off.
+            false
+        } else if q == self.infinite {
             !self.in_conflict(vertices, across >> 2, p)
         } else {
             !self.in_conflict(vertices, edge >> 2, q)

@@ -5,6 +5,8 @@
 //! The answer is defined as in space: ties are broken as if point *i* (input index) had the lifted height |pᵢ|² + δᵢ with
 //! δ₀ ≫ δ₁ ≫ … > 0 infinitesimal.
 
+#[cfg(feature = "gpu")]
+mod certify;
 pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod hybrid;

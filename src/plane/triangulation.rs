@@ -5,6 +5,13 @@ use crate::{Error, mesh::NONE};
 /// Half-edges are numbered below 2³¹, since -1 is none.
 pub(crate) const MOST_TRIANGLES: usize = i32::MAX as usize / 3;
 
+/// A half-edge of the hull, as a neighbour.
+const OUTSIDE: u32 = NONE as u32;
+
+/// The half-edge that becomes of the edge opposite vertex *k*, and the other way round: turned over, the triangle a, b, c is
+/// a, c, b.
+const TURNED: [usize; 3] = [1, 0, 2];
+
 /// A triangulation of the plane: triangles, and *ghosts*, which join the edges of the hull to one infinite vertex.
 ///
 /// Every triangle has three neighbours, and edge *k* is the one opposite its vertex *k*. So topologically it is a sphere.
@@ -24,6 +31,36 @@ impl Triangulation2 {
     /// Triangles are counter-clockwise with the *y* axis up, ghosts as if the infinite vertex lay outside the hull. Entry
     /// *k* of `neighbors` is across the edge opposite vertex *k*, packed as 4·(triangle) + (edge as it is numbered there).
     pub fn new(triangles: Vec<[u32; 3]>, neighbors: Vec<[u32; 3]>, infinite: u32) -> Self {
+        Triangulation2 { triangles, neighbors, infinite }
+    }
+
+    /// The triangulation of a mesh, from triangles, half-edges and hull as [`Mesh2`](super::Mesh2) has them: the inverse of
+    /// [`Triangulation2::into_mesh`] but for the names. They are not checked. `infinite` is the number of vertices. The mesh's
+    /// triangles keep their numbers, and one ghost for each edge of the hull follows.
+    pub fn from_mesh(mut triangles: Vec<[u32; 3]>, halfedges: Vec<[i32; 3]>, hull: &[u32], infinite: u32) -> Self {
+        let count = triangles.len();
+        let ghost = |i: usize| (count + i % hull.len()) as u32;
+        let mut ghost_from = vec![0; infinite as usize];
+        for (i, &v) in hull.iter().enumerate() {
+            ghost_from[v as usize] = ghost(i);
+        }
+        let mut neighbors: Vec<[u32; 3]> = bytemuck::cast_vec(halfedges);
+        neighbors.extend((0..hull.len()).map(|i| [4 * ghost(i + 1) + 1, 4 * ghost(i + hull.len() - 1), 0]));
+        for t in 0..count {
+            let halfedges = neighbors[t];
+            for (k, edge) in TURNED.into_iter().enumerate() {
+                neighbors[t][edge] = match halfedges[k] {
+                    OUTSIDE => {
+                        let ghost = ghost_from[triangles[t][k] as usize];
+                        neighbors[ghost as usize][2] = (4 * t + edge) as u32;
+                        4 * ghost + 2
+                    }
+                    e => 4 * (e / 3) + TURNED[e as usize % 3] as u32,
+                };
+            }
+            triangles[t].swap(1, 2);
+        }
+        triangles.extend((0..hull.len()).map(|i| [hull[i], hull[(i + 1) % hull.len()], infinite]));
         Triangulation2 { triangles, neighbors, infinite }
     }
 
@@ -75,10 +112,6 @@ impl Triangulation2 {
     /// Triangles, half-edges and hull as [`Mesh2`](super::Mesh2) has them, in the arrays where they lie; vertex *v* becomes
     /// `names[v]`.
     pub fn into_mesh(mut self, names: &[u32]) -> (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>) {
-        const OUTSIDE: u32 = u32::MAX;
-        /// The half-edge that becomes of the edge opposite vertex *k*, and the other way round: turned over, the triangle
-        /// a, b, c is a, c, b.
-        const TURNED: [usize; 3] = [1, 0, 2];
         let mut hull: Vec<u32> = self.hull_vertices().into_iter().map(|v| names[v as usize]).collect();
         let lowest = hull.iter().enumerate().min_by_key(|&(_, v)| v).map_or(0, |(at, _)| at);
         hull.rotate_left(lowest);

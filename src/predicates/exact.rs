@@ -21,45 +21,50 @@ fn sign(value: f64) -> Sign {
     (value > 0.0) as Sign - (value < 0.0) as Sign
 }
 
-/// The coordinates as integers, all multiplied by the same power of two.
-fn big<const D: usize, const N: usize>(points: [[f64; D]; N]) -> [[BigInt; D]; N] {
-    let nonzero = points.as_flattened().iter().filter(|x| **x != 0.0);
-    let least = nonzero.map(|&x| decompose(x).1).min().unwrap_or(0);
-    points.map(|p| {
-        p.map(|x| {
-            let (mantissa, exponent) = decompose(x);
-            if mantissa == 0 {
-                return BigInt::ZERO;
+/// The sign of the determinant whose rows are the differences to the last point, each after its squared length if they are
+/// `lifted`, in big integers. One copy for all predicates: it is large, and hardly ever needed.
+fn big_sign(points: &[&[f64]], lifted: bool) -> Sign {
+    let coordinates = points.iter().copied().flatten().filter(|x| **x != 0.0);
+    // All are multiplied by the same power of two.
+    let least = coordinates.map(|&x| decompose(x).1).min().unwrap_or(0);
+    let integer = |x: f64| {
+        let (mantissa, exponent) = decompose(x);
+        if mantissa == 0 {
+            return BigInt::ZERO;
+        }
+        let magnitude = BigInt::from(mantissa) << (exponent - least);
+        if x < 0.0 { -magnitude } else { magnitude }
+    };
+    let Some((last, others)) = points.split_last() else { return 0 };
+    let rows: Vec<Vec<BigInt>> = others
+        .iter()
+        .map(|p| {
+            let mut row: Vec<BigInt> = p.iter().zip(*last).map(|(&x, &y)| integer(x) - integer(y)).collect();
+            if lifted {
+                row.insert(0, row.iter().map(|x| x * x).sum());
             }
-            let magnitude = BigInt::from(mantissa) << (exponent - least);
-            if x < 0.0 { -magnitude } else { magnitude }
+            row
         })
-    })
-}
-
-fn big_sign(value: &BigInt) -> Sign {
-    match value.sign() {
+        .collect();
+    match determinant(&rows.iter().map(Vec::as_slice).collect::<Vec<_>>()).sign() {
         num_bigint::Sign::Minus => -1,
         num_bigint::Sign::NoSign => 0,
         num_bigint::Sign::Plus => 1,
     }
 }
 
-fn minus<const D: usize>(a: &[BigInt; D], b: &[BigInt; D]) -> [BigInt; D] {
-    std::array::from_fn(|i| &a[i] - &b[i])
-}
-
-fn dot<const D: usize>(a: &[BigInt; D]) -> BigInt {
-    a.iter().map(|x| x * x).sum()
-}
-
-fn det2(a: &[BigInt; 2], b: &[BigInt; 2]) -> BigInt {
-    &a[0] * &b[1] - &a[1] * &b[0]
-}
-
-fn det3(a: &[BigInt; 3], b: &[BigInt; 3], c: &[BigInt; 3]) -> BigInt {
-    &a[0] * (&b[1] * &c[2] - &b[2] * &c[1]) - &a[1] * (&b[0] * &c[2] - &b[2] * &c[0])
-        + &a[2] * (&b[0] * &c[1] - &b[1] * &c[0])
+/// By the cofactors of the first column.
+fn determinant(rows: &[&[BigInt]]) -> BigInt {
+    let [only] = rows else {
+        let mut sum = BigInt::ZERO;
+        for (i, row) in rows.iter().enumerate() {
+            let others = rows.iter().enumerate().filter(|&(j, _)| j != i);
+            let term = &row[0] * &determinant(&others.map(|(_, row)| &row[1..]).collect::<Vec<_>>());
+            if i % 2 == 0 { sum += &term } else { sum -= &term }
+        }
+        return sum;
+    };
+    only[0].clone()
 }
 
 /// The sign of det(b − a, c − a), exactly, for all finite coordinates: positive when a, b, c turn counter-clockwise.
@@ -68,8 +73,7 @@ pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
         let [a, b, c] = [a, b, c].map(|[x, y]| Coord { x, y });
         return sign(robust::orient2d(a, b, c));
     }
-    let [a, b, c] = big([a, b, c]);
-    big_sign(&det2(&minus(&b, &a), &minus(&c, &a)))
+    big_sign(&[&b, &c, &a], false)
 }
 
 /// Positive when d is inside the circle through the counter-clockwise a, b, c; exactly, for all finite coordinates.
@@ -78,9 +82,7 @@ pub fn incircle(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Sign {
         let [a, b, c, d] = [a, b, c, d].map(|[x, y]| Coord { x, y });
         return sign(robust::incircle(a, b, c, d));
     }
-    let [a, b, c, d] = big([a, b, c, d]);
-    let [a, b, c] = [minus(&a, &d), minus(&b, &d), minus(&c, &d)];
-    big_sign(&(dot(&a) * det2(&b, &c) - dot(&b) * det2(&a, &c) + dot(&c) * det2(&a, &b)))
+    big_sign(&[&a, &b, &c, &d], true)
 }
 
 /// The sign of det(b − a, c − a, d − a), exactly, for all finite coordinates.
@@ -89,8 +91,7 @@ pub fn orient3d(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> Sign {
         let [a, b, c, d] = [a, b, c, d].map(|[x, y, z]| Coord3D { x, y, z });
         return -sign(robust::orient3d(a, b, c, d));
     }
-    let [a, b, c, d] = big([a, b, c, d]);
-    big_sign(&det3(&minus(&b, &a), &minus(&c, &a), &minus(&d, &a)))
+    big_sign(&[&b, &c, &d, &a], false)
 }
 
 /// Positive when e is inside the sphere through the positively oriented a, b, c, d; exactly, for all finite coordinates.
@@ -99,11 +100,7 @@ pub fn insphere(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3], e: [f64; 3])
         let [a, b, c, d, e] = [a, b, c, d, e].map(|[x, y, z]| Coord3D { x, y, z });
         return -sign(robust::insphere(a, b, c, d, e));
     }
-    let [a, b, c, d, e] = big([a, b, c, d, e]);
-    let [a, b, c, d] = [a, b, c, d].map(|p| minus(&p, &e));
-    let value = dot(&a) * det3(&b, &c, &d) - dot(&b) * det3(&a, &c, &d) + dot(&c) * det3(&a, &b, &d)
-        - dot(&d) * det3(&a, &b, &c);
-    big_sign(&value)
+    big_sign(&[&a, &b, &c, &d, &e], true)
 }
 
 /// Whether three points lie on a line, exactly, for all finite coordinates.

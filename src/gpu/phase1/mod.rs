@@ -6,14 +6,14 @@
 //! 3. *Last flips*, until no tetrahedron is active.
 //! 4. *Finish*: failed vertices, the mesh without gaps, what rounding leaves open, and the one large readback.
 //!
-//! What it costs, for *n* points in *r* rounds of *k* flip iterations (uniform, 1 M: r = 11, k ≈ 20, of which a third too
-//! many are recorded): dispatches, 15 for the points, 5 + 3¼·k a round, 8 to finish, about 1,400 in all; a flip iteration visits its active tetrahedra (42·n in all, 14·n
-//! flips) at 4 to 10 sectors of 32 bytes each, so 10 to 15 GB of traffic for 1 M points, most of it in the cache. Readbacks:
-//! one of a hundred bytes a round, one or two for the last flips, 8 to finish.
+//! What it costs, for *n* points in *r* rounds of *k* flip iterations (uniform, 1 M: r = 11, k ≈ 20, of which a fifth too
+//! many are recorded): dispatches, 15 for the points, 5 + 3¼·k a round, 8 to finish, about 1,400 in all; a flip iteration
+//! visits its active tetrahedra (42·n in all, 14·n flips) at 4 to 10 sectors of 32 bytes each, so 10 to 15 GB of traffic for
+//! 1 M points, most of it in the cache. Readbacks: one of a hundred bytes a round, one or two for the last flips, 8 to finish.
 //!
-//! Flip iterations are recorded ahead, half as many again as the last round took: those that find nothing to do cost
-//! microseconds, and what they leave undone is taken up in the next round. No flip is lost for want of room: when the
-//! slots or the history run out, flips wait in the active list until there is more.
+//! Flip iterations are recorded ahead, some more than the last round took: those that find nothing to do cost microseconds, and
+//! what they leave undone is taken up in the next round. No flip is lost for want of room: when the slots or the history run
+//! out, flips wait in the active list until there is more.
 
 mod buffers;
 mod memory;
@@ -62,6 +62,14 @@ pub struct Settings {
     /// Nodes of the history, for every point, if the device can bind so many. Uniform points take 3.1 in the round that
     /// takes most; flips for which there is no room wait for the next round.
     pub history: u32,
+    /// After a flip iteration with an active tetrahedron for so many slots, or more of them, the next ones are found by looking
+    /// at all slots; otherwise the flips list them (§4.2). With 0, they always do.
+    pub slots_per_active: u32,
+    /// Flip iterations of a run, past which the engine `gpu` leaves it to the CPU engine. Most inputs take some hundred, a million
+    /// points or not. More are a sign that the flips wait for each other; then the CPU engine is sooner done.
+    pub most_iterations: u32,
+    /// Whether points are ordered along the Hilbert curve, and so are the blocks of their tetrahedra in memory (§4.3).
+    pub sort: bool,
 }
 
 impl Default for Settings {
@@ -73,6 +81,9 @@ impl Default for Settings {
             workgroups: 1024,
             points_per_tail_block: 16,
             history: 4,
+            slots_per_active: 0,
+            most_iterations: 1 << 14,
+            sort: true,
         }
     }
 }

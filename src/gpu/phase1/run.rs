@@ -11,6 +11,7 @@ use crate::{
     Error,
     gpu::{
         Gpu, Pending, Profiler, Recorder,
+        iterations::{Iterations, bid_bits},
         layout::{BLOCK, Counters, FlipNode, NONE, Params, SLOTS_FULL},
         stages::{
             finish::BoundFinish,
@@ -22,9 +23,9 @@ use crate::{
 };
 
 /// Where few signs are left open, exact checks wait for each other: one alone takes longer than all filters of an iteration.
-const SELDOM: u32 = 4;
-/// Where more than one sign for this many visited tetrahedra is left open, they do not wait, since there would be no progress.
-const MANY_EXACT: u64 = 16;
+/// Where they are many, there would be no progress. So they follow the filter in every so many iterations, when the
+/// filter leaves at most one sign open for so many visited tetrahedra.
+const EXACT_EVERY: [(u32, u64); 2] = [(4, 16), (2, 3)];
 
 /// A run that is under way.
 pub struct Run<'a> {
@@ -40,20 +41,12 @@ pub struct Run<'a> {
     read_before: usize,
     /// Nothing is located yet.
     first: bool,
-    /// Flip iterations to record for a round.
-    iterations: u32,
+    iterations: Iterations,
     /// Exact checks follow the filter in every so many iterations of a round.
     exact_every: u32,
-    /// An upper bound of the iteration that the kernels count.
-    counted: u32,
     stats: Phase1Stats,
     clock: Stopwatch,
     round_clock: Stopwatch,
-}
-
-/// The bits of a bidder's number: twice as many as there are slots, because the upper half is for marks.
-fn bid_bits(blocks: u32) -> u32 {
-    33 - (blocks * BLOCK).leading_zeros()
 }
 
 /// The blocks for so many points: theirs, that of infinity, and a tail.
@@ -116,7 +109,7 @@ impl<'a> Run<'a> {
                 let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
                 let Input { points: input, lattice, start } = input;
                 let buffers = &mut point_buffers;
-                let input = PointInput { points: input, lattice, wanted: start.first, sort: true };
+                let input = PointInput { points: input, lattice, wanted: start.first, sort: settings.sort };
                 let device = kernels.points.record(gpu, &mut recorder, buffers, input)?;
                 let mut kernel_point = Vec::new();
                 vertex::append_words(&mut kernel_point, lattice.width(), start.kernel, points);
@@ -148,9 +141,8 @@ impl<'a> Run<'a> {
             read_before: kernels.readback.count(),
             kernels,
             first: true,
-            iterations: 20,
-            exact_every: SELDOM,
-            counted: 0,
+            iterations: Iterations::new(),
+            exact_every: EXACT_EVERY[0].0,
             stats: Phase1Stats { dispatches, submits: 1, ..Phase1Stats::default() },
             clock,
             round_clock,
@@ -191,13 +183,11 @@ impl<'a> Run<'a> {
         let words = self.kernels.readback.receive(gpu, &submission, pending).await?;
         let read: Counters = *bytemuck::from_bytes(bytemuck::cast_slice(&words));
         self.counters = read;
-        self.counted = read.iteration;
-        let used = read.iterations - before.iterations;
+        let used = self.iterations.plan(&before, &read, self.waiting());
         let exact = u64::from(read.exact.wrapping_sub(before.exact));
-        let often = exact * MANY_EXACT > u64::from(read.visits.wrapping_sub(before.visits));
-        self.exact_every = if often { 1 } else { SELDOM };
-        // Rounds grow at first: a flip that waits for the next round costs more than an idle iteration.
-        self.iterations = if used >= self.iterations { (2 * used).min(64) } else { (used + used / 2).clamp(20, 64) };
+        let visits = u64::from(read.visits.wrapping_sub(before.visits));
+        self.exact_every =
+            EXACT_EVERY.iter().find(|(_, for_one)| exact * for_one <= visits).map_or(1, |&(every, _)| every);
         self.stats.submits += 1;
         self.stats.rounds.push(Round {
             inserted: read.inserted - before.inserted,
@@ -220,6 +210,8 @@ impl<'a> Run<'a> {
         // In a small triangulation every flip that waits costs failed vertices in the end.
         let few = self.settings.min_active.min(self.counters.inserted >> 10);
         self.params.min_active = if inserts { few } else { 0 };
+        let slots = self.params.blocks * BLOCK;
+        self.params.compact_from = slots.checked_div(self.settings.slots_per_active).map_or(u32::MAX, |n| n.max(1));
         if self.counters.overflow & SLOTS_FULL != 0 {
             self.grow(&mut recorder)?;
         }
@@ -268,22 +260,20 @@ impl<'a> Run<'a> {
     }
 
     fn workgroups(&self) -> u32 {
-        workgroups(self.params.blocks.saturating_mul(BLOCK)).min(self.settings.workgroups)
+        let most = self.settings.workgroups.min(self.gpu.most_workgroups());
+        workgroups(self.params.blocks.saturating_mul(BLOCK)).min(most)
     }
 
     fn record_flips(&mut self, recorder: &mut Recorder<'_>) {
-        let last = (1u32 << (32 - self.params.bid_bits)) - 2;
-        let mut left = self.iterations;
-        while left > 0 {
-            if self.counted >= last {
-                self.kernels.flip.record_clear_votes(recorder, &self.memory.flip, self.workgroups());
-                self.counted = 1;
-            }
-            let now = left.min(last - self.counted);
-            self.kernels.flip.record(recorder, &self.memory.flip, now, self.exact_every, self.workgroups());
-            self.counted += now;
-            left -= now;
-        }
+        let workgroups = self.workgroups();
+        let (kernels, bound, exact_every) = (&self.kernels.flip, &self.memory.flip, self.exact_every);
+        let compacts = self.settings.slots_per_active > 0;
+        self.iterations.record(
+            recorder,
+            self.params.bid_bits,
+            |recorder, iterations| kernels.record(recorder, bound, iterations, exact_every, compacts, workgroups),
+            |recorder| kernels.record_clear_votes(recorder, bound, workgroups),
+        );
     }
 
     /// More slots in the tail.
@@ -307,7 +297,7 @@ impl<'a> Run<'a> {
         recorder.dispatch(&self.kernels.fill_free, &self.memory.fill_free, self.workgroups());
         // Bids have another form now.
         self.kernels.flip.record_clear_votes(recorder, &self.memory.flip, self.workgroups());
-        self.counted = 1;
+        self.iterations.restart();
         Ok(())
     }
 

@@ -27,7 +27,7 @@ pub struct Buffers {
     pub neighbors: Storage<[u32; 4]>,
     /// The status of each slot; half-edges of the answer in the end.
     pub status: Storage<Status>,
-    /// Both halves of the active list; what rounding leaves open in the end.
+    /// Both halves of the active list; questions in the end.
     pub active: Storage<Active>,
     /// Messages of a flip iteration; scores and points while they are picked; triangles of the answer in the end.
     pub messages: Storage<[u32; 4]>,

@@ -116,7 +116,9 @@ impl Kernels {
             flip_link: self.flip_link.bind(gpu, &[control, neighbors, status, active, messages]),
             clear_votes: self.clear_votes.bind(gpu, &[control, status]),
             relocate: self.relocate.bind(gpu, &[control, vertices, pairs, status, history, waiting]),
-            mesh_mark: self.mesh_mark.bind(gpu, &[control, vertices, triangles, neighbors, counts, marks, active]),
+            mesh_mark: self
+                .mesh_mark
+                .bind(gpu, &[control, vertices, pairs, triangles, neighbors, counts, marks, active]),
             mesh_compact: self
                 .mesh_compact
                 .bind(gpu, &[control, pairs, triangles, neighbors, offsets, messages, status, waiting]),

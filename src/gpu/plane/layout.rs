@@ -35,3 +35,20 @@ pub struct EdgeFlip {
     /// The nodes that changed these later, or [`NONE`](crate::gpu::layout::NONE).
     pub next: [u32; 2],
 }
+
+/// A sign that the lattice does not prove of the true coordinates, because some were rounded; by input indices, where the
+/// number of points is the vertex at infinity.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Question {
+    /// A triangle p, a, b.
+    pub triangle: [u32; 3],
+    /// The vertex opposite the edge a b in the triangle across: it must not be in conflict with this one. If infinity is
+    /// among the triangle's vertices, it must not lie beyond the line of the others. Or [`COUNTER_CLOCKWISE`] or [`FLAT`].
+    pub beyond: u32,
+}
+
+/// In the place of [`Question::beyond`]: the triangle must be counter-clockwise.
+pub const COUNTER_CLOCKWISE: u32 = u32::MAX;
+/// In the place of [`Question::beyond`]: the triangle, which the answer leaves out, must be flat.
+pub const FLAT: u32 = u32::MAX - 1;

@@ -5,8 +5,8 @@
 //!    until (nearly) none is active; the waiting points follow the history of the flips.
 //! 3. *Last flips*, until no triangle is active. Flipping never gets stuck in the plane, so the result is the Delaunay
 //!    triangulation of the lattice's points, with its coordinates perturbed.
-//! 4. *Answer*: flat triangles and infinite ones left out, in input indices; or, where coordinates were rounded and the
-//!    filter leaves something open, the triangulation as it is, for the CPU to finish.
+//! 4. *Answer*: flat triangles and infinite ones left out, in input indices. Where coordinates were rounded, also the signs
+//!    that the lattice leaves open, as questions to the CPU.
 //!
 //! Dispatches, for *r* rounds of *k* flip iterations: 15 for the points, 5 + 3·k a round, 5 for the answer. Readbacks: one
 //! of the counters a round, 6 for the answer.
@@ -33,6 +33,7 @@ use crate::{
     stats::{GpuStats, Round},
 };
 use kernels::Kernels;
+use layout::Question;
 use start::Start;
 
 /// How a run works.
@@ -52,6 +53,10 @@ pub struct Settings {
     /// Nodes of the history, for every point, if the device can bind so many; flips for which there is no room wait for
     /// the next round.
     pub history: u32,
+    /// Flip iterations of a run, past which the engine `gpu` leaves it to the CPU engine. Most inputs take some hundred, a million
+    /// points or not. More are a sign that the flips wait for each other, as where a fan of flat triangles is turned over; then the
+    /// CPU engine is sooner done.
+    pub most_iterations: u32,
 }
 
 impl Default for Settings {
@@ -63,6 +68,7 @@ impl Default for Settings {
             min_active: 1024,
             workgroups: 1024,
             history: 2,
+            most_iterations: 1 << 12,
         }
     }
 }
@@ -119,7 +125,7 @@ impl PlaneStats {
     }
 }
 
-/// The answer, in input indices and as [`Mesh2`](crate::plane::Mesh2) has it, but for the hull.
+/// Triangles in input indices and as [`Mesh2`](crate::plane::Mesh2) has it, but for the hull.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Mesh {
     /// Three vertices a triangle, clockwise with the *y* axis up, none flat.
@@ -131,34 +137,17 @@ pub struct Mesh {
     pub hull: Vec<[u32; 2]>,
 }
 
-/// The triangulation of the lattice's perturbed points, with flat triangles and infinite ones.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Unproven {
-    /// Three input indices a triangle; the number of points is the vertex at infinity.
-    pub triangles: Vec<[u32; 3]>,
-    /// Entry *k* is 4·triangle + edge across the edge opposite vertex *k*.
-    pub neighbors: Vec<[u32; 3]>,
-    /// Triangles, ascending, of which the lattice does not prove everything, with what is open: whether edge *k* is locally
-    /// Delaunay (bit *k*), or the orientation (bit 3). Each edge is listed with one of its triangles.
-    pub doubtful: Vec<[u32; 2]>,
-}
-
-/// The result.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Answer {
-    /// All of it is true of the true coordinates.
-    Proven(Mesh),
-    /// Coordinates were rounded to the lattice, which leaves something open.
-    Unproven(Unproven),
-}
-
 /// What a run gives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaneOutput {
-    /// The triangulation.
-    pub answer: Answer,
+    /// The Delaunay triangulation of the lattice's points; that of the true points, if all `questions` have the right
+    /// answer.
+    pub mesh: Mesh,
+    /// What the lattice does not prove of it, because coordinates were rounded; `None` if that is more than the device has
+    /// room for.
+    pub questions: Option<Vec<Question>>,
     /// Points that are vertices of no triangle, with that of the point at the same place of the lattice: exact duplicates,
-    /// and, in an unproven answer, points that were rounded to the same place.
+    /// and points that were rounded to the same place.
     pub united: Vec<[u32; 2]>,
     /// What the run did.
     pub stats: PlaneStats,

@@ -1,15 +1,16 @@
 //! A run: what the host records, and what it reads back.
 
 use super::{
-    Answer, Buffers, Input, Mesh, Plane, PlaneOutput, PlaneStats, Settings, Unproven,
+    Buffers, Input, Mesh, Plane, PlaneOutput, PlaneStats, Settings,
     kernels::{Bound, Kernels},
-    layout::{EdgeFlip, PLANE_BLOCK, blocks},
+    layout::{EdgeFlip, PLANE_BLOCK, Question, blocks},
     vertex,
 };
 use crate::{
     Error,
     gpu::{
         Gpu, Pending, Profiler, Readback, Recorder,
+        iterations::{Iterations, bid_bits},
         layout::{BLOCK, Counters, NONE, Params},
         phase1::{COUNTER_WORDS, PARAM_WORDS},
         stages::points::{DevicePoints, PointBuffers, PointInput},
@@ -67,10 +68,7 @@ pub struct Run<'a> {
     read_before: usize,
     /// Nothing is located yet.
     first: bool,
-    /// Flip iterations to record for a round.
-    iterations: u32,
-    /// An upper bound of the iteration that the kernels count.
-    counted: u32,
+    iterations: Iterations,
     stats: PlaneStats,
     clock: Stopwatch,
     round_clock: Stopwatch,
@@ -141,8 +139,7 @@ impl<'a> Run<'a> {
                 infinite: points,
                 blocks,
                 history,
-                // Twice as many as there are slots, because the upper half is for marks.
-                bid_bits: 33 - (blocks * BLOCK).leading_zeros(),
+                bid_bits: bid_bits(blocks),
                 pick: settings.pick as u32,
                 entries: points,
                 ..Params::default()
@@ -153,8 +150,7 @@ impl<'a> Run<'a> {
             read_before: plane.readback.count(),
             plane,
             first: true,
-            iterations: 20,
-            counted: 0,
+            iterations: Iterations::new(),
             stats: PlaneStats { dispatches, submits: 1, ..PlaneStats::default() },
             clock,
             round_clock,
@@ -194,10 +190,7 @@ impl<'a> Run<'a> {
         let words = self.plane.readback.receive(gpu, &submission, pending).await?;
         let read: Counters = *bytemuck::from_bytes(bytemuck::cast_slice(&words));
         self.counters = read;
-        self.counted = read.iteration;
-        let used = read.iterations - before.iterations;
-        // Rounds grow at first: a flip that waits for the next round costs more than an idle iteration.
-        self.iterations = if used >= self.iterations { (2 * used).min(64) } else { (used + used / 2).clamp(20, 64) };
+        let used = self.iterations.plan(&before, &read, self.waiting());
         self.stats.submits += 1;
         self.stats.rounds.push(Round {
             inserted: read.inserted - before.inserted,
@@ -262,22 +255,19 @@ impl<'a> Run<'a> {
     }
 
     fn workgroups(&self) -> u32 {
-        workgroups(self.params.blocks * BLOCK).min(self.settings.workgroups)
+        let most = self.settings.workgroups.min(self.gpu.most_workgroups());
+        workgroups(self.params.blocks * BLOCK).min(most)
     }
 
     fn record_flips(&mut self, recorder: &mut Recorder<'_>) {
-        let last = (1u32 << (32 - self.params.bid_bits)) - 2;
-        let mut left = self.iterations;
-        while left > 0 {
-            if self.counted >= last {
-                self.plane.kernels.record_clear_votes(recorder, &self.memory.bound, self.workgroups());
-                self.counted = 1;
-            }
-            let now = left.min(last - self.counted);
-            self.plane.kernels.record_flips(recorder, &self.memory.bound, now, self.workgroups());
-            self.counted += now;
-            left -= now;
-        }
+        let workgroups = self.workgroups();
+        let (kernels, bound) = (&self.plane.kernels, &self.memory.bound);
+        self.iterations.record(
+            recorder,
+            self.params.bid_bits,
+            |recorder, iterations| kernels.record_flips(recorder, bound, iterations, workgroups),
+            |recorder| kernels.record_clear_votes(recorder, bound, workgroups),
+        );
     }
 
     /// Makes the answer and reads it back.
@@ -289,35 +279,26 @@ impl<'a> Run<'a> {
         let gpu = self.gpu;
         let workgroups = self.workgroups();
         let profiler = self.profiler.take();
-        let (submission, counters, counts, triangles) = gpu
+        let (submission, counters, triangles) = gpu
             .catching("the end of the plane", || {
                 let mut recorder = Recorder::new(gpu, profiler);
                 self.plane.kernels.record_mesh(&mut recorder, &self.memory.bound, workgroups);
                 self.stats.dispatches += recorder.dispatches();
                 let encoder = recorder.encoder();
-                let Memory { buffers, bound } = &self.memory;
-                let triangles = self.plane.readback.copy(gpu, encoder, bound.sums(), Bound::COUNT, 1);
-                let counts = self.plane.readback.copy(gpu, encoder, &buffers.points.counts, 0, 1);
+                let triangles = self.plane.readback.copy(gpu, encoder, self.memory.bound.sums(), Bound::COUNT, 1);
                 let counters = self.read_counters(encoder);
-                Ok((recorder.submit(gpu), counters, counts, triangles))
+                Ok((recorder.submit(gpu), counters, triangles))
             })
             .await?;
         let words = self.plane.readback.receive(gpu, &submission, counters).await?;
-        let counts = self.plane.readback.receive(gpu, &submission, counts).await?[0];
         let triangles = self.plane.readback.receive(gpu, &submission, triangles).await?[0] as usize;
         self.counters = *bytemuck::from_bytes(bytemuck::cast_slice(&words));
         self.stats.milliseconds = self.clock.lap() * 1e3;
 
         let Run { plane, params, counters, points, memory, read_before, mut stats, mut clock, .. } = self;
         let readback = &mut plane.readback;
-        let count = params.infinite as usize;
-        let is_proven = counters.doubtful == 0 && counts.united == counts.duplicates;
-        let answer = if is_proven {
-            Answer::Proven(read_mesh(gpu, readback, &memory.buffers, triangles, counters.hull as usize).await?)
-        } else {
-            Answer::Unproven(read_unproven(gpu, readback, &memory.buffers, counters.doubtful as usize).await?)
-        };
-        let aside = if counters.aside > 0 { count } else { 0 };
+        let (mesh, questions) = read_answer(gpu, readback, &memory.buffers, triangles, &counters).await?;
+        let aside = if counters.aside > 0 { params.infinite as usize } else { 0 };
         let united = readback.read(gpu, &memory.buffers.points.united_with, 0, aside).await?;
         stats.readback_milliseconds = clock.lap() * 1e3;
         stats.counters = counters;
@@ -326,21 +307,25 @@ impl<'a> Run<'a> {
         stats.bytes = memory.buffers.bytes() + memory.bound.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
         plane.kept = Kept { points, memory: Some(memory) };
         Ok(PlaneOutput {
-            answer,
+            mesh,
+            questions,
             united: (0..).zip(united).filter(|&(_, other)| other != NONE).map(|(i, other)| [i, other]).collect(),
             stats,
         })
     }
 }
 
-async fn read_mesh(
+/// The mesh, and the questions if there was room for them.
+async fn read_answer(
     gpu: &Gpu,
     readback: &mut Readback,
     b: &Buffers,
     triangles: usize,
-    hull: usize,
-) -> Result<Mesh, Error> {
-    let (first, vertices, submission, halfedges, hull) = gpu
+    counters: &Counters,
+) -> Result<(Mesh, Option<Vec<Question>>), Error> {
+    let asked = counters.doubtful as usize;
+    let has_room = asked <= b.triangles.len();
+    let (first, vertices, submission, halfedges, hull, questions) = gpu
         .catching("the result of the plane", || {
             // The host takes the first part while the device sends the second.
             let mut recorder = Recorder::new(gpu, None);
@@ -349,43 +334,17 @@ async fn read_mesh(
             let mut recorder = Recorder::new(gpu, None);
             let encoder = recorder.encoder();
             let halfedges = readback.copy(gpu, encoder, &b.status.seen_as(), 0, triangles);
-            let hull = readback.copy(gpu, encoder, &b.waiting.seen_as(), 0, hull);
-            Ok((first, vertices, recorder.submit(gpu), halfedges, hull))
+            let hull = readback.copy(gpu, encoder, &b.waiting.seen_as(), 0, counters.hull as usize);
+            let asked = if has_room { asked } else { 0 };
+            let questions = readback.copy(gpu, encoder, &b.active.seen_as(), 0, asked);
+            Ok((first, vertices, recorder.submit(gpu), halfedges, hull, questions))
         })
         .await?;
-    Ok(Mesh {
+    let mesh = Mesh {
         triangles: readback.receive(gpu, &first, vertices).await?,
         halfedges: readback.receive(gpu, &submission, halfedges).await?,
         hull: readback.receive(gpu, &submission, hull).await?,
-    })
-}
-
-/// The slots, without the unused ones and with the places in the input as vertices.
-async fn read_unproven(gpu: &Gpu, readback: &mut Readback, b: &Buffers, open: usize) -> Result<Unproven, Error> {
-    let (submission, slots, near, pairs, open) = gpu
-        .catching("the result of the plane", || {
-            let mut recorder = Recorder::new(gpu, None);
-            let encoder = recorder.encoder();
-            let slots = readback.copy(gpu, encoder, &b.triangles, 0, b.triangles.len());
-            let near = readback.copy(gpu, encoder, &b.neighbors, 0, b.neighbors.len());
-            let pairs = readback.copy(gpu, encoder, &b.points.pairs, 0, b.points.pairs.len());
-            let open = readback.copy(gpu, encoder, &b.active.seen_as::<[u32; 2]>(), 0, open);
-            Ok((recorder.submit(gpu), slots, near, pairs, open))
-        })
-        .await?;
-    let slots = readback.receive(gpu, &submission, slots).await?;
-    let near = readback.receive(gpu, &submission, near).await?;
-    let pairs = readback.receive(gpu, &submission, pairs).await?;
-    let open = readback.receive(gpu, &submission, open).await?;
-    let mut number = vec![NONE; slots.len()];
-    let mut triangles = Vec::new();
-    for (number, [x, y, z, _]) in number.iter_mut().zip(slots).filter(|(_, slot)| *slot != [0; 4]) {
-        *number = triangles.len() as u32;
-        triangles.push([x, y, z].map(|v| pairs.get(v as usize).map_or(v, |&[_, point]| point)));
-    }
-    let used = number.iter().zip(near).filter(|&(&number, _)| number != NONE);
-    let neighbors = used.map(|(_, [x, y, z, _])| [x, y, z].map(|n| 4 * number[n as usize >> 2] + (n & 3))).collect();
-    let mut doubtful: Vec<[u32; 2]> = open.into_iter().map(|[t, open]| [number[t as usize], open]).collect();
-    doubtful.sort_unstable();
-    Ok(Unproven { triangles, neighbors, doubtful })
+    };
+    let questions = readback.receive(gpu, &submission, questions).await?;
+    Ok((mesh, has_room.then_some(questions)))
 }

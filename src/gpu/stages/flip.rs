@@ -12,6 +12,7 @@ pub struct Flip {
     check_exact: Kernel,
     commit: Kernel,
     link: Kernel,
+    compact: Kernel,
     clear_votes: Kernel,
 }
 
@@ -22,6 +23,7 @@ pub struct BoundFlip {
     check_exact: wgpu::BindGroup,
     commit: wgpu::BindGroup,
     link: wgpu::BindGroup,
+    compact: wgpu::BindGroup,
     clear_votes: wgpu::BindGroup,
 }
 
@@ -34,6 +36,7 @@ impl Flip {
             check_exact: kernel("flip_check_exact"),
             commit: kernel("flip_commit"),
             link: kernel("flip_link"),
+            compact: kernel("flip_compact"),
             clear_votes: kernel("clear_votes"),
         }
     }
@@ -52,18 +55,21 @@ impl Flip {
                 .commit
                 .bind(gpu, &[control, tets, neighbors, status, active, free, messages, b.history.buffer()]),
             link: self.link.bind(gpu, &[control, neighbors, status, active, free, messages]),
+            compact: self.compact.bind(gpu, &[control, status, active]),
             clear_votes: self.clear_votes.bind(gpu, &[control, status]),
         }
     }
 
     /// Records flip iterations. Those that find too few active tetrahedra do nothing. What the filter leaves open is decided
-    /// in every `exact_every`th, and in the last one.
+    /// in every `exact_every`th, and in the last one. `compacts` says whether one may have so many active tetrahedra that the
+    /// next ones are found by compaction (§4.2).
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
         bound: &BoundFlip,
         iterations: u32,
         exact_every: u32,
+        compacts: bool,
         workgroups: u32,
     ) {
         for i in 1..=iterations {
@@ -77,6 +83,10 @@ impl Flip {
             recorder.dispatch(&self.commit, &bound.commit, workgroups);
             recorder.stage("flip: link");
             recorder.dispatch(&self.link, &bound.link, workgroups);
+            if compacts {
+                recorder.stage("flip: compact");
+                recorder.dispatch(&self.compact, &bound.compact, workgroups);
+            }
         }
     }
 

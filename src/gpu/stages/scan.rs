@@ -8,8 +8,10 @@ use crate::{
     lattice::Width,
 };
 
-/// The workgroups that share a scan. `SCAN_GROUPS` in `shaders/shared/scan.wgsl`.
+/// The workgroups that share a scan, at most. `SCAN_GROUPS` in `shaders/shared/scan.wgsl`.
 pub const GROUPS: usize = 1024;
+/// The values that a workgroup takes at a time. `SCAN_STEP` in `shaders/shared/scan.wgsl`.
+pub const STEP: usize = 1024;
 
 /// What the kernels of a scan are told. Mirrors `ScanParams` in `shaders/shared/scan.wgsl`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
@@ -33,6 +35,8 @@ pub struct BoundScan {
     /// Entry [`GROUPS`] is the sum of all values.
     sums: Storage<u32>,
     bindings: [wgpu::BindGroup; 3],
+    /// Those that have values.
+    groups: u32,
 }
 
 impl Scan {
@@ -58,18 +62,19 @@ impl Scan {
         let sums = Storage::new(gpu, "scan sums", GROUPS + 1)?;
         let bindings = [
             self.reduce.bind(gpu, &[params.buffer(), values.buffer(), sums.buffer()]),
-            self.sums.bind(gpu, &[sums.buffer()]),
+            self.sums.bind(gpu, &[params.buffer(), sums.buffer()]),
             self.parts.bind(gpu, &[params.buffer(), values.buffer(), sums.buffer(), offsets.buffer()]),
         ];
-        Ok(BoundScan { sums, bindings })
+        let groups = values.len().div_ceil(STEP).clamp(1, GROUPS) as u32;
+        Ok(BoundScan { sums, bindings, groups })
     }
 
     /// Records a scan.
     pub fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundScan) {
         let [reduce, sums, parts] = &bound.bindings;
-        recorder.dispatch(&self.reduce, reduce, GROUPS as u32);
+        recorder.dispatch(&self.reduce, reduce, bound.groups);
         recorder.dispatch(&self.sums, sums, 1);
-        recorder.dispatch(&self.parts, parts, GROUPS as u32);
+        recorder.dispatch(&self.parts, parts, bound.groups);
     }
 }
 

@@ -15,6 +15,8 @@ use crate::{
 pub const TILE: usize = 2048;
 /// The values of a digit. `RADIX_DIGITS` in `shaders/shared/radix.wgsl`.
 const DIGITS: usize = 256;
+/// A thread a digit is enough for so many tiles. `RADIX_FEW` in `shaders/shared/radix.wgsl`.
+pub const FEW: u32 = 8;
 const DIGIT_BITS: u32 = DIGITS.trailing_zeros();
 
 /// What the kernels of a pass are told. Mirrors `SortParams` in `shaders/shared/radix.wgsl`.
@@ -86,7 +88,7 @@ impl Sort {
         let workgroups = bound.tiles.clamp(1, MAX_WORKGROUPS);
         for [count, scan, scatter] in &bound.passes {
             recorder.dispatch(&self.count, count, workgroups);
-            recorder.dispatch(&self.scan, scan, DIGITS as u32);
+            recorder.dispatch(&self.scan, scan, if bound.tiles <= FEW { 1 } else { DIGITS as u32 });
             recorder.dispatch(&self.scatter, scatter, workgroups);
         }
     }

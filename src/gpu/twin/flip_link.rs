@@ -4,8 +4,8 @@ use crate::gpu::layout::{Active, BLOCK, CHECK, DONE, FLIP_23, SLOT_SHIFT};
 
 use super::State;
 
-/// Joins the new tetrahedra to those around them, and lists the tetrahedra to check next. One thread an entry of the
-/// active list.
+/// Joins the new tetrahedra to those around them, and lists the tetrahedra to check next, unless [`flip_compact`] does. One
+/// thread an entry of the active list.
 ///
 /// An outer neighbour that did not change is told; one that did left a message, which is followed. So each facet is
 /// written once.
@@ -49,6 +49,27 @@ pub fn flip_link(state: &mut State) {
         }
     }
     state.counters.iteration = iteration + 1;
+    if compacts(state, iteration) {
+        state.counters.listed[1 - half] = 0;
+    }
+}
+
+/// Lists the tetrahedra to check next in the order of their slots, where there are very many (§4.2). One thread a slot.
+pub fn flip_compact(state: &mut State) {
+    let iteration = state.counters.linking;
+    if !compacts(state, iteration) {
+        return;
+    }
+    for t in 0..state.status.len() {
+        if state.status[t].flags & CHECK != 0 {
+            append(state, (iteration as usize + 1) & 1, t as u32);
+        }
+    }
+}
+
+/// Whether so many tetrahedra were active in an iteration that the next ones are found by looking at all slots.
+fn compacts(state: &State, iteration: u32) -> bool {
+    !state.is_idle(iteration) && state.counters.listed[(iteration & 1) as usize] >= state.params.compact_from
 }
 
 fn join(state: &mut State, mark: u32, t: u32, face: u32) {

@@ -20,7 +20,7 @@ mod validate;
 
 pub use flip_check::flip_check;
 pub use flip_commit::flip_commit;
-pub use flip_link::flip_link;
+pub use flip_link::{flip_compact, flip_link};
 pub use locate::{locate, start};
 pub use mark_failed::mark_failed;
 pub use pick::{pick_point, pick_score};

@@ -58,6 +58,7 @@ impl State {
                 history,
                 entries: infinite,
                 bid_bits: 33 - (slots as u32).leading_zeros(),
+                compact_from: u32::MAX,
                 ..Params::default()
             },
             first: [0; 4],

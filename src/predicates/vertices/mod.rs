@@ -6,6 +6,7 @@ mod space;
 use crate::{
     Points,
     lattice::{Lattice, Width},
+    predicates::Sign,
     stats::ExactCounts,
 };
 use std::cell::Cell;
@@ -135,19 +136,14 @@ impl<'a, const D: usize> Vertices<'a, D> {
         vertices
     }
 
-    /// Others of the same points, for another thread, if nothing is stored. They count for themselves.
-    pub(crate) fn again(&self) -> Option<Self> {
-        self.coordinates.is_empty().then(|| Vertices::of_input(self.input, &self.lattice))
+    /// What [`Vertices::of_input`] makes others of, for another thread, if nothing is stored.
+    pub(crate) fn source(&self) -> Option<(Points<'a, D>, &Lattice<D>)> {
+        self.coordinates.is_empty().then_some((self.input, &self.lattice))
     }
 
     /// Adds what others of the same points have counted.
     pub(crate) fn add_counts(&self, more: ExactCounts) {
-        let counts = self.counts.get();
-        self.counts.set(ExactCounts {
-            integer: counts.integer + more.integer,
-            expansion: counts.expansion + more.expansion,
-            symbolic: counts.symbolic + more.symbolic,
-        });
+        self.counts.set(self.counts.get() + more);
     }
 
     /// The number of vertices.
@@ -181,7 +177,29 @@ impl<'a, const D: usize> Vertices<'a, D> {
         self.counts.get()
     }
 
-    /// The coordinates of vertex `v`, stored or not. The predicates ask whether they are stored once for all vertices.
+    /// A sign from the coordinates of vertices, stored or not: that is asked once for all of them.
+    #[inline(always)]
+    fn sign_of<const N: usize>(
+        &self,
+        vertices: [u32; N],
+        sign: impl Fn(&Self, [u32; N], [[f64; D]; N]) -> Sign,
+    ) -> Sign {
+        if self.coordinates.is_empty() {
+            return self.computed_sign_of(vertices, sign);
+        }
+        sign(self, vertices, vertices.map(|v| self.coordinates[v as usize]))
+    }
+
+    #[inline(never)]
+    fn computed_sign_of<const N: usize>(
+        &self,
+        vertices: [u32; N],
+        sign: impl Fn(&Self, [u32; N], [[f64; D]; N]) -> Sign,
+    ) -> Sign {
+        sign(self, vertices, vertices.map(|v| self.computed(v)))
+    }
+
+    /// The coordinates of vertex `v`, stored or not.
     fn coordinate(&self, v: u32) -> [f64; D] {
         self.coordinates.get(v as usize).copied().unwrap_or_else(|| self.computed(v))
     }

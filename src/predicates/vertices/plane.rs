@@ -7,15 +7,7 @@ impl Vertices2<'_> {
     /// The sign of det(b − a, c − a): positive when a, b, c turn counter-clockwise, the y axis pointing up.
     #[inline]
     pub fn orient2d(&self, a: u32, b: u32, c: u32) -> Sign {
-        if self.coordinates.is_empty() {
-            return self.orient2d_computed([a, b, c]);
-        }
-        self.orient2d_at([a, b, c], [a, b, c].map(|v| self.coordinates[v as usize]))
-    }
-
-    #[inline(never)]
-    fn orient2d_computed(&self, vertices: [u32; 3]) -> Sign {
-        self.orient2d_at(vertices, vertices.map(|v| self.computed(v)))
+        self.sign_of([a, b, c], Self::orient2d_at)
     }
 
     #[inline(always)]
@@ -63,15 +55,7 @@ impl Vertices2<'_> {
     /// zero for four different vertices, at least three of which are not collinear.
     #[inline]
     pub fn incircle(&self, [a, b, c]: [u32; 3], d: u32) -> Sign {
-        if self.coordinates.is_empty() {
-            return self.incircle_computed([a, b, c, d]);
-        }
-        self.incircle_at([a, b, c, d], [a, b, c, d].map(|v| self.coordinates[v as usize]))
-    }
-
-    #[inline(never)]
-    fn incircle_computed(&self, vertices: [u32; 4]) -> Sign {
-        self.incircle_at(vertices, vertices.map(|v| self.computed(v)))
+        self.sign_of([a, b, c, d], Self::incircle_at)
     }
 
     #[inline(always)]

@@ -7,15 +7,7 @@ impl Vertices<'_> {
     /// The sign of det(b − a, c − a, d − a).
     #[inline]
     pub fn orient3d(&self, a: u32, b: u32, c: u32, d: u32) -> Sign {
-        if self.coordinates.is_empty() {
-            return self.orient3d_computed([a, b, c, d]);
-        }
-        self.orient3d_at([a, b, c, d], [a, b, c, d].map(|v| self.coordinates[v as usize]))
-    }
-
-    #[inline(never)]
-    fn orient3d_computed(&self, vertices: [u32; 4]) -> Sign {
-        self.orient3d_at(vertices, vertices.map(|v| self.computed(v)))
+        self.sign_of([a, b, c, d], Self::orient3d_at)
     }
 
     #[inline(always)]
@@ -66,15 +58,7 @@ impl Vertices<'_> {
     /// never zero for five different vertices, at least four of which are not coplanar.
     #[inline(always)]
     pub fn insphere(&self, [a, b, c, d]: [u32; 4], e: u32) -> Sign {
-        if self.coordinates.is_empty() {
-            return self.insphere_computed([a, b, c, d, e]);
-        }
-        self.insphere_at([a, b, c, d, e], [a, b, c, d, e].map(|v| self.coordinates[v as usize]))
-    }
-
-    #[inline(never)]
-    fn insphere_computed(&self, vertices: [u32; 5]) -> Sign {
-        self.insphere_at(vertices, vertices.map(|v| self.computed(v)))
+        self.sign_of([a, b, c, d, e], Self::insphere_at)
     }
 
     #[inline(always)]
