@@ -1,57 +1,106 @@
-//! Star splaying of a triangulation that is about as far from Delaunay as Phase 1 leaves it: 0.12 % failed vertices.
+//! What the host does with the result of Phase 1: star splaying, and the end of the run, which drops the ghosts.
+//!
+//! `cargo bench --bench splay -- [DISTRIBUTION:POINTS | FILE …]`; a device makes Phase 1 once for each input, of coordinates
+//! rounded to `f32`. Medians of nine runs after one to warm up, in one thread and in all, in milliseconds.
 
-#[path = "../tests/splay/flips.rs"]
-#[allow(dead_code)]
-mod flips;
-
-use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
 use gdel::{
-    Options, cpu,
+    Points,
+    generate::{Distribution, generate},
+    gpu::{
+        AdapterChoice, Gpu,
+        phase1::{Input, Phase1, Phase1Output, Settings},
+        start::first_tetrahedron,
+    },
+    io::files::read_points,
     lattice::Lattice,
+    parallel::Threads,
     predicates::vertices::Vertices,
-    splay::{Outcome, splay},
+    splay::{NearDelaunay, Outcome, SplayStats, splay},
+    triangulation::Triangulation,
 };
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Mcg;
+use pollster::block_on;
+use std::{error::Error, path::Path, time::Instant};
 
-/// Uniform points, sorted by cubes as Phase 1 sorts them along its curve.
-fn uniform(n: usize) -> Vec<[f64; 3]> {
-    let mut rng = Pcg64Mcg::seed_from_u64(1);
-    let mut points: Vec<[f64; 3]> = (0..n).map(|_| rng.random()).collect();
-    let morton = |p: &[f64; 3]| {
-        let q = p.map(|x| (x * 1024.0) as u64);
-        (0..10)
-            .fold(0, |key, bit| key | q.iter().zip(0..).fold(0, |k, (x, axis)| k | (x >> bit & 1) << (3 * bit + axis)))
+const RUNS: usize = 9;
+
+fn median(mut times: Vec<f64>) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+fn read(input: &str) -> Result<Vec<[f32; 3]>, Box<dyn Error>> {
+    let distribution = input.split_once(':').and_then(|(name, count)| {
+        let distribution = Distribution::ALL.into_iter().find(|distribution| distribution.name() == name)?;
+        Some(generate(distribution, count.parse().ok()?, 1))
+    });
+    let points = match distribution {
+        Some(points) => points,
+        None => Points::from(&read_points(Path::new(input))?.points).iter().collect(),
     };
-    points.sort_by_cached_key(morton);
-    points
+    Ok(points.into_iter().map(|p| p.map(|x| x as f32)).collect())
 }
 
-fn benchmark(c: &mut Criterion) {
-    let mut group = c.benchmark_group("splay");
-    group.sample_size(10);
-    for n in [100_000, 1_000_000] {
-        let points = uniform(n);
-        let mut rng = Pcg64Mcg::seed_from_u64(2);
-        // The Delaunay triangulation of points that are a little off.
-        let off = 3.5e-5 / (n as f64).cbrt();
-        let displaced: Vec<_> = points.iter().map(|p| p.map(|x| x + off * (rng.random::<f64>() - 0.5))).collect();
-        let mesh = cpu::delaunay3d((&displaced).into(), &Options::default()).expect("finite points");
-        let lattice = Lattice::fit((&points).into());
-        let vertices = Vertices::new((&points).into(), &lattice, (0..n as u32).collect());
-        // Phase 1 keeps tetrahedra near their vertices.
-        let mut tetrahedra = mesh.tetrahedra;
-        tetrahedra.sort_unstable_by_key(|t| t.iter().min().copied());
-        let near = flips::found_out(&vertices, &flips::near(n as u32, &tetrahedra));
-        if let Ok(Outcome::Delaunay(_, stats)) = splay(&vertices, near.clone(), u64::MAX, 4, &|_| Ok(())) {
-            println!("{stats:?}");
-        }
-        group.bench_function(BenchmarkId::new("uniform", n), |b| {
-            let run = |near| splay(&vertices, near, u64::MAX, 4, &|_| Ok(()));
-            b.iter_batched(|| near.clone(), run, BatchSize::PerIteration);
-        });
+/// With room behind for what splaying adds, as the engine has it.
+fn copied(tetrahedra: &[[u32; 4]]) -> Vec<[u32; 4]> {
+    let mut copy = Vec::with_capacity(tetrahedra.len() + tetrahedra.len() / 64);
+    copy.extend_from_slice(tetrahedra);
+    copy
+}
+
+/// The milliseconds of splaying and of the end, and what splaying did.
+fn run(
+    points: &[[f32; 3]],
+    lattice: &Lattice,
+    phase1: &Phase1Output,
+    threads: Threads,
+) -> Result<(f64, f64, SplayStats), Box<dyn Error>> {
+    let near = NearDelaunay {
+        triangulation: Triangulation::new(copied(&phase1.tets), copied(&phase1.neighbors), points.len() as u32),
+        incident: phase1.tet_of[..points.len()].to_vec(),
+        failed: phase1.failed.clone(),
+        doubtful: phase1.doubtful.iter().map(|&[t, _]| t).collect(),
+        // Duplicates stay out, and nothing else shares a place on the lattice in single precision.
+        missing: Vec::new(),
+    };
+    let vertices = Vertices::of_input(points.into(), lattice);
+    let started = Instant::now();
+    let (triangulation, stats) = match splay(&vertices, near, u64::MAX, threads, &|_| Ok(()))? {
+        Outcome::Delaunay(triangulation, stats) => (triangulation, stats),
+        Outcome::GaveUp(reason) => return Err(format!("splaying gave up: {reason:?}").into()),
+    };
+    let splayed = started.elapsed().as_secs_f64() * 1e3;
+    let started = Instant::now();
+    std::hint::black_box(triangulation.into_mesh(None, threads));
+    Ok((splayed, started.elapsed().as_secs_f64() * 1e3, stats))
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut inputs: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
+    if inputs.is_empty() {
+        inputs = ["uniform:300000", "grid:300000", "sphere:100000"].map(String::from).to_vec();
     }
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default))?;
+    for input in inputs {
+        let points = read(&input)?;
+        let lattice = Lattice::fit((&points).into());
+        let position = |i: usize| lattice.coordinates(points[i].map(f64::from)).map(|c| c.value);
+        let start = first_tetrahedron(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
+        let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
+        let of_points = Input { points: (&points).into(), lattice: &lattice, start };
+        let output = block_on(phase1.run(&gpu, of_points, &Settings::default(), None))?;
+        for threads in [Threads::One, Threads::All] {
+            let (mut splay, mut end, mut did) = (Vec::new(), Vec::new(), SplayStats::default());
+            for i in 0..=RUNS {
+                let (splayed, ended, stats) = run(&points, &lattice, &output, threads)?;
+                if i > 0 {
+                    splay.push(splayed);
+                    end.push(ended);
+                }
+                did = stats;
+            }
+            let (splay, end) = (median(splay), median(end));
+            println!("{input}, {} points, threads: {threads:?}: splay {splay:.1}, end {end:.1}; {did:?}", points.len());
+        }
+    }
+    Ok(())
 }
-
-criterion_group!(benches, benchmark);
-criterion_main!(benches);

@@ -12,14 +12,14 @@ use async_lock::Mutex;
 
 /// From so many points on, [`Engine::Auto`] takes the GPU engine if it is open.
 ///
-/// Measured with `cargo run --release --example experiments -- crossing`. Uniform points, one NVIDIA H200 and one core of
-/// the Xeon beside it, 2026-11-21: the CPU engine takes 2.0 µs a point, the GPU engine 47 ms for 100,000 and never more for
-/// fewer, so they cross at 24,000 points or below.
+/// A bound, from `cargo run --release --example experiments -- crossing` on one NVIDIA H200 and one core of the Xeon beside
+/// it, 2026-11-21: the GPU engine takes 27 ms for 100,000 uniform points, and never more for fewer; the CPU engine takes 2.0 µs
+/// a point at least, so it is no faster from 14,000 points on. The rest is for devices that take longer to start.
 pub const LEAST_POINTS: usize = 24_000;
 
-/// The points that the CPU engine triangulates in the time that it takes to open the GPU and compile its kernels: 200 ms on
-/// the same machine. [`Engine::Auto`] opens it when it has been asked for so many in all that the GPU would have taken, so
-/// opening never costs more than was lost by not having done so.
+/// The points that the CPU engine triangulates in the time that it takes to open the GPU and compile its kernels: 188 and 74 ms
+/// on the same machine, against 245 ms for 100,000 points. [`Engine::Auto`] opens it when it has been asked for so many in all
+/// that the GPU would have taken, so opening never costs more than was lost by not having done so.
 pub const OPENING_POINTS: usize = 100_000;
 
 /// Both engines, for any number of inputs.
@@ -78,9 +78,11 @@ impl Engines {
 
     /// Gives the device back now, and not when the last reference to it goes. A later run opens it anew.
     pub async fn close(&self) {
-        if let Some(hybrid) = self.state.lock().await.hybrid.take() {
-            hybrid.gpu().device().destroy();
+        let mut state = self.state.lock().await;
+        if let Some(gpu) = state.open_device() {
+            gpu.device().destroy();
         }
+        state.close();
     }
 
     /// The triangulation of `points` by the engine that `options` name: see [`delaunay3d`](crate::delaunay3d).
@@ -161,16 +163,20 @@ impl State {
         Ok(self.plane.insert(plane))
     }
 
-    /// The device of the engines that are open, or a new one.
+    /// The device of the engines that are open: they share one.
+    fn open_device(&self) -> Option<Gpu> {
+        self.hybrid.as_ref().map(Hybrid::gpu).or(self.plane.as_ref().map(Hybrid2::gpu)).cloned()
+    }
+
+    /// That device, or a new one.
     async fn device(&self, adapter: &AdapterChoice) -> Result<Gpu, Error> {
-        let open = self.hybrid.as_ref().map(Hybrid::gpu).or(self.plane.as_ref().map(Hybrid2::gpu));
-        match open {
-            Some(gpu) => Ok(gpu.clone()),
+        match self.open_device() {
+            Some(gpu) => Ok(gpu),
             None => Gpu::open(adapter).await,
         }
     }
 
-    /// Forgets a device that is lost.
+    /// Forgets a device that is lost or given back, and what was compiled for it.
     fn close(&mut self) {
         self.hybrid = None;
         self.plane = None;
@@ -190,7 +196,7 @@ impl State {
             self.missed += points;
             return Err(Fallback::FewPoints { points, least });
         }
-        let opened = match Gpu::open(adapter).await {
+        let opened = match self.device(adapter).await {
             Ok(gpu) => match hardware(&gpu) {
                 Ok(()) => Hybrid::new(gpu).await.map_err(Fallback::NoGpu),
                 Err(why) => Err(why),

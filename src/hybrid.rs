@@ -3,7 +3,8 @@
 //! `points → lattice → Phase 1 → what it may have missed → splay → drop the ghosts → input indices → mesh`
 
 use crate::{
-    Error, Mesh3, Options, Points, cpu,
+    Error, Mesh3, Options, Points,
+    cpu::{self, order::sort_by_place},
     gpu::{
         Gpu,
         phase1::{Input, Phase1, Phase1Output, Run, Settings},
@@ -11,7 +12,7 @@ use crate::{
     },
     lattice::{Lattice, Width},
     mesh::NONE,
-    parallel,
+    parallel::Threads,
     predicates::vertices::Vertices,
     splay::{self, GaveUp, NearDelaunay, Outcome},
     stats::{Fallback, Stats, Stopwatch},
@@ -23,8 +24,9 @@ use crate::{
 #[derive(Debug)]
 pub struct Hybrid {
     gpu: Gpu,
-    narrow: Phase1,
     wide: Phase1,
+    /// For points that the narrow lattice holds, once there were some: compiling takes long.
+    narrow: Option<Phase1>,
     settings: Settings,
 }
 
@@ -35,9 +37,8 @@ impl Hybrid {
     ///
     /// As [`Gpu::catching`].
     pub async fn new(gpu: Gpu) -> Result<Self, Error> {
-        let narrow = Phase1::new(&gpu, Width::Narrow).await?;
         let wide = Phase1::new(&gpu, Width::Wide).await?;
-        Ok(Hybrid { gpu, narrow, wide, settings: Settings::default() })
+        Ok(Hybrid { gpu, wide, narrow: None, settings: Settings::default() })
     }
 
     /// The same with other settings for Phase 1, for experiments: they change the time, and not the mesh.
@@ -62,9 +63,8 @@ impl Hybrid {
         let options = &options.monotone();
         let mut stopwatch = Stopwatch::start();
         options.report("lattice", 0.0)?;
-        let threads = parallel::available();
-        points.validate_in_threads(threads)?;
-        let lattice = Lattice::fit_in_threads(threads, points);
+        points.validate_by(Threads::All)?;
+        let lattice = Lattice::fit_by(Threads::All, points);
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let Some(start) = first_tetrahedron(lattice.width(), points.len(), position) else {
             return fall_back(points, options, Fallback::Coplanar, Stats::default());
@@ -78,10 +78,15 @@ impl Hybrid {
         let phase1 = match lattice.width() {
             Width::Narrow => {
                 self.wide.release();
-                &mut self.narrow
+                match &mut self.narrow {
+                    Some(narrow) => narrow,
+                    none => none.insert(Phase1::new(&self.gpu, Width::Narrow).await?),
+                }
             }
             Width::Wide => {
-                self.narrow.release();
+                if let Some(narrow) = &mut self.narrow {
+                    narrow.release();
+                }
                 &mut self.wide
             }
         };
@@ -96,6 +101,9 @@ impl Hybrid {
             options.report("phase 1", 0.05 + 0.6 * inserted)?;
             if !more {
                 break;
+            }
+            if run.control().1.iterations > self.settings.most_iterations {
+                return fall_back(points, options, Fallback::Flips, stats);
             }
         }
         let output = run.finish().await?;
@@ -112,7 +120,7 @@ impl Hybrid {
         }
         let most_signs = near.signs_from_nothing();
         let report = |share: f64| options.report("splay", 0.8 + 0.15 * share);
-        let triangulation = match splay::splay(&vertices, near, most_signs, threads, &report)? {
+        let triangulation = match splay::splay(&vertices, near, most_signs, Threads::All, &report)? {
             Outcome::Delaunay(triangulation, splay) => {
                 stats.splay = Some(splay);
                 triangulation
@@ -126,7 +134,7 @@ impl Hybrid {
 
         options.report("finish", 0.95)?;
         stats.exact = vertices.exact_counts();
-        let FiniteMesh { tetrahedra, neighbors, hull } = triangulation.into_mesh(None, threads);
+        let FiniteMesh { tetrahedra, neighbors, hull } = triangulation.into_mesh(None, Threads::All);
         stats.phases.push(("finish", stopwatch.lap()));
         stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
         options.report("finish", 1.0)?;
@@ -166,16 +174,13 @@ pub(crate) fn missing_points<const D: usize>(
         if point(i) == point(representative) {
             duplicate_of[i as usize] = representative as i32;
         } else {
-            apart.push((representative, i));
+            apart.push(u64::from(representative) << 32 | u64::from(i));
         }
     }
-    // Equal points become neighbours, the lowest index first.
-    apart.sort_by(|&(r, i), &(s, j)| {
-        let by_place = point(i).partial_cmp(&point(j)).unwrap_or(std::cmp::Ordering::Equal);
-        r.cmp(&s).then(by_place).then(i.cmp(&j))
-    });
+    sort_by_place(points, &mut apart);
     let mut missing: Vec<[u32; 2]> = Vec::new();
-    for (representative, i) in apart {
+    for entry in apart {
+        let (representative, i) = ((entry >> 32) as u32, entry as u32);
         match missing.last() {
             Some(&[first, _]) if point(first) == point(i) => duplicate_of[i as usize] = first as i32,
             _ => missing.push([i, representative]),

@@ -47,16 +47,3 @@ impl Mesh3 {
         self.duplicate_of.iter().filter(|&&d| d != NONE).count()
     }
 }
-
-/// The hull triangles of a mesh, read off its neighbours.
-pub fn hull_of(tetrahedra: &[[u32; 4]], neighbors: &[[i32; 4]]) -> Vec<[u32; 3]> {
-    let mut hull = Vec::new();
-    for (t, n) in tetrahedra.iter().zip(neighbors) {
-        for (k, facet) in FACETS.iter().enumerate() {
-            if n[k] == NONE {
-                hull.push(facet.map(|v| t[v]));
-            }
-        }
-    }
-    hull
-}

@@ -1,86 +1,76 @@
 //! Work on slices, shared among the machine's threads where it has any.
 
 use std::ops::Range;
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// More threads than this do not make a pass over memory any faster.
-#[cfg(feature = "gpu")]
-const MOST_THREADS: usize = 16;
+#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+use rayon::prelude::*;
+
+/// The threads that share a piece of work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Threads {
+    /// The calling one.
+    One,
+    /// Those of rayon's pool; the calling one where there are no others, as in the browser.
+    All,
+}
+
 /// A chunk of this many elements is worth handing to another thread.
-const CHUNK: usize = 1 << 16;
+const CHUNK: usize = 1 << 13;
 
-/// The threads to use: 1 where there are no threads, as in the browser.
-#[cfg(feature = "gpu")]
-pub(crate) fn available() -> usize {
-    // The system reads files to answer.
-    static THREADS: std::sync::OnceLock<usize> = std::sync::OnceLock::new();
-    *THREADS.get_or_init(|| std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS))
-}
-
-/// Calls `work` with every chunk of `items` and the place where it begins, in up to `threads` threads.
-pub(crate) fn for_chunks<T: Send>(threads: usize, items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
-    let threads = threads.min(items.len().div_ceil(CHUNK));
-    if threads <= 1 {
-        return work(0, items);
+/// Calls `work` with every chunk of `items` and the place where it begins.
+pub(crate) fn for_chunks<T: Send>(threads: Threads, items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    if threads == Threads::All && items.len() > CHUNK {
+        return items.par_chunks_mut(CHUNK).enumerate().for_each(|(i, chunk)| work(i * CHUNK, chunk));
     }
-    let queue = Mutex::new(items.chunks_mut(CHUNK).enumerate());
-    share(threads, || {
-        // The lock is given back before the work begins.
-        while let Some((i, chunk)) = next(&queue) {
-            work(i * CHUNK, chunk);
-        }
-    });
+    let _ = threads;
+    work(0, items);
 }
 
-/// What `work` makes of the ranges that 0 … `len` is cut into, in order, in up to `threads` threads. For elements that cost
-/// no more than to look at them.
-pub(crate) fn map_ranges<R: Send>(threads: usize, len: usize, work: impl Fn(Range<usize>) -> R + Sync) -> Vec<R> {
+/// What `work` makes of the ranges that 0 … `len` is cut into, in order. For elements that cost no more than to look at
+/// them.
+pub(crate) fn map_ranges<R: Send>(threads: Threads, len: usize, work: impl Fn(Range<usize>) -> R + Sync) -> Vec<R> {
     map_grains(threads, len, CHUNK, work)
 }
 
 /// The same for ranges of `grain` elements.
 pub(crate) fn map_grains<R: Send>(
-    threads: usize,
+    threads: Threads,
     len: usize,
     grain: usize,
     work: impl Fn(Range<usize>) -> R + Sync,
 ) -> Vec<R> {
-    let threads = threads.min(len.div_ceil(grain));
-    if threads <= 1 {
-        return vec![work(0..len)];
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    if threads == Threads::All && len > grain {
+        let range = |i: usize| i * grain..((i + 1) * grain).min(len);
+        return (0..len.div_ceil(grain)).into_par_iter().with_max_len(1).map(|i| work(range(i))).collect();
     }
-    let queue = Mutex::new((0..len).step_by(grain));
-    let results = Mutex::new(Vec::with_capacity(len.div_ceil(grain)));
-    share(threads, || {
-        while let Some(start) = next(&queue) {
-            let result = work(start..(start + grain).min(len));
-            lock(&results).push((start, result));
-        }
-    });
-    let mut results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
-    results.sort_unstable_by_key(|&(start, _)| start);
-    results.into_iter().map(|(_, result)| result).collect()
+    let _ = (threads, grain);
+    vec![work(0..len)]
 }
 
-/// Runs `worker` in this thread and in others. One that cannot be started is not missed: the workers take from a queue.
-fn share(threads: usize, worker: impl Fn() + Sync) {
-    std::thread::scope(|scope| {
-        for _ in 1..threads {
-            if std::thread::Builder::new().spawn_scoped(scope, &worker).is_err() {
-                break;
-            }
-        }
-        worker();
-    });
+/// Sorts items that are equal only if they are the same.
+pub(crate) fn sort<T: Ord + Send>(threads: Threads, items: &mut [T]) {
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    if threads == Threads::All {
+        return items.par_sort_unstable();
+    }
+    let _ = threads;
+    items.sort_unstable();
 }
 
-fn next<I: Iterator>(queue: &Mutex<I>) -> Option<I::Item> {
-    lock(queue).next()
-}
-
-/// A poisoned lock is as good as any: a panic in a worker comes out of the scope.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+/// What `work` makes of each item and its place, in order. For items that are worth handing to another thread.
+pub(crate) fn map_mut<T: Send, R: Send>(
+    threads: Threads,
+    items: &mut [T],
+    work: impl Fn(usize, &mut T) -> R + Sync,
+) -> Vec<R> {
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    if threads == Threads::All {
+        return items.par_iter_mut().enumerate().with_max_len(1).map(|(i, item)| work(i, item)).collect();
+    }
+    let _ = threads;
+    items.iter_mut().enumerate().map(|(i, item)| work(i, item)).collect()
 }
 
 #[cfg(test)]
@@ -90,7 +80,7 @@ mod tests {
     #[test]
     fn every_element_is_visited_once() {
         for len in [0, 1, CHUNK - 1, CHUNK, CHUNK + 1, 5 * CHUNK + 7] {
-            for threads in [1, 3, 16] {
+            for threads in [Threads::One, Threads::All] {
                 let mut items = vec![0usize; len];
                 for_chunks(threads, &mut items, |start, chunk| {
                     chunk.iter_mut().zip(start..).for_each(|(x, i)| *x += i + 1);

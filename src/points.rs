@@ -1,6 +1,9 @@
 //! Input points: the forms they come in, and validation.
 
-use crate::{Error, parallel};
+use crate::{
+    Error,
+    parallel::{self, Threads},
+};
 
 /// Borrowed input points of `D` coordinates each: `[x, y, z]`, or `[x, y]` in the plane. Every finite `f32` and `f64` is
 /// taken at its exact value.
@@ -84,11 +87,11 @@ impl<'a, const D: usize> Points<'a, D> {
     ///
     /// [`Error::NotFinite`] with the first bad point.
     pub fn validate(&self) -> Result<(), Error> {
-        self.validate_in_threads(1)
+        self.validate_by(Threads::One)
     }
 
-    /// The same in up to `threads` threads.
-    pub(crate) fn validate_in_threads(&self, threads: usize) -> Result<(), Error> {
+    /// The same by these threads.
+    pub(crate) fn validate_by(&self, threads: Threads) -> Result<(), Error> {
         let is_finite = |p: &[f64; D]| p.iter().all(|x| x.is_finite());
         let bad = parallel::map_ranges(threads, self.len(), |range| {
             let start = range.start;

@@ -49,7 +49,8 @@ pub enum Fallback {
     /// The points of the plane are collinear or so nearly so that the lattice cannot tell.
     #[error("the points are collinear, or nearly")]
     Collinear,
-    /// In the plane, what rounding left open took more flips than the CPU engine would have.
+    /// The device's flips waited for each other in a row that was too long; or, in the plane, what rounding left open took more flips
+    /// than the CPU engine would have.
     #[error("flipping was too much work")]
     Flips,
     /// In the plane, rounding had folded the triangulation over itself in a way that flips do not undo.
@@ -134,6 +135,18 @@ pub struct ExactCounts {
     pub expansion: u64,
     /// Cospherical: decided by the symbolic perturbation.
     pub symbolic: u64,
+}
+
+impl std::ops::Add for ExactCounts {
+    type Output = Self;
+
+    fn add(self, more: Self) -> Self {
+        ExactCounts {
+            integer: self.integer + more.integer,
+            expansion: self.expansion + more.expansion,
+            symbolic: self.symbolic + more.symbolic,
+        }
+    }
 }
 
 impl Stats {

@@ -1,6 +1,10 @@
 //! Tetrahedra and their neighbours while they are being made, the outside of the hull included.
 
-use crate::{Error, mesh::NONE, parallel};
+use crate::{
+    Error,
+    mesh::NONE,
+    parallel::{self, Threads},
+};
 
 /// Tetrahedra are numbered below 2³⁰, since a neighbour is packed with its facet into 32 bits.
 pub(crate) const MOST_TETRAHEDRA: usize = 1 << 30;
@@ -97,38 +101,63 @@ impl Triangulation {
     }
 
     /// The mesh without ghosts and unused slots, in the arrays where it lies: tetrahedra, neighbours, and the facets of the
-    /// hull, counter-clockwise as seen from outside. With `names`, vertex *v* becomes `names[v]`. Works in up to `threads`
-    /// threads.
-    pub fn into_mesh(mut self, names: Option<&[u32]>, threads: usize) -> FiniteMesh {
+    /// hull, counter-clockwise as seen from outside. With `names`, vertex *v* becomes `names[v]`. The work is that of
+    /// `threads`.
+    pub fn into_mesh(mut self, names: Option<&[u32]>, threads: Threads) -> FiniteMesh {
         // Behind all slots.
         const OUTSIDE: u32 = u32::MAX;
+        const FEW: usize = 64;
         let slots = self.tetrahedra.len();
-        let is_gap = |&t: &u32| self.state(t) == state::FREE || self.is_ghost(t);
+        // Ghosts and unused slots, chunk by chunk.
         let gaps = parallel::map_ranges(threads, slots, |range| {
-            (range.start as u32..range.end as u32).filter(is_gap).collect::<Vec<_>>()
-        })
-        .concat();
-        let ghosts: Vec<u32> = gaps.iter().copied().filter(|&t| self.state(t) != state::FREE).collect();
-        let mut hull: Vec<[u32; 3]> = bytemuck::zeroed_vec(ghosts.len());
-        parallel::for_chunks(threads, &mut hull, |start, chunk| {
-            for (facet, &t) in chunk.iter_mut().zip(&ghosts[start..]) {
+            let (mut ghosts, mut unused) = (Vec::new(), Vec::new());
+            // Most are neither: few branches for many at a time.
+            for (start, few) in (range.start..).step_by(FEW).zip(self.tetrahedra[range].chunks(FEW)) {
+                let is_free = |t: &[u32; 4]| t[0] & state::MASK == state::FREE;
+                let is_gap = |t: &[u32; 4]| is_free(t) | (t[3] == self.infinite);
+                if few.iter().fold(false, |any, t| any | is_gap(t)) {
+                    for (t, tetrahedron) in (start as u32..).zip(few) {
+                        if is_free(tetrahedron) {
+                            unused.push(t);
+                        } else if is_gap(tetrahedron) {
+                            ghosts.push(t);
+                        }
+                    }
+                }
+            }
+            (ghosts, unused)
+        });
+        let ghosts: usize = gaps.iter().map(|(ghosts, _)| ghosts.len()).sum();
+        let count = slots - ghosts - gaps.iter().map(|(_, unused)| unused.len()).sum::<usize>();
+        let mut hull: Vec<[u32; 3]> = bytemuck::zeroed_vec(ghosts);
+        let mut rest = hull.as_mut_slice();
+        let mut facets = Vec::new();
+        for (ghosts, _) in &gaps {
+            let (these, others) = rest.split_at_mut(ghosts.len());
+            facets.push((ghosts, these));
+            rest = others;
+        }
+        parallel::map_mut(threads, &mut facets, |_, (ghosts, facets)| {
+            for (facet, &t) in facets.iter_mut().zip(*ghosts) {
                 let [a, b, c, _] = self.tetrahedra[t as usize];
                 *facet = [a, b, c];
             }
         });
         // References to ghosts behind the last tetrahedron of the mesh tell themselves from others.
-        let count = slots - gaps.len();
-        for &t in ghosts.iter().filter(|&&t| (t as usize) < count) {
+        for &t in gaps.iter().flat_map(|(ghosts, _)| ghosts).take_while(|&&t| (t as usize) < count) {
             let inside = self.neighbors[t as usize][3];
             self.neighbors[inside as usize / 4][inside as usize % 4] = OUTSIDE;
         }
-        // The last tetrahedra move into the gaps, and their neighbours are told.
-        let mut last = slots;
-        for gap in gaps.into_iter().map(|t| t as usize).take_while(|&t| t < count) {
-            last -= 1;
-            while self.state(last as u32) == state::FREE || self.is_ghost(last as u32) {
-                last -= 1;
-            }
+        // The tetrahedra behind them move into the gaps in front, and their neighbours are told.
+        let movers = parallel::map_ranges(threads, slots - count, |range| {
+            let is_used = |&t: &u32| self.state(t) != state::FREE && !self.is_ghost(t);
+            ((count + range.start) as u32..(count + range.end) as u32).filter(is_used).collect::<Vec<_>>()
+        });
+        let in_front = |&&t: &&u32| (t as usize) < count;
+        let unused = gaps.iter().flat_map(|(_, unused)| unused).take_while(in_front);
+        let ghosts = gaps.iter().flat_map(|(ghosts, _)| ghosts).take_while(in_front);
+        for (&gap, last) in unused.chain(ghosts).zip(movers.into_iter().flatten()) {
+            let (gap, last) = (gap as usize, last as usize);
             self.tetrahedra[gap] = self.tetrahedra[last];
             self.neighbors[gap] = self.neighbors[last];
             for k in 0..4 {
@@ -147,10 +176,12 @@ impl Triangulation {
             hull.iter_mut().flatten().for_each(rename);
         }
         let mut neighbors: Vec<[i32; 4]> = bytemuck::cast_vec(neighbors);
+        // Below 2³⁰, as all tetrahedra.
+        let count = count as i32;
         parallel::for_chunks(threads, &mut neighbors, |_, chunk| {
             for n in chunk.as_flattened_mut() {
-                let across = *n as u32 >> 2;
-                *n = if across as usize >= count { NONE } else { across as i32 };
+                let across = (*n as u32 >> 2) as i32;
+                *n = if across < count { across } else { NONE };
             }
         });
         FiniteMesh { tetrahedra, neighbors, hull }

@@ -1,6 +1,8 @@
-// Times the packed package's CPU engine, the native engine and the npm package qhull-wasm side by side, and prints ratios.
+// Times the packed package's CPU engine, the native engine, and the npm package qhull-wasm, in the plane delaunator, side by
+// side, and prints ratios.
 //
-//   npm run build && cargo build --release && node benches/js/compare.mjs [--points 100000] [--runs 3] [--native GDEL] [--without qhull,native]
+//   npm run build && cargo build --release
+//   node benches/js/compare.mjs [--dim 2] [--points 100000] [--runs 3] [--native GDEL] [--without qhull,native]
 //
 // All sides take the same uniform points, in turn, on one core. The native binary's time is that which it states; reading
 // its file is left out.
@@ -11,51 +13,64 @@ import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import Delaunator from 'delaunator';
 import { loadQhull } from 'qhull-wasm';
-import { createEngine, generate } from '../../web/dist/node.js';
+import { Delaunator as Ours, createEngine, generate } from '../../web/dist/node.js';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
 const { values } = parseArgs({
   options: {
+    dim: { type: 'string', default: '3' },
     points: { type: 'string', default: '100000' },
     runs: { type: 'string', default: '3' },
     native: { type: 'string', default: join(root, 'target/release/gdel') },
     without: { type: 'string', default: '' },
   },
 });
-const [points, runs] = [+values.points, +values.runs];
+const [dimension, points, runs] = [+values.dim, +values.points, +values.runs];
 const folder = mkdtempSync(join(tmpdir(), 'gdel-bench-'));
 process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
 
-const input = await generate('uniform', points, { seed: 1 });
+// Coordinates of the cube, uniform and independent, serve the plane as well.
+const input = (await generate('uniform', Math.ceil((dimension * points) / 3), { seed: 1 })).slice(0, dimension * points);
 const file = join(folder, 'points.f64');
 writeFileSync(file, new Uint8Array(input.buffer));
 
 const engine = await createEngine({ engine: 'cpu' });
+await Ours.load();
 const qhull = await loadQhull();
+let wasmBytes = 0;
 
-/** Each gives [seconds, tetrahedra]. */
+/** The seconds that a triangulation takes here, and the number of simplices that it says. */
+function timed(triangulate) {
+  const started = performance.now();
+  const count = triangulate();
+  return [(performance.now() - started) / 1e3, count];
+}
+
+/** Each gives [seconds, simplices]. */
 const sides = {
   async 'gdel-wasm'() {
     const copy = input.slice();
     const started = performance.now();
-    const { tetrahedra, stats } = await engine.delaunay3d(copy, { transfer: true });
-    sides.wasmBytes = stats.wasmBytes;
-    return [(performance.now() - started) / 1e3, tetrahedra.length / 4];
+    const mesh = await (dimension === 2 ? engine.delaunay2d : engine.delaunay3d).call(engine, copy, { transfer: true });
+    wasmBytes = mesh.stats.wasmBytes;
+    return [(performance.now() - started) / 1e3, (mesh.triangles ?? mesh.tetrahedra).length / (dimension + 1)];
   },
-  async native() {
-    const args = ['triangulate', file, '--engine', 'cpu', '--stats', 'json'];
-    const output = execFileSync(values.native, args, { encoding: 'utf8' });
-    const { seconds, tetrahedra } = JSON.parse(output);
-    return [seconds.total, tetrahedra];
-  },
-  async qhull() {
-    const started = performance.now();
-    const { facets } = qhull.delaunay(input, 3);
-    return [(performance.now() - started) / 1e3, facets.length];
-  },
+  ...(dimension === 2
+    ? {
+        'its class': () => timed(() => new Ours(input).triangles.length / 3),
+        delaunator: () => timed(() => new Delaunator(input).triangles.length / 3),
+      }
+    : {
+        native() {
+          const args = ['triangulate', file, '--engine', 'cpu', '--stats', 'json'];
+          const { seconds, tetrahedra } = JSON.parse(execFileSync(values.native, args, { encoding: 'utf8' }));
+          return [seconds.total, tetrahedra];
+        },
+        qhull: () => timed(() => qhull.delaunay(input, 3).facets.length),
+      }),
 };
-Object.defineProperty(sides, 'wasmBytes', { enumerable: false, writable: true, value: 0 });
 
 const names = Object.keys(sides).filter((name) => !values.without.split(',').includes(name));
 const seconds = Object.fromEntries(names.map((name) => [name, []]));
@@ -71,10 +86,10 @@ engine.dispose();
 
 const median = (times) => times.slice().sort((a, b) => a - b)[times.length >> 1];
 const ours = median(seconds['gdel-wasm']);
-console.log(`${points} uniform points, medians of ${runs}, ${process.version}, WebAssembly memory ${(sides.wasmBytes / 1e6).toFixed(0)} MB`);
+console.log(`${points} uniform points, medians of ${runs}, ${process.version}, WebAssembly memory ${(wasmBytes / 1e6).toFixed(0)} MB`);
 for (const name of names) {
   const time = median(seconds[name]);
   const ratios = seconds[name].map((other, run) => seconds['gdel-wasm'][run] / other);
   const range = `${Math.min(...ratios).toFixed(2)}–${Math.max(...ratios).toFixed(2)}`;
-  console.log(`${name.padEnd(10)} ${time.toFixed(3)} s, ${counts[name]} tetrahedra, gdel-wasm / it ${(ours / time).toFixed(2)} (${range})`);
+  console.log(`${name.padEnd(10)} ${time.toFixed(3)} s, ${counts[name]} ${dimension === 2 ? 'triangles' : 'tetrahedra'}, gdel-wasm / it ${(ours / time).toFixed(2)} (${range})`);
 }

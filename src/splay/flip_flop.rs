@@ -10,19 +10,27 @@
 
 use super::{
     space::Space,
-    star::{Star, Triangle},
+    star::{NONE, Star, Triangle},
 };
 
 /// Flips for each triangle of the link, past which the star is built from its points.
 const MOST_FLIPS: usize = 16;
 
-/// Makes a star convex whose tetrahedra are positively oriented; gives the number of flips. The triangles that it makes
-/// have no tetrahedron of the triangulation. `None` when it is stuck.
-pub(super) fn flip_flop(star: &mut Star, space: &Space<'_>) -> Option<usize> {
-    let mut work = Flipping { budget: MOST_FLIPS * star.triangles.len(), flips: 0, edges: Vec::new() };
+/// Makes a star convex whose tetrahedra are positively oriented, and whose edges are locally convex unless both ends `may_fail`;
+/// gives the number of flips. The triangles that it makes have no tetrahedron of the triangulation; adds to `gone` those
+/// that have one, and are no more. `None` when it is stuck.
+pub(super) fn flip_flop(
+    star: &mut Star,
+    space: &Space<'_>,
+    may_fail: impl Fn(u32) -> bool,
+    gone: &mut Vec<Triangle>,
+) -> Option<usize> {
+    let mut work = Flipping { budget: MOST_FLIPS * star.triangles.len(), flips: 0, edges: Vec::new(), gone };
     for (t, triangle) in star.triangles.iter().enumerate() {
         let t = t as u32;
-        work.edges.extend((0..3).filter(|&k| triangle.neighbors[k] >> 2 > t).map(|k| 4 * t + k as u32));
+        let may_fail = triangle.vertices.map(&may_fail);
+        let is_open = |&k: &usize| triangle.neighbors[k] >> 2 > t && may_fail[(k + 1) % 3] && may_fail[(k + 2) % 3];
+        work.edges.extend((0..3).filter(is_open).map(|k| 4 * t + k as u32));
     }
     while let Some(edge) = work.edges.pop() {
         let Some(corners) = Corners::of(star, edge) else { continue };
@@ -68,14 +76,16 @@ impl Corners {
     }
 }
 
-struct Flipping {
+struct Flipping<'a> {
     budget: usize,
     flips: usize,
     /// Edges that may be in conflict; some are no longer there.
     edges: Vec<u32>,
+    /// Triangles of the triangulation that are no longer there.
+    gone: &'a mut Vec<Triangle>,
 }
 
-impl Flipping {
+impl Flipping<'_> {
     fn count(&mut self) -> Option<()> {
         self.flips += 1;
         (self.flips <= self.budget).then_some(())
@@ -89,6 +99,7 @@ impl Flipping {
         let (j, l) = (across as usize / 4, across as usize % 4);
         let (ti, tj) = (star.triangles[i], star.triangles[j]);
         let Corners { a, b, c, d } = Corners::of(star, edge)?;
+        self.gone.extend([ti, tj].iter().filter(|t| t.tetrahedron != NONE));
         let (bc, ca) = (ti.neighbors[(k + 1) % 3], ti.neighbors[(k + 2) % 3]);
         let (ad, db) = (tj.neighbors[(l + 1) % 3], tj.neighbors[(l + 2) % 3]);
         star.triangles[i] = Triangle::new([c, a, d]);
@@ -148,6 +159,7 @@ impl Flipping {
         if !outside || space.orient(star.tetrahedron(v)) <= 0 {
             return None;
         }
+        self.gone.extend(triangles.iter().filter(|t| t.tetrahedron != NONE));
         let slot = spokes[0] >> 2;
         star.release(spokes[1] >> 2);
         star.release(spokes[2] >> 2);
@@ -196,7 +208,8 @@ mod tests {
             let start = (0..mesh.tetrahedra.len() as u32).find(|&t| mesh.vertices(t).contains(&v)).unwrap();
             let mut star = LinkFinder::default().star(&mesh, v, start).unwrap();
             let convex = link(&star);
-            let mut spoiling = Flipping { budget: usize::MAX, flips: 0, edges: Vec::new() };
+            let mut gone = Vec::new();
+            let mut spoiling = Flipping { budget: usize::MAX, flips: 0, edges: Vec::new(), gone: &mut gone };
             let mut random = v;
             for _ in 0..100 {
                 random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -207,7 +220,7 @@ mod tests {
                 }
             }
             flips += spoiling.flips;
-            match flip_flop(&mut star, &space) {
+            match flip_flop(&mut star, &space, |_| true, &mut gone) {
                 Some(_) => assert_eq!(link(&star), convex, "vertex {v}"),
                 None => stuck += 1,
             }

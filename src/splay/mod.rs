@@ -6,8 +6,10 @@
 //! has to change: neither the triangulation nor its hull is ever looked at as a whole. Where that turns out to be too
 //! much, or the triangulation was none, splaying gives up, and says so.
 
+mod build;
 mod consistency;
 mod flip_flop;
+mod ledger;
 mod patch;
 mod peel;
 mod space;
@@ -15,16 +17,20 @@ mod star;
 
 use crate::{
     Error, cpu,
+    parallel::{self, Threads},
     predicates::vertices::Vertices,
     triangulation::{Triangulation, state},
 };
+use build::Known;
 use consistency::Splaying;
+use rustc_hash::FxHashSet;
 use space::Space;
 
 /// No tetrahedron, in [`NearDelaunay::incident`].
 pub const NONE: u32 = star::NONE;
 
-/// What Phase 1 makes: a triangulation that is nearly Delaunay, and where it may not be.
+/// What Phase 1 makes: a triangulation that is nearly Delaunay, and where it may not be. What neither `failed` nor `doubtful` has
+/// is taken for proven.
 #[derive(Debug, Clone)]
 pub struct NearDelaunay {
     /// All tetrahedra, ghosts included. Inverted and flat ones are no harm as long as they are among the doubtful.
@@ -85,10 +91,12 @@ pub struct SplayStats {
     pub inserted: usize,
     /// Signs that were asked for.
     pub signs: u64,
+    /// Rounds of insertions.
+    pub rounds: usize,
 }
 
-/// Suspect tetrahedra that a thread looks at together.
-const SUSPECTS: usize = 256;
+/// Tetrahedra that a thread looks at together.
+const TETRAHEDRA: usize = 256;
 
 /// Why splaying ends early.
 enum Stop {
@@ -116,9 +124,8 @@ impl NearDelaunay {
 }
 
 /// The Delaunay triangulation of `vertices`, of which `near` is nearly one. It gives up when the stars ask for more than
-/// `most_signs`, the measure of its work; see [`NearDelaunay::signs_from_nothing`]. Up to
-/// `threads` threads work on it, unless the vertices are stored. `report` learns now and then which share of the work is done,
-/// and can stop it.
+/// `most_signs`, the measure of its work; see [`NearDelaunay::signs_from_nothing`]. The work is that of `threads`, unless the
+/// vertices are stored. `report` learns now and then which share of it is done, and can stop it.
 ///
 /// # Errors
 ///
@@ -127,7 +134,7 @@ pub fn splay(
     vertices: &Vertices<'_>,
     near: NearDelaunay,
     most_signs: u64,
-    threads: usize,
+    threads: Threads,
     report: &dyn Fn(f64) -> Result<(), Error>,
 ) -> Result<Outcome, Error> {
     match try_splay(vertices, near, most_signs, threads, report) {
@@ -141,7 +148,7 @@ fn try_splay(
     vertices: &Vertices<'_>,
     near: NearDelaunay,
     most_signs: u64,
-    threads: usize,
+    threads: Threads,
     report: &dyn Fn(f64) -> Result<(), Error>,
 ) -> Result<(Triangulation, SplayStats), Stop> {
     let NearDelaunay { triangulation: mut mesh, mut incident, mut failed, doubtful, missing } = near;
@@ -149,31 +156,42 @@ fn try_splay(
     let space = Space::new(vertices, mesh.infinite, kernel);
     let mut free = Vec::new();
 
-    let mut flat: Vec<u32> =
-        doubtful.iter().copied().filter(|&t| !mesh.is_ghost(t) && space.orient(mesh.vertices(t)) == 0).collect();
+    let mut flat = space
+        .shared(threads, doubtful.len(), TETRAHEDRA, |space, range| {
+            let is_flat = |&t: &u32| !mesh.is_ghost(t) && space.orient(mesh.vertices(t)) == 0;
+            doubtful[range].iter().copied().filter(is_flat).collect::<Vec<_>>()
+        })
+        .concat();
     let found = flat.len();
-    let mut suspect = peel::peel(&mut mesh, &space, &mut flat, &mut incident, &mut free)?;
+    let mut suspect = peel::peel(&mut mesh, &space, threads, &mut flat, &mut incident, &mut free)?;
     let peeled = found - flat.len();
 
     suspect.extend(doubtful);
-    for more in space.shared(threads, suspect.len(), SUSPECTS, |space, range| {
-        let mut failed = Vec::new();
+    parallel::sort(threads, &mut suspect);
+    suspect.dedup();
+    let mut turned = FxHashSet::default();
+    for (more_failed, more_turned) in space.shared(threads, suspect.len(), TETRAHEDRA, |space, range| {
+        let (mut failed, mut turned) = (Vec::new(), Vec::new());
         for &t in suspect[range].iter().filter(|&&t| mesh.state(t) != state::FREE) {
-            add_failed(&mesh, space, t, &mut failed);
+            if add_failed(&mesh, space, t, &mut failed) {
+                turned.push(t);
+            }
         }
-        failed
+        (failed, turned)
     }) {
-        failed.extend(more);
+        failed.extend(more_failed);
+        turned.extend(more_turned);
     }
+    failed.retain(|&v| v != mesh.infinite);
     failed.sort_unstable();
     failed.dedup();
+    let mut has_failed = vec![false; mesh.infinite as usize + 1];
+    failed.iter().for_each(|&v| has_failed[v as usize] = true);
 
-    let mut splaying = Splaying::new(&space, &mesh, &incident, most_signs);
-    splaying.run(&failed, threads, report)?;
-    let (remove, add) = splaying.difference()?;
-    let mut stats = splaying.stats;
-    drop(splaying);
-    let filled = patch::patch(&mut mesh, &space, &remove, &add, &mut free)?;
+    let known = Known { mesh: &mesh, incident: &incident, failed: has_failed, turned };
+    let splaying = Splaying::new(known, threads);
+    let (remove, add, mut stats) = splaying.run(&space, &failed, most_signs, report)?;
+    let filled = patch::patch(&mut mesh, &space, threads, &remove, &add, &mut free)?;
 
     let start = filled.last().or(incident.iter().find(|&&t| t != NONE)).copied().unwrap_or(0);
     stats.signs = space.signs();
@@ -197,16 +215,18 @@ fn kernel(mesh: &Triangulation, vertices: &Vertices<'_>) -> Option<[u32; 4]> {
 }
 
 /// Adds the vertices of a tetrahedron that is not positively oriented, or else of those of its facets that are not
-/// locally Delaunay.
-fn add_failed(mesh: &Triangulation, space: &Space<'_>, t: u32, failed: &mut Vec<u32>) {
+/// locally Delaunay. True if it is not positively oriented.
+fn add_failed(mesh: &Triangulation, space: &Space<'_>, t: u32, failed: &mut Vec<u32>) -> bool {
     let v = mesh.vertices(t);
     let mut add = |vertices: &[usize]| failed.extend(vertices.iter().map(|&i| v[i]).filter(|&v| v != mesh.infinite));
     if space.orient(v) <= 0 {
-        return add(&[0, 1, 2, 3]);
+        add(&[0, 1, 2, 3]);
+        return true;
     }
     for (k, facet) in crate::mesh::FACETS.iter().enumerate() {
         if !patch::is_locally_delaunay(mesh, space, t, k) {
             add(facet);
         }
     }
+    false
 }

@@ -4,70 +4,66 @@
 //! T⁺ finds its like, T⁺ fills the holes; since all of T⁺ is positively oriented, it fills them once; and where every
 //! facet of T⁺ is locally Delaunay, as the facets elsewhere are, the whole is Delaunay. All of this is checked.
 
-use super::{GaveUp, Stop, consistency::Key, space::Space};
+use super::{GaveUp, Stop, TETRAHEDRA, ledger::Key, space::Space};
 use crate::{
     mesh::FACETS,
+    parallel::{self, Threads},
     triangulation::{Triangulation, state},
 };
-use rustc_hash::FxHashMap;
 
-const UNMATCHED: GaveUp = GaveUp::Inconsistent("a facet of the patch has no neighbour");
+const UNMATCHED: GaveUp = GaveUp::Inconsistent("a facet of the patch has not one neighbour");
 
 /// Replaces the tetrahedra in the slots `remove` by `add`. `free` has unused slots, before and after; gives the slots of
 /// the new tetrahedra.
 pub(super) fn patch(
     mesh: &mut Triangulation,
     space: &Space<'_>,
+    threads: Threads,
     remove: &[u32],
     add: &[Key],
     free: &mut Vec<u32>,
 ) -> Result<Vec<u32>, Stop> {
-    let mut open: FxHashMap<[u32; 3], u32> = FxHashMap::default();
-    open.reserve(2 * add.len());
     for &t in remove {
         mesh.set_state(t, state::FREE);
     }
-    for &t in remove {
-        let v = mesh.vertices(t);
-        for k in 0..4 {
+    // Each facet twice: from inside of the patch, and from what is across.
+    let around = parallel::map_grains(threads, remove.len(), TETRAHEDRA, |range| {
+        let facets = remove[range].iter().flat_map(|&t| (0..4).map(move |k| (t, k)));
+        let outer = facets.filter_map(|(t, k)| {
             let across = mesh.neighbors[t as usize][k];
-            if mesh.state(across >> 2) != state::FREE {
-                open.insert(facet(v, k), across);
-            }
-        }
-    }
+            (mesh.state(across >> 2) != state::FREE).then(|| (facet(mesh.vertices(t), k), across))
+        });
+        outer.collect::<Vec<_>>()
+    });
+    let mut facets: Vec<([u32; 3], u32)> = around.concat();
+    facets.reserve(4 * add.len());
     free.extend(remove.iter().rev());
     let mut filled = Vec::with_capacity(add.len());
     for &v in add {
-        if space.orient(v) <= 0 {
-            return Err(GaveUp::Inconsistent("the patch has a tetrahedron that is not positively oriented").into());
-        }
         let slot = match free.pop() {
             Some(slot) => slot,
             None => mesh.push()?,
         };
         filled.push(slot);
         mesh.tetrahedra[slot as usize] = v;
-        for k in 0..4 {
-            let name = 4 * slot + k as u32;
-            match open.remove(&facet(v, k)) {
-                Some(other) => mesh.join(name, other),
-                None => {
-                    open.insert(facet(v, k), name);
-                }
+        facets.extend((0..4).map(|k| (facet(v, k), 4 * slot + k as u32)));
+    }
+    parallel::sort(threads, &mut facets);
+    for same in facets.chunk_by(|f, g| f.0 == g.0) {
+        let &[(_, f), (_, g)] = same else { return Err(UNMATCHED.into()) };
+        mesh.join(f, g);
+    }
+    let mesh = &*mesh;
+    let checked = space.shared(threads, filled.len(), TETRAHEDRA, |space, range| {
+        filled[range].iter().try_for_each(|&t| {
+            if space.orient(mesh.vertices(t)) <= 0 {
+                return Err(GaveUp::Inconsistent("the patch has a tetrahedron that is not positively oriented"));
             }
-        }
-    }
-    if !open.is_empty() {
-        return Err(UNMATCHED.into());
-    }
-    for &t in &filled {
-        for k in 0..4 {
-            if !is_locally_delaunay(mesh, space, t, k) {
-                return Err(GaveUp::Inconsistent("the patch is not Delaunay").into());
-            }
-        }
-    }
+            let is_delaunay = (0..4).all(|k| is_locally_delaunay(mesh, space, t, k));
+            if is_delaunay { Ok(()) } else { Err(GaveUp::Inconsistent("the patch is not Delaunay")) }
+        })
+    });
+    checked.into_iter().collect::<Result<(), GaveUp>>()?;
     Ok(filled)
 }
 

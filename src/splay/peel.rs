@@ -6,51 +6,73 @@
 //! on the hull what is there already, which happens where tetrahedra are flat in the true coordinates only. What cannot be
 //! peeled is left for the stars.
 
-use super::space::{Space, replaced};
+use super::{
+    TETRAHEDRA,
+    space::{Space, replaced},
+};
 use crate::{
     Error,
+    parallel::Threads,
     triangulation::{Triangulation, state},
 };
+use rustc_hash::FxHashMap;
 
 /// Peels the tetrahedra of `flat` that can be; those that cannot are left in it. Gives the slots of new ghosts, some of
 /// which may have been replaced again. `incident` has a tetrahedron of each vertex, before and after, and a ghost of those
 /// that are on the hull.
+///
+/// All threads find the signs, one flips.
 pub(super) fn peel(
     mesh: &mut Triangulation,
     space: &Space<'_>,
+    threads: Threads,
     flat: &mut Vec<u32>,
     incident: &mut [u32],
     free: &mut Vec<u32>,
 ) -> Result<Vec<u32>, Error> {
+    let sides = space.shared(threads, flat.len(), TETRAHEDRA, |space, range| {
+        flat[range].iter().map(|&t| sides(mesh, space, t)).collect::<Vec<_>>()
+    });
+    let mut left: FxHashMap<u32, Sides> = flat.iter().copied().zip(sides.into_iter().flatten()).collect();
     let mut made = Vec::new();
+    // They lie on top of each other: what one has covered comes next.
+    let mut next = Vec::new();
     loop {
-        let before = flat.len();
-        let mut kept = Vec::new();
+        let before = left.len();
         for &t in flat.iter() {
-            let start = made.len();
-            peel_one(mesh, space, t, incident, free, &mut made)?;
-            if made.len() == start {
-                kept.push(t);
-            }
-            for &ghost in &made[start..] {
-                for v in mesh.vertices(ghost).into_iter().filter(|&v| v != mesh.infinite) {
-                    incident[v as usize] = ghost;
+            next.push(t);
+            while let Some(t) = next.pop() {
+                let Some(&sides) = left.get(&t) else { continue };
+                let start = made.len();
+                peel_one(mesh, t, sides, incident, free, &mut made)?;
+                if made.len() == start {
+                    continue;
                 }
+                left.remove(&t);
+                next.extend(made[start..].iter().map(|&ghost| mesh.neighbors[ghost as usize][3] >> 2));
             }
         }
-        *flat = kept;
-        if flat.len() == before {
+        flat.retain(|t| left.contains_key(t));
+        if left.is_empty() || left.len() == before {
             return Ok(made);
         }
     }
 }
 
+/// For each facet of a flat tetrahedron, whether a ghost in its place, on that facet, is not turned over.
+type Sides = [bool; 4];
+
+fn sides(mesh: &Triangulation, space: &Space<'_>, t: u32) -> Sides {
+    let v = mesh.vertices(t);
+    std::array::from_fn(|k| space.orient(replaced(v, k, mesh.infinite)) >= 0)
+}
+
 /// Peels one flat tetrahedron, and lists the new ghosts, if it lies under the hull facets that cover it.
 fn peel_one(
     mesh: &mut Triangulation,
-    space: &Space<'_>,
     t: u32,
-    incident: &[u32],
+    sides: Sides,
+    incident: &mut [u32],
     free: &mut Vec<u32>,
     made: &mut Vec<u32>,
 ) -> Result<(), Error> {
@@ -68,7 +90,7 @@ fn peel_one(
     // Where the ghost's corners are in t, and the ghost that has x in place of corner i.
     let in_t: [usize; 3] = std::array::from_fn(|i| v.iter().position(|&w| w == g[i]).unwrap_or(x));
     let moved = |i: usize| replaced(g, i, v[x]);
-    let fits = |i: usize| space.orient(moved(i)) >= 0;
+    let fits = |i: usize| sides[in_t[i]];
     match y {
         None => {
             if !(0..3).all(fits) || mesh.is_ghost(incident[v[x] as usize]) {
@@ -84,6 +106,9 @@ fn peel_one(
                 let j = (i + 1) % 3;
                 mesh.join(slot + j as u32, 4 * slots[j] + i as u32);
             }
+            // The only ones that were in these slots, and are no more or were not on the hull.
+            incident[g[0] as usize] = slots[1];
+            incident[v[x] as usize] = ghost;
             made.extend(slots);
         }
         Some(y) => {
@@ -106,6 +131,8 @@ fn peel_one(
                 mesh.join(4 * slot + iy as u32, outer);
             }
             mesh.join(4 * ghost + ib as u32, 4 * other + ia as u32);
+            incident[g[ia] as usize] = other;
+            incident[g[ib] as usize] = ghost;
             mesh.set_state(t, state::FREE);
             free.push(t);
             made.extend([ghost, other]);

@@ -11,14 +11,10 @@
 //! tetrahedron cannot be a facet, as its hyperplane, being vertical, has the kernel on one side and infinity on the other.
 
 use crate::{
-    parallel,
+    parallel::{self, Threads},
     predicates::{Sign, vertices::Vertices},
 };
-use std::{
-    cell::Cell,
-    ops::Range,
-    sync::{Mutex, PoisonError},
-};
+use std::{cell::Cell, ops::Range};
 
 /// A point set and infinity.
 pub(super) struct Space<'a> {
@@ -34,29 +30,25 @@ impl<'a> Space<'a> {
         Space { vertices, infinite, kernel, signs: Cell::new(0) }
     }
 
-    /// What `work` makes of the ranges of `grain` elements that 0 … `len` is cut into, in order. In up to `threads` threads,
-    /// each with a space of its own, if there can be several.
+    /// What `work` makes of the ranges of `grain` elements that 0 … `len` is cut into, in order; each with a space of its own
+    /// if threads can share it.
     pub(super) fn shared<R: Send>(
         &self,
-        threads: usize,
+        threads: Threads,
         len: usize,
         grain: usize,
         work: impl Fn(&Space<'_>, Range<usize>) -> R + Sync,
     ) -> Vec<R> {
-        let source = if threads > 1 && len > grain { self.vertices.again() } else { None };
-        let Some(source) = source else { return vec![work(self, 0..len)] };
-        let (infinite, kernel, source) = (self.infinite, self.kernel, Mutex::new(source));
+        let source = if threads == Threads::All && len > grain { self.vertices.source() } else { None };
+        let Some((points, lattice)) = source else { return vec![work(self, 0..len)] };
+        let (infinite, kernel) = (self.infinite, self.kernel);
         let results = parallel::map_grains(threads, len, grain, |range| {
-            // The lock only copies what is needed to compute the vertices.
-            let vertices = source.lock().unwrap_or_else(PoisonError::into_inner).again();
-            vertices.map(|vertices| {
-                let space = Space::new(&vertices, infinite, kernel);
-                let result = work(&space, range);
-                let signs = space.signs();
-                (result, signs, vertices.exact_counts())
-            })
+            let vertices = Vertices::of_input(points, lattice);
+            let space = Space::new(&vertices, infinite, kernel);
+            let result = work(&space, range);
+            (result, space.signs(), vertices.exact_counts())
         });
-        let results = results.into_iter().flatten().map(|(result, signs, counts)| {
+        let results = results.into_iter().map(|(result, signs, counts)| {
             self.signs.set(self.signs.get() + signs);
             self.vertices.add_counts(counts);
             result
