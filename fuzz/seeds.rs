@@ -1,6 +1,6 @@
 //! Writes the samples of the tests as seeds for the fuzz targets.
 
-#[path = "../tests/samples/mod.rs"]
+#[path = "../tests/io/samples.rs"]
 mod samples;
 
 use gdel::io::{MeshFormat, PointFormat};

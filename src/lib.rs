@@ -28,7 +28,7 @@ pub mod io;
 pub mod lattice;
 pub mod mesh;
 pub mod options;
-mod parallel;
+pub mod parallel;
 pub mod plane;
 pub mod points;
 pub mod predicates;

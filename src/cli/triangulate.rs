@@ -28,7 +28,7 @@ pub(super) struct Arguments {
     /// The points: .ply, .obj, .stl, .xyz, .txt, .asc, .pts, .csv, .tsv, .pcd, .las, .laz, .npy, .f32 or .f64
     input: PathBuf,
     /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu or .npz; the hull as .ply,
-    /// .obj or .stl; may be given several times
+    /// .obj, .stl or .glb; may be given several times
     #[arg(short, long = "output", value_name = "OUTPUT", value_parser = parse_output)]
     outputs: Vec<Output>,
     /// Triangulate space, or the plane: then z is dropped, and all outputs have the triangles

@@ -200,6 +200,7 @@ impl Output {
             OutputFormat::Hull(HullFormat::Ply) => whole(&|to| super::write_ply2(to, points, mesh))?,
             OutputFormat::Hull(HullFormat::Obj) => whole(&|to| super::write_obj2(to, points, mesh))?,
             OutputFormat::Hull(HullFormat::Stl) => whole(&|to| super::write_stl2(to, points, mesh))?,
+            OutputFormat::Hull(HullFormat::Glb) => whole(&|to| super::write_glb2(to, points, mesh))?,
         };
         parts.into_iter().try_for_each(publish)
     }

@@ -1,7 +1,7 @@
 //! The formats by file extension.
 
 use super::{
-    FormatError, MeshData, MeshData2, PointCloud, las, npy, npz, obj, pcd, plane, ply, raw, stl, tetgen, text, vtu,
+    FormatError, MeshData, MeshData2, PointCloud, glb, las, npy, npz, obj, pcd, plane, ply, raw, stl, tetgen, text, vtu,
 };
 use crate::{Mesh3, Points};
 use std::io::{self, Write};
@@ -82,6 +82,8 @@ formats! {
         Obj: "obj",
         /// STL.
         Stl: "stl",
+        /// Binary glTF 2.0.
+        Glb: "glb",
     }
 }
 
@@ -172,6 +174,7 @@ impl HullFormat {
             HullFormat::Ply => ply::write_hull_ply(to, points, mesh),
             HullFormat::Obj => obj::write_hull_obj(to, points, mesh),
             HullFormat::Stl => stl::write_hull_stl(to, points, mesh),
+            HullFormat::Glb => glb::write_hull_glb(to, points, mesh),
         }
     }
 }

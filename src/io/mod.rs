@@ -11,6 +11,7 @@ mod error;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod files;
 mod format;
+mod glb;
 mod las;
 mod mesh_data;
 mod npy;
@@ -28,12 +29,14 @@ mod vtu;
 
 pub use error::{FormatError, Position};
 pub use format::{HullFormat, MeshFormat, PointFormat};
+pub use glb::write_hull_glb;
 pub use las::panics_are_caught;
 pub use mesh_data::{MeshData, MeshData2};
 pub use npz::{read_npz, read_npz2, write_npz, write_npz2};
 pub use obj::write_hull_obj;
 pub use plane::{
-    PlanePoints, drop_z, read_ele2, read_vtu2, write_ele2, write_neigh2, write_obj2, write_ply2, write_stl2, write_vtu2,
+    PlanePoints, drop_z, read_ele2, read_vtu2, write_ele2, write_glb2, write_neigh2, write_obj2, write_ply2,
+    write_stl2, write_vtu2,
 };
 pub use ply::write_hull_ply;
 pub use point_cloud::{PointBuf, PointCloud};

@@ -3,7 +3,7 @@
 //! Files have triangles counter-clockwise where *y* points up, as their other programs do; only `.npz` has them as
 //! [`Mesh2`] has. Formats of space get z = 0.
 
-use super::{FormatError, MeshData2, PointBuf, PointCloud, obj, ply, stl, tetgen, vtu};
+use super::{FormatError, MeshData2, PointBuf, PointCloud, glb, obj, ply, stl, tetgen, vtu};
 use crate::{Mesh2, Points, Points2, mesh::NONE};
 use std::io::{self, Write};
 
@@ -104,6 +104,15 @@ pub fn write_obj2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Res
 /// When `to` cannot be written.
 pub fn write_stl2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Result<()> {
     stl::write_surface(to, (&in_space(points)).into(), &turned(&mesh.triangles), "triangulation")
+}
+
+/// Writes the triangles as binary glTF, without the points that are no vertices: see [`write_hull_glb`](super::write_hull_glb).
+///
+/// # Errors
+///
+/// When `to` cannot be written; [`io::ErrorKind::FileTooLarge`] beyond 4 GB.
+pub fn write_glb2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Result<()> {
+    glb::write_surface(to, (&in_space(points)).into(), &turned(&mesh.triangles), "triangulation")
 }
 
 /// Reads the triangles of an `.ele` file of Triangle's. One whose first triangle is number 1 counts from 1.

@@ -1,12 +1,18 @@
 //! The surface for JavaScript, and nothing else: typed arrays in, typed arrays out, errors as `Error` objects with a
 //! `code`. The TypeScript in `web/` is its only caller.
 //!
-//! There are two modules, so that a page which only triangulates loads no file formats: `engine` and `tools`.
+//! There are three modules, so that a page loads no more than it uses: `engine`, `plane` and `tools`.
 
 #[cfg(feature = "wasm-engine")]
 mod engine;
 mod objects;
+#[cfg(feature = "wasm-plane")]
+mod plane;
+#[cfg(feature = "wasm-tools")]
+mod plane_tools;
 mod points;
+#[cfg(any(feature = "wasm-engine", feature = "wasm-plane"))]
+mod run;
 #[cfg(feature = "wasm-tools")]
 mod tools;
 

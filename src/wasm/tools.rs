@@ -11,7 +11,7 @@ use crate::{
     Mesh3,
     generate::{self, Distribution},
     io::{HullFormat, PointBuf, PointFormat, write_ele, write_neigh, write_node, write_npz, write_vtu},
-    verify::{Outcome, Statement, verify3d},
+    verify::{Check, Outcome, Report, Statement, verify3d},
 };
 
 /// `count` points of the distribution of that name, interleaved.
@@ -96,28 +96,21 @@ impl Mesh {
 
     /// The mesh or its hull as files of a format: `{ extension: bytes }`, more than one only for TetGen.
     pub fn write(&self, format: &str) -> Result<JsValue, JsValue> {
-        self.check_indices()?;
         let points = self.points.points::<3>()?;
         let mesh = &self.mesh;
-        let file = |extension: &'static str, write: &dyn Fn(&mut Vec<u8>) -> std::io::Result<()>| {
-            let mut bytes = Vec::new();
-            write(&mut bytes).map_err(|e| error("OUT_OF_MEMORY", &e.to_string()))?;
-            Ok::<_, JsValue>((extension, Uint8Array::new_from_slice(&bytes).into()))
-        };
+        check_vertices(mesh.tetrahedra.as_flattened().iter().chain(mesh.hull.as_flattened()), points.len())?;
         match format {
-            "vtu" => Ok(object([file("vtu", &|to| write_vtu(to, points, mesh))?])),
-            "npz" => Ok(object([file("npz", &|to| write_npz(to, points, mesh))?])),
+            "vtu" => Ok(object([file("vtu", |to| write_vtu(to, points, mesh))?])),
+            "npz" => Ok(object([file("npz", |to| write_npz(to, points, mesh))?])),
             "tetgen" => Ok(object([
-                file("node", &|to| write_node(to, points))?,
-                file("ele", &|to| write_ele(to, mesh))?,
-                file("neigh", &|to| write_neigh(to, mesh))?,
+                file("node", |to| write_node(to, points))?,
+                file("ele", |to| write_ele(to, mesh))?,
+                file("neigh", |to| write_neigh(to, mesh))?,
             ])),
-            _ => match HullFormat::from_extension(format) {
-                Some(hull) => Ok(object([file(hull.extensions()[0], &|to| hull.write(to, points, mesh))?])),
-                None => {
-                    Err(error("UNKNOWN_FORMAT", &format!("there is no format {format:?} of meshes or hulls")).into())
-                }
-            },
+            _ => {
+                let hull = HullFormat::from_extension(format).ok_or_else(|| no_format(format))?;
+                Ok(object([file(hull.extensions()[0], |to| hull.write(to, points, mesh))?]))
+            }
         }
     }
 
@@ -134,61 +127,78 @@ impl Mesh {
                 dimension: self.stated.dimension.then_some(*dimension),
             },
         )?;
-        let check = |(check, outcome): &(crate::verify::Check, Outcome)| {
-            let (state, detail, count) = match outcome {
-                Outcome::Passed => ("passed", String::new(), 0),
-                Outcome::Failed { first, count } => ("failed", first.to_string(), *count),
-                Outcome::NotStated => ("not stated", "the mesh does not state it".to_owned(), 0),
-                Outcome::Blocked(required) => ("not decided", format!("not decided without {required}"), 0),
-            };
-            object([
-                ("name", check.name().into()),
-                ("outcome", state.into()),
-                ("passed", matches!(outcome, Outcome::Passed).into()),
-                ("detail", detail.into()),
-                ("defects", (count as f64).into()),
-            ])
-        };
-        let checks: Array = report.outcomes.iter().map(check).collect();
-        let count = |n: usize| JsValue::from(n as f64);
         let counts = report.counts;
-        Ok(object([
-            ("passed", report.passed().into()),
-            ("dimension", report.dimension.into()),
-            ("checks", checks.into()),
-            (
-                "counts",
-                object([
-                    ("points", count(counts.points)),
-                    ("distinctPoints", count(counts.distinct_points)),
-                    ("vertices", count(counts.vertices)),
-                    ("edges", count(counts.edges)),
-                    ("facets", count(counts.facets)),
-                    ("tetrahedra", count(counts.tetrahedra)),
-                    ("hullTriangles", count(counts.hull_triangles)),
-                ]),
-            ),
-        ]))
-    }
-
-    /// Writers trust the indices.
-    fn check_indices(&self) -> Result<(), JsValue> {
-        let count = self.points.points::<3>()?.len();
-        let vertices = self.mesh.tetrahedra.as_flattened().iter().chain(self.mesh.hull.as_flattened());
-        match vertices.copied().find(|&v| v as usize >= count) {
-            Some(v) => Err(error("BAD_INPUT", &format!("the mesh names point {v}, but there are {count}")).into()),
-            None => Ok(()),
-        }
+        Ok(report_object(
+            &report,
+            object([
+                ("points", counts.points.into()),
+                ("distinctPoints", counts.distinct_points.into()),
+                ("vertices", counts.vertices.into()),
+                ("edges", counts.edges.into()),
+                ("facets", counts.facets.into()),
+                ("tetrahedra", counts.tetrahedra.into()),
+                ("hullTriangles", counts.hull_triangles.into()),
+            ]),
+        ))
     }
 }
 
-fn copied<T: Clone + Default>(length: u32, copy: impl FnOnce(&mut [T])) -> Result<Vec<T>, JsValue> {
+/// What the verifier found, with the counts that its dimension has.
+pub(super) fn report_object(report: &Report, counts: JsValue) -> JsValue {
+    let check = |(check, outcome): &(Check, Outcome)| {
+        let (state, detail, count) = match outcome {
+            Outcome::Passed => ("passed", String::new(), 0),
+            Outcome::Failed { first, count } => ("failed", first.to_string(), *count),
+            Outcome::NotStated => ("not stated", "the mesh does not state it".to_owned(), 0),
+            Outcome::Blocked(required) => ("not decided", format!("not decided without {required}"), 0),
+        };
+        object([
+            ("name", check.name().into()),
+            ("outcome", state.into()),
+            ("passed", matches!(outcome, Outcome::Passed).into()),
+            ("detail", detail.into()),
+            ("defects", count.into()),
+        ])
+    };
+    let checks: Array = report.outcomes.iter().map(check).collect();
+    object([
+        ("passed", report.passed().into()),
+        ("dimension", report.dimension.into()),
+        ("checks", checks.into()),
+        ("counts", counts),
+    ])
+}
+
+/// The content of a file of the package, by its extension.
+pub(super) fn file(
+    extension: &'static str,
+    write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>,
+) -> Result<(&'static str, JsValue), JsValue> {
+    let mut bytes = Vec::new();
+    write(&mut bytes).map_err(|e| error("OUT_OF_MEMORY", &e.to_string()))?;
+    Ok((extension, Uint8Array::new_from_slice(&bytes).into()))
+}
+
+/// The error for a format that no writer knows.
+pub(super) fn no_format(format: &str) -> JsValue {
+    error("UNKNOWN_FORMAT", &format!("there is no format {format:?} of meshes or hulls")).into()
+}
+
+/// Writers trust the indices of the vertices.
+pub(super) fn check_vertices<'a>(mut vertices: impl Iterator<Item = &'a u32>, points: usize) -> Result<(), JsValue> {
+    match vertices.find(|&&v| v as usize >= points) {
+        Some(v) => Err(error("BAD_INPUT", &format!("the mesh names point {v}, but there are {points}")).into()),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn copied<T: Clone + Default>(length: u32, copy: impl FnOnce(&mut [T])) -> Result<Vec<T>, JsValue> {
     let mut values = zeros(length)?;
     copy(&mut values);
     Ok(values)
 }
 
-fn rows<T: bytemuck::Pod + Default, const N: usize>(
+pub(super) fn rows<T: bytemuck::Pod + Default, const N: usize>(
     name: &str,
     length: u32,
     copy: impl FnOnce(&mut [T]),

@@ -1,0 +1,120 @@
+//! The same as in [`tools`](super::tools) for the plane.
+
+use js_sys::{Float64Array, Int32Array, Uint32Array};
+use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+
+use super::{
+    objects::{error, object},
+    points::{Coordinates, zeros},
+    tools::{check_vertices, copied, file, no_format, report_object, rows},
+};
+use crate::{
+    Mesh2,
+    io::{
+        HullFormat, write_ele2, write_glb2, write_neigh2, write_node, write_npz2, write_obj2, write_ply2, write_stl2,
+        write_vtu2,
+    },
+    plane::generate::{self, Distribution2},
+    verify::{Statement2, verify2d},
+};
+
+/// `count` points of the distribution of that name in the plane, interleaved.
+#[wasm_bindgen]
+pub fn generate2d(kind: &str, count: u32, seed: u64) -> Result<Float64Array, JsValue> {
+    let names = || Distribution2::ALL.map(Distribution2::name).join(", ");
+    let distribution = Distribution2::ALL.into_iter().find(|d| d.name() == kind);
+    let distribution = distribution.ok_or_else(|| {
+        error("BAD_INPUT", &format!("there is no distribution {kind:?} in the plane, but {}", names()))
+    })?;
+    // Fails here where the points could not be held twice, and not half-way.
+    drop(zeros::<[f64; 4]>(count)?);
+    let points = generate::generate2d(distribution, count as usize, seed);
+    Ok(Float64Array::new_from_slice(points.as_flattened()))
+}
+
+/// A mesh of the plane, copied into this module's memory.
+#[wasm_bindgen]
+pub struct PlaneMesh {
+    points: Coordinates,
+    triangles: Vec<[u32; 3]>,
+    halfedges: Option<Vec<[i32; 3]>>,
+    hull: Option<Vec<u32>>,
+    duplicate_of: Option<Vec<i32>>,
+    dimension: Option<u8>,
+}
+
+#[wasm_bindgen]
+impl PlaneMesh {
+    #[wasm_bindgen(constructor)]
+    pub fn new(
+        points: &JsValue,
+        triangles: &Uint32Array,
+        halfedges: Option<Int32Array>,
+        hull: Option<Uint32Array>,
+        duplicate_of: Option<Int32Array>,
+        dimension: Option<u8>,
+    ) -> Result<PlaneMesh, JsValue> {
+        let points = Coordinates::new(points)?;
+        points.points::<2>()?.validate()?;
+        Ok(PlaneMesh {
+            points,
+            triangles: rows("triangles", triangles.length(), |to| triangles.copy_to(to))?,
+            halfedges: halfedges.map(|a| rows("halfedges", a.length(), |to| a.copy_to(to))).transpose()?,
+            hull: hull.map(|a| copied(a.length(), |to| a.copy_to(to))).transpose()?,
+            duplicate_of: duplicate_of.map(|a| copied(a.length(), |to| a.copy_to(to))).transpose()?,
+            dimension,
+        })
+    }
+
+    /// The triangles as files of a format: `{ extension: bytes }`, more than one only for Triangle's.
+    pub fn write(&self, format: &str) -> Result<JsValue, JsValue> {
+        let points = self.points.points::<2>()?;
+        check_vertices(self.triangles.as_flattened().iter(), points.len())?;
+        let mesh = &Mesh2 {
+            triangles: self.triangles.clone(),
+            halfedges: self.halfedges.clone().unwrap_or_default(),
+            ..Mesh2::default()
+        };
+        match format {
+            "vtu" => Ok(object([file("vtu", |to| write_vtu2(to, points, mesh))?])),
+            "npz" => Ok(object([file("npz", |to| write_npz2(to, points, mesh))?])),
+            "triangle" => Ok(object([
+                file("node", |to| write_node(to, points))?,
+                file("ele", |to| write_ele2(to, mesh))?,
+                file("neigh", |to| write_neigh2(to, mesh))?,
+            ])),
+            _ => Ok(object([match HullFormat::from_extension(format).ok_or_else(|| no_format(format))? {
+                HullFormat::Ply => file("ply", |to| write_ply2(to, points, mesh))?,
+                HullFormat::Obj => file("obj", |to| write_obj2(to, points, mesh))?,
+                HullFormat::Stl => file("stl", |to| write_stl2(to, points, mesh))?,
+                HullFormat::Glb => file("glb", |to| write_glb2(to, points, mesh))?,
+            }])),
+        }
+    }
+
+    /// What the verifier finds.
+    pub fn verify(&self) -> Result<JsValue, JsValue> {
+        let report = verify2d(
+            self.points.points::<2>()?,
+            Statement2 {
+                triangles: &self.triangles,
+                halfedges: self.halfedges.as_deref(),
+                hull: self.hull.as_deref(),
+                duplicate_of: self.duplicate_of.as_deref(),
+                dimension: self.dimension,
+            },
+        )?;
+        let counts = report.counts;
+        Ok(report_object(
+            &report,
+            object([
+                ("points", counts.points.into()),
+                ("distinctPoints", counts.distinct_points.into()),
+                ("vertices", counts.vertices.into()),
+                ("edges", counts.edges.into()),
+                ("triangles", counts.facets.into()),
+                ("hullEdges", counts.hull_edges.into()),
+            ]),
+        ))
+    }
+}

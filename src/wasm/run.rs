@@ -1,0 +1,109 @@
+//! What runs in space and in the plane have in common: options in, statistics out.
+
+use std::{ops::ControlFlow, sync::Arc};
+
+use js_sys::{Array, Function};
+use send_wrapper::SendWrapper;
+use wasm_bindgen::prelude::JsValue;
+
+use super::objects::object;
+use crate::{
+    Engine, Options, Progress,
+    options::OnProgress,
+    splay::SplayStats,
+    stats::{GpuStats, Round, Stats},
+};
+
+pub(super) fn options(engine: &str, trace: bool, report: Function) -> Options {
+    let engine = match engine {
+        "gpu" => Engine::Gpu,
+        "cpu" => Engine::Cpu,
+        _ => Engine::Auto,
+    };
+    Options { engine, on_progress: Some(on_progress(report)), trace }
+}
+
+fn on_progress(report: Function) -> OnProgress {
+    // Nothing moves to another thread: there is none.
+    let report = SendWrapper::new(report);
+    Arc::new(move |progress: Progress| {
+        let stop = report.call2(&JsValue::NULL, &progress.phase.into(), &progress.fraction.into());
+        match stop {
+            Ok(stop) if stop.is_falsy() => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        }
+    })
+}
+
+pub(super) fn stats(stats: &Stats) -> JsValue {
+    let phase =
+        |&(name, seconds): &(&str, f64)| object([("name", name.into()), ("milliseconds", (1e3 * seconds).into())]);
+    let phases: Array = stats.phases.iter().map(phase).collect();
+    let fallback = stats.fallback.as_ref().map(|why| JsValue::from(why.to_string()));
+    object([
+        ("engine", stats.engine.into()),
+        ("why", fallback.unwrap_or(JsValue::NULL)),
+        ("phases", phases.into()),
+        (
+            "exact",
+            object([
+                ("integer", number(stats.exact.integer)),
+                ("expansion", number(stats.exact.expansion)),
+                ("symbolic", number(stats.exact.symbolic)),
+            ]),
+        ),
+        ("gpu", stats.gpu.as_ref().map_or(JsValue::NULL, gpu_stats)),
+        ("splay", stats.splay.as_ref().map_or(JsValue::NULL, splay_stats)),
+    ])
+}
+
+fn gpu_stats(stats: &GpuStats) -> JsValue {
+    let round = |round: &Round| {
+        object([
+            ("inserted", round.inserted.into()),
+            ("active", round.active.into()),
+            ("flips", round.flips.into()),
+            ("iterations", round.iterations.into()),
+            ("milliseconds", round.milliseconds.into()),
+        ])
+    };
+    let rounds: Array = stats.rounds.iter().map(round).collect();
+    object([
+        ("rounds", rounds.into()),
+        ("flips23", number(stats.flips_23)),
+        ("flips32", number(stats.flips_32)),
+        ("flipIterations", number(stats.flip_iterations)),
+        ("exactTests", number(stats.exact_tests)),
+        ("notLocallyDelaunay", number(stats.not_locally_delaunay)),
+        ("failedVertices", number(stats.failed_vertices)),
+        ("united", number(stats.united)),
+        ("readbacks", number(stats.readbacks)),
+        ("dispatches", number(stats.dispatches)),
+        ("submits", number(stats.submits)),
+        ("bytes", number(stats.bytes)),
+    ])
+}
+
+fn splay_stats(stats: &SplayStats) -> JsValue {
+    let count = |n: usize| number(n as u64);
+    object([
+        ("peeled", count(stats.peeled)),
+        ("failed", count(stats.failed)),
+        ("built", count(stats.built)),
+        ("fromPoints", count(stats.from_points)),
+        ("pulled", count(stats.pulled)),
+        ("flips", count(stats.flips)),
+        ("insertions", count(stats.insertions)),
+        ("checks", count(stats.checks)),
+        ("removed", count(stats.removed)),
+        ("added", count(stats.added)),
+        ("inserted", count(stats.inserted)),
+        ("signs", number(stats.signs)),
+        ("rounds", count(stats.rounds)),
+    ])
+}
+
+/// Counts as JavaScript has them: exact up to 2⁵³.
+fn number(count: u64) -> JsValue {
+    (count as f64).into()
+}
