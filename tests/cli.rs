@@ -60,10 +60,11 @@ const BUNNY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/bunny.ply")
 fn bunny_to_all_outputs_and_back() {
     let folder = folder();
     let path = folder.path();
-    let outputs = ["-o", "b.ele", "-o", "b.vtu", "-o", "b.npz", "-o", "h.ply", "-o", "h.obj", "-o", "h.stl"];
+    let outputs =
+        ["-o", "b.ele", "-o", "b.vtu", "-o", "b.npz", "-o", "h.ply", "-o", "h.obj", "-o", "h.stl", "-o", "h.glb"];
     let summary = succeeds(path, &[&["triangulate", BUNNY, "--verify"], &outputs[..]].concat());
     assert!(summary.contains("tetrahedra      246218") && summary.contains("verified"), "{summary}");
-    assert_eq!(files(path), ["b.ele", "b.neigh", "b.node", "b.npz", "b.vtu", "h.obj", "h.ply", "h.stl"]);
+    assert_eq!(files(path), ["b.ele", "b.neigh", "b.node", "b.npz", "b.vtu", "h.glb", "h.obj", "h.ply", "h.stl"]);
     for mesh in ["b.node", "b.ele", "b.neigh", "b.vtu", "b.npz"] {
         succeeds(path, &["verify", BUNNY, mesh]);
     }

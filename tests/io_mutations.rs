@@ -1,6 +1,7 @@
 //! Every reader on damaged files of every format: no panic, and memory in proportion to the file.
 #![cfg(feature = "io")]
 
+#[path = "io/samples.rs"]
 mod samples;
 
 use gdel::io::{MeshFormat, PointFormat};

@@ -1,10 +1,12 @@
 //! The engine `gpu` gives the same set of tetrahedra as the engine `cpu`.
 #![cfg(feature = "gpu")]
 
-#[path = "../clouds/mod.rs"]
+#[path = "../clouds.rs"]
 mod clouds;
 mod inputs;
 mod outcomes;
+mod plane;
+mod plane_trouble;
 mod statistics;
 
 use gdel::{

@@ -5,7 +5,7 @@ use gdel::{
     Engine, Engines, Error, Mesh3, Options, Progress,
     engines::LEAST_POINTS,
     generate::{Distribution, generate},
-    gpu::{AdapterChoice, Gpu},
+    gpu::{AdapterChoice, Gpu, phase1::Settings},
     hybrid::Hybrid,
     stats::Fallback,
 };
@@ -217,6 +217,16 @@ fn a_triangulation_that_outgrows_the_device_is_an_error() {
     same(&fewer, &block_on(hybrid.delaunay3d((&fewer).into(), &Options::default())).expect("fits"));
 }
 
+/// What flips that wait for each other would come to.
+#[test]
+fn a_run_of_too_many_flip_iterations_is_left_to_the_cpu() {
+    let mut hybrid = open().with_settings(Settings { most_iterations: 8, ..Settings::default() });
+    let points = generate(Distribution::Uniform, 3_000, 1);
+    let mesh = block_on(hybrid.delaunay3d((&points).into(), &Options::default())).expect("the CPU engine goes on");
+    assert_eq!((mesh.stats.engine, &mesh.stats.fallback), ("cpu", &Some(Fallback::Flips)));
+    same(&points, &mesh);
+}
+
 #[test]
 fn auto_goes_on_without_a_gpu_that_is_too_small() {
     let engines = Engines::with_hybrid(with_small_buffers(1 << 20));
@@ -224,4 +234,50 @@ fn auto_goes_on_without_a_gpu_that_is_too_small() {
     let mesh = block_on(engines.delaunay3d((&points).into(), &Options::default())).expect("the CPU engine goes on");
     assert!(matches!(mesh.stats.fallback, Some(Fallback::GpuFailed(Error::BufferTooLarge { .. }))));
     same(&points, &mesh);
+}
+
+/// The plane's engine shares the device with that for space: neither is left with one that is gone.
+#[test]
+fn a_device_that_was_given_back_is_opened_anew_for_both_engines() {
+    let engines = Engines::new(AdapterChoice::Default);
+    let gpu = &Options { engine: Engine::Gpu, ..Options::default() };
+    let cube = clouds::grid(3);
+    let square: Vec<[f64; 2]> = (0..9).map(|i| [i % 3, i / 3].map(f64::from)).collect();
+    for _ in 0..2 {
+        let mesh = block_on(engines.delaunay3d((&cube).into(), gpu)).expect("opens a device");
+        assert_eq!(mesh.stats.engine, "gpu");
+        let plane = block_on(engines.delaunay2d((&square).into(), gpu)).expect("has the device of the other");
+        assert_eq!(plane.stats.engine, "gpu");
+        block_on(engines.close());
+        let plane = block_on(engines.delaunay2d((&square).into(), gpu)).expect("opens a device");
+        assert_eq!(plane.triangles.len(), 8);
+        // Only the plane's engine is open now.
+        block_on(engines.close());
+    }
+}
+
+/// wgpu refuses what goes beyond a hundredth of the memory that the driver says there is.
+#[test]
+#[ignore = "needs a device with 140 GB and a driver that tells its budget of memory"]
+fn a_device_whose_memory_is_exhausted_is_an_error_and_goes_on() {
+    let descriptor = wgpu::InstanceDescriptor {
+        memory_budget_thresholds: wgpu::MemoryBudgetThresholds {
+            for_resource_creation: Some(1),
+            for_device_loss: None,
+        },
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    };
+    let adapter = block_on(wgpu::Instance::new(descriptor).request_adapter(&Default::default())).expect("an adapter");
+    let limits = adapter.limits();
+    let descriptor = wgpu::DeviceDescriptor { required_limits: limits, ..Default::default() };
+    let (device, queue) = block_on(adapter.request_device(&descriptor)).expect("a device");
+    let mut hybrid = block_on(Hybrid::new(Gpu::from_device(device, queue))).expect("compiles");
+    let (few, many) = (points(), generate(Distribution::Uniform, 3_000_000, 9));
+    for _ in 0..2 {
+        let result = block_on(hybrid.delaunay3d((&many).into(), &Options::default()));
+        assert!(matches!(result, Err(Error::OutOfDeviceMemory { .. })), "{:?}", result.map(|mesh| mesh.stats));
+        let mesh = block_on(hybrid.delaunay3d((&few).into(), &Options::default())).expect("triangulates");
+        assert_eq!(mesh.stats.fallback, None);
+        same(&few, &mesh);
+    }
 }

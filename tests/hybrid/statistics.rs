@@ -13,12 +13,13 @@ use std::collections::{HashMap, HashSet};
 
 #[test]
 fn the_statistics_add_up() {
-    let points = generate(Distribution::ThinSphere, 3_000, 5);
+    // Of so many, flips always leave some facets.
+    let points = generate(Distribution::ThinSphere, 8_000, 5);
     let mesh = triangulate(&points);
     let (gpu, splay) = (mesh.stats.gpu.expect("the GPU worked"), mesh.stats.splay.expect("and splaying"));
     let sum = |of: fn(&Round) -> u32| gpu.rounds.iter().map(|round| u64::from(of(round))).sum::<u64>();
     assert_eq!(gpu.adapter, hybrid().gpu().adapter().name);
-    assert_eq!(sum(|round| round.inserted), 3_000);
+    assert_eq!(sum(|round| round.inserted), 8_000);
     assert_eq!(sum(|round| round.flips), gpu.flips_23 + gpu.flips_32);
     assert_eq!(sum(|round| round.iterations), gpu.flip_iterations);
     assert_eq!(gpu.rounds.last().map(|round| round.active), Some(0));
@@ -26,13 +27,13 @@ fn the_statistics_add_up() {
     assert!(gpu.failed_vertices > 0 && gpu.not_locally_delaunay >= gpu.failed_vertices / 3);
     assert!(splay.failed >= gpu.failed_vertices as usize && splay.built >= splay.failed);
     assert!(gpu.submits >= gpu.rounds.len() as u64 && gpu.dispatches > gpu.submits && gpu.readbacks > gpu.submits);
-    assert!(gpu.exact_tests > 0 && gpu.bytes > 500 * 3_000);
+    assert!(gpu.exact_tests > 0 && gpu.bytes > 500 * 8_000);
     assert_eq!(mesh.stats.trace, None);
 }
 
 #[test]
 fn the_trace_has_every_round_and_what_splaying_did() {
-    let points = generate(Distribution::ThinSphere, 2_000, 5);
+    let points = generate(Distribution::ThinSphere, 8_000, 5);
     let options = Options { trace: true, ..Options::default() };
     let mesh = block_on(hybrid().delaunay3d((&points).into(), &options)).expect("triangulates");
     let (trace, gpu) = (mesh.stats.trace.as_ref().expect("asked for"), mesh.stats.gpu.as_ref().expect("used"));

@@ -10,6 +10,7 @@ use flips::{Soup, found_out, near};
 use gdel::{
     Options, Points, cpu,
     lattice::Lattice,
+    parallel::Threads,
     predicates::vertices::Vertices,
     splay::{GaveUp, NONE, NearDelaunay, Outcome, SplayStats, splay},
     triangulation::FiniteMesh,
@@ -46,13 +47,13 @@ fn check(name: &str, vertices: &Vertices<'_>, near: NearDelaunay, answer: &[[u32
 /// The tetrahedra that splaying gives, which the verifier accepts.
 fn splayed(name: &str, vertices: &Vertices<'_>, near: NearDelaunay) -> (Vec<[u32; 4]>, SplayStats) {
     let started = std::time::Instant::now();
-    let (mesh, stats) = match splay(vertices, near, u64::MAX, 4, &|_| Ok(())).unwrap() {
+    let (mesh, stats) = match splay(vertices, near, u64::MAX, Threads::All, &|_| Ok(())).unwrap() {
         Outcome::Delaunay(mesh, stats) => (mesh, stats),
         Outcome::GaveUp(reason) => panic!("{name}: gave up: {reason:?}"),
     };
     println!("{name}: {} vertices, {:.1?}, {stats:?}", vertices.len(), started.elapsed());
     let names: Vec<u32> = (0..vertices.len() as u32).map(|v| vertices.input_index(v)).collect();
-    let FiniteMesh { tetrahedra, neighbors, hull } = mesh.into_mesh(Some(&names), 4);
+    let FiniteMesh { tetrahedra, neighbors, hull } = mesh.into_mesh(Some(&names), Threads::All);
     let mut points = vec![[0.0; 3]; names.len()];
     names.iter().zip(0..).for_each(|(&i, v)| points[i as usize] = vertices.point(v));
     let statement =
@@ -239,7 +240,7 @@ fn threads_share_the_stars() {
     let displaced: Cloud = points.iter().map(|p| p.map(|x| x + 1e-3 * (rng.random::<f64>() - 0.5))).collect();
     let near = near(points.len() as u32, &exact(&displaced, &identity));
     let lattice = Lattice::fit((&points).into());
-    let results = [1, 8].map(|threads| {
+    let results = [Threads::One, Threads::All].map(|threads| {
         let vertices = Vertices::of_input((&points).into(), &lattice);
         match splay(&vertices, near.clone(), u64::MAX, threads, &|_| Ok(())).unwrap() {
             Outcome::Delaunay(mesh, stats) => {
@@ -258,12 +259,12 @@ fn too_much_work_is_given_up() {
     let points = inputs::uniform(200, 19);
     let lattice = Lattice::fit((&points).into());
     let vertices = Vertices::new((&points).into(), &lattice, shuffled(points.len(), 21));
-    let enough = match splay(&vertices, spoilt(&points), u64::MAX, 4, &|_| Ok(())).unwrap() {
+    let enough = match splay(&vertices, spoilt(&points), u64::MAX, Threads::All, &|_| Ok(())).unwrap() {
         Outcome::Delaunay(_, stats) => stats.signs,
         Outcome::GaveUp(reason) => panic!("{reason:?}"),
     };
     for most_signs in [0, enough / 4, enough / 2, enough - enough / 8] {
-        let outcome = splay(&vertices, spoilt(&points), most_signs, 4, &|_| Ok(())).unwrap();
+        let outcome = splay(&vertices, spoilt(&points), most_signs, Threads::All, &|_| Ok(())).unwrap();
         assert!(matches!(outcome, Outcome::GaveUp(GaveUp::Work)), "{most_signs} of {enough}");
     }
 }
@@ -277,7 +278,7 @@ fn what_is_no_triangulation_is_given_up() {
     let no_tetrahedra = NearDelaunay { incident: vec![NONE; points.len() + 1], ..near.clone() };
     let wrong_tetrahedra = NearDelaunay { incident: near.incident.iter().rev().copied().collect(), ..near };
     for near in [no_tetrahedra, wrong_tetrahedra] {
-        let outcome = splay(&vertices, near, u64::MAX, 4, &|_| Ok(())).unwrap();
+        let outcome = splay(&vertices, near, u64::MAX, Threads::All, &|_| Ok(())).unwrap();
         assert!(matches!(outcome, Outcome::GaveUp(GaveUp::Inconsistent(_))), "{outcome:?}");
     }
 }
@@ -287,7 +288,7 @@ fn a_caller_can_stop_it() {
     let points = inputs::uniform(200, 23);
     let lattice = Lattice::fit((&points).into());
     let vertices = Vertices::new((&points).into(), &lattice, shuffled(points.len(), 21));
-    let outcome = splay(&vertices, spoilt(&points), u64::MAX, 4, &|_| Err(gdel::Error::Cancelled));
+    let outcome = splay(&vertices, spoilt(&points), u64::MAX, Threads::All, &|_| Err(gdel::Error::Cancelled));
     assert_eq!(outcome.err(), Some(gdel::Error::Cancelled));
 }
 

@@ -1,0 +1,34 @@
+//! The native engine gives the meshes that `tests/data/fingerprints.txt` pins. The tests of the npm package compare their
+//! engines with the same file.
+
+use gdel::{
+    Engine, Options, delaunay3d,
+    generate::{Distribution, generate},
+};
+
+/// FNV-1a, 64 bits, over the canonical tetrahedra's indices as little-endian words.
+fn fingerprint(tetrahedra: &[[u32; 4]]) -> u64 {
+    let bytes = tetrahedra.as_flattened().iter().flat_map(|v| v.to_le_bytes());
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
+}
+
+#[test]
+fn meshes_have_their_fingerprints() {
+    let mut found = String::new();
+    let pinned = include_str!("../data/fingerprints.txt");
+    for line in pinned.lines() {
+        let fields: Vec<&str> = line.split(' ').collect();
+        if line.starts_with('#') {
+            found += line;
+        } else {
+            let &[name, count, seed, ..] = &fields[..] else { panic!("{line}") };
+            let distribution = Distribution::ALL.into_iter().find(|d| d.name() == name).unwrap();
+            let points = generate(distribution, count.parse().unwrap(), seed.parse().unwrap());
+            let mesh = delaunay3d(&points, &Options { engine: Engine::Cpu, ..Options::default() }).unwrap();
+            let canonical = mesh.canonical();
+            found += &format!("{name} {count} {seed} {} {:016x}", canonical.len(), fingerprint(&canonical));
+        }
+        found += "\n";
+    }
+    assert_eq!(found, pinned, "found:\n{found}");
+}

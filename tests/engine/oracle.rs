@@ -1,0 +1,182 @@
+//! The definition of the result, by brute force in big integers. Shares nothing with the crate but the sign conventions.
+#![allow(dead_code, reason = "every test binary uses a part")]
+
+use num_bigint::{BigInt, Sign};
+use std::collections::BTreeMap;
+
+/// The sign as the predicates give it.
+pub fn sign(value: &BigInt) -> i8 {
+    match value.sign() {
+        Sign::Minus => -1,
+        Sign::NoSign => 0,
+        Sign::Plus => 1,
+    }
+}
+
+/// x·2¹⁰⁷⁴: an integer for every finite x.
+fn integer(x: f64) -> BigInt {
+    assert!(x.is_finite());
+    let bits = x.to_bits();
+    let (exponent, fraction) = ((bits >> 52) & 0x7ff, bits & ((1 << 52) - 1));
+    let magnitude = match exponent {
+        0 => BigInt::from(fraction),
+        _ => BigInt::from(fraction | 1 << 52) << (exponent - 1),
+    };
+    if x.is_sign_negative() { -magnitude } else { magnitude }
+}
+
+/// The points times a power of two that makes them integers.
+pub fn integers<const D: usize>(points: &[[f64; D]]) -> Vec<[BigInt; D]> {
+    let integers: Vec<[BigInt; D]> = points.iter().map(|p| p.map(integer)).collect();
+    let shift = integers.as_flattened().iter().filter_map(BigInt::trailing_zeros).min().unwrap_or(0);
+    integers.into_iter().map(|p| p.map(|x| x >> shift)).collect()
+}
+
+/// The determinant of the matrix with these rows, by expansion along its first column.
+pub fn determinant(rows: &[Vec<BigInt>]) -> BigInt {
+    let [first, rest @ ..] = rows else { return BigInt::from(1) };
+    if rest.is_empty() {
+        return first[0].clone();
+    }
+    let minor = |left_out: usize| {
+        let others = rows.iter().enumerate().filter(|&(i, _)| i != left_out);
+        determinant(&others.map(|(_, row)| row[1..].to_vec()).collect::<Vec<_>>())
+    };
+    let terms = rows.iter().enumerate().filter(|(_, row)| row[0] != BigInt::ZERO);
+    terms.map(|(i, row)| if i % 2 == 0 { &row[0] * minor(i) } else { -&row[0] * minor(i) }).sum()
+}
+
+/// The determinant of D + 1 points with a column of ones: twice the area, six times the volume, positive for the
+/// positively oriented.
+pub fn orientation<const D: usize>(points: &[&[BigInt; D]]) -> BigInt {
+    let rows: Vec<_> = points[1..].iter().map(|p| (0..D).map(|i| &p[i] - &points[0][i]).collect()).collect();
+    determinant(&rows)
+}
+
+/// The squared distance from the origin: the height on the paraboloid.
+pub fn height<const D: usize>(p: &[BigInt; D]) -> BigInt {
+    p.iter().map(|x| x * x).sum()
+}
+
+/// D + 2 points without the k-th.
+fn without<const D: usize>(points: &[&[BigInt; D]], k: usize) -> BigInt {
+    let others: Vec<_> = points.iter().enumerate().filter(|&(i, _)| i != k).map(|(_, p)| *p).collect();
+    orientation(&others)
+}
+
+/// The derivative by each point's height of what [`in_circumsphere`] is the sign of: positive where lifting the point
+/// brings the last point inside.
+fn cofactors<const D: usize>(points: &[&[BigInt; D]]) -> Vec<BigInt> {
+    let last = points.len() - 1;
+    let signed = |k: usize| if (last - k).is_multiple_of(2) { -without(points, k) } else { without(points, k) };
+    (0..points.len()).map(signed).collect()
+}
+
+/// Positive when the last of D + 2 points is inside the circumsphere of the others, positively oriented.
+pub fn in_circumsphere<const D: usize>(points: &[&[BigInt; D]]) -> BigInt {
+    cofactors(points).iter().zip(points).map(|(cofactor, p)| cofactor * height(p)).sum()
+}
+
+/// [`in_circumsphere`] with the heights of points of these indices perturbed.
+pub fn in_circumsphere_symbolic<const D: usize>(indices: &[u32], points: &[&[BigInt; D]]) -> i8 {
+    let cofactors = cofactors(points);
+    let value: BigInt = cofactors.iter().zip(points).map(|(cofactor, p)| cofactor * height(p)).sum();
+    let by_index: BTreeMap<_, _> = indices.iter().zip(&cofactors).collect();
+    let perturbed = by_index.into_values().map(sign);
+    std::iter::once(sign(&value)).chain(perturbed).find(|&s| s != 0).unwrap_or(0)
+}
+
+/// What [`gdel::delaunay3d`] has to give.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Definition {
+    /// As [`gdel::Mesh3::canonical`] gives them.
+    pub tetrahedra: Vec<[u32; 4]>,
+    /// As in [`gdel::Mesh3`].
+    pub duplicate_of: Vec<i32>,
+    /// As in [`gdel::Mesh3`].
+    pub dimension: u8,
+}
+
+/// The definition, for some tens of points.
+pub fn definition(points: &[[f64; 3]]) -> Definition {
+    let points = integers(points);
+    let first_equal = |p: &[BigInt; 3]| points.iter().position(|q| p == q).unwrap();
+    let representatives: Vec<usize> = points.iter().map(first_equal).collect();
+    let duplicate_of = representatives.iter().enumerate().map(|(i, &r)| if r == i { -1 } else { r as i32 }).collect();
+    let distinct: Vec<u32> = (0..points.len()).filter(|&i| representatives[i] == i).map(|i| i as u32).collect();
+    let point = |i: u32| &points[i as usize];
+    let mut tetrahedra = Vec::new();
+    let mut solid = false;
+    for (i, &a) in distinct.iter().enumerate() {
+        for (j, &b) in distinct.iter().enumerate().skip(i + 1) {
+            for (k, &c) in distinct.iter().enumerate().skip(j + 1) {
+                for &d in &distinct[k + 1..] {
+                    let orientation = sign(&orientation(&[point(a), point(b), point(c), point(d)]));
+                    solid |= orientation != 0;
+                    let empty = |&e: &u32| {
+                        let five = [a, b, c, d, e];
+                        five[..4].contains(&e) || in_circumsphere_symbolic(&five, &five.map(point)) * orientation < 0
+                    };
+                    if orientation != 0 && distinct.iter().all(empty) {
+                        tetrahedra.push([a, b, c, d]);
+                    }
+                }
+            }
+        }
+    }
+    let dimension = if solid { 3 } else { flat_dimension(&distinct.iter().map(|&i| point(i)).collect::<Vec<_>>()) };
+    Definition { tetrahedra, duplicate_of, dimension }
+}
+
+/// The affine dimension of distinct points that are coplanar: lines look like lines along every axis.
+fn flat_dimension(distinct: &[&[BigInt; 3]]) -> u8 {
+    let [a, b, others @ ..] = distinct else { return 0 };
+    let drop = |p: &[BigInt; 3], axis: usize| [p[(axis + 1) % 3].clone(), p[(axis + 2) % 3].clone()];
+    let turns = |p: &&&[BigInt; 3]| {
+        (0..3).any(|axis| {
+            let [a, b, p] = [a, b, **p].map(|p| drop(p, axis));
+            orientation(&[&a, &b, &p]) != BigInt::ZERO
+        })
+    };
+    if others.iter().any(|p| turns(&p)) { 2 } else { 1 }
+}
+
+/// What [`gdel::delaunay2d`] has to give.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Definition2 {
+    /// As [`gdel::Mesh2::canonical`] gives them.
+    pub triangles: Vec<[u32; 3]>,
+    /// As in [`gdel::Mesh2`].
+    pub duplicate_of: Vec<i32>,
+    /// As in [`gdel::Mesh2`].
+    pub dimension: u8,
+}
+
+/// The definition in the plane, for some tens of points.
+pub fn definition2(points: &[[f64; 2]]) -> Definition2 {
+    let points = integers(points);
+    let representatives: Vec<usize> = points.iter().map(|p| points.iter().position(|q| p == q).unwrap()).collect();
+    let duplicate_of = representatives.iter().enumerate().map(|(i, &r)| if r == i { -1 } else { r as i32 }).collect();
+    let distinct: Vec<u32> = (0..points.len()).filter(|&i| representatives[i] == i).map(|i| i as u32).collect();
+    let point = |i: u32| &points[i as usize];
+    let mut triangles = Vec::new();
+    let mut dimension = distinct.len().saturating_sub(1).min(1) as u8;
+    for (i, &a) in distinct.iter().enumerate() {
+        for (j, &b) in distinct.iter().enumerate().skip(i + 1) {
+            for &c in &distinct[j + 1..] {
+                let orientation = sign(&orientation(&[point(a), point(b), point(c)]));
+                let empty = |&d: &u32| {
+                    let four = [a, b, c, d];
+                    four[..3].contains(&d) || in_circumsphere_symbolic(&four, &four.map(point)) * orientation < 0
+                };
+                if orientation != 0 {
+                    dimension = 2;
+                    if distinct.iter().all(empty) {
+                        triangles.push([a, b, c]);
+                    }
+                }
+            }
+        }
+    }
+    Definition2 { triangles, duplicate_of, dimension }
+}

@@ -1,0 +1,185 @@
+//! Phase 1 on the GPU: a valid triangulation after every round, and every stage against the twins of its kernels.
+
+use std::collections::BTreeSet;
+
+use crate::phase1_inputs::{self as inputs, Input as Points};
+use gdel::gpu::layout::{Active, Counters, FlipNode, Status, Waiting};
+use gdel::gpu::phase1::{Input, Phase1, Pick, Run, Settings};
+use gdel::gpu::start::first_tetrahedron;
+use gdel::gpu::twin::{State, predicates::Vertex};
+use gdel::gpu::{AdapterChoice, Gpu, Readback, Storage, vertex};
+use gdel::lattice::{Lattice, Width};
+use gdel::mesh::FACETS;
+use pollster::block_on;
+
+fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {
+    block_on(Readback::default().read(gpu, storage, 0, storage.len())).unwrap()
+}
+
+/// The vertices of a buffer.
+fn vertices(width: Width, words: &[[i32; 4]]) -> Vec<Vertex> {
+    words
+        .chunks(vertex::stride(width))
+        .map(|words| Vertex {
+            position: std::array::from_fn(|axis| match words {
+                [high, low] => i64::from(high[axis]) << 31 | i64::from(low[axis]),
+                _ => i64::from(words[0][axis]),
+            }),
+            index: words[0][3] as u32,
+        })
+        .collect()
+}
+
+/// The buffers of a run, as the twins have them.
+fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
+    let b = run.buffers();
+    let (params, counters) = run.control();
+    let active: Vec<Active> = read(gpu, &b.active);
+    let (even, odd) = active.split_at(active.len() / 2);
+    let mut waiting: Vec<Waiting> = read(gpu, &b.waiting);
+    waiting.truncate(params.entries as usize);
+    State {
+        width,
+        params,
+        points: vertices(width, bytemuck::cast_slice(&read(gpu, &b.points.vertices))),
+        first: [0; 4],
+        united: read(gpu, &b.points.pairs).into_iter().map(|[key, _]| key == u32::MAX).collect(),
+        tets: read(gpu, &b.tets),
+        neighbors: read(gpu, &b.neighbors),
+        status: read::<Status>(gpu, &b.status),
+        free: read(gpu, &b.free),
+        messages: read(gpu, &b.messages),
+        active: [even.to_vec(), odd.to_vec()],
+        history: read::<FlipNode>(gpu, &b.history),
+        waiting,
+        scores: read(gpu, &b.scores),
+        failed: read(gpu, &b.failed),
+        counters,
+    }
+}
+
+fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1; 2], points: &Points, settings: Settings) {
+    let count = points.positions.len();
+    let lattice = Lattice::fit((&points.positions).into());
+    let width = lattice.width();
+    let kernels = &mut kernels[usize::from(width == Width::Wide)];
+    let position = |i: usize| lattice.coordinates(points.positions[i]).map(|c| c.value);
+    let start = first_tetrahedron(width, count, position).expect("not coplanar");
+    let input = Input { points: (&points.positions).into(), lattice: &lattice, start };
+    let mut run = block_on(Run::new(kernels, gpu, input, settings, None)).unwrap();
+    let mut more = true;
+    while more {
+        more = block_on(run.round()).unwrap();
+        state_of(gpu, width, &run).validate();
+    }
+    let state = state_of(gpu, width, &run);
+    let before: Counters = state.counters;
+    let output = block_on(run.finish()).unwrap();
+
+    let index = |v: u32| if v as usize == count { v } else { state.points[v as usize].index };
+    let mut marked = state.clone();
+    gdel::gpu::twin::mark_failed(&mut marked);
+    let mut failed: Vec<u32> = (0..).zip(&marked.failed).filter(|&(_, &f)| f != 0).map(|(v, _)| index(v)).collect();
+    failed.sort_unstable();
+    assert_eq!(output.failed, failed, "{}", points.name);
+    assert_eq!(marked.validate_end(), output.stats.counters.not_locally_delaunay as usize, "{}", points.name);
+
+    // The finite tetrahedra are in the order of their slots, and no infinite one is lost or turned over.
+    let infinite = count as u32;
+    let used: Vec<[u32; 4]> = state.tets.iter().copied().filter(|t| *t != [0; 4]).collect();
+    let (ghosts, finite): (Vec<_>, Vec<_>) = used.iter().map(|t| t.map(index)).partition(|t| t.contains(&infinite));
+    assert_eq!(output.tets[..output.finite], finite, "{}", points.name);
+    let facet = |t: &[u32; 4]| {
+        let k = t.iter().position(|&v| v == infinite).unwrap();
+        let mut facet = FACETS[k].map(|i| t[i]);
+        let lowest = (0..3).min_by_key(|&i| facet[i]).unwrap();
+        facet.rotate_left(lowest);
+        facet
+    };
+    let sorted = |mut facets: Vec<[u32; 3]>| {
+        facets.sort_unstable();
+        facets
+    };
+    assert!(output.tets[output.finite..].iter().all(|t| t[3] == infinite), "{}", points.name);
+    let expected = sorted(ghosts.iter().map(facet).collect());
+    assert_eq!(sorted(output.tets[output.finite..].iter().map(facet).collect()), expected, "{}", points.name);
+    for (t, near) in output.neighbors.iter().enumerate() {
+        for (k, across) in near.iter().enumerate() {
+            let (u, face) = ((across >> 2) as usize, (across & 3) as usize);
+            assert_eq!(output.neighbors[u][face], (4 * t + k) as u32);
+            let shared: BTreeSet<u32> = FACETS[k].map(|i| output.tets[t][i]).into();
+            assert_eq!(shared, FACETS[face].map(|i| output.tets[u][i]).into(), "{}", points.name);
+        }
+    }
+    let united: BTreeSet<u32> = output.united.iter().map(|&[p, _]| p).collect();
+    for (v, &t) in (0..).zip(&output.tet_of) {
+        assert_eq!(t == u32::MAX, united.contains(&v), "{}: point {v}", points.name);
+        assert!(t == u32::MAX || output.tets[t as usize].contains(&v));
+    }
+    // Where nothing is rounded, exactly the flat ones are doubtful.
+    let flat = |t: &[u32; 4]| {
+        let [a, b, c, d] = t.map(|v| points.positions[v as usize]);
+        gdel::predicates::orient3d(a, b, c, d) == 0
+    };
+    let flat: Vec<[u32; 2]> =
+        (0..).zip(&output.tets[..output.finite]).filter(|(_, t)| flat(t)).map(|(t, _)| [t, 16]).collect();
+    assert_eq!(output.doubtful, flat, "{}", points.name);
+    assert_eq!(output.united.len(), points.sharing, "{}", points.name);
+    for [p, q] in output.united {
+        assert_eq!(points.positions[p as usize], points.positions[q as usize]);
+        assert!(p > q);
+    }
+    let rounds = output.stats.rounds.iter().filter(|round| round.inserted > 0).count();
+    let limit = 2 * rounds + 10;
+    assert!(
+        output.stats.readbacks <= limit + before.iterations as usize / 64 + 4,
+        "{}: {} readbacks in {} rounds",
+        points.name,
+        output.stats.readbacks,
+        rounds
+    );
+    let distinct: BTreeSet<[u32; 4]> = output.tets.iter().copied().collect();
+    assert_eq!(distinct.len(), output.tets.len());
+}
+
+fn kernels(gpu: &Gpu) -> [Phase1; 2] {
+    [Width::Narrow, Width::Wide].map(|width| block_on(Phase1::new(gpu, width)).unwrap())
+}
+
+#[test]
+fn every_round_is_valid() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let mut kernels = kernels(&gpu);
+    let settings = Settings::default();
+    for points in inputs::all(Width::Narrow).iter().chain(&inputs::all(Width::Wide)) {
+        run_and_validate(&gpu, &mut kernels, points, settings);
+    }
+    let uniform = &inputs::all(Width::Narrow)[1];
+    let some = Settings { min_active: 100, pick: Pick::Centroid, ..settings };
+    run_and_validate(&gpu, &mut kernels, uniform, some);
+    run_and_validate(&gpu, &mut kernels, uniform, Settings { insert_all: true, pick: Pick::Random, ..settings });
+    for slots_per_active in [16, u32::MAX] {
+        run_and_validate(&gpu, &mut kernels, uniform, Settings { slots_per_active, ..settings });
+    }
+}
+
+/// Slots and history that are far too small: flips wait, buffers grow, and nothing is lost.
+#[test]
+fn small_buffers_grow() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let settings = Settings { points_per_tail_block: 1 << 20, history: 0, ..Settings::default() };
+    run_and_validate(&gpu, &mut kernels(&gpu), &inputs::two_lines(Width::Narrow, 300), settings);
+}
+
+/// Runs of one size share their buffers: nothing of a run may be left for the next.
+#[test]
+fn kept_buffers_do_not_matter() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let mut kernels = kernels(&gpu);
+    let settings = Settings::default();
+    for width in [Width::Narrow, Width::Wide] {
+        for points in [inputs::two_lines(width, 80), inputs::uniform(width, 80), inputs::uniform(width, 80)] {
+            run_and_validate(&gpu, &mut kernels, &points, settings);
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! Every kernel of Phase 1 against its twin, on the same buffers.
+//!
+//! The points have coordinates, or high words of them, below 8, so that the scores are exact in `f32` and ties of every kind abound. After each
+//! kernel the device gets the twin's buffers again, so that each is compared on its own.
+
+use std::collections::BTreeSet;
+
+use crate::kernels::{Kernels, shuffled};
+use gdel::gpu::layout::{CHECK, Counters, DONE, NONE};
+use gdel::gpu::phase1::{Buffers, Pick};
+use gdel::gpu::stages::points::{DevicePoints, InputCounts};
+use gdel::gpu::start::first_tetrahedron;
+use gdel::gpu::twin::{self, State, predicates::Vertex};
+use gdel::gpu::{Storage, vertex};
+use gdel::lattice::Width;
+
+struct Device {
+    kernels: Kernels,
+    buffers: Buffers,
+    failed_points: Storage<u32>,
+}
+
+impl Device {
+    fn new(width: Width, state: &State) -> Self {
+        let kernels = Kernels::new(width);
+        let gpu = &kernels.gpu;
+        let count = state.params.infinite as usize;
+        let points = DevicePoints {
+            vertices: Storage::new(gpu, "vertices", 4 * (count + 1) * vertex::stride(width)).unwrap(),
+            pairs: Storage::with_contents(gpu, "pairs", &vec![[0; 2]; count]).unwrap(),
+            united_with: Storage::new(gpu, "united", count).unwrap(),
+            counts: Storage::with_contents(gpu, "counts", &[InputCounts { found: state.first, ..Default::default() }])
+                .unwrap(),
+        };
+        let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
+        let failed_points = Storage::new(gpu, "failed points", count).unwrap();
+        Device { kernels, buffers, failed_points }
+    }
+
+    fn upload(&self, state: &State) {
+        let (gpu, b) = (&self.kernels.gpu, &self.buffers);
+        let mut words = Vec::new();
+        for v in &state.points {
+            vertex::append_words(&mut words, self.kernels.width, v.position, v.index);
+        }
+        self.kernels.write_control(&b.control, &state.params, &state.counters);
+        b.points.vertices.write(gpu, 0, words.as_flattened());
+        b.tets.write(gpu, 0, &state.tets);
+        b.neighbors.write(gpu, 0, &state.neighbors);
+        b.status.write(gpu, 0, &state.status);
+        b.active.write(gpu, 0, &state.active.concat());
+        b.free.write(gpu, 0, &state.free);
+        b.messages.write(gpu, 0, &state.messages);
+        b.history.write(gpu, 0, &state.history);
+        b.waiting.write(gpu, 0, &state.waiting);
+        b.scores.write(gpu, 0, &state.scores);
+        b.failed.write(gpu, 0, &state.failed);
+    }
+
+    fn download(&self, like: &State) -> State {
+        let (kernels, b) = (&self.kernels, &self.buffers);
+        let active = kernels.read(&b.active);
+        let (even, odd) = active.split_at(active.len() / 2);
+        State {
+            tets: kernels.read(&b.tets),
+            neighbors: kernels.read(&b.neighbors),
+            status: kernels.read(&b.status),
+            free: kernels.read(&b.free),
+            messages: kernels.read(&b.messages),
+            active: [even.to_vec(), odd.to_vec()],
+            history: kernels.read(&b.history),
+            waiting: kernels.read(&b.waiting)[..like.waiting.len()].to_vec(),
+            scores: kernels.read(&b.scores),
+            failed: kernels.read(&b.failed),
+            // The twins do not count these.
+            counters: Counters {
+                exact: like.counters.exact,
+                failed: like.counters.failed,
+                ..kernels.read_counters(&b.control)
+            },
+            ..like.clone()
+        }
+    }
+
+    fn bindings(&self, kernel: &str) -> Vec<&wgpu::Buffer> {
+        let b = &self.buffers;
+        let (control, vertices, tets) = (b.control.buffer(), b.points.vertices.buffer(), b.tets.buffer());
+        let (neighbors, status, active) = (b.neighbors.buffer(), b.status.buffer(), b.active.buffer());
+        let (free, messages, history) = (b.free.buffer(), b.messages.buffer(), b.history.buffer());
+        let (waiting, scores, failed) = (b.waiting.buffer(), b.scores.buffer(), b.failed.buffer());
+        match kernel {
+            "locate" => {
+                let (pairs, counts) = (b.points.pairs.buffer(), b.points.counts.buffer());
+                vec![control, vertices, pairs, counts, waiting, tets, neighbors, free]
+            }
+            "pick_score" => vec![control, vertices, tets, waiting, messages, scores],
+            "pick_point" => vec![control, waiting, messages, scores],
+            "split" => vec![control, tets, neighbors, status, active, free, messages, waiting],
+            "relocate_split" => vec![control, vertices, tets, status, messages, waiting],
+            "flip_check" | "flip_check_exact" => vec![control, vertices, tets, neighbors, status, active, messages],
+            "flip_commit" => vec![control, tets, neighbors, status, active, free, messages, history],
+            "flip_link" => vec![control, neighbors, status, active, free, messages],
+            "flip_compact" => vec![control, status, active],
+            "relocate" => vec![control, vertices, status, history, waiting],
+            "clear_votes" => vec![control, status],
+            "mark_failed" => vec![control, vertices, tets, neighbors, status, failed, self.failed_points.buffer()],
+            _ => panic!("no bindings are known for {kernel}"),
+        }
+    }
+
+    fn run(&self, name: &'static str) {
+        self.kernels.run(name, &self.bindings(name));
+    }
+
+    /// Runs a kernel on `state`'s buffers, and its twin on `state`. Returns the device's buffers.
+    fn both(&self, name: &'static str, state: &mut State, twin: impl Fn(&mut State)) -> State {
+        self.upload(state);
+        self.run(name);
+        twin(state);
+        let device = self.download(state);
+        assert_eq!(device.counters, state.counters, "{name}");
+        device
+    }
+
+    /// Checking is one function for the twin, and two kernels.
+    fn check(&self, state: &mut State) {
+        self.upload(state);
+        self.run("flip_check");
+        self.run("flip_check_exact");
+        twin::flip_check(state);
+        let device = self.download(state);
+        assert_eq!(device.status, state.status, "check");
+        assert_eq!(device.active, state.active, "check");
+        assert_eq!(Counters { open: 0, ..device.counters }, state.counters, "check");
+    }
+
+    /// The same for a kernel whose results are the same to the last bit.
+    fn equal(&self, name: &'static str, state: &mut State, twin: impl Fn(&mut State)) {
+        let device = self.both(name, state, twin);
+        assert_eq!(device.tets, state.tets, "{name}");
+        assert_eq!(device.neighbors, state.neighbors, "{name}");
+        assert_eq!(device.status, state.status, "{name}");
+        assert_eq!(device.free, state.free, "{name}");
+        assert_eq!(device.messages, state.messages, "{name}");
+        assert_eq!(device.active, state.active, "{name}");
+        assert_eq!(device.history, state.history, "{name}");
+        assert_eq!(device.waiting, state.waiting, "{name}");
+        assert_eq!(device.scores, state.scores, "{name}");
+        assert_eq!(device.failed, state.failed, "{name}");
+    }
+}
+
+/// What the choice of slots and numbers in the history leaves the same: the tetrahedra by their vertices, with the
+/// facets to check and the neighbours across each facet, and the flips of the history.
+fn essence(state: &State) -> (BTreeSet<Vec<u32>>, BTreeSet<Vec<u32>>) {
+    let tets = (0..state.tets.len()).filter(|&t| state.is_used(t)).map(|t| {
+        let mut record = state.tets[t].to_vec();
+        record.push(state.status[t].flags);
+        for across in state.neighbors[t] {
+            record.extend(state.tets[(across >> 2) as usize]);
+            record.push(across & 3);
+        }
+        record
+    });
+    let nodes = (state.counters.next_node - state.counters.first_node) as usize;
+    let flips = state.history[..nodes].iter().map(|node| {
+        let mut record = node.vertices.to_vec();
+        record.push(node.kind);
+        record.extend(node.next.map(|next| match next {
+            NONE => NONE,
+            next => state.history[(next - state.counters.first_node) as usize].vertices[0],
+        }));
+        record
+    });
+    (tets.collect(), flips.collect())
+}
+
+fn listed(state: &State, half: usize) -> BTreeSet<u32> {
+    state.active[half][..state.counters.listed[half] as usize].iter().map(|a| a.tet).collect()
+}
+
+/// The tetrahedra with facets to check.
+fn to_check(state: &State) -> BTreeSet<u32> {
+    (0..).zip(&state.status).filter(|(_, s)| s.flags & CHECK != 0).map(|(t, _)| t).collect()
+}
+
+fn compare(width: Width, pick: Pick, compact_from: u32) {
+    let positions = shuffled(width, (0..512).map(|i| [i & 7, i >> 3 & 7, i >> 6]).collect(), 250);
+    let start = first_tetrahedron(width, positions.len(), |i| positions[i]).expect("not coplanar");
+    let mut points: Vec<Vertex> =
+        (0..).zip(&positions).map(|(index, &position)| Vertex { position, index: index ^ 0x55 }).collect();
+    points.push(Vertex { position: start.kernel, index: 1000 });
+    let mut state = State::new(width, points, 64, 4096);
+    state.params.pick = pick as u32;
+    state.params.compact_from = compact_from;
+    state.first = start.first;
+    let device = Device::new(width, &state);
+    device.equal("locate", &mut state, |s| {
+        let first = s.first;
+        twin::start(s, first);
+        twin::locate(s);
+    });
+    while !state.waiting.is_empty() {
+        state.messages.fill([0; 4]);
+        device.equal("pick_score", &mut state, twin::pick_score);
+        device.equal("pick_point", &mut state, twin::pick_point);
+
+        let split = device.both("split", &mut state, twin::split);
+        assert_eq!((&split.tets, &split.neighbors), (&state.tets, &state.neighbors));
+        assert_eq!((&split.status, &split.free), (&state.status, &state.free));
+        let half = state.half();
+        assert_eq!(listed(&split, half), listed(&state, half), "split");
+
+        device.equal("relocate_split", &mut state, twin::relocate_split);
+        while !state.is_idle(state.counters.iteration) {
+            device.check(&mut state);
+            device.upload(&state);
+            device.run("flip_commit");
+            device.run("flip_link");
+            device.run("flip_compact");
+            twin::flip_commit(&mut state);
+            let done = state.active[half_of(&state)].iter().filter(|a| a.outcome & DONE != 0).count();
+            twin::flip_link(&mut state);
+            twin::flip_compact(&mut state);
+            let after = device.download(&state);
+            assert!(done > 0 || state.counters.listed[state.half()] == 0, "an iteration without progress");
+            assert_eq!(after.counters, state.counters, "flip");
+            assert_eq!(essence(&after), essence(&state), "flip");
+            assert_eq!(listed(&after, after.half()), to_check(&after), "flip");
+            assert_eq!(listed(&state, state.half()), to_check(&state), "flip");
+            after.validate_mesh();
+            state.validate_mesh();
+        }
+        device.equal("relocate", &mut state, twin::relocate);
+        state.waiting.retain(|w| w.tet != NONE);
+        state.params.entries = state.waiting.len() as u32;
+    }
+    // Every facet is suspect, so that there is something to look at.
+    state.status.iter_mut().for_each(|s| s.flags |= CHECK << 4);
+    device.equal("mark_failed", &mut state, twin::mark_failed);
+    let mut failed: Vec<u32> =
+        (0..).zip(&state.failed).filter(|&(_, &f)| f != 0).map(|(v, _): (usize, _)| state.points[v].index).collect();
+    let mut points = device.kernels.read(&device.failed_points);
+    points.truncate(failed.len());
+    failed.sort_unstable();
+    points.sort_unstable();
+    assert_eq!(points, failed);
+    device.equal("clear_votes", &mut state, twin::run::clear_votes);
+}
+
+fn half_of(state: &State) -> usize {
+    (state.counters.linking & 1) as usize
+}
+
+#[test]
+fn kernels_agree_with_their_twins() {
+    compare(Width::Narrow, Pick::Circumcenter, 20);
+    compare(Width::Wide, Pick::Centroid, u32::MAX);
+    compare(Width::Narrow, Pick::Random, 1);
+}

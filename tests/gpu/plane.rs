@@ -1,0 +1,111 @@
+//! The plane on the GPU: a valid triangulation after every round, and the answer that of the twins.
+
+use std::collections::HashSet;
+
+use gdel::gpu::layout::{Active, Waiting};
+use gdel::gpu::phase1::Pick;
+use gdel::gpu::plane::start::first_triangle;
+use gdel::gpu::plane::twin::{State, mesh_compact, mesh_mark, predicates::Vertex};
+use gdel::gpu::plane::{Input, Plane, Run, Settings, vertex};
+use gdel::gpu::{AdapterChoice, Gpu, Readback, Storage};
+use gdel::lattice::{Lattice, Width};
+use pollster::block_on;
+
+fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {
+    block_on(Readback::default().read(gpu, storage, 0, storage.len())).unwrap()
+}
+
+/// The buffers of a run, as the twins have them.
+fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
+    let b = run.buffers();
+    let (params, counters) = run.control();
+    let active: Vec<Active> = read(gpu, &b.active);
+    let (even, odd) = active.split_at(active.len() / 2);
+    let mut waiting: Vec<Waiting> = read(gpu, &b.waiting);
+    waiting.truncate(params.entries as usize);
+    let pairs = read(gpu, &b.points.pairs);
+    let indices = pairs.iter().map(|&[_, point]| point).chain([params.infinite]);
+    let words = read(gpu, &b.points.vertices);
+    let points = words.chunks(vertex::words(width)).zip(indices);
+    State {
+        width,
+        params,
+        points: points.map(|(words, index)| Vertex { position: vertex::position(words), index }).collect(),
+        first: [0; 3],
+        united: pairs.iter().map(|&[key, _]| key == u32::MAX).collect(),
+        triangles: read(gpu, &b.triangles),
+        neighbors: read(gpu, &b.neighbors),
+        status: read(gpu, &b.status),
+        messages: read(gpu, &b.messages),
+        active: [even.to_vec(), odd.to_vec()],
+        history: read(gpu, &b.history),
+        waiting,
+        scores: read(gpu, &b.scores),
+        counters,
+    }
+}
+
+fn run_and_validate(gpu: &Gpu, planes: &mut [Plane; 2], name: &str, points: &[[f64; 2]], settings: Settings) {
+    let lattice = Lattice::<2>::fit(points.into());
+    let width = lattice.width();
+    let plane = &mut planes[usize::from(width == Width::Wide)];
+    let position = |i: usize| lattice.coordinates(points[i]).map(|c| c.value);
+    let start = first_triangle(points.len(), position).expect("not collinear");
+    let input = Input { points: points.into(), lattice: &lattice, start };
+    let mut run = block_on(Run::new(plane, gpu, input, settings, None)).unwrap();
+    let mut more = true;
+    while more {
+        more = block_on(run.round()).unwrap();
+        state_of(gpu, width, &run).validate();
+    }
+    let state = state_of(gpu, width, &run);
+    state.validate_end();
+    let output = block_on(run.finish()).unwrap();
+
+    let distinct: HashSet<[u64; 2]> = points.iter().map(|p| p.map(|x| (x + 0.0).to_bits())).collect();
+    assert_eq!(output.united.len(), points.len() - distinct.len(), "{name}");
+    for [p, q] in output.united {
+        assert_eq!(points[p as usize], points[q as usize]);
+        assert!(p > q);
+    }
+    assert_eq!(output.questions, Some(vec![]), "{name}: nothing was rounded");
+    let mut mesh = output.mesh;
+    let marks = mesh_mark(&state);
+    let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
+    let mut expected = mesh_compact(&state, &offsets);
+    mesh.hull.sort_unstable();
+    expected.hull.sort_unstable();
+    assert_eq!(mesh, expected, "{name}");
+    assert_eq!(mesh.triangles.len() + mesh.hull.len() + 2, 2 * distinct.len(), "{name}: Euler");
+    assert!(
+        output.stats.readbacks as u32 <= output.stats.rounds.len() as u32 + output.stats.counters.iterations / 64 + 10,
+        "{name}: {} readbacks in {} rounds",
+        output.stats.readbacks,
+        output.stats.rounds.len()
+    );
+}
+
+#[test]
+fn every_round_is_valid() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let mut planes = [Width::Narrow, Width::Wide].map(|width| block_on(Plane::new(&gpu, width)).unwrap());
+    let settings = Settings::default();
+    for (name, points) in crate::plane_inputs::all() {
+        // The factor makes too many bits for a narrow lattice, but not for `f64`.
+        for factor in [1, 0x4000_0003] {
+            let points: Vec<_> = points.iter().map(|q| q.map(|x| (x * factor) as f64)).collect();
+            run_and_validate(&gpu, &mut planes, name, &points, settings);
+        }
+        if points.len() > 400 {
+            continue;
+        }
+        let points: Vec<_> = points.iter().map(|q| q.map(|x| x as f64)).collect();
+        let unsorted = Settings { sort: false, pick: Pick::Random, ..settings };
+        run_and_validate(&gpu, &mut planes, name, &points, unsorted);
+        let all = Settings { insert_all: true, pick: Pick::Centroid, ..settings };
+        run_and_validate(&gpu, &mut planes, name, &points, all);
+        // Flips wait for room in the history, and nothing is lost.
+        let narrow = Settings { history: 0, min_active: 100, ..settings };
+        run_and_validate(&gpu, &mut planes, name, &points, narrow);
+    }
+}

@@ -1,0 +1,222 @@
+//! Every kernel of the plane against its twin, on the same buffers.
+//!
+//! The points have coordinates, or high words of them, below 16, so that the scores are exact in `f32` and ties of every
+//! kind abound. After each kernel the device gets the twin's buffers again, so that each is compared on its own.
+
+use std::collections::BTreeSet;
+
+use crate::kernels::{Kernels, shuffled};
+use gdel::gpu::Storage;
+use gdel::gpu::layout::{Counters, DONE, NONE};
+use gdel::gpu::phase1::Pick;
+use gdel::gpu::plane::twin::{self, State, predicates::Vertex};
+use gdel::gpu::plane::{Buffers, start::first_triangle, vertex};
+use gdel::gpu::stages::points::{DevicePoints, InputCounts};
+use gdel::lattice::Width;
+
+struct Device {
+    kernels: Kernels,
+    buffers: Buffers,
+}
+
+impl Device {
+    fn new(width: Width, state: &State) -> Self {
+        let kernels = Kernels::new(width);
+        let gpu = &kernels.gpu;
+        let count = state.params.infinite as usize;
+        let [a, b, c] = state.first;
+        let counts = InputCounts { found: [a, b, c, c], ..Default::default() };
+        let pairs: Vec<[u32; 2]> = state.points[..count].iter().map(|v| [0, v.index]).collect();
+        let mut words = Vec::new();
+        state.points.iter().for_each(|v| vertex::append_words(&mut words, width, v.position, false));
+        let points = DevicePoints {
+            vertices: Storage::with_contents(gpu, "vertices", &words).unwrap(),
+            pairs: Storage::with_contents(gpu, "pairs", &pairs).unwrap(),
+            united_with: Storage::new(gpu, "united", count).unwrap(),
+            counts: Storage::with_contents(gpu, "counts", &[counts]).unwrap(),
+        };
+        let buffers = Buffers::new(gpu, points, state.params.history).unwrap();
+        Device { kernels, buffers }
+    }
+
+    fn upload(&self, state: &State) {
+        let (gpu, b) = (&self.kernels.gpu, &self.buffers);
+        self.kernels.write_control(&b.control, &state.params, &state.counters);
+        b.triangles.write(gpu, 0, &state.triangles);
+        b.neighbors.write(gpu, 0, &state.neighbors);
+        b.status.write(gpu, 0, &state.status);
+        b.active.write(gpu, 0, &state.active.concat());
+        b.messages.write(gpu, 0, &state.messages);
+        b.history.write(gpu, 0, &state.history);
+        b.waiting.write(gpu, 0, &state.waiting);
+        b.scores.write(gpu, 0, &state.scores);
+    }
+
+    fn download(&self, like: &State) -> State {
+        let (kernels, b) = (&self.kernels, &self.buffers);
+        let active = kernels.read(&b.active);
+        let (even, odd) = active.split_at(active.len() / 2);
+        State {
+            triangles: kernels.read(&b.triangles),
+            neighbors: kernels.read(&b.neighbors),
+            status: kernels.read(&b.status),
+            messages: kernels.read(&b.messages),
+            active: [even.to_vec(), odd.to_vec()],
+            history: kernels.read(&b.history),
+            waiting: kernels.read(&b.waiting)[..like.waiting.len()].to_vec(),
+            scores: kernels.read(&b.scores),
+            // The twins do not count these.
+            counters: Counters { exact: like.counters.exact, ..kernels.read_counters(&b.control) },
+            ..like.clone()
+        }
+    }
+
+    fn bindings(&self, kernel: &str) -> Vec<&wgpu::Buffer> {
+        let b = &self.buffers;
+        let (control, vertices, pairs) = (b.control.buffer(), b.points.vertices.buffer(), b.points.pairs.buffer());
+        let (triangles, neighbors) = (b.triangles.buffer(), b.neighbors.buffer());
+        let (status, active, messages) = (b.status.buffer(), b.active.buffer(), b.messages.buffer());
+        let (history, waiting, scores) = (b.history.buffer(), b.waiting.buffer(), b.scores.buffer());
+        let (counts, marks, offsets) = (b.points.counts.buffer(), b.marks.buffer(), b.offsets.buffer());
+        match kernel {
+            "plane/locate" => vec![control, vertices, pairs, counts, waiting, triangles, neighbors],
+            "plane/pick_score" => vec![control, vertices, triangles, waiting, messages, scores],
+            "pick_point" => vec![control, waiting, messages, scores],
+            "plane/split" => vec![control, triangles, neighbors, status, active, messages, waiting],
+            "plane/relocate_split" => vec![control, vertices, pairs, triangles, status, messages, waiting],
+            "plane/flip_check" => vec![control, vertices, pairs, triangles, neighbors, status, active],
+            "plane/flip_commit" => vec![control, triangles, neighbors, status, active, messages, history],
+            "plane/flip_link" => vec![control, neighbors, status, active, messages],
+            "plane/relocate" => vec![control, vertices, pairs, status, history, waiting],
+            "clear_votes" => vec![control, status],
+            "plane/mesh_mark" => vec![control, vertices, pairs, triangles, neighbors, counts, marks, active],
+            "plane/mesh_compact" => vec![control, pairs, triangles, neighbors, offsets, messages, status, waiting],
+            _ => panic!("no bindings are known for {kernel}"),
+        }
+    }
+
+    fn run(&self, name: &'static str) {
+        self.kernels.run(name, &self.bindings(name));
+    }
+
+    /// Runs a kernel on `state`'s buffers, and its twin on `state`. Returns the device's buffers.
+    fn both(&self, name: &'static str, state: &mut State, twin: impl Fn(&mut State)) -> State {
+        self.upload(state);
+        self.run(name);
+        twin(state);
+        let device = self.download(state);
+        assert_eq!(device.counters, state.counters, "{name}");
+        device
+    }
+
+    /// The same for a kernel whose results are the same to the last bit.
+    fn equal(&self, name: &'static str, state: &mut State, twin: impl Fn(&mut State)) {
+        let device = self.both(name, state, twin);
+        assert_eq!(device.triangles, state.triangles, "{name}");
+        assert_eq!(device.neighbors, state.neighbors, "{name}");
+        assert_eq!(device.status, state.status, "{name}");
+        assert_eq!(device.messages, state.messages, "{name}");
+        assert_eq!(device.active, state.active, "{name}");
+        assert_eq!(device.history, state.history, "{name}");
+        assert_eq!(device.waiting, state.waiting, "{name}");
+        assert_eq!(device.scores, state.scores, "{name}");
+    }
+}
+
+/// What the choice of numbers in the history leaves the same: the flips by their edges.
+fn flips(state: &State) -> BTreeSet<Vec<u32>> {
+    let nodes = (state.counters.next_node - state.counters.first_node) as usize;
+    let flips = state.history[..nodes].iter().map(|node| {
+        let next = node.next.map(|next| match next {
+            NONE => [NONE; 2],
+            next => state.history[(next - state.counters.first_node) as usize].edge,
+        });
+        [node.edge, node.triangles, next[0], next[1]].concat()
+    });
+    flips.collect()
+}
+
+fn listed(state: &State, half: usize) -> BTreeSet<u32> {
+    state.active[half][..state.counters.listed[half] as usize].iter().map(|a| a.tet).collect()
+}
+
+/// The statuses but for the numbers in the history.
+fn statuses(state: &State) -> Vec<[u32; 2]> {
+    state.status.iter().map(|s| [s.flags, s.vote]).collect()
+}
+
+fn compare(width: Width, pick: Pick) {
+    let positions = shuffled(width, (0..256).map(|i| [i & 15, i >> 4]).collect(), 200);
+    let start = first_triangle(positions.len(), |i| positions[i]).expect("not collinear");
+    let mut points: Vec<Vertex> =
+        (0..).zip(&positions).map(|(i, &position)| Vertex { position, index: (i * 77) % 200 }).collect();
+    points.push(Vertex { position: start.kernel, index: 200 });
+    let mut state = State::new(width, points, 4096);
+    state.params.pick = pick as u32;
+    state.first = start.first;
+    let device = Device::new(width, &state);
+    device.equal("plane/locate", &mut state, |s| {
+        let first = s.first;
+        twin::start(s, first);
+        twin::locate(s);
+    });
+    while !state.waiting.is_empty() {
+        state.messages.fill([0; 4]);
+        device.equal("plane/pick_score", &mut state, twin::pick_score);
+        device.equal("pick_point", &mut state, twin::pick_point);
+
+        let split = device.both("plane/split", &mut state, twin::split);
+        assert_eq!((&split.triangles, &split.neighbors), (&state.triangles, &state.neighbors));
+        assert_eq!(split.status, state.status);
+        let half = state.half();
+        assert_eq!(listed(&split, half), listed(&state, half), "split");
+
+        device.equal("plane/relocate_split", &mut state, twin::relocate_split);
+        while !state.is_idle(state.counters.iteration) {
+            device.equal("plane/flip_check", &mut state, twin::flip_check);
+            device.upload(&state);
+            device.run("plane/flip_commit");
+            device.run("plane/flip_link");
+            twin::flip_commit(&mut state);
+            let half = (state.counters.linking & 1) as usize;
+            let done = state.active[half].iter().filter(|a| a.outcome & DONE != 0).count();
+            twin::flip_link(&mut state);
+            let after = device.download(&state);
+            assert!(done > 0 || state.counters.listed[state.half()] == 0, "an iteration without progress");
+            assert_eq!(after.counters, state.counters, "flip");
+            assert_eq!((&after.triangles, &after.neighbors), (&state.triangles, &state.neighbors), "flip");
+            assert_eq!(statuses(&after), statuses(&state), "flip");
+            assert_eq!(flips(&after), flips(&state), "flip");
+            after.validate_mesh();
+            state.validate_mesh();
+        }
+        device.equal("plane/relocate", &mut state, twin::relocate);
+        state.waiting.retain(|w| w.tet != NONE);
+        state.params.entries = state.waiting.len() as u32;
+    }
+    device.equal("clear_votes", &mut state, twin::run::clear_votes);
+
+    let kernels = &device.kernels;
+    device.upload(&state);
+    device.run("plane/mesh_mark");
+    let marks = twin::mesh_mark(&state);
+    assert_eq!(kernels.read(&device.buffers.marks), marks);
+    let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
+    device.buffers.offsets.write(&kernels.gpu, 0, &offsets);
+    device.run("plane/mesh_compact");
+    let mesh = twin::mesh_compact(&state, &offsets);
+    let count = mesh.triangles.len();
+    assert_eq!(kernels.read(&device.buffers.messages.seen_as::<[u32; 3]>())[..count], mesh.triangles);
+    assert_eq!(kernels.read(&device.buffers.status.seen_as::<[i32; 3]>())[..count], mesh.halfedges);
+    let hull: Vec<[u32; 2]> = kernels.read(&device.buffers.waiting.seen_as());
+    let counters = kernels.read_counters(&device.buffers.control);
+    let hull: BTreeSet<[u32; 2]> = hull[..counters.hull as usize].iter().copied().collect();
+    assert_eq!(hull, mesh.hull.into_iter().collect());
+}
+
+#[test]
+fn kernels_agree_with_their_twins() {
+    compare(Width::Narrow, Pick::Circumcenter);
+    compare(Width::Wide, Pick::Centroid);
+    compare(Width::Narrow, Pick::Random);
+}

@@ -1,0 +1,209 @@
+//! Points become vertices on the GPU: duplicates, lattice and order, against the CPU.
+
+use std::collections::HashMap;
+
+use gdel::{
+    Points,
+    gpu::{
+        AdapterChoice, Gpu, Readback, Recorder, plane,
+        stages::points::{InputCounts, PointInput, PointStage},
+        twin::hilbert::hilbert_key,
+        vertex,
+    },
+    lattice::{Lattice, Width},
+};
+use pollster::block_on;
+use rand::{Rng, RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+struct Bench<const D: usize> {
+    gpu: Gpu,
+    stage: PointStage<D>,
+}
+
+impl<const D: usize> Bench<D> {
+    fn new() -> Self {
+        let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a GPU or lavapipe");
+        Bench { stage: PointStage::new(&gpu), gpu }
+    }
+
+    /// Runs the stage and compares everything with the CPU; returns the width and the counts.
+    #[track_caller]
+    fn check(&self, points: Points<'_, D>) -> (Width, InputCounts) {
+        let gpu = &self.gpu;
+        let n = points.len();
+        let wanted = [0, n / 3, n / 2, n.saturating_sub(1)].map(|p| p as u32);
+        let lattice = Lattice::fit(points);
+        let device = block_on(gpu.catching("test", || {
+            let mut recorder = Recorder::new(gpu, None);
+            let device = self.stage.record(
+                gpu,
+                &mut recorder,
+                &mut None,
+                PointInput { points, lattice: &lattice, wanted, sort: true },
+            )?;
+            recorder.submit(gpu);
+            Ok(device)
+        }))
+        .unwrap();
+        let mut readback = Readback::default();
+        let pairs = block_on(readback.read(gpu, &device.pairs, 0, n)).unwrap();
+        let united_with = block_on(readback.read(gpu, &device.united_with, 0, n)).unwrap();
+        let stride = if D == 2 { plane::vertex::words(lattice.width()) } else { 4 * vertex::stride(lattice.width()) };
+        let vertices = block_on(readback.read(gpu, &device.vertices, 0, n * stride)).unwrap();
+        let [counts] = block_on(readback.read(gpu, &device.counts, 0, 1)).unwrap()[..] else { panic!() };
+
+        let mut first = HashMap::new();
+        let stands_for: Vec<usize> =
+            (0..n).map(|i| *first.entry(lattice.coordinates(points.get(i)).map(|c| c.value)).or_insert(i)).collect();
+        let expected: Vec<u32> =
+            stands_for.iter().enumerate().map(|(i, &f)| if f == i { u32::MAX } else { f as u32 }).collect();
+        assert!(united_with == expected, "{n} points");
+
+        let key = |i: usize| {
+            let bits = if D == 2 { 15 } else { 10 };
+            let high = lattice.coordinates(points.get(i)).map(|c| (c.value >> (lattice.width().bits() - bits)) as u32);
+            if stands_for[i] == i { hilbert_key(high) } else { u32::MAX }
+        };
+        let mut expected_pairs: Vec<[u32; 2]> = (0..n).map(|i| [key(i), i as u32]).collect();
+        expected_pairs.sort_by_key(|p| p[0]);
+        assert!(pairs == expected_pairs, "{n} points");
+
+        let order = || expected_pairs.iter().map(|&[_, i]| (i, points.get(i as usize)));
+        let rounded = |p: [f64; D]| lattice.coordinates(p).iter().any(|c| !c.exact);
+        let mut expected: Vec<i32> = Vec::new();
+        for (index, p) in order() {
+            let position = lattice.coordinates(p).map(|c| c.value);
+            if let [x, y] = position[..] {
+                plane::vertex::append_words(&mut expected, lattice.width(), [x, y], rounded(p));
+                continue;
+            }
+            let mut words = Vec::new();
+            vertex::append_words(&mut words, lattice.width(), [position[0], position[1], position[2]], index);
+            if lattice.width() == Width::Wide {
+                words[1][3] = i32::from(rounded(p));
+            }
+            expected.extend(words.as_flattened());
+        }
+        for (v, (words, expected)) in vertices.chunks(stride).zip(expected.chunks(stride)).enumerate() {
+            assert_eq!(words, expected, "vertex {v} of {n}: {:?}", points.get(pairs[v][1] as usize));
+        }
+        let united = || stands_for.iter().copied().enumerate().filter(|&(i, f)| i != f);
+        assert_eq!(counts.united as usize, united().count());
+        assert_eq!(counts.duplicates as usize, united().filter(|&(i, f)| points.get(i) == points.get(f)).count());
+        if n > 0 {
+            let found = wanted.map(|w| {
+                let point = stands_for[w as usize] as u32;
+                pairs.iter().position(|p| p[1] == point).unwrap() as u32
+            });
+            assert_eq!(counts.found, found);
+        }
+        assert_eq!(counts.rounded as usize, points.iter().filter(|&p| rounded(p)).count());
+        (lattice.width(), counts)
+    }
+}
+
+fn uniform<const D: usize>(n: usize, rng: &mut impl Rng) -> Vec<[f64; D]> {
+    (0..n).map(|_| std::array::from_fn(|_| rng.random())).collect()
+}
+
+#[test]
+fn uniform_points_of_all_sizes() {
+    let bench = Bench::<3>::new();
+    let mut rng = Pcg64Mcg::seed_from_u64(1);
+    for n in [0, 1, 2, 255, 256, 257, 2047, 2048, 2049, 100_000] {
+        let points: Vec<[f64; 3]> = uniform(n, &mut rng);
+        bench.check((&points).into());
+        let single: Vec<[f32; 3]> = points.iter().map(|p| p.map(|x| x as f32)).collect();
+        bench.check((&single).into());
+    }
+}
+
+#[test]
+fn grids_are_narrow_and_their_duplicates_are_found() {
+    let bench = Bench::<3>::new();
+    let mut rng = Pcg64Mcg::seed_from_u64(2);
+    let points: Vec<[f32; 3]> =
+        (0..50_000).map(|_| std::array::from_fn(|_| rng.random_range(-16i8..16).into())).collect();
+    let (width, counts) = bench.check((&points).into());
+    assert_eq!(width, Width::Narrow);
+    assert!(counts.duplicates > 10_000 && counts.rounded == 0, "{counts:?}");
+}
+
+#[test]
+fn all_points_equal() {
+    let (_, counts) = Bench::<3>::new().check((&vec![[0.1f64, -7e300, 3e-320]; 5000]).into());
+    assert_eq!([counts.united, counts.duplicates, counts.rounded], [4999, 4999, 0]);
+}
+
+/// 0 and −0 are the same point.
+#[test]
+fn negative_zero_is_zero() {
+    let points = [[0.0, 1.0, 2.0], [-0.0, 1.0, 2.0], [0.0, 1.0, -2.0], [3.0, -0.0, 0.0], [3.0, 0.0, -0.0f32]];
+    let (_, counts) = Bench::<3>::new().check((&points).into());
+    assert_eq!(counts.duplicates, 2);
+}
+
+/// Exponents from subnormal to huge, large offsets, both signs: the device rounds as the host does.
+#[test]
+fn every_finite_number_is_put_on_the_lattice_alike() {
+    let bench = Bench::<3>::new();
+    let mut rng = Pcg64Mcg::seed_from_u64(3);
+    let finite = |bits: u64| Some(f64::from_bits(bits)).filter(|x| x.is_finite()).unwrap_or(1.5);
+    let (mut rounded, mut aside) = (0, 0);
+    for round in 0..24 {
+        let low = rng.random_range(0..2000u64);
+        let high = rng.random_range(low..2047).max(1);
+        let offset =
+            if round % 3 == 0 { finite(rng.random_range(low..=high) << 52 | rng.random::<u64>() >> 12) } else { 0.0 };
+        let number = |rng: &mut Pcg64Mcg| {
+            let exponent = rng.random_range(low..=high);
+            let fraction =
+                rng.random::<u64>() >> 12 >> rng.random_range(0..53) << rng.random_range(0..53) & ((1 << 52) - 1);
+            let x = finite(exponent << 52 | fraction | rng.random::<u64>() >> 63 << 63) + offset;
+            if x.is_finite() { x } else { 0.0 }
+        };
+        let points: Vec<[f64; 3]> = (0..500).map(|_| std::array::from_fn(|_| number(&mut rng))).collect();
+        let counts = bench.check((&points).into()).1;
+        rounded += counts.rounded;
+        aside += counts.united - counts.duplicates;
+        let single: Vec<[f32; 3]> =
+            points.iter().map(|p| p.map(|x| Some(x as f32).filter(|x| x.is_finite()).unwrap_or(1e-44))).collect();
+        bench.check((&single).into());
+    }
+    assert!(rounded > 1000 && aside > 50, "{rounded} {aside}");
+}
+
+/// Halves are rounded up, for both signs.
+#[test]
+fn halves_are_rounded_up() {
+    let step = 2f64.powi(-60);
+    let points: Vec<[f64; 3]> =
+        (-40..40).map(|i| [f64::from(i) * step / 8.0, 1.0, 0.0]).chain([[3.0, -1.0, 0.0]]).collect();
+    let (width, counts) = Bench::<3>::new().check((&points).into());
+    assert_eq!(width, Width::Wide);
+    assert!(counts.rounded > 0);
+}
+
+/// Generic, on a grid with duplicates, and with so many exponents that points are rounded and fall together.
+#[test]
+fn points_of_the_plane() {
+    let bench = Bench::<2>::new();
+    let mut rng = Pcg64Mcg::seed_from_u64(4);
+    for n in [0, 1, 257, 20_000] {
+        let points: Vec<[f64; 2]> = uniform(n, &mut rng);
+        bench.check((&points).into());
+        let single: Vec<[f32; 2]> = points.iter().map(|p| p.map(|x| x as f32)).collect();
+        bench.check((&single).into());
+    }
+    let grid: Vec<[f32; 2]> =
+        (0..20_000).map(|_| std::array::from_fn(|_| rng.random_range(-64i8..64).into())).collect();
+    let (width, counts) = bench.check((&grid).into());
+    assert_eq!(width, Width::Narrow);
+    assert!(counts.duplicates > 5_000 && counts.rounded == 0, "{counts:?}");
+    let scales = |rng: &mut Pcg64Mcg| rng.random_range(-1.0..1.0) * 2f64.powi(rng.random_range(-80..0));
+    let mixed: Vec<[f64; 2]> = (0..20_000).map(|_| std::array::from_fn(|_| scales(&mut rng))).collect();
+    let (width, counts) = bench.check((&mixed).into());
+    assert_eq!(width, Width::Wide);
+    assert!(counts.rounded > 1000 && counts.united > counts.duplicates, "{counts:?}");
+}

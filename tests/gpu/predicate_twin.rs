@@ -1,0 +1,156 @@
+//! The twin of the GPU's predicates: its ties are those of a perturbation that is carried out.
+
+use crate::perturbation::{perturbed_rows, sign_of_columns};
+use gdel::{
+    gpu::{
+        twin::predicates::{self as twin, Vertex},
+        vertex::INFINITE,
+    },
+    lattice::Width,
+    predicates::{Sign, insphere_symbolic},
+};
+use num_bigint::BigInt;
+use rand::{Rng, RngExt, SeedableRng, seq::SliceRandom};
+use rand_pcg::Pcg64Mcg;
+
+/// (x, y, z, height, 1), perturbed; (0, 0, 0, 1, 0) at infinity.
+fn rows(vertices: &[Vertex]) -> Vec<Vec<BigInt>> {
+    let mut rows = perturbed_rows(&vertices.iter().map(|v| (v.index, v.position)).collect::<Vec<_>>());
+    for (row, vertex) in rows.iter_mut().zip(vertices) {
+        if vertex.index == INFINITE {
+            *row = [0, 0, 0, 1, 0].map(BigInt::from).to_vec();
+        }
+    }
+    rows
+}
+
+fn perturbed_orient3d(vertices: [Vertex; 4]) -> Sign {
+    -sign_of_columns(&rows(&vertices), &[0, 1, 2, 4])
+}
+
+fn perturbed_insphere(vertices: [Vertex; 5]) -> Sign {
+    -sign_of_columns(&rows(&vertices), &[0, 1, 2, 3, 4])
+}
+
+/// Points of a grid of `side`³ with indices in no order.
+fn vertices<const N: usize>(side: i64, rng: &mut impl Rng) -> [Vertex; N] {
+    let mut indices: Vec<u32> = (0..N as u32).collect();
+    indices.shuffle(rng);
+    std::array::from_fn(|i| Vertex {
+        position: std::array::from_fn(|_| rng.random_range(0..side)),
+        index: indices[i] * 1000,
+    })
+}
+
+/// Points on grids so small that they are often coplanar, collinear or equal.
+#[test]
+fn ties_are_those_of_the_perturbation() {
+    let mut rng = Pcg64Mcg::seed_from_u64(1);
+    for i in 0..600 {
+        let side = 1 + i % 4;
+        let four = vertices(side, &mut rng);
+        let expected = perturbed_orient3d(four);
+        assert_ne!(expected, 0);
+        for width in [Width::Narrow, Width::Wide] {
+            assert_eq!(twin::orient3d(width, four), expected, "{four:?}");
+        }
+        let mut five = vertices(side, &mut rng);
+        if i % 5 == 0 {
+            five[rng.random_range(0..5)] = Vertex::AT_INFINITY;
+        }
+        let expected = perturbed_insphere(five);
+        assert_ne!(expected, 0);
+        for width in [Width::Narrow, Width::Wide] {
+            assert_eq!(twin::insphere(width, five), expected, "{five:?}");
+        }
+    }
+}
+
+#[test]
+fn exchanging_two_arguments_changes_the_sign() {
+    let mut rng = Pcg64Mcg::seed_from_u64(2);
+    for _ in 0..2000 {
+        let mut five: [Vertex; 5] = vertices(3, &mut rng);
+        let four = [five[0], five[1], five[2], five[3]];
+        for (i, j) in [(0, 1), (1, 2), (0, 3), (2, 3)] {
+            let mut exchanged = four;
+            exchanged.swap(i, j);
+            assert_eq!(twin::orient3d(Width::Wide, exchanged), -twin::orient3d(Width::Wide, four), "{four:?}");
+        }
+        if rng.random_bool(0.3) {
+            five[rng.random_range(0..5)] = Vertex::AT_INFINITY;
+        }
+        for (i, j) in [(0, 1), (1, 2), (0, 4), (3, 4)] {
+            let mut exchanged = five;
+            exchanged.swap(i, j);
+            assert_eq!(twin::insphere(Width::Narrow, exchanged), -twin::insphere(Width::Narrow, five), "{five:?}");
+        }
+    }
+}
+
+/// Where the points are not all coplanar, the heights decide, as they do in the definition of the triangulation.
+#[test]
+fn heights_come_before_lowered_coordinates() {
+    let mut rng = Pcg64Mcg::seed_from_u64(3);
+    let mut compared = 0;
+    for _ in 0..5000 {
+        let five: [Vertex; 5] = vertices(3, &mut rng);
+        let defined = insphere_symbolic(five.map(|v| (v.index, v.position.map(|q| q as f64))));
+        if defined != 0 {
+            assert_eq!(twin::insphere(Width::Narrow, five), defined, "{five:?}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 3000, "{compared}");
+}
+
+/// All sets of four of `n`.
+fn fours(n: usize) -> impl Iterator<Item = [usize; 4]> {
+    (0..n).flat_map(move |a| {
+        (a + 1..n).flat_map(move |b| (b + 1..n).flat_map(move |c| (c + 1..n).map(move |d| [a, b, c, d])))
+    })
+}
+
+/// The perturbed points have a triangulation with no ties at all. Without its flat tetrahedra it is the triangulation
+/// that the crate promises.
+#[test]
+fn the_perturbed_triangulation_without_flat_tetrahedra_is_the_answer() {
+    let mut rng = Pcg64Mcg::seed_from_u64(4);
+    let mut flat = 0;
+    for i in 0..200 {
+        let side = 2 + i % 3;
+        let mut points: Vec<[i64; 3]> = (0..9).map(|_| std::array::from_fn(|_| rng.random_range(0..side))).collect();
+        points.sort_unstable();
+        points.dedup();
+        points.shuffle(&mut rng);
+        let vertex = |i: usize| Vertex { position: points[i], index: i as u32 };
+        let coordinates = |i: usize| points[i].map(|q| q as f64);
+        let is_flat = |t: [usize; 4]| {
+            let [a, b, c, d] = t.map(coordinates);
+            gdel::predicates::orient3d(a, b, c, d) == 0
+        };
+        let others = |t: [usize; 4]| (0..points.len()).filter(move |p| !t.contains(p));
+        let perturbed: Vec<_> = fours(points.len())
+            .filter(|&t| {
+                let [a, b, c, d] = t.map(vertex);
+                let orientation = twin::orient3d(Width::Narrow, [a, b, c, d]);
+                others(t).all(|e| twin::insphere(Width::Narrow, [a, b, c, d, vertex(e)]) == -orientation)
+            })
+            .collect();
+        let promised: Vec<_> = fours(points.len())
+            .filter(|&t| !is_flat(t))
+            .filter(|&t| {
+                let [a, b, c, d] = t.map(coordinates);
+                let orientation = gdel::predicates::orient3d(a, b, c, d);
+                others(t).all(|e| {
+                    let five = [t[0], t[1], t[2], t[3], e].map(|i| (i as u32, coordinates(i)));
+                    insphere_symbolic(five) == -orientation
+                })
+            })
+            .collect();
+        flat += perturbed.iter().filter(|&&t| is_flat(t)).count();
+        let solid: Vec<_> = perturbed.into_iter().filter(|&t| !is_flat(t)).collect();
+        assert_eq!(solid, promised, "{points:?}");
+    }
+    assert!(flat > 100, "{flat}");
+}

@@ -1,0 +1,83 @@
+//! The predicates in WGSL and their twin, against big integers.
+
+use crate::cases::{Case, FAMILIES, Family, cases};
+use crate::signs::{SignKernel, exact_in_circumsphere, exact_orientation};
+use gdel::{
+    gpu::{
+        Storage,
+        twin::predicates::{self as twin, Vertex},
+        vertex,
+    },
+    lattice::Width,
+    predicates::Sign,
+};
+
+const KERNEL: &str = include_str!("../shaders/predicates.wgsl");
+
+fn on_the_gpu(kernel: &SignKernel, width: Width, cases: &[Case]) -> Vec<[i32; 7]> {
+    let mut words = Vec::new();
+    for v in cases.iter().flatten() {
+        vertex::append_words(&mut words, width, v.position, v.index);
+    }
+    assert_eq!(words.len(), 5 * cases.len() * vertex::stride(width));
+    let vertices = Storage::with_contents(&kernel.gpu, "vertices", &words).unwrap();
+    kernel.signs(&[vertices.buffer()], cases.len())
+}
+
+fn check(width: Width) {
+    let kernel = SignKernel::new(width, KERNEL);
+    for &family in FAMILIES {
+        let cases = cases(family, width, 10_000);
+        let mut zeros = [0, 0];
+        let mut decided = [0, 0];
+        let mut refined = [0, 0];
+        let finite = |case: &Case| case.iter().all(|v| *v != Vertex::AT_INFINITY);
+        for (case, signs) in cases.iter().zip(on_the_gpu(&kernel, width, &cases)) {
+            let signs = signs.map(|s| s as Sign);
+            let four = [case[0], case[1], case[2], case[3]];
+            if four.iter().all(|v| *v != Vertex::AT_INFINITY) {
+                let exact = exact_orientation(&case.map(|v| v.position));
+                assert_eq!(signs[0], exact, "orient3d_exact, {family:?}: {case:?}");
+                assert!(signs[3] == 0 || signs[3] == exact, "orient3d_filter, {family:?}: {case:?}");
+                assert!(signs[5] == 0 || signs[5] == exact, "orient3d_refined, {family:?}: {case:?}");
+                assert_eq!(signs[1], twin::orient3d(width, four), "orient3d, {family:?}: {case:?}");
+                assert!(exact == 0 || signs[1] == exact, "orient3d, {family:?}: {case:?}");
+                assert_ne!(signs[1], 0);
+                zeros[0] += usize::from(exact == 0);
+                decided[0] += usize::from(signs[3] != 0);
+                refined[0] += usize::from(signs[5] != 0);
+            }
+            assert_eq!(signs[2], twin::insphere(width, *case), "insphere, {family:?}: {case:?}");
+            assert_ne!(signs[2], 0);
+            if finite(case) {
+                let exact = exact_in_circumsphere(&case.map(|v| v.position));
+                assert!(exact == 0 || signs[2] == exact, "insphere, {family:?}: {case:?}");
+                assert!(signs[4] == 0 || signs[4] == exact, "insphere_filter, {family:?}: {case:?}");
+                assert!(signs[6] == 0 || signs[6] == exact, "insphere_refined, {family:?}: {case:?}");
+                zeros[1] += usize::from(exact == 0);
+                decided[1] += usize::from(signs[4] != 0);
+                refined[1] += usize::from(signs[6] != 0);
+            }
+        }
+        println!(
+            "{width:?} {family:?}: zeros {zeros:?}, decided by the filter {decided:?}, by the refined one {refined:?} of {}",
+            cases.len()
+        );
+        if family == Family::Clustered {
+            // What the low words are for.
+            let [orientation, in_sphere] = refined.map(|n| n as f64 / cases.len() as f64);
+            assert_eq!(width == Width::Wide, orientation > 0.99 && in_sphere > 0.99, "{refined:?}");
+        }
+        family.check_that_it_is_what_it_says(zeros, decided, cases.len());
+    }
+}
+
+#[test]
+fn narrow_signs_are_exact() {
+    check(Width::Narrow);
+}
+
+#[test]
+fn wide_signs_are_exact() {
+    check(Width::Wide);
+}

@@ -1,0 +1,49 @@
+//! Signs of predicates, by a kernel and by big integers, in the plane and in space.
+
+use crate::oracle;
+use bytemuck::Pod;
+use gdel::{
+    gpu::{AdapterChoice, Gpu, Kernel, Readback, Recorder, Storage, shader, workgroups},
+    lattice::Width,
+    predicates::Sign,
+};
+use num_bigint::BigInt;
+use pollster::block_on;
+
+/// A kernel that writes the signs of each case.
+pub struct SignKernel {
+    pub gpu: Gpu,
+    kernel: Kernel,
+}
+
+impl SignKernel {
+    pub fn new(width: Width, text: &str) -> Self {
+        let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a GPU or lavapipe");
+        let wgsl = shader::assemble_text(text, width);
+        let kernel = block_on(gpu.catching("test", || Ok(Kernel::from_wgsl(&gpu, "predicates", &wgsl, &[])))).unwrap();
+        SignKernel { gpu, kernel }
+    }
+
+    /// The signs of so many cases, which these buffers hold.
+    pub fn signs<T: Pod>(&self, inputs: &[&wgpu::Buffer], cases: usize) -> Vec<T> {
+        let gpu = &self.gpu;
+        let signs = Storage::<T>::new(gpu, "signs", cases).unwrap();
+        let bindings = self.kernel.bind(gpu, &[inputs, &[signs.buffer()]].concat());
+        let mut recorder = Recorder::new(gpu, None);
+        recorder.dispatch(&self.kernel, &bindings, workgroups(cases as u32));
+        recorder.submit(gpu);
+        block_on(Readback::default().read(gpu, &signs, 0, cases)).unwrap()
+    }
+}
+
+/// The orientation of the first D + 1 positions.
+pub fn exact_orientation<const D: usize>(positions: &[[i64; D]]) -> Sign {
+    let points: Vec<_> = positions[..D + 1].iter().map(|p| p.map(BigInt::from)).collect();
+    oracle::sign(&oracle::orientation(&points.iter().collect::<Vec<_>>()))
+}
+
+/// Whether the last of D + 2 positions is inside the circumsphere of the others, or the circumcircle.
+pub fn exact_in_circumsphere<const D: usize>(positions: &[[i64; D]]) -> Sign {
+    let points: Vec<_> = positions.iter().map(|p| p.map(BigInt::from)).collect();
+    oracle::sign(&oracle::in_circumsphere(&points.iter().collect::<Vec<_>>()))
+}

@@ -1,0 +1,9 @@
+//! The file formats.
+#![cfg(feature = "io")]
+
+mod samples;
+
+mod bad_input;
+mod glb;
+mod meshes;
+mod points;
