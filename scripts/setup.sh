@@ -73,15 +73,15 @@ install_rust_parts() {
 }
 
 # A tool from crates.io, into .cache/tools, unless that version is there or on the PATH. The tools do not have to be fast,
-# but to compile fast.
+# but to compile fast: with the optimisation that their work needs.
 install_tool() {
-  local command=$1 crate=$2 version=$3
-  shift 3
+  local optimisation=$1 command=$2 crate=$3 version=$4
+  shift 4
   for candidate in ".cache/tools/bin/$command" "$command"; do
     [[ $("$candidate" --version 2>/dev/null) != "$command $version" ]] || return 0
   done
   say "compiling $crate $version: a few minutes"
-  CARGO_PROFILE_RELEASE_OPT_LEVEL=1 CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
+  CARGO_PROFILE_RELEASE_OPT_LEVEL=$optimisation CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
     cargo install --quiet --root .cache/tools --version "$version" "$@" "$crate"
 }
 
@@ -93,14 +93,23 @@ install_web_parts() {
   # The glue that wasm-bindgen writes has to be of the version that the crate was compiled with.
   local bindgen
   bindgen=$(sed -n '/^name = "wasm-bindgen"$/{n;s/^version = "\(.*\)"$/\1/p}' Cargo.lock)
-  install_tool wasm-bindgen wasm-bindgen-cli "$bindgen" --no-default-features --bin wasm-bindgen
-  install_tool wasm-pack wasm-pack 0.15.1
+  install_tool 1 wasm-bindgen wasm-bindgen-cli "$bindgen" --no-default-features --bin wasm-bindgen
+  install_tool 0 wasm-pack wasm-pack 0.15.1
 
   if [[ ! node_modules/.package-lock.json -nt package-lock.json ]]; then
     say "installing the npm packages"
     npm ci --no-audit --no-fund --loglevel=error
     touch node_modules/.package-lock.json
   fi
+}
+
+# For one test, which says so where it is missing. Not among the npm packages: a lock file would have to name its binaries for
+# all systems, and not every registry has them.
+install_deno() {
+  [[ ! -e .cache/tools/node_modules/.bin/deno && -z $(command -v deno) ]] || return 0
+  say "installing Deno"
+  npm install --prefix .cache/tools --no-save --no-audit --no-fund --loglevel=error deno@2.9.6 ||
+    say "there is no Deno for this machine: its test will be skipped"
 }
 
 if [[ -n $(command -v apt-get) ]]; then
@@ -110,4 +119,5 @@ else
 fi
 install_rust_parts
 [[ $what == rust ]] || install_web_parts
+[[ $what != web-tests ]] || install_deno
 say "ready"

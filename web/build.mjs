@@ -1,7 +1,8 @@
 // Builds the package into web/dist: wasm by wasm-pack, JavaScript by esbuild, declarations by tsc.
 
 import { execFileSync } from 'node:child_process';
-import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { homedir } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
@@ -15,13 +16,20 @@ const pkg = (name) => join(web, 'pkg', name);
 /** The wasm modules: the feature of the crate, and the file in the package. */
 const MODULES = {
   engine: { feature: 'wasm-engine', file: 'gdel.wasm' },
+  plane: { feature: 'wasm-plane', file: 'gdel-plane.wasm' },
   tools: { feature: 'wasm-tools', file: 'gdel-tools.wasm' },
 };
 
 const say = (text) => console.log(`build: ${text}`);
 // wasm-bindgen from there, and wasm-opt from the npm package binaryen: Debian's does not know what rustc emits.
 const PATH = [join(root, '.cache/tools/bin'), join(root, 'node_modules/.bin'), process.env.PATH].join(delimiter);
-const run = (command, args) => execFileSync(command, args, { cwd: root, stdio: 'inherit', env: { ...process.env, PATH } });
+// Messages of panics name source files, but not where they lie on this machine.
+const sources = { gdel: root, cargo: process.env.CARGO_HOME ?? join(homedir(), '.cargo') };
+const remapped = Object.entries(sources).map(([name, folder]) => `--remap-path-prefix=${folder}=${name}`);
+const given = process.env.CARGO_ENCODED_RUSTFLAGS?.split('\x1f') ?? process.env.RUSTFLAGS?.split(/\s+/) ?? [];
+const CARGO_ENCODED_RUSTFLAGS = [...given, ...remapped].filter(Boolean).join('\x1f');
+const env = { ...process.env, PATH, CARGO_ENCODED_RUSTFLAGS };
+const run = (command, args) => execFileSync(command, args, { cwd: root, stdio: 'inherit', env });
 
 function buildWasm() {
   for (const [name, { feature }] of Object.entries(MODULES)) {
@@ -47,6 +55,7 @@ const glue = {
         write: false,
         format: 'cjs',
         target: 'es2022',
+        minify: true,
         // Used by the asynchronous initialisation only, which nobody calls.
         define: { 'import.meta.url': '""' },
       });
@@ -83,11 +92,17 @@ async function bundle(entry, outfile, options = {}) {
     format: 'esm',
     target: 'es2022',
     legalComments: 'none',
+    // Not the names: those of classes are seen in consoles and debuggers.
+    minifySyntax: true,
+    minifyWhitespace: true,
     plugins: [glue, inlined],
     // Files of the package that stay files of their own.
     external: ['./worker.js', 'node:*'],
     ...options,
   });
+  // On a line of its own, where tools find it that tell ES modules by patterns.
+  const file = join(dist, outfile);
+  writeFileSync(file, readFileSync(file, 'utf8').replace(/export\{[^{}]*\};\s*$/, '\n$&'));
 }
 
 async function buildJs() {
@@ -110,7 +125,7 @@ async function buildJs() {
 
 function reportSizes() {
   const kilobytes = (file) => (gzipSync(readFileSync(join(dist, file)), { level: 9 }).length / 1e3).toFixed(1);
-  for (const file of ['gdel.wasm', 'gdel-tools.wasm', 'index.js', 'worker.js', 'node.js', 'inline.js']) {
+  for (const file of [...Object.values(MODULES).map(({ file }) => file), 'index.js', 'worker.js', 'node.js', 'inline.js']) {
     say(`${file}: ${statSync(join(dist, file)).size} bytes, ${kilobytes(file)} kB gzipped`);
   }
 }

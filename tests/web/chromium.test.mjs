@@ -3,11 +3,9 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { chromium } from 'playwright-core';
+import { QUIET, WEBGPU } from './chromium.mjs';
 import { dist, leastOfThree, pinned, project, root } from './package.mjs';
 import { serve } from './server.mjs';
-
-const QUIET = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
-const WEBGPU = ['--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader'];
 
 const folder = project();
 const folders = { '/gdel/': dist(folder), '/tests/': `${root}/tests/web` };
@@ -73,14 +71,27 @@ test('auto avoids a software adapter, and says so', async () => {
 
 // One device for all of this: SwiftShader takes long to compile the kernels.
 test('the GPU engine: native mesh, trace, progress, abort, device loss', { timeout: 900_000 }, async () => {
-  // The device's own way to get lost, for the test: the worker's code keeps hold of it.
-  const keepDevice = `
+  // The worker destroys its device after as many submits as it was told, so that it gets lost in the middle of a run.
+  const loseDevice = `
     const { requestDevice } = GPUAdapter.prototype;
+    const { submit } = GPUQueue.prototype;
+    const channel = new BroadcastChannel('test');
+    let device;
+    let submits = 0;
     GPUAdapter.prototype.requestDevice = async function (...args) {
-      return (globalThis.lastDevice = await requestDevice.apply(this, args));
+      return (device = await requestDevice.apply(this, args));
     };
-    new BroadcastChannel('test').onmessage = () => globalThis.lastDevice.destroy();\n`;
-  const page = await open({ change: (path, content) => (path === '/gdel/worker.js' ? keepDevice + content : content) });
+    GPUQueue.prototype.submit = function (...args) {
+      submit.apply(this, args);
+      if (submits > 0 && --submits === 0) device.destroy();
+    };
+    channel.onmessage = ({ data }) => {
+      // There is a worker that generates points, too, which also answers.
+      if (typeof data !== 'number') return;
+      submits = data;
+      channel.postMessage('told');
+    };\n`;
+  const page = await open({ change: (path, content) => (path === '/gdel/worker.js' ? loseDevice + content : content) });
   const small = pinned.find(({ count }) => count < 100);
   const found = await page.evaluate(async ({ kind, count, seed }) => {
     const { createEngine, generate } = await import('/gdel/index.js');
@@ -96,20 +107,23 @@ test('the GPU engine: native mesh, trace, progress, abort, device loss', { timeo
       facets: mesh.trace.nonDelaunayFacets.length,
     };
 
+    const code = (promise) => promise.then(() => 'none', (error) => error.code);
+    const channel = new BroadcastChannel('test');
+    await new Promise((told) => {
+      channel.onmessage = told;
+      channel.postMessage(3);
+    });
+    const lossCode = await code(engine.delaunay3d(points));
+    const again = await engine.delaunay3d(points);
+
     const controller = new AbortController();
     let aborted;
     const abort = () => {
       aborted ??= performance.now();
       controller.abort();
     };
-    const code = (promise) => promise.then(() => 'none', (error) => error.code);
     const abortCode = await code(engine.delaunay3d(points, { signal: controller.signal, onProgress: abort }));
     const abortMilliseconds = performance.now() - aborted;
-
-    const lose = () => new BroadcastChannel('test').postMessage('lose');
-    let runs = 0;
-    const lossCode = await code(engine.delaunay3d(points, { onProgress: ({ phase }) => phase === 'phase 1' && !runs++ && lose() }));
-    const again = await engine.delaunay3d(points);
     engine.dispose();
     const prints = [mesh, again].map(({ tetrahedra }) => fingerprint(tetrahedra));
     return { info: engine.info, stats: mesh.stats, prints, trace, fractions, abortCode, abortMilliseconds, lossCode };

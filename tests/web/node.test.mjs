@@ -5,12 +5,14 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { NodeIO } from '@gltf-transform/core';
 import Delaunator from 'delaunator';
 import { fingerprint } from './fingerprints.mjs';
 import { importFrom, pinned, project, root } from './package.mjs';
 
 const folder = project();
-const { createEngine, delaunay2d, delaunay3d, generate, GdelError, Mesh3, readPoints, verify } = await importFrom(folder);
+const { createEngine, delaunay2d, delaunay3d, generate, generate2d, GdelError, Mesh2, Mesh3, readPoints, verify, verify2d } =
+  await importFrom(folder);
 
 const TETRAHEDRON = [
   [0, 0, 0],
@@ -104,6 +106,44 @@ test('in the plane, the triangles are those of delaunator', async () => {
   assert.equal((await delaunay2d([[0, 0], [1, 1], [2, 2]])).dimension, 1);
   await rejects(delaunay2d(new Float32Array(3)), 'BAD_INPUT', /multiple of 2/);
   await rejects(delaunay2d([[0, Infinity]]), 'NOT_FINITE', /point 0: the y/);
+});
+
+test('in the plane, hard input is proven, and what is wrong is found', async () => {
+  for (const kind of ['uniform', 'gaussian', 'disk', 'circle', 'thin-circle', 'grid', 'two-lines', 'clusters']) {
+    const points = await generate2d(kind, 2000, { seed: 7 });
+    assert.equal(points.length, 4000);
+    const mesh = await delaunay2d(points);
+    assert.ok(mesh instanceof Mesh2);
+    const report = await verify2d(points, mesh);
+    assert.deepEqual(report.checks.filter(({ passed }) => !passed), [], kind);
+    assert.equal(report.counts.triangles, mesh.triangles.length / 3);
+    assert.equal(report.counts.hullEdges, mesh.hull.length);
+  }
+  const square = Float64Array.of(0, 0, 3, 0, 3, 2, 0, 2.5);
+  const { triangles } = await delaunay2d(square);
+  assert.equal((await verify2d(square, { triangles })).counts.edges, 5);
+  const turned = triangles.slice();
+  [turned[0], turned[1]] = [turned[1], turned[0]];
+  const { passed, checks } = await verify2d(square, { triangles: turned });
+  assert.equal(passed, false);
+  assert.equal(checks.find(({ name }) => name === 'orientation').outcome, 'failed');
+  await rejects(verify2d(square, {}), 'BAD_INPUT');
+  await rejects(generate2d('sphere', 10), 'BAD_INPUT', /thin-circle/);
+  await rejects(generate2d('disk', -1), 'BAD_INPUT');
+});
+
+test('meshes of the plane as files', async () => {
+  const mesh = await delaunay2d([[0, 0], [3, 0], [3, 2], [0, 2.5]]);
+  const text = (bytes) => Buffer.from(bytes).toString('latin1');
+  assert.match(text(await mesh.toVTU()), /NumberOfPoints="4" NumberOfCells="2"/);
+  assert.match(text(await mesh.toPLY()), /^ply.*element face 2/s);
+  assert.equal(text(await mesh.toOBJ()).match(/^f /gm).length, 2);
+  assert.equal(new DataView((await mesh.toSTL()).buffer).getUint32(80, true), 2);
+  assert.match(text(await mesh.toNPZ()), /^PK.*triangles\.npy.*halfedges\.npy/s);
+  const { node, ele, neigh } = await mesh.toTriangle();
+  assert.match(text(node), /^4 2 0 0/);
+  assert.match(text(ele), /^2 3 0/);
+  assert.match(text(neigh), /^2 3/);
 });
 
 test('bad input is a typed error that says what and where', async () => {
@@ -285,7 +325,12 @@ test('meshes and hulls are written', async () => {
   assert.match(text(await mesh.toNPZ()), /^PK.*tetrahedra\.npy/s);
   const { node, ele, neigh } = await mesh.toTetGen();
   for (const [file, first] of [[node, /^5 3/], [ele, /^2 4/], [neigh, /^2 4/]]) assert.match(text(file).replace(/^#.*\n/gm, ''), first);
-  // What is written can be read.
+  // What is written can be read, GLB by a reader of others.
+  const [facets] = (await new NodeIO().readBinary(await mesh.toGLB())).getRoot().listMeshes()[0].listPrimitives();
+  assert.equal(facets.getIndices().getCount(), 3 * 6);
+  const corners = facets.getAttribute('POSITION');
+  const read = Array.from({ length: corners.getCount() }, (_, i) => corners.getElement(i, []).join());
+  assert.deepEqual(read.sort(), [...TETRAHEDRON, [1, 1, 1]].map((p) => p.join()).sort());
   assert.deepEqual((await readPoints(await mesh.toPLY(), { format: 'ply' })).points, points);
 });
 

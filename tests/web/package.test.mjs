@@ -2,7 +2,8 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
+import { readdirSync, readFileSync } from 'node:fs';
+import { homedir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
@@ -24,10 +25,18 @@ test('the types are not wrong', () => {
   });
 });
 
-test('the engine’s wasm is below 340 kB and all JavaScript below 25 kB, gzipped', () => {
+test('no file says where it was built', () => {
+  const folders = [root, process.env.CARGO_HOME ?? join(homedir(), '.cargo')];
+  for (const file of readdirSync(join(root, 'web/dist'))) {
+    const content = readFileSync(join(root, 'web/dist', file), 'latin1');
+    for (const folder of folders) assert.ok(!content.includes(`${folder}/`), `${file} names ${folder}`);
+  }
+});
+
+test('the engine’s wasm is below 250 kB and all JavaScript below 25 kB, gzipped', () => {
   const wasm = kilobytes('gdel.wasm');
   const js = kilobytes('index.js') + kilobytes('worker.js');
   console.log(`gdel.wasm ${wasm.toFixed(1)} kB, index.js and worker.js ${js.toFixed(1)} kB`);
-  assert.ok(wasm < 340);
+  assert.ok(wasm < 250);
   assert.ok(js < 25);
 });

@@ -1,6 +1,7 @@
 // The tasks, on the WebAssembly instances that carry them out: in a worker or in the calling thread.
 
 import makeEngineGlue from 'glue:engine';
+import makePlaneGlue from 'glue:plane';
 import makeToolsGlue from 'glue:tools';
 import { toPlainError, type PlainError } from './errors.js';
 import type { Control, Coordinates, CoreInfo, CoreStats, ModuleName, TaskName, Tasks } from './protocol.js';
@@ -8,6 +9,19 @@ import type { AdapterInfo, EngineName, Output } from './types.js';
 
 /** Progress is told at most so often: a message costs the page more than a phase is worth. */
 const PROGRESS_MILLISECONDS = 20;
+
+/** What a module is able to do. */
+interface ModuleTasks {
+  handlers: Handlers;
+  memory: WebAssembly.Memory;
+  dispose(): void;
+}
+
+const TASKS: Record<ModuleName, (module: WebAssembly.Module, gpu?: object) => ModuleTasks> = {
+  engine: engineTasks,
+  plane: planeTasks,
+  tools: toolsTasks,
+};
 
 type Handlers = { [T in TaskName]?: (args: Tasks[T]['args'], control: Control) => Promise<Tasks[T]['result']> };
 
@@ -19,7 +33,7 @@ export interface Core {
 }
 
 export function makeCore(name: ModuleName, module: WebAssembly.Module, gpu?: object): Core {
-  const { handlers, memory, dispose } = name === 'engine' ? engineTasks(module, gpu) : toolsTasks(module);
+  const { handlers, memory, dispose } = TASKS[name](module, gpu);
   return {
     async run(task, args, control) {
       let last = -Infinity;
@@ -61,12 +75,8 @@ function scopeWith(gpu: object): object {
   return scope;
 }
 
-function engineTasks(module: WebAssembly.Module, gpu: object | undefined) {
-  const glue = makeEngineGlue(gpu ? scopeWith(gpu) : globalThis);
-  const { memory } = glue.initSync({ module });
-  const engines = new glue.WasmEngines();
-  const leastGpuPoints: number = glue.least_gpu_points();
-
+/** The choice between the engines of one module. */
+function chooser(memory: WebAssembly.Memory, gpu: object | undefined) {
   let looking: Promise<AdapterInfo> | undefined;
 
   /** The adapter, as far as there is one. */
@@ -97,6 +107,40 @@ function engineTasks(module: WebAssembly.Module, gpu: object | undefined) {
     }
   }
 
+  /** Chooses an engine if that is not decided, triangulates, and adds to the mesh what only this side knows. */
+  async function run(
+    points: Coordinates,
+    engine: EngineName,
+    isDecided: boolean,
+    control: Control,
+    triangulate: (engine: EngineName, report: (phase: string, fraction: number) => boolean) => Promise<any>,
+  ): Promise<any> {
+    const started = performance.now();
+    const info = isDecided ? null : await choose(engine);
+    const mesh = await triangulate(info?.engine === 'cpu' ? 'cpu' : engine, (phase, fraction) => {
+      control.onProgress({ phase, fraction });
+      return control.isAborted();
+    });
+    const stats: CoreStats = {
+      ...mesh.stats,
+      why: mesh.stats.why ?? info?.why ?? null,
+      adapter: mesh.stats.engine === 'gpu' ? (info?.adapter ?? null) : null,
+      milliseconds: performance.now() - started,
+      wasmBytes: memory.buffer.byteLength,
+    };
+    return { ...mesh, points, stats };
+  }
+
+  return { choose, run };
+}
+
+function engineTasks(module: WebAssembly.Module, gpu?: object): ModuleTasks {
+  const glue = makeEngineGlue(gpu ? scopeWith(gpu) : globalThis);
+  const { memory } = glue.initSync({ module });
+  const engines = new glue.WasmEngines();
+  const leastGpuPoints: number = glue.least_gpu_points();
+  const { choose, run } = chooser(memory, gpu);
+
   const handlers: Handlers = {
     async open({ engine }) {
       const info = await choose(engine);
@@ -114,42 +158,55 @@ function engineTasks(module: WebAssembly.Module, gpu: object | undefined) {
     async delaunay3d({ points, engine, outputs }, control) {
       const has = (output: Output) => outputs.includes(output);
       const wanted = new glue.Outputs(has('neighbors'), has('hull'), has('duplicateOf'), has('trace'));
-      const mesh = await run(points, 3, engine, control, (chosen, report) =>
+      const isDecided = engine === 'cpu' || (engine === 'auto' && points.length < 3 * leastGpuPoints);
+      const mesh = await run(points, engine, isDecided, control, (chosen, report) =>
         engines.delaunay3d(points, chosen, wanted, report),
       );
       const { neighbors = new Int32Array(0), hull = new Uint32Array(0), duplicateOf = new Int32Array(0) } = mesh;
       return { ...mesh, neighbors, hull, duplicateOf };
     },
-
-    delaunay2d: ({ points, engine }, control) =>
-      run(points, 2, engine, control, (chosen, report) => engines.delaunay2d(points, chosen, report)),
   };
-
-  /** Chooses an engine, triangulates, and adds to the mesh what only this side knows. */
-  async function run(
-    points: Coordinates,
-    dimension: number,
-    engine: EngineName,
-    control: Control,
-    triangulate: (engine: EngineName, report: (phase: string, fraction: number) => boolean) => Promise<any>,
-  ): Promise<any> {
-    const started = performance.now();
-    const undecided = engine === 'gpu' || (engine === 'auto' && points.length >= dimension * leastGpuPoints);
-    const info = undecided ? await choose(engine) : null;
-    const mesh = await triangulate(info?.engine === 'cpu' ? 'cpu' : engine, (phase, fraction) => {
-      control.onProgress({ phase, fraction });
-      return control.isAborted();
-    });
-    const stats: CoreStats = {
-      ...mesh.stats,
-      why: mesh.stats.why ?? info?.why ?? null,
-      adapter: mesh.stats.engine === 'gpu' ? (info?.adapter ?? null) : null,
-      milliseconds: performance.now() - started,
-      wasmBytes: memory.buffer.byteLength,
-    };
-    return { ...mesh, points, stats };
-  }
   return { handlers, memory, dispose: () => void engines.close() };
+}
+
+function planeTasks(module: WebAssembly.Module, gpu?: object): ModuleTasks {
+  const glue = makePlaneGlue(gpu ? scopeWith(gpu) : globalThis);
+  const { memory } = glue.initSync({ module });
+  const engines = new glue.PlaneEngines();
+  const { run } = chooser(memory, gpu);
+
+  const handlers: Handlers = {
+    // 'auto' is the CPU engine.
+    delaunay2d: ({ points, engine }, control) =>
+      run(points, engine, engine !== 'gpu', control, (chosen, report) => engines.delaunay2d(points, chosen, report)),
+  };
+  return { handlers, memory, dispose: () => void engines.close() };
+}
+
+/** The arrays of a triangulation of the plane. */
+export type Triangles = Pick<
+  Tasks['delaunay2d']['result'],
+  'triangles' | 'halfedges' | 'hull' | 'duplicateOf' | 'dimension'
+>;
+
+/** The CPU engine of the plane as a function that returns with the result. Throws a {@link PlainError}; a new instance takes
+ * the place of one that broke. */
+export function makeTriangulator(module: WebAssembly.Module): (points: Coordinates) => Triangles {
+  let glue: any;
+  let memory: WebAssembly.Memory | undefined;
+  return (points) => {
+    try {
+      if (!glue) {
+        glue = makePlaneGlue(globalThis);
+        ({ memory } = glue.initSync({ module }));
+      }
+      return glue.delaunay2d_at_once(points);
+    } catch (thrown) {
+      const error = toPlainError(thrown, memory?.buffer.byteLength ?? 0);
+      if (error.fatal) glue = undefined;
+      throw error;
+    }
+  };
 }
 
 /** Chromium says `isFallbackAdapter`; the names are those of the software rasterisers that browsers and Mesa have. */
@@ -166,12 +223,21 @@ function describe({ info, limits }: Adapter): AdapterInfo {
   };
 }
 
-function toolsTasks(module: WebAssembly.Module) {
+function toolsTasks(module: WebAssembly.Module): ModuleTasks {
   const glue = makeToolsGlue(globalThis);
   const { memory } = glue.initSync({ module });
 
   function withMesh<R>({ points, mesh }: Tasks['verify']['args'], body: (mesh: any) => R): R {
     const copy = new glue.Mesh(points, mesh.tetrahedra, mesh.neighbors, mesh.hull, mesh.duplicateOf, mesh.dimension);
+    return freed(copy, body);
+  }
+
+  function withPlaneMesh<R>({ points, mesh }: Tasks['verify2d']['args'], body: (mesh: any) => R): R {
+    const copy = new glue.PlaneMesh(points, mesh.triangles, mesh.halfedges, mesh.hull, mesh.duplicateOf, mesh.dimension);
+    return freed(copy, body);
+  }
+
+  function freed<R>(copy: { free(): void }, body: (mesh: any) => R): R {
     try {
       return body(copy);
     } finally {
@@ -184,6 +250,9 @@ function toolsTasks(module: WebAssembly.Module) {
     readPoints: async ({ bytes, extension }) => glue.read_points(bytes, extension),
     write: async (args) => withMesh(args, (mesh) => mesh.write(args.format)),
     verify: async (args) => withMesh(args, (mesh) => mesh.verify()),
+    generate2d: async ({ kind, count, seed }) => glue.generate2d(kind, count, seed),
+    write2d: async (args) => withPlaneMesh(args, (mesh) => mesh.write(args.format)),
+    verify2d: async (args) => withPlaneMesh(args, (mesh) => mesh.verify()),
   };
   return { handlers, memory, dispose() {} };
 }

@@ -1,6 +1,7 @@
 import { GdelError } from './errors.js';
 import { Host, throwIfAborted } from './host.js';
-import { Mesh3, type Mesh2 } from './mesh.js';
+import { Mesh3 } from './mesh.js';
+import { Mesh2 } from './mesh2.js';
 import { ownCoordinates } from './points.js';
 import type {
   AccessorOptions,
@@ -64,7 +65,7 @@ if (Symbol.dispose) Engine.prototype[Symbol.dispose] = Engine.prototype.dispose;
 export async function createEngine(options: EngineOptions = {}): Promise<Engine> {
   const { engine = 'auto', gpu, worker } = options;
   checkEngine(engine);
-  const host = new Host('engine', { gpu, worker });
+  const host = new Host({ gpu, worker });
   try {
     if (engine !== 'cpu') return new Engine(host, engine, await host.run('open', { engine }, [], {}));
     // A run on no points shows that the engine works, and where.
@@ -96,7 +97,7 @@ let shared: Host | undefined;
 export function delaunay3d(points: Points, options?: RunOptions): Promise<Mesh3>;
 export function delaunay3d<T>(points: ArrayLike<T>, options: AccessorOptions<T>): Promise<Mesh3>;
 export function delaunay3d(points: unknown, options: RunOptions = {}): Promise<Mesh3> {
-  return triangulate((shared ??= new Host('engine')), points, options);
+  return triangulate((shared ??= new Host()), points, options);
 }
 
 /**
@@ -111,7 +112,7 @@ export function delaunay2d<T>(
   options: PlaneOptions & Pick<AccessorOptions<T>, 'point'>,
 ): Promise<Mesh2>;
 export function delaunay2d(points: unknown, options: PlaneOptions = {}): Promise<Mesh2> {
-  return triangulatePlane((shared ??= new Host('engine')), points, options);
+  return triangulatePlane((shared ??= new Host()), points, options);
 }
 
 type AnyOptions = RunOptions & { point?: unknown };
@@ -136,7 +137,7 @@ async function triangulatePlane(host: Host, points: unknown, options: AnyOptions
   const { args, transfer } = await prepare(points, 2, options);
   const result = await host.run('delaunay2d', args, transfer, { signal, onProgress });
   const { stats, thread, whyThread, points: coords, ...arrays } = result;
-  return { ...arrays, coords, stats: { ...stats, thread, whyThread } };
+  return new Mesh2({ ...arrays, coords, stats: { ...stats, thread, whyThread } });
 }
 
 /** The arguments of a run, checked. Typed arrays are copied before this returns. */

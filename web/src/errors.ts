@@ -28,6 +28,8 @@ export type GdelErrorCode =
   | 'UNKNOWN_FORMAT'
   /** WebAssembly cannot be loaded: the file is not there, or a Content-Security-Policy lacks `'wasm-unsafe-eval'`. */
   | 'LOAD_FAILED'
+  /** A `Delaunator` was made before the promise of `Delaunator.load()` was fulfilled. */
+  | 'NOT_LOADED'
   /** The engine was disposed of. */
   | 'DISPOSED'
   /** A defect of this package. */

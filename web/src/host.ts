@@ -1,7 +1,7 @@
 // Where tasks run: one worker, made when it is needed, or the calling thread. One task at a time; others wait.
 
 import { GdelError, toGdelError, type PlainError } from './errors.js';
-import type { FromWorker, ModuleName, TaskName, Tasks } from './protocol.js';
+import { MODULE_OF, type FromWorker, type ModuleName, type TaskName, type Tasks } from './protocol.js';
 import { runtime } from '#runtime';
 import type { WorkerThread } from './runtime.js';
 import type { Progress, TaskOptions } from './types.js';
@@ -13,6 +13,8 @@ const GRACE_MILLISECONDS = 50;
 interface Connection {
   thread: 'worker' | 'caller';
   whyThread: string | null;
+  /** Takes a module for later tasks. */
+  load(name: ModuleName, module: WebAssembly.Module): void;
   /** Rejects with a {@link PlainError}. */
   run<T extends TaskName>(
     task: T,
@@ -27,7 +29,7 @@ interface Connection {
 const modules = new Map<ModuleName, Promise<WebAssembly.Module>>();
 
 /** Compiled once, for all workers. */
-function compiled(name: ModuleName): Promise<WebAssembly.Module> {
+export function compiled(name: ModuleName): Promise<WebAssembly.Module> {
   let module = modules.get(name);
   if (!module) {
     module = runtime.compile(name).catch((cause: unknown) => {
@@ -46,16 +48,16 @@ export interface HostOptions {
 }
 
 export class Host {
-  readonly #name: ModuleName;
   readonly #options: HostOptions;
   #connection: Promise<Connection> | undefined;
+  /** The modules that each connection has. */
+  readonly #loaded = new WeakMap<Connection, Set<ModuleName>>();
   /** Why workers are of no use here; found out once. */
   #noWorker: string | null = null;
   #last: Promise<unknown> = Promise.resolve();
   #disposed = false;
 
-  constructor(name: ModuleName, options: HostOptions = {}) {
-    this.#name = name;
+  constructor(options: HostOptions = {}) {
     this.#options = options;
     if (options.gpu) this.#noWorker = 'a GPU object cannot be sent to another thread';
     else if (options.worker === false) this.#noWorker = 'the caller asked for no worker';
@@ -73,6 +75,7 @@ export class Host {
       throwIfAborted(signal);
       if (this.#disposed) throw new GdelError('DISPOSED', 'the engine was disposed of');
       const connection = await this.#connect();
+      await this.#load(connection, MODULE_OF[task]);
       throwIfAborted(signal);
       // After an abort, what still arrives is no longer of interest.
       const report = (progress: Progress) => signal?.aborted || onProgress?.(progress);
@@ -100,6 +103,15 @@ export class Host {
     this.#connection = undefined;
   }
 
+  /** Gives the connection a module that it does not have. */
+  async #load(connection: Connection, name: ModuleName): Promise<void> {
+    const loaded = this.#loaded.get(connection) ?? new Set();
+    this.#loaded.set(connection, loaded);
+    if (loaded.has(name)) return;
+    connection.load(name, await compiled(name));
+    loaded.add(name);
+  }
+
   #connect(): Promise<Connection> {
     this.#connection ??= this.#open().catch((error: unknown) => {
       this.#connection = undefined;
@@ -109,13 +121,11 @@ export class Host {
   }
 
   async #open(): Promise<Connection> {
-    const module = await compiled(this.#name);
     if (this.#noWorker === null) {
       const reasons: string[] = [];
       for (const start of runtime.workers) {
         try {
           const thread = await ready(await start());
-          thread.post({ type: 'start', name: this.#name, module }, []);
           return workerConnection(thread, () => (this.#connection = undefined));
         } catch (error) {
           reasons.push(error instanceof Error ? error.message : String(error));
@@ -123,7 +133,7 @@ export class Host {
       }
       this.#noWorker = [...new Set(reasons)].join('; ');
     }
-    return callerConnection(this.#name, module, this.#options.gpu, this.#noWorker);
+    return callerConnection(this.#options.gpu, this.#noWorker);
   }
 }
 
@@ -153,6 +163,7 @@ function workerConnection(thread: WorkerThread, onDeath: () => void): Connection
   return {
     thread: 'worker',
     whyThread: null,
+    load: (name, module) => thread.post({ type: 'load', name, module }, []),
     close() {
       thread.terminate();
       pending?.fail({ code: 'DISPOSED', message: 'the engine was disposed of', fatal: false });
@@ -194,20 +205,18 @@ function workerConnection(thread: WorkerThread, onDeath: () => void): Connection
 
 /** In the calling thread. A run stops at its next report when the signal is aborted, which a callback of its own can do,
  * or anything while the GPU is at work. */
-async function callerConnection(
-  name: ModuleName,
-  module: WebAssembly.Module,
-  gpu: object | undefined,
-  whyThread: string,
-): Promise<Connection> {
+async function callerConnection(gpu: object | undefined, whyThread: string): Promise<Connection> {
   const { makeCore } = await runtime.code();
-  const core = makeCore(name, module, gpu);
+  const cores = new Map<ModuleName, ReturnType<typeof makeCore>>();
   return {
     thread: 'caller',
     whyThread,
+    load(name, module) {
+      cores.set(name, makeCore(name, module, gpu));
+    },
     run: (task, args, _transfer, onProgress, signal) =>
-      core.run(task, args, { onProgress, isAborted: () => signal?.aborted ?? false }),
-    close: () => core.dispose(),
+      cores.get(MODULE_OF[task])!.run(task, args, { onProgress, isAborted: () => signal?.aborted ?? false }),
+    close: () => cores.forEach((core) => core.dispose()),
   };
 }
 

@@ -5,26 +5,31 @@
  */
 /// <reference lib="esnext.disposable" preserve="true" />
 
+export { Delaunator } from './delaunator.js';
 export { createEngine, delaunay2d, delaunay3d, Engine } from './engine.js';
 export { GdelError, type GdelErrorCode } from './errors.js';
-export { Mesh3, type Mesh2 } from './mesh.js';
-export { generate, readPoints, verify, type ReadOptions } from './tools.js';
+export { Mesh3 } from './mesh.js';
+export { Mesh2 } from './mesh2.js';
+export { generate, generate2d, readPoints, verify, verify2d, type GenerateOptions, type ReadOptions } from './tools.js';
 export type {
   AccessorOptions,
   AdapterInfo,
   Check,
   Distribution,
+  Distribution2,
   EngineInfo,
   EngineName,
   EngineOptions,
   GpuStats,
   MeshStatement,
+  MeshStatement2,
   Output,
   PlaneOptions,
   PointCloud,
   Points,
   Progress,
   Report,
+  Report2,
   RunOptions,
   SplayStats,
   Stats,

@@ -57,6 +57,12 @@ export class Mesh3 {
     return (await this.#write('stl', ['hull'], options))['stl']!;
   }
 
+  /** The hull as binary glTF 2.0 (`.glb`), whose numbers are single precision: relative to the node's translation where
+   * that would lose something. Axes stay as they are, though glTF has y point up. */
+  async toGLB(options: TaskOptions = {}): Promise<Uint8Array> {
+    return (await this.#write('glb', ['hull'], options))['glb']!;
+  }
+
   /** TetGen's three files: points, tetrahedra and neighbours, counted from 0. */
   async toTetGen(options: TaskOptions = {}): Promise<{ node: Uint8Array; ele: Uint8Array; neigh: Uint8Array }> {
     const { node, ele, neigh } = await this.#write('tetgen', ['neighbors'], options);
@@ -80,26 +86,4 @@ export class Mesh3 {
     };
     return write(this.points, mesh, format, options);
   }
-}
-
-/**
- * A 2D Delaunay triangulation, as plain arrays in the form of the npm package `delaunator`: what works on a `Delaunator`'s
- * `coords`, `triangles`, `halfedges` and `hull` works on this. All indices are those of the input points.
- */
-export interface Mesh2 {
-  /** Three vertices a triangle, counter-clockwise where the y axis points down: det(b − a, c − a) < 0. Never flat. */
-  readonly triangles: Uint32Array;
-  /** Three a triangle: the half-edge that runs against the one from vertex *k* to the next, −1 on the hull. */
-  readonly halfedges: Int32Array;
-  /** The vertices of the convex hull, those in the middle of its edges included, in the triangles' sense. The distinct
-   * points in order if all are collinear. */
-  readonly hull: Uint32Array;
-  /** One a point: −1, or the lowest index of a point with the same coordinates, which stands for this one. */
-  readonly duplicateOf: Int32Array;
-  /** 2; or 1, 0 where all points are collinear, equal: then there are no triangles. 0 for no points. */
-  readonly dimension: 0 | 1 | 2;
-  /** x, y, x, y, … as they were triangulated: a copy of the input, or its buffer if that was transferred. */
-  readonly coords: Float32Array | Float64Array;
-  /** What the run did. */
-  readonly stats: Stats;
 }

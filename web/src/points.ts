@@ -82,7 +82,7 @@ function checkTyped(points: Coordinates, dimension: number): void {
   checkCount(points.length / dimension);
 }
 
-function checkCount(count: number): void {
+export function checkCount(count: number): void {
   if (count > MOST_POINTS) {
     throw new GdelError('TOO_MANY_POINTS', `${count} points are too many: at most ${MOST_POINTS} can be numbered`);
   }
@@ -135,7 +135,7 @@ function isArrayLike(value: unknown): value is ArrayLike<unknown> {
   return typeof length === 'number' && Number.isInteger(length) && length >= 0;
 }
 
-function nameOf(value: unknown): string {
+export function nameOf(value: unknown): string {
   if (typeof value === 'object' && value !== null) {
     const length = isArrayLike(value) ? ` of length ${value.length}` : '';
     return `${value.constructor?.name ?? 'an object'}${length}`;

@@ -1,20 +1,24 @@
 // What the page and the worker say to each other.
 
 import type { PlainError } from './errors.js';
-import type { EngineName, EngineInfo, Output, PointCloud, Progress, Report, Stats, Trace } from './types.js';
+import type {
+  EngineInfo,
+  EngineName,
+  MeshStatement,
+  MeshStatement2,
+  Output,
+  PointCloud,
+  Progress,
+  Report,
+  Report2,
+  Stats,
+  Trace,
+} from './types.js';
 
-/** The two wasm modules. */
-export type ModuleName = 'engine' | 'tools';
+/** The wasm modules. */
+export type ModuleName = 'engine' | 'plane' | 'tools';
 
 export type Coordinates = Float32Array | Float64Array;
-
-export interface MeshArrays {
-  tetrahedra: Uint32Array;
-  neighbors?: Int32Array | undefined;
-  hull?: Uint32Array | undefined;
-  duplicateOf?: Int32Array | undefined;
-  dimension?: number | undefined;
-}
 
 export type CoreInfo = Omit<EngineInfo, 'thread' | 'whyThread'>;
 
@@ -50,11 +54,28 @@ export interface Tasks {
   };
   generate: { args: { kind: string; count: number; seed: bigint }; result: Float64Array };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };
-  write: { args: { points: Coordinates; mesh: MeshArrays; format: string }; result: Record<string, Uint8Array> };
-  verify: { args: { points: Coordinates; mesh: MeshArrays }; result: Report };
+  write: { args: { points: Coordinates; mesh: MeshStatement; format: string }; result: Record<string, Uint8Array> };
+  verify: { args: { points: Coordinates; mesh: MeshStatement }; result: Report };
+  generate2d: { args: { kind: string; count: number; seed: bigint }; result: Float64Array };
+  write2d: { args: { points: Coordinates; mesh: MeshStatement2; format: string }; result: Record<string, Uint8Array> };
+  verify2d: { args: { points: Coordinates; mesh: MeshStatement2 }; result: Report2 };
 }
 
 export type TaskName = keyof Tasks;
+
+/** Which module carries out which task. */
+export const MODULE_OF: Readonly<Record<TaskName, ModuleName>> = {
+  open: 'engine',
+  delaunay3d: 'engine',
+  delaunay2d: 'plane',
+  generate: 'tools',
+  readPoints: 'tools',
+  write: 'tools',
+  verify: 'tools',
+  generate2d: 'tools',
+  write2d: 'tools',
+  verify2d: 'tools',
+};
 
 /** How a task talks to its caller. */
 export interface Control {
@@ -63,7 +84,7 @@ export interface Control {
 }
 
 export type ToWorker =
-  | { type: 'start'; name: ModuleName; module: WebAssembly.Module }
+  | { type: 'load'; name: ModuleName; module: WebAssembly.Module }
   | { type: 'run'; id: number; task: TaskName; args: Tasks[TaskName]['args'] }
   | { type: 'abort'; id: number };
 

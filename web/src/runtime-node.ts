@@ -3,12 +3,11 @@
 import { readFile } from 'node:fs/promises';
 import { Worker } from 'node:worker_threads';
 import type { Runtime } from './runtime.js';
+import { wasmUrl } from './wasm-urls.js';
 
 export const runtime: Runtime = {
   async compile(name) {
-    const url =
-      name === 'engine' ? new URL('./gdel.wasm', import.meta.url) : new URL('./gdel-tools.wasm', import.meta.url);
-    return WebAssembly.compile(await readFile(url));
+    return WebAssembly.compile(await readFile(wasmUrl[name]()));
   },
 
   workers: [

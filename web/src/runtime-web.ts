@@ -1,15 +1,13 @@
 // Browsers and Deno: files beside this one.
 
 import type { Runtime } from './runtime.js';
+import { wasmUrl } from './wasm-urls.js';
 import { blobWorker, webWorker } from './web-worker.js';
 
 export const runtime: Runtime = {
   async compile(name) {
-    // Written out, so that bundlers find the files.
-    const url =
-      name === 'engine' ? new URL('./gdel.wasm', import.meta.url) : new URL('./gdel-tools.wasm', import.meta.url);
-    const response = await fetch(url);
-    if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+    const response = await fetch(wasmUrl[name]());
+    if (!response.ok) throw new Error(`${response.url}: ${response.status} ${response.statusText}`);
     // Streaming compilation needs the right type, which not every server sends.
     if (response.headers.get('content-type')?.startsWith('application/wasm')) {
       return WebAssembly.compileStreaming(response);

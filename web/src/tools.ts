@@ -2,14 +2,30 @@
 
 import { GdelError } from './errors.js';
 import { Host } from './host.js';
-import type { Coordinates, MeshArrays } from './protocol.js';
+import type { Coordinates } from './protocol.js';
 import { ownCoordinates } from './points.js';
-import type { Distribution, MeshStatement, PointCloud, Points, Report, TaskOptions } from './types.js';
+import type {
+  Distribution,
+  Distribution2,
+  MeshStatement,
+  MeshStatement2,
+  PointCloud,
+  Points,
+  Report,
+  Report2,
+  TaskOptions,
+} from './types.js';
 
 let shared: Host | undefined;
 
 function host(): Host {
-  return (shared ??= new Host('tools'));
+  return (shared ??= new Host());
+}
+
+/** How to generate points. */
+export interface GenerateOptions extends TaskOptions {
+  /** 0 to 2⁵³ − 1, default 1. */
+  seed?: number | undefined;
 }
 
 /**
@@ -18,16 +34,25 @@ function host(): Host {
  *
  * @returns x, y, z, x, y, z, …
  */
-export async function generate(
-  kind: Distribution,
-  count: number,
-  options: TaskOptions & { /** 0 to 2⁵³ − 1, default 1. */ seed?: number } = {},
-): Promise<Float64Array> {
-  const { seed = 1 } = options;
+export async function generate(kind: Distribution, count: number, options: GenerateOptions = {}): Promise<Float64Array> {
+  return host().run('generate', { kind, ...cloud(count, options) }, [], options);
+}
+
+/**
+ * Synthetic points of the plane, as {@link generate}: `gdel generate --dim 2`.
+ *
+ * @returns x, y, x, y, …
+ */
+export async function generate2d(kind: Distribution2, count: number, options: GenerateOptions = {}): Promise<Float64Array> {
+  return host().run('generate2d', { kind, ...cloud(count, options) }, [], options);
+}
+
+/** How many points of which seed, checked. */
+function cloud(count: number, { seed = 1 }: GenerateOptions): { count: number; seed: bigint } {
   const isCount = (n: unknown, most: number) => Number.isInteger(n) && (n as number) >= 0 && (n as number) <= most;
   if (!isCount(count, 2 ** 27)) throw new GdelError('BAD_INPUT', `${count} is no number of points from 0 to 2²⁷`);
   if (!isCount(seed, Number.MAX_SAFE_INTEGER)) throw new GdelError('BAD_INPUT', `${seed} is no seed from 0 to 2⁵³ − 1`);
-  return host().run('generate', { kind, count, seed: BigInt(seed) }, [], options);
+  return { count, seed: BigInt(seed) };
 }
 
 /** How to read a file. */
@@ -68,25 +93,44 @@ export async function readPoints(data: Blob | ArrayBuffer | Uint8Array, options:
  * knowing how the mesh was made. A defect is no error but part of the report.
  */
 export async function verify(points: Points, mesh: MeshStatement, options: TaskOptions = {}): Promise<Report> {
-  const { coordinates } = await ownCoordinates(points, {
-    dimension: 3,
-    transfer: false,
-    point: undefined,
-    signal: options.signal,
-  });
   const { tetrahedra, neighbors, hull, duplicateOf, dimension } = mesh;
   if (!(tetrahedra instanceof Uint32Array)) throw new GdelError('BAD_INPUT', 'tetrahedra are a Uint32Array');
-  const args = { points: coordinates, mesh: { tetrahedra, neighbors, hull, duplicateOf, dimension } };
+  const statement = { tetrahedra, neighbors, hull, duplicateOf, dimension };
+  const args = { points: await coordinatesOf(points, 3, options), mesh: statement };
   const { thread: _, whyThread: __, ...report } = await host().run('verify', args, [], options);
   return report;
+}
+
+/** As {@link verify}, in the plane. */
+export async function verify2d(points: Points, mesh: MeshStatement2, options: TaskOptions = {}): Promise<Report2> {
+  const { triangles, halfedges, hull, duplicateOf, dimension } = mesh;
+  if (!(triangles instanceof Uint32Array)) throw new GdelError('BAD_INPUT', 'triangles are a Uint32Array');
+  const statement = { triangles, halfedges, hull, duplicateOf, dimension };
+  const args = { points: await coordinatesOf(points, 2, options), mesh: statement };
+  const { thread: _, whyThread: __, ...report } = await host().run('verify2d', args, [], options);
+  return report;
+}
+
+async function coordinatesOf(points: Points, dimension: number, { signal }: TaskOptions): Promise<Coordinates> {
+  return (await ownCoordinates(points, { dimension, transfer: false, point: undefined, signal })).coordinates;
 }
 
 /** The files of a format, by extension. */
 export async function write(
   points: Coordinates,
-  mesh: MeshArrays,
+  mesh: MeshStatement,
   format: string,
   options: TaskOptions,
 ): Promise<Record<string, Uint8Array>> {
   return host().run('write', { points, mesh, format }, [], options);
+}
+
+/** As {@link write}, in the plane. */
+export async function write2d(
+  points: Coordinates,
+  mesh: MeshStatement2,
+  format: string,
+  options: TaskOptions,
+): Promise<Record<string, Uint8Array>> {
+  return host().run('write2d', { points, mesh, format }, [], options);
 }

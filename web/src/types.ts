@@ -180,6 +180,8 @@ export interface SplayStats {
   inserted: number;
   /** Signs that were asked for. */
   signs: number;
+  /** Rounds of insertions. */
+  rounds: number;
 }
 
 /** How a mesh came about, step by step, in the GPU engine. */
@@ -194,6 +196,9 @@ export interface Trace {
 
 /** The distributions of {@link generate}. */
 export type Distribution = 'uniform' | 'gaussian' | 'ball' | 'sphere' | 'thin-sphere' | 'grid';
+
+/** The distributions of {@link generate2d}. */
+export type Distribution2 = 'uniform' | 'gaussian' | 'disk' | 'circle' | 'thin-circle' | 'grid' | 'two-lines' | 'clusters';
 
 /** Points of a file. */
 export interface PointCloud {
@@ -237,6 +242,27 @@ export interface Report {
 export interface MeshStatement {
   tetrahedra: Uint32Array;
   neighbors?: Int32Array | undefined;
+  hull?: Uint32Array | undefined;
+  duplicateOf?: Int32Array | undefined;
+  dimension?: number | undefined;
+}
+
+/** What the verifier found in the plane. */
+export interface Report2 extends Omit<Report, 'counts'> {
+  counts: {
+    points: number;
+    distinctPoints: number;
+    vertices: number;
+    edges: number;
+    triangles: number;
+    hullEdges: number;
+  };
+}
+
+/** What the verifier takes for a mesh of the plane: what is missing is not checked. */
+export interface MeshStatement2 {
+  triangles: Uint32Array;
+  halfedges?: Int32Array | undefined;
   hull?: Uint32Array | undefined;
   duplicateOf?: Int32Array | undefined;
   dimension?: number | undefined;

@@ -1,10 +1,10 @@
-// The worker: one core, one task at a time. Also loaded by the page itself where it may have no worker.
+// The worker: one task at a time, each in the core of its wasm module. Also loaded by the page itself where it may have no worker.
 
 import { buffersOf, makeCore, type Core } from './core.js';
 import type { PlainError } from './errors.js';
-import type { FromWorker, TaskName, Tasks, ToWorker } from './protocol.js';
+import { MODULE_OF, type FromWorker, type ModuleName, type TaskName, type Tasks, type ToWorker } from './protocol.js';
 
-export { makeCore } from './core.js';
+export { makeCore, makeTriangulator } from './core.js';
 
 /** The port to whoever made this worker. */
 export interface Port {
@@ -14,12 +14,13 @@ export interface Port {
 
 /** Serves the tasks that come through `port`. */
 export function serve(port: Port): void {
-  let core: Core | undefined;
+  const cores = new Map<ModuleName, Core>();
   const aborted = new Set<number>();
 
   async function run(id: number, task: TaskName, args: Tasks[TaskName]['args']) {
     try {
-      if (!core) throw { code: 'INTERNAL', message: 'the worker was not started', fatal: true } satisfies PlainError;
+      const core = cores.get(MODULE_OF[task]);
+      if (!core) throw { code: 'INTERNAL', message: `no module for ${task} was loaded`, fatal: true } satisfies PlainError;
       const result = await core.run(task, args, {
         onProgress: (progress) => port.post({ type: 'progress', id, progress }, []),
         isAborted: () => aborted.has(id),
@@ -33,8 +34,8 @@ export function serve(port: Port): void {
   }
 
   port.listen((message) => {
-    if (message.type === 'start') {
-      core = makeCore(message.name, message.module);
+    if (message.type === 'load') {
+      cores.set(message.name, makeCore(message.name, message.module));
     } else if (message.type === 'run') {
       void run(message.id, message.task, message.args);
     } else {
