@@ -1,15 +1,18 @@
 import * as Comlink from 'comlink';
 import type { Filter } from './geometry/filter';
 import { connect } from './model/client';
+import type { Edit } from './model/edits';
 import { type Drawing, type DrawRequest, MOST_POINTS_TO_RECORD, type Summary } from './model/model';
-import { type Source, titleOf } from './model/source';
+import { type Dimension, type Source, titleOf } from './model/source';
 import type { Progress } from './model/worker';
 import type { Page, Part } from './page';
-import { colorFor, filterFor, fromHash, type Settings, toHash, upFor } from './settings';
+import { colorFor, defaults, filterFor, fromHash, type Settings, toHash, type Tool, upFor } from './settings';
 import { showBusy } from './ui/busy';
 import { comparePanel } from './ui/comparePanel';
 import { byId } from './ui/dom';
+import { dimensionSwitch } from './ui/dimension';
 import { wireDrop } from './ui/drop';
+import { editor } from './ui/editor';
 import { wireKeyboard } from './ui/keyboard';
 import { showLegend } from './ui/legend';
 import { live } from './ui/live';
@@ -34,7 +37,12 @@ export class App implements Page {
   summary: Summary | null = null;
   lastDrawing: Drawing | null = null;
   live = false;
+  positions: Float32Array | null = null;
+  tool: Tool = 'move';
   private readonly parts: Part[];
+  /** What was there when the visitor left for the other dimension. */
+  private left: Settings | null = null;
+  private editing = false;
   private round: number | null = null;
   /** Counts the runs: what an earlier one still says is no longer of interest. */
   private lastRun = 0;
@@ -49,9 +57,13 @@ export class App implements Page {
     });
     wireTheme(() => this.viewer && paint(this.viewer));
     wireDrop(this);
-    wireKeyboard(this);
     wireShare(this);
-    this.parts = [pointsPanel(this), viewPanel(this), runPanel(this), comparePanel(this), usePanel(this), pointer(this), live(this)];
+    this.parts = [
+      dimensionSwitch(this), pointsPanel(this), viewPanel(this), runPanel(this), comparePanel(this), usePanel(this), pointer(this),
+      // Before the keys of the drawing: a point that is held takes the arrow keys.
+      editor(this), live(this),
+    ];
+    wireKeyboard(this);
     byId('cancel').addEventListener('click', () => this.model.cancel());
     window.addEventListener('hashchange', () => this.followHash());
     this.tell();
@@ -60,7 +72,48 @@ export class App implements Page {
   }
 
   run(source: Source, settings: Partial<Settings> = {}): Promise<boolean> {
-    return this.newRun(source, settings, (onProgress) => this.model.run(source, this.settings.engine, onProgress));
+    const { edits = [], engine = this.settings.engine } = settings;
+    return this.newRun(source, { edits, ...settings }, (onProgress) => this.model.run(source, edits, engine, onProgress));
+  }
+
+  goTo(dimension: Dimension): void {
+    const { settings, left } = this;
+    if (dimension === settings.source.dimension) return;
+    const to = left?.source.dimension === dimension ? left : defaults(dimension);
+    // A scan can be looked at in both.
+    if (settings.source.kind === 'file') {
+      const source: Source = { ...settings.source, dimension };
+      Object.assign(to, { source, edits: [], filter: filterFor(source), color: colorFor(source), up: upFor(source), alpha: null });
+    }
+    void this.run(to.source, { ...to, engine: settings.engine });
+  }
+
+  async edit(edits: readonly Edit[]): Promise<void> {
+    this.settings.edits = edits;
+    if (this.editing) return;
+    this.editing = true;
+    const run = this.lastRun;
+    try {
+      for (let done: readonly Edit[] | null = null; done !== this.settings.edits && run === this.lastRun; ) {
+        done = this.settings.edits;
+        const { summary, drawing, positions, hull } = await this.model.edit(done, this.settings.engine, this.request());
+        if (run !== this.lastRun) return;
+        this.summary = summary;
+        this.drawn = JSON.stringify(this.request());
+        showResult(summary);
+        showStrip(summary);
+        this.positions = positions;
+        this.viewer?.showPoints(positions);
+        this.viewer?.showHull(hull);
+        this.show(drawing);
+        for (const part of this.parts) part.edited?.(summary);
+      }
+      this.tell();
+    } catch (error) {
+      if (run === this.lastRun) showMessage((error as Error).message);
+    } finally {
+      this.editing = false;
+    }
   }
 
   record(): Promise<boolean> {
@@ -75,13 +128,18 @@ export class App implements Page {
     const run = ++this.lastRun;
     const isLast = () => run === this.lastRun;
     showMessage(null);
+    // Progress has a port of its own: the last of it may come after the result.
+    let running = true;
     try {
-      const summary = await start(Comlink.proxy((progress) => isLast() && showBusy(progress)));
+      const summary = await start(Comlink.proxy((progress) => running && isLast() && showBusy(progress)));
       if (!isLast()) return false;
-      if (source !== this.settings.source) {
-        if (source.kind !== this.settings.source.kind) this.settings.color = colorFor(source);
-        Object.assign(this.settings, { source, filter: filterFor(source), up: upFor(source), alpha: null });
+      const before = this.settings;
+      if (source !== before.source) {
+        if (source.dimension !== before.source.dimension) this.left = { ...before };
+        if (source.kind !== before.source.kind) before.color = colorFor(source);
+        Object.assign(before, { source, filter: filterFor(source), up: upFor(source), alpha: null });
       }
+      Object.assign(before, settings);
       this.summary = summary;
       this.round = null;
       this.drawn = '';
@@ -98,6 +156,7 @@ export class App implements Page {
       }
       return false;
     } finally {
+      running = false;
       if (isLast()) showBusy(null);
     }
   }
@@ -114,12 +173,13 @@ export class App implements Page {
 
   restore(): void {
     showResult(this.summary!);
+    showStrip(this.summary!);
     this.drawn = '';
     void this.newMesh().then(() => this.draw());
   }
 
   private get canRecord(): boolean {
-    return this.summary!.dimension === 3 && this.summary!.points <= MOST_POINTS_TO_RECORD;
+    return this.summary!.space === 3 && this.summary!.dimension === 3 && this.summary!.points <= MOST_POINTS_TO_RECORD;
   }
 
   showRound(round: number | null): void {
@@ -155,7 +215,10 @@ export class App implements Page {
   /** Gives the viewer what stays the same for a mesh, however it is cut. */
   private async newMesh(): Promise<void> {
     if (!this.viewer) return;
-    this.viewer.showPoints(await this.model.positions());
+    this.viewer.setDimension(this.summary!.space);
+    this.viewer.pose = this.settings.camera;
+    this.positions = await this.model.positions();
+    this.viewer.showPoints(this.positions);
     this.viewer.showHull(await this.model.hull());
     this.viewer.showFacets(await this.model.nonDelaunayFacets());
     this.look();
@@ -169,25 +232,30 @@ export class App implements Page {
     try {
       for (let request = this.request(); JSON.stringify(request) !== this.drawn; request = this.request()) {
         this.drawn = JSON.stringify(request);
-        const drawing = await this.model.draw(request);
-        this.lastDrawing = drawing;
-        this.viewer.showSurface(drawing.surface);
-        this.viewer.showPieces(drawing.pieces);
-        const { planeNormal, pointsAbove } = this.viewer.look;
-        planeNormal.value.set(...request.plane.normal);
-        pointsAbove.value = Math.min(drawing.level, 1e9);
-        this.look();
-        showLegend(drawing, this.settings.map);
-        for (const part of this.parts) part.drew?.(drawing);
+        this.show(await this.model.draw(request));
       }
     } finally {
       this.drawing = false;
     }
   }
 
+  private show(drawing: Drawing): void {
+    this.lastDrawing = drawing;
+    showLegend(drawing, this.settings);
+    for (const part of this.parts) part.drew?.(drawing);
+    if (!this.viewer) return;
+    this.viewer.showSurface(drawing.surface);
+    this.viewer.showPieces(drawing.pieces);
+    this.viewer.showVoronoi(drawing.voronoi);
+    const { planeNormal, pointsAbove } = this.viewer.look;
+    planeNormal.value.set(...this.settings.normal);
+    pointsAbove.value = Math.min(drawing.level, 1e9);
+    this.look();
+  }
+
   private request(): DrawRequest {
-    const { normal, keep, color, apart } = this.settings;
-    return { filter: this.filter, plane: { normal, keep }, color, pieces: apart > 0, round: this.round };
+    const { normal, keep, color, apart, layers } = this.settings;
+    return { filter: this.filter, plane: { normal, keep }, color, pieces: apart > 0, round: this.round, voronoi: layers.voronoi };
   }
 
   private get filter(): Filter {
@@ -195,21 +263,25 @@ export class App implements Page {
     return filter === 'all' ? { kind: 'all' } : { kind: filter, alpha: alpha ?? this.summary!.alpha.typical };
   }
 
-  /** What needs no new geometry. */
-  private look(): void {
+  look(): void {
     const { viewer } = this;
     if (!viewer) return;
-    const { layers, map, color, apart, up } = this.settings;
+    const { layers, map, color, apart, up, source } = this.settings;
+    const flat = source.dimension === 2;
     viewer.setUp(up);
     viewer.setColorMap(color === 'phase' ? 'phases' : map);
     viewer.look.edges.value = layers.edges ? 1 : 0;
     viewer.look.apart.value = this.round === null ? apart : Math.max(apart, 0.02);
-    viewer.setVisible('surface', layers.tetrahedra);
-    viewer.setVisible('pieces', layers.tetrahedra);
+    viewer.look.fill.value = layers.simplices ? 1 : 0;
+    viewer.setVisible('surface', layers.simplices);
+    viewer.setVisible('flat', layers.simplices || layers.edges);
+    viewer.setVisible('pieces', layers.simplices);
+    viewer.setVisible('voronoi', layers.voronoi);
     viewer.setVisible('hull', layers.hull);
+    viewer.setVisible('hullEdges', layers.hull);
     viewer.setVisible('facets', layers.facets);
     viewer.setVisible('points', layers.points);
-    viewer.look.pointsEverywhere.value = layers.tetrahedra && this.summary?.dimension === 3 ? 0 : 1;
+    viewer.look.pointsEverywhere.value = layers.simplices && !flat && this.summary?.dimension === 3 ? 0 : 1;
   }
 
   private cameraMoved(): void {
@@ -227,12 +299,9 @@ export class App implements Page {
   /** The visitor followed a link to another view of this page. */
   private followHash(): void {
     const settings = fromHash(location.hash);
-    if (JSON.stringify(settings.source) === JSON.stringify(this.settings.source) && settings.engine === this.settings.engine) {
-      this.change(settings);
-      return;
-    }
-    this.settings.engine = settings.engine;
-    void this.run(settings.source, settings);
+    const pointsOf = ({ source, edits, engine }: Settings) => JSON.stringify([source, edits, engine]);
+    if (pointsOf(settings) === pointsOf(this.settings)) this.change(settings);
+    else void this.run(settings.source, settings);
   }
 }
 

@@ -1,7 +1,8 @@
 import type { ModelClient } from './model/client';
+import type { Edit } from './model/edits';
 import type { Drawing, Summary } from './model/model';
-import type { Source } from './model/source';
-import type { Settings } from './settings';
+import type { Dimension, Source } from './model/source';
+import type { Settings, Tool } from './settings';
 import type { Viewer } from './view/viewer';
 
 /** What the parts of the page may do with the whole. */
@@ -16,10 +17,26 @@ export interface Page {
   live: boolean;
   /** What is on the screen; null before anything is. */
   readonly lastDrawing: Drawing | null;
-  /** Gets points and triangulates them. Says what goes wrong on the page; resolves to whether there is a new mesh. */
-  run(source: Source): Promise<boolean>;
+  /**
+   * Gets points and triangulates them, and takes over the settings once there is a new mesh. Says what goes wrong on the page;
+   * resolves to whether there is one.
+   */
+  run(source: Source, settings?: Partial<Settings>): Promise<boolean>;
   /** Runs the present points again, on the GPU, and keeps what happened on the way. Resolves as {@link run}. */
   record(): Promise<boolean>;
+  /** Goes to space or to the plane, to what was there before. */
+  goTo(dimension: Dimension): void;
+  /**
+   * Triangulates the points of the plane with these changes by hand instead of the present ones. Of changes that come faster than
+   * they can be triangulated, only the last count.
+   */
+  edit(edits: readonly Edit[]): Promise<void>;
+  /** The points as drawn; null before there are any. */
+  readonly positions: Float32Array | null;
+  /** What a click on the plane does. */
+  tool: Tool;
+  /** Shows and hides layers as the settings say, after other things were given to the viewer. */
+  look(): void;
   /** Changes settings and draws anew. */
   change(settings: Partial<Settings>): void;
   /** Shows the mesh of the last run again, after the live mode. */
@@ -32,6 +49,8 @@ export interface Page {
 export interface Part {
   /** There is a new mesh. */
   ran?(summary: Summary): void;
+  /** There is a new mesh of points that were changed by hand: of many changes in a row, of each. */
+  edited?(summary: Summary): void;
   /** Settings have changed. */
   changed?(settings: Settings): void;
   /** There is a new drawing. */

@@ -31,9 +31,11 @@ export function launch({ webgpu = true } = {}) {
   });
 }
 
-/** Opens the page and waits for the first drawing. Fails on any error that the page does not handle. */
+/** Opens the page and waits for the first drawing. Collects the errors that the page does not handle. */
 export async function open(browser, url, options = {}) {
-  const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, colorScheme: 'light', ...options });
+  // A context of its own: axe needs one, and no visit sees what another left.
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, colorScheme: 'light', ...options });
+  const page = await context.newPage();
   page.setDefaultTimeout(120_000);
   page.problems = [];
   page.on('pageerror', (error) => page.problems.push(error.stack ?? error.message));
@@ -43,9 +45,10 @@ export async function open(browser, url, options = {}) {
   return page;
 }
 
-/** The page has drawn what its last run gave. */
+/** The page has drawn what its last run gave. Asked by the clock: a page that is new to a busy machine may get no frame for long. */
 export async function drawn(page) {
-  await page.waitForFunction(() => document.querySelector('#shown').textContent !== '' && document.querySelector('#busy').hidden);
+  const isDrawn = () => document.querySelector('#shown').textContent !== '' && document.querySelector('#busy').hidden;
+  await page.waitForFunction(isDrawn, undefined, { polling: 100 });
 }
 
 /** The numbers in a text, without their commas. */
@@ -71,15 +74,20 @@ export async function slide(page, id, value) {
   }, value);
 }
 
+/** Chooses a radio button, whose own box is not to be seen. */
+export async function choose(page, name, value) {
+  await page.locator(`input[name="${name}"][value="${value}"]`).evaluate((radio) => radio.click());
+}
+
 /** Generates points with a given engine, through the panel. */
 export async function generate(page, distribution, points, { engine = 'auto', wait = true } = {}) {
   await tab(page, 'points');
-  await page.selectOption('#distribution', distribution);
-  await page.fill('#number', String(points));
   if (!(await page.isChecked(`input[name=engine][value=${engine}]`))) {
-    await page.locator(`input[name=engine][value=${engine}]`).evaluate((radio) => radio.click());
+    await choose(page, 'engine', engine);
     await drawn(page);
   }
+  await page.selectOption('#distribution', distribution);
+  await page.fill('#number', String(points));
   await page.click('#generator button[type=submit]');
   if (wait) await page.waitForFunction((n) => document.querySelector('#count').textContent.startsWith(`${n} points`), points.toLocaleString('en'));
   if (wait) await drawn(page);
@@ -99,7 +107,7 @@ export async function drop(page, name, bytes) {
   await page.dispatchEvent('#stage', 'drop', { dataTransfer: transfer });
 }
 
-/** The colours of the canvas: how many different ones there are, out of a picture of it. */
+/** Saves a picture of the page. */
 export async function pictureOf(page, name) {
   // Fonts and transitions settle.
   await page.waitForTimeout(400);

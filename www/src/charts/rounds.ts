@@ -7,6 +7,11 @@ export interface Round {
   milliseconds: number;
 }
 
+const format = (n: number) => (n < 1000 ? String(n) : n < 1e6 ? `${n / 1000}k` : `${n / 1e6}M`);
+
+/** 0 and the powers of ten up to the largest of some counts. */
+const powers = (counts: readonly number[]) => [0, ...Array.from({ length: 1 + Math.log10(Math.max(1, ...counts)) }, (_, i) => 10 ** i)];
+
 /** Points inserted and flips made, round by round. */
 export function roundsChart(rounds: readonly Round[]): Promise<Element> {
   const rows = rounds.flatMap(({ inserted, flips }, i) => [
@@ -20,7 +25,7 @@ export function roundsChart(rounds: readonly Round[]): Promise<Element> {
     marginTop: 12,
     marginBottom: 32,
     x: { label: 'round', ticks: Math.min(rounds.length, 10), tickFormat: 'd' },
-    y: { label: null, grid: true, tickFormat: '~s', ticks: 5, type: 'symlog' },
+    y: { label: null, grid: true, tickFormat: (n: number) => (n === 0 ? '0' : format(n)), ticks: powers(rows.map(({ count }) => count)), type: 'symlog' },
     color: { domain: ['inserted', 'flips'], range: ['#56b4e9', '#009e73'], legend: true },
     marks: [
       Plot.ruleY([0]),
@@ -39,7 +44,8 @@ export function timelineChart(rounds: readonly Round[]): Promise<Element> {
     height: 74,
     marginLeft: 0,
     marginBottom: 32,
-    x: { label: 'milliseconds since Phase 1 began' },
+    x: { label: 'milliseconds since Phase 1 began', ticks: 5 },
+    y: { axis: null },
     marks: [
       Plot.rect(rows, { x1: 'from', x2: 'to', y1: 0, y2: 1, fill: 'currentColor', fillOpacity: (d) => (d.round % 2 ? 0.42 : 0.24), inset: 0.5, title: (d) => `round ${d.round}: ${(d.to - d.from).toFixed(1)} ms` }),
     ],

@@ -1,14 +1,7 @@
 import { loadQhull } from 'qhull-wasm';
 import wasm from 'qhull-wasm/dist/qhull.wasm?url';
 import { orient3d } from 'robust-predicates';
-
-/** What Qhull made of the points. */
-export interface QhullResult {
-  milliseconds: number;
-  tetrahedra: number;
-  /** Those of volume zero, by exact arithmetic. */
-  flat: number;
-}
+import type { OtherResult } from './other';
 
 // One run a worker: whoever wants to cancel it, ends the worker.
 self.onmessage = async ({ data: points }: MessageEvent<Float64Array>) => {
@@ -20,5 +13,5 @@ self.onmessage = async ({ data: points }: MessageEvent<Float64Array>) => {
     const [a, b, c, d] = tetrahedron.map((v) => points.subarray(3 * v, 3 * v + 3));
     return sum + (orient3d(a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2], d[0], d[1], d[2]) === 0 ? 1 : 0);
   }, 0);
-  self.postMessage({ milliseconds, tetrahedra: facets.length, flat } satisfies QhullResult);
+  self.postMessage({ milliseconds, simplices: facets.length, flat } satisfies OtherResult);
 };

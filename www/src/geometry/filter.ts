@@ -99,23 +99,23 @@ function carve(
 
 /**
  * An alpha that suits a cloud: ten times the typical distance between neighbouring points, measured as the median of the
- * shortest edges of a sample of tetrahedra.
+ * shortest edges of a sample of the simplices, tetrahedra or triangles.
  */
-export function typicalAlpha(points: ArrayLike<number>, tetrahedra: Uint32Array): number {
-  const count = tetrahedra.length / 4;
+export function typicalAlpha(points: ArrayLike<number>, simplices: Uint32Array, dimension: 2 | 3 = 3): number {
+  const corners = dimension + 1;
+  const count = simplices.length / corners;
   const samples = Math.min(count, 10_000);
   const shortest = new Float64Array(samples);
   for (let i = 0; i < samples; i++) {
-    const t = Math.floor((i * count) / samples);
+    const t = corners * Math.floor((i * count) / samples);
     let least = Infinity;
-    for (let j = 0; j < 4; j++) {
-      for (let k = j + 1; k < 4; k++) {
-        const p = 3 * tetrahedra[4 * t + j];
-        const q = 3 * tetrahedra[4 * t + k];
-        const dx = points[p] - points[q];
-        const dy = points[p + 1] - points[q + 1];
-        const dz = points[p + 2] - points[q + 2];
-        least = Math.min(least, dx * dx + dy * dy + dz * dz);
+    for (let j = 0; j < corners; j++) {
+      for (let k = j + 1; k < corners; k++) {
+        let squared = 0;
+        for (let axis = 0; axis < dimension; axis++) {
+          squared += (points[dimension * simplices[t + j] + axis] - points[dimension * simplices[t + k] + axis]) ** 2;
+        }
+        least = Math.min(least, squared);
       }
     }
     shortest[i] = Math.sqrt(least);

@@ -19,31 +19,31 @@ export interface Frame {
   scale: number;
 }
 
-/** The frame that moves the points' bounding box into the unit ball. */
-export function frameOf(points: ArrayLike<number>): Frame {
+/** The frame that moves the bounding box of points, of two or three coordinates each, into the unit ball. */
+export function frameOf(points: ArrayLike<number>, dimension: 2 | 3 = 3): Frame {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
-  for (let i = 0; i < points.length; i += 3) {
-    for (let axis = 0; axis < 3; axis++) {
+  for (let i = 0; i < points.length; i += dimension) {
+    for (let axis = 0; axis < dimension; axis++) {
       const x = points[i + axis];
       if (x < low[axis]) low[axis] = x;
       if (x > high[axis]) high[axis] = x;
     }
   }
-  if (points.length === 0) return { center: [0, 0, 0], scale: 1 };
+  // Without points, the unit cube or square.
+  if (points.length === 0) low.fill(0), high.fill(1);
+  if (dimension === 2) low[2] = high[2] = 0;
   // Halves first: the sum of two large coordinates could overflow.
   const center = low.map((l, axis) => l / 2 + high[axis] / 2) as [number, number, number];
   const radius = Math.hypot(...high.map((h, axis) => h / 2 - low[axis] / 2));
   return { center, scale: radius > 0 ? 1 / radius : 1 };
 }
 
-/** The points in the frame. The difference is taken in double precision, so large offsets do no harm. */
-export function toFrame(points: ArrayLike<number>, { center, scale }: Frame): Float32Array {
-  const positions = new Float32Array(points.length);
-  for (let i = 0; i < points.length; i += 3) {
-    positions[i] = (points[i] - center[0]) * scale;
-    positions[i + 1] = (points[i + 1] - center[1]) * scale;
-    positions[i + 2] = (points[i + 2] - center[2]) * scale;
+/** The points in the frame, three coordinates each. The difference is taken in double precision, so large offsets do no harm. */
+export function toFrame(points: ArrayLike<number>, { center, scale }: Frame, dimension: 2 | 3 = 3): Float32Array {
+  const positions = new Float32Array((points.length / dimension) * 3);
+  for (let i = 0, p = 0; i < points.length; i += dimension, p += 3) {
+    for (let axis = 0; axis < dimension; axis++) positions[p + axis] = (points[i + axis] - center[axis]) * scale;
   }
   return positions;
 }

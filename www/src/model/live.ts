@@ -1,37 +1,48 @@
-import { type Engine as Gdel, generate } from 'gdel-wasm';
+import { type Engine as Gdel, generate, generate2d } from 'gdel-wasm';
 import { frameOf } from '../geometry/mesh';
-import { type DrawRequest, type Drawing, type Engine, Model } from './model';
+import type { DrawRequest, Drawing, Engine, Model } from './model';
+import { PlaneModel } from './planeModel';
+import type { Dimension } from './source';
+import { SpaceModel } from './spaceModel';
 
 /** One frame of the live mode. */
 export interface LiveFrame {
   drawing: Drawing;
-  tetrahedra: number;
+  /** The points as drawn, in the plane; in space they are inside. */
+  positions: Float32Array | null;
+  simplices: number;
   /** For the triangulation alone. */
   milliseconds: number;
 }
 
-/** Points of a ball that turn at different speeds, so that no two frames have the same triangulation. */
+/** Points of a ball or a disk that turn at different speeds, so that no two frames have the same triangulation. */
 export class Live {
   private readonly moved: Float32Array;
   private constructor(
+    readonly dimension: Dimension,
     readonly count: number,
     private readonly start: Float64Array,
   ) {
     this.moved = new Float32Array(start.length);
   }
 
-  static async make(count: number): Promise<Live> {
-    return new Live(count, await generate('ball', count, { seed: 1 }));
+  static async make(dimension: Dimension, count: number): Promise<Live> {
+    return new Live(dimension, count, await (dimension === 3 ? generate('ball', count) : generate2d('disk', count)));
   }
 
   async frame(gdel: Gdel, engine: Engine, seconds: number, request: DrawRequest): Promise<{ model: Model; frame: LiveFrame }> {
-    this.moveTo(seconds);
-    const model = await Model.make(gdel, this.moved, { engine, outputs: ['neighbors'] }, UNIT);
-    const { tetrahedra, stats } = model.mesh;
-    return { model, frame: { drawing: model.draw(request), tetrahedra: tetrahedra.length / 4, milliseconds: stats.milliseconds } };
+    const space = this.dimension === 3;
+    if (space) this.turnBall(seconds);
+    else this.stirDisk(seconds);
+    const model = space
+      ? await SpaceModel.make(gdel, this.moved, { engine, outputs: ['neighbors'] }, BALL)
+      : await PlaneModel.make(gdel, this.moved, { engine }, DISK);
+    const drawing = model.draw(request);
+    const { milliseconds } = model.mesh.stats;
+    return { model, frame: { drawing, positions: space ? null : model.positions, simplices: drawing.total, milliseconds } };
   }
 
-  private moveTo(seconds: number): void {
+  private turnBall(seconds: number): void {
     for (let i = 0; i < this.start.length; i += 3) {
       const [x, y, z] = [this.start[i], this.start[i + 1], this.start[i + 2]];
       const angle = seconds * (0.9 - 0.8 * Math.hypot(x, z)) + 0.35 * Math.sin(0.7 * seconds + 3 * y);
@@ -41,7 +52,19 @@ export class Live {
       this.moved[i + 2] = swell * (z * Math.cos(angle) - x * Math.sin(angle));
     }
   }
+
+  private stirDisk(seconds: number): void {
+    for (let i = 0; i < this.start.length; i += 2) {
+      const [x, y] = [this.start[i], this.start[i + 1]];
+      const radius = Math.hypot(x, y);
+      const angle = seconds * (0.55 - 0.5 * radius);
+      const swell = 1 + 0.1 * Math.sin(1.3 * seconds + 6 * radius + 3 * Math.atan2(y, x));
+      this.moved[i] = swell * (x * Math.cos(angle) - y * Math.sin(angle));
+      this.moved[i + 1] = swell * (x * Math.sin(angle) + y * Math.cos(angle));
+    }
+  }
 }
 
-/** The frame stays the same, so that the ball does not seem to breathe. */
-const UNIT = frameOf([-0.8, -0.8, -0.8, 0.8, 0.8, 0.8]);
+/** The frames stay the same, so that nothing seems to breathe. */
+const BALL = frameOf([-0.8, -0.8, -0.8, 0.8, 0.8, 0.8]);
+const DISK = frameOf([-0.9, -0.9, 0.9, 0.9], 2);

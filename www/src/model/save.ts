@@ -1,6 +1,6 @@
-import type { Mesh3 } from 'gdel-wasm';
+import type { Mesh2, Mesh3 } from 'gdel-wasm';
 
-/** The formats that the package writes. */
+/** The formats that the package writes. TetGen's files are those of Triangle in the plane. */
 export const FORMATS = ['VTU', 'TetGen', 'NPZ', 'PLY', 'OBJ', 'STL'] as const;
 export type Format = (typeof FORMATS)[number];
 
@@ -11,14 +11,16 @@ export interface SavedFile {
 }
 
 /** The mesh as files: one, or for TetGen three. */
-export async function save(mesh: Mesh3, format: Format): Promise<SavedFile[]> {
+export async function save(mesh: Mesh2 | Mesh3, format: Format): Promise<SavedFile[]> {
   switch (format) {
     case 'VTU': return [{ extension: '.vtu', bytes: await mesh.toVTU() }];
     case 'NPZ': return [{ extension: '.npz', bytes: await mesh.toNPZ() }];
     case 'PLY': return [{ extension: '.ply', bytes: await mesh.toPLY() }];
     case 'OBJ': return [{ extension: '.obj', bytes: await mesh.toOBJ() }];
     case 'STL': return [{ extension: '.stl', bytes: await mesh.toSTL() }];
-    case 'TetGen':
-      return Object.entries(await mesh.toTetGen()).map(([name, bytes]) => ({ extension: `.${name}`, bytes: bytes as Uint8Array }));
+    case 'TetGen': {
+      const files = await ('toTetGen' in mesh ? mesh.toTetGen() : mesh.toTriangle());
+      return Object.entries(files).map(([name, bytes]) => ({ extension: `.${name}`, bytes }));
+    }
   }
 }

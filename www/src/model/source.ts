@@ -1,18 +1,33 @@
-import { generate, readPoints } from 'gdel-wasm';
+import { generate, generate2d, readPoints } from 'gdel-wasm';
 import bunny from '../../samples/bunny.f32.gz?url';
 import dragon from '../../samples/dragon.f32.gz?url';
 
-/** The synthetic distributions of the paper's section 5.1. */
+/** Space or the plane. */
+export type Dimension = 2 | 3;
+
+/** The synthetic distributions: in space those of the paper's section 5.1, in the plane those of 5.6 and some hard ones. */
 export const DISTRIBUTIONS = {
-  uniform: 'Uniform in a cube',
-  gaussian: 'Gaussian',
-  ball: 'Uniform in a ball',
-  sphere: 'On a sphere',
-  'thin-sphere': 'In a thin shell',
-  grid: 'On a 512³ grid',
+  3: {
+    uniform: 'Uniform in a cube',
+    gaussian: 'Gaussian',
+    ball: 'Uniform in a ball',
+    sphere: 'On a sphere',
+    'thin-sphere': 'In a thin shell',
+    grid: 'On a 512³ grid',
+  },
+  2: {
+    uniform: 'Uniform in a square',
+    gaussian: 'Gaussian',
+    disk: 'Uniform in a disk',
+    circle: 'On a circle',
+    'thin-circle': 'In a thin ring',
+    grid: 'On a 512² grid',
+    'two-lines': 'On two lines',
+    clusters: 'In 64 tiny clusters',
+  },
 } as const;
 
-export type Distribution = keyof typeof DISTRIBUTIONS;
+export type Distribution<D extends Dimension> = keyof (typeof DISTRIBUTIONS)[D];
 
 /** The bundled scans. */
 export const SAMPLES = {
@@ -22,17 +37,21 @@ export const SAMPLES = {
 
 export type Sample = keyof typeof SAMPLES;
 
-/** Where points come from. */
+type Generator<D extends Dimension> = { kind: 'generator'; dimension: D; distribution: Distribution<D>; count: number; seed: number };
+
+/** Where points come from. In the plane, a file's z is left out. */
 export type Source =
-  | { kind: 'sample'; sample: Sample }
-  | { kind: 'generator'; distribution: Distribution; count: number; seed: number }
-  | { kind: 'file'; file: File };
+  | { kind: 'sample'; dimension: 3; sample: Sample }
+  | Generator<2>
+  | Generator<3>
+  | { kind: 'file'; dimension: Dimension; file: File };
 
 /** What to call a source. */
 export function titleOf(source: Source): string {
   if (source.kind === 'sample') return SAMPLES[source.sample].title;
   if (source.kind === 'file') return source.file.name;
-  return DISTRIBUTIONS[source.distribution];
+  if (source.dimension === 3) return DISTRIBUTIONS[3][source.distribution];
+  return source.count === 0 ? 'Drawn by hand' : DISTRIBUTIONS[2][source.distribution];
 }
 
 export interface LoadOptions {
@@ -40,12 +59,12 @@ export interface LoadOptions {
   onProgress: (progress: { phase: string; fraction: number }) => void;
 }
 
-/** Fetches, generates or reads the points. */
+/** Fetches, generates or reads the points: as many coordinates each as the source's dimension says. */
 export async function load(source: Source, options: LoadOptions): Promise<Float32Array | Float64Array> {
   if (source.kind === 'generator') {
-    const { distribution, count, seed } = source;
+    const { count, seed } = source;
     options.onProgress({ phase: 'Generating points', fraction: 0 });
-    return generate(distribution, count, { seed });
+    return source.dimension === 3 ? generate(source.distribution, count, { seed }) : generate2d(source.distribution, count, { seed });
   }
   if (source.kind === 'sample') {
     options.onProgress({ phase: `Fetching the ${titleOf(source)}`, fraction: 0 });
@@ -55,11 +74,20 @@ export async function load(source: Source, options: LoadOptions): Promise<Float3
   const phase = `Reading ${file.name}`;
   options.onProgress({ phase, fraction: 0 });
   const { points } = await readPoints(file, {
-    name: file.name,
     signal: options.signal,
     onProgress: ({ fraction }) => options.onProgress({ phase, fraction }),
   });
-  return points;
+  return source.dimension === 3 ? points : withoutZ(points);
+}
+
+function withoutZ(points: Float32Array | Float64Array): Float32Array | Float64Array {
+  const length = (points.length / 3) * 2;
+  const flat = points instanceof Float32Array ? new Float32Array(length) : new Float64Array(length);
+  for (let i = 0; i < length / 2; i++) {
+    flat[2 * i] = points[3 * i];
+    flat[2 * i + 1] = points[3 * i + 1];
+  }
+  return flat;
 }
 
 async function fetchSample(sample: Sample, signal: AbortSignal): Promise<Float32Array> {

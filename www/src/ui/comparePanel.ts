@@ -1,5 +1,5 @@
 import { type Time, timesChart } from '../charts/times';
-import { runQhull } from '../compare/qhull';
+import { runOther } from '../compare/other';
 import type { Page, Part } from '../page';
 import { byId, count, create, duration } from './dom';
 import { nameOf } from './result';
@@ -8,15 +8,14 @@ import { nameOf } from './result';
 export function comparePanel(page: Page): Part {
   byId('compare-run').addEventListener('click', () => void compare(page));
   byId('verify-run').addEventListener('click', () => void prove(page));
-  return {
-    ran() {
-      abort?.abort();
-      byId('times').replaceChildren();
-      byId('times-note').textContent = '';
-      byId('verdicts').replaceChildren();
-      byId('verify-note').textContent = '';
-    },
+  const forget = () => {
+    abort?.abort();
+    byId('times').replaceChildren();
+    byId('times-note').textContent = '';
+    byId('verdicts').replaceChildren();
+    byId('verify-note').textContent = '';
   };
+  return { ran: forget, edited: forget };
 }
 
 let abort: AbortController | null = null;
@@ -29,7 +28,9 @@ async function compare(page: Page): Promise<void> {
   }
   const { signal } = (abort = new AbortController());
   signal.addEventListener('abort', () => page.model.cancel());
-  const tetrahedra = page.summary!.tetrahedra;
+  const { space, simplices } = page.summary!;
+  const cells = space === 3 ? 'tetrahedra' : 'triangles';
+  const other = space === 3 ? 'qhull-wasm' : 'delaunator';
   const times: Time[] = [];
   const notes: string[] = [];
   const add = async (time: Time, note: string) => {
@@ -39,7 +40,7 @@ async function compare(page: Page): Promise<void> {
     byId('times-note').textContent = notes.join(' ');
   };
   const agree = (name: string, found: number) =>
-    found === tetrahedra ? `${name}: the same ${count(found)} tetrahedra.` : `${name}: ${count(found)} tetrahedra, not ${count(tetrahedra)}.`;
+    found === simplices ? `${name}: ${count(found)} ${cells}, as many.` : `${name}: ${count(found)} ${cells}, not ${count(simplices)}.`;
 
   button.textContent = 'Stop';
   try {
@@ -51,22 +52,22 @@ async function compare(page: Page): Promise<void> {
       }
       say(`Running the ${name} …`);
       try {
-        const { milliseconds, tetrahedra: found } = await page.model.time(engine);
+        const { milliseconds, simplices: found } = await page.model.time(engine);
         await add({ engine: name, milliseconds, ours: true }, agree(name, found));
       } catch (error) {
         if (signal.aborted) throw error;
         notes.push(`${name}: ${(error as Error).message}`);
       }
     }
-    say('Running qhull-wasm; at 100,000 points it takes seconds, at a million most of a minute …');
-    const qhull = await runQhull(await page.model.points(), signal);
-    const flat = qhull.flat ? ` ${count(qhull.flat)} of them have no volume.` : '';
-    await add({ engine: 'qhull-wasm', milliseconds: qhull.milliseconds, ours: false }, agree('qhull-wasm', qhull.tetrahedra) + flat);
+    say(`Running ${other}${space === 3 ? '; at 100,000 points it takes seconds, at a million most of a minute' : ''} …`);
+    const theirs = await runOther(other, await page.model.points(), signal);
+    const flat = theirs.flat ? ` ${count(theirs.flat)} of them have no ${space === 3 ? 'volume' : 'area'}.` : '';
+    await add({ engine: other, milliseconds: theirs.milliseconds, ours: false }, agree(other, theirs.simplices) + flat);
     const fastest = times.filter(({ ours }) => ours).sort((a, b) => a.milliseconds - b.milliseconds)[0];
-    if (fastest) notes.push(`qhull-wasm took ${(qhull.milliseconds / fastest.milliseconds).toFixed(1)} times as long as the ${fastest.engine}.`);
+    if (fastest) notes.push(`${other} took ${(theirs.milliseconds / fastest.milliseconds).toFixed(1)} times as long as the ${fastest.engine}.`);
     byId('times-note').textContent = notes.join(' ');
   } catch (error) {
-    notes.push(signal.aborted ? 'Stopped.' : `qhull-wasm: ${(error as Error).message}`);
+    notes.push(signal.aborted ? 'Stopped.' : `${other}: ${(error as Error).message}`);
     byId('times-note').textContent = notes.join(' ');
   } finally {
     abort = null;
@@ -86,7 +87,7 @@ async function prove(page: Page): Promise<void> {
   note.textContent = 'Checking …';
   const started = performance.now();
   try {
-    const { checks } = await page.model.verify();
+    const checks = await page.model.verify();
     byId('verdicts').replaceChildren(
       ...checks.map(({ name, passed, detail }) => {
         const verdict = create('li', { className: passed ? 'pass' : 'fail' });

@@ -16,6 +16,13 @@ export function create<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** The radio buttons of a name. */
+export function radios(name: string, onChoice: (value: string) => void): HTMLInputElement[] {
+  const all = [...document.querySelectorAll<HTMLInputElement>(`input[name=${name}]`)];
+  for (const radio of all) radio.addEventListener('change', () => onChoice(radio.value));
+  return all;
+}
+
 const whole = new Intl.NumberFormat('en');
 const three = new Intl.NumberFormat('en', { maximumSignificantDigits: 3 });
 

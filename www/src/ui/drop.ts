@@ -21,6 +21,6 @@ export function wireDrop(page: Page): void {
     event.preventDefault();
     const files = event.dataTransfer!.files;
     if (files.length > 1) showMessage('One file at a time, please.');
-    else page.run({ kind: 'file', file: files[0] });
+    else page.run({ kind: 'file', dimension: page.settings.source.dimension, file: files[0] });
   });
 }

@@ -4,20 +4,27 @@ import { byId } from './dom';
 
 const TURN = Math.PI / 36;
 
+/** How far the view of the plane moves, as a share of what is seen. */
+const STEP = 0.08;
+
 /** The keys that work while the drawing has the focus. */
 export function wireKeyboard(page: Page): void {
   const slice = (by: number) => page.change({ keep: Math.min(1, Math.max(0, page.settings.keep + by)) });
+  const isFlat = () => page.settings.source.dimension === 2;
+  const go = (right: number, up: number) =>
+    isFlat() ? page.viewer?.pan(right * STEP, up * STEP) : page.viewer?.orbit(right * TURN, up * TURN, 1);
+  const home = () => page.change({ camera: HOME[page.settings.source.dimension] });
   const keys: Record<string, () => void> = {
-    ArrowLeft: () => page.viewer?.orbit(-TURN, 0, 1),
-    ArrowRight: () => page.viewer?.orbit(TURN, 0, 1),
-    ArrowUp: () => page.viewer?.orbit(0, TURN, 1),
-    ArrowDown: () => page.viewer?.orbit(0, -TURN, 1),
+    ArrowLeft: () => go(-1, 0),
+    ArrowRight: () => go(1, 0),
+    ArrowUp: () => go(0, 1),
+    ArrowDown: () => go(0, -1),
     '+': () => page.viewer?.orbit(0, 0, 0.9),
     '=': () => page.viewer?.orbit(0, 0, 0.9),
     '-': () => page.viewer?.orbit(0, 0, 1 / 0.9),
     '[': () => slice(-0.01),
     ']': () => slice(0.01),
-    Home: () => page.change({ camera: HOME }),
+    Home: home,
   };
   byId('canvas').addEventListener('keydown', (event) => {
     const act = event.ctrlKey || event.metaKey || event.altKey ? undefined : keys[event.key];
@@ -25,5 +32,5 @@ export function wireKeyboard(page: Page): void {
     event.preventDefault();
     act();
   });
-  byId('reset').addEventListener('click', () => page.change({ camera: HOME }));
+  byId('reset').addEventListener('click', home);
 }

@@ -1,27 +1,22 @@
-import type { Drawing } from '../model/model';
 import type { ColorBy } from '../geometry/scale';
-import { type ColorMapName, gradient, PHASE_COLORS } from '../view/colormap';
+import type { Drawing } from '../model/model';
+import type { Dimension } from '../model/source';
+import type { Settings } from '../settings';
+import { gradient, PHASE_COLORS } from '../view/colormap';
 import { byId, count, measured } from './dom';
 
-export const QUANTITIES: Record<ColorBy, string> = {
-  quality: 'Radius ratio',
-  volume: 'Volume',
-  circumradius: 'Circumradius',
-  phase: 'Phase of creation',
-};
-
-const UNITS: Record<ColorBy, string> = {
-  quality: '3 r/R, 1 is regular',
-  volume: 'file units³',
-  circumradius: 'file units',
-  phase: '',
+/** What a quantity is called, and in which units. */
+export const QUANTITIES: Record<ColorBy, Record<Dimension, [name: string, unit: string]>> = {
+  quality: { 3: ['Radius ratio', '3 r/R, 1 is regular'], 2: ['Radius ratio', '2 r/R, 1 is regular'] },
+  volume: { 3: ['Volume', 'file units³'], 2: ['Area', 'file units²'] },
+  circumradius: { 3: ['Circumradius', 'file units'], 2: ['Circumradius', 'file units'] },
+  phase: { 3: ['Phase of creation', ''], 2: ['Phase of creation', ''] },
 };
 
 /** What the colours mean, and how much of the mesh is to be seen. */
-export function showLegend({ scale, shown, total, leftOut, milliseconds }: Drawing, map: ColorMapName): void {
-  byId('legend').hidden = total === 0;
-  const unit = UNITS[scale.by];
-  byId('legend-title').textContent = QUANTITIES[scale.by] + (unit && `, ${unit}`);
+export function showLegend({ scale, shown, total, leftOut, milliseconds }: Drawing, { map, source, layers }: Settings): void {
+  byId('legend').hidden = total === 0 || !layers.simplices;
+  byId('legend-title').textContent = QUANTITIES[scale.by][source.dimension].filter(Boolean).join(', ');
   const [low, high] = scale.domain;
   const phases = scale.kind === 'phases';
   byId('ramp').style.background = phases

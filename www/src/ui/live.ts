@@ -29,35 +29,42 @@ export function live(page: Page): Part {
     page.viewer?.showPoints(null);
     page.viewer?.showHull(null);
     page.viewer?.showFacets(null);
+    // What they say is of the run before.
+    byId('engine-used').textContent = '';
+    byId('strip').hidden = true;
+    const { dimension } = page.settings.source;
     let charted = 0;
     let last = performance.now();
     while (running === run && page.viewer) {
       const { settings, viewer } = page;
       const points = Math.min(200_000, Math.max(10, Math.round(number.valueAsNumber) || 3000));
       const seconds = (performance.now() - run) / 1000;
-      const frame = await page.model.liveFrame(points, settings.engine, seconds, {
+      const frame = await page.model.liveFrame(dimension, points, settings.engine, seconds, {
         filter: { kind: 'all' },
         plane: { normal: settings.normal, keep: settings.keep },
         color: settings.color === 'phase' ? 'quality' : settings.color,
         pieces: settings.apart > 0,
         round: null,
+        voronoi: settings.layers.voronoi,
       });
       if (running !== run) return;
       viewer.showSurface(frame.drawing.surface);
       viewer.showPieces(frame.drawing.pieces);
-      showLegend(frame.drawing, settings.map);
+      viewer.showVoronoi(frame.drawing.voronoi);
+      viewer.showPoints(frame.positions);
+      page.look();
+      showLegend(frame.drawing, settings);
       await viewer.drawn();
+      if (running !== run) return;
       const now = performance.now();
       frames.push(frame.milliseconds);
       if (frames.length > KEPT) frames.shift();
       if (now - charted > 400) {
         charted = now;
-        byId('count').textContent = `${count(points)} moving points → ${count(frame.tetrahedra)} tetrahedra`;
+        byId('count').textContent = `${count(points)} moving points → ${count(frame.simplices)} ${dimension === 3 ? 'tetrahedra' : 'triangles'}`;
         byId('took').replaceChildren(create('b', {}, duration(frame.milliseconds)), create('span', {}, `a frame, ${measured(1000 / (now - last))} frames a second`));
-        times.replaceChildren(
-          create('p', { className: 'note' }, 'Milliseconds to triangulate each of the last frames'),
-          await framesChart(frames),
-        );
+        const chart = await framesChart(frames);
+        times.replaceChildren(create('p', { className: 'note' }, 'Milliseconds to triangulate each of the last frames'), chart);
       }
       last = now;
     }

@@ -1,14 +1,15 @@
 /**
- * One colour a phase, the same in every chart: Okabe and Ito's, which stay apart with colour blindness. The phases of the
- * paper's Figure 7 come first.
+ * One colour a phase, the same in every chart: Okabe and Ito's, which stay apart with colour blindness. First those of the CPU
+ * engine, then those of the GPU engine.
  */
 const COLORS: Record<string, string> = {
   sort: '#0072b2',
   insert: '#56b4e9',
-  flip: '#009e73',
-  relocate: '#e69f00',
+  lattice: '#0072b2',
+  'phase 1': '#009e73',
+  readback: '#cc79a7',
   splay: '#d55e00',
-  certify: '#cc79a7',
+  flip: '#e69f00',
 };
 
 const OTHER = '#8b8f98';

@@ -1,8 +1,10 @@
 import type { Picked } from '../model/model';
 import type { Page, Part } from '../page';
+import type { Dimension } from '../model/source';
 import { byId, count, create, measured } from './dom';
+import { CLICK } from './editor';
 
-/** Shows the tetrahedron under the pointer: its outline on the model, its numbers beside it. */
+/** Shows the simplex under the pointer: its outline on the model, in the plane with its circumcircle, and its numbers beside it. */
 export function pointer(page: Page): Part {
   const canvas = byId<HTMLCanvasElement>('canvas');
   const tip = byId('tip');
@@ -23,34 +25,43 @@ export function pointer(page: Page): Part {
       const { x, y } = asked;
       asked = null;
       const picked = await page.model.pick(page.viewer.ray(x, y), page.settings.apart);
-      page.viewer.showOutline(picked?.corners ?? null);
+      page.viewer.showOutline(picked?.outline ?? null);
       tip.hidden = picked === null;
-      if (picked) describe(tip, picked, x, y, canvas);
+      if (picked) describe(tip, picked, page.settings.source.dimension, x, y, canvas);
     }
     busy = false;
   };
 
+  /** In the plane, other tools have other uses for a click. */
+  const asks = () => page.settings.source.dimension === 3 || page.tool === 'move';
+  let pressed: { x: number; y: number } | null = null;
+
   canvas.addEventListener('pointermove', (event) => {
-    if (event.buttons !== 0 || event.pointerType !== 'mouse') return;
+    if (event.buttons !== 0 || event.pointerType !== 'mouse' || !asks()) return;
     asked = { x: event.offsetX, y: event.offsetY };
     void ask();
   });
   canvas.addEventListener('pointerleave', (event) => event.pointerType === 'mouse' && hide());
-  canvas.addEventListener('pointerdown', hide);
+  canvas.addEventListener('pointerdown', ({ offsetX, offsetY }) => {
+    pressed = { x: offsetX, y: offsetY };
+    hide();
+  }, { capture: true });
   canvas.addEventListener('click', (event) => {
+    // The end of a drag is no question.
+    if (!asks() || !pressed || Math.hypot(event.offsetX - pressed.x, event.offsetY - pressed.y) >= CLICK) return;
     asked = { x: event.offsetX, y: event.offsetY };
     void ask();
   });
-  return { ran: hide };
+  return { ran: hide, edited: hide };
 }
 
-function describe(tip: HTMLElement, picked: Picked, x: number, y: number, canvas: HTMLElement): void {
+function describe(tip: HTMLElement, picked: Picked, dimension: Dimension, x: number, y: number, canvas: HTMLElement): void {
   const rows: [string, string][] = [
-    ['tetrahedron', count(picked.index)],
+    [dimension === 3 ? 'tetrahedron' : 'triangle', count(picked.index)],
     ['vertices', picked.vertices.join(' ')],
     ['neighbours', picked.neighbors.map((n) => (n < 0 ? 'outside' : n)).join(' ')],
     ['radius ratio', measured(picked.radiusRatio)],
-    ['volume', measured(picked.volume)],
+    [dimension === 3 ? 'volume' : 'area', measured(picked.volume)],
     ['circumradius', measured(picked.circumradius)],
   ];
   if (picked.phase) rows.push(['made in phase', String(picked.phase)]);

@@ -1,6 +1,8 @@
-import { type Distribution, DISTRIBUTIONS, type Sample, SAMPLES } from '../model/source';
+import type { Engine } from '../model/model';
+import { type Dimension, DISTRIBUTIONS, type Sample, SAMPLES } from '../model/source';
 import type { Page, Part } from '../page';
-import { byId, count, create } from './dom';
+import { generator } from '../settings';
+import { byId, count, create, radios } from './dom';
 
 const QUICK = [1_000, 10_000, 100_000, 1_000_000];
 
@@ -8,22 +10,16 @@ const QUICK = [1_000, 10_000, 100_000, 1_000_000];
 export function pointsPanel(page: Page): Part {
   const samples = Object.entries(SAMPLES).map(([name, { title, points }]) => {
     const button = create('button', { type: 'button' }, title, create('small', {}, `${count(points)} points`));
-    button.addEventListener('click', () => page.run({ kind: 'sample', sample: name as Sample }));
+    button.addEventListener('click', () => page.run({ kind: 'sample', dimension: 3, sample: name as Sample }));
     return { name, button };
   });
   byId('samples').append(...samples.map(({ button }) => button));
 
   const distribution = byId<HTMLSelectElement>('distribution');
-  distribution.append(...Object.entries(DISTRIBUTIONS).map(([value, title]) => create('option', { value }, title)));
   const number = byId<HTMLInputElement>('number');
   const seed = byId<HTMLInputElement>('seed');
   const generate = () =>
-    page.run({
-      kind: 'generator',
-      distribution: distribution.value as Distribution,
-      count: number.valueAsNumber,
-      seed: seed.valueAsNumber,
-    });
+    page.run(generator(page.settings.source.dimension, distribution.value, number.valueAsNumber, seed.valueAsNumber));
   byId<HTMLFormElement>('generator').addEventListener('submit', (event) => {
     event.preventDefault();
     generate();
@@ -39,25 +35,32 @@ export function pointsPanel(page: Page): Part {
   const file = byId<HTMLInputElement>('file');
   byId('open').addEventListener('click', () => file.click());
   file.addEventListener('change', () => {
-    if (file.files?.[0]) page.run({ kind: 'file', file: file.files[0] });
+    if (file.files?.[0]) page.run({ kind: 'file', dimension: page.settings.source.dimension, file: file.files[0] });
     // The same file again is a change, too.
     file.value = '';
   });
 
-  const engines = [...document.querySelectorAll<HTMLInputElement>('input[name=engine]')];
-  for (const radio of engines) {
-    radio.addEventListener('change', () => {
-      page.settings.engine = radio.value as typeof page.settings.engine;
-      page.run(page.settings.source);
-    });
-  }
+  const engines = radios('engine', (engine) => {
+    const { source, edits } = page.settings;
+    page.run(source, { engine: engine as Engine, edits });
+  });
+
+  let offered: Dimension | null = null;
+  /** The distributions of the dimension. */
+  const offer = (dimension: Dimension) => {
+    if (dimension === offered) return;
+    offered = dimension;
+    distribution.replaceChildren(...Object.entries(DISTRIBUTIONS[dimension]).map(([value, title]) => create('option', { value }, title)));
+    number.value = dimension === 3 ? '100000' : '1000';
+  };
 
   return {
     changed({ source, engine }) {
+      offer(source.dimension);
       for (const { name, button } of samples) {
         button.setAttribute('aria-pressed', String(source.kind === 'sample' && source.sample === name));
       }
-      if (source.kind === 'generator') {
+      if (source.kind === 'generator' && source.count > 0) {
         distribution.value = source.distribution;
         number.value = String(source.count);
         seed.value = String(source.seed);

@@ -4,10 +4,14 @@ import { byId, count, create, duration } from './dom';
 
 /** Says in the page's title block what came out, how long it took and what did it. */
 export function showResult(summary: Summary): void {
+  const { space, dimension, points, simplices } = summary;
+  const of = space === 3 ? 'tetrahedra' : 'triangles';
   byId('count').textContent =
-    summary.dimension === 3
-      ? `${count(summary.points)} points → ${count(summary.tetrahedra)} tetrahedra`
-      : `${count(summary.points)} points: ${FLAT[summary.dimension]}, so there are no tetrahedra`;
+    dimension === space
+      ? `${count(points)} points → ${count(simplices)} ${of}`
+      : points < 2
+        ? `${['No points', 'One point'][points]}, so there are no ${of}`
+        : `${count(points)} points: ${FLAT[dimension]}, so there are no ${of}`;
   byId('took').replaceChildren(create('b', {}, duration(summary.stats.milliseconds)));
   byId('engine-used').textContent = engineOf(summary.stats);
 }

@@ -3,7 +3,8 @@ import { roundsChart, timelineChart } from '../charts/rounds';
 import { MOST_POINTS_TO_RECORD, type Summary } from '../model/model';
 import { titleOf } from '../model/source';
 import type { Page, Part } from '../page';
-import { byId, count, create, share } from './dom';
+import { byId, count, create } from './dom';
+import { repairOf } from './repair';
 
 /** At most so many runs stand side by side in the breakdown. */
 const RUNS = 6;
@@ -26,31 +27,36 @@ export function runPanel(page: Page): Part {
     if (rounds.length > 0) byId('rounds-chart').replaceChildren(await roundsChart(rounds), await timelineChart(rounds));
   };
 
+  const ran = (summary: Summary) => {
+    stepper(summary);
+    showFigures(summary);
+    showRepair(summary);
+    const title = `${titleOf(page.settings.source)}, ${count(summary.points)}, ${summary.stats.engine.toUpperCase()}`;
+    const again = runs.findIndex((run) => run.title === title);
+    if (again >= 0) runs.splice(again, 1);
+    runs.unshift({ title, phases: summary.stats.phases });
+    runs.length = Math.min(runs.length, RUNS);
+    charted = false;
+  };
   return {
-    ran(summary) {
-      stepper(summary);
-      showFigures(summary);
-      showRepair(summary);
-      const title = `${titleOf(page.settings.source)}, ${count(summary.points)}, ${summary.stats.engine.toUpperCase()}`;
-      const again = runs.findIndex((run) => run.title === title);
-      if (again >= 0) runs.splice(again, 1);
-      runs.unshift({ title, phases: summary.stats.phases });
-      runs.length = Math.min(runs.length, RUNS);
-      charted = false;
+    ran,
+    edited: ran,
+    // Follows every run; of changes by hand in a row, the last.
+    changed({ layers }) {
+      shade.checked = layers.facets;
       void chart();
     },
-    changed: ({ layers }) => (shade.checked = layers.facets),
     showed: () => void chart(),
   };
 }
 
-function showFigures({ points, duplicates, tetrahedra, hullTriangles, stats }: Summary): void {
+function showFigures({ space, points, duplicates, simplices, hullFacets, stats }: Summary): void {
   const { gpu, splay, exact } = stats;
   const rows: [string, number | null | undefined][] = [
     ['Points', points],
     ['of them exact duplicates', duplicates],
-    ['Tetrahedra', tetrahedra],
-    ['Triangles of the hull', hullTriangles],
+    [space === 3 ? 'Tetrahedra' : 'Triangles', simplices],
+    [space === 3 ? 'Triangles of the hull' : 'Edges of the hull', hullFacets],
     ['Rounds of Phase 1', gpu?.rounds.length],
     ['Flips', gpu && gpu.flips23 + gpu.flips32],
     ['Failed vertices', gpu?.failedVertices],
@@ -67,7 +73,8 @@ function showFigures({ points, duplicates, tetrahedra, hullTriangles, stats }: S
   );
 }
 
-function showRepair({ trace, points, tetrahedra, hullTriangles }: Summary): void {
+function showRepair(summary: Summary): void {
+  const { trace, points } = summary;
   const small = points <= MOST_POINTS_TO_RECORD;
   byId('record-section').hidden = trace !== null || !small;
   byId('recorded').hidden = trace === null;
@@ -79,10 +86,7 @@ function showRepair({ trace, points, tetrahedra, hullTriangles }: Summary): void
         : `Runs of up to ${count(MOST_POINTS_TO_RECORD)} points can be recorded to see where.`);
     return;
   }
-  const facets = 2 * tetrahedra + hullTriangles / 2;
-  byId('repair').textContent =
-    `${count(trace.nonDelaunayFacets)} facets, ${share(trace.nonDelaunayFacets, facets)} of all, were not locally Delaunay after ` +
-    `Phase 1. Splaying repaired them all: it made ${count(trace.splayed)} of the tetrahedra, ${share(trace.splayed, tetrahedra)}.`;
+  byId('repair').textContent = repairOf(trace, summary);
 }
 
 /** The slider over the rounds of the trace. Returns what to do with a new mesh. */
@@ -118,7 +122,7 @@ function stepMode(page: Page): (summary: Summary) => void {
   });
   byId('record').addEventListener('click', () => page.record());
   byId('record-few').addEventListener('click', async () => {
-    if (await page.run({ kind: 'generator', distribution: 'ball', count: 1_000, seed: 1 })) await page.record();
+    if (await page.run({ kind: 'generator', dimension: 3, distribution: 'thin-sphere', count: 3_000, seed: 1 })) await page.record();
   });
 
   return ({ trace }) => {

@@ -1,15 +1,19 @@
-import { FORMATS, type Format } from '../model/save';
-import { titleOf } from '../model/source';
+import { FORMATS, type Format, type SavedFile } from '../model/save';
+import { type Source, titleOf } from '../model/source';
 import type { Page, Part } from '../page';
 import { byId, count, create } from './dom';
 import { showMessage } from './message';
 import { nameOf } from './result';
 
+/** The formats of what is to be seen. */
+const VIEWS = ['GLB', 'SVG'] as const;
+
 /** The panel with downloads, the code, and what this machine's WebGPU can do. */
 export function usePanel(page: Page): Part {
-  const buttons = [...FORMATS, 'GLB' as const].map((format) => {
+  const buttons = [...FORMATS, ...VIEWS].map((format) => {
     const button = create('button', { type: 'button' }, format);
     button.addEventListener('click', () => void download(page, format, button));
+    if (format === 'SVG') button.classList.add('in-plane');
     return button;
   });
   byId('downloads').append(...buttons);
@@ -30,13 +34,16 @@ export function usePanel(page: Page): Part {
   };
 }
 
-async function download(page: Page, format: Format | 'GLB', button: HTMLButtonElement): Promise<void> {
+/** The file with what is to be seen. */
+async function viewAs(format: (typeof VIEWS)[number], page: Page): Promise<SavedFile> {
+  if (format === 'GLB') return { extension: '.glb', bytes: await (await import('../view/glb')).toGLB(page) };
+  return { extension: '.svg', bytes: new TextEncoder().encode((await import('../view/svg')).toSVG(page)) };
+}
+
+async function download(page: Page, format: Format | (typeof VIEWS)[number], button: HTMLButtonElement): Promise<void> {
   button.disabled = true;
   try {
-    const files =
-      format === 'GLB'
-        ? [{ extension: '.glb', bytes: await (await import('../view/glb')).toGLB(page) }]
-        : await page.model.save(format);
+    const files = format === 'GLB' || format === 'SVG' ? [await viewAs(format, page)] : await page.model.save(format);
     const stem = titleOf(page.settings.source).replace(/\.[^.]*$/, '').replace(/[^\w-]+/g, '-').toLowerCase();
     for (const { extension, bytes } of files) {
       const link = create('a', {
@@ -54,38 +61,71 @@ async function download(page: Page, format: Format | 'GLB', button: HTMLButtonEl
 }
 
 /** Lines that do with the package what the page has just done. */
-function codeFor({ settings: { source, engine } }: Page): string {
+function codeFor({ settings: { source, engine, edits } }: Page): string {
+  const flat = source.dimension === 2;
   const options = engine === 'auto' ? '' : `, { engine: '${engine}' }`;
-  const points =
-    source.kind === 'generator'
-      ? [
-          `import { delaunay3d, generate } from 'gdel-wasm';`,
-          ``,
-          `const points = await generate('${source.distribution}', ${source.count}, { seed: ${source.seed} });`,
-        ]
-      : [
-          `import { delaunay3d, readPoints } from 'gdel-wasm';`,
-          ``,
-          `const file = await fetch('${source.kind === 'file' ? source.file.name.replaceAll("'", "\\'") : `${source.sample}.ply`}');`,
-          `const { points } = await readPoints(await file.blob(), { name: file.url });`,
-        ];
   return [
     `// npm install gdel-wasm`,
-    ...points,
-    `const mesh = await delaunay3d(points${options});`,
+    ...(edits.length > 0 ? EDITED : source.kind === 'generator' ? generated(source) : read(source)),
+    `const mesh = await ${flat ? 'delaunay2d' : 'delaunay3d'}(points${options});`,
     ``,
-    `mesh.tetrahedra;  // Uint32Array, 4 point indices each`,
-    `mesh.neighbors;   // Int32Array, -1 is outside`,
-    `mesh.hull;        // Uint32Array, 3 a triangle`,
-    `mesh.stats;       // engine, phases, rounds, flips`,
+    ...(flat ? RESULTS[2] : RESULTS[3]),
+    `mesh.stats;      // engine, phases, rounds`,
     ``,
-    `const vtu = await mesh.toVTU();  // for ParaView`,
+    `const vtu = await mesh.toVTU();`,
   ].join('\n');
 }
 
+const EDITED = [`import { delaunay2d } from 'gdel-wasm';`, ``, `const points = [[0, 0], [1, 0], [0, 1]];`];
+
+function generated({ dimension, distribution, count, seed }: Source & { kind: 'generator' }): string[] {
+  const [triangulate, make] = dimension === 2 ? ['delaunay2d', 'generate2d'] : ['delaunay3d', 'generate'];
+  return [
+    `import { ${triangulate}, ${make} }`,
+    `  from 'gdel-wasm';`,
+    ``,
+    `const points = await ${make}(`,
+    `  '${distribution}', ${count}, { seed: ${seed} });`,
+  ];
+}
+
+function read(source: Exclude<Source, { kind: 'generator' }>): string[] {
+  const name = source.kind === 'file' ? source.file.name.replaceAll("'", "\\'") : `${source.sample}.ply`;
+  const flat = source.dimension === 2;
+  return [
+    `import { ${flat ? 'delaunay2d' : 'delaunay3d'}, readPoints }`,
+    `  from 'gdel-wasm';`,
+    ``,
+    `const file = await fetch('${name}');`,
+    `const { points${flat ? ': xyz' : ''} } = await readPoints(`,
+    `  await file.blob(), { name: file.url });`,
+    ...(flat ? [`const points = xyz.filter((_, i) => i % 3 < 2);`] : []),
+  ];
+}
+
+const RESULTS = {
+  3: [
+    `mesh.tetrahedra; // 4 point indices each`,
+    `mesh.neighbors;  // 4 each, -1 is outside`,
+    `mesh.hull;       // 3 indices a triangle`,
+  ],
+  2: [
+    `mesh.triangles;  // 3 point indices each`,
+    `mesh.halfedges;  // 3 each, -1 is outside`,
+    `mesh.hull;       // indices in order`,
+  ],
+};
+
+const bytes = (n: number) => (n < 2 ** 20 ? `${count(n / 2 ** 10)} KiB` : `${count(Math.floor(n / 2 ** 20))} MiB`);
+
+/** The limits of WebGPU that bound the size of the input, or its speed. */
 const LIMITS = [
-  'maxBufferSize', 'maxStorageBufferBindingSize', 'maxStorageBuffersPerShaderStage', 'maxComputeInvocationsPerWorkgroup',
-  'maxComputeWorkgroupStorageSize', 'maxComputeWorkgroupsPerDimension',
+  ['maxBufferSize', 'Largest buffer', bytes],
+  ['maxStorageBufferBindingSize', 'Largest storage buffer', bytes],
+  ['maxStorageBuffersPerShaderStage', 'Storage buffers a stage', count],
+  ['maxComputeInvocationsPerWorkgroup', 'Threads a workgroup', count],
+  ['maxComputeWorkgroupStorageSize', 'Memory a workgroup', bytes],
+  ['maxComputeWorkgroupsPerDimension', 'Workgroups a dimension', count],
 ] as const;
 
 async function describeMachine({ model, viewer }: Page): Promise<void> {
@@ -97,6 +137,6 @@ async function describeMachine({ model, viewer }: Page): Promise<void> {
     ['Drawing', viewer ? viewer.api : 'none'],
   ];
   const limits = (await navigator.gpu?.requestAdapter())?.limits;
-  if (limits) rows.push(...LIMITS.map((limit): [string, string] => [limit, count(limits[limit])]));
+  if (limits) rows.push(...LIMITS.map(([limit, name, show]): [string, string] => [name, show(limits[limit])]));
   byId('machine').replaceChildren(...rows.map(([name, value]) => create('tr', {}, create('th', { scope: 'row' }, name), create('td', {}, value))));
 }

@@ -2,23 +2,41 @@ import type { Filter } from '../geometry/filter';
 import type { ColorBy } from '../geometry/scale';
 import { MOST_PIECES } from '../model/model';
 import type { Page, Part } from '../page';
-import { type Layer, LAYERS, type Settings, type Up } from '../settings';
+import type { Dimension } from '../model/source';
+import { colorsIn, type Layer, LAYERS, type Settings, type Up } from '../settings';
 import { COLOR_MAPS, type ColorMapName } from '../view/colormap';
-import { byId, count, create, measured } from './dom';
+import { byId, count, create, measured, radios } from './dom';
 import { QUANTITIES } from './legend';
 
-const LAYER_NAMES: Record<Layer, string> = {
-  tetrahedra: 'Tetrahedra',
-  edges: 'Edges',
-  points: 'Points where nothing else is',
-  hull: 'Convex hull',
-  facets: 'Non-Delaunay facets after Phase 1',
+/** What the layers of space and those of the plane are called. */
+const LAYER_NAMES: Record<Dimension, Partial<Record<Layer, string>>> = {
+  3: {
+    simplices: 'Tetrahedra',
+    edges: 'Edges',
+    points: 'Points where nothing else is',
+    hull: 'Convex hull',
+    facets: 'Non-Delaunay facets after Phase 1',
+  },
+  2: {
+    simplices: 'Triangles, filled',
+    edges: 'Delaunay edges',
+    voronoi: 'Voronoi diagram',
+    hull: 'Convex hull',
+    points: 'Points',
+  },
 };
 
-const FILTER_NOTES: Record<Filter['kind'], string> = {
-  all: 'Every tetrahedron. Together they fill the convex hull.',
-  carve: 'Carved from outside with a ball of radius α. Of a scanned surface, this leaves the solid.',
-  alpha: 'Only tetrahedra with a circumradius of at most α.',
+const FILTER_NOTES: Record<Dimension, Record<Filter['kind'], string>> = {
+  3: {
+    all: 'Every tetrahedron. Together they fill the convex hull.',
+    carve: 'Carved from outside with a ball of radius α. Of a scanned surface, this leaves the solid.',
+    alpha: 'Only tetrahedra with a circumradius of at most α.',
+  },
+  2: {
+    all: 'Every triangle. Together they fill the convex hull.',
+    carve: '',
+    alpha: 'Only triangles with a circumradius of at most α.',
+  },
 };
 
 const NORMALS: Record<string, Settings['normal']> = {
@@ -28,7 +46,6 @@ const NORMALS: Record<string, Settings['normal']> = {
 /** The panel that says how the mesh is drawn, and the slider for the plane on the stage. */
 export function viewPanel(page: Page): Part {
   const color = byId<HTMLSelectElement>('color');
-  color.append(...Object.entries(QUANTITIES).map(([value, title]) => create('option', { value }, title)));
   color.addEventListener('change', () => page.change({ color: color.value as ColorBy }));
 
   const map = byId<HTMLSelectElement>('map');
@@ -46,8 +63,8 @@ export function viewPanel(page: Page): Part {
   });
   byId('face').addEventListener('click', () => page.viewer && page.change({ normal: page.viewer.towardsCamera }));
 
-  const ups = radios<Up>('up', (up) => page.change({ up }));
-  const filters = radios<Filter['kind']>('filter', (filter) => page.change({ filter }));
+  const ups = radios('up', (up) => page.change({ up: up as Up }));
+  const filters = radios('filter', (filter) => page.change({ filter: filter as Filter['kind'] }));
   const alpha = byId<HTMLInputElement>('alpha');
   alpha.addEventListener('input', () => page.change({ alpha: alphaAt(alpha.valueAsNumber, page) }));
 
@@ -57,18 +74,32 @@ export function viewPanel(page: Page): Part {
   const layers = LAYERS.map((layer) => {
     const box = create('input', { type: 'checkbox' });
     box.addEventListener('change', () => page.change({ layers: { ...page.settings.layers, [layer]: box.checked } }));
-    byId('layers').append(create('label', {}, box, LAYER_NAMES[layer]));
     return { layer, box };
   });
 
+  let offered: Dimension | null = null;
+  /** What there is in the dimension. */
+  const offer = (dimension: Dimension) => {
+    if (dimension === offered) return;
+    offered = dimension;
+    color.replaceChildren(...colorsIn(dimension).map((value) => create('option', { value }, QUANTITIES[value][dimension][0])));
+    const names = LAYER_NAMES[dimension];
+    const offers = Object.keys(names) as Layer[];
+    byId('layers').replaceChildren(
+      ...offers.map((layer) => create('label', {}, layers.find((each) => each.layer === layer)!.box, names[layer]!)),
+    );
+  };
+
   const changed = (settings: Settings) => {
+    const { dimension } = settings.source;
+    offer(dimension);
     color.value = settings.color;
     map.value = settings.map;
     keep.value = String(settings.keep);
     for (const { radio, normal } of normals) radio.checked = normal.join() === settings.normal.join();
     for (const radio of filters) radio.checked = radio.value === settings.filter;
     for (const radio of ups) radio.checked = radio.value === settings.up;
-    byId('filter-note').textContent = FILTER_NOTES[settings.filter];
+    byId('filter-note').textContent = FILTER_NOTES[dimension][settings.filter];
     alpha.disabled = settings.filter === 'all';
     if (page.summary) {
       const value = settings.alpha ?? page.summary.alpha.typical;
@@ -89,12 +120,6 @@ export function viewPanel(page: Page): Part {
           : '';
     },
   };
-}
-
-function radios<T extends string>(name: string, onChoice: (value: T) => void): HTMLInputElement[] {
-  const all = [...document.querySelectorAll<HTMLInputElement>(`input[name=${name}]`)];
-  for (const radio of all) radio.addEventListener('change', () => onChoice(radio.value as T));
-  return all;
 }
 
 // The slider is logarithmic: radii span orders of magnitude.

@@ -1,10 +1,10 @@
 import {
-  attribute, float, Fn, instancedBufferAttribute, mix, normalFlat, positionGeometry, select, smoothstep, texture, uniform, varying,
-  vec2, vec3, vertexIndex,
+  attribute, cameraProjectionMatrix, float, Fn, instancedBufferAttribute, mix, modelViewMatrix, normalFlat, positionGeometry, select,
+  smoothstep, texture, uniform, uv, varying, vec2, vec3, vec4, vertexIndex,
 } from 'three/tsl';
 import {
-  Color, DataTexture, DoubleSide, type InstancedBufferAttribute, LinearFilter, LineBasicNodeMaterial, MeshBasicNodeMaterial,
-  type Node, PointsNodeMaterial, RGBAFormat, SRGBColorSpace, UnsignedByteType, Vector3,
+  Color, DataTexture, DoubleSide, type InstancedBufferAttribute, LinearFilter, MeshBasicNodeMaterial, type Node, PointsNodeMaterial,
+  RGBAFormat, SRGBColorSpace, UnsignedByteType, Vector2, Vector3,
 } from 'three/webgpu';
 import { texels, type ColorMapName } from './colormap';
 
@@ -21,6 +21,15 @@ export class Look {
   readonly pointsAbove = uniform(-1e9);
   /** 1 to draw them all the same. */
   readonly pointsEverywhere = uniform(0);
+  /** 1 to fill the triangles of the plane, 0 for their edges alone. */
+  readonly fill = uniform(1);
+  /** Of the Voronoi diagram, which fades where it would cover everything. */
+  readonly voronoiOpacity = uniform(1);
+  /** Its box: towards the sides it fades as well. */
+  readonly voronoiMiddle = uniform(new Vector2());
+  readonly voronoiReach = uniform(new Vector2(1, 1));
+  /** The canvas in pixels as CSS has them. */
+  readonly size = uniform(new Vector2(1, 1));
   readonly map = new DataTexture(texels('viridis'), 256, 1, RGBAFormat, UnsignedByteType);
 
   constructor() {
@@ -47,14 +56,18 @@ const edgeness = Fn(() => {
   return float(1).sub(inside.x.min(inside.y).min(inside.z)).mul(float(1).sub(smoothstep(0.25, 0.7, crowded)));
 });
 
+/** How much the triangles of the plane cover of the ground. */
+const PALE = 0.55;
+
 // Dark in both themes: light edges would drown the colours.
 const EDGE = vec3(0.004, 0.005, 0.008);
+
+const colorOf = (look: Look, value: Node<'float'>) => texture(look.map, vec2(value.mul(255 / 256).add(0.5 / 256), 0.5)).rgb;
 
 /** The colour of a value under a lamp beside the camera. */
 function shaded(look: Look, value: Node<'float'>): Node<'vec3'> {
   const lit = normalFlat.dot(vec3(0.28, 0.48, 0.83)).mul(0.5).add(0.5);
-  const base = texture(look.map, vec2(value.mul(255 / 256).add(0.5 / 256), 0.5)).rgb;
-  const color = base.mul(lit.mul(lit).mul(0.9).add(0.2));
+  const color = colorOf(look, value).mul(lit.mul(lit).mul(0.9).add(0.2));
   return mix(color, EDGE, edgeness().mul(look.edges).mul(0.5));
 }
 
@@ -63,6 +76,39 @@ export function surfaceMaterial(look: Look): MeshBasicNodeMaterial {
   const material = new MeshBasicNodeMaterial();
   material.colorNode = shaded(look, varying(attribute<'float'>('value', 'float')));
   return material;
+}
+
+/** For the triangles of the plane; reads the attribute `value`. */
+export function flatMaterial(look: Look): MeshBasicNodeMaterial {
+  const material = new MeshBasicNodeMaterial({ transparent: true, depthWrite: false });
+  const edge = edgeness().mul(look.edges);
+  const base = colorOf(look, varying(attribute<'float'>('value', 'float')));
+  material.colorNode = mix(mix(look.ink, base, look.fill), look.ink, edge.mul(0.75));
+  // Pale, so that what lies above can be seen: the legend is as pale.
+  material.opacityNode = edge.mul(0.65).max(look.fill.mul(PALE));
+  return material;
+}
+
+/** For lines so many pixels wide; reads the instances' ends `a` and `b`, and in x and y which end and which side. */
+export function linesMaterial(look: Look, color: Node<'color'>, width: number, opacity: Node<'float'>): MeshBasicNodeMaterial {
+  const material = new MeshBasicNodeMaterial({ transparent: true, depthTest: false, depthWrite: false, side: DoubleSide });
+  const toClip = (end: string) => cameraProjectionMatrix.mul(modelViewMatrix.mul(vec4(attribute<'vec3'>(end, 'vec3'), 1)));
+  const [a, b] = [toClip('a'), toClip('b')];
+  const along = b.xy.div(b.w).sub(a.xy.div(a.w)).mul(look.size).normalize();
+  const across = vec2(along.y.negate(), along.x).mul(positionGeometry.y.mul(width)).div(look.size);
+  const end = mix(a, b, positionGeometry.x);
+  material.vertexNode = vec4(end.xy.add(across.mul(end.w)), end.z, end.w);
+  material.colorNode = color;
+  material.opacityNode = opacity;
+  return material;
+}
+
+/** For the Voronoi diagram, whose edges go on where nothing is any more. */
+export function voronoiMaterial(look: Look): MeshBasicNodeMaterial {
+  const place = varying(mix(attribute<'vec3'>('a', 'vec3'), attribute<'vec3'>('b', 'vec3'), positionGeometry.x).xy);
+  const outwards = place.sub(look.voronoiMiddle).abs().div(look.voronoiReach);
+  const fade = float(1).sub(smoothstep(0.7, 1, outwards.x.max(outwards.y)));
+  return linesMaterial(look, look.accent, 1.5, look.voronoiOpacity.mul(fade));
 }
 
 /** For whole tetrahedra, one an instance; reads the instances' `a`, `b`, `c`, `d`, `value` and the corner number in x. */
@@ -88,7 +134,9 @@ export function pointsMaterial(look: Look, positions: InstancedBufferAttribute):
     float(0),
   );
   material.colorNode = look.ink;
-  material.opacityNode = look.pointOpacity;
+  // Round, where there is room for it.
+  const round = float(1).sub(smoothstep(0.38, 0.5, uv().sub(0.5).length()));
+  material.opacityNode = look.pointOpacity.mul(select(look.pointSize.greaterThan(3), round, float(1)));
   return material;
 }
 
@@ -105,12 +153,5 @@ export function accentMaterial(look: Look): MeshBasicNodeMaterial {
   const material = new MeshBasicNodeMaterial({ transparent: true, depthTest: false, depthWrite: false, side: DoubleSide });
   material.colorNode = look.accent;
   material.opacityNode = edgeness().mul(0.3).add(0.6);
-  return material;
-}
-
-/** For the outline of the tetrahedron under the pointer. */
-export function outlineMaterial(look: Look): LineBasicNodeMaterial {
-  const material = new LineBasicNodeMaterial({ depthTest: false });
-  material.colorNode = look.accent;
   return material;
 }

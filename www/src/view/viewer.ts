@@ -1,19 +1,35 @@
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import {
-  BufferAttribute, BufferGeometry, Color, Group, InstancedBufferAttribute, InstancedBufferGeometry, LineSegments, type Material, Mesh,
-  type Object3D, PerspectiveCamera, Raycaster, Scene, Sphere, Spherical, Sprite, Vector2, Vector3, WebGPURenderer,
+  BufferAttribute, BufferGeometry, Color, Group, InstancedBufferAttribute, InstancedBufferGeometry,
+  InstancedInterleavedBuffer, InterleavedBufferAttribute, type Material, Mesh, MOUSE, type Object3D, PerspectiveCamera, Raycaster, Scene, Sphere, Spherical, Sprite, TOUCH, Vector2, Vector3, WebGPURenderer,
 } from 'three/webgpu';
+import { float } from 'three/tsl';
 import { FACETS } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
 import type { Pieces } from '../geometry/pieces';
 import type { Surface } from '../geometry/surface';
+import type { Voronoi } from '../geometry/voronoi';
+import type { Dimension } from '../model/source';
 import type { ColorMapName } from './colormap';
-import { accentMaterial, hullMaterial, Look, outlineMaterial, piecesMaterial, pointsMaterial, surfaceMaterial } from './materials';
+import { accentMaterial, flatMaterial, hullMaterial, linesMaterial, Look, piecesMaterial, pointsMaterial, surfaceMaterial, voronoiMaterial } from './materials';
 
-/** Where the camera is: the direction from the target as angles, the distance, and the target. */
+/** Where the camera is: the direction from the target as angles, the distance, and the target. In the plane it looks straight down. */
 export type CameraPose = [azimuth: number, elevation: number, distance: number, x: number, y: number, z: number];
 
 const EVERYWHERE = new Sphere(new Vector3(), Infinity);
+
+/** What can be shown and hidden. The hull and the surface have one layer for space and one for the plane. */
+interface Layers {
+  surface: Mesh;
+  flat: Mesh;
+  pieces: Mesh;
+  hull: Mesh;
+  hullEdges: Mesh;
+  voronoi: Mesh;
+  facets: Mesh;
+  outline: Mesh;
+  points: Sprite | null;
+}
 
 /** Draws a mesh into a canvas, and only when something changed. */
 export class Viewer {
@@ -24,9 +40,8 @@ export class Viewer {
   private readonly camera = new PerspectiveCamera(38, 1, 0.01, 100);
   private readonly controls: OrbitControls;
   private frame = 0;
-  private readonly layers: {
-    surface: Mesh; pieces: Mesh; hull: Mesh; facets: Mesh; outline: LineSegments; points: Sprite | null;
-  };
+  private dimension: Dimension = 3;
+  private readonly layers: Layers;
 
   private constructor(
     private readonly renderer: WebGPURenderer,
@@ -41,12 +56,16 @@ export class Viewer {
       this.render();
       onCamera();
     });
+    const { look } = this;
     this.layers = {
-      surface: this.add(new Mesh(new BufferGeometry(), surfaceMaterial(this.look))),
-      pieces: this.add(new Mesh(new BufferGeometry(), piecesMaterial(this.look))),
-      hull: this.add(new Mesh(new BufferGeometry(), hullMaterial(this.look)), 2),
-      facets: this.add(new Mesh(new BufferGeometry(), accentMaterial(this.look)), 3),
-      outline: this.add(new LineSegments(new BufferGeometry(), outlineMaterial(this.look)), 4),
+      surface: this.add(new Mesh(new BufferGeometry(), surfaceMaterial(look))),
+      flat: this.add(new Mesh(new BufferGeometry(), flatMaterial(look))),
+      pieces: this.add(new Mesh(new BufferGeometry(), piecesMaterial(look))),
+      voronoi: this.add(new Mesh(new BufferGeometry(), voronoiMaterial(look)), 1),
+      hull: this.add(new Mesh(new BufferGeometry(), hullMaterial(look)), 2),
+      hullEdges: this.add(new Mesh(new BufferGeometry(), linesMaterial(look, look.ink, 2, float(0.8))), 2),
+      facets: this.add(new Mesh(new BufferGeometry(), accentMaterial(look)), 4),
+      outline: this.add(new Mesh(new BufferGeometry(), linesMaterial(look, look.ink, 2, float(1))), 5),
       points: null,
     };
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
@@ -66,16 +85,43 @@ export class Viewer {
     return 'isWebGPUBackend' in this.renderer.backend ? 'WebGPU' : 'WebGL 2';
   }
 
+  /** From now on, what comes lies in space or in the plane. What was shown goes. */
+  setDimension(dimension: Dimension): void {
+    if (dimension === this.dimension) return;
+    this.dimension = dimension;
+    const flat = dimension === 2;
+    for (const layer of Object.values<Mesh | Sprite | null>(this.layers as never)) if (layer instanceof Mesh) this.replace(layer, null);
+    this.showPoints(null);
+    this.controls.enableRotate = !flat;
+    this.controls.zoomToCursor = flat;
+    this.controls.mouseButtons.LEFT = flat ? MOUSE.PAN : MOUSE.ROTATE;
+    this.controls.touches.ONE = flat ? TOUCH.PAN : TOUCH.ROTATE;
+    this.controls.minDistance = flat ? 0.001 : 0.05;
+    this.camera.near = flat ? 1e-4 : 0.01;
+    this.resize();
+  }
+
   showSurface(surface: Surface | null): void {
-    this.replace(this.layers.surface, surface && triangles(surface.positions, surface.values));
+    const layer = this.dimension === 2 ? this.layers.flat : this.layers.surface;
+    this.replace(layer, surface && triangles(surface.positions, surface.values));
+  }
+
+  showVoronoi(diagram: Voronoi | null): void {
+    this.replace(this.layers.voronoi, diagram && lines(diagram.ends));
+    if (!diagram) return;
+    const { low, high } = diagram.box;
+    this.look.voronoiMiddle.value.set((low[0] + high[0]) / 2, (low[1] + high[1]) / 2);
+    this.look.voronoiReach.value.set((high[0] - low[0]) / 2, (high[1] - low[1]) / 2);
   }
 
   showPieces(pieces: Pieces | null): void {
     this.replace(this.layers.pieces, pieces && instances(pieces));
   }
 
-  showHull(positions: Float32Array | null): void {
-    this.replace(this.layers.hull, positions && triangles(positions));
+  /** The corners of the hull's facets: triangles in space, edges in the plane. */
+  showHull(corners: Float32Array | null): void {
+    if (this.dimension === 2) this.replace(this.layers.hullEdges, corners && lines(corners));
+    else this.replace(this.layers.hull, corners && triangles(corners));
   }
 
   /** Points some facets out, nine coordinates each. */
@@ -83,11 +129,9 @@ export class Viewer {
     this.replace(this.layers.facets, positions && triangles(positions));
   }
 
-  /** Outlines one tetrahedron, given by its four corners' twelve coordinates. */
-  showOutline(corners: Float32Array | null): void {
-    const edges = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
-    const lines = corners && new Float32Array(edges.flatMap((k) => [...corners.subarray(3 * k, 3 * k + 3)]));
-    this.replace(this.layers.outline, lines && triangles(lines));
+  /** Lines around one simplex, two ends of three coordinates each. */
+  showOutline(ends: Float32Array | null): void {
+    this.replace(this.layers.outline, ends && lines(ends));
   }
 
   showPoints(positions: Float32Array | null): void {
@@ -113,9 +157,9 @@ export class Viewer {
   }
 
   /** Shows or hides what a layer holds, without giving it up. */
-  setVisible(layer: 'surface' | 'pieces' | 'hull' | 'facets' | 'points', visible: boolean): void {
+  setVisible(layer: Exclude<keyof Layers, 'outline'>, visible: boolean): void {
     const object = this.layers[layer];
-    if (object) object.visible = visible && (layer === 'points' || object.geometry.hasAttribute('position'));
+    if (object) object.visible = visible && (object instanceof Sprite || object.geometry.hasAttribute('position'));
     this.render();
   }
 
@@ -157,6 +201,33 @@ export class Viewer {
     this.pose = [a + azimuth, Math.min(1.55, Math.max(-1.55, e + elevation)), d * zoom, ...target];
   }
 
+  /** Moves over the plane, by shares of what is seen of it. */
+  pan(right: number, up: number): void {
+    const [a, e, d, x, y, z] = this.pose;
+    const [width, height] = this.seen;
+    this.pose = [a, e, d, x + right * width, y + up * height, z];
+  }
+
+  /** How much of the plane is seen, in the frame. */
+  get seen(): [width: number, height: number] {
+    const height = 2 * this.pose[2] * Math.tan((Math.PI / 360) * this.camera.fov);
+    return [height * this.camera.aspect, height];
+  }
+
+  /** The place on the plane under a place on the canvas. */
+  onPlane(x: number, y: number): [x: number, y: number] {
+    const { origin, direction } = this.ray(x, y);
+    const t = -origin[2] / direction[2];
+    return [origin[0] + t * direction[0], origin[1] + t * direction[1]];
+  }
+
+  /** The place on the canvas of a place on the plane. */
+  onCanvas(x: number, y: number): [x: number, y: number] {
+    this.camera.updateMatrixWorld();
+    const projected = new Vector3(x, y, 0).project(this.camera);
+    return [((projected.x + 1) / 2) * this.canvas.clientWidth, ((1 - projected.y) / 2) * this.canvas.clientHeight];
+  }
+
   /** The direction from the model to the camera, in the model's axes, of length 1. */
   get towardsCamera(): [number, number, number] {
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
@@ -177,6 +248,7 @@ export class Viewer {
   render(): void {
     this.frame ||= requestAnimationFrame(() => {
       this.frame = 0;
+      if (this.dimension === 2) this.thinOut();
       this.renderer.render(this.scene, this.camera);
     });
   }
@@ -185,6 +257,17 @@ export class Viewer {
   drawn(): Promise<void> {
     this.render();
     return new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve())));
+  }
+
+  /** In the plane, points and Voronoi diagram become smaller and paler where many of them are seen, and come back near by. */
+  private thinOut(): void {
+    const count = this.layers.points?.count ?? 1;
+    // In pixels, of points spread over the unit circle.
+    const apart = (this.canvas.clientHeight / this.seen[1]) * Math.sqrt(Math.PI / count);
+    const { pointSize, pointOpacity, voronoiOpacity } = this.look;
+    pointSize.value = Math.min(7, Math.max(1.2, 0.25 * apart));
+    pointOpacity.value = Math.min(0.95, Math.max(0.1, apart / 14));
+    voronoiOpacity.value = Math.min(0.95, Math.max(0, apart / 16 - 0.1));
   }
 
   private add<T extends Object3D>(object: T, order = 0): T {
@@ -207,11 +290,15 @@ export class Viewer {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(clientWidth, clientHeight);
+    this.look.size.value.set(clientWidth, clientHeight);
     this.camera.aspect = clientWidth / clientHeight;
     // The smaller side of the canvas sees the same angle, whichever side it is.
-    this.camera.fov = (360 / Math.PI) * Math.atan(Math.tan(Math.PI / 9.5) / Math.min(1, this.camera.aspect));
-    // The title is at the top left: the model makes room, sidewards where there is width, else downwards.
-    const [right, down] = clientWidth > 700 ? [0.07 * clientWidth, 0.02 * clientHeight] : [0, 0.05 * clientHeight];
+    const wide = clientWidth > 700;
+    const zoom = this.dimension === 2 && !wide ? 1.12 : 1;
+    this.camera.fov = (360 / Math.PI) * Math.atan((zoom * Math.tan(Math.PI / 9.5)) / Math.min(1, this.camera.aspect));
+    // The title is at the top left: the model makes room, sidewards where there is width, else downwards, and by being smaller
+    // where it would fill the canvas.
+    const [right, down] = wide ? [0.07 * clientWidth, 0.02 * clientHeight] : [0, 0.05 * clientHeight];
     this.camera.setViewOffset(clientWidth, clientHeight, -right, -down, clientWidth, clientHeight);
     this.render();
   }
@@ -222,6 +309,21 @@ function triangles(positions: Float32Array, values?: Float32Array): BufferGeomet
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(positions, 3));
   if (values) geometry.setAttribute('value', new BufferAttribute(values, 1));
+  geometry.boundingSphere = EVERYWHERE;
+  return geometry;
+}
+
+/** Each line as two triangles: in x which end a corner belongs to, in y which side. */
+const SIDES = Float32Array.of(0, -1, 0, 1, -1, 0, 1, 1, 0, 0, -1, 0, 1, 1, 0, 0, 1, 0);
+
+function lines(ends: Float32Array): BufferGeometry | null {
+  if (ends.length === 0) return null;
+  const geometry = new InstancedBufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(SIDES, 3));
+  const pairs = new InstancedInterleavedBuffer(ends, 6);
+  geometry.setAttribute('a', new InterleavedBufferAttribute(pairs, 3, 0));
+  geometry.setAttribute('b', new InterleavedBufferAttribute(pairs, 3, 3));
+  geometry.instanceCount = ends.length / 6;
   geometry.boundingSphere = EVERYWHERE;
   return geometry;
 }

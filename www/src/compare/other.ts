@@ -1,0 +1,25 @@
+/** What another library made of the points. */
+export interface OtherResult {
+  milliseconds: number;
+  simplices: number;
+  /** Those of volume or area zero, by exact arithmetic. */
+  flat: number;
+}
+
+const WORKERS = {
+  'qhull-wasm': () => new Worker(new URL('./qhull.worker.ts', import.meta.url), { type: 'module' }),
+  delaunator: () => new Worker(new URL('./delaunator.worker.ts', import.meta.url), { type: 'module' }),
+};
+
+/** Runs a library on points in a worker of its own. Aborting ends the worker. */
+export function runOther(library: keyof typeof WORKERS, points: Float32Array | Float64Array, signal: AbortSignal): Promise<OtherResult> {
+  const worker = WORKERS[library]();
+  const result = new Promise<OtherResult>((resolve, reject) => {
+    worker.onmessage = ({ data }) => resolve(data);
+    worker.onerror = (event) => reject(new Error(event.message || `${library} could not be run.`));
+    signal.addEventListener('abort', () => reject(signal.reason));
+  });
+  const doubles = Float64Array.from(points);
+  worker.postMessage(doubles, [doubles.buffer]);
+  return result.finally(() => worker.terminate());
+}

@@ -1,0 +1,149 @@
+import type { Engine as Gdel, Mesh2, PlaneOptions } from 'gdel-wasm';
+import { typicalAlpha } from '../geometry/filter';
+import type { Measures } from '../geometry/measures';
+import { type Frame, toFrame } from '../geometry/mesh';
+import { firstHit, type Ray } from '../geometry/pick';
+import { mapping, percentiles, scaleFor } from '../geometry/scale';
+import { flatSurface, measureTriangles, type Triangulation } from '../geometry/triangles';
+import { type Box, type Voronoi, voronoiEdges } from '../geometry/voronoi';
+import { cornersOf, type Drawing, type DrawRequest, type Model, MOST_FACETS, type Picked, type Summary } from './model';
+
+/** How far beyond the points the Voronoi diagram goes on, as a share of their extent. */
+const MARGIN = 0.2;
+
+const CIRCLE_STEPS = 128;
+
+/** The model of points in the plane. */
+export class PlaneModel implements Model {
+  readonly positions: Float32Array;
+  private readonly drawable: Triangulation;
+  private measures: Measures | null = null;
+  private diagram: Voronoi | null = null;
+  private drawing: Drawing | null = null;
+
+  private constructor(
+    readonly points: Float32Array | Float64Array,
+    readonly mesh: Mesh2,
+    readonly frame: Frame,
+  ) {
+    this.positions = toFrame(points, frame, 2);
+    this.drawable = { positions: this.positions, triangles: mesh.triangles, halfedges: mesh.halfedges, hull: mesh.hull };
+  }
+
+  static async make(gdel: Gdel, points: Float32Array | Float64Array, options: PlaneOptions, frame: Frame): Promise<PlaneModel> {
+    return new PlaneModel(points, await gdel.delaunay2d(points, options), frame);
+  }
+
+  summary(): Summary {
+    const { mesh } = this;
+    const [low, high] = percentiles(this.measured.circumradius, 0.02, 1);
+    let duplicates = 0;
+    for (const stand of mesh.duplicateOf) if (stand >= 0) duplicates++;
+    return {
+      space: 2,
+      dimension: mesh.dimension,
+      points: this.points.length / 2,
+      duplicates,
+      simplices: mesh.triangles.length / 3,
+      hullFacets: mesh.dimension === 2 ? mesh.hull.length : 0,
+      stats: mesh.stats,
+      frame: this.frame,
+      alpha: { typical: typicalAlpha(this.points, mesh.triangles, 2), range: [low, high] },
+      trace: null,
+    };
+  }
+
+  draw({ filter, color, voronoi }: DrawRequest): Drawing {
+    const started = performance.now();
+    const { circumradius } = this.measured;
+    const alpha = filter.kind === 'all' ? Infinity : filter.alpha;
+    const kept = new Uint8Array(circumradius.length);
+    const all = new Uint32Array(circumradius.length);
+    let count = 0;
+    for (let t = 0; t < kept.length; t++) {
+      if (circumradius[t] > alpha) continue;
+      kept[t] = 1;
+      all[count++] = t;
+    }
+    const scale = scaleFor(color, this.measured, kept);
+    this.drawing = {
+      surface: flatSurface(this.drawable, all.slice(0, Math.min(count, MOST_FACETS)), mapping(scale, this.measured, null)),
+      pieces: null,
+      voronoi: voronoi ? (this.diagram ??= voronoiEdges(this.points, this.frame, this.drawable, this.surroundings())) : null,
+      scale,
+      shown: count,
+      total: kept.length,
+      leftOut: Math.max(0, count - MOST_FACETS),
+      level: Infinity,
+      milliseconds: performance.now() - started,
+    };
+    return this.drawing;
+  }
+
+  pick(ray: Ray): Picked | null {
+    const surface = this.drawing?.surface;
+    const hit = surface ? firstHit(surface.positions, ray) : -1;
+    return hit < 0 ? null : this.describe(surface!.owners[hit]);
+  }
+
+  private describe(index: number): Picked {
+    const { triangles, halfedges } = this.mesh;
+    const { volume, circumradius, radiusRatio } = this.measured;
+    const vertices = [...triangles.subarray(3 * index, 3 * index + 3)];
+    return {
+      index,
+      vertices,
+      neighbors: [...halfedges.subarray(3 * index, 3 * index + 3)].map((e) => (e < 0 ? -1 : Math.floor(e / 3))),
+      volume: volume[index],
+      circumradius: circumradius[index],
+      radiusRatio: radiusRatio[index],
+      phase: null,
+      outline: outlineOf(cornersOf(this.positions, vertices)),
+    };
+  }
+
+  /** Two ends an edge. Where all points are collinear, the way from the first to the last. */
+  hull(): Float32Array {
+    const { hull, dimension } = this.mesh;
+    const edges = dimension === 2 ? hull.length : Math.max(0, hull.length - 1);
+    const ends = new Uint32Array(2 * edges);
+    for (let i = 0; i < edges; i++) {
+      ends[2 * i] = hull[i];
+      ends[2 * i + 1] = hull[(i + 1) % hull.length];
+    }
+    return cornersOf(this.positions, ends);
+  }
+
+  private surroundings(): Box {
+    const low: [number, number] = [Infinity, Infinity];
+    const high: [number, number] = [-Infinity, -Infinity];
+    for (let i = 0; i < this.positions.length; i += 3) {
+      for (const axis of [0, 1]) {
+        low[axis] = Math.min(low[axis], this.positions[i + axis]);
+        high[axis] = Math.max(high[axis], this.positions[i + axis]);
+      }
+    }
+    const margin = MARGIN * Math.max(high[0] - low[0], high[1] - low[1]);
+    return { low: [low[0] - margin, low[1] - margin], high: [high[0] + margin, high[1] + margin] };
+  }
+
+  private get measured(): Measures {
+    return (this.measures ??= measureTriangles(this.points, this.mesh.triangles));
+  }
+}
+
+/** A triangle's edges and its circumcircle. */
+function outlineOf(corners: Float32Array): Float32Array {
+  const [ax, ay, , bx, by, , cx, cy] = corners;
+  const [ux, uy, vx, vy] = [bx - ax, by - ay, cx - ax, cy - ay];
+  const twice = 2 * (ux * vy - uy * vx);
+  const [uu, vv] = [ux * ux + uy * uy, vx * vx + vy * vy];
+  const [x, y] = [(vy * uu - uy * vv) / twice, (ux * vv - vx * uu) / twice];
+  const radius = Math.hypot(x, y);
+  const around = Array.from({ length: CIRCLE_STEPS + 1 }, (_, i) => {
+    const angle = (2 * Math.PI * i) / CIRCLE_STEPS;
+    return [ax + x + radius * Math.cos(angle), ay + y + radius * Math.sin(angle), 0];
+  });
+  const circle = around.slice(1).flatMap((to, i) => [...around[i], ...to]);
+  return Float32Array.from([...cornersOf(corners, [0, 1, 1, 2, 2, 0]), ...(Number.isFinite(radius) ? circle : [])]);
+}

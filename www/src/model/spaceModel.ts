@@ -1,0 +1,197 @@
+import type { Engine as Gdel, Mesh3, RunOptions } from 'gdel-wasm';
+import { applyFilter, type Filter, type Kept, typicalAlpha } from '../geometry/filter';
+import { type Measures, measure } from '../geometry/measures';
+import { FACETS, type Frame, frameOf, type Tetrahedralisation, toFrame } from '../geometry/mesh';
+import { firstHit, type Ray } from '../geometry/pick';
+import { outermost, piecesOf, trianglesOf } from '../geometry/pieces';
+import { heightsAlong, type Heights, levelOf, type Plane } from '../geometry/plane';
+import { mapping, percentiles, scaleFor } from '../geometry/scale';
+import { boundaryOf, surfaceOf } from '../geometry/surface';
+import { cornersOf, type Drawing, type DrawRequest, type Model, MOST_FACETS, MOST_PIECES, type Picked, type Summary } from './model';
+
+/** The corners of a tetrahedron's edges. */
+const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
+
+/** The model of points in space. */
+export class SpaceModel implements Model {
+  readonly positions: Float32Array;
+  private readonly drawable: Tetrahedralisation;
+  private readonly created: Uint8Array | null;
+  private measures: Measures | null = null;
+  private heights: Heights | null = null;
+  private filtered: { filter: Filter; kept: Kept } | null = null;
+  private drawing: Drawing | null = null;
+
+  private constructor(
+    readonly points: Float32Array | Float64Array,
+    readonly mesh: Mesh3,
+    readonly frame: Frame,
+  ) {
+    this.positions = toFrame(points, frame);
+    this.drawable = { positions: this.positions, tetrahedra: mesh.tetrahedra, neighbors: mesh.neighbors };
+    this.created = mesh.trace?.created ?? null;
+  }
+
+  static async make(gdel: Gdel, points: Float32Array | Float64Array, options: RunOptions, frame?: Frame): Promise<SpaceModel> {
+    const mesh = await gdel.delaunay3d(points, options);
+    return new SpaceModel(points, mesh, frame ?? frameOf(points));
+  }
+
+  summary(): Summary {
+    const { mesh } = this;
+    const [low, high] = percentiles(this.measured.circumradius, 0.02, 1);
+    let duplicates = 0;
+    for (const stand of mesh.duplicateOf) if (stand >= 0) duplicates++;
+    return {
+      space: 3,
+      dimension: mesh.dimension,
+      points: this.points.length / 3,
+      duplicates,
+      simplices: mesh.tetrahedra.length / 4,
+      hullFacets: mesh.hull.length / 3,
+      stats: mesh.stats,
+      frame: this.frame,
+      alpha: { typical: typicalAlpha(this.points, mesh.tetrahedra), range: [low, high] },
+      trace: mesh.trace
+        ? {
+            rounds: mesh.trace.rounds.length,
+            nonDelaunayFacets: mesh.trace.nonDelaunayFacets.length / 3,
+            repaired: missing(mesh.trace.nonDelaunayFacets, mesh.tetrahedra),
+            splayed: mesh.trace.created.reduce((sum, phase) => sum + phase, 0),
+          }
+        : null,
+    };
+  }
+
+  draw(request: DrawRequest): Drawing {
+    this.drawing = request.round === null ? this.drawResult(request) : this.drawRound(request, request.round);
+    return this.drawing;
+  }
+
+  private drawResult({ filter, plane, color, pieces }: DrawRequest): Drawing {
+    const started = performance.now();
+    const kept = this.keptBy(filter);
+    const heights = this.heightsAlong(plane.normal);
+    const level = levelOf(plane, heights);
+    const boundary = boundaryOf(this.drawable, kept, heights, level);
+    const scale = scaleFor(color, this.measured, kept.kept);
+    const value = mapping(scale, this.measured, this.created);
+    const { tetrahedra } = this.drawable;
+    return {
+      surface: pieces ? null : surfaceOf(this.drawable, boundary.facets.subarray(0, MOST_FACETS), value),
+      pieces: pieces
+        ? piecesOf(this.positions, tetrahedra, outermost(this.drawable, kept, heights, level, boundary, MOST_PIECES), value)
+        : null,
+      voronoi: null,
+      scale,
+      shown: boundary.shown,
+      total: tetrahedra.length / 4,
+      leftOut: pieces ? 0 : Math.max(0, boundary.facets.length - MOST_FACETS),
+      level,
+      milliseconds: performance.now() - started,
+    };
+  }
+
+  /** A round of the trace: whole tetrahedra, for it has no neighbours. */
+  private drawRound({ plane, color }: DrawRequest, round: number): Drawing {
+    const started = performance.now();
+    const { tetrahedra } = this.mesh.trace!.rounds[round];
+    const measures = measure(this.points, tetrahedra);
+    const heights = heightsAlong(plane.normal, {
+      positions: this.positions,
+      tetrahedra,
+      neighbors: new Int32Array(tetrahedra.length).fill(-1),
+    });
+    const level = levelOf(plane, heights);
+    const owners = Uint32Array.from(heights.height.keys())
+      .filter((t) => heights.height[t] <= level)
+      .slice(0, MOST_PIECES);
+    const scale = scaleFor(color === 'phase' ? 'quality' : color, measures, new Uint8Array(tetrahedra.length / 4).fill(1));
+    return {
+      surface: null,
+      pieces: piecesOf(this.positions, tetrahedra, owners, mapping(scale, measures, null)),
+      voronoi: null,
+      scale,
+      shown: owners.length,
+      total: tetrahedra.length / 4,
+      leftOut: 0,
+      level,
+      milliseconds: performance.now() - started,
+    };
+  }
+
+  pick(ray: Ray, apart: number): Picked | null {
+    if (!this.drawing) return null;
+    const { surface, pieces } = this.drawing;
+    let index = -1;
+    if (surface) {
+      const hit = firstHit(surface.positions, ray);
+      if (hit >= 0) index = surface.owners[hit];
+    } else if (pieces) {
+      const hit = firstHit(trianglesOf(pieces, apart), ray);
+      if (hit >= 0) index = pieces.owners[hit >> 2];
+    }
+    return index < 0 ? null : this.describe(index, surface ? 0 : apart);
+  }
+
+  private describe(index: number, apart: number): Picked {
+    const { tetrahedra, neighbors } = this.mesh;
+    const vertices = [...tetrahedra.subarray(4 * index, 4 * index + 4)];
+    const corners = cornersOf(this.positions, vertices);
+    for (let axis = 0; axis < 3; axis++) {
+      const move = (apart * (corners[axis] + corners[3 + axis] + corners[6 + axis] + corners[9 + axis])) / 4;
+      for (let k = 0; k < 4; k++) corners[3 * k + axis] = (corners[3 * k + axis] + move) / (1 + apart);
+    }
+    return {
+      index,
+      vertices,
+      neighbors: [...neighbors.subarray(4 * index, 4 * index + 4)],
+      volume: this.measured.volume[index],
+      circumradius: this.measured.circumradius[index],
+      radiusRatio: this.measured.radiusRatio[index],
+      phase: this.created ? (this.created[index] ? 2 : 1) : null,
+      outline: cornersOf(corners, EDGES),
+    };
+  }
+
+  hull(): Float32Array {
+    return cornersOf(this.positions, this.mesh.hull);
+  }
+
+  /** The facets that were not locally Delaunay after Phase 1, nine coordinates each. */
+  nonDelaunayFacets(): Float32Array {
+    return cornersOf(this.positions, this.mesh.trace?.nonDelaunayFacets ?? new Uint32Array());
+  }
+
+  private get measured(): Measures {
+    return (this.measures ??= measure(this.points, this.mesh.tetrahedra));
+  }
+
+  private keptBy(filter: Filter): Kept {
+    if (JSON.stringify(this.filtered?.filter) !== JSON.stringify(filter)) {
+      const { tetrahedra, neighbors } = this.mesh;
+      this.filtered = { filter, kept: applyFilter(filter, this.points, tetrahedra, neighbors, this.measured.circumradius) };
+    }
+    return this.filtered!.kept;
+  }
+
+  private heightsAlong(normal: Plane['normal']): Heights {
+    if (this.heights?.normal.join() !== normal.join()) this.heights = heightsAlong(normal, this.drawable);
+    return this.heights!;
+  }
+}
+
+/** How many of some triangles are facets of no tetrahedron. */
+function missing(triangles: Uint32Array, tetrahedra: Uint32Array): number {
+  const key = (a: number, b: number, c: number) => [a, b, c].sort((p, q) => p - q).join();
+  const corners = new Set(triangles);
+  const left = new Set<string>();
+  for (let i = 0; i < triangles.length; i += 3) left.add(key(triangles[i], triangles[i + 1], triangles[i + 2]));
+  for (let t = 0; t < tetrahedra.length; t += 4) {
+    for (let k = 0; k < 12; k += 3) {
+      const [a, b, c] = [tetrahedra[t + FACETS[k]], tetrahedra[t + FACETS[k + 1]], tetrahedra[t + FACETS[k + 2]]];
+      if (corners.has(a) && corners.has(b) && corners.has(c)) left.delete(key(a, b, c));
+    }
+  }
+  return left.size;
+}

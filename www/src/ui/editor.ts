@@ -1,0 +1,183 @@
+import { type Edit, withEdit } from '../model/edits';
+import type { Page, Part } from '../page';
+import type { Tool } from '../settings';
+import { byId, radios } from './dom';
+
+/** How near to a point the pointer has to be, in pixels. */
+const REACH = { mouse: 10, touch: 24 };
+
+/** A pointer that moved less than this has clicked. */
+export const CLICK = 5;
+
+/** How far a point that is held moves with an arrow key, as a share of what is seen. */
+const NUDGE = 0.01;
+
+/** Points of the plane by hand: with the mouse, by touch, and with the keys, for a crosshair in the middle of the drawing. */
+export function editor(page: Page): Part {
+  const canvas = byId<HTMLCanvasElement>('canvas');
+  const ring = byId('ring');
+  const undo = byId<HTMLButtonElement>('undo');
+  const said = byId('edited');
+  /** The point that is dragged, or held by the keys. */
+  let held: number | null = null;
+  let pressed: { x: number; y: number; moved: boolean } | null = null;
+
+  const flat = () => page.settings.source.dimension === 2 && !page.live && page.summary !== null;
+  const points = () => (page.positions?.length ?? 0) / 3;
+
+  /** The nearest point within some pixels, or null. */
+  const near = (x: number, y: number, reach: number): number | null => {
+    const { viewer, positions } = page;
+    if (!viewer || !positions) return null;
+    const [px, py] = viewer.onPlane(x, y);
+    const [ex] = viewer.onPlane(x + reach, y);
+    let nearest = (ex - px) ** 2;
+    let found: number | null = null;
+    for (let i = 0; i < positions.length; i += 3) {
+      const squared = (positions[i] - px) ** 2 + (positions[i + 1] - py) ** 2;
+      if (squared <= nearest) [nearest, found] = [squared, i / 3];
+    }
+    return found;
+  };
+
+  /** A place on the canvas in the input's units, rounded to a fraction of a pixel: so links stay short. */
+  const place = (x: number, y: number): [number, number] => {
+    const { viewer } = page;
+    const { center, scale } = page.summary!.frame;
+    const toInput = ([fx, fy]: [number, number]) => [fx / scale + center[0], fy / scale + center[1]] as const;
+    const [ix, iy] = toInput(viewer!.onPlane(x, y));
+    const pixel = toInput(viewer!.onPlane(x + 1, y))[0] - ix;
+    const digits = Math.min(15, Math.max(0, 1 - Math.floor(Math.log10(pixel))));
+    return [Number(ix.toFixed(digits)), Number(iy.toFixed(digits))];
+  };
+
+  const change = (edit: Edit, words: string) => {
+    said.textContent = words;
+    return page.edit(withEdit(page.settings.edits, edit));
+  };
+  const add = (x: number, y: number) => change({ do: 'add', at: place(x, y) }, 'Point added');
+  const remove = (point: number) => change({ do: 'remove', point }, 'Point removed');
+  const move = (point: number, x: number, y: number) => change({ do: 'move', point, at: place(x, y) }, '');
+
+  const mark = (point: number | null) => {
+    ring.hidden = point === null || !page.viewer || point >= points();
+    if (ring.hidden) return;
+    const [x, y] = page.viewer!.onCanvas(page.positions![3 * point!], page.positions![3 * point! + 1]);
+    ring.style.translate = `${x}px ${y}px`;
+  };
+
+  // Before the controls of the camera hear of it, which would move the view instead.
+  canvas.addEventListener(
+    'pointerdown',
+    (event) => {
+      if (!flat() || event.button !== 0 || !event.isPrimary) return;
+      const { offsetX: x, offsetY: y } = event;
+      pressed = { x, y, moved: false };
+      held = near(x, y, event.pointerType === 'mouse' ? REACH.mouse : REACH.touch);
+      mark(held);
+      if (held === null) return;
+      event.stopImmediatePropagation();
+      canvas.focus({ preventScroll: true });
+      canvas.setPointerCapture(event.pointerId);
+    },
+    { capture: true },
+  );
+
+  canvas.addEventListener('pointermove', (event) => {
+    if (!flat()) return;
+    const { offsetX: x, offsetY: y } = event;
+    if (pressed) {
+      pressed.moved ||= Math.hypot(x - pressed.x, y - pressed.y) >= CLICK;
+      if (held !== null && pressed.moved) void move(held, x, y);
+    } else if (event.pointerType === 'mouse') mark(near(x, y, REACH.mouse));
+  });
+
+  const release = (event: PointerEvent) => {
+    if (!pressed || !event.isPrimary) return;
+    const { moved } = pressed;
+    const point = held;
+    pressed = held = null;
+    if (!flat() || moved || event.type === 'pointercancel') return;
+    if (point !== null && page.tool === 'remove') void remove(point);
+    if (point === null && page.tool === 'add') void add(event.offsetX, event.offsetY);
+  };
+  canvas.addEventListener('pointerup', release);
+  canvas.addEventListener('pointercancel', release);
+  canvas.addEventListener('pointerleave', () => pressed ?? mark(null));
+  canvas.addEventListener('blur', () => {
+    held = null;
+    mark(null);
+  });
+
+  const middle = () => [canvas.clientWidth / 2, canvas.clientHeight / 2] as const;
+  const nearestToMiddle = () => near(...middle(), canvas.clientWidth + canvas.clientHeight);
+  const nudge = (right: number, up: number) => {
+    const { positions, viewer } = page;
+    const [width] = viewer!.seen;
+    const [x, y] = viewer!.onCanvas(positions![3 * held!] + right * NUDGE * width, positions![3 * held! + 1] + up * NUDGE * width);
+    void move(held!, x, y);
+  };
+  const keys: Record<string, () => void> = {
+    Enter: () => void add(...middle()),
+    Delete: () => {
+      const point = nearestToMiddle();
+      if (point !== null) void remove(point);
+    },
+    ' ': () => {
+      held = held === null ? nearestToMiddle() : null;
+      said.textContent = held === null ? 'Point put down' : 'Point held';
+      mark(held);
+    },
+  };
+  keys.Backspace = keys.Delete;
+  const whileHeld: Record<string, () => void> = {
+    ArrowLeft: () => nudge(-1, 0),
+    ArrowRight: () => nudge(1, 0),
+    ArrowUp: () => nudge(0, 1),
+    ArrowDown: () => nudge(0, -1),
+    Escape: keys[' '],
+  };
+  const takeBack = () => {
+    if (page.settings.edits.length === 0) return;
+    said.textContent = 'Taken back';
+    void page.edit(page.settings.edits.slice(0, -1));
+  };
+  canvas.addEventListener('keydown', (event) => {
+    if (!flat() || event.altKey) return;
+    const undoes = (event.ctrlKey || event.metaKey) && event.key === 'z';
+    const act = undoes ? takeBack : event.ctrlKey || event.metaKey ? undefined : ((held !== null ? whileHeld[event.key] : undefined) ?? keys[event.key]);
+    if (!act) return;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    act();
+  });
+
+  const tools = radios('tool', (tool) => {
+    page.tool = tool as Tool;
+    show();
+  });
+  undo.addEventListener('click', takeBack);
+  byId('clear').addEventListener('click', () => {
+    page.tool = 'add';
+    void page.run({ kind: 'generator', dimension: 2, distribution: 'uniform', count: 0, seed: 1 });
+  });
+
+  const show = () => {
+    canvas.dataset.tool = flat() ? page.tool : '';
+    for (const radio of tools) radio.checked = radio.value === page.tool;
+    undo.disabled = page.settings.edits.length === 0;
+  };
+  const forget = () => {
+    held = pressed = null;
+    mark(null);
+    show();
+  };
+  return {
+    changed: show,
+    ran: forget,
+    edited: () => {
+      show();
+      if (held !== null) mark(held);
+    },
+  };
+}
