@@ -53,9 +53,11 @@ use crate::{
 pub fn delaunay2d<'a>(points: impl Into<Points2<'a>>, options: &Options) -> Result<Mesh2, Error> {
     let points = points.into();
     match options.engine {
-        Engine::Auto | Engine::Cpu => delaunay2d_in_order(points, options, Order::default()),
+        Engine::Cpu => delaunay2d_in_order(points, options, Order::default()),
         #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-        Engine::Gpu => pollster::block_on(crate::Engines::shared().delaunay2d(points, options)),
+        Engine::Auto | Engine::Gpu => pollster::block_on(crate::Engines::shared().delaunay2d(points, options)),
+        #[cfg(not(all(feature = "gpu", not(target_arch = "wasm32"))))]
+        Engine::Auto => delaunay2d_in_order(points, options, Order::default()),
         #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
         Engine::Gpu => {
             Err(Error::NoAdapter { reason: "a browser's GPU cannot be waited for: use `Engines`".to_owned() })

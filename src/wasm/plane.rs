@@ -8,7 +8,13 @@ use super::{
     points::Coordinates,
     run::{options, stats},
 };
-use crate::{Engine, Engines, Mesh2, Options};
+use crate::{Engine, Engines, Mesh2, Options, engines::LEAST_POINTS_2};
+
+/// The number of points from which on the engine `auto` thinks of the GPU.
+#[wasm_bindgen]
+pub fn least_gpu_points() -> u32 {
+    LEAST_POINTS_2 as u32
+}
 
 /// Both engines, for any number of runs.
 #[wasm_bindgen]

@@ -3,10 +3,11 @@
 use crate::{clouds, hybrid, open, same, triangulate};
 use gdel::{
     Engine, Engines, Error, Mesh3, Options, Progress,
-    engines::LEAST_POINTS,
+    engines::{LEAST_POINTS, LEAST_POINTS_2},
     generate::{Distribution, generate},
     gpu::{AdapterChoice, Gpu, phase1::Settings},
     hybrid::Hybrid,
+    plane::generate::{Distribution2, generate2d},
     stats::Fallback,
 };
 use pollster::block_on;
@@ -136,6 +137,49 @@ fn auto_takes_the_gpu_where_it_pays() {
     let mesh = block_on(engines.delaunay3d(few.into(), &Options::default())).expect("triangulates");
     let why = Fallback::FewPoints { points: few.len(), least: LEAST_POINTS };
     assert_eq!((mesh.stats.engine, mesh.stats.fallback), ("cpu", Some(why)));
+}
+
+#[test]
+fn auto_takes_the_gpu_in_the_plane_where_it_pays() {
+    let engines = Engines::with_hybrid(open());
+    let points = generate2d(Distribution2::Uniform, LEAST_POINTS_2, 4);
+    let auto = |points: &[[f64; 2]]| {
+        let mesh = block_on(engines.delaunay2d(points.into(), &Options::default())).expect("triangulates");
+        let cpu = Options { engine: Engine::Cpu, ..Options::default() };
+        let expected = block_on(engines.delaunay2d(points.into(), &cpu)).expect("triangulates");
+        assert_eq!(expected.stats.fallback, None);
+        assert_eq!((mesh.canonical(), &mesh.hull), (expected.canonical(), &expected.hull));
+        (mesh.stats.engine, mesh.stats.fallback)
+    };
+    assert_eq!(auto(&points), ("gpu", None));
+    let few = &points[..LEAST_POINTS_2 - 1];
+    assert_eq!(auto(few), ("cpu", Some(Fallback::FewPoints { points: few.len(), least: LEAST_POINTS_2 })));
+    // The engine of space, on the same device, is still there.
+    let points = generate(Distribution::Uniform, LEAST_POINTS, 4);
+    let mesh = block_on(engines.delaunay3d((&points).into(), &Options::default())).expect("triangulates");
+    assert_eq!((mesh.stats.engine, mesh.stats.fallback), ("gpu", None));
+}
+
+#[test]
+fn auto_goes_on_in_the_plane_without_the_device_that_it_lost() {
+    let engines = Engines::with_hybrid(open());
+    let device = block_on(engines.gpu()).expect("opens").device().clone();
+    let points = generate2d(Distribution2::Uniform, LEAST_POINTS_2, 5);
+    let rounds = Mutex::new(0);
+    let options = watched(move |progress| {
+        let mut rounds = rounds.lock().expect("no panic");
+        *rounds += usize::from(progress.phase == "phase 1");
+        if *rounds == 2 {
+            device.destroy();
+        }
+        ControlFlow::Continue(())
+    });
+    let mesh = block_on(engines.delaunay2d((&points).into(), &options)).expect("the CPU engine goes on");
+    let why = mesh.stats.fallback;
+    assert!(matches!(why, Some(Fallback::GpuFailed(Error::DeviceLost { .. }))), "{why:?}");
+    // What replaces it was not asked for by name: it has to be hardware, and to pay.
+    let mesh = block_on(engines.delaunay2d((&points).into(), &Options::default())).expect("triangulates");
+    assert!(matches!(mesh.stats.fallback, Some(Fallback::FewPoints { .. })), "{:?}", mesh.stats.fallback);
 }
 
 /// On machines with a graphics card there is nothing to see here.

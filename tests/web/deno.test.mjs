@@ -1,8 +1,9 @@
 // The installed package in Deno: the web's build, with a worker, from files.
 
 import assert from 'node:assert/strict';
-import { execFileSync, spawnSync } from 'node:child_process';
+import { spawn, spawnSync } from 'node:child_process';
 import { join } from 'node:path';
+import { createInterface } from 'node:readline';
 import { test } from 'node:test';
 import { pinned, project, root } from './package.mjs';
 
@@ -31,20 +32,41 @@ const SCRIPT = `
     failed: await delaunay3d([[0, NaN, 0]]).catch(({ code }) => code),
   }));
   engine.dispose();
-  Deno.exit(0);
 `;
 
-test('in Deno, the mesh is the native one, from a worker', { skip, timeout: 300_000 }, () => {
+// No driver: what Deno's own WebGPU makes of those that a machine has, software ones first of all, is not what is tested.
+const env = { ...process.env, NO_COLOR: '1', DENO_NO_UPDATE_CHECK: '1', VK_DRIVER_FILES: '/nowhere', __EGL_VENDOR_LIBRARY_FILENAMES: '/nowhere' };
+
+/** The first line that a program prints. It is stopped then, with all that it started: Deno waits for workers, even idle ones. */
+async function firstLine(command, args, options) {
+  const child = spawn(command, args, { ...options, stdio: ['ignore', 'pipe', 'inherit'], detached: true });
+  const stop = () => {
+    try {
+      process.kill(-child.pid, 'SIGKILL');
+    } catch (error) {
+      if (error.code !== 'ESRCH') throw error;
+    }
+  };
+  const timer = setTimeout(stop, 120_000);
+  try {
+    for await (const line of createInterface({ input: child.stdout })) return line;
+    throw new Error('it printed nothing, or not within two minutes');
+  } finally {
+    clearTimeout(timer);
+    stop();
+  }
+}
+
+test('in Deno, the mesh is the native one, from a worker', { skip }, async () => {
   const folder = project({ 'script.mjs': SCRIPT });
   const args = ['run', '--no-prompt', '--allow-read', '--node-modules-dir=manual', 'script.mjs', JSON.stringify(pinned)];
-  const output = execFileSync(deno, args, { cwd: folder, encoding: 'utf8', env: { ...process.env, NO_COLOR: '1', DENO_NO_UPDATE_CHECK: '1' } });
-  const found = JSON.parse(output.trim().split('\n').at(-1));
+  const found = JSON.parse(await firstLine(deno, args, { cwd: folder, env }));
   assert.match(found.resolved, /\/dist\/index\.js$/);
   assert.equal(found.fingerprint, pinned[0].fingerprint);
   assert.equal(found.thread, 'worker');
   assert.equal(found.passed, true);
   assert.deepEqual(found.triangles, [6, 6]);
   assert.equal(found.failed, 'NOT_FINITE');
-  // Which engine there is depends on the machine; that it is said does not.
-  assert.ok(found.info.engine === 'gpu' || found.info.why, JSON.stringify(found.info));
+  assert.equal(found.info.engine, 'cpu');
+  assert.ok(found.info.why, JSON.stringify(found.info));
 });

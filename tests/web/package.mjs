@@ -19,7 +19,7 @@ export function scratch() {
   return folder;
 }
 
-const quietly = { stdio: ['ignore', 'pipe', 'inherit'] };
+const quietly = { stdio: ['ignore', 'pipe', 'inherit'], timeout: 120_000 };
 
 /** Packs web/ and returns the tarball's path. */
 export function pack() {

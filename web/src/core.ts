@@ -173,12 +173,14 @@ function planeTasks(module: WebAssembly.Module, gpu?: object): ModuleTasks {
   const glue = makePlaneGlue(gpu ? scopeWith(gpu) : globalThis);
   const { memory } = glue.initSync({ module });
   const engines = new glue.PlaneEngines();
+  const leastGpuPoints: number = glue.least_gpu_points();
   const { run } = chooser(memory, gpu);
 
   const handlers: Handlers = {
-    // 'auto' is the CPU engine.
-    delaunay2d: ({ points, engine }, control) =>
-      run(points, engine, engine !== 'gpu', control, (chosen, report) => engines.delaunay2d(points, chosen, report)),
+    delaunay2d({ points, engine }, control) {
+      const isDecided = engine === 'cpu' || (engine === 'auto' && points.length < 2 * leastGpuPoints);
+      return run(points, engine, isDecided, control, (chosen, report) => engines.delaunay2d(points, chosen, report));
+    },
   };
   return { handlers, memory, dispose: () => void engines.close() };
 }
