@@ -5,7 +5,7 @@ import { spawn, spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { test } from 'node:test';
-import { pinned, project, root } from './package.mjs';
+import { importFrom, pinned, project, root } from './package.mjs';
 
 // As scripts/setup.sh installs it, or the machine's.
 const runs = (command) => spawnSync(command, ['--version']).status === 0;
@@ -69,4 +69,29 @@ test('in Deno, the mesh is the native one, from a worker', { skip }, async () =>
   assert.equal(found.failed, 'NOT_FINITE');
   assert.equal(found.info.engine, 'cpu');
   assert.ok(found.info.why, JSON.stringify(found.info));
+});
+
+test('a worker that says at once that it is ready is heard', async () => {
+  // Deno can deliver a message as soon as the microtask after the one that made the worker.
+  globalThis.Worker = class extends EventTarget {
+    constructor() {
+      super();
+      queueMicrotask(() => this.#answer({ type: 'ready' }));
+    }
+
+    #answer(data) {
+      this.dispatchEvent(Object.assign(new Event('message'), { data }));
+    }
+
+    postMessage({ type, id }) {
+      if (type === 'run') this.#answer({ type: 'failed', id, error: { code: 'INTERNAL', message: 'heard' } });
+    }
+
+    terminate() {}
+  };
+  // The web's build, with a module that has nothing in it: nobody asks it for anything.
+  globalThis.fetch = async () => new Response(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0));
+  const { delaunay3d } = await importFrom(project(), 'index.js');
+  const failed = delaunay3d([[0, 0, 0]]).catch(({ message }) => message);
+  assert.equal(await failed, 'heard');
 });

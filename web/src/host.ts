@@ -125,8 +125,7 @@ export class Host {
       const reasons: string[] = [];
       for (const start of runtime.workers) {
         try {
-          const thread = await ready(await start());
-          return workerConnection(thread, () => (this.#connection = undefined));
+          return workerConnection(await start(), () => (this.#connection = undefined));
         } catch (error) {
           reasons.push(error instanceof Error ? error.message : String(error));
         }
@@ -135,17 +134,6 @@ export class Host {
     }
     return callerConnection(this.#options.gpu, this.#noWorker);
   }
-}
-
-/** A worker that has loaded its code. */
-function ready(thread: WorkerThread): Promise<WorkerThread> {
-  return new Promise((resolve, reject) => {
-    thread.onMessage((message) => message.type === 'ready' && resolve(thread));
-    thread.onError((error) => {
-      thread.terminate();
-      reject(error);
-    });
-  });
 }
 
 function workerConnection(thread: WorkerThread, onDeath: () => void): Connection {

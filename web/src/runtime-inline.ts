@@ -4,7 +4,7 @@ import engine from 'base64:engine';
 import plane from 'base64:plane';
 import tools from 'base64:tools';
 import source from 'text:worker';
-import type { Runtime } from './runtime.js';
+import { whenReady, type Runtime } from './runtime.js';
 import { blobWorker } from './web-worker.js';
 import * as code from './worker.js';
 
@@ -15,6 +15,6 @@ export const runtime: Runtime = {
     const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
     return WebAssembly.compile(await new Response(stream).arrayBuffer());
   },
-  workers: [() => blobWorker(source)],
+  workers: [() => whenReady(blobWorker(source))],
   code: async () => code,
 };

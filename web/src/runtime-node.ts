@@ -2,7 +2,7 @@
 
 import { readFile } from 'node:fs/promises';
 import { Worker } from 'node:worker_threads';
-import type { Runtime } from './runtime.js';
+import { whenReady, type Runtime } from './runtime.js';
 import { wasmUrl } from './wasm-urls.js';
 
 export const runtime: Runtime = {
@@ -13,13 +13,13 @@ export const runtime: Runtime = {
   workers: [
     () => {
       const worker = new Worker(new URL('./worker-node.js', import.meta.url), { name: 'gdel-wasm' });
-      return {
+      return whenReady({
         post: (message, transfer) => worker.postMessage(message, transfer),
         onMessage: (handler) => worker.on('message', handler),
         onError: (handler) => worker.on('error', handler),
         terminate: () => void worker.terminate(),
         keepAlive: (busy) => (busy ? worker.ref() : worker.unref()),
-      };
+      });
     },
   ],
 

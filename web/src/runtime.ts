@@ -1,4 +1,4 @@
-// What differs between environments. Each build has the one of its own in place of this file's implementation.
+// What differs between environments: each build has the implementation of its own.
 
 import type { FromWorker, ModuleName, ToWorker } from './protocol.js';
 
@@ -16,8 +16,20 @@ export interface WorkerThread {
 export interface Runtime {
   /** Compiles a wasm module. */
   compile(name: ModuleName): Promise<WebAssembly.Module>;
-  /** The ways to start a worker, best first. */
-  workers: (() => WorkerThread | Promise<WorkerThread>)[];
+  /** The ways to start a worker, best first. Each waits until the worker has loaded its code. */
+  workers: (() => Promise<WorkerThread>)[];
   /** The worker's code, for use in the calling thread. */
   code(): Promise<typeof import('./worker.js')>;
+}
+
+/** The thread when it has loaded its code. To be called in the turn that made the thread: in Deno, a message that was sent
+ * before the first listener is there can be lost. */
+export function whenReady(thread: WorkerThread): Promise<WorkerThread> {
+  return new Promise((resolve, reject) => {
+    thread.onMessage((message) => message.type === 'ready' && resolve(thread));
+    thread.onError((error) => {
+      thread.terminate();
+      reject(error);
+    });
+  });
 }
