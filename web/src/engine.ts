@@ -102,7 +102,7 @@ export function delaunay3d(points: unknown, options: RunOptions = {}): Promise<M
 
 /**
  * The 2D Delaunay triangulation of points x, y, x, y, … or of rows: as {@link delaunay3d} in the plane, with the arrays of
- * the npm package `delaunator`. `'auto'` is the CPU engine.
+ * the npm package `delaunator`.
  *
  * @throws {@link GdelError}, as a rejected promise.
  */
