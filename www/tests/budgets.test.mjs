@@ -1,4 +1,4 @@
-// What the first view may cost. Prints what it measures.
+// What the first view may weigh. How long it may take is in slow/, for a machine that has nothing else to do.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -20,23 +20,15 @@ after(async () => {
   await server.close();
 });
 
-test('the first view comes within two seconds, and takes less than 500 kB', async () => {
-  // The first visit fills Chromium's caches of compiled shaders, and other things that the machine has to do come between:
-  // so there are some more, until one is fast enough.
-  const seconds = [];
-  let files;
-  while (seconds.length < 8 && !(seconds.at(-1) < 2)) {
-    const context = await browser.newContext({ viewport: { width: 1440, height: 900 } });
-    const page = await context.newPage();
-    page.setDefaultTimeout(120_000);
-    files = new Set();
-    page.on('response', (response) => files.add(new URL(response.url()).pathname));
-    await page.goto(server.url);
-    await drawn(page);
-    seconds.push((await page.evaluate(() => performance.now())) / 1000);
-    await context.close();
-  }
-  console.log(`first view after ${seconds.map((s) => s.toFixed(2)).join(', ')} s`);
+test('the first view takes less than 500 kB', async () => {
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 } });
+  const page = await context.newPage();
+  page.setDefaultTimeout(120_000);
+  const files = new Set();
+  page.on('response', (response) => files.add(new URL(response.url()).pathname));
+  await page.goto(server.url);
+  await drawn(page);
+  await context.close();
   const counted = [...files].filter((path) => !/bunny|viewer|three/.test(path));
   const kilobytes = (path) => gzipSync(readFileSync(dist + (path === '/' ? 'index.html' : path.slice(1)))).length / 1e3;
   let sum = 0;
@@ -46,5 +38,4 @@ test('the first view comes within two seconds, and takes less than 500 kB', asyn
   }
   console.log(`${sum.toFixed(1).padStart(8)} kB gzipped, without samples and three.js`);
   assert.ok(sum < 500, `${sum} kB`);
-  assert.ok(seconds.at(-1) < 2, `${seconds} s`);
 });
