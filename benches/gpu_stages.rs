@@ -7,12 +7,13 @@ use std::time::Instant;
 
 use gdel::{
     Points,
+    d3::gpu::vertex,
     gpu::{
-        AdapterChoice, Gpu, Kernel, Profiler, Readback, Recorder, Storage, shader,
-        stages::points::{PointInput, PointStage},
-        vertex, workgroups,
+        AdapterChoice, Gpu, Kernel, Profiler, Readback, Recorder, Storage,
+        points::{PointInput, PointStage},
+        shader, workgroups,
     },
-    lattice::{Lattice, Width},
+    input::lattice::{Lattice, Width},
 };
 use pollster::block_on;
 use rand::{RngExt, SeedableRng};
@@ -52,7 +53,7 @@ fn points(gpu: &Gpu, stage: &PointStage, points: Points<'_>) {
         let submission = recorder.submit(gpu);
         let counts = block_on(readback.receive(gpu, &submission, pending)).expect("the device works");
         let all = start.elapsed().as_secs_f64() * 1e3;
-        assert_eq!(counts[0].united, 0);
+        assert_eq!(counts[0].merged, 0);
         let times = block_on(profiler.milliseconds(gpu, &submission)).expect("the device works").to_vec();
         if run > 0 {
             note("fit (host)", fitted);
@@ -90,7 +91,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         let position = std::array::from_fn(|_| rng.random_range(0..1i64 << width.bits()));
         vertex::append_words(&mut words, width, position, index);
     }
-    let (kernel, bindings) = block_on(gpu.catching("bench", || {
+    let (kernel, bindings) = block_on(gpu.with_error_scope("bench", || {
         let vertices = Storage::with_contents(gpu, "vertices", &words)?;
         let signs = Storage::<i32>::new(gpu, "signs", TESTS)?;
         let kernel = Kernel::from_wgsl(gpu, name, &shader::assemble_text(&wgsl, width), &[]);
@@ -113,7 +114,7 @@ fn main() {
     let sizes: Vec<usize> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the bench needs a GPU");
     println!("{:?}", gpu.adapter());
-    let stage = PointStage::new(&gpu);
+    let stage = PointStage::new(&gpu, "points_gather", gdel::d3::gpu::vertex::words_per_vertex);
     for &n in if sizes.is_empty() { &[100_000, 1_000_000][..] } else { &sizes } {
         let doubles = random_points(n);
         let singles: Vec<[f32; 3]> = doubles.iter().map(|p| p.map(|x| x as f32)).collect();

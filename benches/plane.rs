@@ -2,15 +2,18 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gdel::{
-    Engine, Options, delaunay2d,
-    plane::generate::{Distribution2, generate2d},
-    verify::verify2d,
+    Backend, Options,
+    d2::{
+        generate::{Distribution2, generate2d},
+        verify::verify2d,
+    },
+    delaunay2d,
 };
 
 fn plane(c: &mut Criterion) {
     let mut group = c.benchmark_group("plane");
     group.sample_size(10);
-    let options = Options { engine: Engine::Cpu, ..Options::default() };
+    let options = Options { backend: Backend::Cpu, ..Options::default() };
     for distribution in Distribution2::ALL {
         let points = generate2d(distribution, 100_000, 1);
         let triangulate = || delaunay2d(&points, &options).expect("finite points");

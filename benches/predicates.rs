@@ -1,6 +1,6 @@
 //! `orient3d` and `insphere` on 1,024 argument lists at a time: ours, and the crates `robust` and `geometry-predicates`.
 //!
-//! * `vertices`: what the engine calls: [`Vertices`], with its filters, lattice integers and symbolic ties;
+//! * `vertices`: what the engine calls: [`PredicateContext`], with its filters, lattice integers and symbolic ties;
 //! * `exact`: [`gdel::predicates`] for coordinates on their own;
 //! * `robust`, `geometry-predicates`: Shewchuk's adaptive predicates as those crates have them.
 //!
@@ -8,8 +8,8 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gdel::{
-    lattice::Lattice,
-    predicates::{self, Sign, vertices::Vertices},
+    input::lattice::Lattice,
+    predicates::{self, Sign, filter::PredicateContext},
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -66,7 +66,7 @@ fn compare<const N: usize>(
     c: &mut Criterion,
     predicate: &str,
     cases: [(&str, Vec<[Point; N]>); 3],
-    filtered: impl Fn(&Vertices<'_>, [u32; N]) -> Sign,
+    filtered: impl Fn(&PredicateContext<'_>, [u32; N]) -> Sign,
     exact: impl Fn([Point; N]) -> Sign,
     robust: impl Fn([Coord3D<f64>; N]) -> f64,
     geometry_predicates: impl Fn([Point; N]) -> f64,
@@ -81,7 +81,7 @@ fn compare<const N: usize>(
         group.throughput(Throughput::Elements(lists.len() as u64));
         let points = lists.as_flattened().into();
         let indices: Vec<u32> = (0..(N * lists.len()) as u32).collect();
-        let vertices = Vertices::new(points, &Lattice::fit(points), indices.clone());
+        let vertices = PredicateContext::new(points, &Lattice::fit(points), indices.clone());
         let (numbers, _) = indices.as_chunks::<N>();
 
         for (&list, &numbers) in lists.iter().zip(numbers) {

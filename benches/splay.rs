@@ -5,18 +5,21 @@
 
 use gdel::{
     Points,
-    generate::{Distribution, generate},
-    gpu::{
-        AdapterChoice, Gpu,
-        phase1::{Input, Phase1, Phase1Output, Settings},
-        start::first_tetrahedron,
+    d3::{
+        generate::{Distribution, generate},
+        gpu::{
+            phase1::{Input, Phase1, Phase1Output, Settings},
+            start::first_tetrahedron,
+        },
+        splay::{NearDelaunay, Outcome, splay},
+        triangulation::Triangulation,
     },
+    gpu::{AdapterChoice, Gpu},
+    input::lattice::Lattice,
     io::files::read_points,
-    lattice::Lattice,
     parallel::Threads,
-    predicates::vertices::Vertices,
-    splay::{NearDelaunay, Outcome, SplayStats, splay},
-    triangulation::Triangulation,
+    predicates::filter::PredicateContext,
+    stats::SplayStats,
 };
 use pollster::block_on;
 use std::{error::Error, path::Path, time::Instant};
@@ -58,15 +61,15 @@ fn run(
         triangulation: Triangulation::new(copied(&phase1.tets), copied(&phase1.neighbors), points.len() as u32),
         incident: phase1.tet_of[..points.len()].to_vec(),
         failed: phase1.failed.clone(),
-        doubtful: phase1.doubtful.iter().map(|&[t, _]| t).collect(),
+        uncertain: phase1.uncertain.iter().map(|&[t, _]| t).collect(),
         // Duplicates stay out, and nothing else shares a place on the lattice in single precision.
         missing: Vec::new(),
     };
-    let vertices = Vertices::of_input(points.into(), lattice);
+    let vertices = PredicateContext::of_input(points.into(), lattice);
     let started = Instant::now();
     let (triangulation, stats) = match splay(&vertices, near, u64::MAX, threads, &|_| Ok(()))? {
         Outcome::Delaunay(triangulation, stats) => (triangulation, stats),
-        Outcome::GaveUp(reason) => return Err(format!("splaying gave up: {reason:?}").into()),
+        Outcome::Aborted(reason) => return Err(format!("splaying gave up: {reason:?}").into()),
     };
     let splayed = started.elapsed().as_secs_f64() * 1e3;
     let started = Instant::now();

@@ -4,9 +4,9 @@
 //! repeats of the whole run and its phases, points in host memory to mesh in host memory. Before, it runs for a second to warm up:
 //! a device raises its clock slowly.
 
-use gdel::generate::{Distribution, generate};
+use gdel::d3::generate::{Distribution, generate};
+use gdel::d3::gpu::engine::Hybrid;
 use gdel::gpu::{AdapterChoice, Gpu};
-use gdel::hybrid::Hybrid;
 use gdel::io::files::read_points;
 use gdel::{Options, Points};
 use pollster::block_on;

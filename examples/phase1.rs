@@ -6,12 +6,15 @@
 //! clock slowly; and the stages of one more run, which is slower because each dispatch is timed.
 
 use gdel::Points;
-use gdel::generate::{Distribution, generate};
-use gdel::gpu::phase1::{Input, Phase1, Phase1Output, Pick, Settings};
-use gdel::gpu::start::first_tetrahedron;
+use gdel::d3::generate::{Distribution, generate};
+use gdel::d3::gpu::start::first_tetrahedron;
 use gdel::gpu::{AdapterChoice, Gpu, Profiler};
+use gdel::input::lattice::Lattice;
 use gdel::io::files::read_points;
-use gdel::lattice::Lattice;
+use gdel::{
+    d3::gpu::phase1::{Input, Phase1, Phase1Output, Settings},
+    gpu::layout::Pick,
+};
 use pollster::block_on;
 use std::path::Path;
 
@@ -70,14 +73,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     runs.remove(0);
     runs.sort_by(|a, b| a.stats.milliseconds.total_cmp(&b.stats.milliseconds));
     let all: Vec<String> = runs.iter().map(|r| format!("{:.2}", r.stats.milliseconds)).collect();
-    let Phase1Output { stats, tets, failed, united, doubtful, .. } = &runs[runs.len() / 2];
+    let Phase1Output { stats, tets, failed, merged, uncertain, .. } = &runs[runs.len() / 2];
     let counters = &stats.counters;
     let stages: Vec<String> = stages.iter().map(|(name, ms)| format!("\"{name}\":{ms:.3}")).collect();
     println!(
         "{{\"input\":\"{kind}\",\"points\":{},\"adapter\":\"{}\",\"width\":\"{:?}\",\"ms\":{:.2},\"all_ms\":[{}],\
          \"mesh_readback_ms\":{:.2},\"lattice_ms\":{lattice_ms:.1},\"pipelines_ms\":{pipelines_ms:.0},\"rounds\":{},\
          \"flip_iterations\":{},\"visits\":{},\"flips_23\":{},\"flips_32\":{},\"exact\":{},\"tets\":{},\"failed\":{},\
-         \"united\":{},\"doubtful\":{},\"readbacks\":{},\"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
+         \"merged\":{},\"uncertain\":{},\"readbacks\":{},\"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
         points.len(),
         gpu.adapter().name,
         lattice.width(),
@@ -92,8 +95,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         counters.exact,
         tets.len(),
         failed.len(),
-        united.len(),
-        doubtful.len(),
+        merged.len(),
+        uncertain.len(),
         stats.readbacks,
         stats.dispatches,
         stats.bytes,

@@ -6,16 +6,19 @@
 //! for the CPU engine (once; CPU=0 leaves it out) and whether both agree; and the stages of one more run on the device,
 //! which is slower because each dispatch is timed.
 
-use gdel::cpu::Order;
-use gdel::gpu::phase1::Pick;
-use gdel::gpu::plane::{Input, Plane, Settings, start::first_triangle};
-use gdel::gpu::{AdapterChoice, Gpu, Profiler};
-use gdel::lattice::Lattice;
-use gdel::plane::{
-    delaunay2d_in_order,
-    generate::{Distribution2, generate2d},
-    hybrid::Hybrid2,
+use gdel::d2::gpu::{
+    phase1::{Input, Plane, Settings},
+    start::first_triangle,
 };
+use gdel::d2::{
+    cpu::delaunay2d_in_order,
+    generate::{Distribution2, generate2d},
+    gpu::engine::Hybrid2,
+};
+use gdel::gpu::layout::Pick;
+use gdel::gpu::{AdapterChoice, Gpu, Profiler};
+use gdel::input::lattice::Lattice;
+use gdel::input::order::Order;
 use gdel::{Options, Points2};
 use pollster::block_on;
 use std::time::Instant;
@@ -109,7 +112,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!(
         "{{\"input\":\"{kind}\",\"points\":{count},\"single\":{single},\"adapter\":\"{}\",\"width\":\"{:?}\",\"ms\":{:.2},\
          \"all_ms\":[{}],\"phases_ms\":{{{}}},\"pipelines_ms\":{pipelines_ms:.0},\"fallback\":{:?},\"rounds\":{},\
-         \"flip_iterations\":{},\"visits\":{},\"flips\":{},\"exact\":{},\"hull\":{},\"united\":{},\"questions\":{},\"readbacks\":{},\
+         \"flip_iterations\":{},\"visits\":{},\"flips\":{},\"exact\":{},\"hull\":{},\"merged\":{},\"questions\":{},\"readbacks\":{},\
          \"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
         gpu.adapter().name,
         lattice.width(),
@@ -123,8 +126,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         counters.flips_22,
         counters.exact,
         counters.hull,
-        output.united.len(),
-        counters.doubtful,
+        output.merged.len(),
+        counters.uncertain,
         device.readbacks,
         device.dispatches,
         device.bytes,

@@ -13,41 +13,35 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
-pub mod cpu;
-#[cfg(feature = "gpu")]
-pub mod engines;
+pub mod d2;
+pub mod d3;
 mod error;
-pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;
-mod hilbert;
-#[cfg(feature = "gpu")]
-pub mod hybrid;
+pub mod index;
+pub mod input;
 #[cfg(feature = "io")]
 pub mod io;
-pub mod lattice;
-pub mod mesh;
 pub mod options;
 pub mod parallel;
-pub mod plane;
-pub mod points;
 pub mod predicates;
-pub mod splay;
+pub mod random;
+#[cfg(feature = "gpu")]
+pub mod reference;
 pub mod stats;
 #[cfg(feature = "gpu")]
-mod trace;
-pub mod triangulation;
+pub mod triangulator;
 pub mod verify;
 #[cfg(all(feature = "wasm", target_arch = "wasm32"))]
 mod wasm;
 
-#[cfg(feature = "gpu")]
-pub use engines::Engines;
+pub use d2::Mesh2;
+pub use d3::Mesh3;
 pub use error::Error;
-pub use mesh::Mesh3;
-pub use options::{Engine, Options, Progress};
-pub use plane::{Mesh2, delaunay2d};
-pub use points::{Points, Points2};
+pub use input::points::{Points, Points2};
+pub use options::{Backend, Options, Progress};
+#[cfg(feature = "gpu")]
+pub use triangulator::Triangulator;
 
 /// The 3D Delaunay triangulation of `points`.
 ///
@@ -63,20 +57,55 @@ pub use points::{Points, Points2};
 /// # Errors
 ///
 /// [`Error::NotFinite`] names the first coordinate that is NaN or infinite, [`Error::TooManyPoints`] says what would
-/// fit, and [`Error::Cancelled`] follows a progress callback that broke off. [`Engine::Gpu`], and only that, can fail with
+/// fit, and [`Error::Cancelled`] follows a progress callback that broke off. [`Backend::Gpu`], and only that, can fail with
 /// the errors of a GPU: [`Error::NoAdapter`], [`Error::DeviceLost`], [`Error::OutOfDeviceMemory`],
 /// [`Error::BufferTooLarge`], [`Error::Gpu`].
 pub fn delaunay3d<'a>(points: impl Into<Points<'a>>, options: &Options) -> Result<Mesh3, Error> {
     let points = points.into();
-    match options.engine {
-        Engine::Cpu => cpu::delaunay3d(points, options),
+    match options.backend {
+        Backend::Cpu => d3::cpu::delaunay3d(points, options),
         #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-        Engine::Auto | Engine::Gpu => pollster::block_on(engines::Engines::shared().delaunay3d(points, options)),
+        Backend::Auto | Backend::Gpu => pollster::block_on(Triangulator::shared().delaunay3d(points, options)),
         #[cfg(not(all(feature = "gpu", not(target_arch = "wasm32"))))]
-        Engine::Auto => cpu::delaunay3d(points, options),
+        Backend::Auto => d3::cpu::delaunay3d(points, options),
         #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-        Engine::Gpu => {
-            Err(Error::NoAdapter { reason: "a browser's GPU cannot be waited for: use `Engines`".to_owned() })
+        Backend::Gpu => {
+            Err(Error::NoAdapter { reason: "a browser's GPU cannot be waited for: use `Triangulator`".to_owned() })
+        }
+    }
+}
+
+/// The 2D Delaunay triangulation of `points`.
+///
+/// `points` may be slices or vectors of `[f32; 2]`, `[f64; 2]`, `glam::Vec2` or `glam::DVec2`; for interleaved
+/// coordinates see [`Points::from_interleaved_f32`](Points::from_interleaved_f32) and
+/// [`Points::from_interleaved_f64`](Points::from_interleaved_f64).
+///
+/// ```
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
+/// let mesh = gdel::delaunay2d(&points, &gdel::Options::default())?;
+/// // Counter-clockwise where the y axis points down.
+/// assert_eq!(mesh.hull, [0, 2, 1]);
+/// # Ok::<(), gdel::Error>(())
+/// ```
+///
+/// Collinear, coincident and empty input is no error: the mesh then has no triangles and its
+/// [`dimension`](Mesh2::dimension) says why.
+///
+/// # Errors
+///
+/// As for [`delaunay3d`](crate::delaunay3d).
+pub fn delaunay2d<'a>(points: impl Into<Points2<'a>>, options: &Options) -> Result<Mesh2, Error> {
+    let points = points.into();
+    match options.backend {
+        Backend::Cpu => d2::cpu::delaunay2d(points, options),
+        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+        Backend::Auto | Backend::Gpu => pollster::block_on(Triangulator::shared().delaunay2d(points, options)),
+        #[cfg(not(all(feature = "gpu", not(target_arch = "wasm32"))))]
+        Backend::Auto => d2::cpu::delaunay2d(points, options),
+        #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
+        Backend::Gpu => {
+            Err(Error::NoAdapter { reason: "a browser's GPU cannot be waited for: use `Triangulator`".to_owned() })
         }
     }
 }

@@ -4,9 +4,9 @@ use std::{fmt, ops::ControlFlow, sync::Arc};
 
 /// Which engine computes the triangulation. All give the same set of tetrahedra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Engine {
+pub enum Backend {
     /// The GPU engine where there is a graphics card and the input is large enough to be worth it
-    /// ([`engines`](crate::engines) has the numbers), else the CPU engine; also when the GPU fails in the middle.
+    /// ([`engines`](crate::triangulator) has the numbers), else the CPU engine; also when the GPU fails in the middle.
     /// [`Stats::fallback`](crate::stats::Stats::fallback) says why it was the CPU engine. Without the feature `gpu`, and
     /// in a browser where nothing may wait, it is the CPU engine.
     #[default]
@@ -14,7 +14,7 @@ pub enum Engine {
     /// Incremental insertion on one core.
     Cpu,
     /// Flipping on the graphics card, splaying on the CPU; an error where the device fails or cannot hold the input. Input
-    /// that is no work for it is left to the CPU engine: see [`Hybrid::delaunay3d`](crate::hybrid::Hybrid::delaunay3d).
+    /// that is no work for it is left to the CPU engine: see [`Hybrid::delaunay3d`](crate::d3::gpu::engine::Hybrid::delaunay3d).
     #[cfg(feature = "gpu")]
     Gpu,
 }
@@ -35,7 +35,7 @@ pub type OnProgress = Arc<dyn Fn(Progress) -> ControlFlow<()> + Send + Sync>;
 #[derive(Clone, Default)]
 pub struct Options {
     /// Which engine to use.
-    pub engine: Engine,
+    pub backend: Backend,
     /// Called a few hundred times in a run, in the calling thread.
     pub on_progress: Option<OnProgress>,
     /// Whether the GPU engine shall keep [`Stats::trace`](crate::stats::Stats::trace). All tetrahedra are read back after
@@ -46,7 +46,7 @@ pub struct Options {
 impl fmt::Debug for Options {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Options")
-            .field("engine", &self.engine)
+            .field("backend", &self.backend)
             .field("on_progress", &self.on_progress.as_ref().map(|_| "…"))
             .field("trace", &self.trace)
             .finish()

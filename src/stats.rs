@@ -1,6 +1,6 @@
 //! What a run did, and how long it took.
 
-use crate::{Error, splay::SplayStats};
+use crate::Error;
 
 /// How a mesh came about.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -87,7 +87,7 @@ pub struct GpuStats {
     /// The vertices of such facets, infinity left out.
     pub failed_vertices: u64,
     /// Points that another one at the same place of the lattice stood for: duplicates, and points that were rounded there.
-    pub united: u64,
+    pub merged: u64,
     /// Results that were read back.
     pub readbacks: u64,
     /// Kernels that were run.
@@ -112,6 +112,38 @@ pub struct Round {
     pub iterations: u32,
     /// Milliseconds on the host's clock.
     pub milliseconds: f64,
+}
+
+/// What splaying did.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SplayStats {
+    /// Flat tetrahedra on the hull that were peeled off.
+    pub peeled: usize,
+    /// Failed vertices.
+    pub failed: usize,
+    /// Stars that were made convex: those of failed vertices, and some that had flat or inverted tetrahedra.
+    pub built: usize,
+    /// Of these, the ones that were built from their points, where Flip-Flop could not start or was stuck.
+    pub from_points: usize,
+    /// Stars that were taken from the triangulation as they are.
+    pub pulled: usize,
+    /// Flips of Flip-Flop.
+    pub flips: usize,
+    /// Points that were inserted into stars.
+    pub insertions: usize,
+    /// Checks whether all stars agree about a tetrahedron.
+    pub checks: usize,
+    /// Tetrahedra that were removed from the triangulation.
+    pub removed: usize,
+    /// Tetrahedra that were added to it.
+    pub added: usize,
+    /// Missing points that were inserted.
+    pub inserted: usize,
+    /// Signs that were asked for.
+    pub signs: u64,
+    /// Rounds of insertions.
+    pub rounds: usize,
 }
 
 /// How a mesh came about, step by step.

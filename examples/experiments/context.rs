@@ -1,10 +1,13 @@
 //! What the experiments share: the device, the inputs, and how time is taken.
 
 use gdel::{
-    Mesh3, Options, Points, cpu,
-    generate::{Distribution, generate},
-    gpu::{AdapterChoice, Gpu, phase1::Settings},
-    hybrid::Hybrid,
+    Mesh3, Options, Points,
+    d3::{
+        cpu,
+        generate::{Distribution, generate},
+        gpu::{engine::Hybrid, phase1::Settings},
+    },
+    gpu::{AdapterChoice, Gpu},
     io::{PointCloud, files},
     stats::Stats,
 };

@@ -5,7 +5,13 @@ use crate::{
     context::Context,
     outcome::{Outcome, Table},
 };
-use gdel::{Points, generate::Distribution, gpu::phase1::Settings, hybrid::Hybrid};
+use gdel::{
+    Points,
+    d3::{
+        generate::Distribution,
+        gpu::{engine::Hybrid, phase1::Settings},
+    },
+};
 use serde_json::{Value, json};
 use std::error::Error;
 

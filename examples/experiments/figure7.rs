@@ -10,12 +10,12 @@ use crate::{
     outcome::{Outcome, Table},
 };
 use gdel::{
-    gpu::{
-        Profiler,
+    d3::gpu::{
         phase1::{Input, Phase1, Settings},
         start::first_tetrahedron,
     },
-    lattice::Lattice,
+    gpu::Profiler,
+    input::lattice::Lattice,
 };
 use pollster::block_on;
 use serde_json::json;

@@ -7,8 +7,8 @@ use crate::{
 };
 use gdel::{
     Points,
-    generate::Distribution,
-    gpu::phase1::{Pick, Settings},
+    d3::{generate::Distribution, gpu::phase1::Settings},
+    gpu::layout::Pick,
 };
 use serde_json::json;
 use std::error::Error;

@@ -1,10 +1,7 @@
 //! Every reader of point clouds; the first byte chooses the format.
 #![no_main]
 
-use gdel::{
-    Points,
-    io::{PointFormat, panics_are_caught},
-};
+use gdel::{Points, io::{PointFormat, panics_are_caught}};
 use libfuzzer_sys::fuzz_target;
 use std::panic;
 

@@ -9,7 +9,7 @@ pub(super) enum Dimension {
     /// The plane: z is left out
     #[value(name = "2")]
     Two,
-    /// Space
+    /// StarPredicates
     #[value(name = "3")]
     Three,
 }

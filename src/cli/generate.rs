@@ -3,9 +3,9 @@
 use super::{Failure, dimension::Dimension, progress::Progress};
 use clap::{Args, CommandFactory, builder::PossibleValuesParser, error::ErrorKind};
 use gdel::{
-    generate::{Distribution, generate},
+    d2::generate::{Distribution2, generate2d},
+    d3::generate::{Distribution, generate},
     io::files,
-    plane::generate::{Distribution2, generate2d},
 };
 use std::path::PathBuf;
 

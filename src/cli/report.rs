@@ -3,8 +3,7 @@
 use gdel::{
     Mesh2, Mesh3,
     io::PointCloud,
-    splay::SplayStats,
-    stats::{ExactCounts, GpuStats, Stats},
+    stats::{ExactCounts, GpuStats, SplayStats, Stats},
 };
 use serde::{Serialize, Serializer, ser::SerializeMap};
 use std::{fmt, time::Duration};
@@ -37,7 +36,7 @@ pub(super) struct Report<'a> {
 #[derive(Clone, Copy, Serialize)]
 #[serde(untagged)]
 enum Counts {
-    Space { tetrahedra: usize, hull_triangles: usize },
+    StarPredicates { tetrahedra: usize, hull_triangles: usize },
     Plane { triangles: usize, hull_edges: usize },
 }
 
@@ -60,7 +59,7 @@ impl Serialize for Seconds<'_> {
 
 impl<'a> Report<'a> {
     pub(super) fn new(cloud: &PointCloud, mesh: &'a Mesh3, total: Duration) -> Self {
-        let counts = Counts::Space { tetrahedra: mesh.tetrahedra.len(), hull_triangles: mesh.hull.len() };
+        let counts = Counts::StarPredicates { tetrahedra: mesh.tetrahedra.len(), hull_triangles: mesh.hull.len() };
         Self::with(cloud, counts, mesh.duplicates(), mesh.dimension, &mesh.stats, total)
     }
 
@@ -105,7 +104,7 @@ impl fmt::Display for Report<'_> {
         }
         writeln!(f)?;
         let (full, simplices) = match self.counts {
-            Counts::Space { .. } => (3, "tetrahedra"),
+            Counts::StarPredicates { .. } => (3, "tetrahedra"),
             Counts::Plane { .. } => (2, "triangles"),
         };
         if self.dimension < full {
@@ -118,7 +117,7 @@ impl fmt::Display for Report<'_> {
             writeln!(f, "dimension       {} ({shape}, so there are no {simplices})", self.dimension)?;
         }
         match self.counts {
-            Counts::Space { tetrahedra, hull_triangles } => {
+            Counts::StarPredicates { tetrahedra, hull_triangles } => {
                 writeln!(f, "tetrahedra      {tetrahedra}\nhull triangles  {hull_triangles}")?;
             }
             Counts::Plane { triangles, hull_edges } => {

@@ -9,7 +9,7 @@ use super::{
 };
 use clap::{Args, ValueEnum};
 use gdel::{
-    Engine, Options,
+    Backend, Options,
     io::files::{self, FileError, Output},
     verify::Report as Proof,
 };
@@ -59,13 +59,13 @@ enum EngineName {
     Gpu,
 }
 
-impl From<EngineName> for Engine {
+impl From<EngineName> for Backend {
     fn from(name: EngineName) -> Self {
         match name {
-            EngineName::Auto => Engine::Auto,
-            EngineName::Cpu => Engine::Cpu,
+            EngineName::Auto => Backend::Auto,
+            EngineName::Cpu => Backend::Cpu,
             #[cfg(feature = "gpu")]
-            EngineName::Gpu => Engine::Gpu,
+            EngineName::Gpu => Backend::Gpu,
         }
     }
 }
@@ -114,7 +114,7 @@ fn triangulate<M>(
         let (mesh, total) = {
             let progress = Progress::new("triangulating");
             let show = progress.reporter();
-            let mut options = Options { engine: arguments.engine.into(), ..Options::default() };
+            let mut options = Options { backend: arguments.engine.into(), ..Options::default() };
             options.on_progress = Some(Arc::new(move |progress| {
                 show(progress.phase, progress.fraction);
                 ControlFlow::Continue(())

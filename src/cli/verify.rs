@@ -8,8 +8,10 @@ use super::{
 use clap::Args;
 use gdel::{
     Points2,
+    d2::verify::{MeshView2, verify2d},
+    d3::verify::{MeshView, verify3d},
     io::{PointCloud, files},
-    verify::{Report, Statement, Statement2, verify2d, verify3d},
+    verify::Report,
 };
 use std::{
     io::{self, Write},
@@ -49,13 +51,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Checks `mesh` against the points, which come from the file `path`.
-pub(super) fn prove<'m>(path: &Path, cloud: &PointCloud, mesh: impl Into<Statement<'m>>) -> Result<Report, Failure> {
+pub(super) fn prove<'m>(path: &Path, cloud: &PointCloud, mesh: impl Into<MeshView<'m>>) -> Result<Report, Failure> {
     let _progress = Progress::new("verifying");
     verify3d(cloud, mesh).map_err(|source| Failure::Points { path: path.into(), source })
 }
 
 /// Checks `mesh` of the plane against the points, which come from the file `path`.
-pub(super) fn prove2<'m>(path: &Path, points: Points2<'_>, mesh: impl Into<Statement2<'m>>) -> Result<Report, Failure> {
+pub(super) fn prove2<'m>(path: &Path, points: Points2<'_>, mesh: impl Into<MeshView2<'m>>) -> Result<Report, Failure> {
     let _progress = Progress::new("verifying");
     verify2d(points, mesh).map_err(|source| Failure::Points { path: path.into(), source })
 }

@@ -4,8 +4,8 @@ use std::marker::PhantomData;
 
 use bytemuck::Pod;
 
-use super::Gpu;
 use crate::Error;
+use crate::gpu::Gpu;
 
 /// A storage buffer of `T`, which kernels see as `array<T>`.
 ///
@@ -27,13 +27,13 @@ impl<T: Pod> Storage<T> {
     /// # Errors
     ///
     /// [`Error::BufferTooLarge`] when the device cannot bind that much. That it has not enough memory is found by
-    /// [`Gpu::catching`].
+    /// [`Gpu::with_error_scope`].
     pub fn new(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
         Self::create(gpu, label, len, USAGES, false)
     }
 
     /// A buffer that timestamps are written to.
-    pub(super) fn for_queries(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
+    pub(crate) fn for_queries(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
         Self::create(gpu, label, len, USAGES | wgpu::BufferUsages::QUERY_RESOLVE, false)
     }
 

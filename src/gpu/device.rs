@@ -2,8 +2,8 @@
 
 use std::sync::{Arc, OnceLock};
 
-use super::MAX_WORKGROUPS;
 use crate::Error;
+use crate::gpu::MAX_WORKGROUPS;
 
 /// Which adapter to open.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -130,7 +130,7 @@ impl Gpu {
 
     /// Workgroups of a dispatch, at most, for a kernel that strides. On a CPU each one costs time even if it finds nothing to
     /// do, and more of them than keep its cores busy gain nothing.
-    pub(crate) fn most_workgroups(&self) -> u32 {
+    pub(crate) fn max_workgroups(&self) -> u32 {
         match self.adapter.software {
             true => 2 * std::thread::available_parallelism().map_or(2, |n| n.get() as u32),
             false => MAX_WORKGROUPS,
@@ -149,7 +149,11 @@ impl Gpu {
     ///
     /// [`Error::OutOfDeviceMemory`], [`Error::DeviceLost`], the errors of `body`, and [`Error::Gpu`] for what should
     /// not happen.
-    pub async fn catching<T>(&self, what: &'static str, body: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+    pub async fn with_error_scope<T>(
+        &self,
+        what: &'static str,
+        body: impl FnOnce() -> Result<T, Error>,
+    ) -> Result<T, Error> {
         let (result, reports) = {
             use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
             let [a, b, c] = [Validation, Internal, OutOfMemory].map(|filter| self.device.push_error_scope(filter));

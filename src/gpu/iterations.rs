@@ -1,12 +1,12 @@
 //! How many flip iterations the host records ahead for a round, and when votes have to be cleared between them.
 
-use super::{
+use crate::gpu::{
     Recorder,
     layout::{BLOCK, Counters},
 };
 
 /// The bits of a bidder's number: twice as many as there are slots in `blocks`, because the upper half is for marks.
-pub(super) fn bid_bits(blocks: u32) -> u32 {
+pub(crate) fn bid_bits(blocks: u32) -> u32 {
     33 - (blocks * BLOCK).leading_zeros()
 }
 
@@ -18,7 +18,7 @@ const MOST: u32 = 64;
 /// The flip iterations of a run. An iteration that finds nothing to do costs microseconds, a flip that has to wait for the next
 /// round may cost failed vertices.
 #[derive(Debug)]
-pub(super) struct Iterations {
+pub(crate) struct Iterations {
     /// To record for a round.
     planned: u32,
     /// An upper bound of the iteration that the kernels count.
@@ -26,13 +26,13 @@ pub(super) struct Iterations {
 }
 
 impl Iterations {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Iterations { planned: FEWEST, counted: 0 }
     }
 
     /// Plans the next round by the counters before and after the last one, of which it gives the iterations. `waiting` points
     /// are left.
-    pub(super) fn plan(&mut self, before: &Counters, after: &Counters, waiting: u32) -> u32 {
+    pub(crate) fn plan(&mut self, before: &Counters, after: &Counters, waiting: u32) -> u32 {
         self.counted = after.iteration;
         let used = after.iterations - before.iterations;
         // While few points are in, each round takes longer than the last one.
@@ -43,12 +43,12 @@ impl Iterations {
     }
 
     /// Votes are clear.
-    pub(super) fn restart(&mut self) {
+    pub(crate) fn restart(&mut self) {
         self.counted = 1;
     }
 
     /// Records those of a round: some `flips`, and `clear` wherever a bid has no room for the number of the next iteration.
-    pub(super) fn record(
+    pub(crate) fn record(
         &mut self,
         recorder: &mut Recorder<'_>,
         bid_bits: u32,

@@ -1,7 +1,7 @@
 //! Compute pipelines.
 
-use super::{Gpu, shader};
-use crate::lattice::Width;
+use crate::gpu::{Gpu, shader};
+use crate::input::lattice::Width;
 
 /// A compute pipeline with one bind group.
 #[derive(Debug, Clone)]

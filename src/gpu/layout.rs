@@ -123,7 +123,7 @@ pub struct Counters {
     /// Points that another one stands for, because it lies at the same place.
     pub aside: u32,
     /// Tetrahedra that are flat, or of which the lattice does not prove everything; in the plane, questions to the host.
-    pub doubtful: u32,
+    pub uncertain: u32,
     /// Infinite tetrahedra, counted when they are numbered.
     pub ghosts: u32,
     /// Entries of the active list that the filter left open in this flip iteration.
@@ -155,7 +155,7 @@ pub struct Params {
     pub bid_bits: u32,
     /// With fewer active tetrahedra than this a flip iteration does nothing.
     pub min_active: u32,
-    /// How a tetrahedron picks its point: a [`Pick`](super::phase1::Pick).
+    /// How a tetrahedron picks its point: a [`Pick`](crate::gpu::layout::Pick).
     pub pick: u32,
     /// Entries of the list of waiting points.
     pub entries: u32,
@@ -166,6 +166,24 @@ pub struct Params {
     /// In space: after a flip iteration with at least this many active tetrahedra, the next ones are found by looking at
     /// all slots (§4.2).
     pub compact_from: u32,
+}
+
+/// Words of [`Params`], after which the [`Counters`] stand in the buffer `control`.
+pub const PARAM_WORDS: usize = size_of::<Params>() / 4;
+/// Words of [`Counters`].
+pub const COUNTER_WORDS: usize = size_of::<Counters>() / 4;
+
+/// Which of its waiting points a tetrahedron inserts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(u32)]
+pub enum Pick {
+    /// The one nearest to the circumcentre.
+    #[default]
+    Circumcenter = 0,
+    /// The one nearest to the centroid.
+    Centroid = 1,
+    /// Any.
+    Random = 2,
 }
 
 /// A point that waits to be inserted.

@@ -10,29 +10,25 @@
 //! * [`Storage`] is a typed storage buffer; [`Readback`] brings results to the host through reused staging buffers.
 //! * [`stages`] has the host half of each stage.
 //! * [`vertex`] is the form in which points reach the GPU.
-//! * [`twin`] has the kernels' twins, which compute the same on the CPU.
+//! * [`reference`] has the kernels' references, which compute the same on the CPU.
 
 mod buffers;
 mod device;
-mod iterations;
+pub(crate) mod iterations;
 mod kernel;
 pub mod layout;
-pub mod phase1;
-pub mod plane;
-mod profile;
+pub mod points;
+pub mod primitives;
+mod profiler;
 mod readback;
 mod recorder;
 pub mod shader;
-
-pub mod stages;
-pub mod start;
-pub mod twin;
-pub mod vertex;
+pub mod waiting;
 
 pub use buffers::Storage;
 pub use device::{AdapterChoice, AdapterSummary, Gpu, adapters};
 pub use kernel::Kernel;
-pub use profile::Profiler;
+pub use profiler::Profiler;
 pub use readback::{Pending, Readback};
 pub use recorder::Recorder;
 

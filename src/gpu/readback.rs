@@ -3,8 +3,8 @@
 use bytemuck::Pod;
 use futures_channel::oneshot;
 
-use super::{Gpu, Storage};
 use crate::Error;
+use crate::gpu::{Gpu, Storage};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::parallel::{Threads, for_chunks};
 
@@ -103,7 +103,7 @@ impl Readback {
         len: usize,
     ) -> Result<Vec<T>, Error> {
         let (submission, pending) = gpu
-            .catching("readback", || {
+            .with_error_scope("readback", || {
                 let mut encoder = gpu.device().create_command_encoder(&Default::default());
                 let pending = self.copy(gpu, &mut encoder, source, start, len);
                 Ok((gpu.queue().submit([encoder.finish()]), pending))

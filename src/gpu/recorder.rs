@@ -1,6 +1,6 @@
 //! Recording: many dispatches in one compute pass, and one submission.
 
-use super::{Gpu, Kernel, Profiler};
+use crate::gpu::{Gpu, Kernel, Profiler};
 
 /// Records commands for one submission.
 pub struct Recorder<'a> {

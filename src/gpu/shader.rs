@@ -3,7 +3,7 @@
 //! A line `//!include NAME` stands for the file `shaders/NAME.wgsl`, once in each assembled shader however often it is
 //! asked for. `{width}` in a name is `narrow` or `wide`: the two forms of the exact arithmetic have the same functions.
 
-use crate::lattice::Width;
+use crate::input::lattice::Width;
 
 /// The files of `shaders/`, by name, as `build.rs` gathers them: without comments.
 const SOURCES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/shaders.rs"));

@@ -1,6 +1,6 @@
 //! Files by path: formats by extension, and writing that leaves nothing half-written.
 
-use super::{FormatError, HullFormat, MeshData, MeshData2, MeshFormat, PointCloud, PointFormat, tetgen};
+use crate::io::{FormatError, HullFormat, MeshData, MeshData2, MeshFormat, PointCloud, PointFormat, tetgen};
 use crate::{Mesh2, Mesh3, Points, Points2};
 use std::{
     fs,
@@ -170,10 +170,10 @@ impl Output {
                 part("neigh", &|to| tetgen::write_neigh(to, mesh))?,
             ],
             OutputFormat::Mesh(MeshFormat::Vtu) => {
-                vec![prepare(&self.path, &|to| super::write_vtu(to, points, mesh))?]
+                vec![prepare(&self.path, &|to| crate::io::write_vtu(to, points, mesh))?]
             }
             OutputFormat::Mesh(MeshFormat::Npz) => {
-                vec![prepare(&self.path, &|to| super::write_npz(to, points, mesh))?]
+                vec![prepare(&self.path, &|to| crate::io::write_npz(to, points, mesh))?]
             }
             OutputFormat::Hull(format) => vec![prepare(&self.path, &|to| format.write(to, points, mesh))?],
         };
@@ -192,15 +192,15 @@ impl Output {
         let parts = match self.format {
             OutputFormat::Mesh(MeshFormat::TetGen) => vec![
                 part("node", &|to| tetgen::write_node(to, points))?,
-                part("ele", &|to| super::write_ele2(to, mesh))?,
-                part("neigh", &|to| super::write_neigh2(to, mesh))?,
+                part("ele", &|to| crate::io::write_ele2(to, mesh))?,
+                part("neigh", &|to| crate::io::write_neigh2(to, mesh))?,
             ],
-            OutputFormat::Mesh(MeshFormat::Vtu) => whole(&|to| super::write_vtu2(to, points, mesh))?,
-            OutputFormat::Mesh(MeshFormat::Npz) => whole(&|to| super::write_npz2(to, points, mesh))?,
-            OutputFormat::Hull(HullFormat::Ply) => whole(&|to| super::write_ply2(to, points, mesh))?,
-            OutputFormat::Hull(HullFormat::Obj) => whole(&|to| super::write_obj2(to, points, mesh))?,
-            OutputFormat::Hull(HullFormat::Stl) => whole(&|to| super::write_stl2(to, points, mesh))?,
-            OutputFormat::Hull(HullFormat::Glb) => whole(&|to| super::write_glb2(to, points, mesh))?,
+            OutputFormat::Mesh(MeshFormat::Vtu) => whole(&|to| crate::io::write_vtu2(to, points, mesh))?,
+            OutputFormat::Mesh(MeshFormat::Npz) => whole(&|to| crate::io::write_npz2(to, points, mesh))?,
+            OutputFormat::Hull(HullFormat::Ply) => whole(&|to| crate::io::write_ply2(to, points, mesh))?,
+            OutputFormat::Hull(HullFormat::Obj) => whole(&|to| crate::io::write_obj2(to, points, mesh))?,
+            OutputFormat::Hull(HullFormat::Stl) => whole(&|to| crate::io::write_stl2(to, points, mesh))?,
+            OutputFormat::Hull(HullFormat::Glb) => whole(&|to| crate::io::write_glb2(to, points, mesh))?,
         };
         parts.into_iter().try_for_each(publish)
     }

@@ -1,6 +1,6 @@
 //! The formats by file extension.
 
-use super::{
+use crate::io::{
     FormatError, MeshData, MeshData2, PointCloud, glb, las, npy, npz, obj, pcd, plane, ply, raw, stl, tetgen, text, vtu,
 };
 use crate::{Mesh3, Points};

@@ -2,7 +2,7 @@
 //!
 //! Written here, since two chunks and a few lines of JSON need no library.
 
-use super::mesh_data::Surface;
+use crate::io::mesh_data::Surface;
 use crate::{Mesh3, Points};
 use std::io::{self, Write};
 

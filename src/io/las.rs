@@ -3,7 +3,7 @@
 //! The crates allocate what a broken file says, and panic on some. So what a file says is checked here before they see
 //! it, and a panic is taken for what it is: a broken file.
 
-use super::{FormatError, PointBuf, PointCloud};
+use crate::io::{FormatError, PointBuf, PointCloud};
 use las::raw;
 use laz::{LazItemType, LazVlr};
 use std::{

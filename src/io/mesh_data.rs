@@ -1,9 +1,6 @@
 //! Meshes as files give and take them.
 
-use crate::{
-    Points,
-    verify::{Statement, Statement2},
-};
+use crate::{Points, d2::verify::MeshView2, d3::verify::MeshView};
 
 /// A mesh as a file gives it: nothing about it has been checked.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -15,9 +12,9 @@ pub struct MeshData {
     pub neighbors: Option<Vec<[i32; 4]>>,
 }
 
-impl<'a> From<&'a MeshData> for Statement<'a> {
+impl<'a> From<&'a MeshData> for MeshView<'a> {
     fn from(mesh: &'a MeshData) -> Self {
-        Statement { neighbors: mesh.neighbors.as_deref(), ..Statement::of_tetrahedra(&mesh.tetrahedra) }
+        MeshView { neighbors: mesh.neighbors.as_deref(), ..MeshView::of_tetrahedra(&mesh.tetrahedra) }
     }
 }
 
@@ -30,9 +27,9 @@ pub struct MeshData2 {
     pub halfedges: Option<Vec<[i32; 3]>>,
 }
 
-impl<'a> From<&'a MeshData2> for Statement2<'a> {
+impl<'a> From<&'a MeshData2> for MeshView2<'a> {
     fn from(mesh: &'a MeshData2) -> Self {
-        Statement2 { halfedges: mesh.halfedges.as_deref(), ..Statement2::of_triangles(&mesh.triangles) }
+        MeshView2 { halfedges: mesh.halfedges.as_deref(), ..MeshView2::of_triangles(&mesh.triangles) }
     }
 }
 

@@ -3,8 +3,8 @@
 //! Read here because `npyz` allocates what the header says, multiplies the shape unchecked, and parses the header
 //! with a recursion that a file can make as deep as it likes. The header is one line that NumPy writes in one form.
 
-use super::{FormatError, PointBuf, PointCloud, error::quote};
 use crate::Points;
+use crate::io::{FormatError, PointBuf, PointCloud, error::quote};
 use std::io::{self, Write};
 
 /// What an array's header says, and its data.

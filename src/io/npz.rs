@@ -1,6 +1,9 @@
 //! NumPy's `.npz`: a ZIP archive of arrays.
 
-use super::{FormatError, MeshData, MeshData2, npy, npy::Array};
+use crate::io::{
+    FormatError, MeshData, MeshData2,
+    npy::{self, Array},
+};
 use crate::{Mesh2, Mesh3, Points, Points2};
 use std::io::{self, Cursor, Read, Write};
 use zip::{

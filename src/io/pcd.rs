@@ -3,7 +3,7 @@
 //! Read here because `pcd-rs` allocates what a header says (4 GiB for eight bytes) and panics when the sizes of
 //! compressed data disagree with its header, and because the `lzf` crate is deprecated.
 
-use super::{
+use crate::io::{
     FormatError, PointCloud,
     error::quote,
     point_cloud::narrow,

@@ -3,8 +3,8 @@
 //! Files have triangles counter-clockwise where *y* points up, as their other programs do; only `.npz` has them as
 //! [`Mesh2`] has. Formats of space get z = 0.
 
-use super::{FormatError, MeshData2, PointBuf, PointCloud, glb, obj, ply, stl, tetgen, vtu};
-use crate::{Mesh2, Points, Points2, mesh::NONE};
+use crate::io::{FormatError, MeshData2, PointBuf, PointCloud, glb, obj, ply, stl, tetgen, vtu};
+use crate::{Mesh2, Points, Points2, index::NONE};
 use std::io::{self, Write};
 
 /// A triangle the other way round.
@@ -106,7 +106,7 @@ pub fn write_stl2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Res
     stl::write_surface(to, (&in_space(points)).into(), &turned(&mesh.triangles), "triangulation")
 }
 
-/// Writes the triangles as binary glTF, without the points that are no vertices: see [`write_hull_glb`](super::write_hull_glb).
+/// Writes the triangles as binary glTF, without the points that are no vertices: see [`write_hull_glb`](crate::io::write_hull_glb).
 ///
 /// # Errors
 ///

@@ -1,6 +1,6 @@
 //! Stanford PLY.
 
-use super::{FormatError, PointBuf, PointCloud, mesh_data::Surface};
+use crate::io::{FormatError, PointBuf, PointCloud, mesh_data::Surface};
 use crate::{Mesh3, Points};
 use serde::{Deserialize, de::IgnoredAny};
 use serde_ply::{DeserializeError, ElementDef, PlyFormat, PlyReader, PropertyType, ScalarType};

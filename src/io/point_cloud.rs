@@ -1,6 +1,6 @@
 //! Points as a file gives them.
 
-use super::FormatError;
+use crate::io::FormatError;
 use crate::{Error, Points};
 
 /// Owned points in the precision of their file.

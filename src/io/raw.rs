@@ -1,7 +1,7 @@
 //! Bare little-endian coordinates: x, y, z, x, y, z, …
 
-use super::{FormatError, PointBuf, PointCloud};
 use crate::Points;
+use crate::io::{FormatError, PointBuf, PointCloud};
 use std::io::{self, Write};
 
 pub(super) fn read_f32(bytes: &[u8]) -> Result<PointCloud, FormatError> {

@@ -3,7 +3,7 @@
 //! Read here because `stl_io` says no line where a file is broken, refuses solids without a name, stops after the
 //! first of several, and takes a binary file whose header happens to begin with `solid` for text.
 
-use super::{
+use crate::io::{
     FormatError, PointBuf, PointCloud,
     error::quote,
     mesh_data::Surface,

@@ -1,6 +1,6 @@
 //! The text files of Triangle and TetGen: `.node`, `.ele` and `.neigh`.
 
-use super::{
+use crate::io::{
     FormatError,
     error::quote,
     text::{fields, lines},

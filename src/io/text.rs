@@ -1,7 +1,7 @@
 //! Points as text: XYZ, PTS and CSV, and what all readers of text share.
 
-use super::{FormatError, PointBuf, PointCloud, error::quote};
 use crate::Points;
+use crate::io::{FormatError, PointBuf, PointCloud, error::quote};
 use std::io::{self, Write};
 
 /// The lines of a text file with their numbers, without line ends and a byte order mark.

@@ -3,7 +3,7 @@
 //! Written and read here, with `quick-xml` for the XML: the newest `vtkio` (0.7) is a
 //! release candidate.
 
-use super::{FormatError, MeshData, error::quote};
+use crate::io::{FormatError, MeshData, error::quote};
 use crate::{Mesh3, Points};
 use base64::{
     Engine, alphabet,

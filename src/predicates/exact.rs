@@ -3,8 +3,8 @@
 //! Shewchuk's adaptive expansions (the `robust` crate) are exact as long as no intermediate result over- or underflows.
 //! Where the exponents do not rule that out, big integers decide.
 
-use super::Sign;
-use crate::lattice::decompose;
+use crate::input::lattice::decompose;
+use crate::predicates::Sign;
 use num_bigint::BigInt;
 use robust::{Coord, Coord3D};
 

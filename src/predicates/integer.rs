@@ -4,7 +4,7 @@
 //! determinant 5b + 6; in the plane, 2b + 2 and 4b + 4. The narrow forms take 31-bit coordinates and stay within 64- and
 //! 128-bit integers but for the last sum of `insphere`; the wide forms take 62-bit ones.
 
-use super::Sign;
+use crate::predicates::Sign;
 
 type Point = [i64; 3];
 

@@ -13,9 +13,9 @@
 //! [`symbolic`] breaks ties, and [`vertices`] puts a floating-point filter in front of them for a whole point set.
 
 pub mod exact;
+pub mod filter;
 pub mod integer;
 pub mod symbolic;
-pub mod vertices;
 
 pub use exact::{collinear, incircle, insphere, orient2d, orient3d};
 pub use symbolic::{incircle_symbolic, insphere_symbolic};

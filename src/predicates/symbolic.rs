@@ -5,7 +5,7 @@
 //! other four points. So the first point in index order whose removal leaves four points that are not coplanar decides;
 //! in the plane, three points that are not collinear.
 
-use super::{Sign, exact};
+use crate::predicates::{Sign, exact};
 
 /// The sign of an in-sphere or in-circle determinant that vanishes without the perturbation. `indices` are the input
 /// indices of the arguments; `orient(k)` is the orientation of the others, in argument order, when argument *k* is left

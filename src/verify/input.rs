@@ -1,28 +1,28 @@
 //! What is true of the points alone: duplicates and dimension.
 
-use super::report::{Defect, Findings};
+use crate::verify::report::{Defect, Findings};
 use crate::{
     Error, Points,
-    mesh::NONE,
+    index::NONE,
     predicates::{orient2d, orient3d},
 };
 use std::cmp::Ordering;
 
 /// The points with what follows from them.
-pub(super) struct Input<const D: usize> {
+pub(crate) struct Input<const D: usize> {
     /// The exact coordinates, duplicates included.
-    pub(super) points: Vec<[f64; D]>,
+    pub(crate) points: Vec<[f64; D]>,
     /// For each point the lowest index with the same coordinates.
     representative: Vec<u32>,
     /// The number of points without duplicates.
-    pub(super) distinct: usize,
+    pub(crate) distinct: usize,
     /// The affine dimension, 0 to D.
-    pub(super) dimension: u8,
+    pub(crate) dimension: u8,
 }
 
 impl<const D: usize> Input<D> {
     /// `affine_dimension` is that of the points.
-    pub(super) fn new(points: Points<'_, D>, affine_dimension: fn(&[[f64; D]]) -> u8) -> Result<Self, Error> {
+    pub(crate) fn new(points: Points<'_, D>, affine_dimension: fn(&[[f64; D]]) -> u8) -> Result<Self, Error> {
         points.validate()?;
         let limit = i32::MAX as usize;
         if points.len() > limit {
@@ -36,7 +36,7 @@ impl<const D: usize> Input<D> {
         Ok(Input { points, representative, distinct, dimension })
     }
 
-    pub(super) fn check_dimension(&self, stated: u8) -> Findings {
+    pub(crate) fn check_dimension(&self, stated: u8) -> Findings {
         let mut findings = Findings::default();
         if stated != self.dimension {
             findings.add(|| {
@@ -46,7 +46,7 @@ impl<const D: usize> Input<D> {
         findings
     }
 
-    pub(super) fn check_duplicates(&self, stated: &[i32]) -> Findings {
+    pub(crate) fn check_duplicates(&self, stated: &[i32]) -> Findings {
         let mut findings = Findings::default();
         if stated.len() != self.points.len() {
             findings.add(|| Defect::in_mesh(format!("{} entries for {} points", stated.len(), self.points.len())));
@@ -65,7 +65,7 @@ impl<const D: usize> Input<D> {
     }
 
     /// Needs vertices that are indices of points. `what` the simplices are, and how to blame one.
-    pub(super) fn check_vertices<const N: usize>(
+    pub(crate) fn check_vertices<const N: usize>(
         &self,
         simplices: &[[u32; N]],
         what: &str,
@@ -97,7 +97,7 @@ impl<const D: usize> Input<D> {
     }
 
     /// The distinct points by their lowest indices, in the order of their coordinates.
-    pub(super) fn distinct_in_order(&self) -> Vec<u32> {
+    pub(crate) fn distinct_in_order(&self) -> Vec<u32> {
         let mut distinct: Vec<u32> =
             (0u32..).zip(&self.representative).filter(|&(i, &r)| r == i).map(|(i, _)| i).collect();
         distinct.sort_unstable_by(|&i, &j| compare(&self.points[i as usize], &self.points[j as usize]));
@@ -124,7 +124,7 @@ fn representatives<const D: usize>(points: &[[f64; D]]) -> Vec<u32> {
 }
 
 /// The affine dimension of points of the plane.
-pub(super) fn dimension_in_plane(points: &[[f64; 2]]) -> u8 {
+pub(crate) fn dimension_in_plane(points: &[[f64; 2]]) -> u8 {
     let mut points = points.iter().copied();
     let Some(a) = points.next() else { return 0 };
     let Some(b) = points.find(|&p| p != a) else { return 0 };
@@ -132,7 +132,7 @@ pub(super) fn dimension_in_plane(points: &[[f64; 2]]) -> u8 {
 }
 
 /// The affine dimension of points of space.
-pub(super) fn dimension_in_space(points: &[[f64; 3]]) -> u8 {
+pub(crate) fn dimension_in_space(points: &[[f64; 3]]) -> u8 {
     // As a function of d, orient3d(a, b, c, d) is affine. It vanishes everywhere, so that a, b, c are collinear, exactly
     // when it vanishes at four points that are not coplanar.
     const FRAME: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

@@ -14,110 +14,11 @@
 //! In the plane it is simpler. Triangles that are all oriented alike and meet across edges from either side cover a point
 //! as often as their boundary winds around it: once inside, if that is a convex polygon that turns once.
 
-mod complex;
-mod geometry;
-mod input;
-mod plane;
-mod report;
+pub(crate) mod input;
+pub(crate) mod report;
 
-pub use plane::{Statement2, verify2d};
+pub use crate::{
+    d2::verify::{MeshView2, verify2d},
+    d3::verify::{MeshView, verify3d},
+};
 pub use report::{Check, Counts, Defect, Outcome, Report};
-
-use crate::{Error, Mesh3, Points};
-use complex::Complex;
-use input::{Input, dimension_in_space};
-
-/// What a mesh states: at least its tetrahedra. What is `None` is not checked.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Statement<'a> {
-    /// As in [`Mesh3::tetrahedra`].
-    pub tetrahedra: &'a [[u32; 4]],
-    /// As in [`Mesh3::neighbors`].
-    pub neighbors: Option<&'a [[i32; 4]]>,
-    /// As in [`Mesh3::hull`]; the triangles in any order, each from any of its vertices.
-    pub hull: Option<&'a [[u32; 3]]>,
-    /// As in [`Mesh3::duplicate_of`].
-    pub duplicate_of: Option<&'a [i32]>,
-    /// As in [`Mesh3::dimension`].
-    pub dimension: Option<u8>,
-}
-
-impl<'a> Statement<'a> {
-    /// A mesh of which only the tetrahedra are known.
-    pub fn of_tetrahedra(tetrahedra: &'a [[u32; 4]]) -> Self {
-        Statement { tetrahedra, ..Statement::default() }
-    }
-}
-
-impl<'a> From<&'a Mesh3> for Statement<'a> {
-    fn from(mesh: &'a Mesh3) -> Self {
-        Statement {
-            tetrahedra: &mesh.tetrahedra,
-            neighbors: Some(&mesh.neighbors),
-            hull: Some(&mesh.hull),
-            duplicate_of: Some(&mesh.duplicate_of),
-            dimension: Some(mesh.dimension),
-        }
-    }
-}
-
-/// Checks that `mesh` is the Delaunay triangulation of `points`, of any mesh whatever.
-///
-/// ```
-/// use gdel::verify::{Statement, verify3d};
-/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
-/// assert!(verify3d(&points, Statement::of_tetrahedra(&[[0, 1, 2, 3]]))?.passed());
-/// let inside_out = verify3d(&points, Statement::of_tetrahedra(&[[1, 0, 2, 3]]))?;
-/// assert_eq!(inside_out.failures().next().unwrap().0.name(), "orientation");
-/// # Ok::<(), gdel::Error>(())
-/// ```
-///
-/// # Errors
-///
-/// [`Error::NotFinite`] when a coordinate is NaN or infinite, and [`Error::TooManyPoints`] when an index cannot name
-/// every point. A defect of the mesh is no error, but a failed check in the [`Report`].
-pub fn verify3d<'p, 'm>(points: impl Into<Points<'p>>, mesh: impl Into<Statement<'m>>) -> Result<Report, Error> {
-    let mesh = mesh.into();
-    let input = Input::new(points.into(), dimension_in_space)?;
-    let mut report = Report { dimension: input.dimension, ..Report::default() };
-    report.counts.points = input.points.len();
-    report.counts.distinct_points = input.distinct;
-    report.counts.tetrahedra = mesh.tetrahedra.len();
-
-    report.decide(Check::Dimension, || mesh.dimension.map_or(Outcome::NotStated, |d| input.check_dimension(d).into()));
-    report.decide(Check::Duplicates, || {
-        mesh.duplicate_of.map_or(Outcome::NotStated, |d| input.check_duplicates(d).into())
-    });
-    let indices = complex::check_indices(mesh.tetrahedra, input.points.len()).into();
-    let mut complex = match indices {
-        Outcome::Passed => Complex::new(mesh.tetrahedra, input.points.len()),
-        _ => Complex::default(),
-    };
-    report.decide(Check::Indices, || indices);
-    report.counts.vertices = complex.vertices;
-    report.counts.edges = complex.edges;
-    report.counts.facets = complex.facets;
-    report.counts.hull_triangles = complex.hull.len();
-
-    report.decide(Check::Vertices, || {
-        input.check_vertices(mesh.tetrahedra, "tetrahedron", Defect::at_tetrahedron).into()
-    });
-    report.decide(Check::Orientation, || geometry::check_orientation(&input.points, mesh.tetrahedra).into());
-    report.decide(Check::Facets, || complex.check_facets().into());
-    report
-        .decide(Check::Neighbors, || mesh.neighbors.map_or(Outcome::NotStated, |n| complex.check_neighbors(n).into()));
-    let mut ties = Outcome::Passed;
-    report.decide(Check::Delaunay, || {
-        let (delaunay, canonical) = geometry::check_delaunay(&input.points, &complex);
-        ties = canonical.into();
-        delaunay.into()
-    });
-    report.decide(Check::CanonicalTies, || ties);
-    report.decide(Check::Hull, || mesh.hull.map_or(Outcome::NotStated, |hull| complex.check_hull(hull).into()));
-    let mut ridges = Vec::new();
-    report.decide(Check::HullClosed, || complex.check_hull_closed(&mut ridges).into());
-    report.decide(Check::HullConvex, || geometry::check_hull_convex(&input.points, &complex, &ridges).into());
-    report.decide(Check::EulerCharacteristic, || complex.check_euler_characteristic().into());
-    report.decide(Check::Covering, || geometry::check_covering(&input.points, &complex).into());
-    Ok(report)
-}

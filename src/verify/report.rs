@@ -115,19 +115,19 @@ pub struct Defect {
 }
 
 impl Defect {
-    pub(super) fn in_mesh(detail: String) -> Self {
+    pub(crate) fn in_mesh(detail: String) -> Self {
         Defect { detail, ..Defect::default() }
     }
 
-    pub(super) fn at_tetrahedron(tetrahedron: usize, detail: String) -> Self {
+    pub(crate) fn at_tetrahedron(tetrahedron: usize, detail: String) -> Self {
         Defect { tetrahedron: Some(tetrahedron), detail, ..Defect::default() }
     }
 
-    pub(super) fn at_triangle(triangle: usize, detail: String) -> Self {
+    pub(crate) fn at_triangle(triangle: usize, detail: String) -> Self {
         Defect { triangle: Some(triangle), detail, ..Defect::default() }
     }
 
-    pub(super) fn at_point(point: usize, detail: String) -> Self {
+    pub(crate) fn at_point(point: usize, detail: String) -> Self {
         Defect { point: Some(point), detail, ..Defect::default() }
     }
 }
@@ -167,13 +167,13 @@ pub enum Outcome {
 
 /// The defects of one check: the first of them, and their number.
 #[derive(Debug, Default)]
-pub(super) struct Findings {
+pub(crate) struct Findings {
     first: Option<Defect>,
     count: usize,
 }
 
 impl Findings {
-    pub(super) fn add(&mut self, defect: impl FnOnce() -> Defect) {
+    pub(crate) fn add(&mut self, defect: impl FnOnce() -> Defect) {
         self.first.get_or_insert_with(defect);
         self.count += 1;
     }
@@ -238,7 +238,7 @@ impl Report {
     }
 
     /// Decides the next check, unless one that it requires was not passed.
-    pub(super) fn decide(&mut self, check: Check, outcome: impl FnOnce() -> Outcome) {
+    pub(crate) fn decide(&mut self, check: Check, outcome: impl FnOnce() -> Outcome) {
         let passed = |required: &&Check| matches!(self.outcome(**required), Some(Outcome::Passed));
         let outcome = match check.requires().iter().find(|required| !passed(required)) {
             Some(&required) => Outcome::Blocked(required),

@@ -3,12 +3,12 @@
 use js_sys::{Array, Function, Int32Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use super::{
+use crate::wasm::{
     objects::{object, set},
     points::Coordinates,
     run::{self, options},
 };
-use crate::{Engines, Mesh3, engines::LEAST_POINTS, stats::Trace};
+use crate::{Mesh3, Triangulator, stats::Trace, triangulator::MIN_POINTS};
 
 /// What to copy out of this module's memory, besides the tetrahedra.
 #[wasm_bindgen]
@@ -31,14 +31,14 @@ impl Outputs {
 /// The number of points from which on the engine `auto` thinks of the GPU.
 #[wasm_bindgen]
 pub fn least_gpu_points() -> u32 {
-    LEAST_POINTS as u32
+    MIN_POINTS as u32
 }
 
 /// Both engines, for any number of runs.
 #[wasm_bindgen]
 #[derive(Default)]
 pub struct WasmEngines {
-    engines: Engines,
+    engines: Triangulator,
 }
 
 #[wasm_bindgen]

@@ -3,24 +3,24 @@
 use js_sys::{Function, Int32Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use super::{
+use crate::wasm::{
     objects::object,
     points::Coordinates,
     run::{options, stats},
 };
-use crate::{Engine, Engines, Mesh2, Options, engines::LEAST_POINTS_2};
+use crate::{Backend, Mesh2, Options, Triangulator, triangulator::MIN_POINTS_2};
 
 /// The number of points from which on the engine `auto` thinks of the GPU.
 #[wasm_bindgen]
 pub fn least_gpu_points() -> u32 {
-    LEAST_POINTS_2 as u32
+    MIN_POINTS_2 as u32
 }
 
 /// Both engines, for any number of runs.
 #[wasm_bindgen]
 #[derive(Default)]
 pub struct PlaneEngines {
-    engines: Engines,
+    engines: Triangulator,
 }
 
 #[wasm_bindgen]
@@ -49,7 +49,7 @@ impl PlaneEngines {
 pub fn delaunay2d_at_once(points: JsValue) -> Result<JsValue, JsValue> {
     let coordinates = Coordinates::new(&points)?;
     drop(points);
-    let options = Options { engine: Engine::Cpu, ..Options::default() };
+    let options = Options { backend: Backend::Cpu, ..Options::default() };
     Ok(mesh2(crate::delaunay2d(coordinates.points()?, &options)?))
 }
 

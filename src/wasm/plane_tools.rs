@@ -1,21 +1,23 @@
-//! The same as in [`tools`](super::tools) for the plane.
+//! The same as in [`tools`](crate::wasm::tools) for the plane.
 
 use js_sys::{Float64Array, Int32Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use super::{
+use crate::wasm::{
     objects::{error, object},
     points::{Coordinates, zeros},
     tools::{check_vertices, copied, file, no_format, report_object, rows},
 };
 use crate::{
     Mesh2,
+    d2::{
+        generate::{self, Distribution2},
+        verify::{MeshView2, verify2d},
+    },
     io::{
         HullFormat, write_ele2, write_glb2, write_neigh2, write_node, write_npz2, write_obj2, write_ply2, write_stl2,
         write_vtu2,
     },
-    plane::generate::{self, Distribution2},
-    verify::{Statement2, verify2d},
 };
 
 /// `count` points of the distribution of that name in the plane, interleaved.
@@ -96,7 +98,7 @@ impl PlaneMesh {
     pub fn verify(&self) -> Result<JsValue, JsValue> {
         let report = verify2d(
             self.points.points::<2>()?,
-            Statement2 {
+            MeshView2 {
                 triangles: &self.triangles,
                 halfedges: self.halfedges.as_deref(),
                 hull: self.hull.as_deref(),

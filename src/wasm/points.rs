@@ -3,7 +3,7 @@
 use js_sys::{Float32Array, Float64Array};
 use wasm_bindgen::{JsCast, JsValue};
 
-use super::objects::error;
+use crate::wasm::objects::error;
 use crate::{Error, Points};
 
 /// Interleaved coordinates, copied into this module's memory.

@@ -6,21 +6,20 @@ use js_sys::{Array, Function};
 use send_wrapper::SendWrapper;
 use wasm_bindgen::prelude::JsValue;
 
-use super::objects::object;
+use crate::wasm::objects::object;
 use crate::{
-    Engine, Options, Progress,
+    Backend, Options, Progress,
     options::OnProgress,
-    splay::SplayStats,
-    stats::{GpuStats, Round, Stats},
+    stats::{GpuStats, Round, SplayStats, Stats},
 };
 
 pub(super) fn options(engine: &str, trace: bool, report: Function) -> Options {
     let engine = match engine {
-        "gpu" => Engine::Gpu,
-        "cpu" => Engine::Cpu,
-        _ => Engine::Auto,
+        "gpu" => Backend::Gpu,
+        "cpu" => Backend::Cpu,
+        _ => Backend::Auto,
     };
-    Options { engine, on_progress: Some(on_progress(report)), trace }
+    Options { backend: engine, on_progress: Some(on_progress(report)), trace }
 }
 
 fn on_progress(report: Function) -> OnProgress {
@@ -76,7 +75,7 @@ fn gpu_stats(stats: &GpuStats) -> JsValue {
         ("exactTests", number(stats.exact_tests)),
         ("notLocallyDelaunay", number(stats.not_locally_delaunay)),
         ("failedVertices", number(stats.failed_vertices)),
-        ("united", number(stats.united)),
+        ("merged", number(stats.merged)),
         ("readbacks", number(stats.readbacks)),
         ("dispatches", number(stats.dispatches)),
         ("submits", number(stats.submits)),

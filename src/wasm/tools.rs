@@ -3,15 +3,18 @@
 use js_sys::{Array, Float32Array, Float64Array, Int32Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use super::{
+use crate::wasm::{
     objects::{error, object},
     points::{Coordinates, zeros},
 };
 use crate::{
     Mesh3,
-    generate::{self, Distribution},
+    d3::{
+        generate::{self, Distribution},
+        verify::{MeshView, verify3d},
+    },
     io::{HullFormat, PointBuf, PointFormat, write_ele, write_neigh, write_node, write_npz, write_vtu},
-    verify::{Check, Outcome, Report, Statement, verify3d},
+    verify::{Check, Outcome, Report},
 };
 
 /// `count` points of the distribution of that name, interleaved.
@@ -119,7 +122,7 @@ impl Mesh {
         let Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension, .. } = &self.mesh;
         let report = verify3d(
             self.points.points::<3>()?,
-            Statement {
+            MeshView {
                 tetrahedra,
                 neighbors: self.stated.neighbors.then_some(neighbors),
                 hull: self.stated.hull.then_some(hull),

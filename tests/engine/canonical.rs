@@ -3,9 +3,9 @@
 use crate::oracle::{Definition, definition};
 use gdel::{
     Options,
-    cpu::{Order, delaunay3d_in_order},
+    d3::{cpu::delaunay3d_in_order, verify::verify3d},
     delaunay3d,
-    verify::verify3d,
+    input::order::Order,
 };
 use proptest::prelude::*;
 

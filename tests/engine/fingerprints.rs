@@ -2,8 +2,9 @@
 //! engines with the same file.
 
 use gdel::{
-    Engine, Options, delaunay3d,
-    generate::{Distribution, generate},
+    Backend, Options,
+    d3::generate::{Distribution, generate},
+    delaunay3d,
 };
 
 /// FNV-1a, 64 bits, over the canonical tetrahedra's indices as little-endian words.
@@ -24,7 +25,7 @@ fn meshes_have_their_fingerprints() {
             let &[name, count, seed, ..] = &fields[..] else { panic!("{line}") };
             let distribution = Distribution::ALL.into_iter().find(|d| d.name() == name).unwrap();
             let points = generate(distribution, count.parse().unwrap(), seed.parse().unwrap());
-            let mesh = delaunay3d(&points, &Options { engine: Engine::Cpu, ..Options::default() }).unwrap();
+            let mesh = delaunay3d(&points, &Options { backend: Backend::Cpu, ..Options::default() }).unwrap();
             let canonical = mesh.canonical();
             found += &format!("{name} {count} {seed} {} {:016x}", canonical.len(), fingerprint(&canonical));
         }

@@ -4,9 +4,12 @@
 use crate::clouds::{self, grid, shuffled, survey};
 use gdel::{
     Mesh3, Options, Points,
-    cpu::{Order, delaunay3d_in_order},
-    generate::{Distribution, generate},
-    verify::verify3d,
+    d3::{
+        cpu::delaunay3d_in_order,
+        generate::{Distribution, generate},
+        verify::verify3d,
+    },
+    input::order::Order,
 };
 
 /// Verifies the mesh of the points, and that `shuffles` random insertion orders give the same tetrahedra.

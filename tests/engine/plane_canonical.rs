@@ -4,15 +4,15 @@
 use crate::oracle::{Definition2, definition2};
 use gdel::{
     Mesh2, Options,
-    cpu::Order,
-    lattice::Lattice,
-    mesh::NONE,
-    plane::{
-        Triangulation2, delaunay2d_in_order,
-        lawson::{GaveUp, NearDelaunay2, Outcome, lawson},
+    d2::{
+        Triangulation2,
+        cpu::delaunay2d_in_order,
+        lawson::{Aborted, NearDelaunay2, Outcome, lawson},
+        verify::verify2d,
     },
-    predicates::vertices::Vertices2,
-    verify::verify2d,
+    index::NONE,
+    input::{lattice::Lattice, order::Order},
+    predicates::filter::PredicateContext2,
 };
 use proptest::prelude::*;
 use rand_pcg::{
@@ -44,15 +44,15 @@ fn check_layout(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), TestCaseError> 
     let next = |e: usize| if e % 3 == 2 { e - 2 } else { e + 1 };
     let mut hull_edges = 0;
     for e in 0..halfedges.len() {
-        let Ok(twin) = usize::try_from(halfedges[e]) else {
+        let Ok(reference) = usize::try_from(halfedges[e]) else {
             prop_assert_eq!(halfedges[e], NONE);
             hull_edges += 1;
             let at = mesh.hull.iter().position(|&v| v == triangles[e]);
             prop_assert_eq!(at.map(|at| mesh.hull[(at + 1) % mesh.hull.len()]), Some(triangles[next(e)]));
             continue;
         };
-        prop_assert_eq!(halfedges[twin], e as i32);
-        prop_assert_eq!([triangles[e], triangles[next(e)]], [triangles[next(twin)], triangles[twin]]);
+        prop_assert_eq!(halfedges[reference], e as i32);
+        prop_assert_eq!([triangles[e], triangles[next(e)]], [triangles[next(reference)], triangles[reference]]);
     }
     if mesh.dimension == 2 {
         prop_assert_eq!(hull_edges, mesh.hull.len());
@@ -67,7 +67,7 @@ fn check_layout(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), TestCaseError> 
 
 /// Some triangulation of the points, without regard to circles: every point in the order of the indices is joined to what
 /// it sees, or splits the triangle that it is in.
-fn any_triangulation(vertices: &Vertices2<'_>) -> Triangulation2 {
+fn any_triangulation(vertices: &PredicateContext2<'_>) -> Triangulation2 {
     // Sorted by coordinates, every point is outside of the hull of those before.
     let mut order: Vec<u32> = (0..vertices.len() as u32).collect();
     order.sort_by(|&v, &w| vertices.point(v).partial_cmp(&vertices.point(w)).unwrap());
@@ -120,10 +120,10 @@ fn check_flips(points: &[[f64; 2]], expected: &Definition2) -> Result<(), TestCa
     }
     let lattice = Lattice::fit(points.into());
     let distinct = (0..points.len() as u32).filter(|&i| expected.duplicate_of[i as usize] == NONE);
-    let vertices = Vertices2::new(points.into(), &lattice, distinct.collect());
+    let vertices = PredicateContext2::new(points.into(), &lattice, distinct.collect());
     let triangulation = any_triangulation(&vertices);
-    let doubtful: Vec<u32> = (0..triangulation.triangles().len() as u32).collect();
-    let near = NearDelaunay2 { triangulation, doubtful, missing: Vec::new() };
+    let uncertain: Vec<u32> = (0..triangulation.triangles().len() as u32).collect();
+    let near = NearDelaunay2 { triangulation, uncertain, missing: Vec::new() };
     match lawson(&vertices, near, 10_000, &|_| Ok(()))? {
         Outcome::Delaunay(triangulation, _) => {
             let names: Vec<u32> = (0..vertices.len() as u32).map(|v| vertices.input_index(v)).collect();
@@ -132,7 +132,7 @@ fn check_flips(points: &[[f64; 2]], expected: &Definition2) -> Result<(), TestCa
             prop_assert_eq!(mesh.canonical(), expected.triangles.clone());
             Ok(())
         }
-        Outcome::GaveUp(why) => Err(TestCaseError::fail(format!("flips gave up: {why:?}"))),
+        Outcome::Aborted(why) => Err(TestCaseError::fail(format!("flips gave up: {why:?}"))),
     }
 }
 
@@ -181,9 +181,9 @@ fn check_flips_after_rounding(points: &[[f64; 2]]) -> Result<bool, TestCaseError
         (shares != NONE && expected.duplicate_of[i as usize] == NONE).then(|| (i, at.unwrap() as u32))
     });
     let missing = missing.collect();
-    let doubtful = (0..triangles.len() as u32).collect();
-    let near = NearDelaunay2 { triangulation: with_neighbors(triangles, infinite), doubtful, missing };
-    let vertices = Vertices2::new(points.into(), &Lattice::fit(points.into()), (0..infinite).collect());
+    let uncertain = (0..triangles.len() as u32).collect();
+    let near = NearDelaunay2 { triangulation: with_neighbors(triangles, infinite), uncertain, missing };
+    let vertices = PredicateContext2::new(points.into(), &Lattice::fit(points.into()), (0..infinite).collect());
     let Outcome::Delaunay(triangulation, _) = lawson(&vertices, near, 1_000, &|_| Ok(()))? else { return Ok(false) };
     let names: Vec<u32> = (0..infinite).collect();
     let (triangles, ..) = triangulation.into_mesh(&names);
@@ -292,8 +292,8 @@ fn flat_triangles_on_the_hull() {
     let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0], [1.0, 1.0]];
     // 0 3 1 and 1 3 2 are flat, the second behind the first.
     let triangles = vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [0, 3, 1], [1, 3, 2], [5, 3, 0], [5, 4, 3], [5, 0, 4]];
-    let vertices = Vertices2::new((&points).into(), &Lattice::fit((&points).into()), (0..5).collect());
-    let near = NearDelaunay2 { triangulation: with_neighbors(triangles, 5), doubtful: vec![3, 4], missing: vec![] };
+    let vertices = PredicateContext2::new((&points).into(), &Lattice::fit((&points).into()), (0..5).collect());
+    let near = NearDelaunay2 { triangulation: with_neighbors(triangles, 5), uncertain: vec![3, 4], missing: vec![] };
     let Outcome::Delaunay(triangulation, flips) = lawson(&vertices, near, 100, &|_| Ok(())).unwrap() else {
         panic!("gave up");
     };
@@ -305,12 +305,12 @@ fn flat_triangles_on_the_hull() {
 #[test]
 fn flips_stop_at_their_bound() {
     let points: Vec<[f64; 2]> = (0..40).map(|i| [f64::from(i), f64::from(i * i % 17)]).collect();
-    let vertices = Vertices2::new((&points).into(), &Lattice::fit((&points).into()), (0..40).collect());
+    let vertices = PredicateContext2::new((&points).into(), &Lattice::fit((&points).into()), (0..40).collect());
     let triangulation = any_triangulation(&vertices);
-    let doubtful: Vec<u32> = (0..triangulation.triangles().len() as u32).collect();
-    let near = NearDelaunay2 { triangulation, doubtful, missing: vec![] };
+    let uncertain: Vec<u32> = (0..triangulation.triangles().len() as u32).collect();
+    let near = NearDelaunay2 { triangulation, uncertain, missing: vec![] };
     let outcome = lawson(&vertices, near, 3, &|_| Ok(())).unwrap();
-    assert!(matches!(outcome, Outcome::GaveUp(GaveUp::Work)), "{outcome:?}");
+    assert!(matches!(outcome, Outcome::Aborted(Aborted::Work)), "{outcome:?}");
 }
 
 #[test]

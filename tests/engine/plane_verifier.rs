@@ -7,9 +7,13 @@ use crate::broken::{
 };
 use crate::oracle::definition2;
 use gdel::{
-    Error, Mesh2, Options, delaunay2d,
-    plane::generate::{Distribution2, generate2d},
-    verify::{Check, Outcome, Statement2, verify2d},
+    Error, Mesh2, Options,
+    d2::{
+        generate::{Distribution2, generate2d},
+        verify::{MeshView2, verify2d},
+    },
+    delaunay2d,
+    verify::{Check, Outcome},
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;
@@ -50,7 +54,7 @@ fn broken_meshes() -> Vec<Broken> {
     let mut broken = BrokenMeshes {
         right,
         verify: |points, mesh| verify2d(points, mesh).unwrap(),
-        verify_bare: |points, triangles| verify2d(points, Statement2::of_triangles(triangles)).unwrap(),
+        verify_bare: |points, triangles| verify2d(points, MeshView2::of_triangles(triangles)).unwrap(),
         all: Vec::new(),
     };
     statements(&mut broken);
@@ -141,7 +145,7 @@ fn triangles(broken: &mut BrokenMeshes) {
     let mut turned = right(&square()).triangles;
     turned[3].swap(0, 1);
     // The triangle that is turned has its neighbours on the wrong side, too.
-    let report = verify2d(&square(), Statement2::of_triangles(&turned)).unwrap();
+    let report = verify2d(&square(), MeshView2::of_triangles(&turned)).unwrap();
     assert_eq!(failures(&report), [orientation, Check::Facets], "{report}");
 
     let edges = Check::Facets;
@@ -191,7 +195,7 @@ fn hulls(broken: &mut BrokenMeshes) {
     let mut dented = mesh.triangles.clone();
     let missing = dented.remove(at_hull);
     // The vertex of the triangle that was missing, behind the hull's edge.
-    let report = verify2d(&square, Statement2::of_triangles(&dented)).unwrap();
+    let report = verify2d(&square, MeshView2::of_triangles(&dented)).unwrap();
     let behind = report.failures().next().unwrap().1.point.unwrap();
     assert!(missing.contains(&(behind as u32)));
     broken.add(convex, "triangle missing at the hull", report, Point(behind));
@@ -227,7 +231,7 @@ fn right_meshes_pass_whatever_they_state() {
         let mesh = right(&points);
         let report = verify2d(&points, &mesh).unwrap();
         assert!(report.outcomes.iter().all(|(_, outcome)| *outcome == Outcome::Passed), "{distribution:?}:\n{report}");
-        let bare = verify2d(&points, Statement2::of_triangles(&mesh.triangles)).unwrap();
+        let bare = verify2d(&points, MeshView2::of_triangles(&mesh.triangles)).unwrap();
         assert!(bare.passed(), "{bare}");
         for check in [Check::Dimension, Check::Duplicates, Check::Neighbors, Check::Hull] {
             assert_eq!(bare.outcome(check), Some(&Outcome::NotStated));
@@ -246,7 +250,7 @@ fn the_order_of_triangles_and_vertices_and_the_first_of_the_hull_are_free() {
     mesh.triangles.reverse();
     mesh.triangles.iter_mut().for_each(|t| t.rotate_left(1));
     mesh.hull.rotate_left(3);
-    let statement = Statement2 { hull: Some(&mesh.hull), ..Statement2::of_triangles(&mesh.triangles) };
+    let statement = MeshView2 { hull: Some(&mesh.hull), ..MeshView2::of_triangles(&mesh.triangles) };
     let report = verify2d(&points, statement).unwrap();
     assert!(report.passed(), "{report}");
 }
@@ -260,7 +264,7 @@ fn counts_of_a_square() {
 
 #[test]
 fn a_point_that_is_not_finite_is_an_error() {
-    let error = verify2d(&[[0.0, 0.0], [0.0, f64::NAN]], Statement2::default()).unwrap_err();
+    let error = verify2d(&[[0.0, 0.0], [0.0, f64::NAN]], MeshView2::default()).unwrap_err();
     assert_eq!(error, Error::NotFinite { index: 1, axis: 'y', value: "NaN" });
 }
 
@@ -282,7 +286,7 @@ fn only_the_definition_passes(points: &[[f64; 2]; 5]) {
     let mut passed = Vec::new();
     for set in 0u32..1 << oriented.len() {
         let triangles: Vec<_> = (0..).zip(&oriented).filter(|(i, _)| set >> i & 1 == 1).map(|(_, t)| *t).collect();
-        if verify2d(points, Statement2::of_triangles(&triangles)).unwrap().passed() {
+        if verify2d(points, MeshView2::of_triangles(&triangles)).unwrap().passed() {
             passed.push(Mesh2 { triangles, ..Mesh2::default() }.canonical());
         }
     }
@@ -352,7 +356,7 @@ proptest! {
             gdel::predicates::orient2d(a, b, c) < 0
         };
         let still_right = mesh.canonical() == expected && mesh.triangles.iter().all(clockwise);
-        let report = verify2d(&points, Statement2::of_triangles(&mesh.triangles)).unwrap();
+        let report = verify2d(&points, MeshView2::of_triangles(&mesh.triangles)).unwrap();
         prop_assert_eq!(report.passed(), still_right, "{}", report);
     }
 
@@ -365,7 +369,7 @@ proptest! {
         duplicate_of in prop::option::of(prop::collection::vec(any::<i32>(), 0..9)),
         dimension in any::<Option<u8>>(),
     ) {
-        let statement = Statement2 {
+        let statement = MeshView2 {
             triangles: &triangles,
             halfedges: halfedges.as_deref(),
             hull: hull.as_deref(),

@@ -3,8 +3,8 @@
 use crate::oracle::{in_circumsphere, in_circumsphere_symbolic, integers, orientation, sign};
 use gdel::{
     Points,
-    lattice::Lattice,
-    predicates::{collinear, incircle, insphere, insphere_symbolic, orient2d, orient3d, vertices::Vertices},
+    input::lattice::Lattice,
+    predicates::{collinear, filter::PredicateContext, incircle, insphere, insphere_symbolic, orient2d, orient3d},
 };
 use num_bigint::BigInt;
 use rand_pcg::{
@@ -272,7 +272,7 @@ fn predicates_of_prepared_vertices_are_exact() {
                 let points: [[f64; 3]; 10] = cases.points(kind, position);
                 let order: Vec<u32> = (0..10).map(|i| i * 7 % 10).collect();
                 let input = Points::F64(&points);
-                let vertices = Vertices::new(input, &Lattice::fit(input), order.clone());
+                let vertices = PredicateContext::new(input, &Lattice::fit(input), order.clone());
                 let integers = integers(&points);
                 let [a, b, c, d, e] = std::array::from_fn(|_| cases.below(10) as u32);
                 let point = |v: u32| &integers[order[v as usize] as usize];

@@ -7,9 +7,13 @@ use crate::broken::{
 };
 use crate::oracle::{self, definition};
 use gdel::{
-    Error, Mesh3, Options, delaunay3d,
-    generate::{Distribution, generate},
-    verify::{Check, Outcome, Statement, verify3d},
+    Error, Mesh3, Options,
+    d3::{
+        generate::{Distribution, generate},
+        verify::{MeshView, verify3d},
+    },
+    delaunay3d,
+    verify::{Check, Outcome},
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;
@@ -35,7 +39,7 @@ fn broken_meshes() -> Vec<Broken> {
     let mut broken = BrokenMeshes {
         right,
         verify: |points, mesh| verify3d(points, mesh).unwrap(),
-        verify_bare: |points, tetrahedra| verify3d(points, Statement::of_tetrahedra(tetrahedra)).unwrap(),
+        verify_bare: |points, tetrahedra| verify3d(points, MeshView::of_tetrahedra(tetrahedra)).unwrap(),
         all: Vec::new(),
     };
     statements(&mut broken);
@@ -230,7 +234,7 @@ fn every_check_has_an_outcome_in_order_and_a_name_of_its_own() {
 fn a_mesh_of_tetrahedra_only_passes_with_the_rest_not_stated() {
     let points = generate(Distribution::Uniform, 500, 1);
     let mesh = right(&points);
-    let report = verify3d(&points, Statement::of_tetrahedra(&mesh.tetrahedra)).unwrap();
+    let report = verify3d(&points, MeshView::of_tetrahedra(&mesh.tetrahedra)).unwrap();
     assert!(report.passed(), "{report}");
     for check in [Check::Dimension, Check::Duplicates, Check::Neighbors, Check::Hull] {
         assert_eq!(report.outcome(check), Some(&Outcome::NotStated));
@@ -250,7 +254,7 @@ fn the_order_of_tetrahedra_and_vertices_is_free() {
     for (i, triangle) in mesh.hull.iter_mut().rev().enumerate() {
         triangle.rotate_left(i % 3);
     }
-    let statement = Statement { hull: Some(&mesh.hull), ..Statement::of_tetrahedra(&mesh.tetrahedra) };
+    let statement = MeshView { hull: Some(&mesh.hull), ..MeshView::of_tetrahedra(&mesh.tetrahedra) };
     let report = verify3d(&points, statement).unwrap();
     assert!(report.passed(), "{report}");
 }
@@ -267,7 +271,7 @@ fn counts_of_a_cube() {
 #[test]
 fn a_point_that_is_not_finite_is_an_error() {
     let points = [[0.0; 3], [0.0, f64::NAN, 0.0]];
-    let error = verify3d(&points, Statement::default()).unwrap_err();
+    let error = verify3d(&points, MeshView::default()).unwrap_err();
     assert_eq!(error, Error::NotFinite { index: 1, axis: 'y', value: "NaN" });
 }
 
@@ -277,7 +281,7 @@ fn flat_tetrahedra_on_the_hull_of_a_cube_are_caught() {
     let points = cube();
     let mut tetrahedra = right(&points).tetrahedra;
     tetrahedra.push([0, 1, 2, 3]);
-    let report = verify3d(&points, Statement::of_tetrahedra(&tetrahedra)).unwrap();
+    let report = verify3d(&points, MeshView::of_tetrahedra(&tetrahedra)).unwrap();
     assert!(failures(&report).contains(&Check::Orientation), "{report}");
     assert_eq!(report.failures().next().unwrap().1.tetrahedron, Some(tetrahedra.len() - 1));
 }
@@ -305,7 +309,7 @@ fn only_the_definition_passes(points: &[[f64; 3]; 6]) {
     for set in 0u32..1 << oriented.len() {
         chosen.clear();
         chosen.extend(oriented.iter().enumerate().filter(|(i, _)| set >> i & 1 == 1).map(|(_, t)| *t));
-        if verify3d(points, Statement::of_tetrahedra(&chosen)).unwrap().passed() {
+        if verify3d(points, MeshView::of_tetrahedra(&chosen)).unwrap().passed() {
             passed.push(Mesh3 { tetrahedra: chosen.clone(), ..Mesh3::default() }.canonical());
         }
     }
@@ -347,7 +351,7 @@ proptest! {
         let integers = oracle::integers(&points);
         let oriented = |t: &[u32; 4]| oracle::sign(&oracle::orientation(&t.map(|v| &integers[v as usize]))) > 0;
         let still_right = mesh.canonical() == expected && mesh.tetrahedra.iter().all(oriented);
-        let report = verify3d(&points, Statement::of_tetrahedra(&mesh.tetrahedra)).unwrap();
+        let report = verify3d(&points, MeshView::of_tetrahedra(&mesh.tetrahedra)).unwrap();
         prop_assert_eq!(report.passed(), still_right, "{}", report);
     }
 
@@ -360,7 +364,7 @@ proptest! {
         duplicate_of in prop::option::of(prop::collection::vec(any::<i32>(), 0..9)),
         dimension in any::<Option<u8>>(),
     ) {
-        let statement = Statement {
+        let statement = MeshView {
             tetrahedra: &tetrahedra,
             neighbors: neighbors.as_deref(),
             hull: hull.as_deref(),

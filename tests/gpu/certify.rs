@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use gdel::gpu::phase1::{Input, Phase1, Settings};
-use gdel::gpu::start::first_tetrahedron;
-use gdel::gpu::twin::predicates::{self as twin, Vertex};
+use gdel::d3::gpu::phase1::{Input, Phase1, Settings};
+use gdel::d3::gpu::start::first_tetrahedron;
 use gdel::gpu::{AdapterChoice, Gpu};
-use gdel::lattice::{Lattice, Width};
+use gdel::input::lattice::{Lattice, Width};
 use gdel::predicates;
+use gdel::reference::d3::{predicates as reference, predicates::Vertex};
 use pollster::block_on;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -28,7 +28,7 @@ fn signs_that_are_not_listed_are_those_of_the_true_coordinates() {
     let output = block_on(kernels.run(&gpu, input, &Settings::default(), None)).unwrap();
 
     let infinite = points.len() as u32;
-    let open: HashMap<u32, u32> = output.doubtful.iter().map(|&[t, open]| (t, open)).collect();
+    let open: HashMap<u32, u32> = output.uncertain.iter().map(|&[t, open]| (t, open)).collect();
     let is_open = |t: usize, bit: usize| open.get(&(t as u32)).is_some_and(|open| open >> bit & 1 != 0);
     let truth = |v: u32| points[v as usize];
     let on_lattice = |v: u32| Vertex { position: position(v as usize), index: v };
@@ -40,7 +40,7 @@ fn signs_that_are_not_listed_are_those_of_the_true_coordinates() {
         let [a, b, c, d] = tet.map(truth);
         if !is_open(t, 4) {
             proven += 1;
-            assert_eq!(predicates::orient3d(a, b, c, d), twin::orient3d(Width::Wide, tet.map(on_lattice)));
+            assert_eq!(predicates::orient3d(a, b, c, d), reference::orient3d(Width::Wide, tet.map(on_lattice)));
         } else if predicates::orient3d(a, b, c, d) < 0 {
             wrong += 1;
         }
@@ -52,7 +52,7 @@ fn signs_that_are_not_listed_are_those_of_the_true_coordinates() {
             }
             proven += 1;
             let [p, q, r, s] = tet.map(on_lattice);
-            let lattice_sign = twin::insphere(Width::Wide, [p, q, r, s, on_lattice(e)]);
+            let lattice_sign = reference::insphere(Width::Wide, [p, q, r, s, on_lattice(e)]);
             let sign = predicates::insphere(a, b, c, d, truth(e));
             assert!(sign == 0 || sign == lattice_sign, "tetrahedron {t} facet {k}");
         }

@@ -26,7 +26,7 @@ fn open() -> Gpu {
 fn many_dispatches_in_one_submission_and_a_readback() {
     let gpu = open();
     let input: Vec<u32> = (0..100_000).collect();
-    let (values, kernel, bindings) = block_on(gpu.catching("test", || {
+    let (values, kernel, bindings) = block_on(gpu.with_error_scope("test", || {
         let values = Storage::with_contents(&gpu, "values", &input)?;
         let kernel = Kernel::from_wgsl(&gpu, "double", DOUBLE, &[("FACTOR", 3.0)]);
         let bindings = kernel.bind(&gpu, &[values.buffer()]);
@@ -158,7 +158,7 @@ fn a_lost_device_is_a_typed_error() {
 #[test]
 fn mistakes_are_reported_and_do_not_panic() {
     let gpu = open();
-    let error = block_on(gpu.catching("test", || {
+    let error = block_on(gpu.with_error_scope("test", || {
         Kernel::from_wgsl(&gpu, "broken", "@compute @workgroup_size(1) fn main() { undefined(); }", &[]);
         Ok(())
     }))

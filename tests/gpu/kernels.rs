@@ -4,10 +4,10 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 
 use bytemuck::Pod;
+use gdel::gpu::layout::PARAM_WORDS;
 use gdel::gpu::layout::{Counters, Params};
-use gdel::gpu::phase1::PARAM_WORDS;
 use gdel::gpu::{AdapterChoice, Gpu, Kernel, Readback, Recorder, Storage};
-use gdel::lattice::Width;
+use gdel::input::lattice::Width;
 use pollster::block_on;
 use rand::{SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;

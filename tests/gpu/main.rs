@@ -1,4 +1,4 @@
-//! The host of the GPU, its kernels and stages, and Phase 1: against their twins on the CPU, and the twins on their own.
+//! The host of the GPU, its kernels and stages, and Phase 1: against their references on the CPU, and the references on their own.
 #![cfg(feature = "gpu")]
 
 mod cases;

@@ -1,15 +1,24 @@
-//! Phase 1 on the GPU: a valid triangulation after every round, and every stage against the twins of its kernels.
+//! Phase 1 on the GPU: a valid triangulation after every round, and every stage against the references of its kernels.
 
 use std::collections::BTreeSet;
 
 use crate::phase1_inputs::{self as inputs, Input as Points};
+use gdel::d3::gpu::start::first_tetrahedron;
+use gdel::d3::mesh::FACETS;
 use gdel::gpu::layout::{Active, Counters, FlipNode, Status, Waiting};
-use gdel::gpu::phase1::{Input, Phase1, Pick, Run, Settings};
-use gdel::gpu::start::first_tetrahedron;
-use gdel::gpu::twin::{State, predicates::Vertex};
-use gdel::gpu::{AdapterChoice, Gpu, Readback, Storage, vertex};
-use gdel::lattice::{Lattice, Width};
-use gdel::mesh::FACETS;
+use gdel::input::lattice::{Lattice, Width};
+use gdel::reference::d3::{State, predicates::Vertex};
+use gdel::{
+    d3::gpu::vertex,
+    gpu::{AdapterChoice, Gpu, Readback, Storage},
+};
+use gdel::{
+    d3::gpu::{
+        phase1::{Input, Phase1, Settings},
+        run::Run,
+    },
+    gpu::layout::Pick,
+};
 use pollster::block_on;
 
 fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {
@@ -30,7 +39,7 @@ fn vertices(width: Width, words: &[[i32; 4]]) -> Vec<Vertex> {
         .collect()
 }
 
-/// The buffers of a run, as the twins have them.
+/// The buffers of a run, as the references have them.
 fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
     let b = run.buffers();
     let (params, counters) = run.control();
@@ -43,7 +52,7 @@ fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
         params,
         points: vertices(width, bytemuck::cast_slice(&read(gpu, &b.points.vertices))),
         first: [0; 4],
-        united: read(gpu, &b.points.pairs).into_iter().map(|[key, _]| key == u32::MAX).collect(),
+        merged: read(gpu, &b.points.pairs).into_iter().map(|[key, _]| key == u32::MAX).collect(),
         tets: read(gpu, &b.tets),
         neighbors: read(gpu, &b.neighbors),
         status: read::<Status>(gpu, &b.status),
@@ -78,7 +87,7 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1; 2], points: &Points, setti
 
     let index = |v: u32| if v as usize == count { v } else { state.points[v as usize].index };
     let mut marked = state.clone();
-    gdel::gpu::twin::mark_failed(&mut marked);
+    gdel::reference::d3::mark_failed(&mut marked);
     let mut failed: Vec<u32> = (0..).zip(&marked.failed).filter(|&(_, &f)| f != 0).map(|(v, _)| index(v)).collect();
     failed.sort_unstable();
     assert_eq!(output.failed, failed, "{}", points.name);
@@ -111,21 +120,21 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1; 2], points: &Points, setti
             assert_eq!(shared, FACETS[face].map(|i| output.tets[u][i]).into(), "{}", points.name);
         }
     }
-    let united: BTreeSet<u32> = output.united.iter().map(|&[p, _]| p).collect();
+    let merged: BTreeSet<u32> = output.merged.iter().map(|&[p, _]| p).collect();
     for (v, &t) in (0..).zip(&output.tet_of) {
-        assert_eq!(t == u32::MAX, united.contains(&v), "{}: point {v}", points.name);
+        assert_eq!(t == u32::MAX, merged.contains(&v), "{}: point {v}", points.name);
         assert!(t == u32::MAX || output.tets[t as usize].contains(&v));
     }
-    // Where nothing is rounded, exactly the flat ones are doubtful.
+    // Where nothing is rounded, exactly the flat ones are uncertain.
     let flat = |t: &[u32; 4]| {
         let [a, b, c, d] = t.map(|v| points.positions[v as usize]);
         gdel::predicates::orient3d(a, b, c, d) == 0
     };
     let flat: Vec<[u32; 2]> =
         (0..).zip(&output.tets[..output.finite]).filter(|(_, t)| flat(t)).map(|(t, _)| [t, 16]).collect();
-    assert_eq!(output.doubtful, flat, "{}", points.name);
-    assert_eq!(output.united.len(), points.sharing, "{}", points.name);
-    for [p, q] in output.united {
+    assert_eq!(output.uncertain, flat, "{}", points.name);
+    assert_eq!(output.merged.len(), points.sharing, "{}", points.name);
+    for [p, q] in output.merged {
         assert_eq!(points.positions[p as usize], points.positions[q as usize]);
         assert!(p > q);
     }

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use gdel::lattice::Width;
+use gdel::input::lattice::Width;
 use rand::{RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;
 

@@ -1,18 +1,18 @@
-//! Every kernel of Phase 1 against its twin, on the same buffers.
+//! Every kernel of Phase 1 against its reference, on the same buffers.
 //!
 //! The points have coordinates, or high words of them, below 8, so that the scores are exact in `f32` and ties of every kind abound. After each
-//! kernel the device gets the twin's buffers again, so that each is compared on its own.
+//! kernel the device gets the reference's buffers again, so that each is compared on its own.
 
 use std::collections::BTreeSet;
 
 use crate::kernels::{Kernels, shuffled};
+use gdel::d3::gpu::start::first_tetrahedron;
 use gdel::gpu::layout::{CHECK, Counters, DONE, NONE};
-use gdel::gpu::phase1::{Buffers, Pick};
-use gdel::gpu::stages::points::{DevicePoints, InputCounts};
-use gdel::gpu::start::first_tetrahedron;
-use gdel::gpu::twin::{self, State, predicates::Vertex};
-use gdel::gpu::{Storage, vertex};
-use gdel::lattice::Width;
+use gdel::gpu::points::{DevicePoints, InputCounts};
+use gdel::input::lattice::Width;
+use gdel::reference::d3::{self as reference, State, predicates::Vertex};
+use gdel::{d3::gpu::buffers::Buffers, gpu::layout::Pick};
+use gdel::{d3::gpu::vertex, gpu::Storage};
 
 struct Device {
     kernels: Kernels,
@@ -28,7 +28,7 @@ impl Device {
         let points = DevicePoints {
             vertices: Storage::new(gpu, "vertices", 4 * (count + 1) * vertex::stride(width)).unwrap(),
             pairs: Storage::with_contents(gpu, "pairs", &vec![[0; 2]; count]).unwrap(),
-            united_with: Storage::new(gpu, "united", count).unwrap(),
+            merged_into: Storage::new(gpu, "merged", count).unwrap(),
             counts: Storage::with_contents(gpu, "counts", &[InputCounts { found: state.first, ..Default::default() }])
                 .unwrap(),
         };
@@ -72,7 +72,7 @@ impl Device {
             waiting: kernels.read(&b.waiting)[..like.waiting.len()].to_vec(),
             scores: kernels.read(&b.scores),
             failed: kernels.read(&b.failed),
-            // The twins do not count these.
+            // The references do not count these.
             counters: Counters {
                 exact: like.counters.exact,
                 failed: like.counters.failed,
@@ -112,22 +112,22 @@ impl Device {
         self.kernels.run(name, &self.bindings(name));
     }
 
-    /// Runs a kernel on `state`'s buffers, and its twin on `state`. Returns the device's buffers.
-    fn both(&self, name: &'static str, state: &mut State, twin: impl Fn(&mut State)) -> State {
+    /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.
+    fn both(&self, name: &'static str, state: &mut State, reference: impl Fn(&mut State)) -> State {
         self.upload(state);
         self.run(name);
-        twin(state);
+        reference(state);
         let device = self.download(state);
         assert_eq!(device.counters, state.counters, "{name}");
         device
     }
 
-    /// Checking is one function for the twin, and two kernels.
+    /// Checking is one function for the reference, and two kernels.
     fn check(&self, state: &mut State) {
         self.upload(state);
         self.run("flip_check");
         self.run("flip_check_exact");
-        twin::flip_check(state);
+        reference::flip_check(state);
         let device = self.download(state);
         assert_eq!(device.status, state.status, "check");
         assert_eq!(device.active, state.active, "check");
@@ -135,8 +135,8 @@ impl Device {
     }
 
     /// The same for a kernel whose results are the same to the last bit.
-    fn equal(&self, name: &'static str, state: &mut State, twin: impl Fn(&mut State)) {
-        let device = self.both(name, state, twin);
+    fn equal(&self, name: &'static str, state: &mut State, reference: impl Fn(&mut State)) {
+        let device = self.both(name, state, reference);
         assert_eq!(device.tets, state.tets, "{name}");
         assert_eq!(device.neighbors, state.neighbors, "{name}");
         assert_eq!(device.status, state.status, "{name}");
@@ -197,31 +197,31 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
     let device = Device::new(width, &state);
     device.equal("locate", &mut state, |s| {
         let first = s.first;
-        twin::start(s, first);
-        twin::locate(s);
+        reference::start(s, first);
+        reference::locate(s);
     });
     while !state.waiting.is_empty() {
         state.messages.fill([0; 4]);
-        device.equal("pick_score", &mut state, twin::pick_score);
-        device.equal("pick_point", &mut state, twin::pick_point);
+        device.equal("pick_score", &mut state, reference::pick_score);
+        device.equal("pick_point", &mut state, reference::pick_point);
 
-        let split = device.both("split", &mut state, twin::split);
+        let split = device.both("split", &mut state, reference::split);
         assert_eq!((&split.tets, &split.neighbors), (&state.tets, &state.neighbors));
         assert_eq!((&split.status, &split.free), (&state.status, &state.free));
         let half = state.half();
         assert_eq!(listed(&split, half), listed(&state, half), "split");
 
-        device.equal("relocate_split", &mut state, twin::relocate_split);
+        device.equal("relocate_split", &mut state, reference::relocate_split);
         while !state.is_idle(state.counters.iteration) {
             device.check(&mut state);
             device.upload(&state);
             device.run("flip_commit");
             device.run("flip_link");
             device.run("flip_compact");
-            twin::flip_commit(&mut state);
+            reference::flip_commit(&mut state);
             let done = state.active[half_of(&state)].iter().filter(|a| a.outcome & DONE != 0).count();
-            twin::flip_link(&mut state);
-            twin::flip_compact(&mut state);
+            reference::flip_link(&mut state);
+            reference::flip_compact(&mut state);
             let after = device.download(&state);
             assert!(done > 0 || state.counters.listed[state.half()] == 0, "an iteration without progress");
             assert_eq!(after.counters, state.counters, "flip");
@@ -231,13 +231,13 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
             after.validate_mesh();
             state.validate_mesh();
         }
-        device.equal("relocate", &mut state, twin::relocate);
+        device.equal("relocate", &mut state, reference::relocate);
         state.waiting.retain(|w| w.tet != NONE);
         state.params.entries = state.waiting.len() as u32;
     }
     // Every facet is suspect, so that there is something to look at.
     state.status.iter_mut().for_each(|s| s.flags |= CHECK << 4);
-    device.equal("mark_failed", &mut state, twin::mark_failed);
+    device.equal("mark_failed", &mut state, reference::mark_failed);
     let mut failed: Vec<u32> =
         (0..).zip(&state.failed).filter(|&(_, &f)| f != 0).map(|(v, _): (usize, _)| state.points[v].index).collect();
     let mut points = device.kernels.read(&device.failed_points);
@@ -245,7 +245,7 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
     failed.sort_unstable();
     points.sort_unstable();
     assert_eq!(points, failed);
-    device.equal("clear_votes", &mut state, twin::run::clear_votes);
+    device.equal("clear_votes", &mut state, reference::run::clear_votes);
 }
 
 fn half_of(state: &State) -> usize {

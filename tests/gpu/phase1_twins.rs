@@ -1,10 +1,10 @@
-//! Phase 1 on the kernels' twins: the algorithm, proven without a GPU.
+//! Phase 1 on the kernels' references: the algorithm, proven without a GPU.
 
-use gdel::gpu::phase1::Pick;
-use gdel::gpu::twin::State;
-use gdel::gpu::twin::predicates::{Vertex, insphere, orient3d};
-use gdel::gpu::twin::run::{Settings, run};
-use gdel::lattice::Width;
+use gdel::gpu::layout::Pick;
+use gdel::input::lattice::Width;
+use gdel::reference::d3::State;
+use gdel::reference::d3::predicates::{Vertex, insphere, orient3d};
+use gdel::reference::d3::run::{Settings, run};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 

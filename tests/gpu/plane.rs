@@ -1,21 +1,25 @@
-//! The plane on the GPU: a valid triangulation after every round, and the answer that of the twins.
+//! The plane on the GPU: a valid triangulation after every round, and the answer that of the references.
 
 use std::collections::HashSet;
 
+use gdel::d2::gpu::start::first_triangle;
+use gdel::d2::gpu::{
+    phase1::{Input, Plane, Settings},
+    run::Run,
+    vertex,
+};
+use gdel::gpu::layout::Pick;
 use gdel::gpu::layout::{Active, Waiting};
-use gdel::gpu::phase1::Pick;
-use gdel::gpu::plane::start::first_triangle;
-use gdel::gpu::plane::twin::{State, mesh_compact, mesh_mark, predicates::Vertex};
-use gdel::gpu::plane::{Input, Plane, Run, Settings, vertex};
 use gdel::gpu::{AdapterChoice, Gpu, Readback, Storage};
-use gdel::lattice::{Lattice, Width};
+use gdel::input::lattice::{Lattice, Width};
+use gdel::reference::d2::{State, mesh_compact, mesh_mark, predicates::Vertex};
 use pollster::block_on;
 
 fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {
     block_on(Readback::default().read(gpu, storage, 0, storage.len())).unwrap()
 }
 
-/// The buffers of a run, as the twins have them.
+/// The buffers of a run, as the references have them.
 fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
     let b = run.buffers();
     let (params, counters) = run.control();
@@ -32,7 +36,7 @@ fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
         params,
         points: points.map(|(words, index)| Vertex { position: vertex::position(words), index }).collect(),
         first: [0; 3],
-        united: pairs.iter().map(|&[key, _]| key == u32::MAX).collect(),
+        merged: pairs.iter().map(|&[key, _]| key == u32::MAX).collect(),
         triangles: read(gpu, &b.triangles),
         neighbors: read(gpu, &b.neighbors),
         status: read(gpu, &b.status),
@@ -63,8 +67,8 @@ fn run_and_validate(gpu: &Gpu, planes: &mut [Plane; 2], name: &str, points: &[[f
     let output = block_on(run.finish()).unwrap();
 
     let distinct: HashSet<[u64; 2]> = points.iter().map(|p| p.map(|x| (x + 0.0).to_bits())).collect();
-    assert_eq!(output.united.len(), points.len() - distinct.len(), "{name}");
-    for [p, q] in output.united {
+    assert_eq!(output.merged.len(), points.len() - distinct.len(), "{name}");
+    for [p, q] in output.merged {
         assert_eq!(points[p as usize], points[q as usize]);
         assert!(p > q);
     }

@@ -1,18 +1,18 @@
-//! Every kernel of the plane against its twin, on the same buffers.
+//! Every kernel of the plane against its reference, on the same buffers.
 //!
 //! The points have coordinates, or high words of them, below 16, so that the scores are exact in `f32` and ties of every
-//! kind abound. After each kernel the device gets the twin's buffers again, so that each is compared on its own.
+//! kind abound. After each kernel the device gets the reference's buffers again, so that each is compared on its own.
 
 use std::collections::BTreeSet;
 
 use crate::kernels::{Kernels, shuffled};
+use gdel::d2::gpu::{buffers::Buffers, start::first_triangle, vertex};
 use gdel::gpu::Storage;
+use gdel::gpu::layout::Pick;
 use gdel::gpu::layout::{Counters, DONE, NONE};
-use gdel::gpu::phase1::Pick;
-use gdel::gpu::plane::twin::{self, State, predicates::Vertex};
-use gdel::gpu::plane::{Buffers, start::first_triangle, vertex};
-use gdel::gpu::stages::points::{DevicePoints, InputCounts};
-use gdel::lattice::Width;
+use gdel::gpu::points::{DevicePoints, InputCounts};
+use gdel::input::lattice::Width;
+use gdel::reference::d2::{self as reference, State, predicates::Vertex};
 
 struct Device {
     kernels: Kernels,
@@ -32,7 +32,7 @@ impl Device {
         let points = DevicePoints {
             vertices: Storage::with_contents(gpu, "vertices", &words).unwrap(),
             pairs: Storage::with_contents(gpu, "pairs", &pairs).unwrap(),
-            united_with: Storage::new(gpu, "united", count).unwrap(),
+            merged_into: Storage::new(gpu, "merged", count).unwrap(),
             counts: Storage::with_contents(gpu, "counts", &[counts]).unwrap(),
         };
         let buffers = Buffers::new(gpu, points, state.params.history).unwrap();
@@ -65,7 +65,7 @@ impl Device {
             history: kernels.read(&b.history),
             waiting: kernels.read(&b.waiting)[..like.waiting.len()].to_vec(),
             scores: kernels.read(&b.scores),
-            // The twins do not count these.
+            // The references do not count these.
             counters: Counters { exact: like.counters.exact, ..kernels.read_counters(&b.control) },
             ..like.clone()
         }
@@ -99,19 +99,19 @@ impl Device {
         self.kernels.run(name, &self.bindings(name));
     }
 
-    /// Runs a kernel on `state`'s buffers, and its twin on `state`. Returns the device's buffers.
-    fn both(&self, name: &'static str, state: &mut State, twin: impl Fn(&mut State)) -> State {
+    /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.
+    fn both(&self, name: &'static str, state: &mut State, reference: impl Fn(&mut State)) -> State {
         self.upload(state);
         self.run(name);
-        twin(state);
+        reference(state);
         let device = self.download(state);
         assert_eq!(device.counters, state.counters, "{name}");
         device
     }
 
     /// The same for a kernel whose results are the same to the last bit.
-    fn equal(&self, name: &'static str, state: &mut State, twin: impl Fn(&mut State)) {
-        let device = self.both(name, state, twin);
+    fn equal(&self, name: &'static str, state: &mut State, reference: impl Fn(&mut State)) {
+        let device = self.both(name, state, reference);
         assert_eq!(device.triangles, state.triangles, "{name}");
         assert_eq!(device.neighbors, state.neighbors, "{name}");
         assert_eq!(device.status, state.status, "{name}");
@@ -157,30 +157,30 @@ fn compare(width: Width, pick: Pick) {
     let device = Device::new(width, &state);
     device.equal("plane/locate", &mut state, |s| {
         let first = s.first;
-        twin::start(s, first);
-        twin::locate(s);
+        reference::start(s, first);
+        reference::locate(s);
     });
     while !state.waiting.is_empty() {
         state.messages.fill([0; 4]);
-        device.equal("plane/pick_score", &mut state, twin::pick_score);
-        device.equal("pick_point", &mut state, twin::pick_point);
+        device.equal("plane/pick_score", &mut state, reference::pick_score);
+        device.equal("pick_point", &mut state, reference::pick_point);
 
-        let split = device.both("plane/split", &mut state, twin::split);
+        let split = device.both("plane/split", &mut state, reference::split);
         assert_eq!((&split.triangles, &split.neighbors), (&state.triangles, &state.neighbors));
         assert_eq!(split.status, state.status);
         let half = state.half();
         assert_eq!(listed(&split, half), listed(&state, half), "split");
 
-        device.equal("plane/relocate_split", &mut state, twin::relocate_split);
+        device.equal("plane/relocate_split", &mut state, reference::relocate_split);
         while !state.is_idle(state.counters.iteration) {
-            device.equal("plane/flip_check", &mut state, twin::flip_check);
+            device.equal("plane/flip_check", &mut state, reference::flip_check);
             device.upload(&state);
             device.run("plane/flip_commit");
             device.run("plane/flip_link");
-            twin::flip_commit(&mut state);
+            reference::flip_commit(&mut state);
             let half = (state.counters.linking & 1) as usize;
             let done = state.active[half].iter().filter(|a| a.outcome & DONE != 0).count();
-            twin::flip_link(&mut state);
+            reference::flip_link(&mut state);
             let after = device.download(&state);
             assert!(done > 0 || state.counters.listed[state.half()] == 0, "an iteration without progress");
             assert_eq!(after.counters, state.counters, "flip");
@@ -190,21 +190,21 @@ fn compare(width: Width, pick: Pick) {
             after.validate_mesh();
             state.validate_mesh();
         }
-        device.equal("plane/relocate", &mut state, twin::relocate);
+        device.equal("plane/relocate", &mut state, reference::relocate);
         state.waiting.retain(|w| w.tet != NONE);
         state.params.entries = state.waiting.len() as u32;
     }
-    device.equal("clear_votes", &mut state, twin::run::clear_votes);
+    device.equal("clear_votes", &mut state, reference::run::clear_votes);
 
     let kernels = &device.kernels;
     device.upload(&state);
     device.run("plane/mesh_mark");
-    let marks = twin::mesh_mark(&state);
+    let marks = reference::mesh_mark(&state);
     assert_eq!(kernels.read(&device.buffers.marks), marks);
     let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
     device.buffers.offsets.write(&kernels.gpu, 0, &offsets);
     device.run("plane/mesh_compact");
-    let mesh = twin::mesh_compact(&state, &offsets);
+    let mesh = reference::mesh_compact(&state, &offsets);
     let count = mesh.triangles.len();
     assert_eq!(kernels.read(&device.buffers.messages.seen_as::<[u32; 3]>())[..count], mesh.triangles);
     assert_eq!(kernels.read(&device.buffers.status.seen_as::<[i32; 3]>())[..count], mesh.halfedges);

@@ -1,18 +1,14 @@
-//! The predicates of the plane in WGSL and their twin, against big integers and a perturbation that is carried out.
+//! The predicates of the plane in WGSL and their reference, against big integers and a perturbation that is carried out.
 
 use crate::perturbation::{perturbed_rows, sign_of_columns};
 use crate::plane_cases::{Case, FAMILIES, cases};
 use crate::signs::{SignKernel, exact_in_circumsphere, exact_orientation};
 use gdel::{
-    gpu::{
-        Storage,
-        plane::{
-            twin::predicates::{self as twin, Vertex},
-            vertex,
-        },
-    },
-    lattice::Width,
+    d2::gpu::vertex,
+    gpu::Storage,
+    input::lattice::Width,
     predicates::Sign,
+    reference::d2::{predicates as reference, predicates::Vertex},
 };
 use rand::{RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg64Mcg;
@@ -42,10 +38,10 @@ fn check(width: Width) {
             let positions = case.map(|v| v.position);
             let [expected_orient, expected_circle] = [exact_orientation(&positions), exact_in_circumsphere(&positions)];
             assert_eq!(exact_orient, expected_orient, "orient2d_exact, {family:?}: {case:?}");
-            assert_eq!(twin::orient2d_exact([0, 1, 2].map(|i| case[i].position)), expected_orient);
-            assert_eq!(orient, twin::orient2d([case[0], case[1], case[2]]), "orient2d, {family:?}: {case:?}");
+            assert_eq!(reference::orient2d_exact([0, 1, 2].map(|i| case[i].position)), expected_orient);
+            assert_eq!(orient, reference::orient2d([case[0], case[1], case[2]]), "orient2d, {family:?}: {case:?}");
             assert!(expected_orient == 0 || orient == expected_orient, "orient2d, {family:?}: {case:?}");
-            assert_eq!(circle, twin::incircle(*case), "incircle, {family:?}: {case:?}");
+            assert_eq!(circle, reference::incircle(*case), "incircle, {family:?}: {case:?}");
             assert!(expected_circle == 0 || circle == expected_circle, "incircle, {family:?}: {case:?}");
             assert!(orient != 0 && circle != 0);
             assert!(orient_filter == 0 || orient_filter == expected_orient, "orient2d_filter, {family:?}: {case:?}");
@@ -87,11 +83,11 @@ fn ties_are_those_of_the_perturbation() {
         let three = [four[0], four[1], four[2]];
         let expected = sign_of_columns(&perturbed_rows(&three.map(|v| (v.index, v.position))), &[0, 1, 3]);
         assert_ne!(expected, 0);
-        assert_eq!(twin::orient2d(three), expected, "{three:?}");
+        assert_eq!(reference::orient2d(three), expected, "{three:?}");
         let expected = sign_of_columns(&perturbed_rows(&four.map(|v| (v.index, v.position))), &[0, 1, 2, 3]);
         assert_ne!(expected, 0);
-        assert_eq!(twin::incircle(four), expected, "{four:?}");
-        collinear += usize::from(twin::orient2d_exact(three.map(|v| v.position)) == 0);
+        assert_eq!(reference::incircle(four), expected, "{four:?}");
+        collinear += usize::from(reference::orient2d_exact(three.map(|v| v.position)) == 0);
     }
     assert!(collinear > 500, "{collinear}");
 }

@@ -1,13 +1,13 @@
-//! The plane's algorithm on the kernels' twins: proven without a GPU.
+//! The plane's algorithm on the kernels' references: proven without a GPU.
 
 use std::collections::HashSet;
 
-use gdel::gpu::phase1::Pick;
-use gdel::gpu::plane::twin::predicates::Vertex;
-use gdel::gpu::plane::twin::run::{Settings, run};
-use gdel::gpu::plane::twin::{State, mesh_compact, mesh_mark};
-use gdel::gpu::twin::hilbert::hilbert_key;
-use gdel::lattice::Width;
+use gdel::gpu::layout::Pick;
+use gdel::input::lattice::Width;
+use gdel::reference::d2::predicates::Vertex;
+use gdel::reference::d2::run::{Settings, run};
+use gdel::reference::d2::{State, mesh_compact, mesh_mark};
+use gdel::reference::d3::hilbert::hilbert_key;
 use rand::{SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;
 

@@ -4,13 +4,13 @@ use std::collections::HashMap;
 
 use gdel::{
     Points,
+    d3::gpu::vertex,
     gpu::{
-        AdapterChoice, Gpu, Readback, Recorder, plane,
-        stages::points::{InputCounts, PointInput, PointStage},
-        twin::hilbert::hilbert_key,
-        vertex,
+        AdapterChoice, Gpu, Readback, Recorder,
+        points::{InputCounts, PointInput, PointStage},
     },
-    lattice::{Lattice, Width},
+    input::lattice::{Lattice, Width},
+    reference::d3::hilbert::hilbert_key,
 };
 use pollster::block_on;
 use rand::{Rng, RngExt, SeedableRng};
@@ -24,7 +24,7 @@ struct Bench<const D: usize> {
 impl<const D: usize> Bench<D> {
     fn new() -> Self {
         let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a GPU or lavapipe");
-        Bench { stage: PointStage::new(&gpu), gpu }
+        Bench { stage: PointStage::new(&gpu, "points_gather", gdel::d3::gpu::vertex::words_per_vertex), gpu }
     }
 
     /// Runs the stage and compares everything with the CPU; returns the width and the counts.
@@ -34,7 +34,7 @@ impl<const D: usize> Bench<D> {
         let n = points.len();
         let wanted = [0, n / 3, n / 2, n.saturating_sub(1)].map(|p| p as u32);
         let lattice = Lattice::fit(points);
-        let device = block_on(gpu.catching("test", || {
+        let device = block_on(gpu.with_error_scope("test", || {
             let mut recorder = Recorder::new(gpu, None);
             let device = self.stage.record(
                 gpu,
@@ -48,8 +48,9 @@ impl<const D: usize> Bench<D> {
         .unwrap();
         let mut readback = Readback::default();
         let pairs = block_on(readback.read(gpu, &device.pairs, 0, n)).unwrap();
-        let united_with = block_on(readback.read(gpu, &device.united_with, 0, n)).unwrap();
-        let stride = if D == 2 { plane::vertex::words(lattice.width()) } else { 4 * vertex::stride(lattice.width()) };
+        let merged_into = block_on(readback.read(gpu, &device.merged_into, 0, n)).unwrap();
+        let stride =
+            if D == 2 { gdel::d2::gpu::vertex::words(lattice.width()) } else { 4 * vertex::stride(lattice.width()) };
         let vertices = block_on(readback.read(gpu, &device.vertices, 0, n * stride)).unwrap();
         let [counts] = block_on(readback.read(gpu, &device.counts, 0, 1)).unwrap()[..] else { panic!() };
 
@@ -58,7 +59,7 @@ impl<const D: usize> Bench<D> {
             (0..n).map(|i| *first.entry(lattice.coordinates(points.get(i)).map(|c| c.value)).or_insert(i)).collect();
         let expected: Vec<u32> =
             stands_for.iter().enumerate().map(|(i, &f)| if f == i { u32::MAX } else { f as u32 }).collect();
-        assert!(united_with == expected, "{n} points");
+        assert!(merged_into == expected, "{n} points");
 
         let key = |i: usize| {
             let bits = if D == 2 { 15 } else { 10 };
@@ -75,7 +76,7 @@ impl<const D: usize> Bench<D> {
         for (index, p) in order() {
             let position = lattice.coordinates(p).map(|c| c.value);
             if let [x, y] = position[..] {
-                plane::vertex::append_words(&mut expected, lattice.width(), [x, y], rounded(p));
+                gdel::d2::gpu::vertex::append_words(&mut expected, lattice.width(), [x, y], rounded(p));
                 continue;
             }
             let mut words = Vec::new();
@@ -88,9 +89,9 @@ impl<const D: usize> Bench<D> {
         for (v, (words, expected)) in vertices.chunks(stride).zip(expected.chunks(stride)).enumerate() {
             assert_eq!(words, expected, "vertex {v} of {n}: {:?}", points.get(pairs[v][1] as usize));
         }
-        let united = || stands_for.iter().copied().enumerate().filter(|&(i, f)| i != f);
-        assert_eq!(counts.united as usize, united().count());
-        assert_eq!(counts.duplicates as usize, united().filter(|&(i, f)| points.get(i) == points.get(f)).count());
+        let merged = || stands_for.iter().copied().enumerate().filter(|&(i, f)| i != f);
+        assert_eq!(counts.merged as usize, merged().count());
+        assert_eq!(counts.duplicates as usize, merged().filter(|&(i, f)| points.get(i) == points.get(f)).count());
         if n > 0 {
             let found = wanted.map(|w| {
                 let point = stands_for[w as usize] as u32;
@@ -133,7 +134,7 @@ fn grids_are_narrow_and_their_duplicates_are_found() {
 #[test]
 fn all_points_equal() {
     let (_, counts) = Bench::<3>::new().check((&vec![[0.1f64, -7e300, 3e-320]; 5000]).into());
-    assert_eq!([counts.united, counts.duplicates, counts.rounded], [4999, 4999, 0]);
+    assert_eq!([counts.merged, counts.duplicates, counts.rounded], [4999, 4999, 0]);
 }
 
 /// 0 and −0 are the same point.
@@ -166,7 +167,7 @@ fn every_finite_number_is_put_on_the_lattice_alike() {
         let points: Vec<[f64; 3]> = (0..500).map(|_| std::array::from_fn(|_| number(&mut rng))).collect();
         let counts = bench.check((&points).into()).1;
         rounded += counts.rounded;
-        aside += counts.united - counts.duplicates;
+        aside += counts.merged - counts.duplicates;
         let single: Vec<[f32; 3]> =
             points.iter().map(|p| p.map(|x| Some(x as f32).filter(|x| x.is_finite()).unwrap_or(1e-44))).collect();
         bench.check((&single).into());
@@ -205,5 +206,5 @@ fn points_of_the_plane() {
     let mixed: Vec<[f64; 2]> = (0..20_000).map(|_| std::array::from_fn(|_| scales(&mut rng))).collect();
     let (width, counts) = bench.check((&mixed).into());
     assert_eq!(width, Width::Wide);
-    assert!(counts.rounded > 1000 && counts.united > counts.duplicates, "{counts:?}");
+    assert!(counts.rounded > 1000 && counts.merged > counts.duplicates, "{counts:?}");
 }

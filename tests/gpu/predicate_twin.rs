@@ -1,13 +1,11 @@
-//! The twin of the GPU's predicates: its ties are those of a perturbation that is carried out.
+//! The reference of the GPU's predicates: its ties are those of a perturbation that is carried out.
 
 use crate::perturbation::{perturbed_rows, sign_of_columns};
 use gdel::{
-    gpu::{
-        twin::predicates::{self as twin, Vertex},
-        vertex::INFINITE,
-    },
-    lattice::Width,
+    d3::gpu::vertex::INFINITE,
+    input::lattice::Width,
     predicates::{Sign, insphere_symbolic},
+    reference::d3::{predicates as reference, predicates::Vertex},
 };
 use num_bigint::BigInt;
 use rand::{Rng, RngExt, SeedableRng, seq::SliceRandom};
@@ -52,7 +50,7 @@ fn ties_are_those_of_the_perturbation() {
         let expected = perturbed_orient3d(four);
         assert_ne!(expected, 0);
         for width in [Width::Narrow, Width::Wide] {
-            assert_eq!(twin::orient3d(width, four), expected, "{four:?}");
+            assert_eq!(reference::orient3d(width, four), expected, "{four:?}");
         }
         let mut five = vertices(side, &mut rng);
         if i % 5 == 0 {
@@ -61,7 +59,7 @@ fn ties_are_those_of_the_perturbation() {
         let expected = perturbed_insphere(five);
         assert_ne!(expected, 0);
         for width in [Width::Narrow, Width::Wide] {
-            assert_eq!(twin::insphere(width, five), expected, "{five:?}");
+            assert_eq!(reference::insphere(width, five), expected, "{five:?}");
         }
     }
 }
@@ -75,7 +73,11 @@ fn exchanging_two_arguments_changes_the_sign() {
         for (i, j) in [(0, 1), (1, 2), (0, 3), (2, 3)] {
             let mut exchanged = four;
             exchanged.swap(i, j);
-            assert_eq!(twin::orient3d(Width::Wide, exchanged), -twin::orient3d(Width::Wide, four), "{four:?}");
+            assert_eq!(
+                reference::orient3d(Width::Wide, exchanged),
+                -reference::orient3d(Width::Wide, four),
+                "{four:?}"
+            );
         }
         if rng.random_bool(0.3) {
             five[rng.random_range(0..5)] = Vertex::AT_INFINITY;
@@ -83,7 +85,11 @@ fn exchanging_two_arguments_changes_the_sign() {
         for (i, j) in [(0, 1), (1, 2), (0, 4), (3, 4)] {
             let mut exchanged = five;
             exchanged.swap(i, j);
-            assert_eq!(twin::insphere(Width::Narrow, exchanged), -twin::insphere(Width::Narrow, five), "{five:?}");
+            assert_eq!(
+                reference::insphere(Width::Narrow, exchanged),
+                -reference::insphere(Width::Narrow, five),
+                "{five:?}"
+            );
         }
     }
 }
@@ -97,7 +103,7 @@ fn heights_come_before_lowered_coordinates() {
         let five: [Vertex; 5] = vertices(3, &mut rng);
         let defined = insphere_symbolic(five.map(|v| (v.index, v.position.map(|q| q as f64))));
         if defined != 0 {
-            assert_eq!(twin::insphere(Width::Narrow, five), defined, "{five:?}");
+            assert_eq!(reference::insphere(Width::Narrow, five), defined, "{five:?}");
             compared += 1;
         }
     }
@@ -133,8 +139,8 @@ fn the_perturbed_triangulation_without_flat_tetrahedra_is_the_answer() {
         let perturbed: Vec<_> = fours(points.len())
             .filter(|&t| {
                 let [a, b, c, d] = t.map(vertex);
-                let orientation = twin::orient3d(Width::Narrow, [a, b, c, d]);
-                others(t).all(|e| twin::insphere(Width::Narrow, [a, b, c, d, vertex(e)]) == -orientation)
+                let orientation = reference::orient3d(Width::Narrow, [a, b, c, d]);
+                others(t).all(|e| reference::insphere(Width::Narrow, [a, b, c, d, vertex(e)]) == -orientation)
             })
             .collect();
         let promised: Vec<_> = fours(points.len())

@@ -1,15 +1,13 @@
-//! The predicates in WGSL and their twin, against big integers.
+//! The predicates in WGSL and their reference, against big integers.
 
 use crate::cases::{Case, FAMILIES, Family, cases};
 use crate::signs::{SignKernel, exact_in_circumsphere, exact_orientation};
 use gdel::{
-    gpu::{
-        Storage,
-        twin::predicates::{self as twin, Vertex},
-        vertex,
-    },
-    lattice::Width,
+    d3::gpu::vertex,
+    gpu::Storage,
+    input::lattice::Width,
     predicates::Sign,
+    reference::d3::{predicates as reference, predicates::Vertex},
 };
 
 const KERNEL: &str = include_str!("../shaders/predicates.wgsl");
@@ -40,14 +38,14 @@ fn check(width: Width) {
                 assert_eq!(signs[0], exact, "orient3d_exact, {family:?}: {case:?}");
                 assert!(signs[3] == 0 || signs[3] == exact, "orient3d_filter, {family:?}: {case:?}");
                 assert!(signs[5] == 0 || signs[5] == exact, "orient3d_refined, {family:?}: {case:?}");
-                assert_eq!(signs[1], twin::orient3d(width, four), "orient3d, {family:?}: {case:?}");
+                assert_eq!(signs[1], reference::orient3d(width, four), "orient3d, {family:?}: {case:?}");
                 assert!(exact == 0 || signs[1] == exact, "orient3d, {family:?}: {case:?}");
                 assert_ne!(signs[1], 0);
                 zeros[0] += usize::from(exact == 0);
                 decided[0] += usize::from(signs[3] != 0);
                 refined[0] += usize::from(signs[5] != 0);
             }
-            assert_eq!(signs[2], twin::insphere(width, *case), "insphere, {family:?}: {case:?}");
+            assert_eq!(signs[2], reference::insphere(width, *case), "insphere, {family:?}: {case:?}");
             assert_ne!(signs[2], 0);
             if finite(case) {
                 let exact = exact_in_circumsphere(&case.map(|v| v.position));

@@ -2,7 +2,7 @@
 
 use gdel::gpu::{
     AdapterChoice, Gpu, Readback, Recorder, Storage,
-    stages::{
+    primitives::{
         compact::Compact,
         scan::{self, Scan, ScanParams},
         sort::{self, Sort},
@@ -29,7 +29,7 @@ fn open() -> Gpu {
 }
 
 fn run<T: bytemuck::Pod>(gpu: &Gpu, result: &Storage<T>, body: impl FnOnce(&mut Recorder<'_>)) -> Vec<T> {
-    block_on(gpu.catching("test", || {
+    block_on(gpu.with_error_scope("test", || {
         let mut recorder = Recorder::new(gpu, None);
         body(&mut recorder);
         recorder.submit(gpu);

@@ -1,17 +1,17 @@
 //! Every shader that can be assembled is valid WGSL, within the limits that every device has.
 
 use gdel::{
+    d3::gpu::vertex,
     gpu::{
         layout::{self, Active, Counters, FlipNode, Params, Status, Waiting},
-        plane, shader,
-        stages::{
-            points::{InputCounts, InputParams},
+        points::{InputCounts, InputParams},
+        primitives::{
             scan::{self, ScanParams},
             sort::{self, SortParams},
         },
-        vertex,
+        shader,
     },
-    lattice::Width,
+    input::lattice::Width,
 };
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
@@ -112,7 +112,7 @@ fn host_and_shaders_agree() {
             unused
         }
     );
-    assert_layout!(module, InputCounts { united, duplicates, rounded, unused, stands_for, found });
+    assert_layout!(module, InputCounts { merged, duplicates, rounded, unused, stands_for, found });
     let expected = "@group(0) @binding(0) var<storage, read> vertices: array<vec4i>;\n//!include shared/predicates";
     let (module, _) = validate("predicates", &shader::assemble_text(expected, Width::Narrow));
     assert_eq!(constant(&module, "INFINITE"), vertex::INFINITE);
@@ -175,7 +175,7 @@ fn phase1_layouts_agree() {
         visits,
         failed,
         aside,
-        doubtful,
+        uncertain,
         ghosts,
         open,
         not_locally_delaunay,
@@ -207,16 +207,16 @@ fn phase1_layouts_agree() {
 fn plane_layouts_agree() {
     let wgsl = "//!include shared/plane_layout
         @group(0) @binding(0) var<storage, read_write> history: array<EdgeFlip>;
-        @group(0) @binding(1) var<storage, read_write> questions: array<Question>;";
+        @group(0) @binding(1) var<storage, read_write> questions: array<UncertainTest>;";
     let (module, _) = validate("layout", &shader::assemble_text(wgsl, Width::Narrow));
-    use plane::layout::{EdgeFlip, Question};
+    use gdel::d2::gpu::layout::{EdgeFlip, UncertainTest};
     assert_layout!(module, EdgeFlip { edge, triangles, next });
-    assert_layout!(module, Question { triangle, beyond });
+    assert_layout!(module, UncertainTest { triangle, beyond });
     let constants = [
-        ("PLANE_BLOCK", plane::layout::PLANE_BLOCK),
-        ("FLIP_22", plane::layout::FLIP_22),
-        ("COUNTER_CLOCKWISE", plane::layout::COUNTER_CLOCKWISE),
-        ("FLAT", plane::layout::FLAT),
+        ("PLANE_BLOCK", gdel::d2::gpu::layout::PLANE_BLOCK),
+        ("FLIP_22", gdel::d2::gpu::layout::FLIP_22),
+        ("COUNTER_CLOCKWISE", gdel::d2::gpu::layout::COUNTER_CLOCKWISE),
+        ("FLAT", gdel::d2::gpu::layout::FLAT),
     ];
     for (name, value) in constants {
         assert_eq!(constant(&module, name), value, "{name}");

@@ -4,7 +4,7 @@ use crate::oracle;
 use bytemuck::Pod;
 use gdel::{
     gpu::{AdapterChoice, Gpu, Kernel, Readback, Recorder, Storage, shader, workgroups},
-    lattice::Width,
+    input::lattice::Width,
     predicates::Sign,
 };
 use num_bigint::BigInt;
@@ -20,7 +20,8 @@ impl SignKernel {
     pub fn new(width: Width, text: &str) -> Self {
         let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a GPU or lavapipe");
         let wgsl = shader::assemble_text(text, width);
-        let kernel = block_on(gpu.catching("test", || Ok(Kernel::from_wgsl(&gpu, "predicates", &wgsl, &[])))).unwrap();
+        let kernel =
+            block_on(gpu.with_error_scope("test", || Ok(Kernel::from_wgsl(&gpu, "predicates", &wgsl, &[])))).unwrap();
         SignKernel { gpu, kernel }
     }
 

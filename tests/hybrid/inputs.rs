@@ -2,7 +2,7 @@
 
 use crate::{agree, clouds, same, triangulate};
 use gdel::{
-    generate::{Distribution, generate},
+    d3::generate::{Distribution, generate},
     stats::Fallback,
 };
 use proptest::prelude::*;

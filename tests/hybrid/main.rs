@@ -10,10 +10,9 @@ mod plane_trouble;
 mod statistics;
 
 use gdel::{
-    Mesh3, Options, Points, cpu,
+    Mesh3, Options, Points,
+    d3::{cpu, gpu::engine::Hybrid, verify::verify3d},
     gpu::{AdapterChoice, Gpu},
-    hybrid::Hybrid,
-    verify::verify3d,
 };
 use pollster::block_on;
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};

@@ -2,13 +2,15 @@
 
 use crate::{clouds, hybrid, open, same, triangulate};
 use gdel::{
-    Engine, Engines, Error, Mesh3, Options, Progress,
-    engines::{LEAST_POINTS, LEAST_POINTS_2},
-    generate::{Distribution, generate},
-    gpu::{AdapterChoice, Gpu, phase1::Settings},
-    hybrid::Hybrid,
-    plane::generate::{Distribution2, generate2d},
+    Backend, Error, Mesh3, Options, Progress, Triangulator,
+    d2::generate::{Distribution2, generate2d},
+    d3::{
+        generate::{Distribution, generate},
+        gpu::{engine::Hybrid, phase1::Settings},
+    },
+    gpu::{AdapterChoice, Gpu},
     stats::Fallback,
+    triangulator::{MIN_POINTS, MIN_POINTS_2},
 };
 use pollster::block_on;
 use std::{
@@ -81,8 +83,8 @@ fn a_run_can_be_cancelled_in_every_phase() {
 
 /// Runs until a phase begins for the `round`th time, then destroys the device.
 fn lose_the_device(
-    engines: &Engines,
-    engine: Engine,
+    engines: &Triangulator,
+    engine: Backend,
     points: &[[f64; 3]],
     phase: &'static str,
     round: usize,
@@ -97,16 +99,16 @@ fn lose_the_device(
         }
         ControlFlow::Continue(())
     });
-    block_on(engines.delaunay3d(points.into(), &Options { engine, ..on_progress }))
+    block_on(engines.delaunay3d(points.into(), &Options { backend: engine, ..on_progress }))
 }
 
 #[test]
 fn a_device_lost_in_the_middle_is_an_error_and_the_next_run_opens_another() {
-    let engines = Engines::new(AdapterChoice::Default);
+    let engines = Triangulator::new(AdapterChoice::Default);
     let points = points();
-    let all = &Options { engine: Engine::Gpu, ..Options::default() };
+    let all = &Options { backend: Backend::Gpu, ..Options::default() };
     for (phase, round) in [("lattice", 1), ("phase 1", 1), ("phase 1", 4)] {
-        let result = lose_the_device(&engines, Engine::Gpu, &points, phase, round);
+        let result = lose_the_device(&engines, Backend::Gpu, &points, phase, round);
         assert!(matches!(result, Err(Error::DeviceLost { .. })), "{phase} {round}: {result:?}");
         let mesh = block_on(engines.delaunay3d((&points).into(), all)).expect("a new device");
         assert_eq!(mesh.stats.engine, "gpu");
@@ -116,9 +118,9 @@ fn a_device_lost_in_the_middle_is_an_error_and_the_next_run_opens_another() {
 
 #[test]
 fn auto_goes_on_without_the_device_that_it_lost() {
-    let engines = Engines::with_hybrid(open());
-    let points = generate(Distribution::Uniform, LEAST_POINTS, 3);
-    let result = lose_the_device(&engines, Engine::Auto, &points, "phase 1", 2).expect("the CPU engine goes on");
+    let engines = Triangulator::with_hybrid(open());
+    let points = generate(Distribution::Uniform, MIN_POINTS, 3);
+    let result = lose_the_device(&engines, Backend::Auto, &points, "phase 1", 2).expect("the CPU engine goes on");
     assert!(
         matches!(result.stats.fallback, Some(Fallback::GpuFailed(Error::DeviceLost { .. }))),
         "{:?}",
@@ -129,42 +131,42 @@ fn auto_goes_on_without_the_device_that_it_lost() {
 
 #[test]
 fn auto_takes_the_gpu_where_it_pays() {
-    let engines = Engines::with_hybrid(open());
-    let points = generate(Distribution::Uniform, LEAST_POINTS, 4);
+    let engines = Triangulator::with_hybrid(open());
+    let points = generate(Distribution::Uniform, MIN_POINTS, 4);
     let mesh = block_on(engines.delaunay3d((&points).into(), &Options::default())).expect("triangulates");
     assert_eq!((mesh.stats.engine, mesh.stats.fallback), ("gpu", None));
-    let few = &points[..LEAST_POINTS - 1];
+    let few = &points[..MIN_POINTS - 1];
     let mesh = block_on(engines.delaunay3d(few.into(), &Options::default())).expect("triangulates");
-    let why = Fallback::FewPoints { points: few.len(), least: LEAST_POINTS };
+    let why = Fallback::FewPoints { points: few.len(), least: MIN_POINTS };
     assert_eq!((mesh.stats.engine, mesh.stats.fallback), ("cpu", Some(why)));
 }
 
 #[test]
 fn auto_takes_the_gpu_in_the_plane_where_it_pays() {
-    let engines = Engines::with_hybrid(open());
-    let points = generate2d(Distribution2::Uniform, LEAST_POINTS_2, 4);
+    let engines = Triangulator::with_hybrid(open());
+    let points = generate2d(Distribution2::Uniform, MIN_POINTS_2, 4);
     let auto = |points: &[[f64; 2]]| {
         let mesh = block_on(engines.delaunay2d(points.into(), &Options::default())).expect("triangulates");
-        let cpu = Options { engine: Engine::Cpu, ..Options::default() };
+        let cpu = Options { backend: Backend::Cpu, ..Options::default() };
         let expected = block_on(engines.delaunay2d(points.into(), &cpu)).expect("triangulates");
         assert_eq!(expected.stats.fallback, None);
         assert_eq!((mesh.canonical(), &mesh.hull), (expected.canonical(), &expected.hull));
         (mesh.stats.engine, mesh.stats.fallback)
     };
     assert_eq!(auto(&points), ("gpu", None));
-    let few = &points[..LEAST_POINTS_2 - 1];
-    assert_eq!(auto(few), ("cpu", Some(Fallback::FewPoints { points: few.len(), least: LEAST_POINTS_2 })));
+    let few = &points[..MIN_POINTS_2 - 1];
+    assert_eq!(auto(few), ("cpu", Some(Fallback::FewPoints { points: few.len(), least: MIN_POINTS_2 })));
     // The engine of space, on the same device, is still there.
-    let points = generate(Distribution::Uniform, LEAST_POINTS, 4);
+    let points = generate(Distribution::Uniform, MIN_POINTS, 4);
     let mesh = block_on(engines.delaunay3d((&points).into(), &Options::default())).expect("triangulates");
     assert_eq!((mesh.stats.engine, mesh.stats.fallback), ("gpu", None));
 }
 
 #[test]
 fn auto_goes_on_in_the_plane_without_the_device_that_it_lost() {
-    let engines = Engines::with_hybrid(open());
+    let engines = Triangulator::with_hybrid(open());
     let device = block_on(engines.gpu()).expect("opens").device().clone();
-    let points = generate2d(Distribution2::Uniform, LEAST_POINTS_2, 5);
+    let points = generate2d(Distribution2::Uniform, MIN_POINTS_2, 5);
     let rounds = Mutex::new(0);
     let options = watched(move |progress| {
         let mut rounds = rounds.lock().expect("no panic");
@@ -185,12 +187,12 @@ fn auto_goes_on_in_the_plane_without_the_device_that_it_lost() {
 /// On machines with a graphics card there is nothing to see here.
 #[test]
 fn auto_does_not_take_a_software_adapter() {
-    let engines = Engines::default();
+    let engines = Triangulator::default();
     let points = clouds::grid(20);
     // Grids of 8,000 points: too few at first, and never enough for software.
     let many: Vec<_> =
         (0..4).flat_map(|k| points.iter().map(move |&[x, y, z]| [x, y, z + 20.0 * f64::from(k)])).collect();
-    assert!(many.len() >= LEAST_POINTS);
+    assert!(many.len() >= MIN_POINTS);
     let mut why = Vec::new();
     for _ in 0..5 {
         let mesh = block_on(engines.delaunay3d((&many).into(), &Options::default())).expect("triangulates");
@@ -205,9 +207,9 @@ fn auto_does_not_take_a_software_adapter() {
 
 #[test]
 fn a_gpu_that_is_not_there() {
-    let engines = Engines::new(AdapterChoice::Name("no such adapter".to_owned()));
+    let engines = Triangulator::new(AdapterChoice::Name("no such adapter".to_owned()));
     let points = points();
-    let gpu = Options { engine: Engine::Gpu, ..Options::default() };
+    let gpu = Options { backend: Backend::Gpu, ..Options::default() };
     let error = block_on(engines.delaunay3d((&points).into(), &gpu)).expect_err("there is none");
     assert!(matches!(error, Error::AdapterNotFound { .. }), "{error:?}");
     let many = generate(Distribution::Uniform, 110_000, 3);
@@ -264,7 +266,7 @@ fn a_triangulation_that_outgrows_the_device_is_an_error() {
 /// What flips that wait for each other would come to.
 #[test]
 fn a_run_of_too_many_flip_iterations_is_left_to_the_cpu() {
-    let mut hybrid = open().with_settings(Settings { most_iterations: 8, ..Settings::default() });
+    let mut hybrid = open().with_settings(Settings { max_iterations: 8, ..Settings::default() });
     let points = generate(Distribution::Uniform, 3_000, 1);
     let mesh = block_on(hybrid.delaunay3d((&points).into(), &Options::default())).expect("the CPU engine goes on");
     assert_eq!((mesh.stats.engine, &mesh.stats.fallback), ("cpu", &Some(Fallback::Flips)));
@@ -273,8 +275,8 @@ fn a_run_of_too_many_flip_iterations_is_left_to_the_cpu() {
 
 #[test]
 fn auto_goes_on_without_a_gpu_that_is_too_small() {
-    let engines = Engines::with_hybrid(with_small_buffers(1 << 20));
-    let points = generate(Distribution::Uniform, LEAST_POINTS, 3);
+    let engines = Triangulator::with_hybrid(with_small_buffers(1 << 20));
+    let points = generate(Distribution::Uniform, MIN_POINTS, 3);
     let mesh = block_on(engines.delaunay3d((&points).into(), &Options::default())).expect("the CPU engine goes on");
     assert!(matches!(mesh.stats.fallback, Some(Fallback::GpuFailed(Error::BufferTooLarge { .. }))));
     same(&points, &mesh);
@@ -283,8 +285,8 @@ fn auto_goes_on_without_a_gpu_that_is_too_small() {
 /// The plane's engine shares the device with that for space: neither is left with one that is gone.
 #[test]
 fn a_device_that_was_given_back_is_opened_anew_for_both_engines() {
-    let engines = Engines::new(AdapterChoice::Default);
-    let gpu = &Options { engine: Engine::Gpu, ..Options::default() };
+    let engines = Triangulator::new(AdapterChoice::Default);
+    let gpu = &Options { backend: Backend::Gpu, ..Options::default() };
     let cube = clouds::grid(3);
     let square: Vec<[f64; 2]> = (0..9).map(|i| [i % 3, i / 3].map(f64::from)).collect();
     for _ in 0..2 {

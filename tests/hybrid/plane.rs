@@ -2,13 +2,13 @@
 
 use gdel::{
     Mesh2, Options, Points2,
-    cpu::Order,
-    gpu::{AdapterChoice, Gpu, phase1::Pick, plane::Settings},
-    plane::{
-        delaunay2d_in_order,
+    d2::{
+        cpu::delaunay2d_in_order,
         generate::{Distribution2, generate2d},
-        hybrid::Hybrid2,
+        gpu::{engine::Hybrid2, phase1::Settings},
     },
+    gpu::{AdapterChoice, Gpu, layout::Pick},
+    input::order::Order,
     stats::Fallback,
 };
 use pollster::block_on;

@@ -3,7 +3,11 @@
 //! the exact verifier proves the mesh.
 
 use crate::plane::HYBRID;
-use gdel::{Mesh2, Options, cpu::Order, plane::delaunay2d_in_order, verify::verify2d};
+use gdel::{
+    Mesh2, Options,
+    d2::{cpu::delaunay2d_in_order, verify::verify2d},
+    input::order::Order,
+};
 use pollster::block_on;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;

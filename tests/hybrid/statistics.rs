@@ -3,8 +3,10 @@
 use crate::{hybrid, triangulate};
 use gdel::{
     Mesh3, Options,
-    generate::{Distribution, generate},
-    mesh::FACETS,
+    d3::{
+        generate::{Distribution, generate},
+        mesh::FACETS,
+    },
     predicates,
     stats::Round,
 };

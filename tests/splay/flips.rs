@@ -1,16 +1,18 @@
 //! A triangulation that can be spoilt: splits and flips on tetrahedra found by their facets.
 
 use gdel::{
-    mesh::FACETS,
-    predicates::vertices::Vertices,
-    splay::{NONE, NearDelaunay},
-    triangulation::Triangulation,
+    d3::{
+        mesh::FACETS,
+        splay::{NONE, NearDelaunay},
+        triangulation::Triangulation,
+    },
+    predicates::filter::PredicateContext,
 };
 use std::collections::HashMap;
 
 /// Tetrahedra without ghosts, positively oriented, and the ones at each facet.
 pub struct Soup<'a> {
-    vertices: &'a Vertices<'a>,
+    vertices: &'a PredicateContext<'a>,
     pub tetrahedra: Vec<[u32; 4]>,
     facets: HashMap<[u32; 3], Vec<usize>>,
 }
@@ -22,7 +24,7 @@ fn facet(t: [u32; 4], k: usize) -> [u32; 3] {
 }
 
 impl<'a> Soup<'a> {
-    pub fn new(vertices: &'a Vertices<'a>, tetrahedra: &[[u32; 4]]) -> Self {
+    pub fn new(vertices: &'a PredicateContext<'a>, tetrahedra: &[[u32; 4]]) -> Self {
         let mut soup = Soup { vertices, tetrahedra: Vec::new(), facets: HashMap::new() };
         tetrahedra.iter().for_each(|&t| soup.add(t));
         soup
@@ -128,13 +130,13 @@ impl<'a> Soup<'a> {
         }
     }
 
-    /// With ghosts; all tetrahedra are doubtful.
+    /// With ghosts; all tetrahedra are uncertain.
     pub fn finish(&self) -> NearDelaunay {
         near(self.vertices.len() as u32, &self.tetrahedra)
     }
 }
 
-/// A triangulation of the hull of the vertices below `infinite`, with ghosts; all tetrahedra are doubtful, and nothing is
+/// A triangulation of the hull of the vertices below `infinite`, with ghosts; all tetrahedra are uncertain, and nothing is
 /// known to have failed.
 pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay {
     let mut all = tetrahedra.to_vec();
@@ -171,18 +173,18 @@ pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay {
         t.iter().for_each(|&v| incident[v as usize] = slot as u32);
     }
     let missing = (0..infinite).filter(|&v| incident[v as usize] == NONE).collect();
-    let doubtful = (0..all.len() as u32).collect();
+    let uncertain = (0..all.len() as u32).collect();
     NearDelaunay {
         triangulation: Triangulation::new(all, neighbors, infinite),
         incident,
         failed: Vec::new(),
-        doubtful,
+        uncertain,
         missing,
     }
 }
 
 /// The finite tetrahedra that are flat or inverted.
-pub fn flat_or_inverted(mesh: &Triangulation, vertices: &Vertices<'_>) -> Vec<u32> {
+pub fn flat_or_inverted(mesh: &Triangulation, vertices: &PredicateContext<'_>) -> Vec<u32> {
     let finite = |t: &[u32; 4]| t[3] != vertices.len() as u32;
     let bad = |&[a, b, c, d]: &[u32; 4]| vertices.orient3d(a, b, c, d) <= 0;
     (0..).zip(mesh.tetrahedra()).filter(|(_, t)| finite(t) && bad(t)).map(|(slot, _)| slot).collect()
@@ -190,17 +192,17 @@ pub fn flat_or_inverted(mesh: &Triangulation, vertices: &Vertices<'_>) -> Vec<u3
 
 /// What a GPU would tell about `near`: which vertices have a facet that is not locally Delaunay, and which tetrahedra are
 /// flat or inverted. The others are beyond doubt.
-pub fn found_out(vertices: &Vertices<'_>, near: &NearDelaunay) -> NearDelaunay {
+pub fn found_out(vertices: &PredicateContext<'_>, near: &NearDelaunay) -> NearDelaunay {
     let (tetrahedra, neighbors) = (near.triangulation.tetrahedra(), near.triangulation.neighbors());
     let infinite = vertices.len() as u32;
     let mut bad = vec![false; tetrahedra.len()];
     flat_or_inverted(&near.triangulation, vertices).iter().for_each(|&t| bad[t as usize] = true);
-    let mut doubtful = Vec::new();
+    let mut uncertain = Vec::new();
     let mut failed = Vec::new();
     for (slot, &t) in tetrahedra.iter().enumerate() {
         let across = neighbors[slot];
         if bad[slot] || (t[3] == infinite && bad[across[3] as usize / 4]) {
-            doubtful.push(slot as u32);
+            uncertain.push(slot as u32);
             continue;
         }
         for k in 0..4 {
@@ -220,5 +222,5 @@ pub fn found_out(vertices: &Vertices<'_>, near: &NearDelaunay) -> NearDelaunay {
             }
         }
     }
-    NearDelaunay { doubtful, failed, ..near.clone() }
+    NearDelaunay { uncertain, failed, ..near.clone() }
 }

@@ -8,13 +8,17 @@ mod phase1;
 
 use flips::{Soup, found_out, near};
 use gdel::{
-    Options, Points, cpu,
-    lattice::Lattice,
+    Options, Points,
+    d3::{
+        cpu,
+        splay::{Aborted, NONE, NearDelaunay, Outcome, splay},
+        triangulation::FiniteMesh,
+        verify::{MeshView, verify3d},
+    },
+    input::lattice::Lattice,
     parallel::Threads,
-    predicates::vertices::Vertices,
-    splay::{GaveUp, NONE, NearDelaunay, Outcome, SplayStats, splay},
-    triangulation::FiniteMesh,
-    verify::{Statement, verify3d},
+    predicates::filter::PredicateContext,
+    stats::SplayStats,
 };
 use inputs::Cloud;
 use rand::{RngExt, seq::SliceRandom};
@@ -34,7 +38,7 @@ fn canonical(mut tetrahedra: Vec<[u32; 4]>) -> Vec<[u32; 4]> {
 }
 
 /// Splays, once with nothing but doubts, and once with just those that are justified; demands the exact answer.
-fn check(name: &str, vertices: &Vertices<'_>, near: NearDelaunay, answer: &[[u32; 4]]) -> SplayStats {
+fn check(name: &str, vertices: &PredicateContext<'_>, near: NearDelaunay, answer: &[[u32; 4]]) -> SplayStats {
     let known = found_out(vertices, &near);
     let (doubting, _) = splayed(name, vertices, near);
     let (tetrahedra, stats) = splayed(name, vertices, known);
@@ -45,19 +49,18 @@ fn check(name: &str, vertices: &Vertices<'_>, near: NearDelaunay, answer: &[[u32
 }
 
 /// The tetrahedra that splaying gives, which the verifier accepts.
-fn splayed(name: &str, vertices: &Vertices<'_>, near: NearDelaunay) -> (Vec<[u32; 4]>, SplayStats) {
+fn splayed(name: &str, vertices: &PredicateContext<'_>, near: NearDelaunay) -> (Vec<[u32; 4]>, SplayStats) {
     let started = std::time::Instant::now();
     let (mesh, stats) = match splay(vertices, near, u64::MAX, Threads::All, &|_| Ok(())).unwrap() {
         Outcome::Delaunay(mesh, stats) => (mesh, stats),
-        Outcome::GaveUp(reason) => panic!("{name}: gave up: {reason:?}"),
+        Outcome::Aborted(reason) => panic!("{name}: gave up: {reason:?}"),
     };
     println!("{name}: {} vertices, {:.1?}, {stats:?}", vertices.len(), started.elapsed());
     let names: Vec<u32> = (0..vertices.len() as u32).map(|v| vertices.input_index(v)).collect();
     let FiniteMesh { tetrahedra, neighbors, hull } = mesh.into_mesh(Some(&names), Threads::All);
     let mut points = vec![[0.0; 3]; names.len()];
     names.iter().zip(0..).for_each(|(&i, v)| points[i as usize] = vertices.point(v));
-    let statement =
-        Statement { neighbors: Some(&neighbors), hull: Some(&hull), ..Statement::of_tetrahedra(&tetrahedra) };
+    let statement = MeshView { neighbors: Some(&neighbors), hull: Some(&hull), ..MeshView::of_tetrahedra(&tetrahedra) };
     let report = verify3d(&points, statement).unwrap();
     assert!(report.passed(), "{name}: {:?}", report.failures().next());
     (tetrahedra, stats)
@@ -75,7 +78,7 @@ fn with_random_flips(name: &str, points: &Cloud, flips: usize, seed: u64) -> Spl
     let indices = shuffled(points.len(), seed);
     let answer = exact(points, &indices);
     let lattice = Lattice::fit(points.into());
-    let vertices = Vertices::new(points.into(), &lattice, indices);
+    let vertices = PredicateContext::new(points.into(), &lattice, indices);
     let mut soup = Soup::new(&vertices, &answer);
     let mut rng = inputs::random(seed);
     let mut flipped = 0;
@@ -96,7 +99,7 @@ fn from_displaced(name: &str, points: &Cloud, by: f64, seed: u64) -> SplayStats 
     let near = near(points.len() as u32, &exact(&displaced, &indices));
     let answer = exact(points, &indices);
     let lattice = Lattice::fit(points.into());
-    let vertices = Vertices::new(points.into(), &lattice, indices);
+    let vertices = PredicateContext::new(points.into(), &lattice, indices);
     check(name, &vertices, near, &answer)
 }
 
@@ -115,7 +118,7 @@ fn from_split_and_flip(name: &str, points: &Cloud, batch: usize, seed: u64) -> S
         first.tetrahedra.iter().map(|t| t.map(|i| vertex[on_hull[i as usize] as usize])).collect();
 
     let lattice = Lattice::fit(points.into());
-    let vertices = Vertices::new(points.into(), &lattice, indices);
+    let vertices = PredicateContext::new(points.into(), &lattice, indices);
     let mut soup = Soup::new(&vertices, &first);
     let inside: Vec<u32> = (0..points.len() as u32).filter(|i| on_hull.binary_search(i).is_err()).collect();
     for batch in inside.chunks(batch) {
@@ -241,12 +244,12 @@ fn threads_share_the_stars() {
     let near = near(points.len() as u32, &exact(&displaced, &identity));
     let lattice = Lattice::fit((&points).into());
     let results = [Threads::One, Threads::All].map(|threads| {
-        let vertices = Vertices::of_input((&points).into(), &lattice);
+        let vertices = PredicateContext::of_input((&points).into(), &lattice);
         match splay(&vertices, near.clone(), u64::MAX, threads, &|_| Ok(())).unwrap() {
             Outcome::Delaunay(mesh, stats) => {
                 (canonical(mesh.into_mesh(None, threads).tetrahedra), stats, vertices.exact_counts())
             }
-            Outcome::GaveUp(reason) => panic!("{reason:?}"),
+            Outcome::Aborted(reason) => panic!("{reason:?}"),
         }
     });
     assert!(results[0].1.built > 100, "{:?}", results[0].1);
@@ -258,14 +261,14 @@ fn threads_share_the_stars() {
 fn too_much_work_is_given_up() {
     let points = inputs::uniform(200, 19);
     let lattice = Lattice::fit((&points).into());
-    let vertices = Vertices::new((&points).into(), &lattice, shuffled(points.len(), 21));
+    let vertices = PredicateContext::new((&points).into(), &lattice, shuffled(points.len(), 21));
     let enough = match splay(&vertices, spoilt(&points), u64::MAX, Threads::All, &|_| Ok(())).unwrap() {
         Outcome::Delaunay(_, stats) => stats.signs,
-        Outcome::GaveUp(reason) => panic!("{reason:?}"),
+        Outcome::Aborted(reason) => panic!("{reason:?}"),
     };
-    for most_signs in [0, enough / 4, enough / 2, enough - enough / 8] {
-        let outcome = splay(&vertices, spoilt(&points), most_signs, Threads::All, &|_| Ok(())).unwrap();
-        assert!(matches!(outcome, Outcome::GaveUp(GaveUp::Work)), "{most_signs} of {enough}");
+    for max_evaluations in [0, enough / 4, enough / 2, enough - enough / 8] {
+        let outcome = splay(&vertices, spoilt(&points), max_evaluations, Threads::All, &|_| Ok(())).unwrap();
+        assert!(matches!(outcome, Outcome::Aborted(Aborted::Work)), "{max_evaluations} of {enough}");
     }
 }
 
@@ -273,13 +276,13 @@ fn too_much_work_is_given_up() {
 fn what_is_no_triangulation_is_given_up() {
     let points = inputs::uniform(200, 22);
     let lattice = Lattice::fit((&points).into());
-    let vertices = Vertices::new((&points).into(), &lattice, shuffled(points.len(), 21));
+    let vertices = PredicateContext::new((&points).into(), &lattice, shuffled(points.len(), 21));
     let near = spoilt(&points);
     let no_tetrahedra = NearDelaunay { incident: vec![NONE; points.len() + 1], ..near.clone() };
     let wrong_tetrahedra = NearDelaunay { incident: near.incident.iter().rev().copied().collect(), ..near };
     for near in [no_tetrahedra, wrong_tetrahedra] {
         let outcome = splay(&vertices, near, u64::MAX, Threads::All, &|_| Ok(())).unwrap();
-        assert!(matches!(outcome, Outcome::GaveUp(GaveUp::Inconsistent(_))), "{outcome:?}");
+        assert!(matches!(outcome, Outcome::Aborted(Aborted::Inconsistent(_))), "{outcome:?}");
     }
 }
 
@@ -287,7 +290,7 @@ fn what_is_no_triangulation_is_given_up() {
 fn a_caller_can_stop_it() {
     let points = inputs::uniform(200, 23);
     let lattice = Lattice::fit((&points).into());
-    let vertices = Vertices::new((&points).into(), &lattice, shuffled(points.len(), 21));
+    let vertices = PredicateContext::new((&points).into(), &lattice, shuffled(points.len(), 21));
     let outcome = splay(&vertices, spoilt(&points), u64::MAX, Threads::All, &|_| Err(gdel::Error::Cancelled));
     assert_eq!(outcome.err(), Some(gdel::Error::Cancelled));
 }
@@ -303,7 +306,7 @@ fn missing_points_are_inserted() {
         let mesh = cpu::delaunay3d((&some).into(), &Options::default()).unwrap();
         let answer = exact(&points, &indices);
         let lattice = Lattice::fit((&points).into());
-        let vertices = Vertices::new((&points).into(), &lattice, indices);
+        let vertices = PredicateContext::new((&points).into(), &lattice, indices);
         let stats = check(name, &vertices, near(points.len() as u32, &mesh.tetrahedra), &answer);
         assert_eq!(stats.inserted, points.len() - part, "{name}");
     }

@@ -1,20 +1,23 @@
-//! Both phases, without a GPU: the kernels' twins make the triangulation that is splayed.
+//! Both phases, without a GPU: the kernels' references make the triangulation that is splayed.
 
 use crate::{check, exact, flips::flat_or_inverted, inputs, inputs::Cloud};
 use gdel::{
-    gpu::twin::{
+    d3::{
+        splay::{NONE, NearDelaunay},
+        triangulation::Triangulation,
+    },
+    input::lattice::{Lattice, Width},
+    predicates::filter::PredicateContext,
+    reference::d3::{
         State,
         predicates::Vertex,
         run::{Settings, run},
     },
-    lattice::{Lattice, Width},
-    predicates::vertices::Vertices,
-    splay::{NONE, NearDelaunay, SplayStats},
-    triangulation::Triangulation,
+    stats::SplayStats,
 };
 
-/// The triangulation without the gaps between tetrahedra, and what has failed; flat tetrahedra are doubtful.
-fn near(state: &State, vertices: &Vertices<'_>) -> NearDelaunay {
+/// The triangulation without the gaps between tetrahedra, and what has failed; flat tetrahedra are uncertain.
+fn near(state: &State, vertices: &PredicateContext<'_>) -> NearDelaunay {
     let used: Vec<usize> = (0..state.tets.len()).filter(|&t| state.is_used(t)).collect();
     let mut number = vec![NONE; state.tets.len()];
     used.iter().zip(0..).for_each(|(&t, n)| number[t] = n);
@@ -40,9 +43,9 @@ fn near(state: &State, vertices: &Vertices<'_>) -> NearDelaunay {
         some.for_each(|(n, t)| t.iter().for_each(|&v| incident[v as usize] = n));
     }
     let triangulation = Triangulation::new(tetrahedra, neighbors, infinite);
-    let doubtful = flat_or_inverted(&triangulation, vertices);
+    let uncertain = flat_or_inverted(&triangulation, vertices);
     let failed = (0..vertices.len() as u32).filter(|&v| state.failed[v as usize] != 0).collect();
-    NearDelaunay { triangulation, incident, failed, doubtful, missing: Vec::new() }
+    NearDelaunay { triangulation, incident, failed, uncertain, missing: Vec::new() }
 }
 
 fn both_phases(name: &str, points: &Cloud, settings: &Settings) -> SplayStats {
@@ -55,7 +58,7 @@ fn both_phases(name: &str, points: &Cloud, settings: &Settings) -> SplayStats {
     let sites = indices.iter().map(|&index| Vertex { position: position(index), index }).collect();
     let state = run(Width::Narrow, sites, settings).expect("not flat");
     let answer = exact(points, &indices);
-    let vertices = Vertices::new(points.into(), &lattice, indices);
+    let vertices = PredicateContext::new(points.into(), &lattice, indices);
     check(name, &vertices, near(&state, &vertices), &answer)
 }
 

@@ -1,0 +1,43 @@
+//! Points of the plane as the kernels see them.
+//!
+//! | form | words of vertex *v* |
+//! | --- | --- |
+//! | narrow | x, y |
+//! | wide | high words of x and y, low words of x and y; the highest bit of the third says that the point was rounded |
+//!
+//! Only ties ask for a vertex's input index: that is in the buffer of sorted pairs, beside its key.
+
+use crate::input::lattice::Width;
+
+/// The words of one vertex.
+pub const fn words(width: Width) -> usize {
+    match width {
+        Width::Narrow => 2,
+        Width::Wide => 4,
+    }
+}
+
+/// The bit of a wide vertex's third word that says that the point was rounded.
+pub const ROUNDED: u32 = 1 << 31;
+
+/// Appends the words of a vertex with lattice coordinates `position`.
+pub fn append_words(words: &mut Vec<i32>, width: Width, position: [i64; 2], rounded: bool) {
+    let [x, y] = position;
+    match width {
+        Width::Narrow => words.extend([x as i32, y as i32]),
+        Width::Wide => {
+            let high = |q: i64| (q >> 31) as i32;
+            let low = |q: i64| (q & 0x7fff_ffff) as i32;
+            let mark = if rounded { ROUNDED as i32 } else { 0 };
+            words.extend([high(x), high(y), low(x) | mark, low(y)]);
+        }
+    }
+}
+
+/// The lattice coordinates in the words of a vertex.
+pub fn position(words: &[i32]) -> [i64; 2] {
+    std::array::from_fn(|axis| match words {
+        [_, _, _, _] => i64::from(words[axis]) << 31 | i64::from(words[2 + axis] & 0x7fff_ffff),
+        _ => i64::from(words[axis]),
+    })
+}

@@ -1,0 +1,192 @@
+//! Bowyer–Watson: find the triangles whose circumcircles hold the new point, and fill their cavity from the point.
+//!
+//! The outside of the hull is triangulated too, with *ghosts* that join its edges to one infinite vertex, so that no edge is
+//! special. The predicates never tie, so the cavity is star-shaped, has no vertex inside, and no new triangle is flat.
+
+use crate::d2::triangulation::{MAX_TRIANGLES, Triangulation2};
+use crate::{Error, Options, predicates::filter::PredicateContext2};
+
+/// The most points that the engine takes: a sphere of *n* + 1 vertices has 2·*n* − 2 triangles.
+pub(crate) const MAX_POINTS: usize = MAX_TRIANGLES / 2;
+/// How often progress is reported, in points.
+const REPORT: usize = 1 << 13;
+
+/// An edge of a cavity.
+#[derive(Clone, Copy)]
+struct Edge {
+    /// From where to where, with the cavity on the left.
+    ends: [u32; 2],
+    /// What lies beyond: 4·(triangle) + (edge seen from there).
+    beyond: u32,
+}
+
+/// Lists that every insertion uses anew.
+#[derive(Default)]
+pub(crate) struct Scratch {
+    /// The triangles in conflict, whose slots the new triangles take.
+    conflict: Vec<u32>,
+    /// The edges of the cavity, counter-clockwise.
+    boundary: Vec<Edge>,
+    /// Edges to cross, the next one last.
+    pending: Vec<Edge>,
+}
+
+/// Triangulates all vertices, of which the first three are counter-clockwise.
+pub(crate) fn insert_all(vertices: &PredicateContext2<'_>, options: &Options) -> Result<Triangulation2, Error> {
+    let n = vertices.len();
+    let mut mesh = initial(n as u32);
+    mesh.reserve(2 * n)?;
+    let report = |inserted: usize| options.report("insert", (3 + inserted) as f64 / n as f64);
+    insert_points(&mut mesh, vertices, 3..n as u32, 0, report)?;
+    Ok(mesh)
+}
+
+/// Inserts vertices that a Delaunay triangulation does not have yet; best if neighbours in the order are neighbours in the
+/// plane, and `start` is a triangle near the first. `report` learns now and then how many are inserted, and can stop.
+pub(crate) fn insert_points(
+    mesh: &mut Triangulation2,
+    vertices: &PredicateContext2<'_>,
+    points: impl IntoIterator<Item = u32>,
+    start: u32,
+    report: impl Fn(usize) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let mut scratch = Scratch::default();
+    let mut last = start;
+    for (inserted, p) in points.into_iter().enumerate() {
+        if inserted % REPORT == 0 {
+            report(inserted)?;
+        }
+        let start = mesh.locate(vertices, p, last);
+        last = mesh.insert(vertices, p, start, &mut scratch)?;
+    }
+    Ok(())
+}
+
+/// One triangle of the vertices 0 to 2, and the three ghosts on its edges.
+fn initial(infinite: u32) -> Triangulation2 {
+    let triangles = vec![[0, 1, 2], [infinite, 2, 1], [0, 2, infinite], [1, 0, infinite]];
+    let neighbors = vec![[0; 3]; 4];
+    let mut mesh = Triangulation2 { triangles, neighbors, infinite };
+    for t in 0..4 {
+        for k in 0..3 {
+            // The edge against this one.
+            let [from, to] = mesh.edge(t, k);
+            let against = (0..12).map(|e| [e / 3, e % 3]).find(|&[u, l]| mesh.edge(u, l) == [to, from]);
+            if let Some([u, l]) = against {
+                mesh.join(4 * t + k, 4 * u + l);
+            }
+        }
+    }
+    mesh
+}
+
+/// The vertices after `k` in a triangle, modulo 3.
+pub(crate) const NEXT: [usize; 3] = [1, 2, 0];
+/// The vertices before.
+pub(crate) const BEFORE: [usize; 3] = [2, 0, 1];
+
+impl Triangulation2 {
+    /// The ends of the edge of `t` opposite its vertex `k`, with `t` on the left.
+    fn edge(&self, t: u32, k: u32) -> [u32; 2] {
+        let v = self.triangles[t as usize];
+        [v[NEXT[k as usize]], v[BEFORE[k as usize]]]
+    }
+
+    /// A triangle that holds vertex `p`, or a ghost whose edge sees it: a walk that crosses edges towards `p` from triangle
+    /// `start`. It ends, since the power distance to `p` falls with every step.
+    pub(crate) fn locate(&self, vertices: &PredicateContext2<'_>, p: u32, start: u32) -> u32 {
+        let mut t = match self.triangles[start as usize].iter().position(|&v| v == self.infinite) {
+            Some(k) => self.neighbors[start as usize][k] >> 2,
+            None => start,
+        };
+        let mut came_through = 3;
+        'walk: loop {
+            for k in 0..3 {
+                let [a, b] = self.edge(t, k);
+                if k != came_through && vertices.orient2d(a, b, p) < 0 {
+                    let across = self.neighbors[t as usize][k as usize];
+                    (t, came_through) = (across >> 2, across & 3);
+                    if self.is_ghost(t) {
+                        return t;
+                    }
+                    continue 'walk;
+                }
+            }
+            return t;
+        }
+    }
+
+    /// Whether the circumcircle of `t` holds vertex `p`. That of a ghost is the half-plane beyond its edge and, on the
+    /// edge's line, the edge itself, which the circumcircle on the other side of the edge cuts out of the line.
+    #[inline]
+    pub(crate) fn in_conflict(&self, vertices: &PredicateContext2<'_>, t: u32, p: u32) -> bool {
+        let v = self.triangles[t as usize];
+        match v.iter().position(|&v| v == self.infinite) {
+            None => vertices.incircle(v, p) > 0,
+            Some(k) => {
+                let [a, b] = [v[NEXT[k]], v[BEFORE[k]]];
+                match vertices.orient2d(a, b, p) {
+                    0 => vertices.is_between(a, p, b),
+                    side => side > 0,
+                }
+            }
+        }
+    }
+
+    /// Inserts vertex `p`, which is in conflict with triangle `start`; gives a triangle at `p`.
+    pub(crate) fn insert(
+        &mut self,
+        vertices: &PredicateContext2<'_>,
+        p: u32,
+        start: u32,
+        scratch: &mut Scratch,
+    ) -> Result<u32, Error> {
+        self.find_cavity(vertices, p, start, scratch);
+        let Scratch { conflict, boundary, .. } = scratch;
+        while conflict.len() < boundary.len() {
+            conflict.push(self.push()?);
+        }
+        // Around p, each new triangle shares an edge with the one before and the next.
+        let mut before = conflict[boundary.len() - 1];
+        for (i, &Edge { ends: [a, b], beyond }) in boundary.iter().enumerate() {
+            let new = conflict[i];
+            let next = if i + 1 < boundary.len() { conflict[i + 1] } else { conflict[0] };
+            self.triangles[new as usize] = [p, a, b];
+            self.neighbors[new as usize] = [beyond, 4 * next + 2, 4 * before + 1];
+            self.neighbors[beyond as usize / 4][beyond as usize % 4] = 4 * new;
+            before = new;
+        }
+        Ok(before)
+    }
+
+    /// Lists the triangles in conflict with `p`, and the edges around them, counter-clockwise, depth-first. No vertex is
+    /// inside of the cavity, so its triangles form a tree, and none is met twice.
+    fn find_cavity(&mut self, vertices: &PredicateContext2<'_>, p: u32, start: u32, scratch: &mut Scratch) {
+        let Scratch { conflict, boundary, pending } = scratch;
+        conflict.clear();
+        boundary.clear();
+        conflict.push(start);
+        let edge = |t: u32, k: usize| Edge { ends: self.edge(t, k as u32), beyond: self.neighbors[t as usize][k] };
+        pending.extend([edge(start, 2), edge(start, 1), edge(start, 0)]);
+        while let Some(next) = pending.pop() {
+            let (t, k) = (next.beyond >> 2, (next.beyond & 3) as usize);
+            if self.in_conflict(vertices, t, p) {
+                conflict.push(t);
+                pending.extend([edge(t, BEFORE[k]), edge(t, NEXT[k])]);
+            } else {
+                boundary.push(next);
+            }
+        }
+    }
+
+    /// A new slot.
+    fn push(&mut self) -> Result<u32, Error> {
+        let count = self.triangles.len();
+        if count == self.triangles.capacity() {
+            self.reserve((count + count / 2).min(MAX_TRIANGLES))?;
+        }
+        self.triangles.push([0; 3]);
+        self.neighbors.push([0; 3]);
+        Ok(count as u32)
+    }
+}

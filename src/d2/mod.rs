@@ -1,0 +1,14 @@
+//! Triangulations of the plane.
+
+pub mod cpu;
+pub mod generate;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+mod insert;
+pub mod lawson;
+mod mesh;
+mod triangulation;
+pub mod verify;
+
+pub use mesh::Mesh2;
+pub use triangulation::Triangulation2;

@@ -1,0 +1,158 @@
+//! Triangles and their neighbours while they are being made, the outside of the hull included.
+
+use crate::{Error, index::NONE};
+
+/// Half-edges are numbered below 2³¹, since -1 is none.
+pub(crate) const MAX_TRIANGLES: usize = i32::MAX as usize / 3;
+
+/// A half-edge of the hull, as a neighbour.
+const OUTSIDE: u32 = NONE as u32;
+
+/// The half-edge that becomes of the edge opposite vertex *k*, and the other way round: turned over, the triangle a, b, c is
+/// a, c, b.
+const TURNED: [usize; 3] = [1, 0, 2];
+
+/// A triangulation of the plane: triangles, and *ghosts*, which join the edges of the hull to one infinite vertex.
+///
+/// Every triangle has three neighbours, and edge *k* is the one opposite its vertex *k*. So topologically it is a sphere.
+#[derive(Debug, Clone)]
+pub struct Triangulation2 {
+    /// Three vertices a triangle, counter-clockwise with the *y* axis up. A ghost has the infinite vertex in any place,
+    /// and is oriented as if that lay outside the hull.
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// Across the edge opposite vertex *k*: 4·(triangle) + (edge as it is numbered there).
+    pub(crate) neighbors: Vec<[u32; 3]>,
+    /// The infinite vertex: the number of vertices.
+    pub(crate) infinite: u32,
+}
+
+impl Triangulation2 {
+    /// A triangulation from its arrays, which are not checked. `infinite`, the number of vertices, is the infinite vertex.
+    /// Triangles are counter-clockwise with the *y* axis up, ghosts as if the infinite vertex lay outside the hull. Entry
+    /// *k* of `neighbors` is across the edge opposite vertex *k*, packed as 4·(triangle) + (edge as it is numbered there).
+    pub fn new(triangles: Vec<[u32; 3]>, neighbors: Vec<[u32; 3]>, infinite: u32) -> Self {
+        Triangulation2 { triangles, neighbors, infinite }
+    }
+
+    /// The triangulation of a mesh, from triangles, half-edges and hull as [`Mesh2`](crate::d2::Mesh2) has them: the inverse of
+    /// [`Triangulation2::into_mesh`] but for the names. They are not checked. `infinite` is the number of vertices. The mesh's
+    /// triangles keep their numbers, and one ghost for each edge of the hull follows.
+    pub fn from_mesh(mut triangles: Vec<[u32; 3]>, halfedges: Vec<[i32; 3]>, hull: &[u32], infinite: u32) -> Self {
+        let count = triangles.len();
+        let ghost = |i: usize| (count + i % hull.len()) as u32;
+        let mut ghost_from = vec![0; infinite as usize];
+        for (i, &v) in hull.iter().enumerate() {
+            ghost_from[v as usize] = ghost(i);
+        }
+        let mut neighbors: Vec<[u32; 3]> = bytemuck::cast_vec(halfedges);
+        neighbors.extend((0..hull.len()).map(|i| [4 * ghost(i + 1) + 1, 4 * ghost(i + hull.len() - 1), 0]));
+        for t in 0..count {
+            let halfedges = neighbors[t];
+            for (k, edge) in TURNED.into_iter().enumerate() {
+                neighbors[t][edge] = match halfedges[k] {
+                    OUTSIDE => {
+                        let ghost = ghost_from[triangles[t][k] as usize];
+                        neighbors[ghost as usize][2] = (4 * t + edge) as u32;
+                        4 * ghost + 2
+                    }
+                    e => 4 * (e / 3) + TURNED[e as usize % 3] as u32,
+                };
+            }
+            triangles[t].swap(1, 2);
+        }
+        triangles.extend((0..hull.len()).map(|i| [hull[i], hull[(i + 1) % hull.len()], infinite]));
+        Triangulation2 { triangles, neighbors, infinite }
+    }
+
+    /// The vertices of each triangle.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The neighbours of each triangle.
+    pub fn neighbors(&self) -> &[[u32; 3]] {
+        &self.neighbors
+    }
+
+    /// Whether triangle `t` is a ghost.
+    pub fn is_ghost(&self, t: u32) -> bool {
+        self.triangles[t as usize].contains(&self.infinite)
+    }
+
+    pub(crate) fn reserve(&mut self, triangles: usize) -> Result<(), Error> {
+        let more = triangles.saturating_sub(self.triangles.len());
+        self.triangles
+            .try_reserve_exact(more)
+            .and_then(|()| self.neighbors.try_reserve_exact(more))
+            .map_err(|_| Error::OutOfMemory { tetrahedra: triangles })
+    }
+
+    pub(crate) fn join(&mut self, e: u32, f: u32) {
+        self.neighbors[e as usize / 4][e as usize % 4] = f;
+        self.neighbors[f as usize / 4][f as usize % 4] = e;
+    }
+
+    /// The vertices of the hull, clockwise with the *y* axis up: those around the infinite vertex.
+    pub(crate) fn hull_vertices(&self) -> Vec<u32> {
+        let place_of_infinite = |t: u32| self.triangles[t as usize].iter().position(|&v| v == self.infinite);
+        let mut hull = Vec::new();
+        let Some(first) = (0..self.triangles.len() as u32).find(|&t| self.is_ghost(t)) else { return hull };
+        let mut t = first;
+        while let Some(k) = place_of_infinite(t) {
+            let next = (k + 1) % 3;
+            hull.push(self.triangles[t as usize][next]);
+            t = self.neighbors[t as usize][next] >> 2;
+            if t == first {
+                break;
+            }
+        }
+        hull
+    }
+
+    /// Triangles, half-edges and hull as [`Mesh2`](crate::d2::Mesh2) has them, in the arrays where they lie; vertex *v* becomes
+    /// `names[v]`.
+    pub fn into_mesh(mut self, names: &[u32]) -> (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>) {
+        let mut hull: Vec<u32> = self.hull_vertices().into_iter().map(|v| names[v as usize]).collect();
+        let lowest = hull.iter().enumerate().min_by_key(|&(_, v)| v).map_or(0, |(at, _)| at);
+        hull.rotate_left(lowest);
+        // The last triangles move into the places of ghosts, and their neighbours are told.
+        let mut count = self.triangles.len();
+        let mut t = 0;
+        while t < count {
+            if !self.is_ghost(t as u32) {
+                t += 1;
+                continue;
+            }
+            for across in self.neighbors[t] {
+                if across != OUTSIDE {
+                    self.neighbors[across as usize / 4][across as usize % 4] = OUTSIDE;
+                }
+            }
+            count -= 1;
+            if count > t {
+                self.triangles[t] = self.triangles[count];
+                self.neighbors[t] = self.neighbors[count];
+                for (across, k) in self.neighbors[t].into_iter().zip(0..) {
+                    if across != OUTSIDE {
+                        self.neighbors[across as usize / 4][across as usize % 4] = 4 * t as u32 + k;
+                    }
+                }
+            }
+        }
+        let Triangulation2 { mut triangles, mut neighbors, .. } = self;
+        triangles.truncate(count);
+        neighbors.truncate(count);
+        for t in &mut triangles {
+            let [a, b, c] = t.map(|v| names[v as usize]);
+            *t = [a, c, b];
+        }
+        let mut halfedges: Vec<[i32; 3]> = bytemuck::cast_vec(neighbors);
+        for edges in &mut halfedges {
+            *edges = TURNED.map(|k| match edges[k] as u32 {
+                OUTSIDE => NONE,
+                across => (across as usize / 4 * 3 + TURNED[across as usize % 4]) as i32,
+            });
+        }
+        (triangles, halfedges, hull)
+    }
+}

@@ -1,0 +1,308 @@
+//! The verifier for meshes of the plane.
+
+use crate::verify::{
+    input::{Input, dimension_in_plane},
+    report::{Check, Defect, Findings, Outcome, Report},
+};
+use crate::{
+    Error, Mesh2, Points2,
+    index::NONE,
+    predicates::{
+        incircle, orient2d,
+        symbolic::{break_tie, without},
+    },
+};
+
+/// What a mesh of the plane states: at least its triangles. What is `None` is not checked.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct MeshView2<'a> {
+    /// As in [`Mesh2::triangles`].
+    pub triangles: &'a [[u32; 3]],
+    /// As in [`Mesh2::halfedges`].
+    pub halfedges: Option<&'a [[i32; 3]]>,
+    /// As in [`Mesh2::hull`], from any of its vertices.
+    pub hull: Option<&'a [u32]>,
+    /// As in [`Mesh2::duplicate_of`].
+    pub duplicate_of: Option<&'a [i32]>,
+    /// As in [`Mesh2::dimension`].
+    pub dimension: Option<u8>,
+}
+
+impl<'a> MeshView2<'a> {
+    /// A mesh of which only the triangles are known.
+    pub fn of_triangles(triangles: &'a [[u32; 3]]) -> Self {
+        MeshView2 { triangles, ..MeshView2::default() }
+    }
+}
+
+impl<'a> From<&'a Mesh2> for MeshView2<'a> {
+    fn from(mesh: &'a Mesh2) -> Self {
+        MeshView2 {
+            triangles: &mesh.triangles,
+            halfedges: Some(&mesh.halfedges),
+            hull: Some(&mesh.hull),
+            duplicate_of: Some(&mesh.duplicate_of),
+            dimension: Some(mesh.dimension),
+        }
+    }
+}
+
+/// Checks that `mesh` is the Delaunay triangulation of `points`, of any mesh whatever.
+///
+/// ```
+/// use gdel::verify::{MeshView2, verify2d};
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
+/// assert!(verify2d(&points, MeshView2::of_triangles(&[[0, 2, 1]]))?.passed());
+/// let turned = verify2d(&points, MeshView2::of_triangles(&[[0, 1, 2]]))?;
+/// assert_eq!(turned.failures().next().unwrap().0.name(), "orientation");
+/// # Ok::<(), gdel::Error>(())
+/// ```
+///
+/// # Errors
+///
+/// As for [`verify3d`](crate::d3::verify::verify3d).
+pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView2<'m>>) -> Result<Report, Error> {
+    let mesh = mesh.into();
+    let input = Input::new(points.into(), dimension_in_plane)?;
+    let mut report = Report { dimension: input.dimension, ..Report::default() };
+    report.counts.points = input.points.len();
+    report.counts.distinct_points = input.distinct;
+    report.counts.facets = mesh.triangles.len();
+
+    report.decide(Check::Dimension, || mesh.dimension.map_or(Outcome::NotStated, |d| input.check_dimension(d).into()));
+    report.decide(Check::Duplicates, || {
+        mesh.duplicate_of.map_or(Outcome::NotStated, |d| input.check_duplicates(d).into())
+    });
+    let indices = check_indices(mesh.triangles, input.points.len()).into();
+    let (complex, bad_edges) = match indices {
+        Outcome::Passed => Complex::new(mesh.triangles),
+        _ => Default::default(),
+    };
+    report.decide(Check::Indices, || indices);
+    report.counts.vertices = complex.vertices;
+    report.counts.edges = complex.edges;
+    report.counts.hull_edges = complex.hull.len();
+
+    report.decide(Check::Vertices, || input.check_vertices(mesh.triangles, "triangle", Defect::at_triangle).into());
+    report.decide(Check::Orientation, || check_orientation(&input.points, mesh.triangles).into());
+    report.decide(Check::Facets, || bad_edges.into());
+    report
+        .decide(Check::Neighbors, || mesh.halfedges.map_or(Outcome::NotStated, |h| complex.check_halfedges(h).into()));
+    let mut ties = Outcome::Passed;
+    report.decide(Check::Delaunay, || {
+        let (delaunay, canonical) = complex.check_delaunay(&input.points);
+        ties = canonical.into();
+        delaunay.into()
+    });
+    report.decide(Check::CanonicalTies, || ties);
+    let mut polygon = Vec::new();
+    let closed = complex.check_hull_closed(&mut polygon);
+    report.decide(Check::Hull, || {
+        mesh.hull.map_or(Outcome::NotStated, |hull| {
+            // Collinear points have no triangles, but ends and an order.
+            match input.dimension {
+                2 => check_hull(hull, rotated(&polygon, hull.first())).into(),
+                _ => check_hull(hull, input.distinct_in_order()).into(),
+            }
+        })
+    });
+    report.decide(Check::HullClosed, || closed.into());
+    report.decide(Check::HullConvex, || check_hull_convex(&input.points, &polygon).into());
+    Ok(report)
+}
+
+fn check_indices(triangles: &[[u32; 3]], points: usize) -> Findings {
+    let mut findings = Findings::default();
+    if triangles.len() > i32::MAX as usize / 3 {
+        let detail = format!("{} triangles have more half-edges than an index can name", triangles.len());
+        findings.add(|| Defect::in_mesh(detail));
+    }
+    for (t, vertices) in triangles.iter().enumerate() {
+        let [a, b, c] = *vertices;
+        if let Some(v) = vertices.iter().find(|&&v| v as usize >= points) {
+            findings.add(|| Defect::at_triangle(t, format!("vertex {v} is not one of the {points} points")));
+        } else if a == b || b == c || c == a {
+            findings.add(|| Defect::at_triangle(t, format!("the vertices {vertices:?} are not three points")));
+        }
+    }
+    findings
+}
+
+fn check_orientation(points: &[[f64; 2]], triangles: &[[u32; 3]]) -> Findings {
+    let mut findings = Findings::default();
+    for (t, vertices) in triangles.iter().enumerate() {
+        let [a, b, c] = vertices.map(|v| points[v as usize]);
+        let sign = orient2d(a, b, c);
+        if sign >= 0 {
+            let what = if sign == 0 { "flat" } else { "counter-clockwise where y points up" };
+            findings.add(|| Defect::at_triangle(t, format!("{what}: {vertices:?}")));
+        }
+    }
+    findings
+}
+
+/// Needs the closed hull, clockwise, and triangles that are oriented so.
+fn check_hull_convex(points: &[[f64; 2]], polygon: &[u32]) -> Findings {
+    let mut findings = Findings::default();
+    let mut turns = 0;
+    for i in 0..polygon.len() {
+        let [a, b, c] = [0, 1, 2].map(|k| polygon[(i + k) % polygon.len()]);
+        let [pa, pb, pc] = [a, b, c].map(|v| points[v as usize]);
+        // A convex polygon goes up to its greatest point once, in the order of the coordinates.
+        let is_greatest = pa < pb && pc < pb;
+        turns += usize::from(is_greatest);
+        let folded = orient2d(pa, pb, pc) == 0 && (pa < pb) != (pb < pc);
+        if orient2d(pa, pb, pc) > 0 || folded {
+            findings.add(|| Defect::at_point(b as usize, format!("the hull is concave or folded, from {a} to {c}")));
+        }
+    }
+    if turns > 1 {
+        findings.add(|| Defect::in_mesh(format!("the hull turns {turns} times")));
+    }
+    findings
+}
+
+/// The polygon from the vertex `first`, if it has that.
+fn rotated(polygon: &[u32], first: Option<&u32>) -> Vec<u32> {
+    let from = first.and_then(|first| polygon.iter().position(|v| v == first)).unwrap_or(0);
+    let (before, after) = polygon.split_at(from);
+    [after, before].concat()
+}
+
+fn check_hull(stated: &[u32], expected: Vec<u32>) -> Findings {
+    let mut findings = Findings::default();
+    if stated.len() != expected.len() {
+        findings.add(|| Defect::in_mesh(format!("a hull of {} points, not {}", stated.len(), expected.len())));
+    } else if let Some((found, expected)) = stated.iter().zip(&expected).find(|(a, b)| a != b) {
+        findings.add(|| Defect::in_mesh(format!("the hull has point {found} in the place of {expected}")));
+    }
+    findings
+}
+
+/// Triangles with the adjacency that follows from their vertices.
+#[derive(Default)]
+struct Complex<'a> {
+    triangles: &'a [[u32; 3]],
+    /// The half-edge against each; [`NONE`] where there is none.
+    halfedges: Vec<[i32; 3]>,
+    /// The half-edges without one against them, by their ends.
+    hull: Vec<[u32; 2]>,
+    vertices: usize,
+    edges: usize,
+}
+
+impl<'a> Complex<'a> {
+    /// Needs vertices that are indices of points, three different ones a triangle. Also says which edges are wrong.
+    fn new(triangles: &'a [[u32; 3]]) -> (Self, Findings) {
+        let mut findings = Findings::default();
+        let mut complex = Complex { triangles, halfedges: vec![[NONE; 3]; triangles.len()], ..Complex::default() };
+        // (lower vertex, higher vertex, half-edge); the half-edges of an edge become neighbours.
+        let mut sides: Vec<(u32, u32, u32)> = Vec::with_capacity(3 * triangles.len());
+        for (t, &[a, b, c]) in triangles.iter().enumerate() {
+            for (k, [from, to]) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
+                sides.push((from.min(to), from.max(to), (3 * t + k) as u32));
+            }
+        }
+        sides.sort_unstable();
+        for around in sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            complex.edges += 1;
+            match *around {
+                [(.., e)] => complex.hull.push(complex.ends(e)),
+                [(.., e), (.., f)] if complex.ends(e) != complex.ends(f) => {
+                    complex.halfedges[e as usize / 3][e as usize % 3] = f as i32;
+                    complex.halfedges[f as usize / 3][f as usize % 3] = e as i32;
+                }
+                [(a, b, e), ..] => findings.add(|| {
+                    let detail = match around.len() {
+                        2 => format!("on the same side of edge {a}-{b} as triangle {}", around[1].2 / 3),
+                        count => format!("edge {a}-{b} belongs to {count} triangles"),
+                    };
+                    Defect::at_triangle(e as usize / 3, detail)
+                }),
+                [] => {}
+            }
+        }
+        let mut vertices = triangles.as_flattened().to_vec();
+        vertices.sort_unstable();
+        vertices.dedup();
+        complex.vertices = vertices.len();
+        (complex, findings)
+    }
+
+    fn ends(&self, halfedge: u32) -> [u32; 2] {
+        let (t, k) = (self.triangles[halfedge as usize / 3], halfedge as usize % 3);
+        [t[k], t[(k + 1) % 3]]
+    }
+
+    fn check_halfedges(&self, stated: &[[i32; 3]]) -> Findings {
+        let mut findings = Findings::default();
+        if stated.len() != self.triangles.len() {
+            let detail = format!("half-edges of {} triangles, not of {}", stated.len(), self.triangles.len());
+            findings.add(|| Defect::in_mesh(detail));
+            return findings;
+        }
+        for (t, (stated, expected)) in stated.iter().zip(&self.halfedges).enumerate() {
+            for k in 0..3 {
+                if stated[k] != expected[k] {
+                    let detail = format!("half-edge {} has {} against it, not {}", 3 * t + k, expected[k], stated[k]);
+                    findings.add(|| Defect::at_triangle(t, detail));
+                }
+            }
+        }
+        findings
+    }
+
+    /// The Delaunay property, and that of the ties. Needs clockwise orientation.
+    fn check_delaunay(&self, points: &[[f64; 2]]) -> (Findings, Findings) {
+        let (mut delaunay, mut ties) = (Findings::default(), Findings::default());
+        let at = |v: u32| points[v as usize];
+        for (t, (&[a, b, c], across)) in self.triangles.iter().zip(&self.halfedges).enumerate() {
+            for &e in across {
+                let Ok(e) = usize::try_from(e) else { continue };
+                if e / 3 < t {
+                    continue;
+                }
+                let beyond = self.triangles[e / 3][(e + 2) % 3];
+                let four = [a, c, b, beyond];
+                let (findings, kind) = match incircle(at(a), at(c), at(b), at(beyond)) {
+                    1 => (&mut delaunay, "is inside the circumcircle"),
+                    0 if break_tie(four, |left_out| {
+                        let [a, b, c] = without(four, left_out).map(at);
+                        orient2d(a, b, c)
+                    }) > 0 =>
+                    {
+                        (&mut ties, "is on the circumcircle, and inside by the order of the indices")
+                    }
+                    _ => continue,
+                };
+                findings.add(|| Defect::at_triangle(t, format!("point {beyond}, of triangle {}, {kind}", e / 3)));
+            }
+        }
+        (delaunay, ties)
+    }
+
+    /// Also gives the hull as a polygon.
+    fn check_hull_closed(&self, polygon: &mut Vec<u32>) -> Findings {
+        let mut findings = Findings::default();
+        let mut edges = self.hull.clone();
+        edges.sort_unstable();
+        for pair in edges.chunk_by(|[a, _], [b, _]| a == b).filter(|pair| pair.len() > 1) {
+            findings.add(|| Defect::at_point(pair[0][0] as usize, format!("{} hull edges start here", pair.len())));
+        }
+        let Some(&[first, mut next]) = edges.first() else { return findings };
+        polygon.push(first);
+        // Every point of the hull is left as often as it is reached.
+        while next != first && polygon.len() < edges.len() {
+            polygon.push(next);
+            match edges.binary_search_by_key(&next, |&[from, _]| from) {
+                Ok(at) => next = edges[at][1],
+                Err(_) => break,
+            }
+        }
+        if polygon.len() != edges.len() || next != first {
+            let detail = format!("{} of {} hull edges form one polygon", polygon.len(), edges.len());
+            findings.add(|| Defect::in_mesh(detail));
+        }
+        findings
+    }
+}

@@ -1,0 +1,99 @@
+//! Flipping: check, commit, link (§3.1, §4.2).
+
+use crate::{
+    d3::gpu::buffers::Buffers,
+    gpu::{Gpu, Kernel, Recorder},
+    input::lattice::Width,
+};
+
+/// The kernels of flipping.
+#[derive(Debug)]
+pub struct Flip {
+    check: Kernel,
+    check_exact: Kernel,
+    commit: Kernel,
+    link: Kernel,
+    compact: Kernel,
+    clear_votes: Kernel,
+}
+
+/// The bind groups of flipping.
+#[derive(Debug)]
+pub struct BoundFlip {
+    check: wgpu::BindGroup,
+    check_exact: wgpu::BindGroup,
+    commit: wgpu::BindGroup,
+    link: wgpu::BindGroup,
+    compact: wgpu::BindGroup,
+    clear_votes: wgpu::BindGroup,
+}
+
+impl Flip {
+    /// The kernels.
+    pub fn new(gpu: &Gpu, width: Width) -> Self {
+        let kernel = |name| Kernel::new(gpu, name, width, &[]);
+        Flip {
+            check: kernel("flip_check"),
+            check_exact: kernel("flip_check_exact"),
+            commit: kernel("flip_commit"),
+            link: kernel("flip_link"),
+            compact: kernel("flip_compact"),
+            clear_votes: kernel("clear_votes"),
+        }
+    }
+
+    /// The bind groups for these buffers.
+    pub fn bind(&self, gpu: &Gpu, b: &Buffers) -> BoundFlip {
+        let (control, tets, neighbors) = (b.control.buffer(), b.tets.buffer(), b.neighbors.buffer());
+        let (status, active, free) = (b.status.buffer(), b.active.buffer(), b.free.buffer());
+        let messages = b.messages.buffer();
+        // Messages pass between commit and link; before them, their buffer has the list of open entries.
+        let check = [control, b.points.vertices.buffer(), tets, neighbors, status, active, messages];
+        BoundFlip {
+            check: self.check.bind(gpu, &check),
+            check_exact: self.check_exact.bind(gpu, &check),
+            commit: self
+                .commit
+                .bind(gpu, &[control, tets, neighbors, status, active, free, messages, b.history.buffer()]),
+            link: self.link.bind(gpu, &[control, neighbors, status, active, free, messages]),
+            compact: self.compact.bind(gpu, &[control, status, active]),
+            clear_votes: self.clear_votes.bind(gpu, &[control, status]),
+        }
+    }
+
+    /// Records flip iterations. Those that find too few active tetrahedra do nothing. What the filter leaves open is decided
+    /// in every `exact_every`th, and in the last one. `compacts` says whether one may have so many active tetrahedra that the
+    /// next ones are found by compaction (§4.2).
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        bound: &BoundFlip,
+        iterations: u32,
+        exact_every: u32,
+        compacts: bool,
+        workgroups: u32,
+    ) {
+        for i in 1..=iterations {
+            recorder.stage("flip: check");
+            recorder.dispatch(&self.check, &bound.check, workgroups);
+            if i.is_multiple_of(exact_every) || i == iterations {
+                recorder.stage("flip: check exactly");
+                recorder.dispatch(&self.check_exact, &bound.check_exact, workgroups);
+            }
+            recorder.stage("flip: commit");
+            recorder.dispatch(&self.commit, &bound.commit, workgroups);
+            recorder.stage("flip: link");
+            recorder.dispatch(&self.link, &bound.link, workgroups);
+            if compacts {
+                recorder.stage("flip: compact");
+                recorder.dispatch(&self.compact, &bound.compact, workgroups);
+            }
+        }
+    }
+
+    /// Records that flip iterations are counted from the start again.
+    pub fn record_clear_votes(&self, recorder: &mut Recorder<'_>, bound: &BoundFlip, workgroups: u32) {
+        recorder.stage("clear votes");
+        recorder.dispatch(&self.clear_votes, &bound.clear_votes, workgroups);
+    }
+}

@@ -1,0 +1,14 @@
+//! The GPU engine of space.
+
+pub mod buffers;
+pub mod engine;
+pub mod finish;
+pub mod flip;
+pub mod insert;
+pub(crate) mod memory;
+pub mod phase1;
+pub mod relocate;
+pub mod run;
+pub mod start;
+pub(crate) mod trace;
+pub mod vertex;

@@ -1,0 +1,77 @@
+//! How a mesh came about, step by step: to look at, with small inputs.
+
+use crate::{
+    Error,
+    d3::{
+        gpu::run::Run,
+        mesh::FACETS,
+        triangulation::{Triangulation, state},
+    },
+    gpu::{Gpu, Readback},
+    predicates::filter::PredicateContext,
+    stats::Trace,
+};
+use rustc_hash::FxHashSet;
+
+/// Collects a [`Trace`].
+#[derive(Debug, Default)]
+pub(crate) struct Tracer {
+    trace: Trace,
+}
+
+impl Tracer {
+    /// After a round of Phase 1: reads all of its tetrahedra back.
+    pub(crate) async fn round(&mut self, gpu: &Gpu, run: &Run<'_>) -> Result<(), Error> {
+        let (buffers, infinite) = (run.buffers(), run.control().0.infinite);
+        let mut readback = Readback::default();
+        let slots = readback.read(gpu, &buffers.tets, 0, buffers.tets.len()).await?;
+        let pairs = readback.read(gpu, &buffers.points.pairs, 0, buffers.points.pairs.len()).await?;
+        let tetrahedra = slots
+            .into_iter()
+            .filter(|v| *v != [0; 4] && !v.contains(&infinite))
+            .map(|v| v.map(|v| pairs[v as usize][1]))
+            .collect();
+        self.trace.rounds.push(tetrahedra);
+        Ok(())
+    }
+
+    /// Before splaying: finds the facets that are not locally Delaunay.
+    pub(crate) fn facets(&mut self, mesh: &Triangulation, vertices: &PredicateContext<'_>) {
+        let finite = |t: u32| mesh.state(t) != state::FREE && !mesh.is_ghost(t);
+        let is_oriented = |t: u32| {
+            let [a, b, c, d] = mesh.vertices(t);
+            vertices.orient3d(a, b, c, d) > 0
+        };
+        for t in (0..mesh.tetrahedra().len() as u32).filter(|&t| finite(t)) {
+            for (k, facet) in FACETS.iter().enumerate() {
+                let across = mesh.neighbors()[t as usize][k];
+                let other = across >> 2;
+                if other < t || !finite(other) {
+                    continue;
+                }
+                // A flat tetrahedron has no circumsphere; then that on the other side decides.
+                let apex = |of: u32, at: u32| mesh.vertices(of)[at as usize & 3];
+                let is_inside = if is_oriented(t) {
+                    vertices.insphere(mesh.vertices(t), apex(other, across)) > 0
+                } else {
+                    is_oriented(other) && vertices.insphere(mesh.vertices(other), apex(t, k as u32)) > 0
+                };
+                if is_inside {
+                    let corners = facet.map(|i| vertices.input_index(mesh.vertices(t)[i]));
+                    self.trace.not_locally_delaunay.push(corners);
+                }
+            }
+        }
+    }
+
+    /// At the end: finds out which tetrahedra of the mesh were not there before splaying.
+    pub(crate) fn finish(mut self, tetrahedra: &[[u32; 4]]) -> Trace {
+        let sorted = |mut v: [u32; 4]| {
+            v.sort_unstable();
+            v
+        };
+        let before: FxHashSet<[u32; 4]> = self.trace.rounds.last().into_iter().flatten().copied().map(sorted).collect();
+        self.trace.splayed = tetrahedra.iter().map(|&v| !before.contains(&sorted(v))).collect();
+        self.trace
+    }
+}

@@ -1,0 +1,14 @@
+//! Triangulations of space.
+
+mod adjacency;
+pub mod cpu;
+pub mod generate;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+pub(crate) mod insert;
+pub mod mesh;
+pub mod splay;
+pub mod triangulation;
+pub mod verify;
+
+pub use mesh::Mesh3;

@@ -1,0 +1,84 @@
+//! Patching (§3.2.3): the tetrahedra T⁻ of the triangulation make room for T⁺; nothing else is touched.
+//!
+//! Facets find each other by their vertices: those around the holes that T⁻ leaves, and those of T⁺. Where every facet of
+//! T⁺ finds its like, T⁺ fills the holes; since all of T⁺ is positively oriented, it fills them once; and where every
+//! facet of T⁺ is locally Delaunay, as the facets elsewhere are, the whole is Delaunay. All of this is checked.
+
+use crate::d3::splay::{Aborted, Stop, TETRAHEDRA, ledger::Key, predicates::StarPredicates};
+use crate::{
+    d3::{
+        mesh::FACETS,
+        triangulation::{Triangulation, state},
+    },
+    parallel::{self, Threads},
+};
+
+const UNMATCHED: Aborted = Aborted::Inconsistent("a facet of the patch has not one neighbour");
+
+/// Replaces the tetrahedra in the slots `remove` by `add`. `free` has unused slots, before and after; gives the slots of
+/// the new tetrahedra.
+pub(super) fn patch(
+    mesh: &mut Triangulation,
+    space: &StarPredicates<'_>,
+    threads: Threads,
+    remove: &[u32],
+    add: &[Key],
+    free: &mut Vec<u32>,
+) -> Result<Vec<u32>, Stop> {
+    for &t in remove {
+        mesh.set_state(t, state::FREE);
+    }
+    // Each facet twice: from inside of the patch, and from what is across.
+    let around = parallel::map_grains(threads, remove.len(), TETRAHEDRA, |range| {
+        let facets = remove[range].iter().flat_map(|&t| (0..4).map(move |k| (t, k)));
+        let outer = facets.filter_map(|(t, k)| {
+            let across = mesh.neighbors[t as usize][k];
+            (mesh.state(across >> 2) != state::FREE).then(|| (facet(mesh.vertices(t), k), across))
+        });
+        outer.collect::<Vec<_>>()
+    });
+    let mut facets: Vec<([u32; 3], u32)> = around.concat();
+    facets.reserve(4 * add.len());
+    free.extend(remove.iter().rev());
+    let mut filled = Vec::with_capacity(add.len());
+    for &v in add {
+        let slot = match free.pop() {
+            Some(slot) => slot,
+            None => mesh.push()?,
+        };
+        filled.push(slot);
+        mesh.tetrahedra[slot as usize] = v;
+        facets.extend((0..4).map(|k| (facet(v, k), 4 * slot + k as u32)));
+    }
+    parallel::sort(threads, &mut facets);
+    for same in facets.chunk_by(|f, g| f.0 == g.0) {
+        let &[(_, f), (_, g)] = same else { return Err(UNMATCHED.into()) };
+        mesh.join(f, g);
+    }
+    let mesh = &*mesh;
+    let checked = space.shared(threads, filled.len(), TETRAHEDRA, |space, range| {
+        filled[range].iter().try_for_each(|&t| {
+            if space.orient(mesh.vertices(t)) <= 0 {
+                return Err(Aborted::Inconsistent("the patch has a tetrahedron that is not positively oriented"));
+            }
+            let is_delaunay = (0..4).all(|k| is_locally_delaunay(mesh, space, t, k));
+            if is_delaunay { Ok(()) } else { Err(Aborted::Inconsistent("the patch is not Delaunay")) }
+        })
+    });
+    checked.into_iter().collect::<Result<(), Aborted>>()?;
+    Ok(filled)
+}
+
+/// Whether the vertex across facet `k` lies outside the circumsphere of tetrahedron `t`.
+pub(super) fn is_locally_delaunay(mesh: &Triangulation, space: &StarPredicates<'_>, t: u32, k: usize) -> bool {
+    let across = mesh.neighbors[t as usize][k];
+    let apex = mesh.vertices(across >> 2)[across as usize & 3];
+    space.conflict(mesh.vertices(t), apex) < 0
+}
+
+/// The vertices of facet `k`, in ascending order.
+fn facet(v: [u32; 4], k: usize) -> [u32; 3] {
+    let mut facet = FACETS[k].map(|i| v[i]);
+    facet.sort_unstable();
+    facet
+}

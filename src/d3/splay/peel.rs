@@ -1,0 +1,168 @@
+//! Peeling: flat tetrahedra on the hull, which Phase 1 leaves where the hull has coplanar points (a perturbation of their
+//! coordinates decides there), give way to ghosts on their other side.
+//!
+//! A flat tetrahedron under one hull facet shows its fourth vertex inside that facet: a flip of the two into three ghosts.
+//! One under two hull facets is a flip of the three into two ghosts. Each flip peels one, so it ends. A flip must not put
+//! on the hull what is there already, which happens where tetrahedra are flat in the true coordinates only. What cannot be
+//! peeled is left for the stars.
+
+use crate::d3::splay::{
+    TETRAHEDRA,
+    predicates::{StarPredicates, replaced},
+};
+use crate::{
+    Error,
+    d3::triangulation::{Triangulation, state},
+    parallel::Threads,
+};
+use rustc_hash::FxHashMap;
+
+/// Peels the tetrahedra of `flat` that can be; those that cannot are left in it. Gives the slots of new ghosts, some of
+/// which may have been replaced again. `incident` has a tetrahedron of each vertex, before and after, and a ghost of those
+/// that are on the hull.
+///
+/// All threads find the signs, one flips.
+pub(super) fn peel(
+    mesh: &mut Triangulation,
+    space: &StarPredicates<'_>,
+    threads: Threads,
+    flat: &mut Vec<u32>,
+    incident: &mut [u32],
+    free: &mut Vec<u32>,
+) -> Result<Vec<u32>, Error> {
+    let sides = space.shared(threads, flat.len(), TETRAHEDRA, |space, range| {
+        flat[range].iter().map(|&t| sides(mesh, space, t)).collect::<Vec<_>>()
+    });
+    let mut left: FxHashMap<u32, Sides> = flat.iter().copied().zip(sides.into_iter().flatten()).collect();
+    let mut made = Vec::new();
+    // They lie on top of each other: what one has covered comes next.
+    let mut next = Vec::new();
+    loop {
+        let before = left.len();
+        for &t in flat.iter() {
+            next.push(t);
+            while let Some(t) = next.pop() {
+                let Some(&sides) = left.get(&t) else { continue };
+                let start = made.len();
+                peel_one(mesh, t, sides, incident, free, &mut made)?;
+                if made.len() == start {
+                    continue;
+                }
+                left.remove(&t);
+                next.extend(made[start..].iter().map(|&ghost| mesh.neighbors[ghost as usize][3] >> 2));
+            }
+        }
+        flat.retain(|t| left.contains_key(t));
+        if left.is_empty() || left.len() == before {
+            return Ok(made);
+        }
+    }
+}
+
+/// For each facet of a flat tetrahedron, whether a ghost in its place, on that facet, is not turned over.
+type Sides = [bool; 4];
+
+fn sides(mesh: &Triangulation, space: &StarPredicates<'_>, t: u32) -> Sides {
+    let v = mesh.vertices(t);
+    std::array::from_fn(|k| space.orient(replaced(v, k, mesh.infinite)) >= 0)
+}
+
+/// Peels one flat tetrahedron, and lists the new ghosts, if it lies under the hull facets that cover it.
+fn peel_one(
+    mesh: &mut Triangulation,
+    t: u32,
+    sides: Sides,
+    incident: &mut [u32],
+    free: &mut Vec<u32>,
+    made: &mut Vec<u32>,
+) -> Result<(), Error> {
+    let v = mesh.vertices(t);
+    let across = mesh.neighbors[t as usize];
+    let mut covers = (0..4).filter(|&k| mesh.is_ghost(across[k] >> 2));
+    let Some(x) = covers.next() else { return Ok(()) };
+    let (y, more) = (covers.next(), covers.next());
+    if more.is_some() {
+        return Ok(());
+    }
+    let ghost = across[x] >> 2;
+    let g = mesh.vertices(ghost);
+    let beyond = mesh.neighbors[ghost as usize];
+    // Where the ghost's corners are in t, and the ghost that has x in place of corner i.
+    let in_t: [usize; 3] = std::array::from_fn(|i| v.iter().position(|&w| w == g[i]).unwrap_or(x));
+    let moved = |i: usize| replaced(g, i, v[x]);
+    let fits = |i: usize| sides[in_t[i]];
+    match y {
+        None => {
+            if !(0..3).all(fits) || mesh.is_ghost(incident[v[x] as usize]) {
+                return Ok(());
+            }
+            let slots = [ghost, t, take(mesh, free)?];
+            for (i, slot) in slots.into_iter().enumerate() {
+                mesh.tetrahedra[slot as usize] = moved(i);
+            }
+            for (i, slot) in slots.map(|slot| 4 * slot).into_iter().enumerate() {
+                mesh.join(slot + 3, across[in_t[i]]);
+                mesh.join(slot + i as u32, beyond[i]);
+                let j = (i + 1) % 3;
+                mesh.join(slot + j as u32, 4 * slots[j] + i as u32);
+            }
+            // The only ones that were in these slots, and are no more or were not on the hull.
+            incident[g[0] as usize] = slots[1];
+            incident[v[x] as usize] = ghost;
+            made.extend(slots);
+        }
+        Some(y) => {
+            // The ghosts (y, a, b, ∞) and (x, b, a, ∞) become (y, x, b, ∞) and (y, a, x, ∞).
+            let Some(iy) = in_t.iter().position(|&k| k == y) else { return Ok(()) };
+            let (ia, ib) = ((iy + 1) % 3, (iy + 2) % 3);
+            let other = across[y] >> 2;
+            if beyond[iy] >> 2 != other || !fits(ia) || !fits(ib) || is_hull_edge(mesh, t, x, y) {
+                return Ok(());
+            }
+            let o = mesh.vertices(other);
+            let beyond_other = |w: u32| o.iter().position(|&u| u == w).map(|k| mesh.neighbors[other as usize][k]);
+            let (Some(by_a), Some(by_b)) = (beyond_other(g[ia]), beyond_other(g[ib])) else { return Ok(()) };
+            mesh.tetrahedra[ghost as usize] = moved(ia);
+            mesh.tetrahedra[other as usize] = moved(ib);
+            for (slot, at, outer) in [(ghost, ia, by_a), (other, ib, by_b)] {
+                // Vertex g[at] has gone from here: x has its corner.
+                mesh.join(4 * slot + 3, across[in_t[at]]);
+                mesh.join(4 * slot + at as u32, beyond[at]);
+                mesh.join(4 * slot + iy as u32, outer);
+            }
+            mesh.join(4 * ghost + ib as u32, 4 * other + ia as u32);
+            incident[g[ia] as usize] = other;
+            incident[g[ib] as usize] = ghost;
+            mesh.set_state(t, state::FREE);
+            free.push(t);
+            made.extend([ghost, other]);
+        }
+    }
+    Ok(())
+}
+
+/// Whether the edge from corner `x` to corner `y` of tetrahedron `t` is an edge of the hull.
+fn is_hull_edge(mesh: &Triangulation, t: u32, x: usize, y: usize) -> bool {
+    let (vx, vy) = (mesh.vertices(t)[x], mesh.vertices(t)[y]);
+    let mut at = t;
+    let mut through = (0..4).find(|&k| k != x && k != y).unwrap_or(0);
+    // Around the edge: out through the one facet at it that was not the way in.
+    loop {
+        let across = mesh.neighbors[at as usize][through];
+        at = across >> 2;
+        if at == t {
+            return false;
+        }
+        if mesh.is_ghost(at) {
+            return true;
+        }
+        let corners = mesh.vertices(at);
+        let out = (0..4).find(|&k| k != across as usize % 4 && corners[k] != vx && corners[k] != vy);
+        through = out.unwrap_or(0);
+    }
+}
+
+/// An unused slot.
+fn take(mesh: &mut Triangulation, free: &mut Vec<u32>) -> Result<u32, Error> {
+    free.pop().map_or_else(|| mesh.push(), Ok)
+}

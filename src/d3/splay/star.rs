@@ -1,0 +1,328 @@
+//! The star of a vertex, as its link: the triangles that make tetrahedra with it.
+//!
+//! A triangle (a, b, c) is counter-clockwise as seen from outside: s, a, b, c is positively oriented for the star's vertex
+//! s. A star is *convex* when, lifted to R⁴, it is the boundary of a convex cone, that is, when no tetrahedron's
+//! circumsphere holds a vertex of the link. Infinity is one of the points of every star, though it is not on the link of
+//! a star that surrounds its vertex.
+
+use crate::d3::splay::{Aborted, predicates::StarPredicates};
+use crate::d3::{mesh::FACETS, triangulation::Triangulation};
+use rustc_hash::FxHashMap;
+use std::collections::hash_map::Entry;
+
+/// No tetrahedron, no vertex.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// A triangle of a link.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Triangle {
+    /// Counter-clockwise as seen from outside; the first is [`NONE`] in an unused slot.
+    pub(super) vertices: [u32; 3],
+    /// Across the edge opposite corner *k*: 4·(triangle) + (corner opposite the edge there).
+    pub(super) neighbors: [u32; 3],
+    /// The tetrahedron of the triangulation that it belongs to, or [`NONE`].
+    pub(super) tetrahedron: u32,
+    /// What the insertion numbered `epoch` found out: visible at 2·epoch, hidden at 2·epoch + 1.
+    seen: u32,
+}
+
+impl Triangle {
+    pub(super) fn new(vertices: [u32; 3]) -> Self {
+        Triangle { vertices, neighbors: [NONE; 3], tetrahedron: NONE, seen: 0 }
+    }
+
+    pub(super) fn is_used(&self) -> bool {
+        self.vertices[0] != NONE
+    }
+}
+
+/// The star of one vertex.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Star {
+    pub(super) vertex: u32,
+    pub(super) triangles: Vec<Triangle>,
+    free: Vec<u32>,
+    /// A triangle that was made of late.
+    recent: u32,
+    epoch: u32,
+}
+
+/// What an insertion changed, and lists that it uses anew.
+#[derive(Debug, Default)]
+pub(super) struct Changes {
+    /// Triangles that are no longer in the link.
+    pub(super) removed: Vec<Triangle>,
+    /// Where the new ones are.
+    pub(super) added: Vec<u32>,
+    visible: Vec<u32>,
+    /// From, to, and what lies beyond, packed.
+    horizon: Vec<(u32, u32, u32)>,
+}
+
+/// Finds the tetrahedra around a vertex.
+#[derive(Default)]
+pub(super) struct LinkFinder {
+    /// Where each tetrahedron stands in `around`.
+    place: FxHashMap<u32, u32>,
+    /// Tetrahedra and the corner of theirs that is the vertex.
+    around: Vec<(u32, usize)>,
+}
+
+impl LinkFinder {
+    /// Tables larger than this are given up, since to clear them takes longer than most stars do.
+    const MOST_TO_CLEAR: usize = 1 << 10;
+
+    fn visit(&mut self, mesh: &Triangulation, t: u32, vertex: u32) -> Result<(), Aborted> {
+        if let Entry::Vacant(entry) = self.place.entry(t) {
+            let corner = mesh.vertices(t).iter().position(|&v| v == vertex);
+            let corner = corner.ok_or(Aborted::Inconsistent("a link leads to a tetrahedron without its vertex"))?;
+            entry.insert(self.around.len() as u32);
+            self.around.push((t, corner));
+        }
+        Ok(())
+    }
+
+    /// The star of `vertex`, of which `start` is one tetrahedron.
+    pub(super) fn star(&mut self, mesh: &Triangulation, vertex: u32, start: u32) -> Result<Star, Aborted> {
+        if start as usize >= mesh.tetrahedra.len() {
+            return Err(Aborted::Inconsistent("a vertex has no tetrahedron"));
+        }
+        self.around.clear();
+        if self.place.capacity() > Self::MOST_TO_CLEAR {
+            self.place = FxHashMap::default();
+        }
+        self.place.clear();
+        self.visit(mesh, start, vertex)?;
+        let mut next = 0;
+        while let Some(&(t, corner)) = self.around.get(next) {
+            next += 1;
+            for k in FACETS[corner] {
+                let across = mesh.neighbors[t as usize][k] >> 2;
+                self.visit(mesh, across, vertex)?;
+            }
+        }
+        let mut triangles = Vec::with_capacity(self.around.len() + self.around.len() / 2);
+        for &(t, corner) in &self.around {
+            let v = mesh.vertices(t);
+            let facet = FACETS[corner];
+            let neighbors = facet.map(|k| {
+                let across = mesh.neighbors[t as usize][k];
+                let place = self.place[&(across >> 2)];
+                let corner = self.around[place as usize].1;
+                let edge = FACETS[corner].iter().position(|&f| f == (across & 3) as usize);
+                // Were it the corner itself, the facet would not have the vertex, which the visit rules out.
+                4 * place + edge.unwrap_or(0) as u32
+            });
+            triangles.push(Triangle { neighbors, tetrahedron: t, ..Triangle::new(facet.map(|k| v[k])) });
+        }
+        Ok(Star { vertex, triangles, free: Vec::new(), recent: 0, epoch: 0 })
+    }
+}
+
+impl Star {
+    /// The convex star of `vertex` among `points`, infinity and the kernel.
+    pub(super) fn from_points(
+        space: &StarPredicates<'_>,
+        vertex: u32,
+        points: impl Iterator<Item = u32>,
+        changes: &mut Changes,
+    ) -> Result<Self, Aborted> {
+        let kernel = space.kernel();
+        let infinite = space.infinite();
+        let first = kernel.map(|w| if w == vertex { infinite } else { w });
+        let mut star = Star { vertex, triangles: Vec::new(), free: Vec::new(), recent: 0, epoch: 0 };
+        let facet = |k: usize| FACETS[k].map(|i| first[i]);
+        let inverted = space.conflict(star.tetrahedron(facet(0)), first[0]) > 0;
+        for (k, [i, j, l]) in FACETS.into_iter().enumerate() {
+            // The edge that facets k and i share lies opposite corner i of one and corner k of the other.
+            let edge = |i: usize| {
+                let corner = if inverted { [0, 2, 1].map(|c| FACETS[i][c]) } else { FACETS[i] };
+                4 * i as u32 + corner.iter().position(|&c| c == k).map_or(0, |c| c as u32)
+            };
+            let order = if inverted { [i, l, j] } else { [i, j, l] };
+            star.triangles.push(Triangle { neighbors: order.map(edge), ..Triangle::new(order.map(|i| first[i])) });
+        }
+        if !first.contains(&infinite) {
+            // These four need not surround the vertex, so no walk would find the way.
+            if let Some(start) = star.scan(space, infinite) {
+                star.insert_from(space, infinite, start, changes)?;
+            }
+        }
+        for p in points.filter(|p| !first.contains(p) && *p != infinite) {
+            star.insert(space, p, changes)?;
+        }
+        changes.removed.clear();
+        changes.added.clear();
+        Ok(star)
+    }
+
+    /// The vertices of the tetrahedron of a triangle.
+    pub(super) fn tetrahedron(&self, [a, b, c]: [u32; 3]) -> [u32; 4] {
+        [self.vertex, a, b, c]
+    }
+
+    /// The triangles in use.
+    pub(super) fn used(&self) -> impl Iterator<Item = &Triangle> {
+        self.triangles.iter().filter(|t| t.is_used())
+    }
+
+    /// Whether a vertex is one of the link. Faster than a walk to it.
+    pub(super) fn has(&self, v: u32) -> bool {
+        self.used().any(|t| t.vertices.contains(&v))
+    }
+
+    /// A vertex of the link that lies inside the circumsphere of a positively oriented tetrahedron.
+    pub(super) fn witness(&self, space: &StarPredicates<'_>, tetrahedron: [u32; 4]) -> Option<u32> {
+        // Most vertices are somewhere the first corner.
+        let corners = (0..3).flat_map(|k| self.used().map(move |t| t.vertices[k]));
+        corners.filter(|v| !tetrahedron.contains(v)).find(|&v| space.conflict(tetrahedron, v) > 0)
+    }
+
+    /// Makes the star that of one point more, `p`; `changes` says how. False when `p` is a vertex of the link already, or
+    /// enclosed by the star.
+    pub(super) fn insert(
+        &mut self,
+        space: &StarPredicates<'_>,
+        p: u32,
+        changes: &mut Changes,
+    ) -> Result<bool, Aborted> {
+        changes.removed.clear();
+        changes.added.clear();
+        match self.locate(space, p) {
+            None => Ok(false),
+            Some(start) => self.insert_from(space, p, start, changes).map(|()| true),
+        }
+    }
+
+    fn sees(&self, space: &StarPredicates<'_>, p: u32, triangle: u32) -> bool {
+        let corners = self.triangles[triangle as usize].vertices;
+        !corners.contains(&p) && space.conflict(self.tetrahedron(corners), p) > 0
+    }
+
+    /// Any triangle that `p` sees.
+    fn scan(&self, space: &StarPredicates<'_>, p: u32) -> Option<u32> {
+        (0..self.triangles.len() as u32).find(|&t| self.triangles[t as usize].is_used() && self.sees(space, p, t))
+    }
+
+    /// A triangle that `p` sees. If it sees any, then the one that the vertical through it meets: a walk in R³, across
+    /// the edges that separate a triangle from `p`.
+    fn locate(&self, space: &StarPredicates<'_>, p: u32) -> Option<u32> {
+        let mut t = self.recent;
+        let mut came_through = 3;
+        'walk: for _ in 0..self.triangles.len() {
+            let Triangle { vertices: v, neighbors, .. } = self.triangles[t as usize];
+            if v.contains(&p) {
+                return None;
+            }
+            for k in 0..3 {
+                if k != came_through && space.orient([self.vertex, v[(k + 1) % 3], v[(k + 2) % 3], p]) < 0 {
+                    t = neighbors[k] >> 2;
+                    came_through = neighbors[k] as usize & 3;
+                    continue 'walk;
+                }
+            }
+            return self.sees(space, p, t).then_some(t);
+        }
+        self.scan(space, p)
+    }
+
+    /// Beneath-beyond: replaces what `p` sees, `start` being part of it, by triangles from `p` to the horizon.
+    fn insert_from(
+        &mut self,
+        space: &StarPredicates<'_>,
+        p: u32,
+        start: u32,
+        changes: &mut Changes,
+    ) -> Result<(), Aborted> {
+        const CONVEX: Aborted = Aborted::Inconsistent("a point sees a star as if it were not convex");
+        self.epoch += 1;
+        let (visible, hidden) = (2 * self.epoch, 2 * self.epoch + 1);
+        let Changes { removed, added, visible: list, horizon } = changes;
+        list.clear();
+        list.push(start);
+        self.triangles[start as usize].seen = visible;
+        let mut edges = 0;
+        let mut first = None;
+        let mut next = 0;
+        while let Some(&t) = list.get(next) {
+            next += 1;
+            for k in 0..3 {
+                let other = self.triangles[t as usize].neighbors[k] >> 2;
+                if self.triangles[other as usize].seen < visible {
+                    let sees = self.sees(space, p, other);
+                    self.triangles[other as usize].seen = if sees { visible } else { hidden };
+                    if sees {
+                        list.push(other);
+                    }
+                }
+                if self.triangles[other as usize].seen == hidden {
+                    edges += 1;
+                    first = Some((t, k));
+                }
+            }
+        }
+        // Along the horizon, turning about its vertices on the visible side.
+        let (mut t, mut k) = first.ok_or(CONVEX)?;
+        horizon.clear();
+        for _ in 0..edges {
+            let Triangle { vertices: v, neighbors, .. } = self.triangles[t as usize];
+            horizon.push((v[(k + 1) % 3], v[(k + 2) % 3], neighbors[k]));
+            k = (k + 1) % 3;
+            for _ in 0..=list.len() {
+                let across = self.triangles[t as usize].neighbors[k];
+                if self.triangles[across as usize / 4].seen == hidden {
+                    break;
+                }
+                t = across >> 2;
+                k = (across as usize % 4 + 1) % 3;
+            }
+        }
+        if edges < 3 || first != Some((t, k)) {
+            return Err(CONVEX);
+        }
+        for &t in list.iter() {
+            removed.push(self.triangles[t as usize]);
+            self.release(t);
+        }
+        added.clear();
+        for &(from, to, beyond) in horizon.iter() {
+            let new = self.push(Triangle::new([p, from, to]));
+            self.join(4 * new, beyond);
+            if let Some(&last) = added.last() {
+                self.join(4 * last + 1, 4 * new + 2);
+            }
+            added.push(new);
+        }
+        self.join(4 * added[added.len() - 1] + 1, 4 * added[0] + 2);
+        self.recent = added[0];
+        Ok(())
+    }
+
+    pub(super) fn join(&mut self, e: u32, f: u32) {
+        self.triangles[e as usize / 4].neighbors[e as usize % 4] = f;
+        self.triangles[f as usize / 4].neighbors[f as usize % 4] = e;
+    }
+
+    fn push(&mut self, triangle: Triangle) -> u32 {
+        match self.free.pop() {
+            Some(slot) => {
+                self.triangles[slot as usize] = triangle;
+                slot
+            }
+            None => {
+                self.triangles.push(triangle);
+                self.triangles.len() as u32 - 1
+            }
+        }
+    }
+
+    pub(super) fn release(&mut self, t: u32) {
+        self.triangles[t as usize].vertices[0] = NONE;
+        self.free.push(t);
+    }
+
+    /// Lets walks start at triangle `t`.
+    pub(super) fn set_recent(&mut self, t: u32) {
+        self.recent = t;
+    }
+}

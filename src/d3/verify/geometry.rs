@@ -1,0 +1,107 @@
+//! What depends on where the vertices are: orientation, the Delaunay property, convexity, covering.
+
+use crate::{
+    d3::mesh::FACETS,
+    predicates::{
+        Sign, insphere, orient3d,
+        symbolic::{break_tie, without},
+    },
+};
+use crate::{
+    d3::verify::complex::{Complex, Side},
+    verify::report::{Defect, Findings},
+};
+
+fn at<const N: usize>(points: &[[f64; 3]], vertices: [u32; N]) -> [[f64; 3]; N] {
+    vertices.map(|v| points[v as usize])
+}
+
+fn orientation(points: &[[f64; 3]], tetrahedron: [u32; 4]) -> Sign {
+    let [a, b, c, d] = at(points, tetrahedron);
+    orient3d(a, b, c, d)
+}
+
+pub(crate) fn check_orientation(points: &[[f64; 3]], tetrahedra: &[[u32; 4]]) -> Findings {
+    let mut findings = Findings::default();
+    for (t, &vertices) in tetrahedra.iter().enumerate() {
+        let sign = orientation(points, vertices);
+        if sign <= 0 {
+            let what = if sign == 0 { "flat" } else { "negatively oriented" };
+            findings.add(|| Defect::at_tetrahedron(t, format!("{what}: {vertices:?}")));
+        }
+    }
+    findings
+}
+
+/// The Delaunay property, and that of the ties. Needs positive orientation.
+pub(crate) fn check_delaunay(points: &[[f64; 3]], complex: &Complex<'_>) -> (Findings, Findings) {
+    let (mut delaunay, mut ties) = (Findings::default(), Findings::default());
+    for (Side { tetrahedron, k }, beyond) in complex.inner_facets() {
+        let [a, b, c, d] = complex.tetrahedra[tetrahedron];
+        let five = [a, b, c, d, beyond];
+        let [pa, pb, pc, pd, pe] = at(points, five);
+        let (findings, kind) = match insphere(pa, pb, pc, pd, pe) {
+            1 => (&mut delaunay, "is inside the circumsphere"),
+            0 if break_tie(five, |left_out| orientation(points, without(five, left_out))) > 0 => {
+                (&mut ties, "is on the circumsphere, and inside by the order of the indices")
+            }
+            _ => continue,
+        };
+        findings.add(|| Defect::at_tetrahedron(tetrahedron, format!("point {beyond}, beyond facet {k}, {kind}")));
+    }
+    (delaunay, ties)
+}
+
+/// Needs positive orientation, and the two hull triangles at each edge of a closed hull.
+pub(crate) fn check_hull_convex(points: &[[f64; 3]], complex: &Complex<'_>, ridges: &[[(Side, usize); 2]]) -> Findings {
+    let mut findings = Findings::default();
+    for &[(side, k), (other, other_k)] in ridges {
+        let corners = complex.corners(side);
+        let [a, b, c] = std::array::from_fn(|i| corners[(k + i) % 3]);
+        let d = complex.corners(other)[(other_k + 2) % 3];
+        let concave = match orientation(points, [a, b, c, d]) {
+            // Coplanar triangles must lie on either side of their edge, as seen with a point off their plane.
+            0 => {
+                let apex = complex.apex(side);
+                orientation(points, [a, b, apex, d]) * orientation(points, [a, b, apex, c]) >= 0
+            }
+            sign => sign > 0,
+        };
+        if concave {
+            findings.add(|| {
+                let detail =
+                    format!("the hull is concave or folded at edge {a}-{b}, to tetrahedron {}", other.tetrahedron);
+                Defect::at_tetrahedron(side.tetrahedron, detail)
+            });
+        }
+    }
+    findings
+}
+
+/// Needs positive orientation.
+pub(crate) fn check_covering(points: &[[f64; 3]], complex: &Complex<'_>) -> Findings {
+    let mut findings = Findings::default();
+    let Some(&[a, b, c, d]) = complex.tetrahedra.first() else { return findings };
+    // The point a + ε(b − a) + ε²(c − a) + ε³(d − a) with ε infinitesimal is inside the first tetrahedron and on no
+    // plane through three points: the first of a, b, c, d that is not on the plane decides its side.
+    let probe = at(points, [a, b, c, d]);
+    let within = |facet: [u32; 3]| {
+        let [u, v, w] = at(points, facet);
+        probe.into_iter().map(|p| orient3d(u, v, w, p)).find(|&sign| sign != 0) == Some(-1)
+    };
+    for &side in &complex.hull {
+        let corners = complex.corners(side);
+        if !within(corners) {
+            findings.add(|| {
+                let detail = format!("its hull triangle {corners:?} is turned away from the inside of tetrahedron 0");
+                Defect::at_tetrahedron(side.tetrahedron, detail)
+            });
+        }
+    }
+    for (t, vertices) in complex.tetrahedra.iter().enumerate().skip(1) {
+        if FACETS.iter().all(|facet| within(facet.map(|i| vertices[i]))) {
+            findings.add(|| Defect::at_tetrahedron(t, "overlaps tetrahedron 0".to_owned()));
+        }
+    }
+    findings
+}

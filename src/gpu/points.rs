@@ -1,0 +1,247 @@
+//! From points in host memory to vertices on the device: upload, duplicates, lattice, and order along the Hilbert curve
+//! (§4.3).
+//!
+//! 1. The coordinates' bits are uploaded as they are; the device puts them on the lattice.
+//! 2. A hash table unites the points at the same place of the lattice; the lowest number stands for all. They are exact
+//!    duplicates, or were rounded to the same place.
+//! 3. Every point gets its place along the Hilbert curve as key, those that another stands for the last one.
+//! 4. The keys are sorted; ties stay in the order of the input.
+//! 5. The vertices are written in that order.
+//!
+//! So vertex *v* is point `pairs[v][1]`, and the points that others stand for are behind all vertices.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::gpu::primitives::sort::{BoundSort, Sort};
+use crate::{
+    Error, Points,
+    gpu::{Gpu, Kernel, Recorder, Storage, workgroups},
+    input::lattice::{Lattice, Width},
+};
+
+/// What the kernels are told. Mirrors `InputParams` in `shaders/shared/input.wgsl`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct InputParams {
+    /// The number of points.
+    pub count: u32,
+    /// The lattice's *k*: coordinates are multiplied by 2ᵏ.
+    pub exponent: i32,
+    /// 1 for `f64` input, 0 for `f32`.
+    pub doubles: u32,
+    /// Bit *a* is set where the points do not all agree on axis *a*.
+    pub varies: u32,
+    /// The lowest 32 bits of what is taken off.
+    pub origin_low: [u32; 3],
+    /// The size of the hash table, a power of two, less one.
+    pub table_mask: u32,
+    /// The next 32 bits of what is taken off.
+    pub origin_high: [u32; 3],
+    /// The bits of a lattice coordinate.
+    pub width: u32,
+    /// Points whose vertices are wanted.
+    pub wanted: [u32; 4],
+    /// The coordinates of a point: 3, or 2 in the plane.
+    pub dimension: u32,
+    /// Zero.
+    pub unused: [u32; 3],
+}
+
+/// What the kernels count. Mirrors `InputCounts` in `shaders/shared/input_counts.wgsl`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct InputCounts {
+    /// Points at the same place of the lattice as one of a lower number.
+    pub merged: u32,
+    /// Those of them that have the same coordinates too.
+    pub duplicates: u32,
+    /// Points with a coordinate that was rounded to the lattice.
+    pub rounded: u32,
+    /// Zero.
+    pub unused: u32,
+    /// The points that stand for the wanted ones.
+    pub stands_for: [u32; 4],
+    /// The vertices of the wanted points.
+    pub found: [u32; 4],
+}
+
+/// The bits of a sort key: 30 for the place along the curve, and the largest for points that others stand for.
+const KEY_BITS: u32 = 32;
+
+/// The kernels, for points of `D` coordinates: 3, or 2 in the plane.
+#[derive(Debug)]
+pub struct PointStage<const D: usize = 3> {
+    unite: Kernel,
+    keys: Kernel,
+    gather: Kernel,
+    sort: Sort,
+    vertex_words: fn(Width) -> usize,
+}
+
+/// What is to become vertices.
+#[derive(Debug, Clone, Copy)]
+pub struct PointInput<'a, const D: usize = 3> {
+    /// The points.
+    pub points: Points<'a, D>,
+    /// The lattice that is fitted to them.
+    pub lattice: &'a Lattice<D>,
+    /// Points whose vertices come out in the counts.
+    pub wanted: [u32; 4],
+    /// Whether to sort along the Hilbert curve; else the vertices are in the order of the points.
+    pub sort: bool,
+}
+
+/// The points on the device. Valid when the recorded commands have run.
+#[derive(Debug, Clone)]
+pub struct DevicePoints {
+    /// The vertices, as [`vertex`] lays them out, or [`plane::vertex`] in the plane, in the order of `pairs`; the last word
+    /// of a wide one in space is 1 if it was rounded. There is room for one more, the vertex at infinity.
+    pub vertices: Storage<i32>,
+    /// Sort key and point of each vertex.
+    pub pairs: Storage<[u32; 2]>,
+    /// For each point the one that stands for it, or `u32::MAX` if it is a vertex itself.
+    pub merged_into: Storage<u32>,
+    /// One element.
+    pub counts: Storage<InputCounts>,
+}
+
+/// The buffers of the stage, with its bind groups, for points of one number and form.
+#[derive(Debug)]
+pub struct PointBuffers {
+    /// Points, words of input, width.
+    form: (usize, usize, Width),
+    params: Storage<InputParams>,
+    input: Storage<u32>,
+    table: Storage<u32>,
+    device: DevicePoints,
+    unite: wgpu::BindGroup,
+    keys: wgpu::BindGroup,
+    sort: BoundSort,
+    gather: wgpu::BindGroup,
+    bytes: u64,
+}
+
+impl<const D: usize> PointStage<D> {
+    /// Compiles the kernels, with `gather` for the last, which writes vertices of so many words.
+    pub fn new(gpu: &Gpu, gather: &str, vertex_words: fn(Width) -> usize) -> Self {
+        let kernel = |name| Kernel::new(gpu, name, Width::Narrow, &[]);
+        PointStage {
+            unite: kernel("points_unite"),
+            keys: kernel("points_keys"),
+            gather: kernel(gather),
+            sort: Sort::new(gpu),
+            vertex_words,
+        }
+    }
+
+    /// Uploads the points, and records what makes vertices of them. `kept` has the buffers of the last time, and is given
+    /// those of this time.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::TooManyPoints`] beyond 2³⁰, and those of [`Storage::new`].
+    pub fn record(
+        &self,
+        gpu: &Gpu,
+        recorder: &mut Recorder<'_>,
+        kept: &mut Option<PointBuffers>,
+        input: PointInput<'_, D>,
+    ) -> Result<DevicePoints, Error> {
+        let PointInput { points, lattice, wanted, sort } = input;
+        let n = points.len();
+        let (bits, doubles): (&[u32], bool) = match points {
+            Points::F32(p) => (bytemuck::cast_slice(p), false),
+            Points::F64(p) => (bytemuck::cast_slice(p), true),
+        };
+        let form = (n, bits.len(), lattice.width());
+        let buffers = match kept.take() {
+            Some(buffers) if buffers.form == form => buffers,
+            _ => self.allocate(gpu, form)?,
+        };
+        let along: [_; 3] = std::array::from_fn(|axis| lattice.origin().get(axis).copied().flatten());
+        let origin = along.map(|origin| origin.unwrap_or(0));
+        let params = InputParams {
+            count: n as u32,
+            exponent: lattice.exponent(),
+            doubles: u32::from(doubles),
+            varies: (0..3).map(|axis| u32::from(along[axis].is_some()) << axis).sum(),
+            origin_low: origin.map(|origin| origin as u32),
+            table_mask: buffers.table.len() as u32 - 1,
+            origin_high: origin.map(|origin| (origin >> 32) as u32),
+            width: lattice.width().bits(),
+            wanted,
+            dimension: D as u32,
+            unused: [0; 3],
+        };
+        buffers.params.write(gpu, 0, &[params]);
+        buffers.input.write(gpu, 0, bits);
+        let encoder = recorder.encoder();
+        encoder.clear_buffer(buffers.table.buffer(), 0, None);
+        encoder.clear_buffer(buffers.device.counts.buffer(), 0, None);
+        let groups = workgroups(n as u32);
+        recorder.stage("unite");
+        recorder.dispatch(&self.unite, &buffers.unite, groups);
+        recorder.stage("keys");
+        recorder.dispatch(&self.keys, &buffers.keys, groups);
+        if sort {
+            recorder.stage("sort");
+            self.sort.record(recorder, &buffers.sort);
+        }
+        recorder.stage("gather");
+        recorder.dispatch(&self.gather, &buffers.gather, groups);
+        let device = buffers.device.clone();
+        *kept = Some(buffers);
+        Ok(device)
+    }
+
+    fn allocate(&self, gpu: &Gpu, form: (usize, usize, Width)) -> Result<PointBuffers, Error> {
+        const LIMIT: usize = 1 << 30;
+        let (n, words, width) = form;
+        if n > LIMIT {
+            return Err(Error::TooManyPoints { points: n, limit: LIMIT });
+        }
+        let params = Storage::new(gpu, "point parameters", 1)?;
+        let input = Storage::<u32>::new(gpu, "input points", words)?;
+        let table = Storage::<u32>::new(gpu, "table of points", (2 * n.max(1)).next_power_of_two())?;
+        let slots = Storage::<u32>::new(gpu, "slots of points", n)?;
+        let mut pairs = Storage::new(gpu, "sort pairs", n)?;
+        let mut scratch = Storage::new(gpu, "sort scratch", n)?;
+        let merged_into = Storage::new(gpu, "merged points", n)?;
+        let counts = Storage::new(gpu, "point counts", 1)?;
+        let vertex_words = (self.vertex_words)(width);
+        let vertices = Storage::new(gpu, "vertices", (n + 1) * vertex_words)?;
+        let [unite, keys, gather]: [&[&wgpu::Buffer]; 3] = [
+            &[params.buffer(), input.buffer(), table.buffer(), slots.buffer()],
+            &[
+                params.buffer(),
+                input.buffer(),
+                table.buffer(),
+                slots.buffer(),
+                pairs.buffer(),
+                merged_into.buffer(),
+                counts.buffer(),
+            ],
+            &[params.buffer(), input.buffer(), pairs.buffer(), vertices.buffer(), counts.buffer()],
+        ];
+        let (unite, keys) = (self.unite.bind(gpu, unite), self.keys.bind(gpu, keys));
+        let gather = self.gather.bind(gpu, gather);
+        // An even number of passes: the pairs end up where they were.
+        let sort = self.sort.bind(gpu, &mut pairs, &mut scratch, KEY_BITS)?;
+        let bytes = params.bytes()
+            + input.bytes()
+            + table.bytes()
+            + slots.bytes()
+            + 2 * pairs.bytes()
+            + merged_into.bytes()
+            + vertices.bytes();
+        let device = DevicePoints { vertices, pairs, merged_into, counts };
+        Ok(PointBuffers { form, params, input, table, device, unite, keys, sort, gather, bytes })
+    }
+}
+
+impl PointBuffers {
+    /// The bytes that they take on the device.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+}

@@ -1,0 +1,61 @@
+//! Stream compaction: the numbers of the marked entries, in order.
+
+use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
+use crate::{
+    Error,
+    gpu::{Gpu, Kernel, Recorder, Storage, workgroups},
+    input::lattice::Width,
+};
+
+/// The kernels of a compaction.
+#[derive(Debug)]
+pub struct Compact {
+    scan: Scan,
+    scatter: Kernel,
+}
+
+/// A compaction of certain buffers, which can be recorded again and again.
+#[derive(Debug)]
+pub struct BoundCompact {
+    scan: BoundScan,
+    scatter: wgpu::BindGroup,
+    workgroups: u32,
+}
+
+impl Compact {
+    /// The kernels.
+    pub fn new(gpu: &Gpu) -> Self {
+        Compact { scan: Scan::new(gpu), scatter: Kernel::new(gpu, "compact", Width::Narrow, &[]) }
+    }
+
+    /// Prepares a compaction: `kept` becomes the numbers, ascending, of the entries of `marks` that are 1 and not 0.
+    ///
+    /// # Errors
+    ///
+    /// As [`Storage::new`].
+    pub fn bind(
+        &self,
+        gpu: &Gpu,
+        params: &Storage<ScanParams>,
+        marks: &Storage<u32>,
+        kept: &Storage<u32>,
+    ) -> Result<BoundCompact, Error> {
+        let offsets = Storage::new(gpu, "compaction offsets", marks.len())?;
+        let scan = self.scan.bind(gpu, params, marks, &offsets)?;
+        let scatter = self.scatter.bind(gpu, &[params.buffer(), marks.buffer(), offsets.buffer(), kept.buffer()]);
+        Ok(BoundCompact { scan, scatter, workgroups: workgroups(marks.len() as u32) })
+    }
+
+    /// Records a compaction.
+    pub fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundCompact) {
+        self.scan.record(recorder, &bound.scan);
+        recorder.dispatch(&self.scatter, &bound.scatter, bound.workgroups);
+    }
+}
+
+impl BoundCompact {
+    /// The scan's sums; entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS) is the number of entries kept.
+    pub fn sums(&self) -> &Storage<u32> {
+        self.scan.sums()
+    }
+}

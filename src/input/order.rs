@@ -1,0 +1,186 @@
+//! The order in which points are inserted: duplicates out, then rounds of growing size (BRIO: Amenta, Choi and Rote
+//! 2003), each along the Hilbert curve.
+
+use crate::{Points, index::NONE, input::lattice::Lattice};
+use std::cmp::Ordering;
+
+/// An insertion order for the engine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Order {
+    /// Biased randomised rounds, each along the Hilbert curve.
+    #[default]
+    Brio,
+    /// A random order: the mesh must not depend on it, which tests check.
+    Shuffled(u64),
+}
+
+/// The distinct points in insertion order, and what the others duplicate.
+pub(crate) struct Distinct {
+    pub(crate) order: Vec<u32>,
+    /// One entry a point, as in [`Mesh3::duplicate_of`](crate::Mesh3::duplicate_of).
+    pub(crate) duplicate_of: Vec<i32>,
+}
+
+/// The place of a cell along a space-filling curve, from its coordinates and how many of their bits count.
+pub(crate) type Curve<const D: usize> = fn([u32; D], u32) -> u64;
+
+/// Each round of the insertion takes this many bits' power of the points that the next one takes.
+const ROUND_BITS: u32 = 3;
+/// No round but the first has fewer points than this. The first is one sweep along the curve, which takes quadratic time
+/// where fans grow: on two lines, say.
+const MIN_ROUND: usize = 100;
+
+pub(crate) fn insertion_order<const D: usize>(
+    points: Points<'_, D>,
+    lattice: &Lattice<D>,
+    curve: Curve<D>,
+    order: Order,
+) -> Distinct {
+    let mut duplicate_of = vec![NONE; points.len()];
+    let distinct = along_curve(points, lattice, curve, &mut duplicate_of);
+    let order = match order {
+        Order::Brio => rounds(distinct),
+        Order::Shuffled(seed) => shuffled(distinct, seed),
+    };
+    Distinct { order, duplicate_of }
+}
+
+/// The distinct points along the curve; where lattice cells coincide, by coordinates.
+fn along_curve<const D: usize>(
+    points: Points<'_, D>,
+    lattice: &Lattice<D>,
+    curve: Curve<D>,
+    duplicate_of: &mut [i32],
+) -> Vec<u32> {
+    let bits = lattice.width().bits();
+    // Of each coordinate, so many bits are covered by a key that fits beside an index in 64 bits.
+    let key_bits = 32 / D as u32;
+    // A point's place on the curve through the cells of the next `key_bits` bits after `done`, above its index.
+    let key = |i: u32, done: u32| {
+        let left = bits - done;
+        let cell = lattice
+            .coordinates(points.get(i as usize))
+            .map(|c| ((c.value as u64 & ((1 << left) - 1)) >> left.saturating_sub(key_bits)) as u32);
+        curve(cell, key_bits.min(left)) << 32 | u64::from(i)
+    };
+    let mut keyed: Vec<u64> = (0..points.len() as u32).map(|i| key(i, 0)).collect();
+    keyed.sort_unstable();
+    // Runs of equal keys are sorted by the bits that the keys did not cover; a run has its start, end and covered bits.
+    let mut runs = Vec::new();
+    let push_runs = |keyed: &[u64], start: usize, done: u32, runs: &mut Vec<_>| {
+        let mut at = start;
+        for run in keyed.chunk_by(|a, b| a >> 32 == b >> 32) {
+            if run.len() > 1 {
+                runs.push((at, at + run.len(), done));
+            }
+            at += run.len();
+        }
+    };
+    push_runs(&keyed, 0, key_bits, &mut runs);
+    let mut duplicates = 0;
+    while let Some((start, end, done)) = runs.pop() {
+        let run = &mut keyed[start..end];
+        if done < bits {
+            for entry in run.iter_mut() {
+                *entry = key(*entry as u32, done);
+            }
+            run.sort_unstable();
+            push_runs(run, start, done + key_bits.min(bits - done), &mut runs);
+            continue;
+        }
+        sort_by_place(points, run);
+        let point = |entry: u64| points.get(entry as u32 as usize);
+        for equal in run.chunk_by(|&i, &j| point(i) == point(j)) {
+            for &duplicate in &equal[1..] {
+                duplicate_of[duplicate as u32 as usize] = equal[0] as u32 as i32;
+            }
+            duplicates += equal.len() - 1;
+        }
+    }
+    let order = keyed.into_iter().map(|entry| entry as u32);
+    if duplicates == 0 { order.collect() } else { order.filter(|&i| duplicate_of[i as usize] == NONE).collect() }
+}
+
+/// Sorts entries, each an index with a key above it in the upper 32 bits: by key, then by the point's coordinates, then by
+/// index. So equal points become neighbours, the lowest index first.
+pub(crate) fn sort_by_place<const D: usize>(points: Points<'_, D>, entries: &mut [u64]) {
+    let point = |entry: u64| points.get(entry as u32 as usize);
+    sort_by(entries, &|i, j| {
+        // −0 and 0 are the same coordinate.
+        let by_place = point(i).partial_cmp(&point(j)).unwrap_or(Ordering::Equal);
+        (i >> 32).cmp(&(j >> 32)).then(by_place).then(i.cmp(&j))
+    });
+}
+
+#[cfg(feature = "gpu")]
+/// Of the points that others stand for, because they lie at the same place of the lattice: exact duplicates are noted in
+/// `duplicate_of`, the first of each other place is returned, with the one that stands for it.
+pub(crate) fn missing_points<const D: usize>(
+    points: Points<'_, D>,
+    merged: &[[u32; 2]],
+    duplicate_of: &mut [i32],
+) -> Vec<[u32; 2]> {
+    let point = |i: u32| points.get(i as usize);
+    let mut apart = Vec::new();
+    for &[i, representative] in merged {
+        if point(i) == point(representative) {
+            duplicate_of[i as usize] = representative as i32;
+        } else {
+            apart.push(u64::from(representative) << 32 | u64::from(i));
+        }
+    }
+    sort_by_place(points, &mut apart);
+    let mut missing: Vec<[u32; 2]> = Vec::new();
+    for entry in apart {
+        let (representative, i) = ((entry >> 32) as u32, entry as u32);
+        match missing.last() {
+            Some(&[first, _]) if point(first) == point(i) => duplicate_of[i as usize] = first as i32,
+            _ => missing.push([i, representative]),
+        }
+    }
+    missing
+}
+
+/// One copy of the sort, which is large, for all kinds of points.
+fn sort_by(entries: &mut [u64], compare: &dyn Fn(u64, u64) -> Ordering) {
+    entries.sort_unstable_by(|&i, &j| compare(i, j));
+}
+
+/// A random order.
+fn shuffled(order: Vec<u32>, seed: u64) -> Vec<u32> {
+    let key = |i: u32| mix(u64::from(i) ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 32;
+    let mut keyed: Vec<u64> = order.into_iter().map(|i| key(i) << 32 | u64::from(i)).collect();
+    keyed.sort_unstable();
+    keyed.into_iter().map(|entry| entry as u32).collect()
+}
+
+/// Splits an order into rounds at random, keeping the order within each; small rounds first.
+fn rounds(order: Vec<u32>) -> Vec<u32> {
+    let mut last = 0;
+    while order.len() >> (ROUND_BITS * (last + 1)) >= MIN_ROUND {
+        last += 1;
+    }
+    let round = |i: u32| last - last.min(mix(u64::from(i)).trailing_zeros() / ROUND_BITS);
+    let mut starts = vec![0; last as usize + 2];
+    for &i in &order {
+        starts[round(i) as usize + 1] += 1;
+    }
+    for r in 1..starts.len() {
+        starts[r] += starts[r - 1];
+    }
+    let mut sorted = vec![0; order.len()];
+    for &i in &order {
+        let start: &mut usize = &mut starts[round(i) as usize];
+        sorted[*start] = i;
+        *start += 1;
+    }
+    sorted
+}
+
+/// The finaliser of SplitMix64: a hash, so that the same input gives the same order on every machine.
+fn mix(mut x: u64) -> u64 {
+    x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    x = (x ^ x >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ x >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ x >> 31
+}

@@ -1,0 +1,203 @@
+//! The predicates of the plane.
+
+use crate::predicates::filter::{ERROR_BOUNDS, ExactStage, PredicateContext2, UNDERFLOW, in_sphere_bound, minus};
+use crate::predicates::{Sign, exact, integer, symbolic};
+
+impl PredicateContext2<'_> {
+    /// The sign of det(b − a, c − a): positive when a, b, c turn counter-clockwise, the y axis pointing up.
+    #[inline]
+    pub fn orient2d(&self, a: u32, b: u32, c: u32) -> Sign {
+        self.sign_of([a, b, c], Self::orient2d_at)
+    }
+
+    #[inline(always)]
+    fn orient2d_at(&self, vertices: [u32; 3], [pa, pb, pc]: [[f64; 2]; 3]) -> Sign {
+        let (u, v) = (minus(pa, pc), minus(pb, pc));
+        let det = u[0] * v[1] - u[1] * v[0];
+        if det.abs() > self.orientation_bound {
+            return if det > 0.0 { 1 } else { -1 };
+        }
+        self.orient2d_unfiltered(vertices, u, v)
+    }
+
+    #[inline(never)]
+    fn orient2d_unfiltered(&self, vertices: [u32; 3], u: [f64; 2], v: [f64; 2]) -> Sign {
+        let (left, right) = (u[0] * v[1], u[1] * v[0]);
+        let det = left - right;
+        if det.abs() > ERROR_BOUNDS[2].orientation * (left.abs() + right.abs()) + UNDERFLOW {
+            return if det > 0.0 { 1 } else { -1 };
+        }
+        self.orient2d_exact(vertices)
+    }
+
+    fn orient2d_exact(&self, vertices: [u32; 3]) -> Sign {
+        match &self.exact {
+            ExactStage::Narrow => {
+                self.count(|c| &mut c.integer);
+                let [a, b, c] = vertices.map(|v| self.narrow(v));
+                integer::orient2d_narrow(a, b, c)
+            }
+            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+                Some([a, b, c]) => {
+                    self.count(|c| &mut c.integer);
+                    integer::orient2d_wide(a, b, c)
+                }
+                None => {
+                    self.count(|c| &mut c.expansion);
+                    let [a, b, c] = vertices.map(|v| self.point(v));
+                    exact::orient2d(a, b, c)
+                }
+            },
+        }
+    }
+
+    /// Positive when d is inside the circle through the counter-clockwise a, b, c. Ties are broken symbolically: never
+    /// zero for four different vertices, at least three of which are not collinear.
+    #[inline]
+    pub fn incircle(&self, [a, b, c]: [u32; 3], d: u32) -> Sign {
+        self.sign_of([a, b, c, d], Self::incircle_at)
+    }
+
+    #[inline(always)]
+    fn incircle_at(&self, vertices: [u32; 4], [pa, pb, pc, pd]: [[f64; 2]; 4]) -> Sign {
+        let [pa, pb, pc] = [pa, pb, pc].map(|p| minus(p, pd));
+        let minor = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
+        let det = lift(pa) * minor(pb, pc) + lift(pb) * minor(pc, pa) + lift(pc) * minor(pa, pb);
+        if det.abs() > self.in_sphere_bound {
+            return if det > 0.0 { 1 } else { -1 };
+        }
+        self.incircle_unfiltered(vertices, [pa, pb, pc], det)
+    }
+
+    #[inline(never)]
+    fn incircle_unfiltered(&self, vertices: [u32; 4], [a, b, c]: [[f64; 2]; 3], det: f64) -> Sign {
+        let extent = |axis: usize| a[axis].abs().max(b[axis].abs()).max(c[axis].abs());
+        if det.abs() > in_sphere_bound([extent(0), extent(1)]) {
+            return if det > 0.0 { 1 } else { -1 };
+        }
+        let permanent = |p: [f64; 2], q: [f64; 2]| (p[0] * q[1]).abs() + (p[1] * q[0]).abs();
+        let permanent = lift(a) * permanent(b, c) + lift(b) * permanent(c, a) + lift(c) * permanent(a, b);
+        if det.abs() > ERROR_BOUNDS[2].in_sphere * permanent + UNDERFLOW {
+            return if det > 0.0 { 1 } else { -1 };
+        }
+        let sign = match &self.exact {
+            ExactStage::Narrow => {
+                self.count(|c| &mut c.integer);
+                let [a, b, c, d] = vertices.map(|v| self.narrow(v));
+                integer::incircle_narrow(a, b, c, d)
+            }
+            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+                Some([a, b, c, d]) => {
+                    self.count(|c| &mut c.integer);
+                    integer::incircle_wide(a, b, c, d)
+                }
+                None => {
+                    self.count(|c| &mut c.expansion);
+                    let [a, b, c, d] = vertices.map(|v| self.point(v));
+                    exact::incircle(a, b, c, d)
+                }
+            },
+        };
+        if sign != 0 {
+            return sign;
+        }
+        self.count(|c| &mut c.symbolic);
+        symbolic::break_tie(vertices.map(|v| self.input_index(v)), |k| {
+            let [a, b, c] = symbolic::without(vertices, k);
+            self.orient2d(a, b, c)
+        })
+    }
+
+    /// Whether b, which is collinear with the different points a and c, lies strictly between them.
+    pub fn is_between(&self, a: u32, b: u32, c: u32) -> bool {
+        let [a, b, c] = [a, b, c].map(|v| self.point(v));
+        let ascending = |p: [f64; 2], q: [f64; 2]| p < q;
+        (ascending(a, b) && ascending(b, c)) || (ascending(c, b) && ascending(b, a))
+    }
+}
+
+#[inline]
+fn lift(p: [f64; 2]) -> f64 {
+    p[0] * p[0] + p[1] * p[1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{input::lattice::Lattice, predicates::filter::Scale};
+    use proptest::prelude::*;
+
+    /// Every sign that `PredicateContext2` gives for the first four points agrees with the exact predicates on `f64`.
+    fn agree(points: &[[f64; 2]]) -> Result<(), TestCaseError> {
+        let lattice = Lattice::fit(points.into());
+        // An order that differs from the input's, for the ties.
+        let indices: Vec<u32> = (0..points.len() as u32).rev().collect();
+        let vertices = PredicateContext2::new(points.into(), &lattice, indices);
+        let p = |v: u32| points[vertices.input_index(v) as usize];
+        let sign = exact::orient2d(p(0), p(1), p(2));
+        prop_assert_eq!(vertices.orient2d(0, 1, 2), sign);
+        prop_assert_eq!(vertices.orient2d(1, 0, 2), -sign);
+        prop_assert_eq!(vertices.orient2d_exact([0, 1, 2]), sign);
+        let four = [0, 1, 2, 3].map(|v| (vertices.input_index(v), p(v)));
+        prop_assert_eq!(vertices.incircle([0, 1, 2], 3), symbolic::incircle_symbolic(four));
+        Ok(())
+    }
+
+    fn near(exponent: std::ops::RangeInclusive<i32>) -> impl Strategy<Value = f64> + Clone {
+        (-9i32..10, exponent, -1i32..2).prop_map(|(m, e, nudge)| {
+            let x = f64::from(m) * 2f64.powi(e);
+            if nudge == 0 || x == 0.0 { x } else { f64::from_bits(x.to_bits().wrapping_add_signed(nudge.into())) }
+        })
+    }
+
+    fn four(coordinate: impl Strategy<Value = f64> + Clone) -> impl Strategy<Value = [[f64; 2]; 4]> {
+        prop::array::uniform4(prop::array::uniform2(coordinate))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+        #[test]
+        fn small_grid(points in four((-3i32..4).prop_map(f64::from))) { agree(&points)?; }
+
+        #[test]
+        fn narrow(points in four((-(1i32 << 30)..1 << 30).prop_map(f64::from))) { agree(&points)?; }
+
+        #[test]
+        fn corners_of_the_narrow_lattice(points in four(prop::sample::select(vec![0.0, 1.0, 2147483646.0, 2147483647.0]))) {
+            agree(&points)?;
+        }
+
+        #[test]
+        fn corners_of_the_wide_lattice(points in four(prop::sample::select(vec![0.0, 1.0, 4e18, 4.611686018427386e18]))) {
+            agree(&points)?;
+        }
+
+        #[test]
+        fn nudged(points in four(near(0..=0))) { agree(&points)?; }
+
+        #[test]
+        fn mixed_exponents(points in four(near(-40..=4))) { agree(&points)?; }
+
+        #[test]
+        fn any_finite(points in four(prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL | prop::num::f64::ZERO)) {
+            agree(&points)?;
+        }
+
+        #[test]
+        fn cocircular(points in prop::array::uniform4((0usize..1 << 20).prop_map(|i| {
+            // Integer points at 65 from the origin.
+            let corners = [[0, 65], [16, 63], [25, 60], [33, 56], [39, 52]];
+            let mut p = corners[i % 5].map(f64::from);
+            p.rotate_left(i / 5 % 2);
+            for (axis, x) in p.iter_mut().enumerate() {
+                if i >> (5 + axis) & 1 == 1 { *x = -*x; }
+            }
+            p
+        })), scale in -1100i32..900, nudge: bool) {
+            let mut points = points.map(|p| p.map(|x| Scale::new(scale).apply(x)));
+            if nudge { points[2][0] = points[2][0].next_up(); }
+            agree(&points)?;
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! The predicates of space.
+
+use crate::predicates::filter::{ERROR_BOUNDS, ExactStage, PredicateContext, UNDERFLOW, in_sphere_bound, minus};
+use crate::predicates::{Sign, exact, integer, symbolic};
+
+impl PredicateContext<'_> {
+    /// The sign of det(b − a, c − a, d − a).
+    #[inline]
+    pub fn orient3d(&self, a: u32, b: u32, c: u32, d: u32) -> Sign {
+        self.sign_of([a, b, c, d], Self::orient3d_at)
+    }
+
+    #[inline(always)]
+    fn orient3d_at(&self, vertices: [u32; 4], [pa, pb, pc, pd]: [[f64; 3]; 4]) -> Sign {
+        let (u, v, w) = (minus(pa, pd), minus(pb, pd), minus(pc, pd));
+        // det(b − a, c − a, d − a) = −det(a − d, b − d, c − d).
+        let det = u[0] * (v[2] * w[1] - v[1] * w[2])
+            + u[1] * (v[0] * w[2] - v[2] * w[0])
+            + u[2] * (v[1] * w[0] - v[0] * w[1]);
+        if det.abs() > self.orientation_bound {
+            return if det > 0.0 { 1 } else { -1 };
+        }
+        self.orient3d_unfiltered(vertices, u, v, w, det)
+    }
+
+    #[inline(never)]
+    fn orient3d_unfiltered(&self, vertices: [u32; 4], u: [f64; 3], v: [f64; 3], w: [f64; 3], det: f64) -> Sign {
+        let perm = |i: usize, j: usize| (v[i] * w[j]).abs() + (v[j] * w[i]).abs();
+        let permanent = u[0].abs() * perm(1, 2) + u[1].abs() * perm(2, 0) + u[2].abs() * perm(0, 1);
+        if det.abs() > ERROR_BOUNDS[3].orientation * permanent + UNDERFLOW {
+            return if det > 0.0 { 1 } else { -1 };
+        }
+        self.orient3d_exact(vertices)
+    }
+
+    fn orient3d_exact(&self, vertices: [u32; 4]) -> Sign {
+        match &self.exact {
+            ExactStage::Narrow => {
+                self.count(|c| &mut c.integer);
+                let [a, b, c, d] = vertices.map(|v| self.narrow(v));
+                integer::orient3d_narrow(a, b, c, d)
+            }
+            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+                Some([a, b, c, d]) => {
+                    self.count(|c| &mut c.integer);
+                    integer::orient3d_wide(a, b, c, d)
+                }
+                None => {
+                    self.count(|c| &mut c.expansion);
+                    let [a, b, c, d] = vertices.map(|v| self.point(v));
+                    exact::orient3d(a, b, c, d)
+                }
+            },
+        }
+    }
+
+    /// Positive when e is inside the sphere through the positively oriented a, b, c, d. Ties are broken symbolically:
+    /// never zero for five different vertices, at least four of which are not coplanar.
+    #[inline(always)]
+    pub fn insphere(&self, [a, b, c, d]: [u32; 4], e: u32) -> Sign {
+        self.sign_of([a, b, c, d, e], Self::insphere_at)
+    }
+
+    #[inline(always)]
+    fn insphere_at(&self, vertices: [u32; 5], [pa, pb, pc, pd, pe]: [[f64; 3]; 5]) -> Sign {
+        let [pa, pb, pc, pd] = [pa, pb, pc, pd].map(|p| minus(p, pe));
+        let det = insphere_determinant(pa, pb, pc, pd);
+        if det.abs() > self.in_sphere_bound {
+            return if det > 0.0 { 1 } else { -1 };
+        }
+        self.insphere_unfiltered(vertices, [pa, pb, pc, pd], det)
+    }
+
+    #[inline(never)]
+    fn insphere_unfiltered(&self, vertices: [u32; 5], [a, b, c, d]: [[f64; 3]; 4], det: f64) -> Sign {
+        let extent = |axis: usize| a[axis].abs().max(b[axis].abs()).max(c[axis].abs().max(d[axis].abs()));
+        if det.abs() > in_sphere_bound([extent(0), extent(1), extent(2)]) {
+            return if det > 0.0 { 1 } else { -1 };
+        }
+        if det.abs() > ERROR_BOUNDS[3].in_sphere * insphere_permanent(a, b, c, d) + UNDERFLOW {
+            return if det > 0.0 { 1 } else { -1 };
+        }
+        let sign = match &self.exact {
+            ExactStage::Narrow => {
+                self.count(|c| &mut c.integer);
+                let [a, b, c, d, e] = vertices.map(|v| self.narrow(v));
+                integer::insphere_narrow(a, b, c, d, e)
+            }
+            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+                Some([a, b, c, d, e]) => {
+                    self.count(|c| &mut c.integer);
+                    integer::insphere_wide(a, b, c, d, e)
+                }
+                None => {
+                    self.count(|c| &mut c.expansion);
+                    let [a, b, c, d, e] = vertices.map(|v| self.point(v));
+                    exact::insphere(a, b, c, d, e)
+                }
+            },
+        };
+        if sign != 0 {
+            return sign;
+        }
+        self.count(|c| &mut c.symbolic);
+        symbolic::break_tie(vertices.map(|v| self.input_index(v)), |k| {
+            let [a, b, c, d] = symbolic::without(vertices, k);
+            self.orient3d(a, b, c, d)
+        })
+    }
+}
+
+#[inline]
+fn insphere_determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> f64 {
+    let minor = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - q[0] * p[1];
+    let (ab, bc, cd, da) = (minor(a, b), minor(b, c), minor(c, d), minor(d, a));
+    let (ac, bd) = (minor(a, c), minor(b, d));
+    let abc = a[2] * bc - b[2] * ac + c[2] * ab;
+    let bcd = b[2] * cd - c[2] * bd + d[2] * bc;
+    let cda = c[2] * da + d[2] * ac + a[2] * cd;
+    let dab = d[2] * ab + a[2] * bd + b[2] * da;
+    let lift = |p: [f64; 3]| p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+    (lift(a) * bcd - lift(b) * cda) + (lift(c) * dab - lift(d) * abc)
+}
+
+fn insphere_permanent(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> f64 {
+    let minor = |p: [f64; 3], q: [f64; 3]| (p[0] * q[1]).abs() + (q[0] * p[1]).abs();
+    let (ab, bc, cd, da) = (minor(a, b), minor(b, c), minor(c, d), minor(d, a));
+    let (ac, bd) = (minor(a, c), minor(b, d));
+    let [az, bz, cz, dz] = [a, b, c, d].map(|p| p[2].abs());
+    let abc = az * bc + bz * ac + cz * ab;
+    let bcd = bz * cd + cz * bd + dz * bc;
+    let cda = cz * da + dz * ac + az * cd;
+    let dab = dz * ab + az * bd + bz * da;
+    let lift = |p: [f64; 3]| p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+    lift(a) * bcd + lift(b) * cda + lift(c) * dab + lift(d) * abc
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::Scale, *};
+    use crate::input::lattice::Lattice;
+    use proptest::prelude::*;
+
+    /// Every sign that `PredicateContext` gives for the first five points agrees with the exact predicates on `f64`.
+    fn agree(points: &[[f64; 3]]) -> Result<(), TestCaseError> {
+        let lattice = Lattice::fit(points.into());
+        // An order that differs from the input's, for the ties.
+        let indices: Vec<u32> = (0..points.len() as u32).rev().collect();
+        let vertices = PredicateContext::new(points.into(), &lattice, indices);
+        let p = |v: u32| points[vertices.input_index(v) as usize];
+        let sign = exact::orient3d(p(0), p(1), p(2), p(3));
+        prop_assert_eq!(vertices.orient3d(0, 1, 2, 3), sign);
+        prop_assert_eq!(vertices.orient3d(1, 0, 2, 3), -sign);
+        prop_assert_eq!(vertices.orient3d_exact([0, 1, 2, 3]), sign);
+        let five = [0, 1, 2, 3, 4].map(|v| (vertices.input_index(v), p(v)));
+        prop_assert_eq!(vertices.insphere([0, 1, 2, 3], 4), symbolic::insphere_symbolic(five));
+        Ok(())
+    }
+
+    fn near(exponent: std::ops::RangeInclusive<i32>) -> impl Strategy<Value = f64> + Clone {
+        (-9i32..10, exponent, -1i32..2).prop_map(|(m, e, nudge)| {
+            let x = f64::from(m) * 2f64.powi(e);
+            if nudge == 0 || x == 0.0 { x } else { f64::from_bits(x.to_bits().wrapping_add_signed(nudge.into())) }
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+        #[test]
+        fn small_grid(points in prop::array::uniform5(prop::array::uniform3((-3i32..4).prop_map(f64::from)))) {
+            agree(&points)?;
+        }
+
+        #[test]
+        fn narrow(points in prop::array::uniform5(prop::array::uniform3((-(1i32 << 30)..1 << 30).prop_map(f64::from)))) {
+            agree(&points)?;
+        }
+
+        #[test]
+        fn nudged(points in prop::array::uniform5(prop::array::uniform3(near(0..=0)))) {
+            agree(&points)?;
+        }
+
+        #[test]
+        fn mixed_exponents(points in prop::array::uniform5(prop::array::uniform3(near(-40..=4)))) {
+            agree(&points)?;
+        }
+
+        #[test]
+        fn any_finite(points in prop::array::uniform5(prop::array::uniform3(prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL | prop::num::f64::ZERO))) {
+            agree(&points)?;
+        }
+
+        #[test]
+        fn cospherical(points in prop::array::uniform5((0usize..1 << 20).prop_map(|i| {
+            // Rational points of the unit sphere are cospherical up to rounding; those of a sphere of integers exactly.
+            let corners = [[0, 0, 9], [1, 4, 8], [4, 4, 7], [3, 6, 6]];
+            let mut p = corners[i % 4].map(f64::from);
+            p.rotate_left(i / 4 % 3);
+            for (axis, x) in p.iter_mut().enumerate() {
+                if i >> (5 + axis) & 1 == 1 { *x = -*x; }
+            }
+            p
+        })), scale in -1100i32..900, nudge: bool) {
+            let mut points = points.map(|p| p.map(|x| Scale::new(scale).apply(x)));
+            if nudge { points[2][0] = points[2][0].next_up(); }
+            agree(&points)?;
+        }
+    }
+}

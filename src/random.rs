@@ -1,0 +1,85 @@
+//! Random points that are the same bit for bit on every platform, for both dimensions.
+
+use rand_pcg::{
+    Pcg64Mcg,
+    rand_core::{Rng, SeedableRng},
+};
+
+/// The points along an axis of a random grid.
+pub const GRID_SIDE: u64 = 512;
+
+/// The inner and outer radius of thin spheres and thin circles.
+pub const THIN_SPHERE_RADII: [f64; 2] = [1.0, 1.01];
+
+/// Random numbers, and points of `D` coordinates made of them.
+pub(crate) struct Random(Pcg64Mcg);
+
+impl Random {
+    pub(crate) fn new(seed: u64) -> Self {
+        Random(Pcg64Mcg::seed_from_u64(seed))
+    }
+
+    /// Uniform in [0, 1), a multiple of 2⁻⁵³.
+    pub(crate) fn unit(&mut self) -> f64 {
+        (self.0.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
+    }
+
+    pub(crate) fn in_cube<const D: usize>(&mut self) -> [f64; D] {
+        std::array::from_fn(|_| self.unit())
+    }
+
+    /// By rejection from the cube [−1, 1)³.
+    pub(crate) fn in_ball<const D: usize>(&mut self) -> [f64; D] {
+        loop {
+            let p: [f64; D] = self.in_cube().map(|x| 2.0 * x - 1.0);
+            if squared_norm(p) <= 1.0 {
+                return p;
+            }
+        }
+    }
+
+    /// A point of the ball, projected; not from its very centre, where too few bits are left for a direction.
+    pub(crate) fn on_sphere<const D: usize>(&mut self) -> [f64; D] {
+        loop {
+            let p: [f64; D] = self.in_ball();
+            let squared = squared_norm(p);
+            if squared >= 1e-4 {
+                let norm = squared.sqrt();
+                return p.map(|x| x / norm);
+            }
+        }
+    }
+
+    /// Uniform in volume between the two radii.
+    pub(crate) fn in_shell(&mut self, [inner, outer]: [f64; 2]) -> [f64; 3] {
+        let direction: [f64; 3] = self.on_sphere();
+        let cubed = |r: f64| r * r * r;
+        let radius = libm::cbrt(cubed(inner) + self.unit() * (cubed(outer) - cubed(inner)));
+        direction.map(|x| x * radius)
+    }
+
+    pub(crate) fn on_grid<const D: usize>(&mut self, side: u64) -> [f64; D] {
+        std::array::from_fn(|_| (self.0.next_u64() % side) as f64)
+    }
+
+    pub(crate) fn gaussian<const D: usize>(&mut self) -> [f64; D] {
+        std::array::from_fn(|_| self.normal())
+    }
+
+    /// Marsaglia's polar method; its second value is not kept, so that a point depends on nothing before it but the
+    /// generator's state.
+    fn normal(&mut self) -> f64 {
+        loop {
+            let [u, v] = std::array::from_fn(|_| 2.0 * self.unit() - 1.0);
+            let squared = u * u + v * v;
+            if squared > 0.0 && squared < 1.0 {
+                return u * (-2.0 * libm::log(squared) / squared).sqrt();
+            }
+        }
+    }
+}
+
+pub(crate) fn squared_norm<const D: usize>(p: [f64; D]) -> f64 {
+    // From the first term on, so that no rounding differs between dimensions.
+    p.into_iter().map(|x| x * x).reduce(|a, b| a + b).unwrap_or(0.0)
+}

@@ -1,0 +1,43 @@
+//! The answer: triangles without gaps, in input indices.
+
+use crate::d2::gpu::phase1::Mesh;
+use crate::index::NONE;
+
+use crate::reference::d2::State;
+use crate::reference::d2::predicates;
+
+/// Marks the triangles of the answer: finite ones that are not flat. One thread a slot.
+pub fn mesh_mark(state: &State) -> Vec<u32> {
+    let kept = |t: u32| {
+        let triangle = state.triangle(t);
+        let corners = || triangle.map(|v| state.points[v as usize].position);
+        state.is_used(t as usize)
+            && !triangle.contains(&state.params.infinite)
+            && predicates::orient2d_exact(corners()) != 0
+    };
+    (0..state.triangles.len() as u32).map(|t| u32::from(kept(t))).collect()
+}
+
+/// The half-edge that becomes of the edge opposite vertex *k*, and the other way round: turned over, the triangle a, b, c
+/// is a, c, b.
+const TURNED: [usize; 3] = [1, 0, 2];
+
+/// Writes the answer. `offsets` is the exclusive scan of the marks. One thread a slot but the last.
+pub fn mesh_compact(state: &State, offsets: &[u32]) -> Mesh {
+    let mut mesh = Mesh::default();
+    let is_kept = |t: u32| offsets[t as usize + 1] != offsets[t as usize];
+    for t in (0..offsets.len() as u32 - 1).filter(|&t| is_kept(t)) {
+        let [a, b, c] = state.triangle(t).map(|v| state.points[v as usize].index);
+        let turned = [a, c, b];
+        mesh.triangles.push(turned);
+        mesh.halfedges.push([0, 1, 2].map(|k| {
+            let (u, edge) = state.across(t, TURNED[k]);
+            if is_kept(u) {
+                return (3 * offsets[u as usize]) as i32 + TURNED[edge] as i32;
+            }
+            mesh.hull.push([turned[k], turned[(k + 1) % 3]]);
+            NONE
+        }));
+    }
+    mesh
+}
