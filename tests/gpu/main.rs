@@ -1,28 +1,28 @@
 //! The host of the GPU, its kernels and stages, and Phase 1: against their references on the CPU, and the references on their own.
 #![cfg(feature = "gpu")]
 
-mod cases;
+mod d2_cases;
+mod d2_inputs;
+mod d3_cases;
+mod d3_inputs;
 mod kernels;
-#[path = "../engine/oracle.rs"]
+#[path = "../cpu/oracle.rs"]
 mod oracle;
 mod perturbation;
-mod phase1_inputs;
-mod plane_cases;
-mod plane_inputs;
 mod positions;
 mod signs;
 
 mod certify;
+mod d2_kernels;
+mod d2_phase1;
+mod d2_predicates;
+mod d2_reference;
+mod d3_kernels;
+mod d3_phase1;
+mod d3_predicates;
+mod d3_reference;
+mod d3_reference_predicates;
 mod host;
-mod phase1;
-mod phase1_kernels;
-mod phase1_twins;
-mod plane;
-mod plane_kernels;
-mod plane_predicates;
-mod plane_twins;
 mod points;
-mod predicate_twin;
-mod predicates;
 mod primitives;
 mod shaders;

@@ -3,10 +3,10 @@
 
 #[path = "../clouds.rs"]
 mod clouds;
-mod inputs;
+mod d2;
+mod d2_trouble;
+mod d3;
 mod outcomes;
-mod plane;
-mod plane_trouble;
 mod statistics;
 
 use gdel::{

@@ -5,10 +5,10 @@ mod broken;
 mod clouds;
 mod oracle;
 
-mod canonical;
+mod d2_canonical;
+mod d2_verifier;
+mod d3_canonical;
+mod d3_verifier;
 mod fingerprints;
 mod inputs;
-mod plane_canonical;
-mod plane_verifier;
 mod predicates;
-mod verifier;

@@ -1,7 +1,7 @@
 //! The predicates of the plane in WGSL and their reference, against big integers and a perturbation that is carried out.
 
+use crate::d2_cases::{Case, FAMILIES, cases};
 use crate::perturbation::{perturbed_rows, sign_of_columns};
-use crate::plane_cases::{Case, FAMILIES, cases};
 use crate::signs::{SignKernel, exact_in_circumsphere, exact_orientation};
 use gdel::{
     d2::gpu::vertex,

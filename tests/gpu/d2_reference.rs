@@ -42,7 +42,7 @@ fn valid(points: &[[i64; 2]], settings: Settings) -> State {
 
 #[test]
 fn every_phase_is_valid() {
-    for (name, points) in crate::plane_inputs::all() {
+    for (name, points) in crate::d2_inputs::all() {
         println!("{name}");
         for pick in [Pick::Circumcenter, Pick::Centroid, Pick::Random] {
             valid(&points, Settings { pick, ..Settings::default() });

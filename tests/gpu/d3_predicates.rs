@@ -1,6 +1,6 @@
 //! The predicates in WGSL and their reference, against big integers.
 
-use crate::cases::{Case, FAMILIES, Family, cases};
+use crate::d3_cases::{Case, FAMILIES, Family, cases};
 use crate::signs::{SignKernel, exact_in_circumsphere, exact_orientation};
 use gdel::{
     d3::gpu::vertex,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::phase1_inputs::{self as inputs, Input as Points};
+use crate::d3_inputs::{self as inputs, Input as Points};
 use gdel::d3::gpu::start::first_tetrahedron;
 use gdel::d3::mesh::FACETS;
 use gdel::gpu::layout::{Active, Counters, FlipNode, Status, Waiting};

@@ -2,7 +2,7 @@
 //! the literature on robustness, made anew. On each the CPU engine, in several insertion orders, and the GPU engine agree, and
 //! the exact verifier proves the mesh.
 
-use crate::plane::HYBRID;
+use crate::d2::HYBRID;
 use gdel::{
     Mesh2, Options,
     d2::{cpu::delaunay2d_in_order, verify::verify2d},

@@ -94,7 +94,7 @@ fn every_round_is_valid() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let mut planes = [Width::Narrow, Width::Wide].map(|width| block_on(Plane::new(&gpu, width)).unwrap());
     let settings = Settings::default();
-    for (name, points) in crate::plane_inputs::all() {
+    for (name, points) in crate::d2_inputs::all() {
         // The factor makes too many bits for a narrow lattice, but not for `f64`.
         for factor in [1, 0x4000_0003] {
             let points: Vec<_> = points.iter().map(|q| q.map(|x| (x * factor) as f64)).collect();
