@@ -32,7 +32,9 @@ case ${1:-} in
   npm)
     shift
     npm run build
-    npm publish --workspace web --access public --provenance "$@"
+    # Provenance can only be attested where the forge signs it.
+    [[ -z ${GITHUB_ACTIONS:-} ]] || set -- --provenance "$@"
+    npm publish --workspace web --access public "$@"
     ;;
   *)
     fail "usage: scripts/release.sh check vX.Y.Z | crate [--dry-run] | npm [--dry-run]"
