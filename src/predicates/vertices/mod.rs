@@ -205,21 +205,20 @@ impl<'a, const D: usize> Vertices<'a, D> {
         rounded: &[bool],
         vertices: [u32; N],
     ) -> Option<[[i64; D]; N]> {
-        let mut all = [[0; D]; N];
-        for (q, v) in all.iter_mut().zip(vertices) {
-            *q = match (positions.get(v as usize), rounded.get(v as usize)) {
-                (Some(&q), Some(false)) => q,
-                (Some(_), Some(true)) => return None,
-                _ => {
-                    let computed = self.lattice.coordinates(self.point(v));
-                    if computed.iter().any(|c| !c.exact) {
-                        return None;
-                    }
-                    computed.map(|c| c.value)
-                }
-            };
+        if positions.is_empty() {
+            return self.computed_wide(vertices);
         }
-        Some(all)
+        if vertices.iter().any(|&v| rounded[v as usize]) {
+            return None;
+        }
+        Some(vertices.map(|v| positions[v as usize]))
+    }
+
+    #[inline(never)]
+    fn computed_wide<const N: usize>(&self, vertices: [u32; N]) -> Option<[[i64; D]; N]> {
+        let computed = vertices.map(|v| self.lattice.coordinates(self.point(v)));
+        let exact = computed.as_flattened().iter().all(|c| c.exact);
+        exact.then(|| computed.map(|q| q.map(|c| c.value)))
     }
 
     fn narrow(&self, v: u32) -> [i64; D] {
