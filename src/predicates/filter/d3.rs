@@ -7,12 +7,24 @@ impl PredicateContext<'_> {
     /// The sign of det(b − a, c − a, d − a).
     #[inline]
     pub fn orient3d(&self, a: u32, b: u32, c: u32, d: u32) -> Sign {
-        self.sign_of([a, b, c, d], Self::orient3d_at)
+        let stored = &self.coordinates;
+        if stored.is_empty() {
+            return self.orient3d_computed([a, b, c, d]);
+        }
+        let pd = stored[d as usize];
+        let [u, v, w] = [a, b, c].map(|v| minus(stored[v as usize], pd));
+        self.orient3d_of([a, b, c, d], u, v, w)
     }
 
+    #[inline(never)]
+    fn orient3d_computed(&self, vertices: [u32; 4]) -> Sign {
+        let [pa, pb, pc, pd] = vertices.map(|v| self.computed(v));
+        self.orient3d_of(vertices, minus(pa, pd), minus(pb, pd), minus(pc, pd))
+    }
+
+    /// From the differences to the last vertex.
     #[inline(always)]
-    fn orient3d_at(&self, vertices: [u32; 4], [pa, pb, pc, pd]: [[f64; 3]; 4]) -> Sign {
-        let (u, v, w) = (minus(pa, pd), minus(pb, pd), minus(pc, pd));
+    fn orient3d_of(&self, vertices: [u32; 4], u: [f64; 3], v: [f64; 3], w: [f64; 3]) -> Sign {
         // det(b − a, c − a, d − a) = −det(a − d, b − d, c − d).
         let det = u[0] * (v[2] * w[1] - v[1] * w[2])
             + u[1] * (v[0] * w[2] - v[2] * w[0])
@@ -58,17 +70,28 @@ impl PredicateContext<'_> {
     /// never zero for five different vertices, at least four of which are not coplanar.
     #[inline(always)]
     pub fn insphere(&self, [a, b, c, d]: [u32; 4], e: u32) -> Sign {
-        self.sign_of([a, b, c, d, e], Self::insphere_at)
+        let stored = &self.coordinates;
+        if stored.is_empty() {
+            return self.insphere_computed([a, b, c, d, e]);
+        }
+        let pe = stored[e as usize];
+        self.insphere_of([a, b, c, d, e], [a, b, c, d].map(|v| minus(stored[v as usize], pe)))
     }
 
+    #[inline(never)]
+    fn insphere_computed(&self, vertices: [u32; 5]) -> Sign {
+        let [pa, pb, pc, pd, pe] = vertices.map(|v| self.computed(v));
+        self.insphere_of(vertices, [pa, pb, pc, pd].map(|p| minus(p, pe)))
+    }
+
+    /// From the differences to the last vertex.
     #[inline(always)]
-    fn insphere_at(&self, vertices: [u32; 5], [pa, pb, pc, pd, pe]: [[f64; 3]; 5]) -> Sign {
-        let [pa, pb, pc, pd] = [pa, pb, pc, pd].map(|p| minus(p, pe));
-        let det = insphere_determinant(pa, pb, pc, pd);
+    fn insphere_of(&self, vertices: [u32; 5], [a, b, c, d]: [[f64; 3]; 4]) -> Sign {
+        let det = insphere_determinant(a, b, c, d);
         if det.abs() > self.in_sphere_bound {
             return if det > 0.0 { 1 } else { -1 };
         }
-        self.insphere_unfiltered(vertices, [pa, pb, pc, pd], det)
+        self.insphere_unfiltered(vertices, [a, b, c, d], det)
     }
 
     #[inline(never)]

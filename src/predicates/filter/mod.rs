@@ -6,7 +6,6 @@ mod d3;
 use crate::{
     Points,
     input::lattice::{Lattice, Width},
-    predicates::Sign,
     stats::ExactCounts,
 };
 use std::cell::Cell;
@@ -36,6 +35,10 @@ const UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
 /// Points in an order of the engine's choosing (*vertices*), with the predicates on them.
 ///
 /// The signs are those of the exact input coordinates; the symbolic ties are those of the input indices.
+///
+/// Each predicate checks once whether coordinates are stored and then reads them itself, in text that the four predicates
+/// have in common but do not share: one function for all, which took the determinant as a closure, passed the coordinates
+/// through memory and made the insertion take 1.5 times as long.
 pub struct PredicateContext<'a, const D: usize = 3> {
     input: Points<'a, D>,
     lattice: Lattice<D>,
@@ -177,28 +180,6 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
         self.counts.get()
     }
 
-    /// A sign from the coordinates of vertices, stored or not: that is asked once for all of them.
-    #[inline(always)]
-    fn sign_of<const N: usize>(
-        &self,
-        vertices: [u32; N],
-        sign: impl Fn(&Self, [u32; N], [[f64; D]; N]) -> Sign,
-    ) -> Sign {
-        if self.coordinates.is_empty() {
-            return self.computed_sign_of(vertices, sign);
-        }
-        sign(self, vertices, vertices.map(|v| self.coordinates[v as usize]))
-    }
-
-    #[inline(never)]
-    fn computed_sign_of<const N: usize>(
-        &self,
-        vertices: [u32; N],
-        sign: impl Fn(&Self, [u32; N], [[f64; D]; N]) -> Sign,
-    ) -> Sign {
-        sign(self, vertices, vertices.map(|v| self.computed(v)))
-    }
-
     /// The coordinates of vertex `v`, stored or not.
     fn coordinate(&self, v: u32) -> [f64; D] {
         self.coordinates.get(v as usize).copied().unwrap_or_else(|| self.computed(v))
@@ -224,21 +205,20 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
         rounded: &[bool],
         vertices: [u32; N],
     ) -> Option<[[i64; D]; N]> {
-        let mut all = [[0; D]; N];
-        for (q, v) in all.iter_mut().zip(vertices) {
-            *q = match (positions.get(v as usize), rounded.get(v as usize)) {
-                (Some(&q), Some(false)) => q,
-                (Some(_), Some(true)) => return None,
-                _ => {
-                    let computed = self.lattice.coordinates(self.point(v));
-                    if computed.iter().any(|c| !c.exact) {
-                        return None;
-                    }
-                    computed.map(|c| c.value)
-                }
-            };
+        if positions.is_empty() {
+            return self.computed_wide(vertices);
         }
-        Some(all)
+        if vertices.iter().any(|&v| rounded[v as usize]) {
+            return None;
+        }
+        Some(vertices.map(|v| positions[v as usize]))
+    }
+
+    #[inline(never)]
+    fn computed_wide<const N: usize>(&self, vertices: [u32; N]) -> Option<[[i64; D]; N]> {
+        let computed = vertices.map(|v| self.lattice.coordinates(self.point(v)));
+        let exact = computed.as_flattened().iter().all(|c| c.exact);
+        exact.then(|| computed.map(|q| q.map(|c| c.value)))
     }
 
     fn narrow(&self, v: u32) -> [i64; D] {
