@@ -7,13 +7,15 @@ use std::time::Instant;
 
 use gdel::{
     Points,
-    d3::gpu::vertex,
-    gpu::{
-        AdapterChoice, Gpu, Kernel, Profiler, Readback, Recorder, Storage,
-        points::{PointInput, PointStage},
-        shader, workgroups,
+    internals::{
+        d3::gpu::vertex,
+        gpu::{
+            AdapterChoice, Gpu, Kernel, Profiler, Readback, Recorder, Storage,
+            points::{PointInput, PointStage},
+            shader, workgroups,
+        },
+        input::lattice::{Lattice, Width},
     },
-    input::lattice::{Lattice, Width},
 };
 use pollster::block_on;
 use rand::{RngExt, SeedableRng};
@@ -114,7 +116,7 @@ fn main() {
     let sizes: Vec<usize> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the bench needs a GPU");
     println!("{:?}", gpu.adapter());
-    let stage = PointStage::new(&gpu, "points_gather", gdel::d3::gpu::vertex::words_per_vertex);
+    let stage = PointStage::new(&gpu, "points_gather", gdel::internals::d3::gpu::vertex::words_per_vertex);
     for &n in if sizes.is_empty() { &[100_000, 1_000_000][..] } else { &sizes } {
         let doubles = random_points(n);
         let singles: Vec<[f32; 3]> = doubles.iter().map(|p| p.map(|x| x as f32)).collect();

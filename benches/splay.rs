@@ -5,20 +5,22 @@
 
 use gdel::{
     Points,
-    d3::{
-        generate::{Distribution, generate},
-        gpu::{
-            phase1::{Input, Phase1, Phase1Output, Settings},
-            start::first_tetrahedron,
+    internals::{
+        d3::{
+            generate::{Distribution, generate},
+            gpu::{
+                phase1::{Input, Phase1, Phase1Output, Settings},
+                start::first_tetrahedron,
+            },
+            splay::{NearDelaunay, Outcome, splay},
+            triangulation::Triangulation,
         },
-        splay::{NearDelaunay, Outcome, splay},
-        triangulation::Triangulation,
+        gpu::{AdapterChoice, Gpu},
+        input::lattice::Lattice,
+        io::files::read_points,
+        parallel::Threads,
+        predicates::filter::PredicateContext,
     },
-    gpu::{AdapterChoice, Gpu},
-    input::lattice::Lattice,
-    io::files::read_points,
-    parallel::Threads,
-    predicates::filter::PredicateContext,
     stats::SplayStats,
 };
 use pollster::block_on;

@@ -37,7 +37,7 @@ impl From<Error> for JsValue {
             Error::OutOfDeviceMemory { .. } => "OUT_OF_DEVICE_MEMORY",
             Error::BufferTooLarge { .. } => "BUFFER_TOO_LARGE",
             Error::Gpu { .. } => "GPU",
-            Error::TooManyTetrahedra { .. } => "TOO_MANY_TETRAHEDRA",
+            Error::TooManySimplices { .. } => "TOO_MANY_TETRAHEDRA",
             Error::OutOfMemory { .. } => "OUT_OF_MEMORY",
             Error::Cancelled => "ABORTED",
         };

@@ -3,16 +3,19 @@
 
 use crate::oracle::{Definition2, definition2};
 use gdel::{
-    Mesh2, Options,
-    d2::{
-        Triangulation2,
-        cpu::delaunay2d_in_order,
-        lawson::{Aborted, NearDelaunay2, Outcome, lawson},
-        verify::verify2d,
+    Mesh2,
+    internals::{
+        Options,
+        d2::{
+            Triangulation2,
+            cpu::delaunay2d_in_order,
+            lawson::{Aborted, NearDelaunay2, Outcome, lawson},
+        },
+        index::NONE,
+        input::{lattice::Lattice, order::Order},
+        predicates::filter::PredicateContext2,
     },
-    index::NONE,
-    input::{lattice::Lattice, order::Order},
-    predicates::filter::PredicateContext2,
+    verify::verify2d,
 };
 use proptest::prelude::*;
 use rand_pcg::{
@@ -60,7 +63,7 @@ fn check_layout(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), TestCaseError> 
     } else {
         let ascending = mesh.hull.windows(2).all(|pair| points[pair[0] as usize] < points[pair[1] as usize]);
         prop_assert!(ascending, "{:?}", mesh.hull);
-        prop_assert_eq!(mesh.hull.len(), points.len() - mesh.duplicates());
+        prop_assert_eq!(mesh.hull.len(), points.len() - mesh.duplicate_count());
     }
     Ok(())
 }

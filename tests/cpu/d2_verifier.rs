@@ -7,13 +7,12 @@ use crate::broken::{
 };
 use crate::oracle::definition2;
 use gdel::{
-    Error, Mesh2, Options,
-    d2::{
-        generate::{Distribution2, generate2d},
-        verify::{MeshView2, verify2d},
+    Error, Mesh2, delaunay2d,
+    internals::{
+        Options,
+        d2::generate::{Distribution2, generate2d},
     },
-    delaunay2d,
-    verify::{Check, Outcome},
+    verify::{Check, MeshView2, Outcome, verify2d},
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;
@@ -45,7 +44,7 @@ fn square() -> Vec<[f64; 2]> {
 }
 
 fn right(points: &[[f64; 2]]) -> Mesh2 {
-    delaunay2d(points, &Options::default()).unwrap()
+    delaunay2d(points).unwrap()
 }
 
 type BrokenMeshes = broken::BrokenMeshes<[f64; 2], [u32; 3], Mesh2>;
@@ -275,7 +274,7 @@ fn only_the_definition_passes(points: &[[f64; 2]; 5]) {
         for b in a + 1..5 {
             for c in b + 1..5 {
                 let [p, q, r] = [a, b, c].map(|v| points[v as usize]);
-                match gdel::predicates::orient2d(p, q, r) {
+                match gdel::internals::predicates::orient2d(p, q, r) {
                     0 => {}
                     1 => oriented.push([a, c, b]),
                     _ => oriented.push([a, b, c]),
@@ -353,7 +352,7 @@ proptest! {
         }
         let clockwise = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|v| points[v as usize]);
-            gdel::predicates::orient2d(a, b, c) < 0
+            gdel::internals::predicates::orient2d(a, b, c) < 0
         };
         let still_right = mesh.canonical() == expected && mesh.triangles.iter().all(clockwise);
         let report = verify2d(&points, MeshView2::of_triangles(&mesh.triangles)).unwrap();

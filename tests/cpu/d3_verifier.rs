@@ -7,13 +7,9 @@ use crate::broken::{
 };
 use crate::oracle::{self, definition};
 use gdel::{
-    Error, Mesh3, Options,
-    d3::{
-        generate::{Distribution, generate},
-        verify::{MeshView, verify3d},
-    },
-    delaunay3d,
-    verify::{Check, Outcome},
+    Error, Mesh3, delaunay3d,
+    internals::d3::generate::{Distribution, generate},
+    verify::{Check, MeshView, Outcome, verify3d},
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;
@@ -30,7 +26,7 @@ fn cube() -> Vec<[f64; 3]> {
 }
 
 fn right(points: &[[f64; 3]]) -> Mesh3 {
-    delaunay3d(points, &Options::default()).unwrap()
+    delaunay3d(points).unwrap()
 }
 
 type BrokenMeshes = broken::BrokenMeshes<[f64; 3], [u32; 4], Mesh3>;

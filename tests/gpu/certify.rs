@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use gdel::d3::gpu::phase1::{Input, Phase1, Settings};
-use gdel::d3::gpu::start::first_tetrahedron;
-use gdel::gpu::{AdapterChoice, Gpu};
-use gdel::input::lattice::{Lattice, Width};
-use gdel::predicates;
-use gdel::reference::d3::{predicates as reference, predicates::Vertex};
+use gdel::internals::d3::gpu::phase1::{Input, Phase1, Settings};
+use gdel::internals::d3::gpu::start::first_tetrahedron;
+use gdel::internals::gpu::{AdapterChoice, Gpu};
+use gdel::internals::input::lattice::{Lattice, Width};
+use gdel::internals::predicates;
+use gdel::internals::reference::d3::{predicates as reference, predicates::Vertex};
 use pollster::block_on;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;

@@ -6,13 +6,13 @@
 use std::collections::BTreeSet;
 
 use crate::kernels::{Kernels, shuffled};
-use gdel::d2::gpu::{buffers::Buffers, start::first_triangle, vertex};
-use gdel::gpu::Storage;
-use gdel::gpu::layout::Pick;
-use gdel::gpu::layout::{Counters, DONE, NONE};
-use gdel::gpu::points::{DevicePoints, InputCounts};
-use gdel::input::lattice::Width;
-use gdel::reference::d2::{self as reference, State, predicates::Vertex};
+use gdel::internals::d2::gpu::{buffers::Buffers, start::first_triangle, vertex};
+use gdel::internals::gpu::Storage;
+use gdel::internals::gpu::layout::Pick;
+use gdel::internals::gpu::layout::{Counters, DONE, NONE};
+use gdel::internals::gpu::points::{DevicePoints, InputCounts};
+use gdel::internals::input::lattice::Width;
+use gdel::internals::reference::d2::{self as reference, State, predicates::Vertex};
 
 struct Device {
     kernels: Kernels,

@@ -2,17 +2,17 @@
 
 use std::collections::HashSet;
 
-use gdel::d2::gpu::start::first_triangle;
-use gdel::d2::gpu::{
+use gdel::internals::d2::gpu::start::first_triangle;
+use gdel::internals::d2::gpu::{
     phase1::{Input, Plane, Settings},
     run::Run,
     vertex,
 };
-use gdel::gpu::layout::Pick;
-use gdel::gpu::layout::{Active, Waiting};
-use gdel::gpu::{AdapterChoice, Gpu, Readback, Storage};
-use gdel::input::lattice::{Lattice, Width};
-use gdel::reference::d2::{State, mesh_compact, mesh_mark, predicates::Vertex};
+use gdel::internals::gpu::layout::Pick;
+use gdel::internals::gpu::layout::{Active, Waiting};
+use gdel::internals::gpu::{AdapterChoice, Gpu, Readback, Storage};
+use gdel::internals::input::lattice::{Lattice, Width};
+use gdel::internals::reference::d2::{State, mesh_compact, mesh_mark, predicates::Vertex};
 use pollster::block_on;
 
 fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {

@@ -6,13 +6,13 @@
 use std::collections::BTreeSet;
 
 use crate::kernels::{Kernels, shuffled};
-use gdel::d3::gpu::start::first_tetrahedron;
-use gdel::gpu::layout::{CHECK, Counters, DONE, NONE};
-use gdel::gpu::points::{DevicePoints, InputCounts};
-use gdel::input::lattice::Width;
-use gdel::reference::d3::{self as reference, State, predicates::Vertex};
-use gdel::{d3::gpu::buffers::Buffers, gpu::layout::Pick};
-use gdel::{d3::gpu::vertex, gpu::Storage};
+use gdel::internals::d3::gpu::start::first_tetrahedron;
+use gdel::internals::gpu::layout::{CHECK, Counters, DONE, NONE};
+use gdel::internals::gpu::points::{DevicePoints, InputCounts};
+use gdel::internals::input::lattice::Width;
+use gdel::internals::reference::d3::{self as reference, State, predicates::Vertex};
+use gdel::internals::{d3::gpu::buffers::Buffers, gpu::layout::Pick};
+use gdel::internals::{d3::gpu::vertex, gpu::Storage};
 
 struct Device {
     kernels: Kernels,

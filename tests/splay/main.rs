@@ -8,17 +8,20 @@ mod phase1;
 
 use flips::{Soup, found_out, near};
 use gdel::{
-    Options, Points,
-    d3::{
-        cpu,
-        splay::{Aborted, NONE, NearDelaunay, Outcome, splay},
-        triangulation::FiniteMesh,
-        verify::{MeshView, verify3d},
+    Points,
+    internals::{
+        Options,
+        d3::{
+            cpu,
+            splay::{Aborted, NONE, NearDelaunay, Outcome, splay},
+            triangulation::FiniteMesh,
+        },
+        input::lattice::Lattice,
+        parallel::Threads,
+        predicates::filter::PredicateContext,
     },
-    input::lattice::Lattice,
-    parallel::Threads,
-    predicates::filter::PredicateContext,
     stats::SplayStats,
+    verify::{MeshView, verify3d},
 };
 use inputs::Cloud;
 use rand::{RngExt, seq::SliceRandom};

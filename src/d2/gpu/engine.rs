@@ -10,7 +10,7 @@ use crate::d2::{
     lawson::{self, Aborted, Outcome},
 };
 use crate::{
-    Error, Options, Points2,
+    Backend, Error, Options, Points2,
     d2::gpu::{
         phase1::{Input, Mesh, Plane, PlaneOutput, Settings},
         run::Run,
@@ -24,7 +24,7 @@ use crate::{
     },
     parallel::Threads,
     predicates::filter::PredicateContext2,
-    stats::{Fallback, Stats, Stopwatch},
+    stats::{Fallback, Phase, Stats, Stopwatch},
 };
 
 /// A device with the kernels of the plane compiled for it: make one and use it for many inputs.
@@ -76,18 +76,19 @@ impl Hybrid2 {
         settings: &Settings,
     ) -> Result<Mesh2, Error> {
         let options = &options.monotone();
+        let settings = Settings { winding: options.winding, ..*settings };
         let mut stopwatch = Stopwatch::start();
-        options.report("lattice", 0.0)?;
+        options.report(Phase::Lattice, 0.0)?;
         points.validate_by(Threads::All)?;
         let lattice = Lattice::fit_by(Threads::All, points);
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let Some(start) = first_triangle(points.len(), position) else {
             return fall_back(points, options, Fallback::Collinear, Stats::default());
         };
-        let mut stats = Stats { engine: "gpu", ..Stats::default() };
-        stats.phases.push(("lattice", stopwatch.lap()));
+        let mut stats = Stats::new(Backend::Gpu);
+        stats.phases.push((Phase::Lattice, stopwatch.lap()));
 
-        options.report("phase 1", 0.05)?;
+        options.report(Phase::Phase1, 0.05)?;
         // Points of the other width are likely to come never again, or not soon.
         let plane = match lattice.width() {
             Width::Narrow => {
@@ -105,34 +106,35 @@ impl Hybrid2 {
             }
         };
         let input = Input { points, lattice: &lattice, start };
-        let mut run = Run::new(plane, &self.gpu, input, *settings, None).await?;
+        let mut run = Run::new(plane, &self.gpu, input, settings, None).await?;
         while run.round().await? {
             if run.control().1.iterations > settings.max_iterations {
                 return fall_back(points, options, Fallback::Flips, stats);
             }
             let inserted = 1.0 - f64::from(run.waiting()) / points.len() as f64;
-            options.report("phase 1", 0.05 + 0.7 * inserted)?;
+            options.report(Phase::Phase1, 0.05 + 0.7 * inserted)?;
         }
         let PlaneOutput { mesh, questions, merged, stats: device } = run.finish().await?;
         stats.gpu = Some(device.summary(&self.gpu.adapter().name));
-        let readback = device.readback_milliseconds / 1e3;
-        stats.phases.push(("phase 1", stopwatch.lap() - readback));
-        stats.phases.push(("readback", readback));
+        let readback = device.readback_time;
+        stats.phases.push((Phase::Phase1, stopwatch.lap().saturating_sub(readback)));
+        stats.phases.push((Phase::Readback, readback));
 
-        options.report("finish", 0.8)?;
+        options.report(Phase::Finish, 0.8)?;
         let mut duplicate_of = vec![NONE; points.len()];
         let missing = missing_points(points, &merged, &mut duplicate_of);
         let mut wrong = questions;
         if let Some(questions) = wrong.as_mut().filter(|questions| !questions.is_empty()) {
             (*questions, stats.exact) = failed_tests(points, &lattice, questions);
-            stats.phases.push(("check", stopwatch.lap()));
+            stats.phases.push((Phase::Check, stopwatch.lap()));
         }
         let Mesh { mut triangles, mut halfedges, hull } = mesh;
         let mut hull = in_order(&hull, points.len());
         if !missing.is_empty() || !wrong.as_ref().is_some_and(Vec::is_empty) {
-            let report = |share: f64| options.report("flip", 0.8 + 0.15 * share);
+            let report = |share: f64| options.report(Phase::Flip, 0.8 + 0.15 * share);
             let vertices = PredicateContext2::of_input(points, &lattice);
-            let triangulation = Triangulation2::from_mesh(triangles, halfedges, &hull, points.len() as u32);
+            let triangulation =
+                Triangulation2::from_mesh(triangles, halfedges, &hull, points.len() as u32, options.winding);
             let near = near_delaunay(triangulation, wrong.as_deref(), &missing);
             // As many as the CPU engine would take from nothing.
             let most_flips = 3 * points.len() as u64;
@@ -142,11 +144,12 @@ impl Hybrid2 {
                 Outcome::Aborted(Aborted::Folded) => return fall_back(points, options, Fallback::Folded, stats),
             };
             stats.exact = stats.exact + vertices.exact_counts();
-            (triangles, halfedges, hull) = triangulation.into_mesh(&(0..points.len() as u32).collect::<Vec<_>>());
-            stats.phases.push(("flip", stopwatch.lap()));
+            (triangles, halfedges, hull) =
+                triangulation.into_mesh(&(0..points.len() as u32).collect::<Vec<_>>(), options.winding);
+            stats.phases.push((Phase::Flip, stopwatch.lap()));
         }
-        stats.phases.push(("finish", stopwatch.lap()));
-        options.report("finish", 1.0)?;
+        stats.phases.push((Phase::Finish, stopwatch.lap()));
+        options.report(Phase::Finish, 1.0)?;
         Ok(Mesh2 { triangles, halfedges, hull, duplicate_of, dimension: 2, stats })
     }
 }

@@ -26,12 +26,15 @@ use crate::gpu::{
     layout::{Counters, Pick},
     points::PointStage,
 };
+use std::time::Duration;
+
 use crate::{
     Error,
     input::{
         lattice::{Lattice, Width},
         points::Points2,
     },
+    options::Winding,
     stats::{GpuStats, Round},
 };
 
@@ -56,6 +59,8 @@ pub struct Settings {
     /// points or not. More are a sign that the flips wait for each other, as where a fan of flat triangles is turned over; then the
     /// CPU engine is sooner done.
     pub max_iterations: u32,
+    /// The orientation of the mesh.
+    pub winding: Winding,
 }
 
 impl Default for Settings {
@@ -68,6 +73,7 @@ impl Default for Settings {
             workgroups: 1024,
             history: 2,
             max_iterations: 1 << 12,
+            winding: Winding::CounterClockwise,
         }
     }
 }
@@ -98,10 +104,10 @@ pub struct PlaneStats {
     pub readbacks: usize,
     /// The bytes of GPU memory that were held.
     pub bytes: u64,
-    /// Milliseconds from the upload to the end of the last kernel, on the host's clock; 0 where there is none.
-    pub milliseconds: f64,
-    /// Milliseconds of the readback of the result, on the host's clock.
-    pub readback_milliseconds: f64,
+    /// The time from the upload to the end of the last kernel, on the host's clock; zero where there is none.
+    pub time: Duration,
+    /// The time of the readback of the result, on the host's clock.
+    pub readback_time: Duration,
 }
 
 impl PlaneStats {
@@ -127,7 +133,7 @@ impl PlaneStats {
 /// Triangles in input indices and as [`Mesh2`](crate::d2::Mesh2) has it, but for the hull.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Mesh {
-    /// Three vertices a triangle, clockwise with the *y* axis up, none flat.
+    /// Three vertices per triangle in the order of [`Settings::winding`], none flat.
     pub triangles: Vec<[u32; 3]>,
     /// Entry *k* is the half-edge that runs against the one from vertex *k* to the next, 3·(triangle) + (vertex); -1 on the
     /// hull.

@@ -16,6 +16,7 @@ use crate::{
         points::{DevicePoints, PointBuffers, PointInput},
         workgroups,
     },
+    options::Winding,
     stats::{Round, Stopwatch},
 };
 
@@ -142,6 +143,7 @@ impl<'a> Run<'a> {
                 bid_bits: bid_bits(blocks),
                 pick: settings.pick as u32,
                 entries: points,
+                clockwise: u32::from(settings.winding == Winding::Clockwise),
                 ..Params::default()
             },
             counters: Counters { first_node: 1, next_node: 1, ..Counters::default() },
@@ -197,7 +199,7 @@ impl<'a> Run<'a> {
             active: self.active(),
             flips: read.flips_22 - before.flips_22,
             iterations: used,
-            milliseconds: self.round_clock.lap() * 1e3,
+            time: self.round_clock.lap(),
         });
         if inserts && read.inserted == before.inserted && self.waiting() > 0 {
             return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
@@ -293,14 +295,14 @@ impl<'a> Run<'a> {
         let words = self.plane.readback.receive(gpu, &submission, counters).await?;
         let triangles = self.plane.readback.receive(gpu, &submission, triangles).await?[0] as usize;
         self.counters = *bytemuck::from_bytes(bytemuck::cast_slice(&words));
-        self.stats.milliseconds = self.clock.lap() * 1e3;
+        self.stats.time = self.clock.lap();
 
         let Run { plane, params, counters, points, memory, read_before, mut stats, mut clock, .. } = self;
         let readback = &mut plane.readback;
         let (mesh, questions) = read_answer(gpu, readback, &memory.buffers, triangles, &counters).await?;
         let aside = if counters.aside > 0 { params.infinite as usize } else { 0 };
         let merged = readback.read(gpu, &memory.buffers.points.merged_into, 0, aside).await?;
-        stats.readback_milliseconds = clock.lap() * 1e3;
+        stats.readback_time = clock.lap();
         stats.counters = counters;
         stats.submits += 2;
         stats.readbacks = readback.count() - read_before;

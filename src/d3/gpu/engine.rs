@@ -3,7 +3,7 @@
 //! `points → lattice → Phase 1 → what it may have missed → splay → drop the ghosts → input indices → mesh`
 
 use crate::{
-    Error, Mesh3, Options, Points,
+    Backend, Error, Mesh3, Options, Points,
     d3::{
         cpu,
         gpu::{
@@ -23,7 +23,7 @@ use crate::{
     },
     parallel::Threads,
     predicates::filter::PredicateContext,
-    stats::{Fallback, Stats, Stopwatch},
+    stats::{Fallback, Phase, Stats, Stopwatch},
 };
 
 /// A device with the kernels of Phase 1 compiled for it: make one and use it for many inputs.
@@ -68,18 +68,18 @@ impl Hybrid {
     pub async fn delaunay3d(&mut self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
         let options = &options.monotone();
         let mut stopwatch = Stopwatch::start();
-        options.report("lattice", 0.0)?;
+        options.report(Phase::Lattice, 0.0)?;
         points.validate_by(Threads::All)?;
         let lattice = Lattice::fit_by(Threads::All, points);
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let Some(start) = first_tetrahedron(lattice.width(), points.len(), position) else {
             return fall_back(points, options, Fallback::Coplanar, Stats::default());
         };
-        let mut stats = Stats { engine: "gpu", ..Stats::default() };
+        let mut stats = Stats::new(Backend::Gpu);
         let mut tracer = options.trace.then(Tracer::default);
-        stats.phases.push(("lattice", stopwatch.lap()));
+        stats.phases.push((Phase::Lattice, stopwatch.lap()));
 
-        options.report("phase 1", 0.05)?;
+        options.report(Phase::Phase1, 0.05)?;
         // Points of the other width are likely to come never again, or not soon.
         let phase1 = match lattice.width() {
             Width::Narrow => {
@@ -104,7 +104,7 @@ impl Hybrid {
                 tracer.round(&self.gpu, &run).await?;
             }
             let inserted = 1.0 - f64::from(run.waiting()) / points.len() as f64;
-            options.report("phase 1", 0.05 + 0.6 * inserted)?;
+            options.report(Phase::Phase1, 0.05 + 0.6 * inserted)?;
             if !more {
                 break;
             }
@@ -114,36 +114,36 @@ impl Hybrid {
         }
         let output = run.finish().await?;
         stats.gpu = Some(output.stats.summary(&self.gpu.adapter().name));
-        let readback = output.stats.readback_milliseconds / 1e3;
-        stats.phases.push(("phase 1", stopwatch.lap() - readback));
-        stats.phases.push(("readback", readback));
+        let readback = output.stats.readback_time;
+        stats.phases.push((Phase::Phase1, stopwatch.lap().saturating_sub(readback)));
+        stats.phases.push((Phase::Readback, readback));
 
-        options.report("splay", 0.8)?;
+        options.report(Phase::Splay, 0.8)?;
         let vertices = PredicateContext::of_input(points, &lattice);
         let (near, duplicate_of) = near_delaunay(points, output);
         if let Some(tracer) = &mut tracer {
             tracer.facets(&near.triangulation, &vertices);
         }
         let max_evaluations = near.evaluations_from_scratch();
-        let report = |share: f64| options.report("splay", 0.8 + 0.15 * share);
+        let report = |share: f64| options.report(Phase::Splay, 0.8 + 0.15 * share);
         let triangulation = match splay::splay(&vertices, near, max_evaluations, Threads::All, &report)? {
             Outcome::Delaunay(triangulation, splay) => {
                 stats.splay = Some(splay);
                 triangulation
             }
-            Outcome::Aborted(Aborted::Work) => return fall_back(points, options, Fallback::Work, stats),
+            Outcome::Aborted(Aborted::Work) => return fall_back(points, options, Fallback::Splaying, stats),
             Outcome::Aborted(Aborted::Inconsistent(what)) => {
                 return fall_back(points, options, Fallback::Inconsistent(what), stats);
             }
         };
-        stats.phases.push(("splay", stopwatch.lap()));
+        stats.phases.push((Phase::Splay, stopwatch.lap()));
 
-        options.report("finish", 0.95)?;
+        options.report(Phase::Finish, 0.95)?;
         stats.exact = vertices.exact_counts();
         let FiniteMesh { tetrahedra, neighbors, hull } = triangulation.into_mesh(None, Threads::All);
-        stats.phases.push(("finish", stopwatch.lap()));
+        stats.phases.push((Phase::Finish, stopwatch.lap()));
         stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
-        options.report("finish", 1.0)?;
+        options.report(Phase::Finish, 1.0)?;
         Ok(Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats })
     }
 }

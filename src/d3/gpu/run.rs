@@ -195,7 +195,7 @@ impl<'a> Run<'a> {
             active: self.active(),
             flips: read.flips_23 + read.flips_32 - before.flips_23 - before.flips_32,
             iterations: used,
-            milliseconds: self.round_clock.lap() * 1e3,
+            time: self.round_clock.lap(),
         });
         if inserts && read.inserted == before.inserted && self.waiting() > 0 {
             return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
@@ -283,7 +283,7 @@ impl<'a> Run<'a> {
         let more = tail_blocks(self.params.infinite, &self.settings);
         let blocks = before.saturating_add(more).min((1 << 30) / BLOCK - 1);
         if blocks == before {
-            return Err(Error::TooManyTetrahedra { limit: 1 << 30 });
+            return Err(Error::TooManySimplices { limit: 1 << 30 });
         }
         let (bytes, limit) = (largest_bytes(blocks), self.gpu.max_storage_bytes());
         if bytes > limit.into() {
@@ -329,7 +329,7 @@ impl<'a> Run<'a> {
         let mut read = Counters::zeroed();
         bytemuck::bytes_of_mut(&mut read).copy_from_slice(bytemuck::cast_slice(&counters));
         self.counters = read;
-        self.stats.milliseconds = self.clock.lap() * 1e3;
+        self.stats.time = self.clock.lap();
 
         let Run { kernels, params, counters, points, memory, read_before, mut stats, mut clock, .. } = self;
         let count = params.infinite as usize;
@@ -364,7 +364,7 @@ impl<'a> Run<'a> {
         failed.sort_unstable();
         let mut uncertain: Vec<[u32; 2]> = uncertain.into_iter().map(|a| [a.tet, a.outcome]).collect();
         uncertain.sort_unstable();
-        stats.readback_milliseconds = clock.lap() * 1e3;
+        stats.readback_time = clock.lap();
         stats.counters = counters;
         stats.submits += 2;
         stats.readbacks = readback.count() - read_before;

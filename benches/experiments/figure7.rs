@@ -9,7 +9,7 @@ use crate::{
     figure6::DISTRIBUTIONS,
     outcome::{Outcome, Table},
 };
-use gdel::{
+use gdel::internals::{
     d3::gpu::{
         phase1::{Input, Phase1, Settings},
         start::first_tetrahedron,
@@ -61,11 +61,12 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
             let place = TASKS.iter().position(|name| *name == task);
             place.into_iter().for_each(|i| spent[i] += milliseconds);
         };
-        for &(phase, seconds) in &timed.stats.phases {
-            match phase {
-                "splay" | "finish" => add(phase, seconds * 1e3),
-                _ => add("host and readback", seconds * 1e3),
-            }
+        for &(phase, time) in &timed.stats.phases {
+            let task = match phase {
+                Phase::Splay | Phase::Finish => phase.name(),
+                _ => "host and readback",
+            };
+            add(task, time.as_secs_f64() * 1e3);
         }
         for (stage, milliseconds) in kernels(context, &points)? {
             add(task(stage), milliseconds);

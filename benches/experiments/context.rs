@@ -1,14 +1,17 @@
 //! What the experiments share: the device, the inputs, and how time is taken.
 
 use gdel::{
-    Mesh3, Options, Points,
-    d3::{
-        cpu,
-        generate::{Distribution, generate},
-        gpu::{engine::Hybrid, phase1::Settings},
+    Mesh3, Points,
+    internals::{
+        Options,
+        d3::{
+            cpu,
+            generate::{Distribution, generate},
+            gpu::{engine::Hybrid, phase1::Settings},
+        },
+        gpu::{AdapterChoice, Gpu},
+        io::{PointCloud, files},
     },
-    gpu::{AdapterChoice, Gpu},
-    io::{PointCloud, files},
     stats::Stats,
 };
 use pollster::block_on;

@@ -1,4 +1,4 @@
-//! Not in the paper: from which size on the GPU pays, and what opening it costs. [`gdel::triangulator`] has the constants that
+//! Not in the paper: from which size on the GPU pays, and what opening it costs. [`gdel::internals::triangulator`] has the constants that
 //! follow from it.
 
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
     context::Context,
     outcome::{Outcome, Table},
 };
-use gdel::d3::{generate::Distribution, gpu::phase1::Settings};
+use gdel::internals::d3::{generate::Distribution, gpu::phase1::Settings};
 use serde_json::json;
 use std::{error::Error, time::Instant};
 

@@ -6,7 +6,7 @@ use crate::{
     figure6::DISTRIBUTIONS,
     outcome::{Outcome, Table},
 };
-use gdel::{Points, d3::gpu::phase1::Settings};
+use gdel::{Points, internals::d3::gpu::phase1::Settings};
 use serde_json::json;
 use std::error::Error;
 

@@ -1,4 +1,4 @@
-//! Times Phase 1: `phase1 [uniform|gaussian|ball|thin-sphere|sphere|grid|FILE] [POINTS] [ADAPTER] [REPEATS]`, on
+//! Times Phase 1 in 3D: `cargo bench --features cli --bench measure_phase1 -- [uniform|gaussian|ball|thin-sphere|sphere|grid|FILE] [POINTS] [ADAPTER] [REPEATS]`, on
 //! coordinates rounded to `f32`.
 //!
 //! The variables PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE, SLOTS_PER_ACTIVE, WORKGROUPS and SEED change the
@@ -6,20 +6,25 @@
 //! clock slowly; and the stages of one more run, which is slower because each dispatch is timed.
 
 use gdel::Points;
-use gdel::d3::generate::{Distribution, generate};
-use gdel::d3::gpu::start::first_tetrahedron;
-use gdel::gpu::{AdapterChoice, Gpu, Profiler};
-use gdel::input::lattice::Lattice;
-use gdel::io::files::read_points;
-use gdel::{
+use gdel::internals::d3::generate::{Distribution, generate};
+use gdel::internals::d3::gpu::start::first_tetrahedron;
+use gdel::internals::gpu::{AdapterChoice, Gpu, Profiler};
+use gdel::internals::input::lattice::Lattice;
+use gdel::internals::io::files::read_points;
+use gdel::internals::{
     d3::gpu::phase1::{Input, Phase1, Phase1Output, Settings},
     gpu::layout::Pick,
 };
 use pollster::block_on;
 use std::path::Path;
 
+fn milliseconds(time: std::time::Duration) -> f64 {
+    time.as_secs_f64() * 1e3
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    // `cargo bench` adds `--bench`.
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
     let argument = |i: usize, default: &str| arguments.get(i).cloned().unwrap_or(default.to_owned());
     let kind = argument(0, "uniform");
     let count: usize = argument(1, "100000").parse()?;
@@ -71,8 +76,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         stages = block_on(profiler.milliseconds(&gpu, &last))?.to_vec();
     }
     runs.remove(0);
-    runs.sort_by(|a, b| a.stats.milliseconds.total_cmp(&b.stats.milliseconds));
-    let all: Vec<String> = runs.iter().map(|r| format!("{:.2}", r.stats.milliseconds)).collect();
+    runs.sort_by_key(|run| run.stats.time);
+    let all: Vec<String> = runs.iter().map(|r| format!("{:.2}", milliseconds(r.stats.time))).collect();
     let Phase1Output { stats, tets, failed, merged, uncertain, .. } = &runs[runs.len() / 2];
     let counters = &stats.counters;
     let stages: Vec<String> = stages.iter().map(|(name, ms)| format!("\"{name}\":{ms:.3}")).collect();
@@ -84,9 +89,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         points.len(),
         gpu.adapter().name,
         lattice.width(),
-        stats.milliseconds,
+        milliseconds(stats.time),
         all.join(","),
-        stats.readback_milliseconds,
+        milliseconds(stats.readback_time),
         stats.rounds.iter().filter(|round| round.inserted > 0).count(),
         counters.iterations,
         counters.visits,

@@ -7,8 +7,10 @@ use crate::{
 };
 use gdel::{
     Points,
-    d3::{generate::Distribution, gpu::phase1::Settings},
-    gpu::layout::Pick,
+    internals::{
+        d3::{generate::Distribution, gpu::phase1::Settings},
+        gpu::layout::Pick,
+    },
 };
 use serde_json::json;
 use std::error::Error;

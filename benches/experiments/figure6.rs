@@ -7,7 +7,7 @@ use crate::{
 };
 use gdel::{
     Points,
-    d3::{
+    internals::d3::{
         generate::Distribution,
         gpu::{engine::Hybrid, phase1::Settings},
     },

@@ -5,7 +5,7 @@ use crate::{
     context::Context,
     outcome::{Outcome, Table},
 };
-use gdel::d3::{generate::Distribution, gpu::phase1::Settings};
+use gdel::internals::d3::{generate::Distribution, gpu::phase1::Settings};
 use serde_json::json;
 use std::error::Error;
 

@@ -1,4 +1,5 @@
-//! The engines behind one function: the GPU engine is opened when it is first needed, and kept for later inputs.
+//! One device behind both dimensions: it is opened when it is first needed, and kept for later inputs with what was compiled
+//! for it.
 
 use crate::{
     Backend, Error, Mesh2, Mesh3, Options, Points,
@@ -12,7 +13,7 @@ use async_lock::Mutex;
 
 /// From so many points in space on, [`Backend::Auto`] takes the GPU engine if it is open.
 ///
-/// A bound, from `cargo run --release --example experiments -- crossing` on one NVIDIA H200 and one core of the Xeon beside
+/// A bound, from `cargo bench --features cli --bench experiments -- crossing` on one NVIDIA H200 and one core of the Xeon beside
 /// it, 2026-11-21: the GPU engine takes 27 ms for 100,000 uniform points, and never more for fewer; the CPU engine takes 2.0 µs
 /// a point at least, so it is no faster from 14,000 points on. The rest is for devices that take longer to start.
 pub const MIN_POINTS: usize = 24_000;
@@ -22,20 +23,16 @@ pub const MIN_POINTS: usize = 24_000;
 /// that the GPU would have taken, so opening never costs more than was lost by not having done so.
 pub const OPENING_POINTS: usize = 100_000;
 
-/// As [`MIN_POINTS`] in the plane: there, on the same machine (`cargo run --release --example plane`, 2026-11-22), the GPU
+/// As [`MIN_POINTS`] in the plane: there, on the same machine (`cargo bench --bench measure_2d`, 2026-11-22), the GPU
 /// engine takes 8 ms for 50,000 points, and the CPU engine 0.43 µs a point, so it is no faster from 19,000 points on.
 pub const MIN_POINTS_2: usize = 30_000;
 
 /// As [`OPENING_POINTS`] in the plane: 188 and 52 ms, at 0.43 µs a point.
 pub const OPENING_POINTS_2: usize = 560_000;
 
-/// Both engines, for any number of inputs.
-///
-/// [`delaunay3d`](crate::delaunay3d) and [`delaunay2d`](crate::delaunay2d) have one of these for the whole process. Make
-/// another to choose the adapter, or where nothing may block (browsers). The device does one run at a time; others wait for
-/// it.
+/// What clones of a [`Triangulator`](crate::Triangulator) share. The device does one run at a time; others wait for it.
 #[derive(Debug, Default)]
-pub struct Triangulator {
+pub(super) struct SharedDevice {
     adapter: AdapterChoice,
     state: Mutex<State>,
 }
@@ -45,8 +42,8 @@ struct State {
     space: Slot<Hybrid>,
     /// On the same device.
     plane: Slot<Hybrid2>,
-    /// Whether [`Backend::Auto`] may take the device though it is software.
-    given: bool,
+    /// The caller's device, which [`Backend::Auto`] may take though it is software, and which is not destroyed here.
+    caller_supplied: Option<Gpu>,
     /// Why [`Backend::Auto`] does not try to open a device again.
     unusable: Option<Fallback>,
 }
@@ -130,61 +127,41 @@ impl GpuEngine<2> for Hybrid2 {
     }
 }
 
-impl Triangulator {
-    /// Triangulator of which that for the GPU will use this adapter.
-    pub fn new(adapter: AdapterChoice) -> Self {
-        Triangulator { adapter, ..Triangulator::default() }
+impl SharedDevice {
+    /// Creates the state for a device of this adapter.
+    pub(super) fn new(adapter: AdapterChoice) -> Self {
+        SharedDevice { adapter, ..SharedDevice::default() }
     }
 
-    /// Triangulator with this GPU engine, which [`Backend::Auto`] takes even if it is software, in the plane as in space. When its
-    /// device is lost, the default adapter replaces it.
-    pub fn with_hybrid(hybrid: Hybrid) -> Self {
-        let space = Slot { engine: Some(hybrid), missed: 0 };
-        let state = State { space, given: true, ..State::default() };
-        Triangulator { state: Mutex::new(state), ..Triangulator::default() }
+    /// Creates the state for the caller's device. When that is lost, the default adapter replaces it.
+    pub(super) fn from_gpu(gpu: Gpu) -> Self {
+        let state = State { caller_supplied: Some(gpu), ..State::default() };
+        SharedDevice { state: Mutex::new(state), ..SharedDevice::default() }
     }
 
-    /// Those of this process.
-    #[cfg(not(target_arch = "wasm32"))]
-    pub fn shared() -> &'static Triangulator {
-        static SHARED: std::sync::LazyLock<Triangulator> = std::sync::LazyLock::new(Triangulator::default);
-        &SHARED
-    }
-
-    /// The GPU, opened if it is not. The kernels are compiled for it, too.
-    ///
-    /// # Errors
-    ///
-    /// As [`Gpu::open`] and [`Hybrid::new`].
-    pub async fn gpu(&self) -> Result<Gpu, Error> {
+    /// Returns the GPU, with the kernels for 3D compiled. Opens it if necessary.
+    pub(super) async fn gpu(&self) -> Result<Gpu, Error> {
         let mut state = self.state.lock().await;
         Ok(state.open::<Hybrid, 3>(&self.adapter).await?.gpu().clone())
     }
 
-    /// Gives the device back now, and not when the last reference to it goes. A later run opens it anew.
-    pub async fn close(&self) {
+    /// Gives the device back now rather than with the last reference to it. The next run reopens it.
+    pub(super) async fn close(&self) {
         let mut state = self.state.lock().await;
-        if let Some(gpu) = state.open_device() {
-            gpu.device().destroy();
+        match (&state.caller_supplied, state.open_device()) {
+            (None, Some(gpu)) => gpu.device().destroy(),
+            (Some(_), _) | (None, None) => {}
         }
         state.close();
     }
 
-    /// The triangulation of `points` by the engine that `options` name: see [`delaunay3d`](crate::delaunay3d).
-    ///
-    /// # Errors
-    ///
-    /// As for [`delaunay3d`](crate::delaunay3d).
-    pub async fn delaunay3d(&self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
+    /// Triangulates `points` in 3D.
+    pub(super) async fn delaunay3d(&self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
         self.run::<Hybrid, 3>(points, options).await
     }
 
-    /// The triangulation of points of the plane by the engine that `options` name: see [`delaunay2d`](crate::delaunay2d).
-    ///
-    /// # Errors
-    ///
-    /// As for [`delaunay2d`](crate::delaunay2d).
-    pub async fn delaunay2d(&self, points: Points2<'_>, options: &Options) -> Result<Mesh2, Error> {
+    /// Triangulates `points` in 2D.
+    pub(super) async fn delaunay2d(&self, points: Points2<'_>, options: &Options) -> Result<Mesh2, Error> {
         self.run::<Hybrid2, 2>(points, options).await
     }
 
@@ -249,17 +226,16 @@ impl State {
 
     /// That device, or a new one.
     async fn device(&self, adapter: &AdapterChoice) -> Result<Gpu, Error> {
-        match self.open_device() {
+        match self.open_device().or_else(|| self.caller_supplied.clone()) {
             Some(gpu) => Ok(gpu),
             None => Gpu::open(adapter).await,
         }
     }
 
-    /// Forgets a device that is lost or given back, and what was compiled for it.
+    /// Forgets what was compiled for the device.
     fn close(&mut self) {
         self.space.engine = None;
         self.plane.engine = None;
-        self.given = false;
     }
 
     /// Opens the GPU engine for an input of `points` points if it is not open, or says why not to take it.
@@ -278,7 +254,7 @@ impl State {
             return Ok(());
         }
         let least = E::OPENING_POINTS.saturating_sub(E::slot(self).missed);
-        if points < least && !self.given {
+        if points < least && self.caller_supplied.is_none() {
             E::slot(self).missed += points;
             return Err(Fallback::FewPoints { points, least });
         }
@@ -298,7 +274,7 @@ impl State {
         }
     }
 
-    /// Runs the GPU engine, which is open. If its device gets lost, the next run has to open it anew.
+    /// Runs the GPU engine, which is open. If its device gets lost, the next run has to open another.
     async fn run<E: GpuEngine<D>, const D: usize>(
         &mut self,
         points: Points<'_, D>,
@@ -310,13 +286,14 @@ impl State {
         let result = engine.triangulate(points, options).await;
         if matches!(result, Err(Error::DeviceLost { .. })) {
             self.close();
+            self.caller_supplied = None;
         }
         result
     }
 
     /// An adapter that is none is no use to [`Backend::Auto`], unless the caller brought it.
     fn usable(&self, gpu: &Gpu) -> Result<(), Fallback> {
-        match gpu.adapter().software && !self.given {
+        match gpu.adapter().software && self.caller_supplied.is_none() {
             true => Err(Fallback::SoftwareGpu(gpu.adapter().name.clone())),
             false => Ok(()),
         }
