@@ -154,6 +154,7 @@ pub mod internals {
         input,
         #[cfg(feature = "io")]
         io,
+        mesh,
         parallel,
         predicates,
         random,

@@ -72,7 +72,7 @@ pub(crate) fn index(entry: i32) -> Option<usize> {
 }
 
 /// Returns the simplices in a form that is equal for equal meshes.
-pub(crate) fn canonical<const N: usize>(simplices: &[[u32; N]]) -> Vec<[u32; N]> {
+pub fn canonical<const N: usize>(simplices: &[[u32; N]]) -> Vec<[u32; N]> {
     let mut simplices = simplices.to_vec();
     for simplex in &mut simplices {
         simplex.sort_unstable();

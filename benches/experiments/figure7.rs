@@ -9,13 +9,16 @@ use crate::{
     figure6::DISTRIBUTIONS,
     outcome::{Outcome, Table},
 };
-use gdel::internals::{
-    d3::gpu::{
-        phase1::{Input, Phase1, Settings},
-        start::first_tetrahedron,
+use gdel::{
+    internals::{
+        d3::gpu::{
+            phase1::{Input, Phase1, Settings},
+            start::first_tetrahedron,
+        },
+        gpu::Profiler,
+        input::lattice::Lattice,
     },
-    gpu::Profiler,
-    input::lattice::Lattice,
+    stats::Phase,
 };
 use pollster::block_on;
 use serde_json::json;

@@ -7,6 +7,7 @@ use crate::gpu::MAX_WORKGROUPS;
 
 /// Which adapter to open.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum AdapterChoice {
     /// The one that the system recommends for speed.
     #[default]
@@ -19,6 +20,7 @@ pub enum AdapterChoice {
 
 /// An adapter, as [`adapters`] lists it.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct AdapterSummary {
     /// The name that the driver gives, for example `NVIDIA H200`. Browsers may leave it empty.
     pub name: String,

@@ -9,10 +9,7 @@ pub use shared_device::{MIN_POINTS, MIN_POINTS_2, OPENING_POINTS, OPENING_POINTS
 #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
 use crate::stats::{Fallback, Stats};
 #[cfg(feature = "gpu")]
-use crate::{
-    AdapterChoice,
-    gpu::{AdapterSummary, Gpu},
-};
+use crate::{AdapterChoice, gpu::Gpu};
 use crate::{
     Backend, Error, Mesh2, Mesh3, Points, Points2, Progress,
     options::{Options, Winding},
@@ -277,6 +274,6 @@ fn without_gpu<M>(
 /// }
 /// ```
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-pub fn adapters() -> Vec<AdapterSummary> {
+pub fn adapters() -> Vec<crate::AdapterSummary> {
     pollster::block_on(crate::gpu::adapters())
 }

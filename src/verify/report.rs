@@ -103,6 +103,7 @@ impl fmt::Display for Check {
 
 /// Where a check fails, and how.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Defect {
     /// The index of the tetrahedron, where there is one to blame.
     pub tetrahedron: Option<usize>,
@@ -149,6 +150,7 @@ impl fmt::Display for Defect {
 
 /// How a check ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Outcome {
     /// The property holds.
     Passed,
@@ -187,6 +189,7 @@ impl From<Findings> for Outcome {
 
 /// How many there are of everything.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Counts {
     /// Points, duplicates included.
     pub points: usize,
@@ -208,6 +211,7 @@ pub struct Counts {
 
 /// The outcome of every check.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Report {
     /// Each check with its outcome, in the order of [`Check::ALL`].
     pub outcomes: Vec<(Check, Outcome)>,

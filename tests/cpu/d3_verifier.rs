@@ -8,7 +8,10 @@ use crate::broken::{
 use crate::oracle::{self, definition};
 use gdel::{
     Error, Mesh3, delaunay3d,
-    internals::d3::generate::{Distribution, generate},
+    internals::{
+        d3::generate::{Distribution, generate},
+        mesh,
+    },
     verify::{Check, MeshView, Outcome, verify3d},
 };
 use proptest::prelude::*;
@@ -250,7 +253,8 @@ fn the_order_of_tetrahedra_and_vertices_is_free() {
     for (i, triangle) in mesh.hull.iter_mut().rev().enumerate() {
         triangle.rotate_left(i % 3);
     }
-    let statement = MeshView { hull: Some(&mesh.hull), ..MeshView::of_tetrahedra(&mesh.tetrahedra) };
+    let mut statement = MeshView::of_tetrahedra(&mesh.tetrahedra);
+    statement.hull = Some(&mesh.hull);
     let report = verify3d(&points, statement).unwrap();
     assert!(report.passed(), "{report}");
 }
@@ -306,7 +310,7 @@ fn only_the_definition_passes(points: &[[f64; 3]; 6]) {
         chosen.clear();
         chosen.extend(oriented.iter().enumerate().filter(|(i, _)| set >> i & 1 == 1).map(|(_, t)| *t));
         if verify3d(points, MeshView::of_tetrahedra(&chosen)).unwrap().passed() {
-            passed.push(Mesh3 { tetrahedra: chosen.clone(), ..Mesh3::default() }.canonical());
+            passed.push(mesh::canonical(&chosen));
         }
     }
     assert_eq!(passed, [definition(points).tetrahedra]);
@@ -360,13 +364,11 @@ proptest! {
         duplicate_of in prop::option::of(prop::collection::vec(any::<i32>(), 0..9)),
         dimension in any::<Option<u8>>(),
     ) {
-        let statement = MeshView {
-            tetrahedra: &tetrahedra,
-            neighbors: neighbors.as_deref(),
-            hull: hull.as_deref(),
-            duplicate_of: duplicate_of.as_deref(),
-            dimension,
-        };
+        let mut statement = MeshView::of_tetrahedra(&tetrahedra);
+        statement.neighbors = neighbors.as_deref();
+        statement.hull = hull.as_deref();
+        statement.duplicate_of = duplicate_of.as_deref();
+        statement.dimension = dimension;
         let report = verify3d(&points, statement).unwrap();
         prop_assert_eq!(report.outcomes.len(), Check::ALL.len());
         prop_assert_eq!(report.passed(), report.failures().next().is_none());

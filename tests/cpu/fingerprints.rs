@@ -2,11 +2,8 @@
 //! engines with the same file.
 
 use gdel::{
-    Backend, delaunay3d,
-    internals::{
-        Options,
-        d3::generate::{Distribution, generate},
-    },
+    Backend, Triangulator,
+    internals::d3::generate::{Distribution, generate},
 };
 
 /// FNV-1a, 64 bits, over the canonical tetrahedra's indices as little-endian words.

@@ -2,10 +2,7 @@
 
 use gdel::{
     Mesh2, Mesh3, Points,
-    internals::{
-        Options,
-        io::{write_glb2, write_hull_glb},
-    },
+    internals::io::{write_glb2, write_hull_glb},
 };
 
 /// A file's triangles by the places of their corners in space, and the translation of its node.

@@ -63,7 +63,9 @@ fn splayed(name: &str, vertices: &PredicateContext<'_>, near: NearDelaunay) -> (
     let FiniteMesh { tetrahedra, neighbors, hull } = mesh.into_mesh(Some(&names), Threads::All);
     let mut points = vec![[0.0; 3]; names.len()];
     names.iter().zip(0..).for_each(|(&i, v)| points[i as usize] = vertices.point(v));
-    let statement = MeshView { neighbors: Some(&neighbors), hull: Some(&hull), ..MeshView::of_tetrahedra(&tetrahedra) };
+    let mut statement = MeshView::of_tetrahedra(&tetrahedra);
+    statement.neighbors = Some(&neighbors);
+    statement.hull = Some(&hull);
     let report = verify3d(&points, statement).unwrap();
     assert!(report.passed(), "{name}: {:?}", report.failures().next());
     (tetrahedra, stats)

@@ -2,7 +2,6 @@
 
 use crate::{hybrid, triangulate};
 use gdel::{
-    Mesh3,
     internals::{
         Options,
         d3::{
@@ -81,7 +80,7 @@ fn the_trace_has_every_round_and_what_splaying_did() {
     assert!(!found.is_empty() && found.len() == trace.not_locally_delaunay.len());
     assert_eq!(found, expected);
 
-    let canonical = |tetrahedra: &[[u32; 4]]| Mesh3 { tetrahedra: tetrahedra.to_vec(), ..Mesh3::default() }.canonical();
+    let canonical = |tetrahedra: &[[u32; 4]]| gdel::internals::mesh::canonical(tetrahedra);
     let before: HashSet<[u32; 4]> = canonical(last).into_iter().collect();
     assert_eq!(trace.splayed.len(), mesh.tetrahedra.len());
     for (&t, &splayed) in mesh.tetrahedra.iter().zip(&trace.splayed) {

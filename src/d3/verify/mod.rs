@@ -14,6 +14,7 @@ use complex::Complex;
 
 /// What a mesh states: at least its tetrahedra. What is `None` is not checked.
 #[derive(Debug, Clone, Copy, Default)]
+#[non_exhaustive]
 pub struct MeshView<'a> {
     /// As in [`Mesh3::tetrahedra`].
     pub tetrahedra: &'a [[u32; 4]],
