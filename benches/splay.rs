@@ -1,6 +1,6 @@
 //! What the host does with the result of Phase 1: star splaying, and the end of the run, which drops the ghosts.
 //!
-//! `cargo bench --bench splay -- [DISTRIBUTION:POINTS | FILE …]`; a device makes Phase 1 once for each input, of coordinates
+//! `cargo bench --features cli --bench splay -- [DISTRIBUTION:POINTS | FILE …]`; a device makes Phase 1 once for each input, of coordinates
 //! rounded to `f32`. Medians of nine runs after one to warm up, in one thread and in all, in milliseconds.
 
 use gdel::{

@@ -61,6 +61,20 @@ impl serde::Serialize for Backend {
 }
 
 /// How far a run has come, as [`Triangulator::on_progress`](crate::Triangulator::on_progress) reports it.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Progress, Triangulator};
+/// use std::ops::ControlFlow;
+///
+/// let report = |Progress { phase, fraction, .. }: Progress| {
+///     println!("{phase}: {:.0} %", 100.0 * fraction);
+///     ControlFlow::Continue(())
+/// };
+/// Triangulator::new().on_progress(report).delaunay2d(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]])?;
+/// # Ok::<(), gdel::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Progress {

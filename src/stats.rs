@@ -261,7 +261,18 @@ pub struct GpuStats {
 
 /// A round of Phase 1: insertions, and the flips that follow them.
 ///
-/// The example at [`GpuStats`] shows where rounds come from.
+/// # Examples
+///
+/// ```
+/// use gdel::{Backend, Triangulator};
+///
+/// let points: Vec<[f32; 2]> = (0..1000).map(|i| [(i * i % 997) as f32, i as f32]).collect();
+/// if let Ok(mesh) = Triangulator::new().backend(Backend::Gpu).delaunay2d(&points) {
+///     for round in mesh.stats.gpu.iter().flat_map(|gpu| &gpu.rounds) {
+///         println!("{} points, {} flips, {:?}", round.inserted, round.flips, round.time);
+///     }
+/// }
+/// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]

@@ -13,7 +13,20 @@ use crate::{
     },
 };
 
-/// What a mesh of the plane states: at least its triangles. What is `None` is not checked.
+/// What a 2D mesh states: at least its triangles. What is `None` is not checked.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::verify::{MeshView2, verify2d};
+///
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
+/// // A mesh of another program, with its own arrays.
+/// let mut mesh = MeshView2::of_triangles(&[[0, 1, 2]]);
+/// mesh.hull = Some(&[0, 1, 2]);
+/// assert!(verify2d(&points, mesh)?.passed());
+/// # Ok::<(), gdel::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct MeshView2<'a> {
