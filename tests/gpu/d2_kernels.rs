@@ -137,7 +137,7 @@ fn flips(state: &State) -> BTreeSet<Vec<u32>> {
 }
 
 fn listed(state: &State, half: usize) -> BTreeSet<u32> {
-    state.active[half][..state.counters.listed[half] as usize].iter().map(|a| a.tet).collect()
+    state.active[half][..state.counters.active_len[half] as usize].iter().map(|a| a.tet).collect()
 }
 
 /// The statuses but for the numbers in the history.
@@ -178,11 +178,11 @@ fn compare(width: Width, pick: Pick) {
             device.run("plane/flip_commit");
             device.run("plane/flip_link");
             reference::flip_commit(&mut state);
-            let half = (state.counters.linking & 1) as usize;
+            let half = (state.counters.link_iteration & 1) as usize;
             let done = state.active[half].iter().filter(|a| a.outcome & DONE != 0).count();
             reference::flip_link(&mut state);
             let after = device.download(&state);
-            assert!(done > 0 || state.counters.listed[state.half()] == 0, "an iteration without progress");
+            assert!(done > 0 || state.counters.active_len[state.half()] == 0, "an iteration without progress");
             assert_eq!(after.counters, state.counters, "flip");
             assert_eq!((&after.triangles, &after.neighbors), (&state.triangles, &state.neighbors), "flip");
             assert_eq!(statuses(&after), statuses(&state), "flip");

@@ -176,7 +176,7 @@ fn essence(state: &State) -> (BTreeSet<Vec<u32>>, BTreeSet<Vec<u32>>) {
 }
 
 fn listed(state: &State, half: usize) -> BTreeSet<u32> {
-    state.active[half][..state.counters.listed[half] as usize].iter().map(|a| a.tet).collect()
+    state.active[half][..state.counters.active_len[half] as usize].iter().map(|a| a.tet).collect()
 }
 
 /// The tetrahedra with facets to check.
@@ -223,7 +223,7 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
             reference::flip_link(&mut state);
             reference::flip_compact(&mut state);
             let after = device.download(&state);
-            assert!(done > 0 || state.counters.listed[state.half()] == 0, "an iteration without progress");
+            assert!(done > 0 || state.counters.active_len[state.half()] == 0, "an iteration without progress");
             assert_eq!(after.counters, state.counters, "flip");
             assert_eq!(essence(&after), essence(&state), "flip");
             assert_eq!(listed(&after, after.half()), to_check(&after), "flip");
@@ -249,7 +249,7 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
 }
 
 fn half_of(state: &State) -> usize {
-    (state.counters.linking & 1) as usize
+    (state.counters.link_iteration & 1) as usize
 }
 
 #[test]

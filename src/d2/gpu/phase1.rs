@@ -107,14 +107,14 @@ pub struct PlaneStats {
 impl PlaneStats {
     /// The same for users, on an adapter of this name.
     pub fn summary(&self, adapter: &str) -> GpuStats {
-        let Counters { flips_22, iterations, exact, aside, .. } = self.counters;
+        let Counters { flips_22, iterations, exact, merged, .. } = self.counters;
         GpuStats {
             adapter: adapter.to_owned(),
             rounds: self.rounds.clone(),
             flips_22: flips_22.into(),
             flip_iterations: iterations.into(),
             exact_tests: exact.into(),
-            merged: aside.into(),
+            merged: merged.into(),
             readbacks: self.readbacks as u64,
             dispatches: self.dispatches as u64,
             submits: self.submits as u64,

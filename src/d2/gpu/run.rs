@@ -169,12 +169,12 @@ impl<'a> Run<'a> {
 
     /// Points that are not inserted yet.
     pub fn waiting(&self) -> u32 {
-        self.params.infinite - self.counters.inserted - self.counters.aside
+        self.params.infinite - self.counters.inserted - self.counters.merged
     }
 
     /// Active triangles.
     pub fn active(&self) -> u32 {
-        self.counters.listed[(self.counters.iteration & 1) as usize]
+        self.counters.active_len[(self.counters.iteration & 1) as usize]
     }
 
     /// Runs an insertion round, or, when all points are inserted, flip iterations. Returns whether there is more to do.
@@ -298,7 +298,7 @@ impl<'a> Run<'a> {
         let Run { plane, params, counters, points, memory, read_before, mut stats, mut clock, .. } = self;
         let readback = &mut plane.readback;
         let (mesh, questions) = read_answer(gpu, readback, &memory.buffers, triangles, &counters).await?;
-        let aside = if counters.aside > 0 { params.infinite as usize } else { 0 };
+        let aside = if counters.merged > 0 { params.infinite as usize } else { 0 };
         let merged = readback.read(gpu, &memory.buffers.points.merged_into, 0, aside).await?;
         stats.readback_milliseconds = clock.lap() * 1e3;
         stats.counters = counters;

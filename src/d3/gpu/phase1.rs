@@ -107,7 +107,7 @@ pub struct Phase1Stats {
 impl Phase1Stats {
     /// The same for users, on an adapter of this name.
     pub fn summary(&self, adapter: &str) -> GpuStats {
-        let Counters { flips_23, flips_32, iterations, exact, not_locally_delaunay, failed, aside, .. } = self.counters;
+        let Counters { flips_23, flips_32, iterations, exact, not_locally_delaunay, failed, merged, .. } = self.counters;
         GpuStats {
             adapter: adapter.to_owned(),
             rounds: self.rounds.clone(),
@@ -118,7 +118,7 @@ impl Phase1Stats {
             exact_tests: exact.into(),
             not_locally_delaunay: not_locally_delaunay.into(),
             failed_vertices: failed.into(),
-            merged: aside.into(),
+            merged: merged.into(),
             readbacks: self.readbacks as u64,
             dispatches: self.dispatches as u64,
             submits: self.submits as u64,

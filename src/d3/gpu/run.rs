@@ -162,12 +162,12 @@ impl<'a> Run<'a> {
 
     /// Points that are not inserted yet.
     pub fn waiting(&self) -> u32 {
-        self.params.infinite - self.counters.inserted - self.counters.aside
+        self.params.infinite - self.counters.inserted - self.counters.merged
     }
 
     /// Active tetrahedra.
     pub fn active(&self) -> u32 {
-        self.counters.listed[(self.counters.iteration & 1) as usize]
+        self.counters.active_len[(self.counters.iteration & 1) as usize]
     }
 
     /// Runs an insertion round, or, when all points are inserted, flip iterations. Returns whether there is more to do.
@@ -334,7 +334,7 @@ impl<'a> Run<'a> {
         let Run { kernels, params, counters, points, memory, read_before, mut stats, mut clock, .. } = self;
         let count = params.infinite as usize;
         let tets = finite + counters.ghosts as usize;
-        let aside = if counters.aside > 0 { count } else { 0 };
+        let aside = if counters.merged > 0 { count } else { 0 };
         let readback = &mut kernels.readback;
         let (first, tets, submission, neighbors, tet_of, failed, merged, uncertain) = gpu
             .with_error_scope("the result of Phase 1", || {
