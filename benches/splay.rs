@@ -9,7 +9,7 @@ use gdel::{
         generate::{Distribution, generate},
         gpu::{
             phase1::{Input, Phase1, Phase1Output, Settings},
-            start::first_tetrahedron,
+            start::first_simplex,
         },
         splay::{NearDelaunay, Outcome, splay},
         triangulation::Triangulation,
@@ -87,7 +87,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let points = read(&input)?;
         let lattice = Lattice::fit((&points).into());
         let position = |i: usize| lattice.coordinates(points[i].map(f64::from)).map(|c| c.value);
-        let start = first_tetrahedron(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
+        let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
         let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
         let of_points = Input { points: (&points).into(), lattice: &lattice, start };
         let output = block_on(phase1.run(&gpu, of_points, &Settings::default(), None))?;

@@ -7,7 +7,7 @@
 
 use gdel::Points;
 use gdel::d3::generate::{Distribution, generate};
-use gdel::d3::gpu::start::first_tetrahedron;
+use gdel::gpu::start::first_simplex;
 use gdel::gpu::{AdapterChoice, Gpu, Profiler};
 use gdel::input::lattice::Lattice;
 use gdel::io::files::read_points;
@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let clock = std::time::Instant::now();
     let lattice = Lattice::fit((&points).into());
     let position = |i: usize| lattice.coordinates(points[i].map(f64::from)).map(|c| c.value);
-    let start = first_tetrahedron(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
+    let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
     let lattice_ms = clock.elapsed().as_secs_f64() * 1e3;
     let input = Input { points: (&points).into(), lattice: &lattice, start };
 

@@ -8,7 +8,7 @@
 
 use gdel::d2::gpu::{
     phase1::{Input, Plane, Settings},
-    start::first_triangle,
+    start::first_simplex,
 };
 use gdel::d2::{
     cpu::delaunay2d_in_order,
@@ -96,7 +96,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let lattice = Lattice::fit(input);
     let position = |i: usize| lattice.coordinates(input.get(i)).map(|c| c.value);
-    let start = first_triangle(count, position).ok_or("the points are collinear")?;
+    let start = first_simplex(lattice.width(), count, position).ok_or("the points are collinear")?;
     let device_input = Input { points: input, lattice: &lattice, start };
     let mut plane = block_on(Plane::new(&gpu, lattice.width()))?;
     let mut stages = Vec::new();

@@ -12,7 +12,7 @@ use crate::{
 use gdel::{
     d3::gpu::{
         phase1::{Input, Phase1, Settings},
-        start::first_tetrahedron,
+        start::first_simplex,
     },
     gpu::Profiler,
     input::lattice::Lattice,
@@ -93,7 +93,7 @@ fn kernels(context: &Context, points: &[[f64; 3]]) -> Result<Vec<(&'static str, 
     let Some(mut profiler) = Profiler::new(gpu)? else { return Ok(Vec::new()) };
     let lattice = Lattice::fit(points.into());
     let position = |i: usize| lattice.coordinates(points[i]).map(|c| c.value);
-    let start = first_tetrahedron(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
+    let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
     let input = Input { points: points.into(), lattice: &lattice, start };
     let mut phase1 = block_on(Phase1::new(gpu, lattice.width()))?;
     block_on(phase1.run(gpu, input, &Settings::default(), None))?;

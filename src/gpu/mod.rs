@@ -14,6 +14,7 @@
 
 mod buffers;
 mod device;
+pub mod dim;
 pub(crate) mod iterations;
 mod kernel;
 pub mod layout;
@@ -23,6 +24,7 @@ mod profiler;
 mod readback;
 mod recorder;
 pub mod shader;
+pub mod start;
 pub mod waiting;
 
 pub use buffers::Storage;

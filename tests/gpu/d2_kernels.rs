@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use crate::kernels::{Kernels, shuffled};
-use gdel::d2::gpu::{buffers::Buffers, start::first_triangle, vertex};
+use gdel::d2::gpu::{buffers::Buffers, start::first_simplex, vertex};
 use gdel::gpu::Storage;
 use gdel::gpu::layout::Pick;
 use gdel::gpu::layout::{Counters, DONE, NONE};
@@ -147,10 +147,10 @@ fn statuses(state: &State) -> Vec<[u32; 2]> {
 
 fn compare(width: Width, pick: Pick) {
     let positions = shuffled(width, (0..256).map(|i| [i & 15, i >> 4]).collect(), 200);
-    let start = first_triangle(positions.len(), |i| positions[i]).expect("not collinear");
+    let start = first_simplex(lattice.width(), positions.len(), |i| positions[i]).expect("not collinear");
     let mut points: Vec<Vertex> =
         (0..).zip(&positions).map(|(i, &position)| Vertex { position, index: (i * 77) % 200 }).collect();
-    points.push(Vertex { position: start.kernel, index: 200 });
+    points.push(Vertex { position: start.interior_point, index: 200 });
     let mut state = State::new(width, points, 4096);
     state.params.pick = pick as u32;
     state.first = start.first;

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use gdel::d2::gpu::start::first_triangle;
+use gdel::gpu::start::first_simplex;
 use gdel::d2::gpu::{
     phase1::{Input, Plane, Settings},
     run::Run,
@@ -54,7 +54,7 @@ fn run_and_validate(gpu: &Gpu, planes: &mut [Plane; 2], name: &str, points: &[[f
     let width = lattice.width();
     let plane = &mut planes[usize::from(width == Width::Wide)];
     let position = |i: usize| lattice.coordinates(points[i]).map(|c| c.value);
-    let start = first_triangle(points.len(), position).expect("not collinear");
+    let start = first_simplex(lattice.width(), points.len(), position).expect("not collinear");
     let input = Input { points: points.into(), lattice: &lattice, start };
     let mut run = block_on(Run::new(plane, gpu, input, settings, None)).unwrap();
     let mut more = true;

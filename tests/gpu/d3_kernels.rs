@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use crate::kernels::{Kernels, shuffled};
-use gdel::d3::gpu::start::first_tetrahedron;
+use gdel::gpu::start::first_simplex;
 use gdel::gpu::layout::{CHECK, Counters, DONE, NONE};
 use gdel::gpu::points::{DevicePoints, InputCounts};
 use gdel::input::lattice::Width;
@@ -186,10 +186,10 @@ fn to_check(state: &State) -> BTreeSet<u32> {
 
 fn compare(width: Width, pick: Pick, compact_from: u32) {
     let positions = shuffled(width, (0..512).map(|i| [i & 7, i >> 3 & 7, i >> 6]).collect(), 250);
-    let start = first_tetrahedron(width, positions.len(), |i| positions[i]).expect("not coplanar");
+    let start = first_simplex(width, positions.len(), |i| positions[i]).expect("not coplanar");
     let mut points: Vec<Vertex> =
         (0..).zip(&positions).map(|(index, &position)| Vertex { position, index: index ^ 0x55 }).collect();
-    points.push(Vertex { position: start.kernel, index: 1000 });
+    points.push(Vertex { position: start.interior_point, index: 1000 });
     let mut state = State::new(width, points, 64, 4096);
     state.params.pick = pick as u32;
     state.params.compact_from = compact_from;

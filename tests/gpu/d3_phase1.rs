@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::d3_inputs::{self as inputs, Input as Points};
-use gdel::d3::gpu::start::first_tetrahedron;
+use gdel::gpu::start::first_simplex;
 use gdel::d3::mesh::FACETS;
 use gdel::gpu::layout::{Active, Counters, FlipNode, Status, Waiting};
 use gdel::input::lattice::{Lattice, Width};
@@ -73,7 +73,7 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1; 2], points: &Points, setti
     let width = lattice.width();
     let kernels = &mut kernels[usize::from(width == Width::Wide)];
     let position = |i: usize| lattice.coordinates(points.positions[i]).map(|c| c.value);
-    let start = first_tetrahedron(width, count, position).expect("not coplanar");
+    let start = first_simplex(width, count, position).expect("not coplanar");
     let input = Input { points: (&points.positions).into(), lattice: &lattice, start };
     let mut run = block_on(Run::new(kernels, gpu, input, settings, None)).unwrap();
     let mut more = true;

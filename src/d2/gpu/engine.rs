@@ -14,9 +14,8 @@ use crate::{
     d2::gpu::{
         phase1::{Input, Mesh, Plane, PlaneOutput, Settings},
         run::Run,
-        start::first_triangle,
     },
-    gpu::Gpu,
+    gpu::{Gpu, start::first_simplex},
     index::NONE,
     input::{
         lattice::{Lattice, Width},
@@ -81,7 +80,7 @@ impl Hybrid2 {
         points.validate_by(Threads::All)?;
         let lattice = Lattice::fit_by(Threads::All, points);
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
-        let Some(start) = first_triangle(points.len(), position) else {
+        let Some(start) = first_simplex(lattice.width(), points.len(), position) else {
             return fall_back(points, options, Fallback::Collinear, Stats::default());
         };
         let mut stats = Stats { engine: "gpu", ..Stats::default() };

@@ -7,5 +7,5 @@ pub(crate) mod kernels;
 pub mod layout;
 pub mod phase1;
 pub mod run;
-pub mod start;
+mod dim;
 pub mod vertex;

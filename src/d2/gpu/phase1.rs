@@ -18,13 +18,13 @@ use super::{
     kernels::Kernels,
     layout::UncertainTest,
     run::{self, Run},
-    start::Start,
     vertex,
 };
 use crate::gpu::{
     Gpu, Profiler, Readback,
     layout::{Counters, Pick},
     points::PointStage,
+    start::Start,
 };
 use crate::{
     Error,
@@ -80,7 +80,7 @@ pub struct Input<'a> {
     /// The lattice that is fitted to them.
     pub lattice: &'a Lattice<2>,
     /// The first triangle, by input indices.
-    pub start: Start,
+    pub start: Start<2>,
 }
 
 /// What a run did.

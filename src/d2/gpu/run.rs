@@ -123,7 +123,7 @@ impl<'a> Run<'a> {
                     PointInput { points: input, lattice, wanted, sort: settings.sort },
                 )?;
                 let mut kernel_point = Vec::new();
-                vertex::append_words(&mut kernel_point, lattice.width(), start.kernel, false);
+                vertex::append_words(&mut kernel_point, lattice.width(), start.interior_point, false);
                 device.vertices.write(gpu, count * kernel_point.len(), &kernel_point);
                 let dispatches = recorder.dispatches();
                 recorder.submit(gpu);

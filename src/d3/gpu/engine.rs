@@ -9,13 +9,12 @@ use crate::{
         gpu::{
             phase1::{Input, Phase1, Phase1Output, Settings},
             run::Run,
-            start::first_tetrahedron,
             trace::Tracer,
         },
         splay::{self, Aborted, NearDelaunay, Outcome},
         triangulation::{FiniteMesh, Triangulation},
     },
-    gpu::Gpu,
+    gpu::{Gpu, start::first_simplex},
     index::NONE,
     input::{
         lattice::{Lattice, Width},
@@ -72,7 +71,7 @@ impl Hybrid {
         points.validate_by(Threads::All)?;
         let lattice = Lattice::fit_by(Threads::All, points);
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
-        let Some(start) = first_tetrahedron(lattice.width(), points.len(), position) else {
+        let Some(start) = first_simplex(lattice.width(), points.len(), position) else {
             return fall_back(points, options, Fallback::Coplanar, Stats::default());
         };
         let mut stats = Stats { engine: "gpu", ..Stats::default() };

@@ -9,6 +9,6 @@ pub(crate) mod memory;
 pub mod phase1;
 pub mod relocate;
 pub mod run;
-pub mod start;
+mod dim;
 pub(crate) mod trace;
 pub mod vertex;

@@ -16,7 +16,7 @@
 //! out, flips wait in the active list until there is more.
 
 use super::{memory, run::Run, vertex};
-use crate::d3::gpu::start::Start;
+use crate::gpu::start::Start;
 use crate::gpu::layout::{Counters, Pick};
 use crate::gpu::{Gpu, Kernel, Profiler, Readback};
 use crate::{
@@ -80,7 +80,7 @@ pub struct Input<'a> {
     /// The lattice that is fitted to them.
     pub lattice: &'a Lattice,
     /// The first tetrahedron, by input indices.
-    pub start: Start,
+    pub start: Start<3>,
 }
 
 /// What a run did.

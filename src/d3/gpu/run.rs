@@ -113,7 +113,7 @@ impl<'a> Run<'a> {
                 let input = PointInput { points: input, lattice, wanted: start.first, sort: settings.sort };
                 let device = kernels.points.record(gpu, &mut recorder, buffers, input)?;
                 let mut kernel_point = Vec::new();
-                vertex::append_words(&mut kernel_point, lattice.width(), start.kernel, points);
+                vertex::append_words(&mut kernel_point, lattice.width(), start.interior_point, points);
                 let kernel_point = kernel_point.as_flattened();
                 device.vertices.write(gpu, count * kernel_point.len(), kernel_point);
                 let dispatches = recorder.dispatches();
