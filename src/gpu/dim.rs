@@ -8,7 +8,7 @@ use std::fmt::Debug;
 
 use bytemuck::Pod;
 
-use crate::{input::lattice::Width, predicates::Sign};
+use crate::{Error, gpu::Gpu, input::lattice::Width, predicates::Sign};
 
 /// The marker that [`Dim`] is implemented for: triangulations of points with `D` coordinates.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -26,6 +26,8 @@ pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
     type Corners: Pod + Debug + PartialEq + Eq + Send + Sync + AsRef<[u32]> + AsMut<[u32]>;
     /// A flip in the history.
     type Flip: Pod + Debug + Default + PartialEq + Eq + Send + Sync;
+    /// The buffers of Phase 1 that only this dimension has.
+    type OwnBuffers: OwnBuffers;
 
     /// What simplices are called in labels and messages.
     const SIMPLICES: &'static str;
@@ -45,9 +47,9 @@ pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
     /// Returns the words that a vertex takes on the device.
     fn vertex_words(width: Width) -> usize;
 
-    /// Appends the words of a vertex at `position`. 3D stores the input index with it; 2D stores it elsewhere and ignores
-    /// it here.
-    fn append_vertex(words: &mut Vec<i32>, width: Width, position: [i64; D], index: u32);
+    /// Appends the words of a vertex at `position`, which the lattice has `rounded` or not. 3D stores the input index with
+    /// it; 2D stores it elsewhere and ignores it here.
+    fn append_vertex(words: &mut Vec<i32>, width: Width, position: [i64; D], index: u32, rounded: bool);
 
     /// Returns the orientation of the corners of a simplex, without perturbation.
     ///
@@ -58,4 +60,27 @@ pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
 
     /// Returns how good `p` is as the next corner of a large simplex that has the corners `chosen`: the larger, the better.
     fn spread(chosen: &[[f64; D]], p: [f64; D]) -> f64;
+}
+
+/// The buffers of Phase 1 that only one dimension has.
+pub trait OwnBuffers: Debug + Clone {
+    /// Creates them for `points` points and `blocks` blocks of slots.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::BufferTooLarge`].
+    fn new(gpu: &Gpu, points: usize, blocks: u32) -> Result<Self, Error>;
+
+    /// Returns larger ones with the same contents, for `blocks` blocks.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::BufferTooLarge`].
+    fn with_blocks(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, blocks: u32) -> Result<Self, Error>;
+
+    /// Records that what must be zero in the beginning is.
+    fn record_clear(&self, encoder: &mut wgpu::CommandEncoder);
+
+    /// Returns the bytes that they take on the device.
+    fn bytes(&self) -> u64;
 }

@@ -136,6 +136,13 @@ pub struct Counters {
     pub hull: u32,
 }
 
+impl Counters {
+    /// Returns the flips of all kinds so far.
+    pub(crate) fn flips(&self) -> u32 {
+        self.flips_23 + self.flips_32 + self.flips_22
+    }
+}
+
 /// A flip was put off because no slot was found for its third tetrahedron.
 pub const SLOTS_FULL: u32 = 1;
 /// A flip was put off because the history was full.

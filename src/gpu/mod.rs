@@ -15,9 +15,11 @@
 mod buffers;
 mod device;
 pub mod dim;
+pub mod engine;
 pub(crate) mod iterations;
 mod kernel;
 pub mod layout;
+pub mod phase1;
 pub mod points;
 pub mod primitives;
 mod profiler;

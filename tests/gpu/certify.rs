@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use gdel::d3::gpu::phase1::{Input, Phase1, Settings};
+use gdel::gpu::phase1::{Input, Phase1, Settings};
 use gdel::gpu::start::first_simplex;
 use gdel::gpu::{AdapterChoice, Gpu};
 use gdel::input::lattice::{Lattice, Width};
@@ -25,7 +25,7 @@ fn signs_that_are_not_listed_are_those_of_the_true_coordinates() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let mut kernels = block_on(Phase1::new(&gpu, Width::Wide)).unwrap();
     let input = Input { points: (&points).into(), lattice: &lattice, start };
-    let output = block_on(kernels.run(&gpu, input, &Settings::default(), None)).unwrap();
+    let output = block_on(kernels.run(&gpu, input, &Settings::default(), None)).unwrap().result;
 
     let infinite = points.len() as u32;
     let open: HashMap<u32, u32> = output.uncertain.iter().map(|&[t, open]| (t, open)).collect();

@@ -2,6 +2,7 @@
 
 use crate::{
     d2::gpu::{
+        buffers::OwnBuffers,
         layout::{EdgeFlip, blocks},
         vertex,
     },
@@ -13,6 +14,7 @@ use crate::{
 impl Dim<2> for Dimension<2> {
     type Corners = [u32; 3];
     type Flip = EdgeFlip;
+    type OwnBuffers = OwnBuffers;
 
     const SIMPLICES: &'static str = "triangles";
     const SHADERS: &'static str = "plane/";
@@ -27,11 +29,11 @@ impl Dim<2> for Dimension<2> {
     }
 
     fn vertex_words(width: Width) -> usize {
-        vertex::words(width)
+        vertex::words_per_vertex(width)
     }
 
-    fn append_vertex(words: &mut Vec<i32>, width: Width, position: [i64; 2], _index: u32) {
-        vertex::append_words(words, width, position, false);
+    fn append_vertex(words: &mut Vec<i32>, width: Width, position: [i64; 2], _index: u32, rounded: bool) {
+        vertex::append_words(words, width, position, rounded);
     }
 
     fn orient(_width: Width, corners: &[[i64; 2]]) -> Sign {

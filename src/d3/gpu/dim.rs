@@ -1,7 +1,7 @@
 //! What makes the frame of the GPU engine one for three dimensions.
 
 use crate::{
-    d3::gpu::vertex,
+    d3::gpu::{buffers::OwnBuffers, vertex},
     gpu::{
         dim::{Dim, Dimension},
         layout::FlipNode,
@@ -13,6 +13,7 @@ use crate::{
 impl Dim<3> for Dimension<3> {
     type Corners = [u32; 4];
     type Flip = FlipNode;
+    type OwnBuffers = OwnBuffers;
 
     const SIMPLICES: &'static str = "tetrahedra";
     const SHADERS: &'static str = "";
@@ -31,10 +32,8 @@ impl Dim<3> for Dimension<3> {
         vertex::words_per_vertex(width)
     }
 
-    fn append_vertex(words: &mut Vec<i32>, width: Width, position: [i64; 3], index: u32) {
-        let mut vertex = Vec::with_capacity(vertex::stride(width));
-        vertex::append_words(&mut vertex, width, position, index);
-        words.extend_from_slice(vertex.as_flattened());
+    fn append_vertex(words: &mut Vec<i32>, width: Width, position: [i64; 3], index: u32, rounded: bool) {
+        vertex::append_words(words, width, position, index, rounded);
     }
 
     fn orient(width: Width, corners: &[[i64; 3]]) -> Sign {

@@ -1,8 +1,8 @@
 //! The whole run on the references.
 
-use crate::gpu::start::first_simplex;
 use crate::gpu::layout::NONE;
 use crate::gpu::layout::Pick;
+use crate::gpu::start::first_simplex;
 use crate::input::lattice::Width;
 
 use crate::reference::d2::predicates::Vertex;

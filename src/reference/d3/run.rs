@@ -1,8 +1,8 @@
 //! Phase 1 on the references.
 
-use crate::gpu::start::first_simplex;
 use crate::gpu::layout::NONE;
 use crate::gpu::layout::Pick;
+use crate::gpu::start::first_simplex;
 use crate::input::lattice::Width;
 
 use crate::reference::d3::predicates::Vertex;
