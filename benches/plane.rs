@@ -2,11 +2,8 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gdel::{
-    Backend, delaunay2d,
-    internals::{
-        Options,
-        d2::generate::{Distribution2, generate2d},
-    },
+    Backend, Triangulator,
+    internals::d2::generate::{Distribution2, generate2d},
     verify::verify2d,
 };
 
