@@ -2,12 +2,14 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gdel::{
-    Options,
-    d3::{
-        cpu,
-        generate::{Distribution, generate},
-        verify::verify3d,
+    internals::{
+        Options,
+        d3::{
+            cpu,
+            generate::{Distribution, generate},
+        },
     },
+    verify::verify3d,
 };
 
 fn full_grid(side: u32) -> Vec<[f64; 3]> {

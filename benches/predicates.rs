@@ -1,13 +1,13 @@
 //! `orient3d` and `insphere` on 1,024 argument lists at a time: ours, and the crates `robust` and `geometry-predicates`.
 //!
 //! * `vertices`: what the engine calls: [`PredicateContext`], with its filters, lattice integers and symbolic ties;
-//! * `exact`: [`gdel::predicates`] for coordinates on their own;
+//! * `exact`: [`gdel::internals::predicates`] for coordinates on their own;
 //! * `robust`, `geometry-predicates`: Shewchuk's adaptive predicates as those crates have them.
 //!
 //! All must agree on every sign before anything is timed.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use gdel::{
+use gdel::internals::{
     input::lattice::Lattice,
     predicates::{self, Sign, filter::PredicateContext},
 };
@@ -71,7 +71,7 @@ fn compare<const N: usize>(
     robust: impl Fn([Coord3D<f64>; N]) -> f64,
     geometry_predicates: impl Fn([Point; N]) -> f64,
 ) {
-    // Those crates count an orientation as positive that is negative here; see `gdel::predicates`.
+    // Those crates count an orientation as positive that is negative here; see `gdel::internals::predicates`.
     let sign = |value: f64| (value < 0.0) as Sign - (value > 0.0) as Sign;
     let robust = |list: [Point; N]| sign(robust(list.map(|[x, y, z]| Coord3D { x, y, z })));
     let geometry_predicates = |list| sign(geometry_predicates(list));

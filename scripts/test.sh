@@ -10,7 +10,9 @@ lavapipe=$(compgen -G '/usr/share/vulkan/icd.d/lvp_icd.*.json' | head -n 1 || tr
 if [[ -z ${VK_DRIVER_FILES:-} && -n $lavapipe ]]; then
   export VK_DRIVER_FILES=$lavapipe
 fi
-[[ $# -eq 0 ]] || exec cargo test --locked "$@"
-# Not the examples, which have no tests and take long to compile.
-cargo test --locked --lib --bins --tests
-cargo test --locked --doc
+[[ $# -eq 0 ]] || exec cargo test --locked --all-features "$@"
+cargo test --locked --all-features --lib --bins --tests
+cargo test --locked --all-features --doc
+for example in examples/*.rs; do
+  cargo run --locked --all-features --example "$(basename "$example" .rs)"
+done

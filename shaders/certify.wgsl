@@ -76,7 +76,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
             }
         }
         if open != 0 {
-            doubtful[atomicAdd(&control.doubtful, 1u)] = vec2u(numbers[t] >> 2, open);
+            doubtful[atomicAdd(&control.uncertain, 1u)] = vec2u(numbers[t] >> 2, open);
         }
     }
 }

@@ -39,7 +39,7 @@ fn main(
         }
         workgroupBarrier();
         if local == 0 && atomicLoad(&open_here) != 0 {
-            first_here = atomicAdd(&control.open, atomicLoad(&open_here));
+            first_here = atomicAdd(&control.undecided, atomicLoad(&open_here));
         }
         workgroupBarrier();
         if place != NONE {

@@ -18,7 +18,7 @@ fn main(
     let list = half_of(iteration);
     let bits = control.bid_bits;
     if local == 0 {
-        open_here = atomicLoad(&control.open);
+        open_here = atomicLoad(&control.undecided);
         atomicStore(&exact_here, 0u);
     }
     let open = workgroupUniformLoad(&open_here);

@@ -235,10 +235,10 @@ fn main(
         }
     }
     if local == 0 && group.x == 0 {
-        control.linking = iteration;
-        atomicStore(&control.open, 0u);
+        control.link_iteration = iteration;
+        atomicStore(&control.undecided, 0u);
         if entries != 0 {
-            atomicStore(&control.listed[(iteration + 1) & 1], 0u);
+            atomicStore(&control.active_len[(iteration + 1) & 1], 0u);
         }
     }
 }

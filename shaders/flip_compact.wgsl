@@ -16,7 +16,7 @@ fn main(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let iteration = control.linking;
+    let iteration = control.link_iteration;
     if local == 0 {
         // What flip_link has asked, too.
         slots_here = select(0u, control.blocks * BLOCK, entries_of(iteration) >= control.compact_from);
@@ -31,7 +31,7 @@ fn main(
         }
         let scanned = workgroup_scan(select(0u, 1u, is_active), local);
         if local == 0 {
-            given = atomicAdd(&control.listed[(iteration + 1) & 1], scanned.total);
+            given = atomicAdd(&control.active_len[(iteration + 1) & 1], scanned.total);
         }
         let at = workgroupUniformLoad(&given) + next + scanned.before;
         if is_active {

@@ -35,7 +35,7 @@ fn main(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let iteration = control.linking;
+    let iteration = control.link_iteration;
     if local == 0 {
         entries_here = entries_of(iteration);
         atomicStore(&flips_23, 0u);
@@ -87,7 +87,7 @@ fn main(
         var at = atomicAdd(&wanted, count);
         workgroupBarrier();
         if local == 0 {
-            given = atomicAdd(&control.listed[(iteration + 1) & 1], atomicLoad(&wanted));
+            given = atomicAdd(&control.active_len[(iteration + 1) & 1], atomicLoad(&wanted));
         }
         at += workgroupUniformLoad(&given) + next;
         for (var k = 0u; k < count; k++) {

@@ -58,6 +58,6 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
     if id.x == 0 {
         make_first(first, infinite);
         atomicAdd(&control.inserted, 4u);
-        control.aside = counts[COUNT_UNITED];
+        control.merged = counts[COUNT_UNITED];
     }
 }

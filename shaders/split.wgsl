@@ -57,7 +57,7 @@ fn main(
             given = 0;
             if atomicLoad(&splits) != 0 {
                 atomicAdd(&control.inserted, atomicLoad(&splits));
-                given = atomicAdd(&control.listed[half], atomicLoad(&wanted));
+                given = atomicAdd(&control.active_len[half], atomicLoad(&wanted));
             }
         }
         at += workgroupUniformLoad(&given) + list;

@@ -1,7 +1,7 @@
 //! Point clouds that make other codes crash or give wrong meshes.
 #![allow(dead_code)]
 
-use gdel::d3::generate::{Distribution, generate};
+use gdel::internals::d3::generate::{Distribution, generate};
 use std::f64::consts::TAU;
 
 /// The integer grid with this many points a side, x first.

@@ -1,7 +1,7 @@
 // Times the packed package's CPU engine, the native engine, and the npm package qhull-wasm, in the plane delaunator, side by
 // side, and prints ratios.
 //
-//   npm run build && cargo build --release
+//   npm run build && cargo build --release --features cli
 //   node benches/js/compare.mjs [--dim 2] [--points 100000] [--runs 3] [--native GDEL] [--without qhull,native]
 //
 // All sides take the same uniform points, in turn, on one core. The native binary's time is that which it states; reading
@@ -64,7 +64,7 @@ const sides = {
       }
     : {
         native() {
-          const args = ['triangulate', file, '--engine', 'cpu', '--stats', 'json'];
+          const args = ['triangulate', file, '--backend', 'cpu', '--stats', 'json'];
           const { seconds, tetrahedra } = JSON.parse(execFileSync(values.native, args, { encoding: 'utf8' }));
           return [seconds.total, tetrahedra];
         },

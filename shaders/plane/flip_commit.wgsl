@@ -121,9 +121,9 @@ fn main(
         }
     }
     if local == 0 && group.x == 0 {
-        control.linking = iteration;
+        control.link_iteration = iteration;
         if entries != 0 {
-            atomicStore(&control.listed[(iteration + 1) & 1], 0u);
+            atomicStore(&control.active_len[(iteration + 1) & 1], 0u);
         }
     }
 }

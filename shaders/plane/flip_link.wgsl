@@ -33,7 +33,7 @@ fn main(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let iteration = control.linking;
+    let iteration = control.link_iteration;
     if local == 0 {
         entries_here = entries_of(iteration);
         atomicStore(&flips, 0u);
@@ -73,7 +73,7 @@ fn main(
         let at = atomicAdd(&wanted, count);
         workgroupBarrier();
         if local == 0 {
-            given = atomicAdd(&control.listed[(iteration + 1) & 1], atomicLoad(&wanted));
+            given = atomicAdd(&control.active_len[(iteration + 1) & 1], atomicLoad(&wanted));
         }
         let place = at + workgroupUniformLoad(&given) + next;
         if count > 0 {

@@ -61,7 +61,7 @@ fn input_index(v: u32) -> u32 {
 }
 
 fn ask(tri: vec3u, beyond: u32) {
-    let at = atomicAdd(&control.doubtful, 1u);
+    let at = atomicAdd(&control.uncertain, 1u);
     if at < control.blocks * BLOCK {
         questions[at] = Question(vec3u(input_index(tri.x), input_index(tri.y), input_index(tri.z)), beyond);
     }

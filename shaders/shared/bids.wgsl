@@ -26,7 +26,7 @@ fn changed_mark(iteration: u32, bits: u32) -> u32 {
 
 // The entries of the active list in a flip iteration; none when there are too few.
 fn entries_of(iteration: u32) -> u32 {
-    let count = atomicLoad(&control.listed[iteration & 1]);
+    let count = atomicLoad(&control.active_len[iteration & 1]);
     return select(count, 0u, count < max(control.min_active, 1u));
 }
 

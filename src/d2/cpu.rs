@@ -7,14 +7,14 @@
 
 use super::{Mesh2, insert};
 use crate::{
-    Error, Options, Points2,
+    Backend, Error, Options, Points2,
     input::{
         hilbert,
         lattice::Lattice,
         order::{Distinct, Order, insertion_order},
     },
     predicates::{filter::PredicateContext2, orient2d},
-    stats::{Stats, Stopwatch},
+    stats::{Phase, Stats, Stopwatch},
 };
 
 /// The triangulation of `points` by incremental insertion.
@@ -36,21 +36,22 @@ pub fn delaunay2d_in_order(points: Points2<'_>, options: &Options, order: Order)
         return Err(Error::TooManyPoints { points: points.len(), limit: insert::MAX_POINTS });
     }
     let mut stopwatch = Stopwatch::start();
-    let mut stats = Stats { engine: "cpu", ..Stats::default() };
-    options.report("sort", 0.0)?;
+    let mut stats = Stats::new(Backend::Cpu);
+    options.report(Phase::Sort, 0.0)?;
     points.validate()?;
     let lattice = Lattice::fit(points);
     let Distinct { mut order, duplicate_of } = insertion_order(points, &lattice, hilbert::index_in_plane, order);
     let dimension = spanning_first(points, &mut order);
     let mut mesh = Mesh2 { duplicate_of, dimension, ..Mesh2::default() };
-    stats.phases.push(("sort", stopwatch.lap()));
+    stats.phases.push((Phase::Sort, stopwatch.lap()));
     if dimension == 2 {
         let vertices = PredicateContext2::new(points, &lattice, order);
         let inserted = insert::insert_all(&vertices, options)?;
-        stats.phases.push(("insert", stopwatch.lap()));
+        stats.phases.push((Phase::Insert, stopwatch.lap()));
         stats.exact = vertices.exact_counts();
-        (mesh.triangles, mesh.halfedges, mesh.hull) = inserted.into_mesh(&vertices.into_input_indices());
-        stats.phases.push(("finish", stopwatch.lap()));
+        (mesh.triangles, mesh.halfedges, mesh.hull) =
+            inserted.into_mesh(&vertices.into_input_indices(), options.winding);
+        stats.phases.push((Phase::Finish, stopwatch.lap()));
     } else {
         order.sort_unstable_by(|&i, &j| {
             let [p, q] = [i, j].map(|i| points.get(i as usize));
@@ -58,7 +59,7 @@ pub fn delaunay2d_in_order(points: Points2<'_>, options: &Options, order: Order)
         });
         mesh.hull = order;
     }
-    options.report("finish", 1.0)?;
+    options.report(Phase::Finish, 1.0)?;
     mesh.stats = stats;
     Ok(mesh)
 }

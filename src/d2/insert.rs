@@ -4,7 +4,7 @@
 //! special. The predicates never tie, so the cavity is star-shaped, has no vertex inside, and no new triangle is flat.
 
 use crate::d2::triangulation::{MAX_TRIANGLES, Triangulation2};
-use crate::{Error, Options, predicates::filter::PredicateContext2};
+use crate::{Error, Options, predicates::filter::PredicateContext2, stats::Phase};
 
 /// The most points that the engine takes: a sphere of *n* + 1 vertices has 2·*n* − 2 triangles.
 pub(crate) const MAX_POINTS: usize = MAX_TRIANGLES / 2;
@@ -36,7 +36,7 @@ pub(crate) fn insert_all(vertices: &PredicateContext2<'_>, options: &Options) ->
     let n = vertices.len();
     let mut mesh = initial(n as u32);
     mesh.reserve(2 * n)?;
-    let report = |inserted: usize| options.report("insert", (3 + inserted) as f64 / n as f64);
+    let report = |inserted: usize| options.report(Phase::Insert, (3 + inserted) as f64 / n as f64);
     insert_points(&mut mesh, vertices, 3..n as u32, 0, report)?;
     Ok(mesh)
 }

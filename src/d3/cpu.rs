@@ -4,7 +4,7 @@
 
 use super::{Mesh3, insert};
 use crate::{
-    Error, Options, Points,
+    Backend, Error, Options, Points,
     input::{
         hilbert,
         lattice::Lattice,
@@ -12,7 +12,7 @@ use crate::{
     },
     parallel::Threads,
     predicates::{collinear, filter::PredicateContext},
-    stats::{Stats, Stopwatch},
+    stats::{Phase, Stats, Stopwatch},
 };
 
 /// The triangulation of `points` by incremental insertion.
@@ -34,24 +34,24 @@ pub fn delaunay3d_in_order(points: Points<'_>, options: &Options, order: Order) 
         return Err(Error::TooManyPoints { points: points.len(), limit: insert::MAX_POINTS });
     }
     let mut stopwatch = Stopwatch::start();
-    let mut stats = Stats { engine: "cpu", ..Stats::default() };
-    options.report("sort", 0.0)?;
+    let mut stats = Stats::new(Backend::Cpu);
+    options.report(Phase::Sort, 0.0)?;
     points.validate()?;
     let lattice = Lattice::fit(points);
     let order::Distinct { mut order, duplicate_of } = order::insertion_order(points, &lattice, hilbert::index, order);
     let dimension = spanning_first(points, &mut order);
     let mut mesh = Mesh3 { duplicate_of, dimension, ..Mesh3::default() };
-    stats.phases.push(("sort", stopwatch.lap()));
+    stats.phases.push((Phase::Sort, stopwatch.lap()));
     if dimension == 3 {
         let vertices = PredicateContext::new(points, &lattice, order);
         let inserted = insert::insert_all(&vertices, options)?;
-        stats.phases.push(("insert", stopwatch.lap()));
+        stats.phases.push((Phase::Insert, stopwatch.lap()));
         stats.exact = vertices.exact_counts();
         let finite = inserted.into_mesh(Some(&vertices.into_input_indices()), Threads::One);
         (mesh.tetrahedra, mesh.neighbors, mesh.hull) = (finite.tetrahedra, finite.neighbors, finite.hull);
-        stats.phases.push(("finish", stopwatch.lap()));
+        stats.phases.push((Phase::Finish, stopwatch.lap()));
     }
-    options.report("finish", 1.0)?;
+    options.report(Phase::Finish, 1.0)?;
     mesh.stats = stats;
     Ok(mesh)
 }

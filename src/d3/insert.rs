@@ -11,6 +11,7 @@ use crate::{
         triangulation::{MAX_TETRAHEDRA, Triangulation, state},
     },
     predicates::filter::PredicateContext,
+    stats::Phase,
 };
 
 /// The most points that the engine takes: none of the usual inputs has 8 tetrahedra a point.
@@ -44,7 +45,7 @@ pub(crate) fn insert_all(vertices: &PredicateContext<'_>, options: &Options) -> 
     let n = vertices.len();
     let mut mesh = initial(n as u32);
     mesh.reserve(n * EXPECTED_TETRAHEDRA)?;
-    let report = |inserted: usize| options.report("insert", (4 + inserted) as f64 / n as f64);
+    let report = |inserted: usize| options.report(Phase::Insert, (4 + inserted) as f64 / n as f64);
     insert_points(&mut mesh, vertices, 4..n as u32, 0, report)?;
     Ok(mesh)
 }

@@ -60,14 +60,14 @@ impl Triangulation {
         self.tetrahedra
             .try_reserve_exact(more)
             .and_then(|()| self.neighbors.try_reserve_exact(more))
-            .map_err(|_| Error::OutOfMemory { tetrahedra })
+            .map_err(|_| Error::OutOfMemory { simplices: tetrahedra })
     }
 
     /// A new slot.
     pub(crate) fn push(&mut self) -> Result<u32, Error> {
         let count = self.tetrahedra.len();
         if count == MAX_TETRAHEDRA {
-            return Err(Error::TooManyTetrahedra { limit: MAX_TETRAHEDRA });
+            return Err(Error::TooManySimplices { limit: MAX_TETRAHEDRA });
         }
         if count == self.tetrahedra.capacity() {
             self.reserve((count + count / 2).min(MAX_TETRAHEDRA))?;

@@ -95,9 +95,9 @@ pub struct Counters {
     /// The flip iteration, as checking and committing see it.
     pub iteration: u32,
     /// The flip iteration, as linking sees it: no kernel writes the one that it reads.
-    pub linking: u32,
+    pub link_iteration: u32,
     /// Entries in the two halves of the active list; iteration *i* uses half *i* mod 2.
-    pub listed: [u32; 2],
+    pub active_len: [u32; 2],
     /// The insertion round, from 1.
     pub round: u32,
     /// Nodes of the history are numbered through all rounds: this is the next number.
@@ -121,19 +121,26 @@ pub struct Counters {
     /// Failed vertices.
     pub failed: u32,
     /// Points that another one stands for, because it lies at the same place.
-    pub aside: u32,
+    pub merged: u32,
     /// Tetrahedra that are flat, or of which the lattice does not prove everything; in the plane, questions to the host.
     pub uncertain: u32,
     /// Infinite tetrahedra, counted when they are numbered.
     pub ghosts: u32,
     /// Entries of the active list that the filter left open in this flip iteration.
-    pub open: u32,
+    pub undecided: u32,
     /// Facets that are not locally Delaunay, found at the end.
     pub not_locally_delaunay: u32,
     /// In the plane: flips so far.
     pub flips_22: u32,
     /// In the plane: edges of the hull.
     pub hull: u32,
+}
+
+impl Counters {
+    /// Returns the flips of all kinds so far.
+    pub(crate) fn flips(&self) -> u32 {
+        self.flips_23 + self.flips_32 + self.flips_22
+    }
 }
 
 /// A flip was put off because no slot was found for its third tetrahedron.
@@ -166,6 +173,8 @@ pub struct Params {
     /// In space: after a flip iteration with at least this many active tetrahedra, the next ones are found by looking at
     /// all slots (§4.2).
     pub compact_from: u32,
+    /// In 2D: 1 for a mesh that is clockwise with *y* up, 0 for one that is counter-clockwise.
+    pub clockwise: u32,
 }
 
 /// Words of [`Params`], after which the [`Counters`] stand in the buffer `control`.

@@ -15,7 +15,11 @@ use bytemuck::{Pod, Zeroable};
 use crate::gpu::primitives::sort::{BoundSort, Sort};
 use crate::{
     Error, Points,
-    gpu::{Gpu, Kernel, Recorder, Storage, workgroups},
+    gpu::{
+        Gpu, Kernel, Recorder, Storage,
+        dim::{Dim, Dimension},
+        workgroups,
+    },
     input::lattice::{Lattice, Width},
 };
 
@@ -68,14 +72,13 @@ pub struct InputCounts {
 /// The bits of a sort key: 30 for the place along the curve, and the largest for points that others stand for.
 const KEY_BITS: u32 = 32;
 
-/// The kernels, for points of `D` coordinates: 3, or 2 in the plane.
+/// The kernels, for points of `D` coordinates.
 #[derive(Debug)]
-pub struct PointStage<const D: usize = 3> {
+pub struct PointStage<const D: usize> {
     unite: Kernel,
     keys: Kernel,
     gather: Kernel,
     sort: Sort,
-    vertex_words: fn(Width) -> usize,
 }
 
 /// What is to become vertices.
@@ -121,16 +124,18 @@ pub struct PointBuffers {
     bytes: u64,
 }
 
-impl<const D: usize> PointStage<D> {
-    /// Compiles the kernels, with `gather` for the last, which writes vertices of so many words.
-    pub fn new(gpu: &Gpu, gather: &str, vertex_words: fn(Width) -> usize) -> Self {
-        let kernel = |name| Kernel::new(gpu, name, Width::Narrow, &[]);
+impl<const D: usize> PointStage<D>
+where
+    Dimension<D>: Dim<D>,
+{
+    /// Compiles the kernels.
+    pub fn new(gpu: &Gpu) -> Self {
+        let kernel = |name: &str| Kernel::new(gpu, name, Width::Narrow, &[]);
         PointStage {
             unite: kernel("points_unite"),
             keys: kernel("points_keys"),
-            gather: kernel(gather),
+            gather: kernel(&format!("{}points_gather", Dimension::<D>::SHADERS)),
             sort: Sort::new(gpu),
-            vertex_words,
         }
     }
 
@@ -208,7 +213,7 @@ impl<const D: usize> PointStage<D> {
         let mut scratch = Storage::new(gpu, "sort scratch", n)?;
         let merged_into = Storage::new(gpu, "merged points", n)?;
         let counts = Storage::new(gpu, "point counts", 1)?;
-        let vertex_words = (self.vertex_words)(width);
+        let vertex_words = Dimension::<D>::vertex_words(width);
         let vertices = Storage::new(gpu, "vertices", (n + 1) * vertex_words)?;
         let [unite, keys, gather]: [&[&wgpu::Buffer]; 3] = [
             &[params.buffer(), input.buffer(), table.buffer(), slots.buffer()],

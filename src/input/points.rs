@@ -5,8 +5,21 @@ use crate::{
     parallel::{self, Threads},
 };
 
-/// Borrowed input points of `D` coordinates each: `[x, y, z]`, or `[x, y]` in the plane. Every finite `f32` and `f64` is
-/// taken at its exact value.
+/// Borrowed input points of `D` coordinates each: `[x, y, z]` in 3D, `[x, y]` in 2D.
+///
+/// Every finite `f32` and `f64` is taken at its exact value. Slices, vectors and arrays of `[f32; D]` and `[f64; D]` convert
+/// into it, so functions that take `impl Into<Points>` accept them directly. The features `glam` and `nalgebra` add these
+/// crates' points and vectors, and `ndarray` adds `TryFrom` for arrays with one point per row; none of them copies. For points
+/// of type [`mint`](https://docs.rs/mint) see [`from_mint3`](crate::from_mint3).
+///
+/// # Examples
+///
+/// ```
+/// use gdel::Points;
+///
+/// let points: Points<'_, 2> = (&[[0.0, 0.0], [1.0, 0.5f32]]).into();
+/// assert_eq!((points.len(), points.get(1)), (2, [1.0, 0.5]));
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub enum Points<'a, const D: usize = 3> {
     /// Single precision.
@@ -15,7 +28,17 @@ pub enum Points<'a, const D: usize = 3> {
     F64(&'a [[f64; D]]),
 }
 
-/// Points of the plane.
+/// Borrowed input points in 2D.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::Points2;
+///
+/// let points = Points2::from_interleaved_f64(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0])?;
+/// assert_eq!(gdel::delaunay2d(points)?.triangles.len(), 1);
+/// # Ok::<(), gdel::Error>(())
+/// ```
 pub type Points2<'a> = Points<'a, 2>;
 
 impl<'a, const D: usize> Points<'a, D> {
@@ -133,7 +156,88 @@ macro_rules! from_slices {
         }
     )*};
 }
+from_slices!([f32; 2] => F32, 2; [f64; 2] => F64, 2; [f32; 3] => F32, 3; [f64; 3] => F64, 3);
+#[cfg(feature = "glam")]
+from_slices!(glam::Vec2 => F32, 2; glam::DVec2 => F64, 2; glam::Vec3 => F32, 3; glam::DVec3 => F64, 3);
+#[cfg(feature = "nalgebra")]
 from_slices!(
-    [f32; 3] => F32, 3; [f64; 3] => F64, 3; glam::Vec3 => F32, 3; glam::DVec3 => F64, 3;
-    [f32; 2] => F32, 2; [f64; 2] => F64, 2; glam::Vec2 => F32, 2; glam::DVec2 => F64, 2
+    nalgebra::Point2<f32> => F32, 2; nalgebra::Point2<f64> => F64, 2;
+    nalgebra::Point3<f32> => F32, 3; nalgebra::Point3<f64> => F64, 3;
+    nalgebra::Vector2<f32> => F32, 2; nalgebra::Vector2<f64> => F64, 2;
+    nalgebra::Vector3<f32> => F32, 3; nalgebra::Vector3<f64> => F64, 3
 );
+
+#[cfg(feature = "ndarray")]
+mod arrays {
+    use super::{Points, whole_points};
+    use crate::Error;
+    use ndarray::{ArrayBase, ArrayView2, Data, Ix2};
+
+    /// The rows of an array that lie in memory one after the other.
+    fn rows<'a, T, const D: usize>(array: ArrayView2<'a, T>) -> Result<&'a [[T; D]], Error> {
+        let (rows, columns) = array.dim();
+        if columns != D {
+            return Err(Error::ArrayShape { rows, columns, dimension: D });
+        }
+        whole_points(array.to_slice().ok_or(Error::ArrayLayout)?)
+    }
+
+    macro_rules! try_from_arrays {
+        ($($number:ty => $variant:ident),*) => {$(
+            /// Takes one point per row, without a copy.
+            ///
+            /// Fails with [`Error::ArrayShape`] or [`Error::ArrayLayout`] if the rows are not contiguous points.
+            impl<'a, const D: usize> TryFrom<ArrayView2<'a, $number>> for Points<'a, D> {
+                type Error = Error;
+
+                fn try_from(array: ArrayView2<'a, $number>) -> Result<Self, Error> {
+                    rows(array).map(Points::$variant)
+                }
+            }
+
+            /// Takes one point per row, without a copy.
+            ///
+            /// Fails with [`Error::ArrayShape`] or [`Error::ArrayLayout`] if the rows are not contiguous points.
+            impl<'a, S: Data<Elem = $number>, const D: usize> TryFrom<&'a ArrayBase<S, Ix2>> for Points<'a, D> {
+                type Error = Error;
+
+                fn try_from(array: &'a ArrayBase<S, Ix2>) -> Result<Self, Error> {
+                    rows(array.view()).map(Points::$variant)
+                }
+            }
+        )*};
+    }
+    try_from_arrays!(f32 => F32, f64 => F64);
+}
+
+/// Copies 3D points of any type that converts into [`mint::Point3`], the type through which mathematics libraries exchange
+/// points.
+///
+/// # Examples
+///
+/// ```
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]].map(mint::Point3::from);
+/// let mesh = gdel::delaunay3d(&gdel::from_mint3(points))?;
+/// assert_eq!(mesh.tetrahedra.len(), 1);
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[cfg(feature = "mint")]
+pub fn from_mint3<T>(points: impl IntoIterator<Item = impl Into<mint::Point3<T>>>) -> Vec<[T; 3]> {
+    points.into_iter().map(|point| point.into().into()).collect()
+}
+
+/// Copies 2D points of any type that converts into [`mint::Point2`], the type through which mathematics libraries exchange
+/// points.
+///
+/// # Examples
+///
+/// ```
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]].map(mint::Point2::from);
+/// let mesh = gdel::delaunay2d(&gdel::from_mint2(points))?;
+/// assert_eq!(mesh.triangles.len(), 1);
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[cfg(feature = "mint")]
+pub fn from_mint2<T>(points: impl IntoIterator<Item = impl Into<mint::Point2<T>>>) -> Vec<[T; 2]> {
+    points.into_iter().map(|point| point.into().into()).collect()
+}

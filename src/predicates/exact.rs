@@ -67,7 +67,16 @@ fn determinant(rows: &[&[BigInt]]) -> BigInt {
     only[0].clone()
 }
 
-/// The sign of det(b − a, c − a), exactly, for all finite coordinates: positive when a, b, c turn counter-clockwise.
+/// Returns the sign of det(b − a, c − a), exactly, for all finite coordinates: positive if a, b, c turn counter-clockwise with
+/// *y* up, zero if they lie on a line.
+///
+/// # Examples
+///
+/// ```
+/// assert_eq!(gdel::orient2d([0.0, 0.0], [1.0, 0.0], [0.0, 1.0]), 1);
+/// // Rounded arithmetic would see a triangle here.
+/// assert_eq!(gdel::orient2d([0.1, 0.1], [0.3, 0.3], [0.7, 0.7]), 0);
+/// ```
 pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     if expansions_are_exact(&[a, b, c]) {
         let [a, b, c] = [a, b, c].map(|[x, y]| Coord { x, y });
@@ -76,7 +85,17 @@ pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     big_sign(&[&b, &c, &a], false)
 }
 
-/// Positive when d is inside the circle through the counter-clockwise a, b, c; exactly, for all finite coordinates.
+/// Returns 1 if d is inside the circle through the counter-clockwise a, b, c, 0 if it is on it, −1 if it is outside; exactly,
+/// for all finite coordinates. The sign changes with the orientation of a, b, c.
+///
+/// # Examples
+///
+/// ```
+/// let [a, b, c] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+/// assert_eq!(gdel::incircle(a, b, c, [0.5, 0.5]), 1);
+/// assert_eq!(gdel::incircle(a, b, c, [0.0, 1.0]), 0);
+/// assert_eq!(gdel::incircle(a, b, c, [0.0, 1.0f64.next_up()]), -1);
+/// ```
 pub fn incircle(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Sign {
     if expansions_are_exact(&[a, b, c, d]) {
         let [a, b, c, d] = [a, b, c, d].map(|[x, y]| Coord { x, y });
@@ -85,7 +104,17 @@ pub fn incircle(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Sign {
     big_sign(&[&a, &b, &c, &d], true)
 }
 
-/// The sign of det(b − a, c − a, d − a), exactly, for all finite coordinates.
+/// Returns the sign of det(b − a, c − a, d − a), exactly, for all finite coordinates: positive if a, b, c turn
+/// counter-clockwise as seen from d, zero if all lie on a plane. (Shewchuk's `orient3d` has the opposite sign.)
+///
+/// # Examples
+///
+/// ```
+/// let [a, b, c] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+/// assert_eq!(gdel::orient3d(a, b, c, [0.0, 0.0, 1.0]), 1);
+/// assert_eq!(gdel::orient3d(a, b, c, [5.0, 5.0, 0.0]), 0);
+/// assert_eq!(gdel::orient3d(a, b, c, [5.0, 5.0, -1e-300]), -1);
+/// ```
 pub fn orient3d(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> Sign {
     if expansions_are_exact(&[a, b, c, d]) {
         let [a, b, c, d] = [a, b, c, d].map(|[x, y, z]| Coord3D { x, y, z });
@@ -94,7 +123,17 @@ pub fn orient3d(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> Sign {
     big_sign(&[&b, &c, &d, &a], false)
 }
 
-/// Positive when e is inside the sphere through the positively oriented a, b, c, d; exactly, for all finite coordinates.
+/// Returns 1 if e is inside the sphere through the positively oriented a, b, c, d, 0 if it is on it, −1 if it is outside;
+/// exactly, for all finite coordinates. The sign changes with the orientation of a, b, c, d: see [`orient3d`].
+///
+/// # Examples
+///
+/// ```
+/// let [a, b, c, d] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// assert_eq!(gdel::insphere(a, b, c, d, [0.5, 0.5, 0.5]), 1);
+/// assert_eq!(gdel::insphere(a, b, c, d, [1.0, 1.0, 1.0]), 0);
+/// assert_eq!(gdel::insphere(a, b, c, d, [1.0, 1.0, 1.0f64.next_up()]), -1);
+/// ```
 pub fn insphere(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3], e: [f64; 3]) -> Sign {
     if expansions_are_exact(&[a, b, c, d, e]) {
         let [a, b, c, d, e] = [a, b, c, d, e].map(|[x, y, z]| Coord3D { x, y, z });

@@ -20,5 +20,12 @@ pub mod symbolic;
 pub use exact::{collinear, incircle, insphere, orient2d, orient3d};
 pub use symbolic::{incircle_symbolic, insphere_symbolic};
 
-/// −1, 0 or 1.
+/// The sign of an exact value: −1, 0 or 1.
+///
+/// # Examples
+///
+/// ```
+/// let sign: gdel::Sign = gdel::orient2d([0.0, 0.0], [1.0, 0.0], [2.0, 0.0]);
+/// assert_eq!(sign, 0);
+/// ```
 pub type Sign = i8;

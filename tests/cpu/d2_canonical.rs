@@ -3,16 +3,20 @@
 
 use crate::oracle::{Definition2, definition2};
 use gdel::{
-    Mesh2, Options,
-    d2::{
-        Triangulation2,
-        cpu::delaunay2d_in_order,
-        lawson::{Aborted, NearDelaunay2, Outcome, lawson},
-        verify::verify2d,
+    Mesh2,
+    internals::{
+        Options, Winding,
+        d2::{
+            Triangulation2,
+            cpu::delaunay2d_in_order,
+            lawson::{Aborted, NearDelaunay2, Outcome, lawson},
+        },
+        index::NONE,
+        input::{lattice::Lattice, order::Order},
+        mesh,
+        predicates::filter::PredicateContext2,
     },
-    index::NONE,
-    input::{lattice::Lattice, order::Order},
-    predicates::filter::PredicateContext2,
+    verify::verify2d,
 };
 use proptest::prelude::*;
 use rand_pcg::{
@@ -37,12 +41,16 @@ fn check(points: &[[f64; 2]]) -> Result<(), TestCaseError> {
     check_flips(points, &expected)
 }
 
-/// What delaunator's documentation says of `triangles`, `halfedges` and `hull`.
+/// What the documentation of [`Mesh2`] says of `triangles`, `halfedges` and `hull`.
 fn check_layout(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), TestCaseError> {
     let triangles = mesh.triangles.as_flattened();
     let halfedges = mesh.halfedges.as_flattened();
     let next = |e: usize| if e % 3 == 2 { e - 2 } else { e + 1 };
     let mut hull_edges = 0;
+    for &triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|v| points[v as usize]);
+        prop_assert_eq!(gdel::orient2d(a, b, c), 1);
+    }
     for e in 0..halfedges.len() {
         let Ok(reference) = usize::try_from(halfedges[e]) else {
             prop_assert_eq!(halfedges[e], NONE);
@@ -60,7 +68,7 @@ fn check_layout(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), TestCaseError> 
     } else {
         let ascending = mesh.hull.windows(2).all(|pair| points[pair[0] as usize] < points[pair[1] as usize]);
         prop_assert!(ascending, "{:?}", mesh.hull);
-        prop_assert_eq!(mesh.hull.len(), points.len() - mesh.duplicates());
+        prop_assert_eq!(mesh.hull.len(), points.len() - mesh.duplicate_count());
     }
     Ok(())
 }
@@ -127,9 +135,8 @@ fn check_flips(points: &[[f64; 2]], expected: &Definition2) -> Result<(), TestCa
     match lawson(&vertices, near, 10_000, &|_| Ok(()))? {
         Outcome::Delaunay(triangulation, _) => {
             let names: Vec<u32> = (0..vertices.len() as u32).map(|v| vertices.input_index(v)).collect();
-            let (triangles, ..) = triangulation.into_mesh(&names);
-            let mesh = Mesh2 { triangles, ..Mesh2::default() };
-            prop_assert_eq!(mesh.canonical(), expected.triangles.clone());
+            let (triangles, ..) = triangulation.into_mesh(&names, Winding::default());
+            prop_assert_eq!(mesh::canonical(&triangles), expected.triangles.clone());
             Ok(())
         }
         Outcome::Aborted(why) => Err(TestCaseError::fail(format!("flips gave up: {why:?}"))),
@@ -141,10 +148,14 @@ fn check_flips(points: &[[f64; 2]], expected: &Definition2) -> Result<(), TestCa
 fn from_mesh_and_back() {
     let line_and_point = vec![[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [1.0, 1.0]];
     let grid = (0..30).map(|i| [i % 6, i / 6].map(f64::from)).collect();
-    for points in [line_and_point, grid, vec![[0.0, 0.0], [2.0, 1.0], [1.0, 3.0]]] {
-        let mesh = delaunay2d_in_order((&points).into(), &Options::default(), Order::default()).unwrap();
+    let windings = [Winding::CounterClockwise, Winding::Clockwise];
+    let inputs = [line_and_point, grid, vec![[0.0, 0.0], [2.0, 1.0], [1.0, 3.0]]];
+    for (points, winding) in inputs.iter().flat_map(|points| windings.map(|winding| (points, winding))) {
+        let options = Options { winding, ..Options::default() };
+        let mesh = delaunay2d_in_order(points.into(), &options, Order::default()).unwrap();
         let n = points.len() as u32;
-        let triangulation = Triangulation2::from_mesh(mesh.triangles.clone(), mesh.halfedges.clone(), &mesh.hull, n);
+        let (triangles, halfedges) = (mesh.triangles.clone(), mesh.halfedges.clone());
+        let triangulation = Triangulation2::from_mesh(triangles, halfedges, &mesh.hull, n, winding);
         let triangles = triangulation.triangles();
         assert_eq!(triangles.len(), 2 * points.len() - 2);
         for (t, near) in triangulation.neighbors().iter().enumerate() {
@@ -157,7 +168,7 @@ fn from_mesh_and_back() {
             }
         }
         let names: Vec<u32> = (0..n).collect();
-        assert_eq!(triangulation.into_mesh(&names), (mesh.triangles, mesh.halfedges, mesh.hull));
+        assert_eq!(triangulation.into_mesh(&names, winding), (mesh.triangles, mesh.halfedges, mesh.hull));
     }
 }
 
@@ -171,10 +182,9 @@ fn check_flips_after_rounding(points: &[[f64; 2]]) -> Result<bool, TestCaseError
         return Ok(false);
     }
     let infinite = points.len() as u32;
-    // Counter-clockwise, as the mesh is not.
-    let mut triangles: Vec<_> = coarse.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
+    let mut triangles = coarse.triangles.clone();
     let next_on_hull = coarse.hull.iter().cycle().skip(1);
-    triangles.extend(coarse.hull.iter().zip(next_on_hull).map(|(&a, &b)| [infinite, a, b]));
+    triangles.extend(coarse.hull.iter().zip(next_on_hull).map(|(&a, &b)| [infinite, b, a]));
     let missing = (0..infinite).filter_map(|i| {
         let shares = coarse.duplicate_of[i as usize];
         let at = triangles.iter().position(|t| t.contains(&(shares as u32)));
@@ -186,8 +196,8 @@ fn check_flips_after_rounding(points: &[[f64; 2]]) -> Result<bool, TestCaseError
     let vertices = PredicateContext2::new(points.into(), &Lattice::fit(points.into()), (0..infinite).collect());
     let Outcome::Delaunay(triangulation, _) = lawson(&vertices, near, 1_000, &|_| Ok(()))? else { return Ok(false) };
     let names: Vec<u32> = (0..infinite).collect();
-    let (triangles, ..) = triangulation.into_mesh(&names);
-    prop_assert_eq!(Mesh2 { triangles, ..Mesh2::default() }.canonical(), expected.canonical());
+    let (triangles, ..) = triangulation.into_mesh(&names, Winding::default());
+    prop_assert_eq!(mesh::canonical(&triangles), expected.canonical());
     Ok(true)
 }
 
@@ -297,9 +307,9 @@ fn flat_triangles_on_the_hull() {
     let Outcome::Delaunay(triangulation, flips) = lawson(&vertices, near, 100, &|_| Ok(())).unwrap() else {
         panic!("gave up");
     };
-    let (triangles, _, hull) = triangulation.into_mesh(&[0, 1, 2, 3, 4]);
-    assert_eq!(Mesh2 { triangles, ..Mesh2::default() }.canonical(), definition2(&points).triangles);
-    assert_eq!((hull, flips), (vec![0, 4, 3, 2, 1], 2));
+    let (triangles, _, hull) = triangulation.into_mesh(&[0, 1, 2, 3, 4], Winding::default());
+    assert_eq!(mesh::canonical(&triangles), definition2(&points).triangles);
+    assert_eq!((hull, flips), (vec![0, 1, 2, 3, 4], 2));
 }
 
 #[test]

@@ -2,10 +2,9 @@
 
 use crate::oracle::{Definition, definition};
 use gdel::{
-    Options,
-    d3::{cpu::delaunay3d_in_order, verify::verify3d},
     delaunay3d,
-    input::order::Order,
+    internals::{Options, d3::cpu::delaunay3d_in_order, input::order::Order},
+    verify::verify3d,
 };
 use proptest::prelude::*;
 
@@ -152,7 +151,7 @@ fn fixtures() {
         let points: Vec<[f64; 3]> = rows(&path);
         let expected: Vec<[u32; 4]> = rows(&path.with_extension("tetrahedra"));
         assert!(!expected.is_empty());
-        assert_eq!(delaunay3d(&points, &Options::default()).unwrap().canonical(), expected, "{}", path.display());
+        assert_eq!(delaunay3d(&points).unwrap().canonical(), expected, "{}", path.display());
         assert_eq!(definition(&points).tetrahedra, expected, "{}", path.display());
         count += 1;
     }

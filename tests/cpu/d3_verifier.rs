@@ -7,13 +7,12 @@ use crate::broken::{
 };
 use crate::oracle::{self, definition};
 use gdel::{
-    Error, Mesh3, Options,
-    d3::{
-        generate::{Distribution, generate},
-        verify::{MeshView, verify3d},
+    Error, Mesh3, delaunay3d,
+    internals::{
+        d3::generate::{Distribution, generate},
+        mesh,
     },
-    delaunay3d,
-    verify::{Check, Outcome},
+    verify::{Check, MeshView, Outcome, verify3d},
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;
@@ -30,7 +29,7 @@ fn cube() -> Vec<[f64; 3]> {
 }
 
 fn right(points: &[[f64; 3]]) -> Mesh3 {
-    delaunay3d(points, &Options::default()).unwrap()
+    delaunay3d(points).unwrap()
 }
 
 type BrokenMeshes = broken::BrokenMeshes<[f64; 3], [u32; 4], Mesh3>;
@@ -254,7 +253,8 @@ fn the_order_of_tetrahedra_and_vertices_is_free() {
     for (i, triangle) in mesh.hull.iter_mut().rev().enumerate() {
         triangle.rotate_left(i % 3);
     }
-    let statement = MeshView { hull: Some(&mesh.hull), ..MeshView::of_tetrahedra(&mesh.tetrahedra) };
+    let mut statement = MeshView::of_tetrahedra(&mesh.tetrahedra);
+    statement.hull = Some(&mesh.hull);
     let report = verify3d(&points, statement).unwrap();
     assert!(report.passed(), "{report}");
 }
@@ -310,7 +310,7 @@ fn only_the_definition_passes(points: &[[f64; 3]; 6]) {
         chosen.clear();
         chosen.extend(oriented.iter().enumerate().filter(|(i, _)| set >> i & 1 == 1).map(|(_, t)| *t));
         if verify3d(points, MeshView::of_tetrahedra(&chosen)).unwrap().passed() {
-            passed.push(Mesh3 { tetrahedra: chosen.clone(), ..Mesh3::default() }.canonical());
+            passed.push(mesh::canonical(&chosen));
         }
     }
     assert_eq!(passed, [definition(points).tetrahedra]);
@@ -364,13 +364,11 @@ proptest! {
         duplicate_of in prop::option::of(prop::collection::vec(any::<i32>(), 0..9)),
         dimension in any::<Option<u8>>(),
     ) {
-        let statement = MeshView {
-            tetrahedra: &tetrahedra,
-            neighbors: neighbors.as_deref(),
-            hull: hull.as_deref(),
-            duplicate_of: duplicate_of.as_deref(),
-            dimension,
-        };
+        let mut statement = MeshView::of_tetrahedra(&tetrahedra);
+        statement.neighbors = neighbors.as_deref();
+        statement.hull = hull.as_deref();
+        statement.duplicate_of = duplicate_of.as_deref();
+        statement.dimension = dimension;
         let report = verify3d(&points, statement).unwrap();
         prop_assert_eq!(report.outcomes.len(), Check::ALL.len());
         prop_assert_eq!(report.passed(), report.failures().next().is_none());

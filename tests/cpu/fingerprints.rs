@@ -2,9 +2,8 @@
 //! engines with the same file.
 
 use gdel::{
-    Backend, Options,
-    d3::generate::{Distribution, generate},
-    delaunay3d,
+    Backend, Triangulator,
+    internals::d3::generate::{Distribution, generate},
 };
 
 /// FNV-1a, 64 bits, over the canonical tetrahedra's indices as little-endian words.
@@ -25,7 +24,7 @@ fn meshes_have_their_fingerprints() {
             let &[name, count, seed, ..] = &fields[..] else { panic!("{line}") };
             let distribution = Distribution::ALL.into_iter().find(|d| d.name() == name).unwrap();
             let points = generate(distribution, count.parse().unwrap(), seed.parse().unwrap());
-            let mesh = delaunay3d(&points, &Options { backend: Backend::Cpu, ..Options::default() }).unwrap();
+            let mesh = Triangulator::new().backend(Backend::Cpu).delaunay3d(&points).unwrap();
             let canonical = mesh.canonical();
             found += &format!("{name} {count} {seed} {} {:016x}", canonical.len(), fingerprint(&canonical));
         }

@@ -3,13 +3,16 @@
 
 use crate::clouds::{self, grid, shuffled, survey};
 use gdel::{
-    Mesh3, Options, Points,
-    d3::{
-        cpu::delaunay3d_in_order,
-        generate::{Distribution, generate},
-        verify::verify3d,
+    Mesh3, Points,
+    internals::{
+        Options,
+        d3::{
+            cpu::delaunay3d_in_order,
+            generate::{Distribution, generate},
+        },
+        input::order::Order,
     },
-    input::order::Order,
+    verify::verify3d,
 };
 
 /// Verifies the mesh of the points, and that `shuffles` random insertion orders give the same tetrahedra.
@@ -100,7 +103,7 @@ fn random_subset_of_a_512_grid() {
 #[test]
 fn random_points_of_a_64_grid_with_many_duplicates() {
     let mesh = check(&clouds::grid_64_with_duplicates(100_000), 2);
-    assert!(mesh.duplicates() > 10_000);
+    assert!(mesh.duplicate_count() > 10_000);
 }
 
 #[test]
@@ -144,7 +147,7 @@ fn flat_ground_offset_by_1e7() {
 #[test]
 fn thirty_percent_duplicates() {
     let mesh = check(&clouds::thirty_percent_duplicates(2_000), 3);
-    assert_eq!(mesh.duplicates(), 6_000);
+    assert_eq!(mesh.duplicate_count(), 6_000);
 }
 
 #[test]
@@ -160,7 +163,7 @@ fn zero_and_minus_zero_are_the_same_coordinate() {
 #[test]
 fn bunny() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/bunny.ply");
-    let cloud = gdel::io::files::read_points(std::path::Path::new(path)).unwrap();
+    let cloud = gdel::internals::io::files::read_points(std::path::Path::new(path)).unwrap();
     let mesh = check(&cloud, 3);
     assert_eq!(mesh.duplicate_of.len(), 35_947);
 }
@@ -170,9 +173,10 @@ fn bunny() {
 #[ignore = "needs scripts/fetch-dragon.sh, and minutes"]
 fn dragon() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/.cache/dragon.ply");
-    let cloud = gdel::io::files::read_points(std::path::Path::new(path)).expect("run scripts/fetch-dragon.sh");
+    let cloud =
+        gdel::internals::io::files::read_points(std::path::Path::new(path)).expect("run scripts/fetch-dragon.sh");
     let mesh = check(&cloud, 1);
-    assert_eq!(mesh.duplicates(), 2_100);
+    assert_eq!(mesh.duplicate_count(), 2_100);
 }
 
 #[test]

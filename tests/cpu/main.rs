@@ -5,10 +5,12 @@ mod broken;
 mod clouds;
 mod oracle;
 
+mod conversions;
 mod d2_canonical;
 mod d2_verifier;
 mod d3_canonical;
 mod d3_verifier;
 mod fingerprints;
 mod inputs;
+mod meshes;
 mod predicates;

@@ -3,8 +3,10 @@
 use crate::oracle::{in_circumsphere, in_circumsphere_symbolic, integers, orientation, sign};
 use gdel::{
     Points,
-    input::lattice::Lattice,
-    predicates::{collinear, filter::PredicateContext, incircle, insphere, insphere_symbolic, orient2d, orient3d},
+    internals::{
+        input::lattice::Lattice,
+        predicates::{collinear, filter::PredicateContext, incircle, insphere, insphere_symbolic, orient2d, orient3d},
+    },
 };
 use num_bigint::BigInt;
 use rand_pcg::{

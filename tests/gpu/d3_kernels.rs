@@ -6,17 +6,17 @@
 use std::collections::BTreeSet;
 
 use crate::kernels::{Kernels, shuffled};
-use gdel::d3::gpu::start::first_tetrahedron;
-use gdel::gpu::layout::{CHECK, Counters, DONE, NONE};
-use gdel::gpu::points::{DevicePoints, InputCounts};
-use gdel::input::lattice::Width;
-use gdel::reference::d3::{self as reference, State, predicates::Vertex};
-use gdel::{d3::gpu::buffers::Buffers, gpu::layout::Pick};
-use gdel::{d3::gpu::vertex, gpu::Storage};
+use gdel::internals::d3::gpu::vertex;
+use gdel::internals::gpu::layout::{CHECK, Counters, DONE, NONE};
+use gdel::internals::gpu::points::{DevicePoints, InputCounts};
+use gdel::internals::gpu::start::first_simplex;
+use gdel::internals::gpu::{Storage, layout::Pick, phase1::Buffers};
+use gdel::internals::input::lattice::Width;
+use gdel::internals::reference::d3::{self as reference, State, predicates::Vertex};
 
 struct Device {
     kernels: Kernels,
-    buffers: Buffers,
+    buffers: Buffers<3>,
     failed_points: Storage<u32>,
 }
 
@@ -26,7 +26,7 @@ impl Device {
         let gpu = &kernels.gpu;
         let count = state.params.infinite as usize;
         let points = DevicePoints {
-            vertices: Storage::new(gpu, "vertices", 4 * (count + 1) * vertex::stride(width)).unwrap(),
+            vertices: Storage::new(gpu, "vertices", (count + 1) * vertex::words_per_vertex(width)).unwrap(),
             pairs: Storage::with_contents(gpu, "pairs", &vec![[0; 2]; count]).unwrap(),
             merged_into: Storage::new(gpu, "merged", count).unwrap(),
             counts: Storage::with_contents(gpu, "counts", &[InputCounts { found: state.first, ..Default::default() }])
@@ -41,20 +41,20 @@ impl Device {
         let (gpu, b) = (&self.kernels.gpu, &self.buffers);
         let mut words = Vec::new();
         for v in &state.points {
-            vertex::append_words(&mut words, self.kernels.width, v.position, v.index);
+            vertex::append_words(&mut words, self.kernels.width, v.position, v.index, false);
         }
         self.kernels.write_control(&b.control, &state.params, &state.counters);
-        b.points.vertices.write(gpu, 0, words.as_flattened());
-        b.tets.write(gpu, 0, &state.tets);
+        b.points.vertices.write(gpu, 0, &words);
+        b.simplices.write(gpu, 0, &state.tets);
         b.neighbors.write(gpu, 0, &state.neighbors);
         b.status.write(gpu, 0, &state.status);
         b.active.write(gpu, 0, &state.active.concat());
-        b.free.write(gpu, 0, &state.free);
+        b.own.free.write(gpu, 0, &state.free);
         b.messages.write(gpu, 0, &state.messages);
         b.history.write(gpu, 0, &state.history);
         b.waiting.write(gpu, 0, &state.waiting);
         b.scores.write(gpu, 0, &state.scores);
-        b.failed.write(gpu, 0, &state.failed);
+        b.own.failed.write(gpu, 0, &state.failed);
     }
 
     fn download(&self, like: &State) -> State {
@@ -62,16 +62,16 @@ impl Device {
         let active = kernels.read(&b.active);
         let (even, odd) = active.split_at(active.len() / 2);
         State {
-            tets: kernels.read(&b.tets),
+            tets: kernels.read(&b.simplices),
             neighbors: kernels.read(&b.neighbors),
             status: kernels.read(&b.status),
-            free: kernels.read(&b.free),
+            free: kernels.read(&b.own.free),
             messages: kernels.read(&b.messages),
             active: [even.to_vec(), odd.to_vec()],
             history: kernels.read(&b.history),
             waiting: kernels.read(&b.waiting)[..like.waiting.len()].to_vec(),
             scores: kernels.read(&b.scores),
-            failed: kernels.read(&b.failed),
+            failed: kernels.read(&b.own.failed),
             // The references do not count these.
             counters: Counters {
                 exact: like.counters.exact,
@@ -84,10 +84,10 @@ impl Device {
 
     fn bindings(&self, kernel: &str) -> Vec<&wgpu::Buffer> {
         let b = &self.buffers;
-        let (control, vertices, tets) = (b.control.buffer(), b.points.vertices.buffer(), b.tets.buffer());
+        let (control, vertices, tets) = (b.control.buffer(), b.points.vertices.buffer(), b.simplices.buffer());
         let (neighbors, status, active) = (b.neighbors.buffer(), b.status.buffer(), b.active.buffer());
-        let (free, messages, history) = (b.free.buffer(), b.messages.buffer(), b.history.buffer());
-        let (waiting, scores, failed) = (b.waiting.buffer(), b.scores.buffer(), b.failed.buffer());
+        let (free, messages, history) = (b.own.free.buffer(), b.messages.buffer(), b.history.buffer());
+        let (waiting, scores, failed) = (b.waiting.buffer(), b.scores.buffer(), b.own.failed.buffer());
         match kernel {
             "locate" => {
                 let (pairs, counts) = (b.points.pairs.buffer(), b.points.counts.buffer());
@@ -131,7 +131,7 @@ impl Device {
         let device = self.download(state);
         assert_eq!(device.status, state.status, "check");
         assert_eq!(device.active, state.active, "check");
-        assert_eq!(Counters { open: 0, ..device.counters }, state.counters, "check");
+        assert_eq!(Counters { undecided: 0, ..device.counters }, state.counters, "check");
     }
 
     /// The same for a kernel whose results are the same to the last bit.
@@ -176,7 +176,7 @@ fn essence(state: &State) -> (BTreeSet<Vec<u32>>, BTreeSet<Vec<u32>>) {
 }
 
 fn listed(state: &State, half: usize) -> BTreeSet<u32> {
-    state.active[half][..state.counters.listed[half] as usize].iter().map(|a| a.tet).collect()
+    state.active[half][..state.counters.active_len[half] as usize].iter().map(|a| a.tet).collect()
 }
 
 /// The tetrahedra with facets to check.
@@ -186,10 +186,10 @@ fn to_check(state: &State) -> BTreeSet<u32> {
 
 fn compare(width: Width, pick: Pick, compact_from: u32) {
     let positions = shuffled(width, (0..512).map(|i| [i & 7, i >> 3 & 7, i >> 6]).collect(), 250);
-    let start = first_tetrahedron(width, positions.len(), |i| positions[i]).expect("not coplanar");
+    let start = first_simplex(width, positions.len(), |i| positions[i]).expect("not coplanar");
     let mut points: Vec<Vertex> =
         (0..).zip(&positions).map(|(index, &position)| Vertex { position, index: index ^ 0x55 }).collect();
-    points.push(Vertex { position: start.kernel, index: 1000 });
+    points.push(Vertex { position: start.interior_point, index: 1000 });
     let mut state = State::new(width, points, 64, 4096);
     state.params.pick = pick as u32;
     state.params.compact_from = compact_from;
@@ -223,7 +223,7 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
             reference::flip_link(&mut state);
             reference::flip_compact(&mut state);
             let after = device.download(&state);
-            assert!(done > 0 || state.counters.listed[state.half()] == 0, "an iteration without progress");
+            assert!(done > 0 || state.counters.active_len[state.half()] == 0, "an iteration without progress");
             assert_eq!(after.counters, state.counters, "flip");
             assert_eq!(essence(&after), essence(&state), "flip");
             assert_eq!(listed(&after, after.half()), to_check(&after), "flip");
@@ -249,7 +249,7 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
 }
 
 fn half_of(state: &State) -> usize {
-    (state.counters.linking & 1) as usize
+    (state.counters.link_iteration & 1) as usize
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Every shader that can be assembled is valid WGSL, within the limits that every device has.
 
-use gdel::{
+use gdel::internals::{
     d3::gpu::vertex,
     gpu::{
         layout::{self, Active, Counters, FlipNode, Params, Status, Waiting},
@@ -161,8 +161,8 @@ fn phase1_layouts_agree() {
         Counters,
         size_of::<Params>(),
         iteration,
-        linking,
-        listed,
+        link_iteration,
+        active_len,
         round,
         next_node,
         first_node,
@@ -174,10 +174,10 @@ fn phase1_layouts_agree() {
         iterations,
         visits,
         failed,
-        aside,
+        merged,
         uncertain,
         ghosts,
-        open,
+        undecided,
         not_locally_delaunay,
         flips_22,
         hull
@@ -209,14 +209,14 @@ fn plane_layouts_agree() {
         @group(0) @binding(0) var<storage, read_write> history: array<EdgeFlip>;
         @group(0) @binding(1) var<storage, read_write> questions: array<UncertainTest>;";
     let (module, _) = validate("layout", &shader::assemble_text(wgsl, Width::Narrow));
-    use gdel::d2::gpu::layout::{EdgeFlip, UncertainTest};
+    use gdel::internals::d2::gpu::layout::{EdgeFlip, UncertainTest};
     assert_layout!(module, EdgeFlip { edge, triangles, next });
     assert_layout!(module, UncertainTest { triangle, beyond });
     let constants = [
-        ("PLANE_BLOCK", gdel::d2::gpu::layout::PLANE_BLOCK),
-        ("FLIP_22", gdel::d2::gpu::layout::FLIP_22),
-        ("COUNTER_CLOCKWISE", gdel::d2::gpu::layout::COUNTER_CLOCKWISE),
-        ("FLAT", gdel::d2::gpu::layout::FLAT),
+        ("PLANE_BLOCK", gdel::internals::d2::gpu::layout::PLANE_BLOCK),
+        ("FLIP_22", gdel::internals::d2::gpu::layout::FLIP_22),
+        ("COUNTER_CLOCKWISE", gdel::internals::d2::gpu::layout::COUNTER_CLOCKWISE),
+        ("FLAT", gdel::internals::d2::gpu::layout::FLAT),
     ];
     for (name, value) in constants {
         assert_eq!(constant(&module, name), value, "{name}");

@@ -2,7 +2,7 @@
 
 use crate::oracle;
 use bytemuck::Pod;
-use gdel::{
+use gdel::internals::{
     gpu::{AdapterChoice, Gpu, Kernel, Readback, Recorder, Storage, shader, workgroups},
     input::lattice::Width,
     predicates::Sign,

@@ -1,6 +1,6 @@
 //! A triangulation that can be spoilt: splits and flips on tetrahedra found by their facets.
 
-use gdel::{
+use gdel::internals::{
     d3::{
         mesh::FACETS,
         splay::{NONE, NearDelaunay},

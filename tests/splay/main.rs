@@ -8,17 +8,20 @@ mod phase1;
 
 use flips::{Soup, found_out, near};
 use gdel::{
-    Options, Points,
-    d3::{
-        cpu,
-        splay::{Aborted, NONE, NearDelaunay, Outcome, splay},
-        triangulation::FiniteMesh,
-        verify::{MeshView, verify3d},
+    Points,
+    internals::{
+        Options,
+        d3::{
+            cpu,
+            splay::{Aborted, NONE, NearDelaunay, Outcome, splay},
+            triangulation::FiniteMesh,
+        },
+        input::lattice::Lattice,
+        parallel::Threads,
+        predicates::filter::PredicateContext,
     },
-    input::lattice::Lattice,
-    parallel::Threads,
-    predicates::filter::PredicateContext,
     stats::SplayStats,
+    verify::{MeshView, verify3d},
 };
 use inputs::Cloud;
 use rand::{RngExt, seq::SliceRandom};
@@ -60,7 +63,9 @@ fn splayed(name: &str, vertices: &PredicateContext<'_>, near: NearDelaunay) -> (
     let FiniteMesh { tetrahedra, neighbors, hull } = mesh.into_mesh(Some(&names), Threads::All);
     let mut points = vec![[0.0; 3]; names.len()];
     names.iter().zip(0..).for_each(|(&i, v)| points[i as usize] = vertices.point(v));
-    let statement = MeshView { neighbors: Some(&neighbors), hull: Some(&hull), ..MeshView::of_tetrahedra(&tetrahedra) };
+    let mut statement = MeshView::of_tetrahedra(&tetrahedra);
+    statement.neighbors = Some(&neighbors);
+    statement.hull = Some(&hull);
     let report = verify3d(&points, statement).unwrap();
     assert!(report.passed(), "{name}: {:?}", report.failures().next());
     (tetrahedra, stats)

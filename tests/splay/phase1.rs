@@ -2,16 +2,18 @@
 
 use crate::{check, exact, flips::flat_or_inverted, inputs, inputs::Cloud};
 use gdel::{
-    d3::{
-        splay::{NONE, NearDelaunay},
-        triangulation::Triangulation,
-    },
-    input::lattice::{Lattice, Width},
-    predicates::filter::PredicateContext,
-    reference::d3::{
-        State,
-        predicates::Vertex,
-        run::{Settings, run},
+    internals::{
+        d3::{
+            splay::{NONE, NearDelaunay},
+            triangulation::Triangulation,
+        },
+        input::lattice::{Lattice, Width},
+        predicates::filter::PredicateContext,
+        reference::d3::{
+            State,
+            predicates::Vertex,
+            run::{Settings, run},
+        },
     },
     stats::SplayStats,
 };

@@ -1,8 +1,10 @@
 //! Flipping: check, commit, link (§3.1, §4.2).
 
 use crate::{
-    d3::gpu::buffers::Buffers,
-    gpu::{Gpu, Kernel, Recorder},
+    gpu::{
+        Gpu, Kernel, Recorder,
+        phase1::{Buffers, FlipPlan},
+    },
     input::lattice::Width,
 };
 
@@ -43,9 +45,9 @@ impl Flip {
     }
 
     /// The bind groups for these buffers.
-    pub fn bind(&self, gpu: &Gpu, b: &Buffers) -> BoundFlip {
-        let (control, tets, neighbors) = (b.control.buffer(), b.tets.buffer(), b.neighbors.buffer());
-        let (status, active, free) = (b.status.buffer(), b.active.buffer(), b.free.buffer());
+    pub fn bind(&self, gpu: &Gpu, b: &Buffers<3>) -> BoundFlip {
+        let (control, tets, neighbors) = (b.control.buffer(), b.simplices.buffer(), b.neighbors.buffer());
+        let (status, active, free) = (b.status.buffer(), b.active.buffer(), b.own.free.buffer());
         let messages = b.messages.buffer();
         // Messages pass between commit and link; before them, their buffer has the list of open entries.
         let check = [control, b.points.vertices.buffer(), tets, neighbors, status, active, messages];
@@ -61,18 +63,9 @@ impl Flip {
         }
     }
 
-    /// Records flip iterations. Those that find too few active tetrahedra do nothing. What the filter leaves open is decided
-    /// in every `exact_every`th, and in the last one. `compacts` says whether one may have so many active tetrahedra that the
-    /// next ones are found by compaction (§4.2).
-    pub fn record(
-        &self,
-        recorder: &mut Recorder<'_>,
-        bound: &BoundFlip,
-        iterations: u32,
-        exact_every: u32,
-        compacts: bool,
-        workgroups: u32,
-    ) {
+    /// Records flip iterations. Those that find too few active tetrahedra do nothing.
+    pub fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundFlip, plan: FlipPlan, workgroups: u32) {
+        let FlipPlan { iterations, exact_every, compacts } = plan;
         for i in 1..=iterations {
             recorder.stage("flip: check");
             recorder.dispatch(&self.check, &bound.check, workgroups);

@@ -1,8 +1,7 @@
 //! Insertion: the first tetrahedra, picking, splitting, and the points inside (§3.1).
 
 use crate::{
-    d3::gpu::buffers::Buffers,
-    gpu::{Gpu, Kernel, Recorder},
+    gpu::{Gpu, Kernel, Recorder, phase1::Buffers},
     input::lattice::Width,
 };
 
@@ -40,10 +39,10 @@ impl Insert {
     }
 
     /// The bind groups for these buffers.
-    pub fn bind(&self, gpu: &Gpu, b: &Buffers) -> BoundInsert {
-        let (control, vertices, tets) = (b.control.buffer(), b.points.vertices.buffer(), b.tets.buffer());
+    pub fn bind(&self, gpu: &Gpu, b: &Buffers<3>) -> BoundInsert {
+        let (control, vertices, tets) = (b.control.buffer(), b.points.vertices.buffer(), b.simplices.buffer());
         let (neighbors, status, waiting) = (b.neighbors.buffer(), b.status.buffer(), b.waiting.buffer());
-        let (picks, scores, free) = (b.messages.buffer(), b.scores.buffer(), b.free.buffer());
+        let (picks, scores, free) = (b.messages.buffer(), b.scores.buffer(), b.own.free.buffer());
         let (pairs, counts) = (b.points.pairs.buffer(), b.points.counts.buffer());
         BoundInsert {
             locate: self.locate.bind(gpu, &[control, vertices, pairs, counts, waiting, tets, neighbors, free]),
@@ -61,7 +60,7 @@ impl Insert {
     }
 
     /// Records an insertion round.
-    pub fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundInsert, b: &Buffers, workgroups: u32) {
+    pub fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundInsert, b: &Buffers<3>, workgroups: u32) {
         recorder.encoder().clear_buffer(b.messages.buffer(), 0, None);
         recorder.stage("pick");
         recorder.dispatch(&self.pick_score, &bound.pick_score, workgroups);

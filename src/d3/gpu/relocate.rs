@@ -3,8 +3,7 @@
 use crate::gpu::waiting::{BoundWaitingList, WaitingList};
 use crate::{
     Error,
-    d3::gpu::buffers::Buffers,
-    gpu::{Gpu, Kernel, Recorder},
+    gpu::{Gpu, Kernel, Recorder, phase1::Buffers},
     input::lattice::Width,
 };
 
@@ -40,7 +39,7 @@ impl Relocate {
     /// # Errors
     ///
     /// As [`Storage::new`](crate::gpu::Storage::new).
-    pub fn bind(&self, gpu: &Gpu, b: &Buffers) -> Result<BoundRelocate, Error> {
+    pub fn bind(&self, gpu: &Gpu, b: &Buffers<3>) -> Result<BoundRelocate, Error> {
         let (control, waiting) = (b.control.buffer(), b.waiting.buffer());
         Ok(BoundRelocate {
             relocate: self

@@ -101,7 +101,7 @@ impl NearDelaunay {
 ///
 /// # Errors
 ///
-/// What `report` returns, [`Error::TooManyTetrahedra`] and [`Error::OutOfMemory`].
+/// What `report` returns, [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
 pub fn splay(
     vertices: &PredicateContext<'_>,
     near: NearDelaunay,

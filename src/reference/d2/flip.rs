@@ -13,7 +13,7 @@ pub fn flip_check(state: &mut State) {
         return;
     }
     let half = state.half();
-    let entries = state.counters.listed[half] as usize;
+    let entries = state.counters.active_len[half] as usize;
     state.counters.visits += entries as u32;
     state.counters.iterations += 1;
     for i in 0..entries {
@@ -50,14 +50,14 @@ pub fn flip_check(state: &mut State) {
 /// room in the history is put off: it stays in the active list.
 pub fn flip_commit(state: &mut State) {
     let iteration = state.counters.iteration;
-    state.counters.linking = iteration;
+    state.counters.link_iteration = iteration;
     if state.is_idle(iteration) {
         return;
     }
-    state.counters.listed[((iteration + 1) & 1) as usize] = 0;
+    state.counters.active_len[((iteration + 1) & 1) as usize] = 0;
     let half = state.half();
     let mark = state.changed_mark(iteration);
-    for i in 0..state.counters.listed[half] as usize {
+    for i in 0..state.counters.active_len[half] as usize {
         let Active { tet: t, outcome } = state.active[half][i];
         if outcome >> KIND_SHIFT & 3 == 0 {
             continue;
@@ -131,13 +131,13 @@ fn record(state: &mut State, node: u32, flip: EdgeFlip) {
 /// An outer neighbour that did not change is told; one that did left a message, which is followed. So each edge is
 /// written once.
 pub fn flip_link(state: &mut State) {
-    let iteration = state.counters.linking;
+    let iteration = state.counters.link_iteration;
     if state.is_idle(iteration) {
         return;
     }
     let half = (iteration & 1) as usize;
     let mark = state.changed_mark(iteration);
-    for i in 0..state.counters.listed[half] as usize {
+    for i in 0..state.counters.active_len[half] as usize {
         let Active { tet: t, outcome } = state.active[half][i];
         if outcome & DONE == 0 {
             // The flip that changed this triangle lists it.
@@ -170,7 +170,7 @@ fn join(state: &mut State, mark: u32, t: u32, edge: usize) {
 }
 
 fn append(state: &mut State, half: usize, t: u32) {
-    let at = &mut state.counters.listed[half];
+    let at = &mut state.counters.active_len[half];
     state.active[half][*at as usize] = Active { tet: t, outcome: 0 };
     *at += 1;
 }

@@ -39,7 +39,7 @@ impl State {
             }
         }
         assert_eq!(used.len(), 2 * present.len() - 4, "the Euler characteristic is not 2");
-        let half = &self.active[self.half()][..self.counters.listed[self.half()] as usize];
+        let half = &self.active[self.half()][..self.counters.active_len[self.half()] as usize];
         let listed: HashSet<u32> = half.iter().map(|a| a.tet).collect();
         assert_eq!(listed.len(), half.len(), "a triangle is active twice");
         for &t in &used {
@@ -70,6 +70,6 @@ impl State {
     /// Panics unless every edge is locally Delaunay and no triangle is active.
     pub fn validate_end(&self) {
         self.validate_mesh();
-        assert_eq!(self.counters.listed[self.half()], 0);
+        assert_eq!(self.counters.active_len[self.half()], 0);
     }
 }

@@ -12,7 +12,7 @@ pub fn flip_check(state: &mut State) {
         return;
     }
     let half = state.half();
-    let entries = state.counters.listed[half] as usize;
+    let entries = state.counters.active_len[half] as usize;
     state.counters.visits += entries as u32;
     state.counters.iterations += 1;
     for i in 0..entries {

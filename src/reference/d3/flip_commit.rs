@@ -26,13 +26,13 @@ struct Flip {
 /// facets went. A flip that finds no slot, or no room in the history, is put off: it stays in the active list.
 pub fn flip_commit(state: &mut State) {
     let iteration = state.counters.iteration;
-    state.counters.linking = iteration;
+    state.counters.link_iteration = iteration;
     if state.is_idle(iteration) {
         return;
     }
-    state.counters.listed[((iteration + 1) & 1) as usize] = 0;
+    state.counters.active_len[((iteration + 1) & 1) as usize] = 0;
     let half = state.half();
-    for i in 0..state.counters.listed[half] as usize {
+    for i in 0..state.counters.active_len[half] as usize {
         let Some(flip) = flip_of(state, i) else { continue };
         let old = if flip.kind == FLIP_23 { &flip.old[..2] } else { &flip.old[..] };
         let bid = state.bid(i);

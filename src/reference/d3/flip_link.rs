@@ -10,13 +10,13 @@ use crate::reference::d3::State;
 /// An outer neighbour that did not change is told; one that did left a message, which is followed. So each facet is
 /// written once.
 pub fn flip_link(state: &mut State) {
-    let iteration = state.counters.linking;
+    let iteration = state.counters.link_iteration;
     if state.is_idle(iteration) {
         return;
     }
     let half = (iteration & 1) as usize;
     let mark = state.changed_mark(iteration);
-    for i in 0..state.counters.listed[half] as usize {
+    for i in 0..state.counters.active_len[half] as usize {
         let Active { tet: t, outcome } = state.active[half][i];
         if outcome & DONE == 0 {
             // The flip that changed this tetrahedron lists it.
@@ -50,13 +50,13 @@ pub fn flip_link(state: &mut State) {
     }
     state.counters.iteration = iteration + 1;
     if compacts(state, iteration) {
-        state.counters.listed[1 - half] = 0;
+        state.counters.active_len[1 - half] = 0;
     }
 }
 
 /// Lists the tetrahedra to check next in the order of their slots, where there are very many (§4.2). One thread a slot.
 pub fn flip_compact(state: &mut State) {
-    let iteration = state.counters.linking;
+    let iteration = state.counters.link_iteration;
     if !compacts(state, iteration) {
         return;
     }
@@ -69,7 +69,7 @@ pub fn flip_compact(state: &mut State) {
 
 /// Whether so many tetrahedra were active in an iteration that the next ones are found by looking at all slots.
 fn compacts(state: &State, iteration: u32) -> bool {
-    !state.is_idle(iteration) && state.counters.listed[(iteration & 1) as usize] >= state.params.compact_from
+    !state.is_idle(iteration) && state.counters.active_len[(iteration & 1) as usize] >= state.params.compact_from
 }
 
 fn join(state: &mut State, mark: u32, t: u32, face: u32) {
@@ -83,7 +83,7 @@ fn join(state: &mut State, mark: u32, t: u32, face: u32) {
 }
 
 fn append(state: &mut State, half: usize, tet: u32) {
-    let at = &mut state.counters.listed[half];
+    let at = &mut state.counters.active_len[half];
     state.active[half][*at as usize] = Active { tet, outcome: 0 };
     *at += 1;
 }

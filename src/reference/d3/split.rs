@@ -47,9 +47,9 @@ pub fn split(state: &mut State) {
             state.status[slot as usize] = Status { flags: 1 << k, ..state.status[slot as usize] };
             if k > 0 || !was_active {
                 let half = state.half();
-                let at = state.counters.listed[half];
+                let at = state.counters.active_len[half];
                 state.active[half][at as usize] = Active { tet: slot, outcome: 0 };
-                state.counters.listed[half] += 1;
+                state.counters.active_len[half] += 1;
             }
         }
         state.free[p as usize] &= !0b111;

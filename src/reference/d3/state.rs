@@ -117,7 +117,7 @@ impl State {
 
     /// Whether a flip iteration does nothing, for want of active tetrahedra.
     pub fn is_idle(&self, iteration: u32) -> bool {
-        self.counters.listed[(iteration & 1) as usize] < self.params.min_active.max(1)
+        self.counters.active_len[(iteration & 1) as usize] < self.params.min_active.max(1)
     }
 
     /// The number that entry `i` of the active list bids in this flip iteration.

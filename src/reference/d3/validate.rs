@@ -55,7 +55,7 @@ impl State {
             let free = self.free[v as usize] >> (t as u32 % BLOCK) & 1 != 0;
             assert_eq!(free, *tet == [0; 4], "slot {t} is both free and used, or neither");
         }
-        let half = &self.active[self.half()][..self.counters.listed[self.half()] as usize];
+        let half = &self.active[self.half()][..self.counters.active_len[self.half()] as usize];
         let listed: HashSet<u32> = half.iter().map(|a| a.tet).collect();
         assert_eq!(listed.len(), half.len(), "a tetrahedron is active twice");
         for &t in &used {

@@ -1,4 +1,4 @@
-//! Repeats the paper's experiments: `cargo run --release --example experiments -- NAME [OPTIONS]`, `--help` for both.
+//! Repeats the paper's experiments: `cargo bench --features cli --bench experiments -- NAME [OPTIONS]`, `--help` for both.
 //!
 //! Each prints tables in Markdown, and writes them as JSON and its charts as SVG. To add one: a file with a function from
 //! [`Context`] to [`Outcome`], and a line in [`EXPERIMENTS`].
@@ -59,6 +59,9 @@ struct Arguments {
     /// The program of CGAL, as benches/compare.py builds it; left out where it is not there
     #[arg(long, default_value = ".cache/bench/cgal")]
     cgal: PathBuf,
+    /// What `cargo bench` adds
+    #[arg(long, hide = true)]
+    bench: bool,
     /// The folder for JSON and SVG
     #[arg(long, default_value = "target/experiments")]
     output: PathBuf,
@@ -84,7 +87,7 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: Arguments) -> Result<(), Box<dyn Error>> {
-    let Arguments { experiment, sizes, models, adapter, repeat, seed, cgal, output } = arguments;
+    let Arguments { experiment, sizes, models, adapter, repeat, seed, cgal, output, bench: _ } = arguments;
     let context = Context::new(sizes, models, adapter, repeat, seed, cgal)?;
     println!("{}\n", context.setting());
     for chosen in EXPERIMENTS.iter().filter(|e| experiment == "all" || experiment == e.name) {

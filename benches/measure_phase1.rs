@@ -1,4 +1,4 @@
-//! Times Phase 1: `phase1 [uniform|gaussian|ball|thin-sphere|sphere|grid|FILE] [POINTS] [ADAPTER] [REPEATS]`, on
+//! Times Phase 1 in 3D: `cargo bench --features cli --bench measure_phase1 -- [uniform|gaussian|ball|thin-sphere|sphere|grid|FILE] [POINTS] [ADAPTER] [REPEATS]`, on
 //! coordinates rounded to `f32`.
 //!
 //! The variables PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE, SLOTS_PER_ACTIVE, WORKGROUPS and SEED change the
@@ -6,20 +6,25 @@
 //! clock slowly; and the stages of one more run, which is slower because each dispatch is timed.
 
 use gdel::Points;
-use gdel::d3::generate::{Distribution, generate};
-use gdel::d3::gpu::start::first_tetrahedron;
-use gdel::gpu::{AdapterChoice, Gpu, Profiler};
-use gdel::input::lattice::Lattice;
-use gdel::io::files::read_points;
-use gdel::{
-    d3::gpu::phase1::{Input, Phase1, Phase1Output, Settings},
+use gdel::internals::d3::generate::{Distribution, generate};
+use gdel::internals::gpu::start::first_simplex;
+use gdel::internals::gpu::{AdapterChoice, Gpu, Profiler};
+use gdel::internals::input::lattice::Lattice;
+use gdel::internals::io::files::read_points;
+use gdel::internals::{
     gpu::layout::Pick,
+    gpu::phase1::{Input, Phase1, Phase1Output, Settings},
 };
 use pollster::block_on;
 use std::path::Path;
 
+fn milliseconds(time: std::time::Duration) -> f64 {
+    time.as_secs_f64() * 1e3
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    // `cargo bench` adds `--bench`.
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
     let argument = |i: usize, default: &str| arguments.get(i).cloned().unwrap_or(default.to_owned());
     let kind = argument(0, "uniform");
     let count: usize = argument(1, "100000").parse()?;
@@ -49,14 +54,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let clock = std::time::Instant::now();
     let lattice = Lattice::fit((&points).into());
     let position = |i: usize| lattice.coordinates(points[i].map(f64::from)).map(|c| c.value);
-    let start = first_tetrahedron(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
+    let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
     let lattice_ms = clock.elapsed().as_secs_f64() * 1e3;
     let input = Input { points: (&points).into(), lattice: &lattice, start };
 
     let clock = std::time::Instant::now();
     let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
     let pipelines_ms = clock.elapsed().as_secs_f64() * 1e3;
-    let mut runs: Vec<Phase1Output> = Vec::new();
+    let mut runs: Vec<Phase1Output<3>> = Vec::new();
     let warm_up = std::time::Instant::now();
     while runs.is_empty() || warm_up.elapsed().as_secs_f64() < 1.0 {
         runs = vec![block_on(phase1.run(&gpu, input, &settings, None))?];
@@ -71,9 +76,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         stages = block_on(profiler.milliseconds(&gpu, &last))?.to_vec();
     }
     runs.remove(0);
-    runs.sort_by(|a, b| a.stats.milliseconds.total_cmp(&b.stats.milliseconds));
-    let all: Vec<String> = runs.iter().map(|r| format!("{:.2}", r.stats.milliseconds)).collect();
-    let Phase1Output { stats, tets, failed, merged, uncertain, .. } = &runs[runs.len() / 2];
+    runs.sort_by_key(|run| run.stats.time);
+    let all: Vec<String> = runs.iter().map(|r| format!("{:.2}", milliseconds(r.stats.time))).collect();
+    let Phase1Output { stats, result, merged } = &runs[runs.len() / 2];
     let counters = &stats.counters;
     let stages: Vec<String> = stages.iter().map(|(name, ms)| format!("\"{name}\":{ms:.3}")).collect();
     println!(
@@ -84,19 +89,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         points.len(),
         gpu.adapter().name,
         lattice.width(),
-        stats.milliseconds,
+        milliseconds(stats.time),
         all.join(","),
-        stats.readback_milliseconds,
+        milliseconds(stats.readback_time),
         stats.rounds.iter().filter(|round| round.inserted > 0).count(),
         counters.iterations,
         counters.visits,
         counters.flips_23,
         counters.flips_32,
         counters.exact,
-        tets.len(),
-        failed.len(),
+        result.tets.len(),
+        result.failed.len(),
         merged.len(),
-        uncertain.len(),
+        result.uncertain.len(),
         stats.readbacks,
         stats.dispatches,
         stats.bytes,

@@ -1,25 +1,27 @@
-//! Times the engine `gpu` in the plane: `plane [DISTRIBUTION] [POINTS] [ADAPTER] [REPEATS]`.
+//! Times the GPU backend in 2D: `cargo bench --bench measure_2d -- [DISTRIBUTION] [POINTS] [ADAPTER] [REPEATS]`.
 //!
-//! The distributions are those of `gdel generate --dim 2`, and `full-grid`, all points of a square grid. //! The variables SINGLE (1: coordinates rounded to `f32`), PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE,
+//! The distributions are those of `gdel generate --dim 2`, and `full-grid`, all points of a square grid.
+//!
+//! The variables SINGLE (1: coordinates rounded to `f32`), PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE,
 //! WORKGROUPS and SEED change input and settings (the paper's Figure 12). Prints a line of JSON: medians over the repeats,
 //! after one run to warm up, of the whole run and its phases, points in host memory to mesh in host memory; then the same
 //! for the CPU engine (once; CPU=0 leaves it out) and whether both agree; and the stages of one more run on the device,
 //! which is slower because each dispatch is timed.
 
-use gdel::d2::gpu::{
-    phase1::{Input, Plane, Settings},
-    start::first_triangle,
-};
-use gdel::d2::{
+use gdel::internals::d2::{
     cpu::delaunay2d_in_order,
     generate::{Distribution2, generate2d},
-    gpu::engine::Hybrid2,
 };
-use gdel::gpu::layout::Pick;
-use gdel::gpu::{AdapterChoice, Gpu, Profiler};
-use gdel::input::lattice::Lattice;
-use gdel::input::order::Order;
-use gdel::{Options, Points2};
+use gdel::internals::gpu::{AdapterChoice, Gpu, Profiler};
+use gdel::internals::gpu::{
+    engine::GpuEngine,
+    layout::Pick,
+    phase1::{Input, Phase1, Settings},
+    start::first_simplex,
+};
+use gdel::internals::input::lattice::Lattice;
+use gdel::internals::input::order::Order;
+use gdel::{Points2, internals::Options};
 use pollster::block_on;
 use std::time::Instant;
 
@@ -39,7 +41,8 @@ fn median(values: &mut [f64]) -> f64 {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    // `cargo bench` adds `--bench`.
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
     let argument = |i: usize, default: &str| arguments.get(i).cloned().unwrap_or(default.to_owned());
     let kind = argument(0, "uniform");
     let count: usize = argument(1, "100000").parse()?;
@@ -65,14 +68,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let choice = if adapter.is_empty() { AdapterChoice::Default } else { AdapterChoice::Name(adapter) };
     let gpu = block_on(Gpu::open(&choice))?;
     let clock = Instant::now();
-    let mut hybrid = block_on(Hybrid2::new(gpu.clone()))?;
+    let mut engine = block_on(GpuEngine::new(gpu.clone()))?;
+    engine.set_settings(settings);
     let pipelines_ms = clock.elapsed().as_secs_f64() * 1e3;
     let options = Options::default();
     let mut meshes = Vec::new();
     let mut whole = Vec::new();
     for _ in 0..repeats + 1 {
         let clock = Instant::now();
-        let mesh = block_on(hybrid.delaunay2d_with(input, &options, &settings))?;
+        let mesh = block_on(engine.triangulate(input, &options))?;
         whole.push(clock.elapsed().as_secs_f64() * 1e3);
         meshes.push(mesh.stats.clone());
         if meshes.len() == repeats + 1 && option("CPU", 1) != 0 {
@@ -87,22 +91,22 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     whole.remove(0);
     let stats = meshes.pop().unwrap_or_default();
-    let phases = stats.phases.iter().map(|&(name, _)| {
-        let of = |stats: &gdel::stats::Stats| stats.phases.iter().find(|p| p.0 == name).map_or(0.0, |p| p.1 * 1e3);
+    let phases = stats.phases.iter().map(|&(phase, _)| {
+        let of = |stats: &gdel::stats::Stats| stats.time_of(phase).as_secs_f64() * 1e3;
         let mut all: Vec<f64> = meshes[1..].iter().chain([&stats]).map(of).collect();
-        format!("\"{name}\":{:.2}", median(&mut all))
+        format!("\"{phase}\":{:.2}", median(&mut all))
     });
     let phases: Vec<String> = phases.collect();
 
     let lattice = Lattice::fit(input);
     let position = |i: usize| lattice.coordinates(input.get(i)).map(|c| c.value);
-    let start = first_triangle(count, position).ok_or("the points are collinear")?;
+    let start = first_simplex(lattice.width(), count, position).ok_or("the points are collinear")?;
     let device_input = Input { points: input, lattice: &lattice, start };
-    let mut plane = block_on(Plane::new(&gpu, lattice.width()))?;
+    let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
     let mut stages = Vec::new();
-    let mut output = block_on(plane.run(&gpu, device_input, &settings, None))?;
+    let mut output = block_on(phase1.run(&gpu, device_input, &settings, None))?;
     if let Some(mut profiler) = Profiler::new(&gpu)? {
-        output = block_on(plane.run(&gpu, device_input, &settings, Some(&mut profiler)))?;
+        output = block_on(phase1.run(&gpu, device_input, &settings, Some(&mut profiler)))?;
         let last = gpu.queue().submit([]);
         stages = block_on(profiler.milliseconds(&gpu, &last))?.to_vec();
     }
