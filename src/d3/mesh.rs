@@ -1,38 +1,36 @@
 //! The result: tetrahedra, their neighbours, and the hull.
 
-use crate::stats::Stats;
+use crate::{index::NONE, stats::Stats};
 
-/// The mark for "none" in [`Mesh3::neighbors`] (outside the hull) and [`Mesh3::duplicate_of`] (not a duplicate).
-pub const NONE: i32 = -1;
-
-/// The corners of the facet opposite vertex *k* of a positively oriented tetrahedron, counter-clockwise as seen from
-/// outside the tetrahedron.
+/// The corners of the facet opposite vertex *k* of a positively oriented tetrahedron,
+/// counter-clockwise as seen from outside the tetrahedron.
 pub const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// A 3D Delaunay triangulation.
 ///
-/// All indices are those of the input points.
+/// All vertices are indices of input points.
 #[derive(Debug, Clone, Default)]
 pub struct Mesh3 {
-    /// Four vertices a tetrahedron, positively oriented: det(b − a, c − a, d − a) > 0. Never flat.
+    /// Four vertices per tetrahedron, positively oriented: det(b − a, c − a, d − a) > 0. Never
+    /// flat.
     pub tetrahedra: Vec<[u32; 4]>,
-    /// Entry *k* is the tetrahedron across the facet opposite vertex *k*, or [`NONE`] outside the hull.
+    /// Entry *k* is the tetrahedron across the facet opposite vertex *k*; [`NONE`] on the hull.
     pub neighbors: Vec<[i32; 4]>,
-    /// The facets of the convex hull's boundary, counter-clockwise as seen from outside.
+    /// The facets of the convex hull, counter-clockwise as seen from outside.
     pub hull: Vec<[u32; 3]>,
-    /// One entry a point: the lowest index of a point with the same coordinates, which stands for this one in the
-    /// mesh; [`NONE`] for the points that are vertices themselves.
+    /// One entry per point: the lowest index of a point with the same coordinates, which represents
+    /// this one in the mesh; [`NONE`] for the points that are vertices themselves.
     pub duplicate_of: Vec<i32>,
-    /// The affine dimension of the input: 3; 2, 1 or 0 when all points are coplanar, collinear or equal (then there
-    /// are no tetrahedra). 0 for no points at all.
+    /// The affine dimension of the input: 3; 2, 1 or 0 if all points are coplanar, collinear or
+    /// equal (then there are no tetrahedra). 0 for no points at all.
     pub dimension: u8,
     /// How the result came about.
     pub stats: Stats,
 }
 
 impl Mesh3 {
-    /// The tetrahedra in a form that is equal for equal meshes: the vertices ascending within each tetrahedron, the
-    /// tetrahedra ascending.
+    /// Returns the tetrahedra in a form that is equal for equal meshes: the vertices ascending
+    /// within each tetrahedron, the tetrahedra ascending.
     pub fn canonical(&self) -> Vec<[u32; 4]> {
         let mut tetrahedra = self.tetrahedra.clone();
         for t in &mut tetrahedra {
@@ -42,7 +40,7 @@ impl Mesh3 {
         tetrahedra
     }
 
-    /// The number of points that are exact duplicates of others.
+    /// Returns the number of points that are exact duplicates of others.
     pub fn duplicates(&self) -> usize {
         self.duplicate_of.iter().filter(|&&d| d != NONE).count()
     }

@@ -7,7 +7,7 @@
 use crate::d2::{
     Mesh2, Triangulation2, cpu,
     gpu::certify::{failed_tests, near_delaunay},
-    lawson::{self, Aborted, Outcome},
+    lawson::{self, Aborted, LawsonOutcome},
 };
 use crate::{
     Error, Options, Points2,
@@ -135,11 +135,13 @@ impl Hybrid2 {
             let triangulation = Triangulation2::from_mesh(triangles, halfedges, &hull, points.len() as u32);
             let near = near_delaunay(triangulation, wrong.as_deref(), &missing);
             // As many as the CPU engine would take from nothing.
-            let most_flips = 3 * points.len() as u64;
-            let triangulation = match lawson::lawson(&vertices, near, most_flips, &report)? {
-                Outcome::Delaunay(triangulation, _) => triangulation,
-                Outcome::Aborted(Aborted::Work) => return fall_back(points, options, Fallback::Flips, stats),
-                Outcome::Aborted(Aborted::Folded) => return fall_back(points, options, Fallback::Folded, stats),
+            let max_flips = 3 * points.len() as u64;
+            let triangulation = match lawson::lawson(&vertices, near, max_flips, &report)? {
+                LawsonOutcome::Delaunay(triangulation, _) => triangulation,
+                LawsonOutcome::Aborted(Aborted::BudgetExceeded) => {
+                    return fall_back(points, options, Fallback::Flips, stats);
+                }
+                LawsonOutcome::Aborted(Aborted::Folded) => return fall_back(points, options, Fallback::Folded, stats),
             };
             stats.exact = stats.exact + vertices.exact_counts();
             (triangles, halfedges, hull) = triangulation.into_mesh(&(0..points.len() as u32).collect::<Vec<_>>());
