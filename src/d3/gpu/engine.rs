@@ -12,7 +12,7 @@ use crate::{
             start::first_tetrahedron,
             trace::Tracer,
         },
-        splay::{self, Aborted, NearDelaunay, Outcome},
+        splay::{self, Aborted, NearDelaunay, SplayOutcome},
         triangulation::{FiniteMesh, Triangulation},
     },
     gpu::Gpu,
@@ -127,12 +127,12 @@ impl Hybrid {
         let max_evaluations = near.evaluations_from_scratch();
         let report = |share: f64| options.report("splay", 0.8 + 0.15 * share);
         let triangulation = match splay::splay(&vertices, near, max_evaluations, Threads::All, &report)? {
-            Outcome::Delaunay(triangulation, splay) => {
+            SplayOutcome::Delaunay(triangulation, splay) => {
                 stats.splay = Some(splay);
                 triangulation
             }
-            Outcome::Aborted(Aborted::Work) => return fall_back(points, options, Fallback::Work, stats),
-            Outcome::Aborted(Aborted::Inconsistent(what)) => {
+            SplayOutcome::Aborted(Aborted::BudgetExceeded) => return fall_back(points, options, Fallback::Work, stats),
+            SplayOutcome::Aborted(Aborted::Inconsistent(what)) => {
                 return fall_back(points, options, Fallback::Inconsistent(what), stats);
             }
         };
