@@ -1,4 +1,4 @@
-//! In the plane, the verifier passes the right mesh only, and says what is wrong with any other.
+//! The 2D verifier passes only the correct mesh, and says what is wrong with any other.
 
 use crate::broken::{
     self,
@@ -18,7 +18,7 @@ use gdel::{
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
-/// The checks of the plane; a polygon that is convex and turns once needs no more.
+/// The 2D checks; a polygon that is convex and turns once needs no others.
 const CHECKS: [Check; 12] = [
     Check::Dimension,
     Check::Duplicates,
@@ -36,10 +36,10 @@ const CHECKS: [Check; 12] = [
 
 /// The corner of the unit square.
 const CORNER: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-/// Two triangles with the edge 0-1 in common, which is short.
+/// Two triangles that share the edge 0-1, which is short.
 const KITE: [[f64; 2]; 4] = [[0.0, 0.0], [0.0, 1.0], [3.0, 0.5], [-3.0, 0.5]];
 
-/// Points of a grid of three by three.
+/// The points of a 3×3 grid.
 fn square() -> Vec<[f64; 2]> {
     (0..9).map(|i| [i % 3, i / 3].map(f64::from)).collect()
 }
@@ -57,14 +57,14 @@ fn broken_meshes() -> Vec<Broken> {
         verify_bare: |points, triangles| verify2d(points, MeshView2::of_triangles(triangles)).unwrap(),
         all: Vec::new(),
     };
-    statements(&mut broken);
+    other_arrays(&mut broken);
     triangles(&mut broken);
     hulls(&mut broken);
     broken.all
 }
 
-/// What a mesh states beside its triangles.
-fn statements(broken: &mut BrokenMeshes) {
+/// Adds meshes that are wrong in the arrays beside the triangles.
+fn other_arrays(broken: &mut BrokenMeshes) {
     let square = square();
     let line: Vec<_> = square[..3].to_vec();
     let doubled: Vec<_> = square.iter().chain(&square[2..4]).copied().collect();
@@ -144,7 +144,7 @@ fn triangles(broken: &mut BrokenMeshes) {
     broken.bare(orientation, "turned by one bit", &thin, &[[0, 2, 1]], Triangle(0));
     let mut turned = right(&square()).triangles;
     turned[3].swap(0, 1);
-    // The triangle that is turned has its neighbours on the wrong side, too.
+    // The neighbours of the inverted triangle are on the wrong side, too.
     let report = verify2d(&square(), MeshView2::of_triangles(&turned)).unwrap();
     assert_eq!(failures(&report), [orientation, Check::Facets], "{report}");
 
@@ -158,7 +158,8 @@ fn triangles(broken: &mut BrokenMeshes) {
 
     // The long diagonal of the kite.
     broken.bare(Check::Delaunay, "flipped edge", &KITE, &[[3, 1, 2], [3, 2, 0]], Triangle(0));
-    // Inside by one unit in the last place of one coordinate, which rounded arithmetic does not see.
+    // Inside by one unit in the last place of one coordinate, which rounded arithmetic does not
+    // see.
     let mut nearly = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     nearly[2][0] = 1.0f64.next_up();
     let wrong =
@@ -196,11 +197,12 @@ fn hulls(broken: &mut BrokenMeshes) {
     let missing = dented.remove(at_hull);
     // The vertex of the triangle that was missing, behind the hull's edge.
     let report = verify2d(&square, MeshView2::of_triangles(&dented)).unwrap();
+    // The vertex of the missing triangle that lies behind the hull's edge.
     let behind = report.failures().next().unwrap().1.point.unwrap();
     assert!(missing.contains(&(behind as u32)));
     broken.add(convex, "triangle missing at the hull", report, Point(behind));
-    // Around vertex 0, five triangles that turn twice before they meet: every local property of a Delaunay triangulation,
-    // and one closed hull without a concave corner.
+    // Around vertex 0, five triangles that turn twice before they meet: they have every local
+    // property of a Delaunay triangulation, and one closed hull without a concave corner.
     let pentagram = [[0.0, 0.0], [10.0, 0.0], [3.0, 9.5], [-8.0, 6.0], [-8.0, -6.0], [3.0, -9.5]];
     let twice: Vec<_> = (0..5).map(|i| [0, 1 + (2 * i + 2) % 5, 1 + 2 * i % 5]).collect();
     broken.bare(convex, "covered twice", &pentagram, &twice, Mesh);
@@ -250,8 +252,8 @@ fn the_order_of_triangles_and_vertices_and_the_first_of_the_hull_are_free() {
     mesh.triangles.reverse();
     mesh.triangles.iter_mut().for_each(|t| t.rotate_left(1));
     mesh.hull.rotate_left(3);
-    let statement = MeshView2 { hull: Some(&mesh.hull), ..MeshView2::of_triangles(&mesh.triangles) };
-    let report = verify2d(&points, statement).unwrap();
+    let view = MeshView2 { hull: Some(&mesh.hull), ..MeshView2::of_triangles(&mesh.triangles) };
+    let report = verify2d(&points, view).unwrap();
     assert!(report.passed(), "{report}");
 }
 
@@ -268,7 +270,8 @@ fn a_point_that_is_not_finite_is_an_error() {
     assert_eq!(error, Error::NotFinite { index: 1, axis: 'y', value: "NaN" });
 }
 
-/// Of all sets of clockwise triangles of these five points, the right one passes and no other.
+/// Checks that of all sets of clockwise triangles of these five points, only the correct one
+/// passes.
 fn only_the_definition_passes(points: &[[f64; 2]; 5]) {
     let mut oriented = Vec::new();
     for a in 0..5u32 {
@@ -369,14 +372,14 @@ proptest! {
         duplicate_of in prop::option::of(prop::collection::vec(any::<i32>(), 0..9)),
         dimension in any::<Option<u8>>(),
     ) {
-        let statement = MeshView2 {
+        let view = MeshView2 {
             triangles: &triangles,
             halfedges: halfedges.as_deref(),
             hull: hull.as_deref(),
             duplicate_of: duplicate_of.as_deref(),
             dimension,
         };
-        let report = verify2d(&points, statement).unwrap();
+        let report = verify2d(&points, view).unwrap();
         prop_assert_eq!(report.outcomes.len(), CHECKS.len());
         prop_assert_eq!(report.passed(), report.failures().next().is_none());
     }
