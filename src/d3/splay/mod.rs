@@ -35,8 +35,8 @@ use predicates::StarPredicates;
 use rustc_hash::FxHashSet;
 
 /// The result of Phase 1: a triangulation that is nearly Delaunay, and where it may not be.
-/// Tetrahedra that are not `uncertain`, and facets without a `failed` vertex, are taken to be
-/// proven.
+/// A tetrahedron that is not `uncertain` is taken to be positively oriented, and its facets to be
+/// locally Delaunay unless all three vertices have `failed`.
 #[derive(Debug, Clone)]
 pub struct NearDelaunay {
     /// All tetrahedra, ghosts included. Inverted and flat ones are allowed if they are among the
