@@ -51,7 +51,7 @@ impl Complete<3> for Dimension<3> {
         let share = progress::FINISH - progress::COMPLETION;
         let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
         let triangulation = match splay::splay(&vertices, near, max_evaluations, Threads::All, &report)? {
-            Outcome::Delaunay(triangulation, splay) => {
+            SplayOutcome::Delaunay(triangulation, splay) => {
                 stats.splay = Some(splay);
                 triangulation
             }

@@ -1,10 +1,11 @@
-//! The predicates of the plane.
+//! The 2D predicates.
 
 use crate::predicates::filter::{ERROR_BOUNDS, ExactStage, PredicateContext2, UNDERFLOW, in_sphere_bound, minus};
 use crate::predicates::{Sign, exact, integer, symbolic};
 
 impl PredicateContext2<'_> {
-    /// The sign of det(b − a, c − a): positive when a, b, c turn counter-clockwise, the y axis pointing up.
+    /// Returns the sign of det(b − a, c − a): positive if a, b, c turn counter-clockwise, the *y*
+    /// axis pointing up.
     #[inline]
     pub fn orient2d(&self, a: u32, b: u32, c: u32) -> Sign {
         let stored = &self.coordinates;
@@ -63,8 +64,9 @@ impl PredicateContext2<'_> {
         }
     }
 
-    /// Positive when d is inside the circle through the counter-clockwise a, b, c. Ties are broken symbolically: never
-    /// zero for four different vertices, at least three of which are not collinear.
+    /// Returns the sign of the in-circle determinant: positive if d lies inside the circle through
+    /// the counter-clockwise a, b, c. Ties are broken symbolically: never zero for four different
+    /// vertices of which at least three are not collinear.
     #[inline]
     pub fn incircle(&self, [a, b, c]: [u32; 3], d: u32) -> Sign {
         let stored = &self.coordinates;
@@ -131,7 +133,8 @@ impl PredicateContext2<'_> {
         })
     }
 
-    /// Whether b, which is collinear with the different points a and c, lies strictly between them.
+    /// Returns whether b, which is collinear with the different points a and c, lies strictly
+    /// between them.
     pub fn is_between(&self, a: u32, b: u32, c: u32) -> bool {
         let [a, b, c] = [a, b, c].map(|v| self.point(v));
         let ascending = |p: [f64; 2], q: [f64; 2]| p < q;
@@ -139,6 +142,7 @@ impl PredicateContext2<'_> {
     }
 }
 
+/// Returns the squared distance from the origin.
 #[inline]
 fn lift(p: [f64; 2]) -> f64 {
     p[0] * p[0] + p[1] * p[1]
@@ -150,7 +154,8 @@ mod tests {
     use crate::{input::lattice::Lattice, predicates::filter::Scale};
     use proptest::prelude::*;
 
-    /// Every sign that `PredicateContext2` gives for the first four points agrees with the exact predicates on `f64`.
+    /// Checks that every sign of a `PredicateContext2` for the first four points agrees with the
+    /// exact predicates on `f64`.
     fn agree(points: &[[f64; 2]]) -> Result<(), TestCaseError> {
         let lattice = Lattice::fit(points.into());
         // An order that differs from the input's, for the ties.

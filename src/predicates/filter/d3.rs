@@ -1,10 +1,10 @@
-//! The predicates of space.
+//! The 3D predicates.
 
 use crate::predicates::filter::{ERROR_BOUNDS, ExactStage, PredicateContext, UNDERFLOW, in_sphere_bound, minus};
 use crate::predicates::{Sign, exact, integer, symbolic};
 
 impl PredicateContext<'_> {
-    /// The sign of det(b − a, c − a, d − a).
+    /// Returns the sign of det(b − a, c − a, d − a).
     #[inline]
     pub fn orient3d(&self, a: u32, b: u32, c: u32, d: u32) -> Sign {
         let stored = &self.coordinates;
@@ -66,8 +66,9 @@ impl PredicateContext<'_> {
         }
     }
 
-    /// Positive when e is inside the sphere through the positively oriented a, b, c, d. Ties are broken symbolically:
-    /// never zero for five different vertices, at least four of which are not coplanar.
+    /// Returns the sign of the in-sphere determinant: positive if e lies inside the sphere through
+    /// the positively oriented a, b, c, d. Ties are broken symbolically: never zero for five
+    /// different vertices of which at least four are not coplanar.
     #[inline(always)]
     pub fn insphere(&self, [a, b, c, d]: [u32; 4], e: u32) -> Sign {
         let stored = &self.coordinates;
@@ -164,7 +165,8 @@ mod tests {
     use crate::input::lattice::Lattice;
     use proptest::prelude::*;
 
-    /// Every sign that `PredicateContext` gives for the first five points agrees with the exact predicates on `f64`.
+    /// Checks that every sign of a `PredicateContext` for the first five points agrees with the
+    /// exact predicates on `f64`.
     fn agree(points: &[[f64; 3]]) -> Result<(), TestCaseError> {
         let lattice = Lattice::fit(points.into());
         // An order that differs from the input's, for the ties.
@@ -217,7 +219,8 @@ mod tests {
 
         #[test]
         fn cospherical(points in prop::array::uniform5((0usize..1 << 20).prop_map(|i| {
-            // Rational points of the unit sphere are cospherical up to rounding; those of a sphere of integers exactly.
+            // Rational points of the unit sphere are cospherical up to rounding, integer points of
+            // the sphere of radius 9 exactly.
             let corners = [[0, 0, 9], [1, 4, 8], [4, 4, 7], [3, 6, 6]];
             let mut p = corners[i % 4].map(f64::from);
             p.rotate_left(i / 4 % 3);
