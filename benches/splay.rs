@@ -10,7 +10,7 @@ use gdel::{
     internals::{
         d3::{
             generate::{Distribution, generate},
-            splay::{NearDelaunay, Outcome, splay},
+            splay::{NearDelaunay, SplayOutcome, splay},
             triangulation::Triangulation,
         },
         gpu::{

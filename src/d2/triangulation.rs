@@ -1,6 +1,10 @@
 //! Triangles and their neighbours under construction, the outside of the hull included.
 
-use crate::{Error, index::NONE, options::Winding};
+use crate::{
+    Error,
+    index::{NO_INDEX, NONE},
+    options::Winding,
+};
 
 /// Half-edges are numbered below 2³¹, because −1 stands for none.
 pub(crate) const MAX_TRIANGLES: usize = i32::MAX as usize / 3;

@@ -11,7 +11,7 @@ use crate::{
         order::{Distinct, Order, insertion_order},
     },
     parallel::Threads,
-    predicates::{collinear, filter::PredicateContext},
+    predicates::{collinear, filter::PredicateContext, orient3d},
     stats::{Phase, Stats, Stopwatch},
 };
 

@@ -9,7 +9,7 @@ use gdel::{
         d2::{
             Triangulation2,
             cpu::delaunay2d_in_order,
-            lawson::{Aborted, NearDelaunay2, Outcome, lawson},
+            lawson::{Aborted, LawsonOutcome, NearDelaunay2, lawson},
         },
         index::NONE,
         input::{lattice::Lattice, order::Order},

@@ -1,11 +1,8 @@
 //! A triangulation that can be spoilt: splits and flips of tetrahedra found by their facets.
 
 use gdel::internals::{
-    d3::{
-        mesh::FACETS,
-        splay::{NONE, NearDelaunay},
-        triangulation::Triangulation,
-    },
+    d3::{mesh::FACETS, splay::NearDelaunay, triangulation::Triangulation},
+    index::NO_INDEX,
     predicates::filter::PredicateContext,
 };
 use std::collections::HashMap;

@@ -13,9 +13,10 @@ use gdel::{
         Options,
         d3::{
             cpu,
-            splay::{Aborted, NONE, NearDelaunay, Outcome, splay},
+            splay::{Aborted, NearDelaunay, SplayOutcome, splay},
             triangulation::FiniteMesh,
         },
+        index::NO_INDEX,
         input::lattice::Lattice,
         parallel::Threads,
         predicates::filter::PredicateContext,

@@ -4,10 +4,8 @@
 use crate::{check, exact, flips::flat_or_inverted, inputs, inputs::Cloud};
 use gdel::{
     internals::{
-        d3::{
-            splay::{NONE, NearDelaunay},
-            triangulation::Triangulation,
-        },
+        d3::{splay::NearDelaunay, triangulation::Triangulation},
+        index::NO_INDEX,
         input::lattice::{Lattice, Width},
         predicates::filter::PredicateContext,
         reference::d3::{

@@ -7,7 +7,7 @@ use crate::{
     d3::{
         cpu,
         gpu::{finish::NearMesh, trace::Tracer},
-        splay::{self, Aborted, NearDelaunay, Outcome},
+        splay::{self, Aborted, NearDelaunay, SplayOutcome},
         triangulation::{FiniteMesh, Triangulation},
     },
     gpu::{
@@ -55,8 +55,8 @@ impl Complete<3> for Dimension<3> {
                 stats.splay = Some(splay);
                 triangulation
             }
-            Outcome::Aborted(Aborted::Work) => return Ok(Err(Fallback::Splaying)),
-            Outcome::Aborted(Aborted::Inconsistent(what)) => return Ok(Err(Fallback::Inconsistent(what))),
+            SplayOutcome::Aborted(Aborted::BudgetExceeded) => return Ok(Err(Fallback::Splaying)),
+            SplayOutcome::Aborted(Aborted::Inconsistent(what)) => return Ok(Err(Fallback::Inconsistent(what))),
         };
         stats.phases.push((Phase::Splay, stopwatch.lap()));
 
