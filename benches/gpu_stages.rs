@@ -5,6 +5,10 @@
 
 use std::time::Instant;
 
+#[path = "../tests/gpu/assemble.rs"]
+mod assemble;
+
+use assemble::assemble;
 use gdel::{
     Points,
     d3::gpu::vertex,
@@ -72,8 +76,8 @@ fn predicate(gpu: &Gpu, width: Width, name: &str, arguments: &str) {
     const VERTICES: usize = 1 << 16;
     const TESTS: usize = 1 << 22;
     let wgsl = format!(
-        "//!include shared/predicates
-//!include shared/filter
+        "//!include d3/predicates
+//!include d3/filter
 @group(0) @binding(0) var<storage, read> vertices: array<vec4i>;
 @group(0) @binding(1) var<storage, read_write> signs: array<i32>;
 @compute @workgroup_size(256)
@@ -94,8 +98,8 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
     let (kernel, bindings) = block_on(gpu.with_error_scope("bench", || {
         let vertices = Storage::with_contents(gpu, "vertices", &words)?;
         let signs = Storage::<i32>::new(gpu, "signs", TESTS)?;
-        let kernel = Kernel::from_wgsl(gpu, name, &shader::assemble_text(&wgsl, width), &[]);
-        let bindings = kernel.bind(gpu, &[vertices.buffer(), signs.buffer()]);
+        let kernel = Kernel::from_wgsl(gpu, name, &assemble(&wgsl, width), &["vertices", "signs"], &[]);
+        let bindings = kernel.bind(gpu, &[("vertices", vertices.buffer()), ("signs", signs.buffer())]);
         Ok((kernel, bindings))
     }))
     .expect("the kernel is valid");
@@ -114,7 +118,7 @@ fn main() {
     let sizes: Vec<usize> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the bench needs a GPU");
     println!("{:?}", gpu.adapter());
-    let stage = PointStage::new(&gpu, "points_gather", gdel::d3::gpu::vertex::words_per_vertex);
+    let stage = PointStage::new(&gpu, &shader::D3, gdel::d3::gpu::vertex::words_per_vertex);
     for &n in if sizes.is_empty() { &[100_000, 1_000_000][..] } else { &sizes } {
         let doubles = random_points(n);
         let singles: Vec<[f32; 3]> = doubles.iter().map(|p| p.map(|x| x as f32)).collect();

@@ -2,7 +2,7 @@
 //! (§4.3).
 //!
 //! 1. The coordinates' bits are uploaded as they are; the device puts them on the lattice.
-//! 2. A hash table unites the points at the same place of the lattice; the lowest number stands for all. They are exact
+//! 2. A hash table merges the points at the same place of the lattice; the lowest number stands for all. They are exact
 //!    duplicates, or were rounded to the same place.
 //! 3. Every point gets its place along the Hilbert curve as key, those that another stands for the last one.
 //! 4. The keys are sorted; ties stay in the order of the input.
@@ -15,11 +15,15 @@ use bytemuck::{Pod, Zeroable};
 use crate::gpu::primitives::sort::{BoundSort, Sort};
 use crate::{
     Error, Points,
-    gpu::{Gpu, Kernel, Recorder, Storage, workgroups},
+    gpu::{
+        Gpu, Kernel, Recorder, Storage,
+        shader::{self, Shaders, assert_layout, constants::common as constants},
+        workgroups,
+    },
     input::lattice::{Lattice, Width},
 };
 
-/// What the kernels are told. Mirrors `InputParams` in `shaders/shared/input.wgsl`.
+/// The parameters of the kernels.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct InputParams {
@@ -46,8 +50,9 @@ pub struct InputParams {
     /// Zero.
     pub unused: [u32; 3],
 }
+assert_layout!(InputParams);
 
-/// What the kernels count. Mirrors `InputCounts` in `shaders/shared/input_counts.wgsl`.
+/// The counters of the kernels.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct InputCounts {
@@ -64,6 +69,13 @@ pub struct InputCounts {
     /// The vertices of the wanted points.
     pub found: [u32; 4],
 }
+assert_layout!(InputCounts);
+// Some kernels see the words of the structure.
+const _: () = {
+    assert!(std::mem::offset_of!(InputCounts, merged) == 4 * constants::COUNT_MERGED as usize);
+    assert!(std::mem::offset_of!(InputCounts, rounded) == 4 * constants::COUNT_ROUNDED as usize);
+    assert!(std::mem::offset_of!(InputCounts, found) == 4 * constants::COUNT_FOUND as usize);
+};
 
 /// The bits of a sort key: 30 for the place along the curve, and the largest for points that others stand for.
 const KEY_BITS: u32 = 32;
@@ -71,7 +83,7 @@ const KEY_BITS: u32 = 32;
 /// The kernels, for points of `D` coordinates: 3, or 2 in the plane.
 #[derive(Debug)]
 pub struct PointStage<const D: usize = 3> {
-    unite: Kernel,
+    merge: Kernel,
     keys: Kernel,
     gather: Kernel,
     sort: Sort,
@@ -114,7 +126,7 @@ pub struct PointBuffers {
     input: Storage<u32>,
     table: Storage<u32>,
     device: DevicePoints,
-    unite: wgpu::BindGroup,
+    merge: wgpu::BindGroup,
     keys: wgpu::BindGroup,
     sort: BoundSort,
     gather: wgpu::BindGroup,
@@ -122,13 +134,13 @@ pub struct PointBuffers {
 }
 
 impl<const D: usize> PointStage<D> {
-    /// Compiles the kernels, with `gather` for the last, which writes vertices of so many words.
-    pub fn new(gpu: &Gpu, gather: &str, vertex_words: fn(Width) -> usize) -> Self {
-        let kernel = |name| Kernel::new(gpu, name, Width::Narrow, &[]);
+    /// Compiles the kernels, those that depend on the dimension from `shaders`, for vertices of so many words.
+    pub fn new(gpu: &Gpu, shaders: &Shaders, vertex_words: fn(Width) -> usize) -> Self {
+        let kernel = |shaders: &Shaders, name| Kernel::new(gpu, shaders.get(name), Width::Narrow);
         PointStage {
-            unite: kernel("points_unite"),
-            keys: kernel("points_keys"),
-            gather: kernel(gather),
+            merge: kernel(&shader::COMMON, "points_merge"),
+            keys: kernel(shaders, "points_keys"),
+            gather: kernel(shaders, "points_gather"),
             sort: Sort::new(gpu),
             vertex_words,
         }
@@ -179,8 +191,8 @@ impl<const D: usize> PointStage<D> {
         encoder.clear_buffer(buffers.table.buffer(), 0, None);
         encoder.clear_buffer(buffers.device.counts.buffer(), 0, None);
         let groups = workgroups(n as u32);
-        recorder.stage("unite");
-        recorder.dispatch(&self.unite, &buffers.unite, groups);
+        recorder.stage("merge");
+        recorder.dispatch(&self.merge, &buffers.merge, groups);
         recorder.stage("keys");
         recorder.dispatch(&self.keys, &buffers.keys, groups);
         if sort {
@@ -210,21 +222,17 @@ impl<const D: usize> PointStage<D> {
         let counts = Storage::new(gpu, "point counts", 1)?;
         let vertex_words = (self.vertex_words)(width);
         let vertices = Storage::new(gpu, "vertices", (n + 1) * vertex_words)?;
-        let [unite, keys, gather]: [&[&wgpu::Buffer]; 3] = [
-            &[params.buffer(), input.buffer(), table.buffer(), slots.buffer()],
-            &[
-                params.buffer(),
-                input.buffer(),
-                table.buffer(),
-                slots.buffer(),
-                pairs.buffer(),
-                merged_into.buffer(),
-                counts.buffer(),
-            ],
-            &[params.buffer(), input.buffer(), pairs.buffer(), vertices.buffer(), counts.buffer()],
+        let buffers = [
+            ("params", params.buffer()),
+            ("input", input.buffer()),
+            ("table", table.buffer()),
+            ("slots", slots.buffer()),
+            ("pairs", pairs.buffer()),
+            ("merged_into", merged_into.buffer()),
+            ("counts", counts.buffer()),
+            ("vertices", vertices.buffer()),
         ];
-        let (unite, keys) = (self.unite.bind(gpu, unite), self.keys.bind(gpu, keys));
-        let gather = self.gather.bind(gpu, gather);
+        let [merge, keys, gather] = [&self.merge, &self.keys, &self.gather].map(|kernel| kernel.bind(gpu, &buffers));
         // An even number of passes: the pairs end up where they were.
         let sort = self.sort.bind(gpu, &mut pairs, &mut scratch, KEY_BITS)?;
         let bytes = params.bytes()
@@ -235,7 +243,7 @@ impl<const D: usize> PointStage<D> {
             + merged_into.bytes()
             + vertices.bytes();
         let device = DevicePoints { vertices, pairs, merged_into, counts };
-        Ok(PointBuffers { form, params, input, table, device, unite, keys, sort, gather, bytes })
+        Ok(PointBuffers { form, params, input, table, device, merge, keys, sort, gather, bytes })
     }
 }
 

@@ -8,6 +8,7 @@ use gdel::{
     gpu::{
         AdapterChoice, Gpu, Readback, Recorder,
         points::{InputCounts, PointInput, PointStage},
+        shader,
     },
     input::lattice::{Lattice, Width},
     reference::d3::hilbert::hilbert_key,
@@ -24,7 +25,11 @@ struct Bench<const D: usize> {
 impl<const D: usize> Bench<D> {
     fn new() -> Self {
         let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a GPU or lavapipe");
-        Bench { stage: PointStage::new(&gpu, "points_gather", gdel::d3::gpu::vertex::words_per_vertex), gpu }
+        let stage = match D {
+            2 => PointStage::new(&gpu, &shader::D2, gdel::d2::gpu::vertex::words),
+            _ => PointStage::new(&gpu, &shader::D3, vertex::words_per_vertex),
+        };
+        Bench { stage, gpu }
     }
 
     /// Runs the stage and compares everything with the CPU; returns the width and the counts.

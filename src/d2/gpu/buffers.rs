@@ -4,7 +4,7 @@ use crate::d2::gpu::layout::{EdgeFlip, blocks};
 use crate::{
     Error,
     gpu::{
-        Gpu, Recorder, Storage,
+        Binding, Gpu, Recorder, Storage,
         layout::{Active, BLOCK, COUNTER_WORDS, PARAM_WORDS, Status, Waiting},
         points::DevicePoints,
     },
@@ -18,7 +18,7 @@ use crate::{
 pub struct Buffers {
     /// Parameters and counters.
     pub control: Storage<u32>,
-    /// The vertices, and the kernel point; the order; what stands for what.
+    /// The vertices, and the interior point; the order; what stands for what.
     pub points: DevicePoints,
     /// The vertices of each slot, and 0.
     pub triangles: Storage<[u32; 4]>,
@@ -72,6 +72,31 @@ impl Buffers {
         let encoder = recorder.encoder();
         encoder.clear_buffer(self.triangles.buffer(), 0, None);
         encoder.clear_buffer(self.status.buffer(), 0, None);
+    }
+
+    /// Returns the buffers under the names that they have in shaders: several, where a buffer is put to more than one use.
+    pub fn bindings(&self) -> Vec<Binding<'_>> {
+        vec![
+            ("control", self.control.buffer()),
+            ("vertices", self.points.vertices.buffer()),
+            ("pairs", self.points.pairs.buffer()),
+            ("counts", self.points.counts.buffer()),
+            ("simplices", self.triangles.buffer()),
+            ("neighbors", self.neighbors.buffer()),
+            ("status", self.status.buffer()),
+            ("actives", self.active.buffer()),
+            ("messages", self.messages.buffer()),
+            ("picks", self.messages.buffer()),
+            ("mesh_triangles", self.messages.buffer()),
+            ("halfedges", self.status.buffer()),
+            ("uncertain_tests", self.active.buffer()),
+            ("history", self.history.buffer()),
+            ("waiting", self.waiting.buffer()),
+            ("hull", self.waiting.buffer()),
+            ("scores", self.scores.buffer()),
+            ("marks", self.marks.buffer()),
+            ("offsets", self.offsets.buffer()),
+        ]
     }
 
     /// The bytes that they take, but for the points.

@@ -6,6 +6,7 @@ use crate::{
     gpu::{
         Gpu, Kernel, Recorder, Storage,
         primitives::scan::{BoundScan, GROUPS, Scan, ScanParams},
+        shader,
         waiting::{BoundWaitingList, WaitingList},
     },
     input::lattice::Width,
@@ -67,20 +68,21 @@ impl Bound {
 impl Kernels {
     /// Compiles them.
     pub(crate) fn new(gpu: &Gpu, width: Width) -> Self {
-        let kernel = |name| Kernel::new(gpu, name, width, &[]);
+        let kernel = |name| Kernel::new(gpu, shader::D2.get(name), width);
+        let general = |name| Kernel::new(gpu, shader::COMMON.get(name), width);
         Kernels {
-            locate: kernel("plane/locate"),
-            pick_score: kernel("plane/pick_score"),
-            pick_point: kernel("pick_point"),
-            split: kernel("plane/split"),
-            relocate_split: kernel("plane/relocate_split"),
-            flip_check: kernel("plane/flip_check"),
-            flip_commit: kernel("plane/flip_commit"),
-            flip_link: kernel("plane/flip_link"),
-            clear_votes: kernel("clear_votes"),
-            relocate: kernel("plane/relocate"),
-            mesh_mark: kernel("plane/mesh_mark"),
-            mesh_compact: kernel("plane/mesh_compact"),
+            locate: kernel("locate"),
+            pick_score: kernel("pick_score"),
+            pick_point: general("pick_point"),
+            split: kernel("split"),
+            relocate_split: kernel("relocate_split"),
+            flip_check: kernel("flip_check"),
+            flip_commit: kernel("flip_commit"),
+            flip_link: kernel("flip_link"),
+            clear_votes: general("clear_votes"),
+            relocate: kernel("relocate"),
+            mesh_mark: kernel("mesh_mark"),
+            mesh_compact: kernel("mesh_compact"),
             scan: Scan::new(gpu),
             waiting: WaitingList::new(gpu),
         }
@@ -92,34 +94,22 @@ impl Kernels {
     ///
     /// As [`Storage::new`].
     pub(crate) fn bind(&self, gpu: &Gpu, b: &Buffers) -> Result<Bound, Error> {
-        let (control, vertices, pairs) = (b.control.buffer(), b.points.vertices.buffer(), b.points.pairs.buffer());
-        let (triangles, neighbors) = (b.triangles.buffer(), b.neighbors.buffer());
-        let (status, active, messages) = (b.status.buffer(), b.active.buffer(), b.messages.buffer());
-        let (history, waiting, scores) = (b.history.buffer(), b.waiting.buffer(), b.scores.buffer());
-        let (counts, marks, offsets) = (b.points.counts.buffer(), b.marks.buffer(), b.offsets.buffer());
+        let buffers = b.bindings();
         let count = ScanParams { count: b.triangles.len() as u32 };
         let scan_params = Storage::with_contents(gpu, "scan parameters", &[count])?;
         Ok(Bound {
-            locate: self.locate.bind(gpu, &[control, vertices, pairs, counts, waiting, triangles, neighbors]),
-            pick_score: self.pick_score.bind(gpu, &[control, vertices, triangles, waiting, messages, scores]),
-            pick_point: self.pick_point.bind(gpu, &[control, waiting, messages, scores]),
-            split: self.split.bind(gpu, &[control, triangles, neighbors, status, active, messages, waiting]),
-            relocate_split: self
-                .relocate_split
-                .bind(gpu, &[control, vertices, pairs, triangles, status, messages, waiting]),
-            flip_check: self.flip_check.bind(gpu, &[control, vertices, pairs, triangles, neighbors, status, active]),
-            flip_commit: self
-                .flip_commit
-                .bind(gpu, &[control, triangles, neighbors, status, active, messages, history]),
-            flip_link: self.flip_link.bind(gpu, &[control, neighbors, status, active, messages]),
-            clear_votes: self.clear_votes.bind(gpu, &[control, status]),
-            relocate: self.relocate.bind(gpu, &[control, vertices, pairs, status, history, waiting]),
-            mesh_mark: self
-                .mesh_mark
-                .bind(gpu, &[control, vertices, pairs, triangles, neighbors, counts, marks, active]),
-            mesh_compact: self
-                .mesh_compact
-                .bind(gpu, &[control, pairs, triangles, neighbors, offsets, messages, status, waiting]),
+            locate: self.locate.bind(gpu, &buffers),
+            pick_score: self.pick_score.bind(gpu, &buffers),
+            pick_point: self.pick_point.bind(gpu, &buffers),
+            split: self.split.bind(gpu, &buffers),
+            relocate_split: self.relocate_split.bind(gpu, &buffers),
+            flip_check: self.flip_check.bind(gpu, &buffers),
+            flip_commit: self.flip_commit.bind(gpu, &buffers),
+            flip_link: self.flip_link.bind(gpu, &buffers),
+            clear_votes: self.clear_votes.bind(gpu, &buffers),
+            relocate: self.relocate.bind(gpu, &buffers),
+            mesh_mark: self.mesh_mark.bind(gpu, &buffers),
+            mesh_compact: self.mesh_compact.bind(gpu, &buffers),
             scan: self.scan.bind(gpu, &scan_params, &b.marks, &b.offsets)?,
             waiting: self.waiting.bind(gpu, &b.control, &b.waiting, &b.scores)?,
         })

@@ -25,6 +25,7 @@ use crate::gpu::{
     Gpu, Profiler, Readback,
     layout::{Counters, Pick},
     points::PointStage,
+    shader,
 };
 use crate::{
     Error,
@@ -171,7 +172,7 @@ impl Plane {
     pub async fn new(gpu: &Gpu, width: Width) -> Result<Self, Error> {
         gpu.with_error_scope("pipelines", || {
             Ok(Plane {
-                points: PointStage::new(gpu, "plane/points_gather", vertex::words),
+                points: PointStage::new(gpu, &shader::D2, vertex::words),
                 kernels: Kernels::new(gpu, width),
                 readback: Readback::default(),
                 kept: run::Kept::default(),

@@ -3,7 +3,7 @@
 use crate::{
     Error,
     gpu::{
-        Gpu, Recorder, Storage,
+        Binding, Gpu, Recorder, Storage,
         layout::{Active, BLOCK, COUNTER_WORDS, FlipNode, PARAM_WORDS, Status, Waiting},
         points::DevicePoints,
     },
@@ -16,7 +16,7 @@ use crate::{
 pub struct Buffers {
     /// Parameters and counters.
     pub control: Storage<u32>,
-    /// The vertices, and the kernel point; the order; what stands for what.
+    /// The vertices, and the interior point; the order; what stands for what.
     pub points: DevicePoints,
     /// The vertices of each slot.
     pub tets: Storage<[u32; 4]>,
@@ -104,6 +104,28 @@ impl Buffers {
         encoder.clear_buffer(self.tets.buffer(), 0, None);
         encoder.clear_buffer(self.status.buffer(), 0, None);
         encoder.clear_buffer(self.failed.buffer(), 0, None);
+    }
+
+    /// Returns the buffers under the names that they have in shaders: several, where a buffer is put to more than one use.
+    pub fn bindings(&self) -> Vec<Binding<'_>> {
+        vec![
+            ("control", self.control.buffer()),
+            ("vertices", self.points.vertices.buffer()),
+            ("pairs", self.points.pairs.buffer()),
+            ("counts", self.points.counts.buffer()),
+            ("simplices", self.tets.buffer()),
+            ("neighbors", self.neighbors.buffer()),
+            ("status", self.status.buffer()),
+            ("actives", self.active.buffer()),
+            ("free", self.free.buffer()),
+            ("messages", self.messages.buffer()),
+            ("picks", self.messages.buffer()),
+            ("undecided_entries", self.messages.buffer()),
+            ("history", self.history.buffer()),
+            ("waiting", self.waiting.buffer()),
+            ("scores", self.scores.buffer()),
+            ("failed", self.failed.buffer()),
+        ]
     }
 
     /// The bytes that they take, but for the points.

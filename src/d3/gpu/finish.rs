@@ -7,6 +7,7 @@ use crate::{
     gpu::{
         Gpu, Kernel, Recorder, Storage,
         layout::{Active, BLOCK},
+        shader,
     },
     input::lattice::Width,
 };
@@ -35,7 +36,7 @@ pub struct BoundFinish {
     /// Entry [`BoundFinish::FINITE`] is the number of finite tetrahedra.
     pub sums: Storage<u32>,
     /// Tetrahedra that are flat or of which the lattice does not prove everything, with what is open, as
-    /// `shaders/certify.wgsl` has it.
+    /// `shaders/d3/certify.wgsl` has it.
     pub uncertain: Storage<Active>,
     /// The places in the input of the failed vertices.
     pub failed: Storage<u32>,
@@ -62,7 +63,7 @@ impl BoundFinish {
 impl Finish {
     /// The kernels.
     pub fn new(gpu: &Gpu, width: Width) -> Self {
-        let kernel = |name| Kernel::new(gpu, name, width, &[]);
+        let kernel = |name| Kernel::new(gpu, shader::D3.get(name), width);
         Finish {
             mark_failed: kernel("mark_failed"),
             mark: kernel("mesh_mark"),
@@ -92,34 +93,19 @@ impl Finish {
         let (tets, neighbors) = (b.messages.clone(), b.active.seen_as());
         let (uncertain, failed) = (b.status.seen_as(), b.scores.clone());
 
-        let (control, vertices) = (b.control.buffer(), b.points.vertices.buffer());
-        let (slot_tets, slot_neighbors) = (b.tets.buffer(), b.neighbors.buffer());
-        let buffers: [&[&wgpu::Buffer]; 5] = [
-            &[control, vertices, slot_tets, slot_neighbors, b.status.buffer(), b.failed.buffer(), failed.buffer()],
-            &[control, slot_tets, marks.buffer()],
-            &[control, slot_tets, sums.buffer(), numbers.buffer()],
-            &[
-                control,
-                vertices,
-                slot_tets,
-                slot_neighbors,
-                numbers.buffer(),
-                tets.buffer(),
-                neighbors.buffer(),
-                tet_of.buffer(),
-            ],
-            &[
-                control,
-                vertices,
-                slot_tets,
-                slot_neighbors,
-                numbers.buffer(),
-                b.points.counts.buffer(),
-                uncertain.buffer(),
-            ],
-        ];
+        let mut buffers = b.bindings();
+        buffers.extend([
+            ("marks", marks.buffer()),
+            ("numbers", numbers.buffer()),
+            ("sums", sums.buffer()),
+            ("tet_of", tet_of.buffer()),
+            ("mesh_tetrahedra", tets.buffer()),
+            ("mesh_neighbors", neighbors.buffer()),
+            ("uncertain", uncertain.buffer()),
+            ("failed_points", failed.buffer()),
+        ]);
         let kernels = [&self.mark_failed, &self.mark, &self.number, &self.compact, &self.certify];
-        let [mark_failed, mark, number, compact, certify] = std::array::from_fn(|i| kernels[i].bind(gpu, buffers[i]));
+        let [mark_failed, mark, number, compact, certify] = kernels.map(|kernel| kernel.bind(gpu, &buffers));
         Ok(BoundFinish {
             tets,
             neighbors,

@@ -2,7 +2,7 @@
 
 use crate::{
     d3::gpu::buffers::Buffers,
-    gpu::{Gpu, Kernel, Recorder},
+    gpu::{Gpu, Kernel, Recorder, shader},
     input::lattice::Width,
 };
 
@@ -31,33 +31,27 @@ pub struct BoundFlip {
 impl Flip {
     /// The kernels.
     pub fn new(gpu: &Gpu, width: Width) -> Self {
-        let kernel = |name| Kernel::new(gpu, name, width, &[]);
+        let kernel = |name| Kernel::new(gpu, shader::D3.get(name), width);
         Flip {
             check: kernel("flip_check"),
             check_exact: kernel("flip_check_exact"),
             commit: kernel("flip_commit"),
             link: kernel("flip_link"),
             compact: kernel("flip_compact"),
-            clear_votes: kernel("clear_votes"),
+            clear_votes: Kernel::new(gpu, shader::COMMON.get("clear_votes"), width),
         }
     }
 
     /// The bind groups for these buffers.
     pub fn bind(&self, gpu: &Gpu, b: &Buffers) -> BoundFlip {
-        let (control, tets, neighbors) = (b.control.buffer(), b.tets.buffer(), b.neighbors.buffer());
-        let (status, active, free) = (b.status.buffer(), b.active.buffer(), b.free.buffer());
-        let messages = b.messages.buffer();
-        // Messages pass between commit and link; before them, their buffer has the list of open entries.
-        let check = [control, b.points.vertices.buffer(), tets, neighbors, status, active, messages];
+        let buffers = b.bindings();
         BoundFlip {
-            check: self.check.bind(gpu, &check),
-            check_exact: self.check_exact.bind(gpu, &check),
-            commit: self
-                .commit
-                .bind(gpu, &[control, tets, neighbors, status, active, free, messages, b.history.buffer()]),
-            link: self.link.bind(gpu, &[control, neighbors, status, active, free, messages]),
-            compact: self.compact.bind(gpu, &[control, status, active]),
-            clear_votes: self.clear_votes.bind(gpu, &[control, status]),
+            check: self.check.bind(gpu, &buffers),
+            check_exact: self.check_exact.bind(gpu, &buffers),
+            commit: self.commit.bind(gpu, &buffers),
+            link: self.link.bind(gpu, &buffers),
+            compact: self.compact.bind(gpu, &buffers),
+            clear_votes: self.clear_votes.bind(gpu, &buffers),
         }
     }
 

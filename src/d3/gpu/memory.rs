@@ -35,7 +35,7 @@ impl Memory {
             flip: kernels.flip.bind(gpu, &buffers),
             relocate: kernels.relocate.bind(gpu, &buffers)?,
             finish: kernels.finish.bind(gpu, &buffers)?,
-            fill_free: kernels.fill_free.bind(gpu, &[buffers.control.buffer(), buffers.free.buffer()]),
+            fill_free: kernels.fill_free.bind(gpu, &buffers.bindings()),
             buffers,
         })
     }

@@ -18,7 +18,7 @@
 use super::{memory, run::Run, vertex};
 use crate::d3::gpu::start::Start;
 use crate::gpu::layout::{Counters, Pick};
-use crate::gpu::{Gpu, Kernel, Profiler, Readback};
+use crate::gpu::{Gpu, Kernel, Profiler, Readback, shader};
 use crate::{
     Error, Points,
     input::lattice::{Lattice, Width},
@@ -107,7 +107,8 @@ pub struct Phase1Stats {
 impl Phase1Stats {
     /// The same for users, on an adapter of this name.
     pub fn summary(&self, adapter: &str) -> GpuStats {
-        let Counters { flips_23, flips_32, iterations, exact, not_locally_delaunay, failed, merged, .. } = self.counters;
+        let Counters { flips_23, flips_32, iterations, exact, not_locally_delaunay, failed, merged, .. } =
+            self.counters;
         GpuStats {
             adapter: adapter.to_owned(),
             rounds: self.rounds.clone(),
@@ -178,12 +179,12 @@ impl Phase1 {
     pub async fn new(gpu: &Gpu, width: Width) -> Result<Self, Error> {
         gpu.with_error_scope("pipelines", || {
             Ok(Phase1 {
-                points: PointStage::new(gpu, "points_gather", vertex::words_per_vertex),
+                points: PointStage::new(gpu, &shader::D3, vertex::words_per_vertex),
                 insert: Insert::new(gpu, width),
                 flip: Flip::new(gpu, width),
                 relocate: Relocate::new(gpu, width),
                 finish: Finish::new(gpu, width),
-                fill_free: Kernel::new(gpu, "fill_free", width, &[]),
+                fill_free: Kernel::new(gpu, shader::D3.get("fill_free"), width),
                 readback: Readback::default(),
                 kept: memory::Kept::default(),
             })

@@ -4,7 +4,7 @@ use crate::gpu::waiting::{BoundWaitingList, WaitingList};
 use crate::{
     Error,
     d3::gpu::buffers::Buffers,
-    gpu::{Gpu, Kernel, Recorder},
+    gpu::{Gpu, Kernel, Recorder, shader},
     input::lattice::Width,
 };
 
@@ -32,7 +32,7 @@ impl BoundRelocate {
 impl Relocate {
     /// The kernels.
     pub fn new(gpu: &Gpu, width: Width) -> Self {
-        Relocate { relocate: Kernel::new(gpu, "relocate", width, &[]), list: WaitingList::new(gpu) }
+        Relocate { relocate: Kernel::new(gpu, shader::D3.get("relocate"), width), list: WaitingList::new(gpu) }
     }
 
     /// The bind groups for these buffers.
@@ -41,11 +41,8 @@ impl Relocate {
     ///
     /// As [`Storage::new`](crate::gpu::Storage::new).
     pub fn bind(&self, gpu: &Gpu, b: &Buffers) -> Result<BoundRelocate, Error> {
-        let (control, waiting) = (b.control.buffer(), b.waiting.buffer());
         Ok(BoundRelocate {
-            relocate: self
-                .relocate
-                .bind(gpu, &[control, b.points.vertices.buffer(), b.status.buffer(), b.history.buffer(), waiting]),
+            relocate: self.relocate.bind(gpu, &b.bindings()),
             // The scores are of no use any more when the list is compacted.
             list: self.list.bind(gpu, &b.control, &b.waiting, &b.scores)?,
         })

@@ -10,10 +10,11 @@
 //!
 //! One buffer and not two, because a kernel can bind only eight; the words of a wide vertex share a 32-byte sector.
 
+use crate::gpu::shader::constants::d3;
 use crate::input::lattice::{Lattice, Width};
 
 /// The vertex at infinity: above every vertex, and above every input index.
-pub const INFINITE: u32 = u32::MAX;
+pub const INFINITE: u32 = d3::INFINITE;
 
 /// The elements of `vertices` that one vertex takes.
 pub const fn stride(width: Width) -> usize {
