@@ -9,10 +9,12 @@ use naga::{
 
 use crate::sources::File;
 
-/// What WebGPU devices support at least, per stage, workgroup and workgroup.
+/// What every WebGPU device supports.
 const MAX_STORAGE_BUFFERS: usize = 8;
 const MAX_INVOCATIONS: u32 = 256;
 const MAX_WORKGROUP_BYTES: u32 = 16_384;
+/// The constant that the host takes for the size of all workgroups.
+const WORKGROUP: &str = "WORKGROUP";
 
 /// What the host has to know of a shader.
 #[derive(Default)]
@@ -58,8 +60,10 @@ pub fn check(parts: &[&File]) -> Result<Reflection, String> {
     if entry.name != "main" {
         return reject(format!("its entry point is `{}`, not `main`", entry.name));
     }
-    if entry.workgroup_size.iter().product::<u32>() > MAX_INVOCATIONS {
-        return reject(format!("workgroups of {:?} are too large", entry.workgroup_size));
+    let workgroup = module.constants.iter().find(|(_, constant)| constant.name.as_deref() == Some(WORKGROUP));
+    let invocations = workgroup.and_then(|(_, constant)| value(&module, constant.init));
+    if invocations.is_none_or(|n| n > MAX_INVOCATIONS || entry.workgroup_size != [n, 1, 1]) {
+        return reject(format!("its workgroups have {:?} invocations, not `{WORKGROUP}`", entry.workgroup_size));
     }
     let bytes = module
         .global_variables

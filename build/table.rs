@@ -43,6 +43,7 @@ struct Declarations {
 pub fn write() -> Result<(), String> {
     let sources = Sources::read(Path::new("shaders")).map_err(|e| format!("shaders: {e}"))?;
     let mut declarations = Declarations::default();
+    // Of the dimensions, and of none.
     let mut tables: [Vec<Shader<'_>>; 3] = Default::default();
     for file in sources.files().filter(|file| file.is_kernel()) {
         let (folder, name) = file.name.split_once('/').ok_or_else(|| format!("{}: it is in no folder", file.path()))?;
@@ -132,13 +133,15 @@ fn module(
     for file in sources.files() {
         writeln!(text, "#[allow(dead_code)]\nconst {}: &str = {:?};", constant(file), file.code())?;
     }
-    let docs = ["triangles", "tetrahedra", "any dimension"];
-    for ((name, shaders), doc) in ["D2", "D3", "COMMON"].into_iter().zip(tables).zip(docs) {
-        writeln!(text, "/// The kernels for {doc}.\npub static {name}: Shaders = Shaders(&[")?;
-        for Shader { name, parts, variables } in shaders {
-            let [narrow, wide] =
-                parts.each_ref().map(|parts| parts.iter().map(|file| constant(file)).collect::<Vec<_>>());
-            let (narrow, wide) = (narrow.join(", "), wide.join(", "));
+    let [d2, d3, common] = tables;
+    let all = [("D2", "triangles", Some(d2)), ("D3", "tetrahedra", Some(d3)), ("COMMON", "any simplices", None)];
+    for (name, simplices, own) in all {
+        writeln!(text, "/// The kernels for {simplices}.\npub static {name}: Shaders = Shaders(&[")?;
+        for Shader { name, parts, variables } in own.into_iter().flatten().chain(common) {
+            let [narrow, wide] = parts.each_ref().map(|parts| {
+                let constants: Vec<_> = parts.iter().map(|file| constant(file)).collect();
+                constants.join(", ")
+            });
             writeln!(
                 text,
                 "Shader {{ name: {name:?}, narrow: &[{narrow}], wide: &[{wide}], variables: &{variables:?} }},"

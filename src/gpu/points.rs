@@ -17,7 +17,7 @@ use crate::{
     Error, Points,
     gpu::{
         Gpu, Kernel, Recorder, Storage,
-        shader::{self, Shaders, assert_layout, constants::common as constants},
+        shader::{Shaders, assert_layout, constants::common as constants},
         workgroups,
     },
     input::lattice::{Lattice, Width},
@@ -136,11 +136,11 @@ pub struct PointBuffers {
 impl<const D: usize> PointStage<D> {
     /// Compiles the kernels, those that depend on the dimension from `shaders`, for vertices of so many words.
     pub fn new(gpu: &Gpu, shaders: &Shaders, vertex_words: fn(Width) -> usize) -> Self {
-        let kernel = |shaders: &Shaders, name| Kernel::new(gpu, shaders.get(name), Width::Narrow);
+        let kernel = |name| Kernel::new(gpu, shaders.get(name), Width::Narrow);
         PointStage {
-            merge: kernel(&shader::COMMON, "points_merge"),
-            keys: kernel(shaders, "points_keys"),
-            gather: kernel(shaders, "points_gather"),
+            merge: kernel("points_merge"),
+            keys: kernel("points_keys"),
+            gather: kernel("points_gather"),
             sort: Sort::new(gpu),
             vertex_words,
         }

@@ -73,10 +73,7 @@ impl Device {
     }
 
     fn run(&self, name: &str) {
-        let mut shaders = shader::D2.iter().chain(shader::COMMON.iter());
-        let shader =
-            shaders.find(|shader| shader.name().rsplit('/').next() == Some(name)).expect("a kernel of this name");
-        self.kernels.run(shader, &self.buffers.bindings());
+        self.kernels.run(shader::D2.get(name), &self.buffers.bindings());
     }
 
     /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.

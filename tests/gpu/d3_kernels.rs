@@ -84,12 +84,9 @@ impl Device {
     }
 
     fn run(&self, name: &str) {
-        let mut shaders = shader::D3.iter().chain(shader::COMMON.iter());
-        let shader =
-            shaders.find(|shader| shader.name().rsplit('/').next() == Some(name)).expect("a kernel of this name");
         let mut buffers = self.buffers.bindings();
         buffers.push(("failed_points", self.failed_points.buffer()));
-        self.kernels.run(shader, &buffers);
+        self.kernels.run(shader::D3.get(name), &buffers);
     }
 
     /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.

@@ -69,17 +69,16 @@ impl Kernels {
     /// Compiles them.
     pub(crate) fn new(gpu: &Gpu, width: Width) -> Self {
         let kernel = |name| Kernel::new(gpu, shader::D2.get(name), width);
-        let general = |name| Kernel::new(gpu, shader::COMMON.get(name), width);
         Kernels {
             locate: kernel("locate"),
             pick_score: kernel("pick_score"),
-            pick_point: general("pick_point"),
+            pick_point: kernel("pick_point"),
             split: kernel("split"),
             relocate_split: kernel("relocate_split"),
             flip_check: kernel("flip_check"),
             flip_commit: kernel("flip_commit"),
             flip_link: kernel("flip_link"),
-            clear_votes: general("clear_votes"),
+            clear_votes: kernel("clear_votes"),
             relocate: kernel("relocate"),
             mesh_mark: kernel("mesh_mark"),
             mesh_compact: kernel("mesh_compact"),

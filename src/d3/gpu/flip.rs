@@ -38,7 +38,7 @@ impl Flip {
             commit: kernel("flip_commit"),
             link: kernel("flip_link"),
             compact: kernel("flip_compact"),
-            clear_votes: Kernel::new(gpu, shader::COMMON.get("clear_votes"), width),
+            clear_votes: kernel("clear_votes"),
         }
     }
 

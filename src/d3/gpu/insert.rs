@@ -33,7 +33,7 @@ impl Insert {
         Insert {
             locate: kernel("locate"),
             pick_score: kernel("pick_score"),
-            pick_point: Kernel::new(gpu, shader::COMMON.get("pick_point"), width),
+            pick_point: kernel("pick_point"),
             split: kernel("split"),
             relocate_split: kernel("relocate_split"),
         }
