@@ -44,16 +44,16 @@ pub struct Structure {
 pub fn check(parts: &[&File]) -> Result<Reflection, String> {
     let wgsl: String = parts.iter().map(|file| file.code()).collect();
     let places: Vec<_> = parts.iter().flat_map(|file| file.line_numbers().map(|line| (file.path(), line))).collect();
-    let describe = |location: Option<naga::SourceLocation>, details: String| {
+    let describe = |location: Option<naga::SourceLocation>, emitted: String| {
         let at = location.and_then(|location| places.get(location.line_number as usize - 1));
         let at = at.map_or_else(|| kernel(parts).path(), |(path, line)| format!("{path}:{line}"));
-        format!("{at}: {details}")
+        format!("{at}: {}", emitted.trim_start_matches("error: "))
     };
     let module = naga::front::wgsl::parse_str(&wgsl)
-        .map_err(|e| describe(e.location(&wgsl), format!("{}\n{}", e.message(), e.emit_to_string(&wgsl))))?;
+        .map_err(|e| describe(e.location(&wgsl), e.emit_to_string_with_path(&wgsl, "assembled")))?;
     let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
         .validate(&module)
-        .map_err(|e| describe(e.location(&wgsl), format!("{}\n{}", e.as_inner(), e.emit_to_string(&wgsl))))?;
+        .map_err(|e| describe(e.location(&wgsl), e.emit_to_string_with_path(&wgsl, "assembled")))?;
     let reject = |what: String| Err(format!("{}: {what}", kernel(parts).path()));
 
     let [entry] = &module.entry_points[..] else { return reject("it has not one entry point".to_owned()) };
