@@ -15,7 +15,7 @@ use gdel::{
     gpu::{
         AdapterChoice, Gpu, Kernel, Profiler, Readback, Recorder, Storage,
         points::{PointInput, PointStage},
-        shader, workgroups,
+        workgroups,
     },
     input::lattice::{Lattice, Width},
 };
@@ -36,7 +36,7 @@ fn random_points(n: usize) -> Vec<[f64; 3]> {
 }
 
 /// Milliseconds per stage, and for all with the host's part.
-fn points(gpu: &Gpu, stage: &PointStage, points: Points<'_>) {
+fn points(gpu: &Gpu, stage: &PointStage<3>, points: Points<'_>) {
     let mut stages: Vec<(&str, Vec<f64>)> = Vec::new();
     let mut note = |name, ms| match stages.iter_mut().find(|(stage, _)| *stage == name) {
         Some((_, times)) => times.push(ms),
@@ -93,7 +93,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
     let mut words = Vec::new();
     for index in 0..VERTICES as u32 + 8 {
         let position = std::array::from_fn(|_| rng.random_range(0..1i64 << width.bits()));
-        vertex::append_words(&mut words, width, position, index);
+        vertex::append_words(&mut words, width, position, index, false);
     }
     let (kernel, bindings) = block_on(gpu.with_error_scope("bench", || {
         let vertices = Storage::with_contents(gpu, "vertices", &words)?;
@@ -118,7 +118,7 @@ fn main() {
     let sizes: Vec<usize> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the bench needs a GPU");
     println!("{:?}", gpu.adapter());
-    let stage = PointStage::new(&gpu, &shader::D3, gdel::d3::gpu::vertex::words_per_vertex);
+    let stage = PointStage::new(&gpu);
     for &n in if sizes.is_empty() { &[100_000, 1_000_000][..] } else { &sizes } {
         let doubles = random_points(n);
         let singles: Vec<[f32; 3]> = doubles.iter().map(|p| p.map(|x| x as f32)).collect();

@@ -7,14 +7,14 @@ use gdel::{
     Points,
     d3::{
         generate::{Distribution, generate},
-        gpu::{
-            phase1::{Input, Phase1, Phase1Output, Settings},
-            start::first_tetrahedron,
-        },
         splay::{NearDelaunay, Outcome, splay},
         triangulation::Triangulation,
     },
-    gpu::{AdapterChoice, Gpu},
+    gpu::{
+        AdapterChoice, Gpu,
+        phase1::{Input, Phase1, Phase1Output, Settings},
+        start::first_simplex,
+    },
     input::lattice::Lattice,
     io::files::read_points,
     parallel::Threads,
@@ -54,14 +54,18 @@ fn copied(tetrahedra: &[[u32; 4]]) -> Vec<[u32; 4]> {
 fn run(
     points: &[[f32; 3]],
     lattice: &Lattice,
-    phase1: &Phase1Output,
+    phase1: &Phase1Output<3>,
     threads: Threads,
 ) -> Result<(f64, f64, SplayStats), Box<dyn Error>> {
     let near = NearDelaunay {
-        triangulation: Triangulation::new(copied(&phase1.tets), copied(&phase1.neighbors), points.len() as u32),
-        incident: phase1.tet_of[..points.len()].to_vec(),
-        failed: phase1.failed.clone(),
-        uncertain: phase1.uncertain.iter().map(|&[t, _]| t).collect(),
+        triangulation: Triangulation::new(
+            copied(&phase1.result.tets),
+            copied(&phase1.result.neighbors),
+            points.len() as u32,
+        ),
+        incident: phase1.result.tet_of[..points.len()].to_vec(),
+        failed: phase1.result.failed.clone(),
+        uncertain: phase1.result.uncertain.iter().map(|&[t, _]| t).collect(),
         // Duplicates stay out, and nothing else shares a place on the lattice in single precision.
         missing: Vec::new(),
     };
@@ -87,7 +91,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let points = read(&input)?;
         let lattice = Lattice::fit((&points).into());
         let position = |i: usize| lattice.coordinates(points[i].map(f64::from)).map(|c| c.value);
-        let start = first_tetrahedron(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
+        let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
         let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
         let of_points = Input { points: (&points).into(), lattice: &lattice, start };
         let output = block_on(phase1.run(&gpu, of_points, &Settings::default(), None))?;

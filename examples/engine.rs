@@ -5,8 +5,7 @@
 //! a device raises its clock slowly.
 
 use gdel::d3::generate::{Distribution, generate};
-use gdel::d3::gpu::engine::Hybrid;
-use gdel::gpu::{AdapterChoice, Gpu};
+use gdel::gpu::{AdapterChoice, Gpu, engine::GpuEngine};
 use gdel::io::files::read_points;
 use gdel::{Options, Points};
 use pollster::block_on;
@@ -31,10 +30,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let choice = if adapter.is_empty() { AdapterChoice::Default } else { AdapterChoice::Name(adapter) };
     let gpu = block_on(Gpu::open(&choice))?;
     let name = gpu.adapter().name.clone();
-    let mut hybrid = block_on(Hybrid::new(gpu))?;
+    let mut engine = block_on(GpuEngine::new(gpu))?;
     let mut run = || -> Result<_, gdel::Error> {
         let clock = Instant::now();
-        let mesh = block_on(hybrid.delaunay3d(points, &Options::default()))?;
+        let mesh = block_on(engine.triangulate(points, &Options::default()))?;
         Ok((1e3 * clock.elapsed().as_secs_f64(), mesh.tetrahedra.len(), mesh.stats))
     };
     let warm_up = Instant::now();

@@ -7,13 +7,13 @@
 
 use gdel::Points;
 use gdel::d3::generate::{Distribution, generate};
-use gdel::d3::gpu::start::first_tetrahedron;
+use gdel::gpu::start::first_simplex;
 use gdel::gpu::{AdapterChoice, Gpu, Profiler};
 use gdel::input::lattice::Lattice;
 use gdel::io::files::read_points;
 use gdel::{
-    d3::gpu::phase1::{Input, Phase1, Phase1Output, Settings},
     gpu::layout::Pick,
+    gpu::phase1::{Input, Phase1, Phase1Output, Settings},
 };
 use pollster::block_on;
 use std::path::Path;
@@ -49,14 +49,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let clock = std::time::Instant::now();
     let lattice = Lattice::fit((&points).into());
     let position = |i: usize| lattice.coordinates(points[i].map(f64::from)).map(|c| c.value);
-    let start = first_tetrahedron(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
+    let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
     let lattice_ms = clock.elapsed().as_secs_f64() * 1e3;
     let input = Input { points: (&points).into(), lattice: &lattice, start };
 
     let clock = std::time::Instant::now();
     let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
     let pipelines_ms = clock.elapsed().as_secs_f64() * 1e3;
-    let mut runs: Vec<Phase1Output> = Vec::new();
+    let mut runs: Vec<Phase1Output<3>> = Vec::new();
     let warm_up = std::time::Instant::now();
     while runs.is_empty() || warm_up.elapsed().as_secs_f64() < 1.0 {
         runs = vec![block_on(phase1.run(&gpu, input, &settings, None))?];
@@ -73,7 +73,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     runs.remove(0);
     runs.sort_by(|a, b| a.stats.milliseconds.total_cmp(&b.stats.milliseconds));
     let all: Vec<String> = runs.iter().map(|r| format!("{:.2}", r.stats.milliseconds)).collect();
-    let Phase1Output { stats, tets, failed, merged, uncertain, .. } = &runs[runs.len() / 2];
+    let Phase1Output { stats, result, merged } = &runs[runs.len() / 2];
     let counters = &stats.counters;
     let stages: Vec<String> = stages.iter().map(|(name, ms)| format!("\"{name}\":{ms:.3}")).collect();
     println!(
@@ -93,10 +93,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         counters.flips_23,
         counters.flips_32,
         counters.exact,
-        tets.len(),
-        failed.len(),
+        result.tets.len(),
+        result.failed.len(),
         merged.len(),
-        uncertain.len(),
+        result.uncertain.len(),
         stats.readbacks,
         stats.dispatches,
         stats.bytes,

@@ -6,17 +6,17 @@
 //! for the CPU engine (once; CPU=0 leaves it out) and whether both agree; and the stages of one more run on the device,
 //! which is slower because each dispatch is timed.
 
-use gdel::d2::gpu::{
-    phase1::{Input, Plane, Settings},
-    start::first_triangle,
-};
 use gdel::d2::{
     cpu::delaunay2d_in_order,
     generate::{Distribution2, generate2d},
-    gpu::engine::Hybrid2,
 };
-use gdel::gpu::layout::Pick;
 use gdel::gpu::{AdapterChoice, Gpu, Profiler};
+use gdel::gpu::{
+    engine::GpuEngine,
+    layout::Pick,
+    phase1::{Input, Phase1, Settings},
+    start::first_simplex,
+};
 use gdel::input::lattice::Lattice;
 use gdel::input::order::Order;
 use gdel::{Options, Points2};
@@ -65,14 +65,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let choice = if adapter.is_empty() { AdapterChoice::Default } else { AdapterChoice::Name(adapter) };
     let gpu = block_on(Gpu::open(&choice))?;
     let clock = Instant::now();
-    let mut hybrid = block_on(Hybrid2::new(gpu.clone()))?;
+    let mut engine = block_on(GpuEngine::new(gpu.clone()))?;
+    engine.set_settings(settings);
     let pipelines_ms = clock.elapsed().as_secs_f64() * 1e3;
     let options = Options::default();
     let mut meshes = Vec::new();
     let mut whole = Vec::new();
     for _ in 0..repeats + 1 {
         let clock = Instant::now();
-        let mesh = block_on(hybrid.delaunay2d_with(input, &options, &settings))?;
+        let mesh = block_on(engine.triangulate(input, &options))?;
         whole.push(clock.elapsed().as_secs_f64() * 1e3);
         meshes.push(mesh.stats.clone());
         if meshes.len() == repeats + 1 && option("CPU", 1) != 0 {
@@ -96,13 +97,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let lattice = Lattice::fit(input);
     let position = |i: usize| lattice.coordinates(input.get(i)).map(|c| c.value);
-    let start = first_triangle(count, position).ok_or("the points are collinear")?;
+    let start = first_simplex(lattice.width(), count, position).ok_or("the points are collinear")?;
     let device_input = Input { points: input, lattice: &lattice, start };
-    let mut plane = block_on(Plane::new(&gpu, lattice.width()))?;
+    let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
     let mut stages = Vec::new();
-    let mut output = block_on(plane.run(&gpu, device_input, &settings, None))?;
+    let mut output = block_on(phase1.run(&gpu, device_input, &settings, None))?;
     if let Some(mut profiler) = Profiler::new(&gpu)? {
-        output = block_on(plane.run(&gpu, device_input, &settings, Some(&mut profiler)))?;
+        output = block_on(phase1.run(&gpu, device_input, &settings, Some(&mut profiler)))?;
         let last = gpu.queue().submit([]);
         stages = block_on(profiler.milliseconds(&gpu, &last))?.to_vec();
     }

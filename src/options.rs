@@ -14,7 +14,8 @@ pub enum Backend {
     /// Incremental insertion on one core.
     Cpu,
     /// Flipping on the graphics card, splaying on the CPU; an error where the device fails or cannot hold the input. Input
-    /// that is no work for it is left to the CPU engine: see [`Hybrid::delaunay3d`](crate::d3::gpu::engine::Hybrid::delaunay3d).
+    /// that is no work for it is left to the CPU engine: see
+    /// [`GpuEngine::triangulate`](crate::gpu::engine::GpuEngine::triangulate).
     #[cfg(feature = "gpu")]
     Gpu,
 }

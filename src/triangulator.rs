@@ -1,35 +1,40 @@
-//! The engines behind one function: the GPU engine is opened when it is first needed, and kept for later inputs.
+//! Both backends behind one function: the GPU engine is opened when it is first needed, and kept for later inputs.
 
 use crate::{
     Backend, Error, Mesh2, Mesh3, Options, Points,
-    d2::{self, gpu::engine::Hybrid2},
-    d3::{cpu, gpu::engine::Hybrid},
-    gpu::{AdapterChoice, Gpu},
+    gpu::{
+        AdapterChoice, Gpu,
+        dim::Dimension,
+        engine::{Complete, GpuEngine, MeshOf},
+        phase1::Stages,
+    },
     input::points::Points2,
-    stats::{Fallback, Stats},
+    stats::Fallback,
 };
 use async_lock::Mutex;
 
-/// From so many points in space on, [`Backend::Auto`] takes the GPU engine if it is open.
+/// The number of points in 3D from which on [`Backend::Auto`] takes the GPU engine if it is open.
 ///
 /// A bound, from `cargo run --release --example experiments -- crossing` on one NVIDIA H200 and one core of the Xeon beside
-/// it, 2026-11-21: the GPU engine takes 27 ms for 100,000 uniform points, and never more for fewer; the CPU engine takes 2.0 µs
-/// a point at least, so it is no faster from 14,000 points on. The rest is for devices that take longer to start.
+/// it, 2026-11-21: the GPU engine takes 27 ms for 100,000 uniform points, and never more for fewer; the CPU engine takes at
+/// least 2.0 µs per point, so it is no faster from 14,000 points on. The rest is for devices that take longer to start.
 pub const MIN_POINTS: usize = 24_000;
 
-/// The points in space that the CPU engine triangulates in the time that it takes to open the GPU and compile its kernels: 188 and 74 ms
-/// on the same machine, against 245 ms for 100,000 points. [`Backend::Auto`] opens it when it has been asked for so many in all
-/// that the GPU would have taken, so opening never costs more than was lost by not having done so.
+/// The number of points in 3D that the CPU engine triangulates in the time that it takes to open the GPU and compile its
+/// kernels: 188 and 74 ms on the same machine, against 245 ms for 100,000 points. [`Backend::Auto`] opens it when it has
+/// seen so many in all that the GPU would have taken, so opening never costs more than was lost by not having done so.
 pub const OPENING_POINTS: usize = 100_000;
 
-/// As [`MIN_POINTS`] in the plane: there, on the same machine (`cargo run --release --example plane`, 2026-11-22), the GPU
-/// engine takes 8 ms for 50,000 points, and the CPU engine 0.43 µs a point, so it is no faster from 19,000 points on.
+/// The number of points in 2D from which on [`Backend::Auto`] takes the GPU engine if it is open: on the same machine (`cargo
+/// run --release --example plane`, 2026-11-22), the GPU engine takes 8 ms for 50,000 points, and the CPU engine 0.43 µs per
+/// point, so it is no faster from 19,000 points on.
 pub const MIN_POINTS_2: usize = 30_000;
 
-/// As [`OPENING_POINTS`] in the plane: 188 and 52 ms, at 0.43 µs a point.
+/// The number of points in 2D that the CPU engine triangulates while the GPU is opened and its kernels compiled: 188 and
+/// 52 ms, at 0.43 µs per point.
 pub const OPENING_POINTS_2: usize = 560_000;
 
-/// Both engines, for any number of inputs.
+/// Both backends, for any number of inputs.
 ///
 /// [`delaunay3d`](crate::delaunay3d) and [`delaunay2d`](crate::delaunay2d) have one of these for the whole process. Make
 /// another to choose the adapter, or where nothing may block (browsers). The device does one run at a time; others wait for
@@ -42,126 +47,96 @@ pub struct Triangulator {
 
 #[derive(Debug, Default)]
 struct State {
-    space: Slot<Hybrid>,
+    d3: Slot<3>,
     /// On the same device.
-    plane: Slot<Hybrid2>,
-    /// Whether [`Backend::Auto`] may take the device though it is software.
-    given: bool,
+    d2: Slot<2>,
+    /// Whether the caller supplied the device, so that [`Backend::Auto`] may take it though it is software.
+    caller_supplied: bool,
     /// Why [`Backend::Auto`] does not try to open a device again.
     unusable: Option<Fallback>,
 }
 
 #[derive(Debug)]
-struct Slot<E> {
+struct Slot<const D: usize>
+where
+    Dimension<D>: Stages<D>,
+{
     /// The GPU engine, while it is open.
-    engine: Option<E>,
-    /// Points of the inputs that it would have been taken for, had it been open.
-    missed: usize,
+    engine: Option<GpuEngine<D>>,
+    /// The points of the inputs so far that it would have been taken for, had it been open.
+    points_seen: usize,
 }
 
-impl<E> Default for Slot<E> {
+impl<const D: usize> Default for Slot<D>
+where
+    Dimension<D>: Stages<D>,
+{
     fn default() -> Self {
-        Slot { engine: None, missed: 0 }
+        Slot { engine: None, points_seen: 0 }
     }
 }
 
-/// A GPU engine, and the CPU engine that stands in for it: in space, and in the plane.
-trait GpuEngine<const D: usize>: Sized + 'static {
-    type Mesh;
+/// What [`Backend::Auto`] has to know of a dimension.
+trait Choice<const D: usize>: Complete<D>
+where
+    Dimension<D>: Complete<D>,
+{
     const MIN_POINTS: usize;
     const OPENING_POINTS: usize;
 
-    fn slot(state: &mut State) -> &mut Slot<Self>;
-    fn stats(mesh: &mut Self::Mesh) -> &mut Stats;
-    async fn compile(gpu: Gpu) -> Result<Self, Error>;
-    async fn triangulate(&mut self, points: Points<'_, D>, options: &Options) -> Result<Self::Mesh, Error>;
-    fn on_cpu(points: Points<'_, D>, options: &Options) -> Result<Self::Mesh, Error>;
+    fn slot(state: &mut State) -> &mut Slot<D>;
 }
 
-impl GpuEngine<3> for Hybrid {
-    type Mesh = Mesh3;
+impl Choice<3> for Dimension<3> {
     const MIN_POINTS: usize = MIN_POINTS;
     const OPENING_POINTS: usize = OPENING_POINTS;
 
-    fn slot(state: &mut State) -> &mut Slot<Self> {
-        &mut state.space
-    }
-
-    fn stats(mesh: &mut Mesh3) -> &mut Stats {
-        &mut mesh.stats
-    }
-
-    async fn compile(gpu: Gpu) -> Result<Self, Error> {
-        Hybrid::new(gpu).await
-    }
-
-    async fn triangulate(&mut self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
-        self.delaunay3d(points, options).await
-    }
-
-    fn on_cpu(points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
-        cpu::delaunay3d(points, options)
+    fn slot(state: &mut State) -> &mut Slot<3> {
+        &mut state.d3
     }
 }
 
-impl GpuEngine<2> for Hybrid2 {
-    type Mesh = Mesh2;
+impl Choice<2> for Dimension<2> {
     const MIN_POINTS: usize = MIN_POINTS_2;
     const OPENING_POINTS: usize = OPENING_POINTS_2;
 
-    fn slot(state: &mut State) -> &mut Slot<Self> {
-        &mut state.plane
-    }
-
-    fn stats(mesh: &mut Mesh2) -> &mut Stats {
-        &mut mesh.stats
-    }
-
-    async fn compile(gpu: Gpu) -> Result<Self, Error> {
-        Hybrid2::new(gpu).await
-    }
-
-    async fn triangulate(&mut self, points: Points2<'_>, options: &Options) -> Result<Mesh2, Error> {
-        self.delaunay2d(points, options).await
-    }
-
-    fn on_cpu(points: Points2<'_>, options: &Options) -> Result<Mesh2, Error> {
-        d2::cpu::delaunay2d(points, options)
+    fn slot(state: &mut State) -> &mut Slot<2> {
+        &mut state.d2
     }
 }
 
 impl Triangulator {
-    /// Triangulator of which that for the GPU will use this adapter.
+    /// Creates a triangulator that will open this adapter for the GPU backend.
     pub fn new(adapter: AdapterChoice) -> Self {
         Triangulator { adapter, ..Triangulator::default() }
     }
 
-    /// Triangulator with this GPU engine, which [`Backend::Auto`] takes even if it is software, in the plane as in space. When its
-    /// device is lost, the default adapter replaces it.
-    pub fn with_hybrid(hybrid: Hybrid) -> Self {
-        let space = Slot { engine: Some(hybrid), missed: 0 };
-        let state = State { space, given: true, ..State::default() };
+    /// Creates a triangulator with this GPU engine of 3D, whose device serves 2D, too. [`Backend::Auto`] takes it even if it
+    /// is software. When its device is lost, the default adapter replaces it.
+    pub fn with_gpu_engine(engine: GpuEngine<3>) -> Self {
+        let d3 = Slot { engine: Some(engine), points_seen: 0 };
+        let state = State { d3, caller_supplied: true, ..State::default() };
         Triangulator { state: Mutex::new(state), ..Triangulator::default() }
     }
 
-    /// Those of this process.
+    /// Returns the triangulator of this process.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn shared() -> &'static Triangulator {
         static SHARED: std::sync::LazyLock<Triangulator> = std::sync::LazyLock::new(Triangulator::default);
         &SHARED
     }
 
-    /// The GPU, opened if it is not. The kernels are compiled for it, too.
+    /// Returns the GPU, opened if it is not. The kernels of 3D are compiled for it, too.
     ///
     /// # Errors
     ///
-    /// As [`Gpu::open`] and [`Hybrid::new`].
+    /// Those of [`Gpu::open`] and [`GpuEngine::new`].
     pub async fn gpu(&self) -> Result<Gpu, Error> {
         let mut state = self.state.lock().await;
-        Ok(state.open::<Hybrid, 3>(&self.adapter).await?.gpu().clone())
+        Ok(state.open::<3>(&self.adapter).await?.gpu().clone())
     }
 
-    /// Gives the device back now, and not when the last reference to it goes. A later run opens it anew.
+    /// Gives the device back now, and not when the last reference to it goes. A later run opens it again.
     pub async fn close(&self) {
         let mut state = self.state.lock().await;
         if let Some(gpu) = state.open_device() {
@@ -170,61 +145,64 @@ impl Triangulator {
         state.close();
     }
 
-    /// The triangulation of `points` by the engine that `options` name: see [`delaunay3d`](crate::delaunay3d).
+    /// Triangulates `points` by the backend that `options` name: see [`delaunay3d`](crate::delaunay3d).
     ///
     /// # Errors
     ///
-    /// As for [`delaunay3d`](crate::delaunay3d).
+    /// Those of [`delaunay3d`](crate::delaunay3d).
     pub async fn delaunay3d(&self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
-        self.run::<Hybrid, 3>(points, options).await
+        self.run::<3>(points, options).await
     }
 
-    /// The triangulation of points of the plane by the engine that `options` name: see [`delaunay2d`](crate::delaunay2d).
+    /// Triangulates `points` by the backend that `options` name: see [`delaunay2d`](crate::delaunay2d).
     ///
     /// # Errors
     ///
-    /// As for [`delaunay2d`](crate::delaunay2d).
+    /// Those of [`delaunay2d`](crate::delaunay2d).
     pub async fn delaunay2d(&self, points: Points2<'_>, options: &Options) -> Result<Mesh2, Error> {
-        self.run::<Hybrid2, 2>(points, options).await
+        self.run::<2>(points, options).await
     }
 
-    async fn run<E: GpuEngine<D>, const D: usize>(
-        &self,
-        points: Points<'_, D>,
-        options: &Options,
-    ) -> Result<E::Mesh, Error> {
+    async fn run<const D: usize>(&self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
         match options.backend {
-            Backend::Cpu => E::on_cpu(points, options),
+            Backend::Cpu => Dimension::<D>::on_cpu(points, options),
             Backend::Gpu => {
                 let mut state = self.state.lock().await;
-                state.open::<E, D>(&self.adapter).await?;
-                state.run::<E, D>(points, options).await
+                state.open::<D>(&self.adapter).await?;
+                state.run::<D>(points, options).await
             }
             Backend::Auto => {
                 let options = &options.monotone();
-                let why = match self.try_gpu::<E, D>(points, options).await {
+                let why = match self.try_gpu::<D>(points, options).await {
                     Ok(result) => return result,
                     Err(why) => why,
                 };
-                let mut mesh = E::on_cpu(points, options)?;
-                E::stats(&mut mesh).fallback = Some(why);
+                let mut mesh = Dimension::<D>::on_cpu(points, options)?;
+                Dimension::<D>::stats(&mut mesh).fallback = Some(why);
                 Ok(mesh)
             }
         }
     }
 
-    /// What the GPU engine makes of the points, or why the CPU engine has to.
-    async fn try_gpu<E: GpuEngine<D>, const D: usize>(
+    /// Returns what the GPU engine makes of the points, or why the CPU engine has to.
+    async fn try_gpu<const D: usize>(
         &self,
         points: Points<'_, D>,
         options: &Options,
-    ) -> Result<Result<E::Mesh, Error>, Fallback> {
-        if points.len() < E::MIN_POINTS {
-            return Err(Fallback::FewPoints { points: points.len(), least: E::MIN_POINTS });
+    ) -> Result<Result<MeshOf<D>, Error>, Fallback>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let min_points = Dimension::<D>::MIN_POINTS;
+        if points.len() < min_points {
+            return Err(Fallback::FewPoints { points: points.len(), least: min_points });
         }
         let mut state = self.state.lock().await;
-        state.open_if_it_pays::<E, D>(&self.adapter, points.len()).await?;
-        match state.run::<E, D>(points, options).await {
+        state.open_if_it_pays::<D>(&self.adapter, points.len()).await?;
+        match state.run::<D>(points, options).await {
             Err(error) if error.is_of_the_gpu() => Err(Fallback::GpuFailed(error)),
             result => Ok(result),
         }
@@ -232,22 +210,25 @@ impl Triangulator {
 }
 
 impl State {
-    /// The GPU engine, opened if it is not.
-    async fn open<E: GpuEngine<D>, const D: usize>(&mut self, adapter: &AdapterChoice) -> Result<&mut E, Error> {
-        let engine = match E::slot(self).engine.take() {
+    /// Returns the GPU engine, opened if it is not.
+    async fn open<const D: usize>(&mut self, adapter: &AdapterChoice) -> Result<&mut GpuEngine<D>, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let engine = match Dimension::<D>::slot(self).engine.take() {
             Some(engine) => engine,
-            None => E::compile(self.device(adapter).await?).await?,
+            None => GpuEngine::new(self.device(adapter).await?).await?,
         };
-        Ok(E::slot(self).engine.insert(engine))
+        Ok(Dimension::<D>::slot(self).engine.insert(engine))
     }
 
-    /// The device of the engines that are open: they share one.
+    /// Returns the device of the engines that are open: they share one.
     fn open_device(&self) -> Option<Gpu> {
-        let space = self.space.engine.as_ref().map(Hybrid::gpu);
-        space.or(self.plane.engine.as_ref().map(Hybrid2::gpu)).cloned()
+        let d3 = self.d3.engine.as_ref().map(GpuEngine::gpu);
+        d3.or(self.d2.engine.as_ref().map(GpuEngine::gpu)).cloned()
     }
 
-    /// That device, or a new one.
+    /// Returns that device, or opens a new one.
     async fn device(&self, adapter: &AdapterChoice) -> Result<Gpu, Error> {
         match self.open_device() {
             Some(gpu) => Ok(gpu),
@@ -257,54 +238,52 @@ impl State {
 
     /// Forgets a device that is lost or given back, and what was compiled for it.
     fn close(&mut self) {
-        self.space.engine = None;
-        self.plane.engine = None;
-        self.given = false;
+        self.d3.engine = None;
+        self.d2.engine = None;
+        self.caller_supplied = false;
     }
 
     /// Opens the GPU engine for an input of `points` points if it is not open, or says why not to take it.
-    async fn open_if_it_pays<E: GpuEngine<D>, const D: usize>(
-        &mut self,
-        adapter: &AdapterChoice,
-        points: usize,
-    ) -> Result<(), Fallback> {
+    async fn open_if_it_pays<const D: usize>(&mut self, adapter: &AdapterChoice, points: usize) -> Result<(), Fallback>
+    where
+        Dimension<D>: Choice<D>,
+    {
         if let Some(why) = &self.unusable {
             return Err(why.clone());
         }
         if let Some(gpu) = self.open_device() {
-            self.usable(&gpu)?;
+            self.check_usable(&gpu)?;
         }
-        if E::slot(self).engine.is_some() {
+        if Dimension::<D>::slot(self).engine.is_some() {
             return Ok(());
         }
-        let least = E::OPENING_POINTS.saturating_sub(E::slot(self).missed);
-        if points < least && !self.given {
-            E::slot(self).missed += points;
-            return Err(Fallback::FewPoints { points, least });
+        let missing = Dimension::<D>::OPENING_POINTS.saturating_sub(Dimension::<D>::slot(self).points_seen);
+        if points < missing && !self.caller_supplied {
+            Dimension::<D>::slot(self).points_seen += points;
+            return Err(Fallback::FewPoints { points, least: missing });
         }
         let opened = match self.device(adapter).await {
-            Ok(gpu) => match self.usable(&gpu) {
-                Ok(()) => E::compile(gpu).await.map_err(Fallback::NoGpu),
+            Ok(gpu) => match self.check_usable(&gpu) {
+                Ok(()) => GpuEngine::new(gpu).await.map_err(Fallback::NoGpu),
                 Err(why) => Err(why),
             },
             Err(error) => Err(Fallback::NoGpu(error)),
         };
         match opened {
             Ok(engine) => {
-                E::slot(self).engine = Some(engine);
+                Dimension::<D>::slot(self).engine = Some(engine);
                 Ok(())
             }
             Err(why) => Err(self.unusable.insert(why).clone()),
         }
     }
 
-    /// Runs the GPU engine, which is open. If its device gets lost, the next run has to open it anew.
-    async fn run<E: GpuEngine<D>, const D: usize>(
-        &mut self,
-        points: Points<'_, D>,
-        options: &Options,
-    ) -> Result<E::Mesh, Error> {
-        let Some(engine) = &mut E::slot(self).engine else {
+    /// Runs the GPU engine, which is open. If its device gets lost, the next run has to open it again.
+    async fn run<const D: usize>(&mut self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let Some(engine) = &mut Dimension::<D>::slot(self).engine else {
             return Err(Error::NoAdapter { reason: "it is not open".to_owned() });
         };
         let result = engine.triangulate(points, options).await;
@@ -314,9 +293,10 @@ impl State {
         result
     }
 
-    /// An adapter that is none is no use to [`Backend::Auto`], unless the caller brought it.
-    fn usable(&self, gpu: &Gpu) -> Result<(), Fallback> {
-        match gpu.adapter().software && !self.given {
+    /// Says why [`Backend::Auto`] cannot use this device: an adapter that is software is no use to it, unless the caller
+    /// supplied it.
+    fn check_usable(&self, gpu: &Gpu) -> Result<(), Fallback> {
+        match gpu.adapter().software && !self.caller_supplied {
             true => Err(Fallback::SoftwareGpu(gpu.adapter().name.clone())),
             false => Ok(()),
         }

@@ -5,9 +5,8 @@ use gdel::{
     d3::{
         cpu,
         generate::{Distribution, generate},
-        gpu::{engine::Hybrid, phase1::Settings},
     },
-    gpu::{AdapterChoice, Gpu},
+    gpu::{AdapterChoice, Gpu, engine::GpuEngine, phase1::Settings},
     io::{PointCloud, files},
     stats::Stats,
 };
@@ -89,19 +88,25 @@ impl Context {
     }
 
     /// The GPU engine; other settings than the default ones are for experiments about them.
-    pub fn hybrid(&self, settings: Settings) -> Result<Hybrid, Box<dyn Error>> {
-        Ok(block_on(Hybrid::new(self.gpu.clone()))?.with_settings(settings))
+    pub fn engine(&self, settings: Settings<3>) -> Result<GpuEngine<3>, Box<dyn Error>> {
+        let mut engine = block_on(GpuEngine::new(self.gpu.clone()))?;
+        engine.set_settings(settings);
+        Ok(engine)
     }
 
     /// The GPU engine's run with the median time.
-    pub fn on_gpu<'a>(&self, hybrid: &mut Hybrid, points: impl Into<Points<'a>>) -> Result<Timed, Box<dyn Error>> {
+    pub fn on_gpu<'a>(
+        &self,
+        engine: &mut GpuEngine<3>,
+        points: impl Into<Points<'a>>,
+    ) -> Result<Timed, Box<dyn Error>> {
         let points = points.into();
-        self.median(|| block_on(hybrid.delaunay3d(points, &Options::default())))
+        self.median(|| block_on(engine.triangulate(points, &Options::default())))
     }
 
     /// What the GPU engine says about a run that is not timed.
-    pub fn once_on_gpu(&self, hybrid: &mut Hybrid, points: Points<'_>) -> Result<Stats, Box<dyn Error>> {
-        Ok(block_on(hybrid.delaunay3d(points, &Options::default()))?.stats)
+    pub fn once_on_gpu(&self, engine: &mut GpuEngine<3>, points: Points<'_>) -> Result<Stats, Box<dyn Error>> {
+        Ok(block_on(engine.triangulate(points, &Options::default()))?.stats)
     }
 
     /// The CPU engine's.

@@ -7,10 +7,8 @@ use crate::{
 };
 use gdel::{
     Points,
-    d3::{
-        generate::Distribution,
-        gpu::{engine::Hybrid, phase1::Settings},
-    },
+    d3::generate::Distribution,
+    gpu::{engine::GpuEngine, phase1::Settings},
 };
 use serde_json::{Value, json};
 use std::error::Error;
@@ -29,9 +27,13 @@ struct Times {
 }
 
 impl Times {
-    fn take<'a>(context: &Context, hybrid: &mut Hybrid, points: impl Into<Points<'a>>) -> Result<Self, Box<dyn Error>> {
+    fn take<'a>(
+        context: &Context,
+        engine: &mut GpuEngine<3>,
+        points: impl Into<Points<'a>>,
+    ) -> Result<Self, Box<dyn Error>> {
         let points = points.into();
-        let gpu = context.on_gpu(hybrid, points)?;
+        let gpu = context.on_gpu(engine, points)?;
         Ok(Times {
             gpu: gpu.milliseconds,
             cpu: context.on_cpu(points)?.milliseconds,
@@ -62,14 +64,14 @@ impl Times {
 const COLUMNS: [&str; 8] = ["input", "points", "gpu, ms", "cpu, ms", "CGAL, ms", "cpu / gpu", "CGAL / gpu", "fallback"];
 
 pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
-    let mut hybrid = context.hybrid(Settings::default())?;
+    let mut engine = context.engine(Settings::default())?;
     let sizes = context.sizes(&SIZES);
     let mut synthetic = Table::new(COLUMNS);
     let (mut times, mut over_cpu, mut over_cgal) = (Vec::new(), Vec::new(), Vec::new());
     for distribution in DISTRIBUTIONS {
         let measured = sizes
             .iter()
-            .map(|&size| Ok((size as f64, Times::take(context, &mut hybrid, &context.points(distribution, size))?)))
+            .map(|&size| Ok((size as f64, Times::take(context, &mut engine, &context.points(distribution, size))?)))
             .collect::<Result<Vec<_>, Box<dyn Error>>>()?;
         let name = distribution.name();
         measured.iter().for_each(|(size, times)| synthetic.push(times.row(name, *size as usize)));
@@ -83,7 +85,7 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
     let mut models = Table::new(COLUMNS);
     let mut bars: [Vec<f64>; 2] = Default::default();
     for model in &context.models {
-        let times = Times::take(context, &mut hybrid, &model.cloud)?;
+        let times = Times::take(context, &mut engine, &model.cloud)?;
         models.push(times.row(&model.name, model.cloud.points.len()));
         let speedups = times.speedups().map(|speedup| speedup.unwrap_or(0.0));
         bars.iter_mut().zip(speedups).for_each(|(bar, speedup)| bar.push(speedup));

@@ -10,11 +10,11 @@ use crate::{
     outcome::{Outcome, Table},
 };
 use gdel::{
-    d3::gpu::{
+    gpu::{
+        Profiler,
         phase1::{Input, Phase1, Settings},
-        start::first_tetrahedron,
+        start::first_simplex,
     },
-    gpu::Profiler,
     input::lattice::Lattice,
 };
 use pollster::block_on;
@@ -37,7 +37,7 @@ fn task(stage: &str) -> &'static str {
 }
 
 pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
-    let mut hybrid = context.hybrid(Settings::default())?;
+    let mut engine = context.engine(Settings::default())?;
     let size = context.sizes(&[SIZE])[0];
     let mut table = Table::new([
         "input",
@@ -55,7 +55,7 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
     let mut shares: Vec<(String, Vec<f64>)> = TASKS.iter().map(|task| (task.to_string(), Vec::new())).collect();
     for distribution in DISTRIBUTIONS {
         let points = context.points(distribution, size);
-        let timed = context.on_gpu(&mut hybrid, &points)?;
+        let timed = context.on_gpu(&mut engine, &points)?;
         let mut spent = [0.0; TASKS.len()];
         let mut add = |task: &str, milliseconds: f64| {
             let place = TASKS.iter().position(|name| *name == task);
@@ -93,7 +93,7 @@ fn kernels(context: &Context, points: &[[f64; 3]]) -> Result<Vec<(&'static str, 
     let Some(mut profiler) = Profiler::new(gpu)? else { return Ok(Vec::new()) };
     let lattice = Lattice::fit(points.into());
     let position = |i: usize| lattice.coordinates(points[i]).map(|c| c.value);
-    let start = first_tetrahedron(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
+    let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
     let input = Input { points: points.into(), lattice: &lattice, start };
     let mut phase1 = block_on(Phase1::new(gpu, lattice.width()))?;
     block_on(phase1.run(gpu, input, &Settings::default(), None))?;

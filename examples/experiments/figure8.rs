@@ -6,20 +6,20 @@ use crate::{
     figure6::DISTRIBUTIONS,
     outcome::{Outcome, Table},
 };
-use gdel::{Points, d3::gpu::phase1::Settings};
+use gdel::{Points, gpu::phase1::Settings};
 use serde_json::json;
 use std::error::Error;
 
 const SIZE: usize = 500_000;
 
 pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
-    let mut hybrid = context.hybrid(Settings::default())?;
+    let mut engine = context.engine(Settings::default())?;
     let size = context.sizes(&[SIZE])[0];
     let mut table =
         Table::new(["input", "points", "failed", "built", "pulled", "built, %", "pulled, %", "all, %", "fallback"]);
     let (mut groups, mut built, mut pulled) = (Vec::new(), Vec::new(), Vec::new());
     let mut add = |name: &str, points: Points<'_>| -> Result<(), Box<dyn Error>> {
-        let stats = context.once_on_gpu(&mut hybrid, points)?;
+        let stats = context.once_on_gpu(&mut engine, points)?;
         let splay = stats.splay.unwrap_or_default();
         let [b, p] = [splay.built, splay.pulled].map(|stars| 100.0 * stars as f64 / points.len() as f64);
         table.push([

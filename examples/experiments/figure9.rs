@@ -5,7 +5,7 @@ use crate::{
     context::Context,
     outcome::{Outcome, Table},
 };
-use gdel::d3::{generate::Distribution, gpu::phase1::Settings};
+use gdel::{d3::generate::Distribution, gpu::phase1::Settings};
 use serde_json::json;
 use std::error::Error;
 
@@ -17,10 +17,10 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
         Table::new(["strategy", "points", "failed vertices", "flips", "flip iterations", "total, ms", "fallback"]);
     let (mut failed, mut flips) = (Vec::new(), Vec::new());
     for (name, insert_all) in STRATEGIES {
-        let mut hybrid = context.hybrid(Settings { insert_all, ..Settings::default() })?;
+        let mut engine = context.engine(Settings { insert_all, ..Settings::default() })?;
         let (mut failed_here, mut flips_here) = (Vec::new(), Vec::new());
         for size in context.sizes(&SIZES) {
-            let timed = context.on_gpu(&mut hybrid, &context.points(Distribution::Uniform, size))?;
+            let timed = context.on_gpu(&mut engine, &context.points(Distribution::Uniform, size))?;
             let gpu = timed.stats.gpu.unwrap_or_default();
             let all_flips = gpu.flips_23 + gpu.flips_32;
             table.push([

@@ -7,8 +7,8 @@ use crate::{
 };
 use gdel::{
     Points,
-    d3::{generate::Distribution, gpu::phase1::Settings},
-    gpu::layout::Pick,
+    d3::generate::Distribution,
+    gpu::{layout::Pick, phase1::Settings},
 };
 use serde_json::json;
 use std::error::Error;
@@ -25,10 +25,10 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
     let mut table = Table::new(["pick", "input", "points", "failed vertices", "flips", "total, ms", "fallback"]);
     let mut failed = Vec::new();
     for (name, pick) in PICKS {
-        let mut hybrid = context.hybrid(Settings { pick, ..Settings::default() })?;
+        let mut engine = context.engine(Settings { pick, ..Settings::default() })?;
         let mut failed_here = Vec::new();
         for &(input, points) in &inputs {
-            let timed = context.on_gpu(&mut hybrid, points)?;
+            let timed = context.on_gpu(&mut engine, points)?;
             let gpu = timed.stats.gpu.unwrap_or_default();
             table.push([
                 json!(name),

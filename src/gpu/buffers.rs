@@ -117,8 +117,8 @@ impl<T: Pod> Storage<T> {
         self.buffer.size()
     }
 
-    /// The same buffer, seen as elements of another type.
-    pub fn seen_as<U: Pod>(&self) -> Storage<U> {
+    /// Returns the same buffer as elements of another type.
+    pub fn cast<U: Pod>(&self) -> Storage<U> {
         let len = self.len * size_of::<T>() / size_of::<U>();
         Storage { buffer: self.buffer.clone(), label: self.label, len, elements: PhantomData }
     }

@@ -145,6 +145,13 @@ pub struct Counters {
 }
 assert_layout!(Counters);
 
+impl Counters {
+    /// Returns the flips of all kinds so far.
+    pub(crate) fn flips(&self) -> u32 {
+        self.flips_23 + self.flips_32 + self.flips_22
+    }
+}
+
 /// A flip was put off because no slot was found for its third tetrahedron.
 pub const SLOTS_FULL: u32 = common::SLOTS_FULL;
 /// A flip was put off because the history was full.

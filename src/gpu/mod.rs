@@ -14,15 +14,19 @@
 
 mod buffers;
 mod device;
+pub mod dim;
+pub mod engine;
 pub(crate) mod iterations;
 mod kernel;
 pub mod layout;
+pub mod phase1;
 pub mod points;
 pub mod primitives;
 mod profiler;
 mod readback;
 mod recorder;
 pub mod shader;
+pub mod start;
 pub mod waiting;
 
 pub use buffers::Storage;

@@ -17,7 +17,8 @@ use crate::{
     Error, Points,
     gpu::{
         Gpu, Kernel, Recorder, Storage,
-        shader::{Shaders, assert_layout, constants::common as constants},
+        dim::{Dim, Dimension},
+        shader::{assert_layout, constants::common as constants},
         workgroups,
     },
     input::lattice::{Lattice, Width},
@@ -80,14 +81,13 @@ const _: () = {
 /// The bits of a sort key: 30 for the place along the curve, and the largest for points that others stand for.
 const KEY_BITS: u32 = 32;
 
-/// The kernels, for points of `D` coordinates: 3, or 2 in the plane.
+/// The kernels, for points of `D` coordinates.
 #[derive(Debug)]
-pub struct PointStage<const D: usize = 3> {
+pub struct PointStage<const D: usize> {
     merge: Kernel,
     keys: Kernel,
     gather: Kernel,
     sort: Sort,
-    vertex_words: fn(Width) -> usize,
 }
 
 /// What is to become vertices.
@@ -133,16 +133,18 @@ pub struct PointBuffers {
     bytes: u64,
 }
 
-impl<const D: usize> PointStage<D> {
-    /// Compiles the kernels, those that depend on the dimension from `shaders`, for vertices of so many words.
-    pub fn new(gpu: &Gpu, shaders: &Shaders, vertex_words: fn(Width) -> usize) -> Self {
-        let kernel = |name| Kernel::new(gpu, shaders.get(name), Width::Narrow);
+impl<const D: usize> PointStage<D>
+where
+    Dimension<D>: Dim<D>,
+{
+    /// Compiles the kernels.
+    pub fn new(gpu: &Gpu) -> Self {
+        let kernel = |name| Kernel::new(gpu, Dimension::<D>::SHADERS.get(name), Width::Narrow);
         PointStage {
             merge: kernel("points_merge"),
             keys: kernel("points_keys"),
             gather: kernel("points_gather"),
             sort: Sort::new(gpu),
-            vertex_words,
         }
     }
 
@@ -220,7 +222,7 @@ impl<const D: usize> PointStage<D> {
         let mut scratch = Storage::new(gpu, "sort scratch", n)?;
         let merged_into = Storage::new(gpu, "merged points", n)?;
         let counts = Storage::new(gpu, "point counts", 1)?;
-        let vertex_words = (self.vertex_words)(width);
+        let vertex_words = Dimension::<D>::vertex_words(width);
         let vertices = Storage::new(gpu, "vertices", (n + 1) * vertex_words)?;
         let buffers = [
             ("params", params.buffer()),

@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use gdel::d3::gpu::phase1::{Input, Phase1, Settings};
-use gdel::d3::gpu::start::first_tetrahedron;
+use gdel::gpu::phase1::{Input, Phase1, Settings};
+use gdel::gpu::start::first_simplex;
 use gdel::gpu::{AdapterChoice, Gpu};
 use gdel::input::lattice::{Lattice, Width};
 use gdel::predicates;
@@ -21,11 +21,11 @@ fn signs_that_are_not_listed_are_those_of_the_true_coordinates() {
     let lattice = Lattice::fit((&points).into());
     assert_eq!(lattice.width(), Width::Wide);
     let position = |i: usize| lattice.coordinates(points[i]).map(|c| c.value);
-    let start = first_tetrahedron(Width::Wide, points.len(), position).expect("not coplanar");
+    let start = first_simplex(Width::Wide, points.len(), position).expect("not coplanar");
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let mut kernels = block_on(Phase1::new(&gpu, Width::Wide)).unwrap();
     let input = Input { points: (&points).into(), lattice: &lattice, start };
-    let output = block_on(kernels.run(&gpu, input, &Settings::default(), None)).unwrap();
+    let output = block_on(kernels.run(&gpu, input, &Settings::default(), None)).unwrap().result;
 
     let infinite = points.len() as u32;
     let open: HashMap<u32, u32> = output.uncertain.iter().map(|&[t, open]| (t, open)).collect();

@@ -6,18 +6,19 @@
 use std::collections::BTreeSet;
 
 use crate::kernels::{Kernels, shuffled};
-use gdel::d2::gpu::{buffers::Buffers, start::first_triangle, vertex};
+use gdel::d2::gpu::{aliases::Aliases, vertex};
 use gdel::gpu::Storage;
 use gdel::gpu::layout::Pick;
 use gdel::gpu::layout::{Counters, DONE, NONE};
 use gdel::gpu::points::{DevicePoints, InputCounts};
 use gdel::gpu::shader;
+use gdel::gpu::{phase1::Buffers, start::first_simplex};
 use gdel::input::lattice::Width;
 use gdel::reference::d2::{self as reference, State, predicates::Vertex};
 
 struct Device {
     kernels: Kernels,
-    buffers: Buffers,
+    buffers: Buffers<2>,
 }
 
 impl Device {
@@ -36,14 +37,14 @@ impl Device {
             merged_into: Storage::new(gpu, "merged", count).unwrap(),
             counts: Storage::with_contents(gpu, "counts", &[counts]).unwrap(),
         };
-        let buffers = Buffers::new(gpu, points, state.params.history).unwrap();
+        let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
         Device { kernels, buffers }
     }
 
     fn upload(&self, state: &State) {
         let (gpu, b) = (&self.kernels.gpu, &self.buffers);
         self.kernels.write_control(&b.control, &state.params, &state.counters);
-        b.triangles.write(gpu, 0, &state.triangles);
+        b.simplices.write(gpu, 0, &state.triangles);
         b.neighbors.write(gpu, 0, &state.neighbors);
         b.status.write(gpu, 0, &state.status);
         b.active.write(gpu, 0, &state.active.concat());
@@ -58,7 +59,7 @@ impl Device {
         let active = kernels.read(&b.active);
         let (even, odd) = active.split_at(active.len() / 2);
         State {
-            triangles: kernels.read(&b.triangles),
+            triangles: kernels.read(&b.simplices),
             neighbors: kernels.read(&b.neighbors),
             status: kernels.read(&b.status),
             messages: kernels.read(&b.messages),
@@ -73,7 +74,8 @@ impl Device {
     }
 
     fn run(&self, name: &str) {
-        self.kernels.run(shader::D2.get(name), &self.buffers.bindings());
+        self.kernels
+            .run(shader::D2.get(name), &[self.buffers.bindings(), Aliases::new(&self.buffers).bindings()].concat());
     }
 
     /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.
@@ -124,10 +126,10 @@ fn statuses(state: &State) -> Vec<[u32; 2]> {
 
 fn compare(width: Width, pick: Pick) {
     let positions = shuffled(width, (0..256).map(|i| [i & 15, i >> 4]).collect(), 200);
-    let start = first_triangle(positions.len(), |i| positions[i]).expect("not collinear");
+    let start = first_simplex(width, positions.len(), |i| positions[i]).expect("not collinear");
     let mut points: Vec<Vertex> =
         (0..).zip(&positions).map(|(i, &position)| Vertex { position, index: (i * 77) % 200 }).collect();
-    points.push(Vertex { position: start.kernel, index: 200 });
+    points.push(Vertex { position: start.interior_point, index: 200 });
     let mut state = State::new(width, points, 4096);
     state.params.pick = pick as u32;
     state.first = start.first;
@@ -177,15 +179,16 @@ fn compare(width: Width, pick: Pick) {
     device.upload(&state);
     device.run("mesh_mark");
     let marks = reference::mesh_mark(&state);
-    assert_eq!(kernels.read(&device.buffers.marks), marks);
+    assert_eq!(kernels.read(&device.buffers.own.marks), marks);
     let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
-    device.buffers.offsets.write(&kernels.gpu, 0, &offsets);
+    device.buffers.own.offsets.write(&kernels.gpu, 0, &offsets);
     device.run("mesh_compact");
     let mesh = reference::mesh_compact(&state, &offsets);
     let count = mesh.triangles.len();
-    assert_eq!(kernels.read(&device.buffers.messages.seen_as::<[u32; 3]>())[..count], mesh.triangles);
-    assert_eq!(kernels.read(&device.buffers.status.seen_as::<[i32; 3]>())[..count], mesh.halfedges);
-    let hull: Vec<[u32; 2]> = kernels.read(&device.buffers.waiting.seen_as());
+    let aliases = Aliases::new(&device.buffers);
+    assert_eq!(kernels.read(&aliases.triangles)[..count], mesh.triangles);
+    assert_eq!(kernels.read(&aliases.halfedges)[..count], mesh.halfedges);
+    let hull: Vec<[u32; 2]> = kernels.read(&aliases.hull);
     let counters = kernels.read_counters(&device.buffers.control);
     let hull: BTreeSet<[u32; 2]> = hull[..counters.hull as usize].iter().copied().collect();
     assert_eq!(hull, mesh.hull.into_iter().collect());

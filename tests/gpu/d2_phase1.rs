@@ -2,14 +2,11 @@
 
 use std::collections::HashSet;
 
-use gdel::d2::gpu::start::first_triangle;
-use gdel::d2::gpu::{
-    phase1::{Input, Plane, Settings},
-    run::Run,
-    vertex,
-};
+use gdel::d2::gpu::vertex;
 use gdel::gpu::layout::Pick;
 use gdel::gpu::layout::{Active, Waiting};
+use gdel::gpu::phase1::{Input, Phase1, Run, Settings};
+use gdel::gpu::start::first_simplex;
 use gdel::gpu::{AdapterChoice, Gpu, Readback, Storage};
 use gdel::input::lattice::{Lattice, Width};
 use gdel::reference::d2::{State, mesh_compact, mesh_mark, predicates::Vertex};
@@ -20,7 +17,7 @@ fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {
 }
 
 /// The buffers of a run, as the references have them.
-fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
+fn state_of(gpu: &Gpu, width: Width, run: &Run<'_, 2>) -> State {
     let b = run.buffers();
     let (params, counters) = run.control();
     let active: Vec<Active> = read(gpu, &b.active);
@@ -30,14 +27,14 @@ fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
     let pairs = read(gpu, &b.points.pairs);
     let indices = pairs.iter().map(|&[_, point]| point).chain([params.infinite]);
     let words = read(gpu, &b.points.vertices);
-    let points = words.chunks(vertex::words(width)).zip(indices);
+    let points = words.chunks(vertex::words_per_vertex(width)).zip(indices);
     State {
         width,
         params,
         points: points.map(|(words, index)| Vertex { position: vertex::position(words), index }).collect(),
         first: [0; 3],
         merged: pairs.iter().map(|&[key, _]| key == u32::MAX).collect(),
-        triangles: read(gpu, &b.triangles),
+        triangles: read(gpu, &b.simplices),
         neighbors: read(gpu, &b.neighbors),
         status: read(gpu, &b.status),
         messages: read(gpu, &b.messages),
@@ -49,14 +46,14 @@ fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
     }
 }
 
-fn run_and_validate(gpu: &Gpu, planes: &mut [Plane; 2], name: &str, points: &[[f64; 2]], settings: Settings) {
+fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<2>; 2], name: &str, points: &[[f64; 2]], settings: Settings<2>) {
     let lattice = Lattice::<2>::fit(points.into());
     let width = lattice.width();
-    let plane = &mut planes[usize::from(width == Width::Wide)];
+    let kernels = &mut kernels[usize::from(width == Width::Wide)];
     let position = |i: usize| lattice.coordinates(points[i]).map(|c| c.value);
-    let start = first_triangle(points.len(), position).expect("not collinear");
+    let start = first_simplex(lattice.width(), points.len(), position).expect("not collinear");
     let input = Input { points: points.into(), lattice: &lattice, start };
-    let mut run = block_on(Run::new(plane, gpu, input, settings, None)).unwrap();
+    let mut run = block_on(Run::new(kernels, gpu, input, settings, None)).unwrap();
     let mut more = true;
     while more {
         more = block_on(run.round()).unwrap();
@@ -72,8 +69,8 @@ fn run_and_validate(gpu: &Gpu, planes: &mut [Plane; 2], name: &str, points: &[[f
         assert_eq!(points[p as usize], points[q as usize]);
         assert!(p > q);
     }
-    assert_eq!(output.questions, Some(vec![]), "{name}: nothing was rounded");
-    let mut mesh = output.mesh;
+    assert_eq!(output.result.uncertain, Some(vec![]), "{name}: nothing was rounded");
+    let mut mesh = output.result.mesh;
     let marks = mesh_mark(&state);
     let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
     let mut expected = mesh_compact(&state, &offsets);
@@ -92,24 +89,24 @@ fn run_and_validate(gpu: &Gpu, planes: &mut [Plane; 2], name: &str, points: &[[f
 #[test]
 fn every_round_is_valid() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
-    let mut planes = [Width::Narrow, Width::Wide].map(|width| block_on(Plane::new(&gpu, width)).unwrap());
+    let mut kernels = [Width::Narrow, Width::Wide].map(|width| block_on(Phase1::new(&gpu, width)).unwrap());
     let settings = Settings::default();
     for (name, points) in crate::d2_inputs::all() {
         // The factor makes too many bits for a narrow lattice, but not for `f64`.
         for factor in [1, 0x4000_0003] {
             let points: Vec<_> = points.iter().map(|q| q.map(|x| (x * factor) as f64)).collect();
-            run_and_validate(&gpu, &mut planes, name, &points, settings);
+            run_and_validate(&gpu, &mut kernels, name, &points, settings);
         }
         if points.len() > 400 {
             continue;
         }
         let points: Vec<_> = points.iter().map(|q| q.map(|x| x as f64)).collect();
         let unsorted = Settings { sort: false, pick: Pick::Random, ..settings };
-        run_and_validate(&gpu, &mut planes, name, &points, unsorted);
+        run_and_validate(&gpu, &mut kernels, name, &points, unsorted);
         let all = Settings { insert_all: true, pick: Pick::Centroid, ..settings };
-        run_and_validate(&gpu, &mut planes, name, &points, all);
+        run_and_validate(&gpu, &mut kernels, name, &points, all);
         // Flips wait for room in the history, and nothing is lost.
         let narrow = Settings { history: 0, min_active: 100, ..settings };
-        run_and_validate(&gpu, &mut planes, name, &points, narrow);
+        run_and_validate(&gpu, &mut kernels, name, &points, narrow);
     }
 }

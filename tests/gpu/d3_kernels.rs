@@ -6,18 +6,18 @@
 use std::collections::BTreeSet;
 
 use crate::kernels::{Kernels, shuffled};
-use gdel::d3::gpu::start::first_tetrahedron;
+use gdel::d3::gpu::vertex;
 use gdel::gpu::layout::{CHECK, Counters, DONE, NONE};
 use gdel::gpu::points::{DevicePoints, InputCounts};
 use gdel::gpu::shader;
+use gdel::gpu::start::first_simplex;
+use gdel::gpu::{Storage, layout::Pick, phase1::Buffers};
 use gdel::input::lattice::Width;
 use gdel::reference::d3::{self as reference, State, predicates::Vertex};
-use gdel::{d3::gpu::buffers::Buffers, gpu::layout::Pick};
-use gdel::{d3::gpu::vertex, gpu::Storage};
 
 struct Device {
     kernels: Kernels,
-    buffers: Buffers,
+    buffers: Buffers<3>,
     failed_points: Storage<u32>,
 }
 
@@ -27,7 +27,7 @@ impl Device {
         let gpu = &kernels.gpu;
         let count = state.params.infinite as usize;
         let points = DevicePoints {
-            vertices: Storage::new(gpu, "vertices", 4 * (count + 1) * vertex::stride(width)).unwrap(),
+            vertices: Storage::new(gpu, "vertices", (count + 1) * vertex::words_per_vertex(width)).unwrap(),
             pairs: Storage::with_contents(gpu, "pairs", &vec![[0; 2]; count]).unwrap(),
             merged_into: Storage::new(gpu, "merged", count).unwrap(),
             counts: Storage::with_contents(gpu, "counts", &[InputCounts { found: state.first, ..Default::default() }])
@@ -42,20 +42,20 @@ impl Device {
         let (gpu, b) = (&self.kernels.gpu, &self.buffers);
         let mut words = Vec::new();
         for v in &state.points {
-            vertex::append_words(&mut words, self.kernels.width, v.position, v.index);
+            vertex::append_words(&mut words, self.kernels.width, v.position, v.index, false);
         }
         self.kernels.write_control(&b.control, &state.params, &state.counters);
-        b.points.vertices.write(gpu, 0, words.as_flattened());
-        b.tets.write(gpu, 0, &state.tets);
+        b.points.vertices.write(gpu, 0, &words);
+        b.simplices.write(gpu, 0, &state.tets);
         b.neighbors.write(gpu, 0, &state.neighbors);
         b.status.write(gpu, 0, &state.status);
         b.active.write(gpu, 0, &state.active.concat());
-        b.free.write(gpu, 0, &state.free);
+        b.own.free.write(gpu, 0, &state.free);
         b.messages.write(gpu, 0, &state.messages);
         b.history.write(gpu, 0, &state.history);
         b.waiting.write(gpu, 0, &state.waiting);
         b.scores.write(gpu, 0, &state.scores);
-        b.failed.write(gpu, 0, &state.failed);
+        b.own.failed.write(gpu, 0, &state.failed);
     }
 
     fn download(&self, like: &State) -> State {
@@ -63,16 +63,16 @@ impl Device {
         let active = kernels.read(&b.active);
         let (even, odd) = active.split_at(active.len() / 2);
         State {
-            tets: kernels.read(&b.tets),
+            tets: kernels.read(&b.simplices),
             neighbors: kernels.read(&b.neighbors),
             status: kernels.read(&b.status),
-            free: kernels.read(&b.free),
+            free: kernels.read(&b.own.free),
             messages: kernels.read(&b.messages),
             active: [even.to_vec(), odd.to_vec()],
             history: kernels.read(&b.history),
             waiting: kernels.read(&b.waiting)[..like.waiting.len()].to_vec(),
             scores: kernels.read(&b.scores),
-            failed: kernels.read(&b.failed),
+            failed: kernels.read(&b.own.failed),
             // The references do not count these.
             counters: Counters {
                 exact: like.counters.exact,
@@ -163,10 +163,10 @@ fn to_check(state: &State) -> BTreeSet<u32> {
 
 fn compare(width: Width, pick: Pick, compact_from: u32) {
     let positions = shuffled(width, (0..512).map(|i| [i & 7, i >> 3 & 7, i >> 6]).collect(), 250);
-    let start = first_tetrahedron(width, positions.len(), |i| positions[i]).expect("not coplanar");
+    let start = first_simplex(width, positions.len(), |i| positions[i]).expect("not coplanar");
     let mut points: Vec<Vertex> =
         (0..).zip(&positions).map(|(index, &position)| Vertex { position, index: index ^ 0x55 }).collect();
-    points.push(Vertex { position: start.kernel, index: 1000 });
+    points.push(Vertex { position: start.interior_point, index: 1000 });
     let mut state = State::new(width, points, 64, 4096);
     state.params.pick = pick as u32;
     state.params.compact_from = compact_from;

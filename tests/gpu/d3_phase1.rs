@@ -3,21 +3,18 @@
 use std::collections::BTreeSet;
 
 use crate::d3_inputs::{self as inputs, Input as Points};
-use gdel::d3::gpu::start::first_tetrahedron;
 use gdel::d3::mesh::FACETS;
 use gdel::gpu::layout::{Active, Counters, FlipNode, Status, Waiting};
+use gdel::gpu::start::first_simplex;
 use gdel::input::lattice::{Lattice, Width};
 use gdel::reference::d3::{State, predicates::Vertex};
 use gdel::{
     d3::gpu::vertex,
-    gpu::{AdapterChoice, Gpu, Readback, Storage},
-};
-use gdel::{
-    d3::gpu::{
-        phase1::{Input, Phase1, Settings},
-        run::Run,
+    gpu::{
+        AdapterChoice, Gpu, Readback, Storage,
+        layout::Pick,
+        phase1::{Input, Phase1, Phase1Output, Run, Settings},
     },
-    gpu::layout::Pick,
 };
 use pollster::block_on;
 
@@ -26,21 +23,15 @@ fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {
 }
 
 /// The vertices of a buffer.
-fn vertices(width: Width, words: &[[i32; 4]]) -> Vec<Vertex> {
+fn vertices(width: Width, words: &[i32]) -> Vec<Vertex> {
     words
-        .chunks(vertex::stride(width))
-        .map(|words| Vertex {
-            position: std::array::from_fn(|axis| match words {
-                [high, low] => i64::from(high[axis]) << 31 | i64::from(low[axis]),
-                _ => i64::from(words[0][axis]),
-            }),
-            index: words[0][3] as u32,
-        })
+        .chunks(vertex::words_per_vertex(width))
+        .map(|words| Vertex { position: vertex::position(words), index: words[3] as u32 })
         .collect()
 }
 
 /// The buffers of a run, as the references have them.
-fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
+fn state_of(gpu: &Gpu, width: Width, run: &Run<'_, 3>) -> State {
     let b = run.buffers();
     let (params, counters) = run.control();
     let active: Vec<Active> = read(gpu, &b.active);
@@ -50,30 +41,30 @@ fn state_of(gpu: &Gpu, width: Width, run: &Run<'_>) -> State {
     State {
         width,
         params,
-        points: vertices(width, bytemuck::cast_slice(&read(gpu, &b.points.vertices))),
+        points: vertices(width, &read(gpu, &b.points.vertices)),
         first: [0; 4],
         merged: read(gpu, &b.points.pairs).into_iter().map(|[key, _]| key == u32::MAX).collect(),
-        tets: read(gpu, &b.tets),
+        tets: read(gpu, &b.simplices),
         neighbors: read(gpu, &b.neighbors),
         status: read::<Status>(gpu, &b.status),
-        free: read(gpu, &b.free),
+        free: read(gpu, &b.own.free),
         messages: read(gpu, &b.messages),
         active: [even.to_vec(), odd.to_vec()],
         history: read::<FlipNode>(gpu, &b.history),
         waiting,
         scores: read(gpu, &b.scores),
-        failed: read(gpu, &b.failed),
+        failed: read(gpu, &b.own.failed),
         counters,
     }
 }
 
-fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1; 2], points: &Points, settings: Settings) {
+fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, settings: Settings<3>) {
     let count = points.positions.len();
     let lattice = Lattice::fit((&points.positions).into());
     let width = lattice.width();
     let kernels = &mut kernels[usize::from(width == Width::Wide)];
     let position = |i: usize| lattice.coordinates(points.positions[i]).map(|c| c.value);
-    let start = first_tetrahedron(width, count, position).expect("not coplanar");
+    let start = first_simplex(width, count, position).expect("not coplanar");
     let input = Input { points: (&points.positions).into(), lattice: &lattice, start };
     let mut run = block_on(Run::new(kernels, gpu, input, settings, None)).unwrap();
     let mut more = true;
@@ -83,7 +74,7 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1; 2], points: &Points, setti
     }
     let state = state_of(gpu, width, &run);
     let before: Counters = state.counters;
-    let output = block_on(run.finish()).unwrap();
+    let Phase1Output { result: output, merged, stats } = block_on(run.finish()).unwrap();
 
     let index = |v: u32| if v as usize == count { v } else { state.points[v as usize].index };
     let mut marked = state.clone();
@@ -91,7 +82,7 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1; 2], points: &Points, setti
     let mut failed: Vec<u32> = (0..).zip(&marked.failed).filter(|&(_, &f)| f != 0).map(|(v, _)| index(v)).collect();
     failed.sort_unstable();
     assert_eq!(output.failed, failed, "{}", points.name);
-    assert_eq!(marked.validate_end(), output.stats.counters.not_locally_delaunay as usize, "{}", points.name);
+    assert_eq!(marked.validate_end(), stats.counters.not_locally_delaunay as usize, "{}", points.name);
 
     // The finite tetrahedra are in the order of their slots, and no infinite one is lost or turned over.
     let infinite = count as u32;
@@ -120,9 +111,9 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1; 2], points: &Points, setti
             assert_eq!(shared, FACETS[face].map(|i| output.tets[u][i]).into(), "{}", points.name);
         }
     }
-    let merged: BTreeSet<u32> = output.merged.iter().map(|&[p, _]| p).collect();
+    let is_merged: BTreeSet<u32> = merged.iter().map(|&[p, _]| p).collect();
     for (v, &t) in (0..).zip(&output.tet_of) {
-        assert_eq!(t == u32::MAX, merged.contains(&v), "{}: point {v}", points.name);
+        assert_eq!(t == u32::MAX, is_merged.contains(&v), "{}: point {v}", points.name);
         assert!(t == u32::MAX || output.tets[t as usize].contains(&v));
     }
     // Where nothing is rounded, exactly the flat ones are uncertain.
@@ -133,25 +124,25 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1; 2], points: &Points, setti
     let flat: Vec<[u32; 2]> =
         (0..).zip(&output.tets[..output.finite]).filter(|(_, t)| flat(t)).map(|(t, _)| [t, 16]).collect();
     assert_eq!(output.uncertain, flat, "{}", points.name);
-    assert_eq!(output.merged.len(), points.sharing, "{}", points.name);
-    for [p, q] in output.merged {
+    assert_eq!(merged.len(), points.sharing, "{}", points.name);
+    for [p, q] in merged {
         assert_eq!(points.positions[p as usize], points.positions[q as usize]);
         assert!(p > q);
     }
-    let rounds = output.stats.rounds.iter().filter(|round| round.inserted > 0).count();
+    let rounds = stats.rounds.iter().filter(|round| round.inserted > 0).count();
     let limit = 2 * rounds + 10;
     assert!(
-        output.stats.readbacks <= limit + before.iterations as usize / 64 + 4,
+        stats.readbacks <= limit + before.iterations as usize / 64 + 4,
         "{}: {} readbacks in {} rounds",
         points.name,
-        output.stats.readbacks,
+        stats.readbacks,
         rounds
     );
     let distinct: BTreeSet<[u32; 4]> = output.tets.iter().copied().collect();
     assert_eq!(distinct.len(), output.tets.len());
 }
 
-fn kernels(gpu: &Gpu) -> [Phase1; 2] {
+fn kernels(gpu: &Gpu) -> [Phase1<3>; 2] {
     [Width::Narrow, Width::Wide].map(|width| block_on(Phase1::new(gpu, width)).unwrap())
 }
 

@@ -15,9 +15,9 @@ const KERNEL: &str = include_str!("../shaders/d3_predicates.wgsl");
 fn on_the_gpu(kernel: &SignKernel, width: Width, cases: &[Case]) -> Vec<[i32; 7]> {
     let mut words = Vec::new();
     for v in cases.iter().flatten() {
-        vertex::append_words(&mut words, width, v.position, v.index);
+        vertex::append_words(&mut words, width, v.position, v.index, false);
     }
-    assert_eq!(words.len(), 5 * cases.len() * vertex::stride(width));
+    assert_eq!(words.len(), 5 * cases.len() * vertex::words_per_vertex(width));
     let vertices = Storage::with_contents(&kernel.gpu, "vertices", &words).unwrap();
     kernel.signs(&[("vertices", vertices.buffer())], cases.len())
 }

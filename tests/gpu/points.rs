@@ -4,11 +4,10 @@ use std::collections::HashMap;
 
 use gdel::{
     Points,
-    d3::gpu::vertex,
     gpu::{
         AdapterChoice, Gpu, Readback, Recorder,
+        dim::{Dim, Dimension},
         points::{InputCounts, PointInput, PointStage},
-        shader,
     },
     input::lattice::{Lattice, Width},
     reference::d3::hilbert::hilbert_key,
@@ -22,14 +21,13 @@ struct Bench<const D: usize> {
     stage: PointStage<D>,
 }
 
-impl<const D: usize> Bench<D> {
+impl<const D: usize> Bench<D>
+where
+    Dimension<D>: Dim<D>,
+{
     fn new() -> Self {
         let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a GPU or lavapipe");
-        let stage = match D {
-            2 => PointStage::new(&gpu, &shader::D2, gdel::d2::gpu::vertex::words),
-            _ => PointStage::new(&gpu, &shader::D3, vertex::words_per_vertex),
-        };
-        Bench { stage, gpu }
+        Bench { stage: PointStage::new(&gpu), gpu }
     }
 
     /// Runs the stage and compares everything with the CPU; returns the width and the counts.
@@ -54,8 +52,7 @@ impl<const D: usize> Bench<D> {
         let mut readback = Readback::default();
         let pairs = block_on(readback.read(gpu, &device.pairs, 0, n)).unwrap();
         let merged_into = block_on(readback.read(gpu, &device.merged_into, 0, n)).unwrap();
-        let stride =
-            if D == 2 { gdel::d2::gpu::vertex::words(lattice.width()) } else { 4 * vertex::stride(lattice.width()) };
+        let stride = Dimension::<D>::vertex_words(lattice.width());
         let vertices = block_on(readback.read(gpu, &device.vertices, 0, n * stride)).unwrap();
         let [counts] = block_on(readback.read(gpu, &device.counts, 0, 1)).unwrap()[..] else { panic!() };
 
@@ -80,16 +77,7 @@ impl<const D: usize> Bench<D> {
         let mut expected: Vec<i32> = Vec::new();
         for (index, p) in order() {
             let position = lattice.coordinates(p).map(|c| c.value);
-            if let [x, y] = position[..] {
-                gdel::d2::gpu::vertex::append_words(&mut expected, lattice.width(), [x, y], rounded(p));
-                continue;
-            }
-            let mut words = Vec::new();
-            vertex::append_words(&mut words, lattice.width(), [position[0], position[1], position[2]], index);
-            if lattice.width() == Width::Wide {
-                words[1][3] = i32::from(rounded(p));
-            }
-            expected.extend(words.as_flattened());
+            Dimension::<D>::append_vertex(&mut expected, lattice.width(), position, index, rounded(p));
         }
         for (v, (words, expected)) in vertices.chunks(stride).zip(expected.chunks(stride)).enumerate() {
             assert_eq!(words, expected, "vertex {v} of {n}: {:?}", points.get(pairs[v][1] as usize));

@@ -5,9 +5,8 @@ use gdel::{
     d2::{
         cpu::delaunay2d_in_order,
         generate::{Distribution2, generate2d},
-        gpu::{engine::Hybrid2, phase1::Settings},
     },
-    gpu::{AdapterChoice, Gpu, layout::Pick},
+    gpu::{AdapterChoice, Gpu, engine::GpuEngine, layout::Pick, phase1::Settings},
     input::order::Order,
     stats::Fallback,
 };
@@ -17,15 +16,16 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::sync::{LazyLock, Mutex};
 
-/// The engine that the tests in the plane share.
-pub static HYBRID: LazyLock<Mutex<Hybrid2>> = LazyLock::new(|| {
+/// The engine that the tests of 2D share.
+pub static ENGINE: LazyLock<Mutex<GpuEngine<2>>> = LazyLock::new(|| {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a Vulkan driver: scripts/setup.sh");
-    Mutex::new(block_on(Hybrid2::new(gpu)).expect("the kernels compile"))
+    Mutex::new(block_on(GpuEngine::new(gpu)).expect("the kernels compile"))
 });
 
-fn triangulate(points: Points2<'_>, settings: &Settings) -> Mesh2 {
-    let mut hybrid = HYBRID.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-    block_on(hybrid.delaunay2d_with(points, &Options::default(), settings)).expect("triangulates")
+fn triangulate(points: Points2<'_>, settings: &Settings<2>) -> Mesh2 {
+    let mut engine = ENGINE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    engine.set_settings(*settings);
+    block_on(engine.triangulate(points, &Options::default())).expect("triangulates")
 }
 
 fn same(points: Points2<'_>, mesh: &Mesh2) {

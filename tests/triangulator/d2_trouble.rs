@@ -2,7 +2,7 @@
 //! the literature on robustness, made anew. On each the CPU engine, in several insertion orders, and the GPU engine agree, and
 //! the exact verifier proves the mesh.
 
-use crate::d2::HYBRID;
+use crate::d2::ENGINE;
 use gdel::{
     Mesh2, Options,
     d2::{cpu::delaunay2d_in_order, verify::verify2d},
@@ -16,8 +16,8 @@ use std::f64::consts::TAU;
 /// The mesh of the engine `gpu`, which all others agree with.
 fn agreed(points: &[[f64; 2]]) -> Mesh2 {
     let mesh = {
-        let mut hybrid = HYBRID.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        block_on(hybrid.delaunay2d(points.into(), &Options::default())).expect("triangulates")
+        let mut engine = ENGINE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        block_on(engine.triangulate(points.into(), &Options::default())).expect("triangulates")
     };
     let report = verify2d(points, &mesh).expect("finite points");
     assert!(report.passed(), "gpu:\n{report}");

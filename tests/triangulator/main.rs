@@ -11,26 +11,26 @@ mod statistics;
 
 use gdel::{
     Mesh3, Options, Points,
-    d3::{cpu, gpu::engine::Hybrid, verify::verify3d},
-    gpu::{AdapterChoice, Gpu},
+    d3::{cpu, verify::verify3d},
+    gpu::{AdapterChoice, Gpu, engine::GpuEngine},
 };
 use pollster::block_on;
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 
-static HYBRID: LazyLock<Mutex<Hybrid>> = LazyLock::new(|| Mutex::new(open()));
+static ENGINE: LazyLock<Mutex<GpuEngine<3>>> = LazyLock::new(|| Mutex::new(open()));
 
-fn open() -> Hybrid {
+fn open() -> GpuEngine<3> {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a Vulkan driver: scripts/setup.sh");
-    block_on(Hybrid::new(gpu)).expect("the kernels compile")
+    block_on(GpuEngine::new(gpu)).expect("the kernels compile")
 }
 
 /// The engine that the tests share.
-fn hybrid() -> MutexGuard<'static, Hybrid> {
-    HYBRID.lock().unwrap_or_else(PoisonError::into_inner)
+fn engine() -> MutexGuard<'static, GpuEngine<3>> {
+    ENGINE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn triangulate<'a>(points: impl Into<Points<'a>>) -> Mesh3 {
-    block_on(hybrid().delaunay3d(points.into(), &Options::default())).expect("triangulates")
+    block_on(engine().triangulate(points.into(), &Options::default())).expect("triangulates")
 }
 
 /// Both engines agree, and the GPU's did the work.

@@ -1,14 +1,11 @@
 //! Every way in which a run can end, and that the next one works.
 
-use crate::{clouds, hybrid, open, same, triangulate};
+use crate::{clouds, engine, open, same, triangulate};
 use gdel::{
     Backend, Error, Mesh3, Options, Progress, Triangulator,
     d2::generate::{Distribution2, generate2d},
-    d3::{
-        generate::{Distribution, generate},
-        gpu::{engine::Hybrid, phase1::Settings},
-    },
-    gpu::{AdapterChoice, Gpu},
+    d3::generate::{Distribution, generate},
+    gpu::{AdapterChoice, Gpu, engine::GpuEngine, phase1::Settings},
     stats::Fallback,
     triangulator::{MIN_POINTS, MIN_POINTS_2},
 };
@@ -47,7 +44,7 @@ fn assert_monotone(reports: &[Progress]) {
 #[test]
 fn progress_goes_through_all_phases_and_never_back() {
     let points = points();
-    let (mesh, reports) = reports(|options| block_on(hybrid().delaunay3d((&points).into(), options)));
+    let (mesh, reports) = reports(|options| block_on(engine().triangulate((&points).into(), options)));
     let mut phases: Vec<&str> = reports.iter().map(|progress| progress.phase).collect();
     let rounds = phases.iter().filter(|phase| **phase == "phase 1").count();
     assert!(rounds >= mesh.stats.gpu.expect("used").rounds.len());
@@ -59,7 +56,7 @@ fn progress_goes_through_all_phases_and_never_back() {
 #[test]
 fn progress_goes_on_where_the_cpu_engine_takes_over() {
     let flat: Vec<_> = points().iter().map(|&[x, y, _]| [x, y, 1.0]).collect();
-    let (mesh, reports) = reports(|options| block_on(hybrid().delaunay3d((&flat).into(), options)));
+    let (mesh, reports) = reports(|options| block_on(engine().triangulate((&flat).into(), options)));
     assert_eq!(mesh.stats.fallback, Some(Fallback::Coplanar));
     assert!(reports.iter().any(|progress| progress.phase == "sort"));
     assert_monotone(&reports);
@@ -75,7 +72,7 @@ fn a_run_can_be_cancelled_in_every_phase() {
             *seen += usize::from(progress.phase == phase);
             if *seen == nth { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let result = block_on(hybrid().delaunay3d((&points).into(), &options));
+        let result = block_on(engine().triangulate((&points).into(), &options));
         assert_eq!(result.map(|_| ()), Err(Error::Cancelled), "{phase} {nth}");
     }
     same(&points, &triangulate(&points));
@@ -118,7 +115,7 @@ fn a_device_lost_in_the_middle_is_an_error_and_the_next_run_opens_another() {
 
 #[test]
 fn auto_goes_on_without_the_device_that_it_lost() {
-    let engines = Triangulator::with_hybrid(open());
+    let engines = Triangulator::with_gpu_engine(open());
     let points = generate(Distribution::Uniform, MIN_POINTS, 3);
     let result = lose_the_device(&engines, Backend::Auto, &points, "phase 1", 2).expect("the CPU engine goes on");
     assert!(
@@ -131,7 +128,7 @@ fn auto_goes_on_without_the_device_that_it_lost() {
 
 #[test]
 fn auto_takes_the_gpu_where_it_pays() {
-    let engines = Triangulator::with_hybrid(open());
+    let engines = Triangulator::with_gpu_engine(open());
     let points = generate(Distribution::Uniform, MIN_POINTS, 4);
     let mesh = block_on(engines.delaunay3d((&points).into(), &Options::default())).expect("triangulates");
     assert_eq!((mesh.stats.engine, mesh.stats.fallback), ("gpu", None));
@@ -143,7 +140,7 @@ fn auto_takes_the_gpu_where_it_pays() {
 
 #[test]
 fn auto_takes_the_gpu_in_the_plane_where_it_pays() {
-    let engines = Triangulator::with_hybrid(open());
+    let engines = Triangulator::with_gpu_engine(open());
     let points = generate2d(Distribution2::Uniform, MIN_POINTS_2, 4);
     let auto = |points: &[[f64; 2]]| {
         let mesh = block_on(engines.delaunay2d(points.into(), &Options::default())).expect("triangulates");
@@ -164,7 +161,7 @@ fn auto_takes_the_gpu_in_the_plane_where_it_pays() {
 
 #[test]
 fn auto_goes_on_in_the_plane_without_the_device_that_it_lost() {
-    let engines = Triangulator::with_hybrid(open());
+    let engines = Triangulator::with_gpu_engine(open());
     let device = block_on(engines.gpu()).expect("opens").device().clone();
     let points = generate2d(Distribution2::Uniform, MIN_POINTS_2, 5);
     let rounds = Mutex::new(0);
@@ -199,8 +196,8 @@ fn auto_does_not_take_a_software_adapter() {
         why.push(mesh.stats.fallback);
     }
     assert!(matches!(why[0], Some(Fallback::FewPoints { .. })), "opening does not pay yet: {why:?}");
-    if hybrid().gpu().adapter().software {
-        let name = hybrid().gpu().adapter().name.clone();
+    if engine().gpu().adapter().software {
+        let name = engine().gpu().adapter().name.clone();
         assert_eq!(why[4], Some(Fallback::SoftwareGpu(name)));
     }
 }
@@ -218,7 +215,7 @@ fn a_gpu_that_is_not_there() {
 }
 
 /// A GPU engine on the tests' adapter whose buffers can have at most so many bytes.
-fn with_small_buffers(bytes: u64) -> Hybrid {
+fn with_small_buffers(bytes: u64) -> GpuEngine<3> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).expect("an adapter");
     let descriptor = wgpu::DeviceDescriptor {
@@ -230,52 +227,53 @@ fn with_small_buffers(bytes: u64) -> Hybrid {
         ..Default::default()
     };
     let (device, queue) = block_on(adapter.request_device(&descriptor)).expect("a device");
-    block_on(Hybrid::new(Gpu::from_device(device, queue))).expect("the kernels compile")
+    block_on(GpuEngine::new(Gpu::from_device(device, queue))).expect("the kernels compile")
 }
 
 #[test]
 fn an_input_that_is_too_large_is_an_error_that_says_what_would_fit() {
-    let mut hybrid = with_small_buffers(1 << 20);
+    let mut engine = with_small_buffers(1 << 20);
     let points = generate(Distribution::Uniform, 20_000, 3);
-    let error = block_on(hybrid.delaunay3d((&points).into(), &Options::default())).expect_err("1 MiB is not enough");
+    let error = block_on(engine.triangulate((&points).into(), &Options::default())).expect_err("1 MiB is not enough");
     let Error::BufferTooLarge { bytes, limit, points: Some(fitting), .. } = error else { panic!("{error:?}") };
     assert!(bytes > limit.into() && limit == 1 << 20);
     assert!((1_000..20_000).contains(&fitting), "{fitting}");
     assert!(error.to_string().contains(&format!("{fitting} points")), "{error}");
     // That many do fit, and the engine can still be used.
     let fewer = &points[..fitting];
-    let mesh = block_on(hybrid.delaunay3d(fewer.into(), &Options::default())).expect("fits");
+    let mesh = block_on(engine.triangulate(fewer.into(), &Options::default())).expect("fits");
     assert_eq!((mesh.stats.engine, &mesh.stats.fallback), ("gpu", &None));
     same(fewer, &mesh);
-    let one_more = block_on(hybrid.delaunay3d(points[..fitting + 1].into(), &Options::default()));
+    let one_more = block_on(engine.triangulate(points[..fitting + 1].into(), &Options::default()));
     assert!(matches!(one_more, Err(Error::BufferTooLarge { .. })));
 }
 
 /// Two skew lines have a quadratic number of tetrahedra, so the buffers have to grow past what there may be.
 #[test]
 fn a_triangulation_that_outgrows_the_device_is_an_error() {
-    let mut hybrid = with_small_buffers(1 << 20);
+    let mut engine = with_small_buffers(1 << 20);
     let lines = clouds::two_skew_lines(400);
-    let error = block_on(hybrid.delaunay3d((&lines).into(), &Options::default())).expect_err("1 MiB is not enough");
+    let error = block_on(engine.triangulate((&lines).into(), &Options::default())).expect_err("1 MiB is not enough");
     let Error::BufferTooLarge { points: Some(fitting), .. } = error else { panic!("{error:?}") };
     assert!(fitting < lines.len());
     let fewer = clouds::two_skew_lines(40);
-    same(&fewer, &block_on(hybrid.delaunay3d((&fewer).into(), &Options::default())).expect("fits"));
+    same(&fewer, &block_on(engine.triangulate((&fewer).into(), &Options::default())).expect("fits"));
 }
 
 /// What flips that wait for each other would come to.
 #[test]
 fn a_run_of_too_many_flip_iterations_is_left_to_the_cpu() {
-    let mut hybrid = open().with_settings(Settings { max_iterations: 8, ..Settings::default() });
+    let mut engine = open();
+    engine.set_settings(Settings { max_iterations: 8, ..Settings::default() });
     let points = generate(Distribution::Uniform, 3_000, 1);
-    let mesh = block_on(hybrid.delaunay3d((&points).into(), &Options::default())).expect("the CPU engine goes on");
+    let mesh = block_on(engine.triangulate((&points).into(), &Options::default())).expect("the CPU engine goes on");
     assert_eq!((mesh.stats.engine, &mesh.stats.fallback), ("cpu", &Some(Fallback::Flips)));
     same(&points, &mesh);
 }
 
 #[test]
 fn auto_goes_on_without_a_gpu_that_is_too_small() {
-    let engines = Triangulator::with_hybrid(with_small_buffers(1 << 20));
+    let engines = Triangulator::with_gpu_engine(with_small_buffers(1 << 20));
     let points = generate(Distribution::Uniform, MIN_POINTS, 3);
     let mesh = block_on(engines.delaunay3d((&points).into(), &Options::default())).expect("the CPU engine goes on");
     assert!(matches!(mesh.stats.fallback, Some(Fallback::GpuFailed(Error::BufferTooLarge { .. }))));
@@ -317,12 +315,12 @@ fn a_device_whose_memory_is_exhausted_is_an_error_and_goes_on() {
     let limits = adapter.limits();
     let descriptor = wgpu::DeviceDescriptor { required_limits: limits, ..Default::default() };
     let (device, queue) = block_on(adapter.request_device(&descriptor)).expect("a device");
-    let mut hybrid = block_on(Hybrid::new(Gpu::from_device(device, queue))).expect("compiles");
+    let mut engine = block_on(GpuEngine::new(Gpu::from_device(device, queue))).expect("compiles");
     let (few, many) = (points(), generate(Distribution::Uniform, 3_000_000, 9));
     for _ in 0..2 {
-        let result = block_on(hybrid.delaunay3d((&many).into(), &Options::default()));
+        let result = block_on(engine.triangulate((&many).into(), &Options::default()));
         assert!(matches!(result, Err(Error::OutOfDeviceMemory { .. })), "{:?}", result.map(|mesh| mesh.stats));
-        let mesh = block_on(hybrid.delaunay3d((&few).into(), &Options::default())).expect("triangulates");
+        let mesh = block_on(engine.triangulate((&few).into(), &Options::default())).expect("triangulates");
         assert_eq!(mesh.stats.fallback, None);
         same(&few, &mesh);
     }

@@ -1,6 +1,6 @@
 //! The statistics and the trace of a run are true.
 
-use crate::{hybrid, triangulate};
+use crate::{engine, triangulate};
 use gdel::{
     Mesh3, Options,
     d3::{
@@ -20,7 +20,7 @@ fn the_statistics_add_up() {
     let mesh = triangulate(&points);
     let (gpu, splay) = (mesh.stats.gpu.expect("the GPU worked"), mesh.stats.splay.expect("and splaying"));
     let sum = |of: fn(&Round) -> u32| gpu.rounds.iter().map(|round| u64::from(of(round))).sum::<u64>();
-    assert_eq!(gpu.adapter, hybrid().gpu().adapter().name);
+    assert_eq!(gpu.adapter, engine().gpu().adapter().name);
     assert_eq!(sum(|round| round.inserted), 8_000);
     assert_eq!(sum(|round| round.flips), gpu.flips_23 + gpu.flips_32);
     assert_eq!(sum(|round| round.iterations), gpu.flip_iterations);
@@ -37,7 +37,7 @@ fn the_statistics_add_up() {
 fn the_trace_has_every_round_and_what_splaying_did() {
     let points = generate(Distribution::ThinSphere, 8_000, 5);
     let options = Options { trace: true, ..Options::default() };
-    let mesh = block_on(hybrid().delaunay3d((&points).into(), &options)).expect("triangulates");
+    let mesh = block_on(engine().triangulate((&points).into(), &options)).expect("triangulates");
     let (trace, gpu) = (mesh.stats.trace.as_ref().expect("asked for"), mesh.stats.gpu.as_ref().expect("used"));
     assert_eq!(trace.rounds.len(), gpu.rounds.len());
 

@@ -1,11 +1,11 @@
-//! The GPU engine of the plane.
+//! The GPU engine of 2D: what differs from that of 3D.
 
+pub mod aliases;
 pub mod buffers;
 pub(crate) mod certify;
-pub mod engine;
-pub(crate) mod kernels;
+mod dim;
+mod engine;
+pub mod finish;
 pub mod layout;
-pub mod phase1;
-pub mod run;
-pub mod start;
+pub mod stages;
 pub mod vertex;

@@ -1,4 +1,4 @@
-//! Points of the plane as the kernels see them.
+//! Points as the kernels see them.
 //!
 //! | form | words of vertex *v* |
 //! | --- | --- |
@@ -9,8 +9,8 @@
 
 use crate::input::lattice::Width;
 
-/// The words of one vertex.
-pub const fn words(width: Width) -> usize {
+/// Returns the words that one vertex takes.
+pub const fn words_per_vertex(width: Width) -> usize {
     match width {
         Width::Narrow => 2,
         Width::Wide => 4,
@@ -20,7 +20,8 @@ pub const fn words(width: Width) -> usize {
 /// The bit of a wide vertex's third word that says that the point was rounded.
 pub const ROUNDED: u32 = 1 << 31;
 
-/// Appends the words of a vertex with lattice coordinates `position`.
+/// Appends the words of a vertex with lattice coordinates `position`. `rounded` says that they are not the true ones; only the
+/// wide form keeps that, because the narrow lattice rounds nothing.
 pub fn append_words(words: &mut Vec<i32>, width: Width, position: [i64; 2], rounded: bool) {
     let [x, y] = position;
     match width {
@@ -34,7 +35,7 @@ pub fn append_words(words: &mut Vec<i32>, width: Width, position: [i64; 2], roun
     }
 }
 
-/// The lattice coordinates in the words of a vertex.
+/// Returns the lattice coordinates in the words of a vertex.
 pub fn position(words: &[i32]) -> [i64; 2] {
     std::array::from_fn(|axis| match words {
         [_, _, _, _] => i64::from(words[axis]) << 31 | i64::from(words[2 + axis] & 0x7fff_ffff),

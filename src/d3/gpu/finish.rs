@@ -1,12 +1,13 @@
 //! The end of Phase 1: failed vertices (§3.2.1), the mesh without gaps, and what is flat or left open by rounding.
 
-use crate::gpu::primitives::scan::{BoundScan, GROUPS, Scan, ScanParams};
+use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
 use crate::{
     Error,
-    d3::gpu::buffers::Buffers,
+    d3::gpu::aliases::Aliases,
     gpu::{
-        Gpu, Kernel, Recorder, Storage,
-        layout::{Active, BLOCK},
+        Gpu, Kernel, Pending, Readback, Recorder, Storage,
+        layout::{Active, BLOCK, Counters},
+        phase1::{Buffers, Slot},
         shader,
     },
     input::lattice::Width,
@@ -26,20 +27,12 @@ pub struct Finish {
 /// The bind groups of the end of Phase 1, and the buffers that it fills.
 #[derive(Debug)]
 pub struct BoundFinish {
-    /// The mesh without gaps: vertices of the tetrahedra, as places in the input. Infinite tetrahedra come last, and have
-    /// infinity last.
-    pub tets: Storage<[u32; 4]>,
-    /// Neighbours, 4·tetrahedron + face.
-    pub neighbors: Storage<[u32; 4]>,
+    /// What is written over buffers that are of no more use.
+    pub aliases: Aliases,
     /// One tetrahedron of each point, plus 1; 0 for one that another stands for. Infinity comes last.
     pub tet_of: Storage<u32>,
-    /// Entry [`BoundFinish::FINITE`] is the number of finite tetrahedra.
+    /// Entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS) is the number of finite tetrahedra.
     pub sums: Storage<u32>,
-    /// Tetrahedra that are flat or of which the lattice does not prove everything, with what is open, as
-    /// `shaders/d3/certify.wgsl` has it.
-    pub uncertain: Storage<Active>,
-    /// The places in the input of the failed vertices.
-    pub failed: Storage<u32>,
     params: Storage<ScanParams>,
     mark_failed: wgpu::BindGroup,
     mark: wgpu::BindGroup,
@@ -51,9 +44,6 @@ pub struct BoundFinish {
 }
 
 impl BoundFinish {
-    /// Where in [`BoundFinish::sums`] the number of finite tetrahedra is.
-    pub const FINITE: usize = GROUPS;
-
     /// The bytes that it takes on the device beside the buffers that it shares.
     pub fn bytes(&self) -> u64 {
         self.bytes
@@ -79,49 +69,26 @@ impl Finish {
     /// # Errors
     ///
     /// As [`Storage::new`].
-    pub fn bind(&self, gpu: &Gpu, b: &Buffers) -> Result<BoundFinish, Error> {
-        let slots = b.tets.len();
+    pub fn bind(&self, gpu: &Gpu, b: &Buffers<3>) -> Result<BoundFinish, Error> {
+        let slots = b.simplices.len();
         let params = Storage::new(gpu, "scan parameters", 1)?;
         let marks = Storage::new(gpu, "marks", slots)?;
         let numbers = Storage::new(gpu, "numbers of tetrahedra", slots)?;
-        let tet_of = Storage::new(gpu, "tetrahedra of points", b.failed.len() + 1)?;
+        let tet_of = Storage::new(gpu, "tetrahedra of points", b.own.failed.len() + 1)?;
         let bytes = marks.bytes() + numbers.bytes() + tet_of.bytes();
         let scan = self.scan.bind(gpu, &params, &marks, &numbers)?;
         let sums = scan.sums().clone();
-        // Messages and the active list are over by then, and have as many bytes a slot; so is the status once the failed
-        // vertices are marked, and the scores of points.
-        let (tets, neighbors) = (b.messages.clone(), b.active.seen_as());
-        let (uncertain, failed) = (b.status.seen_as(), b.scores.clone());
-
-        let mut buffers = b.bindings();
-        buffers.extend([
+        let aliases = Aliases::new(b);
+        let own = [
             ("marks", marks.buffer()),
             ("numbers", numbers.buffer()),
             ("sums", sums.buffer()),
             ("tet_of", tet_of.buffer()),
-            ("mesh_tetrahedra", tets.buffer()),
-            ("mesh_neighbors", neighbors.buffer()),
-            ("uncertain", uncertain.buffer()),
-            ("failed_points", failed.buffer()),
-        ]);
+        ];
+        let buffers = [&b.bindings()[..], &aliases.bindings(), &own].concat();
         let kernels = [&self.mark_failed, &self.mark, &self.number, &self.compact, &self.certify];
         let [mark_failed, mark, number, compact, certify] = kernels.map(|kernel| kernel.bind(gpu, &buffers));
-        Ok(BoundFinish {
-            tets,
-            neighbors,
-            tet_of,
-            sums,
-            uncertain,
-            failed,
-            params,
-            mark_failed,
-            mark,
-            scan,
-            number,
-            compact,
-            certify,
-            bytes,
-        })
+        Ok(BoundFinish { aliases, tet_of, sums, params, mark_failed, mark, scan, number, compact, certify, bytes })
     }
 
     /// Records the search for failed vertices, the compaction of `blocks` blocks, and the certification.
@@ -138,4 +105,86 @@ impl Finish {
         recorder.stage("certify");
         recorder.dispatch(&self.certify, &bound.certify, workgroups);
     }
+}
+
+/// A triangulation whose only facets that are not locally Delaunay cannot be flipped.
+///
+/// Vertices are places in the input. All tetrahedra are positively oriented in the sense of the perturbed predicates: there
+/// can be flat ones.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct NearMesh {
+    /// Four vertices per tetrahedron, the finite ones first. The infinite ones have the vertex at infinity, the number of
+    /// points, last.
+    pub tets: Vec<[u32; 4]>,
+    /// Entry *k* is 4·tetrahedron + face across the facet opposite vertex *k*.
+    pub neighbors: Vec<[u32; 4]>,
+    /// The number of finite tetrahedra.
+    pub finite: usize,
+    /// The vertices with a facet that is not locally Delaunay, ascending.
+    pub failed: Vec<u32>,
+    /// One tetrahedron of each vertex, infinity last; [`NONE`](crate::gpu::layout::NONE) for points that are merged into
+    /// others.
+    pub tet_of: Vec<u32>,
+    /// Tetrahedra, ascending, that are flat (bit 4); and where coordinates were rounded to the lattice, those of which it
+    /// does not prove everything: whether facet *k* is locally Delaunay (bit *k*), or the orientation (bit 4). Each facet
+    /// is listed with one of its tetrahedra.
+    pub uncertain: Vec<[u32; 2]>,
+}
+
+/// The result while it is on its way.
+struct Reading {
+    first: wgpu::SubmissionIndex,
+    tets: Pending<Slot>,
+    second: wgpu::SubmissionIndex,
+    neighbors: Pending<Slot>,
+    tet_of: Pending<u32>,
+    failed: Pending<u32>,
+    merged: Pending<u32>,
+    uncertain: Pending<Active>,
+}
+
+/// Reads the result back, of which `finite` tetrahedra are finite, and which point stands for each if any was merged.
+pub(crate) async fn read_result(
+    gpu: &Gpu,
+    readback: &mut Readback,
+    b: &Buffers<3>,
+    bound: &BoundFinish,
+    finite: usize,
+    counters: &Counters,
+) -> Result<(NearMesh, Vec<u32>), Error> {
+    let tetrahedra = finite + counters.ghosts as usize;
+    let merged_len = if counters.merged > 0 { b.points.merged_into.len() } else { 0 };
+    let aliases = &bound.aliases;
+    let Reading { first, tets, second, neighbors, tet_of, failed, merged, uncertain } = gpu
+        .with_error_scope("the result of Phase 1", || {
+            // The host takes the first part while the device sends the second.
+            let mut recorder = Recorder::new(gpu, None);
+            let tets = readback.copy(gpu, recorder.encoder(), &aliases.tets, 0, tetrahedra);
+            let first = recorder.submit(gpu);
+            let mut recorder = Recorder::new(gpu, None);
+            let encoder = recorder.encoder();
+            Ok(Reading {
+                first,
+                tets,
+                neighbors: readback.copy(gpu, encoder, &aliases.neighbors, 0, tetrahedra),
+                tet_of: readback.copy(gpu, encoder, &bound.tet_of, 0, bound.tet_of.len()),
+                failed: readback.copy(gpu, encoder, &aliases.failed, 0, counters.failed as usize),
+                merged: readback.copy(gpu, encoder, &b.points.merged_into, 0, merged_len),
+                uncertain: readback.copy(gpu, encoder, &aliases.uncertain, 0, counters.uncertain as usize),
+                second: recorder.submit(gpu),
+            })
+        })
+        .await?;
+    let tets = readback.receive(gpu, &first, tets).await?;
+    let neighbors = readback.receive(gpu, &second, neighbors).await?;
+    let mut tet_of = readback.receive(gpu, &second, tet_of).await?;
+    let mut failed = readback.receive(gpu, &second, failed).await?;
+    let merged = readback.receive(gpu, &second, merged).await?;
+    let uncertain = readback.receive(gpu, &second, uncertain).await?;
+
+    tet_of.iter_mut().for_each(|t: &mut u32| *t = t.wrapping_sub(1));
+    failed.sort_unstable();
+    let mut uncertain: Vec<[u32; 2]> = uncertain.into_iter().map(|a| [a.tet, a.outcome]).collect();
+    uncertain.sort_unstable();
+    Ok((NearMesh { tets, neighbors, finite, failed, tet_of, uncertain }, merged))
 }

@@ -1,8 +1,11 @@
 //! Flipping: check, commit, link (§3.1, §4.2).
 
 use crate::{
-    d3::gpu::buffers::Buffers,
-    gpu::{Gpu, Kernel, Recorder, shader},
+    gpu::{
+        Gpu, Kernel, Recorder,
+        phase1::{Buffers, FlipPlan},
+        shader,
+    },
     input::lattice::Width,
 };
 
@@ -43,7 +46,7 @@ impl Flip {
     }
 
     /// The bind groups for these buffers.
-    pub fn bind(&self, gpu: &Gpu, b: &Buffers) -> BoundFlip {
+    pub fn bind(&self, gpu: &Gpu, b: &Buffers<3>) -> BoundFlip {
         let buffers = b.bindings();
         BoundFlip {
             check: self.check.bind(gpu, &buffers),
@@ -55,18 +58,9 @@ impl Flip {
         }
     }
 
-    /// Records flip iterations. Those that find too few active tetrahedra do nothing. What the filter leaves open is decided
-    /// in every `exact_every`th, and in the last one. `compacts` says whether one may have so many active tetrahedra that the
-    /// next ones are found by compaction (§4.2).
-    pub fn record(
-        &self,
-        recorder: &mut Recorder<'_>,
-        bound: &BoundFlip,
-        iterations: u32,
-        exact_every: u32,
-        compacts: bool,
-        workgroups: u32,
-    ) {
+    /// Records flip iterations. Those that find too few active tetrahedra do nothing.
+    pub fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundFlip, plan: FlipPlan, workgroups: u32) {
+        let FlipPlan { iterations, exact_every, compacts } = plan;
         for i in 1..=iterations {
             recorder.stage("flip: check");
             recorder.dispatch(&self.check, &bound.check, workgroups);

@@ -1,8 +1,7 @@
 //! Insertion: the first tetrahedra, picking, splitting, and the points inside (§3.1).
 
 use crate::{
-    d3::gpu::buffers::Buffers,
-    gpu::{Gpu, Kernel, Recorder, shader},
+    gpu::{Gpu, Kernel, Recorder, phase1::Buffers, shader},
     input::lattice::Width,
 };
 
@@ -40,7 +39,7 @@ impl Insert {
     }
 
     /// The bind groups for these buffers.
-    pub fn bind(&self, gpu: &Gpu, b: &Buffers) -> BoundInsert {
+    pub fn bind(&self, gpu: &Gpu, b: &Buffers<3>) -> BoundInsert {
         let buffers = b.bindings();
         BoundInsert {
             locate: self.locate.bind(gpu, &buffers),
@@ -58,7 +57,7 @@ impl Insert {
     }
 
     /// Records an insertion round.
-    pub fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundInsert, b: &Buffers, workgroups: u32) {
+    pub fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundInsert, b: &Buffers<3>, workgroups: u32) {
         recorder.encoder().clear_buffer(b.messages.buffer(), 0, None);
         recorder.stage("pick");
         recorder.dispatch(&self.pick_score, &bound.pick_score, workgroups);

@@ -1,14 +1,13 @@
-//! The GPU engine of space.
+//! The GPU engine of 3D: what differs from that of 2D.
 
+pub mod aliases;
 pub mod buffers;
-pub mod engine;
+mod dim;
+mod engine;
 pub mod finish;
 pub mod flip;
 pub mod insert;
-pub(crate) mod memory;
-pub mod phase1;
 pub mod relocate;
-pub mod run;
-pub mod start;
-pub(crate) mod trace;
+pub mod stages;
+pub mod trace;
 pub mod vertex;

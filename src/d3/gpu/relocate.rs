@@ -3,8 +3,7 @@
 use crate::gpu::waiting::{BoundWaitingList, WaitingList};
 use crate::{
     Error,
-    d3::gpu::buffers::Buffers,
-    gpu::{Gpu, Kernel, Recorder, shader},
+    gpu::{Gpu, Kernel, Recorder, phase1::Buffers, shader},
     input::lattice::Width,
 };
 
@@ -40,7 +39,7 @@ impl Relocate {
     /// # Errors
     ///
     /// As [`Storage::new`](crate::gpu::Storage::new).
-    pub fn bind(&self, gpu: &Gpu, b: &Buffers) -> Result<BoundRelocate, Error> {
+    pub fn bind(&self, gpu: &Gpu, b: &Buffers<3>) -> Result<BoundRelocate, Error> {
         Ok(BoundRelocate {
             relocate: self.relocate.bind(gpu, &b.bindings()),
             // The scores are of no use any more when the list is compacted.

@@ -3,11 +3,10 @@
 use crate::{
     Error,
     d3::{
-        gpu::run::Run,
         mesh::FACETS,
         triangulation::{Triangulation, state},
     },
-    gpu::{Gpu, Readback},
+    gpu::{Gpu, Readback, phase1::Run},
     predicates::filter::PredicateContext,
     stats::Trace,
 };
@@ -15,16 +14,16 @@ use rustc_hash::FxHashSet;
 
 /// Collects a [`Trace`].
 #[derive(Debug, Default)]
-pub(crate) struct Tracer {
+pub struct Tracer {
     trace: Trace,
 }
 
 impl Tracer {
-    /// After a round of Phase 1: reads all of its tetrahedra back.
-    pub(crate) async fn round(&mut self, gpu: &Gpu, run: &Run<'_>) -> Result<(), Error> {
+    /// Reads all tetrahedra back, after a round of Phase 1.
+    pub(crate) async fn round(&mut self, gpu: &Gpu, run: &Run<'_, 3>) -> Result<(), Error> {
         let (buffers, infinite) = (run.buffers(), run.control().0.infinite);
         let mut readback = Readback::default();
-        let slots = readback.read(gpu, &buffers.tets, 0, buffers.tets.len()).await?;
+        let slots = readback.read(gpu, &buffers.simplices, 0, buffers.simplices.len()).await?;
         let pairs = readback.read(gpu, &buffers.points.pairs, 0, buffers.points.pairs.len()).await?;
         let tetrahedra = slots
             .into_iter()
@@ -35,7 +34,7 @@ impl Tracer {
         Ok(())
     }
 
-    /// Before splaying: finds the facets that are not locally Delaunay.
+    /// Finds the facets that are not locally Delaunay, before splaying.
     pub(crate) fn facets(&mut self, mesh: &Triangulation, vertices: &PredicateContext<'_>) {
         let finite = |t: u32| mesh.state(t) != state::FREE && !mesh.is_ghost(t);
         let is_oriented = |t: u32| {
@@ -64,7 +63,7 @@ impl Tracer {
         }
     }
 
-    /// At the end: finds out which tetrahedra of the mesh were not there before splaying.
+    /// Finds out which tetrahedra of the mesh were not there before splaying, at the end.
     pub(crate) fn finish(mut self, tetrahedra: &[[u32; 4]]) -> Trace {
         let sorted = |mut v: [u32; 4]| {
             v.sort_unstable();

@@ -1,6 +1,6 @@
 //! The answer: triangles without gaps, in input indices.
 
-use crate::d2::gpu::phase1::Mesh;
+use crate::d2::gpu::finish::Mesh;
 use crate::index::NONE;
 
 use crate::reference::d2::State;

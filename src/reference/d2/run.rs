@@ -1,8 +1,8 @@
 //! The whole run on the references.
 
-use crate::d2::gpu::start::first_triangle;
 use crate::gpu::layout::NONE;
 use crate::gpu::layout::Pick;
+use crate::gpu::start::first_simplex;
 use crate::input::lattice::Width;
 
 use crate::reference::d2::predicates::Vertex;
@@ -33,8 +33,8 @@ impl Default for Settings {
 
 /// Triangulates `sites`, which are sorted along the Hilbert curve and distinct. Nothing if they are collinear.
 pub fn run(width: Width, mut sites: Vec<Vertex>, settings: &Settings) -> Option<State> {
-    let begin = first_triangle(sites.len(), |i| sites[i].position)?;
-    sites.push(Vertex { position: begin.kernel, index: sites.len() as u32 });
+    let begin = first_simplex(width, sites.len(), |i| sites[i].position)?;
+    sites.push(Vertex { position: begin.interior_point, index: sites.len() as u32 });
     let mut state = State::new(width, sites, settings.history);
     state.params.pick = settings.pick as u32;
     state.params.min_active = settings.min_active;

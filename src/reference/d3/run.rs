@@ -1,8 +1,8 @@
 //! Phase 1 on the references.
 
-use crate::d3::gpu::start::first_tetrahedron;
 use crate::gpu::layout::NONE;
 use crate::gpu::layout::Pick;
+use crate::gpu::start::first_simplex;
 use crate::input::lattice::Width;
 
 use crate::reference::d3::predicates::Vertex;
@@ -46,8 +46,8 @@ impl Default for Settings {
 
 /// Runs Phase 1 on `sites`, which are sorted along the Hilbert curve and distinct. Nothing if they are coplanar.
 pub fn run(width: Width, mut sites: Vec<Vertex>, settings: &Settings) -> Option<State> {
-    let begin = first_tetrahedron(width, sites.len(), |i| sites[i].position)?;
-    sites.push(Vertex { position: begin.kernel, index: sites.iter().map(|s| s.index).max()? + 1 });
+    let begin = first_simplex(width, sites.len(), |i| sites[i].position)?;
+    sites.push(Vertex { position: begin.interior_point, index: sites.iter().map(|s| s.index).max()? + 1 });
     let mut state = State::new(width, sites, settings.tail, settings.history);
     state.params.pick = settings.pick as u32;
     state.params.min_active = settings.min_active;

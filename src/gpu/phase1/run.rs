@@ -1,64 +1,110 @@
 //! A run of Phase 1: what the host records, and what it reads back.
 
-use bytemuck::Zeroable;
-
 use crate::{
-    Error,
-    d3::gpu::{finish::BoundFinish, vertex},
+    Error, Points,
     gpu::{
         Gpu, Pending, Profiler, Recorder,
+        dim::{Dim, Dimension, Flip},
         iterations::{Iterations, bid_bits},
-        layout::{BLOCK, Counters, FlipNode, NONE, Params, SLOTS_FULL},
+        layout::{BLOCK, COUNTER_WORDS, Counters, NONE, PARAM_WORDS, Params, SLOTS_FULL},
+        phase1::{
+            buffers::{Buffers, largest_bytes},
+            kernels::Phase1,
+            memory::{Kept, Memory},
+            settings::Settings,
+            stages::{FlipPlan, Stages},
+            stats::Phase1Stats,
+        },
         points::{PointBuffers, PointInput},
+        primitives::scan::GROUPS,
+        start::Start,
         workgroups,
     },
+    input::lattice::Lattice,
     stats::{Round, Stopwatch},
 };
-use crate::{
-    d3::gpu::{
-        buffers::{Buffers, largest_bytes},
-        memory::{Kept, Memory},
-        phase1::{Input, Phase1, Phase1Output, Phase1Stats, Settings},
-    },
-    gpu::layout::{COUNTER_WORDS, PARAM_WORDS},
-};
 
-/// Where few signs are left open, exact checks wait for each other: one alone takes longer than all filters of an iteration.
-/// Where they are many, there would be no progress. So they follow the filter in every so many iterations, when the
-/// filter leaves at most one sign open for so many visited tetrahedra.
-const EXACT_EVERY: [(u32, u64); 2] = [(4, 16), (2, 3)];
+/// The points of a run.
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a, const D: usize>
+where
+    Dimension<D>: Dim<D>,
+{
+    /// The points, in input order.
+    pub points: Points<'a, D>,
+    /// The lattice that is fitted to them.
+    pub lattice: &'a Lattice<D>,
+    /// The first simplex, by input indices.
+    pub start: Start<D>,
+}
+
+/// What a run gives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Phase1Output<const D: usize>
+where
+    Dimension<D>: Stages<D>,
+{
+    /// The mesh, and what is to be repaired or checked of it.
+    pub result: <Dimension<D> as Stages<D>>::Result,
+    /// Points that are vertices of no simplex, with that of the point at the same place of the lattice: exact duplicates,
+    /// and points that were rounded to the same place, which are inserted afterwards.
+    pub merged: Vec<[u32; 2]>,
+    /// What the run did.
+    pub stats: Phase1Stats,
+}
 
 /// A run that is under way.
-pub struct Run<'a> {
-    kernels: &'a mut Phase1,
+pub struct Run<'a, const D: usize>
+where
+    Dimension<D>: Stages<D>,
+{
+    kernels: &'a mut Phase1<D>,
     gpu: &'a Gpu,
-    settings: Settings,
+    settings: Settings<D>,
     profiler: Option<&'a mut Profiler>,
     params: Params,
     counters: Counters,
     points: Option<PointBuffers>,
-    memory: Memory,
+    memory: Memory<D>,
     /// Readbacks before this run.
     read_before: usize,
-    /// Nothing is located yet.
+    /// Whether nothing is located yet.
     first: bool,
     iterations: Iterations,
-    /// Exact checks follow the filter in every so many iterations of a round.
-    exact_every: u32,
     stats: Phase1Stats,
     clock: Stopwatch,
     round_clock: Stopwatch,
 }
 
-/// The blocks for so many points: theirs, that of infinity, and a tail.
-fn first_blocks(points: u32, settings: &Settings) -> u32 {
-    points + 1 + tail_blocks(points, settings)
+/// Simplices are numbered in 30 bits.
+const MAX_SIMPLICES: u32 = 1 << 30;
+
+/// Blocks in the tail for no points: so many that few points do not need many steps to grow.
+const MIN_TAIL_BLOCKS: u32 = 64;
+
+/// Nodes of the history, however few the points are.
+const MIN_HISTORY: u64 = 64;
+
+/// Returns the blocks that are added to the tail at a time.
+fn tail_blocks<const D: usize>(points: u32, settings: &Settings<D>) -> u32 {
+    MIN_TAIL_BLOCKS + points / settings.points_per_tail_block.max(1)
 }
 
-/// The most points whose buffers a device can bind.
-fn max_points(limit: u64, settings: &Settings) -> usize {
+/// Returns the blocks for so many points, with the first tail.
+fn first_blocks<const D: usize>(points: u32, settings: &Settings<D>) -> u32
+where
+    Dimension<D>: Dim<D>,
+{
+    Dimension::<D>::blocks(points, tail_blocks(points, settings))
+}
+
+/// Returns the largest number of points whose buffers a device can bind.
+fn max_points<const D: usize>(limit: u64, settings: &Settings<D>) -> usize
+where
+    Dimension<D>: Dim<D>,
+{
     let fits = |points: &u32| largest_bytes(first_blocks(*points, settings)) <= limit.into();
-    let (mut fitting, mut too_many) = (0, Run::MAX_POINTS as u32 + 1);
+    let (mut fitting, mut too_many) = (0, Dimension::<D>::MAX_POINTS as u32 + 1);
     while too_many - fitting > 1 {
         let middle = fitting + (too_many - fitting) / 2;
         *(if fits(&middle) { &mut fitting } else { &mut too_many }) = middle;
@@ -66,14 +112,17 @@ fn max_points(limit: u64, settings: &Settings) -> usize {
     fitting as usize
 }
 
-/// Blocks that are added to the tail at a time: at least 64, so that few points do not need many steps.
-fn tail_blocks(points: u32, settings: &Settings) -> u32 {
-    64 + points / settings.points_per_tail_block.max(1)
+/// Returns the counters in the words that were read back.
+fn counters_in(words: &[u32]) -> Counters {
+    *bytemuck::from_bytes(bytemuck::cast_slice(words))
 }
 
-impl<'a> Run<'a> {
-    /// The most points: tetrahedra are numbered in 30 bits, and there are eight slots a point and some.
-    pub const MAX_POINTS: usize = 120_000_000;
+impl<'a, const D: usize> Run<'a, D>
+where
+    Dimension<D>: Stages<D>,
+{
+    /// The largest number of points.
+    pub const MAX_POINTS: usize = Dimension::<D>::MAX_POINTS;
 
     /// Uploads the points and records their ordering.
     ///
@@ -82,10 +131,10 @@ impl<'a> Run<'a> {
     /// [`Error::TooManyPoints`]; [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when the device cannot hold
     /// the buffers.
     pub async fn new(
-        kernels: &'a mut Phase1,
+        kernels: &'a mut Phase1<D>,
         gpu: &'a Gpu,
-        input: Input<'_>,
-        settings: Settings,
+        input: Input<'_, D>,
+        settings: Settings<D>,
         mut profiler: Option<&'a mut Profiler>,
     ) -> Result<Self, Error> {
         let (clock, round_clock) = (Stopwatch::start(), Stopwatch::start());
@@ -98,10 +147,11 @@ impl<'a> Run<'a> {
         let (bytes, limit) = (largest_bytes(blocks), gpu.max_storage_bytes());
         if bytes > limit.into() {
             let points = Some(max_points(limit, &settings));
-            return Err(Error::BufferTooLarge { label: "tetrahedra", bytes, limit, points });
+            return Err(Error::BufferTooLarge { label: Dimension::<D>::SIMPLICES, bytes, limit, points });
         }
-        let bindable = gpu.max_storage_bytes() / size_of::<FlipNode>() as u64;
-        let history = (u64::from(settings.history) * u64::from(points)).clamp(64, bindable.max(64)) as u32;
+        let bindable = gpu.max_storage_bytes() / size_of::<Flip<D>>() as u64;
+        let wanted = u64::from(settings.history) * u64::from(points);
+        let history = wanted.clamp(MIN_HISTORY, bindable.max(MIN_HISTORY)) as u32;
         // What is kept is lost if the run fails.
         let Kept { points: mut point_buffers, memory: kept } = std::mem::take(&mut kernels.kept);
         let (memory, dispatches) = gpu
@@ -109,19 +159,20 @@ impl<'a> Run<'a> {
                 // The device orders the points while the host makes the other buffers.
                 let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
                 let Input { points: input, lattice, start } = input;
-                let buffers = &mut point_buffers;
-                let input = PointInput { points: input, lattice, wanted: start.first, sort: settings.sort };
-                let device = kernels.points.record(gpu, &mut recorder, buffers, input)?;
-                let mut kernel_point = Vec::new();
-                vertex::append_words(&mut kernel_point, lattice.width(), start.kernel, points);
-                let kernel_point = kernel_point.as_flattened();
-                device.vertices.write(gpu, count * kernel_point.len(), kernel_point);
+                // Three of a triangle's, the last one twice.
+                let first = start.first.as_ref();
+                let wanted = std::array::from_fn(|k| first[k.min(D)]);
+                let input = PointInput { points: input, lattice, wanted, sort: settings.sort };
+                let device = kernels.points.record(gpu, &mut recorder, &mut point_buffers, input)?;
+                let mut words = Vec::new();
+                Dimension::<D>::append_vertex(&mut words, lattice.width(), start.interior_point, points, false);
+                device.vertices.write(gpu, count * words.len(), &words);
                 let dispatches = recorder.dispatches();
                 recorder.submit(gpu);
-                Ok((Memory::new(kernels, gpu, kept, device, blocks, history)?, dispatches))
+                Ok((Memory::new(&kernels.stages, gpu, kept, device, blocks, history)?, dispatches))
             })
             .await?;
-        let blocks = memory.blocks();
+        let blocks = memory.buffers.blocks();
         Ok(Run {
             gpu,
             settings,
@@ -143,29 +194,28 @@ impl<'a> Run<'a> {
             kernels,
             first: true,
             iterations: Iterations::new(),
-            exact_every: EXACT_EVERY[0].0,
             stats: Phase1Stats { dispatches, submits: 1, ..Phase1Stats::default() },
             clock,
             round_clock,
         })
     }
 
-    /// The buffers, for tests.
-    pub fn buffers(&self) -> &Buffers {
+    /// Returns the buffers, for tests.
+    pub fn buffers(&self) -> &Buffers<D> {
         &self.memory.buffers
     }
 
-    /// The parameters and the counters as of the last round, for tests.
+    /// Returns the parameters and the counters as of the last round.
     pub fn control(&self) -> (Params, Counters) {
         (self.params, self.counters)
     }
 
-    /// Points that are not inserted yet.
+    /// Returns the number of points that are not inserted yet.
     pub fn waiting(&self) -> u32 {
         self.params.infinite - self.counters.inserted - self.counters.merged
     }
 
-    /// Active tetrahedra.
+    /// Returns the number of active simplices.
     pub fn active(&self) -> u32 {
         self.counters.active_len[(self.counters.iteration & 1) as usize]
     }
@@ -182,18 +232,14 @@ impl<'a> Run<'a> {
         let inserts = self.first || self.waiting() > 0;
         let (submission, pending) = gpu.with_error_scope("Phase 1", || self.submit_round(inserts)).await?;
         let words = self.kernels.readback.receive(gpu, &submission, pending).await?;
-        let read: Counters = *bytemuck::from_bytes(bytemuck::cast_slice(&words));
+        let read = counters_in(&words);
         self.counters = read;
         let used = self.iterations.plan(&before, &read, self.waiting());
-        let exact = u64::from(read.exact.wrapping_sub(before.exact));
-        let visits = u64::from(read.visits.wrapping_sub(before.visits));
-        self.exact_every =
-            EXACT_EVERY.iter().find(|(_, for_one)| exact * for_one <= visits).map_or(1, |&(every, _)| every);
         self.stats.submits += 1;
         self.stats.rounds.push(Round {
             inserted: read.inserted - before.inserted,
             active: self.active(),
-            flips: read.flips_23 + read.flips_32 - before.flips_23 - before.flips_32,
+            flips: read.flips() - before.flips(),
             iterations: used,
             milliseconds: self.round_clock.lap() * 1e3,
         });
@@ -216,31 +262,31 @@ impl<'a> Run<'a> {
         if self.counters.overflow & SLOTS_FULL != 0 {
             self.grow(&mut recorder)?;
         }
+        let stages = &self.kernels.stages;
         if std::mem::take(&mut self.first) {
             self.write_control();
             self.memory.buffers.record_clear(&mut recorder);
-            recorder.stage("locate");
-            recorder.dispatch(&self.kernels.fill_free, &self.memory.fill_free, workgroups);
-            self.kernels.insert.record_first(&mut recorder, &self.memory.insert, workgroups);
+            Dimension::<D>::record_first(stages, &mut recorder, &self.memory.bound, workgroups);
         } else {
             let waiting = self.waiting();
             self.params.entries_before = self.params.entries;
             // Compacting the list costs about as much as walking it a few times.
             if waiting < self.params.entries / 4 * 3 {
-                let (entries, bound) = (self.params.entries, &self.memory.relocate);
-                self.kernels.relocate.record_compaction(gpu, &mut recorder, bound, entries, workgroups);
+                let (entries, bound) = (self.params.entries, &self.memory.bound);
+                Dimension::<D>::record_compaction(stages, gpu, &mut recorder, bound, entries, workgroups);
                 self.params.entries = waiting;
             }
             self.counters.overflow = 0;
             self.write_control();
         }
-        let Memory { buffers, insert, .. } = &self.memory;
-        self.kernels.insert.record(&mut recorder, insert, buffers, workgroups);
+        let Memory { buffers, bound } = &self.memory;
+        Dimension::<D>::record_insertion(stages, &mut recorder, bound, buffers, workgroups);
         if !(self.settings.insert_all && inserts) {
             self.record_flips(&mut recorder);
         }
         if inserts {
-            self.kernels.relocate.record(&mut recorder, &self.memory.relocate, workgroups);
+            let (stages, bound) = (&self.kernels.stages, &self.memory.bound);
+            Dimension::<D>::record_relocation(stages, &mut recorder, bound, workgroups);
         }
         self.stats.dispatches += recorder.dispatches();
         let pending = self.read_counters(recorder.encoder());
@@ -254,135 +300,118 @@ impl<'a> Run<'a> {
         self.kernels.readback.copy(self.gpu, encoder, control, PARAM_WORDS, COUNTER_WORDS)
     }
 
-    /// Parameters as the host knows them, counters as they were last read: no kernel runs between.
-    fn write_control(&mut self) {
+    /// Writes the parameters as the host knows them, and the counters as they were last read: no kernel runs between.
+    fn write_control(&self) {
         self.memory.buffers.control.write(self.gpu, 0, bytemuck::cast_slice(&[self.params]));
         self.memory.buffers.control.write(self.gpu, PARAM_WORDS, bytemuck::cast_slice(&[self.counters]));
     }
 
     fn workgroups(&self) -> u32 {
-        let most = self.settings.workgroups.min(self.gpu.max_workgroups());
-        workgroups(self.params.blocks.saturating_mul(BLOCK)).min(most)
+        let max = self.settings.workgroups.min(self.gpu.max_workgroups());
+        workgroups(self.params.blocks.saturating_mul(BLOCK)).min(max)
     }
 
     fn record_flips(&mut self, recorder: &mut Recorder<'_>) {
         let workgroups = self.workgroups();
-        let (kernels, bound, exact_every) = (&self.kernels.flip, &self.memory.flip, self.exact_every);
+        let (stages, bound) = (&self.kernels.stages, &self.memory.bound);
+        let exact_every = self.iterations.exact_every();
         let compacts = self.settings.slots_per_active > 0;
         self.iterations.record(
             recorder,
             self.params.bid_bits,
-            |recorder, iterations| kernels.record(recorder, bound, iterations, exact_every, compacts, workgroups),
-            |recorder| kernels.record_clear_votes(recorder, bound, workgroups),
+            |recorder, iterations| {
+                let plan = FlipPlan { iterations, exact_every, compacts };
+                Dimension::<D>::record_flips(stages, recorder, bound, plan, workgroups);
+            },
+            |recorder| Dimension::<D>::record_clear_votes(stages, recorder, bound, workgroups),
         );
     }
 
-    /// More slots in the tail.
+    /// Adds slots to the tail.
     fn grow(&mut self, recorder: &mut Recorder<'_>) -> Result<(), Error> {
         let before = self.params.blocks;
         let more = tail_blocks(self.params.infinite, &self.settings);
-        let blocks = before.saturating_add(more).min((1 << 30) / BLOCK - 1);
+        let blocks = before.saturating_add(more).min(MAX_SIMPLICES / BLOCK - 1);
         if blocks == before {
-            return Err(Error::TooManyTetrahedra { limit: 1 << 30 });
+            return Err(Error::TooManyTetrahedra { limit: MAX_SIMPLICES as usize });
         }
         let (bytes, limit) = (largest_bytes(blocks), self.gpu.max_storage_bytes());
         if bytes > limit.into() {
             // Points that lie like these.
             let points = u128::from(self.params.infinite) * u128::from(limit) / bytes;
-            return Err(Error::BufferTooLarge { label: "tetrahedra", bytes, limit, points: Some(points as usize) });
+            let points = Some(points as usize);
+            return Err(Error::BufferTooLarge { label: Dimension::<D>::SIMPLICES, bytes, limit, points });
         }
-        self.memory = self.memory.with_blocks(self.kernels, self.gpu, recorder, blocks)?;
+        let stages = &self.kernels.stages;
+        self.memory = self.memory.with_blocks(stages, self.gpu, recorder, blocks)?;
         (self.params.blocks_before, self.params.blocks) = (before, blocks);
         self.params.bid_bits = bid_bits(blocks);
-        recorder.stage("grow");
-        recorder.dispatch(&self.kernels.fill_free, &self.memory.fill_free, self.workgroups());
+        Dimension::<D>::record_grow(stages, recorder, &self.memory.bound, self.workgroups());
         // Bids have another form now.
-        self.kernels.flip.record_clear_votes(recorder, &self.memory.flip, self.workgroups());
+        Dimension::<D>::record_clear_votes(stages, recorder, &self.memory.bound, self.workgroups());
         self.iterations.restart();
         Ok(())
     }
 
-    /// Finds the failed vertices, and reads the mesh back.
+    /// Makes the mesh and reads it back.
     ///
     /// # Errors
     ///
-    /// As [`Run::round`].
-    pub async fn finish(mut self) -> Result<Phase1Output, Error> {
+    /// Those of [`Run::round`].
+    pub async fn finish(mut self) -> Result<Phase1Output<D>, Error> {
         let gpu = self.gpu;
-        let blocks = self.params.blocks;
-        let workgroups = self.workgroups();
+        let (blocks, workgroups) = (self.params.blocks, self.workgroups());
         let profiler = self.profiler.take();
         let (submission, counters, finite) = gpu
             .with_error_scope("the end of Phase 1", || {
                 let mut recorder = Recorder::new(gpu, profiler);
-                let bound = &self.memory.finish;
-                self.kernels.finish.record(gpu, &mut recorder, bound, blocks, workgroups);
+                let (stages, bound) = (&self.kernels.stages, &self.memory.bound);
+                Dimension::<D>::record_finish(stages, gpu, &mut recorder, bound, blocks, workgroups);
                 self.stats.dispatches += recorder.dispatches();
                 let encoder = recorder.encoder();
-                let finite = self.kernels.readback.copy(gpu, encoder, &bound.sums, BoundFinish::FINITE, 1);
+                let finite = self.kernels.readback.copy(gpu, encoder, Dimension::<D>::sums(bound), GROUPS, 1);
                 let counters = self.read_counters(encoder);
                 Ok((recorder.submit(gpu), counters, finite))
             })
             .await?;
-        let counters = self.kernels.readback.receive(gpu, &submission, counters).await?;
+        let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
         let finite = self.kernels.readback.receive(gpu, &submission, finite).await?[0] as usize;
-        let mut read = Counters::zeroed();
-        bytemuck::bytes_of_mut(&mut read).copy_from_slice(bytemuck::cast_slice(&counters));
-        self.counters = read;
+        let counters = counters_in(&words);
         self.stats.milliseconds = self.clock.lap() * 1e3;
 
-        let Run { kernels, params, counters, points, memory, read_before, mut stats, mut clock, .. } = self;
-        let count = params.infinite as usize;
-        let tets = finite + counters.ghosts as usize;
-        let aside = if counters.merged > 0 { count } else { 0 };
+        let Run { kernels, points, memory, read_before, mut stats, mut clock, .. } = self;
         let readback = &mut kernels.readback;
-        let (first, tets, submission, neighbors, tet_of, failed, merged, uncertain) = gpu
-            .with_error_scope("the result of Phase 1", || {
-                // The host takes the first part while the device sends the second.
-                let bound = &memory.finish;
-                let mut recorder = Recorder::new(gpu, None);
-                let tets_read = readback.copy(gpu, recorder.encoder(), &bound.tets, 0, tets);
-                let first = recorder.submit(gpu);
-                let mut recorder = Recorder::new(gpu, None);
-                let encoder = recorder.encoder();
-                let neighbors = readback.copy(gpu, encoder, &bound.neighbors, 0, tets);
-                let tet_of = readback.copy(gpu, encoder, &bound.tet_of, 0, count + 1);
-                let failed = readback.copy(gpu, encoder, &bound.failed, 0, counters.failed as usize);
-                let merged = readback.copy(gpu, encoder, &memory.buffers.points.merged_into, 0, aside);
-                let uncertain = readback.copy(gpu, encoder, &bound.uncertain, 0, counters.uncertain as usize);
-                Ok((first, tets_read, recorder.submit(gpu), neighbors, tet_of, failed, merged, uncertain))
-            })
-            .await?;
-        let tets = readback.receive(gpu, &first, tets).await?;
-        let neighbors = readback.receive(gpu, &submission, neighbors).await?;
-        let mut tet_of = readback.receive(gpu, &submission, tet_of).await?;
-        let mut failed = readback.receive(gpu, &submission, failed).await?;
-        let merged = readback.receive(gpu, &submission, merged).await?;
-        let uncertain = readback.receive(gpu, &submission, uncertain).await?;
-
-        tet_of.iter_mut().for_each(|t: &mut u32| *t = t.wrapping_sub(1));
-        failed.sort_unstable();
-        let mut uncertain: Vec<[u32; 2]> = uncertain.into_iter().map(|a| [a.tet, a.outcome]).collect();
-        uncertain.sort_unstable();
+        let (result, merged_into) =
+            Dimension::<D>::read_result(gpu, readback, &memory.buffers, &memory.bound, finite, &counters).await?;
         stats.readback_milliseconds = clock.lap() * 1e3;
         stats.counters = counters;
         stats.submits += 2;
         stats.readbacks = readback.count() - read_before;
         stats.bytes = memory.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
         kernels.kept = Kept { points, memory: Some(memory) };
-        Ok(Phase1Output {
-            tets,
-            neighbors,
-            finite,
-            failed,
-            tet_of,
-            merged: (0..)
-                .zip(merged)
-                .filter(|&(_, other)| other != NONE)
-                .map(|(point, other)| [point, other])
-                .collect(),
-            uncertain,
-            stats,
-        })
+        let merged = (0..).zip(merged_into).filter(|&(_, other)| other != NONE);
+        Ok(Phase1Output { result, merged: merged.map(|(point, other)| [point, other]).collect(), stats })
+    }
+}
+
+impl<const D: usize> Phase1<D>
+where
+    Dimension<D>: Stages<D>,
+{
+    /// Runs Phase 1.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::new`], [`Run::round`] and [`Run::finish`].
+    pub async fn run(
+        &mut self,
+        gpu: &Gpu,
+        input: Input<'_, D>,
+        settings: &Settings<D>,
+        profiler: Option<&mut Profiler>,
+    ) -> Result<Phase1Output<D>, Error> {
+        let mut run = Run::new(self, gpu, input, *settings, profiler).await?;
+        while run.round().await? {}
+        run.finish().await
     }
 }

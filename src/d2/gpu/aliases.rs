@@ -1,0 +1,61 @@
+//! Buffers of 2D with a second life at the end of Phase 1.
+//!
+//! | buffer | during the rounds | at the end |
+//! | --- | --- | --- |
+//! | `messages` | scores and points while they are picked; messages | the triangles of the mesh |
+//! | `status` | the status of each slot | the half-edges of the mesh |
+//! | `waiting` | the list of waiting points | the edges of the hull |
+//! | `active` | the active list | the tests that rounding makes uncertain |
+//! | `scores` | the scores of waiting points; marks while their list is compacted | |
+
+use crate::{
+    d2::gpu::layout::UncertainTest,
+    gpu::{
+        Binding, Storage,
+        layout::{Active, Status, Waiting},
+        phase1::{Buffers, Slot},
+    },
+};
+
+/// What is written over buffers of the rounds at the end of Phase 1.
+#[derive(Debug)]
+pub struct Aliases {
+    /// The vertices of the triangles, as places in the input.
+    pub triangles: Storage<[u32; 3]>,
+    /// The half-edge that runs against each.
+    pub halfedges: Storage<[i32; 3]>,
+    /// The half-edges of the hull, from where to where.
+    pub hull: Storage<[u32; 2]>,
+    /// What the lattice does not prove of the true coordinates, as far as there is room.
+    pub uncertain: Storage<UncertainTest>,
+}
+
+// The mesh has no more triangles than there are slots.
+const _: () = assert!(size_of::<Slot>() >= size_of::<[u32; 3]>());
+const _: () = assert!(size_of::<Status>() >= size_of::<[i32; 3]>());
+// The hull has no more edges than there are points.
+const _: () = assert!(size_of::<Waiting>() >= size_of::<[u32; 2]>());
+// The active list has two entries per slot: there is room for one test per slot.
+const _: () = assert!(2 * size_of::<Active>() >= size_of::<UncertainTest>());
+
+impl Aliases {
+    /// Returns the second lives of these buffers.
+    pub fn new(b: &Buffers<2>) -> Self {
+        Aliases {
+            triangles: b.messages.cast(),
+            halfedges: b.status.cast(),
+            hull: b.waiting.cast(),
+            uncertain: b.active.cast(),
+        }
+    }
+
+    /// Returns the buffers under the names that they have in shaders.
+    pub fn bindings(&self) -> Vec<Binding<'_>> {
+        vec![
+            ("mesh_triangles", self.triangles.buffer()),
+            ("halfedges", self.halfedges.buffer()),
+            ("hull", self.hull.buffer()),
+            ("uncertain_tests", self.uncertain.buffer()),
+        ]
+    }
+}

@@ -1,0 +1,60 @@
+//! What makes the frame of the GPU engine one for two dimensions.
+
+use crate::{
+    d2::gpu::{
+        buffers::OwnBuffers,
+        layout::{EdgeFlip, blocks},
+        vertex,
+    },
+    gpu::{
+        dim::{Dim, Dimension},
+        shader::{self, Shaders},
+    },
+    input::lattice::Width,
+    predicates::{Sign, integer::orient2d_wide},
+};
+
+impl Dim<2> for Dimension<2> {
+    type Corners = [u32; 3];
+    type Flip = EdgeFlip;
+    type OwnBuffers = OwnBuffers;
+
+    const SIMPLICES: &'static str = "triangles";
+    const SHADERS: &'static Shaders = &shader::D2;
+    /// There are two slots per point, and some.
+    const MAX_POINTS: usize = 500_000_000;
+    const HISTORY: u32 = 2;
+    /// Among the inputs that need more are those in which a fan of flat triangles is turned over.
+    const MAX_ITERATIONS: u32 = 1 << 12;
+
+    fn blocks(points: u32, _tail: u32) -> u32 {
+        blocks(points)
+    }
+
+    fn vertex_words(width: Width) -> usize {
+        vertex::words_per_vertex(width)
+    }
+
+    fn append_vertex(words: &mut Vec<i32>, width: Width, position: [i64; 2], _index: u32, rounded: bool) {
+        vertex::append_words(words, width, position, rounded);
+    }
+
+    fn orient(_width: Width, corners: &[[i64; 2]]) -> Sign {
+        let &[a, b, c] = corners else { panic!("a triangle has three corners, not {}", corners.len()) };
+        orient2d_wide(a, b, c)
+    }
+
+    /// Returns, for the corners in turn: how far `p` lies in the direction (-1, -1), the square of its distance from the
+    /// first corner, and the area with the first two (times 2).
+    fn spread(chosen: &[[f64; 2]], p: [f64; 2]) -> f64 {
+        let minus = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
+        match *chosen {
+            [] => -p[0] - p[1],
+            [a] => minus(p, a).iter().map(|x| x * x).sum(),
+            [a, b, ..] => {
+                let ([x, y], [p, q]) = (minus(b, a), minus(p, a));
+                (x * q - y * p).abs()
+            }
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! The GPU engine: Phase 1 on the device, and on the CPU what it leaves open (the paper's §3 and §5.6).
+//!
+//! `points → lattice → Phase 1 → what it may have missed → mesh`
+
+use std::fmt::Debug;
+
+use crate::{
+    Error, Options, Points,
+    gpu::{
+        Gpu,
+        dim::Dimension,
+        phase1::{Input, Phase1, Phase1Output, Run, Settings, Stages},
+        start::first_simplex,
+    },
+    index::NONE,
+    input::{
+        lattice::{Lattice, Width},
+        order::missing_points,
+    },
+    parallel::Threads,
+    stats::{Fallback, Stats, Stopwatch},
+};
+
+/// The shares of a run at which its phases begin, as progress reports them: about those of the time that it takes uniform
+/// points, and between Phase 1 and its completion lies the readback.
+pub mod progress {
+    /// Phase 1, after the lattice.
+    pub const PHASE_1: f64 = 0.05;
+    /// What the CPU does with the result of Phase 1.
+    pub const COMPLETION: f64 = 0.8;
+    /// The mesh for the caller.
+    pub const FINISH: f64 = 0.95;
+}
+
+/// The mesh of `D` dimensions.
+pub type MeshOf<const D: usize> = <Dimension<D> as Complete<D>>::Mesh;
+
+/// How a dimension's engine completes what Phase 1 leaves, and the CPU engine that stands in for it.
+#[expect(async_fn_in_trait, reason = "only this crate implements it, and no caller is generic over threads")]
+pub trait Complete<const D: usize>: Stages<D>
+where
+    Dimension<D>: Stages<D>,
+{
+    /// The result.
+    type Mesh;
+    /// Collects what [`Options::trace`] asks for.
+    type Tracer;
+
+    /// Why input without a first simplex is left to the CPU engine.
+    const DEGENERATE: Fallback;
+    /// The share of a run that the rounds of Phase 1 take, as progress reports it.
+    const ROUNDS_SHARE: f64;
+
+    /// Returns the tracer of a run with these options.
+    fn tracer(options: &Options) -> Self::Tracer;
+
+    /// Traces a round.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Readback::read`](crate::gpu::Readback::read).
+    async fn trace_round(tracer: &mut Self::Tracer, gpu: &Gpu, run: &Run<'_, D>) -> Result<(), Error>;
+
+    /// Makes the mesh of what Phase 1 left, or says why the CPU engine has to; its statistics are set by the caller.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Cancelled`] and [`Error::OutOfMemory`].
+    fn complete(near: Near<'_, D>, tracer: Self::Tracer) -> Result<Result<Self::Mesh, Fallback>, Error>;
+
+    /// Triangulates with the CPU engine.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`delaunay3d`](crate::delaunay3d).
+    fn on_cpu(points: Points<'_, D>, options: &Options) -> Result<Self::Mesh, Error>;
+
+    /// Returns the statistics of a mesh.
+    fn stats(mesh: &mut Self::Mesh) -> &mut Stats;
+}
+
+/// What Phase 1 left, and what goes with it.
+pub struct Near<'a, const D: usize>
+where
+    Dimension<D>: Stages<D>,
+{
+    /// The points of the run.
+    pub(crate) points: Points<'a, D>,
+    /// The lattice that is fitted to them.
+    pub(crate) lattice: &'a Lattice<D>,
+    /// The result of Phase 1.
+    pub(crate) result: <Dimension<D> as Stages<D>>::Result,
+    /// The points that Phase 1 did not insert though they are no duplicates, each with the vertex at the same place of the
+    /// lattice.
+    pub(crate) missing: Vec<[u32; 2]>,
+    /// The mesh's entry of the same name.
+    pub(crate) duplicate_of: Vec<i32>,
+    /// The options of the run.
+    pub(crate) options: &'a Options,
+    /// Receives the statistics.
+    pub(crate) stats: &'a mut Stats,
+    /// Times the phases.
+    pub(crate) stopwatch: &'a mut Stopwatch,
+}
+
+/// A device with the kernels of `D` dimensions compiled for it: make one and use it for many inputs.
+#[derive(Debug)]
+pub struct GpuEngine<const D: usize>
+where
+    Dimension<D>: Stages<D>,
+{
+    gpu: Gpu,
+    wide: Phase1<D>,
+    /// For points that the narrow lattice holds, once there were some: compiling takes long.
+    narrow: Option<Phase1<D>>,
+    settings: Settings<D>,
+}
+
+impl<const D: usize> GpuEngine<D>
+where
+    Dimension<D>: Complete<D>,
+{
+    /// Compiles the kernels for `gpu`.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Gpu::with_error_scope`].
+    pub async fn new(gpu: Gpu) -> Result<Self, Error> {
+        let wide = Phase1::new(&gpu, Width::Wide).await?;
+        Ok(GpuEngine { gpu, wide, narrow: None, settings: Settings::default() })
+    }
+
+    /// Changes the settings for Phase 1, for experiments: they change the time, and not the set of simplices.
+    pub fn set_settings(&mut self, settings: Settings<D>) {
+        self.settings = settings;
+    }
+
+    /// Returns the device.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Triangulates `points`: the result is the same set of simplices as every engine's.
+    ///
+    /// Input that is no work for a device, because its points lie in a line (2D) or plane (3D) or nearly so, and input of
+    /// which completing Phase 1 takes too much work, is left to the CPU engine; [`Stats::fallback`] then says why.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`delaunay3d`](crate::delaunay3d), and those of the device.
+    pub async fn triangulate(&mut self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error> {
+        let options = &options.monotone();
+        let mut stopwatch = Stopwatch::start();
+        options.report("lattice", 0.0)?;
+        points.validate_by(Threads::All)?;
+        let lattice = Lattice::fit_by(Threads::All, points);
+        let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
+        let Some(start) = first_simplex(lattice.width(), points.len(), position) else {
+            return fall_back(points, options, Dimension::<D>::DEGENERATE, Stats::default());
+        };
+        let mut stats = Stats { engine: "gpu", ..Stats::default() };
+        let mut tracer = Dimension::<D>::tracer(options);
+        stats.phases.push(("lattice", stopwatch.lap()));
+
+        options.report("phase 1", progress::PHASE_1)?;
+        let settings = self.settings;
+        let (gpu, phase1) = self.kernels(lattice.width()).await?;
+        let mut run = Run::new(phase1, gpu, Input { points, lattice: &lattice, start }, settings, None).await?;
+        loop {
+            let more = run.round().await?;
+            Dimension::<D>::trace_round(&mut tracer, gpu, &run).await?;
+            let inserted = 1.0 - f64::from(run.waiting()) / points.len() as f64;
+            options.report("phase 1", progress::PHASE_1 + Dimension::<D>::ROUNDS_SHARE * inserted)?;
+            if !more {
+                break;
+            }
+            if run.control().1.iterations > settings.max_iterations {
+                return fall_back(points, options, Fallback::Flips, stats);
+            }
+        }
+        let Phase1Output { result, merged, stats: phase1 } = run.finish().await?;
+        stats.gpu = Some(phase1.summary(&self.gpu.adapter().name));
+        let readback = phase1.readback_milliseconds / 1e3;
+        stats.phases.push(("phase 1", stopwatch.lap() - readback));
+        stats.phases.push(("readback", readback));
+
+        let mut duplicate_of = vec![NONE; points.len()];
+        let missing = missing_points(points, &merged, &mut duplicate_of);
+        let near = Near {
+            points,
+            lattice: &lattice,
+            result,
+            missing,
+            duplicate_of,
+            options,
+            stats: &mut stats,
+            stopwatch: &mut stopwatch,
+        };
+        let mut mesh = match Dimension::<D>::complete(near, tracer)? {
+            Ok(mesh) => mesh,
+            Err(why) => return fall_back(points, options, why, stats),
+        };
+        options.report("finish", 1.0)?;
+        *Dimension::<D>::stats(&mut mesh) = stats;
+        Ok(mesh)
+    }
+
+    /// Returns the device with the kernels for points of this width, compiled if they are not, and gives the buffers of the
+    /// other ones back: points of the other width are likely to come never again, or not soon.
+    async fn kernels(&mut self, width: Width) -> Result<(&Gpu, &mut Phase1<D>), Error> {
+        let phase1 = match width {
+            Width::Narrow => {
+                self.wide.release();
+                match &mut self.narrow {
+                    Some(narrow) => narrow,
+                    none => none.insert(Phase1::new(&self.gpu, Width::Narrow).await?),
+                }
+            }
+            Width::Wide => {
+                if let Some(narrow) = &mut self.narrow {
+                    narrow.release();
+                }
+                &mut self.wide
+            }
+        };
+        Ok((&self.gpu, phase1))
+    }
+}
+
+/// Returns the CPU engine's mesh, with what the GPU did before.
+fn fall_back<const D: usize>(
+    points: Points<'_, D>,
+    options: &Options,
+    why: Fallback,
+    before: Stats,
+) -> Result<MeshOf<D>, Error>
+where
+    Dimension<D>: Complete<D>,
+{
+    let mut mesh = Dimension::<D>::on_cpu(points, options)?;
+    let stats = Dimension::<D>::stats(&mut mesh);
+    (stats.fallback, stats.gpu) = (Some(why), before.gpu);
+    Ok(mesh)
+}

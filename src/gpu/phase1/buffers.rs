@@ -1,0 +1,169 @@
+//! The buffers of Phase 1 on the device.
+
+use crate::{
+    Error,
+    gpu::{
+        Binding, Gpu, Recorder, Storage,
+        dim::{Dim, Dimension, Flip, OwnBuffers},
+        layout::{Active, BLOCK, COUNTER_WORDS, PARAM_WORDS, Status, Waiting},
+        points::DevicePoints,
+    },
+};
+
+/// The words of a slot: the vertices of a tetrahedron, or those of a triangle and 0.
+pub type Slot = [u32; 4];
+
+/// The buffers that the stages share; [`layout`](crate::gpu::layout) explains them.
+///
+/// In 3D a point takes about 950 bytes: 8.5 slots of 80 bytes each, 4 nodes of the history of 48, and some words. In 2D it
+/// takes about 280 bytes beside those of its coordinates and their sorting: 2 slots of 96 bytes each, 2 nodes of the
+/// history of 24, and some words.
+#[derive(Debug, Clone)]
+pub struct Buffers<const D: usize>
+where
+    Dimension<D>: Dim<D>,
+{
+    /// Parameters and counters.
+    pub control: Storage<u32>,
+    /// The vertices, and the interior point; the order; what is merged into what.
+    pub points: DevicePoints,
+    /// The vertices of each slot.
+    pub simplices: Storage<Slot>,
+    /// The neighbours of each slot.
+    pub neighbors: Storage<Slot>,
+    /// The status of each slot.
+    pub status: Storage<Status>,
+    /// Both halves of the active list.
+    pub active: Storage<Active>,
+    /// Messages of a flip iteration; scores and points while they are picked.
+    pub messages: Storage<Slot>,
+    /// The flips of a round.
+    pub history: Storage<Flip<D>>,
+    /// The list of waiting points.
+    pub waiting: Storage<Waiting>,
+    /// Scores of the waiting points.
+    pub scores: Storage<u32>,
+    /// The buffers that only this dimension has.
+    pub own: <Dimension<D> as Dim<D>>::OwnBuffers,
+}
+
+/// Returns the bytes of the largest of the buffers: with 16 bytes per slot, several have this size, and no other is larger.
+pub(crate) fn largest_bytes(blocks: u32) -> u128 {
+    u128::from(blocks) * u128::from(BLOCK) * size_of::<Slot>() as u128
+}
+
+/// Returns the slots of so many blocks.
+fn slots(blocks: u32) -> usize {
+    blocks as usize * BLOCK as usize
+}
+
+impl<const D: usize> Buffers<D>
+where
+    Dimension<D>: Dim<D>,
+{
+    /// Creates buffers for these points, for `blocks` blocks of slots and `history` nodes.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::BufferTooLarge`].
+    pub fn new(gpu: &Gpu, points: DevicePoints, blocks: u32, history: u32) -> Result<Self, Error> {
+        let count = points.pairs.len();
+        let slots = slots(blocks);
+        Ok(Buffers {
+            control: Storage::new(gpu, "control", PARAM_WORDS + COUNTER_WORDS)?,
+            simplices: Storage::new(gpu, Dimension::<D>::SIMPLICES, slots)?,
+            neighbors: Storage::new(gpu, "neighbours", slots)?,
+            status: Storage::new(gpu, "status", slots)?,
+            active: Storage::new(gpu, "active list", 2 * slots)?,
+            messages: Storage::new(gpu, "messages", slots)?,
+            history: Storage::new(gpu, "history", history as usize)?,
+            waiting: Storage::new(gpu, "waiting points", count)?,
+            scores: Storage::new(gpu, "scores", count)?,
+            own: OwnBuffers::new(gpu, count, blocks)?,
+            points,
+        })
+    }
+
+    /// Returns larger buffers with the same contents, for `blocks` blocks. New slots are zero; the caller frees them.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::BufferTooLarge`].
+    pub fn with_blocks(&self, gpu: &Gpu, recorder: &mut Recorder<'_>, blocks: u32) -> Result<Self, Error> {
+        let slots = slots(blocks);
+        let old_half = self.active.bytes() / 2;
+        let mut larger = self.clone();
+        larger.messages = Storage::new(gpu, "messages", slots)?;
+        larger.simplices = Storage::new(gpu, Dimension::<D>::SIMPLICES, slots)?;
+        larger.neighbors = Storage::new(gpu, "neighbours", slots)?;
+        larger.status = Storage::new(gpu, "status", slots)?;
+        larger.active = Storage::new(gpu, "active list", 2 * slots)?;
+        let encoder = recorder.encoder();
+        let mut copy = |from: &wgpu::Buffer, at: u64, to: &wgpu::Buffer, start: u64, bytes: u64| {
+            encoder.copy_buffer_to_buffer(from, at, to, start, bytes);
+        };
+        copy(self.simplices.buffer(), 0, larger.simplices.buffer(), 0, self.simplices.bytes());
+        copy(self.neighbors.buffer(), 0, larger.neighbors.buffer(), 0, self.neighbors.bytes());
+        copy(self.status.buffer(), 0, larger.status.buffer(), 0, self.status.bytes());
+        copy(self.active.buffer(), 0, larger.active.buffer(), 0, old_half);
+        copy(self.active.buffer(), old_half, larger.active.buffer(), larger.active.bytes() / 2, old_half);
+        larger.own = self.own.with_blocks(gpu, encoder, blocks)?;
+        Ok(larger)
+    }
+
+    /// Records that what must be zero in the beginning is: slots without simplices, their status, and what the dimension
+    /// adds.
+    pub fn record_clear(&self, recorder: &mut Recorder<'_>) {
+        let encoder = recorder.encoder();
+        encoder.clear_buffer(self.simplices.buffer(), 0, None);
+        encoder.clear_buffer(self.status.buffer(), 0, None);
+        self.own.record_clear(encoder);
+    }
+
+    /// Returns the blocks of slots that there are.
+    pub fn blocks(&self) -> u32 {
+        self.simplices.len() as u32 / BLOCK
+    }
+
+    /// Returns the buffers under the names that they have in shaders: several, where a buffer is put to more than one use.
+    pub fn bindings(&self) -> Vec<Binding<'_>> {
+        let mut bindings = vec![
+            ("control", self.control.buffer()),
+            ("vertices", self.points.vertices.buffer()),
+            ("pairs", self.points.pairs.buffer()),
+            ("counts", self.points.counts.buffer()),
+            ("simplices", self.simplices.buffer()),
+            ("neighbors", self.neighbors.buffer()),
+            ("status", self.status.buffer()),
+            ("actives", self.active.buffer()),
+            ("messages", self.messages.buffer()),
+            ("picks", self.messages.buffer()),
+            ("undecided_entries", self.messages.buffer()),
+            ("history", self.history.buffer()),
+            ("waiting", self.waiting.buffer()),
+            ("scores", self.scores.buffer()),
+        ];
+        bindings.extend(self.own.bindings());
+        bindings
+    }
+
+    /// Returns the bytes that they take, but for the points.
+    pub fn bytes(&self) -> u64 {
+        let Buffers {
+            control,
+            points: _,
+            simplices,
+            neighbors,
+            status,
+            active,
+            messages,
+            history,
+            waiting,
+            scores,
+            own,
+        } = self;
+        let words = control.bytes() + waiting.bytes() + scores.bytes();
+        let slots = simplices.bytes() + neighbors.bytes() + status.bytes() + active.bytes() + messages.bytes();
+        words + slots + history.bytes() + own.bytes()
+    }
+}

@@ -1,0 +1,53 @@
+//! The kernels of Phase 1 for points of one width, and what is kept from run to run.
+
+use crate::{
+    Error,
+    gpu::{
+        Gpu, Readback,
+        dim::Dimension,
+        phase1::{memory::Kept, stages::Stages},
+        points::PointStage,
+    },
+    input::lattice::Width,
+};
+
+/// The kernels of Phase 1, for points of one width, and the buffers of the last run, which serve the next one if that has
+/// as many points of the same precision.
+#[derive(Debug)]
+pub struct Phase1<const D: usize>
+where
+    Dimension<D>: Stages<D>,
+{
+    pub(crate) points: PointStage<D>,
+    pub(crate) stages: <Dimension<D> as Stages<D>>::Kernels,
+    pub(crate) readback: Readback,
+    pub(crate) kept: Kept<D>,
+}
+
+impl<const D: usize> Phase1<D>
+where
+    Dimension<D>: Stages<D>,
+{
+    /// Compiles the kernels.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Gpu::with_error_scope`].
+    pub async fn new(gpu: &Gpu, width: Width) -> Result<Self, Error> {
+        gpu.with_error_scope("pipelines", || {
+            Ok(Phase1 {
+                points: PointStage::new(gpu),
+                stages: Dimension::<D>::compile(gpu, width),
+                readback: Readback::default(),
+                kept: Kept::default(),
+            })
+        })
+        .await
+    }
+
+    /// Gives the buffers of the last run back.
+    pub fn release(&mut self) {
+        self.readback = Readback::default();
+        self.kept = Kept::default();
+    }
+}

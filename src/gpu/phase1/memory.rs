@@ -1,0 +1,85 @@
+//! What a run holds on the device, and leaves to the next run of its form.
+
+use crate::{
+    Error,
+    gpu::{
+        Gpu, Recorder,
+        dim::Dimension,
+        phase1::{buffers::Buffers, stages::Stages},
+        points::{DevicePoints, PointBuffers},
+    },
+};
+
+/// The buffers of a run, and the kernels' bind groups of them.
+#[derive(Debug)]
+pub(crate) struct Memory<const D: usize>
+where
+    Dimension<D>: Stages<D>,
+{
+    pub(crate) buffers: Buffers<D>,
+    pub(crate) bound: <Dimension<D> as Stages<D>>::Bound,
+}
+
+/// What a run left.
+#[derive(Debug)]
+pub(crate) struct Kept<const D: usize>
+where
+    Dimension<D>: Stages<D>,
+{
+    pub(crate) points: Option<PointBuffers>,
+    pub(crate) memory: Option<Memory<D>>,
+}
+
+impl<const D: usize> Default for Kept<D>
+where
+    Dimension<D>: Stages<D>,
+{
+    fn default() -> Self {
+        Kept { points: None, memory: None }
+    }
+}
+
+impl<const D: usize> Memory<D>
+where
+    Dimension<D>: Stages<D>,
+{
+    fn bind(kernels: &<Dimension<D> as Stages<D>>::Kernels, gpu: &Gpu, buffers: Buffers<D>) -> Result<Self, Error> {
+        Ok(Memory { bound: Dimension::<D>::bind(kernels, gpu, &buffers)?, buffers })
+    }
+
+    /// Returns what is kept, if it is for these points and large enough, and creates all of it otherwise.
+    pub(crate) fn new(
+        kernels: &<Dimension<D> as Stages<D>>::Kernels,
+        gpu: &Gpu,
+        kept: Option<Memory<D>>,
+        points: DevicePoints,
+        blocks: u32,
+        history: u32,
+    ) -> Result<Self, Error> {
+        let fits = |b: &Buffers<D>| {
+            b.points.vertices.buffer() == points.vertices.buffer()
+                && b.blocks() >= blocks
+                && b.history.len() == history as usize
+        };
+        match kept {
+            Some(memory) if fits(&memory.buffers) => Ok(memory),
+            _ => Memory::bind(kernels, gpu, Buffers::new(gpu, points, blocks, history)?),
+        }
+    }
+
+    /// Returns the same with more blocks.
+    pub(crate) fn with_blocks(
+        &self,
+        kernels: &<Dimension<D> as Stages<D>>::Kernels,
+        gpu: &Gpu,
+        recorder: &mut Recorder<'_>,
+        blocks: u32,
+    ) -> Result<Self, Error> {
+        Memory::bind(kernels, gpu, self.buffers.with_blocks(gpu, recorder, blocks)?)
+    }
+
+    /// Returns the bytes that it takes, but for the points.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.buffers.bytes() + Dimension::<D>::bound_bytes(&self.bound)
+    }
+}

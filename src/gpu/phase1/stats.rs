@@ -1,0 +1,50 @@
+//! What a run of Phase 1 did.
+
+use crate::{
+    gpu::layout::Counters,
+    stats::{GpuStats, Round},
+};
+
+/// What a run of Phase 1 did.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Phase1Stats {
+    /// The insertion rounds, the first with the ordering of the points; then the rounds of the last flips.
+    pub rounds: Vec<Round>,
+    /// The kernels' counters.
+    pub counters: Counters,
+    /// Dispatches.
+    pub dispatches: usize,
+    /// Submissions.
+    pub submits: usize,
+    /// Readbacks.
+    pub readbacks: usize,
+    /// The most bytes of GPU memory that were held at a time.
+    pub bytes: u64,
+    /// Milliseconds from the upload to the end of the last kernel, on the host's clock; 0 where there is none.
+    pub milliseconds: f64,
+    /// Milliseconds of the readback of the result, on the host's clock.
+    pub readback_milliseconds: f64,
+}
+
+impl Phase1Stats {
+    /// Returns the same for users, on an adapter of this name.
+    pub fn summary(&self, adapter: &str) -> GpuStats {
+        let counters = &self.counters;
+        GpuStats {
+            adapter: adapter.to_owned(),
+            rounds: self.rounds.clone(),
+            flips_23: counters.flips_23.into(),
+            flips_32: counters.flips_32.into(),
+            flips_22: counters.flips_22.into(),
+            flip_iterations: counters.iterations.into(),
+            exact_tests: counters.exact.into(),
+            not_locally_delaunay: counters.not_locally_delaunay.into(),
+            failed_vertices: counters.failed.into(),
+            merged: counters.merged.into(),
+            readbacks: self.readbacks as u64,
+            dispatches: self.dispatches as u64,
+            submits: self.submits as u64,
+            bytes: self.bytes,
+        }
+    }
+}
