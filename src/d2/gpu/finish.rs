@@ -4,7 +4,7 @@ use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
 use crate::{
     Error,
     d2::gpu::{aliases::Aliases, layout::UncertainTest},
-    gpu::{Gpu, Kernel, Pending, Readback, Recorder, Storage, layout::Counters, phase1::Buffers},
+    gpu::{Gpu, Kernel, Pending, Readback, Recorder, Storage, layout::Counters, phase1::Buffers, shader},
     input::lattice::Width,
 };
 
@@ -31,8 +31,8 @@ pub struct BoundFinish {
 impl Finish {
     /// Compiles the kernels.
     pub fn new(gpu: &Gpu, width: Width) -> Self {
-        let kernel = |name| Kernel::new(gpu, name, width, &[]);
-        Finish { mark: kernel("plane/mesh_mark"), compact: kernel("plane/mesh_compact"), scan: Scan::new(gpu) }
+        let kernel = |name| Kernel::new(gpu, shader::D2.get(name), width);
+        Finish { mark: kernel("mesh_mark"), compact: kernel("mesh_compact"), scan: Scan::new(gpu) }
     }
 
     /// Binds the kernels to these buffers.
@@ -41,23 +41,13 @@ impl Finish {
     ///
     /// Those of [`Storage::new`].
     pub fn bind(&self, gpu: &Gpu, b: &Buffers<2>) -> Result<BoundFinish, Error> {
-        let (control, vertices, pairs) = (b.control.buffer(), b.points.vertices.buffer(), b.points.pairs.buffer());
-        let (triangles, neighbors) = (b.simplices.buffer(), b.neighbors.buffer());
-        let (status, active, messages) = (b.status.buffer(), b.active.buffer(), b.messages.buffer());
-        let (counts, waiting) = (b.points.counts.buffer(), b.waiting.buffer());
-        let (marks, offsets) = (b.own.marks.buffer(), b.own.offsets.buffer());
         let count = ScanParams { count: b.simplices.len() as u32 };
         let scan_params = Storage::with_contents(gpu, "scan parameters", &[count])?;
         let scan = self.scan.bind(gpu, &scan_params, &b.own.marks, &b.own.offsets)?;
-        Ok(BoundFinish {
-            aliases: Aliases::new(b),
-            sums: scan.sums().clone(),
-            mark: self.mark.bind(gpu, &[control, vertices, pairs, triangles, neighbors, counts, marks, active]),
-            compact: self
-                .compact
-                .bind(gpu, &[control, pairs, triangles, neighbors, offsets, messages, status, waiting]),
-            scan,
-        })
+        let aliases = Aliases::new(b);
+        let buffers = [b.bindings(), aliases.bindings()].concat();
+        let [mark, compact] = [&self.mark, &self.compact].map(|kernel| kernel.bind(gpu, &buffers));
+        Ok(BoundFinish { sums: scan.sums().clone(), mark, compact, aliases, scan })
     }
 
     /// Records the search for uncertain tests, and the compaction.

@@ -8,6 +8,7 @@ use crate::{
         dim::Dimension,
         layout::Counters,
         phase1::{Buffers, FlipPlan, Stages},
+        shader,
         waiting::{BoundWaitingList, WaitingList},
     },
     input::lattice::Width,
@@ -53,44 +54,36 @@ impl Stages<2> for Dimension<2> {
     type Result = NearMesh;
 
     fn compile(gpu: &Gpu, width: Width) -> Kernels {
-        let kernel = |name| Kernel::new(gpu, name, width, &[]);
+        let kernel = |name| Kernel::new(gpu, shader::D2.get(name), width);
         Kernels {
-            locate: kernel("plane/locate"),
-            pick_score: kernel("plane/pick_score"),
+            locate: kernel("locate"),
+            pick_score: kernel("pick_score"),
             pick_point: kernel("pick_point"),
-            split: kernel("plane/split"),
-            relocate_split: kernel("plane/relocate_split"),
-            flip_check: kernel("plane/flip_check"),
-            flip_commit: kernel("plane/flip_commit"),
-            flip_link: kernel("plane/flip_link"),
+            split: kernel("split"),
+            relocate_split: kernel("relocate_split"),
+            flip_check: kernel("flip_check"),
+            flip_commit: kernel("flip_commit"),
+            flip_link: kernel("flip_link"),
             clear_votes: kernel("clear_votes"),
-            relocate: kernel("plane/relocate"),
+            relocate: kernel("relocate"),
             waiting: WaitingList::new(gpu),
             finish: Finish::new(gpu, width),
         }
     }
 
     fn bind(kernels: &Kernels, gpu: &Gpu, b: &Buffers<2>) -> Result<Bound, Error> {
-        let (control, vertices, pairs) = (b.control.buffer(), b.points.vertices.buffer(), b.points.pairs.buffer());
-        let (triangles, neighbors) = (b.simplices.buffer(), b.neighbors.buffer());
-        let (status, active, messages) = (b.status.buffer(), b.active.buffer(), b.messages.buffer());
-        let (history, waiting, scores) = (b.history.buffer(), b.waiting.buffer(), b.scores.buffer());
-        let counts = b.points.counts.buffer();
+        let buffers = b.bindings();
         Ok(Bound {
-            locate: kernels.locate.bind(gpu, &[control, vertices, pairs, counts, waiting, triangles, neighbors]),
-            pick_score: kernels.pick_score.bind(gpu, &[control, vertices, triangles, waiting, messages, scores]),
-            pick_point: kernels.pick_point.bind(gpu, &[control, waiting, messages, scores]),
-            split: kernels.split.bind(gpu, &[control, triangles, neighbors, status, active, messages, waiting]),
-            relocate_split: kernels
-                .relocate_split
-                .bind(gpu, &[control, vertices, pairs, triangles, status, messages, waiting]),
-            flip_check: kernels.flip_check.bind(gpu, &[control, vertices, pairs, triangles, neighbors, status, active]),
-            flip_commit: kernels
-                .flip_commit
-                .bind(gpu, &[control, triangles, neighbors, status, active, messages, history]),
-            flip_link: kernels.flip_link.bind(gpu, &[control, neighbors, status, active, messages]),
-            clear_votes: kernels.clear_votes.bind(gpu, &[control, status]),
-            relocate: kernels.relocate.bind(gpu, &[control, vertices, pairs, status, history, waiting]),
+            locate: kernels.locate.bind(gpu, &buffers),
+            pick_score: kernels.pick_score.bind(gpu, &buffers),
+            pick_point: kernels.pick_point.bind(gpu, &buffers),
+            split: kernels.split.bind(gpu, &buffers),
+            relocate_split: kernels.relocate_split.bind(gpu, &buffers),
+            flip_check: kernels.flip_check.bind(gpu, &buffers),
+            flip_commit: kernels.flip_commit.bind(gpu, &buffers),
+            flip_link: kernels.flip_link.bind(gpu, &buffers),
+            clear_votes: kernels.clear_votes.bind(gpu, &buffers),
+            relocate: kernels.relocate.bind(gpu, &buffers),
             waiting: kernels.waiting.bind(gpu, &b.control, &b.waiting, &b.scores)?,
             finish: kernels.finish.bind(gpu, b)?,
         })

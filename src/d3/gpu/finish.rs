@@ -8,6 +8,7 @@ use crate::{
         Gpu, Kernel, Pending, Readback, Recorder, Storage,
         layout::{Active, BLOCK, Counters},
         phase1::{Buffers, Slot},
+        shader,
     },
     input::lattice::Width,
 };
@@ -52,7 +53,7 @@ impl BoundFinish {
 impl Finish {
     /// The kernels.
     pub fn new(gpu: &Gpu, width: Width) -> Self {
-        let kernel = |name| Kernel::new(gpu, name, width, &[]);
+        let kernel = |name| Kernel::new(gpu, shader::D3.get(name), width);
         Finish {
             mark_failed: kernel("mark_failed"),
             mark: kernel("mesh_mark"),
@@ -78,36 +79,15 @@ impl Finish {
         let scan = self.scan.bind(gpu, &params, &marks, &numbers)?;
         let sums = scan.sums().clone();
         let aliases = Aliases::new(b);
-        let Aliases { tets, neighbors, uncertain, failed } = &aliases;
-
-        let (control, vertices) = (b.control.buffer(), b.points.vertices.buffer());
-        let (slot_tets, slot_neighbors) = (b.simplices.buffer(), b.neighbors.buffer());
-        let buffers: [&[&wgpu::Buffer]; 5] = [
-            &[control, vertices, slot_tets, slot_neighbors, b.status.buffer(), b.own.failed.buffer(), failed.buffer()],
-            &[control, slot_tets, marks.buffer()],
-            &[control, slot_tets, sums.buffer(), numbers.buffer()],
-            &[
-                control,
-                vertices,
-                slot_tets,
-                slot_neighbors,
-                numbers.buffer(),
-                tets.buffer(),
-                neighbors.buffer(),
-                tet_of.buffer(),
-            ],
-            &[
-                control,
-                vertices,
-                slot_tets,
-                slot_neighbors,
-                numbers.buffer(),
-                b.points.counts.buffer(),
-                uncertain.buffer(),
-            ],
+        let own = [
+            ("marks", marks.buffer()),
+            ("numbers", numbers.buffer()),
+            ("sums", sums.buffer()),
+            ("tet_of", tet_of.buffer()),
         ];
+        let buffers = [&b.bindings()[..], &aliases.bindings(), &own].concat();
         let kernels = [&self.mark_failed, &self.mark, &self.number, &self.compact, &self.certify];
-        let [mark_failed, mark, number, compact, certify] = std::array::from_fn(|i| kernels[i].bind(gpu, buffers[i]));
+        let [mark_failed, mark, number, compact, certify] = kernels.map(|kernel| kernel.bind(gpu, &buffers));
         Ok(BoundFinish { aliases, tet_of, sums, params, mark_failed, mark, scan, number, compact, certify, bytes })
     }
 

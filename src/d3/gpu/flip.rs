@@ -4,6 +4,7 @@ use crate::{
     gpu::{
         Gpu, Kernel, Recorder,
         phase1::{Buffers, FlipPlan},
+        shader,
     },
     input::lattice::Width,
 };
@@ -33,7 +34,7 @@ pub struct BoundFlip {
 impl Flip {
     /// The kernels.
     pub fn new(gpu: &Gpu, width: Width) -> Self {
-        let kernel = |name| Kernel::new(gpu, name, width, &[]);
+        let kernel = |name| Kernel::new(gpu, shader::D3.get(name), width);
         Flip {
             check: kernel("flip_check"),
             check_exact: kernel("flip_check_exact"),
@@ -46,20 +47,14 @@ impl Flip {
 
     /// The bind groups for these buffers.
     pub fn bind(&self, gpu: &Gpu, b: &Buffers<3>) -> BoundFlip {
-        let (control, tets, neighbors) = (b.control.buffer(), b.simplices.buffer(), b.neighbors.buffer());
-        let (status, active, free) = (b.status.buffer(), b.active.buffer(), b.own.free.buffer());
-        let messages = b.messages.buffer();
-        // Messages pass between commit and link; before them, their buffer has the list of open entries.
-        let check = [control, b.points.vertices.buffer(), tets, neighbors, status, active, messages];
+        let buffers = b.bindings();
         BoundFlip {
-            check: self.check.bind(gpu, &check),
-            check_exact: self.check_exact.bind(gpu, &check),
-            commit: self
-                .commit
-                .bind(gpu, &[control, tets, neighbors, status, active, free, messages, b.history.buffer()]),
-            link: self.link.bind(gpu, &[control, neighbors, status, active, free, messages]),
-            compact: self.compact.bind(gpu, &[control, status, active]),
-            clear_votes: self.clear_votes.bind(gpu, &[control, status]),
+            check: self.check.bind(gpu, &buffers),
+            check_exact: self.check_exact.bind(gpu, &buffers),
+            commit: self.commit.bind(gpu, &buffers),
+            link: self.link.bind(gpu, &buffers),
+            compact: self.compact.bind(gpu, &buffers),
+            clear_votes: self.clear_votes.bind(gpu, &buffers),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Insertion: the first tetrahedra, picking, splitting, and the points inside (§3.1).
 
 use crate::{
-    gpu::{Gpu, Kernel, Recorder, phase1::Buffers},
+    gpu::{Gpu, Kernel, Recorder, phase1::Buffers, shader},
     input::lattice::Width,
 };
 
@@ -28,7 +28,7 @@ pub struct BoundInsert {
 impl Insert {
     /// The kernels.
     pub fn new(gpu: &Gpu, width: Width) -> Self {
-        let kernel = |name| Kernel::new(gpu, name, width, &[]);
+        let kernel = |name| Kernel::new(gpu, shader::D3.get(name), width);
         Insert {
             locate: kernel("locate"),
             pick_score: kernel("pick_score"),
@@ -40,16 +40,13 @@ impl Insert {
 
     /// The bind groups for these buffers.
     pub fn bind(&self, gpu: &Gpu, b: &Buffers<3>) -> BoundInsert {
-        let (control, vertices, tets) = (b.control.buffer(), b.points.vertices.buffer(), b.simplices.buffer());
-        let (neighbors, status, waiting) = (b.neighbors.buffer(), b.status.buffer(), b.waiting.buffer());
-        let (picks, scores, free) = (b.messages.buffer(), b.scores.buffer(), b.own.free.buffer());
-        let (pairs, counts) = (b.points.pairs.buffer(), b.points.counts.buffer());
+        let buffers = b.bindings();
         BoundInsert {
-            locate: self.locate.bind(gpu, &[control, vertices, pairs, counts, waiting, tets, neighbors, free]),
-            pick_score: self.pick_score.bind(gpu, &[control, vertices, tets, waiting, picks, scores]),
-            pick_point: self.pick_point.bind(gpu, &[control, waiting, picks, scores]),
-            split: self.split.bind(gpu, &[control, tets, neighbors, status, b.active.buffer(), free, picks, waiting]),
-            relocate_split: self.relocate_split.bind(gpu, &[control, vertices, tets, status, picks, waiting]),
+            locate: self.locate.bind(gpu, &buffers),
+            pick_score: self.pick_score.bind(gpu, &buffers),
+            pick_point: self.pick_point.bind(gpu, &buffers),
+            split: self.split.bind(gpu, &buffers),
+            relocate_split: self.relocate_split.bind(gpu, &buffers),
         }
     }
 

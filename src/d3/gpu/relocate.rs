@@ -3,7 +3,7 @@
 use crate::gpu::waiting::{BoundWaitingList, WaitingList};
 use crate::{
     Error,
-    gpu::{Gpu, Kernel, Recorder, phase1::Buffers},
+    gpu::{Gpu, Kernel, Recorder, phase1::Buffers, shader},
     input::lattice::Width,
 };
 
@@ -31,7 +31,7 @@ impl BoundRelocate {
 impl Relocate {
     /// The kernels.
     pub fn new(gpu: &Gpu, width: Width) -> Self {
-        Relocate { relocate: Kernel::new(gpu, "relocate", width, &[]), list: WaitingList::new(gpu) }
+        Relocate { relocate: Kernel::new(gpu, shader::D3.get("relocate"), width), list: WaitingList::new(gpu) }
     }
 
     /// The bind groups for these buffers.
@@ -40,11 +40,8 @@ impl Relocate {
     ///
     /// As [`Storage::new`](crate::gpu::Storage::new).
     pub fn bind(&self, gpu: &Gpu, b: &Buffers<3>) -> Result<BoundRelocate, Error> {
-        let (control, waiting) = (b.control.buffer(), b.waiting.buffer());
         Ok(BoundRelocate {
-            relocate: self
-                .relocate
-                .bind(gpu, &[control, b.points.vertices.buffer(), b.status.buffer(), b.history.buffer(), waiting]),
+            relocate: self.relocate.bind(gpu, &b.bindings()),
             // The scores are of no use any more when the list is compacted.
             list: self.list.bind(gpu, &b.control, &b.waiting, &b.scores)?,
         })

@@ -13,6 +13,7 @@ use crate::{
         dim::Dimension,
         layout::Counters,
         phase1::{Buffers, FlipPlan, Stages},
+        shader,
     },
     input::lattice::Width,
 };
@@ -48,7 +49,7 @@ impl Stages<3> for Dimension<3> {
             flip: Flip::new(gpu, width),
             relocate: Relocate::new(gpu, width),
             finish: Finish::new(gpu, width),
-            fill_free: Kernel::new(gpu, "fill_free", width, &[]),
+            fill_free: Kernel::new(gpu, shader::D3.get("fill_free"), width),
         }
     }
 
@@ -58,7 +59,7 @@ impl Stages<3> for Dimension<3> {
             flip: kernels.flip.bind(gpu, b),
             relocate: kernels.relocate.bind(gpu, b)?,
             finish: kernels.finish.bind(gpu, b)?,
-            fill_free: kernels.fill_free.bind(gpu, &[b.control.buffer(), b.own.free.buffer()]),
+            fill_free: kernels.fill_free.bind(gpu, &b.bindings()),
         })
     }
 

@@ -3,7 +3,7 @@
 use crate::{
     Error,
     gpu::{
-        Gpu, Recorder, Storage,
+        Binding, Gpu, Recorder, Storage,
         dim::{Dim, Dimension, Flip, OwnBuffers},
         layout::{Active, BLOCK, COUNTER_WORDS, PARAM_WORDS, Status, Waiting},
         points::DevicePoints,
@@ -123,6 +123,28 @@ where
     /// Returns the blocks of slots that there are.
     pub fn blocks(&self) -> u32 {
         self.simplices.len() as u32 / BLOCK
+    }
+
+    /// Returns the buffers under the names that they have in shaders: several, where a buffer is put to more than one use.
+    pub fn bindings(&self) -> Vec<Binding<'_>> {
+        let mut bindings = vec![
+            ("control", self.control.buffer()),
+            ("vertices", self.points.vertices.buffer()),
+            ("pairs", self.points.pairs.buffer()),
+            ("counts", self.points.counts.buffer()),
+            ("simplices", self.simplices.buffer()),
+            ("neighbors", self.neighbors.buffer()),
+            ("status", self.status.buffer()),
+            ("actives", self.active.buffer()),
+            ("messages", self.messages.buffer()),
+            ("picks", self.messages.buffer()),
+            ("undecided_entries", self.messages.buffer()),
+            ("history", self.history.buffer()),
+            ("waiting", self.waiting.buffer()),
+            ("scores", self.scores.buffer()),
+        ];
+        bindings.extend(self.own.bindings());
+        bindings
     }
 
     /// Returns the bytes that they take, but for the points.
