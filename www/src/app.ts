@@ -7,7 +7,7 @@ import { type Dimension, type Source, titleOf } from './model/source';
 import type { Progress } from './model/worker';
 import type { Page, Part } from './page';
 import { colorFor, defaults, filterFor, fromHash, type Settings, toHash, type Tool, upFor } from './settings';
-import { showBusy } from './ui/busy';
+import { showBusy, whileBusy } from './ui/busy';
 import { comparePanel } from './ui/comparePanel';
 import { byId } from './ui/dom';
 import { dimensionSwitch } from './ui/dimension';
@@ -67,13 +67,15 @@ export class App implements Page {
     byId('cancel').addEventListener('click', () => this.model.cancel());
     window.addEventListener('hashchange', () => this.followHash());
     this.tell();
-    void this.startViewer();
+    void whileBusy(this.startViewer());
     void this.run(this.settings.source, this.settings);
   }
 
   run(source: Source, settings: Partial<Settings> = {}): Promise<boolean> {
     const { edits = [], engine = this.settings.engine } = settings;
-    return this.newRun(source, { edits, ...settings }, (onProgress) => this.model.run(source, edits, engine, onProgress));
+    return whileBusy(
+      this.newRun(source, { edits, ...settings }, (onProgress) => this.model.run(source, edits, engine, onProgress)),
+    );
   }
 
   goTo(dimension: Dimension): void {
@@ -88,9 +90,12 @@ export class App implements Page {
     void this.run(to.source, { ...to, engine: settings.engine });
   }
 
-  async edit(edits: readonly Edit[]): Promise<void> {
+  edit(edits: readonly Edit[]): Promise<void> {
     this.settings.edits = edits;
-    if (this.editing) return;
+    return this.editing ? Promise.resolve() : whileBusy(this.followEdits());
+  }
+
+  private async followEdits(): Promise<void> {
     this.editing = true;
     const run = this.lastRun;
     try {
@@ -109,6 +114,7 @@ export class App implements Page {
         for (const part of this.parts) part.edited?.(summary);
       }
       this.tell();
+      await this.onScreen();
     } catch (error) {
       if (run === this.lastRun) showMessage((error as Error).message);
     } finally {
@@ -117,7 +123,7 @@ export class App implements Page {
   }
 
   record(): Promise<boolean> {
-    return this.newRun(this.settings.source, {}, (onProgress) => this.model.record(onProgress));
+    return whileBusy(this.newRun(this.settings.source, {}, (onProgress) => this.model.record(onProgress)));
   }
 
   private async newRun(
@@ -175,7 +181,7 @@ export class App implements Page {
     showResult(this.summary!);
     showStrip(this.summary!);
     this.drawn = '';
-    void this.newMesh().then(() => this.draw());
+    void whileBusy(this.newMesh().then(() => this.draw()));
   }
 
   private get canRecord(): boolean {
@@ -225,8 +231,17 @@ export class App implements Page {
   }
 
   /** Draws what the settings say. Of settings that change while a drawing is made, only the last are drawn. */
-  private async draw(): Promise<void> {
+  private draw(): Promise<void> {
     this.look();
+    return whileBusy(this.followSettings().then(() => this.onScreen()));
+  }
+
+  /** Resolves once the browser shows what the viewer was given. */
+  private async onScreen(): Promise<void> {
+    await this.viewer?.drawn();
+  }
+
+  private async followSettings(): Promise<void> {
     if (this.drawing || this.live || !this.viewer || !this.summary) return;
     this.drawing = true;
     try {
