@@ -9,7 +9,7 @@ import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import { publint } from 'publint';
 import { formatMessage } from 'publint/utils';
-import { pack, root } from './package.mjs';
+import { root, tarball } from './package.mjs';
 
 const kilobytes = (file) => gzipSync(readFileSync(join(root, 'web/dist', file)), { level: 9 }).length / 1e3;
 
@@ -20,7 +20,7 @@ test('publint has nothing to say', async () => {
 });
 
 test('the types are not wrong', () => {
-  execFileSync(process.execPath, [join(root, 'node_modules/@arethetypeswrong/cli/dist/index.js'), pack(), '--profile', 'esm-only'], {
+  execFileSync(process.execPath, [join(root, 'node_modules/@arethetypeswrong/cli/dist/index.js'), tarball(), '--profile', 'esm-only'], {
     stdio: 'inherit',
   });
 });

@@ -2,8 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { chromium } from 'playwright-core';
-import { QUIET, WEBGPU } from './chromium.mjs';
+import { launchChromium, WEBGPU } from './browsers.mjs';
 import { assemble, buffers, cases, exactSigns, families } from './predicates.mjs';
 import { serve } from './server.mjs';
 
@@ -13,7 +12,7 @@ const CASES = 3000;
 let browser, server, page;
 before(async () => {
   server = await serve({});
-  browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: [...QUIET, ...WEBGPU] });
+  browser = await launchChromium(WEBGPU);
   page = await browser.newPage();
   await page.goto(server.url);
   await page.evaluate(async () => {
