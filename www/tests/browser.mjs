@@ -1,5 +1,6 @@
 // What all tests of the page need: the built page behind a static server, and Chromium with or without WebGPU.
 
+import { execFileSync } from 'node:child_process';
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -173,6 +174,12 @@ export async function save(page, format, folder, files = 1) {
   const paths = downloads.map((download) => join(folder, download.suggestedFilename()));
   await Promise.all(downloads.map((download, i) => download.saveAs(paths[i])));
   return paths;
+}
+
+/** Runs the command line, as scripts/test.sh has built it, and fails when it does. */
+export function gdel(...args) {
+  const [command, ...first] = process.env.GDEL ? [process.env.GDEL] : ['cargo', 'run', '--quiet', '--locked', '--bin', 'gdel', '--'];
+  execFileSync(command, [...first, ...args], { cwd: here('../..'), stdio: ['ignore', 'pipe', 'inherit'] });
 }
 
 /** Saves a picture of the page, with its transitions ended. */

@@ -1,5 +1,4 @@
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -7,7 +6,7 @@ import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import AxeBuilder from '@axe-core/playwright';
 import {
-  choose, colorBy, compare, drop, generate, launch, numbers, open, pictureOf, prove, request, save, serve, settled, share, shown, slide, tab, text,
+  choose, colorBy, compare, drop, gdel, generate, launch, numbers, open, pictureOf, prove, request, save, serve, settled, share, shown, slide, tab, text,
   until,
 } from './browser.mjs';
 
@@ -159,7 +158,6 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     assert.match(await text(page, 'count'), /^35,947 /);
     await tab(page, 'use');
     const folder = mkdtempSync(join(tmpdir(), 'gdel-demo-'));
-    const gdel = (...args) => execFileSync('cargo', ['run', '--quiet', '--locked', '--bin', 'gdel', '--', ...args], { cwd: root });
     const points = join(folder, 'points.ply');
     writeFileSync(points, bunny);
     for (const [format, files, mesh] of [['VTU', 1, '.vtu'], ['NPZ', 1, '.npz'], ['TetGen', 3, '.ele']]) {

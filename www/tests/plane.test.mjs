@@ -1,5 +1,4 @@
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -7,7 +6,7 @@ import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import AxeBuilder from '@axe-core/playwright';
 import {
-  choose, colorBy, compare, drop, generate, launch, open, pictureOf, prove, save, serve, settled, share, shown, slide, tab, text, until,
+  choose, colorBy, compare, drop, gdel, generate, launch, open, pictureOf, prove, save, serve, settled, share, shown, slide, tab, text, until,
 } from './browser.mjs';
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
@@ -212,7 +211,6 @@ describe('the plane', () => {
     await generate(page, 'grid', 500);
     await tab(page, 'use');
     const folder = mkdtempSync(join(tmpdir(), 'gdel-demo-'));
-    const gdel = (...args) => execFileSync('cargo', ['run', '--quiet', '--locked', '--bin', 'gdel', '--', ...args], { cwd: root });
     const file = join(folder, 'points.xyz');
     gdel('generate', '--dim', '2', 'grid', '500', '--seed', '1', '-o', file);
     for (const [format, files, mesh] of [['VTU', 1, '.vtu'], ['NPZ', 1, '.npz'], ['TetGen', 3, '.ele']]) {
