@@ -16,7 +16,7 @@ before(async () => {
 });
 after(async () => {
   await browser.close();
-  servers.forEach((server) => server.close());
+  for (const server of servers) server.close();
 });
 
 async function server(options) {

@@ -35,6 +35,7 @@ function orient(coords, a, b, c) {
     return { mantissa: bits >> 63n ? -mantissa : mantissa, exponent: exponent || 1n };
   });
   const used = parts.filter(({ mantissa }) => mantissa !== 0n).map(({ exponent }) => exponent);
+  // biome-ignore lint/complexity/useMathMinMax: Math.min takes no big integers.
   const least = used.reduce((x, y) => (x < y ? x : y), used[0] ?? 1n);
   const [ax, ay, bx, by, cx, cy] = parts.map(({ mantissa, exponent }) => (mantissa === 0n ? 0n : mantissa << (exponent - least)));
   const det = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);

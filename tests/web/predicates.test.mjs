@@ -61,7 +61,7 @@ function signs(inputs, cases, count) {
       device.queue.submit([encoder.finish()]);
       await staging.mapAsync(GPUMapMode.READ);
       const found = Array.from(new Int32Array(staging.getMappedRange()));
-      [...buffers, result, staging].forEach((buffer) => buffer.destroy());
+      for (const buffer of [...buffers, result, staging]) buffer.destroy();
       return found;
     },
     { inputs, cases, count },

@@ -98,7 +98,10 @@ for (const [name, points] of [
     onRun = heard;
     let turns = 0;
     let running = true;
-    const count = () => running && (turns++, setImmediate(count));
+    const count = () => {
+      turns++;
+      if (running) setImmediate(count);
+    };
     count();
     assert.equal(await messageOf(delaunay3d(points)), 'heard');
     running = false;

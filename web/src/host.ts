@@ -204,7 +204,9 @@ async function callerConnection(gpu: object | undefined, whyThread: string): Pro
     },
     run: (task, args, _transfer, onProgress, signal) =>
       cores.get(MODULE_OF[task])!.run(task, args, { onProgress, isAborted: () => signal?.aborted ?? false }),
-    close: () => cores.forEach((core) => core.dispose()),
+    close() {
+      for (const core of cores.values()) core.dispose();
+    },
   };
 }
 

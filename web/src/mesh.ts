@@ -39,28 +39,28 @@ export class Mesh3 {
 
   /** The tetrahedra as VTK's XML unstructured grid (`.vtu`), which ParaView and PyVista read. */
   async toVTU(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('vtu', [], options))['vtu']!;
+    return (await this.#write('vtu', [], options)).vtu!;
   }
 
   /** The hull as Stanford PLY (`.ply`), binary. */
   async toPLY(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('ply', ['hull'], options))['ply']!;
+    return (await this.#write('ply', ['hull'], options)).ply!;
   }
 
   /** The hull as Wavefront OBJ (`.obj`). */
   async toOBJ(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('obj', ['hull'], options))['obj']!;
+    return (await this.#write('obj', ['hull'], options)).obj!;
   }
 
   /** The hull as binary STL (`.stl`), whose numbers are single precision. */
   async toSTL(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('stl', ['hull'], options))['stl']!;
+    return (await this.#write('stl', ['hull'], options)).stl!;
   }
 
   /** The hull as binary glTF 2.0 (`.glb`), whose numbers are single precision: relative to the node's translation where
    * that would lose something. Axes stay as they are, though glTF has y point up. */
   async toGLB(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('glb', ['hull'], options))['glb']!;
+    return (await this.#write('glb', ['hull'], options)).glb!;
   }
 
   /** TetGen's three files: points, tetrahedra and neighbours, counted from 0. */
@@ -71,7 +71,7 @@ export class Mesh3 {
 
   /** NumPy's `.npz` with the arrays `points`, `tetrahedra` and `neighbors`. */
   async toNPZ(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('npz', ['neighbors'], options))['npz']!;
+    return (await this.#write('npz', ['neighbors'], options)).npz!;
   }
 
   /** Only what the format needs is copied to the writer. */

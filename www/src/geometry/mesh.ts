@@ -31,7 +31,10 @@ export function frameOf(points: ArrayLike<number>, dimension: 2 | 3 = 3): Frame 
     }
   }
   // Without points, the unit cube or square.
-  if (points.length === 0) low.fill(0), high.fill(1);
+  if (points.length === 0) {
+    low.fill(0);
+    high.fill(1);
+  }
   if (dimension === 2) low[2] = high[2] = 0;
   // Halves first: the sum of two large coordinates could overflow.
   const center = low.map((l, axis) => l / 2 + high[axis] / 2) as [number, number, number];

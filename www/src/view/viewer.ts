@@ -332,7 +332,7 @@ function instances({ a, b, c, d, values, owners }: Pieces): BufferGeometry | nul
   if (owners.length === 0) return null;
   const geometry = new InstancedBufferGeometry();
   const corners = new Float32Array(36);
-  FACETS.forEach((corner, i) => (corners[3 * i] = corner));
+  for (const [i, corner] of FACETS.entries()) corners[3 * i] = corner;
   geometry.setAttribute('position', new BufferAttribute(corners, 3));
   for (const [name, array] of Object.entries({ a, b, c, d })) geometry.setAttribute(name, new InstancedBufferAttribute(array, 3));
   geometry.setAttribute('value', new InstancedBufferAttribute(values, 1));
