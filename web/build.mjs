@@ -31,10 +31,8 @@ const given = process.env.CARGO_ENCODED_RUSTFLAGS?.split('\x1f') ?? process.env.
 const CARGO_ENCODED_RUSTFLAGS = [...given, ...remapped].filter(Boolean).join('\x1f');
 const env = { ...process.env, PATH, CARGO_ENCODED_RUSTFLAGS };
 const options = { cwd: root, stdio: ['ignore', 'inherit', 'inherit'], env };
-const run = (command, args) => execFileSync(command, args, options);
 
-/** Runs a command while other work goes on. */
-async function runBeside(command, args) {
+async function run(command, args) {
   const [status] = await once(spawn(command, args, options), 'exit');
   if (status !== 0) throw new Error(`${command} failed`);
 }
@@ -46,7 +44,7 @@ async function buildWasm() {
   for (const [name, { feature }] of Object.entries(MODULES)) {
     say(`${name}: cargo`);
     // prettier-ignore
-    run('cargo', [
+    await run('cargo', [
       'build', '--lib', '--locked', '--profile', 'wasm', '--target', 'wasm32-unknown-unknown', '--no-default-features', '--features', feature,
     ]);
     rmSync(pkg(name), { recursive: true, force: true });
@@ -62,10 +60,10 @@ async function buildWasm() {
 async function finishWasm(name) {
   const at = (file) => join(pkg(name), file);
   // prettier-ignore
-  await runBeside('wasm-bindgen', [
+  await run('wasm-bindgen', [
     at('gdel.wasm'), '--out-dir', pkg(name), '--out-name', 'gdel', '--target', 'web', '--no-typescript', '--omit-default-module-path',
   ]);
-  await runBeside('wasm-opt', [at('gdel_bg.wasm'), '-o', at('gdel_bg.wasm'), '-O3']);
+  await run('wasm-opt', [at('gdel_bg.wasm'), '-o', at('gdel_bg.wasm'), '-O3']);
 }
 
 /** The glue of wasm-bindgen keeps its instance in module variables. Here it becomes a function, of which each call has its
@@ -143,7 +141,7 @@ async function buildJs() {
   await bundle('index.ts', 'node.js', runtime('node'));
   await bundle('index.ts', 'inline.js', { ...runtime('inline'), external: [] });
   say('declarations: tsc');
-  run(process.execPath, [join(root, 'node_modules/typescript/bin/tsc'), '--project', web]);
+  await run(process.execPath, [join(root, 'node_modules/typescript/bin/tsc'), '--project', web]);
   // The three builds have one interface.
   cpSync(join(dist, 'index.d.ts'), join(dist, 'inline.d.ts'));
   for (const file of ['LICENSE-MIT', 'LICENSE-APACHE']) cpSync(join(root, file), join(web, file));
