@@ -28,7 +28,9 @@ function allFiles() {
     const at = SLOW.findIndex((name) => file.endsWith(`/${name}.test.mjs`));
     return at < 0 ? SLOW.length : at;
   };
-  return names.filter((name) => name.endsWith('.test.mjs')).sort((a, b) => rank(a) - rank(b) || a.localeCompare(b));
+  return names
+    .filter((name) => name.endsWith('.test.mjs'))
+    .sort((a, b) => rank(a) - rank(b) || a.localeCompare(b));
 }
 
 const scratch = mkdtempSync(join(tmpdir(), 'gdel-packed-'));
@@ -45,7 +47,11 @@ const args = [
   ...(named.length > 0 ? named : allFiles().map((file) => join(root, file))),
 ];
 // A group of its own: whatever a file leaves behind ends with it.
-const child = spawn(process.execPath, args, { stdio: 'inherit', detached: true, env: { ...process.env, GDEL_PACKED: scratch } });
+const child = spawn(process.execPath, args, {
+  stdio: 'inherit',
+  detached: true,
+  env: { ...process.env, GDEL_PACKED: scratch },
+});
 
 process.on('exit', () => {
   try {

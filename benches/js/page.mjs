@@ -5,12 +5,19 @@
 //
 // Exits with 1 if a budget is exceeded.
 
-import { pathToFileURL } from 'node:url';
 import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
 import { launchChromium, launchFirefox } from '../../tests/web/browsers.mjs';
 import { dist, project, root } from '../../tests/web/package.mjs';
 import { serve } from '../../tests/web/server.mjs';
-import { generate, launch, open, serve as servePage, settled, slide } from '../../www/tests/browser.mjs';
+import {
+  generate,
+  launch,
+  open,
+  serve as servePage,
+  settled,
+  slide,
+} from '../../www/tests/browser.mjs';
 
 const rows = [];
 
@@ -19,7 +26,12 @@ function report(what, milliseconds, budget, figure = 'median') {
   const found = figure === 'median' ? sorted[sorted.length >> 1] : sorted.at(-1);
   const all = milliseconds.map((each) => each.toFixed(1)).join(', ');
   console.log(`${what}: ${figure} ${found.toFixed(1)} ms of ${budget} (${all})`);
-  rows.push({ what, 'ms': Number(found.toFixed(1)), budget, verdict: found <= budget ? 'kept' : 'EXCEEDED' });
+  rows.push({
+    what,
+    ms: Number(found.toFixed(1)),
+    budget,
+    verdict: found <= budget ? 'kept' : 'EXCEEDED',
+  });
 }
 
 const times = async (count, measure) => {
@@ -45,7 +57,9 @@ async function benchPage() {
     const page = await open(browser, server.url);
     await page.evaluate(() => {
       globalThis.tasks = [0];
-      new PerformanceObserver((list) => tasks.push(...list.getEntries().map(({ duration }) => duration))).observe({ type: 'longtask' });
+      new PerformanceObserver((list) =>
+        tasks.push(...list.getEntries().map(({ duration }) => duration)),
+      ).observe({ type: 'longtask' });
     });
     await generate(page, 'uniform', 1_000_000, { engine: 'cpu' });
     report('longest task of the page, 1 M points', await page.evaluate(() => tasks), 50, 'maximum');
@@ -73,15 +87,30 @@ async function abortTimes(module) {
     aborted = performance.now();
     controller.abort();
   };
-  await delaunay3d(points, { engine: 'cpu', signal: controller.signal, onProgress }).catch(() => {});
+  await delaunay3d(points, { engine: 'cpu', signal: controller.signal, onProgress }).catch(
+    () => {},
+  );
   const rejected = performance.now() - aborted;
-  await delaunay3d([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]);
+  await delaunay3d([
+    [0, 0, 0],
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+  ]);
   return { rejected, next: performance.now() - aborted };
 }
 
 function reportAborts(where, found) {
-  report(`abort in ${where}, until the promise is rejected`, found.map(({ rejected }) => rejected), 16);
-  report(`abort in ${where}, until the next run is done`, found.map(({ next }) => next), 400);
+  report(
+    `abort in ${where}, until the promise is rejected`,
+    found.map(({ rejected }) => rejected),
+    16,
+  );
+  report(
+    `abort in ${where}, until the next run is done`,
+    found.map(({ next }) => next),
+    400,
+  );
 }
 
 /** The longest task of the page's main thread, in milliseconds on the processor, while `work` runs. */
@@ -89,16 +118,23 @@ async function longestTask(browser, page, work) {
   await browser.startTracing(page, { categories: ['toplevel', 'devtools.timeline'] });
   await page.evaluate(work);
   const { traceEvents } = JSON.parse((await browser.stopTracing()).toString());
-  const main = traceEvents.filter(({ name, args }) => name === 'thread_name' && args.name === 'CrRendererMain');
+  const main = traceEvents.filter(
+    ({ name, args }) => name === 'thread_name' && args.name === 'CrRendererMain',
+  );
   const threads = new Set(main.map(({ pid, tid }) => `${pid} ${tid}`));
-  const tasks = traceEvents.filter(({ pid, tid, tdur }) => tdur !== undefined && threads.has(`${pid} ${tid}`));
+  const tasks = traceEvents.filter(
+    ({ pid, tid, tdur }) => tdur !== undefined && threads.has(`${pid} ${tid}`),
+  );
   return tasks.reduce((longest, { tdur }) => Math.max(longest, tdur), 0) / 1e3;
 }
 
 async function benchPackage() {
   const folder = project();
   const server = await serve({ '/gdel/': dist(folder), '/tests/': join(root, 'tests/web') });
-  const browsers = [['Chromium', launchChromium], ['Firefox', launchFirefox]];
+  const browsers = [
+    ['Chromium', launchChromium],
+    ['Firefox', launchFirefox],
+  ];
   try {
     for (const [name, launchIt] of browsers) {
       const browser = await launchIt();
@@ -111,15 +147,27 @@ async function benchPackage() {
             const { delaunay3d, generate } = await import('/gdel/index.js');
             Object.assign(globalThis, { delaunay3d, points: await generate('uniform', 1_000_000) });
           });
-          const longest = () => longestTask(browser, page, async () => void (await delaunay3d(points, { engine: 'cpu' })));
-          report('longest task of a page that triangulates 1 M points', await times(3, longest), 16);
+          const longest = () =>
+            longestTask(
+              browser,
+              page,
+              async () => void (await delaunay3d(points, { engine: 'cpu' })),
+            );
+          report(
+            'longest task of a page that triangulates 1 M points',
+            await times(3, longest),
+            16,
+          );
         }
         reportAborts(name, await times(5, () => page.evaluate(abortTimes, '/gdel/index.js')));
       } finally {
         await browser.close();
       }
     }
-    reportAborts('Node', await times(5, () => abortTimes(pathToFileURL(join(dist(folder), 'node.js')).href)));
+    reportAborts(
+      'Node',
+      await times(5, () => abortTimes(pathToFileURL(join(dist(folder), 'node.js')).href)),
+    );
   } finally {
     server.close();
   }

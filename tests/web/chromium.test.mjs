@@ -32,7 +32,12 @@ async function open(options = {}, inBrowser = browser) {
   return page;
 }
 
-const TETRAHEDRON = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]];
+const TETRAHEDRON = [
+  [0, 0, 0],
+  [1, 0, 0],
+  [0, 1, 0],
+  [0, 0, 1],
+];
 
 test('the CPU engine gives the native meshes, in a worker', async () => {
   const page = await open();
@@ -62,13 +67,18 @@ test('auto avoids a software adapter, and says so', async () => {
   });
   assert.equal(stats.engine, 'cpu');
   assert.match(stats.why, /swiftshader.*software/);
-  const few = await page.evaluate(async (points) => (await (await import('/gdel/index.js')).delaunay3d(points)).stats, TETRAHEDRON);
+  const few = await page.evaluate(
+    async (points) => (await (await import('/gdel/index.js')).delaunay3d(points)).stats,
+    TETRAHEDRON,
+  );
   assert.match(few.why, /too few/);
   await page.close();
 });
 
 // One device for all of this: SwiftShader takes long to compile the kernels.
-test('the GPU engine: native mesh, trace, progress, abort, device loss', { timeout: 900_000 }, async () => {
+test('the GPU engine: native mesh, trace, progress, abort, device loss', {
+  timeout: 900_000,
+}, async () => {
   // The worker destroys its device after as many submits as it was told, so that it gets lost in the middle of a run.
   const loseDevice = `
     const { requestDevice } = GPUAdapter.prototype;
@@ -89,7 +99,9 @@ test('the GPU engine: native mesh, trace, progress, abort, device loss', { timeo
       submits = data;
       channel.postMessage('told');
     };\n`;
-  const page = await open({ change: (path, content) => (path === '/gdel/worker.js' ? loseDevice + content : content) });
+  const page = await open({
+    change: (path, content) => (path === '/gdel/worker.js' ? loseDevice + content : content),
+  });
   const small = pinned.find(({ count }) => count < 100);
   const found = await page.evaluate(async ({ kind, count, seed }) => {
     const { createEngine, generate } = await import('/gdel/index.js');
@@ -99,14 +111,21 @@ test('the GPU engine: native mesh, trace, progress, abort, device loss', { timeo
     const engine = await createEngine({ engine: 'gpu' });
     const fractions = [];
     const onProgress = ({ fraction }) => fractions.push(fraction);
-    const mesh = await engine.delaunay3d(points, { outputs: ['neighbors', 'hull', 'duplicateOf', 'trace'], onProgress });
+    const mesh = await engine.delaunay3d(points, {
+      outputs: ['neighbors', 'hull', 'duplicateOf', 'trace'],
+      onProgress,
+    });
     const trace = {
       rounds: mesh.trace.rounds.map(({ tetrahedra }) => tetrahedra.length / 4),
       created: mesh.trace.created.length,
       facets: mesh.trace.nonDelaunayFacets.length,
     };
 
-    const code = (promise) => promise.then(() => 'none', (error) => error.code);
+    const code = (promise) =>
+      promise.then(
+        () => 'none',
+        (error) => error.code,
+      );
     const channel = new BroadcastChannel('test');
     await new Promise((told) => {
       channel.onmessage = told;
@@ -125,7 +144,8 @@ test('the GPU engine: native mesh, trace, progress, abort, device loss', { timeo
   assert.equal(found.stats.engine, 'gpu');
   assert.equal(found.stats.why, null);
   assert.equal(found.stats.adapter.architecture, 'swiftshader');
-  for (const count of ['readbacks', 'dispatches', 'submits', 'bytes']) assert.ok(found.stats.gpu[count] > 0, count);
+  for (const count of ['readbacks', 'dispatches', 'submits', 'bytes'])
+    assert.ok(found.stats.gpu[count] > 0, count);
   assert.equal(found.trace.rounds.length, found.stats.gpu.rounds.length);
   assert.equal(found.trace.created, small.tetrahedra);
   assert.equal(found.fractions.at(-1), 1);
@@ -150,8 +170,15 @@ test('without WebGPU: auto takes the CPU engine and says why, gpu is an error', 
 });
 
 test('a worker that is blocked: the calling thread does the work', async () => {
-  const page = await open({ headers: { 'content-security-policy': "worker-src 'none'; script-src 'self' 'wasm-unsafe-eval'" } });
-  const stats = await page.evaluate(async (points) => (await (await import('/gdel/index.js')).delaunay3d(points)).stats, TETRAHEDRON);
+  const page = await open({
+    headers: {
+      'content-security-policy': "worker-src 'none'; script-src 'self' 'wasm-unsafe-eval'",
+    },
+  });
+  const stats = await page.evaluate(
+    async (points) => (await (await import('/gdel/index.js')).delaunay3d(points)).stats,
+    TETRAHEDRON,
+  );
   assert.equal(stats.thread, 'caller');
   assert.match(stats.whyThread, /worker/);
   await page.close();
@@ -172,7 +199,8 @@ test('from another origin, the worker comes through a blob', async () => {
   const other = await server({ headers: { 'access-control-allow-origin': '*' } });
   const page = await open();
   const stats = await page.evaluate(
-    async ({ url, points }) => (await (await import(`${url}/gdel/index.js`)).delaunay3d(points)).stats,
+    async ({ url, points }) =>
+      (await (await import(`${url}/gdel/index.js`)).delaunay3d(points)).stats,
     { url: other.url, points: TETRAHEDRON },
   );
   assert.equal(stats.thread, 'worker');
@@ -190,7 +218,10 @@ test('the inlined build works from one file', async () => {
   }, TETRAHEDRON);
   assert.equal(found.thread, 'worker');
   assert.ok(found.ply > 0);
-  assert.deepEqual(requests.filter((path) => path.startsWith('/gdel/')), ['/gdel/inline.js']);
+  assert.deepEqual(
+    requests.filter((path) => path.startsWith('/gdel/')),
+    ['/gdel/inline.js'],
+  );
   await page.close();
 });
 
@@ -200,7 +231,10 @@ test('an abort takes effect at once, and the engine goes on', async () => {
     const { delaunay3d, generate } = await import('/gdel/index.js');
     const { abortOf } = await import('/tests/abort.mjs');
     const points = await generate('uniform', 200_000);
-    const aborted = await abortOf((options) => delaunay3d(points, { engine: 'cpu', ...options }), 'insert');
+    const aborted = await abortOf(
+      (options) => delaunay3d(points, { engine: 'cpu', ...options }),
+      'insert',
+    );
     return { ...aborted, next: (await delaunay3d(tetrahedron)).tetrahedra.length };
   }, TETRAHEDRON);
   assert.deepEqual(found, { code: 'ABORTED', atOnce: true, next: 4 });

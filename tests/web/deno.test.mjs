@@ -10,7 +10,9 @@ import { pinned, project, root } from './package.mjs';
 // As scripts/setup.sh installs it, or the machine's.
 const runs = (command) => spawnSync(command, ['--version']).status === 0;
 const deno = [join(root, '.cache/tools/node_modules/.bin/deno'), 'deno'].find(runs);
-const skip = deno ? false : 'Deno is not installed, and scripts/setup.sh found none for this machine';
+const skip = deno
+  ? false
+  : 'Deno is not installed, and scripts/setup.sh found none for this machine';
 
 const SCRIPT = `
   import { createEngine, Delaunator, delaunay2d, delaunay3d, generate, verify } from 'gdel-wasm';
@@ -35,14 +37,24 @@ const SCRIPT = `
 `;
 
 // No driver: what Deno's own WebGPU makes of those that a machine has, software ones first of all, is not what is tested.
-const env = { ...process.env, NO_COLOR: '1', DENO_NO_UPDATE_CHECK: '1', VK_DRIVER_FILES: '/nowhere', __EGL_VENDOR_LIBRARY_FILENAMES: '/nowhere' };
+const env = {
+  ...process.env,
+  NO_COLOR: '1',
+  DENO_NO_UPDATE_CHECK: '1',
+  VK_DRIVER_FILES: '/nowhere',
+  __EGL_VENDOR_LIBRARY_FILENAMES: '/nowhere',
+};
 
 /** No machine needs nearly as long. */
 const HANG = 300_000;
 
 /** The first line that a program prints. It is stopped then, with all that it started: Deno waits for workers, even idle ones. */
 async function firstLine(command, args, options) {
-  const child = spawn(command, args, { ...options, stdio: ['ignore', 'pipe', 'inherit'], detached: true });
+  const child = spawn(command, args, {
+    ...options,
+    stdio: ['ignore', 'pipe', 'inherit'],
+    detached: true,
+  });
   const stop = () => {
     try {
       process.kill(-child.pid, 'SIGKILL');
@@ -62,7 +74,14 @@ async function firstLine(command, args, options) {
 
 test('in Deno, the mesh is the native one, from a worker', { skip }, async () => {
   const folder = project({ 'script.mjs': SCRIPT });
-  const args = ['run', '--no-prompt', '--allow-read', '--node-modules-dir=manual', 'script.mjs', JSON.stringify(pinned)];
+  const args = [
+    'run',
+    '--no-prompt',
+    '--allow-read',
+    '--node-modules-dir=manual',
+    'script.mjs',
+    JSON.stringify(pinned),
+  ];
   const found = JSON.parse(await firstLine(deno, args, { cwd: folder, env }));
   assert.match(found.resolved, /\/dist\/index\.js$/);
   assert.equal(found.fingerprint, pinned[0].fingerprint);

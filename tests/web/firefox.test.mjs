@@ -45,7 +45,12 @@ test('an abort takes effect at once, and the engine goes on', async () => {
     const { abortOf } = await import('/tests/abort.mjs');
     const points = await generate('uniform', 200_000);
     const aborted = await abortOf((options) => delaunay3d(points, options), 'insert');
-    const next = await delaunay3d([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]);
+    const next = await delaunay3d([
+      [0, 0, 0],
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ]);
     return { ...aborted, next: next.tetrahedra.length };
   });
   assert.deepEqual(found, { code: 'ABORTED', atOnce: true, next: 4 });

@@ -1,7 +1,15 @@
 // The package as users get it: packed, and installed into an empty project.
 
 import { execFileSync } from 'node:child_process';
-import { cpSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import {
+  cpSync,
+  mkdirSync,
+  mkdtempSync,
+  readdirSync,
+  readFileSync,
+  rmSync,
+  writeFileSync,
+} from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
@@ -25,12 +33,23 @@ const quietly = { stdio: ['ignore', 'pipe', 'inherit'] };
 export function packInto(folder) {
   const project = join(folder, 'project');
   mkdirSync(project);
-  execFileSync('npm', ['pack', '--silent', '--pack-destination', folder], { cwd: join(root, 'web'), ...quietly });
+  execFileSync('npm', ['pack', '--silent', '--pack-destination', folder], {
+    cwd: join(root, 'web'),
+    ...quietly,
+  });
   writeFileSync(join(project, 'package.json'), JSON.stringify({ private: true, type: 'module' }));
-  execFileSync('npm', ['install', '--silent', '--offline', '--no-audit', '--no-fund', tarballIn(folder)], { cwd: project, ...quietly });
+  execFileSync(
+    'npm',
+    ['install', '--silent', '--offline', '--no-audit', '--no-fund', tarballIn(folder)],
+    { cwd: project, ...quietly },
+  );
 }
 
-const tarballIn = (folder) => join(folder, readdirSync(folder).find((name) => name.endsWith('.tgz')));
+const tarballIn = (folder) =>
+  join(
+    folder,
+    readdirSync(folder).find((name) => name.endsWith('.tgz')),
+  );
 
 /** Where {@link packInto} worked: scripts/test-js.mjs does it once for all files. */
 let packed = process.env.GDEL_PACKED;
@@ -55,4 +74,5 @@ export function project(files = {}) {
 export const dist = (folder) => join(folder, 'node_modules/gdel-wasm/dist');
 
 /** Imports the installed package, as Node does. */
-export const importFrom = (folder, file = 'node.js') => import(pathToFileURL(join(dist(folder), file)));
+export const importFrom = (folder, file = 'node.js') =>
+  import(pathToFileURL(join(dist(folder), file)));

@@ -14,13 +14,18 @@ const gpu = create(['backend=null']);
 test('every kernel is valid', async () => {
   const adapter = await gpu.requestAdapter();
   const device = await adapter.requestDevice();
-  const files = readdirSync(`${root}/shaders`, { recursive: true }).filter((path) => /^(plane.)?\w+\.wgsl$/.test(path));
+  const files = readdirSync(`${root}/shaders`, { recursive: true }).filter((path) =>
+    /^(plane.)?\w+\.wgsl$/.test(path),
+  );
   assert.ok(files.length > 30, `${files}`);
   for (const file of files) {
     for (const width of ['narrow', 'wide']) {
       const module = device.createShaderModule({ code: assemble(`shaders/${file}`, width) });
       const { messages } = await module.getCompilationInfo();
-      assert.deepEqual(messages.map(({ lineNum, message }) => `${file}, ${width}, ${lineNum}: ${message}`), []);
+      assert.deepEqual(
+        messages.map(({ lineNum, message }) => `${file}, ${width}, ${lineNum}: ${message}`),
+        [],
+      );
     }
   }
   device.destroy();

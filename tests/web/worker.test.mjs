@@ -1,9 +1,9 @@
 // How the package deals with its worker and keeps the calling thread free, with workers that do as the test says.
 
 import assert from 'node:assert/strict';
+import { join } from 'node:path';
 import { beforeEach, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { join } from 'node:path';
 import { dist, project } from './package.mjs';
 
 /** What a worker does when it is sent a run: called with a function that answers. */
@@ -49,7 +49,8 @@ beforeEach(async () => {
   ({ delaunay3d } = await import(`${url}?${copies++}`));
 });
 
-const heard = (answer) => answer({ type: 'failed', error: { code: 'INTERNAL', message: 'heard', fatal: false } });
+const heard = (answer) =>
+  answer({ type: 'failed', error: { code: 'INTERNAL', message: 'heard', fatal: false } });
 const messageOf = (run) => run.catch(({ message }) => message);
 
 test('a worker that says at once that it is ready is heard', async () => {
@@ -63,7 +64,10 @@ test('a worker that does not stop when it should is ended, and the next run has 
     answer({ type: 'progress', progress: { phase: 'insert', fraction: 0.5 } });
   };
   const end = new Promise((resolve) => (whenEnded = resolve));
-  const run = delaunay3d([[0, 0, 0]], { signal: controller.signal, onProgress: () => controller.abort() });
+  const run = delaunay3d([[0, 0, 0]], {
+    signal: controller.signal,
+    onProgress: () => controller.abort(),
+  });
   await assert.rejects(run, { code: 'ABORTED' });
   assert.equal(ended.length, 0);
   onRun = heard;
@@ -77,10 +81,15 @@ test('a worker that does not stop when it should is ended, and the next run has 
 test('a worker that stops when it should stays', async () => {
   const controller = new AbortController();
   onRun = (answer) => {
-    controller.signal.addEventListener('abort', () => answer({ type: 'failed', error: { code: 'ABORTED', message: 'aborted', fatal: false } }));
+    controller.signal.addEventListener('abort', () =>
+      answer({ type: 'failed', error: { code: 'ABORTED', message: 'aborted', fatal: false } }),
+    );
     answer({ type: 'progress', progress: { phase: 'insert', fraction: 0.5 } });
   };
-  const run = delaunay3d([[0, 0, 0]], { signal: controller.signal, onProgress: () => controller.abort() });
+  const run = delaunay3d([[0, 0, 0]], {
+    signal: controller.signal,
+    onProgress: () => controller.abort(),
+  });
   await assert.rejects(run, { code: 'ABORTED' });
   onRun = heard;
   assert.equal(await messageOf(delaunay3d([[0, 0, 0]])), 'heard');

@@ -64,7 +64,9 @@ export class Mesh3 {
   }
 
   /** TetGen's three files: points, tetrahedra and neighbours, counted from 0. */
-  async toTetGen(options: TaskOptions = {}): Promise<{ node: Uint8Array; ele: Uint8Array; neigh: Uint8Array }> {
+  async toTetGen(
+    options: TaskOptions = {},
+  ): Promise<{ node: Uint8Array; ele: Uint8Array; neigh: Uint8Array }> {
     const { node, ele, neigh } = await this.#write('tetgen', ['neighbors'], options);
     return { node: node!, ele: ele!, neigh: neigh! };
   }
@@ -75,9 +77,17 @@ export class Mesh3 {
   }
 
   /** Only what the format needs is copied to the writer. */
-  #write(format: string, needs: readonly Output[], options: TaskOptions): Promise<Record<string, Uint8Array>> {
+  #write(
+    format: string,
+    needs: readonly Output[],
+    options: TaskOptions,
+  ): Promise<Record<string, Uint8Array>> {
     const missing = needs.find((output) => !this.#outputs.includes(output));
-    if (missing) throw new GdelError('BAD_INPUT', `${format} files need '${missing}' among the outputs of the run`);
+    if (missing)
+      throw new GdelError(
+        'BAD_INPUT',
+        `${format} files need '${missing}' among the outputs of the run`,
+      );
     const isHull = needs.includes('hull');
     const mesh = {
       tetrahedra: isHull ? new Uint32Array(0) : this.tetrahedra,

@@ -62,7 +62,9 @@ export class Mesh2 {
   }
 
   /** The three files of the program Triangle: points, triangles and neighbours, counted from 0. */
-  async toTriangle(options: TaskOptions = {}): Promise<{ node: Uint8Array; ele: Uint8Array; neigh: Uint8Array }> {
+  async toTriangle(
+    options: TaskOptions = {},
+  ): Promise<{ node: Uint8Array; ele: Uint8Array; neigh: Uint8Array }> {
     const { node, ele, neigh } = await this.#write('triangle', options);
     return { node: node!, ele: ele!, neigh: neigh! };
   }

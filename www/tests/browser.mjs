@@ -14,15 +14,32 @@ mkdirSync(SCREENSHOTS, { recursive: true });
 
 /** Serves www/dist. Resolves to its address and how to end it. */
 export async function serve() {
-  const server = await preview({ root: here('..'), preview: { port: 0, host: '127.0.0.1' }, logLevel: 'error' });
-  return { url: server.resolvedUrls.local[0].replace('localhost', '127.0.0.1'), close: () => server.close() };
+  const server = await preview({
+    root: here('..'),
+    preview: { port: 0, host: '127.0.0.1' },
+    logLevel: 'error',
+  });
+  return {
+    url: server.resolvedUrls.local[0].replace('localhost', '127.0.0.1'),
+    close: () => server.close(),
+  };
 }
 
-const FLAGS = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
+const FLAGS = [
+  '--no-sandbox',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+];
 
 // SwiftShader, Chromium's software rasteriser. Without its Vulkan, headless Chromium cannot show what WebGPU draws.
 const WEBGPU = [
-  '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--enable-features=Vulkan', '--use-vulkan=swiftshader',
+  '--enable-unsafe-webgpu',
+  '--use-webgpu-adapter=swiftshader',
+  '--enable-features=Vulkan',
+  '--use-vulkan=swiftshader',
   '--use-angle=vulkan',
 ];
 
@@ -39,7 +56,11 @@ const HANG = 300_000;
 /** Opens the page and waits for the first drawing. Collects the errors that the page does not handle. */
 export async function open(browser, url, { hang = HANG, ...options } = {}) {
   // A context of its own: axe needs one, and no visit sees what another left.
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, colorScheme: 'light', ...options });
+  const context = await browser.newContext({
+    viewport: { width: 1440, height: 900 },
+    colorScheme: 'light',
+    ...options,
+  });
   const page = await context.newPage();
   page.setDefaultTimeout(hang);
   page.problems = [];
@@ -67,7 +88,8 @@ export async function until(page, condition, argument) {
 }
 
 /** The numbers in a text, without their commas. */
-export const numbers = (text) => (text.match(/\d[\d,.]*/g) ?? []).map((n) => Number(n.replaceAll(',', '')));
+export const numbers = (text) =>
+  (text.match(/\d[\d,.]*/g) ?? []).map((n) => Number(n.replaceAll(',', '')));
 
 export const text = (page, id) => page.locator(`#${id}`).textContent();
 
@@ -114,7 +136,8 @@ export async function request(page, distribution, points) {
 /** Generates points with a given engine, through the panel. */
 export async function generate(page, distribution, points, { engine = 'auto' } = {}) {
   await tab(page, 'points');
-  if (!(await page.isChecked(`input[name=engine][value=${engine}]`))) await choose(page, 'engine', engine);
+  if (!(await page.isChecked(`input[name=engine][value=${engine}]`)))
+    await choose(page, 'engine', engine);
   await request(page, distribution, points);
   await settled(page);
 }
@@ -155,7 +178,9 @@ export async function prove(page) {
   await tab(page, 'compare');
   await page.click('#verify-run');
   await page.locator('#verify-run:enabled').waitFor();
-  const [passed, failed] = await Promise.all(['pass', 'fail'].map((verdict) => page.locator(`#verdicts .${verdict}`).count()));
+  const [passed, failed] = await Promise.all(
+    ['pass', 'fail'].map((verdict) => page.locator(`#verdicts .${verdict}`).count()),
+  );
   return { note: await text(page, 'verify-note'), passed, failed };
 }
 
@@ -178,8 +203,13 @@ export async function save(page, format, folder, files = 1) {
 
 /** Runs the command line, as scripts/test.sh has built it, and fails when it does. */
 export function gdel(...args) {
-  const [command, ...first] = process.env.GDEL ? [process.env.GDEL] : ['cargo', 'run', '--quiet', '--locked', '--bin', 'gdel', '--'];
-  execFileSync(command, [...first, ...args], { cwd: here('../..'), stdio: ['ignore', 'pipe', 'inherit'] });
+  const [command, ...first] = process.env.GDEL
+    ? [process.env.GDEL]
+    : ['cargo', 'run', '--quiet', '--locked', '--bin', 'gdel', '--'];
+  execFileSync(command, [...first, ...args], {
+    cwd: here('../..'),
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
 }
 
 /** Saves a picture of the page, with its transitions ended. */

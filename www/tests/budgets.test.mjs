@@ -30,7 +30,8 @@ test('the first view takes less than 500 kB', async () => {
   await drawn(page);
   await context.close();
   const counted = [...files].filter((path) => !/bunny|viewer|three/.test(path));
-  const kilobytes = (path) => gzipSync(readFileSync(dist + (path === '/' ? 'index.html' : path.slice(1)))).length / 1e3;
+  const kilobytes = (path) =>
+    gzipSync(readFileSync(dist + (path === '/' ? 'index.html' : path.slice(1)))).length / 1e3;
   let sum = 0;
   for (const path of counted.sort()) {
     console.log(`${kilobytes(path).toFixed(1).padStart(8)} kB ${path}`);

@@ -6,7 +6,26 @@ import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import AxeBuilder from '@axe-core/playwright';
 import {
-  choose, colorBy, compare, drop, gdel, generate, launch, numbers, open, pictureOf, prove, request, save, serve, settled, share, shown, slide, tab, text,
+  choose,
+  colorBy,
+  compare,
+  drop,
+  gdel,
+  generate,
+  launch,
+  numbers,
+  open,
+  pictureOf,
+  prove,
+  request,
+  save,
+  serve,
+  settled,
+  share,
+  shown,
+  slide,
+  tab,
+  text,
   until,
 } from './browser.mjs';
 
@@ -49,7 +68,11 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     const half = await shown(page);
     assert.ok(half.shown > 0.4 * half.total && half.shown < 0.6 * half.total);
 
-    for (const [color, title] of [['quality', 'Radius ratio'], ['volume', 'Volume'], ['circumradius', 'Circumradius']]) {
+    for (const [color, title] of [
+      ['quality', 'Radius ratio'],
+      ['volume', 'Volume'],
+      ['circumradius', 'Circumradius'],
+    ]) {
       await colorBy(page, color);
       assert.ok((await text(page, 'legend-title')).startsWith(title));
       await pictureOf(page, `colour-${color}`);
@@ -143,7 +166,9 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     const before = await text(page, 'count');
     await page.fill('#live-number', '500');
     await page.click('#live');
-    await until(page, () => document.querySelector('#took').textContent.includes('frames a second'));
+    await until(page, () =>
+      document.querySelector('#took').textContent.includes('frames a second'),
+    );
     await page.locator('#live-times svg').waitFor();
     await pictureOf(page, 'live');
     await page.click('#live');
@@ -160,10 +185,18 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     const folder = mkdtempSync(join(tmpdir(), 'gdel-demo-'));
     const points = join(folder, 'points.ply');
     writeFileSync(points, bunny);
-    for (const [format, files, mesh] of [['VTU', 1, '.vtu'], ['NPZ', 1, '.npz'], ['TetGen', 3, '.ele']]) {
+    for (const [format, files, mesh] of [
+      ['VTU', 1, '.vtu'],
+      ['NPZ', 1, '.npz'],
+      ['TetGen', 3, '.ele'],
+    ]) {
       const saved = await save(page, format, folder, files);
       // Fails if the mesh is not the Delaunay triangulation of the points.
-      gdel('verify', points, saved.find((path) => path.endsWith(mesh)));
+      gdel(
+        'verify',
+        points,
+        saved.find((path) => path.endsWith(mesh)),
+      );
     }
     for (const format of ['PLY', 'OBJ', 'STL']) {
       const [hull] = await save(page, format, folder);
@@ -195,14 +228,23 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
         await tab(page, name);
         await pictureOf(page, `${colorScheme}-${name}`);
         const { violations } = await new AxeBuilder({ page }).analyze();
-        assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`), [], name);
+        assert.deepEqual(
+          violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`),
+          [],
+          name,
+        );
       }
       await page.context().close();
     });
   }
 
   test('fits a phone', async () => {
-    const page = await open(browser, server.url, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, deviceScaleFactor: 2 });
+    const page = await open(browser, server.url, {
+      viewport: { width: 390, height: 844 },
+      isMobile: true,
+      hasTouch: true,
+      deviceScaleFactor: 2,
+    });
     const width = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(width <= 390, `${width} pixels wide`);
     await pictureOf(page, 'phone');
@@ -210,7 +252,10 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await page.locator('#tip').waitFor();
     await tab(page, 'view');
     const { violations } = await new AxeBuilder({ page }).analyze();
-    assert.deepEqual(violations.map(({ id }) => id), []);
+    assert.deepEqual(
+      violations.map(({ id }) => id),
+      [],
+    );
     await pictureOf(page, 'phone-view');
     await page.context().close();
   });

@@ -2,7 +2,19 @@
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { choose, colorBy, launch, open, pictureOf, serve, settled, shown, slide, tab, text } from './browser.mjs';
+import {
+  choose,
+  colorBy,
+  launch,
+  open,
+  pictureOf,
+  serve,
+  settled,
+  shown,
+  slide,
+  tab,
+  text,
+} from './browser.mjs';
 
 // The rasteriser takes long to compile the kernels.
 const hang = 900_000;
@@ -42,7 +54,8 @@ test('shows a recorded run round by round', async () => {
   // What flipping leaves depends on which flips are first; now and then it is nothing.
   const repair = await text(page, 'repair');
   const isDelaunay = repair === 'Every facet was locally Delaunay after Phase 1.';
-  if (!isDelaunay) assert.match(repair, /^Facets that were not .* Splaying repaired 100 % of them\./);
+  if (!isDelaunay)
+    assert.match(repair, /^Facets that were not .* Splaying repaired 100 % of them\./);
   const result = (await shown(page)).total;
   await slide(page, 'step', 0);
   assert.match(await text(page, 'step-label'), /^After round 1 of/);

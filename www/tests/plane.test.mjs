@@ -6,7 +6,25 @@ import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import AxeBuilder from '@axe-core/playwright';
 import {
-  choose, colorBy, compare, drop, gdel, generate, launch, open, pictureOf, prove, save, serve, settled, share, shown, slide, tab, text, until,
+  choose,
+  colorBy,
+  compare,
+  drop,
+  gdel,
+  generate,
+  launch,
+  open,
+  pictureOf,
+  prove,
+  save,
+  serve,
+  settled,
+  share,
+  shown,
+  slide,
+  tab,
+  text,
+  until,
 } from './browser.mjs';
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
@@ -64,7 +82,11 @@ describe('the plane', () => {
     await click(page, 0.7, 0.7);
     assert.match(await text(page, 'count'), /on one line/);
     await pictureOf(page, 'plane-two-points');
-    for (const [n, x, y] of [[3, 0.7, 0.3], [4, 0.3, 0.7], [5, 0.5, 0.52]]) {
+    for (const [n, x, y] of [
+      [3, 0.7, 0.3],
+      [4, 0.3, 0.7],
+      [5, 0.5, 0.52],
+    ]) {
       await click(page, x, y);
       assert.ok((await text(page, 'count')).startsWith(`${n} points`));
     }
@@ -80,7 +102,11 @@ describe('the plane', () => {
     await settled(page);
     assert.equal(await text(page, 'count'), '5 points → 3 triangles');
     await pictureOf(page, 'plane-drawn');
-    await until(page, (before) => location.href !== before && location.hash.includes('move_4_'), before);
+    await until(
+      page,
+      (before) => location.href !== before && location.hash.includes('move_4_'),
+      before,
+    );
     // One change, however many steps the way had.
     assert.equal(page.url().match(/move/g).length, 1);
 
@@ -174,7 +200,10 @@ describe('the plane', () => {
   test('runs delaunator on the same points', async () => {
     await generate(page, 'uniform', 5000);
     const note = await compare(page);
-    assert.match(note, /CPU engine: ([\d,]+) triangles, as many\. delaunator: \1 triangles, as many\. delaunator took/);
+    assert.match(
+      note,
+      /CPU engine: ([\d,]+) triangles, as many\. delaunator: \1 triangles, as many\. delaunator took/,
+    );
     await pictureOf(page, 'plane-compare');
   });
 
@@ -183,7 +212,9 @@ describe('the plane', () => {
     const before = await text(page, 'count');
     await page.fill('#live-number', '800');
     await page.click('#live');
-    await until(page, () => /moving points → [\d,]+ triangles/.test(document.querySelector('#count').textContent));
+    await until(page, () =>
+      /moving points → [\d,]+ triangles/.test(document.querySelector('#count').textContent),
+    );
     await pictureOf(page, 'plane-live');
     await page.click('#live');
     await settled(page);
@@ -213,13 +244,29 @@ describe('the plane', () => {
     const folder = mkdtempSync(join(tmpdir(), 'gdel-demo-'));
     const file = join(folder, 'points.xyz');
     gdel('generate', '--dim', '2', 'grid', '500', '--seed', '1', '-o', file);
-    for (const [format, files, mesh] of [['VTU', 1, '.vtu'], ['NPZ', 1, '.npz'], ['TetGen', 3, '.ele']]) {
+    for (const [format, files, mesh] of [
+      ['VTU', 1, '.vtu'],
+      ['NPZ', 1, '.npz'],
+      ['TetGen', 3, '.ele'],
+    ]) {
       const saved = await save(page, format, folder, files);
       // Fails if the mesh is not the Delaunay triangulation of the points.
-      gdel('verify', '--dim', '2', file, saved.find((path) => path.endsWith(mesh)));
+      gdel(
+        'verify',
+        '--dim',
+        '2',
+        file,
+        saved.find((path) => path.endsWith(mesh)),
+      );
     }
-    for (const format of ['PLY', 'OBJ', 'STL']) gdel('triangulate', '--dim', '2', (await save(page, format, folder))[0]);
-    assert.equal(readFileSync((await save(page, 'GLB', folder))[0]).subarray(0, 4).toString(), 'glTF');
+    for (const format of ['PLY', 'OBJ', 'STL'])
+      gdel('triangulate', '--dim', '2', (await save(page, format, folder))[0]);
+    assert.equal(
+      readFileSync((await save(page, 'GLB', folder))[0])
+        .subarray(0, 4)
+        .toString(),
+      'glTF',
+    );
     const svg = readFileSync((await save(page, 'SVG', folder))[0], 'utf8');
     const { total } = await shown(page);
     assert.equal(svg.match(/<path fill="rgb/g).length, total);
@@ -233,25 +280,40 @@ describe('the plane', () => {
 
   for (const colorScheme of ['light', 'dark']) {
     test(`has no accessibility faults, ${colorScheme}`, async () => {
-      const page = await open(browser, `${server.url}#dim=2`, { colorScheme, reducedMotion: 'reduce' });
+      const page = await open(browser, `${server.url}#dim=2`, {
+        colorScheme,
+        reducedMotion: 'reduce',
+      });
       for (const name of ['points', 'view', 'run', 'compare', 'use']) {
         await tab(page, name);
         await pictureOf(page, `plane-${colorScheme}-${name}`);
         const { violations } = await new AxeBuilder({ page }).analyze();
-        assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`), [], name);
+        assert.deepEqual(
+          violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`),
+          [],
+          name,
+        );
       }
       await page.context().close();
     });
   }
 
   test('works on a phone by touch', async () => {
-    const page = await open(browser, `${server.url}#dim=2&points=uniform_60_1`, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, deviceScaleFactor: 2 });
+    const page = await open(browser, `${server.url}#dim=2&points=uniform_60_1`, {
+      viewport: { width: 390, height: 844 },
+      isMobile: true,
+      hasTouch: true,
+      deviceScaleFactor: 2,
+    });
     const width = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(width <= 390, `${width} pixels wide`);
     await page.touchscreen.tap(...(await at(page, 0.5, 0.6)));
     await page.locator('#tip').waitFor();
     await pictureOf(page, 'plane-phone');
-    for (const [tool, count] of [['add', 61], ['remove', 60]]) {
+    for (const [tool, count] of [
+      ['add', 61],
+      ['remove', 60],
+    ]) {
       await choose(page, 'tool', tool);
       await page.touchscreen.tap(...(await at(page, 0.12, 0.72)));
       await settled(page);

@@ -11,6 +11,8 @@ const server = await createServer({
   optimizeDeps: { noDiscovery: true },
   server: { middlewareMode: true, hmr: false, ws: false, watch: null },
 });
-const files = readdirSync(new URL('unit/', import.meta.url)).filter((name) => name.endsWith('.test.ts'));
+const files = readdirSync(new URL('unit/', import.meta.url)).filter((name) =>
+  name.endsWith('.test.ts'),
+);
 for (const file of files) await server.ssrLoadModule(`/tests/unit/${file}`);
 await server.close();

@@ -17,7 +17,10 @@ test('changes apply in order, and leave the points before as they are', () => {
 });
 
 test('what names a point that is not there changes nothing', () => {
-  const edits: Edit[] = [{ do: 'remove', point: 2 }, { do: 'move', point: 99, at: [0, 0] }];
+  const edits: Edit[] = [
+    { do: 'remove', point: 2 },
+    { do: 'move', point: 99, at: [0, 0] },
+  ];
   assert.deepEqual([...applyEdits(Float64Array.of(1, 2, 3, 4), edits)], [1, 2, 3, 4]);
 });
 
@@ -32,7 +35,20 @@ test('a link holds them', () => {
 });
 
 test('what makes no sense in a link is no change', () => {
-  for (const text of ['', 'add', 'add_1', 'add_1_2_3', 'add_1_NaN', 'add__2', 'move_1_2', 'move_-1_2_3', 'move_0.5_2_3', 'remove_x', 'remove_1*', 'drop_1']) {
+  for (const text of [
+    '',
+    'add',
+    'add_1',
+    'add_1_2_3',
+    'add_1_NaN',
+    'add__2',
+    'move_1_2',
+    'move_-1_2_3',
+    'move_0.5_2_3',
+    'remove_x',
+    'remove_1*',
+    'drop_1',
+  ]) {
     assert.equal(editsFromText(text), null, text);
   }
 });

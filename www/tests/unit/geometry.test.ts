@@ -15,7 +15,8 @@ const SIDE = 4;
 /** The points of a grid, each cube of it in five tetrahedra, mirrored from cube to cube so that their facets match. */
 function grid() {
   const points: number[] = [];
-  for (let x = 0; x <= SIDE; x++) for (let y = 0; y <= SIDE; y++) for (let z = 0; z <= SIDE; z++) points.push(x, y, z);
+  for (let x = 0; x <= SIDE; x++)
+    for (let y = 0; y <= SIDE; y++) for (let z = 0; z <= SIDE; z++) points.push(x, y, z);
   const at = (x: number, y: number, z: number) => (x * (SIDE + 1) + y) * (SIDE + 1) + z;
   const tetrahedra: number[] = [];
   for (let x = 0; x < SIDE; x++) {
@@ -25,7 +26,14 @@ function grid() {
           const bits = (x + y + z) % 2 ? c ^ 1 : c;
           return at(x + (bits & 1), y + ((bits >> 1) & 1), z + ((bits >> 2) & 1));
         };
-        for (const t of [[0, 1, 2, 4], [3, 1, 2, 7], [5, 1, 4, 7], [6, 2, 4, 7], [1, 2, 4, 7]]) tetrahedra.push(...positive(points, t.map(corner)));
+        for (const t of [
+          [0, 1, 2, 4],
+          [3, 1, 2, 7],
+          [5, 1, 4, 7],
+          [6, 2, 4, 7],
+          [1, 2, 4, 7],
+        ])
+          tetrahedra.push(...positive(points, t.map(corner)));
       }
     }
   }
@@ -34,9 +42,13 @@ function grid() {
 }
 
 function positive(points: number[], [a, b, c, d]: number[]): number[] {
-  const minus = (p: number, q: number) => [0, 1, 2].map((k) => points[3 * p + k] - points[3 * q + k]);
+  const minus = (p: number, q: number) =>
+    [0, 1, 2].map((k) => points[3 * p + k] - points[3 * q + k]);
   const [u, v, w] = [minus(b, a), minus(c, a), minus(d, a)];
-  const volume = u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+  const volume =
+    u[0] * (v[1] * w[2] - v[2] * w[1]) +
+    u[1] * (v[2] * w[0] - v[0] * w[2]) +
+    u[2] * (v[0] * w[1] - v[1] * w[0]);
   return volume > 0 ? [a, b, c, d] : [b, a, c, d];
 }
 
@@ -44,7 +56,10 @@ function neighborsOf(tetrahedra: Uint32Array): Int32Array {
   const neighbors = new Int32Array(tetrahedra.length).fill(-1);
   const waiting = new Map<string, number>();
   for (let f = 0; f < tetrahedra.length; f++) {
-    const key = [0, 1, 2].map((j) => tetrahedra[(f & ~3) + FACETS[3 * (f & 3) + j]]).sort((p, q) => p - q).join();
+    const key = [0, 1, 2]
+      .map((j) => tetrahedra[(f & ~3) + FACETS[3 * (f & 3) + j]])
+      .sort((p, q) => p - q)
+      .join();
     const other = waiting.get(key);
     if (other === undefined) waiting.set(key, f);
     else {
@@ -75,7 +90,11 @@ function enclosed(triangles: Float32Array): number {
 
 describe('measures', () => {
   test('volumes add up to the cube', () => {
-    closeTo(measures.volume.reduce((sum, v) => sum + v, 0), SIDE ** 3, 3);
+    closeTo(
+      measures.volume.reduce((sum, v) => sum + v, 0),
+      SIDE ** 3,
+      3,
+    );
   });
 
   test('a regular tetrahedron has radius ratio 1, its circumradius is right, also far away', () => {
@@ -87,13 +106,20 @@ describe('measures', () => {
   });
 
   test('a flat tetrahedron has no volume and no finite circumradius', () => {
-    const flat = measure(Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0), Uint32Array.of(0, 1, 2, 3));
+    const flat = measure(
+      Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0),
+      Uint32Array.of(0, 1, 2, 3),
+    );
     assert.deepEqual([flat.volume[0], flat.circumradius[0], flat.radiusRatio[0]], [0, Infinity, 0]);
   });
 });
 
 describe('the cut', () => {
-  for (const normal of [[1, 0, 0], [0, 0, -1], [0.6, 0.64, 0.48]] as const) {
+  for (const normal of [
+    [1, 0, 0],
+    [0, 0, -1],
+    [0.6, 0.64, 0.48],
+  ] as const) {
     for (const keep of [0, 0.3, 0.5, 1]) {
       test(`along ${normal} at ${keep} bounds just the tetrahedra below it`, () => {
         const heights = heightsAlong(normal, mesh);
@@ -106,14 +132,22 @@ describe('the cut', () => {
         // A surface that were open, or wound the wrong way somewhere, would enclose something else.
         closeTo(enclosed(surface.positions), volume * frame.scale ** 3, 4);
         const owners = new Set(below);
-        assert.equal(surface.owners.every((t) => owners.has(t)), true);
+        assert.equal(
+          surface.owners.every((t) => owners.has(t)),
+          true,
+        );
       });
     }
   }
 
   test('keeps everything at 1 and shows the hull', () => {
     const heights = heightsAlong([1, 0, 0], mesh);
-    const { facets, shown } = boundaryOf(mesh, all, heights, levelOf({ normal: [1, 0, 0], keep: 1 }, heights));
+    const { facets, shown } = boundaryOf(
+      mesh,
+      all,
+      heights,
+      levelOf({ normal: [1, 0, 0], keep: 1 }, heights),
+    );
     assert.equal(shown, count);
     assert.equal(facets.length, 6 * 2 * SIDE * SIDE);
   });
@@ -121,13 +155,28 @@ describe('the cut', () => {
 
 describe('filters', () => {
   test('the alpha complex keeps what is small enough', () => {
-    const { kept } = applyFilter({ kind: 'alpha', alpha: 0.1 }, points, tetrahedra, neighbors, measures.circumradius);
-    assert.equal(kept.every((k) => k === 0), true);
+    const { kept } = applyFilter(
+      { kind: 'alpha', alpha: 0.1 },
+      points,
+      tetrahedra,
+      neighbors,
+      measures.circumradius,
+    );
+    assert.equal(
+      kept.every((k) => k === 0),
+      true,
+    );
   });
 
   test('carving takes nothing from outside where no facet is large, and all where every facet is', () => {
     const carved = (alpha: number) =>
-      applyFilter({ kind: 'carve', alpha }, points, tetrahedra, neighbors, measures.circumradius).kept.reduce((s, k) => s + k, 0);
+      applyFilter(
+        { kind: 'carve', alpha },
+        points,
+        tetrahedra,
+        neighbors,
+        measures.circumradius,
+      ).kept.reduce((s, k) => s + k, 0);
     assert.equal(carved(1), count);
     assert.equal(carved(0.1), 0);
   });
@@ -136,7 +185,13 @@ describe('filters', () => {
     const regular = Float64Array.of(1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1);
     const one = Uint32Array.of(0, 1, 2, 3);
     const kept = (alpha: number) =>
-      applyFilter({ kind: 'carve', alpha }, regular, one, Int32Array.of(-1, -1, -1, -1), measure(regular, one).circumradius).kept[0];
+      applyFilter(
+        { kind: 'carve', alpha },
+        regular,
+        one,
+        Int32Array.of(-1, -1, -1, -1),
+        measure(regular, one).circumradius,
+      ).kept[0];
     // Equilateral facets with sides of √8.
     const circumradius = Math.sqrt(8 / 3);
     assert.deepEqual([kept(0.999 * circumradius), kept(1.001 * circumradius)], [0, 1]);
@@ -153,7 +208,10 @@ describe('pieces', () => {
 
   test('all tetrahedra where there is room, each once', () => {
     const owners = outermost(mesh, all, heights, Infinity, boundary, count);
-    assert.deepEqual([...owners].sort((a, b) => a - b), [...Array(count).keys()]);
+    assert.deepEqual(
+      [...owners].sort((a, b) => a - b),
+      [...Array(count).keys()],
+    );
   });
 
   test('the outermost first where there is not', () => {
@@ -167,7 +225,11 @@ describe('pieces', () => {
     const owners = Uint32Array.from({ length: count }, (_, t) => t);
     const pieces = piecesOf(positions, tetrahedra, owners, () => 0);
     for (const apart of [0, 0.7]) {
-      closeTo(enclosed(trianglesOf(pieces, apart)), (SIDE * frame.scale) ** 3 / (1 + apart) ** 3, 4);
+      closeTo(
+        enclosed(trianglesOf(pieces, apart)),
+        (SIDE * frame.scale) ** 3 / (1 + apart) ** 3,
+        4,
+      );
     }
   });
 });

@@ -20,7 +20,14 @@ test('a link restores every setting', () => {
     keep: 0.375,
     up: 'z',
     apart: 0.5,
-    layers: { simplices: true, edges: false, points: false, hull: true, facets: false, voronoi: false },
+    layers: {
+      simplices: true,
+      edges: false,
+      points: false,
+      hull: true,
+      facets: false,
+      voronoi: false,
+    },
     camera: [1, -0.5, 3, 0.1, 0.2, -0.3],
   } as const;
   assert.deepEqual(fromHash(toHash(settings as never)), settings);
@@ -31,18 +38,35 @@ test('a link to the plane restores the points and what was changed by hand', () 
   const settings = {
     ...defaults(2),
     source: { kind: 'generator', dimension: 2, distribution: 'two-lines', count: 0, seed: 9 },
-    edits: [{ do: 'add', at: [0.5, -2] }, { do: 'move', point: 0, at: [1e-7, 3] }, { do: 'remove', point: 0 }],
+    edits: [
+      { do: 'add', at: [0.5, -2] },
+      { do: 'move', point: 0, at: [1e-7, 3] },
+      { do: 'remove', point: 0 },
+    ],
     color: 'volume',
     filter: 'alpha',
     alpha: 0.25,
-    layers: { simplices: false, edges: true, points: true, hull: false, facets: false, voronoi: true },
+    layers: {
+      simplices: false,
+      edges: true,
+      points: true,
+      hull: false,
+      facets: false,
+      voronoi: true,
+    },
     camera: [0, 0, 0.5, 0.1, -0.2, 0],
   } as const;
   assert.deepEqual(fromHash(toHash(settings as never)), settings);
 });
 
 test('in the plane there is nothing to carve, no phase of creation, and nothing to look at from the side', () => {
-  for (const hash of ['#dim=2&filter=carve', '#dim=2&color=phase', '#dim=2&points=bunny', '#dim=2&points=sphere_5_1', '#dim=2&edits=add_1']) {
+  for (const hash of [
+    '#dim=2&filter=carve',
+    '#dim=2&color=phase',
+    '#dim=2&points=bunny',
+    '#dim=2&points=sphere_5_1',
+    '#dim=2&edits=add_1',
+  ]) {
     assert.deepEqual(fromHash(hash), defaults(2), hash);
   }
   assert.deepEqual(fromHash('#dim=2&camera=1_1_2_3_4_5').camera, [0, 0, 2, 3, 4, 0]);
@@ -51,8 +75,19 @@ test('in the plane there is nothing to carve, no phase of creation, and nothing 
 
 test('what makes no sense in a link is left out', () => {
   for (const hash of [
-    '#points=toString', '#points=uniform_-5_1', '#points=uniform_1e99_1', '#points=uniform_0_1', '#points=uniform', '#dim=4', '#engine=magic', '#cut=0_0_0_0.5', '#cut=1_2',
-    '#camera=NaN_0_0_0_0_0', '#camera=0_0_-1_0_0_0', '#alpha=-1', '#map=constructor',
+    '#points=toString',
+    '#points=uniform_-5_1',
+    '#points=uniform_1e99_1',
+    '#points=uniform_0_1',
+    '#points=uniform',
+    '#dim=4',
+    '#engine=magic',
+    '#cut=0_0_0_0.5',
+    '#cut=1_2',
+    '#camera=NaN_0_0_0_0_0',
+    '#camera=0_0_-1_0_0_0',
+    '#alpha=-1',
+    '#map=constructor',
   ]) {
     assert.deepEqual(fromHash(hash), defaults(), hash);
   }
