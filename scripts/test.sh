@@ -31,7 +31,7 @@ build_crate() { cargo test --locked --no-run "${targets[@]}"; }
 test_crate() { on_lavapipe cargo test --locked "${targets[@]}" && on_lavapipe cargo test --locked --doc; }
 
 build_js() { node web/build.mjs && npm run build --silent --workspace www; }
-test_js() { node scripts/test-js.mjs "$@"; }
+test_js() { node --no-concurrent-recompilation scripts/test-js.mjs "$@"; }
 
 # Runs a step of the crate and one of the package and the page at the same time, since neither keeps all processors busy.
 # What the second one says comes after the first one.
