@@ -4,8 +4,8 @@ import { execFileSync } from 'node:child_process';
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { chromium } from 'playwright-core';
 import { preview } from 'vite';
+import { WEBGPU as COMPUTE, launchChromium } from '../../tests/web/browsers.mjs';
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 
@@ -25,35 +25,22 @@ export async function serve() {
   };
 }
 
-const FLAGS = [
-  '--no-sandbox',
-  '--disable-quic',
-  '--no-first-run',
-  '--disable-background-networking',
-  '--disable-component-update',
-  '--disable-sync',
-];
-
 // SwiftShader, Chromium's software rasteriser. Without its Vulkan, headless Chromium cannot show what WebGPU draws.
 const WEBGPU = [
-  '--enable-unsafe-webgpu',
-  '--use-webgpu-adapter=swiftshader',
+  ...COMPUTE,
   '--enable-features=Vulkan',
   '--use-vulkan=swiftshader',
   '--use-angle=vulkan',
 ];
 
 export function launch({ webgpu = true } = {}) {
-  return chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: [...FLAGS, ...(webgpu ? WEBGPU : ['--enable-unsafe-swiftshader'])],
-  });
+  return launchChromium(webgpu ? WEBGPU : ['--enable-unsafe-swiftshader']);
 }
 
 /** How long a page may take for one thing before it counts as hung. No machine needs nearly as long. */
 const HANG = 300_000;
 
-/** Opens the page and waits for the first drawing. Collects the errors that the page does not handle. */
+/** Opens the page and waits for the first drawing. Collects the errors that the page does not handle, and the paths of all files that it loads. */
 export async function open(browser, url, { hang = HANG, ...options } = {}) {
   // A context of its own: axe needs one, and no visit sees what another left.
   const context = await browser.newContext({
@@ -64,6 +51,8 @@ export async function open(browser, url, { hang = HANG, ...options } = {}) {
   const page = await context.newPage();
   page.setDefaultTimeout(hang);
   page.problems = [];
+  page.files = new Set();
+  page.on('response', (response) => page.files.add(new URL(response.url()).pathname));
   page.on('pageerror', (error) => page.problems.push(error.stack ?? error.message));
   page.on('console', (message) => message.type() === 'error' && page.problems.push(message.text()));
   await page.goto(url);
