@@ -14,12 +14,12 @@ const QUIET = [
 /** WebGPU, on the software adapter that Chromium has everywhere. */
 export const WEBGPU = ['--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader'];
 
-/** A file of tests that hangs is ended by SIGTERM, which Playwright would take for a wish to close the browser only. */
-const MORTAL = { handleSIGINT: false, handleSIGTERM: false, handleSIGHUP: false };
+// A file of tests that hangs gets SIGTERM, which Playwright takes for a wish to close the browsers only. When the process
+// exits, it kills those that are left.
+process.once('SIGTERM', () => process.exit(1));
 
 export function launchChromium(flags = []) {
   return chromium.launch({
-    ...MORTAL,
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
     args: [...QUIET, ...flags],
   });
@@ -28,7 +28,6 @@ export function launchChromium(flags = []) {
 /** Mozilla's own build, through WebDriver BiDi: the channel tells Playwright not to look for its patched one. */
 export function launchFirefox() {
   return firefox.launch({
-    ...MORTAL,
     channel: 'moz-firefox',
     executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr',
   });

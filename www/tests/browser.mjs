@@ -146,11 +146,12 @@ export async function drop(page, name, bytes) {
   await settled(page);
 }
 
-/** Copies the link to what is shown, and returns it. */
-export async function share(page) {
+/** Clicks on a button that copies something, and returns that. */
+export async function copied(page, button) {
   await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
-  await page.click('#share');
-  await until(page, () => document.querySelector('#share').textContent === 'Link copied');
+  await page.evaluate(() => navigator.clipboard.writeText(''));
+  await page.click(button);
+  await until(page, async () => (await navigator.clipboard.readText()) !== '');
   return page.evaluate(() => navigator.clipboard.readText());
 }
 

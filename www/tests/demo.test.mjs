@@ -9,6 +9,7 @@ import {
   choose,
   colorBy,
   compare,
+  copied,
   drop,
   gdel,
   generate,
@@ -21,7 +22,6 @@ import {
   save,
   serve,
   settled,
-  share,
   shown,
   slide,
   tab,
@@ -138,7 +138,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await colorBy(page, 'volume');
     await slide(page, 'keep', 0.7);
     await choose(page, 'normal', 'Y');
-    const link = await share(page);
+    const link = await copied(page, '#share');
     assert.match(link, /thin-sphere_2000/);
     const other = await open(browser, link);
     for (const id of ['shown', 'count', 'legend-title', 'legend-low', 'legend-high']) {
@@ -210,8 +210,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
 
   test('has code to copy', async () => {
     await tab(page, 'use');
-    await page.click('#copy');
-    const code = await page.evaluate(() => navigator.clipboard.readText());
+    const code = await copied(page, '#copy');
     assert.match(code, /import \{ delaunay3d, readPoints \}\s+from 'gdel-wasm'/);
     await pictureOf(page, 'use');
   });

@@ -9,6 +9,7 @@ import {
   choose,
   colorBy,
   compare,
+  copied,
   drop,
   gdel,
   generate,
@@ -19,7 +20,6 @@ import {
   save,
   serve,
   settled,
-  share,
   shown,
   slide,
   tab,
@@ -164,7 +164,7 @@ describe('the plane', () => {
     assert.match(await text(page, 'count'), /^41 points/);
     await colorBy(page, 'circumradius');
     await page.getByLabel('Voronoi diagram').uncheck();
-    const link = await share(page);
+    const link = await copied(page, '#share');
     assert.match(link, /dim=2.*disk_40_1.*edits=add_/);
     const other = await open(browser, link);
     for (const id of ['shown', 'count', 'legend-title', 'legend-low', 'legend-high']) {
