@@ -3,7 +3,7 @@
 # does and skips what is there: a second run starts at once.
 #
 # `scripts/setup.sh web` also installs what the npm package needs: wasm-bindgen and the npm packages;
-# `scripts/setup.sh web-tests` the browsers on top.
+# `scripts/setup.sh web-tests` what checks and tests it on top: the browsers, Deno and the linter.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -97,8 +97,16 @@ install_npm_packages() {
   fi
 }
 
-# For one test, which says so where it is missing. Not among the npm packages: a lock file would have to name its binaries for
-# all systems, and not every registry has them.
+# The linter and formatter. This and Deno are not among the npm packages: a lock file would have to name their binaries for all
+# systems, and not every registry has them.
+install_biome() {
+  local version=2.6.8
+  [[ $(.cache/biome/node_modules/.bin/biome --version 2>/dev/null) != "Version: $version" ]] || return 0
+  say "installing Biome"
+  npm install --prefix .cache/biome --no-save --no-audit --no-fund --loglevel=error "@biomejs/biome@$version"
+}
+
+# For one test, which says so where it is missing.
 install_deno() {
   [[ ! -e .cache/tools/node_modules/.bin/deno && -z $(command -v deno) ]] || return 0
   say "installing Deno"
@@ -116,5 +124,8 @@ if [[ $what != rust ]]; then
   install_npm_packages
   install_wasm_bindgen
 fi
-[[ $what != web-tests ]] || install_deno
+if [[ $what == web-tests ]]; then
+  install_biome
+  install_deno
+fi
 say "ready"
