@@ -2,8 +2,8 @@
 # Installs what building and testing gdel needs, starting from a Debian 12 with rustup, Node 20 and git. It says what it
 # does and skips what is there: a second run starts at once.
 #
-# `scripts/setup.sh web` also installs what the npm package needs: wasm-pack, wasm-bindgen and the npm packages;
-# `scripts/setup.sh web-tests` the browsers on top.
+# `scripts/setup.sh web` also installs what the npm package needs: wasm-bindgen and the npm packages;
+# `scripts/setup.sh web-tests` what checks and tests it on top: the browsers, Deno and the linter.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -72,29 +72,23 @@ install_rust_parts() {
   done
 }
 
-# A tool from crates.io, into .cache/tools, unless that version is there or on the PATH. The tools do not have to be fast,
-# but to compile fast: with the optimisation that their work needs.
-install_tool() {
-  local optimisation=$1 command=$2 crate=$3 version=$4
-  shift 4
-  for candidate in ".cache/tools/bin/$command" "$command"; do
-    [[ $("$candidate" --version 2>/dev/null) != "$command $version" ]] || return 0
+# wasm-bindgen, into .cache/tools, unless it is there or on the PATH in the version that the crate was compiled with: the
+# glue that it writes has to be of the same. It does not have to be fast, but to compile fast.
+install_wasm_bindgen() {
+  local version candidate
+  version=$(sed -n '/^name = "wasm-bindgen"$/{n;s/^version = "\(.*\)"$/\1/p}' Cargo.lock)
+  for candidate in .cache/tools/bin/wasm-bindgen wasm-bindgen; do
+    [[ $("$candidate" --version 2>/dev/null) != "wasm-bindgen $version" ]] || return 0
   done
-  say "compiling $crate $version: a few minutes"
-  CARGO_PROFILE_RELEASE_OPT_LEVEL=$optimisation CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
-    cargo install --quiet --root .cache/tools --version "$version" "$@" "$crate"
+  say "compiling wasm-bindgen $version: a few minutes"
+  CARGO_PROFILE_RELEASE_OPT_LEVEL=1 CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
+    cargo install --quiet --root .cache/tools --version "$version" --no-default-features --bin wasm-bindgen wasm-bindgen-cli
 }
 
-install_web_parts() {
+install_npm_packages() {
   local node=0
   node=$(node --version 2>/dev/null | sed 's/^v\([0-9]*\).*/\1/') || true
   [[ ${node:-0} -ge 20 ]] || fail "Node 20 or later is needed: see https://nodejs.org"
-
-  # The glue that wasm-bindgen writes has to be of the version that the crate was compiled with.
-  local bindgen
-  bindgen=$(sed -n '/^name = "wasm-bindgen"$/{n;s/^version = "\(.*\)"$/\1/p}' Cargo.lock)
-  install_tool 1 wasm-bindgen wasm-bindgen-cli "$bindgen" --no-default-features --bin wasm-bindgen
-  install_tool 0 wasm-pack wasm-pack 0.15.1
 
   if [[ ! node_modules/.package-lock.json -nt package-lock.json ]]; then
     say "installing the npm packages"
@@ -103,8 +97,16 @@ install_web_parts() {
   fi
 }
 
-# For one test, which says so where it is missing. Not among the npm packages: a lock file would have to name its binaries for
-# all systems, and not every registry has them.
+# The linter and formatter. This and Deno are not among the npm packages: a lock file would have to name their binaries for all
+# systems, and not every registry has them.
+install_biome() {
+  local version=2.6.8
+  [[ $(.cache/biome/node_modules/.bin/biome --version 2>/dev/null) != "Version: $version" ]] || return 0
+  say "installing Biome"
+  npm install --prefix .cache/biome --no-save --no-audit --no-fund --loglevel=error "@biomejs/biome@$version"
+}
+
+# For one test, which says so where it is missing.
 install_deno() {
   [[ ! -e .cache/tools/node_modules/.bin/deno && -z $(command -v deno) ]] || return 0
   say "installing Deno"
@@ -118,6 +120,12 @@ else
   say "no apt-get here: these packages of Debian, or what they are elsewhere, have to be there: ${packages[*]}"
 fi
 install_rust_parts
-[[ $what == rust ]] || install_web_parts
-[[ $what != web-tests ]] || install_deno
+if [[ $what != rust ]]; then
+  install_npm_packages
+  install_wasm_bindgen
+fi
+if [[ $what == web-tests ]]; then
+  install_biome
+  install_deno
+fi
 say "ready"
