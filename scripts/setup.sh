@@ -2,6 +2,7 @@
 # Installs what building and testing gdel needs, starting from a Debian 12 with rustup, Node 20 and git. It says what it
 # does and skips what is there: a second run starts at once.
 #
+# `scripts/setup.sh guard` also installs what scripts/guard.sh counts instructions with: valgrind and gungraun's runner;
 # `scripts/setup.sh web` also installs what the npm package needs: wasm-pack, wasm-bindgen and the npm packages;
 # `scripts/setup.sh web-tests` the browsers on top.
 set -euo pipefail
@@ -15,14 +16,15 @@ fail() {
 
 what=${1:-rust}
 case $what in
-  rust | web | web-tests) ;;
-  *) fail "usage: scripts/setup.sh [web | web-tests]" ;;
+  rust | guard | web | web-tests) ;;
+  *) fail "usage: scripts/setup.sh [guard | web | web-tests]" ;;
 esac
 
 # System packages: the linker that rustc calls, and a software Vulkan driver (lavapipe) for the tests of the GPU code;
 # two browsers for those of the npm package.
 packages=(gcc libc6-dev libvulkan1 mesa-vulkan-drivers)
 [[ $what != web-tests ]] || packages+=(chromium firefox-esr)
+[[ $what != guard ]] || packages+=(valgrind)
 
 install_packages() {
   local missing=() package
@@ -85,6 +87,13 @@ install_tool() {
     cargo install --quiet --root .cache/tools --version "$version" "$@" "$crate"
 }
 
+# Bench and runner have to be of one version.
+install_guard_parts() {
+  local runner
+  runner=$(sed -n '/^name = "gungraun-runner"$/{n;s/^version = "\(.*\)"$/\1/p}' Cargo.lock)
+  install_tool 0 gungraun-runner gungraun-runner "$runner" --locked
+}
+
 install_web_parts() {
   local node=0
   node=$(node --version 2>/dev/null | sed 's/^v\([0-9]*\).*/\1/') || true
@@ -118,6 +127,7 @@ else
   say "no apt-get here: these packages of Debian, or what they are elsewhere, have to be there: ${packages[*]}"
 fi
 install_rust_parts
-[[ $what == rust ]] || install_web_parts
+[[ $what != guard ]] || install_guard_parts
+[[ $what != web && $what != web-tests ]] || install_web_parts
 [[ $what != web-tests ]] || install_deno
 say "ready"
