@@ -1,8 +1,8 @@
-//! What the GPU engine does on small inputs, for `scripts/guard.sh`, which compares it with `figures.json`: a line for each
-//! count, its name and a number.
+//! What the GPU engine does on small inputs, for `scripts/guard.sh`, which compares it with
+//! `figures.json`: a line for each count, its name and a number.
 //!
-//! A bench of the crate itself, since counts do not depend on optimisation: `cargo test --bench gpu_counts` links it with
-//! what is compiled for the tests anyway.
+//! A bench of the crate itself, since counts do not depend on optimisation: `cargo test --bench
+//! gpu_counts` links it with what is compiled for the tests anyway.
 
 use gdel::{
     Engine, Options,

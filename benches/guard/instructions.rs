@@ -1,4 +1,5 @@
-//! Instruction counts by callgrind, for `scripts/guard.sh`, which compares them with `figures.json`.
+//! Instruction counts by callgrind, for `scripts/guard.sh`, which compares them with
+//! `figures.json`.
 //!
 //! Setting up and dropping what a function returns are not counted.
 
@@ -183,7 +184,7 @@ library_benchmark_group!(
 
 main!(
     config = LibraryBenchmarkConfig::default()
-        // Instructions only: no simulated caches, which nothing here is compared by and which double the time.
+        // Instructions only: nothing is compared by the simulated caches, which double the time.
         // glibc chooses among its copies of memory by the processor and the sizes of its caches.
         .env("GLIBC_TUNABLES", PORTABLE_COPIES)
         .tool(Callgrind::with_args(["--cache-sim=no"])),

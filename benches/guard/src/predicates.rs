@@ -37,7 +37,8 @@ impl<const D: usize, const N: usize> Lists<D, N>
 where
     Points<'static, D>: From<&'static [[f64; D]]>,
 {
-    /// Every `N` of `points` are a list. `sign` is the predicate; most of its signs must be decided by `stage`.
+    /// Every `N` of `points` are a list. `sign` is the predicate; most of its signs must be decided
+    /// by `stage`.
     fn new(mut points: Vec<[f64; D]>, stage: Stage, sign: impl Fn(&Vertices<'_, D>, [u32; N]) -> i8) -> Self {
         points.truncate(N * LISTS);
         let lists: Vec<[u32; N]> = (0..points.len() as u32).collect::<Vec<_>>().as_chunks().0.to_vec();
@@ -163,8 +164,9 @@ fn collinear([y]: [f64; 1]) -> [f64; 2] {
     [3.0 * y, y]
 }
 
-/// Integers near a circle in the plane x + y + z = 0, of which every fifth lies beside the plane. So small a determinant is
-/// not zero for two reasons, which takes it below what the filter can tell from zero.
+/// Integers near a circle in the plane x + y + z = 0, of which every fifth lies beside the plane.
+/// So small a determinant is not zero for two reasons, which takes it below what the filter can
+/// tell from zero.
 fn nearly_cocircular() -> Vec<[f64; 3]> {
     let points = generate2d(Distribution2::Circle, 5 * LISTS, 1).into_iter().enumerate();
     let near = |(i, [x, y]): (usize, [f64; 2])| {
@@ -174,7 +176,8 @@ fn nearly_cocircular() -> Vec<[f64; 3]> {
     points.map(near).collect()
 }
 
-/// Integers on the line 3y = x, of which every fourth lies beside it, and two of four side by side; likewise.
+/// Integers on the line 3y = x, of which every fourth lies beside it, and two of four side by side;
+/// likewise.
 fn nearly_collinear() -> Vec<[f64; 2]> {
     let lists = generate2d(Distribution2::Uniform, 2 * LISTS, 1);
     let near = |&[[a, c], [_, d]]: &[[f64; 2]; 2]| {

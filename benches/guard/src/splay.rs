@@ -1,5 +1,6 @@
-//! What star splaying begins with: the Delaunay triangulation of points a little off the true ones, in which some facets are
-//! not locally Delaunay, and flat tetrahedra lie on the hull, as Phase 1 leaves them.
+//! What star splaying begins with: the Delaunay triangulation of points a little off the true ones,
+//! in which some facets are not locally Delaunay, and flat tetrahedra lie on the hull, as Phase 1
+//! leaves them.
 
 use gdel::{
     Engine, Options,
@@ -24,7 +25,8 @@ impl Spoilt {
     /// The triangulation of `points`, each coordinate of which is off by at most `by`.
     pub fn new(points: Vec<[f64; 3]>, by: f64) -> Self {
         let offsets = generate(Distribution::Uniform, points.len(), 4);
-        let displaced = points.iter().zip(offsets).map(|(p, q)| std::array::from_fn(|i| p[i] + by * (2.0 * q[i] - 1.0)));
+        let displaced =
+            points.iter().zip(offsets).map(|(p, q)| std::array::from_fn(|i| p[i] + by * (2.0 * q[i] - 1.0)));
         let displaced: Vec<[f64; 3]> = displaced.collect();
         let options = Options { engine: Engine::Cpu, ..Options::default() };
         let mesh = gdel::delaunay3d(&displaced, &options).expect("finite points");
