@@ -3,7 +3,7 @@
 //   node benches/guard/compare.mjs [--accept] SECTION…
 
 import { execFileSync } from 'node:child_process';
-import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
@@ -46,11 +46,11 @@ const SECTIONS = {
 
   sizes() {
     const dist = join(root, 'web/dist');
-    const files = ['gdel.wasm', 'gdel-plane.wasm', 'gdel-tools.wasm', 'index.js', 'worker.js'];
+    if (!existsSync(dist)) throw new Error('web/dist is missing: run `npm run build` first');
+    // inline.js holds the others.
+    const files = readdirSync(dist).filter((file) => /\.(wasm|js)$/.test(file) && file !== 'inline.js');
     return files.flatMap((file) => {
-      const path = join(dist, file);
-      if (!existsSync(path)) throw new Error(`web/dist/${file} is missing: run 'npm run build' first`);
-      const content = readFileSync(path);
+      const content = readFileSync(join(dist, file));
       return [
         [`sizes ${file}, bytes`, content.length],
         [`sizes ${file}, gzipped`, gzipSync(content, { level: 9 }).length],
