@@ -2,8 +2,9 @@
 # Installs what building and testing gdel needs, starting from a Debian 12 with rustup, Node 20 and git. It says what it
 # does and skips what is there: a second run starts at once.
 #
-# `scripts/setup.sh web` also installs what the npm package needs: wasm-bindgen and the npm packages;
-# `scripts/setup.sh web-tests` what checks and tests it on top: the browsers, Deno and the linter.
+# `scripts/setup.sh guard` also installs what scripts/guard.sh counts instructions with: valgrind and gungraun's runner;
+# `scripts/setup.sh lints` what scripts/lint.sh runs; `scripts/setup.sh web` what the npm package needs: wasm-bindgen and the
+# npm packages; `scripts/setup.sh web-tests` what checks and tests it on top: the browsers, Deno and the linter.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -15,14 +16,16 @@ fail() {
 
 what=${1:-rust}
 case $what in
-  rust | web | web-tests) ;;
-  *) fail "usage: scripts/setup.sh [web | web-tests]" ;;
+  rust | guard | lints | web | web-tests) ;;
+  *) fail "usage: scripts/setup.sh [guard | lints | web | web-tests]" ;;
 esac
 
 # System packages: the linker that rustc calls, and a software Vulkan driver (lavapipe) for the tests of the GPU code;
 # two browsers for those of the npm package.
 packages=(gcc libc6-dev libvulkan1 mesa-vulkan-drivers)
 [[ $what != web-tests ]] || packages+=(chromium firefox-esr)
+[[ $what != guard ]] || packages+=(valgrind)
+[[ $what != lints ]] || packages+=(python3-venv)
 
 install_packages() {
   local missing=() package
@@ -72,17 +75,30 @@ install_rust_parts() {
   done
 }
 
-# wasm-bindgen, into .cache/tools, unless it is there or on the PATH in the version that the crate was compiled with: the
-# glue that it writes has to be of the same. It does not have to be fast, but to compile fast.
-install_wasm_bindgen() {
-  local version candidate
-  version=$(sed -n '/^name = "wasm-bindgen"$/{n;s/^version = "\(.*\)"$/\1/p}' Cargo.lock)
-  for candidate in .cache/tools/bin/wasm-bindgen wasm-bindgen; do
-    [[ $("$candidate" --version 2>/dev/null) != "wasm-bindgen $version" ]] || return 0
+# The version of a crate in the lock file.
+locked() { sed -n "/^name = \"$1\"$/{n;s/^version = \"\(.*\)\"$/\1/p}" Cargo.lock; }
+
+# Installs a tool from crates.io into .cache/tools, unless it is there or on the PATH in this version. The tools do not have to
+# be fast, but to compile fast: with the optimisation that their work needs.
+install_tool() {
+  local optimisation=$1 command=$2 crate=$3 version=$4 candidate
+  shift 4
+  for candidate in ".cache/tools/bin/$command" "$command"; do
+    [[ $("$candidate" --version 2>/dev/null) != "$command $version"* ]] || return 0
   done
-  say "compiling wasm-bindgen $version: a few minutes"
-  CARGO_PROFILE_RELEASE_OPT_LEVEL=1 CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
-    cargo install --quiet --root .cache/tools --version "$version" --no-default-features --bin wasm-bindgen wasm-bindgen-cli
+  say "compiling $crate $version: a few minutes"
+  CARGO_PROFILE_RELEASE_OPT_LEVEL=$optimisation CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
+    cargo install --quiet --root .cache/tools --version "$version" "$@" "$crate"
+}
+
+# The glue that wasm-bindgen writes has to be of the version that the crate was compiled with.
+install_wasm_bindgen() {
+  install_tool 1 wasm-bindgen wasm-bindgen-cli "$(locked wasm-bindgen)" --no-default-features --bin wasm-bindgen
+}
+
+# The bench and its runner have to be of one version.
+install_guard_parts() {
+  install_tool 0 gungraun-runner gungraun-runner "$(locked gungraun-runner)" --locked
 }
 
 install_npm_packages() {
@@ -106,6 +122,17 @@ install_biome() {
   npm install --prefix .cache/biome --no-save --no-audit --no-fund --loglevel=error "@biomejs/biome@$version"
 }
 
+# cargo-hack checks the features one by one, cargo-deny licences and sources, typos the spelling.
+install_lints() {
+  local typos=1.52.0
+  install_tool 0 cargo-hack cargo-hack 0.6.46 --locked
+  install_tool 0 cargo-deny cargo-deny 0.20.2 --locked --no-default-features
+  [[ $(.cache/tools/python/bin/typos --version 2>/dev/null) != "typos-cli $typos" ]] || return 0
+  say "installing typos"
+  python3 -m venv .cache/tools/python
+  .cache/tools/python/bin/pip install --quiet --disable-pip-version-check "typos==$typos"
+}
+
 # For one test, which says so where it is missing.
 install_deno() {
   [[ ! -e .cache/tools/node_modules/.bin/deno && -z $(command -v deno) ]] || return 0
@@ -120,10 +147,17 @@ else
   say "no apt-get here: these packages of Debian, or what they are elsewhere, have to be there: ${packages[*]}"
 fi
 install_rust_parts
-if [[ $what != rust ]]; then
-  install_npm_packages
-  install_wasm_bindgen
-fi
+case $what in
+  guard) install_guard_parts ;;
+  lints)
+    install_lints
+    install_biome
+    ;;
+  web | web-tests)
+    install_npm_packages
+    install_wasm_bindgen
+    ;;
+esac
 if [[ $what == web-tests ]]; then
   install_biome
   install_deno
