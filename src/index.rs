@@ -12,3 +12,6 @@
 /// # Ok::<(), gdel::Error>(())
 /// ```
 pub const NONE: i32 = -1;
+
+/// Marks the absence of an index in internal arrays of `u32`: no point, no simplex, no neighbor.
+pub const NO_INDEX: u32 = u32::MAX;

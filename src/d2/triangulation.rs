@@ -1,12 +1,16 @@
-//! Triangles and their neighbours while they are being made, the outside of the hull included.
+//! Triangles and their neighbours under construction, the outside of the hull included.
 
-use crate::{Error, index::NONE, options::Winding};
+use crate::{
+    Error,
+    index::{NO_INDEX, NONE},
+    options::Winding,
+};
 
-/// Half-edges are numbered below 2³¹, since -1 is none.
+/// Half-edges are numbered below 2³¹, because −1 stands for none.
 pub(crate) const MAX_TRIANGLES: usize = i32::MAX as usize / 3;
 
-/// A half-edge of the hull, as a neighbour.
-const OUTSIDE: u32 = NONE as u32;
+/// The neighbour of a triangle across an edge of the hull, after the ghosts are dropped.
+const OUTSIDE: u32 = NO_INDEX;
 
 /// Where the vertices of a triangle stand in a mesh of this orientation, and the other way round.
 const fn vertex_order(clockwise: bool) -> [usize; 3] {
@@ -23,24 +27,29 @@ const fn edge_of_halfedge(clockwise: bool) -> [usize; 3] {
     if clockwise { [1, 0, 2] } else { [2, 0, 1] }
 }
 
-/// A triangulation of the plane: triangles, and *ghosts*, which join the edges of the hull to one infinite vertex.
+/// A 2D triangulation: triangles, and *ghosts*, which join the edges of the hull to one infinite
+/// vertex.
 ///
-/// Every triangle has three neighbours, and edge *k* is the one opposite its vertex *k*. So topologically it is a sphere.
+/// Every triangle has three neighbours, and edge *k* is the one opposite its vertex *k*. So
+/// topologically it is a sphere.
 #[derive(Debug, Clone)]
 pub struct Triangulation2 {
-    /// Three vertices a triangle, counter-clockwise with the *y* axis up. A ghost has the infinite vertex in any place,
-    /// and is oriented as if that lay outside the hull.
+    /// Three vertices per triangle, counter-clockwise with the *y* axis up. A ghost has the
+    /// infinite vertex in any place, and is oriented as if that lay outside the hull.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// Across the edge opposite vertex *k*: 4·(triangle) + (edge as it is numbered there).
+    /// Entry *k* is across the edge opposite vertex *k*: 4·(triangle) + (edge as it is numbered
+    /// there).
     pub(crate) neighbors: Vec<[u32; 3]>,
     /// The infinite vertex: the number of vertices.
     pub(crate) infinite: u32,
 }
 
 impl Triangulation2 {
-    /// A triangulation from its arrays, which are not checked. `infinite`, the number of vertices, is the infinite vertex.
-    /// Triangles are counter-clockwise with the *y* axis up, ghosts as if the infinite vertex lay outside the hull. Entry
-    /// *k* of `neighbors` is across the edge opposite vertex *k*, packed as 4·(triangle) + (edge as it is numbered there).
+    /// Creates a triangulation from its arrays, which are not checked.
+    ///
+    /// Triangles are counter-clockwise with the *y* axis up; ghosts are oriented as if the infinite
+    /// vertex lay outside the hull. Entry *k* of `neighbors` is across the edge opposite vertex
+    /// *k*: 4·(triangle) + (edge as it is numbered there). `infinite` is the number of vertices.
     pub fn new(triangles: Vec<[u32; 3]>, neighbors: Vec<[u32; 3]>, infinite: u32) -> Self {
         Triangulation2 { triangles, neighbors, infinite }
     }
@@ -96,21 +105,22 @@ impl Triangulation2 {
         Triangulation2 { triangles, neighbors, infinite }
     }
 
-    /// The vertices of each triangle.
+    /// Returns the vertices of each triangle.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
-    /// The neighbours of each triangle.
+    /// Returns the neighbours of each triangle.
     pub fn neighbors(&self) -> &[[u32; 3]] {
         &self.neighbors
     }
 
-    /// Whether triangle `t` is a ghost.
+    /// Returns whether triangle `t` is a ghost.
     pub fn is_ghost(&self, t: u32) -> bool {
         self.triangles[t as usize].contains(&self.infinite)
     }
 
+    /// Reserves memory for this many triangles in all.
     pub(crate) fn reserve(&mut self, triangles: usize) -> Result<(), Error> {
         let more = triangles.saturating_sub(self.triangles.len());
         self.triangles
@@ -119,12 +129,14 @@ impl Triangulation2 {
             .map_err(|_| Error::OutOfMemory { simplices: triangles })
     }
 
+    /// Makes two edges each other's neighbours.
     pub(crate) fn join(&mut self, e: u32, f: u32) {
         self.neighbors[e as usize / 4][e as usize % 4] = f;
         self.neighbors[f as usize / 4][f as usize % 4] = e;
     }
 
-    /// The vertices of the hull, clockwise with the *y* axis up: those around the infinite vertex.
+    /// Returns the vertices of the hull, clockwise with the *y* axis up: those around the infinite
+    /// vertex.
     pub(crate) fn hull_vertices(&self) -> Vec<u32> {
         let place_of_infinite = |t: u32| self.triangles[t as usize].iter().position(|&v| v == self.infinite);
         let mut hull = Vec::new();
@@ -157,7 +169,7 @@ impl Triangulation2 {
         }
         let lowest = hull.iter().enumerate().min_by_key(|&(_, v)| v).map_or(0, |(at, _)| at);
         hull.rotate_left(lowest);
-        // The last triangles move into the places of ghosts, and their neighbours are told.
+        // The last triangles move into the slots of ghosts, and their neighbours are updated.
         let mut count = self.triangles.len();
         let mut t = 0;
         while t < count {

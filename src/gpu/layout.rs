@@ -18,7 +18,7 @@
 use bytemuck::{Pod, Zeroable};
 
 /// Nothing: no tetrahedron, no node, no vertex.
-pub const NONE: u32 = u32::MAX;
+pub const NONE: u32 = crate::index::NO_INDEX;
 
 /// Slots in a block.
 pub const BLOCK: u32 = 8;

@@ -1,4 +1,4 @@
-//! Input points: the forms they come in, and validation.
+//! Input points: the forms in which they come, and their validation.
 
 use crate::{
     Error,
@@ -43,25 +43,25 @@ pub enum Points<'a, const D: usize = 3> {
 pub type Points2<'a> = Points<'a, 2>;
 
 impl<'a, const D: usize> Points<'a, D> {
-    /// Points from x, y, z, x, y, z, …, or from x, y, x, y, … in the plane.
+    /// Borrows points from x, y, z, x, y, z, …, or from x, y, x, y, … in 2D.
     ///
     /// # Errors
     ///
-    /// [`Error::NotWholePoints`] when the length is not a multiple of `D`.
+    /// Returns [`Error::NotWholePoints`] if the length is not a multiple of `D`.
     pub fn from_interleaved_f32(coordinates: &'a [f32]) -> Result<Self, Error> {
         whole_points(coordinates).map(Points::F32)
     }
 
-    /// Points from x, y, z, x, y, z, …, or from x, y, x, y, … in the plane.
+    /// Borrows points from x, y, z, x, y, z, …, or from x, y, x, y, … in 2D.
     ///
     /// # Errors
     ///
-    /// [`Error::NotWholePoints`] when the length is not a multiple of `D`.
+    /// Returns [`Error::NotWholePoints`] if the length is not a multiple of `D`.
     pub fn from_interleaved_f64(coordinates: &'a [f64]) -> Result<Self, Error> {
         whole_points(coordinates).map(Points::F64)
     }
 
-    /// The number of points, duplicates included.
+    /// Returns the number of points, duplicates included.
     pub fn len(&self) -> usize {
         match self {
             Points::F32(p) => p.len(),
@@ -69,16 +69,16 @@ impl<'a, const D: usize> Points<'a, D> {
         }
     }
 
-    /// Whether there are no points.
+    /// Returns whether there are no points.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The exact coordinates of point `i`.
+    /// Returns the exact coordinates of point `i`.
     ///
     /// # Panics
     ///
-    /// When `i` is not below [`len`](Self::len).
+    /// Panics if `i` is not below [`len`](Self::len).
     #[inline]
     pub fn get(&self, i: usize) -> [f64; D] {
         match self {
@@ -87,11 +87,11 @@ impl<'a, const D: usize> Points<'a, D> {
         }
     }
 
-    /// The points with these numbers.
+    /// Returns the points with the indices in `range`.
     ///
     /// # Panics
     ///
-    /// When there are fewer.
+    /// Panics if `range` does not lie within the points.
     pub(crate) fn range(&self, range: std::ops::Range<usize>) -> Points<'a, D> {
         match self {
             Points::F32(p) => Points::F32(&p[range]),
@@ -99,7 +99,7 @@ impl<'a, const D: usize> Points<'a, D> {
         }
     }
 
-    /// All points in order.
+    /// Iterates over all points in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = [f64; D]> + '_ {
         let points = *self;
         (0..self.len()).map(move |i| points.get(i))
@@ -109,12 +109,12 @@ impl<'a, const D: usize> Points<'a, D> {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`] with the first bad point.
+    /// Returns [`Error::NotFinite`] with the first point that has a coordinate that is not.
     pub fn validate(&self) -> Result<(), Error> {
         self.validate_by(Threads::One)
     }
 
-    /// The same by these threads.
+    /// Checks that every coordinate is a finite number, by `threads`.
     pub(crate) fn validate_by(&self, threads: Threads) -> Result<(), Error> {
         let is_finite = |p: &[f64; D]| p.iter().all(|x| x.is_finite());
         let bad = parallel::map_ranges(threads, self.len(), |range| {

@@ -1,38 +1,44 @@
-//! Signs for `f64` coordinates of any size, without a lattice.
+//! Predicates for `f64` coordinates of any size, without a lattice.
 //!
-//! Shewchuk's adaptive expansions (the `robust` crate) are exact as long as no intermediate result over- or underflows.
-//! Where the exponents do not rule that out, big integers decide.
+//! Shewchuk's adaptive expansions (the `robust` crate) are exact as long as no intermediate result
+//! overflows or underflows. Where the exponents do not rule that out, big integers decide.
 
 use crate::input::lattice::decompose;
 use crate::predicates::Sign;
 use num_bigint::BigInt;
 use robust::{Coord, Coord3D};
 
-/// The coordinates for which no product of five differences, nor any of its rounding errors, leaves the range of `f64`:
-/// their last bits are at 2⁻¹⁹³ or above, so a product of five has its last bit at 2⁻⁹⁶⁵ or above, and the determinants
+/// Returns whether no product of five differences, nor any of its rounding errors, leaves the range
+/// of `f64`.
+///
+/// Every coordinate must be 0 or have a magnitude from 2⁻¹⁴⁰ to 2¹⁸⁷. Then their last bits are at
+/// 2⁻¹⁹³ or above, so a product of five has its last bit at 2⁻⁹⁶⁵ or above, and the determinants
 /// stay below 2¹⁰⁰⁰.
 fn expansions_are_exact<const D: usize>(points: &[[f64; D]]) -> bool {
-    const LEAST: f64 = 1.0 / (1u128 << 127) as f64 / 8192.0;
-    const MOST: f64 = (1u128 << 127) as f64 * (1u64 << 60) as f64;
-    points.as_flattened().iter().all(|&x| x == 0.0 || (LEAST..=MOST).contains(&x.abs()))
+    const MIN: f64 = 1.0 / (1u128 << 127) as f64 / 8192.0;
+    const MAX: f64 = (1u128 << 127) as f64 * (1u64 << 60) as f64;
+    points.as_flattened().iter().all(|&x| x == 0.0 || (MIN..=MAX).contains(&x.abs()))
 }
 
+/// Returns the sign of a floating-point number.
 fn sign(value: f64) -> Sign {
     (value > 0.0) as Sign - (value < 0.0) as Sign
 }
 
-/// The sign of the determinant whose rows are the differences to the last point, each after its squared length if they are
-/// `lifted`, in big integers. One copy for all predicates: it is large, and hardly ever needed.
+/// Returns the sign of the determinant whose rows are the differences to the last point, each after
+/// its squared length if they are `lifted`, in big integers.
+///
+/// The code is large and rarely used, so it is compiled once for all predicates.
 fn big_sign(points: &[&[f64]], lifted: bool) -> Sign {
     let coordinates = points.iter().copied().flatten().filter(|x| **x != 0.0);
-    // All are multiplied by the same power of two.
-    let least = coordinates.map(|&x| decompose(x).1).min().unwrap_or(0);
+    // All coordinates are multiplied by the same power of two.
+    let min_exponent = coordinates.map(|&x| decompose(x).1).min().unwrap_or(0);
     let integer = |x: f64| {
         let (mantissa, exponent) = decompose(x);
         if mantissa == 0 {
             return BigInt::ZERO;
         }
-        let magnitude = BigInt::from(mantissa) << (exponent - least);
+        let magnitude = BigInt::from(mantissa) << (exponent - min_exponent);
         if x < 0.0 { -magnitude } else { magnitude }
     };
     let Some((last, others)) = points.split_last() else { return 0 };
@@ -53,7 +59,7 @@ fn big_sign(points: &[&[f64]], lifted: bool) -> Sign {
     }
 }
 
-/// By the cofactors of the first column.
+/// Returns the determinant, by the cofactors of the first column.
 fn determinant(rows: &[&[BigInt]]) -> BigInt {
     let [only] = rows else {
         let mut sum = BigInt::ZERO;
@@ -142,7 +148,7 @@ pub fn insphere(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3], e: [f64; 3])
     big_sign(&[&a, &b, &c, &d, &e], true)
 }
 
-/// Whether three points lie on a line, exactly, for all finite coordinates.
+/// Returns whether three points lie on a line, exactly, for all finite coordinates.
 pub fn collinear(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> bool {
     [(0, 1), (1, 2), (2, 0)].iter().all(|&(i, j)| orient2d([a[i], a[j]], [b[i], b[j]], [c[i], c[j]]) == 0)
 }

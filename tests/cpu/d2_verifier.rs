@@ -1,4 +1,4 @@
-//! In the plane, the verifier passes the right mesh only, and says what is wrong with any other.
+//! The 2D verifier passes only the correct mesh, and says what is wrong with any other.
 
 use crate::broken::{
     self,
@@ -17,7 +17,7 @@ use gdel::{
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
-/// The checks of the plane; a polygon that is convex and turns once needs no more.
+/// The 2D checks; a polygon that is convex and turns once needs no others.
 const CHECKS: [Check; 12] = [
     Check::Dimension,
     Check::Duplicates,
@@ -35,10 +35,10 @@ const CHECKS: [Check; 12] = [
 
 /// The corner of the unit square.
 const CORNER: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-/// Two triangles with the edge 0-1 in common, which is short.
+/// Two triangles that share the edge 0-1, which is short.
 const KITE: [[f64; 2]; 4] = [[0.0, 0.0], [0.0, 1.0], [3.0, 0.5], [-3.0, 0.5]];
 
-/// Points of a grid of three by three.
+/// The points of a 3×3 grid.
 fn square() -> Vec<[f64; 2]> {
     (0..9).map(|i| [i % 3, i / 3].map(f64::from)).collect()
 }
@@ -56,14 +56,14 @@ fn broken_meshes() -> Vec<Broken> {
         verify_bare: |points, triangles| verify2d(points, MeshView2::of_triangles(triangles)).unwrap(),
         all: Vec::new(),
     };
-    statements(&mut broken);
+    other_arrays(&mut broken);
     triangles(&mut broken);
     hulls(&mut broken);
     broken.all
 }
 
-/// What a mesh states beside its triangles.
-fn statements(broken: &mut BrokenMeshes) {
+/// Adds meshes that are wrong in the arrays beside the triangles.
+fn other_arrays(broken: &mut BrokenMeshes) {
     let square = square();
     let line: Vec<_> = square[..3].to_vec();
     let doubled: Vec<_> = square.iter().chain(&square[2..4]).copied().collect();
@@ -143,7 +143,7 @@ fn triangles(broken: &mut BrokenMeshes) {
     broken.bare(orientation, "turned by one bit", &thin, &[[0, 1, 2]], Triangle(0));
     let mut turned = right(&square()).triangles;
     turned[3].swap(0, 1);
-    // The triangle that is turned has its neighbours on the wrong side, too.
+    // The neighbours of the inverted triangle are on the wrong side, too.
     let report = verify2d(&square(), MeshView2::of_triangles(&turned)).unwrap();
     assert_eq!(failures(&report), [orientation, Check::Facets], "{report}");
 
@@ -195,11 +195,12 @@ fn hulls(broken: &mut BrokenMeshes) {
     let missing = dented.remove(at_hull);
     // The vertex of the triangle that was missing, behind the hull's edge.
     let report = verify2d(&square, MeshView2::of_triangles(&dented)).unwrap();
+    // The vertex of the missing triangle that lies behind the hull's edge.
     let behind = report.failures().next().unwrap().1.point.unwrap();
     assert!(missing.contains(&(behind as u32)));
     broken.add(convex, "triangle missing at the hull", report, Point(behind));
-    // Around vertex 0, five triangles that turn twice before they meet: every local property of a Delaunay triangulation,
-    // and one closed hull without a concave corner.
+    // Around vertex 0, five triangles that turn twice before they meet: they have every local
+    // property of a Delaunay triangulation, and one closed hull without a concave corner.
     let pentagram = [[0.0, 0.0], [10.0, 0.0], [3.0, 9.5], [-8.0, 6.0], [-8.0, -6.0], [3.0, -9.5]];
     let twice: Vec<_> = (0..5).map(|i| [0, 1 + 2 * i % 5, 1 + (2 * i + 2) % 5]).collect();
     broken.bare(convex, "covered twice", &pentagram, &twice, Mesh);

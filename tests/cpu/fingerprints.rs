@@ -1,12 +1,12 @@
-//! The native engine gives the meshes that `tests/data/fingerprints.txt` pins. The tests of the npm package compare their
-//! engines with the same file.
+//! The triangulation on the CPU gives the meshes that `tests/data/fingerprints.txt` pins. The tests
+//! of the npm package compare with the same file.
 
 use gdel::{
     Backend, Triangulator,
     internals::d3::generate::{Distribution, generate},
 };
 
-/// FNV-1a, 64 bits, over the canonical tetrahedra's indices as little-endian words.
+/// FNV-1a, 64 bits, over the indices of the canonical tetrahedra as little-endian words.
 fn fingerprint(tetrahedra: &[[u32; 4]]) -> u64 {
     let bytes = tetrahedra.as_flattened().iter().flat_map(|v| v.to_le_bytes());
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))

@@ -1,4 +1,4 @@
-//! The CPU engines, the predicates and the verifier.
+//! The triangulation on the CPU, the predicates and the verifier.
 
 mod broken;
 #[path = "../clouds.rs"]

@@ -12,7 +12,7 @@ use crate::{
             certify::{failed_tests, near_delaunay},
             finish::{Mesh, NearMesh},
         },
-        lawson::{self, Aborted, Outcome},
+        lawson::{self, Aborted, LawsonOutcome},
     },
     gpu::{
         Gpu,
@@ -57,9 +57,9 @@ impl Complete<2> for Dimension<2> {
             let near = near_delaunay(triangulation, failed.as_deref(), &missing);
             let max_flips = FLIPS_PER_POINT * points.len() as u64;
             let triangulation = match lawson::lawson(&vertices, near, max_flips, &report)? {
-                Outcome::Delaunay(triangulation, _) => triangulation,
-                Outcome::Aborted(Aborted::Work) => return Ok(Err(Fallback::Flips)),
-                Outcome::Aborted(Aborted::Folded) => return Ok(Err(Fallback::Folded)),
+                LawsonOutcome::Delaunay(triangulation, _) => triangulation,
+                LawsonOutcome::Aborted(Aborted::BudgetExceeded) => return Ok(Err(Fallback::Flips)),
+                LawsonOutcome::Aborted(Aborted::Folded) => return Ok(Err(Fallback::Folded)),
             };
             stats.exact = stats.exact + vertices.exact_counts();
             (triangles, halfedges, hull) =

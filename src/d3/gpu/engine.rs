@@ -7,7 +7,7 @@ use crate::{
     d3::{
         cpu,
         gpu::{finish::NearMesh, trace::Tracer},
-        splay::{self, Aborted, NearDelaunay, Outcome},
+        splay::{self, Aborted, NearDelaunay, SplayOutcome},
         triangulation::{FiniteMesh, Triangulation},
     },
     gpu::{
@@ -51,12 +51,12 @@ impl Complete<3> for Dimension<3> {
         let share = progress::FINISH - progress::COMPLETION;
         let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
         let triangulation = match splay::splay(&vertices, near, max_evaluations, Threads::All, &report)? {
-            Outcome::Delaunay(triangulation, splay) => {
+            SplayOutcome::Delaunay(triangulation, splay) => {
                 stats.splay = Some(splay);
                 triangulation
             }
-            Outcome::Aborted(Aborted::Work) => return Ok(Err(Fallback::Splaying)),
-            Outcome::Aborted(Aborted::Inconsistent(what)) => return Ok(Err(Fallback::Inconsistent(what))),
+            SplayOutcome::Aborted(Aborted::BudgetExceeded) => return Ok(Err(Fallback::Splaying)),
+            SplayOutcome::Aborted(Aborted::Inconsistent(what)) => return Ok(Err(Fallback::Inconsistent(what))),
         };
         stats.phases.push((Phase::Splay, stopwatch.lap()));
 
