@@ -21,6 +21,7 @@ use crate::{
 /// assert_eq!((points.len(), points.get(1)), (2, [1.0, 0.5]));
 /// ```
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub enum Points<'a, const D: usize = 3> {
     /// Single precision.
     F32(&'a [[f32; D]]),
@@ -182,32 +183,44 @@ mod arrays {
         whole_points(array.to_slice().ok_or(Error::ArrayLayout)?)
     }
 
-    macro_rules! try_from_arrays {
-        ($($number:ty => $variant:ident),*) => {$(
-            /// Takes one point per row, without a copy.
-            ///
-            /// Fails with [`Error::ArrayShape`] or [`Error::ArrayLayout`] if the rows are not contiguous points.
-            impl<'a, const D: usize> TryFrom<ArrayView2<'a, $number>> for Points<'a, D> {
-                type Error = Error;
-
-                fn try_from(array: ArrayView2<'a, $number>) -> Result<Self, Error> {
-                    rows(array).map(Points::$variant)
-                }
-            }
-
-            /// Takes one point per row, without a copy.
-            ///
-            /// Fails with [`Error::ArrayShape`] or [`Error::ArrayLayout`] if the rows are not contiguous points.
-            impl<'a, S: Data<Elem = $number>, const D: usize> TryFrom<&'a ArrayBase<S, Ix2>> for Points<'a, D> {
-                type Error = Error;
-
-                fn try_from(array: &'a ArrayBase<S, Ix2>) -> Result<Self, Error> {
-                    rows(array.view()).map(Points::$variant)
-                }
-            }
-        )*};
+    /// The types of coordinates.
+    pub trait Coordinate: Sized {
+        fn points<const D: usize>(points: &[[Self; D]]) -> Points<'_, D>;
     }
-    try_from_arrays!(f32 => F32, f64 => F64);
+
+    impl Coordinate for f32 {
+        fn points<const D: usize>(points: &[[f32; D]]) -> Points<'_, D> {
+            Points::F32(points)
+        }
+    }
+
+    impl Coordinate for f64 {
+        fn points<const D: usize>(points: &[[f64; D]]) -> Points<'_, D> {
+            Points::F64(points)
+        }
+    }
+
+    /// Takes one point per row, without a copy.
+    ///
+    /// Fails with [`Error::ArrayShape`] or [`Error::ArrayLayout`] if the rows are not contiguous points.
+    impl<'a, T: Coordinate, const D: usize> TryFrom<ArrayView2<'a, T>> for Points<'a, D> {
+        type Error = Error;
+
+        fn try_from(array: ArrayView2<'a, T>) -> Result<Self, Error> {
+            rows(array).map(T::points)
+        }
+    }
+
+    /// Takes one point per row, without a copy.
+    ///
+    /// Fails with [`Error::ArrayShape`] or [`Error::ArrayLayout`] if the rows are not contiguous points.
+    impl<'a, T: Coordinate, S: Data<Elem = T>, const D: usize> TryFrom<&'a ArrayBase<S, Ix2>> for Points<'a, D> {
+        type Error = Error;
+
+        fn try_from(array: &'a ArrayBase<S, Ix2>) -> Result<Self, Error> {
+            rows(array.view()).map(T::points)
+        }
+    }
 }
 
 /// Copies 3D points of any type that converts into [`mint::Point3`], the type through which mathematics libraries exchange

@@ -21,8 +21,8 @@ use std::{ops::ControlFlow, sync::Arc};
 /// Triangulates with options: which backend computes, what learns of the progress, which device is used.
 ///
 /// A triangulator opens the GPU when it is first needed, and keeps it, with the kernels compiled for it, until the last clone
-/// of the triangulator is dropped. So create one and use it for many inputs. Clones are cheap and share the device; options
-/// set on a clone do not change the original.
+/// of the triangulator is dropped. So create one and use it for many inputs. Clones are cheap and share the device, which does
+/// one run at a time; options set on a clone do not change the original.
 ///
 /// # Examples
 ///

@@ -5,7 +5,7 @@ import type { Stats, TaskOptions } from './types.js';
  * A 2D Delaunay triangulation, as plain arrays in the form of the npm package `delaunator`: what works on a `Delaunator`'s
  * `coords`, `triangles`, `halfedges` and `hull` works on this. All indices are those of the input points.
  *
- * Files have the triangles counter-clockwise where the y axis points up, as other programs do; only `.npz` has them as here.
+ * Files have the triangles counter-clockwise where the y axis points up, as other programs do.
  */
 export class Mesh2 {
   /** Three vertices a triangle, counter-clockwise where the y axis points down: det(b − a, c − a) < 0. Never flat. */
