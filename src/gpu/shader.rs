@@ -33,8 +33,12 @@ impl Shaders {
     ///
     /// Panics if there is none: a mistake in this crate.
     pub fn get(&self, name: &str) -> &'static Shader {
-        let is_named = |shader: &&Shader| shader.name.rsplit('/').next() == Some(name);
-        self.iter().find(is_named).unwrap_or_else(|| panic!("no kernel is named {name}"))
+        self.find(name).unwrap_or_else(|| panic!("no kernel is named {name}"))
+    }
+
+    /// Returns the kernel of this name, if these have one.
+    pub fn find(&self, name: &str) -> Option<&'static Shader> {
+        self.iter().find(|shader| shader.name.rsplit('/').next() == Some(name))
     }
 
     /// Returns all kernels.

@@ -74,8 +74,9 @@ impl Device {
     }
 
     fn run(&self, name: &str) {
-        self.kernels
-            .run(shader::D2.get(name), &[self.buffers.bindings(), Aliases::new(&self.buffers).bindings()].concat());
+        let aliases = Aliases::new(&self.buffers);
+        let buffers = [self.buffers.bindings(), aliases.bindings()].concat();
+        self.kernels.run(shader::D2.get(name), &buffers);
     }
 
     /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.

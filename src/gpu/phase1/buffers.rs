@@ -120,14 +120,10 @@ where
         self.own.record_clear(encoder);
     }
 
-    /// Returns the blocks of slots that there are.
-    pub fn blocks(&self) -> u32 {
-        self.simplices.len() as u32 / BLOCK
-    }
-
     /// Returns the buffers under the names that they have in shaders: several, where a buffer is put to more than one use.
     pub fn bindings(&self) -> Vec<Binding<'_>> {
-        let mut bindings = vec![
+        let mut bindings = self.own.bindings();
+        bindings.extend([
             ("control", self.control.buffer()),
             ("vertices", self.points.vertices.buffer()),
             ("pairs", self.points.pairs.buffer()),
@@ -136,15 +132,21 @@ where
             ("neighbors", self.neighbors.buffer()),
             ("status", self.status.buffer()),
             ("actives", self.active.buffer()),
+            // Scores and points are picked before there are messages, and messages pass between commit and link, after the
+            // list of entries that the check leaves undecided. Each has an element per slot, or an entry of one word.
             ("messages", self.messages.buffer()),
             ("picks", self.messages.buffer()),
             ("undecided_entries", self.messages.buffer()),
             ("history", self.history.buffer()),
             ("waiting", self.waiting.buffer()),
             ("scores", self.scores.buffer()),
-        ];
-        bindings.extend(self.own.bindings());
+        ]);
         bindings
+    }
+
+    /// Returns the blocks of slots that there are.
+    pub fn blocks(&self) -> u32 {
+        self.simplices.len() as u32 / BLOCK
     }
 
     /// Returns the bytes that they take, but for the points.
