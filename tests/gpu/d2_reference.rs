@@ -5,11 +5,13 @@ use std::collections::HashSet;
 use gdel::gpu::layout::Pick;
 use gdel::input::lattice::Width;
 use gdel::reference::d2::predicates::Vertex;
-use gdel::reference::d2::run::{Settings, run};
-use gdel::reference::d2::{State, mesh_compact, mesh_mark};
-use gdel::reference::d3::hilbert::hilbert_key;
+use gdel::reference::d2::{mesh_compact, mesh_mark};
+use gdel::reference::hilbert::hilbert_key;
+use gdel::reference::run::{Settings, run};
 use rand::{SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;
+
+type State = gdel::reference::State<2>;
 
 /// Distinct points along the Hilbert curve, with the places of their input order.
 fn sites(points: &[[i64; 2]]) -> Vec<Vertex> {
