@@ -16,34 +16,35 @@ pub trait ReferenceDim<const D: usize>: Dim<D> {
 
     /// The slots of a vertex: it owns `VERTEX_SLOTS * v` and those that follow.
     const VERTEX_SLOTS: u32;
-    /// The Euler characteristic of the sphere of `D` dimensions: vertices − edges + triangles in 2D,
-    /// vertices − edges + facets − tetrahedra in 3D. There are twice as many facets as tetrahedra,
-    /// so that it is vertices − edges + simplices in both dimensions.
+    /// The Euler characteristic of the sphere of `D` dimensions: vertices − edges + triangles in
+    /// 2D, vertices − edges + facets − tetrahedra in 3D. There are twice as many facets as
+    /// tetrahedra, so that it is vertices − edges + simplices in both dimensions.
     const EULER_CHARACTERISTIC: usize;
 
-    /// Returns the corners of the facet opposite corner `k`: with a last corner beyond the facet,
-    /// they are positively oriented.
+    /// Returns the corners of the facet opposite corner `k`. Followed by a vertex beyond the facet,
+    /// they are those of a positively oriented simplex.
     fn facet(k: usize) -> &'static [usize];
 
     /// Returns the orientation of these points. Never zero.
     fn orient_perturbed(width: Width, points: &[Vertex<D>], corners: Self::Corners) -> Sign;
 
-    /// Returns whether point `e` is inside the circumsphere of positively oriented points: positive
-    /// if it is. Never zero.
+    /// Returns on which side of the circumsphere of positively oriented points `e` is: positive if
+    /// inside. Never zero.
     fn in_sphere(width: Width, points: &[Vertex<D>], corners: Self::Corners, e: u32) -> Sign;
 
-    /// Returns which child of a simplex with these corners, split at `p`, holds `q`: the one with `p`
-    /// in place of that corner.
+    /// Returns which child of a simplex with these corners, split at `p`, holds `q`: the one with
+    /// `p` in place of that corner.
     fn child_of(corners: Self::Corners, p: u32, q: u32, orient: impl Fn(Self::Corners) -> Sign) -> usize;
 
-    /// Returns which of the simplices that a flip made holds `p`, and the node that changed it later.
+    /// Returns which of the simplices that a flip made holds `p`, and the node that changed it
+    /// later.
     fn descend(flip: &Self::Flip, p: u32, orient: impl Fn(Self::Corners) -> Sign) -> (u32, u32);
 
     /// Returns the nodes that changed the simplices of a flip later.
     fn next_nodes(flip: &mut Self::Flip) -> &mut [u32];
 
-    /// Returns which facets of the first simplex that a flip of this kind made lead to the others that
-    /// it made, and which facets of each of them are outer ones.
+    /// Returns which facets of the first simplex that a flip of this kind made lead to the others
+    /// that it made, and which facets of each of them are outer ones.
     fn made_by(kind: u32) -> (&'static [usize], Range<usize>);
 
     /// Counts a flip that was carried out, and frees the slot that it gave back.
@@ -67,8 +68,8 @@ pub trait Kernels<const D: usize>: ReferenceDim<D>
 where
     Dimension<D>: ReferenceDim<D>,
 {
-    /// Returns how much simplex `t` wants point `p`, at least 1, unless any point will do. Scores of
-    /// different simplices do not compare.
+    /// Returns how much simplex `t` wants point `p`, at least 1, where points are not picked at
+    /// random. Scores of different simplices do not compare.
     fn score(state: &State<D>, t: u32, p: u32) -> u32;
 
     /// Returns the outcome of checking simplex `t`, and the simplices that its proposed flip would
@@ -78,8 +79,8 @@ where
     /// Carries out the flip that entry `i` of the active list proposes, if it has won.
     fn commit(state: &mut State<D>, i: usize);
 
-    /// Does what remains to be done when all points are inserted and no flip is left. 2D has nothing
-    /// to do.
+    /// Does what remains to be done when all points are inserted and no flip is left. 2D has
+    /// nothing to do.
     fn finish(state: &mut State<D>);
 
     /// Panics unless the buffers that only this dimension has agree with the others.

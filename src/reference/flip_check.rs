@@ -5,8 +5,8 @@ use crate::gpu::dim::Dimension;
 use crate::reference::State;
 use crate::reference::dim::Kernels;
 
-/// Checks the facets of each active simplex until one can be flipped, and bids for the simplices that
-/// this flip would change. One invocation per entry of the active list.
+/// Checks the facets of each active simplex until one can be flipped, and bids for the simplices
+/// that this flip would change. One invocation per entry of the active list.
 pub fn flip_check<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: Kernels<D>,

@@ -9,8 +9,8 @@ use crate::reference::dim::{Kernels, ReferenceDim};
 /// Carries out the proposed flips that won. One invocation per entry of the active list.
 ///
 /// A flip owns its simplices, so it overwrites them in place; the outer facets of the new ones keep
-/// their old neighbours until [`flip_link`](crate::reference::flip_link), and each old simplex gets a
-/// message that says where its outer facets went. A flip that finds no slot, or no room in the
+/// their old neighbours until [`flip_link`](crate::reference::flip_link), and each old simplex gets
+/// a message that says where its outer facets went. A flip that finds no slot, or no room in the
 /// history, is put off: it stays in the active list.
 pub fn flip_commit<const D: usize>(state: &mut State<D>)
 where
@@ -37,8 +37,8 @@ where
         simplices.iter().all(|&t| self.status[t as usize].vote == bid)
     }
 
-    /// Returns a number in the history for a flip of `old`: [`NONE`] where no waiting point can lie in
-    /// them, `None` when the history is full.
+    /// Returns a number in the history for a flip of `old`: [`NONE`] where no waiting point can lie
+    /// in them, `None` when the history is full.
     pub(super) fn node_for(&mut self, old: &[u32]) -> Option<u32> {
         if !old.iter().any(|&t| self.is_held(t)) {
             return Some(NONE);
@@ -75,8 +75,8 @@ where
         }
     }
 
-    /// Marks a slot as changed in this flip iteration, with the facets to check of the simplex that it
-    /// has now: simplex `place` of the flip with this node.
+    /// Marks a slot as changed in this flip iteration, with the facets to check of the simplex that
+    /// it has now: simplex `place` of the flip with this node.
     pub(super) fn mark_changed(&mut self, t: u32, check: u32, node: u32, place: usize) {
         let held = if node == NONE { 0 } else { self.counters.round << HELD_SHIFT };
         let last = if node == NONE { 0 } else { node << 2 | place as u32 };

@@ -9,8 +9,8 @@ use crate::reference::dim::ReferenceDim;
 /// Joins the new simplices to those around them, and lists the simplices to check next, unless
 /// compaction finds them. One invocation per entry of the active list.
 ///
-/// An outer neighbour that did not change is told; one that did left a message, which is followed. So
-/// each facet is written once.
+/// An outer neighbour that did not change is told; one that did left a message, which is followed.
+/// So each facet is written once.
 pub fn flip_link<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: ReferenceDim<D>,
@@ -54,8 +54,8 @@ impl<const D: usize> State<D>
 where
     Dimension<D>: ReferenceDim<D>,
 {
-    /// Returns whether so many simplices were active in an iteration that the next ones are found by
-    /// looking at all slots.
+    /// Returns whether so many simplices were active in an iteration that the next ones are found
+    /// by looking at all slots.
     pub(super) fn compacts(&self, iteration: u32) -> bool {
         let active = self.counters.active_len[(iteration & 1) as usize];
         !self.is_idle(iteration) && active >= self.params.compact_from

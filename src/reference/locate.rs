@@ -10,8 +10,8 @@ use crate::reference::state::{replaced, slot};
 /// Writes the simplices that Phase 1 starts with: a positively oriented one and the infinite ones
 /// around it.
 ///
-/// The first slot of infinity holds `first`, and slot 1 + k after it the one beyond its facet k: the
-/// facet's corners and infinity.
+/// The first slot of infinity holds `first`, and slot 1 + k after it the one beyond its facet k:
+/// the facet's corners and infinity.
 pub fn start<const D: usize>(state: &mut State<D>, first: Corners<D>)
 where
     Dimension<D>: ReferenceDim<D>,
@@ -27,7 +27,8 @@ where
         let corners = Dimension::<D>::facet(k);
         let mut vertices: Vec<u32> = corners.iter().map(|&c| first.as_ref()[c]).collect();
         vertices.push(infinite);
-        // Beyond the ridge opposite a corner, the infinite simplex of the facet opposite that corner.
+        // Beyond the ridge opposite a corner, the infinite simplex of the facet opposite that
+        // corner.
         let beyond = |&corner: &usize| {
             let face = Dimension::<D>::facet(corner).iter().position(|&c| c == k);
             4 * outer(corner) + face.expect("facets share all corners but two") as u32

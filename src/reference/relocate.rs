@@ -6,8 +6,8 @@ use crate::gpu::layout::{NONE, Waiting};
 use crate::reference::State;
 use crate::reference::dim::ReferenceDim;
 
-/// Moves each waiting point to the simplex that it lies in after the flips. One invocation per waiting
-/// point.
+/// Moves each waiting point to the simplex that it lies in after the flips. One invocation per
+/// waiting point.
 pub fn relocate<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: ReferenceDim<D>,

@@ -41,8 +41,8 @@ impl Default for Settings {
     }
 }
 
-/// Runs Phase 1 on `sites`, which are sorted along the Hilbert curve and distinct. Returns `None` if
-/// they all lie in a line (2D) or plane (3D).
+/// Runs Phase 1 on `sites`, which are sorted along the Hilbert curve and distinct. Returns `None`
+/// if they all lie in a line (2D) or plane (3D).
 pub fn run<const D: usize>(width: Width, mut sites: Vec<Vertex<D>>, settings: &Settings) -> Option<State<D>>
 where
     Dimension<D>: Kernels<D>,
@@ -103,8 +103,8 @@ where
     }
 }
 
-/// Forgets all votes, so that flip iterations can be counted from the start again; which half of the
-/// active list is read stays the same.
+/// Forgets all votes, so that flip iterations can be counted from the start again; which half of
+/// the active list is read stays the same.
 pub fn clear_votes<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: ReferenceDim<D>,

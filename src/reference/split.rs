@@ -26,8 +26,8 @@ where
 
 /// Splits each simplex that picked a point. One invocation per waiting point.
 ///
-/// Inside, all facets are locally Delaunay because the point lies inside the circumsphere; the outer
-/// ones are to be checked.
+/// Inside, all facets are locally Delaunay because the point lies inside the circumsphere; the
+/// outer ones are to be checked.
 pub fn split<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: ReferenceDim<D>,

@@ -41,8 +41,9 @@ where
     pub neighbors: Vec<[u32; 4]>,
     /// The status of each slot.
     pub status: Vec<Status>,
-    /// For each slot whose simplex changed in this flip iteration, where its outer facets went; while
-    /// points are picked, the best score (entry 0) and the point that has it, plus 1 (entry 1).
+    /// For each slot whose simplex changed in this flip iteration, where its outer facets went;
+    /// while points are picked, the best score (entry 0) and the point that has it, plus 1 (entry
+    /// 1).
     pub messages: Vec<[u32; 4]>,
     /// The active list, in two halves of one entry per slot.
     pub active: [Vec<Active>; 2],
@@ -62,8 +63,8 @@ impl<const D: usize> State<D>
 where
     Dimension<D>: ReferenceDim<D>,
 {
-    /// Creates empty buffers for `points`, the last of which is the interior point. `tail` blocks of
-    /// slots belong to no vertex (2D ignores it), and the history can hold `history` nodes.
+    /// Creates empty buffers for `points`, the last of which is the interior point. `tail` blocks
+    /// of slots belong to no vertex (2D ignores it), and the history can hold `history` nodes.
     pub fn new(width: Width, points: Vec<Vertex<D>>, tail: u32, history: u32) -> Self {
         let infinite = points.len() as u32 - 1;
         let blocks = Dimension::<D>::blocks(infinite, tail);
@@ -133,8 +134,8 @@ where
         if corners.as_ref().contains(&self.params.infinite) { -sign } else { sign }
     }
 
-    /// Returns whether `e` is inside the circumsphere of a positively oriented simplex. For an infinite
-    /// simplex that is the half-space beyond its hull facet.
+    /// Returns whether `e` is inside the circumsphere of a positively oriented simplex. For an
+    /// infinite simplex that is the half-space beyond its hull facet.
     pub fn inside(&self, corners: Corners<D>, e: u32) -> bool {
         let infinite = self.params.infinite;
         if e == infinite {
@@ -180,16 +181,16 @@ where
         (it + 1) << bits | scramble(i as u32, it, bits - 1)
     }
 
-    /// Returns the vote that marks a simplex as changed in flip iteration `iteration`: above every bid
-    /// of it.
+    /// Returns the vote that marks a simplex as changed in flip iteration `iteration`: above every
+    /// bid of it.
     pub fn changed_mark(&self, iteration: u32) -> u32 {
         let bits = self.params.bid_bits;
         (iteration + 1) << bits | ((1 << bits) - 1)
     }
 }
 
-/// Permutes the numbers of `bits` bits, differently in each iteration, so that the same proposals do
-/// not lose again and again.
+/// Permutes the numbers of `bits` bits, differently in each iteration, so that the same proposals
+/// do not lose again and again.
 pub(super) fn scramble(number: u32, iteration: u32, bits: u32) -> u32 {
     let mask = (1 << bits) - 1;
     let half = bits / 2;

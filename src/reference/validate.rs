@@ -13,10 +13,11 @@ impl<const D: usize> State<D>
 where
     Dimension<D>: Kernels<D>,
 {
-    /// Panics unless the buffers hold a triangulation: neighbours mutual, sharing their facet and on
-    /// opposite sides of it, all simplices positively oriented, the Euler characteristic that of the
-    /// sphere, every facet that is not locally Delaunay to be checked, all inserted points present,
-    /// every waiting point inside its simplex, and the buffers of this dimension in agreement.
+    /// Panics unless the buffers hold a triangulation: neighbours mutual, sharing their facet and
+    /// on opposite sides of it, all simplices positively oriented, the Euler characteristic that of
+    /// the sphere, every facet that is not locally Delaunay to be checked, all inserted points
+    /// present, every waiting point inside its simplex, and the buffers of this dimension in
+    /// agreement.
     pub fn validate(&self) {
         self.validate_mesh();
         self.validate_points();

@@ -239,8 +239,11 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
     // Every facet is suspect, so that there is something to look at.
     state.status.iter_mut().for_each(|s| s.flags |= CHECK << 4);
     device.equal("mark_failed", &mut state, d3::mark_failed);
-    let mut failed: Vec<u32> =
-        (0..).zip(&state.own.failed).filter(|&(_, &f)| f != 0).map(|(v, _): (usize, _)| state.points[v].index).collect();
+    let mut failed: Vec<u32> = (0..)
+        .zip(&state.own.failed)
+        .filter(|&(_, &f)| f != 0)
+        .map(|(v, _): (usize, _)| state.points[v].index)
+        .collect();
     let mut points = device.kernels.read(&device.failed_points);
     points.truncate(failed.len());
     failed.sort_unstable();

@@ -32,8 +32,8 @@ impl ReferenceDim<2> for Dimension<2> {
         predicates::incircle([a, b, c, e].map(|v| points[v as usize]))
     }
 
-    /// Takes 2 orientations: the rays from p to the corners divide the triangle. The line of the first
-    /// ray leaves two children on a side, and the ray between those decides.
+    /// Takes 2 orientations: the rays from p to the corners divide the triangle. The line of the
+    /// first ray leaves two children on a side, and the ray between those decides.
     fn child_of(corners: [u32; 3], p: u32, q: u32, orient: impl Fn([u32; 3]) -> Sign) -> usize {
         let left_of = |ray: usize| orient([p, corners[ray], q]) > 0;
         match left_of(0) {

@@ -5,8 +5,8 @@ use crate::gpu::layout::{CHECK, FACET_SHIFT, KIND_SHIFT};
 
 use crate::reference::State;
 
-/// Returns the outcome for a triangle, and the two triangles that its proposed flip would change: it
-/// flips the first edge that is not locally Delaunay.
+/// Returns the outcome for a triangle, and the two triangles that its proposed flip would change:
+/// it flips the first edge that is not locally Delaunay.
 pub(super) fn proposal(state: &State<2>, t: u32) -> (u32, Vec<u32>) {
     let mut check = state.status[t as usize].flags & CHECK;
     for k in 0..3 {

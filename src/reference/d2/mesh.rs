@@ -18,8 +18,8 @@ pub fn mesh_mark(state: &State<2>) -> Vec<u32> {
     (0..state.simplices.len() as u32).map(|t| u32::from(kept(t))).collect()
 }
 
-/// The half-edge that becomes of the edge opposite vertex *k*, and the other way round: turned over,
-/// the triangle a, b, c is a, c, b.
+/// The half-edge that becomes of the edge opposite vertex *k*, and the other way round: turned
+/// over, the triangle a, b, c is a, c, b.
 const TURNED: [usize; 3] = [1, 0, 2];
 
 /// Writes the answer. `offsets` is the exclusive scan of the marks. One invocation per slot but the

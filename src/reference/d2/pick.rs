@@ -5,7 +5,8 @@ use crate::gpu::layout::Pick;
 use crate::reference::State;
 use crate::reference::pick::{difference, scale_of};
 
-/// Returns how much a triangle wants a point, at least 1. Scores of different triangles do not compare.
+/// Returns how much a triangle wants a point, at least 1. Scores of different triangles do not
+/// compare.
 pub(super) fn score(state: &State<2>, t: u32, p: u32) -> u32 {
     let vertices = state.corners(t);
     let infinite = state.params.infinite;
@@ -25,22 +26,24 @@ pub(super) fn score(state: &State<2>, t: u32, p: u32) -> u32 {
     if state.params.pick == Pick::Centroid as u32 {
         return 0x7f80_0000 - square([a[0] + b[0] + c[0], a[1] + b[1] + c[1]]).to_bits();
     }
-    // The in-circle determinant: for one triangle it grows as the distance from the circumcentre falls.
+    // The in-circle determinant: for one triangle it grows as the distance from the circumcentre
+    // falls.
     let inside = square(a) * cross(b, c) + square(b) * cross(c, a) + square(c) * cross(a, b);
     score_or_betweenness(inside, -median([dot(a, b), dot(b, c), dot(c, a)]))
 }
 
-/// Returns the score of a point by its distance; where that is 0 because the point lies on the line of
-/// the edge or of the flat triangle, by how much it lies in the middle between two neighbouring
-/// vertices, below all scores by distance. So collinear points halve what is between them, and it does
-/// not take a round for each.
+/// Returns the score of a point by its distance; where that is 0 because the point lies on the line
+/// of the edge or of the flat triangle, by how much it lies in the middle between two neighbouring
+/// vertices, below all scores by distance. So collinear points halve what is between them, and it
+/// does not take a round for each.
 fn score_or_betweenness(distance: f32, betweenness: f32) -> u32 {
     let score = if distance == 0.0 { betweenness * BELOW_DISTANCES } else { distance };
     score.abs().to_bits() + 1
 }
 
 /// Returns, for a point of the line of a flat triangle, of the three products of the ways to its
-/// vertices that of the neighbours. The product of the outer vertices is lower, the third is positive.
+/// vertices that of the neighbours. The product of the outer vertices is lower, the third is
+/// positive.
 fn median([x, y, z]: [f32; 3]) -> f32 {
     x.min(y).max(x.max(y).min(z))
 }

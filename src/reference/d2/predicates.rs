@@ -48,8 +48,8 @@ pub fn orient2d(vertices: [Vertex; 3]) -> Sign {
     signs.into_iter().find(|&sign| sign != 0).unwrap_or(0)
 }
 
-/// Returns the sign of d against the circle through the positively oriented a, b, c, positive inside,
-/// with ties broken: never 0 for vertices with different indices.
+/// Returns the sign of d against the circle through the positively oriented a, b, c, positive
+/// inside, with ties broken: never 0 for vertices with different indices.
 pub fn incircle(vertices: [Vertex; 4]) -> Sign {
     let positions = vertices.map(|v| v.position);
     let heights = positions.map(|p| {

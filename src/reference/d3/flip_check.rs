@@ -5,8 +5,8 @@ use crate::gpu::layout::{CHECK, EDGE_SHIFT, FACET_SHIFT, FLIP_23, FLIP_32, KIND_
 
 use crate::reference::State;
 
-/// Returns the outcome for a tetrahedron, and the tetrahedra that its proposed flip would change: it
-/// proposes to flip the first facet that is not locally Delaunay and can be flipped.
+/// Returns the outcome for a tetrahedron, and the tetrahedra that its proposed flip would change:
+/// it proposes to flip the first facet that is not locally Delaunay and can be flipped.
 pub(super) fn proposal(state: &State<3>, t: u32) -> (u32, Vec<u32>) {
     let flags = state.status[t as usize].flags;
     let mut check = flags & CHECK;

@@ -14,7 +14,8 @@ struct Flip {
     ring: [u32; 3],
     d: u32,
     e: u32,
-    /// The old tetrahedra: 2-3, that with d and that with e; 3-2, those with ring edges 01, 12 and 20.
+    /// The old tetrahedra: 2-3, that with d and that with e; 3-2, those with ring edges 01, 12 and
+    /// 20.
     old: [u32; 3],
 }
 
@@ -72,7 +73,8 @@ fn flip_of(state: &State<3>, i: usize) -> Option<Flip> {
     })
 }
 
-/// Takes a free slot: from the block of a vertex of the flip, else from one of a few blocks of the tail.
+/// Takes a free slot: from the block of a vertex of the flip, else from one of a few blocks of the
+/// tail.
 fn free_slot(state: &mut State<3>, flip: &Flip) -> Option<u32> {
     const PROBES: u32 = 16;
     let tail = state.params.blocks - state.params.infinite - 1;
@@ -136,7 +138,8 @@ fn three_to_two(state: &mut State<3>, flip: &Flip) -> u32 {
     state.neighbors[upper as usize][3] = 4 * lower + 3;
     state.neighbors[lower as usize][3] = 4 * upper + 3;
     for j in 0..3 {
-        // The facets of the new tetrahedra opposite ring vertex j were of the old one with the other two.
+        // The facets of the new tetrahedra opposite ring vertex j were of the old one with the
+        // other two.
         let i = (j + 1) % 3;
         let in_lower = [0, 2, 1][j];
         state.neighbors[upper as usize][j] = outer[i][places[i][0]];

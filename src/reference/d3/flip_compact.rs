@@ -4,8 +4,8 @@ use crate::gpu::layout::CHECK;
 
 use crate::reference::State;
 
-/// Lists the tetrahedra to check next in the order of their slots, where there are very many (§4.2).
-/// One invocation per slot.
+/// Lists the tetrahedra to check next in the order of their slots, where there are very many
+/// (§4.2). One invocation per slot.
 pub fn flip_compact(state: &mut State<3>) {
     let iteration = state.counters.link_iteration;
     if !state.compacts(iteration) {

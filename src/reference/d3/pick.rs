@@ -25,7 +25,8 @@ pub(super) fn score(state: &State<3>, t: u32, p: u32) -> u32 {
         let off: [f32; 3] = std::array::from_fn(|i| d[0][i] + d[1][i] + d[2][i] + d[3][i]);
         return 0x7f80_0000 - off.iter().map(|x| x * x).sum::<f32>().to_bits();
     }
-    // The in-sphere determinant: for one tetrahedron it grows as the distance from the circumcentre falls.
+    // The in-sphere determinant: for one tetrahedron it grows as the distance from the circumcentre
+    // falls.
     let lift = d.map(|v| v.iter().map(|x| x * x).sum::<f32>());
     let inside = lift[0] * triple(d[1], d[2], d[3]) - lift[1] * triple(d[2], d[3], d[0])
         + lift[2] * triple(d[3], d[0], d[1])

@@ -1,7 +1,7 @@
 //! The reference of `shaders/shared/predicates.wgsl`, which explains how ties are broken.
 //!
-//! The signs agree; the way to them differs: fixed-width integers of the CPU decide nearly everything,
-//! and big integers what is left to the lowered coordinates.
+//! The signs agree; the way to them differs: fixed-width integers of the CPU decide nearly
+//! everything, and big integers what is left to the lowered coordinates.
 
 use num_bigint::BigInt;
 
@@ -28,7 +28,8 @@ fn lowered(position: [i64; 3], set: u32, rank: usize) -> [i64; 3] {
     std::array::from_fn(|axis| position[axis] - i64::from(bits >> (2 - axis) & 1))
 }
 
-/// Returns the places of the vertices in the order of their indices, and the sign of that permutation.
+/// Returns the places of the vertices in the order of their indices, and the sign of that
+/// permutation.
 fn ranks<const N: usize>(vertices: [Vertex; N]) -> ([usize; N], Sign) {
     let mut order: [usize; N] = std::array::from_fn(|i| i);
     order.sort_unstable_by_key(|&i| vertices[i].index);
@@ -43,8 +44,8 @@ fn orient3d_at(width: Width, [a, b, c, d]: [[i64; 3]; 4]) -> Sign {
     }
 }
 
-/// Returns the sign of det(b − a, c − a, d − a), with ties broken: never 0 for vertices with different
-/// indices.
+/// Returns the sign of det(b − a, c − a, d − a), with ties broken: never 0 for vertices with
+/// different indices.
 pub fn orient3d(width: Width, vertices: [Vertex; 4]) -> Sign {
     match orient3d_at(width, vertices.map(|v| v.position)) {
         0 => {
@@ -92,7 +93,8 @@ pub fn insphere(width: Width, vertices: [Vertex; 5]) -> Sign {
     })
 }
 
-/// Returns the sign of the in-sphere determinant of the positions `lowered`, with the heights of `positions`.
+/// Returns the sign of the in-sphere determinant of the positions `lowered`, with the heights of
+/// `positions`.
 fn lifted(positions: [[i64; 3]; 5], lowered: [[i64; 3]; 5]) -> Sign {
     let big = |p: [i64; 3], q: [i64; 3]| -> [BigInt; 3] { std::array::from_fn(|axis| BigInt::from(p[axis] - q[axis])) };
     let [a, b, c, d]: [_; 4] = std::array::from_fn(|i| big(lowered[i], lowered[4]));
