@@ -8,7 +8,12 @@ use std::fmt::Debug;
 
 use bytemuck::Pod;
 
-use crate::{Error, gpu::Gpu, input::lattice::Width, predicates::Sign};
+use crate::{
+    Error,
+    gpu::{Binding, Gpu, shader::Shaders},
+    input::lattice::Width,
+    predicates::Sign,
+};
 
 /// The marker that [`Dim`] is implemented for: triangulations of points with `D` coordinates.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -31,8 +36,8 @@ pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
 
     /// What simplices are called in labels and messages.
     const SIMPLICES: &'static str;
-    /// What stands before the names of the kernels that only this dimension has.
-    const SHADERS: &'static str;
+    /// The kernels.
+    const SHADERS: &'static Shaders;
     /// The largest number of points: simplices are numbered in 30 bits.
     const MAX_POINTS: usize;
     /// The default of [`Settings::history`](crate::gpu::phase1::Settings::history).
@@ -80,6 +85,9 @@ pub trait OwnBuffers: Debug + Clone {
 
     /// Records that what must be zero in the beginning is.
     fn record_clear(&self, encoder: &mut wgpu::CommandEncoder);
+
+    /// Returns them under the names that they have in shaders.
+    fn bindings(&self) -> Vec<Binding<'_>>;
 
     /// Returns the bytes that they take on the device.
     fn bytes(&self) -> u64;

@@ -9,7 +9,7 @@ use crate::{
     gpu::{
         Gpu,
         dim::Dimension,
-        phase1::{Input, Phase1, Phase1Output, Run, Settings, Stages},
+        phase1::{Finish, Input, Phase1, Phase1Output, Run, Settings},
         start::first_simplex,
     },
     index::NONE,
@@ -37,9 +37,9 @@ pub type MeshOf<const D: usize> = <Dimension<D> as Complete<D>>::Mesh;
 
 /// How a dimension's engine completes what Phase 1 leaves, and the CPU engine that stands in for it.
 #[expect(async_fn_in_trait, reason = "only this crate implements it, and no caller is generic over threads")]
-pub trait Complete<const D: usize>: Stages<D>
+pub trait Complete<const D: usize>: Finish<D>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     /// The result.
     type Mesh;
@@ -82,14 +82,14 @@ where
 /// What Phase 1 left, and what goes with it.
 pub struct Near<'a, const D: usize>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     /// The points of the run.
     pub(crate) points: Points<'a, D>,
     /// The lattice that is fitted to them.
     pub(crate) lattice: &'a Lattice<D>,
     /// The result of Phase 1.
-    pub(crate) result: <Dimension<D> as Stages<D>>::Result,
+    pub(crate) result: <Dimension<D> as Finish<D>>::Result,
     /// The points that Phase 1 did not insert though they are no duplicates, each with the vertex at the same place of the
     /// lattice.
     pub(crate) missing: Vec<[u32; 2]>,
@@ -107,7 +107,7 @@ where
 #[derive(Debug)]
 pub struct GpuEngine<const D: usize>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     gpu: Gpu,
     wide: Phase1<D>,

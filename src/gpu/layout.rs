@@ -1,11 +1,11 @@
 //! What the kernels of Phase 1 keep in GPU buffers.
 //!
-//! Every structure here has a counterpart of the same name and layout in `shaders/shared/layout.wgsl`; a test compares
-//! their sizes and constants.
+//! The structures have counterparts of the same name and layout in `shaders/`, which the compiler compares; the constants
+//! are those of the shaders.
 //!
 //! **Points** are sorted along the Hilbert curve; a *vertex* is a place in that order. Vertex `n` (the number of points)
-//! is the vertex at infinity. Its record holds the *kernel point*, a point inside the first tetrahedron, and infinity
-//! lies opposite to it: replacing infinity by the kernel point flips the sign of an orientation.
+//! is the vertex at infinity. Its record holds the *interior point*, a point inside the first tetrahedron, and infinity
+//! lies opposite to it: replacing infinity by the interior point flips the sign of an orientation.
 //!
 //! **Tetrahedra** live in slots. Slots 8v … 8v + 7 are the *block* of vertex *v*, so that a tetrahedron is near its
 //! vertices in memory without any sorting; the block of infinity starts the initial tetrahedra, and the blocks after it
@@ -17,11 +17,16 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::gpu::shader::{
+    assert_layout,
+    constants::{common, d3},
+};
+
 /// Nothing: no tetrahedron, no node, no vertex.
-pub const NONE: u32 = u32::MAX;
+pub const NONE: u32 = common::NONE;
 
 /// Slots in a block.
-pub const BLOCK: u32 = 8;
+pub const BLOCK: u32 = common::BLOCK;
 
 /// What a tetrahedron is doing.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
@@ -38,13 +43,14 @@ pub struct Status {
     /// The first node of the round that changed the tetrahedron in this slot as it was when the round began.
     pub first: u32,
 }
+assert_layout!(Status);
 
 /// The facets to check, in [`Status::flags`].
-pub const CHECK: u32 = 0xf;
+pub const CHECK: u32 = common::CHECK;
 /// Where the facets that are not locally Delaunay and not flippable start in [`Status::flags`].
-pub const SUSPECT_SHIFT: u32 = 4;
+pub const SUSPECT_SHIFT: u32 = common::SUSPECT_SHIFT;
 /// Where the insertion round starts in [`Status::flags`].
-pub const HELD_SHIFT: u32 = 16;
+pub const HELD_SHIFT: u32 = common::HELD_SHIFT;
 
 /// An entry of the active list.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
@@ -57,21 +63,22 @@ pub struct Active {
     /// was carried out leaves its kind, and the slot that a 3-2 flip gives back from bit 4 on, below [`DONE`].
     pub outcome: u32,
 }
+assert_layout!(Active);
 
 /// Where the kind of flip is in [`Active::outcome`].
-pub const KIND_SHIFT: u32 = 8;
+pub const KIND_SHIFT: u32 = common::KIND_SHIFT;
 /// Where the facet is in [`Active::outcome`].
-pub const FACET_SHIFT: u32 = 10;
+pub const FACET_SHIFT: u32 = common::FACET_SHIFT;
 /// Where the edge is in [`Active::outcome`].
-pub const EDGE_SHIFT: u32 = 12;
+pub const EDGE_SHIFT: u32 = d3::EDGE_SHIFT;
 /// A flip of two tetrahedra into three, in [`Active::outcome`] and [`FlipNode::kind`].
-pub const FLIP_23: u32 = 1;
+pub const FLIP_23: u32 = d3::FLIP_23;
 /// A flip of three tetrahedra into two.
-pub const FLIP_32: u32 = 2;
+pub const FLIP_32: u32 = d3::FLIP_32;
 /// The flip was carried out.
-pub const DONE: u32 = 1 << 31;
+pub const DONE: u32 = common::DONE;
 /// Where the slot that was given back is in [`Active::outcome`], with [`DONE`].
-pub const SLOT_SHIFT: u32 = 2;
+pub const SLOT_SHIFT: u32 = d3::SLOT_SHIFT;
 
 /// A flip in the history.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
@@ -87,6 +94,7 @@ pub struct FlipNode {
     /// The nodes that changed these later, or [`NONE`].
     pub next: [u32; 3],
 }
+assert_layout!(FlipNode);
 
 /// The counters that the kernels share.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
@@ -135,6 +143,7 @@ pub struct Counters {
     /// In the plane: edges of the hull.
     pub hull: u32,
 }
+assert_layout!(Counters);
 
 impl Counters {
     /// Returns the flips of all kinds so far.
@@ -144,9 +153,9 @@ impl Counters {
 }
 
 /// A flip was put off because no slot was found for its third tetrahedron.
-pub const SLOTS_FULL: u32 = 1;
+pub const SLOTS_FULL: u32 = common::SLOTS_FULL;
 /// A flip was put off because the history was full.
-pub const HISTORY_FULL: u32 = 2;
+pub const HISTORY_FULL: u32 = common::HISTORY_FULL;
 
 /// What the kernels are told. In the buffer `control` it stands before the [`Counters`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
@@ -174,6 +183,7 @@ pub struct Params {
     /// all slots (§4.2).
     pub compact_from: u32,
 }
+assert_layout!(Params);
 
 /// Words of [`Params`], after which the [`Counters`] stand in the buffer `control`.
 pub const PARAM_WORDS: usize = size_of::<Params>() / 4;
@@ -188,9 +198,9 @@ pub enum Pick {
     #[default]
     Circumcenter = 0,
     /// The one nearest to the centroid.
-    Centroid = 1,
+    Centroid = common::PICK_CENTROID,
     /// Any.
-    Random = 2,
+    Random = common::PICK_RANDOM,
 }
 
 /// A point that waits to be inserted.
@@ -202,3 +212,4 @@ pub struct Waiting {
     /// The tetrahedron that it lies in; [`NONE`] once it is inserted.
     pub tet: u32,
 }
+assert_layout!(Waiting);

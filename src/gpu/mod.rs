@@ -5,7 +5,7 @@
 //! workgroups per dimension. Only larger buffers are asked for.
 //!
 //! * [`Gpu`] is a device with its queue, the caller's or one made on demand.
-//! * [`shader`] assembles WGSL from `shaders/`; [`Kernel`] is one compute pipeline made of it.
+//! * [`shader`] has the WGSL of `shaders/`; [`Kernel`] is one compute pipeline made of it.
 //! * [`Recorder`] encodes many dispatches in one compute pass, and [`Profiler`] times its stages.
 //! * [`Storage`] is a typed storage buffer; [`Readback`] brings results to the host through reused staging buffers.
 //! * [`stages`] has the host half of each stage.
@@ -31,13 +31,13 @@ pub mod waiting;
 
 pub use buffers::Storage;
 pub use device::{AdapterChoice, AdapterSummary, Gpu, adapters};
-pub use kernel::Kernel;
+pub use kernel::{Binding, Kernel};
 pub use profiler::Profiler;
 pub use readback::{Pending, Readback};
 pub use recorder::Recorder;
 
-/// The invocations of a workgroup in kernels that need no other number: the most that every WebGPU device has.
-pub const WORKGROUP: u32 = 256;
+/// The number of invocations in a workgroup.
+pub const WORKGROUP: u32 = shader::constants::primitives::WORKGROUP;
 
 /// The most workgroups that a dispatch may have in one dimension on every WebGPU device.
 pub const MAX_WORKGROUPS: u32 = 65_535;

@@ -3,7 +3,7 @@
 use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
 use crate::{
     Error,
-    gpu::{Gpu, Kernel, Recorder, Storage, layout::Waiting},
+    gpu::{Gpu, Kernel, Recorder, Storage, layout::Waiting, shader},
     input::lattice::Width,
 };
 
@@ -38,7 +38,7 @@ impl WaitingList {
     /// The kernels.
     pub fn new(gpu: &Gpu) -> Self {
         let [mark, compact] =
-            ["waiting_mark", "waiting_compact"].map(|name| Kernel::new(gpu, name, Width::Narrow, &[]));
+            ["waiting_mark", "waiting_compact"].map(|name| Kernel::new(gpu, shader::COMMON.get(name), Width::Narrow));
         WaitingList { mark, compact, scan: Scan::new(gpu) }
     }
 
@@ -57,11 +57,17 @@ impl WaitingList {
         let params = Storage::new(gpu, "scan parameters", 1)?;
         let compacted = Storage::new(gpu, "compacted list", list.len())?;
         let offsets = Storage::new(gpu, "offsets", list.len())?;
-        let (control, waiting) = (control.buffer(), list.buffer());
+        let buffers = [
+            ("control", control.buffer()),
+            ("waiting", list.buffer()),
+            ("marks", marks.buffer()),
+            ("offsets", offsets.buffer()),
+            ("compacted", compacted.buffer()),
+        ];
         Ok(BoundWaitingList {
             list: list.clone(),
-            mark: self.mark.bind(gpu, &[control, waiting, marks.buffer()]),
-            compact: self.compact.bind(gpu, &[control, waiting, offsets.buffer(), compacted.buffer()]),
+            mark: self.mark.bind(gpu, &buffers),
+            compact: self.compact.bind(gpu, &buffers),
             scan: self.scan.bind(gpu, &params, marks, &offsets)?,
             bytes: compacted.bytes() + offsets.bytes(),
             params,

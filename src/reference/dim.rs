@@ -14,8 +14,8 @@ pub trait ReferenceDim<const D: usize>: Dim<D> {
     /// The buffers that only this dimension has.
     type OwnState: OwnState;
 
-    /// The slots of a vertex: it owns `VERTEX_SLOTS * v` and those that follow.
-    const VERTEX_SLOTS: u32;
+    /// The slots of a vertex: it owns `SLOTS_PER_POINT * v` and those that follow.
+    const SLOTS_PER_POINT: u32;
     /// The Euler characteristic of the sphere of `D` dimensions: vertices − edges + triangles in
     /// 2D, vertices − edges + facets − tetrahedra in 3D. There are twice as many facets as
     /// tetrahedra, so that it is vertices − edges + simplices in both dimensions.

@@ -1,4 +1,4 @@
-//! The reference of `shaders/shared/hilbert.wgsl`.
+//! The reference of `shaders/d3/hilbert.wgsl`.
 
 /// Returns the place of a cell of a grid along the Hilbert curve (Skilling, *Programming the
 /// Hilbert curve*, 2004), here in the loops of the paper: of a 1024³ grid in 3D, of a 32768² one in

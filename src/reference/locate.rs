@@ -18,7 +18,7 @@ where
 {
     state.first = first;
     let infinite = state.params.infinite;
-    let base = Dimension::<D>::VERTEX_SLOTS * infinite;
+    let base = Dimension::<D>::SLOTS_PER_POINT * infinite;
     let outer = |k: usize| base + 1 + k as u32;
     let around: Vec<u32> = (0..=D).map(|k| 4 * outer(k) + D as u32).collect();
     state.simplices[base as usize] = slot(first);
@@ -52,7 +52,7 @@ where
 {
     let first = state.first;
     let infinite = state.params.infinite;
-    let base = Dimension::<D>::VERTEX_SLOTS * infinite;
+    let base = Dimension::<D>::SLOTS_PER_POINT * infinite;
     for point in 0..infinite {
         let tet = if first.as_ref().contains(&point) || state.merged[point as usize] {
             NONE

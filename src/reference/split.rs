@@ -13,7 +13,7 @@ fn child_slot<const D: usize>(t: u32, p: u32, k: u32) -> u32
 where
     Dimension<D>: ReferenceDim<D>,
 {
-    if k == 0 { t } else { Dimension::<D>::VERTEX_SLOTS * p + k - 1 }
+    if k == 0 { t } else { Dimension::<D>::SLOTS_PER_POINT * p + k - 1 }
 }
 
 /// Returns the point that splits a simplex, or [`NONE`].

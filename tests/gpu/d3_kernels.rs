@@ -9,6 +9,7 @@ use crate::kernels::{Kernels, shuffled};
 use gdel::d3::gpu::vertex;
 use gdel::gpu::layout::{CHECK, Counters, DONE, NONE};
 use gdel::gpu::points::{DevicePoints, InputCounts};
+use gdel::gpu::shader;
 use gdel::gpu::start::first_simplex;
 use gdel::gpu::{Storage, layout::Pick, phase1::Buffers};
 use gdel::input::lattice::Width;
@@ -83,38 +84,14 @@ impl Device {
         }
     }
 
-    fn bindings(&self, kernel: &str) -> Vec<&wgpu::Buffer> {
-        let b = &self.buffers;
-        let (control, vertices, tets) = (b.control.buffer(), b.points.vertices.buffer(), b.simplices.buffer());
-        let (neighbors, status, active) = (b.neighbors.buffer(), b.status.buffer(), b.active.buffer());
-        let (free, messages, history) = (b.own.free.buffer(), b.messages.buffer(), b.history.buffer());
-        let (waiting, scores, failed) = (b.waiting.buffer(), b.scores.buffer(), b.own.failed.buffer());
-        match kernel {
-            "locate" => {
-                let (pairs, counts) = (b.points.pairs.buffer(), b.points.counts.buffer());
-                vec![control, vertices, pairs, counts, waiting, tets, neighbors, free]
-            }
-            "pick_score" => vec![control, vertices, tets, waiting, messages, scores],
-            "pick_point" => vec![control, waiting, messages, scores],
-            "split" => vec![control, tets, neighbors, status, active, free, messages, waiting],
-            "relocate_split" => vec![control, vertices, tets, status, messages, waiting],
-            "flip_check" | "flip_check_exact" => vec![control, vertices, tets, neighbors, status, active, messages],
-            "flip_commit" => vec![control, tets, neighbors, status, active, free, messages, history],
-            "flip_link" => vec![control, neighbors, status, active, free, messages],
-            "flip_compact" => vec![control, status, active],
-            "relocate" => vec![control, vertices, status, history, waiting],
-            "clear_votes" => vec![control, status],
-            "mark_failed" => vec![control, vertices, tets, neighbors, status, failed, self.failed_points.buffer()],
-            _ => panic!("no bindings are known for {kernel}"),
-        }
-    }
-
-    fn run(&self, name: &'static str) {
-        self.kernels.run(name, &self.bindings(name));
+    fn run(&self, name: &str) {
+        let mut buffers = self.buffers.bindings();
+        buffers.push(("failed_points", self.failed_points.buffer()));
+        self.kernels.run(shader::D3.get(name), &buffers);
     }
 
     /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.
-    fn both(&self, name: &'static str, state: &mut State, reference: impl Fn(&mut State)) -> State {
+    fn both(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) -> State {
         self.upload(state);
         self.run(name);
         reference(state);
@@ -136,7 +113,7 @@ impl Device {
     }
 
     /// The same for a kernel whose results are the same to the last bit.
-    fn equal(&self, name: &'static str, state: &mut State, reference: impl Fn(&mut State)) {
+    fn equal(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) {
         let device = self.both(name, state, reference);
         assert_eq!(device.simplices, state.simplices, "{name}");
         assert_eq!(device.neighbors, state.neighbors, "{name}");
@@ -257,7 +234,7 @@ fn half_of(state: &State) -> usize {
 }
 
 #[test]
-fn kernels_agree_with_their_twins() {
+fn kernels_agree_with_their_references() {
     compare(Width::Narrow, Pick::Circumcenter, 20);
     compare(Width::Wide, Pick::Centroid, u32::MAX);
     compare(Width::Narrow, Pick::Random, 1);

@@ -4,15 +4,15 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from './package.mjs';
 
-/** The WGSL of a file with its includes resolved, each once. */
-export function assemble(path, width, included = new Set()) {
+/** The WGSL of a file with its includes resolved, each once, and these values for placeholders: `{ width, dim }`. */
+export function assemble(path, values, included = new Set()) {
   const lines = readFileSync(join(root, path), 'utf8').split('\n');
   const resolved = lines.map((line) => {
-    const name = line.match(/^\/\/!include (.*)/)?.[1].trim().replace('{width}', width);
+    const name = line.match(/^\/\/!include (.*)/)?.[1].trim().replace(/\{(\w+)\}/, (_, key) => values[key]);
     if (!name) return line;
     if (included.has(name)) return '';
     included.add(name);
-    return assemble(`shaders/${name}.wgsl`, width, included);
+    return assemble(`shaders/${name}.wgsl`, values, included);
   });
   return resolved.join('\n');
 }

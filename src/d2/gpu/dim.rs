@@ -6,7 +6,10 @@ use crate::{
         layout::{EdgeFlip, blocks},
         vertex,
     },
-    gpu::dim::{Dim, Dimension},
+    gpu::{
+        dim::{Dim, Dimension},
+        shader::{self, Shaders},
+    },
     input::lattice::Width,
     predicates::{Sign, integer::orient2d_wide},
 };
@@ -17,7 +20,7 @@ impl Dim<2> for Dimension<2> {
     type OwnBuffers = OwnBuffers;
 
     const SIMPLICES: &'static str = "triangles";
-    const SHADERS: &'static str = "plane/";
+    const SHADERS: &'static Shaders = &shader::D2;
     /// There are two slots per point, and some.
     const MAX_POINTS: usize = 500_000_000;
     const HISTORY: u32 = 2;

@@ -8,7 +8,7 @@
 //! | `scores` | the scores of waiting points; marks while their list is compacted | the list of failed vertices |
 
 use crate::gpu::{
-    Storage,
+    Binding, Storage,
     layout::{Active, Status},
     phase1::{Buffers, Slot},
 };
@@ -22,7 +22,7 @@ pub struct Aliases {
     /// Neighbours, 4·tetrahedron + face.
     pub neighbors: Storage<Slot>,
     /// Tetrahedra that are flat or of which the lattice does not prove everything, with what is open, as
-    /// `shaders/certify.wgsl` has it.
+    /// `shaders/d3/certify.wgsl` has it.
     pub uncertain: Storage<Active>,
     /// The places in the input of the failed vertices.
     pub failed: Storage<u32>,
@@ -43,5 +43,15 @@ impl Aliases {
             // There is a score per point, and no vertex is listed twice.
             failed: b.scores.clone(),
         }
+    }
+
+    /// Returns them under the names that they have in shaders.
+    pub fn bindings(&self) -> Vec<Binding<'_>> {
+        vec![
+            ("mesh_tetrahedra", self.tets.buffer()),
+            ("mesh_neighbors", self.neighbors.buffer()),
+            ("uncertain", self.uncertain.buffer()),
+            ("failed_points", self.failed.buffer()),
+        ]
     }
 }

@@ -5,6 +5,7 @@ use crate::{
     gpu::{
         dim::{Dim, Dimension},
         layout::FlipNode,
+        shader::{self, Shaders},
     },
     input::lattice::Width,
     predicates::{Sign, integer},
@@ -16,7 +17,7 @@ impl Dim<3> for Dimension<3> {
     type OwnBuffers = OwnBuffers;
 
     const SIMPLICES: &'static str = "tetrahedra";
-    const SHADERS: &'static str = "";
+    const SHADERS: &'static Shaders = &shader::D3;
     /// There are eight slots per point, and some.
     const MAX_POINTS: usize = 120_000_000;
     /// Uniform points take 3.1 nodes per point in the round that takes most.

@@ -3,7 +3,7 @@
 use crate::{
     Error,
     gpu::{
-        Gpu, Recorder, Storage,
+        Binding, Gpu, Recorder, Storage,
         dim::{Dim, Dimension, Flip, OwnBuffers},
         layout::{Active, BLOCK, COUNTER_WORDS, PARAM_WORDS, Status, Waiting},
         points::DevicePoints,
@@ -118,6 +118,30 @@ where
         encoder.clear_buffer(self.simplices.buffer(), 0, None);
         encoder.clear_buffer(self.status.buffer(), 0, None);
         self.own.record_clear(encoder);
+    }
+
+    /// Returns the buffers under the names that they have in shaders: several, where a buffer is put to more than one use.
+    pub fn bindings(&self) -> Vec<Binding<'_>> {
+        let mut bindings = self.own.bindings();
+        bindings.extend([
+            ("control", self.control.buffer()),
+            ("vertices", self.points.vertices.buffer()),
+            ("pairs", self.points.pairs.buffer()),
+            ("counts", self.points.counts.buffer()),
+            ("simplices", self.simplices.buffer()),
+            ("neighbors", self.neighbors.buffer()),
+            ("status", self.status.buffer()),
+            ("actives", self.active.buffer()),
+            // Scores and points are picked before there are messages, and messages pass between commit and link, after the
+            // list of entries that the check leaves undecided. Each has an element per slot, or an entry of one word.
+            ("messages", self.messages.buffer()),
+            ("picks", self.messages.buffer()),
+            ("undecided_entries", self.messages.buffer()),
+            ("history", self.history.buffer()),
+            ("waiting", self.waiting.buffer()),
+            ("scores", self.scores.buffer()),
+        ]);
+        bindings
     }
 
     /// Returns the blocks of slots that there are.

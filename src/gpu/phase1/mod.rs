@@ -19,19 +19,24 @@
 //! and what they leave undone is taken up in the next round. No flip is lost for want of room: when the slots (3D only) or
 //! the history run out, flips wait in the active list until there is more.
 //!
-//! All of it is generic over the number `D` of coordinates; [`Stages`] is what the dimensions supply.
+//! All of it is generic over the number `D` of coordinates; [`Dim`](crate::gpu::dim::Dim) and
+//! [`Finish`] are what the dimensions supply.
 
 mod buffers;
+mod finish;
+mod flip;
+mod insert;
 mod kernels;
 mod memory;
+mod relocate;
 mod run;
 mod settings;
 mod stages;
 mod stats;
 
 pub use buffers::{Buffers, Slot};
+pub use finish::Finish;
 pub use kernels::Phase1;
 pub use run::{Input, Phase1Output, Run};
 pub use settings::Settings;
-pub use stages::{FlipPlan, Stages};
 pub use stats::Phase1Stats;

@@ -9,10 +9,11 @@ use crate::{
         layout::{BLOCK, COUNTER_WORDS, Counters, NONE, PARAM_WORDS, Params, SLOTS_FULL},
         phase1::{
             buffers::{Buffers, largest_bytes},
+            finish::Finish,
+            flip::FlipPlan,
             kernels::Phase1,
             memory::{Kept, Memory},
             settings::Settings,
-            stages::{FlipPlan, Stages},
             stats::Phase1Stats,
         },
         points::{PointBuffers, PointInput},
@@ -42,10 +43,10 @@ where
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase1Output<const D: usize>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     /// The mesh, and what is to be repaired or checked of it.
-    pub result: <Dimension<D> as Stages<D>>::Result,
+    pub result: <Dimension<D> as Finish<D>>::Result,
     /// Points that are vertices of no simplex, with that of the point at the same place of the lattice: exact duplicates,
     /// and points that were rounded to the same place, which are inserted afterwards.
     pub merged: Vec<[u32; 2]>,
@@ -56,7 +57,7 @@ where
 /// A run that is under way.
 pub struct Run<'a, const D: usize>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     kernels: &'a mut Phase1<D>,
     gpu: &'a Gpu,
@@ -119,7 +120,7 @@ fn counters_in(words: &[u32]) -> Counters {
 
 impl<'a, const D: usize> Run<'a, D>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     /// The largest number of points.
     pub const MAX_POINTS: usize = Dimension::<D>::MAX_POINTS;
@@ -266,27 +267,26 @@ where
         if std::mem::take(&mut self.first) {
             self.write_control();
             self.memory.buffers.record_clear(&mut recorder);
-            Dimension::<D>::record_first(stages, &mut recorder, &self.memory.bound, workgroups);
+            stages.insert.record_first(&mut recorder, &self.memory.bound.insert, workgroups);
         } else {
             let waiting = self.waiting();
             self.params.entries_before = self.params.entries;
             // Compacting the list costs about as much as walking it a few times.
             if waiting < self.params.entries / 4 * 3 {
-                let (entries, bound) = (self.params.entries, &self.memory.bound);
-                Dimension::<D>::record_compaction(stages, gpu, &mut recorder, bound, entries, workgroups);
+                let (entries, bound) = (self.params.entries, &self.memory.bound.relocate);
+                stages.relocate.record_compaction(gpu, &mut recorder, bound, entries, workgroups);
                 self.params.entries = waiting;
             }
             self.counters.overflow = 0;
             self.write_control();
         }
         let Memory { buffers, bound } = &self.memory;
-        Dimension::<D>::record_insertion(stages, &mut recorder, bound, buffers, workgroups);
+        stages.insert.record(&mut recorder, &bound.insert, buffers, workgroups);
         if !(self.settings.insert_all && inserts) {
             self.record_flips(&mut recorder);
         }
         if inserts {
-            let (stages, bound) = (&self.kernels.stages, &self.memory.bound);
-            Dimension::<D>::record_relocation(stages, &mut recorder, bound, workgroups);
+            self.kernels.stages.relocate.record(&mut recorder, &self.memory.bound.relocate, workgroups);
         }
         self.stats.dispatches += recorder.dispatches();
         let pending = self.read_counters(recorder.encoder());
@@ -313,7 +313,7 @@ where
 
     fn record_flips(&mut self, recorder: &mut Recorder<'_>) {
         let workgroups = self.workgroups();
-        let (stages, bound) = (&self.kernels.stages, &self.memory.bound);
+        let (flip, bound) = (&self.kernels.stages.flip, &self.memory.bound.flip);
         let exact_every = self.iterations.exact_every();
         let compacts = self.settings.slots_per_active > 0;
         self.iterations.record(
@@ -321,9 +321,9 @@ where
             self.params.bid_bits,
             |recorder, iterations| {
                 let plan = FlipPlan { iterations, exact_every, compacts };
-                Dimension::<D>::record_flips(stages, recorder, bound, plan, workgroups);
+                flip.record(recorder, bound, plan, workgroups);
             },
-            |recorder| Dimension::<D>::record_clear_votes(stages, recorder, bound, workgroups),
+            |recorder| flip.record_clear_votes(recorder, bound, workgroups),
         );
     }
 
@@ -346,9 +346,10 @@ where
         self.memory = self.memory.with_blocks(stages, self.gpu, recorder, blocks)?;
         (self.params.blocks_before, self.params.blocks) = (before, blocks);
         self.params.bid_bits = bid_bits(blocks);
-        Dimension::<D>::record_grow(stages, recorder, &self.memory.bound, self.workgroups());
+        let (bound, workgroups) = (&self.memory.bound, self.workgroups());
+        stages.insert.record_fill_free(recorder, &bound.insert, "grow", workgroups);
         // Bids have another form now.
-        Dimension::<D>::record_clear_votes(stages, recorder, &self.memory.bound, self.workgroups());
+        stages.flip.record_clear_votes(recorder, &bound.flip, workgroups);
         self.iterations.restart();
         Ok(())
     }
@@ -365,8 +366,8 @@ where
         let (submission, counters, finite) = gpu
             .with_error_scope("the end of Phase 1", || {
                 let mut recorder = Recorder::new(gpu, profiler);
-                let (stages, bound) = (&self.kernels.stages, &self.memory.bound);
-                Dimension::<D>::record_finish(stages, gpu, &mut recorder, bound, blocks, workgroups);
+                let (finish, bound) = (&self.kernels.stages.finish, &self.memory.bound.finish);
+                Dimension::<D>::record(finish, gpu, &mut recorder, bound, blocks, workgroups);
                 self.stats.dispatches += recorder.dispatches();
                 let encoder = recorder.encoder();
                 let finite = self.kernels.readback.copy(gpu, encoder, Dimension::<D>::sums(bound), GROUPS, 1);
@@ -382,7 +383,8 @@ where
         let Run { kernels, points, memory, read_before, mut stats, mut clock, .. } = self;
         let readback = &mut kernels.readback;
         let (result, merged_into) =
-            Dimension::<D>::read_result(gpu, readback, &memory.buffers, &memory.bound, finite, &counters).await?;
+            Dimension::<D>::read_result(gpu, readback, &memory.buffers, &memory.bound.finish, finite, &counters)
+                .await?;
         stats.readback_milliseconds = clock.lap() * 1e3;
         stats.counters = counters;
         stats.submits += 2;
@@ -396,7 +398,7 @@ where
 
 impl<const D: usize> Phase1<D>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     /// Runs Phase 1.
     ///

@@ -16,7 +16,7 @@ use crate::reference::dim::{Kernels, OwnState, ReferenceDim};
 impl ReferenceDim<2> for Dimension<2> {
     type OwnState = NoOwnState;
 
-    const VERTEX_SLOTS: u32 = PLANE_BLOCK;
+    const SLOTS_PER_POINT: u32 = PLANE_BLOCK;
     const EULER_CHARACTERISTIC: usize = 2;
 
     fn facet(k: usize) -> &'static [usize] {

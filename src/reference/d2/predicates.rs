@@ -1,4 +1,4 @@
-//! The reference of `shaders/shared/plane_predicates.wgsl`, in big integers.
+//! The reference of `shaders/d2/predicates.wgsl`, in big integers.
 
 use num_bigint::BigInt;
 

@@ -17,7 +17,7 @@ use crate::reference::state::replaced;
 impl ReferenceDim<3> for Dimension<3> {
     type OwnState = OwnState;
 
-    const VERTEX_SLOTS: u32 = BLOCK;
+    const SLOTS_PER_POINT: u32 = BLOCK;
     const EULER_CHARACTERISTIC: usize = 0;
 
     fn facet(k: usize) -> &'static [usize] {

@@ -1,4 +1,4 @@
-//! The reference of `shaders/shared/predicates.wgsl`, which explains how ties are broken.
+//! The reference of `shaders/d3/predicates.wgsl`, which explains how ties are broken.
 //!
 //! The signs agree; the way to them differs: fixed-width integers of the CPU decide nearly
 //! everything, and big integers what is left to the lowered coordinates.
