@@ -35,8 +35,14 @@ pub mod verify;
 #[cfg(all(feature = "wasm", target_arch = "wasm32"))]
 mod wasm;
 
-pub use d2::Mesh2;
-pub use d3::Mesh3;
+pub use d2::{
+    Mesh2,
+    verify::{MeshView2, verify2d},
+};
+pub use d3::{
+    Mesh3,
+    verify::{MeshView, verify3d},
+};
 pub use error::Error;
 pub use input::points::{Points, Points2};
 pub use options::{Backend, Options, Progress};

@@ -4,7 +4,10 @@
 #[path = "io/samples.rs"]
 mod samples;
 
-use gdel::io::{MeshFormat, PointFormat};
+use gdel::{
+    Mesh3,
+    io::{MeshFormat, PointFormat},
+};
 use peak_alloc::PeakAlloc;
 use rand::{RngExt, SeedableRng, seq::IndexedRandom};
 use rand_pcg::Pcg64Mcg;
@@ -76,12 +79,12 @@ fn damaged_files_neither_panic_nor_exhaust_memory() {
             let (format, _, mut bytes) = points.choose(random).expect("samples").clone();
             (0..random.random_range(1..5)).for_each(|_| damage(&mut bytes, random));
             let format = if is_stranger { *PointFormat::ALL.choose(random).expect("formats") } else { format };
-            check(case, format, &bytes, |bytes| drop(format.read(bytes)));
+            check(case, format, &bytes, |bytes| drop(format.read::<3>(bytes)));
         } else {
             let (format, _, mut bytes) = meshes.choose(random).expect("samples").clone();
             (0..random.random_range(1..5)).for_each(|_| damage(&mut bytes, random));
             let format = if is_stranger { *MeshFormat::ALL.choose(random).expect("formats") } else { format };
-            check(case, format, &bytes, |bytes| drop(format.read(&bytes)));
+            check(case, format, &bytes, |bytes| drop(format.read::<Mesh3, _, _>(&bytes)));
         }
     }
 }

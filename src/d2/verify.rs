@@ -20,6 +20,8 @@ pub struct MeshView2<'a> {
     pub triangles: &'a [[u32; 3]],
     /// As in [`Mesh2::halfedges`].
     pub halfedges: Option<&'a [[i32; 3]]>,
+    /// Entry *k* is the triangle across the edge opposite vertex *k*, as in Triangle's files; [`NONE`] on the hull.
+    pub neighbors: Option<&'a [[i32; 3]]>,
     /// As in [`Mesh2::hull`], from any of its vertices.
     pub hull: Option<&'a [u32]>,
     /// As in [`Mesh2::duplicate_of`].
@@ -40,6 +42,7 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
         MeshView2 {
             triangles: &mesh.triangles,
             halfedges: Some(&mesh.halfedges),
+            neighbors: None,
             hull: Some(&mesh.hull),
             duplicate_of: Some(&mesh.duplicate_of),
             dimension: Some(mesh.dimension),
@@ -50,7 +53,7 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
 /// Checks that `mesh` is the Delaunay triangulation of `points`, of any mesh whatever.
 ///
 /// ```
-/// use gdel::verify::{MeshView2, verify2d};
+/// use gdel::{MeshView2, verify2d};
 /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
 /// assert!(verify2d(&points, MeshView2::of_triangles(&[[0, 2, 1]]))?.passed());
 /// let turned = verify2d(&points, MeshView2::of_triangles(&[[0, 1, 2]]))?;
@@ -86,8 +89,15 @@ pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView
     report.decide(Check::Vertices, || input.check_vertices(mesh.triangles, "triangle", Defect::at_triangle).into());
     report.decide(Check::Orientation, || check_orientation(&input.points, mesh.triangles).into());
     report.decide(Check::Facets, || bad_edges.into());
-    report
-        .decide(Check::Neighbors, || mesh.halfedges.map_or(Outcome::NotStated, |h| complex.check_halfedges(h).into()));
+    report.decide(Check::Neighbors, || match (mesh.halfedges, mesh.neighbors) {
+        (None, None) => Outcome::NotStated,
+        (halfedges, neighbors) => {
+            let mut findings = Findings::default();
+            halfedges.into_iter().for_each(|stated| complex.check_halfedges(stated, &mut findings));
+            neighbors.into_iter().for_each(|stated| complex.check_neighbors(stated, &mut findings));
+            findings.into()
+        }
+    });
     let mut ties = Outcome::Passed;
     report.decide(Check::Delaunay, || {
         let (delaunay, canonical) = complex.check_delaunay(&input.points);
@@ -234,12 +244,11 @@ impl<'a> Complex<'a> {
         [t[k], t[(k + 1) % 3]]
     }
 
-    fn check_halfedges(&self, stated: &[[i32; 3]]) -> Findings {
-        let mut findings = Findings::default();
+    fn check_halfedges(&self, stated: &[[i32; 3]], findings: &mut Findings) {
         if stated.len() != self.triangles.len() {
             let detail = format!("half-edges of {} triangles, not of {}", stated.len(), self.triangles.len());
             findings.add(|| Defect::in_mesh(detail));
-            return findings;
+            return;
         }
         for (t, (stated, expected)) in stated.iter().zip(&self.halfedges).enumerate() {
             for k in 0..3 {
@@ -249,7 +258,24 @@ impl<'a> Complex<'a> {
                 }
             }
         }
-        findings
+    }
+
+    fn check_neighbors(&self, stated: &[[i32; 3]], findings: &mut Findings) {
+        if stated.len() != self.triangles.len() {
+            let detail = format!("neighbors of {} triangles, not of {}", stated.len(), self.triangles.len());
+            findings.add(|| Defect::in_mesh(detail));
+            return;
+        }
+        for (t, (stated, across)) in stated.iter().zip(&self.halfedges).enumerate() {
+            for k in 0..3 {
+                // The edge opposite vertex k begins at the next.
+                let expected = if across[(k + 1) % 3] == NONE { NONE } else { across[(k + 1) % 3] / 3 };
+                if stated[k] != expected {
+                    let detail = format!("the neighbor opposite vertex {k} is {expected}, not {}", stated[k]);
+                    findings.add(|| Defect::at_triangle(t, detail));
+                }
+            }
+        }
     }
 
     /// The Delaunay property, and that of the ties. Needs clockwise orientation.

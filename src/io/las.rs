@@ -8,7 +8,7 @@ use las::raw;
 use laz::{LazItemType, LazVlr};
 use std::{
     cell::Cell,
-    io::Cursor,
+    io::{self, Cursor},
     panic::{AssertUnwindSafe, catch_unwind},
 };
 
@@ -29,7 +29,8 @@ const EVLR: std::ops::Range<usize> = 235..247;
 const BATCH: u64 = 1 << 14;
 
 pub(super) fn read(mut bytes: Vec<u8>) -> Result<PointCloud, FormatError> {
-    let header = raw::Header::read_from(bytes.as_slice()).map_err(|error| FormatError::byte(0, error.to_string()))?;
+    let size = bytes.len();
+    let header = raw::Header::read_from(bytes.as_slice()).map_err(|error| in_header(&error, size))?;
     check_size(&header, bytes.len())?;
     if header.evlr.is_some() {
         // Nothing in these is about coordinates, and the crate allocates what they say.
@@ -70,20 +71,53 @@ fn point_count(header: &raw::Header) -> u64 {
 }
 
 fn decode(bytes: Vec<u8>) -> Result<PointCloud, FormatError> {
-    let header = las::Header::new(Cursor::new(bytes.as_slice())).map_err(|e| FormatError::byte(0, e.to_string()))?;
+    let size = bytes.len();
+    let header = las::Header::new(Cursor::new(bytes.as_slice())).map_err(|error| in_header(&error, size))?;
     if header.point_format().is_compressed {
-        let start = raw::Header::read_from(bytes.as_slice()).map_err(|e| FormatError::byte(0, e.to_string()))?;
-        let vlr = header.laz_vlr().map_err(|error| FormatError::byte(0, error.to_string()))?;
+        let start = raw::Header::read_from(bytes.as_slice()).map_err(|error| in_header(&error, size))?;
+        let vlr = header.laz_vlr().map_err(|error| in_header(&error, size))?;
         check_laz(&bytes, start.offset_to_point_data as usize, &vlr, header.point_format().len())?;
     }
-    let mut reader = las::Reader::new(Cursor::new(bytes)).map_err(|error| FormatError::byte(0, error.to_string()))?;
+    let mut reader = las::Reader::new(Cursor::new(bytes)).map_err(|error| in_header(&error, size))?;
     let mut points = Vec::new();
-    let mut batch = reader.read_points(0).map_err(|error| FormatError::point(0, error.to_string()))?;
+    let mut batch = reader.read_points(0).map_err(|error| in_points(&error, 0, size))?;
     while (points.len() as u64) < header.number_of_points() {
-        reader.fill_points(BATCH, &mut batch).map_err(|error| FormatError::point(points.len(), error.to_string()))?;
+        reader.fill_points(BATCH, &mut batch).map_err(|error| in_points(&error, points.len(), size))?;
         points.extend(batch.x().zip(batch.y()).zip(batch.z()).map(|((x, y), z)| [x, y, z]));
     }
     PointCloud::new(PointBuf::F64(points))
+}
+
+/// Describes an error of the crate in what goes before the points, in a file of `size` bytes.
+fn in_header(error: &las::Error, size: usize) -> FormatError {
+    if is_end(error) {
+        return FormatError::byte(size, "the file ends within its header: it is truncated");
+    }
+    FormatError::byte(0, format!("not a LAS or LAZ file that can be read: {error}"))
+}
+
+/// Describes an error of the crate after the first `read` points.
+fn in_points(error: &las::Error, read: usize, size: usize) -> FormatError {
+    if is_end(error) {
+        let what = format!("the file ends within its compressed points: it is truncated after about {read} of them");
+        return FormatError::byte(size, what);
+    }
+    FormatError::point(read, format!("the compressed data is broken: {error}"))
+}
+
+/// Returns whether an error, or one of its causes, is that the file has ended.
+fn is_end(error: &las::Error) -> bool {
+    let mut cause: Option<&(dyn std::error::Error + 'static)> = Some(error);
+    while let Some(error) = cause {
+        let is_end = |error: &io::Error| error.kind() == io::ErrorKind::UnexpectedEof;
+        if error.downcast_ref::<io::Error>().is_some_and(is_end)
+            || matches!(error.downcast_ref::<laz::LasZipError>(), Some(laz::LasZipError::IoError(e)) if is_end(e))
+        {
+            return true;
+        }
+        cause = error.source();
+    }
+    false
 }
 
 /// Checks what the decompressor of LAZ would allocate: its table of chunks, and in each chunk the layers of the point

@@ -17,8 +17,4 @@
 pub(crate) mod input;
 pub(crate) mod report;
 
-pub use crate::{
-    d2::verify::{MeshView2, verify2d},
-    d3::verify::{MeshView, verify3d},
-};
 pub use report::{Check, Counts, Defect, Outcome, Report};

@@ -1,11 +1,34 @@
 //! Broken files: each a clear error that says where, and nothing allocated on a header's word.
 
 use crate::samples::{self, POINTS};
-use gdel::io::{FormatError, PointFormat, Position, read_ele, read_neigh, read_npz, read_vtu};
+use gdel::{
+    Mesh3,
+    io::{FormatError, MeshData3, PointCloud, PointFormat, Position},
+};
+
+fn read_ele(bytes: &[u8]) -> Result<Vec<[u32; 4]>, FormatError> {
+    gdel::io::read_ele::<Mesh3, _, _>(bytes)
+}
+
+fn read_neigh(bytes: &[u8]) -> Result<Vec<[i32; 4]>, FormatError> {
+    gdel::io::read_neigh::<Mesh3, _, _>(bytes)
+}
+
+fn read_npz(bytes: &[u8]) -> Result<MeshData3, FormatError> {
+    gdel::io::read_npz::<Mesh3, _, _>(bytes)
+}
+
+fn read_vtu(bytes: &[u8]) -> Result<MeshData3, FormatError> {
+    gdel::io::read_vtu::<Mesh3, _, _>(bytes)
+}
+
+fn read(format: PointFormat, bytes: impl Into<Vec<u8>>) -> Result<PointCloud, FormatError> {
+    format.read(bytes.into())
+}
 
 #[track_caller]
 fn fails(format: PointFormat, bytes: impl Into<Vec<u8>>, at: Position, what: &str) {
-    check(format.read(bytes.into()).map(|cloud| cloud.points.len()), at, what);
+    check(read(format, bytes).map(|cloud| cloud.points.len()), at, what);
 }
 
 #[track_caller]
@@ -16,11 +39,33 @@ fn check<T: std::fmt::Debug>(result: Result<T, FormatError>, at: Position, what:
     assert!(!error.to_string().contains('\n'), "{error}");
 }
 
+/// A file without points is an empty cloud: of zero bytes where the format has no header, else as the header says.
 #[test]
-fn empty_files_of_every_format() {
+fn files_without_points_of_every_format() {
+    use PointFormat::*;
     for &format in PointFormat::ALL {
-        fails(format, "", Position::Byte(0), "empty");
+        let without_points = match format {
+            Ply => Some(PLY.replace("vertex 2", "vertex 0") + "end_header\n"),
+            Obj | Text | Csv | RawF32 | RawF64 => Some(String::new()),
+            Stl => Some("solid a\nendsolid a\n".into()),
+            Off => Some("OFF\n0 0 0\n".into()),
+            Pcd => Some("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 0\nDATA ascii\n".into()),
+            Node => Some("0 3 0 0\n".into()),
+            Npy => Some(String::from_utf8_lossy(&samples::npy(&[])[10..]).into_owned()),
+            Las => None,
+        };
+        if format != Npy && let Some(file) = without_points {
+            assert_eq!(read(format, file).map(|cloud| cloud.points.len()), Ok(0), "{format:?}");
+        }
+        if !matches!(format, Obj | Text | Csv | RawF32 | RawF64) {
+            fails(format, "", Position::Byte(0), "empty");
+        }
     }
+    assert_eq!(read(Npy, samples::npy(&[])).map(|cloud| cloud.points.len()), Ok(0));
+    assert_eq!(read(Csv, "x,y,z\n").map(|cloud| cloud.points.len()), Ok(0));
+    assert_eq!(read(Text, "# nothing\n").map(|cloud| cloud.points.len()), Ok(0));
+    assert_eq!(read(Obj, "# nothing\n").map(|cloud| cloud.points.len()), Ok(0));
+    fails(Obj, "hello\n", Position::Line(1), "no vertices");
     check(read_ele(b""), Position::Line(1), "empty");
     check(read_npz(b""), Position::Byte(0), "");
     check(read_vtu(b""), Position::Byte(0), "`types`");
@@ -33,7 +78,7 @@ fn truncated_files_of_every_format() {
         for length in (0..bytes.len()).step_by(1 + bytes.len() / 500) {
             let left = &bytes[..length];
             if !is_whole(format, name, left, bytes.len()) {
-                let result = format.read(left.to_vec());
+                let result = read(format, left);
                 assert!(result.is_err(), "{format:?} {name} cut to {length} of {} bytes", bytes.len());
             }
         }
@@ -46,8 +91,11 @@ fn is_whole(format: PointFormat, name: &str, left: &[u8], length: usize) -> bool
         (PointFormat::Obj | PointFormat::Csv | PointFormat::Text, _) => true,
         (PointFormat::Pcd, "ascii") => left.len() + 4 > length,
         (PointFormat::Stl, "ascii") => left.trim_ascii_end().to_ascii_lowercase().ends_with(b"endsolid"),
-        (PointFormat::RawF32, _) => !left.is_empty() && left.len().is_multiple_of(12),
-        (PointFormat::RawF64, _) => !left.is_empty() && left.len().is_multiple_of(24),
+        (PointFormat::RawF32, _) => left.len().is_multiple_of(12),
+        (PointFormat::RawF64, _) => left.len().is_multiple_of(24),
+        // Less its last color, or the comment at the end.
+        (PointFormat::Off, _) => left.len() + 12 >= length,
+        (PointFormat::Node, _) => left.len() + 18 >= length,
         // The last points come before a table of chunks that can be done without.
         (PointFormat::Las, "laz") => left.len() + 32 > length,
         _ => false,
@@ -74,7 +122,7 @@ fn ply_that_ends_in_its_faces() {
 
 #[test]
 fn ply_with_a_bad_number() {
-    fails(PointFormat::Ply, format!("{PLY}end_header\n1 2 3\n4 five 6\n"), Position::Line(9), "f32");
+    fails(PointFormat::Ply, format!("{PLY}end_header\n1 2 3\n4 five 6\n"), Position::Line(9), "`five` is not a number");
 }
 
 #[test]
@@ -84,14 +132,14 @@ fn ply_with_a_bad_header() {
     fails(PointFormat::Ply, PLY.replace("float z", "quad z"), Position::Line(6), "quad");
     fails(PointFormat::Ply, PLY, Position::Line(6), "ends before");
     fails(PointFormat::Ply, PLY.replace("vertex", "face") + "end_header\n", Position::Line(1), "`vertex`");
-    fails(PointFormat::Ply, PLY.replace("float z", "float w") + "end_header\n", Position::Line(1), "`z`");
-    fails(PointFormat::Ply, PLY.replace("float z", "list int float z") + "end_header\n", Position::Line(1), "list");
+    fails(PointFormat::Ply, PLY.replace("float z", "float w") + "end_header\n", Position::Line(3), "`z`");
+    fails(PointFormat::Ply, PLY.replace("float z", "list int float z") + "end_header\n", Position::Line(3), "list");
 }
 
 #[test]
 fn ply_with_endless_rows_of_nothing() {
     let file = PLY.replace("element", "element nothing 9999999999999\nelement") + "end_header\n1 2 3\n4 5 6\n";
-    fails(PointFormat::Ply, file, Position::Line(1), "no properties");
+    fails(PointFormat::Ply, file, Position::Line(3), "no properties");
 }
 
 #[test]
@@ -114,7 +162,7 @@ fn text_with_too_few_columns() {
 #[test]
 fn long_junk_is_quoted_short() {
     let junk = "\u{1b}[2J".repeat(1000);
-    let error = PointFormat::Text.read(junk.into()).unwrap_err();
+    let error = read(PointFormat::Text, junk).unwrap_err();
     assert!(error.to_string().len() < 300 && !error.to_string().contains('\u{1b}'), "{error}");
 }
 
@@ -238,7 +286,7 @@ fn las_with_an_extended_record_of_exabytes() {
     file.extend([0; 20]);
     file.extend(u64::MAX.to_le_bytes());
     file.extend([0; 32]);
-    assert_eq!(PointFormat::Las.read(file).map(|cloud| cloud.points.len()), Ok(samples::las_points().len()));
+    assert_eq!(read(PointFormat::Las, file).map(|cloud| cloud.points.len()), Ok(samples::las_points().len()));
 }
 
 #[test]
@@ -269,7 +317,7 @@ fn npy_that_promises_more_than_it_holds() {
         claim.extend([0; 60]);
         claim
     };
-    assert!(PointFormat::Npy.read(claim("(5,3)")).is_ok());
+    assert!(read(PointFormat::Npy, claim("(5,3)")).is_ok());
     for shape in ["(6, 3)", "(99999999999, 3)", "(18446744073709551615, 3)", "(3, 18446744073709551615)"] {
         let length = claim(shape).len();
         fails(PointFormat::Npy, claim(shape), Position::Byte(length), "ends before");
@@ -287,13 +335,13 @@ fn npy_that_promises_more_than_it_holds() {
 #[test]
 fn npy_of_other_types() {
     let file = String::from_utf8_lossy(&samples::npy(&POINTS)[10..]).into_owned();
-    for other in ["'|O'", "'<c8'", "'<f2'", "[('x', '<f4')]"] {
+    for other in ["'|O'", "'<c8'", "'<f16'", "'|b1'", "[('x', '<f4')]"] {
         let header = file.replace("'<f4'", other);
         let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
         bytes.extend((header.len() as u16).to_le_bytes());
         bytes.extend(header.bytes());
         bytes.extend([0; 120]);
-        assert!(PointFormat::Npy.read(bytes).unwrap_err().what.contains("type"), "{other}");
+        assert!(read(PointFormat::Npy, bytes).unwrap_err().what.contains("type"), "{other}");
     }
 }
 

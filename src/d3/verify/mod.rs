@@ -49,7 +49,7 @@ impl<'a> From<&'a Mesh3> for MeshView<'a> {
 /// Checks that `mesh` is the Delaunay triangulation of `points`, of any mesh whatever.
 ///
 /// ```
-/// use gdel::verify::{MeshView, verify3d};
+/// use gdel::{MeshView, verify3d};
 /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
 /// assert!(verify3d(&points, MeshView::of_tetrahedra(&[[0, 1, 2, 3]]))?.passed());
 /// let inside_out = verify3d(&points, MeshView::of_tetrahedra(&[[1, 0, 2, 3]]))?;
