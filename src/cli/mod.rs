@@ -16,9 +16,11 @@ use gdel::io::{
     files::{FileError, Input, shown},
 };
 use std::{
+    env,
+    ffi::OsString,
     io, panic,
     path::{Path, PathBuf},
-    process::ExitCode,
+    process::{self, ExitCode},
 };
 
 /// Exact 3D and 2D Delaunay triangulation of point clouds.
@@ -86,12 +88,12 @@ pub(crate) fn main() -> ExitCode {
 /// Parses the arguments; where they are wrong, the program says so and exits with 2.
 fn parse() -> Cli {
     Cli::try_parse().unwrap_or_else(|error| {
-        // The message quotes the arguments, which may be names of files with control characters.
-        let text = error.to_string();
-        let safe = text.split('\n').map(printable).collect::<Vec<_>>().join("\n");
-        if error.use_stderr() && safe != text {
-            eprint!("{safe}");
-            std::process::exit(error.exit_code());
+        // The message quotes the arguments, which may be names of files that speak to the terminal.
+        let is_clean = |argument: OsString| printable(&argument.to_string_lossy()) == argument.to_string_lossy();
+        if error.use_stderr() && !env::args_os().all(is_clean) {
+            let text = error.to_string();
+            eprintln!("{}", text.trim_end().split('\n').map(printable).collect::<Vec<_>>().join("\n"));
+            process::exit(error.exit_code());
         }
         error.exit()
     })

@@ -6,4 +6,5 @@ mod samples;
 mod bad_input;
 mod glb;
 mod meshes;
+mod outputs;
 mod points;
