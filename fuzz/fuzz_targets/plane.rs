@@ -2,7 +2,7 @@
 //! small integers, which are often degenerate, or numbers of all exponents.
 #![no_main]
 
-use gdel::{Options, d2::verify::verify2d, delaunay2d};
+use gdel::{Options, delaunay2d, verify2d};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|data: &[u8]| {

@@ -52,7 +52,7 @@ pub(crate) fn quote(piece: &[u8]) -> String {
     const LONGEST: usize = 40;
     let text: String = String::from_utf8_lossy(&piece[..piece.len().min(4 * LONGEST)]).chars().take(LONGEST).collect();
     let dots = if text.len() < piece.len() { "…" } else { "" };
-    format!("`{}{dots}`", text.escape_debug())
+    format!("`{}{dots}`", printable(&text))
 }
 
 /// Returns `text` with its control characters escaped, and those that change the direction of writing: in the name of a

@@ -5,7 +5,7 @@
 
 use crate::io::{FormatError, PointBuf, PointCloud};
 use las::raw;
-use laz::{LazItemType, LazVlr};
+use laz::{LasZipError, LazItemType, LazVlr};
 use std::{
     cell::Cell,
     io::{self, Cursor},
@@ -105,19 +105,14 @@ fn in_points(error: &las::Error, read: usize, size: usize) -> FormatError {
     FormatError::point(read, format!("the compressed data is broken: {error}"))
 }
 
-/// Returns whether an error, or one of its causes, is that the file has ended.
+/// Returns whether an error of the crate is that the file has ended.
 fn is_end(error: &las::Error) -> bool {
-    let mut cause: Option<&(dyn std::error::Error + 'static)> = Some(error);
-    while let Some(error) = cause {
-        let is_end = |error: &io::Error| error.kind() == io::ErrorKind::UnexpectedEof;
-        if error.downcast_ref::<io::Error>().is_some_and(is_end)
-            || matches!(error.downcast_ref::<laz::LasZipError>(), Some(laz::LasZipError::IoError(e)) if is_end(e))
-        {
-            return true;
+    match error {
+        las::Error::Io(error) | las::Error::LasZipError(LasZipError::IoError(error)) => {
+            error.kind() == io::ErrorKind::UnexpectedEof
         }
-        cause = error.source();
+        _ => false,
     }
-    false
 }
 
 /// Checks what the decompressor of LAZ would allocate: its table of chunks, and in each chunk the layers of the point

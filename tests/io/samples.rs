@@ -2,8 +2,8 @@
 #![allow(dead_code)]
 
 use gdel::{
-    Mesh3,
-    io::{MeshFormat, PointFormat, write_ele, write_npz, write_vtu},
+    Mesh2, Mesh3,
+    io::{MeshFormat, PointFormat, write_ele, write_neigh, write_npz, write_vtu},
 };
 use las::{Builder, Point, Transform, Vector};
 use std::io::Cursor;
@@ -66,6 +66,30 @@ pub fn meshes() -> Vec<(MeshFormat, &'static str, Vec<u8>)> {
         (MeshFormat::Vtu, "zlib", VTU_ZLIB.into()),
         (MeshFormat::Npz, "", npz),
     ]
+}
+
+/// Samples of 2D meshes.
+pub fn meshes2() -> Vec<(MeshFormat, &'static str, Vec<u8>)> {
+    let (points, mesh) = mesh2();
+    let [mut ele, mut vtu, mut npz] = [const { Vec::new() }; 3];
+    write_ele(&mut ele, &mesh).expect("memory");
+    write_vtu(&mut vtu, (&points).into(), &mesh).expect("memory");
+    write_npz(&mut npz, (&points).into(), &mesh).expect("memory");
+    vec![(MeshFormat::TetGen, "", ele), (MeshFormat::Vtu, "", vtu), (MeshFormat::Npz, "", npz)]
+}
+
+fn mesh2() -> (Vec<[f64; 2]>, Mesh2) {
+    let points = vec![[0.0, 0.0], [4.0, 0.0], [0.0, 3.0], [5.0, 5.0], [1.0, 1.0]];
+    let mesh = gdel::delaunay2d(&points, &gdel::Options::default()).expect("five points");
+    (points, mesh)
+}
+
+/// The `.neigh` files of a 3D and of a 2D mesh.
+pub fn neighbors() -> [Vec<u8>; 2] {
+    let [mut of_3d, mut of_2d] = [const { Vec::new() }; 2];
+    write_neigh(&mut of_3d, &mesh()).expect("memory");
+    write_neigh(&mut of_2d, &mesh2().1).expect("memory");
+    [of_3d, of_2d]
 }
 
 /// PLY with an element before the vertices, a list among their properties, and faces after them.
