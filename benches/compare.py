@@ -38,7 +38,7 @@ def build():
 
 
 def generate(kind, count, path):
-    subprocess.run([GDEL, "generate", kind, str(count), "--seed", "1", "-o", path], check=True)
+    subprocess.run([GDEL, "generate", kind, str(count), "--seed", "1", "--force", "-o", path], check=True)
 
 
 def uniform(path):
@@ -112,7 +112,7 @@ def compare(name, runs):
 
     ours, theirs, our_peak, their_peak = [], [], 0, 0
     for _ in range(runs):
-        mesh, peak = run([GDEL, "triangulate", path, "--engine", "cpu", "--stats", "json"])
+        mesh, peak = run([GDEL, "triangulate", path, "--backend", "cpu", "--stats", "json"])
         ours.append(mesh["seconds"]["total"])
         our_peak = max(our_peak, peak)
         cgal, peak = run([CGAL, path])

@@ -15,7 +15,8 @@ use rand_pcg::Pcg64Mcg;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// Damaged files per reader; 10,000 are run by hand: `GDEL_MUTATIONS=10000 cargo test --test io_mutations`.
+/// Damaged files per reader; 10,000 are run by hand: `GDEL_MUTATIONS=10000 cargo test --test
+/// io_mutations`.
 const CASES: u64 = 1000;
 /// What a reader may take whatever the file: the tables of the decoders of LAZ and DEFLATE.
 const BASE: usize = 4 << 20;

@@ -64,7 +64,7 @@ const sides = {
       }
     : {
         native() {
-          const args = ['triangulate', file, '--engine', 'cpu', '--stats', 'json'];
+          const args = ['triangulate', file, '--backend', 'cpu', '--stats', 'json'];
           const { seconds, tetrahedra } = JSON.parse(execFileSync(values.native, args, { encoding: 'utf8' }));
           return [seconds.total, tetrahedra];
         },

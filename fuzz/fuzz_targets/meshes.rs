@@ -1,5 +1,5 @@
-//! Every reader of meshes, in 3D and in 2D, and the verifier on what they return; the first byte chooses the format and
-//! the dimension.
+//! Every reader of meshes, in 3D and in 2D, and the verifier on what they return; the first byte
+//! chooses the format and the dimension.
 #![no_main]
 
 use gdel::{

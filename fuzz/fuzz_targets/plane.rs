@@ -1,5 +1,6 @@
-//! The 2D triangulation of any finite points, proven by the verifier. The first byte chooses how bytes become coordinates:
-//! small integers, which are often degenerate, or numbers of all exponents.
+//! The 2D triangulation of any finite points, proven by the verifier. The first byte chooses how
+//! bytes become coordinates: small integers, which are often degenerate, or numbers of all
+//! exponents.
 #![no_main]
 
 use gdel::{Options, delaunay2d, verify2d};

@@ -1,4 +1,5 @@
-//! Every reader of point clouds, in 3D and in 2D; the first byte chooses the format and the dimension.
+//! Every reader of point clouds, in 3D and in 2D; the first byte chooses the format and the
+//! dimension.
 #![no_main]
 
 use gdel::{
@@ -16,7 +17,8 @@ fn check<const D: usize>(format: PointFormat, bytes: &[u8]) {
 
 fuzz_target!(
     init: {
-        // libFuzzer's hook aborts, even on the panics of the decoder of LAZ that the reader turns into errors.
+        // libFuzzer's hook aborts, even on the panics of the decoder of LAZ that the reader turns
+        // into errors.
         let abort = panic::take_hook();
         panic::set_hook(Box::new(move |info| {
             if !panics_are_caught() {

@@ -4,7 +4,10 @@ use super::Failure;
 use clap::{ValueEnum, builder::PossibleValuesParser, builder::TypedValueParser};
 use gdel::{
     Error, Mesh2, Mesh3, Options, Points, Points2,
-    io::{Mesh, MeshData, MeshData2, MeshData3, PointCloud, PointFormat, files::{Input, shown}},
+    io::{
+        Mesh, MeshData, MeshData2, MeshData3, PointCloud, PointFormat,
+        files::{Input, shown},
+    },
     stats::Stats,
     verify::Report as Proof,
 };
@@ -12,10 +15,10 @@ use serde::Serialize;
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Dimension {
-    /// Triangles in 2D: z is dropped
+    /// 2D: triangles
     #[value(name = "2")]
     Two,
-    /// Tetrahedra in 3D
+    /// 3D: tetrahedra
     #[value(name = "3")]
     Three,
 }
@@ -112,7 +115,6 @@ pub(super) fn read<const D: usize>(input: &Input) -> Result<PointCloud<D>, Failu
 
 /// Parses the name of a format of points, which is one of its extensions.
 pub(super) fn format_parser() -> impl TypedValueParser<Value = PointFormat> {
-    PossibleValuesParser::new(PointFormat::ALL.iter().flat_map(|format| format.extensions())).try_map(|name| {
-        PointFormat::from_extension(&name).ok_or("no format of points")
-    })
+    PossibleValuesParser::new(PointFormat::ALL.iter().flat_map(|format| format.extensions()))
+        .try_map(|name| PointFormat::from_extension(&name).ok_or("no format of points"))
 }

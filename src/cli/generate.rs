@@ -1,4 +1,4 @@
-//! `gdel generate`: synthetic point clouds.
+//! `gdel generate`: random point clouds.
 
 use super::{Failure, dimension::Dimension, progress::Progress, usage};
 use clap::{Args, builder::PossibleValuesParser, error::ErrorKind};
@@ -18,13 +18,15 @@ pub(super) struct Arguments {
     /// How many points
     #[arg(value_name = "N")]
     count: u32,
-    /// Points in 3D, or in 2D: these have two columns in text, CSV, NumPy and .node files, else z = 0
+    /// The dimension of the points; 2D points have two columns in text, CSV, NumPy and .node files,
+    /// else z = 0
     #[arg(long, value_enum, default_value_t = Dimension::Three)]
     dim: Dimension,
     /// The same seed gives the same points
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// The file to write: .ply, .obj, .xyz, .csv, .npy, .node, .f32 (rounded to single precision) or .f64
+    /// The file to write: .ply, .obj, .xyz, .csv, .npy, .node, .f32 (rounded to single precision)
+    /// or .f64
     #[arg(short, long = "output", value_name = "FILE")]
     output: PathBuf,
     /// Replace the file if it exists

@@ -1,4 +1,4 @@
-//! The command line: what can be asked for, and how it ends.
+//! The command line: its commands, and how they end.
 
 #[cfg(feature = "gpu")]
 mod adapters;
@@ -12,8 +12,9 @@ mod verify;
 
 use clap::{CommandFactory, Parser, Subcommand, error::ErrorKind};
 use gdel::io::{
-    PointFormat, printable,
+    PointFormat,
     files::{FileError, Input, shown},
+    printable,
 };
 use std::{
     env,
@@ -25,7 +26,11 @@ use std::{
 
 /// Exact 3D and 2D Delaunay triangulation of point clouds.
 #[derive(Parser)]
-#[command(version, about, after_help = "Exit codes: 0 done, 1 bad input or output, 2 wrong usage.")]
+#[command(
+    version,
+    about = "Exact 3D and 2D Delaunay triangulation of point clouds",
+    after_help = "Exit codes: 0 done, 1 bad input or output, 2 wrong usage."
+)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -52,7 +57,10 @@ enum Failure {
     Mesh { path: PathBuf, what: String },
     #[error("{}: not a mesh of the points in {}: {what}", shown(path), shown(input))]
     OtherPoints { path: PathBuf, input: PathBuf, what: String },
-    #[error("{}: this file holds no points: name the file that does first, as in `gdel verify POINTS MESH`", shown(path))]
+    #[error(
+        "{}: this file holds no points: name the file that does first, as in `gdel verify POINTS MESH`",
+        shown(path)
+    )]
     NoPoints { path: PathBuf },
     #[error("standard output: {0}")]
     StandardOutput(#[from] io::Error),

@@ -10,7 +10,8 @@ pub(super) fn watch() {
         iterator::Signals,
         low_level::emulate_default_handler,
     };
-    // Without a handler or a thread, a signal ends the program as ever, which is no reason to fail now.
+    // Without a handler or a thread, a signal ends the program as ever, which is no reason to fail
+    // now.
     if let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) {
         let _ = std::thread::Builder::new().name("signals".into()).spawn(move || {
             for signal in signals.forever() {

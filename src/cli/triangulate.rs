@@ -25,26 +25,27 @@ use std::{
 /// Compute the Delaunay triangulation of a point cloud.
 #[derive(Args)]
 pub(super) struct Arguments {
-    /// The points: .ply, .obj, .stl, .off, .xyz, .txt, .asc, .pts, .csv, .tsv, .pcd, .las, .laz, .npy, .node, .f32 or
-    /// .f64; or `-` for standard input, with `--format`
+    /// The points: .ply, .obj, .stl, .off, .xyz, .txt, .asc, .pts, .csv, .tsv, .pcd, .las, .laz,
+    /// .npy, .node, .f32 or .f64; or `-` for standard input, with `--format`
     input: PathBuf,
-    /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu or .npz; its hull as .ply,
-    /// .obj, .stl or .glb; may be given several times
+    /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu or .npz;
+    /// its hull as .ply, .obj, .stl or .glb; may be given several times
     #[arg(short, long = "output", value_name = "OUTPUT", value_parser = parse_output)]
     outputs: Vec<Output>,
-    /// Replace existing files whatever they are; without this, only earlier outputs of gdel are replaced
+    /// Replace existing files whatever they are; without this, only earlier outputs of gdel are
+    /// replaced
     #[arg(short, long)]
     force: bool,
-    /// Tetrahedra in 3D, or triangles in 2D: then z is dropped, and all outputs have the triangles
+    /// The dimension of the points; 2D drops z, and all outputs have the triangles
     #[arg(long, value_enum, default_value_t = Dimension::Three)]
     dim: Dimension,
     /// The format of the input, whatever its extension
     #[arg(long, value_parser = format_parser())]
     format: Option<PointFormat>,
-    /// What computes; all give the same mesh
+    /// Where to compute; the mesh is the same everywhere
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
-    /// Print statistics in this form instead of a summary; with --repeat one object per line and run
+    /// Print statistics instead of a summary: one line per run
     #[arg(long, value_enum)]
     stats: Option<StatsForm>,
     /// Triangulate this many times
@@ -110,11 +111,8 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
         report(&mesh, total, None)?;
     }
     let (mesh, total) = triangulate::<M, D, N>(points, arguments.backend).map_err(failure)?;
-    let proof = if arguments.verify {
-        Some(verify::proof(|| M::verify(points, &mesh)).map_err(failure)?)
-    } else {
-        None
-    };
+    let proof =
+        if arguments.verify { Some(verify::proof(|| M::verify(points, &mesh)).map_err(failure)?) } else { None };
     report(&mesh, total, proof.as_ref().map(|proof| proof.passed()))?;
     if let Some(proof) = &proof {
         verify::conclude(input.path(), proof)?;

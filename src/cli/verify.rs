@@ -24,12 +24,12 @@ use std::{
 #[derive(Args)]
 #[command(allow_missing_positional = true)]
 pub(super) struct Arguments {
-    /// The points, in any format that `triangulate` reads, or `-` for standard input; without them, the points that the
-    /// mesh's file holds. Where both are there, they must be the same.
+    /// The points, in any format that `triangulate` reads, or `-` for standard input; without them,
+    /// the points that the mesh's file holds. Where both are there, they must be the same.
     points: Option<PathBuf>,
     /// The mesh: .ele (with the .neigh and .node beside it, if any), .vtu or .npz
     mesh: PathBuf,
-    /// Whether the mesh has tetrahedra (3) or triangles in 2D (2)
+    /// The dimension of the mesh
     #[arg(long, value_enum, default_value_t = Dimension::Three)]
     dim: Dimension,
     /// The format of the points, whatever the extension of their file

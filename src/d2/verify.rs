@@ -1,7 +1,8 @@
-//! The verifier for meshes of the plane.
+//! Verification of a 2D mesh: see [`verify`](mod@crate::verify) for what is checked and why it is
+//! enough.
 
 use crate::verify::{
-    input::{Input, dimension_in_plane},
+    input::{Input, dimension_2d},
     report::{Check, Defect, Findings, Outcome, Report},
 };
 use crate::{
@@ -13,25 +14,26 @@ use crate::{
     },
 };
 
-/// What a mesh of the plane states: at least its triangles. What is `None` is not checked.
+/// What a 2D mesh states: at least its triangles. What is `None` is not checked.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct MeshView2<'a> {
-    /// As in [`Mesh2::triangles`].
+    /// The vertices of each triangle: see [`Mesh2::triangles`].
     pub triangles: &'a [[u32; 3]],
-    /// As in [`Mesh2::halfedges`].
+    /// The opposite half-edges: see [`Mesh2::halfedges`].
     pub halfedges: Option<&'a [[i32; 3]]>,
-    /// Entry *k* is the triangle across the edge opposite vertex *k*, as in Triangle's files; [`NONE`] on the hull.
+    /// Entry *k* is the triangle across the edge opposite vertex *k*, as in Triangle's files;
+    /// [`NONE`] on the hull.
     pub neighbors: Option<&'a [[i32; 3]]>,
-    /// As in [`Mesh2::hull`], from any of its vertices.
+    /// The vertices of the hull, from any of them on: see [`Mesh2::hull`].
     pub hull: Option<&'a [u32]>,
-    /// As in [`Mesh2::duplicate_of`].
+    /// The points that stand for duplicates: see [`Mesh2::duplicate_of`].
     pub duplicate_of: Option<&'a [i32]>,
-    /// As in [`Mesh2::dimension`].
+    /// The affine dimension of the points: see [`Mesh2::dimension`].
     pub dimension: Option<u8>,
 }
 
 impl<'a> MeshView2<'a> {
-    /// A mesh of which only the triangles are known.
+    /// Creates the view of a mesh of which only the triangles are known.
     pub fn of_triangles(triangles: &'a [[u32; 3]]) -> Self {
         MeshView2 { triangles, ..MeshView2::default() }
     }
@@ -66,7 +68,7 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
 /// As for [`verify3d`](crate::d3::verify::verify3d).
 pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView2<'m>>) -> Result<Report, Error> {
     let mesh = mesh.into();
-    let input = Input::new(points.into(), dimension_in_plane)?;
+    let input = Input::new(points.into(), dimension_2d)?;
     let mut report = Report { dimension: input.dimension, ..Report::default() };
     report.counts.points = input.points.len();
     report.counts.distinct_points = input.distinct;
@@ -202,7 +204,8 @@ struct Complex<'a> {
 }
 
 impl<'a> Complex<'a> {
-    /// Needs vertices that are indices of points, three different ones a triangle. Also says which edges are wrong.
+    /// Needs vertices that are indices of points, three different ones per triangle. Also says
+    /// which edges are wrong.
     fn new(triangles: &'a [[u32; 3]]) -> (Self, Findings) {
         let mut findings = Findings::default();
         let mut complex = Complex { triangles, halfedges: vec![[NONE; 3]; triangles.len()], ..Complex::default() };

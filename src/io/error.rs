@@ -47,7 +47,7 @@ impl FormatError {
     }
 }
 
-/// A piece of a file for an error message: printable, and short however long the piece is.
+/// Quotes a piece of a file for an error message: printable, and short however long the piece is.
 pub(crate) fn quote(piece: &[u8]) -> String {
     const LONGEST: usize = 40;
     let text: String = String::from_utf8_lossy(&piece[..piece.len().min(4 * LONGEST)]).chars().take(LONGEST).collect();
@@ -55,10 +55,13 @@ pub(crate) fn quote(piece: &[u8]) -> String {
     format!("`{}{dots}`", printable(&text))
 }
 
-/// Returns `text` with its control characters escaped, and those that change the direction of writing: in the name of a
-/// file or a message from elsewhere, they would reach the terminal as commands.
+/// Returns `text` with its control characters escaped, and those that change the direction of
+/// writing: in the name of a file or a message from elsewhere, they would reach the terminal as
+/// commands.
 pub fn printable(text: &str) -> String {
-    let is_command = |c: char| c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let is_command = |c: char| {
+        c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
     let mut result = String::with_capacity(text.len());
     for c in text.chars() {
         if is_command(c) { result.extend(c.escape_default()) } else { result.push(c) }

@@ -14,7 +14,8 @@ mod temporary;
 pub use output::{Output, PointOutput};
 pub use temporary::remove_temporary_files;
 
-/// Why a file was not read or written. Its text is one line of printable characters that starts with the file's name.
+/// Why a file was not read or written. Its text is one line of printable characters that starts
+/// with the file's name.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {
@@ -73,7 +74,8 @@ pub enum FileError {
     },
 }
 
-/// Returns the name of a file for messages: without control characters, and `standard input` for `-`.
+/// Returns the name of a file for messages: without control characters, and `standard input` for
+/// `-`.
 pub fn shown(path: &Path) -> String {
     if path == Path::new("-") { "standard input".into() } else { printable(&path.to_string_lossy()) }
 }
@@ -108,7 +110,8 @@ pub struct Input {
 }
 
 impl Input {
-    /// Creates the input at `path`, where `-` is standard input. Without a `format`, the extension says which it is.
+    /// Creates the input at `path`, where `-` is standard input. Without a `format`, the extension
+    /// says which it is.
     ///
     /// # Errors
     ///
@@ -151,17 +154,17 @@ impl Input {
     }
 }
 
-/// Reads a point cloud; the extension says in which format.
+/// Reads a 3D point cloud; the extension says in which format. [`Input`] reads 2D points, too.
 ///
 /// # Errors
 ///
 /// [`FileError`].
-pub fn read_points<const D: usize>(path: &Path) -> Result<PointCloud<D>, FileError> {
+pub fn read_points(path: &Path) -> Result<PointCloud, FileError> {
     Input::new(path, None)?.read()
 }
 
-/// Reads a mesh; the extension says in which format. For any of the three files of TetGen or Triangle the `.ele` is read,
-/// and the `.neigh` and `.node` beside it where there are such.
+/// Reads a mesh; the extension says in which format. For any of the three files of TetGen or
+/// Triangle the `.ele` is read, and the `.neigh` and `.node` beside it where there are such.
 ///
 /// # Errors
 ///

@@ -2,8 +2,8 @@
 
 use crate::Points;
 use crate::io::{
-    FormatError, Mesh, MeshData, PointCloud, glb, las, npy, npz, obj, off, pcd, ply, raw, stl, surface::Surface, tetgen,
-    text, vtu,
+    FormatError, Mesh, MeshData, PointCloud, glb, las, npy, npz, obj, off, pcd, ply, raw, stl, surface::Surface,
+    tetgen, text, vtu,
 };
 use std::io::{self, Write};
 
@@ -46,15 +46,18 @@ formats! {
         Stl: "stl",
         /// Geomview's OFF, in text: the vertices.
         Off: "off",
-        /// x, y, z per line, separated by white space, commas or semicolons; more columns are ignored.
+        /// x, y, z per line, separated by white space, commas or semicolons; more columns are
+        /// ignored.
         Text: "xyz" | "txt" | "asc" | "pts",
-        /// Comma-, semicolon- or tab-separated values; a first row of names may say which columns are x, y and z.
+        /// Comma-, semicolon- or tab-separated values; a first row of names may say which columns
+        /// are x, y and z.
         Csv: "csv" | "tsv",
         /// Point Cloud Library.
         Pcd: "pcd",
         /// ASPRS LAS and its compressed form LAZ.
         Las: "las" | "laz",
-        /// A NumPy array of shape (n, 3), for 2D points also (n, 2), of whole or floating-point numbers.
+        /// A NumPy array of shape (n, 3), for 2D points also (n, 2), of whole or floating-point
+        /// numbers.
         Npy: "npy",
         /// The points of TetGen or Triangle.
         Node: "node",
@@ -68,12 +71,13 @@ formats! {
 formats! {
     /// A format of tetrahedra, or of the triangles of a 2D mesh.
     MeshFormat {
-        /// TetGen, in 2D Triangle: `.node` (points), `.ele` (tetrahedra) and `.neigh` (neighbours), always together,
-        /// counted from 0.
+        /// TetGen, in 2D Triangle: `.node` (points), `.ele` (tetrahedra) and `.neigh` (neighbours),
+        /// always together, counted from 0.
         TetGen: "ele" | "node" | "neigh",
         /// VTK's XML unstructured grid.
         Vtu: "vtu",
-        /// NumPy arrays `points`, `tetrahedra` and `neighbors`; in 2D `points`, `triangles` and `halfedges`.
+        /// NumPy arrays `points`, `tetrahedra` and `neighbors`; in 2D `points`, `triangles` and
+        /// `halfedges`.
         Npz: "npz",
     }
 }
@@ -97,8 +101,9 @@ impl PointFormat {
     ///
     /// 3D points (`D` = 3) need *x*, *y* and *z*; of 2D points (`D` = 2) a *z* is dropped.
     ///
-    /// A file without points is an empty cloud, whatever its format. So files of zero bytes are read where a format has no
-    /// header (text, CSV, OBJ and raw numbers), and are errors where it has one.
+    /// A file without points is an empty cloud, whatever its format. So files of zero bytes are
+    /// read where a format has no header (text, CSV, OBJ and raw numbers), and are errors where it
+    /// has one.
     ///
     /// # Errors
     ///
@@ -140,11 +145,13 @@ impl PointFormat {
         !matches!(self, PointFormat::Stl | PointFormat::Off | PointFormat::Pcd | PointFormat::Las)
     }
 
-    /// Writes points in this format. 2D points have two columns in text, CSV, NumPy and `.node` files, else *z* = 0.
+    /// Writes points in this format. 2D points have two columns in text, CSV, NumPy and `.node`
+    /// files, else *z* = 0.
     ///
     /// # Errors
     ///
-    /// When `to` cannot be written; [`io::ErrorKind::Unsupported`] for the formats that are read only.
+    /// When `to` cannot be written; [`io::ErrorKind::Unsupported`] for the formats that are read
+    /// only.
     pub fn write<const D: usize>(self, to: impl Write, points: Points<'_, D>) -> io::Result<()> {
         match self {
             PointFormat::Ply => ply::write_points(to, points),
@@ -181,17 +188,19 @@ impl MeshFormat {
 }
 
 impl SurfaceFormat {
-    /// Writes the hull of a 3D mesh, or all triangles of a 2D mesh with *z* = 0; without the points that are not its
-    /// vertices.
+    /// Writes the hull of a 3D mesh, or all triangles of a 2D mesh with *z* = 0; without the points
+    /// that are not its vertices.
     ///
-    /// PLY has the points' precision. STL is binary where that holds the coordinates exactly, which is in single precision,
-    /// else ASCII. The numbers of binary glTF are single precision: coordinates which that does not hold exactly are
-    /// relative to the middle of the surface, whose place in double precision is the translation of the node. Axes stay as
-    /// they are, though glTF has *y* point up.
+    /// PLY has the points' precision. STL is binary where that holds the coordinates exactly, which
+    /// is in single precision, else ASCII. The numbers of binary glTF are single precision:
+    /// coordinates which that does not hold exactly are relative to the middle of the surface,
+    /// whose place in double precision is the translation of the node. Axes stay as they are,
+    /// though glTF has *y* point up.
     ///
     /// # Errors
     ///
-    /// When `to` cannot be written; [`io::ErrorKind::FileTooLarge`] beyond the 4 GB that binary glTF can hold.
+    /// When `to` cannot be written; [`io::ErrorKind::FileTooLarge`] beyond the 4 GB that binary
+    /// glTF can hold.
     pub fn write<const D: usize, const N: usize, M: Mesh<D, N>>(
         self,
         to: impl Write,

@@ -11,9 +11,10 @@ const CHUNK_HEADER: usize = 8;
 
 /// Writes binary glTF.
 ///
-/// Its numbers are single precision. Coordinates which that does not hold exactly are relative to the middle of the
-/// surface, whose place in double precision is the translation of the node; where they leave the range of single
-/// precision, they are scaled, too. Axes stay as they are, though glTF has *y* point up.
+/// Its numbers are single precision. Coordinates which that does not hold exactly are relative to
+/// the middle of the surface, whose place in double precision is the translation of the node; where
+/// they leave the range of single precision, they are scaled, too. Axes stay as they are, though
+/// glTF has *y* point up.
 ///
 /// Fails with [`io::ErrorKind::FileTooLarge`] beyond 4 GB, which is as much as the format can hold.
 pub(super) fn write_surface<const D: usize>(mut to: impl Write, surface: &Surface<'_, D>) -> io::Result<()> {
@@ -31,9 +32,8 @@ pub(super) fn write_surface<const D: usize>(mut to: impl Write, surface: &Surfac
         count => {
             let [min, max] = bounds(positions().map(|p| p.map(f64::from)));
             let node = place.json();
-            format!(
-                r#"{{"asset":{{"version":"2.0","generator":"{MARK}"}},"scene":0,"scenes":[{{"nodes":[0]}}],"#
-            ) + &format!(r#""nodes":[{{"mesh":0,"name":"{name}"{node}}}],"#)
+            format!(r#"{{"asset":{{"version":"2.0","generator":"{MARK}"}},"scene":0,"scenes":[{{"nodes":[0]}}],"#)
+                + &format!(r#""nodes":[{{"mesh":0,"name":"{name}"{node}}}],"#)
                 + r#""meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"#
                 + &format!(r#""buffers":[{{"byteLength":{binary_bytes}}}],"bufferViews":["#)
                 + &format!(r#"{{"buffer":0,"byteLength":{position_bytes},"target":34962}},"#)
@@ -74,14 +74,14 @@ fn length(bytes: usize) -> io::Result<u32> {
     u32::try_from(bytes).map_err(|_| io::Error::new(io::ErrorKind::FileTooLarge, "a .glb file holds at most 4 GB"))
 }
 
-/// The lowest and the highest coordinates of at least one point.
+/// Returns the lowest and the highest coordinates of at least one point.
 fn bounds(points: impl Iterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
     points.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |[low, high], p| {
         [std::array::from_fn(|i| low[i].min(p[i])), std::array::from_fn(|i| high[i].max(p[i]))]
     })
 }
 
-/// Where the numbers of the file are in space: at `middle` + `scale`·number.
+/// Where the numbers of the file are: at `middle` + `scale`·number.
 struct Place {
     middle: [f64; 3],
     scale: f64,
@@ -104,7 +104,7 @@ impl Place {
         std::array::from_fn(|i| ((p[i] - self.middle[i]) / self.scale) as f32)
     }
 
-    /// The node's properties.
+    /// Returns the node's properties.
     fn json(&self) -> String {
         let mut json = String::new();
         if self.middle != [0.0; 3] {

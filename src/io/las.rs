@@ -1,7 +1,7 @@
 //! ASPRS LAS and LAZ, by the crates `las` and `laz`.
 //!
-//! The crates allocate what a broken file says, and panic on some. So what a file says is checked here before they see
-//! it, and a panic is taken for what it is: a broken file.
+//! The crates allocate what a broken file says, and panic on some. So what a file says is checked
+//! here before they see it, and a panic is taken for what it is: a broken file.
 
 use crate::io::{FormatError, PointBuf, PointCloud};
 use las::raw;
@@ -16,8 +16,8 @@ thread_local! {
     static PANICS_ARE_CAUGHT: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether this thread runs a decoder whose panics become errors. A program's panic hook asks this to know when to be
-/// silent.
+/// Returns whether this thread runs a decoder whose panics become errors. A program's panic hook
+/// asks this to know when to be silent.
 pub fn panics_are_caught() -> bool {
     PANICS_ARE_CAUGHT.get()
 }
@@ -52,7 +52,8 @@ fn check_size(header: &raw::Header, size: usize) -> Result<(), FormatError> {
     let promised = points.checked_mul(header.point_data_record_length.into());
     match (data, promised) {
         (None, _) => Err(FormatError::byte(size, "the file ends before its points")),
-        // A mesh cannot name more points than this, and the product cannot overflow in what follows.
+        // A mesh cannot name more points than this, and the product cannot overflow in what
+        // follows.
         (_, promised) if points > u32::MAX.into() || promised.is_none() => {
             Err(FormatError::byte(0, format!("{points} points are too many")))
         }
@@ -115,8 +116,9 @@ fn is_end(error: &las::Error) -> bool {
     }
 }
 
-/// Checks what the decompressor of LAZ would allocate: its table of chunks, and in each chunk the layers of the point
-/// formats from 6 on. `start` is the byte where the chunks begin, after the eight bytes that say where their table is.
+/// Checks what the decompressor of LAZ would allocate: its table of chunks, and in each chunk the
+/// layers of the point formats from 6 on. `start` is the byte where the chunks begin, after the
+/// eight bytes that say where their table is.
 fn check_laz(bytes: &[u8], start: usize, vlr: &LazVlr, record: u16) -> Result<(), FormatError> {
     if vlr.items_size() != u64::from(record) {
         let what = format!("points of {record} bytes cannot be made of items of {} bytes", vlr.items_size());
@@ -145,7 +147,8 @@ fn check_laz(bytes: &[u8], start: usize, vlr: &LazVlr, record: u16) -> Result<()
     if layers == 0 {
         return Ok(());
     }
-    // Each chunk is its first point, the number of its points, the sizes of its layers, and the layers.
+    // Each chunk is its first point, the number of its points, the sizes of its layers, and the
+    // layers.
     let end = table.map_or(bytes.len(), |place| place.min(bytes.len()));
     let mut at = start + 8;
     while at < end {

@@ -24,11 +24,11 @@ pub struct Names {
     pub(super) vtk: u8,
 }
 
-/// A mesh that files can hold: [`Mesh3`] with `D` = 3 coordinates per point and `N` = 4 vertices per tetrahedron, or
-/// [`Mesh2`] with 2 and 3. It cannot be implemented for others.
+/// A mesh that files can hold: [`Mesh3`] with `D` = 3 coordinates per point and `N` = 4 vertices
+/// per tetrahedron, or [`Mesh2`] with 2 and 3. It cannot be implemented for others.
 ///
-/// Text and VTK files have the triangles of [`Mesh2`] counter-clockwise where *y* points up, as their other programs do;
-/// `.npz` has them as they are.
+/// Text and VTK files have the triangles of [`Mesh2`] counter-clockwise where *y* points up, as
+/// their other programs do; `.npz` has them as they are.
 pub trait Mesh<const D: usize, const N: usize>: sealed::Sealed {
     #[doc(hidden)]
     const NAMES: Names;
@@ -45,7 +45,8 @@ pub trait Mesh<const D: usize, const N: usize>: sealed::Sealed {
     #[doc(hidden)]
     fn opposites(&self) -> impl ExactSizeIterator<Item = [i32; N]>;
 
-    /// Returns the triangles of the hull, or all triangles of a 2D mesh, in the sense that files have.
+    /// Returns the triangles of the hull, or all triangles of a 2D mesh, in the sense that files
+    /// have.
     #[doc(hidden)]
     fn surface(&self) -> Cow<'_, [[u32; 3]]>;
 
@@ -93,13 +94,8 @@ impl Mesh<3, 4> for Mesh3 {
 }
 
 impl Mesh<2, 3> for Mesh2 {
-    const NAMES: Names = Names {
-        simplex: "triangle",
-        simplices: "triangles",
-        adjacency: "halfedges",
-        surface: "triangulation",
-        vtk: 5,
-    };
+    const NAMES: Names =
+        Names { simplex: "triangle", simplices: "triangles", adjacency: "halfedges", surface: "triangulation", vtk: 5 };
 
     fn simplices(&self) -> &[[u32; 3]] {
         &self.triangles
@@ -131,9 +127,11 @@ impl Mesh<2, 3> for Mesh2 {
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct MeshData<const D: usize, const N: usize> {
-    /// The indices of the vertices of each tetrahedron, or of each triangle in the sense that [`Mesh2`] has.
+    /// The indices of the vertices of each tetrahedron, or of each triangle in the sense that
+    /// [`Mesh2`] has.
     pub simplices: Vec<[u32; N]>,
-    /// Entry *k* is the tetrahedron, or triangle, opposite vertex *k*, -1 outside; `None` when the file does not say.
+    /// Entry *k* is the tetrahedron, or triangle, opposite vertex *k*, -1 outside; `None` when the
+    /// file does not say.
     pub neighbors: Option<Vec<[i32; N]>>,
     /// The half-edges of a 2D mesh as in [`Mesh2`]; `None` when the file does not say.
     pub halfedges: Option<Vec<[i32; N]>>,

@@ -1,11 +1,12 @@
-//! File formats: point clouds in, meshes and hulls out.
+//! File formats: reads point clouds and meshes, writes point clouds, meshes and hulls.
 //!
-//! Everything here works on bytes and [`std::io::Write`]; only [`files`] knows paths. A reader takes a whole file, so
-//! what a header promises is checked against what is there before anything is allocated, and every error says where in
-//! the file it is.
+//! Everything here works on bytes and [`std::io::Write`]; only [`files`] knows paths. A reader
+//! takes a whole file, so what a header promises is checked against what is there before anything
+//! is allocated, and every error says where in the file it is. No reader drops a point silently:
+//! what does not add up is an error.
 //!
-//! Crates read the formats where one was found that neither panics nor allocates on a broken file's word, or that can
-//! be guarded against it; the modules that read a format themselves say why.
+//! Crates read the formats where one was found that neither panics nor allocates on a broken file's
+//! word, or that can be guarded against it; the modules that read a format themselves say why.
 
 mod error;
 #[cfg(not(target_arch = "wasm32"))]

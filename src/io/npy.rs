@@ -1,7 +1,8 @@
 //! NumPy's `.npy`.
 //!
-//! Read here because `npyz` allocates what the header says, multiplies the shape unchecked, and parses the header
-//! with a recursion that a file can make as deep as it likes. The header is one line that NumPy writes in one form.
+//! Read here because `npyz` allocates what the header says, multiplies the shape unchecked, and
+//! parses the header with a recursion that a file can make as deep as it likes. The header is one
+//! line that NumPy writes in one form.
 
 use crate::Points;
 use crate::io::{FormatError, PointBuf, PointCloud, error::quote};
@@ -12,7 +13,7 @@ pub(super) struct Array<'a> {
     big_endian: bool,
     /// `f`, `i` or `u`.
     kind: u8,
-    /// Bytes a number.
+    /// Bytes per number.
     size: usize,
     shape: Vec<usize>,
     fortran_order: bool,
@@ -64,8 +65,8 @@ impl<'a> Array<'a> {
         Ok(Array { big_endian, kind, size, shape, fortran_order, offset, data })
     }
 
-    /// The rows of an array of shape (n, `N`), whatever its order in memory; `decode` gets a number's bytes in
-    /// little-endian order.
+    /// Returns the rows of an array of shape (n, `N`), whatever its order in memory; `decode` gets
+    /// a number's bytes in little-endian order.
     fn rows<T, const N: usize, const SIZE: usize>(
         &self,
         decode: fn([u8; SIZE]) -> T,
@@ -122,7 +123,7 @@ impl<'a> Array<'a> {
         })
     }
 
-    /// Indices; those that are no `i32` become an error.
+    /// Returns the rows as indices.
     pub(super) fn indices<const N: usize>(&self) -> Result<Vec<[i64; N]>, FormatError> {
         match (self.kind, self.size) {
             // A u64 that is no i64 becomes negative, which no index is.
@@ -175,7 +176,7 @@ fn exact<const D: usize>(points: Vec<[i128; D]>) -> Result<Vec<[f64; D]>, Format
     Ok(points.into_iter().map(|p| p.map(|x| x as f64)).collect())
 }
 
-/// What follows `'key':` in the header's dictionary.
+/// Returns what follows `'key':` in the header's dictionary.
 fn value_of<'a>(header: &'a [u8], key: &str) -> Option<&'a [u8]> {
     ['\'', '"'].iter().find_map(|quote| {
         let key = format!("{quote}{key}{quote}");

@@ -70,9 +70,9 @@ fn read_array<T>(
     Ok(Some(array))
 }
 
-/// Writes `points` (f4 or f8, n × 3) and, of a 3D mesh, `tetrahedra` (u4, m × 4) and `neighbors` (i4, m × 4), uncompressed
-/// as `numpy.savez` does; of a 2D mesh `points` (n × 2), `triangles` (m × 3) and `halfedges` (m × 3), as
-/// [`Mesh2`](crate::Mesh2) has them.
+/// Writes `points` (f4 or f8, n × 3) and, of a 3D mesh, `tetrahedra` (u4, m × 4) and `neighbors`
+/// (i4, m × 4), uncompressed as `numpy.savez` does; of a 2D mesh `points` (n × 2), `triangles` (m ×
+/// 3) and `halfedges` (m × 3), as [`Mesh2`](crate::Mesh2) has them.
 ///
 /// # Errors
 ///
@@ -94,8 +94,8 @@ pub fn write_npz<const D: usize, const N: usize, M: Mesh<D, N>>(
     failure.map_or(result, Err)
 }
 
-/// A file that keeps its first failure, and is silent about it: `ZipWriter`, when it is dropped before its end, tries to
-/// write that end, and prints what comes of it.
+/// A file that keeps its first failure, and is silent about it: `ZipWriter`, when it is dropped
+/// before its end, tries to write that end, and prints what comes of it.
 struct Latch<'f, W> {
     to: W,
     failure: &'f mut Option<io::Error>,
@@ -134,9 +134,10 @@ impl<W: Write> Write for Latch<'_, W> {
 struct Archive<W: Write>(ZipWriter<StreamWriter<W>>);
 
 impl<W: Write> Archive<W> {
-    /// Begins the array of that name.
+    /// Starts the array of that name.
     fn array(&mut self, name: &str) -> io::Result<()> {
-        // 64-bit sizes, so that no mesh is too large, and no date, so that equal meshes make equal files.
+        // 64-bit sizes, so that no mesh is too large, and no date, so that equal meshes make equal
+        // files.
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Stored)
             .large_file(true)

@@ -1,7 +1,7 @@
 //! Wavefront OBJ.
 //!
-//! Read here because the crates do not do what is needed: `tobj` returns no vertices but those of faces, and so
-//! nothing for a point cloud; `obj` reads single precision only.
+//! Read here because the crates do not do what is needed: `tobj` returns no vertices but those of
+//! faces, and so nothing for a point cloud; `obj` reads single precision only.
 
 use crate::Points;
 use crate::io::{

@@ -1,7 +1,8 @@
 //! PCD, the Point Cloud Library's format.
 //!
-//! Read here because `pcd-rs` allocates what a header says (4 GiB for eight bytes) and panics when the sizes of
-//! compressed data disagree with its header, and because the `lzf` crate is deprecated.
+//! Read here because `pcd-rs` allocates what a header says (4 GiB for eight bytes) and panics when
+//! the sizes of compressed data disagree with its header, and because the `lzf` crate is
+//! deprecated.
 
 use crate::io::{
     FormatError, PointCloud,
@@ -18,7 +19,7 @@ struct Field {
 }
 
 impl Field {
-    /// The bytes of all of its values.
+    /// Returns the number of bytes of its values in a point.
     fn size(&self) -> usize {
         self.scalar.size() * self.count
     }
@@ -118,7 +119,7 @@ impl Header {
         Err(FormatError::byte(bytes.len(), "the file ends within its header: there is no DATA line"))
     }
 
-    /// The bytes of one point.
+    /// Returns the number of bytes of a point.
     fn record(&self) -> usize {
         self.fields.iter().map(Field::size).sum()
     }
@@ -254,7 +255,7 @@ struct Column<'a> {
     stride: usize,
 }
 
-/// The points in `records`, which hold `count` values of each column.
+/// Decodes the points in `records`, which hold `count` values of each column.
 fn decode<'a>(records: &[u8], columns: impl Iterator<Item = Column<'a>>, count: usize) -> Vec<[f64; 3]> {
     let mut points = vec![[0.0; 3]; count];
     for column in columns {
@@ -267,7 +268,7 @@ fn decode<'a>(records: &[u8], columns: impl Iterator<Item = Column<'a>>, count: 
     points
 }
 
-/// The compressed data, and its size when decompressed: all points, a field after the other.
+/// Returns the compressed data, and its size when decompressed: all points, field by field.
 fn compressed_block<'a>(bytes: &'a [u8], header: &Header) -> Result<(&'a [u8], usize), FormatError> {
     let ends = || FormatError::byte(bytes.len(), "the file ends within its compressed data");
     let (sizes, data) = bytes[header.offset..].split_first_chunk::<8>().ok_or_else(ends)?;
@@ -288,8 +289,9 @@ fn compressed_block<'a>(bytes: &'a [u8], header: &Header) -> Result<(&'a [u8], u
 /// Three bytes of LZF stand for at most 264.
 const LARGEST_LZF_RATIO: usize = 88;
 
-/// Decompresses LZF: literal runs of up to 32 bytes (a byte below 32 goes before them) and matches of up to 264 bytes
-/// at a distance of up to 8192. `None` when the data is broken or does not make `size` bytes.
+/// Decompresses LZF: literal runs of up to 32 bytes (a byte below 32 goes before them) and matches
+/// of up to 264 bytes at a distance of up to 8192. `None` when the data is broken or does not make
+/// `size` bytes.
 fn decompress_lzf(mut data: &[u8], size: usize) -> Option<Vec<u8>> {
     let mut output = Vec::with_capacity(size);
     while let Some((&control, rest)) = data.split_first() {

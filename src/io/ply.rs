@@ -1,8 +1,9 @@
 //! Stanford PLY.
 //!
-//! Read here because the errors of `serde-ply` name Rust's types where a user needs the place and the cause, and because
-//! it takes no lines that end in `\r`.
+//! Read here because the errors of `serde-ply` name Rust's types where a user needs the place and
+//! the cause, and because it takes no lines that end in `\r`.
 
+use crate::Points;
 use crate::io::{
     FormatError, PointCloud,
     error::quote,
@@ -11,7 +12,6 @@ use crate::io::{
     surface::{MARK, Surface, padded},
     text::{line_at, split_line},
 };
-use crate::Points;
 use std::io::{self, Write};
 
 #[derive(Clone, Copy, PartialEq)]
@@ -59,16 +59,22 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     let is_single = vertex.coordinates_are_single()?;
     let mut data = Data { bytes, at: header.offset, encoding: header.encoding };
     let mut points = Vec::new();
-    // Elements after the vertices are read too: a file that ends in them is broken, and its user should know.
+    // Elements after the vertices are read too: a file that ends in them is broken, and its user
+    // should know.
     for element in &header.elements {
-        let axes: Vec<Option<usize>> =
-            element.properties.iter().map(|property| axis(&property.name).filter(|_| element.name == b"vertex")).collect();
+        let axes: Vec<Option<usize>> = element
+            .properties
+            .iter()
+            .map(|property| axis(&property.name).filter(|_| element.name == b"vertex"))
+            .collect();
         for index in 0..element.count {
             let mut point = [0.0; 3];
             for (property, axis) in element.properties.iter().zip(&axes) {
                 let ends = |data: &Data<'_>| data.ends(element, index);
                 match (property.kind, axis) {
-                    (Kind::Number(scalar), Some(axis)) => point[*axis] = data.number(scalar)?.ok_or_else(|| ends(&data))?,
+                    (Kind::Number(scalar), Some(axis)) => {
+                        point[*axis] = data.number(scalar)?.ok_or_else(|| ends(&data))?
+                    }
                     (Kind::Number(scalar), None) => data.number(scalar)?.map(drop).ok_or_else(|| ends(&data))?,
                     (Kind::List { count, item }, _) => data.skip_list(count, item)?.ok_or_else(|| ends(&data))?,
                 }
@@ -104,7 +110,9 @@ impl Header {
             let wrong = |what: String| Err(FormatError::line(line, what));
             match words.as_slice() {
                 [b"ply"] if line == 1 => {}
-                _ if line == 1 => return wrong(format!("not PLY: the first line is not `ply`, but {}", quote(content))),
+                _ if line == 1 => {
+                    return wrong(format!("not PLY: the first line is not `ply`, but {}", quote(content)));
+                }
                 [b"comment" | b"obj_info", ..] | [] => {}
                 [b"format", name, b"1.0"] => {
                     encoding = Some(match *name {

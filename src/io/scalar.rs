@@ -36,7 +36,8 @@ impl Scalar {
         !matches!(self, Scalar::I32 | Scalar::I64 | Scalar::U32 | Scalar::U64 | Scalar::F64)
     }
 
-    /// Decodes the value at the start of `bytes`, which hold at least one. Integers of 64 bits are rounded.
+    /// Decodes the value at the start of `bytes`, which hold at least one. Integers of 64 bits are
+    /// rounded.
     pub(super) fn decode(self, bytes: &[u8], is_big_endian: bool) -> f64 {
         fn at<const N: usize>(bytes: &[u8], is_big_endian: bool) -> [u8; N] {
             std::array::from_fn(|i| bytes[if is_big_endian { N - 1 - i } else { i }])

@@ -1,7 +1,8 @@
 //! STL, ASCII and binary.
 //!
-//! Read here because `stl_io` says no line where a file is broken, refuses solids without a name, stops after the
-//! first of several, and takes a binary file whose header happens to begin with `solid` for text.
+//! Read here because `stl_io` says no line where a file is broken, refuses solids without a name,
+//! stops after the first of several, and takes a binary file whose header happens to begin with
+//! `solid` for text.
 
 use crate::io::{
     FormatError, PointBuf, PointCloud,
@@ -18,12 +19,14 @@ use std::{
 const HEADER: usize = 80;
 const TRIANGLE: usize = 50;
 
-/// The corners, each of those with equal coordinates once, in the order of their first appearance.
+/// Reads the corners, each of those with equal coordinates once, in the order of their first
+/// appearance.
 pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     if is_ascii(bytes) { read_ascii(bytes) } else { read_binary(bytes) }
 }
 
-/// Programs also write binary files that begin with `solid`, so the size decides, where it can.
+/// Returns whether a file is text. Programs also write binary files that begin with `solid`, so the
+/// size decides, where it can.
 fn is_ascii(bytes: &[u8]) -> bool {
     let text = bytes.trim_ascii_start();
     if !text.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) {
@@ -123,7 +126,8 @@ impl<T, Bits: Eq + std::hash::Hash> Distinct<T, Bits> {
     }
 }
 
-/// Writes binary STL where that holds the coordinates exactly, which is in single precision, else ASCII.
+/// Writes binary STL where that holds the coordinates exactly, which is in single precision, else
+/// ASCII.
 pub(super) fn write_surface<const D: usize>(mut to: impl Write, surface: &Surface<'_, D>) -> io::Result<()> {
     let is_single = surface.vertices().flatten().all(|x| f64::from(x as f32) == x);
     let name = format!("{MARK}: {}", surface.name);

@@ -41,7 +41,8 @@ pub fn write_ele<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl Wri
     write_rows(to, mesh.simplices().iter().map(|&row| M::turn(row)))
 }
 
-/// Writes the neighbours: the *k*-th is opposite the *k*-th vertex in [`write_ele`]'s file, -1 outside.
+/// Writes the neighbours: the *k*-th is opposite the *k*-th vertex in [`write_ele`]'s file, -1
+/// outside.
 ///
 /// # Errors
 ///
@@ -52,10 +53,7 @@ pub fn write_neigh<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl W
 }
 
 /// Writes the rows, numbered from 0, and a comment where TetGen and Triangle have theirs.
-fn write_rows<T: Display, const N: usize>(
-    mut to: impl Write,
-    rows: impl Iterator<Item = [T; N]>,
-) -> io::Result<()> {
+fn write_rows<T: Display, const N: usize>(mut to: impl Write, rows: impl Iterator<Item = [T; N]>) -> io::Result<()> {
     for (i, row) in rows.enumerate() {
         write!(to, "{i}")?;
         row.iter().try_for_each(|entry| write!(to, " {entry}"))?;
@@ -64,7 +62,8 @@ fn write_rows<T: Display, const N: usize>(
     writeln!(to, "# {MARK}")
 }
 
-/// Reads the points of a `.node` file, numbered from 0 or 1; of 2D points the third coordinate is dropped.
+/// Reads the points of a `.node` file, numbered from 0 or 1; of 2D points the third coordinate is
+/// dropped.
 pub(super) fn read_node<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
     let (first_line, header) = content(bytes).next().ok_or_else(|| FormatError::line(1, "the file is empty"))?;
     match integer(fields(header).nth(1), first_line)? {
@@ -82,8 +81,8 @@ fn read_points<const E: usize>(bytes: &[u8]) -> Result<Vec<[f64; E]>, FormatErro
     Ok(rows.rows.into_iter().map(|row| row.entries).collect())
 }
 
-/// Reads the vertices of the tetrahedra, or of the triangles in the sense that [`Mesh2`](crate::Mesh2) has, counted from 0.
-/// A file whose first row is number 1 counts from 1.
+/// Reads the vertices of the tetrahedra, or of the triangles in the sense that
+/// [`Mesh2`](crate::Mesh2) has, counted from 0. A file whose first row is number 1 counts from 1.
 ///
 /// # Errors
 ///

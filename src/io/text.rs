@@ -4,7 +4,8 @@ use crate::Points;
 use crate::io::{FormatError, PointBuf, PointCloud, error::quote};
 use std::io::{self, Write};
 
-/// Splits off the first line, without its end: `\n`, `\r\n`, or the lone `\r` of old Macintosh programs.
+/// Splits off the first line, without its end: `\n`, `\r\n`, or the lone `\r` of old Macintosh
+/// programs.
 pub(super) fn split_line(text: &[u8]) -> (&[u8], &[u8]) {
     let end = text.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(text.len());
     let (line, rest) = text.split_at(end);
@@ -43,7 +44,8 @@ pub(super) fn line_at(bytes: &[u8], offset: usize) -> usize {
     }
 }
 
-/// Returns the fields of a line: separated by semicolons or commas where it has any, else by white space.
+/// Returns the fields of a line: separated by semicolons or commas where it has any, else by white
+/// space.
 pub(super) fn fields(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     let separator = [b';', b','].into_iter().find(|separator| line.contains(separator));
     line.split(move |b| separator.map_or(b.is_ascii_whitespace(), |s| *b == s))
@@ -77,7 +79,8 @@ struct Table<const D: usize> {
     dropped: Option<usize>,
     points: Vec<[f64; D]>,
     dropped_z: bool,
-    /// The line of the first point, its number of fields, and how many of these, from the first on, are numbers.
+    /// The line of the first point, its number of fields, and how many of these, from the first on,
+    /// are numbers.
     first: Option<(usize, usize, usize)>,
     /// Whether the first row names the columns.
     is_named: bool,
@@ -175,7 +178,8 @@ impl<const D: usize> Table<D> {
     }
 }
 
-/// Returns a column's name without the mark of a comment that CloudCompare and others put before the first.
+/// Returns a column's name without the mark of a comment that CloudCompare and others put before
+/// the first.
 fn bare(name: &[u8]) -> &[u8] {
     let start = name.iter().position(|b| !b"/# ".contains(b)).unwrap_or(name.len());
     &name[start..]
@@ -188,7 +192,8 @@ fn leading_numbers(row: &[&[u8]]) -> usize {
 /// Reads XYZ, and PTS, where a line with nothing but a count goes before the points of each scan.
 pub(super) fn read<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
     let mut table = Table::new();
-    // The line of the count before the points of the current scan, and what the number of points will be after them.
+    // The line of the count before the points of the current scan, and what the number of points
+    // will be after them.
     let mut scan: Option<(usize, usize)> = None;
     let mut row = Vec::new();
     for (line, content) in lines(bytes) {
@@ -221,7 +226,8 @@ fn whole_number(field: &[u8]) -> Option<usize> {
     std::str::from_utf8(field).ok()?.parse().ok()
 }
 
-/// Reads comma-, semicolon- or tab-separated values with quoted fields; text with white space between is taken too.
+/// Reads comma-, semicolon- or tab-separated values with quoted fields; text with white space
+/// between is taken too.
 pub(super) fn read_csv<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
     let first = lines(bytes).map(|(_, line)| line).find(|line| !line.is_empty()).unwrap_or_default();
     let Some(delimiter) = [b';', b',', b'\t'].into_iter().find(|d| first.contains(d)) else {
@@ -252,8 +258,8 @@ pub(super) fn read_csv<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, Fo
     }
 }
 
-/// Writes one point per line, with digits enough to read back the same numbers: those of the `f64` of the same value, as
-/// a reader of decimals cannot know that single precision is meant.
+/// Writes one point per line, with digits enough to read back the same numbers: those of the `f64`
+/// of the same value, as a reader of decimals cannot know that single precision is meant.
 pub(super) fn write<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {
     points.iter().try_for_each(|p| write_row(&mut to, p, " "))
 }

@@ -22,8 +22,8 @@ use quick_xml::{
 };
 use std::io::{self, Read, Write};
 
-/// Writes points and tetrahedra or triangles, as binary data appended to the XML, which is exact and the fastest to load.
-/// 2D points get *z* = 0.
+/// Writes points and tetrahedra or triangles, as binary data appended to the XML, which is exact
+/// and the fastest to load. 2D points get *z* = 0.
 ///
 /// # Errors
 ///
@@ -83,11 +83,13 @@ _"#,
     to.write_all(b"\n  </AppendedData>\n</VTKFile>\n")
 }
 
-/// Reads points and tetrahedra or triangles; all forms of data are known: ASCII, base64, appended, compressed with zlib.
+/// Reads points and tetrahedra or triangles; all forms of data are known: ASCII, base64, appended,
+/// compressed with zlib.
 ///
 /// # Errors
 ///
-/// Where the file is broken, and how; when it has cells of other types, or 2D points with *z* other than 0.
+/// Where the file is broken, and how; when it has cells of other types, or 2D points with *z* other
+/// than 0.
 pub fn read_vtu<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> Result<MeshData<D, N>, FormatError> {
     let names = M::NAMES;
     let file = File::parse(bytes)?;
@@ -270,7 +272,7 @@ impl<'a> File<'a> {
         block.map(Some).ok_or_else(|| broken("its data is broken or ends too early"))
     }
 
-    /// A length (4 or 8 bytes) at the start of `data`, and what follows it.
+    /// Returns the length (4 or 8 bytes) at the start of `data`, and what follows it.
     fn length<'d>(&self, data: &'d [u8]) -> Option<(usize, &'d [u8])> {
         let (bytes, rest) = data.split_at_checked(self.length_size)?;
         let value = bytes.iter().enumerate().fold(0u64, |value, (i, &byte)| {
@@ -280,8 +282,8 @@ impl<'a> File<'a> {
         Some((usize::try_from(value).ok()?, rest))
     }
 
-    /// The array's bytes: after their length, or in compressed blocks after the number of blocks, the size of a block,
-    /// of the last one, and the compressed sizes of all.
+    /// Returns the array's bytes: after their length, or in compressed blocks after the number of
+    /// blocks, the size of a block, of the last one, and the compressed sizes of all.
     fn unpack(&self, data: &[u8]) -> Option<Vec<u8>> {
         let (length, mut rest) = self.length(data)?;
         if !self.is_compressed {
@@ -331,13 +333,14 @@ fn position(xml: &Reader<&[u8]>) -> usize {
     xml.buffer_position() as usize
 }
 
-/// The attribute's value, empty where there is none. No attribute that matters has anything to unescape.
+/// Returns the attribute's value, empty where there is none. No attribute that matters has anything
+/// to unescape.
 fn attribute(tag: &BytesStart<'_>, name: &str) -> String {
     tag.try_get_attribute(name).ok().flatten().map(|attribute| attribute.value.into_owned()).unwrap_or_default()
 }
 
-/// Decodes base64 that may consist of several pieces, each with its padding: VTK encodes a length and the data after
-/// it one by one.
+/// Decodes base64 that may consist of several pieces, each with its padding: VTK encodes a length
+/// and the data after it one by one.
 fn decode_base64(text: &[u8]) -> Option<Vec<u8>> {
     const ENGINE: GeneralPurpose = GeneralPurpose::new(
         &alphabet::STANDARD,

@@ -65,7 +65,8 @@ fn dropped_coordinates_and_ignored_columns_are_reported() {
     assert_eq!(String::from_utf8(output.stderr).unwrap(), "gdel: q.xyz: the z coordinates are dropped\n");
 }
 
-/// No control character of a name reaches the terminal, neither from us nor from the parser of arguments.
+/// No control character of a name reaches the terminal, neither from us nor from the parser of
+/// arguments.
 #[cfg(unix)]
 #[test]
 fn control_characters_in_file_names_are_escaped() {

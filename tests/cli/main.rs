@@ -67,7 +67,11 @@ fn bunny_to_all_outputs_and_back() {
     let outputs =
         ["-o", "b.ele", "-o", "b.vtu", "-o", "b.npz", "-o", "h.ply", "-o", "h.obj", "-o", "h.stl", "-o", "h.glb"];
     let summary = succeeds(path, &[&["triangulate", BUNNY, "--verify"], &outputs[..]].concat());
-    assert!(summary.contains("tetrahedra      246218") && summary.contains("verified        this is the Delaunay triangulation"), "{summary}");
+    assert!(
+        summary.contains("tetrahedra      246218")
+            && summary.contains("verified        this is the Delaunay triangulation"),
+        "{summary}"
+    );
     assert_eq!(files(path), ["b.ele", "b.neigh", "b.node", "b.npz", "b.vtu", "h.glb", "h.obj", "h.ply", "h.stl"]);
     for mesh in ["b.node", "b.ele", "b.neigh", "b.vtu", "b.npz"] {
         succeeds(path, &["verify", BUNNY, mesh]);

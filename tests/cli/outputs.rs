@@ -64,7 +64,8 @@ fn other_files_are_replaced_by_force_only() {
     succeeds(path, &["generate", "ball", "9", "--force", "-o", "scan.obj"]);
 }
 
-/// No output is begun, nor a point read, before all outputs are known to be possible; no message names a temporary file.
+/// No output is begun, nor a point read, before all outputs are known to be possible; no message
+/// names a temporary file.
 #[test]
 fn outputs_are_probed_first_and_messages_name_them() {
     let folder = folder();
@@ -101,7 +102,8 @@ fn signals_leave_no_temporary_files() {
     let mut arguments = vec!["triangulate", "p.f64", "--backend", "cpu", "--force"];
     arguments.extend(outputs.iter().flat_map(|output| ["-o", output]));
     for (name, number) in [("INT", 2), ("TERM", 15)] {
-        // Where the program comes to its end without having been met while it wrote, it begins again.
+        // Where the program comes to its end without having been met while it wrote, it begins
+        // again.
         let status = loop {
             let mut child = command(path, &arguments).stdout(Stdio::null()).spawn().unwrap();
             let is_met = loop {

@@ -26,12 +26,20 @@ fn verify_reads_the_neighbours_of_either_dimension() {
         let neigh = path.join("m.neigh");
         let good = fs::read_to_string(&neigh).unwrap();
         // Every number of every row.
-        let rows: Vec<Vec<i32>> =
-            good.lines().skip(1).take_while(|row| !row.starts_with('#')).map(|row| row.split(' ').map(|n| n.parse().unwrap()).collect()).collect();
+        let rows: Vec<Vec<i32>> = good
+            .lines()
+            .skip(1)
+            .take_while(|row| !row.starts_with('#'))
+            .map(|row| row.split(' ').map(|n| n.parse().unwrap()).collect())
+            .collect();
         for (i, row) in rows.iter().enumerate().step_by(7) {
             for (k, &n) in row.iter().enumerate().skip(1) {
                 corrupt(&neigh, i + 1, k, &(n + 1).to_string());
-                fails(path, &["verify", "p.csv", "m.ele", "--dim", dim], "m.ele: not the Delaunay triangulation: neighbors");
+                fails(
+                    path,
+                    &["verify", "p.csv", "m.ele", "--dim", dim],
+                    "m.ele: not the Delaunay triangulation: neighbors",
+                );
                 fs::write(&neigh, &good).unwrap();
             }
         }

@@ -39,7 +39,8 @@ fn check<T: std::fmt::Debug>(result: Result<T, FormatError>, at: Position, what:
     assert!(!error.to_string().contains('\n'), "{error}");
 }
 
-/// A file without points is an empty cloud: of zero bytes where the format has no header, else as the header says.
+/// A file without points is an empty cloud: of zero bytes where the format has no header, else as
+/// the header says.
 #[test]
 fn files_without_points_of_every_format() {
     use PointFormat::*;
@@ -54,7 +55,9 @@ fn files_without_points_of_every_format() {
             Npy => Some(String::from_utf8_lossy(&samples::npy(&[])[10..]).into_owned()),
             Las => None,
         };
-        if format != Npy && let Some(file) = without_points {
+        if format != Npy
+            && let Some(file) = without_points
+        {
             assert_eq!(read(format, file).map(|cloud| cloud.points.len()), Ok(0), "{format:?}");
         }
         if !matches!(format, Obj | Text | Csv | RawF32 | RawF64) {
@@ -219,7 +222,8 @@ fn pcd_with_a_bad_header() {
     fails(PointFormat::Pcd, header.replace("7 8 9 3\n", ""), Position::Line(14), "3 of the 4 points");
 }
 
-/// The header of a PCD file that claims `points` points and compressed data of these sizes, with no data at all.
+/// The header of a PCD file that claims `points` points and compressed data of these sizes, with no
+/// data at all.
 fn pcd_claim(points: u64, compressed: u32, size: u32) -> Vec<u8> {
     let header = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n";
     let mut file = format!("{header}POINTS {points}\nDATA binary_compressed\n").into_bytes();
@@ -391,7 +395,12 @@ fn npz_without_tetrahedra() {
 
 #[test]
 fn several_points_on_a_line() {
-    fails(PointFormat::Text, "0 0 0 1 0 0 0 1 0 0 0 1\n", Position::Line(1), "all 12 numbers of the file are on one line");
+    fails(
+        PointFormat::Text,
+        "0 0 0 1 0 0 0 1 0 0 0 1\n",
+        Position::Line(1),
+        "all 12 numbers of the file are on one line",
+    );
     fails(PointFormat::Text, "0 0 0 1 0 0\n0 1 0\n", Position::Line(2), "3 numbers, but line 1 has 6");
     fails(PointFormat::Text, "0 0 0\n0 1 0 0 0 1\n", Position::Line(2), "6 numbers, but line 1 has 3");
     fails(PointFormat::Text, "4\n0 0 0 1 0 0\n0 1 0 0 0 1\n", Position::Line(1), "4 points in all, one per line");

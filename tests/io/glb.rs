@@ -1,9 +1,6 @@
 //! Binary glTF, read back by the crate `gltf`, which also validates it.
 
-use gdel::{
-    Mesh2, Mesh3, Options, Points,
-    io::SurfaceFormat,
-};
+use gdel::{Mesh2, Mesh3, Options, Points, io::SurfaceFormat};
 
 /// A file's triangles by the places of their corners in space, and the translation of its node.
 fn read(file: &[u8]) -> (Vec<[[f64; 3]; 3]>, [f64; 3]) {

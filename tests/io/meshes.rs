@@ -4,8 +4,8 @@ use crate::samples::{self, POINTS, mesh};
 use gdel::{
     Mesh2, Mesh3, Points,
     io::{
-        MeshData2, MeshData3, PointBuf, PointFormat, SurfaceFormat, read_ele, read_neigh, read_npz, read_vtu, write_ele,
-        write_neigh, write_node, write_npz, write_vtu,
+        MeshData2, MeshData3, PointBuf, PointFormat, SurfaceFormat, read_ele, read_neigh, read_npz, read_vtu,
+        write_ele, write_neigh, write_node, write_npz, write_vtu,
     },
 };
 use std::io::{Cursor, Read};
@@ -37,7 +37,10 @@ fn tetgen_files_that_count_from_one() {
         read_ele::<Mesh3, _, _>(b"# made by TetGen\n 2  4  0\n  1  1 2 3 4\n\n 2  2 3 4 5 # last\n"),
         Ok(vec![[0, 1, 2, 3], [1, 2, 3, 4]])
     );
-    assert_eq!(read_neigh::<Mesh3, _, _>(b"2 4\n1 2 -1 -1 -1\n2 -1 -1 -1 1\n"), Ok(vec![[1, -1, -1, -1], [-1, -1, -1, 0]]));
+    assert_eq!(
+        read_neigh::<Mesh3, _, _>(b"2 4\n1 2 -1 -1 -1\n2 -1 -1 -1 1\n"),
+        Ok(vec![[1, -1, -1, -1], [-1, -1, -1, 0]])
+    );
 }
 
 fn data(simplices: Vec<[u32; 4]>, neighbors: Option<Vec<[i32; 4]>>, points: PointBuf) -> MeshData3 {
@@ -67,7 +70,8 @@ fn vtu_of_other_programs() {
     assert_eq!(compressed.simplices, simplices);
 }
 
-/// The files of a 2D mesh, read back: triangles and neighbours in the sense of `Mesh2`, and the points.
+/// The files of a 2D mesh, read back: triangles and neighbours in the sense of `Mesh2`, and the
+/// points.
 #[test]
 fn files_of_2d_meshes_are_read_back() {
     let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0], [5.0, 5.0], [1.0, 1.0f32]];

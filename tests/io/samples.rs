@@ -1,4 +1,5 @@
-//! Small valid files of every format: written by hand, or by other crates than those that read them.
+//! Small valid files of every format: written by hand, or by other crates than those that read
+//! them.
 #![allow(dead_code)]
 
 use gdel::{

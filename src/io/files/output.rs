@@ -50,14 +50,17 @@ impl Output {
     /// Returns the files that are written: three for TetGen and Triangle.
     fn paths(&self) -> Vec<PathBuf> {
         match self.format {
-            OutputFormat::Mesh(MeshFormat::TetGen) => ["node", "ele", "neigh"].map(|e| self.path.with_extension(e)).into(),
+            OutputFormat::Mesh(MeshFormat::TetGen) => {
+                ["node", "ele", "neigh"].map(|e| self.path.with_extension(e)).into()
+            }
             _ => vec![self.path.clone()],
         }
     }
 
     /// Finds out early whether the output can be written, before the work whose result goes there.
     ///
-    /// The files `inputs` are never replaced, and others only if they are earlier outputs of this format, or with `force`.
+    /// The files `inputs` are never replaced, and others only if they are earlier outputs of this
+    /// format, or with `force`.
     ///
     /// # Errors
     ///
@@ -76,8 +79,8 @@ impl Output {
         Ok(())
     }
 
-    /// Writes the mesh, or its hull, which is all of a 2D mesh. Files of the same name are replaced once all is written; on
-    /// failure they stay as they are.
+    /// Writes the mesh, or its hull, which is all of a 2D mesh. Files of the same name are replaced
+    /// once all is written; on failure they stay as they are.
     ///
     /// # Errors
     ///
@@ -122,8 +125,8 @@ impl PointOutput {
         Ok(PointOutput { path: path.into(), format })
     }
 
-    /// Finds out early whether the file can be written. A file that exists is replaced only with `force`: nothing tells
-    /// generated points from measured ones.
+    /// Finds out early whether the file can be written. A file that exists is replaced only with
+    /// `force`: nothing tells generated points from measured ones.
     ///
     /// # Errors
     ///
@@ -136,7 +139,8 @@ impl PointOutput {
         Ok(())
     }
 
-    /// Writes the points. A file of the same name is replaced once all is written; on failure it stays as it is.
+    /// Writes the points. A file of the same name is replaced once all is written; on failure it
+    /// stays as it is.
     ///
     /// # Errors
     ///
@@ -163,7 +167,7 @@ fn check(path: &Path, inputs: &[&Path]) -> Result<(), FileError> {
 fn is_generated(path: &Path) -> bool {
     /// As far from the begin or the end the mark is.
     const REACH: u64 = 512;
-    let has_mark = || {
+    let has_mark = || -> io::Result<bool> {
         // Opening anything else, such as a pipe, might wait.
         if !path.metadata()?.is_file() {
             return Ok(false);
@@ -176,5 +180,5 @@ fn is_generated(path: &Path) -> bool {
         file.read_to_end(&mut ends)?;
         Ok(ends.windows(MARK.len()).any(|window| window == MARK.as_bytes()))
     };
-    has_mark().unwrap_or_else(|_: io::Error| false)
+    has_mark().unwrap_or(false)
 }

@@ -16,8 +16,9 @@ fn temporary_files() -> MutexGuard<'static, Vec<PathBuf>> {
     TEMPORARY_FILES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes the temporary files of outputs that are not written to their end, for a program that is about to exit on a
-/// signal. Outputs that are just being replaced get that done first; later ones wait forever.
+/// Removes the temporary files of outputs that are not written to their end, for a program that is
+/// about to exit on a signal. Outputs that are just being replaced get that done first; later ones
+/// wait forever.
 pub fn remove_temporary_files() {
     let mut files = temporary_files();
     for path in files.drain(..) {
