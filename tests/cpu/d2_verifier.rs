@@ -372,6 +372,7 @@ proptest! {
         let statement = MeshView2 {
             triangles: &triangles,
             halfedges: halfedges.as_deref(),
+            neighbors: None,
             hull: hull.as_deref(),
             duplicate_of: duplicate_of.as_deref(),
             dimension,
