@@ -7,9 +7,10 @@ use gdel::{
     Backend, Mesh2, Mesh3, Points, Triangulator,
     internals::{
         d3::splay::SplayOutcome,
-        io::{MeshData, MeshFormat, PointCloud, PointFormat},
+        io::{MeshData3, MeshFormat, PointCloud, PointFormat},
     },
-    verify::{Report, verify2d as prove2d, verify3d as prove3d},
+    verify::Report,
+    verify2d as prove2d, verify3d as prove3d,
 };
 use gdel_guard::{
     files::{File, mesh_file},
@@ -154,16 +155,16 @@ fn read_points((format, bytes): (PointFormat, Vec<u8>)) -> PointCloud {
     format.read(bytes).expect("a file of that format")
 }
 
-fn expect_mesh(mesh: MeshData) {
-    assert!(mesh.tetrahedra.len() > POINTS);
+fn expect_mesh(mesh: MeshData3) {
+    assert!(mesh.simplices.len() > POINTS);
 }
 
 #[library_benchmark(setup = mesh_file, teardown = expect_mesh)]
 #[bench::tetgen(MeshFormat::TetGen)]
 #[bench::vtu(MeshFormat::Vtu)]
 #[bench::npz(MeshFormat::Npz)]
-fn read_mesh((format, bytes): (MeshFormat, Vec<u8>)) -> MeshData {
-    format.read(&bytes).expect("a file of that format")
+fn read_mesh((format, bytes): (MeshFormat, Vec<u8>)) -> MeshData3 {
+    format.read::<Mesh3, _, _>(&bytes).expect("a file of that format")
 }
 
 library_benchmark_group!(

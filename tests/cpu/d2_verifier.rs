@@ -7,12 +7,13 @@ use crate::broken::{
 };
 use crate::oracle::definition2;
 use gdel::{
-    Error, Mesh2, delaunay2d,
+    Error, Mesh2, MeshView2, delaunay2d,
     internals::{
         d2::generate::{Distribution2, generate2d},
         mesh,
     },
-    verify::{Check, MeshView2, Outcome, verify2d},
+    verify::{Check, Outcome},
+    verify2d,
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;

@@ -3,7 +3,7 @@
 use crate::points::{self, POINTS};
 use gdel::{
     Backend, Mesh3, Triangulator,
-    internals::io::{MeshFormat, PointFormat, write_ele, write_hull_stl, write_npz, write_vtu},
+    internals::io::{MeshFormat, PointFormat, SurfaceFormat, write_ele, write_npz, write_vtu},
 };
 use las::{Builder, Point, Transform, Vector};
 use std::{fmt::Write, io::Cursor};
@@ -64,7 +64,7 @@ impl File {
             File::StlBinary => {
                 let points = points::sphere(POINTS / 2);
                 let mut file = Vec::new();
-                write_hull_stl(&mut file, (&points).into(), &mesh(&points)).expect("memory");
+                SurfaceFormat::Stl.write(&mut file, (&points).into(), &mesh(&points)).expect("memory");
                 (PointFormat::Stl, file)
             }
             File::Text => written(PointFormat::Text),
