@@ -60,7 +60,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         },
         Dimension::Two => match Distribution2::ALL.into_iter().find(|d| d.name() == name) {
             Some(distribution) => output.write((&generate2d(distribution, count, seed)).into())?,
-            None => usage(ErrorKind::InvalidValue, &format!("{name} is no distribution in 2D")),
+            None => {
+                let known = Distribution2::ALL.map(Distribution2::name).join(", ");
+                usage(ErrorKind::InvalidValue, &format!("{name} is a distribution in 3D; those in 2D are {known}"))
+            }
         },
     }
     Ok(())

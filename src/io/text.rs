@@ -105,7 +105,9 @@ impl<const D: usize> Table<D> {
     fn add(&mut self, row: &[&[u8]], line: usize) -> Result<(), FormatError> {
         let columns = match self.columns {
             Some(columns) => columns,
-            None if row.iter().all(|field| parse(field).is_none()) => return self.name_columns(row, line),
+            None if row.len() > 1 && row.iter().all(|field| parse(field).is_none()) => {
+                return self.name_columns(row, line);
+            }
             None => {
                 self.dropped = (D == 2).then_some(2);
                 *self.columns.insert(std::array::from_fn(|axis| axis))
@@ -151,8 +153,8 @@ impl<const D: usize> Table<D> {
             let names: Vec<String> = row.iter().take(QUOTED).map(|name| quote(name)).collect();
             let more = if row.len() > QUOTED { ", …" } else { "" };
             let what = format!(
-                "no columns are named {}, in capitals or not, in {}{more}: rename the columns of the coordinates, or \
-                 remove this line, which takes the first {D}",
+                "this line names no columns {}, in upper or lower case, but {}{more}: rename those of the coordinates, or \
+                 remove the line if they are the first {D}",
                 axes::<D>(),
                 names.join(", ")
             );
@@ -189,8 +191,18 @@ fn leading_numbers(row: &[&[u8]]) -> usize {
     row.iter().take_while(|field| parse(field).is_some()).count()
 }
 
+/// Refuses text in UTF-16, which Windows calls Unicode: its numbers have a zero byte after each
+/// digit.
+fn check_encoding(bytes: &[u8]) -> Result<(), FormatError> {
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return Err(FormatError::byte(0, "this is text in UTF-16: save it as UTF-8"));
+    }
+    Ok(())
+}
+
 /// Reads XYZ, and PTS, where a line with nothing but a count goes before the points of each scan.
 pub(super) fn read<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
+    check_encoding(bytes)?;
     let mut table = Table::new();
     // The line of the count before the points of the current scan, and what the number of points
     // will be after them.
@@ -229,6 +241,7 @@ fn whole_number(field: &[u8]) -> Option<usize> {
 /// Reads comma-, semicolon- or tab-separated values with quoted fields; text with white space
 /// between is taken too.
 pub(super) fn read_csv<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
+    check_encoding(bytes)?;
     let first = lines(bytes).map(|(_, line)| line).find(|line| !line.is_empty()).unwrap_or_default();
     let Some(delimiter) = [b';', b',', b'\t'].into_iter().find(|d| first.contains(d)) else {
         return read(bytes);

@@ -463,11 +463,19 @@ fn ply_with_every_other_fault() {
 }
 
 #[test]
+fn text_in_utf_16() {
+    let text: Vec<u8> = "\u{feff}1 2 3\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    fails(PointFormat::Text, text.clone(), Position::Byte(0), "save it as UTF-8");
+    fails(PointFormat::Csv, text, Position::Byte(0), "save it as UTF-8");
+    fails(PointFormat::Text, "hello\n", Position::Line(1), "`hello` is not a number");
+}
+
+#[test]
 fn csv_with_other_names() {
     let error = read(PointFormat::Csv, "easting,northing,height\n1,2,3\n").unwrap_err();
-    let what = "line 1: no columns are named x, y and z, in capitals or not, in `easting`, `northing`, `height`";
+    let what = "line 1: this line names no columns x, y and z, in upper or lower case, but `easting`, `northing`, `height`: rename";
     assert!(error.to_string().starts_with(what), "{error}");
-    assert!(PointFormat::Csv.read::<2>(b"u,v\n1,2\n".to_vec()).unwrap_err().what.contains("named x and y"));
+    assert!(PointFormat::Csv.read::<2>(b"u,v\n1,2\n".to_vec()).unwrap_err().what.contains("names no columns x and y"));
 }
 
 #[test]
