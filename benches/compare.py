@@ -31,7 +31,7 @@ DRAGON = ROOT / ".cache" / "dragon.ply"
 
 
 def build():
-    subprocess.run(["cargo", "build", "--release", "--locked", "--quiet"], cwd=ROOT, check=True)
+    subprocess.run(["cargo", "build", "--release", "--features", "cli", "--locked", "--quiet"], cwd=ROOT, check=True)
     # Both sides for the baseline of the architecture, no -march=native on either; CGAL asks for -frounding-math.
     flags = ["-std=c++17", "-O3", "-DNDEBUG", "-frounding-math"]
     subprocess.run(["g++", *flags, ROOT / "benches/peers/cgal.cpp", "-o", CGAL, "-lgmp", "-lmpfr"], check=True)
@@ -112,7 +112,7 @@ def compare(name, runs):
 
     ours, theirs, our_peak, their_peak = [], [], 0, 0
     for _ in range(runs):
-        mesh, peak = run([GDEL, "triangulate", path, "--engine", "cpu", "--stats", "json"])
+        mesh, peak = run([GDEL, "triangulate", path, "--backend", "cpu", "--stats", "json"])
         ours.append(mesh["seconds"]["total"])
         our_peak = max(our_peak, peak)
         cgal, peak = run([CGAL, path])

@@ -1,13 +1,16 @@
-//! Whole triangulations by the CPU engine, in points a second. Each passes the verifier before it is timed.
+//! Whole 3D triangulations on the CPU, in points per second. The verifier checks each before it is
+//! timed.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gdel::{
-    Options,
-    d3::{
-        cpu,
-        generate::{Distribution, generate},
-        verify::verify3d,
+    internals::{
+        Options,
+        d3::{
+            cpu,
+            generate::{Distribution, generate},
+        },
     },
+    verify::verify3d,
 };
 
 fn full_grid(side: u32) -> Vec<[f64; 3]> {

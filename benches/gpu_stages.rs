@@ -11,13 +11,15 @@ mod assemble;
 use assemble::assemble;
 use gdel::{
     Points,
-    d3::gpu::vertex,
-    gpu::{
-        AdapterChoice, Gpu, Kernel, Profiler, Readback, Recorder, Storage,
-        points::{PointInput, PointStage},
-        workgroups,
+    internals::{
+        d3::gpu::vertex,
+        gpu::{
+            AdapterChoice, Gpu, Kernel, Profiler, Readback, Recorder, Storage,
+            points::{PointInput, PointStage},
+            workgroups,
+        },
+        input::lattice::{Lattice, Width},
     },
-    input::lattice::{Lattice, Width},
 };
 use pollster::block_on;
 use rand::{RngExt, SeedableRng};

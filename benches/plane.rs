@@ -1,22 +1,20 @@
-//! Whole 2D triangulations by the CPU engine, in points a second. Each passes the verifier before it is timed.
+//! Whole 2D triangulations on the CPU, in points per second. The verifier checks each before it is
+//! timed.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gdel::{
-    Backend, Options,
-    d2::{
-        generate::{Distribution2, generate2d},
-        verify::verify2d,
-    },
-    delaunay2d,
+    Backend, Triangulator,
+    internals::d2::generate::{Distribution2, generate2d},
+    verify::verify2d,
 };
 
 fn plane(c: &mut Criterion) {
     let mut group = c.benchmark_group("plane");
     group.sample_size(10);
-    let options = Options { backend: Backend::Cpu, ..Options::default() };
+    let triangulator = Triangulator::new().backend(Backend::Cpu);
     for distribution in Distribution2::ALL {
         let points = generate2d(distribution, 100_000, 1);
-        let triangulate = || delaunay2d(&points, &options).expect("finite points");
+        let triangulate = || triangulator.delaunay2d(&points).expect("finite points");
         let report = verify2d(&points, &triangulate()).expect("finite points");
         assert!(report.passed(), "{distribution:?}: {report}");
         group.throughput(Throughput::Elements(points.len() as u64));

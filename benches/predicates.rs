@@ -1,13 +1,14 @@
-//! `orient3d` and `insphere` on 1,024 argument lists at a time: ours, and the crates `robust` and `geometry-predicates`.
+//! `orient3d` and `insphere` on 1,024 argument lists at a time: this crate's, and those of the
+//! crates `robust` and `geometry-predicates`.
 //!
 //! * `vertices`: what the engine calls: [`PredicateContext`], with its filters, lattice integers and symbolic ties;
-//! * `exact`: [`gdel::predicates`] for coordinates on their own;
+//! * `exact`: [`gdel::internals::predicates`] for coordinates on their own;
 //! * `robust`, `geometry-predicates`: Shewchuk's adaptive predicates as those crates have them.
 //!
 //! All must agree on every sign before anything is timed.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use gdel::{
+use gdel::internals::{
     input::lattice::Lattice,
     predicates::{self, Sign, filter::PredicateContext},
 };
@@ -17,7 +18,7 @@ use robust::Coord3D;
 
 type Point = [f64; 3];
 
-/// Lists of `N` different points each.
+/// Returns lists of `N` different points each.
 fn lists<const N: usize>(mut point: impl FnMut(&mut Pcg64) -> Point) -> Vec<[Point; N]> {
     let mut rng = Pcg64::seed_from_u64(1);
     std::iter::repeat_with(|| std::array::from_fn(|_| point(&mut rng)))
@@ -30,19 +31,19 @@ fn in_cube(rng: &mut Pcg64) -> Point {
     std::array::from_fn(|_| rng.random())
 }
 
-/// Near the plane 3z = x + y: z is rounded.
+/// Returns a point near the plane 3z = x + y: z is rounded.
 fn near_plane(rng: &mut Pcg64) -> Point {
     let [x, y]: [f64; 2] = std::array::from_fn(|_| rng.random());
     [x, y, (x + y) / 3.0]
 }
 
-/// Integers on the plane x + y + z = 0.
+/// Returns an integer point on the plane x + y + z = 0.
 fn on_plane(rng: &mut Pcg64) -> Point {
     let [x, y]: [f64; 2] = std::array::from_fn(|_| f64::from(rng.random_range(-512..512)));
     [x, y, -x - y]
 }
 
-/// Near the unit sphere: the coordinates are rounded.
+/// Returns a point near the unit sphere: the coordinates are rounded.
 fn near_sphere(rng: &mut Pcg64) -> Point {
     loop {
         let p: Point = std::array::from_fn(|_| rng.random_range(-1.0..1.0));
@@ -53,7 +54,7 @@ fn near_sphere(rng: &mut Pcg64) -> Point {
     }
 }
 
-/// Integers on the sphere of radius 9.
+/// Returns an integer point on the sphere of radius 9.
 fn on_sphere(rng: &mut Pcg64) -> Point {
     let mut p = [[0.0, 0.0, 9.0], [1.0, 4.0, 8.0], [4.0, 4.0, 7.0], [3.0, 6.0, 6.0]][rng.random_range(0..4)];
     p.swap(0, rng.random_range(0..3));
@@ -61,7 +62,7 @@ fn on_sphere(rng: &mut Pcg64) -> Point {
     p.map(|x: f64| if rng.random() { x } else { -x })
 }
 
-/// Times one predicate's implementations on the `lists`, in whose terms all of them speak.
+/// Times the implementations of one predicate on the `lists`.
 fn compare<const N: usize>(
     c: &mut Criterion,
     predicate: &str,
@@ -71,7 +72,7 @@ fn compare<const N: usize>(
     robust: impl Fn([Coord3D<f64>; N]) -> f64,
     geometry_predicates: impl Fn([Point; N]) -> f64,
 ) {
-    // Those crates count an orientation as positive that is negative here; see `gdel::predicates`.
+    // Those crates count an orientation as positive that is negative here; see `gdel::internals::predicates`.
     let sign = |value: f64| (value < 0.0) as Sign - (value > 0.0) as Sign;
     let robust = |list: [Point; N]| sign(robust(list.map(|[x, y, z]| Coord3D { x, y, z })));
     let geometry_predicates = |list| sign(geometry_predicates(list));

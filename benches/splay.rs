@@ -1,29 +1,34 @@
-//! What the host does with the result of Phase 1: star splaying, and the end of the run, which drops the ghosts.
+//! What the host does with the result of Phase 1: star splaying, and the end of the run, which
+//! drops the ghosts.
 //!
-//! `cargo bench --bench splay -- [DISTRIBUTION:POINTS | FILE …]`; a device makes Phase 1 once for each input, of coordinates
-//! rounded to `f32`. Medians of nine runs after one to warm up, in one thread and in all, in milliseconds.
+//! `cargo bench --bench splay -- [DISTRIBUTION:POINTS | FILE …]`. A device runs Phase 1 once for
+//! each input, with coordinates rounded to `f32`. Prints medians in milliseconds of nine runs after
+//! one to warm up, in one thread and in all.
 
 use gdel::{
     Points,
-    d3::{
-        generate::{Distribution, generate},
-        splay::{NearDelaunay, Outcome, splay},
-        triangulation::Triangulation,
+    internals::{
+        d3::{
+            generate::{Distribution, generate},
+            splay::{NearDelaunay, SplayOutcome, splay},
+            triangulation::Triangulation,
+        },
+        gpu::{
+            AdapterChoice, Gpu,
+            phase1::{Input, Phase1, Phase1Output, Settings},
+            start::first_simplex,
+        },
+        input::lattice::Lattice,
+        io::files::read_points,
+        parallel::Threads,
+        predicates::filter::PredicateContext,
     },
-    gpu::{
-        AdapterChoice, Gpu,
-        phase1::{Input, Phase1, Phase1Output, Settings},
-        start::first_simplex,
-    },
-    input::lattice::Lattice,
-    io::files::read_points,
-    parallel::Threads,
-    predicates::filter::PredicateContext,
     stats::SplayStats,
 };
 use pollster::block_on;
 use std::{error::Error, path::Path, time::Instant};
 
+/// The number of timed runs.
 const RUNS: usize = 9;
 
 fn median(mut times: Vec<f64>) -> f64 {
@@ -43,14 +48,14 @@ fn read(input: &str) -> Result<Vec<[f32; 3]>, Box<dyn Error>> {
     Ok(points.into_iter().map(|p| p.map(|x| x as f32)).collect())
 }
 
-/// With room behind for what splaying adds, as the engine has it.
+/// Returns a copy with room at its end for what splaying adds, as the GPU's results have it.
 fn copied(tetrahedra: &[[u32; 4]]) -> Vec<[u32; 4]> {
     let mut copy = Vec::with_capacity(tetrahedra.len() + tetrahedra.len() / 64);
     copy.extend_from_slice(tetrahedra);
     copy
 }
 
-/// The milliseconds of splaying and of the end, and what splaying did.
+/// Returns the milliseconds of splaying and of the end, and what splaying did.
 fn run(
     points: &[[f32; 3]],
     lattice: &Lattice,
@@ -72,8 +77,8 @@ fn run(
     let vertices = PredicateContext::of_input(points.into(), lattice);
     let started = Instant::now();
     let (triangulation, stats) = match splay(&vertices, near, u64::MAX, threads, &|_| Ok(()))? {
-        Outcome::Delaunay(triangulation, stats) => (triangulation, stats),
-        Outcome::Aborted(reason) => return Err(format!("splaying gave up: {reason:?}").into()),
+        SplayOutcome::Delaunay(triangulation, stats) => (triangulation, stats),
+        SplayOutcome::Aborted(reason) => return Err(format!("splaying aborted: {reason:?}").into()),
     };
     let splayed = started.elapsed().as_secs_f64() * 1e3;
     let started = Instant::now();

@@ -3,7 +3,7 @@
 #[path = "../tests/io/samples.rs"]
 mod samples;
 
-use gdel::io::{MeshFormat, PointFormat};
+use gdel::internals::io::{MeshFormat, PointFormat};
 use std::{fs, io, path::Path};
 
 fn main() -> io::Result<()> {

@@ -1,112 +1,153 @@
-//! What can go wrong, as values.
+//! Errors, as values.
 
-/// Why no triangulation was made.
+/// Why there is no triangulation.
+///
+/// Coplanar, collinear, coincident or no points at all are no error: see [`Mesh3::dimension`](crate::Mesh3::dimension).
+///
+/// # Examples
+///
+/// ```
+/// use gdel::Error;
+///
+/// let points = [[0.0, 0.0], [1.0, f64::NAN], [0.0, 1.0]];
+/// match gdel::delaunay2d(&points) {
+///     Err(Error::NotFinite { index, axis, .. }) => assert_eq!((index, axis), (1, 'y')),
+///     result => panic!("{result:?}"),
+/// }
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A coordinate is NaN or infinite.
     #[error("point {index}: the {axis} coordinate is {value}, which is not a finite number")]
     NotFinite {
-        /// The first point, in input order, with such a coordinate.
+        /// The index of the first point with such a coordinate.
         index: usize,
         /// `'x'`, `'y'` or `'z'`.
         axis: char,
         /// `NaN`, `inf` or `-inf`.
         value: &'static str,
     },
-    /// Interleaved coordinates do not come in whole points.
+    /// Interleaved coordinates end in the middle of a point.
     #[error(
         "{length} interleaved coordinates are not a whole number of points: the length must be a multiple of {dimension}"
     )]
     NotWholePoints {
         /// The length of the array.
         length: usize,
-        /// Coordinates a point.
+        /// The number of coordinates per point.
         dimension: usize,
     },
-    /// The mesh would need more tetrahedra than an index can name.
-    #[error("{points} points are too many: this engine holds at most {limit}")]
+    /// A two-dimensional array does not have one point per row.
+    #[error(
+        "an array of shape {rows} × {columns} does not hold points: it must have {dimension} columns, one row per point"
+    )]
+    ArrayShape {
+        /// The number of rows of the array.
+        rows: usize,
+        /// The number of columns of the array.
+        columns: usize,
+        /// The number of coordinates per point.
+        dimension: usize,
+    },
+    /// The rows of a two-dimensional array do not lie in memory one after the other.
+    #[error("the points of the array are not contiguous in memory: pass a copy in row-major order")]
+    ArrayLayout,
+    /// The input has more points than the backend can number.
+    #[error("{points} points are too many: at most {limit} can be triangulated")]
     TooManyPoints {
-        /// The points of the input.
+        /// The number of points of the input.
         points: usize,
-        /// The most that this engine can take.
+        /// The largest number of points that the backend can take.
         limit: usize,
     },
-    /// There is no GPU, or it gives no device.
-    #[error("no GPU can be used: {reason}")]
+    /// The GPU was requested where it cannot be used: the crate was built without it, or may not wait for it.
+    #[error("the GPU cannot be used: {reason}")]
+    GpuUnavailable {
+        /// What makes it unavailable.
+        reason: &'static str,
+    },
+    /// There is no GPU, or its driver gives no access to it.
+    #[error("no GPU can be opened: {reason}")]
     NoAdapter {
-        /// What the system says.
+        /// The operating system's or browser's message.
         reason: String,
     },
-    /// No GPU of this machine has the wanted index or name.
-    #[error("there is no GPU {wanted:?}; this machine has {available:?}")]
+    /// No GPU of this machine has the requested index or name.
+    #[error("there is no GPU {wanted:?}; this machine has {}", listed(.available))]
     AdapterNotFound {
-        /// The index or the part of a name that was asked for.
+        /// The requested index or part of a name.
         wanted: String,
-        /// The names of the GPUs that there are, in the order of their indices.
+        /// The names of all GPUs, in the order of their indices.
         available: Vec<String>,
     },
-    /// The GPU was reset, unplugged or taken away while it was at work.
-    #[error("the GPU was lost: {reason}")]
+    /// The GPU was reset, unplugged or taken away during the run.
+    #[error("the connection to the GPU was lost: {reason}")]
     DeviceLost {
-        /// What the driver or the browser says.
+        /// The driver's or browser's message.
         reason: String,
     },
-    /// The GPU has not enough free memory.
-    #[error("the GPU ran out of memory: {what}")]
+    /// The GPU does not have enough free memory.
+    #[error("the GPU ran out of memory for {what}")]
     OutOfDeviceMemory {
         /// What the memory was for.
         what: &'static str,
     },
-    /// A buffer would be larger than kernels on this GPU can see.
-    #[error("the buffer of {label} would need {bytes} bytes, but this GPU binds at most {limit}{}", fitting(.points))]
+    /// A buffer would be larger than the GPU allows.
+    #[error("the buffer of {label} would need {bytes} bytes, but this GPU allows at most {limit}{}", fitting(.points))]
     BufferTooLarge {
         /// What the buffer holds.
         label: &'static str,
-        /// The size that it would have.
+        /// The size that the buffer would have, in bytes.
         bytes: u128,
-        /// The largest size that this GPU can bind.
+        /// The largest size that this GPU allows, in bytes.
         limit: u64,
-        /// About how many points it can take, where the buffer is one of a triangulation.
+        /// About how many points would fit, if the buffer is one of a triangulation.
         points: Option<usize>,
     },
-    /// The GPU reports what should not happen: a defect of this crate or of the driver.
-    #[error("the GPU reports: {message}")]
+    /// The GPU reports an error that should not happen: a defect of this crate or of the driver.
+    #[error("the GPU failed unexpectedly: {message}")]
     Gpu {
-        /// What it reports.
+        /// The message of the GPU's driver or of wgpu.
         message: String,
     },
-    /// The input's triangulation is larger than an index can name, as only contrived inputs' are.
-    #[error("the triangulation has more than {limit} tetrahedra, the most that this engine holds")]
-    TooManyTetrahedra {
-        /// The most that the engine holds.
+    /// The triangulation has more tetrahedra, or triangles in 2D, than can be numbered, as only contrived inputs have.
+    #[error("the triangulation has more than {limit} simplices, the largest number that can be stored")]
+    TooManySimplices {
+        /// The largest number that can be stored.
         limit: usize,
     },
     /// The machine has no memory left for the mesh.
-    #[error("out of memory: there is no room for {tetrahedra} tetrahedra")]
+    #[error("out of memory: there is no room for {simplices} simplices")]
     OutOfMemory {
-        /// The tetrahedra that room was asked for.
-        tetrahedra: usize,
+        /// The number of tetrahedra, or triangles in 2D, that room was requested for.
+        simplices: usize,
     },
-    /// The progress callback asked to stop.
-    #[error("cancelled")]
+    /// The progress callback requested to stop.
+    #[error("the triangulation was cancelled")]
     Cancelled,
 }
 
-/// What can be done instead.
+/// Names what would fit.
 fn fitting(points: &Option<usize>) -> String {
     points.map_or_else(String::new, |points| format!(", enough for about {points} points"))
 }
 
+fn listed(available: &[String]) -> String {
+    if available.is_empty() { "none".to_owned() } else { available.join(", ") }
+}
+
 #[cfg(feature = "gpu")]
 impl Error {
-    /// Whether it is the GPU's, so that the CPU engine may still do what this one could not.
+    /// Whether the error is the GPU's, so that the CPU may still succeed.
     pub(crate) fn is_of_the_gpu(&self) -> bool {
         use Error::*;
         match self {
-            NoAdapter { .. } | AdapterNotFound { .. } | DeviceLost { .. } | OutOfDeviceMemory { .. } => true,
-            BufferTooLarge { .. } | Gpu { .. } | TooManyPoints { .. } | TooManyTetrahedra { .. } => true,
-            NotFinite { .. } | NotWholePoints { .. } | OutOfMemory { .. } | Cancelled => false,
+            GpuUnavailable { .. } | NoAdapter { .. } | AdapterNotFound { .. } | DeviceLost { .. } => true,
+            OutOfDeviceMemory { .. } | BufferTooLarge { .. } | Gpu { .. } => true,
+            TooManyPoints { .. } | TooManySimplices { .. } => true,
+            NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
+            OutOfMemory { .. } | Cancelled => false,
         }
     }
 }

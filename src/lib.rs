@@ -1,116 +1,170 @@
-//! Exact Delaunay triangulation of point clouds.
-//!
-//! The result is a function of the input alone: the Delaunay triangulation of the input's exact coordinates, where
-//! ties are broken as if point *i* (input index) had the lifted height |pᵢ|² + δᵢ with δ₀ ≫ δ₁ ≫ … > 0 infinitesimal.
-//! It is unique, has no tetrahedron of zero volume, and every distinct point is a vertex of it.
+//! Exact Delaunay triangulation of point clouds in 2D and 3D, on the CPU and the GPU.
 //!
 //! ```
 //! let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
-//! let mesh = gdel::delaunay3d(&points, &gdel::Options::default())?;
+//! let mesh = gdel::delaunay3d(&points)?;
 //! assert_eq!(mesh.tetrahedra.len(), 1);
+//!
+//! let points = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0f64]];
+//! let mesh = gdel::delaunay2d(&points)?;
+//! assert_eq!(mesh.triangles.len(), 2);
+//! assert_eq!(mesh.hull, [0, 1, 2, 3]);
 //! # Ok::<(), gdel::Error>(())
 //! ```
-#![forbid(unsafe_code)]
-#![warn(missing_docs)]
+//!
+//! The mesh is a function of the input alone: the Delaunay triangulation of the exact coordinates, where ties are broken as if
+//! point *i* (input index) had the lifted height |pᵢ|² + δᵢ with δ₀ ≫ δ₁ ≫ … > 0 infinitesimal. It is unique, has no flat
+//! tetrahedron or triangle, and every distinct point is a vertex of it.
+//!
+//! [`Triangulator`] offers options: the backend, progress and cancellation, the GPU to use, and methods that do not block.
+//! [`verify`] proves that a mesh is the Delaunay triangulation of its points, whoever computed it.
+//!
+//! # Features
+//!
+//! | feature | what it adds |
+//! | --- | --- |
+//! | `gpu` (default) | the GPU backend, through [wgpu](https://docs.rs/wgpu); without it [`Backend::Auto`] is the CPU |
+//! | `serde` | `Serialize` and `Deserialize` for meshes, `Serialize` for statistics |
+//! | `glam`, `mint`, `nalgebra`, `ndarray` | conversions of these crates' points into [`Points`], without a copy |
+//! | `cli` | the program `gdel` |
+//!
+//! The features `io`, `wasm` and `wasm-*` serve the program and the npm package; they add nothing to the public interface.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
-pub mod d2;
-pub mod d3;
+// What data passes through, in this order.
+mod input;
+mod predicates;
+mod triangulator;
+
+// The wings: 2D and 3D, file by file the same.
+mod d2;
+mod d3;
+#[cfg(feature = "gpu")]
+mod gpu;
+
+// What a run says about itself, and what is checked afterwards.
 mod error;
-#[cfg(feature = "gpu")]
-pub mod gpu;
-pub mod index;
-pub mod input;
-#[cfg(feature = "io")]
-pub mod io;
-pub mod options;
-pub mod parallel;
-pub mod predicates;
-pub mod random;
-#[cfg(feature = "gpu")]
-pub mod reference;
+mod mesh;
+mod options;
 pub mod stats;
-#[cfg(feature = "gpu")]
-pub mod triangulator;
 pub mod verify;
+
+// Tools.
+mod index;
+#[cfg(feature = "io")]
+mod io;
+mod parallel;
+mod random;
+#[cfg(feature = "gpu")]
+mod reference;
 #[cfg(all(feature = "wasm", target_arch = "wasm32"))]
 mod wasm;
 
 pub use d2::Mesh2;
 pub use d3::Mesh3;
 pub use error::Error;
-pub use input::points::{Points, Points2};
-pub use options::{Backend, Options, Progress};
 #[cfg(feature = "gpu")]
+pub use gpu::{AdapterChoice, AdapterSummary};
+pub use index::NONE;
+pub use input::points::{Points, Points2};
+#[cfg(feature = "mint")]
+pub use input::points::{from_mint2, from_mint3};
+pub use mesh::Stars;
+pub(crate) use options::Options;
+pub use options::{Backend, Progress};
+pub use predicates::{Sign, incircle, insphere, orient2d, orient3d};
 pub use triangulator::Triangulator;
+#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+pub use triangulator::adapters;
+#[cfg(feature = "gpu")]
+pub use wgpu;
 
-/// The 3D Delaunay triangulation of `points`.
+/// Returns the 3D Delaunay triangulation of `points`.
 ///
-/// `points` may be slices or vectors of `[f32; 3]`, `[f64; 3]`, `glam::Vec3` or `glam::DVec3`; for interleaved
-/// coordinates see [`Points::from_interleaved_f32`] and [`Points::from_interleaved_f64`].
+/// `points` may be slices, arrays or vectors of `[f32; 3]` or `[f64; 3]`, or [`Points`] of another form. The backend is
+/// [`Backend::Auto`]: the first large input opens a GPU, which is kept for the process. [`Triangulator`] gives the choice.
 ///
-/// Coplanar, collinear, coincident and empty input is no error: the mesh then has no tetrahedra and its
-/// [`dimension`](Mesh3::dimension) says why.
+/// Coplanar, collinear, coincident and empty input is no error: the mesh then has no tetrahedra, and its
+/// [`dimension`](Mesh3::dimension) tells why.
 ///
-/// The GPU engine is opened when it is first needed and kept for the process; see [`engines`] for more control, and for a
-/// form that does not block.
-///
-/// # Errors
-///
-/// [`Error::NotFinite`] names the first coordinate that is NaN or infinite, [`Error::TooManyPoints`] says what would
-/// fit, and [`Error::Cancelled`] follows a progress callback that broke off. [`Backend::Gpu`], and only that, can fail with
-/// the errors of a GPU: [`Error::NoAdapter`], [`Error::DeviceLost`], [`Error::OutOfDeviceMemory`],
-/// [`Error::BufferTooLarge`], [`Error::Gpu`].
-pub fn delaunay3d<'a>(points: impl Into<Points<'a>>, options: &Options) -> Result<Mesh3, Error> {
-    let points = points.into();
-    match options.backend {
-        Backend::Cpu => d3::cpu::delaunay3d(points, options),
-        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-        Backend::Auto | Backend::Gpu => pollster::block_on(Triangulator::shared().delaunay3d(points, options)),
-        #[cfg(not(all(feature = "gpu", not(target_arch = "wasm32"))))]
-        Backend::Auto => d3::cpu::delaunay3d(points, options),
-        #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-        Backend::Gpu => {
-            Err(Error::NoAdapter { reason: "a browser's GPU cannot be waited for: use `Triangulator`".to_owned() })
-        }
-    }
-}
-
-/// The 2D Delaunay triangulation of `points`.
-///
-/// `points` may be slices or vectors of `[f32; 2]`, `[f64; 2]`, `glam::Vec2` or `glam::DVec2`; for interleaved
-/// coordinates see [`Points::from_interleaved_f32`](Points::from_interleaved_f32) and
-/// [`Points::from_interleaved_f64`](Points::from_interleaved_f64).
+/// # Examples
 ///
 /// ```
-/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
-/// let mesh = gdel::delaunay2d(&points, &gdel::Options::default())?;
-/// // Counter-clockwise where the y axis points down.
-/// assert_eq!(mesh.hull, [0, 2, 1]);
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0f64]];
+/// let mesh = gdel::delaunay3d(&points)?;
+/// assert_eq!((mesh.tetrahedra.len(), mesh.hull.len()), (2, 6));
 /// # Ok::<(), gdel::Error>(())
 /// ```
 ///
-/// Collinear, coincident and empty input is no error: the mesh then has no triangles and its
-/// [`dimension`](Mesh2::dimension) says why.
+/// # Errors
+///
+/// [`Error::NotFinite`] gives the first coordinate that is NaN or infinite, [`Error::TooManyPoints`] what would fit.
+/// [`Error::TooManySimplices`] and [`Error::OutOfMemory`] concern inputs of extreme size.
+pub fn delaunay3d<'a>(points: impl Into<Points<'a>>) -> Result<Mesh3, Error> {
+    Triangulator::of_process().delaunay3d(points)
+}
+
+/// Returns the 2D Delaunay triangulation of `points`.
+///
+/// `points` may be slices, arrays or vectors of `[f32; 2]` or `[f64; 2]`, or [`Points`] of another form. The backend is
+/// [`Backend::Auto`]: the first large input opens a GPU, which is kept for the process. [`Triangulator`] gives the choice.
+///
+/// Collinear, coincident and empty input is no error: the mesh then has no triangles, and its
+/// [`dimension`](Mesh2::dimension) tells why.
+///
+/// # Examples
+///
+/// ```
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
+/// let mesh = gdel::delaunay2d(&points)?;
+/// assert_eq!(mesh.triangles.len(), 1);
+/// // Counter-clockwise with y up.
+/// assert_eq!(mesh.hull, [0, 1, 2]);
+/// # Ok::<(), gdel::Error>(())
+/// ```
 ///
 /// # Errors
 ///
-/// As for [`delaunay3d`](crate::delaunay3d).
-pub fn delaunay2d<'a>(points: impl Into<Points2<'a>>, options: &Options) -> Result<Mesh2, Error> {
-    let points = points.into();
-    match options.backend {
-        Backend::Cpu => d2::cpu::delaunay2d(points, options),
-        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-        Backend::Auto | Backend::Gpu => pollster::block_on(Triangulator::shared().delaunay2d(points, options)),
-        #[cfg(not(all(feature = "gpu", not(target_arch = "wasm32"))))]
-        Backend::Auto => d2::cpu::delaunay2d(points, options),
-        #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-        Backend::Gpu => {
-            Err(Error::NoAdapter { reason: "a browser's GPU cannot be waited for: use `Triangulator`".to_owned() })
-        }
-    }
+/// The same as for [`delaunay3d`].
+pub fn delaunay2d<'a>(points: impl Into<Points2<'a>>) -> Result<Mesh2, Error> {
+    Triangulator::of_process().delaunay2d(points)
 }
 
-/// Compiles and runs the README's example.
+/// The modules that this package's own tests, benchmarks, program and WebAssembly bindings use.
+///
+/// Nothing here is part of the public interface: anything may change or go in any version.
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::options::{OnProgress, Options, Winding};
+
+    macro_rules! open {
+        ($($(#[$attribute:meta])* $module:ident),*) => {$(
+            $(#[$attribute])*
+            pub mod $module {
+                pub use crate::$module::*;
+            }
+        )*};
+    }
+    open!(
+        d2,
+        d3,
+        #[cfg(feature = "gpu")]
+        gpu,
+        index,
+        input,
+        #[cfg(feature = "io")]
+        io,
+        mesh,
+        parallel,
+        predicates,
+        random,
+        #[cfg(feature = "gpu")]
+        reference,
+        triangulator
+    );
+}
+
+/// Compiles and runs the README's examples.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,23 +1,25 @@
-//! Work on slices, shared among the machine's threads where it has any.
+//! Work on slices, shared among the machine's threads if it has several.
 
 use std::ops::Range;
 
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
 use rayon::prelude::*;
 
-/// The threads that share a piece of work.
+/// Which threads share a piece of work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Threads {
-    /// The calling one.
+    /// The calling thread only.
     One,
-    /// Those of rayon's pool; the calling one where there are no others, as in the browser.
+    /// The threads of rayon's pool, or the calling thread if there are no others, as in the
+    /// browser.
     All,
 }
 
-/// A chunk of this many elements is worth handing to another thread.
+/// The number of elements that is worth handing to another thread if the work per element is a few
+/// instructions.
 const CHUNK: usize = 1 << 13;
 
-/// Calls `work` with every chunk of `items` and the place where it begins.
+/// Calls `work` with every chunk of `items` and the index of its first element.
 pub(crate) fn for_chunks<T: Send>(threads: Threads, items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
     #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
     if threads == Threads::All && items.len() > CHUNK {
@@ -27,13 +29,14 @@ pub(crate) fn for_chunks<T: Send>(threads: Threads, items: &mut [T], work: impl 
     work(0, items);
 }
 
-/// What `work` makes of the ranges that 0 … `len` is cut into, in order. For elements that cost no more than to look at
-/// them.
+/// Splits 0 … `len` into ranges of [`CHUNK`] elements and returns the results of `work` for each,
+/// in order. For work of a few instructions per element.
 pub(crate) fn map_ranges<R: Send>(threads: Threads, len: usize, work: impl Fn(Range<usize>) -> R + Sync) -> Vec<R> {
     map_grains(threads, len, CHUNK, work)
 }
 
-/// The same for ranges of `grain` elements.
+/// Splits 0 … `len` into ranges of `grain` elements and returns the results of `work` for each, in
+/// order.
 pub(crate) fn map_grains<R: Send>(
     threads: Threads,
     len: usize,
@@ -49,7 +52,7 @@ pub(crate) fn map_grains<R: Send>(
     vec![work(0..len)]
 }
 
-/// Sorts items that are equal only if they are the same.
+/// Sorts items of which equal ones are indistinguishable.
 pub(crate) fn sort<T: Ord + Send>(threads: Threads, items: &mut [T]) {
     #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
     if threads == Threads::All {
@@ -59,7 +62,8 @@ pub(crate) fn sort<T: Ord + Send>(threads: Threads, items: &mut [T]) {
     items.sort_unstable();
 }
 
-/// What `work` makes of each item and its place, in order. For items that are worth handing to another thread.
+/// Returns the results of `work` for each item and its index, in order. For items that are each
+/// worth handing to another thread.
 pub(crate) fn map_mut<T: Send, R: Send>(
     threads: Threads,
     items: &mut [T],

@@ -5,30 +5,32 @@ use rand_pcg::{
     rand_core::{Rng, SeedableRng},
 };
 
-/// The points along an axis of a random grid.
+/// The number of points along each axis of a random grid.
 pub const GRID_SIDE: u64 = 512;
 
-/// The inner and outer radius of thin spheres and thin circles.
+/// The inner and the outer radius of thin spheres and thin circles.
 pub const THIN_SPHERE_RADII: [f64; 2] = [1.0, 1.01];
 
-/// Random numbers, and points of `D` coordinates made of them.
+/// A generator of random numbers, and of points of `D` coordinates.
 pub(crate) struct Random(Pcg64Mcg);
 
 impl Random {
+    /// Creates a generator from a seed.
     pub(crate) fn new(seed: u64) -> Self {
         Random(Pcg64Mcg::seed_from_u64(seed))
     }
 
-    /// Uniform in [0, 1), a multiple of 2⁻⁵³.
+    /// Returns a number uniform in [0, 1), a multiple of 2⁻⁵³.
     pub(crate) fn unit(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
     }
 
+    /// Returns a point uniform in the unit cube [0, 1)ᴰ.
     pub(crate) fn in_cube<const D: usize>(&mut self) -> [f64; D] {
         std::array::from_fn(|_| self.unit())
     }
 
-    /// By rejection from the cube [−1, 1)³.
+    /// Returns a point uniform in the unit ball, by rejection from the cube [−1, 1)ᴰ.
     pub(crate) fn in_ball<const D: usize>(&mut self) -> [f64; D] {
         loop {
             let p: [f64; D] = self.in_cube().map(|x| 2.0 * x - 1.0);
@@ -38,7 +40,8 @@ impl Random {
         }
     }
 
-    /// A point of the ball, projected; not from its very centre, where too few bits are left for a direction.
+    /// Returns a point uniform on the unit sphere: a point of the ball, projected. Points within
+    /// 0.01 of the centre are rejected, because too few of their bits are left for a direction.
     pub(crate) fn on_sphere<const D: usize>(&mut self) -> [f64; D] {
         loop {
             let p: [f64; D] = self.in_ball();
@@ -50,7 +53,7 @@ impl Random {
         }
     }
 
-    /// Uniform in volume between the two radii.
+    /// Returns a point uniform in volume between two radii.
     pub(crate) fn in_shell(&mut self, [inner, outer]: [f64; 2]) -> [f64; 3] {
         let direction: [f64; 3] = self.on_sphere();
         let cubed = |r: f64| r * r * r;
@@ -58,16 +61,18 @@ impl Random {
         direction.map(|x| x * radius)
     }
 
+    /// Returns a point of the integer grid with `side` points along each axis.
     pub(crate) fn on_grid<const D: usize>(&mut self, side: u64) -> [f64; D] {
         std::array::from_fn(|_| (self.0.next_u64() % side) as f64)
     }
 
+    /// Returns a point whose coordinates are normal with mean 0 and variance 1.
     pub(crate) fn gaussian<const D: usize>(&mut self) -> [f64; D] {
         std::array::from_fn(|_| self.normal())
     }
 
-    /// Marsaglia's polar method; its second value is not kept, so that a point depends on nothing before it but the
-    /// generator's state.
+    /// Returns a normal number by Marsaglia's polar method. The method's second value is dropped,
+    /// so that a point depends on nothing before it except the generator's state.
     fn normal(&mut self) -> f64 {
         loop {
             let [u, v] = std::array::from_fn(|_| 2.0 * self.unit() - 1.0);
@@ -79,7 +84,9 @@ impl Random {
     }
 }
 
+/// Returns the squared distance from the origin.
 pub(crate) fn squared_norm<const D: usize>(p: [f64; D]) -> f64 {
-    // From the first term on, so that no rounding differs between dimensions.
+    // The sum starts with the first term rather than with 0, so that no rounding differs between
+    // dimensions.
     p.into_iter().map(|x| x * x).reduce(|a, b| a + b).unwrap_or(0.0)
 }

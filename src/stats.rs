@@ -1,171 +1,387 @@
-//! What a run did, and how long it took.
+//! Statistics of a run: what it did, and how long each part took.
 
-use crate::Error;
+use crate::{Backend, Error};
+use std::{fmt, time::Duration};
 
-/// How a mesh came about.
-#[derive(Debug, Clone, Default, PartialEq)]
+/// Statistics of the run that computed a mesh.
+///
+/// With the feature `serde`, all statistics can be serialised; times become seconds, and names such as those of
+/// [`Phase`] become strings.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Backend, Triangulator, stats::Phase};
+///
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
+/// let stats = Triangulator::new().backend(Backend::Cpu).delaunay2d(&points)?.stats;
+/// assert_eq!(stats.backend, Backend::Cpu);
+/// assert!(stats.time_of(Phase::Insert) <= stats.total_time());
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Stats {
-    /// The engine that made the mesh: `"cpu"` or `"gpu"`.
-    pub engine: &'static str,
-    /// Why the CPU engine made the mesh, where it was not asked for by name.
+    /// The backend that computed the mesh: [`Backend::Cpu`] or [`Backend::Gpu`].
+    pub backend: Backend,
+    /// Why the CPU computed the mesh, if it was not requested explicitly.
     pub fallback: Option<Fallback>,
-    /// The phases in the order in which they ran, with the seconds that each took; those of an attempt that failed are not
-    /// among them. Zeros on wasm without the feature `gpu`, where there is no clock.
-    pub phases: Vec<(&'static str, f64)>,
-    /// Signs that the floating-point filter left open on the CPU, by what decided them.
+    /// The phases in the order in which they ran, with the time that each took. Phases of an attempt that failed are not
+    /// included. All times are zero on WebAssembly without the feature `gpu`, where there is no clock.
+    #[cfg_attr(feature = "serde", serde(rename = "seconds", serialize_with = "serialize::phases"))]
+    pub phases: Vec<(Phase, Duration)>,
+    /// Predicate evaluations on the CPU that the floating-point filter left open, by what decided them.
     pub exact: ExactCounts,
-    /// What the GPU did, also where the CPU engine had to take over from it.
+    /// What the GPU did, including an attempt after which the CPU had to take over.
     pub gpu: Option<GpuStats>,
-    /// What star splaying did after that.
+    /// What star splaying did after that; 3D only.
     pub splay: Option<SplayStats>,
-    /// How the mesh came about step by step, if [`Options::trace`](crate::Options::trace) asked for it.
+    /// The intermediate triangulations, if [`Triangulator::trace`](crate::Triangulator::trace) requested them.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub trace: Option<Trace>,
 }
 
-/// Why the CPU engine made a mesh, though it was not asked for by name.
+impl Stats {
+    /// Creates the statistics of a run that `backend` begins.
+    pub(crate) fn new(backend: Backend) -> Self {
+        Stats {
+            backend,
+            fallback: None,
+            phases: Vec::new(),
+            exact: ExactCounts::default(),
+            gpu: None,
+            splay: None,
+            trace: None,
+        }
+    }
+
+    /// Returns the time that all phases took together.
+    pub fn total_time(&self) -> Duration {
+        self.phases.iter().map(|&(_, time)| time).sum()
+    }
+
+    /// Returns the time that one phase took; zero if it did not run.
+    pub fn time_of(&self, phase: Phase) -> Duration {
+        self.phases.iter().filter(|&&(ran, _)| ran == phase).map(|&(_, time)| time).sum()
+    }
+}
+
+/// Returns the statistics of an empty run on the CPU.
+impl Default for Stats {
+    fn default() -> Self {
+        Stats::new(Backend::Cpu)
+    }
+}
+
+/// A phase of a run.
+///
+/// On the CPU the phases are [`Sort`](Phase::Sort), [`Insert`](Phase::Insert) and [`Finish`](Phase::Finish). On the GPU they
+/// are [`Lattice`](Phase::Lattice), [`Phase1`](Phase::Phase1), [`Readback`](Phase::Readback), then [`Splay`](Phase::Splay)
+/// in 3D or [`Check`](Phase::Check) and [`Flip`](Phase::Flip) in 2D, and [`Finish`](Phase::Finish).
+///
+/// # Examples
+///
+/// ```
+/// use gdel::stats::Phase;
+///
+/// assert_eq!(Phase::Insert.to_string(), "insert");
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Phase {
+    /// Validating the points, ordering them along a Hilbert curve, and finding duplicates.
+    Sort,
+    /// Inserting the points one by one.
+    Insert,
+    /// Validating the points and fitting the integer lattice.
+    Lattice,
+    /// Insertion and flipping on the GPU: Phase 1 of the gDel3D paper.
+    Phase1,
+    /// Copying the result of the GPU to host memory.
+    Readback,
+    /// Repairing the GPU's triangulation by star splaying: Phase 2 of the gDel3D paper.
+    Splay,
+    /// Evaluating exactly what rounding to the lattice left open, in 2D.
+    Check,
+    /// Repairing the GPU's triangulation by flips, in 2D.
+    Flip,
+    /// Removing the ghosts and extracting the hull.
+    Finish,
+}
+
+impl Phase {
+    /// Returns the name of the phase, such as `insert`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Phase::Sort => "sort",
+            Phase::Insert => "insert",
+            Phase::Lattice => "lattice",
+            Phase::Phase1 => "phase 1",
+            Phase::Readback => "readback",
+            Phase::Splay => "splay",
+            Phase::Check => "check",
+            Phase::Flip => "flip",
+            Phase::Finish => "finish",
+        }
+    }
+}
+
+impl fmt::Display for Phase {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Why the CPU computed a mesh although it was not requested explicitly.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::stats::Fallback;
+///
+/// // `Backend::Auto` does not use a GPU for three points.
+/// let stats = gdel::delaunay2d(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]])?.stats;
+/// match stats.fallback {
+///     Some(Fallback::FewPoints { points, .. }) => assert_eq!(points, 3),
+///     Some(reason) => println!("no GPU: {reason}"),
+///     None => unreachable!("three points are left to the CPU"),
+/// }
+/// # Ok::<(), gdel::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fallback {
-    /// The CPU engine is sooner done with so few points.
+    /// The CPU triangulates so few points faster than the GPU.
     #[error("{points} points are too few to be worth the GPU, which needs {least}")]
     FewPoints {
-        /// The points of the input.
+        /// The number of points of the input.
         points: usize,
-        /// From so many on the GPU would have been used.
+        /// The number of points from which on the GPU would have been used.
         least: usize,
     },
-    /// There is no GPU, or none that can be opened.
+    /// There is no GPU, or it cannot be opened.
     #[error("{0}")]
     NoGpu(Error),
-    /// The only GPU is a program that runs on the CPU.
+    /// The only GPU is a program that runs on the CPU; the name of its adapter is given.
     #[error("the only GPU is software ({0})")]
     SoftwareGpu(String),
     /// The GPU failed.
     #[error("{0}")]
     GpuFailed(Error),
-    /// The points are coplanar or so nearly so that the lattice cannot tell.
+    /// The points are coplanar, or so nearly coplanar that the lattice cannot tell.
     #[error("the points are coplanar, or nearly")]
     Coplanar,
-    /// The points of the plane are collinear or so nearly so that the lattice cannot tell.
+    /// The points of a 2D input are collinear, or so nearly collinear that the lattice cannot tell.
     #[error("the points are collinear, or nearly")]
     Collinear,
-    /// The device's flips waited for each other in a row that was too long; or, in the plane, what rounding left open took more flips
-    /// than the CPU engine would have.
-    #[error("flipping was too much work")]
+    /// Flipping took more work than the CPU backend needs for the whole input.
+    #[error("flipping took too much work")]
     Flips,
-    /// In the plane, rounding had folded the triangulation over itself in a way that flips do not undo.
+    /// In 2D, rounding had folded the triangulation over itself in a way that flips do not undo.
     #[error("rounding had folded the triangulation over itself")]
     Folded,
-    /// Splaying asked for more signs than the CPU engine would have.
-    #[error("splaying was too much work")]
-    Work,
-    /// Splaying found that Phase 1 had made no triangulation of the true coordinates.
+    /// Star splaying took more predicate evaluations than the CPU backend needs for the whole input.
+    #[error("star splaying took too much work")]
+    Splaying,
+    /// Star splaying found that Phase 1 had not produced a triangulation of the exact coordinates.
     #[error("{0}")]
     Inconsistent(&'static str),
 }
 
+impl Fallback {
+    /// Returns the name of the reason, such as `few-points`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Fallback::FewPoints { .. } => "few-points",
+            Fallback::NoGpu(_) => "no-gpu",
+            Fallback::SoftwareGpu(_) => "software-gpu",
+            Fallback::GpuFailed(_) => "gpu-failed",
+            Fallback::Coplanar => "coplanar",
+            Fallback::Collinear => "collinear",
+            Fallback::Flips => "flips",
+            Fallback::Folded => "folded",
+            Fallback::Splaying => "splaying",
+            Fallback::Inconsistent(_) => "inconsistent",
+        }
+    }
+}
+
 /// What Phase 1 did on the GPU.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Backend, Triangulator};
+///
+/// let points: Vec<[f32; 2]> = (0..1000).map(|i| [(i * i % 997) as f32, i as f32]).collect();
+/// match Triangulator::new().backend(Backend::Gpu).delaunay2d(&points) {
+///     Ok(mesh) => {
+///         let gpu = mesh.stats.gpu.expect("the GPU was used");
+///         println!("{}: {} rounds, {} bytes", gpu.adapter, gpu.rounds.len(), gpu.bytes);
+///     }
+///     Err(error) => println!("{error}"),
+/// }
+/// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct GpuStats {
-    /// The adapter's name.
+    /// The name of the adapter.
     pub adapter: String,
-    /// The insertion rounds, then the rounds in which the last flips were done.
+    /// The insertion rounds, then the rounds that only flipped.
     pub rounds: Vec<Round>,
-    /// Flips of two tetrahedra into three.
+    /// The number of flips of two tetrahedra into three.
     pub flips_23: u64,
-    /// Flips of three tetrahedra into two.
+    /// The number of flips of three tetrahedra into two.
     pub flips_32: u64,
-    /// In the plane: flips of two triangles into two.
+    /// The number of flips of two triangles into two, in 2D.
     pub flips_22: u64,
-    /// Flip iterations that had something to do.
+    /// The number of flip iterations that had something to do.
     pub flip_iterations: u64,
-    /// Signs that took exact arithmetic.
+    /// The number of predicate evaluations that took exact arithmetic.
     pub exact_tests: u64,
-    /// Facets that were not locally Delaunay and could not be flipped, those with the vertex at infinity included.
+    /// The number of facets that were not locally Delaunay and could not be flipped, including those with the vertex at
+    /// infinity.
     pub not_locally_delaunay: u64,
-    /// The vertices of such facets, infinity left out.
+    /// The number of vertices of such facets, without the vertex at infinity.
     pub failed_vertices: u64,
-    /// Points that another one at the same place of the lattice stood for: duplicates, and points that were rounded there.
+    /// The number of points that were merged with another one at the same lattice position: duplicates, and points that
+    /// were rounded there.
     pub merged: u64,
-    /// Results that were read back.
+    /// The number of results that were read back.
     pub readbacks: u64,
-    /// Kernels that were run.
+    /// The number of kernels that were run.
     pub dispatches: u64,
-    /// Submissions to the queue.
+    /// The number of submissions to the queue.
     pub submits: u64,
-    /// The most bytes of GPU memory that were held at a time.
+    /// The largest amount of GPU memory that was held at a time, in bytes.
     pub bytes: u64,
 }
 
-/// A round of Phase 1.
+/// A round of Phase 1: insertions, and the flips that follow them.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Backend, Triangulator};
+///
+/// let points: Vec<[f32; 2]> = (0..1000).map(|i| [(i * i % 997) as f32, i as f32]).collect();
+/// if let Ok(mesh) = Triangulator::new().backend(Backend::Gpu).delaunay2d(&points) {
+///     for round in mesh.stats.gpu.iter().flat_map(|gpu| &gpu.rounds) {
+///         println!("{} points, {} flips, {:?}", round.inserted, round.flips, round.time);
+///     }
+/// }
+/// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Round {
-    /// Points that were inserted.
+    /// The number of points that were inserted.
     pub inserted: u32,
-    /// Tetrahedra whose facets are still to be checked at the end.
+    /// The number of tetrahedra, or triangles in 2D, whose facets were still to be checked at the end.
     pub active: u32,
-    /// Flips.
+    /// The number of flips.
     pub flips: u32,
-    /// Flip iterations that had something to do.
+    /// The number of flip iterations that had something to do.
     pub iterations: u32,
-    /// Milliseconds on the host's clock.
-    pub milliseconds: f64,
+    /// The time from the end of the previous round, by the host's clock.
+    #[cfg_attr(feature = "serde", serde(rename = "seconds", serialize_with = "serialize::seconds"))]
+    pub time: Duration,
 }
 
-/// What splaying did.
+/// What star splaying did.
+///
+/// # Examples
+///
+/// ```
+/// // Star splaying repairs what the GPU's Phase 1 leaves open, so the CPU backend has none.
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
+/// assert_eq!(gdel::delaunay3d(&points)?.stats.splay, None);
+/// # Ok::<(), gdel::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct SplayStats {
-    /// Flat tetrahedra on the hull that were peeled off.
+    /// The number of flat tetrahedra on the hull that were peeled off.
     pub peeled: usize,
-    /// Failed vertices.
+    /// The number of failed vertices.
     pub failed: usize,
-    /// Stars that were made convex: those of failed vertices, and some that had flat or inverted tetrahedra.
+    /// The number of stars that were made convex: those of failed vertices, and some that had flat or inverted
+    /// tetrahedra.
     pub built: usize,
-    /// Of these, the ones that were built from their points, where Flip-Flop could not start or was stuck.
+    /// How many of these were built from their points because Flip-Flop could not start or was stuck.
     pub from_points: usize,
-    /// Stars that were taken from the triangulation as they are.
+    /// The number of stars that were taken from the triangulation unchanged.
     pub pulled: usize,
-    /// Flips of Flip-Flop.
+    /// The number of Flip-Flop's flips.
     pub flips: usize,
-    /// Points that were inserted into stars.
+    /// The number of insertions of points into stars.
     pub insertions: usize,
-    /// Checks whether all stars agree about a tetrahedron.
+    /// The number of checks whether all stars agree about a tetrahedron.
     pub checks: usize,
-    /// Tetrahedra that were removed from the triangulation.
+    /// The number of tetrahedra that were removed from the triangulation.
     pub removed: usize,
-    /// Tetrahedra that were added to it.
+    /// The number of tetrahedra that were added to it.
     pub added: usize,
-    /// Missing points that were inserted.
+    /// The number of missing points that were inserted.
     pub inserted: usize,
-    /// Signs that were asked for.
+    /// The number of predicate evaluations.
     pub signs: u64,
-    /// Rounds of insertions.
+    /// The number of rounds of insertions.
     pub rounds: usize,
 }
 
-/// How a mesh came about, step by step.
+/// The intermediate triangulations of a run on the GPU in 3D.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Backend, Triangulator};
+///
+/// let points: Vec<[f32; 3]> = (0..100).map(|i| [(i * 7 % 11) as f32, (i * i % 13) as f32, i as f32]).collect();
+/// let traced = Triangulator::new().backend(Backend::Gpu).trace(true).delaunay3d(&points);
+/// if let Some(trace) = traced.ok().and_then(|mesh| mesh.stats.trace) {
+///     for (i, tetrahedra) in trace.rounds.iter().enumerate() {
+///         println!("round {i}: {} tetrahedra", tetrahedra.len());
+///     }
+/// }
+/// ```
 #[derive(Debug, Clone, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Trace {
-    /// The finite tetrahedra after each of [`GpuStats::rounds`], as input indices. The last are what splaying begins with.
+    /// The finite tetrahedra after each of [`GpuStats::rounds`], as input indices. Star splaying begins with the last.
     pub rounds: Vec<Vec<[u32; 4]>>,
-    /// The facets between finite tetrahedra that were not locally Delaunay when Phase 1 was done, as input indices.
+    /// The facets between finite tetrahedra that were not locally Delaunay after Phase 1, as input indices.
     pub not_locally_delaunay: Vec<[u32; 3]>,
-    /// For each tetrahedron of the mesh, whether splaying made it and not Phase 1.
+    /// For each tetrahedron of the mesh, whether star splaying created it rather than Phase 1.
     pub splayed: Vec<bool>,
 }
 
-/// How many signs each stage of the predicates decided, after the floating-point filter.
+/// The number of predicate evaluations that each exact stage decided after the floating-point filter.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Backend, Triangulator};
+///
+/// // All eight corners of a cube lie on one sphere, so ties are broken symbolically.
+/// let cube: Vec<[f32; 3]> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|x| x as f32)).collect();
+/// let exact = Triangulator::new().backend(Backend::Cpu).delaunay3d(&cube)?.stats.exact;
+/// assert!(exact.symbolic > 0);
+/// # Ok::<(), gdel::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct ExactCounts {
     /// Decided by fixed-width integers on the lattice.
     pub integer: u64,
     /// Decided by floating-point expansions or big integers, where a point does not fit the lattice.
     pub expansion: u64,
-    /// Cospherical: decided by the symbolic perturbation.
+    /// Cospherical or cocircular points: decided by the symbolic perturbation.
     pub symbolic: u64,
 }
 
@@ -181,10 +397,40 @@ impl std::ops::Add for ExactCounts {
     }
 }
 
-impl Stats {
-    /// The seconds that all phases took together.
-    pub fn total_seconds(&self) -> f64 {
-        self.phases.iter().map(|(_, seconds)| seconds).sum()
+#[cfg(feature = "serde")]
+mod serialize {
+    use super::{Fallback, Phase};
+    use serde::{
+        Serialize, Serializer,
+        ser::{SerializeMap, SerializeStruct},
+    };
+    use std::time::Duration;
+
+    impl Serialize for Phase {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            serializer.serialize_str(self.name())
+        }
+    }
+
+    impl Serialize for Fallback {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            let mut reason = serializer.serialize_struct("Fallback", 2)?;
+            reason.serialize_field("reason", self.name())?;
+            reason.serialize_field("message", &self.to_string())?;
+            reason.end()
+        }
+    }
+
+    pub(super) fn seconds<S: Serializer>(time: &Duration, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_f64(time.as_secs_f64())
+    }
+
+    pub(super) fn phases<S: Serializer>(phases: &[(Phase, Duration)], serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(phases.len()))?;
+        for (phase, time) in phases {
+            map.serialize_entry(phase, &time.as_secs_f64())?;
+        }
+        map.end()
     }
 }
 
@@ -207,18 +453,18 @@ impl Stopwatch {
         }
     }
 
-    /// The seconds since the start or the last lap.
+    /// Returns the time since the start or the last lap.
     #[cfg(any(feature = "gpu", not(target_arch = "wasm32")))]
-    pub(crate) fn lap(&mut self) -> f64 {
+    pub(crate) fn lap(&mut self) -> Duration {
         let now = Instant::now();
-        let seconds = (now - self.started).as_secs_f64();
+        let time = now - self.started;
         self.started = now;
-        seconds
+        time
     }
 
-    /// Zero: there is no clock.
+    /// Returns zero, since there is no clock.
     #[cfg(not(any(feature = "gpu", not(target_arch = "wasm32"))))]
-    pub(crate) fn lap(&mut self) -> f64 {
-        0.0
+    pub(crate) fn lap(&mut self) -> Duration {
+        Duration::ZERO
     }
 }

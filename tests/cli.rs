@@ -85,14 +85,14 @@ fn stats(folder: &Path, arguments: &[&str]) -> Vec<serde_json::Value> {
 fn stats_as_json_for_each_run() {
     let folder = folder();
     fs::write(folder.path().join("p.csv"), "x,y,z\n0,0,0\n1,0,0\n0,1,0\n0,0,1\n0,0,1\n").unwrap();
-    let runs = stats(folder.path(), &["p.csv", "--repeat", "3", "--engine", "cpu"]);
+    let runs = stats(folder.path(), &["p.csv", "--repeat", "3", "--backend", "cpu"]);
     assert_eq!(runs.len(), 3);
     for run in runs {
         let expected = [("points", 5), ("duplicates", 1), ("dimension", 3), ("tetrahedra", 1), ("hull_triangles", 4)];
         for (key, value) in expected {
             assert_eq!(run[key], value, "{run}");
         }
-        assert_eq!(run["engine"], "cpu");
+        assert_eq!(run["backend"], "cpu");
         let seconds = run["seconds"].as_object().unwrap();
         let total = seconds["total"].as_f64().unwrap();
         let phases: f64 = seconds.iter().filter(|(name, _)| *name != "total").map(|(_, s)| s.as_f64().unwrap()).sum();
@@ -105,10 +105,10 @@ fn stats_as_json_for_each_run() {
 fn stats_of_the_gpu_engine_as_json() {
     let folder = folder();
     succeeds(folder.path(), &["generate", "thin-sphere", "900", "-o", "p.npy"]);
-    let runs = stats(folder.path(), &["p.npy", "--repeat", "2", "--engine", "gpu"]);
+    let runs = stats(folder.path(), &["p.npy", "--repeat", "2", "--backend", "gpu"]);
     assert_eq!(runs.len(), 2);
     for run in &runs {
-        assert_eq!((&run["engine"], run.get("fallback")), (&"gpu".into(), None), "{run}");
+        assert_eq!((&run["backend"], run.get("fallback")), (&"gpu".into(), None), "{run}");
         let rounds = run["gpu"]["rounds"].as_array().unwrap();
         let inserted: u64 = rounds.iter().map(|round| round["inserted"].as_u64().unwrap()).sum();
         assert_eq!(inserted, 900, "{run}");
@@ -117,9 +117,9 @@ fn stats_of_the_gpu_engine_as_json() {
         }
         assert!(run["splay"]["built"].is_u64() && run["exact"]["integer"].is_u64(), "{run}");
     }
-    let auto = &stats(folder.path(), &["p.npy", "--engine", "auto"])[0];
-    assert_eq!(auto["engine"], "cpu");
-    assert!(auto["fallback"].as_str().unwrap().contains("900 points are too few"), "{auto}");
+    let auto = &stats(folder.path(), &["p.npy", "--backend", "auto"])[0];
+    assert_eq!(auto["backend"], "cpu");
+    assert!(auto["fallback"]["message"].as_str().unwrap().contains("900 points are too few"), "{auto}");
 }
 
 #[test]
@@ -293,7 +293,7 @@ fn wrong_usage_is_2() {
     for arguments in [
         &["triangulate"][..],
         &["triangulate", "p.xyz", "-o", "m.doc"],
-        &["triangulate", "p.xyz", "--engine", "abacus"],
+        &["triangulate", "p.xyz", "--backend", "abacus"],
         &["triangulate", "p.xyz", "--repeat", "0"],
         &["generate", "torus", "5", "-o", "p.xyz"],
         &["generate", "ball", "-5", "-o", "p.xyz"],

@@ -1,15 +1,15 @@
-//! Point clouds that make other codes crash or give wrong meshes.
+//! Point clouds that make other codes crash or return wrong meshes.
 #![allow(dead_code)]
 
-use gdel::d3::generate::{Distribution, generate};
+use gdel::internals::d3::generate::{Distribution, generate};
 use std::f64::consts::TAU;
 
-/// The integer grid with this many points a side, x first.
+/// Returns the integer grid with `side` points along each axis, x first.
 pub fn grid(side: u32) -> Vec<[f64; 3]> {
     (0..side.pow(3)).map(|i| [i % side, i / side % side, i / side / side].map(f64::from)).collect()
 }
 
-/// The same points under other indices.
+/// Returns the same points under other indices.
 pub fn shuffled(points: &[[f64; 3]], seed: u64) -> Vec<[f64; 3]> {
     let keys = generate(Distribution::Uniform, points.len(), seed);
     let mut order: Vec<usize> = (0..points.len()).collect();
@@ -17,18 +17,19 @@ pub fn shuffled(points: &[[f64; 3]], seed: u64) -> Vec<[f64; 3]> {
     order.into_iter().map(|i| points[i]).collect()
 }
 
-/// Random points of a 64³ grid, many of them several times.
+/// Returns `n` random points of a 64³ grid, many of them several times.
 pub fn grid_64_with_duplicates(n: usize) -> Vec<[f64; 3]> {
     generate(Distribution::Grid, n, 1).iter().map(|p| p.map(|x| x % 64.0)).collect()
 }
 
-/// `n` points on each of two skew lines: every segment of one line makes a tetrahedron with every segment of the other.
+/// Returns `n` points on each of two skew lines: every segment of one line makes a tetrahedron with
+/// every segment of the other.
 pub fn two_skew_lines(n: u32) -> Vec<[f64; 3]> {
     let middle = f64::from(n) / 2.0;
     (0..n).flat_map(|i| [[f64::from(i), 0.0, 0.0], [middle, f64::from(i) - middle - 0.5, 40.0]]).collect()
 }
 
-/// `n` points on a circle, and as many on its axis.
+/// Returns `n` points on a circle, and as many on its axis.
 pub fn circle_and_its_axis(n: u32) -> Vec<[f64; 3]> {
     let circle = (0..n).map(|i| {
         let angle = TAU * f64::from(i) / f64::from(n);
@@ -38,14 +39,15 @@ pub fn circle_and_its_axis(n: u32) -> Vec<[f64; 3]> {
     circle.chain(axis).collect()
 }
 
-/// All 36 integer points at 65 from the origin, exactly cocircular, and 100 points of their axis.
+/// Returns all 36 integer points at distance 65 from the origin, exactly cocircular, and 100 points
+/// of their axis.
 pub fn circle_of_integers_and_its_axis() -> Vec<[f64; 3]> {
     let circle =
         (-65..=65).flat_map(|x| (-65..=65).map(move |y| [x, y, 0])).filter(|[x, y, _]| x * x + y * y == 65 * 65);
     circle.chain((-50..50).map(|z| [0, 0, z])).map(|p| p.map(f64::from)).collect()
 }
 
-/// `n` points around 40 places, about 1e-9 apart.
+/// Returns `n` points around 40 places, about 1e-9 apart.
 pub fn clusters_at_1e_9_spacing(n: usize) -> Vec<[f64; 3]> {
     let centers = generate(Distribution::Uniform, 40, 1);
     let within = generate(Distribution::Gaussian, n, 2);
@@ -54,28 +56,29 @@ pub fn clusters_at_1e_9_spacing(n: usize) -> Vec<[f64; 3]> {
     within.iter().enumerate().map(near).collect()
 }
 
-/// Grids of spacing 2⁻³⁰, so exactly cospherical, at corners of the unit cube.
+/// Returns grids of spacing 2⁻³⁰, so exactly cospherical, at corners of the unit cube.
 pub fn grids_at_1e_9_spacing(side: u32) -> Vec<[f64; 3]> {
     let corners = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 1.0]];
     let near = |p: [f64; 3]| corners.map(|c| [0, 1, 2].map(|i| c[i] + p[i] / (1u64 << 30) as f64));
     grid(side).into_iter().flat_map(near).collect()
 }
 
-/// Easting, northing and height of an airborne scan, in whole millimetres.
+/// Returns `n` points like the eastings, northings and heights of an airborne scan, in whole
+/// millimetres.
 pub fn survey(n: usize) -> Vec<[f64; 3]> {
     let millimetres = |x: f64| libm::rint(x * 1000.0) / 1000.0;
     let at = |[x, y, z]: [f64; 3]| [1e7 + 400.0 * x, 1e7 + 400.0 * y, 300.0 + 5.0 * z].map(millimetres);
     generate(Distribution::Uniform, n, 3).into_iter().map(at).collect()
 }
 
-/// `n` points of a plane at 1e7, and one post.
+/// Returns `n` points of a plane at 1e7, and one post.
 pub fn flat_ground(n: usize) -> Vec<[f64; 3]> {
     let mut points: Vec<_> = survey(n).iter().map(|&[x, y, _]| [x, y, 300.0]).collect();
     points.push([1e7 + 200.0, 1e7 + 200.0, 301.5]);
     points
 }
 
-/// `10 n` points, of which `3 n` are duplicates.
+/// Returns `10 n` points, of which `3 n` are duplicates.
 pub fn thirty_percent_duplicates(n: usize) -> Vec<[f64; 3]> {
     let distinct = generate(Distribution::Uniform, 7 * n, 1);
     let points: Vec<_> = distinct.iter().chain(&distinct[..3 * n]).copied().collect();

@@ -4,7 +4,7 @@
 #[path = "io/samples.rs"]
 mod samples;
 
-use gdel::io::{MeshFormat, PointFormat};
+use gdel::internals::io::{MeshFormat, PointFormat};
 use peak_alloc::PeakAlloc;
 use rand::{RngExt, SeedableRng, seq::IndexedRandom};
 use rand_pcg::Pcg64Mcg;
@@ -62,7 +62,7 @@ fn damaged_files_neither_panic_nor_exhaust_memory() {
     // As the command line does it; the report of a panic would count as the reader's memory, too.
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
-        if !gdel::io::panics_are_caught() {
+        if !gdel::internals::io::panics_are_caught() {
             report(info);
         }
     }));

@@ -1,7 +1,7 @@
 //! Every reader of meshes; the first byte chooses the format.
 #![no_main]
 
-use gdel::io::{MeshFormat, read_neigh};
+use gdel::internals::io::{MeshFormat, read_neigh};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|data: &[u8]| {

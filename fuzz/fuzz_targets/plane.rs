@@ -2,7 +2,7 @@
 //! small integers, which are often degenerate, or numbers of all exponents.
 #![no_main]
 
-use gdel::{Options, d2::verify::verify2d, delaunay2d};
+use gdel::{internals::Options, verify::verify2d, delaunay2d};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|data: &[u8]| {
@@ -14,7 +14,7 @@ fuzz_target!(|data: &[u8]| {
     };
     let (points, _) = coordinates.as_chunks::<2>();
     let finite: Vec<_> = points.iter().copied().filter(|p| p.iter().all(|x| x.is_finite())).take(200).collect();
-    let mesh = delaunay2d(&finite, &Options::default()).expect("finite points");
+    let mesh = delaunay2d(&finite).expect("finite points");
     let report = verify2d(&finite, &mesh).expect("finite points");
     assert!(report.passed(), "{report}");
 });

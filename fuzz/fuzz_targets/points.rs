@@ -1,7 +1,7 @@
 //! Every reader of point clouds; the first byte chooses the format.
 #![no_main]
 
-use gdel::{Points, io::{PointFormat, panics_are_caught}};
+use gdel::{internals::io::{PointFormat, panics_are_caught}, Points};
 use libfuzzer_sys::fuzz_target;
 use std::panic;
 

@@ -23,6 +23,7 @@ struct Control {
     entries_before: u32,
     blocks_before: u32,
     compact_from: u32,
+    clockwise: u32,
 
     iteration: u32,
     link_iteration: u32,

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 pub(super) fn run() -> Result<(), Failure> {
     let mut out = io::stdout().lock();
-    let adapters = pollster::block_on(gdel::gpu::adapters());
+    let adapters = gdel::adapters();
     if adapters.is_empty() {
         writeln!(out, "none: there is no driver for Vulkan, Metal or Direct3D 12")?;
     }

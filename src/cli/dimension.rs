@@ -1,7 +1,7 @@
 //! `--dim`: space or the plane.
 
 use clap::ValueEnum;
-use gdel::io::{PlanePoints, PointCloud, drop_z};
+use gdel::internals::io::{PlanePoints, PointCloud, drop_z};
 use std::path::Path;
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

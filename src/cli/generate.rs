@@ -2,7 +2,7 @@
 
 use super::{Failure, dimension::Dimension, progress::Progress};
 use clap::{Args, CommandFactory, builder::PossibleValuesParser, error::ErrorKind};
-use gdel::{
+use gdel::internals::{
     d2::generate::{Distribution2, generate2d},
     d3::generate::{Distribution, generate},
     io::files,

@@ -10,7 +10,7 @@ mod triangulate;
 mod verify;
 
 use clap::{Parser, Subcommand};
-use gdel::io::files::FileError;
+use gdel::internals::io::files::FileError;
 use std::{io, panic, path::PathBuf, process::ExitCode};
 
 /// Exact 3D and 2D Delaunay triangulation of point clouds.
@@ -48,7 +48,7 @@ enum Failure {
 pub(crate) fn main() -> ExitCode {
     let report = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
-        if !gdel::io::panics_are_caught() {
+        if !gdel::internals::io::panics_are_caught() {
             report(info);
         }
     }));

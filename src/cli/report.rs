@@ -1,9 +1,9 @@
 //! What a run says about itself.
 
 use gdel::{
-    Mesh2, Mesh3,
-    io::PointCloud,
-    stats::{ExactCounts, GpuStats, SplayStats, Stats},
+    Backend, Mesh2, Mesh3,
+    internals::io::PointCloud,
+    stats::{ExactCounts, Fallback, GpuStats, Phase, SplayStats, Stats},
 };
 use serde::{Serialize, Serializer, ser::SerializeMap};
 use std::{fmt, time::Duration};
@@ -20,10 +20,10 @@ pub(super) struct Report<'a> {
     /// Those that the dimension of the mesh has.
     #[serde(flatten)]
     counts: Counts,
-    engine: &'a str,
-    /// Why the CPU engine made the mesh, where it was not asked for by name.
+    backend: Backend,
+    /// Why the CPU computed the mesh, where it was not requested explicitly.
     #[serde(skip_serializing_if = "Option::is_none")]
-    fallback: Option<String>,
+    fallback: Option<&'a Fallback>,
     seconds: Seconds<'a>,
     /// Signs that the filters left open on the CPU.
     exact: ExactCounts,
@@ -36,22 +36,22 @@ pub(super) struct Report<'a> {
 #[derive(Clone, Copy, Serialize)]
 #[serde(untagged)]
 enum Counts {
-    StarPredicates { tetrahedra: usize, hull_triangles: usize },
-    Plane { triangles: usize, hull_edges: usize },
+    ThreeD { tetrahedra: usize, hull_triangles: usize },
+    TwoD { triangles: usize, hull_edges: usize },
 }
 
 /// Without reading and writing files.
 struct Seconds<'a> {
     total: Duration,
-    phases: &'a [(&'static str, f64)],
+    phases: &'a [(Phase, Duration)],
 }
 
 impl Serialize for Seconds<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(1 + self.phases.len()))?;
         map.serialize_entry("total", &self.total.as_secs_f64())?;
-        for (phase, seconds) in self.phases {
-            map.serialize_entry(phase, seconds)?;
+        for (phase, time) in self.phases {
+            map.serialize_entry(phase, &time.as_secs_f64())?;
         }
         map.end()
     }
@@ -59,14 +59,14 @@ impl Serialize for Seconds<'_> {
 
 impl<'a> Report<'a> {
     pub(super) fn new(cloud: &PointCloud, mesh: &'a Mesh3, total: Duration) -> Self {
-        let counts = Counts::StarPredicates { tetrahedra: mesh.tetrahedra.len(), hull_triangles: mesh.hull.len() };
-        Self::with(cloud, counts, mesh.duplicates(), mesh.dimension, &mesh.stats, total)
+        let counts = Counts::ThreeD { tetrahedra: mesh.tetrahedra.len(), hull_triangles: mesh.hull.len() };
+        Self::with(cloud, counts, mesh.duplicate_count(), mesh.dimension, &mesh.stats, total)
     }
 
     pub(super) fn of_plane(cloud: &PointCloud, mesh: &'a Mesh2, total: Duration) -> Self {
         let hull_edges = if mesh.dimension == 2 { mesh.hull.len() } else { 0 };
-        let counts = Counts::Plane { triangles: mesh.triangles.len(), hull_edges };
-        Self::with(cloud, counts, mesh.duplicates(), mesh.dimension, &mesh.stats, total)
+        let counts = Counts::TwoD { triangles: mesh.triangles.len(), hull_edges };
+        Self::with(cloud, counts, mesh.duplicate_count(), mesh.dimension, &mesh.stats, total)
     }
 
     fn with(
@@ -83,8 +83,8 @@ impl<'a> Report<'a> {
             duplicates,
             dimension,
             counts,
-            engine: stats.engine,
-            fallback: stats.fallback.as_ref().map(ToString::to_string),
+            backend: stats.backend,
+            fallback: stats.fallback.as_ref(),
             seconds: Seconds { total, phases: &stats.phases },
             exact: stats.exact,
             gpu: stats.gpu.as_ref(),
@@ -104,8 +104,8 @@ impl fmt::Display for Report<'_> {
         }
         writeln!(f)?;
         let (full, simplices) = match self.counts {
-            Counts::StarPredicates { .. } => (3, "tetrahedra"),
-            Counts::Plane { .. } => (2, "triangles"),
+            Counts::ThreeD { .. } => (3, "tetrahedra"),
+            Counts::TwoD { .. } => (2, "triangles"),
         };
         if self.dimension < full {
             let shape = match (self.dimension, self.points) {
@@ -117,19 +117,19 @@ impl fmt::Display for Report<'_> {
             writeln!(f, "dimension       {} ({shape}, so there are no {simplices})", self.dimension)?;
         }
         match self.counts {
-            Counts::StarPredicates { tetrahedra, hull_triangles } => {
+            Counts::ThreeD { tetrahedra, hull_triangles } => {
                 writeln!(f, "tetrahedra      {tetrahedra}\nhull triangles  {hull_triangles}")?;
             }
-            Counts::Plane { triangles, hull_edges } => {
+            Counts::TwoD { triangles, hull_edges } => {
                 writeln!(f, "triangles       {triangles}\nhull edges      {hull_edges}")?;
             }
         }
-        write!(f, "seconds         {:.3} ({}", self.seconds.total.as_secs_f64(), self.engine)?;
+        write!(f, "seconds         {:.3} ({}", self.seconds.total.as_secs_f64(), self.backend)?;
         if let Some(why) = &self.fallback {
             write!(f, ", since {why}")?;
         }
-        for (phase, seconds) in self.seconds.phases {
-            write!(f, ", {phase} {seconds:.3}")?;
+        for (phase, time) in self.seconds.phases {
+            write!(f, ", {phase} {:.3}", time.as_secs_f64())?;
         }
         write!(f, ")")
     }

@@ -9,8 +9,8 @@ use super::{
 };
 use clap::{Args, ValueEnum};
 use gdel::{
-    Backend, Options,
-    io::files::{self, FileError, Output},
+    Backend, Triangulator,
+    internals::io::files::{self, FileError, Output},
     verify::Report as Proof,
 };
 use std::{
@@ -18,7 +18,6 @@ use std::{
     num::NonZeroUsize,
     ops::ControlFlow,
     path::{Path, PathBuf},
-    sync::Arc,
     time::{Duration, Instant},
 };
 
@@ -34,9 +33,9 @@ pub(super) struct Arguments {
     /// Triangulate space, or the plane: then z is dropped, and all outputs have the triangles
     #[arg(long, value_enum, default_value_t = Dimension::Three)]
     dim: Dimension,
-    /// Which engine computes; all give the same mesh
-    #[arg(long, value_enum, default_value_t = EngineName::Auto)]
-    engine: EngineName,
+    /// What computes; all give the same mesh
+    #[arg(long, value_enum, default_value_t = BackendName::Auto)]
+    backend: BackendName,
     /// Print statistics in this form instead of a summary; with --repeat one object a line and run
     #[arg(long, value_enum)]
     stats: Option<StatsForm>,
@@ -49,23 +48,21 @@ pub(super) struct Arguments {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
-enum EngineName {
-    /// The GPU engine for large inputs where there is a graphics card, else the CPU engine
+enum BackendName {
+    /// The GPU for large inputs where there is one, else the CPU
     Auto,
     /// Incremental insertion on one core
     Cpu,
-    /// Flipping on the graphics card, splaying on the CPU
-    #[cfg(feature = "gpu")]
+    /// Flipping on the GPU, then star splaying (3D) or flips (2D) on the CPU
     Gpu,
 }
 
-impl From<EngineName> for Backend {
-    fn from(name: EngineName) -> Self {
+impl From<BackendName> for Backend {
+    fn from(name: BackendName) -> Self {
         match name {
-            EngineName::Auto => Backend::Auto,
-            EngineName::Cpu => Backend::Cpu,
-            #[cfg(feature = "gpu")]
-            EngineName::Gpu => Backend::Gpu,
+            BackendName::Auto => Backend::Auto,
+            BackendName::Cpu => Backend::Cpu,
+            BackendName::Gpu => Backend::Gpu,
         }
     }
 }
@@ -90,14 +87,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     match arguments.dim {
         Dimension::Three => {
             let report = |mesh: &_, total| print(arguments.stats, &Report::new(&cloud, mesh, total));
-            let mesh = triangulate(arguments, |options| gdel::delaunay3d(&cloud, options), report)?;
+            let mesh = triangulate(arguments, |triangulator| triangulator.delaunay3d(&cloud), report)?;
             conclude(arguments, || verify::prove(path, &cloud, &mesh))?;
             write(arguments, |output| output.write((&cloud).into(), &mesh))
         }
         Dimension::Two => {
             let points = plane_points(path, &cloud);
             let report = |mesh: &_, total| print(arguments.stats, &Report::of_plane(&cloud, mesh, total));
-            let mesh = triangulate(arguments, |options| gdel::delaunay2d(&points, options), report)?;
+            let mesh = triangulate(arguments, |triangulator| triangulator.delaunay2d(&points), report)?;
             conclude(arguments, || verify::prove2(path, (&points).into(), &mesh))?;
             write(arguments, |output| output.write2((&points).into(), &mesh))
         }
@@ -107,20 +104,22 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Runs and reports as often as asked for; gives the last mesh.
 fn triangulate<M>(
     arguments: &Arguments,
-    run: impl Fn(&Options) -> Result<M, gdel::Error>,
+    run: impl Fn(&Triangulator) -> Result<M, gdel::Error>,
     report: impl Fn(&M, Duration) -> io::Result<()>,
 ) -> Result<M, Failure> {
+    // One device for all runs.
+    let triangulator = Triangulator::new().backend(arguments.backend.into());
     let once = || {
         let (mesh, total) = {
             let progress = Progress::new("triangulating");
             let show = progress.reporter();
-            let mut options = Options { backend: arguments.engine.into(), ..Options::default() };
-            options.on_progress = Some(Arc::new(move |progress| {
-                show(progress.phase, progress.fraction);
+            let triangulator = triangulator.clone().on_progress(move |progress| {
+                show(progress.phase.name(), progress.fraction);
                 ControlFlow::Continue(())
-            }));
+            });
             let start = Instant::now();
-            let mesh = run(&options).map_err(|source| Failure::Points { path: arguments.input.clone(), source })?;
+            let mesh =
+                run(&triangulator).map_err(|source| Failure::Points { path: arguments.input.clone(), source })?;
             (mesh, start.elapsed())
         };
         report(&mesh, total)?;

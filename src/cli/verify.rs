@@ -8,10 +8,8 @@ use super::{
 use clap::Args;
 use gdel::{
     Points2,
-    d2::verify::{MeshView2, verify2d},
-    d3::verify::{MeshView, verify3d},
-    io::{PointCloud, files},
-    verify::Report,
+    internals::io::{PointCloud, files},
+    verify::{MeshView, MeshView2, Report, verify2d, verify3d},
 };
 use std::{
     io::{self, Write},

@@ -1,13 +1,14 @@
-//! Synthetic points of the plane: those of the paper's §5.6, and some that are hard.
+//! Synthetic 2D points: the distributions of the paper's §5.6, and some that are difficult.
 //!
-//! As in space ([`crate::d3::generate`](mod@crate::d3::generate)), they are the same bit for bit on every platform.
+//! The points depend only on the distribution, the number and the seed, bit for bit on every
+//! platform; see [`d3::generate`](mod@crate::d3::generate).
 
 use crate::random::{GRID_SIDE, Random, THIN_SPHERE_RADII};
 
-/// How far the points of a cluster are apart.
+/// The side of the square in which the points of a cluster lie.
 const CLUSTER: f64 = 1e-6;
 
-/// How the points of a synthetic cloud in the plane are distributed.
+/// The distribution of the points of a synthetic 2D cloud.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Distribution2 {
@@ -21,11 +22,11 @@ pub enum Distribution2 {
     Circle,
     /// Between two circles of slightly different radius, 1 and 1.01.
     ThinCircle,
-    /// Random points of the integer grid 512², with duplicates as they fall.
+    /// Random points of the integer grid 512², duplicates included.
     Grid,
-    /// By turns on two segments of length 1 that are parallel at distance 1.
+    /// Alternating between two parallel segments of length 1 at distance 1.
     TwoLines,
-    /// In 64 squares of side 10⁻⁶.
+    /// In 64 squares of side 10⁻⁶, whose corners are the points of an 8×8 integer grid.
     Clusters,
 }
 
@@ -42,7 +43,7 @@ impl Distribution2 {
         Distribution2::Clusters,
     ];
 
-    /// The name on the command line, such as `thin-circle`.
+    /// Returns the name on the command line, such as `thin-circle`.
     pub fn name(self) -> &'static str {
         match self {
             Distribution2::Uniform => "uniform",
@@ -57,7 +58,8 @@ impl Distribution2 {
     }
 }
 
-/// `n` random points. The first points of a longer cloud of the same seed are the points of a shorter one.
+/// Returns `n` random points. The points of a shorter cloud of the same distribution and seed are
+/// the first points of a longer one.
 pub fn generate2d(distribution: Distribution2, n: usize, seed: u64) -> Vec<[f64; 2]> {
     let mut random = Random::new(seed);
     let point = |i: usize| match distribution {

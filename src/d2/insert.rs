@@ -1,48 +1,55 @@
-//! Bowyer–Watson: find the triangles whose circumcircles hold the new point, and fill their cavity from the point.
+//! Bowyer–Watson insertion (1981): find the triangles whose circumcircles contain the new point,
+//! and fill their cavity with triangles at the point.
 //!
-//! The outside of the hull is triangulated too, with *ghosts* that join its edges to one infinite vertex, so that no edge is
-//! special. The predicates never tie, so the cavity is star-shaped, has no vertex inside, and no new triangle is flat.
+//! The outside of the hull is triangulated too, by *ghosts*, triangles that join the edges of the
+//! hull to one infinite vertex, so that no edge is special. The in-circle test breaks its ties
+//! symbolically and never returns zero, so the cavity is star-shaped, has no vertex inside, and no
+//! new triangle is flat.
 
 use crate::d2::triangulation::{MAX_TRIANGLES, Triangulation2};
-use crate::{Error, Options, predicates::filter::PredicateContext2};
+use crate::{Error, Options, predicates::filter::PredicateContext2, stats::Phase};
 
-/// The most points that the engine takes: a sphere of *n* + 1 vertices has 2·*n* − 2 triangles.
+/// The maximum number of points: a sphere of *n* + 1 vertices has 2·*n* − 2 triangles.
 pub(crate) const MAX_POINTS: usize = MAX_TRIANGLES / 2;
-/// How often progress is reported, in points.
+/// The number of points between two reports of progress: few enough for a smooth display, and so
+/// many that reports cost little beside the insertions.
 const REPORT: usize = 1 << 13;
 
 /// An edge of a cavity.
 #[derive(Clone, Copy)]
 struct Edge {
-    /// From where to where, with the cavity on the left.
+    /// The start and the end, with the cavity on the left.
     ends: [u32; 2],
-    /// What lies beyond: 4·(triangle) + (edge seen from there).
+    /// The triangle outside the cavity: 4·(triangle) + (edge as it is numbered there).
     beyond: u32,
 }
 
-/// Lists that every insertion uses anew.
+/// Lists that insertions reuse.
 #[derive(Default)]
 pub(crate) struct Scratch {
     /// The triangles in conflict, whose slots the new triangles take.
     conflict: Vec<u32>,
     /// The edges of the cavity, counter-clockwise.
     boundary: Vec<Edge>,
-    /// Edges to cross, the next one last.
+    /// The edges that are still to be crossed, the next one last.
     pending: Vec<Edge>,
 }
 
-/// Triangulates all vertices, of which the first three are counter-clockwise.
+/// Triangulates all vertices, of which the first three must be counter-clockwise.
 pub(crate) fn insert_all(vertices: &PredicateContext2<'_>, options: &Options) -> Result<Triangulation2, Error> {
     let n = vertices.len();
     let mut mesh = initial(n as u32);
     mesh.reserve(2 * n)?;
-    let report = |inserted: usize| options.report("insert", (3 + inserted) as f64 / n as f64);
+    let report = |inserted: usize| options.report(Phase::Insert, (3 + inserted) as f64 / n as f64);
     insert_points(&mut mesh, vertices, 3..n as u32, 0, report)?;
     Ok(mesh)
 }
 
-/// Inserts vertices that a Delaunay triangulation does not have yet; best if neighbours in the order are neighbours in the
-/// plane, and `start` is a triangle near the first. `report` learns now and then how many are inserted, and can stop.
+/// Inserts vertices that a Delaunay triangulation lacks.
+///
+/// Insertion is fast if consecutive vertices are near each other, and the first is near triangle
+/// `start`. Calls `report` with the number of vertices inserted so far from time to time; an error
+/// from it ends the insertion.
 pub(crate) fn insert_points(
     mesh: &mut Triangulation2,
     vertices: &PredicateContext2<'_>,
@@ -62,14 +69,14 @@ pub(crate) fn insert_points(
     Ok(())
 }
 
-/// One triangle of the vertices 0 to 2, and the three ghosts on its edges.
+/// Creates the triangulation of vertices 0 to 2: one triangle, and the ghosts on its three edges.
 fn initial(infinite: u32) -> Triangulation2 {
     let triangles = vec![[0, 1, 2], [infinite, 2, 1], [0, 2, infinite], [1, 0, infinite]];
     let neighbors = vec![[0; 3]; 4];
     let mut mesh = Triangulation2 { triangles, neighbors, infinite };
     for t in 0..4 {
         for k in 0..3 {
-            // The edge against this one.
+            // The edge with the opposite direction.
             let [from, to] = mesh.edge(t, k);
             let against = (0..12).map(|e| [e / 3, e % 3]).find(|&[u, l]| mesh.edge(u, l) == [to, from]);
             if let Some([u, l]) = against {
@@ -80,20 +87,22 @@ fn initial(infinite: u32) -> Triangulation2 {
     mesh
 }
 
-/// The vertices after `k` in a triangle, modulo 3.
+/// The corner after corner *k* of a triangle, counter-clockwise.
 pub(crate) const NEXT: [usize; 3] = [1, 2, 0];
-/// The vertices before.
-pub(crate) const BEFORE: [usize; 3] = [2, 0, 1];
+/// The corner before corner *k* of a triangle, counter-clockwise.
+pub(crate) const PREVIOUS: [usize; 3] = [2, 0, 1];
 
 impl Triangulation2 {
-    /// The ends of the edge of `t` opposite its vertex `k`, with `t` on the left.
+    /// Returns the ends of the edge of `t` opposite its corner `k`, with `t` on the left.
     fn edge(&self, t: u32, k: u32) -> [u32; 2] {
         let v = self.triangles[t as usize];
-        [v[NEXT[k as usize]], v[BEFORE[k as usize]]]
+        [v[NEXT[k as usize]], v[PREVIOUS[k as usize]]]
     }
 
-    /// A triangle that holds vertex `p`, or a ghost whose edge sees it: a walk that crosses edges towards `p` from triangle
-    /// `start`. It ends, since the power distance to `p` falls with every step.
+    /// Returns a triangle that contains vertex `p`, or a ghost whose edge sees it.
+    ///
+    /// Walks from triangle `start` across edges that separate the current triangle from `p`. The
+    /// walk ends because the power distance to `p` decreases with every step.
     pub(crate) fn locate(&self, vertices: &PredicateContext2<'_>, p: u32, start: u32) -> u32 {
         let mut t = match self.triangles[start as usize].iter().position(|&v| v == self.infinite) {
             Some(k) => self.neighbors[start as usize][k] >> 2,
@@ -116,15 +125,18 @@ impl Triangulation2 {
         }
     }
 
-    /// Whether the circumcircle of `t` holds vertex `p`. That of a ghost is the half-plane beyond its edge and, on the
-    /// edge's line, the edge itself, which the circumcircle on the other side of the edge cuts out of the line.
+    /// Returns whether the circumcircle of `t` contains vertex `p`.
+    ///
+    /// The circumcircle of a ghost is the half-plane beyond its edge and, on the edge's line, the
+    /// edge itself: the part of the line inside the circumcircle of the triangle on the other side
+    /// of the edge.
     #[inline]
     pub(crate) fn in_conflict(&self, vertices: &PredicateContext2<'_>, t: u32, p: u32) -> bool {
         let v = self.triangles[t as usize];
         match v.iter().position(|&v| v == self.infinite) {
             None => vertices.incircle(v, p) > 0,
             Some(k) => {
-                let [a, b] = [v[NEXT[k]], v[BEFORE[k]]];
+                let [a, b] = [v[NEXT[k]], v[PREVIOUS[k]]];
                 match vertices.orient2d(a, b, p) {
                     0 => vertices.is_between(a, p, b),
                     side => side > 0,
@@ -133,7 +145,7 @@ impl Triangulation2 {
         }
     }
 
-    /// Inserts vertex `p`, which is in conflict with triangle `start`; gives a triangle at `p`.
+    /// Inserts vertex `p`, which is in conflict with triangle `start`. Returns a triangle at `p`.
     pub(crate) fn insert(
         &mut self,
         vertices: &PredicateContext2<'_>,
@@ -146,7 +158,8 @@ impl Triangulation2 {
         while conflict.len() < boundary.len() {
             conflict.push(self.push()?);
         }
-        // Around p, each new triangle shares an edge with the one before and the next.
+        // Around p, each new triangle shares one edge with the previous triangle and one with the
+        // next.
         let mut before = conflict[boundary.len() - 1];
         for (i, &Edge { ends: [a, b], beyond }) in boundary.iter().enumerate() {
             let new = conflict[i];
@@ -159,8 +172,11 @@ impl Triangulation2 {
         Ok(before)
     }
 
-    /// Lists the triangles in conflict with `p`, and the edges around them, counter-clockwise, depth-first. No vertex is
-    /// inside of the cavity, so its triangles form a tree, and none is met twice.
+    /// Lists the triangles in conflict with `p`, and the edges around them, counter-clockwise,
+    /// depth-first.
+    ///
+    /// No vertex lies inside the cavity, so the adjacencies of its triangles form a tree, and none
+    /// is visited twice.
     fn find_cavity(&mut self, vertices: &PredicateContext2<'_>, p: u32, start: u32, scratch: &mut Scratch) {
         let Scratch { conflict, boundary, pending } = scratch;
         conflict.clear();
@@ -172,14 +188,14 @@ impl Triangulation2 {
             let (t, k) = (next.beyond >> 2, (next.beyond & 3) as usize);
             if self.in_conflict(vertices, t, p) {
                 conflict.push(t);
-                pending.extend([edge(t, BEFORE[k]), edge(t, NEXT[k])]);
+                pending.extend([edge(t, PREVIOUS[k]), edge(t, NEXT[k])]);
             } else {
                 boundary.push(next);
             }
         }
     }
 
-    /// A new slot.
+    /// Appends an unused slot.
     fn push(&mut self) -> Result<u32, Error> {
         let count = self.triangles.len();
         if count == self.triangles.capacity() {

@@ -1,17 +1,21 @@
-//! From a triangulation that is nearly Delaunay to the Delaunay triangulation: exact edge flips (Lawson 1977), then the
-//! insertion of the points that it lacks.
+//! The end of a GPU triangulation: exact edge flips (Lawson 1977) make a nearly Delaunay
+//! triangulation Delaunay, then the points that it lacks are inserted.
 //!
-//! Flipping never gets stuck in the plane (the paper's §5.6). What it starts from is a triangulation by signs that may have
-//! been those of rounded coordinates, so some triangles may be flat or inverted on the true ones:
+//! Flipping never gets stuck in 2D (the paper's §5.6). The triangulation was made by predicates
+//! that may have used rounded coordinates, however, so some triangles may be flat or inverted in
+//! the exact ones:
 //!
-//! 1. An edge is flipped when the triangle on one side is in conflict with the vertex on the other. With ghosts as
-//!    triangles like others, a flip at the hull takes a flat triangle off it, or fills a dent.
-//! 2. A flip must make triangles that are counter-clockwise. So inverted ones only become fewer.
-//! 3. At the end no uncertain triangle is flat or inverted, and the hull turns once; with all edges locally Delaunay, the
-//!    triangulation is the one that is asked for. If that is not so, flipping gives up.
+//! 1. An edge is flipped if the triangle on one side is in conflict with the vertex on the other.
+//!    Ghosts are triangles like any others, so a flip at the hull removes a flat triangle from it,
+//!    or fills a dent.
+//! 2. The triangles that a flip makes must be counter-clockwise. So the number of inverted
+//!    triangles only decreases.
+//! 3. At the end, no uncertain triangle may be flat or inverted, and the hull must turn once. Then,
+//!    with all edges locally Delaunay, the triangulation is the Delaunay triangulation. Otherwise
+//!    flipping aborts.
 
 use crate::d2::{
-    insert::{BEFORE, NEXT, insert_points},
+    insert::{NEXT, PREVIOUS, insert_points},
     triangulation::Triangulation2,
 };
 use crate::{
@@ -19,54 +23,61 @@ use crate::{
     predicates::{Sign, filter::PredicateContext2},
 };
 
-/// How often progress is reported, in flips.
+/// The number of flips between two reports of progress: few enough for a smooth display, and so
+/// many that reports cost little beside the flips.
 const REPORT: u64 = 1 << 12;
 
-/// A triangulation that is Delaunay but for some places that are known.
+/// A triangulation that is Delaunay except in known places.
 #[derive(Debug, Clone)]
 pub struct NearDelaunay2 {
-    /// The triangulation, ghosts included. It must be a sphere: neighbours are mutual and run against each other.
+    /// All triangles, ghosts included. Topologically it must be a sphere: neighbours are mutual,
+    /// and shared edges have opposite directions.
     pub triangulation: Triangulation2,
-    /// Triangles and ghosts, in any order, some perhaps twice, such that every triangle not among them is counter-clockwise,
-    /// and every edge without any of them on a side is locally Delaunay, in the exact coordinates.
+    /// Triangles and ghosts, in any order and possibly repeated. In exact coordinates, every
+    /// triangle that is not among them must be counter-clockwise, and every edge without one of
+    /// them on either side must be locally Delaunay.
     pub uncertain: Vec<u32>,
-    /// PredicateContext that are no vertices of the triangulation yet, each with a triangle or ghost to start looking from.
+    /// The vertices that the triangulation lacks, each with a triangle or ghost where its location
+    /// starts.
     pub missing: Vec<(u32, u32)>,
 }
 
-/// What became of a nearly Delaunay triangulation.
+/// The result of [`lawson`].
 #[derive(Debug)]
-pub enum Outcome {
-    /// The Delaunay triangulation, and how many flips it took.
+pub enum LawsonOutcome {
+    /// The Delaunay triangulation, and the number of flips.
     Delaunay(Triangulation2, u64),
-    /// The CPU engine must start from the points.
+    /// No triangulation, for this reason: the CPU has to triangulate the points from scratch.
     Aborted(Aborted),
 }
 
-/// Why flipping gave up.
+/// The reason why flipping aborted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Aborted {
-    /// It took more flips than were allowed.
-    Work,
-    /// Rounding had folded the triangulation over itself in a way that flips do not undo.
+    /// More flips are needed than the caller allows.
+    BudgetExceeded,
+    /// Rounding folded the triangulation over itself in a way that flips do not undo.
     Folded,
 }
 
-/// Makes `near` the Delaunay triangulation of all `vertices` but the duplicates, with at most `most_flips` flips. `report`
-/// learns now and then which share is done, and can stop.
+/// Makes `near` the Delaunay triangulation of all `vertices` except duplicates, with at most
+/// `max_flips` flips.
+///
+/// Calls `report` with the share of the work that is done from time to time; an error from it ends
+/// the work.
 ///
 /// # Errors
 ///
-/// [`Error::Cancelled`] from `report`, and [`Error::OutOfMemory`].
+/// Returns the errors of `report` and [`Error::OutOfMemory`].
 pub fn lawson(
     vertices: &PredicateContext2<'_>,
     near: NearDelaunay2,
-    most_flips: u64,
+    max_flips: u64,
     report: &dyn Fn(f64) -> Result<(), Error>,
-) -> Result<Outcome, Error> {
+) -> Result<LawsonOutcome, Error> {
     let NearDelaunay2 { triangulation: mut mesh, uncertain, missing } = near;
-    if missing.len() as u64 > most_flips {
-        return Ok(Outcome::Aborted(Aborted::Work));
+    if missing.len() as u64 > max_flips {
+        return Ok(LawsonOutcome::Aborted(Aborted::BudgetExceeded));
     }
     let mut pending: Vec<u32> = uncertain.iter().flat_map(|&t| [4 * t, 4 * t + 1, 4 * t + 2]).collect();
     let mut stuck = Vec::new();
@@ -79,11 +90,11 @@ pub fn lawson(
             stuck.push(edge);
             continue;
         }
-        if flips == most_flips {
-            return Ok(Outcome::Aborted(Aborted::Work));
+        if flips == max_flips {
+            return Ok(LawsonOutcome::Aborted(Aborted::BudgetExceeded));
         }
         if flips % REPORT == 0 {
-            report(flips as f64 / most_flips as f64)?;
+            report(flips as f64 / max_flips as f64)?;
         }
         flips += 1;
         let [t, u] = mesh.flip(edge);
@@ -92,36 +103,39 @@ pub fn lawson(
     let hull_turns_once = mesh.hull_turns_once(vertices);
     let counter_clockwise = uncertain.iter().all(|&t| mesh.is_ghost(t) || mesh.orientation(vertices, t) > 0);
     if !hull_turns_once || !counter_clockwise || stuck.iter().any(|&edge| !mesh.is_delaunay(vertices, edge)) {
-        return Ok(Outcome::Aborted(Aborted::Folded));
+        return Ok(LawsonOutcome::Aborted(Aborted::Folded));
     }
-    // Those that start from the same triangle are near each other.
+    // Vertices that start from the same triangle are near each other.
     for near in missing.chunk_by(|(_, start), (_, other)| start == other) {
         insert_points(&mut mesh, vertices, near.iter().map(|&(v, _)| v), near[0].1, |_| report(1.0))?;
     }
-    Ok(Outcome::Delaunay(mesh, flips))
+    Ok(LawsonOutcome::Delaunay(mesh, flips))
 }
 
 impl Triangulation2 {
+    /// Returns the orientation of triangle `t`.
     fn orientation(&self, vertices: &PredicateContext2<'_>, t: u32) -> Sign {
         let [a, b, c] = self.triangles[t as usize];
         vertices.orient2d(a, b, c)
     }
 
-    /// The four vertices around an edge: [p, a, b, q] for the triangles p, a, b and q, b, a.
+    /// Returns the four vertices around an edge: [p, a, b, q] for the triangles p, a, b and q, b,
+    /// a.
     fn around(&self, edge: u32) -> [u32; 4] {
         let corners = |e: u32| (self.triangles[e as usize / 4], e as usize % 4);
         let (t, k) = corners(edge);
         let (u, l) = corners(self.neighbors[edge as usize / 4][edge as usize % 4]);
-        [t[k], t[NEXT[k]], t[BEFORE[k]], u[l]]
+        [t[k], t[NEXT[k]], t[PREVIOUS[k]], u[l]]
     }
 
-    /// Whether the triangle on neither side of the edge is in conflict with the vertex on the other: both say the same.
+    /// Returns whether the triangle on one side of the edge is not in conflict with the vertex on
+    /// the other; both sides give the same answer.
     fn is_delaunay(&self, vertices: &PredicateContext2<'_>, edge: u32) -> bool {
         let across = self.neighbors[edge as usize / 4][edge as usize % 4];
         let [p, .., q] = self.around(edge);
-        // A ghost's conflict with infinity has no meaning.
+        // A conflict between a ghost and infinity has no meaning, so the other side is tested then.
         if p == q {
-            // All that was on either side of the edge has been peeled off.
+            // Everything on either side of the edge has been peeled off.
             false
         } else if q == self.infinite {
             !self.in_conflict(vertices, across >> 2, p)
@@ -130,23 +144,26 @@ impl Triangulation2 {
         }
     }
 
-    /// Whether the triangles that a flip would make are counter-clockwise or ghosts.
+    /// Returns whether the triangles that a flip would make are counter-clockwise or ghosts.
     fn can_flip(&self, vertices: &PredicateContext2<'_>, edge: u32) -> bool {
         let [p, a, b, q] = self.around(edge);
         let proper = |t: [u32; 3]| t.contains(&self.infinite) || vertices.orient2d(t[0], t[1], t[2]) > 0;
         p != q && proper([p, a, q]) && proper([p, q, b])
     }
 
-    /// Puts the other diagonal in place of an edge: triangles p, a, b and q, b, a become p, a, q and p, q, b. Gives the
-    /// two, in this order; the edges around them are opposite the vertices 0 and 2, and 0 and 1.
+    /// Replaces an edge by the other diagonal: triangles p, a, b and q, b, a become p, a, q and p,
+    /// q, b.
+    ///
+    /// Returns the two triangles, in this order. Their outer edges are opposite corners 0 and 2 of
+    /// the first, and corners 0 and 1 of the second.
     fn flip(&mut self, edge: u32) -> [u32; 2] {
         let across = self.neighbors[edge as usize / 4][edge as usize % 4];
         let [p, a, b, q] = self.around(edge);
         let [t, u] = [edge, across].map(|e| e >> 2);
         let beyond = |e: u32, to: [usize; 3]| self.neighbors[e as usize / 4][to[e as usize % 4]];
-        // Across the edges a b → p a, b p and a q, q b.
-        let (pa, bp) = (beyond(edge, BEFORE), beyond(edge, NEXT));
-        let (aq, qb) = (beyond(across, NEXT), beyond(across, BEFORE));
+        // The neighbours across the edges p a and b p, and a q and q b.
+        let (pa, bp) = (beyond(edge, PREVIOUS), beyond(edge, NEXT));
+        let (aq, qb) = (beyond(across, NEXT), beyond(across, PREVIOUS));
         self.triangles[t as usize] = [p, a, q];
         self.triangles[u as usize] = [p, q, b];
         self.join(4 * t, aq);
@@ -157,8 +174,8 @@ impl Triangulation2 {
         [t, u]
     }
 
-    /// Whether the hull is one polygon without a dent that turns once: one vertex of it is before both its neighbours in
-    /// the order of coordinates, and one is after.
+    /// Returns whether the hull is one polygon without a dent that turns once: exactly one of its
+    /// vertices precedes both its neighbours in lexicographic order, and exactly one follows both.
     fn hull_turns_once(&self, vertices: &PredicateContext2<'_>) -> bool {
         let ghosts = (0..self.triangles.len() as u32).filter(|&t| self.is_ghost(t)).count();
         let hull = self.hull_vertices();

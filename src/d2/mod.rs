@@ -1,4 +1,4 @@
-//! Triangulations of the plane.
+//! 2D Delaunay triangulations. The folder mirrors [`d3`](crate::d3) file by file.
 
 pub mod cpu;
 pub mod generate;

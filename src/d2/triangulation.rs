@@ -1,98 +1,142 @@
-//! Triangles and their neighbours while they are being made, the outside of the hull included.
+//! Triangles and their neighbours under construction, the outside of the hull included.
 
-use crate::{Error, index::NONE};
+use crate::{
+    Error,
+    index::{NO_INDEX, NONE},
+    options::Winding,
+};
 
-/// Half-edges are numbered below 2³¹, since -1 is none.
+/// Half-edges are numbered below 2³¹, because −1 stands for none.
 pub(crate) const MAX_TRIANGLES: usize = i32::MAX as usize / 3;
 
-/// A half-edge of the hull, as a neighbour.
-const OUTSIDE: u32 = NONE as u32;
+/// The neighbour of a triangle across an edge of the hull, after the ghosts are dropped.
+const OUTSIDE: u32 = NO_INDEX;
 
-/// The half-edge that becomes of the edge opposite vertex *k*, and the other way round: turned over, the triangle a, b, c is
-/// a, c, b.
-const TURNED: [usize; 3] = [1, 0, 2];
+/// Where the vertices of a triangle stand in a mesh of this orientation, and the other way round.
+const fn vertex_order(clockwise: bool) -> [usize; 3] {
+    if clockwise { [0, 2, 1] } else { [0, 1, 2] }
+}
 
-/// A triangulation of the plane: triangles, and *ghosts*, which join the edges of the hull to one infinite vertex.
+/// The half-edge, numbered by the vertex where it begins, that the edge opposite vertex *k* becomes.
+const fn halfedge_of_edge(clockwise: bool) -> [usize; 3] {
+    if clockwise { [1, 0, 2] } else { [1, 2, 0] }
+}
+
+/// The inverse of [`halfedge_of_edge`].
+const fn edge_of_halfedge(clockwise: bool) -> [usize; 3] {
+    if clockwise { [1, 0, 2] } else { [2, 0, 1] }
+}
+
+/// A 2D triangulation: triangles, and *ghosts*, which join the edges of the hull to one infinite
+/// vertex.
 ///
-/// Every triangle has three neighbours, and edge *k* is the one opposite its vertex *k*. So topologically it is a sphere.
+/// Every triangle has three neighbours, and edge *k* is the one opposite its vertex *k*. So
+/// topologically it is a sphere.
 #[derive(Debug, Clone)]
 pub struct Triangulation2 {
-    /// Three vertices a triangle, counter-clockwise with the *y* axis up. A ghost has the infinite vertex in any place,
-    /// and is oriented as if that lay outside the hull.
+    /// Three vertices per triangle, counter-clockwise with the *y* axis up. A ghost has the
+    /// infinite vertex in any place, and is oriented as if that lay outside the hull.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// Across the edge opposite vertex *k*: 4·(triangle) + (edge as it is numbered there).
+    /// Entry *k* is across the edge opposite vertex *k*: 4·(triangle) + (edge as it is numbered
+    /// there).
     pub(crate) neighbors: Vec<[u32; 3]>,
     /// The infinite vertex: the number of vertices.
     pub(crate) infinite: u32,
 }
 
 impl Triangulation2 {
-    /// A triangulation from its arrays, which are not checked. `infinite`, the number of vertices, is the infinite vertex.
-    /// Triangles are counter-clockwise with the *y* axis up, ghosts as if the infinite vertex lay outside the hull. Entry
-    /// *k* of `neighbors` is across the edge opposite vertex *k*, packed as 4·(triangle) + (edge as it is numbered there).
+    /// Creates a triangulation from its arrays, which are not checked.
+    ///
+    /// Triangles are counter-clockwise with the *y* axis up; ghosts are oriented as if the infinite
+    /// vertex lay outside the hull. Entry *k* of `neighbors` is across the edge opposite vertex
+    /// *k*: 4·(triangle) + (edge as it is numbered there). `infinite` is the number of vertices.
     pub fn new(triangles: Vec<[u32; 3]>, neighbors: Vec<[u32; 3]>, infinite: u32) -> Self {
         Triangulation2 { triangles, neighbors, infinite }
     }
 
-    /// The triangulation of a mesh, from triangles, half-edges and hull as [`Mesh2`](crate::d2::Mesh2) has them: the inverse of
-    /// [`Triangulation2::into_mesh`] but for the names. They are not checked. `infinite` is the number of vertices. The mesh's
-    /// triangles keep their numbers, and one ghost for each edge of the hull follows.
-    pub fn from_mesh(mut triangles: Vec<[u32; 3]>, halfedges: Vec<[i32; 3]>, hull: &[u32], infinite: u32) -> Self {
+    /// The triangulation of a mesh, from triangles, half-edges and hull as [`Mesh2`](crate::d2::Mesh2) has them but for the
+    /// orientation: the inverse of [`Triangulation2::into_mesh`] but for the names. They are not checked. `infinite` is the
+    /// number of vertices. The mesh's triangles keep their numbers, and one ghost for each edge of the hull follows.
+    pub fn from_mesh(
+        triangles: Vec<[u32; 3]>,
+        halfedges: Vec<[i32; 3]>,
+        hull: &[u32],
+        infinite: u32,
+        winding: Winding,
+    ) -> Self {
+        match winding {
+            Winding::CounterClockwise => Self::read::<false>(triangles, halfedges, hull, infinite),
+            Winding::Clockwise => Self::read::<true>(triangles, halfedges, hull, infinite),
+        }
+    }
+
+    fn read<const CLOCKWISE: bool>(
+        mut triangles: Vec<[u32; 3]>,
+        halfedges: Vec<[i32; 3]>,
+        hull: &[u32],
+        infinite: u32,
+    ) -> Self {
         let count = triangles.len();
         let ghost = |i: usize| (count + i % hull.len()) as u32;
+        // Ghosts go around the infinite vertex clockwise; the half-edge below a ghost begins at its first vertex, or ends there.
+        let clockwise_hull = |i: usize| hull[if CLOCKWISE { i % hull.len() } else { hull.len() - 1 - i % hull.len() }];
         let mut ghost_from = vec![0; infinite as usize];
-        for (i, &v) in hull.iter().enumerate() {
-            ghost_from[v as usize] = ghost(i);
+        for i in 0..hull.len() {
+            ghost_from[clockwise_hull(i) as usize] = ghost(i);
         }
         let mut neighbors: Vec<[u32; 3]> = bytemuck::cast_vec(halfedges);
         neighbors.extend((0..hull.len()).map(|i| [4 * ghost(i + 1) + 1, 4 * ghost(i + hull.len() - 1), 0]));
         for t in 0..count {
             let halfedges = neighbors[t];
-            for (k, edge) in TURNED.into_iter().enumerate() {
+            for (k, edge) in edge_of_halfedge(CLOCKWISE).into_iter().enumerate() {
                 neighbors[t][edge] = match halfedges[k] {
                     OUTSIDE => {
-                        let ghost = ghost_from[triangles[t][k] as usize];
+                        let first = if CLOCKWISE { k } else { (k + 1) % 3 };
+                        let ghost = ghost_from[triangles[t][first] as usize];
                         neighbors[ghost as usize][2] = (4 * t + edge) as u32;
                         4 * ghost + 2
                     }
-                    e => 4 * (e / 3) + TURNED[e as usize % 3] as u32,
+                    e => 4 * (e / 3) + edge_of_halfedge(CLOCKWISE)[e as usize % 3] as u32,
                 };
             }
-            triangles[t].swap(1, 2);
+            triangles[t] = vertex_order(CLOCKWISE).map(|k| triangles[t][k]);
         }
-        triangles.extend((0..hull.len()).map(|i| [hull[i], hull[(i + 1) % hull.len()], infinite]));
+        triangles.extend((0..hull.len()).map(|i| [clockwise_hull(i), clockwise_hull(i + 1), infinite]));
         Triangulation2 { triangles, neighbors, infinite }
     }
 
-    /// The vertices of each triangle.
+    /// Returns the vertices of each triangle.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
-    /// The neighbours of each triangle.
+    /// Returns the neighbours of each triangle.
     pub fn neighbors(&self) -> &[[u32; 3]] {
         &self.neighbors
     }
 
-    /// Whether triangle `t` is a ghost.
+    /// Returns whether triangle `t` is a ghost.
     pub fn is_ghost(&self, t: u32) -> bool {
         self.triangles[t as usize].contains(&self.infinite)
     }
 
+    /// Reserves memory for this many triangles in all.
     pub(crate) fn reserve(&mut self, triangles: usize) -> Result<(), Error> {
         let more = triangles.saturating_sub(self.triangles.len());
         self.triangles
             .try_reserve_exact(more)
             .and_then(|()| self.neighbors.try_reserve_exact(more))
-            .map_err(|_| Error::OutOfMemory { tetrahedra: triangles })
+            .map_err(|_| Error::OutOfMemory { simplices: triangles })
     }
 
+    /// Makes two edges each other's neighbours.
     pub(crate) fn join(&mut self, e: u32, f: u32) {
         self.neighbors[e as usize / 4][e as usize % 4] = f;
         self.neighbors[f as usize / 4][f as usize % 4] = e;
     }
 
-    /// The vertices of the hull, clockwise with the *y* axis up: those around the infinite vertex.
+    /// Returns the vertices of the hull, clockwise with the *y* axis up: those around the infinite
+    /// vertex.
     pub(crate) fn hull_vertices(&self) -> Vec<u32> {
         let place_of_infinite = |t: u32| self.triangles[t as usize].iter().position(|&v| v == self.infinite);
         let mut hull = Vec::new();
@@ -109,13 +153,23 @@ impl Triangulation2 {
         hull
     }
 
-    /// Triangles, half-edges and hull as [`Mesh2`](crate::d2::Mesh2) has them, in the arrays where they lie; vertex *v* becomes
-    /// `names[v]`.
-    pub fn into_mesh(mut self, names: &[u32]) -> (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>) {
+    /// Triangles, half-edges and hull as [`Mesh2`](crate::d2::Mesh2) has them, but of this orientation, in the arrays where they
+    /// lie; vertex *v* becomes `names[v]`.
+    pub fn into_mesh(self, names: &[u32], winding: Winding) -> (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>) {
+        match winding {
+            Winding::CounterClockwise => self.write::<false>(names),
+            Winding::Clockwise => self.write::<true>(names),
+        }
+    }
+
+    fn write<const CLOCKWISE: bool>(mut self, names: &[u32]) -> (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>) {
         let mut hull: Vec<u32> = self.hull_vertices().into_iter().map(|v| names[v as usize]).collect();
+        if !CLOCKWISE {
+            hull.reverse();
+        }
         let lowest = hull.iter().enumerate().min_by_key(|&(_, v)| v).map_or(0, |(at, _)| at);
         hull.rotate_left(lowest);
-        // The last triangles move into the places of ghosts, and their neighbours are told.
+        // The last triangles move into the slots of ghosts, and their neighbours are updated.
         let mut count = self.triangles.len();
         let mut t = 0;
         while t < count {
@@ -143,14 +197,13 @@ impl Triangulation2 {
         triangles.truncate(count);
         neighbors.truncate(count);
         for t in &mut triangles {
-            let [a, b, c] = t.map(|v| names[v as usize]);
-            *t = [a, c, b];
+            *t = vertex_order(CLOCKWISE).map(|k| names[t[k] as usize]);
         }
         let mut halfedges: Vec<[i32; 3]> = bytemuck::cast_vec(neighbors);
         for edges in &mut halfedges {
-            *edges = TURNED.map(|k| match edges[k] as u32 {
+            *edges = edge_of_halfedge(CLOCKWISE).map(|k| match edges[k] as u32 {
                 OUTSIDE => NONE,
-                across => (across as usize / 4 * 3 + TURNED[across as usize % 4]) as i32,
+                across => (across as usize / 4 * 3 + halfedge_of_edge(CLOCKWISE)[across as usize % 4]) as i32,
             });
         }
         (triangles, halfedges, hull)

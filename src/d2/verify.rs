@@ -13,8 +13,22 @@ use crate::{
     },
 };
 
-/// What a mesh of the plane states: at least its triangles. What is `None` is not checked.
+/// What a 2D mesh states: at least its triangles. What is `None` is not checked.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::verify::{MeshView2, verify2d};
+///
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
+/// // A mesh of another program, with its own arrays.
+/// let mut mesh = MeshView2::of_triangles(&[[0, 1, 2]]);
+/// mesh.hull = Some(&[0, 1, 2]);
+/// assert!(verify2d(&points, mesh)?.passed());
+/// # Ok::<(), gdel::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, Default)]
+#[non_exhaustive]
 pub struct MeshView2<'a> {
     /// As in [`Mesh2::triangles`].
     pub triangles: &'a [[u32; 3]],
@@ -52,8 +66,8 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
 /// ```
 /// use gdel::verify::{MeshView2, verify2d};
 /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
-/// assert!(verify2d(&points, MeshView2::of_triangles(&[[0, 2, 1]]))?.passed());
-/// let turned = verify2d(&points, MeshView2::of_triangles(&[[0, 1, 2]]))?;
+/// assert!(verify2d(&points, MeshView2::of_triangles(&[[0, 1, 2]]))?.passed());
+/// let turned = verify2d(&points, MeshView2::of_triangles(&[[0, 2, 1]]))?;
 /// assert_eq!(turned.failures().next().unwrap().0.name(), "orientation");
 /// # Ok::<(), gdel::Error>(())
 /// ```
@@ -133,15 +147,15 @@ fn check_orientation(points: &[[f64; 2]], triangles: &[[u32; 3]]) -> Findings {
     for (t, vertices) in triangles.iter().enumerate() {
         let [a, b, c] = vertices.map(|v| points[v as usize]);
         let sign = orient2d(a, b, c);
-        if sign >= 0 {
-            let what = if sign == 0 { "flat" } else { "counter-clockwise where y points up" };
+        if sign <= 0 {
+            let what = if sign == 0 { "flat" } else { "clockwise" };
             findings.add(|| Defect::at_triangle(t, format!("{what}: {vertices:?}")));
         }
     }
     findings
 }
 
-/// Needs the closed hull, clockwise, and triangles that are oriented so.
+/// Needs the closed hull, counter-clockwise, and triangles that are oriented so.
 fn check_hull_convex(points: &[[f64; 2]], polygon: &[u32]) -> Findings {
     let mut findings = Findings::default();
     let mut turns = 0;
@@ -152,7 +166,7 @@ fn check_hull_convex(points: &[[f64; 2]], polygon: &[u32]) -> Findings {
         let is_greatest = pa < pb && pc < pb;
         turns += usize::from(is_greatest);
         let folded = orient2d(pa, pb, pc) == 0 && (pa < pb) != (pb < pc);
-        if orient2d(pa, pb, pc) > 0 || folded {
+        if orient2d(pa, pb, pc) < 0 || folded {
             findings.add(|| Defect::at_point(b as usize, format!("the hull is concave or folded, from {a} to {c}")));
         }
     }
@@ -252,7 +266,7 @@ impl<'a> Complex<'a> {
         findings
     }
 
-    /// The Delaunay property, and that of the ties. Needs clockwise orientation.
+    /// The Delaunay property, and that of the ties. Needs counter-clockwise orientation.
     fn check_delaunay(&self, points: &[[f64; 2]]) -> (Findings, Findings) {
         let (mut delaunay, mut ties) = (Findings::default(), Findings::default());
         let at = |v: u32| points[v as usize];
@@ -263,8 +277,8 @@ impl<'a> Complex<'a> {
                     continue;
                 }
                 let beyond = self.triangles[e / 3][(e + 2) % 3];
-                let four = [a, c, b, beyond];
-                let (findings, kind) = match incircle(at(a), at(c), at(b), at(beyond)) {
+                let four = [a, b, c, beyond];
+                let (findings, kind) = match incircle(at(a), at(b), at(c), at(beyond)) {
                     1 => (&mut delaunay, "is inside the circumcircle"),
                     0 if break_tie(four, |left_out| {
                         let [a, b, c] = without(four, left_out).map(at);

@@ -1,26 +1,39 @@
-//! Which new tetrahedra share a facet: each directed edge of a cavity's boundary belongs to one facet, its reverse to
-//! the adjacent one.
+//! Adjacencies among new tetrahedra: each directed edge of a cavity's boundary belongs to one
+//! facet, and its reverse to the adjacent facet.
 
-use crate::d3::insert::Facet;
 use std::collections::HashMap;
 
-/// Boundaries of more vertices than this use a hash table instead of the matrix.
+/// Boundaries of more vertices than this use a hash table instead of the matrix, which has 64²
+/// entries, or 16 KiB: it fits into a level-1 cache.
 const MATRIX: usize = 64;
+
+/// A facet of a cavity.
+#[derive(Clone, Copy)]
+pub(crate) struct Facet {
+    /// Counter-clockwise as seen from outside the cavity; an infinite vertex comes last.
+    pub(crate) corners: [u32; 3],
+    /// The tetrahedron outside the cavity: 4·(tetrahedron) + (facet as it is numbered there).
+    pub(crate) beyond: u32,
+}
 
 /// Finds the facets on both sides of every edge of a closed surface.
 pub(crate) struct EdgeMap {
-    /// Where each mesh vertex stands in `vertices`, if it does: `vertices[place[v]] == v`. So nothing needs clearing.
+    /// The place of each mesh vertex in `vertices`, valid only if `vertices[place[v]] == v`. So
+    /// nothing needs clearing.
     place: Vec<u32>,
+    /// The vertices of the boundary.
     vertices: Vec<u32>,
     /// The places of each facet's corners.
     places: Vec<[u32; 3]>,
-    /// Entry (i, j) belongs to the directed edge from the i-th to the j-th vertex of the boundary. A closed surface has
-    /// every edge that is looked up, so nothing needs clearing here either.
+    /// Entry (i, j) belongs to the directed edge from the *i*-th to the *j*-th vertex of the
+    /// boundary. Every edge that is looked up has been entered, because the surface is closed, so
+    /// nothing needs clearing here either.
     matrix: Box<[u32; MATRIX * MATRIX]>,
+    /// The same map from directed edges, for larger boundaries.
     table: HashMap<(u32, u32), u32, std::hash::BuildHasherDefault<EdgeHasher>>,
 }
 
-/// Multiplies and rotates: edges are no adversaries.
+/// Hashes by a multiplication and a rotation per vertex. Edges are not chosen by an adversary.
 #[derive(Default)]
 struct EdgeHasher(u64);
 
@@ -36,13 +49,14 @@ impl std::hash::Hasher for EdgeHasher {
     }
 }
 
-/// Where the matrix has the edge; the mask, which changes nothing, spares the bounds check.
+/// Returns the matrix entry of an edge. The mask has no effect except that it spares the bounds
+/// check.
 fn cell(from: u32, to: u32) -> usize {
     (from as usize * MATRIX + to as usize) & (MATRIX * MATRIX - 1)
 }
 
 impl EdgeMap {
-    /// For meshes of `vertices` vertices, the infinite one included.
+    /// Creates a map for meshes of `vertices` vertices, the infinite one included.
     pub(crate) fn new(vertices: usize) -> Self {
         EdgeMap {
             place: vec![0; vertices],
@@ -53,6 +67,7 @@ impl EdgeMap {
         }
     }
 
+    /// Returns the place of `v` in `vertices`, where it is appended if it is new.
     fn place_of(&mut self, v: u32) -> u32 {
         let place = self.place[v as usize];
         if self.vertices.get(place as usize) == Some(&v) {
@@ -64,16 +79,17 @@ impl EdgeMap {
         place
     }
 
-    /// Calls `link(f, [a, b, c])` for each facet of a closed surface: a, b and c are the names of what lies across the
-    /// edges opposite its corners 0, 1 and 2, where `name(f, k)` is the name of facet `f` as seen across the edge opposite
-    /// corner `k`.
+    /// Calls `link(f, [a, b, c])` for each facet `f` of a closed surface, where a, b and c are the
+    /// names of what lies across the edges opposite its corners 0, 1 and 2.
+    ///
+    /// `name(f, k)` is the name of facet `f` as seen across its edge opposite corner `k`.
     pub(crate) fn link_all(
         &mut self,
         facets: &[Facet],
         name: impl Fn(usize, usize) -> u32,
         mut link: impl FnMut(usize, [u32; 3]),
     ) {
-        // A triangulated sphere of F facets has F/2 + 2 vertices.
+        // A triangulated sphere of *F* facets has *F*/2 + 2 vertices.
         if facets.len() / 2 + 2 <= MATRIX {
             self.vertices.clear();
             self.places.clear();

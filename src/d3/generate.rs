@@ -1,12 +1,13 @@
-//! Synthetic point clouds: the distributions of the paper's §5.1.
+//! Synthetic 3D points: the distributions of the paper's §5.1.
 //!
-//! The points depend on the distribution, the number and the seed alone, bit for bit on every platform: the random
-//! numbers are integers of a fixed generator, and everything after them is correctly rounded arithmetic or `libm`'s
-//! portable code, never the platform's mathematics library.
+//! The points depend only on the distribution, the number and the seed, bit for bit on every
+//! platform: the random numbers are integers of a fixed generator, and everything after them is
+//! correctly rounded arithmetic or `libm`'s portable code, never the platform's mathematics
+//! library.
 
 use crate::random::{GRID_SIDE, Random, THIN_SPHERE_RADII};
 
-/// How the points of a synthetic cloud are distributed.
+/// The distribution of the points of a synthetic 3D cloud.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[non_exhaustive]
@@ -21,7 +22,7 @@ pub enum Distribution {
     Sphere,
     /// Between two spheres of slightly different radius, 1 and 1.01
     ThinSphere,
-    /// Random points of the integer grid 512³, with duplicates as they fall
+    /// Random points of the integer grid 512³, duplicates included
     Grid,
 }
 
@@ -36,7 +37,7 @@ impl Distribution {
         Distribution::Grid,
     ];
 
-    /// The name on the command line, such as `thin-sphere`.
+    /// Returns the name on the command line, such as `thin-sphere`.
     pub fn name(self) -> &'static str {
         match self {
             Distribution::Uniform => "uniform",
@@ -49,7 +50,8 @@ impl Distribution {
     }
 }
 
-/// `n` random points. The first points of a longer cloud of the same seed are the points of a shorter one.
+/// Returns `n` random points. The points of a shorter cloud of the same distribution and seed are
+/// the first points of a longer one.
 pub fn generate(distribution: Distribution, n: usize, seed: u64) -> Vec<[f64; 3]> {
     let mut random = Random::new(seed);
     let point = || match distribution {

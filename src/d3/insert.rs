@@ -1,56 +1,58 @@
-//! Bowyer–Watson: find the tetrahedra whose circumspheres hold the new point, and fill their cavity from the point.
+//! Bowyer–Watson insertion (1981): find the tetrahedra whose circumspheres contain the new point,
+//! and fill their cavity with tetrahedra at the point.
 //!
-//! The outside of the hull is triangulated too, with *ghost* tetrahedra that join its facets to one infinite vertex, so
-//! that no facet is special. The predicates never tie, so the cavity is star-shaped and no new tetrahedron is flat.
+//! The outside of the hull is triangulated too, by *ghosts*, tetrahedra that join the facets of the
+//! hull to one infinite vertex, so that no facet is special. The in-sphere test breaks its ties
+//! symbolically and never returns zero, so the cavity is star-shaped, and no new tetrahedron is
+//! flat.
 
-use crate::d3::adjacency::EdgeMap;
 use crate::{
     Error, Options,
     d3::{
+        adjacency::{EdgeMap, Facet},
         mesh::FACETS,
         triangulation::{MAX_TETRAHEDRA, Triangulation, state},
     },
     predicates::filter::PredicateContext,
+    stats::Phase,
 };
 
-/// The most points that the engine takes: none of the usual inputs has 8 tetrahedra a point.
+/// The maximum number of points: none of the usual inputs has 8 tetrahedra per point.
 pub(crate) const MAX_POINTS: usize = MAX_TETRAHEDRA / 8;
-/// Tetrahedra of a uniform distribution per point: 6.77, and some ghosts.
+/// The expected number of tetrahedra per point: 6.77 for a uniform distribution, and some ghosts.
 const EXPECTED_TETRAHEDRA: usize = 7;
-/// How often progress is reported, in points.
+/// The number of points between two reports of progress: few enough for a smooth display, and so
+/// many that reports cost little beside the insertions.
 const REPORT: usize = 1 << 12;
 
-/// A facet of a cavity.
-#[derive(Clone, Copy)]
-pub(crate) struct Facet {
-    /// Counter-clockwise as seen from outside of the cavity; an infinite vertex comes last.
-    pub(crate) corners: [u32; 3],
-    /// What lies beyond: 4·(tetrahedron) + (facet seen from there).
-    beyond: u32,
-}
-
-/// Lists that every insertion uses anew.
+/// Lists that insertions reuse.
 struct Scratch {
+    /// The tetrahedra in conflict.
     conflict: Vec<u32>,
+    /// The facets of the cavity.
     boundary: Vec<Facet>,
-    /// The slots of the new tetrahedra.
+    /// The slots of the new tetrahedra, one per facet of the cavity.
     filled: Vec<u32>,
+    /// Unused slots.
     free: Vec<u32>,
     edges: EdgeMap,
 }
 
-/// Triangulates all vertices, of which the first four are positively oriented.
+/// Triangulates all vertices, of which the first four must be positively oriented.
 pub(crate) fn insert_all(vertices: &PredicateContext<'_>, options: &Options) -> Result<Triangulation, Error> {
     let n = vertices.len();
     let mut mesh = initial(n as u32);
     mesh.reserve(n * EXPECTED_TETRAHEDRA)?;
-    let report = |inserted: usize| options.report("insert", (4 + inserted) as f64 / n as f64);
+    let report = |inserted: usize| options.report(Phase::Insert, (4 + inserted) as f64 / n as f64);
     insert_points(&mut mesh, vertices, 4..n as u32, 0, report)?;
     Ok(mesh)
 }
 
-/// Inserts vertices that a Delaunay triangulation does not have yet; best if neighbours in the order are neighbours in
-/// space, and `start` is a tetrahedron near the first. `report` learns now and then how many are inserted, and can stop.
+/// Inserts vertices that a Delaunay triangulation lacks.
+///
+/// Insertion is fast if consecutive vertices are near each other, and the first is near tetrahedron
+/// `start`. Calls `report` with the number of vertices inserted so far from time to time; an error
+/// from it ends the insertion.
 pub(crate) fn insert_points(
     mesh: &mut Triangulation,
     vertices: &PredicateContext<'_>,
@@ -79,7 +81,8 @@ pub(crate) fn insert_points(
     Ok(())
 }
 
-/// One tetrahedron of the vertices 0 to 3, and the four ghosts on its facets.
+/// Creates the triangulation of vertices 0 to 3: one tetrahedron, and the ghosts on its four
+/// facets.
 fn initial(infinite: u32) -> Triangulation {
     let mut mesh = Triangulation { tetrahedra: vec![[0, 1, 2, 3]], neighbors: vec![[0; 4]], infinite };
     for (k, facet) in FACETS.iter().enumerate() {
@@ -88,7 +91,7 @@ fn initial(infinite: u32) -> Triangulation {
         mesh.neighbors.push([0; 4]);
         mesh.join(k as u32, 4 * (k as u32 + 1) + 3);
     }
-    // Ghosts i and j share the facet opposite i's corner j and j's corner i.
+    // Ghosts i and j share the facet opposite corner j of ghost i and corner i of ghost j.
     for i in 0..4u32 {
         for j in 0..i {
             let facet = |ghost: u32, corner: u32| {
@@ -103,8 +106,10 @@ fn initial(infinite: u32) -> Triangulation {
 }
 
 impl Triangulation {
-    /// A tetrahedron that holds vertex `p`, or a ghost whose facet sees it: a walk that crosses facets towards `p` from
-    /// tetrahedron `start`. It ends, since the power distance to `p` falls with every step.
+    /// Returns a tetrahedron that contains vertex `p`, or a ghost whose facet sees it.
+    ///
+    /// Walks from tetrahedron `start` across facets that separate the current tetrahedron from `p`.
+    /// The walk ends because the power distance to `p` decreases with every step.
     fn locate(&self, vertices: &PredicateContext<'_>, p: u32, start: u32) -> u32 {
         let mut t = if self.is_ghost(start) { self.neighbors[start as usize][3] >> 2 } else { start };
         let mut came_through = 4;
@@ -129,8 +134,11 @@ impl Triangulation {
         }
     }
 
-    /// Whether the circumsphere of `t` holds vertex `p`. That of a ghost is the half-space beyond its facet and, in the
-    /// facet's plane, its circumdisc, which the circumsphere on the other side of the facet cuts out of the plane.
+    /// Returns whether the circumsphere of `t` contains vertex `p`.
+    ///
+    /// The circumsphere of a ghost is the half-space beyond its facet and, in the facet's plane,
+    /// the circumdisc of the facet: the part of the plane inside the circumsphere of the
+    /// tetrahedron on the other side of the facet.
     #[inline]
     fn in_conflict(&self, vertices: &PredicateContext<'_>, t: u32, p: u32) -> bool {
         let v = self.vertices(t);
@@ -143,7 +151,8 @@ impl Triangulation {
         }
     }
 
-    /// Inserts vertex `p`, which is in conflict with tetrahedron `start`; gives a tetrahedron at `p`.
+    /// Inserts vertex `p`, which is in conflict with tetrahedron `start`. Returns a tetrahedron at
+    /// `p`.
     fn insert(
         &mut self,
         vertices: &PredicateContext<'_>,
@@ -173,7 +182,8 @@ impl Triangulation {
         Ok(filled[filled.len() - 1])
     }
 
-    /// Marks and lists the tetrahedra in conflict with `p`, and the facets around them, breadth-first.
+    /// Marks and lists the tetrahedra in conflict with `p`, and the facets around them,
+    /// breadth-first.
     fn find_cavity(&mut self, vertices: &PredicateContext<'_>, p: u32, start: u32, scratch: &mut Scratch) {
         let Scratch { conflict, boundary, .. } = scratch;
         boundary.clear();

@@ -1,49 +1,166 @@
 //! The result: tetrahedra, their neighbours, and the hull.
 
-use crate::stats::Stats;
-
-/// The mark for "none" in [`Mesh3::neighbors`] (outside the hull) and [`Mesh3::duplicate_of`] (not a duplicate).
-pub const NONE: i32 = -1;
+use crate::{
+    Points,
+    index::NONE,
+    mesh::{self, Stars, point_methods},
+    stats::Stats,
+};
 
 /// The corners of the facet opposite vertex *k* of a positively oriented tetrahedron, counter-clockwise as seen from
 /// outside the tetrahedron.
 pub const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
+/// The vertices of the edges of a tetrahedron.
+const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+
 /// A 3D Delaunay triangulation.
 ///
-/// All indices are those of the input points.
+/// All vertices are indices of input points. Facet *k* of a tetrahedron is the one opposite its vertex *k*.
+///
+/// # Examples
+///
+/// ```
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0f64]];
+/// let mesh = gdel::delaunay3d(&points)?;
+///
+/// // Two tetrahedra with a facet in common.
+/// assert_eq!((mesh.tetrahedra.len(), mesh.hull.len()), (2, 6));
+/// assert_eq!((mesh.facets().count(), mesh.edges().count()), (7, 9));
+/// let across: Vec<_> = (0..4).filter_map(|k| mesh.neighbor(0, k)).collect();
+/// assert_eq!(across, [1]);
+/// // The facet's vertices are in both, the others in one.
+/// let stars = mesh.stars();
+/// assert_eq!([0, 1, 2, 3, 4].map(|v| stars.of(v).len()), [1, 2, 2, 2, 1]);
+/// # Ok::<(), gdel::Error>(())
+/// ```
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Mesh3 {
-    /// Four vertices a tetrahedron, positively oriented: det(b − a, c − a, d − a) > 0. Never flat.
+    /// Four vertices per tetrahedron, positively oriented: det(b − a, c − a, d − a) > 0. None is flat.
     pub tetrahedra: Vec<[u32; 4]>,
-    /// Entry *k* is the tetrahedron across the facet opposite vertex *k*, or [`NONE`] outside the hull.
+    /// Entry *k* of each tetrahedron is the tetrahedron across its facet *k*, or [`NONE`] outside the hull.
     pub neighbors: Vec<[i32; 4]>,
-    /// The facets of the convex hull's boundary, counter-clockwise as seen from outside.
+    /// The triangles of the convex hull's boundary, counter-clockwise as seen from outside.
     pub hull: Vec<[u32; 3]>,
-    /// One entry a point: the lowest index of a point with the same coordinates, which stands for this one in the
-    /// mesh; [`NONE`] for the points that are vertices themselves.
+    /// One entry per point: the lowest index of a point with the same coordinates, which stands for this one in the mesh;
+    /// [`NONE`] for points that are vertices themselves.
     pub duplicate_of: Vec<i32>,
-    /// The affine dimension of the input: 3; 2, 1 or 0 when all points are coplanar, collinear or equal (then there
-    /// are no tetrahedra). 0 for no points at all.
+    /// The affine dimension of the input: 3; or 2, 1 or 0 if all points are coplanar, collinear or equal, in which case there
+    /// are no tetrahedra. No points at all have dimension 0.
     pub dimension: u8,
-    /// How the result came about.
+    /// How the mesh was computed.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub stats: Stats,
 }
 
+point_methods!(Mesh3);
+
 impl Mesh3 {
-    /// The tetrahedra in a form that is equal for equal meshes: the vertices ascending within each tetrahedron, the
-    /// tetrahedra ascending.
-    pub fn canonical(&self) -> Vec<[u32; 4]> {
-        let mut tetrahedra = self.tetrahedra.clone();
-        for t in &mut tetrahedra {
-            t.sort_unstable();
-        }
-        tetrahedra.sort_unstable();
-        tetrahedra
+    /// Returns the tetrahedron across facet `k` of tetrahedron `t`; `None` outside the hull.
+    ///
+    /// # Panics
+    ///
+    /// Panics if there is no tetrahedron `t` or if `k` exceeds 3.
+    pub fn neighbor(&self, t: usize, k: usize) -> Option<usize> {
+        mesh::index(self.neighbors[t][k])
     }
 
-    /// The number of points that are exact duplicates of others.
-    pub fn duplicates(&self) -> usize {
-        self.duplicate_of.iter().filter(|&&d| d != NONE).count()
+    /// Returns the vertices of facet `k` of tetrahedron `t`, counter-clockwise as seen from outside the tetrahedron.
+    ///
+    /// # Panics
+    ///
+    /// Panics if there is no tetrahedron `t` or if `k` exceeds 3.
+    pub fn facet(&self, t: usize, k: usize) -> [u32; 3] {
+        FACETS[k].map(|corner| self.tetrahedra[t][corner])
+    }
+
+    /// Returns every facet of the tetrahedra once, the hull's included, counter-clockwise as seen from outside the
+    /// tetrahedron with the lower index.
+    pub fn facets(&self) -> impl Iterator<Item = [u32; 3]> + Clone + '_ {
+        self.neighbors.iter().enumerate().flat_map(move |(t, across)| {
+            (0..4).filter(move |&k| mesh::index(across[k]).is_none_or(|u| t < u)).map(move |k| self.facet(t, k))
+        })
+    }
+
+    /// Returns every edge of the tetrahedra once, with the lower vertex first.
+    pub fn edges(&self) -> impl Iterator<Item = [u32; 2]> + Clone + '_ {
+        (0..self.tetrahedra.len()).flat_map(move |t| {
+            EDGES.into_iter().filter(move |&edge| self.is_first_around(t, edge)).map(move |[i, j]| {
+                let [a, b] = [i, j].map(|corner| self.tetrahedra[t][corner]);
+                [a.min(b), a.max(b)]
+            })
+        })
+    }
+
+    /// Returns whether no tetrahedron around an edge has a lower index than `t`.
+    fn is_first_around(&self, t: usize, [i, j]: [usize; 2]) -> bool {
+        let ends = [i, j].map(|corner| self.tetrahedra[t][corner]);
+        // Both ways around the edge, each until it leaves the hull; where it does not, the first way comes back.
+        for enter in (0..4).filter(|&k| k != i && k != j) {
+            let (mut from, mut at) = (t, self.neighbors[t][enter]);
+            // No edge has more tetrahedra than there are.
+            for _ in 0..self.tetrahedra.len() {
+                if at == NONE || at as usize == t {
+                    break;
+                }
+                if (at as usize) < t {
+                    return false;
+                }
+                let here = at as usize;
+                // Of the two facets at the edge, the one that was not come through.
+                let leave = (0..4)
+                    .find(|&k| !ends.contains(&self.tetrahedra[here][k]) && self.neighbors[here][k] as usize != from);
+                // Two tetrahedra can share two facets only if there are no others around the edge.
+                let Some(leave) = leave else { break };
+                from = here;
+                at = self.neighbors[here][leave];
+            }
+            if at != NONE {
+                break;
+            }
+        }
+        true
+    }
+
+    /// Returns the vertices on the hull in ascending order.
+    pub fn hull_vertices(&self) -> Vec<u32> {
+        let mut vertices = self.hull.as_flattened().to_vec();
+        vertices.sort_unstable();
+        vertices.dedup();
+        vertices
+    }
+
+    /// Returns the tetrahedra around every vertex.
+    pub fn stars(&self) -> Stars {
+        Stars::new(&self.tetrahedra, self.duplicate_of.len())
+    }
+
+    /// Returns the centre of the sphere through the vertices of tetrahedron `t`, where `points` are those of the mesh.
+    ///
+    /// It is computed in `f64`, so it is exact for no mesh, and far off or not finite for tetrahedra that are nearly flat.
+    ///
+    /// # Panics
+    ///
+    /// Panics if there is no tetrahedron `t`, or if its vertices are not among the points.
+    pub fn circumcenter<'a>(&self, points: impl Into<Points<'a>>, t: usize) -> [f64; 3] {
+        let points = points.into();
+        let [a, b, c, d] = self.tetrahedra[t].map(|v| points.get(v as usize));
+        let minus = |p: [f64; 3]| [0, 1, 2].map(|i| p[i] - a[i]);
+        let cross =
+            |[ux, uy, uz]: [f64; 3], [vx, vy, vz]: [f64; 3]| [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+        let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+        let [b, c, d] = [b, c, d].map(minus);
+        let (cd, db, bc) = (cross(c, d), cross(d, b), cross(b, c));
+        let [bb, cc, dd] = [b, c, d].map(|u| dot(u, u));
+        let twice_det = 2.0 * dot(b, cd);
+        [0, 1, 2].map(|i| a[i] + (bb * cd[i] + cc * db[i] + dd * bc[i]) / twice_det)
+    }
+
+    /// Returns the tetrahedra in a form that is equal for equal meshes: the vertices ascend within each tetrahedron, and the
+    /// tetrahedra ascend.
+    pub fn canonical(&self) -> Vec<[u32; 4]> {
+        mesh::canonical(&self.tetrahedra)
     }
 }

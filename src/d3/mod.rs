@@ -1,4 +1,4 @@
-//! Triangulations of space.
+//! 3D Delaunay triangulations. The folder mirrors [`d2`](crate::d2) file by file.
 
 mod adjacency;
 pub mod cpu;

@@ -1,73 +1,82 @@
-//! Tetrahedra and their neighbours while they are being made, the outside of the hull included.
+//! Tetrahedra and their neighbours under construction, the outside of the hull included.
 
 use crate::{
     Error,
-    index::NONE,
+    index::{NO_INDEX, NONE},
     parallel::{self, Threads},
 };
 
-/// Tetrahedra are numbered below 2³⁰, since a neighbour is packed with its facet into 32 bits.
+/// Tetrahedra are numbered below 2³⁰, because a neighbour is packed with its facet into 32 bits.
 pub(crate) const MAX_TETRAHEDRA: usize = 1 << 30;
 
-/// What an algorithm has found out about a tetrahedron: the two highest bits of its first vertex, so that no other cache
-/// line need be fetched for them.
+/// The neighbour of a tetrahedron across a facet of the hull, after the ghosts are dropped.
+const OUTSIDE: u32 = NO_INDEX;
+
+/// What an algorithm knows about a tetrahedron: the two highest bits of its first vertex, so that
+/// no other cache line needs to be fetched for them.
 pub(crate) mod state {
     pub(crate) const MASK: u32 = 3 << 30;
     pub(crate) const UNKNOWN: u32 = 0;
-    /// The circumsphere holds the point that is being inserted.
+    /// The circumsphere contains the point that is being inserted.
     pub(crate) const CONFLICT: u32 = 1 << 30;
-    /// It does not, but a neighbour's does.
+    /// The circumsphere does not contain the point, but a neighbour's does.
     pub(crate) const BEYOND: u32 = 2 << 30;
     /// The slot is unused.
     pub(crate) const FREE: u32 = 3 << 30;
 }
 
-/// A triangulation of space: tetrahedra, and *ghosts*, which join the facets of the hull to one infinite vertex.
+/// A 3D triangulation: tetrahedra, and *ghosts*, which join the facets of the hull to one infinite
+/// vertex.
 ///
-/// Every tetrahedron has four neighbours, and facet *k* is the one opposite its vertex *k*.
+/// Every tetrahedron has four neighbours, and facet *k* is the one opposite its vertex *k*. So
+/// topologically it is a 3-sphere.
 #[derive(Debug, Clone)]
 pub struct Triangulation {
-    /// PredicateContext, positively oriented, with a [`state`] in the first. A ghost has the infinite vertex last, and is
-    /// oriented as if that lay outside.
+    /// Four vertices per tetrahedron, positively oriented, with a [`state`] in the first. A ghost
+    /// has the infinite vertex last, and is oriented as if that lay outside the hull.
     pub(crate) tetrahedra: Vec<[u32; 4]>,
-    /// Across the facet opposite vertex *k*: 4·(tetrahedron) + (facet seen from there).
+    /// Entry *k* is across the facet opposite vertex *k*: 4·(tetrahedron) + (facet as it is
+    /// numbered there).
     pub(crate) neighbors: Vec<[u32; 4]>,
     /// The infinite vertex: the number of vertices.
     pub(crate) infinite: u32,
 }
 
 impl Triangulation {
-    /// A triangulation from its arrays, which are not checked. `infinite`, the number of vertices, is the infinite vertex.
-    /// Tetrahedra are positively oriented; ghosts, which have the infinite vertex last, as if it lay outside the hull.
-    /// Entry *k* of `neighbors` is across the facet opposite vertex *k*, packed as 4·(tetrahedron) + (facet as it is
-    /// numbered there).
+    /// Creates a triangulation from its arrays, which are not checked.
+    ///
+    /// Tetrahedra are positively oriented; ghosts have the infinite vertex last, and are oriented
+    /// as if it lay outside the hull. Entry *k* of `neighbors` is across the facet opposite vertex
+    /// *k*: 4·(tetrahedron) + (facet as it is numbered there). `infinite` is the number of
+    /// vertices.
     pub fn new(tetrahedra: Vec<[u32; 4]>, neighbors: Vec<[u32; 4]>, infinite: u32) -> Self {
         Triangulation { tetrahedra, neighbors, infinite }
     }
 
-    /// The vertices of each tetrahedron; those of unused slots mean nothing.
+    /// Returns the vertices of each tetrahedron; those of unused slots have no meaning.
     pub fn tetrahedra(&self) -> &[[u32; 4]] {
         &self.tetrahedra
     }
 
-    /// The neighbours of each tetrahedron.
+    /// Returns the neighbours of each tetrahedron.
     pub fn neighbors(&self) -> &[[u32; 4]] {
         &self.neighbors
     }
 
+    /// Reserves memory for this many tetrahedra in all.
     pub(crate) fn reserve(&mut self, tetrahedra: usize) -> Result<(), Error> {
         let more = tetrahedra.saturating_sub(self.tetrahedra.len());
         self.tetrahedra
             .try_reserve_exact(more)
             .and_then(|()| self.neighbors.try_reserve_exact(more))
-            .map_err(|_| Error::OutOfMemory { tetrahedra })
+            .map_err(|_| Error::OutOfMemory { simplices: tetrahedra })
     }
 
-    /// A new slot.
+    /// Appends an unused slot.
     pub(crate) fn push(&mut self) -> Result<u32, Error> {
         let count = self.tetrahedra.len();
         if count == MAX_TETRAHEDRA {
-            return Err(Error::TooManyTetrahedra { limit: MAX_TETRAHEDRA });
+            return Err(Error::TooManySimplices { limit: MAX_TETRAHEDRA });
         }
         if count == self.tetrahedra.capacity() {
             self.reserve((count + count / 2).min(MAX_TETRAHEDRA))?;
@@ -77,41 +86,44 @@ impl Triangulation {
         Ok(count as u32)
     }
 
+    /// Makes two facets each other's neighbours.
     pub(crate) fn join(&mut self, f: u32, g: u32) {
         self.neighbors[f as usize / 4][f as usize % 4] = g;
         self.neighbors[g as usize / 4][g as usize % 4] = f;
     }
 
+    /// Returns the vertices of tetrahedron `t`.
     pub(crate) fn vertices(&self, t: u32) -> [u32; 4] {
         let [a, b, c, d] = self.tetrahedra[t as usize];
         [a & !state::MASK, b, c, d]
     }
 
+    /// Returns the state of tetrahedron `t`.
     pub(crate) fn state(&self, t: u32) -> u32 {
         self.tetrahedra[t as usize][0] & state::MASK
     }
 
+    /// Sets the state of tetrahedron `t`.
     pub(crate) fn set_state(&mut self, t: u32, state: u32) {
         let first = &mut self.tetrahedra[t as usize][0];
         *first = *first & !state::MASK | state;
     }
 
+    /// Returns whether tetrahedron `t` is a ghost.
     pub(crate) fn is_ghost(&self, t: u32) -> bool {
         self.tetrahedra[t as usize][3] == self.infinite
     }
 
-    /// The mesh without ghosts and unused slots, in the arrays where it lies: tetrahedra, neighbours, and the facets of the
-    /// hull, counter-clockwise as seen from outside. With `names`, vertex *v* becomes `names[v]`. The work is that of
-    /// `threads`.
+    /// Returns tetrahedra, neighbours and hull as in [`Mesh3`](crate::Mesh3), without ghosts and
+    /// unused slots, reusing the arrays. With `names`, vertex *v* becomes `names[v]`. `threads`
+    /// share the work.
     pub fn into_mesh(mut self, names: Option<&[u32]>, threads: Threads) -> FiniteMesh {
-        // Behind all slots.
-        const OUTSIDE: u32 = u32::MAX;
         const FEW: usize = 64;
         let slots = self.tetrahedra.len();
         // Ghosts and unused slots, chunk by chunk.
         let gaps = parallel::map_ranges(threads, slots, |range| {
             let (mut ghosts, mut unused) = (Vec::new(), Vec::new());
-            // Most are neither: few branches for many at a time.
+            // Most slots are neither, so one branch decides for many slots at a time.
             for (start, few) in (range.start..).step_by(FEW).zip(self.tetrahedra[range].chunks(FEW)) {
                 let is_free = |t: &[u32; 4]| t[0] & state::MASK == state::FREE;
                 let is_gap = |t: &[u32; 4]| is_free(t) | (t[3] == self.infinite);
@@ -143,12 +155,13 @@ impl Triangulation {
                 *facet = [a, b, c];
             }
         });
-        // References to ghosts behind the last tetrahedron of the mesh tell themselves from others.
+        // References to ghosts beyond the last tetrahedron of the mesh are recognised by their
+        // index; those to the other ghosts are marked here.
         for &t in gaps.iter().flat_map(|(ghosts, _)| ghosts).take_while(|&&t| (t as usize) < count) {
             let inside = self.neighbors[t as usize][3];
             self.neighbors[inside as usize / 4][inside as usize % 4] = OUTSIDE;
         }
-        // The tetrahedra behind them move into the gaps in front, and their neighbours are told.
+        // The tetrahedra beyond it move into the gaps, and their neighbours are updated.
         let movers = parallel::map_ranges(threads, slots - count, |range| {
             let is_used = |&t: &u32| self.state(t) != state::FREE && !self.is_ghost(t);
             ((count + range.start) as u32..(count + range.end) as u32).filter(is_used).collect::<Vec<_>>()
@@ -176,7 +189,7 @@ impl Triangulation {
             hull.iter_mut().flatten().for_each(rename);
         }
         let mut neighbors: Vec<[i32; 4]> = bytemuck::cast_vec(neighbors);
-        // Below 2³⁰, as all tetrahedra.
+        // Below 2³⁰, like all indices of tetrahedra.
         let count = count as i32;
         parallel::for_chunks(threads, &mut neighbors, |_, chunk| {
             for n in chunk.as_flattened_mut() {
@@ -188,13 +201,13 @@ impl Triangulation {
     }
 }
 
-/// What [`Mesh3`](crate::Mesh3) says of a triangulation.
+/// The arrays of a [`Mesh3`](crate::Mesh3).
 #[derive(Debug, Clone)]
 pub struct FiniteMesh {
-    /// As [`Mesh3::tetrahedra`](crate::Mesh3::tetrahedra).
+    /// Four vertices per tetrahedron; see [`Mesh3::tetrahedra`](crate::Mesh3::tetrahedra).
     pub tetrahedra: Vec<[u32; 4]>,
-    /// As [`Mesh3::neighbors`](crate::Mesh3::neighbors).
+    /// Four neighbours per tetrahedron; see [`Mesh3::neighbors`](crate::Mesh3::neighbors).
     pub neighbors: Vec<[i32; 4]>,
-    /// As [`Mesh3::hull`](crate::Mesh3::hull).
+    /// Three vertices per facet of the hull; see [`Mesh3::hull`](crate::Mesh3::hull).
     pub hull: Vec<[u32; 3]>,
 }

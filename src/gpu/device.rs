@@ -6,19 +6,43 @@ use crate::Error;
 use crate::gpu::MAX_WORKGROUPS;
 
 /// Which adapter to open.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{AdapterChoice, Backend, Triangulator};
+///
+/// let triangulator = Triangulator::new().adapter(AdapterChoice::Index(0)).backend(Backend::Gpu);
+/// match triangulator.delaunay2d(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]]) {
+///     Ok(mesh) => assert_eq!(mesh.triangles.len(), 1),
+///     // There is no GPU at all.
+///     Err(error) => println!("{error}"),
+/// }
+/// ```
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum AdapterChoice {
     /// The one that the system recommends for speed.
     #[default]
     Default,
-    /// By its place in [`adapters`].
+    /// By its place in [`adapters`](crate::adapters).
     Index(usize),
     /// The first whose name contains this, whatever the case of its letters.
     Name(String),
 }
 
-/// An adapter, as [`adapters`] lists it.
+/// A GPU, as [`adapters`](crate::adapters) lists it.
+///
+/// # Examples
+///
+/// ```
+/// let hardware = gdel::adapters().into_iter().find(|adapter| !adapter.software);
+/// if let Some(adapter) = hardware {
+///     println!("{}: buffers of up to {} bytes", adapter.name, adapter.max_storage_buffer_bytes);
+/// }
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct AdapterSummary {
     /// The name that the driver gives, for example `NVIDIA H200`. Browsers may leave it empty.
     pub name: String,

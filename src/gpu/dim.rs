@@ -36,7 +36,7 @@ pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
 
     /// What simplices are called in labels and messages.
     const SIMPLICES: &'static str;
-    /// The kernels.
+    /// The shaders of the kernels.
     const SHADERS: &'static Shaders;
     /// The largest number of points: simplices are numbered in 30 bits.
     const MAX_POINTS: usize;
@@ -86,7 +86,7 @@ pub trait OwnBuffers: Debug + Clone {
     /// Records that what must be zero in the beginning is.
     fn record_clear(&self, encoder: &mut wgpu::CommandEncoder);
 
-    /// Returns them under the names that they have in shaders.
+    /// Returns the buffers under the names that they have in shaders.
     fn bindings(&self) -> Vec<Binding<'_>>;
 
     /// Returns the bytes that they take on the device.

@@ -5,7 +5,7 @@
 use std::fmt::Debug;
 
 use crate::{
-    Error, Options, Points,
+    Backend, Error, Options, Points,
     gpu::{
         Gpu,
         dim::Dimension,
@@ -18,7 +18,7 @@ use crate::{
         order::missing_points,
     },
     parallel::Threads,
-    stats::{Fallback, Stats, Stopwatch},
+    stats::{Fallback, Phase, Stats, Stopwatch},
 };
 
 /// The shares of a run at which its phases begin, as progress reports them: about those of the time that it takes uniform
@@ -151,26 +151,26 @@ where
     pub async fn triangulate(&mut self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error> {
         let options = &options.monotone();
         let mut stopwatch = Stopwatch::start();
-        options.report("lattice", 0.0)?;
+        options.report(Phase::Lattice, 0.0)?;
         points.validate_by(Threads::All)?;
         let lattice = Lattice::fit_by(Threads::All, points);
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let Some(start) = first_simplex(lattice.width(), points.len(), position) else {
             return fall_back(points, options, Dimension::<D>::DEGENERATE, Stats::default());
         };
-        let mut stats = Stats { engine: "gpu", ..Stats::default() };
+        let mut stats = Stats::new(Backend::Gpu);
         let mut tracer = Dimension::<D>::tracer(options);
-        stats.phases.push(("lattice", stopwatch.lap()));
+        stats.phases.push((Phase::Lattice, stopwatch.lap()));
 
-        options.report("phase 1", progress::PHASE_1)?;
-        let settings = self.settings;
+        options.report(Phase::Phase1, progress::PHASE_1)?;
+        let settings = Settings { winding: options.winding, ..self.settings };
         let (gpu, phase1) = self.kernels(lattice.width()).await?;
         let mut run = Run::new(phase1, gpu, Input { points, lattice: &lattice, start }, settings, None).await?;
         loop {
             let more = run.round().await?;
             Dimension::<D>::trace_round(&mut tracer, gpu, &run).await?;
             let inserted = 1.0 - f64::from(run.waiting()) / points.len() as f64;
-            options.report("phase 1", progress::PHASE_1 + Dimension::<D>::ROUNDS_SHARE * inserted)?;
+            options.report(Phase::Phase1, progress::PHASE_1 + Dimension::<D>::ROUNDS_SHARE * inserted)?;
             if !more {
                 break;
             }
@@ -180,9 +180,9 @@ where
         }
         let Phase1Output { result, merged, stats: phase1 } = run.finish().await?;
         stats.gpu = Some(phase1.summary(&self.gpu.adapter().name));
-        let readback = phase1.readback_milliseconds / 1e3;
-        stats.phases.push(("phase 1", stopwatch.lap() - readback));
-        stats.phases.push(("readback", readback));
+        let readback = phase1.readback_time;
+        stats.phases.push((Phase::Phase1, stopwatch.lap().saturating_sub(readback)));
+        stats.phases.push((Phase::Readback, readback));
 
         let mut duplicate_of = vec![NONE; points.len()];
         let missing = missing_points(points, &merged, &mut duplicate_of);
@@ -200,7 +200,7 @@ where
             Ok(mesh) => mesh,
             Err(why) => return fall_back(points, options, why, stats),
         };
-        options.report("finish", 1.0)?;
+        options.report(Phase::Finish, 1.0)?;
         *Dimension::<D>::stats(&mut mesh) = stats;
         Ok(mesh)
     }

@@ -182,6 +182,8 @@ pub struct Params {
     /// In space: after a flip iteration with at least this many active tetrahedra, the next ones are found by looking at
     /// all slots (§4.2).
     pub compact_from: u32,
+    /// In 2D: 1 for a mesh that is clockwise with *y* up, 0 for one that is counter-clockwise.
+    pub clockwise: u32,
 }
 assert_layout!(Params);
 

@@ -1,15 +1,21 @@
-//! Hilbert curves of space and of the plane (Hamilton and Rau-Chaplin, *Compact Hilbert indices*, 2008, without the
-//! compaction).
+//! Hilbert curves in three and two dimensions, for the spatial sort of the paper's §4.3.
+//!
+//! The 3D curve is that of Hamilton and Rau-Chaplin, *Compact Hilbert indices* (2008), without the
+//! compaction.
 
-/// For each of the 24 states and each octant (bit *k* set in the upper half of axis *k*): the octant's place along the
-/// curve, and the state within it.
-const STEPS: [[(u8, u8); 8]; 24] = steps();
+/// For each of the 24 states and each octant (bit *k* is set in the upper half of axis *k*): the
+/// octant's place along the curve, and the state within it.
+///
+/// A state is `3·e + d`, where *e* is the octant in which the curve enters and *d* the axis along
+/// which it leaves.
+const STEPS_3D: [[(u8, u8); 8]; 24] = steps();
 
+/// Rotates a number of three bits.
 const fn rotate_left(bits: u32, by: u32) -> u32 {
     ((bits << (by % 3)) | (bits >> (3 - by % 3))) & 7
 }
 
-/// A state is the octant where the curve enters (*e*) and the axis along which it leaves (*d*): `3·e + d`.
+/// Computes [`STEPS_3D`] from the Gray code of the octants.
 const fn steps() -> [[(u8, u8); 8]; 24] {
     let mut table = [[(0, 0); 8]; 24];
     let mut state = 0;
@@ -35,36 +41,39 @@ const fn steps() -> [[(u8, u8); 8]; 24] {
     table
 }
 
-/// The place along the curve of the cell with the given coordinates, of which the lowest `bits` ≤ 21 count.
-pub fn index(cell: [u32; 3], bits: u32) -> u64 {
+/// Returns the place along the 3D curve of the cell with the given coordinates, of which the lowest
+/// `bits` ≤ 21 count.
+pub fn index3d(cell: [u32; 3], bits: u32) -> u64 {
     let mut state = 0;
     let mut index = 0;
     for bit in (0..bits).rev() {
         let octant = (cell[0] >> bit & 1) | (cell[1] >> bit & 1) << 1 | (cell[2] >> bit & 1) << 2;
-        let (place, next) = STEPS[state][octant as usize];
+        let (place, next) = STEPS_3D[state][octant as usize];
         index = index << 3 | u64::from(place);
         state = usize::from(next);
     }
     index
 }
 
-/// For each of the 4 states of the plane's curve and each quadrant (x in bit 1, y in bit 0): the quadrant's place along
-/// the curve, and the state within it. The states are the curve, the curve with its axes exchanged, and the same two
-/// turned by half a turn.
-const PLANE_STEPS: [[(u8, u8); 4]; 4] = [
+/// For each of the 4 states of the 2D curve and each quadrant (x in bit 1, y in bit 0): the
+/// quadrant's place along the curve, and the state within it.
+///
+/// The states are the curve, the curve with its axes exchanged, and these two rotated by 180°.
+const STEPS_2D: [[(u8, u8); 4]; 4] = [
     [(0, 1), (1, 0), (3, 3), (2, 0)],
     [(0, 0), (3, 2), (1, 1), (2, 1)],
     [(2, 2), (3, 1), (1, 2), (0, 3)],
     [(2, 3), (1, 3), (3, 0), (0, 2)],
 ];
 
-/// The place along the plane's curve of the cell with the given coordinates, of which the lowest `bits` ≤ 32 count.
-pub(crate) fn index_in_plane([x, y]: [u32; 2], bits: u32) -> u64 {
+/// Returns the place along the 2D curve of the cell with the given coordinates, of which the lowest
+/// `bits` ≤ 32 count.
+pub(crate) fn index2d([x, y]: [u32; 2], bits: u32) -> u64 {
     let mut state = 0;
     let mut index = 0;
     for bit in (0..bits).rev() {
         let quadrant = (x >> bit & 1) << 1 | (y >> bit & 1);
-        let (place, next) = PLANE_STEPS[state][quadrant as usize];
+        let (place, next) = STEPS_2D[state][quadrant as usize];
         index = index << 2 | u64::from(place);
         state = usize::from(next);
     }
@@ -83,7 +92,7 @@ mod tests {
             for x in 0..side {
                 for y in 0..side {
                     for z in 0..side {
-                        assert_eq!(cells[index([x, y, z], bits) as usize].replace([x, y, z]), None);
+                        assert_eq!(cells[index3d([x, y, z], bits) as usize].replace([x, y, z]), None);
                     }
                 }
             }
@@ -101,7 +110,7 @@ mod tests {
             let mut cells = vec![None; (side * side) as usize];
             for x in 0..side {
                 for y in 0..side {
-                    assert_eq!(cells[index_in_plane([x, y], bits) as usize].replace([x, y]), None);
+                    assert_eq!(cells[index2d([x, y], bits) as usize].replace([x, y]), None);
                 }
             }
             for pair in cells.windows(2) {

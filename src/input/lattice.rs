@@ -1,26 +1,27 @@
 //! Coordinates as integers on a common power-of-two lattice.
 //!
-//! A point's lattice coordinate is `round(x·2ᵏ) − origin`, with one *k* for all axes, the largest for which all
-//! of them fit. Scaling by 2ᵏ is exact, so nothing is lost but what the rounding drops, and whether it dropped anything
-//! is known for each point. 31 bits hold grids, voxels and LAS files exactly; 62 bits nearly all `f32` and most `f64`
-//! data.
+//! A point's lattice coordinate is `round(x·2ᵏ) − origin`, with one *k* for all axes: the largest
+//! for which all coordinates fit. Scaling by 2ᵏ is exact, so nothing is lost except what the
+//! rounding drops, and whether it dropped anything is known for each point. 31 bits represent
+//! grids, voxels and LAS files exactly; 62 bits represent nearly all `f32` and most `f64` data
+//! exactly.
 
 use crate::{
     Points,
     parallel::{self, Threads},
 };
 
-/// How the input lies on the lattice.
+/// Number of bits that the lattice coordinates of an input need.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Width {
     /// Every coordinate is exact in 31 bits: 0 ≤ q < 2³¹.
     Narrow,
-    /// Coordinates take 62 bits, 0 ≤ q < 2⁶²; they may be rounded.
+    /// Coordinates take 62 bits, 0 ≤ q < 2⁶², and may be rounded.
     Wide,
 }
 
 impl Width {
-    /// The bits of a coordinate.
+    /// Returns the number of bits per coordinate.
     pub const fn bits(self) -> u32 {
         match self {
             Width::Narrow => 31,
@@ -29,31 +30,32 @@ impl Width {
     }
 }
 
-/// The lattice of one input, in space or in the plane.
+/// The lattice of one input of dimension `D`.
 #[derive(Debug, Clone)]
 pub struct Lattice<const D: usize = 3> {
     width: Width,
     /// *k*: coordinates are multiplied by 2ᵏ.
     exponent: i32,
-    /// 2ᵏ where `f64` has it, else NaN.
+    /// 2ᵏ if `f64` can represent it, else NaN.
     factor: f64,
-    /// The lattice coordinate of the least coordinate of each axis, before it is subtracted; `None` for an axis on which
-    /// all points agree (its lattice coordinates are all 0).
+    /// The scaled and rounded minimum of each axis, which is subtracted from the coordinates;
+    /// `None` for an axis on which all points agree (its lattice coordinates are all 0).
     origin: [Option<i128>; D],
-    /// The least and the greatest coordinate of each axis.
+    /// The minimum and the maximum of each axis.
     bounds: [[f64; D]; 2],
 }
 
-/// A lattice coordinate, and whether it stands for the exact value.
+/// A lattice coordinate, and whether it represents the input's coordinate exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Coordinate {
-    /// 0 ≤ q < 2^bits.
+    /// 0 ≤ value < 2ᵇⁱᵗˢ for the [`Width::bits`] of the lattice.
     pub value: i64,
-    /// Nothing was rounded.
+    /// Whether nothing was rounded.
     pub exact: bool,
 }
 
-/// |x| = `mantissa`·2^`exponent`, for finite `x`; the mantissa is odd, or 0 for 0.
+/// Returns (`mantissa`, `exponent`) with |x| = `mantissa`·2^`exponent`, for finite `x`; the
+/// mantissa is odd, or 0 for 0.
 pub(crate) fn decompose(x: f64) -> (u64, i32) {
     let bits = x.to_bits();
     let biased = (bits >> 52 & 0x7ff) as i32;
@@ -66,7 +68,10 @@ pub(crate) fn decompose(x: f64) -> (u64, i32) {
     (mantissa >> zeros, exponent + zeros as i32)
 }
 
-/// `round(x·2^exponent)`, halves up, and whether it is exact. The result must fit, which |x|·2^exponent < 2¹²⁶ ensures.
+/// Returns `round(x·2^exponent)`, halves rounded up, and whether it is exact.
+///
+/// The result must fit, which |x|·2^exponent < 2¹²⁶ ensures. A right shift by more than 100 bits
+/// rounds any 53-bit mantissa to 0.
 fn scale(x: f64, exponent: i32) -> (i128, bool) {
     let (mantissa, e) = decompose(x);
     if mantissa == 0 {
@@ -81,12 +86,12 @@ fn scale(x: f64, exponent: i32) -> (i128, bool) {
 }
 
 impl<const D: usize> Lattice<D> {
-    /// The lattice of `points`, which must be finite.
+    /// Returns the lattice of `points`, which must be finite.
     pub fn fit(points: Points<'_, D>) -> Self {
         Lattice::fit_by(Threads::One, points)
     }
 
-    /// The same by these threads.
+    /// Returns the lattice of `points`, which must be finite, computed by `threads`.
     pub(crate) fn fit_by(threads: Threads, points: Points<'_, D>) -> Self {
         let bounds = parallel::map_ranges(threads, points.len(), |range| {
             let mut low = [f64::INFINITY; D];
@@ -122,35 +127,37 @@ impl<const D: usize> Lattice<D> {
         if exact.into_iter().all(|exact| exact) { narrow } else { lattice(Width::Wide) }
     }
 
-    /// The least and the greatest coordinate of each axis of the input.
+    /// Returns the minimum and the maximum of each axis of the input.
     pub fn bounds(&self) -> [[f64; D]; 2] {
         self.bounds
     }
 
-    /// How many bits the coordinates take.
+    /// Returns the number of bits of the coordinates.
     pub fn width(&self) -> Width {
         self.width
     }
 
-    /// *k*: one lattice step is 2⁻ᵏ.
+    /// Returns *k*: one lattice step is 2⁻ᵏ.
     pub fn exponent(&self) -> i32 {
         self.exponent
     }
 
-    /// The axes on which the points do not all agree.
+    /// Returns, for each axis, whether the points differ on it.
     pub fn varies(&self) -> [bool; D] {
         self.origin.map(|o| o.is_some())
     }
 
-    /// `round(x·2ᵏ)` of the least coordinate of each axis, which is taken off; `None` for an axis on which all points
-    /// agree.
+    /// Returns `round(x·2ᵏ)` of the minimum of each axis, which is subtracted from all coordinates;
+    /// `None` for an axis on which all points agree.
     pub fn origin(&self) -> [Option<i128>; D] {
         self.origin
     }
 
-    /// The lattice coordinates of a point of the input that the narrow lattice was fitted to.
+    /// Returns the lattice coordinates of a point of the input that the narrow lattice was fitted
+    /// to.
     ///
-    /// There every coordinate times 2ᵏ is an integer, and so is their difference, which fits 31 bits: no operation rounds.
+    /// On a narrow lattice every coordinate times 2ᵏ is an integer, and so is the difference of
+    /// two, which fits into 31 bits: no operation rounds.
     #[inline]
     pub(crate) fn narrow(&self, p: [f64; D]) -> [f64; D] {
         if self.factor.is_nan() {
@@ -162,13 +169,14 @@ impl<const D: usize> Lattice<D> {
         })
     }
 
-    /// The lattice coordinates of a point of the input that the lattice was fitted to.
+    /// Returns the lattice coordinates of a point of the input that the lattice was fitted to.
     #[inline]
     pub fn coordinates(&self, p: [f64; D]) -> [Coordinate; D] {
         std::array::from_fn(|axis| match self.origin[axis] {
             None => Coordinate { value: 0, exact: true },
             Some(origin) => {
-                // Most coordinates become integers that need no rounding; NaN is none of them.
+                // Most coordinates become integers that need no rounding. A NaN factor fails the
+                // comparison below.
                 let scaled = p[axis] * self.factor;
                 let integer = scaled as i64;
                 let underflow = integer == 0 && p[axis] != 0.0;
@@ -183,10 +191,11 @@ impl<const D: usize> Lattice<D> {
     }
 }
 
-/// The largest *k* for which `round(high·2ᵏ) − round(low·2ᵏ)` < 2^`bits`; `low` < `high`.
+/// Returns the largest *k* for which `round(high·2ᵏ) − round(low·2ᵏ)` < 2^`bits`, where `low` <
+/// `high`.
 fn largest_exponent(low: f64, high: f64, bits: u32) -> i32 {
-    // The halves never overflow; a subnormal that loses its last bit here is mended by the search below, since the
-    // estimate is only where it starts.
+    // The halves never overflow. A subnormal may lose its last bit here, which does no harm: the
+    // estimate is only where the search below starts.
     let range = high / 2.0 - low / 2.0;
     let (mantissa, e) = decompose(if range > 0.0 { range } else { f64::from_bits(1) });
     // range·2 has its leading bit at e + bits(mantissa).

@@ -1,4 +1,4 @@
-//! From the caller's slices to lattice points in insertion order, for any dimension.
+//! Turns the caller's slices into lattice points in insertion order, for any dimension.
 
 pub mod hilbert;
 pub mod lattice;

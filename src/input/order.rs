@@ -1,35 +1,39 @@
-//! The order in which points are inserted: duplicates out, then rounds of growing size (BRIO: Amenta, Choi and Rote
-//! 2003), each along the Hilbert curve.
+//! The order in which points are inserted: duplicates are removed, then rounds of growing size
+//! (biased randomised insertion order, BRIO: Amenta, Choi and Rote 2003), each along the Hilbert
+//! curve.
 
 use crate::{Points, index::NONE, input::lattice::Lattice};
 use std::cmp::Ordering;
 
-/// An insertion order for the engine.
+/// An insertion order. The mesh does not depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Order {
     /// Biased randomised rounds, each along the Hilbert curve.
     #[default]
     Brio,
-    /// A random order: the mesh must not depend on it, which tests check.
+    /// A random order, by seed, with which tests check that the mesh does not depend on the order.
     Shuffled(u64),
 }
 
 /// The distinct points in insertion order, and what the others duplicate.
 pub(crate) struct Distinct {
+    /// The input index of each distinct point.
     pub(crate) order: Vec<u32>,
-    /// One entry a point, as in [`Mesh3::duplicate_of`](crate::Mesh3::duplicate_of).
+    /// One entry per point, as in [`Mesh3::duplicate_of`](crate::Mesh3::duplicate_of).
     pub(crate) duplicate_of: Vec<i32>,
 }
 
-/// The place of a cell along a space-filling curve, from its coordinates and how many of their bits count.
+/// Maps the coordinates of a cell, and how many of their bits count, to the cell's place along a
+/// space-filling curve.
 pub(crate) type Curve<const D: usize> = fn([u32; D], u32) -> u64;
 
-/// Each round of the insertion takes this many bits' power of the points that the next one takes.
+/// Each round has 2⁻³ times as many points as the next: 3 bits fewer.
 const ROUND_BITS: u32 = 3;
-/// No round but the first has fewer points than this. The first is one sweep along the curve, which takes quadratic time
-/// where fans grow: on two lines, say.
+/// No round but the first has fewer points than this. The first round is one sweep along the curve,
+/// which takes quadratic time where fans grow, for example on two lines.
 const MIN_ROUND: usize = 100;
 
+/// Removes duplicates, and brings the points into insertion order.
 pub(crate) fn insertion_order<const D: usize>(
     points: Points<'_, D>,
     lattice: &Lattice<D>,
@@ -45,7 +49,8 @@ pub(crate) fn insertion_order<const D: usize>(
     Distinct { order, duplicate_of }
 }
 
-/// The distinct points along the curve; where lattice cells coincide, by coordinates.
+/// Returns the distinct points in the order of the curve, or of their coordinates if their lattice
+/// cells coincide.
 fn along_curve<const D: usize>(
     points: Points<'_, D>,
     lattice: &Lattice<D>,
@@ -53,9 +58,10 @@ fn along_curve<const D: usize>(
     duplicate_of: &mut [i32],
 ) -> Vec<u32> {
     let bits = lattice.width().bits();
-    // Of each coordinate, so many bits are covered by a key that fits beside an index in 64 bits.
+    // The key takes this many bits of each coordinate, so that it fits beside an index in 64 bits.
     let key_bits = 32 / D as u32;
-    // A point's place on the curve through the cells of the next `key_bits` bits after `done`, above its index.
+    // A point's place on the curve through the cells of the next `key_bits` bits after `done`,
+    // above its index.
     let key = |i: u32, done: u32| {
         let left = bits - done;
         let cell = lattice
@@ -65,7 +71,8 @@ fn along_curve<const D: usize>(
     };
     let mut keyed: Vec<u64> = (0..points.len() as u32).map(|i| key(i, 0)).collect();
     keyed.sort_unstable();
-    // Runs of equal keys are sorted by the bits that the keys did not cover; a run has its start, end and covered bits.
+    // Runs of equal keys are sorted by the bits that the keys did not cover. A run is its start,
+    // its end and the number of bits covered.
     let mut runs = Vec::new();
     let push_runs = |keyed: &[u64], start: usize, done: u32, runs: &mut Vec<_>| {
         let mut at = start;
@@ -101,8 +108,8 @@ fn along_curve<const D: usize>(
     if duplicates == 0 { order.collect() } else { order.filter(|&i| duplicate_of[i as usize] == NONE).collect() }
 }
 
-/// Sorts entries, each an index with a key above it in the upper 32 bits: by key, then by the point's coordinates, then by
-/// index. So equal points become neighbours, the lowest index first.
+/// Sorts entries, each an index with a key in the upper 32 bits: by key, then by the point's
+/// coordinates, then by index. Equal points become neighbours, the lowest index first.
 pub(crate) fn sort_by_place<const D: usize>(points: Points<'_, D>, entries: &mut [u64]) {
     let point = |entry: u64| points.get(entry as u32 as usize);
     sort_by(entries, &|i, j| {
@@ -112,9 +119,10 @@ pub(crate) fn sort_by_place<const D: usize>(points: Points<'_, D>, entries: &mut
     });
 }
 
+/// Sorts out the points that share a lattice position with a representative, given as pairs
+/// `merged`. Notes exact duplicates in `duplicate_of`, and returns the first point at each other
+/// position, with its representative.
 #[cfg(feature = "gpu")]
-/// Of the points that others stand for, because they lie at the same place of the lattice: exact duplicates are noted in
-/// `duplicate_of`, the first of each other place is returned, with the one that stands for it.
 pub(crate) fn missing_points<const D: usize>(
     points: Points<'_, D>,
     merged: &[[u32; 2]],
@@ -141,12 +149,13 @@ pub(crate) fn missing_points<const D: usize>(
     missing
 }
 
-/// One copy of the sort, which is large, for all kinds of points.
+/// Sorts by a function behind a pointer, so that the sort, which is large, is compiled once for all
+/// kinds of points.
 fn sort_by(entries: &mut [u64], compare: &dyn Fn(u64, u64) -> Ordering) {
     entries.sort_unstable_by(|&i, &j| compare(i, j));
 }
 
-/// A random order.
+/// Returns the points in a random order.
 fn shuffled(order: Vec<u32>, seed: u64) -> Vec<u32> {
     let key = |i: u32| mix(u64::from(i) ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 32;
     let mut keyed: Vec<u64> = order.into_iter().map(|i| key(i) << 32 | u64::from(i)).collect();
@@ -154,7 +163,7 @@ fn shuffled(order: Vec<u32>, seed: u64) -> Vec<u32> {
     keyed.into_iter().map(|entry| entry as u32).collect()
 }
 
-/// Splits an order into rounds at random, keeping the order within each; small rounds first.
+/// Splits an order into rounds at random, and keeps the order within each; small rounds come first.
 fn rounds(order: Vec<u32>) -> Vec<u32> {
     let mut last = 0;
     while order.len() >> (ROUND_BITS * (last + 1)) >= MIN_ROUND {
@@ -177,7 +186,8 @@ fn rounds(order: Vec<u32>) -> Vec<u32> {
     sorted
 }
 
-/// The finaliser of SplitMix64: a hash, so that the same input gives the same order on every machine.
+/// The finaliser of SplitMix64: a hash, so that the same input gives the same order on every
+/// machine.
 fn mix(mut x: u64) -> u64 {
     x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
     x = (x ^ x >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -1,13 +1,27 @@
-//! Input points: the forms they come in, and validation.
+//! Input points: the forms in which they come, and their validation.
 
 use crate::{
     Error,
     parallel::{self, Threads},
 };
 
-/// Borrowed input points of `D` coordinates each: `[x, y, z]`, or `[x, y]` in the plane. Every finite `f32` and `f64` is
-/// taken at its exact value.
+/// Borrowed input points of `D` coordinates each: `[x, y, z]` in 3D, `[x, y]` in 2D.
+///
+/// Every finite `f32` and `f64` is taken at its exact value. Slices, vectors and arrays of `[f32; D]` and `[f64; D]` convert
+/// into it, so functions that take `impl Into<Points>` accept them directly. The features `glam` and `nalgebra` add these
+/// crates' points and vectors, and `ndarray` adds `TryFrom` for arrays with one point per row; none of them copies. For points
+/// of type [`mint`](https://docs.rs/mint) see [`from_mint3`](crate::from_mint3).
+///
+/// # Examples
+///
+/// ```
+/// use gdel::Points;
+///
+/// let points: Points<'_, 2> = (&[[0.0, 0.0], [1.0, 0.5f32]]).into();
+/// assert_eq!((points.len(), points.get(1)), (2, [1.0, 0.5]));
+/// ```
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub enum Points<'a, const D: usize = 3> {
     /// Single precision.
     F32(&'a [[f32; D]]),
@@ -15,29 +29,39 @@ pub enum Points<'a, const D: usize = 3> {
     F64(&'a [[f64; D]]),
 }
 
-/// Points of the plane.
+/// Borrowed input points in 2D.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::Points2;
+///
+/// let points = Points2::from_interleaved_f64(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0])?;
+/// assert_eq!(gdel::delaunay2d(points)?.triangles.len(), 1);
+/// # Ok::<(), gdel::Error>(())
+/// ```
 pub type Points2<'a> = Points<'a, 2>;
 
 impl<'a, const D: usize> Points<'a, D> {
-    /// Points from x, y, z, x, y, z, …, or from x, y, x, y, … in the plane.
+    /// Borrows points from x, y, z, x, y, z, …, or from x, y, x, y, … in 2D.
     ///
     /// # Errors
     ///
-    /// [`Error::NotWholePoints`] when the length is not a multiple of `D`.
+    /// Returns [`Error::NotWholePoints`] if the length is not a multiple of `D`.
     pub fn from_interleaved_f32(coordinates: &'a [f32]) -> Result<Self, Error> {
         whole_points(coordinates).map(Points::F32)
     }
 
-    /// Points from x, y, z, x, y, z, …, or from x, y, x, y, … in the plane.
+    /// Borrows points from x, y, z, x, y, z, …, or from x, y, x, y, … in 2D.
     ///
     /// # Errors
     ///
-    /// [`Error::NotWholePoints`] when the length is not a multiple of `D`.
+    /// Returns [`Error::NotWholePoints`] if the length is not a multiple of `D`.
     pub fn from_interleaved_f64(coordinates: &'a [f64]) -> Result<Self, Error> {
         whole_points(coordinates).map(Points::F64)
     }
 
-    /// The number of points, duplicates included.
+    /// Returns the number of points, duplicates included.
     pub fn len(&self) -> usize {
         match self {
             Points::F32(p) => p.len(),
@@ -45,16 +69,16 @@ impl<'a, const D: usize> Points<'a, D> {
         }
     }
 
-    /// Whether there are no points.
+    /// Returns whether there are no points.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The exact coordinates of point `i`.
+    /// Returns the exact coordinates of point `i`.
     ///
     /// # Panics
     ///
-    /// When `i` is not below [`len`](Self::len).
+    /// Panics if `i` is not below [`len`](Self::len).
     #[inline]
     pub fn get(&self, i: usize) -> [f64; D] {
         match self {
@@ -63,11 +87,11 @@ impl<'a, const D: usize> Points<'a, D> {
         }
     }
 
-    /// The points with these numbers.
+    /// Returns the points with the indices in `range`.
     ///
     /// # Panics
     ///
-    /// When there are fewer.
+    /// Panics if `range` does not lie within the points.
     pub(crate) fn range(&self, range: std::ops::Range<usize>) -> Points<'a, D> {
         match self {
             Points::F32(p) => Points::F32(&p[range]),
@@ -75,7 +99,7 @@ impl<'a, const D: usize> Points<'a, D> {
         }
     }
 
-    /// All points in order.
+    /// Iterates over all points in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = [f64; D]> + '_ {
         let points = *self;
         (0..self.len()).map(move |i| points.get(i))
@@ -85,12 +109,12 @@ impl<'a, const D: usize> Points<'a, D> {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`] with the first bad point.
+    /// Returns [`Error::NotFinite`] with the first point that has a coordinate that is not.
     pub fn validate(&self) -> Result<(), Error> {
         self.validate_by(Threads::One)
     }
 
-    /// The same by these threads.
+    /// Checks that every coordinate is a finite number, by `threads`.
     pub(crate) fn validate_by(&self, threads: Threads) -> Result<(), Error> {
         let is_finite = |p: &[f64; D]| p.iter().all(|x| x.is_finite());
         let bad = parallel::map_ranges(threads, self.len(), |range| {
@@ -133,7 +157,100 @@ macro_rules! from_slices {
         }
     )*};
 }
+from_slices!([f32; 2] => F32, 2; [f64; 2] => F64, 2; [f32; 3] => F32, 3; [f64; 3] => F64, 3);
+#[cfg(feature = "glam")]
+from_slices!(glam::Vec2 => F32, 2; glam::DVec2 => F64, 2; glam::Vec3 => F32, 3; glam::DVec3 => F64, 3);
+#[cfg(feature = "nalgebra")]
 from_slices!(
-    [f32; 3] => F32, 3; [f64; 3] => F64, 3; glam::Vec3 => F32, 3; glam::DVec3 => F64, 3;
-    [f32; 2] => F32, 2; [f64; 2] => F64, 2; glam::Vec2 => F32, 2; glam::DVec2 => F64, 2
+    nalgebra::Point2<f32> => F32, 2; nalgebra::Point2<f64> => F64, 2;
+    nalgebra::Point3<f32> => F32, 3; nalgebra::Point3<f64> => F64, 3;
+    nalgebra::Vector2<f32> => F32, 2; nalgebra::Vector2<f64> => F64, 2;
+    nalgebra::Vector3<f32> => F32, 3; nalgebra::Vector3<f64> => F64, 3
 );
+
+#[cfg(feature = "ndarray")]
+mod arrays {
+    use super::{Points, whole_points};
+    use crate::Error;
+    use ndarray::{ArrayBase, ArrayView2, Data, Ix2};
+
+    /// The rows of an array that lie in memory one after the other.
+    fn rows<'a, T, const D: usize>(array: ArrayView2<'a, T>) -> Result<&'a [[T; D]], Error> {
+        let (rows, columns) = array.dim();
+        if columns != D {
+            return Err(Error::ArrayShape { rows, columns, dimension: D });
+        }
+        whole_points(array.to_slice().ok_or(Error::ArrayLayout)?)
+    }
+
+    /// The types of coordinates.
+    pub trait Coordinate: Sized {
+        fn points<const D: usize>(points: &[[Self; D]]) -> Points<'_, D>;
+    }
+
+    impl Coordinate for f32 {
+        fn points<const D: usize>(points: &[[f32; D]]) -> Points<'_, D> {
+            Points::F32(points)
+        }
+    }
+
+    impl Coordinate for f64 {
+        fn points<const D: usize>(points: &[[f64; D]]) -> Points<'_, D> {
+            Points::F64(points)
+        }
+    }
+
+    /// Takes one point per row, without a copy.
+    ///
+    /// Fails with [`Error::ArrayShape`] or [`Error::ArrayLayout`] if the rows are not contiguous points.
+    impl<'a, T: Coordinate, const D: usize> TryFrom<ArrayView2<'a, T>> for Points<'a, D> {
+        type Error = Error;
+
+        fn try_from(array: ArrayView2<'a, T>) -> Result<Self, Error> {
+            rows(array).map(T::points)
+        }
+    }
+
+    /// Takes one point per row, without a copy.
+    ///
+    /// Fails with [`Error::ArrayShape`] or [`Error::ArrayLayout`] if the rows are not contiguous points.
+    impl<'a, T: Coordinate, S: Data<Elem = T>, const D: usize> TryFrom<&'a ArrayBase<S, Ix2>> for Points<'a, D> {
+        type Error = Error;
+
+        fn try_from(array: &'a ArrayBase<S, Ix2>) -> Result<Self, Error> {
+            rows(array.view()).map(T::points)
+        }
+    }
+}
+
+/// Copies 3D points of any type that converts into [`mint::Point3`], the type through which mathematics libraries exchange
+/// points.
+///
+/// # Examples
+///
+/// ```
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]].map(mint::Point3::from);
+/// let mesh = gdel::delaunay3d(&gdel::from_mint3(points))?;
+/// assert_eq!(mesh.tetrahedra.len(), 1);
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[cfg(feature = "mint")]
+pub fn from_mint3<T>(points: impl IntoIterator<Item = impl Into<mint::Point3<T>>>) -> Vec<[T; 3]> {
+    points.into_iter().map(|point| point.into().into()).collect()
+}
+
+/// Copies 2D points of any type that converts into [`mint::Point2`], the type through which mathematics libraries exchange
+/// points.
+///
+/// # Examples
+///
+/// ```
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]].map(mint::Point2::from);
+/// let mesh = gdel::delaunay2d(&gdel::from_mint2(points))?;
+/// assert_eq!(mesh.triangles.len(), 1);
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[cfg(feature = "mint")]
+pub fn from_mint2<T>(points: impl IntoIterator<Item = impl Into<mint::Point2<T>>>) -> Vec<[T; 2]> {
+    points.into_iter().map(|point| point.into().into()).collect()
+}

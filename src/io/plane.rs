@@ -1,16 +1,10 @@
 //! Meshes of the plane in files.
 //!
-//! Files have triangles counter-clockwise where *y* points up, as their other programs do; only `.npz` has them as
-//! [`Mesh2`] has. Formats of space get z = 0.
+//! Files have triangles counter-clockwise where *y* points up, as [`Mesh2`] has them. Formats of space get z = 0.
 
 use crate::io::{FormatError, MeshData2, PointBuf, PointCloud, glb, obj, ply, stl, tetgen, vtu};
 use crate::{Mesh2, Points, Points2, index::NONE};
 use std::io::{self, Write};
-
-/// A triangle the other way round.
-fn turned(triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
-    triangles.iter().map(|&[a, b, c]| [a, c, b]).collect()
-}
 
 fn in_space(points: Points2<'_>) -> PointBuf {
     match points {
@@ -55,7 +49,7 @@ impl<'a> From<&'a PlanePoints> for Points2<'a> {
 ///
 /// When `to` cannot be written.
 pub fn write_ele2<W: Write>(to: W, mesh: &Mesh2) -> io::Result<()> {
-    tetgen::write_rows(to, " 0", &turned(&mesh.triangles))
+    tetgen::write_rows(to, " 0", &mesh.triangles)
 }
 
 /// Writes the neighbours for Triangle: the *k*-th is across the edge opposite the *k*-th vertex in [`write_ele2`]'s file, -1
@@ -66,7 +60,7 @@ pub fn write_ele2<W: Write>(to: W, mesh: &Mesh2) -> io::Result<()> {
 /// When `to` cannot be written.
 pub fn write_neigh2<W: Write>(to: W, mesh: &Mesh2) -> io::Result<()> {
     let triangle = |halfedge: i32| if halfedge == NONE { NONE } else { halfedge / 3 };
-    let neighbors: Vec<[i32; 3]> = mesh.halfedges.iter().map(|&[ab, bc, ca]| [bc, ab, ca].map(triangle)).collect();
+    let neighbors: Vec<[i32; 3]> = mesh.halfedges.iter().map(|&[ab, bc, ca]| [bc, ca, ab].map(triangle)).collect();
     tetgen::write_rows(to, "", &neighbors)
 }
 
@@ -76,7 +70,7 @@ pub fn write_neigh2<W: Write>(to: W, mesh: &Mesh2) -> io::Result<()> {
 ///
 /// When `to` cannot be written.
 pub fn write_vtu2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Result<()> {
-    vtu::write_cells(to, (&in_space(points)).into(), &turned(&mesh.triangles), vtu::TRIANGLE)
+    vtu::write_cells(to, (&in_space(points)).into(), &mesh.triangles, vtu::TRIANGLE)
 }
 
 /// Writes the triangles as binary little-endian PLY, in the points' precision, without the points that are no vertices.
@@ -85,7 +79,7 @@ pub fn write_vtu2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Res
 ///
 /// When `to` cannot be written.
 pub fn write_ply2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Result<()> {
-    ply::write_surface(to, (&in_space(points)).into(), &turned(&mesh.triangles))
+    ply::write_surface(to, (&in_space(points)).into(), &mesh.triangles)
 }
 
 /// Writes the triangles as Wavefront OBJ, without the points that are no vertices.
@@ -94,7 +88,7 @@ pub fn write_ply2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Res
 ///
 /// When `to` cannot be written.
 pub fn write_obj2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Result<()> {
-    obj::write_surface(to, (&in_space(points)).into(), &turned(&mesh.triangles))
+    obj::write_surface(to, (&in_space(points)).into(), &mesh.triangles)
 }
 
 /// Writes the triangles as STL: binary where that holds the coordinates exactly, which is in single precision, else ASCII.
@@ -103,7 +97,7 @@ pub fn write_obj2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Res
 ///
 /// When `to` cannot be written.
 pub fn write_stl2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Result<()> {
-    stl::write_surface(to, (&in_space(points)).into(), &turned(&mesh.triangles), "triangulation")
+    stl::write_surface(to, (&in_space(points)).into(), &mesh.triangles, "triangulation")
 }
 
 /// Writes the triangles as binary glTF, without the points that are no vertices: see [`write_hull_glb`](crate::io::write_hull_glb).
@@ -112,7 +106,7 @@ pub fn write_stl2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Res
 ///
 /// When `to` cannot be written; [`io::ErrorKind::FileTooLarge`] beyond 4 GB.
 pub fn write_glb2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Result<()> {
-    glb::write_surface(to, (&in_space(points)).into(), &turned(&mesh.triangles), "triangulation")
+    glb::write_surface(to, (&in_space(points)).into(), &mesh.triangles, "triangulation")
 }
 
 /// Reads the triangles of an `.ele` file of Triangle's. One whose first triangle is number 1 counts from 1.
@@ -121,7 +115,7 @@ pub fn write_glb2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Res
 ///
 /// Where the file is broken, and how.
 pub fn read_ele2(bytes: &[u8]) -> Result<MeshData2, FormatError> {
-    Ok(MeshData2 { triangles: turned(&tetgen::read_simplices(bytes, "triangles")?), halfedges: None })
+    Ok(MeshData2 { triangles: tetgen::read_simplices(bytes, "triangles")?, halfedges: None })
 }
 
 /// Reads the triangles of VTK's unstructured grid.
@@ -130,6 +124,5 @@ pub fn read_ele2(bytes: &[u8]) -> Result<MeshData2, FormatError> {
 ///
 /// Where the file is broken, and how; when it has cells that are no triangles.
 pub fn read_vtu2(bytes: &[u8]) -> Result<MeshData2, FormatError> {
-    let triangles: Vec<[u32; 3]> = vtu::read_cells(bytes, vtu::TRIANGLE, "triangle", ["", "s"])?;
-    Ok(MeshData2 { triangles: turned(&triangles), halfedges: None })
+    Ok(MeshData2 { triangles: vtu::read_cells(bytes, vtu::TRIANGLE, "triangle", ["", "s"])?, halfedges: None })
 }

@@ -1,38 +1,44 @@
-//! Signs for `f64` coordinates of any size, without a lattice.
+//! Predicates for `f64` coordinates of any size, without a lattice.
 //!
-//! Shewchuk's adaptive expansions (the `robust` crate) are exact as long as no intermediate result over- or underflows.
-//! Where the exponents do not rule that out, big integers decide.
+//! Shewchuk's adaptive expansions (the `robust` crate) are exact as long as no intermediate result
+//! overflows or underflows. Where the exponents do not rule that out, big integers decide.
 
 use crate::input::lattice::decompose;
 use crate::predicates::Sign;
 use num_bigint::BigInt;
 use robust::{Coord, Coord3D};
 
-/// The coordinates for which no product of five differences, nor any of its rounding errors, leaves the range of `f64`:
-/// their last bits are at 2⁻¹⁹³ or above, so a product of five has its last bit at 2⁻⁹⁶⁵ or above, and the determinants
+/// Returns whether no product of five differences, nor any of its rounding errors, leaves the range
+/// of `f64`.
+///
+/// Every coordinate must be 0 or have a magnitude from 2⁻¹⁴⁰ to 2¹⁸⁷. Then their last bits are at
+/// 2⁻¹⁹³ or above, so a product of five has its last bit at 2⁻⁹⁶⁵ or above, and the determinants
 /// stay below 2¹⁰⁰⁰.
 fn expansions_are_exact<const D: usize>(points: &[[f64; D]]) -> bool {
-    const LEAST: f64 = 1.0 / (1u128 << 127) as f64 / 8192.0;
-    const MOST: f64 = (1u128 << 127) as f64 * (1u64 << 60) as f64;
-    points.as_flattened().iter().all(|&x| x == 0.0 || (LEAST..=MOST).contains(&x.abs()))
+    const MIN: f64 = 1.0 / (1u128 << 127) as f64 / 8192.0;
+    const MAX: f64 = (1u128 << 127) as f64 * (1u64 << 60) as f64;
+    points.as_flattened().iter().all(|&x| x == 0.0 || (MIN..=MAX).contains(&x.abs()))
 }
 
+/// Returns the sign of a floating-point number.
 fn sign(value: f64) -> Sign {
     (value > 0.0) as Sign - (value < 0.0) as Sign
 }
 
-/// The sign of the determinant whose rows are the differences to the last point, each after its squared length if they are
-/// `lifted`, in big integers. One copy for all predicates: it is large, and hardly ever needed.
+/// Returns the sign of the determinant whose rows are the differences to the last point, each after
+/// its squared length if they are `lifted`, in big integers.
+///
+/// The code is large and rarely used, so it is compiled once for all predicates.
 fn big_sign(points: &[&[f64]], lifted: bool) -> Sign {
     let coordinates = points.iter().copied().flatten().filter(|x| **x != 0.0);
-    // All are multiplied by the same power of two.
-    let least = coordinates.map(|&x| decompose(x).1).min().unwrap_or(0);
+    // All coordinates are multiplied by the same power of two.
+    let min_exponent = coordinates.map(|&x| decompose(x).1).min().unwrap_or(0);
     let integer = |x: f64| {
         let (mantissa, exponent) = decompose(x);
         if mantissa == 0 {
             return BigInt::ZERO;
         }
-        let magnitude = BigInt::from(mantissa) << (exponent - least);
+        let magnitude = BigInt::from(mantissa) << (exponent - min_exponent);
         if x < 0.0 { -magnitude } else { magnitude }
     };
     let Some((last, others)) = points.split_last() else { return 0 };
@@ -53,7 +59,7 @@ fn big_sign(points: &[&[f64]], lifted: bool) -> Sign {
     }
 }
 
-/// By the cofactors of the first column.
+/// Returns the determinant, by the cofactors of the first column.
 fn determinant(rows: &[&[BigInt]]) -> BigInt {
     let [only] = rows else {
         let mut sum = BigInt::ZERO;
@@ -67,7 +73,16 @@ fn determinant(rows: &[&[BigInt]]) -> BigInt {
     only[0].clone()
 }
 
-/// The sign of det(b − a, c − a), exactly, for all finite coordinates: positive when a, b, c turn counter-clockwise.
+/// Returns the sign of det(b − a, c − a), exactly, for all finite coordinates: positive if a, b, c turn counter-clockwise with
+/// *y* up, zero if they lie on a line.
+///
+/// # Examples
+///
+/// ```
+/// assert_eq!(gdel::orient2d([0.0, 0.0], [1.0, 0.0], [0.0, 1.0]), 1);
+/// // Rounded arithmetic would see a triangle here.
+/// assert_eq!(gdel::orient2d([0.1, 0.1], [0.3, 0.3], [0.7, 0.7]), 0);
+/// ```
 pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     if expansions_are_exact(&[a, b, c]) {
         let [a, b, c] = [a, b, c].map(|[x, y]| Coord { x, y });
@@ -76,7 +91,17 @@ pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     big_sign(&[&b, &c, &a], false)
 }
 
-/// Positive when d is inside the circle through the counter-clockwise a, b, c; exactly, for all finite coordinates.
+/// Returns 1 if d is inside the circle through the counter-clockwise a, b, c, 0 if it is on it, −1 if it is outside; exactly,
+/// for all finite coordinates. The sign changes with the orientation of a, b, c.
+///
+/// # Examples
+///
+/// ```
+/// let [a, b, c] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+/// assert_eq!(gdel::incircle(a, b, c, [0.5, 0.5]), 1);
+/// assert_eq!(gdel::incircle(a, b, c, [0.0, 1.0]), 0);
+/// assert_eq!(gdel::incircle(a, b, c, [0.0, 1.0f64.next_up()]), -1);
+/// ```
 pub fn incircle(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Sign {
     if expansions_are_exact(&[a, b, c, d]) {
         let [a, b, c, d] = [a, b, c, d].map(|[x, y]| Coord { x, y });
@@ -85,7 +110,17 @@ pub fn incircle(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Sign {
     big_sign(&[&a, &b, &c, &d], true)
 }
 
-/// The sign of det(b − a, c − a, d − a), exactly, for all finite coordinates.
+/// Returns the sign of det(b − a, c − a, d − a), exactly, for all finite coordinates: positive if a, b, c turn
+/// counter-clockwise as seen from d, zero if all lie on a plane. (Shewchuk's `orient3d` has the opposite sign.)
+///
+/// # Examples
+///
+/// ```
+/// let [a, b, c] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+/// assert_eq!(gdel::orient3d(a, b, c, [0.0, 0.0, 1.0]), 1);
+/// assert_eq!(gdel::orient3d(a, b, c, [5.0, 5.0, 0.0]), 0);
+/// assert_eq!(gdel::orient3d(a, b, c, [5.0, 5.0, -1e-300]), -1);
+/// ```
 pub fn orient3d(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> Sign {
     if expansions_are_exact(&[a, b, c, d]) {
         let [a, b, c, d] = [a, b, c, d].map(|[x, y, z]| Coord3D { x, y, z });
@@ -94,7 +129,17 @@ pub fn orient3d(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> Sign {
     big_sign(&[&b, &c, &d, &a], false)
 }
 
-/// Positive when e is inside the sphere through the positively oriented a, b, c, d; exactly, for all finite coordinates.
+/// Returns 1 if e is inside the sphere through the positively oriented a, b, c, d, 0 if it is on it, −1 if it is outside;
+/// exactly, for all finite coordinates. The sign changes with the orientation of a, b, c, d: see [`orient3d`].
+///
+/// # Examples
+///
+/// ```
+/// let [a, b, c, d] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// assert_eq!(gdel::insphere(a, b, c, d, [0.5, 0.5, 0.5]), 1);
+/// assert_eq!(gdel::insphere(a, b, c, d, [1.0, 1.0, 1.0]), 0);
+/// assert_eq!(gdel::insphere(a, b, c, d, [1.0, 1.0, 1.0f64.next_up()]), -1);
+/// ```
 pub fn insphere(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3], e: [f64; 3]) -> Sign {
     if expansions_are_exact(&[a, b, c, d, e]) {
         let [a, b, c, d, e] = [a, b, c, d, e].map(|[x, y, z]| Coord3D { x, y, z });
@@ -103,7 +148,7 @@ pub fn insphere(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3], e: [f64; 3])
     big_sign(&[&a, &b, &c, &d, &e], true)
 }
 
-/// Whether three points lie on a line, exactly, for all finite coordinates.
+/// Returns whether three points lie on a line, exactly, for all finite coordinates.
 pub fn collinear(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> bool {
     [(0, 1), (1, 2), (2, 0)].iter().all(|&(i, j)| orient2d([a[i], a[j]], [b[i], b[j]], [c[i], c[j]]) == 0)
 }

@@ -1,15 +1,20 @@
-//! Ties of the in-sphere and in-circle tests: simulation of simplicity on the lifted heights (Edelsbrunner and Mücke 1990).
+//! Ties of the in-sphere and in-circle tests: simulation of simplicity on the lifted heights
+//! (Edelsbrunner and Mücke 1990; the paper's §4.4).
 //!
-//! Point *i* counts as if its lifted height were |pᵢ|² + δᵢ with δ₀ ≫ δ₁ ≫ … > 0. The derivative of the in-sphere
-//! determinant by a point's height is, up to a sign that alternates along the argument list, the orientation of the
-//! other four points. So the first point in index order whose removal leaves four points that are not coplanar decides;
-//! in the plane, three points that are not collinear.
+//! Point *i* counts as if its lifted height were |pᵢ|² + δᵢ with δ₀ ≫ δ₁ ≫ … > 0. The derivative of
+//! the in-sphere determinant with respect to a point's height is, up to a sign that alternates
+//! along the argument list, the orientation of the other four points. So the first point in index
+//! order whose removal leaves four points that are not coplanar decides; in 2D, three points that
+//! are not collinear.
 
 use crate::predicates::{Sign, exact};
 
-/// The sign of an in-sphere or in-circle determinant that vanishes without the perturbation. `indices` are the input
-/// indices of the arguments; `orient(k)` is the orientation of the others, in argument order, when argument *k* is left
-/// out. Zero only if all are coplanar, or collinear in the plane.
+/// Returns the sign of an in-sphere or in-circle determinant that vanishes without the
+/// perturbation.
+///
+/// `indices` are the input indices of the arguments. `orient(k)` is the orientation of the other
+/// arguments, in their order, when argument *k* is left out. The sign is zero only if all points
+/// are coplanar, or collinear in 2D.
 #[inline]
 pub fn break_tie<const N: usize>(indices: [u32; N], mut orient: impl FnMut(usize) -> Sign) -> Sign {
     let mut order: [usize; N] = std::array::from_fn(|k| k);
@@ -19,8 +24,10 @@ pub fn break_tie<const N: usize>(indices: [u32; N], mut orient: impl FnMut(usize
     order.into_iter().map(cofactor).find(|&sign| sign != 0).unwrap_or(0)
 }
 
-/// Like [`insphere`](exact::insphere), but never zero for distinct points that are not all coplanar. `points` are input
-/// indices, all different, and coordinates.
+/// Returns the sign of [`insphere`](exact::insphere) with ties broken: never zero for distinct
+/// points that are not all coplanar.
+///
+/// `points` are input indices, all different, and coordinates.
 pub fn insphere_symbolic(points: [(u32, [f64; 3]); 5]) -> Sign {
     let [a, b, c, d, e] = points.map(|(_, p)| p);
     match exact::insphere(a, b, c, d, e) {
@@ -32,8 +39,10 @@ pub fn insphere_symbolic(points: [(u32, [f64; 3]); 5]) -> Sign {
     }
 }
 
-/// Like [`incircle`](exact::incircle), but never zero for distinct points that are not all collinear. `points` are input
-/// indices, all different, and coordinates.
+/// Returns the sign of [`incircle`](exact::incircle) with ties broken: never zero for distinct
+/// points that are not all collinear.
+///
+/// `points` are input indices, all different, and coordinates.
 pub fn incircle_symbolic(points: [(u32, [f64; 2]); 4]) -> Sign {
     let [a, b, c, d] = points.map(|(_, p)| p);
     match exact::incircle(a, b, c, d) {
@@ -45,7 +54,7 @@ pub fn incircle_symbolic(points: [(u32, [f64; 2]); 4]) -> Sign {
     }
 }
 
-/// The others, in order, when one is left out: `M` is `N` − 1.
+/// Returns the other items, in order, when item `k` is left out. `M` is `N` − 1.
 #[inline]
 pub fn without<T: Copy, const N: usize, const M: usize>(all: [T; N], k: usize) -> [T; M] {
     std::array::from_fn(|i| all[i + usize::from(i >= k)])

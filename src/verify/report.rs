@@ -7,6 +7,19 @@ use std::fmt;
 /// Together they are sufficient: a mesh that passes all of them *is* the triangulation that
 /// [`delaunay3d`](crate::delaunay3d) defines. In the plane, tetrahedra are triangles, facets are edges, the neighbours are
 /// half-edges, and the checks after the convex hull are not needed.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::verify::{Check, verify3d};
+///
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
+/// let mut mesh = gdel::delaunay3d(&points)?;
+/// mesh.tetrahedra[0].swap(0, 1);
+/// let report = verify3d(&points, &mesh)?;
+/// assert_eq!(report.failures().next().map(|(check, ..)| check), Some(Check::Orientation));
+/// # Ok::<(), gdel::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Check {
@@ -102,7 +115,20 @@ impl fmt::Display for Check {
 }
 
 /// Where a check fails, and how.
+///
+/// # Examples
+///
+/// ```
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
+/// let mut mesh = gdel::delaunay2d(&points)?;
+/// mesh.triangles[0].swap(0, 1);
+/// let report = gdel::verify::verify2d(&points, &mesh)?;
+/// let (_, defect, _) = report.failures().next().expect("the triangle is clockwise");
+/// assert_eq!(defect.triangle, Some(0));
+/// # Ok::<(), gdel::Error>(())
+/// ```
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Defect {
     /// The index of the tetrahedron, where there is one to blame.
     pub tetrahedron: Option<usize>,
@@ -148,7 +174,21 @@ impl fmt::Display for Defect {
 }
 
 /// How a check ended.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::verify::{Check, MeshView2, Outcome, verify2d};
+///
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
+/// let report = verify2d(&points, MeshView2::of_triangles(&[[0, 1, 2]]))?;
+/// assert_eq!(report.outcome(Check::Delaunay), Some(&Outcome::Passed));
+/// // Only the triangles were given.
+/// assert_eq!(report.outcome(Check::Hull), Some(&Outcome::NotStated));
+/// # Ok::<(), gdel::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Outcome {
     /// The property holds.
     Passed,
@@ -186,7 +226,17 @@ impl From<Findings> for Outcome {
 }
 
 /// How many there are of everything.
+///
+/// # Examples
+///
+/// ```
+/// let points = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0], [0.0, 0.0f64]];
+/// let counts = gdel::verify::verify2d(&points, &gdel::delaunay2d(&points)?)?.counts;
+/// assert_eq!((counts.points, counts.distinct_points, counts.edges), (5, 4, 5));
+/// # Ok::<(), gdel::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Counts {
     /// Points, duplicates included.
     pub points: usize,
@@ -207,7 +257,19 @@ pub struct Counts {
 }
 
 /// The outcome of every check.
+///
+/// # Examples
+///
+/// ```
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
+/// let report = gdel::verify::verify2d(&points, &gdel::delaunay2d(&points)?)?;
+/// assert!(report.passed());
+/// // One line per check.
+/// println!("{report}");
+/// # Ok::<(), gdel::Error>(())
+/// ```
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Report {
     /// Each check with its outcome, in the order of [`Check::ALL`].
     pub outcomes: Vec<(Check, Outcome)>,

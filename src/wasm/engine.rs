@@ -6,7 +6,7 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use crate::wasm::{
     objects::{object, set},
     points::Coordinates,
-    run::{self, options},
+    run::{self, for_run},
 };
 use crate::{Mesh3, Triangulator, stats::Trace, triangulator::MIN_POINTS};
 
@@ -69,14 +69,14 @@ impl WasmEngines {
     ) -> Result<JsValue, JsValue> {
         let coordinates = Coordinates::new(&points)?;
         drop(points);
-        let options = options(engine, outputs.trace, report);
-        Ok(mesh3(self.engines.delaunay3d(coordinates.points()?, &options).await?, outputs))
+        let triangulator = for_run(&self.engines, engine, report).trace(outputs.trace);
+        Ok(mesh3(triangulator.delaunay3d_async(coordinates.points()?).await?, outputs))
     }
 }
 
 /// Each array is freed as soon as it is copied: a mesh is large, and this memory never shrinks.
 fn mesh3(mesh: Mesh3, outputs: Outputs) -> JsValue {
-    let Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension, stats } = mesh;
+    let Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension, stats, .. } = mesh;
     let result = object([("dimension", dimension.into()), ("stats", run::stats(&stats))]);
     set(&result, "tetrahedra", Uint32Array::new_from_slice(tetrahedra.as_flattened()));
     drop(tetrahedra);

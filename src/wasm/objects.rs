@@ -30,14 +30,14 @@ impl From<Error> for JsValue {
     fn from(error: Error) -> JsValue {
         let code = match error {
             Error::NotFinite { .. } => "NOT_FINITE",
-            Error::NotWholePoints { .. } => "BAD_INPUT",
+            Error::NotWholePoints { .. } | Error::ArrayShape { .. } | Error::ArrayLayout => "BAD_INPUT",
             Error::TooManyPoints { .. } => "TOO_MANY_POINTS",
-            Error::NoAdapter { .. } | Error::AdapterNotFound { .. } => "NO_ADAPTER",
+            Error::GpuUnavailable { .. } | Error::NoAdapter { .. } | Error::AdapterNotFound { .. } => "NO_ADAPTER",
             Error::DeviceLost { .. } => "DEVICE_LOST",
             Error::OutOfDeviceMemory { .. } => "OUT_OF_DEVICE_MEMORY",
             Error::BufferTooLarge { .. } => "BUFFER_TOO_LARGE",
             Error::Gpu { .. } => "GPU",
-            Error::TooManyTetrahedra { .. } => "TOO_MANY_TETRAHEDRA",
+            Error::TooManySimplices { .. } => "TOO_MANY_TETRAHEDRA",
             Error::OutOfMemory { .. } => "OUT_OF_MEMORY",
             Error::Cancelled => "ABORTED",
         };

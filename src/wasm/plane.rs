@@ -6,9 +6,9 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use crate::wasm::{
     objects::object,
     points::Coordinates,
-    run::{options, stats},
+    run::{for_run, stats},
 };
-use crate::{Backend, Mesh2, Options, Triangulator, triangulator::MIN_POINTS_2};
+use crate::{Backend, Mesh2, Triangulator, options::Winding, triangulator::MIN_POINTS_2};
 
 /// The number of points from which on the engine `auto` thinks of the GPU.
 #[wasm_bindgen]
@@ -39,8 +39,9 @@ impl PlaneEngines {
     pub async fn delaunay2d(&self, points: JsValue, engine: &str, report: Function) -> Result<JsValue, JsValue> {
         let coordinates = Coordinates::new(&points)?;
         drop(points);
-        let options = options(engine, false, report);
-        Ok(mesh2(self.engines.delaunay2d(coordinates.points()?, &options).await?))
+        // Delaunator's orientation.
+        let triangulator = for_run(&self.engines, engine, report).winding(Winding::Clockwise);
+        Ok(mesh2(triangulator.delaunay2d_async(coordinates.points()?).await?))
     }
 }
 
@@ -49,8 +50,8 @@ impl PlaneEngines {
 pub fn delaunay2d_at_once(points: JsValue) -> Result<JsValue, JsValue> {
     let coordinates = Coordinates::new(&points)?;
     drop(points);
-    let options = Options { backend: Backend::Cpu, ..Options::default() };
-    Ok(mesh2(crate::delaunay2d(coordinates.points()?, &options)?))
+    let triangulator = Triangulator::new().backend(Backend::Cpu).winding(Winding::Clockwise);
+    Ok(mesh2(triangulator.delaunay2d(coordinates.points()?)?))
 }
 
 fn mesh2(mesh: Mesh2) -> JsValue {

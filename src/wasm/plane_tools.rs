@@ -9,7 +9,7 @@ use crate::wasm::{
     tools::{check_vertices, copied, file, no_format, report_object, rows},
 };
 use crate::{
-    Mesh2,
+    Mesh2, NONE,
     d2::{
         generate::{self, Distribution2},
         verify::{MeshView2, verify2d},
@@ -72,11 +72,11 @@ impl PlaneMesh {
     pub fn write(&self, format: &str) -> Result<JsValue, JsValue> {
         let points = self.points.points::<2>()?;
         check_vertices(self.triangles.as_flattened().iter(), points.len())?;
-        let mesh = &Mesh2 {
-            triangles: self.triangles.clone(),
-            halfedges: self.halfedges.clone().unwrap_or_default(),
-            ..Mesh2::default()
-        };
+        let mut mesh = Mesh2::default();
+        mesh.triangles = self.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
+        let turned = |halfedge: i32| if halfedge == NONE { NONE } else { halfedge / 3 * 3 + 2 - halfedge % 3 };
+        mesh.halfedges = self.halfedges.iter().flatten().map(|&[a, b, c]| [c, b, a].map(turned)).collect();
+        let mesh = &mesh;
         match format {
             "vtu" => Ok(object([file("vtu", |to| write_vtu2(to, points, mesh))?])),
             "npz" => Ok(object([file("npz", |to| write_npz2(to, points, mesh))?])),
@@ -96,16 +96,16 @@ impl PlaneMesh {
 
     /// What the verifier finds.
     pub fn verify(&self) -> Result<JsValue, JsValue> {
-        let report = verify2d(
-            self.points.points::<2>()?,
-            MeshView2 {
-                triangles: &self.triangles,
-                halfedges: self.halfedges.as_deref(),
-                hull: self.hull.as_deref(),
-                duplicate_of: self.duplicate_of.as_deref(),
-                dimension: self.dimension,
-            },
-        )?;
+        let mut view = MeshView2::of_triangles(&self.triangles);
+        view.halfedges = self.halfedges.as_deref();
+        view.hull = self.hull.as_deref();
+        view.duplicate_of = self.duplicate_of.as_deref();
+        view.dimension = self.dimension;
+        // Delaunator's triangles are counter-clockwise where y points down. Collinear points have an order, but no sense.
+        let report = match self.triangles.is_empty() {
+            true => verify2d(self.points.points::<2>()?, view)?,
+            false => verify2d(self.points.upside_down().points::<2>()?, view)?,
+        };
         let counts = report.counts;
         Ok(report_object(
             &report,

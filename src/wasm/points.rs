@@ -27,6 +27,17 @@ impl Coordinates {
         Ok(Coordinates::F64(values))
     }
 
+    /// Points of the plane with y negated.
+    pub(super) fn upside_down(&self) -> Self {
+        fn negated<T: Copy + std::ops::Neg<Output = T>>(values: &[T]) -> Vec<T> {
+            values.iter().enumerate().map(|(i, &value)| if i % 2 == 1 { -value } else { value }).collect()
+        }
+        match self {
+            Coordinates::F32(values) => Coordinates::F32(negated(values)),
+            Coordinates::F64(values) => Coordinates::F64(negated(values)),
+        }
+    }
+
     pub(super) fn points<const D: usize>(&self) -> Result<Points<'_, D>, Error> {
         match self {
             Coordinates::F32(values) => Points::from_interleaved_f32(values),

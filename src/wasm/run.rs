@@ -1,6 +1,6 @@
 //! What runs in space and in the plane have in common: options in, statistics out.
 
-use std::{ops::ControlFlow, sync::Arc};
+use std::{ops::ControlFlow, time::Duration};
 
 use js_sys::{Array, Function};
 use send_wrapper::SendWrapper;
@@ -8,25 +8,21 @@ use wasm_bindgen::prelude::JsValue;
 
 use crate::wasm::objects::object;
 use crate::{
-    Backend, Options, Progress,
-    options::OnProgress,
-    stats::{GpuStats, Round, SplayStats, Stats},
+    Backend, Progress, Triangulator,
+    stats::{GpuStats, Phase, Round, SplayStats, Stats},
 };
 
-pub(super) fn options(engine: &str, trace: bool, report: Function) -> Options {
-    let engine = match engine {
+/// Returns `triangulator` for one run: with the backend of this name, and with `report`, which cancels by returning true.
+pub(super) fn for_run(triangulator: &Triangulator, backend: &str, report: Function) -> Triangulator {
+    let backend = match backend {
         "gpu" => Backend::Gpu,
         "cpu" => Backend::Cpu,
         _ => Backend::Auto,
     };
-    Options { backend: engine, on_progress: Some(on_progress(report)), trace }
-}
-
-fn on_progress(report: Function) -> OnProgress {
     // Nothing moves to another thread: there is none.
     let report = SendWrapper::new(report);
-    Arc::new(move |progress: Progress| {
-        let stop = report.call2(&JsValue::NULL, &progress.phase.into(), &progress.fraction.into());
+    triangulator.clone().backend(backend).on_progress(move |progress: Progress| {
+        let stop = report.call2(&JsValue::NULL, &progress.phase.name().into(), &progress.fraction.into());
         match stop {
             Ok(stop) if stop.is_falsy() => ControlFlow::Continue(()),
             _ => ControlFlow::Break(()),
@@ -34,13 +30,18 @@ fn on_progress(report: Function) -> OnProgress {
     })
 }
 
+fn milliseconds(time: Duration) -> JsValue {
+    (1e3 * time.as_secs_f64()).into()
+}
+
 pub(super) fn stats(stats: &Stats) -> JsValue {
-    let phase =
-        |&(name, seconds): &(&str, f64)| object([("name", name.into()), ("milliseconds", (1e3 * seconds).into())]);
+    let phase = |&(phase, time): &(Phase, Duration)| {
+        object([("name", phase.name().into()), ("milliseconds", milliseconds(time))])
+    };
     let phases: Array = stats.phases.iter().map(phase).collect();
     let fallback = stats.fallback.as_ref().map(|why| JsValue::from(why.to_string()));
     object([
-        ("engine", stats.engine.into()),
+        ("engine", stats.backend.name().into()),
         ("why", fallback.unwrap_or(JsValue::NULL)),
         ("phases", phases.into()),
         (
@@ -63,7 +64,7 @@ fn gpu_stats(stats: &GpuStats) -> JsValue {
             ("active", round.active.into()),
             ("flips", round.flips.into()),
             ("iterations", round.iterations.into()),
-            ("milliseconds", round.milliseconds.into()),
+            ("milliseconds", milliseconds(round.time)),
         ])
     };
     let rounds: Array = stats.rounds.iter().map(round).collect();

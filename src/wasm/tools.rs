@@ -86,14 +86,12 @@ impl Mesh {
             duplicate_of: duplicate_of.is_some(),
             dimension: dimension.is_some(),
         };
-        let mesh = Mesh3 {
-            tetrahedra: rows("tetrahedra", tetrahedra.length(), |to| tetrahedra.copy_to(to))?,
-            neighbors: neighbors.map_or(Ok(vec![]), |a| rows("neighbors", a.length(), |to| a.copy_to(to)))?,
-            hull: hull.map_or(Ok(vec![]), |a| rows("hull", a.length(), |to| a.copy_to(to)))?,
-            duplicate_of: duplicate_of.map_or(Ok(vec![]), |a| copied(a.length(), |to| a.copy_to(to)))?,
-            dimension: dimension.unwrap_or(3),
-            ..Mesh3::default()
-        };
+        let mut mesh = Mesh3::default();
+        mesh.tetrahedra = rows("tetrahedra", tetrahedra.length(), |to| tetrahedra.copy_to(to))?;
+        mesh.neighbors = neighbors.map_or(Ok(vec![]), |a| rows("neighbors", a.length(), |to| a.copy_to(to)))?;
+        mesh.hull = hull.map_or(Ok(vec![]), |a| rows("hull", a.length(), |to| a.copy_to(to)))?;
+        mesh.duplicate_of = duplicate_of.map_or(Ok(vec![]), |a| copied(a.length(), |to| a.copy_to(to)))?;
+        mesh.dimension = dimension.unwrap_or(3);
         Ok(Mesh { points, mesh, stated })
     }
 
@@ -120,16 +118,12 @@ impl Mesh {
     /// What the verifier finds.
     pub fn verify(&self) -> Result<JsValue, JsValue> {
         let Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension, .. } = &self.mesh;
-        let report = verify3d(
-            self.points.points::<3>()?,
-            MeshView {
-                tetrahedra,
-                neighbors: self.stated.neighbors.then_some(neighbors),
-                hull: self.stated.hull.then_some(hull),
-                duplicate_of: self.stated.duplicate_of.then_some(duplicate_of),
-                dimension: self.stated.dimension.then_some(*dimension),
-            },
-        )?;
+        let mut view = MeshView::of_tetrahedra(tetrahedra);
+        view.neighbors = self.stated.neighbors.then_some(neighbors);
+        view.hull = self.stated.hull.then_some(hull);
+        view.duplicate_of = self.stated.duplicate_of.then_some(duplicate_of);
+        view.dimension = self.stated.dimension.then_some(*dimension);
+        let report = verify3d(self.points.points::<3>()?, view)?;
         let counts = report.counts;
         Ok(report_object(
             &report,

@@ -1,10 +1,10 @@
-//! Meshes that are broken in one way each, and what the verifier must say of them, in the plane and in space.
+//! 2D and 3D meshes each of which is broken in one way, and what the verifier must say about them.
 
 use gdel::verify::{Check, Report};
 use proptest::{prelude::*, sample::Index};
 use std::collections::BTreeSet;
 
-/// What the first defect of a broken mesh must name.
+/// The object that the first defect of a broken mesh must name.
 #[derive(Debug, Clone, Copy)]
 pub enum At {
     Mesh,
@@ -23,22 +23,22 @@ pub struct Broken {
 
 /// Collects broken meshes `M` of points `P` and simplices `S`.
 pub struct BrokenMeshes<P, S, M> {
-    /// Gives the mesh that is right.
+    /// Returns the correct mesh.
     pub right: fn(&[P]) -> M,
-    /// Verifies all that a mesh states.
+    /// Verifies all arrays of a mesh.
     pub verify: fn(&[P], &M) -> Report,
-    /// Verifies simplices of which nothing else is known.
+    /// Verifies simplices, without the arrays beside them.
     pub verify_bare: fn(&[P], &[S]) -> Report,
     pub all: Vec<Broken>,
 }
 
 impl<P, S, M> BrokenMeshes<P, S, M> {
-    /// Simplices and nothing else.
+    /// Adds simplices, without the arrays beside them.
     pub fn bare(&mut self, check: Check, name: &'static str, points: &[P], simplices: &[S], at: At) {
         self.add(check, name, (self.verify_bare)(points, simplices), at);
     }
 
-    /// The right mesh with one thing changed.
+    /// Adds the correct mesh with one change.
     pub fn changed(&mut self, check: Check, name: &'static str, points: &[P], at: At, change: impl FnOnce(&mut M)) {
         let mut mesh = (self.right)(points);
         change(&mut mesh);
@@ -50,7 +50,7 @@ impl<P, S, M> BrokenMeshes<P, S, M> {
     }
 }
 
-/// The checks that failed.
+/// Returns the checks that failed.
 pub fn failures(report: &Report) -> Vec<Check> {
     report.failures().map(|(check, ..)| check).collect()
 }
@@ -73,7 +73,7 @@ pub fn assert_that_each_fails_its_check(broken: &[Broken]) {
     }
 }
 
-/// Asserts that every one of these checks has a mesh that fails it.
+/// Asserts that each of these checks has a mesh that fails it.
 pub fn assert_that_each_check_fails(broken: &[Broken], checks: &[Check]) {
     let caught: BTreeSet<_> = broken.iter().map(|broken| broken.check).collect();
     assert_eq!(caught, checks.iter().copied().collect());
@@ -90,7 +90,7 @@ pub enum Change {
     Rotate(Index),
 }
 
-/// Any change to simplices of `N` vertices.
+/// Generates any change to simplices of `N` vertices.
 pub fn change<const N: usize>() -> impl Strategy<Value = Change> {
     let index = any::<Index>;
     prop_oneof![
@@ -104,7 +104,7 @@ pub fn change<const N: usize>() -> impl Strategy<Value = Change> {
 }
 
 impl Change {
-    /// Changes simplices, of which there is one at least.
+    /// Changes simplices, of which there must be at least one.
     pub fn apply<const N: usize>(self, simplices: &mut Vec<[u32; N]>, points: usize) {
         let count = simplices.len();
         match self {

@@ -1,18 +1,22 @@
-//! The 2D engine gives the triangulation that the definition names, and no other; and so do flips, from whatever they
-//! start.
+//! The 2D triangulation on the CPU is the one that the definition names, and no other, and flips
+//! lead to it from any triangulation.
 
 use crate::oracle::{Definition2, definition2};
 use gdel::{
-    Mesh2, Options,
-    d2::{
-        Triangulation2,
-        cpu::delaunay2d_in_order,
-        lawson::{Aborted, NearDelaunay2, Outcome, lawson},
-        verify::verify2d,
+    Mesh2,
+    internals::{
+        Options, Winding,
+        d2::{
+            Triangulation2,
+            cpu::delaunay2d_in_order,
+            lawson::{Aborted, LawsonOutcome, NearDelaunay2, lawson},
+        },
+        index::NONE,
+        input::{lattice::Lattice, order::Order},
+        mesh,
+        predicates::filter::PredicateContext2,
     },
-    index::NONE,
-    input::{lattice::Lattice, order::Order},
-    predicates::filter::PredicateContext2,
+    verify::verify2d,
 };
 use proptest::prelude::*;
 use rand_pcg::{
@@ -24,7 +28,8 @@ fn found(mesh: Mesh2) -> Definition2 {
     Definition2 { triangles: mesh.canonical(), duplicate_of: mesh.duplicate_of, dimension: mesh.dimension }
 }
 
-/// The engine's answer is that of the definition, whatever the insertion order, and the verifier agrees.
+/// Checks that the mesh is that of the definition, for several insertion orders, and that the
+/// verifier agrees.
 fn check(points: &[[f64; 2]]) -> Result<(), TestCaseError> {
     let expected = definition2(points);
     for order in [Order::default(), Order::Shuffled(1), Order::Shuffled(2)] {
@@ -37,12 +42,16 @@ fn check(points: &[[f64; 2]]) -> Result<(), TestCaseError> {
     check_flips(points, &expected)
 }
 
-/// What delaunator's documentation says of `triangles`, `halfedges` and `hull`.
+/// What the documentation of [`Mesh2`] says of `triangles`, `halfedges` and `hull`.
 fn check_layout(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), TestCaseError> {
     let triangles = mesh.triangles.as_flattened();
     let halfedges = mesh.halfedges.as_flattened();
     let next = |e: usize| if e % 3 == 2 { e - 2 } else { e + 1 };
     let mut hull_edges = 0;
+    for &triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|v| points[v as usize]);
+        prop_assert_eq!(gdel::orient2d(a, b, c), 1);
+    }
     for e in 0..halfedges.len() {
         let Ok(reference) = usize::try_from(halfedges[e]) else {
             prop_assert_eq!(halfedges[e], NONE);
@@ -60,15 +69,15 @@ fn check_layout(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), TestCaseError> 
     } else {
         let ascending = mesh.hull.windows(2).all(|pair| points[pair[0] as usize] < points[pair[1] as usize]);
         prop_assert!(ascending, "{:?}", mesh.hull);
-        prop_assert_eq!(mesh.hull.len(), points.len() - mesh.duplicates());
+        prop_assert_eq!(mesh.hull.len(), points.len() - mesh.duplicate_count());
     }
     Ok(())
 }
 
-/// Some triangulation of the points, without regard to circles: every point in the order of the indices is joined to what
-/// it sees, or splits the triangle that it is in.
+/// Returns some triangulation of the points, without regard to circles: the points are added in
+/// lexicographic order, and each is joined to the edges of the hull that it sees.
 fn any_triangulation(vertices: &PredicateContext2<'_>) -> Triangulation2 {
-    // Sorted by coordinates, every point is outside of the hull of those before.
+    // Sorted by coordinates, every point lies outside the hull of the points before it.
     let mut order: Vec<u32> = (0..vertices.len() as u32).collect();
     order.sort_by(|&v, &w| vertices.point(v).partial_cmp(&vertices.point(w)).unwrap());
     let infinite = vertices.len() as u32;
@@ -113,7 +122,7 @@ fn with_neighbors(triangles: Vec<[u32; 3]>, infinite: u32) -> Triangulation2 {
     Triangulation2::new(triangles, neighbors, infinite)
 }
 
-/// Flips make the answer of any triangulation, and insertion adds the points that it lacks.
+/// Checks that flips make any triangulation the expected one.
 fn check_flips(points: &[[f64; 2]], expected: &Definition2) -> Result<(), TestCaseError> {
     if expected.dimension < 2 {
         return Ok(());
@@ -125,26 +134,29 @@ fn check_flips(points: &[[f64; 2]], expected: &Definition2) -> Result<(), TestCa
     let uncertain: Vec<u32> = (0..triangulation.triangles().len() as u32).collect();
     let near = NearDelaunay2 { triangulation, uncertain, missing: Vec::new() };
     match lawson(&vertices, near, 10_000, &|_| Ok(()))? {
-        Outcome::Delaunay(triangulation, _) => {
+        LawsonOutcome::Delaunay(triangulation, _) => {
             let names: Vec<u32> = (0..vertices.len() as u32).map(|v| vertices.input_index(v)).collect();
-            let (triangles, ..) = triangulation.into_mesh(&names);
-            let mesh = Mesh2 { triangles, ..Mesh2::default() };
-            prop_assert_eq!(mesh.canonical(), expected.triangles.clone());
+            let (triangles, ..) = triangulation.into_mesh(&names, Winding::default());
+            prop_assert_eq!(mesh::canonical(&triangles), expected.triangles.clone());
             Ok(())
         }
-        Outcome::Aborted(why) => Err(TestCaseError::fail(format!("flips gave up: {why:?}"))),
+        LawsonOutcome::Aborted(why) => Err(TestCaseError::fail(format!("flips aborted: {why:?}"))),
     }
 }
 
-/// A mesh and the triangulation with ghosts that it was.
+/// A mesh becomes the triangulation with ghosts that it came from, and vice versa.
 #[test]
 fn from_mesh_and_back() {
     let line_and_point = vec![[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [1.0, 1.0]];
     let grid = (0..30).map(|i| [i % 6, i / 6].map(f64::from)).collect();
-    for points in [line_and_point, grid, vec![[0.0, 0.0], [2.0, 1.0], [1.0, 3.0]]] {
-        let mesh = delaunay2d_in_order((&points).into(), &Options::default(), Order::default()).unwrap();
+    let windings = [Winding::CounterClockwise, Winding::Clockwise];
+    let inputs = [line_and_point, grid, vec![[0.0, 0.0], [2.0, 1.0], [1.0, 3.0]]];
+    for (points, winding) in inputs.iter().flat_map(|points| windings.map(|winding| (points, winding))) {
+        let options = Options { winding, ..Options::default() };
+        let mesh = delaunay2d_in_order(points.into(), &options, Order::default()).unwrap();
         let n = points.len() as u32;
-        let triangulation = Triangulation2::from_mesh(mesh.triangles.clone(), mesh.halfedges.clone(), &mesh.hull, n);
+        let (triangles, halfedges) = (mesh.triangles.clone(), mesh.halfedges.clone());
+        let triangulation = Triangulation2::from_mesh(triangles, halfedges, &mesh.hull, n, winding);
         let triangles = triangulation.triangles();
         assert_eq!(triangles.len(), 2 * points.len() - 2);
         for (t, near) in triangulation.neighbors().iter().enumerate() {
@@ -157,12 +169,13 @@ fn from_mesh_and_back() {
             }
         }
         let names: Vec<u32> = (0..n).collect();
-        assert_eq!(triangulation.into_mesh(&names), (mesh.triangles, mesh.halfedges, mesh.hull));
+        assert_eq!(triangulation.into_mesh(&names, winding), (mesh.triangles, mesh.halfedges, mesh.hull));
     }
 }
 
-/// From the triangulation of coarsely rounded points, whose triangles may be flat or inverted at the exact ones, and which
-/// lacks those that share a place: flips give the answer, or give up. Says whether they gave it.
+/// Starts from the triangulation of coarsely rounded points, whose triangles may be flat or
+/// inverted in the exact coordinates, and which lacks points that share a place. Checks that flips
+/// lead to the correct triangulation, or abort. Returns whether they led to it.
 fn check_flips_after_rounding(points: &[[f64; 2]]) -> Result<bool, TestCaseError> {
     let expected = delaunay2d_in_order(points.into(), &Options::default(), Order::default())?;
     let rounded: Vec<_> = points.iter().map(|p| p.map(f64::round)).collect();
@@ -171,10 +184,9 @@ fn check_flips_after_rounding(points: &[[f64; 2]]) -> Result<bool, TestCaseError
         return Ok(false);
     }
     let infinite = points.len() as u32;
-    // Counter-clockwise, as the mesh is not.
-    let mut triangles: Vec<_> = coarse.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
+    let mut triangles = coarse.triangles.clone();
     let next_on_hull = coarse.hull.iter().cycle().skip(1);
-    triangles.extend(coarse.hull.iter().zip(next_on_hull).map(|(&a, &b)| [infinite, a, b]));
+    triangles.extend(coarse.hull.iter().zip(next_on_hull).map(|(&a, &b)| [infinite, b, a]));
     let missing = (0..infinite).filter_map(|i| {
         let shares = coarse.duplicate_of[i as usize];
         let at = triangles.iter().position(|t| t.contains(&(shares as u32)));
@@ -184,26 +196,28 @@ fn check_flips_after_rounding(points: &[[f64; 2]]) -> Result<bool, TestCaseError
     let uncertain = (0..triangles.len() as u32).collect();
     let near = NearDelaunay2 { triangulation: with_neighbors(triangles, infinite), uncertain, missing };
     let vertices = PredicateContext2::new(points.into(), &Lattice::fit(points.into()), (0..infinite).collect());
-    let Outcome::Delaunay(triangulation, _) = lawson(&vertices, near, 1_000, &|_| Ok(()))? else { return Ok(false) };
+    let LawsonOutcome::Delaunay(triangulation, _) = lawson(&vertices, near, 1_000, &|_| Ok(()))? else {
+        return Ok(false);
+    };
     let names: Vec<u32> = (0..infinite).collect();
-    let (triangles, ..) = triangulation.into_mesh(&names);
-    prop_assert_eq!(Mesh2 { triangles, ..Mesh2::default() }.canonical(), expected.canonical());
+    let (triangles, ..) = triangulation.into_mesh(&names, Winding::default());
+    prop_assert_eq!(mesh::canonical(&triangles), expected.canonical());
     Ok(true)
 }
 
-/// Random points of the integer grid of this many points a side, with duplicates as they fall.
+/// Random points of the integer grid with `side` points along each axis, duplicates included.
 fn grid(side: u8) -> impl Strategy<Value = [f64; 2]> {
     [0..side, 0..side].prop_map(|p| p.map(f64::from))
 }
 
-/// All integer points at a squared distance from the origin.
+/// All integer points at a given squared distance from the origin.
 fn circle(squared_radius: i32) -> impl Strategy<Value = [f64; 2]> {
     let all = (-65..=65).flat_map(|x| (-65..=65).map(move |y| [x, y]));
     let on: Vec<_> = all.filter(|p: &[i32; 2]| p.iter().map(|x| x * x).sum::<i32>() == squared_radius).collect();
     prop::sample::select(on).prop_map(|p| p.map(f64::from))
 }
 
-/// Small integers at scales that lie far apart: no lattice holds them all.
+/// Small integers at scales that are far apart: no lattice represents them all.
 fn mixed_scales() -> impl Strategy<Value = [f64; 2]> {
     let scale = prop::sample::select(vec![f64::from_bits(1), 1e-300, f64::MIN_POSITIVE, 1.0, 3e7, 1e300]);
     (prop::array::uniform2(-3i8..=3), scale).prop_map(|(p, scale)| p.map(|x| f64::from(x) * scale))
@@ -214,14 +228,14 @@ fn any_finite() -> impl Strategy<Value = [f64; 2]> {
     prop::array::uniform2(any::<f64>().prop_filter("finite", |x| x.is_finite()))
 }
 
-/// Points of a small grid, some of them one rounding step off.
+/// Points of a small grid, some of which are off by one rounding step.
 fn nearly_grid() -> impl Strategy<Value = [f64; 2]> {
     let coordinate =
         (1..4u8, -1..=1i64).prop_map(|(x, steps)| f64::from_bits(f64::from(x).to_bits().wrapping_add_signed(steps)));
     [coordinate.clone(), coordinate]
 }
 
-/// On the line through two small integer points, with up to two points that may be off it.
+/// Points on the line through two small integer points, and up to two points that may be off it.
 fn line() -> impl Strategy<Value = Vec<[f64; 2]>> {
     let ends = [prop::array::uniform2(-4..=4i8), prop::array::uniform2(-4..=4i8)];
     let on = prop::collection::vec(-9..=9i8, 0..16);
@@ -231,8 +245,9 @@ fn line() -> impl Strategy<Value = Vec<[f64; 2]>> {
     })
 }
 
-fn some(point: impl Strategy<Value = [f64; 2]>, most: usize) -> impl Strategy<Value = Vec<[f64; 2]>> {
-    prop::collection::vec(point, 0..=most)
+/// At most `max` points.
+fn some(point: impl Strategy<Value = [f64; 2]>, max: usize) -> impl Strategy<Value = Vec<[f64; 2]>> {
+    prop::collection::vec(point, 0..=max)
 }
 
 proptest! {
@@ -267,8 +282,8 @@ proptest! {
     }
 }
 
-/// Where rounding moves points by a small part of what lies between them, as it does on the lattice, flips undo it; and
-/// where it moves them as far as they are apart, a wrong mesh never comes out.
+/// Flips undo a rounding that moves points by a small part of their distances, as on the lattice;
+/// and where it moves them by as much as their distances, a wrong mesh never results.
 #[test]
 fn flips_after_rounding() {
     let mut random = Pcg64Mcg::seed_from_u64(1);
@@ -286,7 +301,8 @@ fn flips_after_rounding() {
     }
 }
 
-/// What is flat on the hull of a grid, as flips by perturbed coordinates leave it, is taken off.
+/// Flat triangles on the hull of a grid, which flips by perturbed coordinates leave there, are
+/// removed.
 #[test]
 fn flat_triangles_on_the_hull() {
     let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0], [1.0, 1.0]];
@@ -294,12 +310,12 @@ fn flat_triangles_on_the_hull() {
     let triangles = vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [0, 3, 1], [1, 3, 2], [5, 3, 0], [5, 4, 3], [5, 0, 4]];
     let vertices = PredicateContext2::new((&points).into(), &Lattice::fit((&points).into()), (0..5).collect());
     let near = NearDelaunay2 { triangulation: with_neighbors(triangles, 5), uncertain: vec![3, 4], missing: vec![] };
-    let Outcome::Delaunay(triangulation, flips) = lawson(&vertices, near, 100, &|_| Ok(())).unwrap() else {
-        panic!("gave up");
+    let LawsonOutcome::Delaunay(triangulation, flips) = lawson(&vertices, near, 100, &|_| Ok(())).unwrap() else {
+        panic!("aborted");
     };
-    let (triangles, _, hull) = triangulation.into_mesh(&[0, 1, 2, 3, 4]);
-    assert_eq!(Mesh2 { triangles, ..Mesh2::default() }.canonical(), definition2(&points).triangles);
-    assert_eq!((hull, flips), (vec![0, 4, 3, 2, 1], 2));
+    let (triangles, _, hull) = triangulation.into_mesh(&[0, 1, 2, 3, 4], Winding::default());
+    assert_eq!(mesh::canonical(&triangles), definition2(&points).triangles);
+    assert_eq!((hull, flips), (vec![0, 1, 2, 3, 4], 2));
 }
 
 #[test]
@@ -310,7 +326,7 @@ fn flips_stop_at_their_bound() {
     let uncertain: Vec<u32> = (0..triangulation.triangles().len() as u32).collect();
     let near = NearDelaunay2 { triangulation, uncertain, missing: vec![] };
     let outcome = lawson(&vertices, near, 3, &|_| Ok(())).unwrap();
-    assert!(matches!(outcome, Outcome::Aborted(Aborted::Work)), "{outcome:?}");
+    assert!(matches!(outcome, LawsonOutcome::Aborted(Aborted::BudgetExceeded)), "{outcome:?}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! In the plane, the verifier passes the right mesh only, and says what is wrong with any other.
+//! The 2D verifier passes only the correct mesh, and says what is wrong with any other.
 
 use crate::broken::{
     self,
@@ -7,18 +7,17 @@ use crate::broken::{
 };
 use crate::oracle::definition2;
 use gdel::{
-    Error, Mesh2, Options,
-    d2::{
-        generate::{Distribution2, generate2d},
-        verify::{MeshView2, verify2d},
+    Error, Mesh2, delaunay2d,
+    internals::{
+        d2::generate::{Distribution2, generate2d},
+        mesh,
     },
-    delaunay2d,
-    verify::{Check, Outcome},
+    verify::{Check, MeshView2, Outcome, verify2d},
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
-/// The checks of the plane; a polygon that is convex and turns once needs no more.
+/// The 2D checks; a polygon that is convex and turns once needs no others.
 const CHECKS: [Check; 12] = [
     Check::Dimension,
     Check::Duplicates,
@@ -36,16 +35,16 @@ const CHECKS: [Check; 12] = [
 
 /// The corner of the unit square.
 const CORNER: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-/// Two triangles with the edge 0-1 in common, which is short.
+/// Two triangles that share the edge 0-1, which is short.
 const KITE: [[f64; 2]; 4] = [[0.0, 0.0], [0.0, 1.0], [3.0, 0.5], [-3.0, 0.5]];
 
-/// Points of a grid of three by three.
+/// The points of a 3×3 grid.
 fn square() -> Vec<[f64; 2]> {
     (0..9).map(|i| [i % 3, i / 3].map(f64::from)).collect()
 }
 
 fn right(points: &[[f64; 2]]) -> Mesh2 {
-    delaunay2d(points, &Options::default()).unwrap()
+    delaunay2d(points).unwrap()
 }
 
 type BrokenMeshes = broken::BrokenMeshes<[f64; 2], [u32; 3], Mesh2>;
@@ -57,14 +56,14 @@ fn broken_meshes() -> Vec<Broken> {
         verify_bare: |points, triangles| verify2d(points, MeshView2::of_triangles(triangles)).unwrap(),
         all: Vec::new(),
     };
-    statements(&mut broken);
+    other_arrays(&mut broken);
     triangles(&mut broken);
     hulls(&mut broken);
     broken.all
 }
 
-/// What a mesh states beside its triangles.
-fn statements(broken: &mut BrokenMeshes) {
+/// Adds meshes that are wrong in the arrays beside the triangles.
+fn other_arrays(broken: &mut BrokenMeshes) {
     let square = square();
     let line: Vec<_> = square[..3].to_vec();
     let doubled: Vec<_> = square.iter().chain(&square[2..4]).copied().collect();
@@ -117,67 +116,67 @@ fn statements(broken: &mut BrokenMeshes) {
 
 fn triangles(broken: &mut BrokenMeshes) {
     let indices = Check::Indices;
-    broken.bare(indices, "vertex one too high", &CORNER, &[[0, 3, 1]], Triangle(0));
-    broken.bare(indices, "vertex far too high", &CORNER, &[[0, 2, 1], [0, u32::MAX, 2]], Triangle(1));
-    broken.bare(indices, "vertex of no points", &[], &[[0, 1, 2]], Triangle(0));
+    broken.bare(indices, "vertex one too high", &CORNER, &[[0, 1, 3]], Triangle(0));
+    broken.bare(indices, "vertex far too high", &CORNER, &[[0, 1, 2], [0, 2, u32::MAX]], Triangle(1));
+    broken.bare(indices, "vertex of no points", &[], &[[0, 2, 1]], Triangle(0));
     broken.bare(indices, "vertex twice", &CORNER, &[[0, 2, 2]], Triangle(0));
 
     let vertices = Check::Vertices;
     let with = |p: [f64; 2]| CORNER.into_iter().chain([p]).collect::<Vec<_>>();
     broken.bare(vertices, "no triangles", &CORNER, &[], Point(0));
-    broken.bare(vertices, "point inside not used", &with([0.1; 2]), &[[0, 2, 1]], Point(3));
-    broken.bare(vertices, "point on the hull not used", &with([0.5; 2]), &[[0, 2, 1]], Point(3));
-    broken.bare(vertices, "point outside not used", &with([9.0; 2]), &[[0, 2, 1]], Point(3));
-    broken.bare(vertices, "duplicate used", &with(CORNER[0]), &[[3, 2, 1]], Triangle(0));
-    broken.bare(vertices, "-0 used for 0", &with([-0.0; 2]), &[[3, 2, 1]], Triangle(0));
+    broken.bare(vertices, "point inside not used", &with([0.1; 2]), &[[0, 1, 2]], Point(3));
+    broken.bare(vertices, "point on the hull not used", &with([0.5; 2]), &[[0, 1, 2]], Point(3));
+    broken.bare(vertices, "point outside not used", &with([9.0; 2]), &[[0, 1, 2]], Point(3));
+    broken.bare(vertices, "duplicate used", &with(CORNER[0]), &[[3, 1, 2]], Triangle(0));
+    broken.bare(vertices, "-0 used for 0", &with([-0.0; 2]), &[[3, 1, 2]], Triangle(0));
 
     let orientation = Check::Orientation;
-    broken.bare(orientation, "counter-clockwise", &CORNER, &[[0, 1, 2]], Triangle(0));
+    broken.bare(orientation, "clockwise", &CORNER, &[[0, 2, 1]], Triangle(0));
     // Rounded arithmetic sees an area.
     let flat = [[0.1, 0.1], [0.3, 0.3], [0.7, 0.7], [0.0, 1.0]];
-    broken.bare(orientation, "triangle of a line", &flat, &[[0, 1, 2], [0, 3, 1], [1, 3, 2]], Triangle(0));
+    broken.bare(orientation, "triangle of a line", &flat, &[[0, 2, 1], [0, 1, 3], [1, 2, 3]], Triangle(0));
     // Rounded arithmetic sees none.
     let tiny = CORNER.map(|p| p.map(|x| x * 1e-200));
-    broken.bare(orientation, "turned and tiny", &tiny, &[[0, 1, 2]], Triangle(0));
+    broken.bare(orientation, "turned and tiny", &tiny, &[[0, 2, 1]], Triangle(0));
     // By one unit in the last place.
     let thin = [[0.0, 0.0], [0.5, 0.5f64.next_up()], [1.0, 1.0]];
-    broken.bare(orientation, "turned by one bit", &thin, &[[0, 2, 1]], Triangle(0));
+    broken.bare(orientation, "turned by one bit", &thin, &[[0, 1, 2]], Triangle(0));
     let mut turned = right(&square()).triangles;
     turned[3].swap(0, 1);
-    // The triangle that is turned has its neighbours on the wrong side, too.
+    // The neighbours of the inverted triangle are on the wrong side, too.
     let report = verify2d(&square(), MeshView2::of_triangles(&turned)).unwrap();
     assert_eq!(failures(&report), [orientation, Check::Facets], "{report}");
 
     let edges = Check::Facets;
-    let two = [[0, 1, 2], [0, 3, 1]];
+    let two = [[0, 2, 1], [0, 1, 3]];
     broken.bare(edges, "triangle twice", &KITE, &[two[0], two[1], two[1]], Triangle(0));
     let above = [[0.0, 0.0], [1.0, 0.0], [0.2, 1.0], [0.7, 2.0]];
-    broken.bare(edges, "both on one side of an edge", &above, &[[0, 2, 1], [0, 3, 1]], Triangle(0));
+    broken.bare(edges, "both on one side of an edge", &above, &[[0, 1, 2], [0, 1, 3]], Triangle(0));
     let fan = [[0.0, 0.0], [1.0, 0.0], [0.2, 1.0], [0.7, 2.0], [0.5, -1.0]];
-    broken.bare(edges, "three at an edge", &fan, &[[0, 2, 1], [0, 3, 1], [0, 1, 4]], Triangle(0));
+    broken.bare(edges, "three at an edge", &fan, &[[0, 1, 2], [0, 1, 3], [0, 4, 1]], Triangle(0));
 
     // The long diagonal of the kite.
-    broken.bare(Check::Delaunay, "flipped edge", &KITE, &[[3, 1, 2], [3, 2, 0]], Triangle(0));
+    broken.bare(Check::Delaunay, "flipped edge", &KITE, &[[3, 2, 1], [3, 0, 2]], Triangle(0));
     // Inside by one unit in the last place of one coordinate, which rounded arithmetic does not see.
     let mut nearly = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     nearly[2][0] = 1.0f64.next_up();
     let wrong =
-        if right(&nearly).canonical().contains(&[0, 1, 2]) { [[0, 3, 1], [1, 3, 2]] } else { [[0, 2, 1], [0, 3, 2]] };
+        if right(&nearly).canonical().contains(&[0, 1, 2]) { [[0, 1, 3], [1, 2, 3]] } else { [[0, 1, 2], [0, 2, 3]] };
     broken.bare(Check::Delaunay, "not Delaunay by one bit", &nearly, &wrong, Triangle(0));
 
     // The other diagonal of the square.
     let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let other =
-        if right(&square).canonical().contains(&[0, 1, 2]) { [[0, 3, 1], [1, 3, 2]] } else { [[0, 2, 1], [0, 3, 2]] };
+        if right(&square).canonical().contains(&[0, 1, 2]) { [[0, 1, 3], [1, 2, 3]] } else { [[0, 1, 2], [0, 2, 3]] };
     broken.bare(Check::CanonicalTies, "tie broken otherwise", &square, &other, Triangle(0));
 }
 
 fn hulls(broken: &mut BrokenMeshes) {
     let closed = Check::HullClosed;
     let bow_tie = [[0.0, 0.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]];
-    broken.bare(closed, "two meet at a vertex only", &bow_tie, &[[0, 1, 2], [0, 3, 4]], Point(0));
+    broken.bare(closed, "two meet at a vertex only", &bow_tie, &[[0, 2, 1], [0, 4, 3]], Point(0));
     let apart: Vec<_> = CORNER.into_iter().chain(CORNER.map(|p| p.map(|x| x + 5.0))).collect();
-    broken.bare(closed, "two that do not touch", &apart, &[[0, 2, 1], [3, 5, 4]], Mesh);
+    broken.bare(closed, "two that do not touch", &apart, &[[0, 1, 2], [3, 4, 5]], Mesh);
     // A triangle within a triangle: the one in the middle is missing.
     let nested = [[0.0, 8.0], [7.0, -4.0], [-7.0, -4.0], [0.0, 2.0], [1.0, -1.0], [-1.0, -1.0]];
     let hole = |m: &Mesh2| {
@@ -196,17 +195,18 @@ fn hulls(broken: &mut BrokenMeshes) {
     let missing = dented.remove(at_hull);
     // The vertex of the triangle that was missing, behind the hull's edge.
     let report = verify2d(&square, MeshView2::of_triangles(&dented)).unwrap();
+    // The vertex of the missing triangle that lies behind the hull's edge.
     let behind = report.failures().next().unwrap().1.point.unwrap();
     assert!(missing.contains(&(behind as u32)));
     broken.add(convex, "triangle missing at the hull", report, Point(behind));
-    // Around vertex 0, five triangles that turn twice before they meet: every local property of a Delaunay triangulation,
-    // and one closed hull without a concave corner.
+    // Around vertex 0, five triangles that turn twice before they meet: they have every local
+    // property of a Delaunay triangulation, and one closed hull without a concave corner.
     let pentagram = [[0.0, 0.0], [10.0, 0.0], [3.0, 9.5], [-8.0, 6.0], [-8.0, -6.0], [3.0, -9.5]];
-    let twice: Vec<_> = (0..5).map(|i| [0, 1 + (2 * i + 2) % 5, 1 + 2 * i % 5]).collect();
+    let twice: Vec<_> = (0..5).map(|i| [0, 1 + 2 * i % 5, 1 + (2 * i + 2) % 5]).collect();
     broken.bare(convex, "covered twice", &pentagram, &twice, Mesh);
     // Five triangles around vertex 0, the last of which begins on the line on which the first ends.
     let slit = [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [-2.0, 0.0], [0.0, -2.0], [3.0, 0.0]];
-    let around = [[0, 2, 1], [0, 3, 2], [0, 4, 3], [0, 5, 4]];
+    let around = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]];
     broken.bare(convex, "folded along a line", &slit, &around, Point(0));
 }
 
@@ -250,7 +250,8 @@ fn the_order_of_triangles_and_vertices_and_the_first_of_the_hull_are_free() {
     mesh.triangles.reverse();
     mesh.triangles.iter_mut().for_each(|t| t.rotate_left(1));
     mesh.hull.rotate_left(3);
-    let statement = MeshView2 { hull: Some(&mesh.hull), ..MeshView2::of_triangles(&mesh.triangles) };
+    let mut statement = MeshView2::of_triangles(&mesh.triangles);
+    statement.hull = Some(&mesh.hull);
     let report = verify2d(&points, statement).unwrap();
     assert!(report.passed(), "{report}");
 }
@@ -268,17 +269,17 @@ fn a_point_that_is_not_finite_is_an_error() {
     assert_eq!(error, Error::NotFinite { index: 1, axis: 'y', value: "NaN" });
 }
 
-/// Of all sets of clockwise triangles of these five points, the right one passes and no other.
+/// Of all sets of counter-clockwise triangles of these five points, the right one passes and no other.
 fn only_the_definition_passes(points: &[[f64; 2]; 5]) {
     let mut oriented = Vec::new();
     for a in 0..5u32 {
         for b in a + 1..5 {
             for c in b + 1..5 {
                 let [p, q, r] = [a, b, c].map(|v| points[v as usize]);
-                match gdel::predicates::orient2d(p, q, r) {
+                match gdel::orient2d(p, q, r) {
                     0 => {}
-                    1 => oriented.push([a, c, b]),
-                    _ => oriented.push([a, b, c]),
+                    1 => oriented.push([a, b, c]),
+                    _ => oriented.push([a, c, b]),
                 }
             }
         }
@@ -287,7 +288,7 @@ fn only_the_definition_passes(points: &[[f64; 2]; 5]) {
     for set in 0u32..1 << oriented.len() {
         let triangles: Vec<_> = (0..).zip(&oriented).filter(|(i, _)| set >> i & 1 == 1).map(|(_, t)| *t).collect();
         if verify2d(points, MeshView2::of_triangles(&triangles)).unwrap().passed() {
-            passed.push(Mesh2 { triangles, ..Mesh2::default() }.canonical());
+            passed.push(mesh::canonical(&triangles));
         }
     }
     assert_eq!(passed, [definition2(points).triangles]);
@@ -351,11 +352,11 @@ proptest! {
                 apply(change, &mut mesh, points.len());
             }
         }
-        let clockwise = |t: &[u32; 3]| {
+        let counter_clockwise = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|v| points[v as usize]);
-            gdel::predicates::orient2d(a, b, c) < 0
+            gdel::orient2d(a, b, c) > 0
         };
-        let still_right = mesh.canonical() == expected && mesh.triangles.iter().all(clockwise);
+        let still_right = mesh.canonical() == expected && mesh.triangles.iter().all(counter_clockwise);
         let report = verify2d(&points, MeshView2::of_triangles(&mesh.triangles)).unwrap();
         prop_assert_eq!(report.passed(), still_right, "{}", report);
     }
@@ -369,13 +370,11 @@ proptest! {
         duplicate_of in prop::option::of(prop::collection::vec(any::<i32>(), 0..9)),
         dimension in any::<Option<u8>>(),
     ) {
-        let statement = MeshView2 {
-            triangles: &triangles,
-            halfedges: halfedges.as_deref(),
-            hull: hull.as_deref(),
-            duplicate_of: duplicate_of.as_deref(),
-            dimension,
-        };
+        let mut statement = MeshView2::of_triangles(&triangles);
+        statement.halfedges = halfedges.as_deref();
+        statement.hull = hull.as_deref();
+        statement.duplicate_of = duplicate_of.as_deref();
+        statement.dimension = dimension;
         let report = verify2d(&points, statement).unwrap();
         prop_assert_eq!(report.outcomes.len(), CHECKS.len());
         prop_assert_eq!(report.passed(), report.failures().next().is_none());

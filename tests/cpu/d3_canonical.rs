@@ -1,15 +1,15 @@
-//! The engine gives the triangulation that the definition names, and no other.
+//! The 3D triangulation on the CPU is the one that the definition names, and no other.
 
 use crate::oracle::{Definition, definition};
 use gdel::{
-    Options,
-    d3::{cpu::delaunay3d_in_order, verify::verify3d},
     delaunay3d,
-    input::order::Order,
+    internals::{Options, d3::cpu::delaunay3d_in_order, input::order::Order},
+    verify::verify3d,
 };
 use proptest::prelude::*;
 
-/// The engine's answer is that of the definition, whatever the insertion order, and the verifier agrees.
+/// Checks that the mesh is that of the definition, for several insertion orders, and that the
+/// verifier agrees.
 fn check(points: &[[f64; 3]]) -> Result<(), TestCaseError> {
     let expected = definition(points);
     let orders = [Order::default(), Order::Shuffled(1), Order::Shuffled(2)];
@@ -24,12 +24,12 @@ fn check(points: &[[f64; 3]]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Random points of the integer grid of this many points a side, with duplicates as they fall.
+/// Random points of the integer grid with `side` points along each axis, duplicates included.
 fn grid(side: u8) -> impl Strategy<Value = [f64; 3]> {
     [0..side, 0..side, 0..side].prop_map(|p| p.map(f64::from))
 }
 
-/// All integer points at a squared distance from the origin.
+/// All integer points at a given squared distance from the origin.
 fn sphere(squared_radius: i32) -> impl Strategy<Value = [f64; 3]> {
     let range = || -10..=10;
     let all = range().flat_map(|x| range().flat_map(move |y| range().map(move |z| [x, y, z])));
@@ -37,7 +37,7 @@ fn sphere(squared_radius: i32) -> impl Strategy<Value = [f64; 3]> {
     prop::sample::select(on).prop_map(|p| p.map(f64::from))
 }
 
-/// Small integers at scales that lie far apart: no lattice holds them all.
+/// Small integers at scales that are far apart: no lattice represents them all.
 fn mixed_scales() -> impl Strategy<Value = [f64; 3]> {
     let scale = prop::sample::select(vec![f64::from_bits(1), 1e-300, f64::MIN_POSITIVE, 1.0, 3e7, 1e300]);
     (prop::array::uniform3(-3i8..=3), scale).prop_map(|(p, scale)| p.map(|x| f64::from(x) * scale))
@@ -48,14 +48,14 @@ fn any_finite() -> impl Strategy<Value = [f64; 3]> {
     prop::array::uniform3(any::<f64>().prop_filter("finite", |x| x.is_finite()))
 }
 
-/// Points of a small grid, some of them one rounding step off.
+/// Points of a small grid, some of which are off by one rounding step.
 fn nearly_grid() -> impl Strategy<Value = [f64; 3]> {
     let coordinate =
         (1..4u8, -1..=1i64).prop_map(|(x, steps)| f64::from_bits(f64::from(x).to_bits().wrapping_add_signed(steps)));
     [coordinate.clone(), coordinate.clone(), coordinate]
 }
 
-/// On the line through two small integer points.
+/// Points on the line through two small integer points.
 fn line() -> impl Strategy<Value = Vec<[f64; 3]>> {
     let ends = [prop::array::uniform3(-4..=4i8), prop::array::uniform3(-4..=4i8)];
     (ends, prop::collection::vec(-9..=9i8, 0..16)).prop_map(|([origin, step], multiples)| {
@@ -64,7 +64,7 @@ fn line() -> impl Strategy<Value = Vec<[f64; 3]>> {
     })
 }
 
-/// In a plane through small integer points, with up to two points that may be off it.
+/// Points in a plane through small integer points, and up to two points that may be off it.
 fn plane() -> impl Strategy<Value = Vec<[f64; 3]>> {
     let frame = [prop::array::uniform3(-3..=3i8), prop::array::uniform3(-3..=3i8), prop::array::uniform3(-3..=3i8)];
     let inside = prop::collection::vec([-3..=3i8, -3..=3i8], 0..14);
@@ -78,8 +78,9 @@ fn plane() -> impl Strategy<Value = Vec<[f64; 3]>> {
     })
 }
 
-fn some(point: impl Strategy<Value = [f64; 3]>, most: usize) -> impl Strategy<Value = Vec<[f64; 3]>> {
-    prop::collection::vec(point, 0..=most)
+/// At most `max` points.
+fn some(point: impl Strategy<Value = [f64; 3]>, max: usize) -> impl Strategy<Value = Vec<[f64; 3]>> {
+    prop::collection::vec(point, 0..=max)
 }
 
 proptest! {
@@ -134,12 +135,12 @@ fn whole_grids_in_any_order_of_the_indices() {
         let permuted =
             |points: &[[f64; 3]]| (0..points.len()).map(|i| points[i * step % points.len()]).collect::<Vec<_>>();
         check(&permuted(&cube)).unwrap();
-        // Multiples of 3 permute the grid only with the duplicates that they make.
+        // Multiples of 3 permute the grid only together with the duplicates that they make.
         check(&permuted(&grid)).unwrap();
     }
 }
 
-/// Fixtures by another program for the same definition, `canonical.py` beside them.
+/// Results of another program for the same definition, `canonical.py` beside them.
 #[test]
 fn fixtures() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/canonical");
@@ -152,7 +153,7 @@ fn fixtures() {
         let points: Vec<[f64; 3]> = rows(&path);
         let expected: Vec<[u32; 4]> = rows(&path.with_extension("tetrahedra"));
         assert!(!expected.is_empty());
-        assert_eq!(delaunay3d(&points, &Options::default()).unwrap().canonical(), expected, "{}", path.display());
+        assert_eq!(delaunay3d(&points).unwrap().canonical(), expected, "{}", path.display());
         assert_eq!(definition(&points).tetrahedra, expected, "{}", path.display());
         count += 1;
     }

@@ -1,4 +1,4 @@
-//! The verifier passes the right mesh only, and says what is wrong with any other.
+//! The 3D verifier passes only the correct mesh, and says what is wrong with any other.
 
 use crate::broken::{
     self,
@@ -7,20 +7,20 @@ use crate::broken::{
 };
 use crate::oracle::{self, definition};
 use gdel::{
-    Error, Mesh3, Options,
-    d3::{
-        generate::{Distribution, generate},
-        verify::{MeshView, verify3d},
+    Error, Mesh3, delaunay3d,
+    internals::{
+        d3::generate::{Distribution, generate},
+        mesh,
     },
-    delaunay3d,
-    verify::{Check, Outcome},
+    verify::{Check, MeshView, Outcome, verify3d},
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
 /// The corner of the unit cube.
 const CORNER: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-/// A short edge 0-1 through a triangle 2, 3, 4: its Delaunay triangulation has the three tetrahedra around the edge.
+/// A short edge 0-1 through a triangle 2, 3, 4: its Delaunay triangulation has the three tetrahedra
+/// around the edge.
 const SHORT_AXIS: [[f64; 3]; 5] =
     [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [4.0, 0.0, 0.0], [-2.0, 4.0, 0.0], [-2.0, -4.0, 0.0]];
 const AROUND_SHORT_AXIS: [[u32; 4]; 3] = [[0, 1, 2, 3], [0, 1, 3, 4], [0, 1, 4, 2]];
@@ -30,7 +30,7 @@ fn cube() -> Vec<[f64; 3]> {
 }
 
 fn right(points: &[[f64; 3]]) -> Mesh3 {
-    delaunay3d(points, &Options::default()).unwrap()
+    delaunay3d(points).unwrap()
 }
 
 type BrokenMeshes = broken::BrokenMeshes<[f64; 3], [u32; 4], Mesh3>;
@@ -42,14 +42,14 @@ fn broken_meshes() -> Vec<Broken> {
         verify_bare: |points, tetrahedra| verify3d(points, MeshView::of_tetrahedra(tetrahedra)).unwrap(),
         all: Vec::new(),
     };
-    statements(&mut broken);
+    other_arrays(&mut broken);
     tetrahedra(&mut broken);
     hulls(&mut broken);
     broken.all
 }
 
-/// What a mesh states beside its tetrahedra.
-fn statements(broken: &mut BrokenMeshes) {
+/// Adds meshes that are wrong in the arrays beside the tetrahedra.
+fn other_arrays(broken: &mut BrokenMeshes) {
     let cube = cube();
     let flat: Vec<_> = cube[..4].to_vec();
     let doubled: Vec<_> = cube.iter().chain(&cube[2..4]).copied().collect();
@@ -138,7 +138,8 @@ fn tetrahedra(broken: &mut BrokenMeshes) {
     broken.bare(Check::Delaunay, "two tetrahedra for three", &SHORT_AXIS, &flipped, Tetrahedron(0));
     let long_axis = SHORT_AXIS.map(|[x, y, z]| [x, y, 9.0 * z]);
     broken.bare(Check::Delaunay, "three tetrahedra for two", &long_axis, &AROUND_SHORT_AXIS, Tetrahedron(0));
-    // Inside by one unit in the last place of one coordinate, which rounded arithmetic does not see.
+    // Inside by one unit in the last place of one coordinate, which rounded arithmetic does not
+    // see.
     let mut nearly = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [-0.6, 0.8, 0.0], [-0.6, -0.8, 0.0]];
     nearly[2][0] = 1.0f64.next_up();
     let right_one = right(&nearly).canonical();
@@ -157,7 +158,8 @@ fn tetrahedra(broken: &mut BrokenMeshes) {
     broken.bare(Check::CanonicalTies, "cube for another order", &cube, &tetrahedra, Tetrahedron(first));
 }
 
-/// The first tetrahedron whose circumsphere has a neighbor's vertex beyond by the definition, judged by big integers.
+/// Returns the first tetrahedron whose circumsphere contains a neighbour's vertex by the
+/// definition, judged by big integers.
 fn first_tie(points: &[[f64; 3]], tetrahedra: &[[u32; 4]]) -> usize {
     let points = oracle::integers(points);
     let inside = |t: &[u32; 4], v: u32| {
@@ -179,7 +181,8 @@ fn hulls(broken: &mut BrokenMeshes) {
 
     let dented = &AROUND_SHORT_AXIS[..2];
     broken.bare(Check::HullConvex, "tetrahedron missing at the hull", &SHORT_AXIS, dented, Tetrahedron(0));
-    // Around the edge 0-1 the tetrahedra turn by 360°, but do not meet again: the last two triangles are coplanar.
+    // Around the edge 0-1 the tetrahedra turn by 360°, but do not meet again: the last two
+    // triangles are coplanar.
     let slit = [
         [0.0, -1.0, 0.0],
         [0.0, 1.0, 0.0],
@@ -203,8 +206,8 @@ fn hulls(broken: &mut BrokenMeshes) {
     broken.bare(Check::Covering, "pentagram", &points, &tetrahedra, Tetrahedron(2));
 }
 
-/// Five tetrahedra around an edge that turn twice before they meet: every local property of a Delaunay triangulation,
-/// and a closed hull without a concave edge.
+/// Returns five tetrahedra around an edge that turn twice before they meet: they have every local
+/// property of a Delaunay triangulation, and a closed hull without a concave edge.
 fn pentagram() -> (Vec<[f64; 3]>, Vec<[u32; 4]>) {
     let pentagon = [[10.0, 0.0], [3.0, 9.5], [-8.0, 6.0], [-8.0, -6.0], [3.0, -9.5]].map(|[x, y]| [x, y, 0.0]);
     let points = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]].into_iter().chain(pentagon).collect();
@@ -254,7 +257,8 @@ fn the_order_of_tetrahedra_and_vertices_is_free() {
     for (i, triangle) in mesh.hull.iter_mut().rev().enumerate() {
         triangle.rotate_left(i % 3);
     }
-    let statement = MeshView { hull: Some(&mesh.hull), ..MeshView::of_tetrahedra(&mesh.tetrahedra) };
+    let mut statement = MeshView::of_tetrahedra(&mesh.tetrahedra);
+    statement.hull = Some(&mesh.hull);
     let report = verify3d(&points, statement).unwrap();
     assert!(report.passed(), "{report}");
 }
@@ -277,7 +281,8 @@ fn a_point_that_is_not_finite_is_an_error() {
 
 #[test]
 fn flat_tetrahedra_on_the_hull_of_a_cube_are_caught() {
-    // What floating-point codes give: one facet of the cube is split by both diagonals, with a flat one between.
+    // What floating-point codes give: one facet of the cube is split by both diagonals, with a flat
+    // one between.
     let points = cube();
     let mut tetrahedra = right(&points).tetrahedra;
     tetrahedra.push([0, 1, 2, 3]);
@@ -286,7 +291,8 @@ fn flat_tetrahedra_on_the_hull_of_a_cube_are_caught() {
     assert_eq!(report.failures().next().unwrap().1.tetrahedron, Some(tetrahedra.len() - 1));
 }
 
-/// Of all sets of positively oriented tetrahedra of these six points, the right one passes and no other.
+/// Checks that of all sets of positively oriented tetrahedra of these six points, only the correct
+/// one passes.
 fn only_the_definition_passes(points: &[[f64; 3]; 6]) {
     let integers = oracle::integers(points);
     let mut oriented = Vec::new();
@@ -310,7 +316,7 @@ fn only_the_definition_passes(points: &[[f64; 3]; 6]) {
         chosen.clear();
         chosen.extend(oriented.iter().enumerate().filter(|(i, _)| set >> i & 1 == 1).map(|(_, t)| *t));
         if verify3d(points, MeshView::of_tetrahedra(&chosen)).unwrap().passed() {
-            passed.push(Mesh3 { tetrahedra: chosen.clone(), ..Mesh3::default() }.canonical());
+            passed.push(mesh::canonical(&chosen));
         }
     }
     assert_eq!(passed, [definition(points).tetrahedra]);
@@ -364,13 +370,11 @@ proptest! {
         duplicate_of in prop::option::of(prop::collection::vec(any::<i32>(), 0..9)),
         dimension in any::<Option<u8>>(),
     ) {
-        let statement = MeshView {
-            tetrahedra: &tetrahedra,
-            neighbors: neighbors.as_deref(),
-            hull: hull.as_deref(),
-            duplicate_of: duplicate_of.as_deref(),
-            dimension,
-        };
+        let mut statement = MeshView::of_tetrahedra(&tetrahedra);
+        statement.neighbors = neighbors.as_deref();
+        statement.hull = hull.as_deref();
+        statement.duplicate_of = duplicate_of.as_deref();
+        statement.dimension = dimension;
         let report = verify3d(&points, statement).unwrap();
         prop_assert_eq!(report.outcomes.len(), Check::ALL.len());
         prop_assert_eq!(report.passed(), report.failures().next().is_none());

@@ -1,13 +1,12 @@
-//! The native engine gives the meshes that `tests/data/fingerprints.txt` pins. The tests of the npm package compare their
-//! engines with the same file.
+//! The triangulation on the CPU gives the meshes that `tests/data/fingerprints.txt` pins. The tests
+//! of the npm package compare with the same file.
 
 use gdel::{
-    Backend, Options,
-    d3::generate::{Distribution, generate},
-    delaunay3d,
+    Backend, Triangulator,
+    internals::d3::generate::{Distribution, generate},
 };
 
-/// FNV-1a, 64 bits, over the canonical tetrahedra's indices as little-endian words.
+/// FNV-1a, 64 bits, over the indices of the canonical tetrahedra as little-endian words.
 fn fingerprint(tetrahedra: &[[u32; 4]]) -> u64 {
     let bytes = tetrahedra.as_flattened().iter().flat_map(|v| v.to_le_bytes());
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
@@ -25,7 +24,7 @@ fn meshes_have_their_fingerprints() {
             let &[name, count, seed, ..] = &fields[..] else { panic!("{line}") };
             let distribution = Distribution::ALL.into_iter().find(|d| d.name() == name).unwrap();
             let points = generate(distribution, count.parse().unwrap(), seed.parse().unwrap());
-            let mesh = delaunay3d(&points, &Options { backend: Backend::Cpu, ..Options::default() }).unwrap();
+            let mesh = Triangulator::new().backend(Backend::Cpu).delaunay3d(&points).unwrap();
             let canonical = mesh.canonical();
             found += &format!("{name} {count} {seed} {} {:016x}", canonical.len(), fingerprint(&canonical));
         }

@@ -1,18 +1,22 @@
-//! The inputs that make other codes crash or give wrong meshes: the answer is verified, and does not depend on the order
-//! of insertion.
+//! Inputs that make other codes crash or return wrong meshes: the mesh is verified, and does not
+//! depend on the insertion order.
 
 use crate::clouds::{self, grid, shuffled, survey};
 use gdel::{
-    Mesh3, Options, Points,
-    d3::{
-        cpu::delaunay3d_in_order,
-        generate::{Distribution, generate},
-        verify::verify3d,
+    Mesh3, Points,
+    internals::{
+        Options,
+        d3::{
+            cpu::delaunay3d_in_order,
+            generate::{Distribution, generate},
+        },
+        input::order::Order,
     },
-    input::order::Order,
+    verify::verify3d,
 };
 
-/// Verifies the mesh of the points, and that `shuffles` random insertion orders give the same tetrahedra.
+/// Verifies the mesh of the points, and checks that `shuffles` random insertion orders give the
+/// same tetrahedra.
 fn check<'a>(points: impl Into<Points<'a>>, shuffles: u64) -> Mesh3 {
     let points = points.into();
     let triangulate = |order| delaunay3d_in_order(points, &Options::default(), order).unwrap();
@@ -22,7 +26,7 @@ fn check<'a>(points: impl Into<Points<'a>>, shuffles: u64) -> Mesh3 {
     let canonical = mesh.canonical();
     for seed in 0..shuffles {
         let shuffled = triangulate(Order::Shuffled(seed));
-        // Not by assert_eq, which would print them all.
+        // Not by `assert_eq`, which would print them all.
         assert!(shuffled.canonical() == canonical, "order {seed} gives other tetrahedra");
         assert_eq!(shuffled.duplicate_of, mesh.duplicate_of);
         assert_eq!(shuffled.dimension, mesh.dimension);
@@ -88,7 +92,7 @@ fn grid_32() {
 #[test]
 fn grid_64() {
     let mesh = check(&grid(64), 1);
-    // 5 or 6 tetrahedra a cube.
+    // 5 or 6 tetrahedra per cube.
     assert!((5 * 63usize.pow(3)..=6 * 63usize.pow(3)).contains(&mesh.tetrahedra.len()));
 }
 
@@ -100,7 +104,7 @@ fn random_subset_of_a_512_grid() {
 #[test]
 fn random_points_of_a_64_grid_with_many_duplicates() {
     let mesh = check(&clouds::grid_64_with_duplicates(100_000), 2);
-    assert!(mesh.duplicates() > 10_000);
+    assert!(mesh.duplicate_count() > 10_000);
 }
 
 #[test]
@@ -144,7 +148,7 @@ fn flat_ground_offset_by_1e7() {
 #[test]
 fn thirty_percent_duplicates() {
     let mesh = check(&clouds::thirty_percent_duplicates(2_000), 3);
-    assert_eq!(mesh.duplicates(), 6_000);
+    assert_eq!(mesh.duplicate_count(), 6_000);
 }
 
 #[test]
@@ -160,7 +164,7 @@ fn zero_and_minus_zero_are_the_same_coordinate() {
 #[test]
 fn bunny() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/bunny.ply");
-    let cloud = gdel::io::files::read_points(std::path::Path::new(path)).unwrap();
+    let cloud = gdel::internals::io::files::read_points(std::path::Path::new(path)).unwrap();
     let mesh = check(&cloud, 3);
     assert_eq!(mesh.duplicate_of.len(), 35_947);
 }
@@ -170,9 +174,10 @@ fn bunny() {
 #[ignore = "needs scripts/fetch-dragon.sh, and minutes"]
 fn dragon() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/.cache/dragon.ply");
-    let cloud = gdel::io::files::read_points(std::path::Path::new(path)).expect("run scripts/fetch-dragon.sh");
+    let cloud =
+        gdel::internals::io::files::read_points(std::path::Path::new(path)).expect("run scripts/fetch-dragon.sh");
     let mesh = check(&cloud, 1);
-    assert_eq!(mesh.duplicates(), 2_100);
+    assert_eq!(mesh.duplicate_count(), 2_100);
 }
 
 #[test]
@@ -182,7 +187,7 @@ fn extreme_scales() {
     for factor in [f64::MIN_POSITIVE, 1e-300, 1e-160, 1e160, 1e300, f64::MAX] {
         check(&scaled(factor), 2);
     }
-    // All together: a cloud in a cloud in a cloud.
+    // All together: clouds within clouds.
     check(&[1e-310, 1e-200, 1.0, 1e200].into_iter().flat_map(scaled).collect::<Vec<_>>(), 2);
 }
 
@@ -218,7 +223,7 @@ fn collinear_points() {
     check_flat(&multiples([0.0, 0.0, -1.0]), 1);
     check_flat(&multiples([3.0, -2.0, 5.0]), 1);
     check_flat(&multiples([f64::from_bits(1); 3]), 1);
-    // The same multiples of 0.1 are rounded, alike in each coordinate.
+    // Multiples of 0.1 are rounded, but equally in each coordinate.
     check_flat(&multiples([0.1; 3]), 1);
 }
 
@@ -240,7 +245,7 @@ fn coplanar_points() {
     check_flat(&plane(|_, _| 0.1), 2);
     check_flat(&plane(|x, y| x + 2.0 * y), 2);
     check_flat(&plane(|x, y| 5.0 - 3.0 * x - y), 2);
-    // Not quite: one point off by the least step.
+    // Not quite coplanar: one point is off by the smallest step.
     let mut points = plane(|_, _| 0.1);
     points[1234][2] = 0.1f64.next_up();
     assert_eq!(check(&points, 3).dimension, 3);

@@ -1,14 +1,16 @@
-//! The CPU engines, the predicates and the verifier.
+//! The triangulation on the CPU, the predicates and the verifier.
 
 mod broken;
 #[path = "../clouds.rs"]
 mod clouds;
 mod oracle;
 
+mod conversions;
 mod d2_canonical;
 mod d2_verifier;
 mod d3_canonical;
 mod d3_verifier;
 mod fingerprints;
 mod inputs;
+mod meshes;
 mod predicates;

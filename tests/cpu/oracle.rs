@@ -1,10 +1,11 @@
-//! The definition of the result, by brute force in big integers. Shares nothing with the crate but the sign conventions.
+//! The definition of the result, by brute force in big integers. It shares nothing with the crate
+//! except the sign conventions.
 #![allow(dead_code, reason = "every test binary uses a part")]
 
 use num_bigint::{BigInt, Sign};
 use std::collections::BTreeMap;
 
-/// The sign as the predicates give it.
+/// Returns the sign as the predicates do.
 pub fn sign(value: &BigInt) -> i8 {
     match value.sign() {
         Sign::Minus => -1,
@@ -13,7 +14,7 @@ pub fn sign(value: &BigInt) -> i8 {
     }
 }
 
-/// x·2¹⁰⁷⁴: an integer for every finite x.
+/// Returns x·2¹⁰⁷⁴, which is an integer for every finite x.
 fn integer(x: f64) -> BigInt {
     assert!(x.is_finite());
     let bits = x.to_bits();
@@ -25,14 +26,14 @@ fn integer(x: f64) -> BigInt {
     if x.is_sign_negative() { -magnitude } else { magnitude }
 }
 
-/// The points times a power of two that makes them integers.
+/// Returns the points times a power of two that makes them integers.
 pub fn integers<const D: usize>(points: &[[f64; D]]) -> Vec<[BigInt; D]> {
     let integers: Vec<[BigInt; D]> = points.iter().map(|p| p.map(integer)).collect();
     let shift = integers.as_flattened().iter().filter_map(BigInt::trailing_zeros).min().unwrap_or(0);
     integers.into_iter().map(|p| p.map(|x| x >> shift)).collect()
 }
 
-/// The determinant of the matrix with these rows, by expansion along its first column.
+/// Returns the determinant of the matrix with these rows, by expansion along its first column.
 pub fn determinant(rows: &[Vec<BigInt>]) -> BigInt {
     let [first, rest @ ..] = rows else { return BigInt::from(1) };
     if rest.is_empty() {
@@ -46,38 +47,40 @@ pub fn determinant(rows: &[Vec<BigInt>]) -> BigInt {
     terms.map(|(i, row)| if i % 2 == 0 { &row[0] * minor(i) } else { -&row[0] * minor(i) }).sum()
 }
 
-/// The determinant of D + 1 points with a column of ones: twice the area, six times the volume, positive for the
-/// positively oriented.
+/// Returns the determinant of D + 1 points with a column of ones: twice the area, or six times the
+/// volume, positive for positively oriented simplices.
 pub fn orientation<const D: usize>(points: &[&[BigInt; D]]) -> BigInt {
     let rows: Vec<_> = points[1..].iter().map(|p| (0..D).map(|i| &p[i] - &points[0][i]).collect()).collect();
     determinant(&rows)
 }
 
-/// The squared distance from the origin: the height on the paraboloid.
+/// Returns the squared distance from the origin: the height on the paraboloid.
 pub fn height<const D: usize>(p: &[BigInt; D]) -> BigInt {
     p.iter().map(|x| x * x).sum()
 }
 
-/// D + 2 points without the k-th.
+/// Returns the orientation of D + 2 points without the k-th.
 fn without<const D: usize>(points: &[&[BigInt; D]], k: usize) -> BigInt {
     let others: Vec<_> = points.iter().enumerate().filter(|&(i, _)| i != k).map(|(_, p)| *p).collect();
     orientation(&others)
 }
 
-/// The derivative by each point's height of what [`in_circumsphere`] is the sign of: positive where lifting the point
-/// brings the last point inside.
+/// Returns the derivatives of [`in_circumsphere`] with respect to each point's height: positive
+/// where lifting the point brings the last point inside.
 fn cofactors<const D: usize>(points: &[&[BigInt; D]]) -> Vec<BigInt> {
     let last = points.len() - 1;
     let signed = |k: usize| if (last - k).is_multiple_of(2) { -without(points, k) } else { without(points, k) };
     (0..points.len()).map(signed).collect()
 }
 
-/// Positive when the last of D + 2 points is inside the circumsphere of the others, positively oriented.
+/// Returns a positive number if the last of D + 2 points lies inside the circumsphere of the
+/// others, which are positively oriented.
 pub fn in_circumsphere<const D: usize>(points: &[&[BigInt; D]]) -> BigInt {
     cofactors(points).iter().zip(points).map(|(cofactor, p)| cofactor * height(p)).sum()
 }
 
-/// [`in_circumsphere`] with the heights of points of these indices perturbed.
+/// Returns the sign of [`in_circumsphere`] with the heights of the points perturbed by their
+/// indices.
 pub fn in_circumsphere_symbolic<const D: usize>(indices: &[u32], points: &[&[BigInt; D]]) -> i8 {
     let cofactors = cofactors(points);
     let value: BigInt = cofactors.iter().zip(points).map(|(cofactor, p)| cofactor * height(p)).sum();
@@ -86,18 +89,18 @@ pub fn in_circumsphere_symbolic<const D: usize>(indices: &[u32], points: &[&[Big
     std::iter::once(sign(&value)).chain(perturbed).find(|&s| s != 0).unwrap_or(0)
 }
 
-/// What [`gdel::delaunay3d`] has to give.
+/// The expected result of [`gdel::delaunay3d`].
 #[derive(Debug, PartialEq, Eq)]
 pub struct Definition {
-    /// As [`gdel::Mesh3::canonical`] gives them.
+    /// The tetrahedra in the form of [`gdel::Mesh3::canonical`].
     pub tetrahedra: Vec<[u32; 4]>,
-    /// As in [`gdel::Mesh3`].
+    /// See [`gdel::Mesh3::duplicate_of`].
     pub duplicate_of: Vec<i32>,
-    /// As in [`gdel::Mesh3`].
+    /// See [`gdel::Mesh3::dimension`].
     pub dimension: u8,
 }
 
-/// The definition, for some tens of points.
+/// Returns the result that the definition names, for some tens of points.
 pub fn definition(points: &[[f64; 3]]) -> Definition {
     let points = integers(points);
     let first_equal = |p: &[BigInt; 3]| points.iter().position(|q| p == q).unwrap();
@@ -128,7 +131,8 @@ pub fn definition(points: &[[f64; 3]]) -> Definition {
     Definition { tetrahedra, duplicate_of, dimension }
 }
 
-/// The affine dimension of distinct points that are coplanar: lines look like lines along every axis.
+/// Returns the affine dimension of distinct points that are coplanar: collinear points are
+/// collinear along every axis.
 fn flat_dimension(distinct: &[&[BigInt; 3]]) -> u8 {
     let [a, b, others @ ..] = distinct else { return 0 };
     let drop = |p: &[BigInt; 3], axis: usize| [p[(axis + 1) % 3].clone(), p[(axis + 2) % 3].clone()];
@@ -141,18 +145,18 @@ fn flat_dimension(distinct: &[&[BigInt; 3]]) -> u8 {
     if others.iter().any(|p| turns(&p)) { 2 } else { 1 }
 }
 
-/// What [`gdel::delaunay2d`] has to give.
+/// The expected result of [`gdel::delaunay2d`].
 #[derive(Debug, PartialEq, Eq)]
 pub struct Definition2 {
-    /// As [`gdel::Mesh2::canonical`] gives them.
+    /// The triangles in the form of [`gdel::Mesh2::canonical`].
     pub triangles: Vec<[u32; 3]>,
-    /// As in [`gdel::Mesh2`].
+    /// See [`gdel::Mesh2::duplicate_of`].
     pub duplicate_of: Vec<i32>,
-    /// As in [`gdel::Mesh2`].
+    /// See [`gdel::Mesh2::dimension`].
     pub dimension: u8,
 }
 
-/// The definition in the plane, for some tens of points.
+/// Returns the 2D result that the definition names, for some tens of points.
 pub fn definition2(points: &[[f64; 2]]) -> Definition2 {
     let points = integers(points);
     let representatives: Vec<usize> = points.iter().map(|p| points.iter().position(|q| p == q).unwrap()).collect();

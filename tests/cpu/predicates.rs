@@ -1,10 +1,13 @@
-//! The predicates' signs against big integers: random cases, and cases that are zero, or one rounding step from zero.
+//! The signs of the predicates against big integers: random cases, and cases that are zero, or one
+//! rounding step from zero.
 
 use crate::oracle::{in_circumsphere, in_circumsphere_symbolic, integers, orientation, sign};
 use gdel::{
     Points,
-    input::lattice::Lattice,
-    predicates::{collinear, filter::PredicateContext, incircle, insphere, insphere_symbolic, orient2d, orient3d},
+    internals::{
+        input::lattice::Lattice,
+        predicates::{collinear, filter::PredicateContext, incircle, insphere, insphere_symbolic, orient2d, orient3d},
+    },
 };
 use num_bigint::BigInt;
 use rand_pcg::{
@@ -12,7 +15,7 @@ use rand_pcg::{
     rand_core::{Rng, SeedableRng},
 };
 
-/// Cases of each predicate and [`Kind`].
+/// The number of cases of each predicate and [`Kind`].
 const CASES: usize = 5_000;
 
 /// How the arguments of a case are related.
@@ -24,13 +27,13 @@ enum Kind {
     Grid,
     /// On a line, plane, circle or sphere, exactly.
     Degenerate,
-    /// The same with one to three coordinates moved by a rounding step.
+    /// Degenerate, with one to three coordinates moved by a rounding step.
     NearlyDegenerate,
-    /// Coordinates of 10⁷ and some, in thousandths, as in maps.
+    /// Coordinates slightly above 10⁷, in thousandths, as in maps.
     Offset,
     /// Random bits: all exponents.
     AnyFinite,
-    /// Each point of its own scale.
+    /// Each point has its own scale.
     MixedScales,
 }
 
@@ -45,16 +48,16 @@ impl Kind {
         Kind::MixedScales,
     ];
 
-    /// Whether signs of zero must occur, so that the test tests them.
+    /// Returns whether signs of zero must occur, so that the test tests them.
     fn has_zeros(self) -> bool {
         matches!(self, Kind::Grid | Kind::Degenerate)
     }
 }
 
-/// Which degenerate position a predicate looks for.
+/// The degenerate position that a predicate detects.
 #[derive(Debug, Clone, Copy)]
 enum Position {
-    /// In a common line or plane.
+    /// On a common line or plane.
     Flat,
     /// On a common circle or sphere.
     Spherical,
@@ -67,8 +70,8 @@ impl Cases {
         self.0.next_u64() % n
     }
 
-    fn small(&mut self, most: u64) -> f64 {
-        self.below(2 * most + 1) as f64 - most as f64
+    fn small(&mut self, max: u64) -> f64 {
+        self.below(2 * max + 1) as f64 - max as f64
     }
 
     fn unit(&mut self) -> f64 {
@@ -84,7 +87,7 @@ impl Cases {
         }
     }
 
-    /// A power of two, from the least number to those near the greatest.
+    /// Returns a power of two, from the smallest positive number to nearly the largest.
     fn scale(&mut self) -> f64 {
         let exponents = [-1074, -1060, -1022, -700, -350, -190, 0, 0, 50, 180, 300, 600, 1000];
         let exponent: i32 = exponents[self.below(exponents.len() as u64) as usize];
@@ -118,19 +121,20 @@ impl Cases {
         }
     }
 
-    /// Small integers times a power of two.
+    /// Returns small integers times a power of two.
     fn degenerate<const D: usize, const N: usize>(&mut self, position: Position) -> [[f64; D]; N] {
         let scale = self.scale();
-        let [center, u, v] = [9, 9, 9].map(|most| [(); D].map(|()| self.small(most)));
+        let [center, u, v] = [9, 9, 9].map(|max| [(); D].map(|()| self.small(max)));
         [(); N].map(|()| {
             let p: [f64; D] = match position {
                 Position::Flat => {
-                    // Of one parameter less than the dimension.
+                    // One parameter fewer than the dimension.
                     let (s, t) = (self.small(9), if D == 2 { 0.0 } else { self.small(9) });
                     std::array::from_fn(|i| center[i] + s * u[i] + t * v[i])
                 }
                 Position::Spherical => {
-                    // Sign changes and rotations of the coordinates keep the distance from the centre.
+                    // Sign changes and rotations of the coordinates keep the distance from the
+                    // centre.
                     let mut p = u.map(|x| if self.below(2) == 0 { x } else { -x });
                     p.rotate_left(self.below(D as u64) as usize);
                     std::array::from_fn(|i| center[i] + p[i])
@@ -141,7 +145,7 @@ impl Cases {
     }
 }
 
-/// Runs all kinds of cases; `found` and `expected` give signs that must be equal.
+/// Runs all kinds of cases; `found` and `expected` return signs that must be equal.
 fn compare<const D: usize, const N: usize>(
     position: Position,
     found: impl Fn([[f64; D]; N]) -> i8,
@@ -193,7 +197,7 @@ fn insphere_of_coplanar_points_is_exact() {
     compare(Position::Flat, |[a, b, c, d, e]| insphere(a, b, c, d, e), |points| sign(&in_circumsphere(points)));
 }
 
-/// Different indices for the points that do not depend on their order among the arguments.
+/// Returns different indices for the points, independent of their order among the arguments.
 fn indices<const N: usize>(points: [[f64; 3]; N], salt: u64) -> [u32; N] {
     let hash = |p: [f64; 3]| {
         let mixed =
@@ -261,14 +265,16 @@ fn collinear_is_exact() {
     }
 }
 
-/// The engine's predicates, on a lattice fitted to the points, with filters that hold for all of them.
+/// The predicates of a context, on a lattice fitted to the points, with filters that hold for all
+/// of them.
 #[test]
 fn predicates_of_prepared_vertices_are_exact() {
     let mut cases = Cases(Pcg64Mcg::seed_from_u64(1));
     for kind in Kind::ALL {
         for position in [Position::Flat, Position::Spherical] {
             for _ in 0..CASES / 5 {
-                // More points than arguments, so that the common bounds are not those of the arguments.
+                // More points than arguments, so that the common bounds are not those of the
+                // arguments.
                 let points: [[f64; 3]; 10] = cases.points(kind, position);
                 let order: Vec<u32> = (0..10).map(|i| i * 7 % 10).collect();
                 let input = Points::F64(&points);

@@ -1,6 +1,6 @@
 //! Assembly of a kernel that is not one of the crate's, but includes its shaders; for tests and benchmarks.
 
-use gdel::input::lattice::Width;
+use gdel::internals::input::lattice::Width;
 use std::path::Path;
 
 #[path = "../../build/sources.rs"]

@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use gdel::gpu::phase1::{Input, Phase1, Settings};
-use gdel::gpu::start::first_simplex;
-use gdel::gpu::{AdapterChoice, Gpu};
-use gdel::input::lattice::{Lattice, Width};
-use gdel::predicates;
-use gdel::reference::d3::{predicates as reference, predicates::Vertex};
+use gdel::internals::gpu::phase1::{Input, Phase1, Settings};
+use gdel::internals::gpu::start::first_simplex;
+use gdel::internals::gpu::{AdapterChoice, Gpu};
+use gdel::internals::input::lattice::{Lattice, Width};
+use gdel::internals::predicates;
+use gdel::internals::reference::d3::{predicates as reference, predicates::Vertex};
 use pollster::block_on;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;

@@ -6,15 +6,15 @@
 use std::collections::BTreeSet;
 
 use crate::kernels::{Kernels, shuffled};
-use gdel::d2::gpu::{aliases::Aliases, vertex};
-use gdel::gpu::Storage;
-use gdel::gpu::layout::Pick;
-use gdel::gpu::layout::{Counters, DONE, NONE};
-use gdel::gpu::points::{DevicePoints, InputCounts};
-use gdel::gpu::shader;
-use gdel::gpu::{phase1::Buffers, start::first_simplex};
-use gdel::input::lattice::Width;
-use gdel::reference::d2::{self as reference, State, predicates::Vertex};
+use gdel::internals::d2::gpu::{aliases::Aliases, vertex};
+use gdel::internals::gpu::Storage;
+use gdel::internals::gpu::layout::Pick;
+use gdel::internals::gpu::layout::{Counters, DONE, NONE};
+use gdel::internals::gpu::points::{DevicePoints, InputCounts};
+use gdel::internals::gpu::shader;
+use gdel::internals::gpu::{phase1::Buffers, start::first_simplex};
+use gdel::internals::input::lattice::Width;
+use gdel::internals::reference::d2::{self as reference, State, predicates::Vertex};
 
 struct Device {
     kernels: Kernels,
@@ -74,9 +74,8 @@ impl Device {
     }
 
     fn run(&self, name: &str) {
-        let aliases = Aliases::new(&self.buffers);
-        let buffers = [self.buffers.bindings(), aliases.bindings()].concat();
-        self.kernels.run(shader::D2.get(name), &buffers);
+        self.kernels
+            .run(shader::D2.get(name), &[self.buffers.bindings(), Aliases::new(&self.buffers).bindings()].concat());
     }
 
     /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.

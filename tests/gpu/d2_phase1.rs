@@ -2,14 +2,14 @@
 
 use std::collections::HashSet;
 
-use gdel::d2::gpu::vertex;
-use gdel::gpu::layout::Pick;
-use gdel::gpu::layout::{Active, Waiting};
-use gdel::gpu::phase1::{Input, Phase1, Run, Settings};
-use gdel::gpu::start::first_simplex;
-use gdel::gpu::{AdapterChoice, Gpu, Readback, Storage};
-use gdel::input::lattice::{Lattice, Width};
-use gdel::reference::d2::{State, mesh_compact, mesh_mark, predicates::Vertex};
+use gdel::internals::d2::gpu::vertex;
+use gdel::internals::gpu::layout::Pick;
+use gdel::internals::gpu::layout::{Active, Waiting};
+use gdel::internals::gpu::phase1::{Input, Phase1, Run, Settings};
+use gdel::internals::gpu::start::first_simplex;
+use gdel::internals::gpu::{AdapterChoice, Gpu, Readback, Storage};
+use gdel::internals::input::lattice::{Lattice, Width};
+use gdel::internals::reference::d2::{State, mesh_compact, mesh_mark, predicates::Vertex};
 use pollster::block_on;
 
 fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {

@@ -3,7 +3,7 @@
 use crate::d2_cases::{Case, FAMILIES, cases};
 use crate::perturbation::{perturbed_rows, sign_of_columns};
 use crate::signs::{SignKernel, exact_in_circumsphere, exact_orientation};
-use gdel::{
+use gdel::internals::{
     d2::gpu::vertex,
     gpu::Storage,
     input::lattice::Width,

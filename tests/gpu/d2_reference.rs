@@ -2,12 +2,12 @@
 
 use std::collections::HashSet;
 
-use gdel::gpu::layout::Pick;
-use gdel::input::lattice::Width;
-use gdel::reference::d2::predicates::Vertex;
-use gdel::reference::d2::run::{Settings, run};
-use gdel::reference::d2::{State, mesh_compact, mesh_mark};
-use gdel::reference::d3::hilbert::hilbert_key;
+use gdel::internals::gpu::layout::Pick;
+use gdel::internals::input::lattice::Width;
+use gdel::internals::reference::d2::predicates::Vertex;
+use gdel::internals::reference::d2::run::{Settings, run};
+use gdel::internals::reference::d2::{State, mesh_compact, mesh_mark};
+use gdel::internals::reference::d3::hilbert::hilbert_key;
 use rand::{SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;
 

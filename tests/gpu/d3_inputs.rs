@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use gdel::input::lattice::Width;
+use gdel::internals::input::lattice::Width;
 use rand::{RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;
 

@@ -6,14 +6,14 @@
 use std::collections::BTreeSet;
 
 use crate::kernels::{Kernels, shuffled};
-use gdel::d3::gpu::vertex;
-use gdel::gpu::layout::{CHECK, Counters, DONE, NONE};
-use gdel::gpu::points::{DevicePoints, InputCounts};
-use gdel::gpu::shader;
-use gdel::gpu::start::first_simplex;
-use gdel::gpu::{Storage, layout::Pick, phase1::Buffers};
-use gdel::input::lattice::Width;
-use gdel::reference::d3::{self as reference, State, predicates::Vertex};
+use gdel::internals::d3::gpu::vertex;
+use gdel::internals::gpu::layout::{CHECK, Counters, DONE, NONE};
+use gdel::internals::gpu::points::{DevicePoints, InputCounts};
+use gdel::internals::gpu::shader;
+use gdel::internals::gpu::start::first_simplex;
+use gdel::internals::gpu::{Storage, layout::Pick, phase1::Buffers};
+use gdel::internals::input::lattice::Width;
+use gdel::internals::reference::d3::{self as reference, State, predicates::Vertex};
 
 struct Device {
     kernels: Kernels,

@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 
 use crate::d3_inputs::{self as inputs, Input as Points};
-use gdel::d3::mesh::FACETS;
-use gdel::gpu::layout::{Active, Counters, FlipNode, Status, Waiting};
-use gdel::gpu::start::first_simplex;
-use gdel::input::lattice::{Lattice, Width};
-use gdel::reference::d3::{State, predicates::Vertex};
-use gdel::{
+use gdel::internals::d3::mesh::FACETS;
+use gdel::internals::gpu::layout::{Active, Counters, FlipNode, Status, Waiting};
+use gdel::internals::gpu::start::first_simplex;
+use gdel::internals::input::lattice::{Lattice, Width};
+use gdel::internals::reference::d3::{State, predicates::Vertex};
+use gdel::internals::{
     d3::gpu::vertex,
     gpu::{
         AdapterChoice, Gpu, Readback, Storage,
@@ -78,7 +78,7 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, se
 
     let index = |v: u32| if v as usize == count { v } else { state.points[v as usize].index };
     let mut marked = state.clone();
-    gdel::reference::d3::mark_failed(&mut marked);
+    gdel::internals::reference::d3::mark_failed(&mut marked);
     let mut failed: Vec<u32> = (0..).zip(&marked.failed).filter(|&(_, &f)| f != 0).map(|(v, _)| index(v)).collect();
     failed.sort_unstable();
     assert_eq!(output.failed, failed, "{}", points.name);
@@ -119,7 +119,7 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, se
     // Where nothing is rounded, exactly the flat ones are uncertain.
     let flat = |t: &[u32; 4]| {
         let [a, b, c, d] = t.map(|v| points.positions[v as usize]);
-        gdel::predicates::orient3d(a, b, c, d) == 0
+        gdel::internals::predicates::orient3d(a, b, c, d) == 0
     };
     let flat: Vec<[u32; 2]> =
         (0..).zip(&output.tets[..output.finite]).filter(|(_, t)| flat(t)).map(|(t, _)| [t, 16]).collect();

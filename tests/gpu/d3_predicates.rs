@@ -2,7 +2,7 @@
 
 use crate::d3_cases::{Case, FAMILIES, Family, cases};
 use crate::signs::{SignKernel, exact_in_circumsphere, exact_orientation};
-use gdel::{
+use gdel::internals::{
     d3::gpu::vertex,
     gpu::Storage,
     input::lattice::Width,

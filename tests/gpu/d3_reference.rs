@@ -1,10 +1,10 @@
 //! Phase 1 on the kernels' references: the algorithm, proven without a GPU.
 
-use gdel::gpu::layout::Pick;
-use gdel::input::lattice::Width;
-use gdel::reference::d3::State;
-use gdel::reference::d3::predicates::{Vertex, insphere, orient3d};
-use gdel::reference::d3::run::{Settings, run};
+use gdel::internals::gpu::layout::Pick;
+use gdel::internals::input::lattice::Width;
+use gdel::internals::reference::d3::State;
+use gdel::internals::reference::d3::predicates::{Vertex, insphere, orient3d};
+use gdel::internals::reference::d3::run::{Settings, run};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 

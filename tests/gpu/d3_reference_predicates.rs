@@ -1,7 +1,7 @@
 //! The reference of the GPU's predicates: its ties are those of a perturbation that is carried out.
 
 use crate::perturbation::{perturbed_rows, sign_of_columns};
-use gdel::{
+use gdel::internals::{
     d3::gpu::vertex::INFINITE,
     input::lattice::Width,
     predicates::{Sign, insphere_symbolic},
@@ -133,7 +133,7 @@ fn the_perturbed_triangulation_without_flat_tetrahedra_is_the_answer() {
         let coordinates = |i: usize| points[i].map(|q| q as f64);
         let is_flat = |t: [usize; 4]| {
             let [a, b, c, d] = t.map(coordinates);
-            gdel::predicates::orient3d(a, b, c, d) == 0
+            gdel::internals::predicates::orient3d(a, b, c, d) == 0
         };
         let others = |t: [usize; 4]| (0..points.len()).filter(move |p| !t.contains(p));
         let perturbed: Vec<_> = fours(points.len())
@@ -147,7 +147,7 @@ fn the_perturbed_triangulation_without_flat_tetrahedra_is_the_answer() {
             .filter(|&t| !is_flat(t))
             .filter(|&t| {
                 let [a, b, c, d] = t.map(coordinates);
-                let orientation = gdel::predicates::orient3d(a, b, c, d);
+                let orientation = gdel::internals::predicates::orient3d(a, b, c, d);
                 others(t).all(|e| {
                     let five = [t[0], t[1], t[2], t[3], e].map(|i| (i as u32, coordinates(i)));
                     insphere_symbolic(five) == -orientation

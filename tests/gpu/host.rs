@@ -2,7 +2,7 @@
 
 use gdel::{
     Error,
-    gpu::{AdapterChoice, Gpu, Kernel, Profiler, Readback, Recorder, Storage, adapters, workgroups},
+    internals::gpu::{AdapterChoice, Gpu, Kernel, Profiler, Readback, Recorder, Storage, adapters, workgroups},
 };
 use pollster::block_on;
 
@@ -134,7 +134,7 @@ fn only_large_buffers_are_asked_for() {
     assert_eq!(limits.max_storage_buffers_per_shader_stage, defaults.max_storage_buffers_per_shader_stage);
     assert_eq!(limits.max_compute_invocations_per_workgroup, defaults.max_compute_invocations_per_workgroup);
     assert_eq!(limits.max_compute_workgroup_storage_size, defaults.max_compute_workgroup_storage_size);
-    assert_eq!(limits.max_compute_workgroups_per_dimension, gdel::gpu::MAX_WORKGROUPS);
+    assert_eq!(limits.max_compute_workgroups_per_dimension, gdel::internals::gpu::MAX_WORKGROUPS);
 }
 
 #[test]

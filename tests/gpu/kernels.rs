@@ -4,10 +4,10 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 
 use bytemuck::Pod;
-use gdel::gpu::layout::PARAM_WORDS;
-use gdel::gpu::layout::{Counters, Params};
-use gdel::gpu::{AdapterChoice, Binding, Gpu, Kernel, Readback, Recorder, Storage, shader::Shader};
-use gdel::input::lattice::Width;
+use gdel::internals::gpu::layout::PARAM_WORDS;
+use gdel::internals::gpu::layout::{Counters, Params};
+use gdel::internals::gpu::{AdapterChoice, Binding, Gpu, Kernel, Readback, Recorder, Storage, shader::Shader};
+use gdel::internals::input::lattice::Width;
 use pollster::block_on;
 use rand::{SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;

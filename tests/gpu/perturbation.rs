@@ -1,7 +1,7 @@
 //! The perturbation that breaks ties, carried out in big integers.
 
 use crate::oracle;
-use gdel::predicates::Sign;
+use gdel::internals::predicates::Sign;
 use num_bigint::BigInt;
 
 /// Exponents of two, for coordinates below 16: δᵢ = 2^(−16 (i + 1)) is small enough to leave every determinant's sign

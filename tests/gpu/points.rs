@@ -4,13 +4,15 @@ use std::collections::HashMap;
 
 use gdel::{
     Points,
-    gpu::{
-        AdapterChoice, Gpu, Readback, Recorder,
-        dim::{Dim, Dimension},
-        points::{InputCounts, PointInput, PointStage},
+    internals::{
+        gpu::{
+            AdapterChoice, Gpu, Readback, Recorder,
+            dim::{Dim, Dimension},
+            points::{InputCounts, PointInput, PointStage},
+        },
+        input::lattice::{Lattice, Width},
+        reference::d3::hilbert::hilbert_key,
     },
-    input::lattice::{Lattice, Width},
-    reference::d3::hilbert::hilbert_key,
 };
 use pollster::block_on;
 use rand::{Rng, RngExt, SeedableRng};

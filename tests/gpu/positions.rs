@@ -1,6 +1,6 @@
 //! Where the vertices of cases for the predicates lie, in any dimension `D`, and `N` of them.
 
-use gdel::input::lattice::Width;
+use gdel::internals::input::lattice::Width;
 use rand::{Rng, RngExt, seq::SliceRandom};
 use std::array::from_fn;
 

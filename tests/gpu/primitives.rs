@@ -1,6 +1,6 @@
 //! Sort, scan and compaction on the GPU, against the CPU, for sizes around those of every block.
 
-use gdel::gpu::{
+use gdel::internals::gpu::{
     AdapterChoice, Gpu, Readback, Recorder, Storage,
     primitives::{
         compact::Compact,

@@ -3,7 +3,7 @@
 use crate::assemble::assemble;
 use crate::oracle;
 use bytemuck::Pod;
-use gdel::{
+use gdel::internals::{
     gpu::{AdapterChoice, Binding, Gpu, Kernel, Readback, Recorder, Storage, workgroups},
     input::lattice::Width,
     predicates::Sign,

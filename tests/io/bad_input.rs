@@ -1,7 +1,7 @@
 //! Broken files: each a clear error that says where, and nothing allocated on a header's word.
 
 use crate::samples::{self, POINTS};
-use gdel::io::{FormatError, PointFormat, Position, read_ele, read_neigh, read_npz, read_vtu};
+use gdel::internals::io::{FormatError, PointFormat, Position, read_ele, read_neigh, read_npz, read_vtu};
 
 #[track_caller]
 fn fails(format: PointFormat, bytes: impl Into<Vec<u8>>, at: Position, what: &str) {

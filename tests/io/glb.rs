@@ -1,8 +1,8 @@
 //! Binary glTF, read back by the crate `gltf`, which also validates it.
 
 use gdel::{
-    Mesh2, Mesh3, Options, Points,
-    io::{write_glb2, write_hull_glb},
+    Mesh2, Mesh3, Points,
+    internals::io::{write_glb2, write_hull_glb},
 };
 
 /// A file's triangles by the places of their corners in space, and the translation of its node.
@@ -43,7 +43,7 @@ fn length(file: &[u8], at: usize) -> usize {
 }
 
 fn hull_of(points: &[[f64; 3]]) -> (Mesh3, Vec<u8>) {
-    let mesh = gdel::delaunay3d(points, &Options::default()).expect("finite points");
+    let mesh = gdel::delaunay3d(points).expect("finite points");
     let mut file = Vec::new();
     write_hull_glb(&mut file, points.into(), &mesh).expect("memory");
     assert_eq!(length(&file, 8), file.len());
@@ -109,7 +109,7 @@ fn no_hull_is_an_empty_scene() {
 #[test]
 fn triangles_of_the_plane_lie_at_z_0_and_turn_counter_clockwise() {
     let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.5f64]];
-    let mesh: Mesh2 = gdel::delaunay2d(&points, &Options::default()).expect("finite points");
+    let mesh: Mesh2 = gdel::delaunay2d(&points).expect("finite points");
     let mut file = Vec::new();
     write_glb2(&mut file, Points::from(&points), &mesh).expect("memory");
     let (triangles, _) = read(&file);

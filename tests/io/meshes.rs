@@ -3,7 +3,7 @@
 use crate::samples::{self, POINTS, mesh};
 use gdel::{
     Points,
-    io::{
+    internals::io::{
         HullFormat, MeshData, PointFormat, read_ele, read_neigh, read_npz, read_vtu, write_ele, write_neigh,
         write_node, write_npz, write_vtu,
     },
@@ -114,7 +114,8 @@ fn hulls_have_the_vertices_of_the_hull_exactly() {
 
 #[test]
 fn hull_triangles_of_obj_name_its_own_vertices_counter_clockwise() {
-    let file = String::from_utf8(written(|to| gdel::io::write_hull_obj(to, (&POINTS).into(), &mesh()))).unwrap();
+    let file =
+        String::from_utf8(written(|to| gdel::internals::io::write_hull_obj(to, (&POINTS).into(), &mesh()))).unwrap();
     let faces: Vec<Vec<usize>> = file
         .lines()
         .filter_map(|line| line.strip_prefix("f "))
@@ -125,6 +126,6 @@ fn hull_triangles_of_obj_name_its_own_vertices_counter_clockwise() {
     for face in faces {
         let [a, b, c] = [face[0], face[1], face[2]].map(|v| samples::points_f64()[v]);
         // Counter-clockwise as seen from outside, the normal points away from the inner point.
-        assert_eq!(gdel::predicates::orient3d(a, b, c, inside), -1);
+        assert_eq!(gdel::internals::predicates::orient3d(a, b, c, inside), -1);
     }
 }

@@ -1,7 +1,7 @@
 //! Every format of point clouds: what is read is what was written, in the file's precision.
 
 use crate::samples::{self, POINTS, las_points, points_f64};
-use gdel::io::{PointBuf, PointCloud, PointFormat, files};
+use gdel::internals::io::{PointBuf, PointCloud, PointFormat, files};
 use std::path::Path;
 
 fn read(format: PointFormat, bytes: impl Into<Vec<u8>>) -> PointCloud {

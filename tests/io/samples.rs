@@ -3,7 +3,7 @@
 
 use gdel::{
     Mesh3,
-    io::{MeshFormat, PointFormat, write_ele, write_npz, write_vtu},
+    internals::io::{MeshFormat, PointFormat, write_ele, write_npz, write_vtu},
 };
 use las::{Builder, Point, Transform, Vector};
 use std::io::Cursor;
@@ -19,7 +19,7 @@ pub fn points_f64() -> Vec<[f64; 3]> {
 
 /// A mesh of [`POINTS`].
 pub fn mesh() -> Mesh3 {
-    gdel::delaunay3d(&POINTS, &gdel::Options::default()).expect("five points")
+    gdel::delaunay3d(&POINTS).expect("five points")
 }
 
 /// All samples of point clouds, each with a name.

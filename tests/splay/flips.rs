@@ -1,16 +1,13 @@
-//! A triangulation that can be spoilt: splits and flips on tetrahedra found by their facets.
+//! A triangulation that can be spoilt: splits and flips of tetrahedra found by their facets.
 
-use gdel::{
-    d3::{
-        mesh::FACETS,
-        splay::{NONE, NearDelaunay},
-        triangulation::Triangulation,
-    },
+use gdel::internals::{
+    d3::{mesh::FACETS, splay::NearDelaunay, triangulation::Triangulation},
+    index::NO_INDEX,
     predicates::filter::PredicateContext,
 };
 use std::collections::HashMap;
 
-/// Tetrahedra without ghosts, positively oriented, and the ones at each facet.
+/// Tetrahedra without ghosts, positively oriented, and the tetrahedra at each facet.
 pub struct Soup<'a> {
     vertices: &'a PredicateContext<'a>,
     pub tetrahedra: Vec<[u32; 4]>,
@@ -64,7 +61,7 @@ impl<'a> Soup<'a> {
         new.iter().for_each(|&t| self.add(t));
     }
 
-    /// The tetrahedron across facet `k`, and its vertex there.
+    /// Returns the tetrahedron across facet `k`, and its vertex opposite the facet.
     fn across(&self, slot: usize, k: usize) -> Option<(usize, u32)> {
         let t = self.tetrahedra[slot];
         let other = *self.facets[&facet(t, k)].iter().find(|&&s| s != slot)?;
@@ -72,12 +69,13 @@ impl<'a> Soup<'a> {
         Some((other, apex))
     }
 
-    /// Whether the facet is there and locally Delaunay.
+    /// Returns whether the facet is on the hull or locally Delaunay.
     pub fn is_delaunay(&self, slot: usize, k: usize) -> bool {
         self.across(slot, k).is_none_or(|(_, apex)| self.vertices.insphere(self.tetrahedra[slot], apex) < 0)
     }
 
-    /// Flips facet `k`, by 2-3 or else 3-2, where no tetrahedron becomes flat or inverted.
+    /// Flips facet `k`, 2-3 or else 3-2, if no tetrahedron becomes flat or inverted. Returns
+    /// whether it did.
     pub fn flip(&mut self, slot: usize, k: usize) -> bool {
         let Some((other, apex)) = self.across(slot, k) else { return false };
         let t = self.tetrahedra[slot];
@@ -104,7 +102,8 @@ impl<'a> Soup<'a> {
         false
     }
 
-    /// Splits the tetrahedron that strictly holds vertex `p`, if one does.
+    /// Splits the tetrahedron that contains vertex `p` in its interior, if there is one. Returns
+    /// whether it did.
     pub fn split(&mut self, p: u32) -> bool {
         let parts = |t: [u32; 4]| (0..4).map(move |k| std::array::from_fn(|i| if i == k { p } else { t[i] }));
         let holds = |t: &[u32; 4]| parts(*t).all(|part: [u32; 4]| self.orient(part) > 0);
@@ -120,7 +119,7 @@ impl<'a> Soup<'a> {
             let (slot, k) = (f / 4, f % 4);
             slot < self.tetrahedra.len() && !self.is_delaunay(slot, k) && self.flip(slot, k)
         }) {
-            // Go on from where it was possible, as long as it is.
+            // Continues where a flip was possible, as long as one is.
             let mut f = 0;
             while f < self.tetrahedra.len() * 4 {
                 if self.is_delaunay(f / 4, f % 4) || !self.flip(f / 4, f % 4) {
@@ -130,17 +129,17 @@ impl<'a> Soup<'a> {
         }
     }
 
-    /// With ghosts; all tetrahedra are uncertain.
+    /// Returns the triangulation with ghosts; all tetrahedra are uncertain.
     pub fn finish(&self) -> NearDelaunay {
         near(self.vertices.len() as u32, &self.tetrahedra)
     }
 }
 
-/// A triangulation of the hull of the vertices below `infinite`, with ghosts; all tetrahedra are uncertain, and nothing is
-/// known to have failed.
+/// Returns a triangulation of the hull of the vertices below `infinite`, with ghosts. All
+/// tetrahedra are uncertain, and nothing is known to have failed.
 pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay {
     let mut all = tetrahedra.to_vec();
-    let mut neighbors = vec![[NONE; 4]; all.len()];
+    let mut neighbors = vec![[NO_INDEX; 4]; all.len()];
     let mut open = HashMap::new();
     let match_facets = |all: &[[u32; 4]], neighbors: &mut [[u32; 4]], open: &mut HashMap<_, u32>, from: usize| {
         for slot in from..all.len() {
@@ -164,15 +163,15 @@ pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay {
     for f in hull {
         let [a, b, c] = FACETS[f as usize % 4].map(|i| tetrahedra[f as usize / 4][i]);
         all.push([a, b, c, infinite]);
-        neighbors.push([NONE; 4]);
+        neighbors.push([NO_INDEX; 4]);
     }
     match_facets(&all, &mut neighbors, &mut open, tetrahedra.len());
     assert!(open.is_empty(), "the boundary is not closed");
-    let mut incident = vec![NONE; infinite as usize + 1];
+    let mut incident = vec![NO_INDEX; infinite as usize + 1];
     for (slot, t) in all.iter().enumerate() {
         t.iter().for_each(|&v| incident[v as usize] = slot as u32);
     }
-    let missing = (0..infinite).filter(|&v| incident[v as usize] == NONE).collect();
+    let missing = (0..infinite).filter(|&v| incident[v as usize] == NO_INDEX).collect();
     let uncertain = (0..all.len() as u32).collect();
     NearDelaunay {
         triangulation: Triangulation::new(all, neighbors, infinite),
@@ -183,15 +182,15 @@ pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay {
     }
 }
 
-/// The finite tetrahedra that are flat or inverted.
+/// Returns the finite tetrahedra that are flat or inverted.
 pub fn flat_or_inverted(mesh: &Triangulation, vertices: &PredicateContext<'_>) -> Vec<u32> {
     let finite = |t: &[u32; 4]| t[3] != vertices.len() as u32;
     let bad = |&[a, b, c, d]: &[u32; 4]| vertices.orient3d(a, b, c, d) <= 0;
     (0..).zip(mesh.tetrahedra()).filter(|(_, t)| finite(t) && bad(t)).map(|(slot, _)| slot).collect()
 }
 
-/// What a GPU would tell about `near`: which vertices have a facet that is not locally Delaunay, and which tetrahedra are
-/// flat or inverted. The others are beyond doubt.
+/// Returns what a GPU would report about `near`: the vertices that have a facet that is not locally
+/// Delaunay, and the tetrahedra that are flat or inverted. The others are certain.
 pub fn found_out(vertices: &PredicateContext<'_>, near: &NearDelaunay) -> NearDelaunay {
     let (tetrahedra, neighbors) = (near.triangulation.tetrahedra(), near.triangulation.neighbors());
     let infinite = vertices.len() as u32;

@@ -1,4 +1,4 @@
-//! Point clouds of all kinds, distinct points only.
+//! Point clouds of many kinds, of distinct points only.
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -79,7 +79,7 @@ pub fn clusters(n: usize, seed: u64) -> Cloud {
     })
 }
 
-/// A prism: all points are on it, many coplanar and collinear.
+/// Points on the surface of a cube, many of them coplanar and collinear.
 pub fn prism(n: usize, seed: u64) -> Cloud {
     cloud(n, seed, |rng| {
         let mut p: [f64; 3] = std::array::from_fn(|_| f64::from(rng.random_range(0..=32u32)) / 32.0);

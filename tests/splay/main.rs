@@ -1,5 +1,5 @@
-//! Star splaying, from triangulations that are Delaunay but for some flips, insertions or displaced points: the outcome
-//! must be the CPU engine's triangulation.
+//! Star splaying, from triangulations that are Delaunay except for some flips, insertions or
+//! displaced points: the result must be the triangulation that the CPU makes.
 
 mod flips;
 mod inputs;
@@ -8,22 +8,26 @@ mod phase1;
 
 use flips::{Soup, found_out, near};
 use gdel::{
-    Options, Points,
-    d3::{
-        cpu,
-        splay::{Aborted, NONE, NearDelaunay, Outcome, splay},
-        triangulation::FiniteMesh,
-        verify::{MeshView, verify3d},
+    Points,
+    internals::{
+        Options,
+        d3::{
+            cpu,
+            splay::{Aborted, NearDelaunay, SplayOutcome, splay},
+            triangulation::FiniteMesh,
+        },
+        index::NO_INDEX,
+        input::lattice::Lattice,
+        parallel::Threads,
+        predicates::filter::PredicateContext,
     },
-    input::lattice::Lattice,
-    parallel::Threads,
-    predicates::filter::PredicateContext,
     stats::SplayStats,
+    verify::{MeshView, verify3d},
 };
 use inputs::Cloud;
 use rand::{RngExt, seq::SliceRandom};
 
-/// The exact answer, as vertex numbers of the order `indices` of the points.
+/// Returns the exact result, as vertex numbers of the order `indices` of the points.
 fn exact(points: &Cloud, indices: &[u32]) -> Vec<[u32; 4]> {
     let mesh = cpu::delaunay3d(points.into(), &Options::default()).unwrap();
     let mut vertex = vec![0; points.len()];
@@ -37,7 +41,8 @@ fn canonical(mut tetrahedra: Vec<[u32; 4]>) -> Vec<[u32; 4]> {
     tetrahedra
 }
 
-/// Splays, once with nothing but doubts, and once with just those that are justified; demands the exact answer.
+/// Splays twice, once with everything uncertain, and once with only what is really wrong; checks
+/// that the result is exact.
 fn check(name: &str, vertices: &PredicateContext<'_>, near: NearDelaunay, answer: &[[u32; 4]]) -> SplayStats {
     let known = found_out(vertices, &near);
     let (doubting, _) = splayed(name, vertices, near);
@@ -48,32 +53,34 @@ fn check(name: &str, vertices: &PredicateContext<'_>, near: NearDelaunay, answer
     stats
 }
 
-/// The tetrahedra that splaying gives, which the verifier accepts.
+/// Returns the tetrahedra that splaying gives, which the verifier must accept.
 fn splayed(name: &str, vertices: &PredicateContext<'_>, near: NearDelaunay) -> (Vec<[u32; 4]>, SplayStats) {
     let started = std::time::Instant::now();
     let (mesh, stats) = match splay(vertices, near, u64::MAX, Threads::All, &|_| Ok(())).unwrap() {
-        Outcome::Delaunay(mesh, stats) => (mesh, stats),
-        Outcome::Aborted(reason) => panic!("{name}: gave up: {reason:?}"),
+        SplayOutcome::Delaunay(mesh, stats) => (mesh, stats),
+        SplayOutcome::Aborted(reason) => panic!("{name}: aborted: {reason:?}"),
     };
     println!("{name}: {} vertices, {:.1?}, {stats:?}", vertices.len(), started.elapsed());
     let names: Vec<u32> = (0..vertices.len() as u32).map(|v| vertices.input_index(v)).collect();
     let FiniteMesh { tetrahedra, neighbors, hull } = mesh.into_mesh(Some(&names), Threads::All);
     let mut points = vec![[0.0; 3]; names.len()];
     names.iter().zip(0..).for_each(|(&i, v)| points[i as usize] = vertices.point(v));
-    let statement = MeshView { neighbors: Some(&neighbors), hull: Some(&hull), ..MeshView::of_tetrahedra(&tetrahedra) };
+    let mut statement = MeshView::of_tetrahedra(&tetrahedra);
+    statement.neighbors = Some(&neighbors);
+    statement.hull = Some(&hull);
     let report = verify3d(&points, statement).unwrap();
     assert!(report.passed(), "{name}: {:?}", report.failures().next());
     (tetrahedra, stats)
 }
 
-/// A random numbering of the points.
+/// Returns a random numbering of the points.
 fn shuffled(n: usize, seed: u64) -> Vec<u32> {
     let mut indices: Vec<u32> = (0..n as u32).collect();
     indices.shuffle(&mut inputs::random(seed));
     indices
 }
 
-/// Flips anything that can be flipped, here and there.
+/// Flips random facets that can be flipped, then splays.
 fn with_random_flips(name: &str, points: &Cloud, flips: usize, seed: u64) -> SplayStats {
     let indices = shuffled(points.len(), seed);
     let answer = exact(points, &indices);
@@ -90,8 +97,8 @@ fn with_random_flips(name: &str, points: &Cloud, flips: usize, seed: u64) -> Spl
     check(name, &vertices, soup.finish(), &answer)
 }
 
-/// The Delaunay triangulation of points a little off the true ones: ties are broken otherwise, and tetrahedra are flat
-/// or inverted in the true coordinates.
+/// Splays the Delaunay triangulation of points slightly displaced from the exact ones: ties are
+/// broken differently, and tetrahedra are flat or inverted in the exact coordinates.
 fn from_displaced(name: &str, points: &Cloud, by: f64, seed: u64) -> SplayStats {
     let mut rng = inputs::random(seed);
     let displaced: Cloud = points.iter().map(|p| p.map(|x| x + by * (rng.random::<f64>() - 0.5))).collect();
@@ -103,7 +110,8 @@ fn from_displaced(name: &str, points: &Cloud, by: f64, seed: u64) -> SplayStats 
     check(name, &vertices, near, &answer)
 }
 
-/// All points that are not on the hull are inserted by splitting, `batch` at a time; then flips go as far as they can.
+/// Inserts all points that are not on the hull by splitting, `batch` at a time, each followed by
+/// flips as far as they can go; then splays.
 fn from_split_and_flip(name: &str, points: &Cloud, batch: usize, seed: u64) -> SplayStats {
     let indices = shuffled(points.len(), seed);
     let mesh = cpu::delaunay3d(points.into(), &Options::default()).unwrap();
@@ -122,7 +130,7 @@ fn from_split_and_flip(name: &str, points: &Cloud, batch: usize, seed: u64) -> S
     let mut soup = Soup::new(&vertices, &first);
     let inside: Vec<u32> = (0..points.len() as u32).filter(|i| on_hull.binary_search(i).is_err()).collect();
     for batch in inside.chunks(batch) {
-        // A point on a facet stays out.
+        // A point on a facet is left out.
         batch.iter().for_each(|&i| {
             soup.split(vertex[i as usize]);
         });
@@ -227,14 +235,15 @@ fn small_inputs_of_all_kinds() {
     }
 }
 
-/// A triangulation that takes work.
+/// Returns a triangulation whose splaying takes work.
 fn spoilt(points: &Cloud) -> NearDelaunay {
     let mut rng = inputs::random(20);
     let displaced: Cloud = points.iter().map(|p| p.map(|x| x + 0.1 * (rng.random::<f64>() - 0.5))).collect();
     near(points.len() as u32, &exact(&displaced, &shuffled(points.len(), 21)))
 }
 
-/// The stars of thousands of failed vertices, each built in one of several threads: nothing depends on which.
+/// The stars of thousands of failed vertices are each built in one of several threads: the result
+/// does not depend on which.
 #[test]
 fn threads_share_the_stars() {
     let points = inputs::sphere(3000, 22);
@@ -246,10 +255,10 @@ fn threads_share_the_stars() {
     let results = [Threads::One, Threads::All].map(|threads| {
         let vertices = PredicateContext::of_input((&points).into(), &lattice);
         match splay(&vertices, near.clone(), u64::MAX, threads, &|_| Ok(())).unwrap() {
-            Outcome::Delaunay(mesh, stats) => {
+            SplayOutcome::Delaunay(mesh, stats) => {
                 (canonical(mesh.into_mesh(None, threads).tetrahedra), stats, vertices.exact_counts())
             }
-            Outcome::Aborted(reason) => panic!("{reason:?}"),
+            SplayOutcome::Aborted(reason) => panic!("{reason:?}"),
         }
     });
     assert!(results[0].1.built > 100, "{:?}", results[0].1);
@@ -258,36 +267,36 @@ fn threads_share_the_stars() {
 }
 
 #[test]
-fn too_much_work_is_given_up() {
+fn too_much_work_aborts() {
     let points = inputs::uniform(200, 19);
     let lattice = Lattice::fit((&points).into());
     let vertices = PredicateContext::new((&points).into(), &lattice, shuffled(points.len(), 21));
     let enough = match splay(&vertices, spoilt(&points), u64::MAX, Threads::All, &|_| Ok(())).unwrap() {
-        Outcome::Delaunay(_, stats) => stats.signs,
-        Outcome::Aborted(reason) => panic!("{reason:?}"),
+        SplayOutcome::Delaunay(_, stats) => stats.signs,
+        SplayOutcome::Aborted(reason) => panic!("{reason:?}"),
     };
     for max_evaluations in [0, enough / 4, enough / 2, enough - enough / 8] {
         let outcome = splay(&vertices, spoilt(&points), max_evaluations, Threads::All, &|_| Ok(())).unwrap();
-        assert!(matches!(outcome, Outcome::Aborted(Aborted::Work)), "{max_evaluations} of {enough}");
+        assert!(matches!(outcome, SplayOutcome::Aborted(Aborted::BudgetExceeded)), "{max_evaluations} of {enough}");
     }
 }
 
 #[test]
-fn what_is_no_triangulation_is_given_up() {
+fn what_is_not_a_triangulation_aborts() {
     let points = inputs::uniform(200, 22);
     let lattice = Lattice::fit((&points).into());
     let vertices = PredicateContext::new((&points).into(), &lattice, shuffled(points.len(), 21));
     let near = spoilt(&points);
-    let no_tetrahedra = NearDelaunay { incident: vec![NONE; points.len() + 1], ..near.clone() };
+    let no_tetrahedra = NearDelaunay { incident: vec![NO_INDEX; points.len() + 1], ..near.clone() };
     let wrong_tetrahedra = NearDelaunay { incident: near.incident.iter().rev().copied().collect(), ..near };
     for near in [no_tetrahedra, wrong_tetrahedra] {
         let outcome = splay(&vertices, near, u64::MAX, Threads::All, &|_| Ok(())).unwrap();
-        assert!(matches!(outcome, Outcome::Aborted(Aborted::Inconsistent(_))), "{outcome:?}");
+        assert!(matches!(outcome, SplayOutcome::Aborted(Aborted::Inconsistent(_))), "{outcome:?}");
     }
 }
 
 #[test]
-fn a_caller_can_stop_it() {
+fn a_caller_can_cancel() {
     let points = inputs::uniform(200, 23);
     let lattice = Lattice::fit((&points).into());
     let vertices = PredicateContext::new((&points).into(), &lattice, shuffled(points.len(), 21));
@@ -299,7 +308,8 @@ fn a_caller_can_stop_it() {
 fn missing_points_are_inserted() {
     for (name, points) in clouds(1000, 24) {
         let mut indices = shuffled(points.len(), 25);
-        // The points of the first part are triangulated; the rest has the highest vertex numbers.
+        // The points of the first part are triangulated; the others have the highest vertex
+        // numbers.
         let part = points.len() * 9 / 10;
         indices[..part].sort_unstable();
         let some: Cloud = indices[..part].iter().map(|&i| points[i as usize]).collect();

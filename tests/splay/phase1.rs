@@ -1,28 +1,30 @@
-//! Both phases, without a GPU: the kernels' references make the triangulation that is splayed.
+//! Both phases, without a GPU: the reference implementations of the kernels make the triangulation
+//! that is splayed.
 
 use crate::{check, exact, flips::flat_or_inverted, inputs, inputs::Cloud};
 use gdel::{
-    d3::{
-        splay::{NONE, NearDelaunay},
-        triangulation::Triangulation,
-    },
-    input::lattice::{Lattice, Width},
-    predicates::filter::PredicateContext,
-    reference::d3::{
-        State,
-        predicates::Vertex,
-        run::{Settings, run},
+    internals::{
+        d3::{splay::NearDelaunay, triangulation::Triangulation},
+        index::NO_INDEX,
+        input::lattice::{Lattice, Width},
+        predicates::filter::PredicateContext,
+        reference::d3::{
+            State,
+            predicates::Vertex,
+            run::{Settings, run},
+        },
     },
     stats::SplayStats,
 };
 
-/// The triangulation without the gaps between tetrahedra, and what has failed; flat tetrahedra are uncertain.
+/// Returns the triangulation without the gaps between tetrahedra, and what has failed; flat
+/// tetrahedra are uncertain.
 fn near(state: &State, vertices: &PredicateContext<'_>) -> NearDelaunay {
     let used: Vec<usize> = (0..state.tets.len()).filter(|&t| state.is_used(t)).collect();
-    let mut number = vec![NONE; state.tets.len()];
+    let mut number = vec![NO_INDEX; state.tets.len()];
     used.iter().zip(0..).for_each(|(&t, n)| number[t] = n);
     let infinite = vertices.len() as u32;
-    // Where the vertices go when infinity goes last: two exchanges keep the orientation.
+    // The order of the vertices that puts infinity last: two exchanges keep the orientation.
     let order = |t: usize| match state.tets[t].iter().position(|&v| v == infinite) {
         Some(0) => [3, 2, 1, 0],
         Some(1) => [2, 3, 0, 1],
@@ -36,7 +38,7 @@ fn near(state: &State, vertices: &PredicateContext<'_>) -> NearDelaunay {
         4 * number[u] + order(u)[face] as u32
     };
     let neighbors = used.iter().map(|&t| order(t).map(|k| renumbered(state.neighbors[t][k]))).collect();
-    let mut incident = vec![NONE; vertices.len() + 1];
+    let mut incident = vec![NO_INDEX; vertices.len() + 1];
     // A ghost where there is one.
     for ghosts in [false, true] {
         let some = (0..).zip(&tetrahedra).filter(|(_, t)| (t[3] == infinite) == ghosts);

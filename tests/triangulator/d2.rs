@@ -1,14 +1,17 @@
 //! In the plane, the engine `gpu` gives the same set of triangles as the engine `cpu`.
 
 use gdel::{
-    Mesh2, Options, Points2,
-    d2::{
-        cpu::delaunay2d_in_order,
-        generate::{Distribution2, generate2d},
+    Backend, Mesh2, Points2,
+    internals::{
+        Options,
+        d2::{
+            cpu::delaunay2d_in_order,
+            generate::{Distribution2, generate2d},
+        },
+        gpu::{AdapterChoice, Gpu, engine::GpuEngine, layout::Pick, phase1::Settings},
+        input::order::Order,
     },
-    gpu::{AdapterChoice, Gpu, engine::GpuEngine, layout::Pick, phase1::Settings},
-    input::order::Order,
-    stats::Fallback,
+    stats::{Fallback, Phase},
 };
 use pollster::block_on;
 use proptest::prelude::*;
@@ -48,7 +51,7 @@ fn agree(name: &str, points: Points2<'_>) {
     println!("{name}");
     let mesh = triangulate(points, &Settings::default());
     assert_eq!(mesh.stats.fallback, None, "{name}");
-    assert_eq!(mesh.stats.engine, "gpu");
+    assert_eq!(mesh.stats.backend, Backend::Gpu);
     same(points, &mesh);
 }
 
@@ -164,7 +167,7 @@ fn few_signs_are_open_where_few_points_are_rounded() {
         let mesh = triangulate((&points).into(), &Settings::default());
         same((&points).into(), &mesh);
         assert_eq!(mesh.stats.fallback, None, "{name}");
-        assert!(mesh.stats.phases.iter().all(|&(phase, _)| phase != "flip"), "{name}: {:?}", mesh.stats.phases);
+        assert!(mesh.stats.phases.iter().all(|&(phase, _)| phase != Phase::Flip), "{name}: {:?}", mesh.stats.phases);
         let exact = mesh.stats.exact.expansion;
         println!("{name}: {exact} signs by expansions");
         assert!(exact < points.len() as u64 / 20, "{name}: {exact} signs by expansions");
@@ -183,7 +186,7 @@ fn what_rounding_made_wrong_is_mended() {
         points.extend((0..count).map(|_| -> [f64; 2] { [0; 2].map(|_| rng.random::<f64>() * 2f64.powi(-size)) }));
         let mesh = triangulate((&points).into(), &Settings::default());
         same((&points).into(), &mesh);
-        let flips = mesh.stats.phases.iter().any(|&(phase, _)| phase == "flip");
+        let flips = mesh.stats.phases.iter().any(|&(phase, _)| phase == Phase::Flip);
         println!("{count} points of size 2^-{size}: flips {flips}, fallback {:?}", mesh.stats.fallback);
         assert!(flips || mesh.stats.fallback.is_some() || size < 60);
     }

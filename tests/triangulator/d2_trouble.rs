@@ -4,9 +4,9 @@
 
 use crate::d2::ENGINE;
 use gdel::{
-    Mesh2, Options,
-    d2::{cpu::delaunay2d_in_order, verify::verify2d},
-    input::order::Order,
+    Mesh2,
+    internals::{Options, d2::cpu::delaunay2d_in_order, input::order::Order},
+    verify::verify2d,
 };
 use pollster::block_on;
 use rand::{RngExt, SeedableRng};
@@ -166,7 +166,7 @@ fn points_one_rounding_step_from_others() {
     }
     let mesh = agreed_by_the_gpu(&points);
     let used: std::collections::HashSet<u32> = mesh.triangles.iter().flatten().copied().collect();
-    assert_eq!(used.len(), points.len() - mesh.duplicates());
+    assert_eq!(used.len(), points.len() - mesh.duplicate_count());
 }
 
 /// The test `robustness`: outlines with nearly equal points, at sizes for which absolute tolerances fail.

@@ -2,7 +2,7 @@
 
 use crate::{agree, clouds, same, triangulate};
 use gdel::{
-    d3::generate::{Distribution, generate},
+    internals::d3::generate::{Distribution, generate},
     stats::Fallback,
 };
 use proptest::prelude::*;
@@ -80,7 +80,7 @@ fn what_makes_other_codes_fail() {
 #[test]
 fn the_bunny() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/bunny.ply");
-    let cloud = gdel::io::files::read_points(std::path::Path::new(path)).expect("the bunny");
+    let cloud = gdel::internals::io::files::read_points(std::path::Path::new(path)).expect("the bunny");
     agree(&cloud);
 }
 
@@ -146,7 +146,8 @@ fn five_hundred_thousand_points_on_a_sphere() {
 #[ignore = "needs scripts/fetch-dragon.sh, and minutes on a software adapter"]
 fn the_dragon() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/.cache/dragon.ply");
-    let cloud = gdel::io::files::read_points(std::path::Path::new(path)).expect("run scripts/fetch-dragon.sh");
+    let cloud =
+        gdel::internals::io::files::read_points(std::path::Path::new(path)).expect("run scripts/fetch-dragon.sh");
     agree(&cloud);
 }
 

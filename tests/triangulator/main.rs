@@ -10,9 +10,13 @@ mod outcomes;
 mod statistics;
 
 use gdel::{
-    Mesh3, Options, Points,
-    d3::{cpu, verify::verify3d},
-    gpu::{AdapterChoice, Gpu, engine::GpuEngine},
+    Backend, Mesh3, Points,
+    internals::{
+        Options,
+        d3::cpu,
+        gpu::{AdapterChoice, Gpu, engine::GpuEngine},
+    },
+    verify::verify3d,
 };
 use pollster::block_on;
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
@@ -38,7 +42,7 @@ fn agree<'a>(points: impl Into<Points<'a>>) {
     let points = points.into();
     let mesh = triangulate(points);
     assert_eq!(mesh.stats.fallback, None);
-    assert_eq!(mesh.stats.engine, "gpu");
+    assert_eq!(mesh.stats.backend, Backend::Gpu);
     same(points, &mesh);
 }
 

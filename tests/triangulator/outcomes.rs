@@ -2,12 +2,15 @@
 
 use crate::{clouds, engine, open, same, triangulate};
 use gdel::{
-    Backend, Error, Mesh3, Options, Progress, Triangulator,
-    d2::generate::{Distribution2, generate2d},
-    d3::generate::{Distribution, generate},
-    gpu::{AdapterChoice, Gpu, engine::GpuEngine, phase1::Settings},
-    stats::Fallback,
-    triangulator::{MIN_POINTS, MIN_POINTS_2},
+    Backend, Error, Mesh3, Progress, Triangulator,
+    internals::{
+        Options,
+        d2::generate::{Distribution2, generate2d},
+        d3::generate::{Distribution, generate},
+        gpu::{AdapterChoice, Gpu, engine::GpuEngine, phase1::Settings},
+        triangulator::{MIN_POINTS, MIN_POINTS_2},
+    },
+    stats::{Fallback, Phase},
 };
 use pollster::block_on;
 use std::{
@@ -45,11 +48,11 @@ fn assert_monotone(reports: &[Progress]) {
 fn progress_goes_through_all_phases_and_never_back() {
     let points = points();
     let (mesh, reports) = reports(|options| block_on(engine().triangulate((&points).into(), options)));
-    let mut phases: Vec<&str> = reports.iter().map(|progress| progress.phase).collect();
-    let rounds = phases.iter().filter(|phase| **phase == "phase 1").count();
+    let mut phases: Vec<Phase> = reports.iter().map(|progress| progress.phase).collect();
+    let rounds = phases.iter().filter(|&&phase| phase == Phase::Phase1).count();
     assert!(rounds >= mesh.stats.gpu.expect("used").rounds.len());
     phases.dedup();
-    assert_eq!(phases, ["lattice", "phase 1", "splay", "finish"]);
+    assert_eq!(phases, [Phase::Lattice, Phase::Phase1, Phase::Splay, Phase::Finish]);
     assert_monotone(&reports);
 }
 
@@ -58,14 +61,21 @@ fn progress_goes_on_where_the_cpu_engine_takes_over() {
     let flat: Vec<_> = points().iter().map(|&[x, y, _]| [x, y, 1.0]).collect();
     let (mesh, reports) = reports(|options| block_on(engine().triangulate((&flat).into(), options)));
     assert_eq!(mesh.stats.fallback, Some(Fallback::Coplanar));
-    assert!(reports.iter().any(|progress| progress.phase == "sort"));
+    assert!(reports.iter().any(|progress| progress.phase == Phase::Sort));
     assert_monotone(&reports);
 }
 
 #[test]
 fn a_run_can_be_cancelled_in_every_phase() {
     let points = points();
-    for (phase, nth) in [("lattice", 1), ("phase 1", 1), ("phase 1", 5), ("splay", 1), ("splay", 2), ("finish", 1)] {
+    for (phase, nth) in [
+        (Phase::Lattice, 1),
+        (Phase::Phase1, 1),
+        (Phase::Phase1, 5),
+        (Phase::Splay, 1),
+        (Phase::Splay, 2),
+        (Phase::Finish, 1),
+    ] {
         let seen = Mutex::new(0);
         let options = watched(move |progress| {
             let mut seen = seen.lock().expect("no panic");
@@ -83,12 +93,12 @@ fn lose_the_device(
     engines: &Triangulator,
     engine: Backend,
     points: &[[f64; 3]],
-    phase: &'static str,
+    phase: Phase,
     round: usize,
 ) -> Result<Mesh3, Error> {
     let device = block_on(engines.gpu()).expect("opens").device().clone();
     let seen = Mutex::new(0);
-    let on_progress = watched(move |progress| {
+    let triangulator = engines.clone().backend(engine).on_progress(move |progress| {
         let mut seen = seen.lock().expect("no panic");
         *seen += usize::from(progress.phase == phase);
         if progress.phase == phase && *seen == round {
@@ -96,28 +106,28 @@ fn lose_the_device(
         }
         ControlFlow::Continue(())
     });
-    block_on(engines.delaunay3d(points.into(), &Options { backend: engine, ..on_progress }))
+    triangulator.delaunay3d(points)
 }
 
 #[test]
 fn a_device_lost_in_the_middle_is_an_error_and_the_next_run_opens_another() {
-    let engines = Triangulator::new(AdapterChoice::Default);
+    let engines = Triangulator::new();
     let points = points();
-    let all = &Options { backend: Backend::Gpu, ..Options::default() };
-    for (phase, round) in [("lattice", 1), ("phase 1", 1), ("phase 1", 4)] {
+    let all = engines.clone().backend(Backend::Gpu);
+    for (phase, round) in [(Phase::Lattice, 1), (Phase::Phase1, 1), (Phase::Phase1, 4)] {
         let result = lose_the_device(&engines, Backend::Gpu, &points, phase, round);
         assert!(matches!(result, Err(Error::DeviceLost { .. })), "{phase} {round}: {result:?}");
-        let mesh = block_on(engines.delaunay3d((&points).into(), all)).expect("a new device");
-        assert_eq!(mesh.stats.engine, "gpu");
+        let mesh = all.delaunay3d(&points).expect("a new device");
+        assert_eq!(mesh.stats.backend, Backend::Gpu);
         same(&points, &mesh);
     }
 }
 
 #[test]
 fn auto_goes_on_without_the_device_that_it_lost() {
-    let engines = Triangulator::with_gpu_engine(open());
+    let engines = Triangulator::from_gpu(device());
     let points = generate(Distribution::Uniform, MIN_POINTS, 3);
-    let result = lose_the_device(&engines, Backend::Auto, &points, "phase 1", 2).expect("the CPU engine goes on");
+    let result = lose_the_device(&engines, Backend::Auto, &points, Phase::Phase1, 2).expect("the CPU engine goes on");
     assert!(
         matches!(result.stats.fallback, Some(Fallback::GpuFailed(Error::DeviceLost { .. }))),
         "{:?}",
@@ -128,63 +138,62 @@ fn auto_goes_on_without_the_device_that_it_lost() {
 
 #[test]
 fn auto_takes_the_gpu_where_it_pays() {
-    let engines = Triangulator::with_gpu_engine(open());
+    let engines = Triangulator::from_gpu(device());
     let points = generate(Distribution::Uniform, MIN_POINTS, 4);
-    let mesh = block_on(engines.delaunay3d((&points).into(), &Options::default())).expect("triangulates");
-    assert_eq!((mesh.stats.engine, mesh.stats.fallback), ("gpu", None));
+    let mesh = engines.delaunay3d(&points).expect("triangulates");
+    assert_eq!((mesh.stats.backend, mesh.stats.fallback), (Backend::Gpu, None));
     let few = &points[..MIN_POINTS - 1];
-    let mesh = block_on(engines.delaunay3d(few.into(), &Options::default())).expect("triangulates");
+    let mesh = engines.delaunay3d(few).expect("triangulates");
     let why = Fallback::FewPoints { points: few.len(), least: MIN_POINTS };
-    assert_eq!((mesh.stats.engine, mesh.stats.fallback), ("cpu", Some(why)));
+    assert_eq!((mesh.stats.backend, mesh.stats.fallback), (Backend::Cpu, Some(why)));
 }
 
 #[test]
 fn auto_takes_the_gpu_in_the_plane_where_it_pays() {
-    let engines = Triangulator::with_gpu_engine(open());
+    let engines = Triangulator::from_gpu(device());
     let points = generate2d(Distribution2::Uniform, MIN_POINTS_2, 4);
     let auto = |points: &[[f64; 2]]| {
-        let mesh = block_on(engines.delaunay2d(points.into(), &Options::default())).expect("triangulates");
-        let cpu = Options { backend: Backend::Cpu, ..Options::default() };
-        let expected = block_on(engines.delaunay2d(points.into(), &cpu)).expect("triangulates");
+        let mesh = engines.delaunay2d(points).expect("triangulates");
+        let expected = engines.clone().backend(Backend::Cpu).delaunay2d(points).expect("triangulates");
         assert_eq!(expected.stats.fallback, None);
         assert_eq!((mesh.canonical(), &mesh.hull), (expected.canonical(), &expected.hull));
-        (mesh.stats.engine, mesh.stats.fallback)
+        (mesh.stats.backend, mesh.stats.fallback)
     };
-    assert_eq!(auto(&points), ("gpu", None));
+    assert_eq!(auto(&points), (Backend::Gpu, None));
     let few = &points[..MIN_POINTS_2 - 1];
-    assert_eq!(auto(few), ("cpu", Some(Fallback::FewPoints { points: few.len(), least: MIN_POINTS_2 })));
+    assert_eq!(auto(few), (Backend::Cpu, Some(Fallback::FewPoints { points: few.len(), least: MIN_POINTS_2 })));
     // The engine of space, on the same device, is still there.
     let points = generate(Distribution::Uniform, MIN_POINTS, 4);
-    let mesh = block_on(engines.delaunay3d((&points).into(), &Options::default())).expect("triangulates");
-    assert_eq!((mesh.stats.engine, mesh.stats.fallback), ("gpu", None));
+    let mesh = engines.delaunay3d(&points).expect("triangulates");
+    assert_eq!((mesh.stats.backend, mesh.stats.fallback), (Backend::Gpu, None));
 }
 
 #[test]
 fn auto_goes_on_in_the_plane_without_the_device_that_it_lost() {
-    let engines = Triangulator::with_gpu_engine(open());
+    let engines = Triangulator::from_gpu(device());
     let device = block_on(engines.gpu()).expect("opens").device().clone();
     let points = generate2d(Distribution2::Uniform, MIN_POINTS_2, 5);
     let rounds = Mutex::new(0);
-    let options = watched(move |progress| {
+    let watched = engines.clone().on_progress(move |progress| {
         let mut rounds = rounds.lock().expect("no panic");
-        *rounds += usize::from(progress.phase == "phase 1");
+        *rounds += usize::from(progress.phase == Phase::Phase1);
         if *rounds == 2 {
             device.destroy();
         }
         ControlFlow::Continue(())
     });
-    let mesh = block_on(engines.delaunay2d((&points).into(), &options)).expect("the CPU engine goes on");
+    let mesh = watched.delaunay2d(&points).expect("the CPU engine goes on");
     let why = mesh.stats.fallback;
     assert!(matches!(why, Some(Fallback::GpuFailed(Error::DeviceLost { .. }))), "{why:?}");
     // What replaces it was not asked for by name: it has to be hardware, and to pay.
-    let mesh = block_on(engines.delaunay2d((&points).into(), &Options::default())).expect("triangulates");
+    let mesh = engines.delaunay2d(&points).expect("triangulates");
     assert!(matches!(mesh.stats.fallback, Some(Fallback::FewPoints { .. })), "{:?}", mesh.stats.fallback);
 }
 
 /// On machines with a graphics card there is nothing to see here.
 #[test]
 fn auto_does_not_take_a_software_adapter() {
-    let engines = Triangulator::default();
+    let engines = Triangulator::new();
     let points = clouds::grid(20);
     // Grids of 8,000 points: too few at first, and never enough for software.
     let many: Vec<_> =
@@ -192,7 +201,7 @@ fn auto_does_not_take_a_software_adapter() {
     assert!(many.len() >= MIN_POINTS);
     let mut why = Vec::new();
     for _ in 0..5 {
-        let mesh = block_on(engines.delaunay3d((&many).into(), &Options::default())).expect("triangulates");
+        let mesh = engines.delaunay3d(&many).expect("triangulates");
         why.push(mesh.stats.fallback);
     }
     assert!(matches!(why[0], Some(Fallback::FewPoints { .. })), "opening does not pay yet: {why:?}");
@@ -204,18 +213,22 @@ fn auto_does_not_take_a_software_adapter() {
 
 #[test]
 fn a_gpu_that_is_not_there() {
-    let engines = Triangulator::new(AdapterChoice::Name("no such adapter".to_owned()));
+    let engines = Triangulator::new().adapter(AdapterChoice::Name("no such adapter".to_owned()));
     let points = points();
-    let gpu = Options { backend: Backend::Gpu, ..Options::default() };
-    let error = block_on(engines.delaunay3d((&points).into(), &gpu)).expect_err("there is none");
+    let error = engines.clone().backend(Backend::Gpu).delaunay3d(&points).expect_err("there is none");
     assert!(matches!(error, Error::AdapterNotFound { .. }), "{error:?}");
     let many = generate(Distribution::Uniform, 110_000, 3);
-    let mesh = block_on(engines.delaunay3d((&many).into(), &Options::default())).expect("triangulates");
+    let mesh = engines.delaunay3d(&many).expect("triangulates");
     assert!(matches!(mesh.stats.fallback, Some(Fallback::NoGpu(_))), "{:?}", mesh.stats.fallback);
 }
 
-/// A GPU engine on the tests' adapter whose buffers can have at most so many bytes.
-fn with_small_buffers(bytes: u64) -> GpuEngine<3> {
+/// The tests' device.
+fn device() -> Gpu {
+    block_on(Gpu::open(&AdapterChoice::Default)).expect("a device")
+}
+
+/// A device of the tests' adapter whose buffers can have at most so many bytes.
+fn device_with_small_buffers(bytes: u64) -> Gpu {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).expect("an adapter");
     let descriptor = wgpu::DeviceDescriptor {
@@ -227,7 +240,12 @@ fn with_small_buffers(bytes: u64) -> GpuEngine<3> {
         ..Default::default()
     };
     let (device, queue) = block_on(adapter.request_device(&descriptor)).expect("a device");
-    block_on(GpuEngine::new(Gpu::from_device(device, queue))).expect("the kernels compile")
+    Gpu::from_device(device, queue)
+}
+
+/// A GPU engine on such a device.
+fn with_small_buffers(bytes: u64) -> GpuEngine<3> {
+    block_on(GpuEngine::new(device_with_small_buffers(bytes))).expect("the kernels compile")
 }
 
 #[test]
@@ -242,7 +260,7 @@ fn an_input_that_is_too_large_is_an_error_that_says_what_would_fit() {
     // That many do fit, and the engine can still be used.
     let fewer = &points[..fitting];
     let mesh = block_on(engine.triangulate(fewer.into(), &Options::default())).expect("fits");
-    assert_eq!((mesh.stats.engine, &mesh.stats.fallback), ("gpu", &None));
+    assert_eq!((mesh.stats.backend, &mesh.stats.fallback), (Backend::Gpu, &None));
     same(fewer, &mesh);
     let one_more = block_on(engine.triangulate(points[..fitting + 1].into(), &Options::default()));
     assert!(matches!(one_more, Err(Error::BufferTooLarge { .. })));
@@ -267,15 +285,15 @@ fn a_run_of_too_many_flip_iterations_is_left_to_the_cpu() {
     engine.set_settings(Settings { max_iterations: 8, ..Settings::default() });
     let points = generate(Distribution::Uniform, 3_000, 1);
     let mesh = block_on(engine.triangulate((&points).into(), &Options::default())).expect("the CPU engine goes on");
-    assert_eq!((mesh.stats.engine, &mesh.stats.fallback), ("cpu", &Some(Fallback::Flips)));
+    assert_eq!((mesh.stats.backend, &mesh.stats.fallback), (Backend::Cpu, &Some(Fallback::Flips)));
     same(&points, &mesh);
 }
 
 #[test]
 fn auto_goes_on_without_a_gpu_that_is_too_small() {
-    let engines = Triangulator::with_gpu_engine(with_small_buffers(1 << 20));
+    let engines = Triangulator::from_gpu(device_with_small_buffers(1 << 20));
     let points = generate(Distribution::Uniform, MIN_POINTS, 3);
-    let mesh = block_on(engines.delaunay3d((&points).into(), &Options::default())).expect("the CPU engine goes on");
+    let mesh = engines.delaunay3d(&points).expect("the CPU engine goes on");
     assert!(matches!(mesh.stats.fallback, Some(Fallback::GpuFailed(Error::BufferTooLarge { .. }))));
     same(&points, &mesh);
 }
@@ -283,17 +301,16 @@ fn auto_goes_on_without_a_gpu_that_is_too_small() {
 /// The plane's engine shares the device with that for space: neither is left with one that is gone.
 #[test]
 fn a_device_that_was_given_back_is_opened_anew_for_both_engines() {
-    let engines = Triangulator::new(AdapterChoice::Default);
-    let gpu = &Options { backend: Backend::Gpu, ..Options::default() };
+    let engines = Triangulator::new().backend(Backend::Gpu);
     let cube = clouds::grid(3);
     let square: Vec<[f64; 2]> = (0..9).map(|i| [i % 3, i / 3].map(f64::from)).collect();
     for _ in 0..2 {
-        let mesh = block_on(engines.delaunay3d((&cube).into(), gpu)).expect("opens a device");
-        assert_eq!(mesh.stats.engine, "gpu");
-        let plane = block_on(engines.delaunay2d((&square).into(), gpu)).expect("has the device of the other");
-        assert_eq!(plane.stats.engine, "gpu");
+        let mesh = engines.delaunay3d(&cube).expect("opens a device");
+        assert_eq!(mesh.stats.backend, Backend::Gpu);
+        let plane = engines.delaunay2d(&square).expect("has the device of the other");
+        assert_eq!(plane.stats.backend, Backend::Gpu);
         block_on(engines.close());
-        let plane = block_on(engines.delaunay2d((&square).into(), gpu)).expect("opens a device");
+        let plane = engines.delaunay2d(&square).expect("opens a device");
         assert_eq!(plane.triangles.len(), 8);
         // Only the plane's engine is open now.
         block_on(engines.close());

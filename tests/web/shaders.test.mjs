@@ -1,7 +1,7 @@
 // Chromium's compiler takes every kernel. It is stricter than the one of wgpu about where barriers may stand.
 
 import assert from 'node:assert/strict';
-import { readFileSync, readdirSync } from 'node:fs';
+import { readdirSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { create, globals } from 'webgpu';
 import { root } from './package.mjs';
@@ -26,7 +26,12 @@ test('every kernel is valid', async () => {
       for (const width of ['narrow', 'wide']) {
         const module = device.createShaderModule({ code: assemble(file, { width, dim }) });
         const { messages } = await module.getCompilationInfo();
-        assert.deepEqual(messages.map(({ lineNum, message }) => `${file}, ${dim}, ${width}, ${lineNum}: ${message}`), []);
+        assert.deepEqual(
+          messages.map(
+            ({ lineNum, message }) => `${file}, ${dim}, ${width}, ${lineNum}: ${message}`,
+          ),
+          [],
+        );
       }
     }
   }

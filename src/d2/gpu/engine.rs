@@ -12,7 +12,7 @@ use crate::{
             certify::{failed_tests, near_delaunay},
             finish::{Mesh, NearMesh},
         },
-        lawson::{self, Aborted, Outcome},
+        lawson::{self, Aborted, LawsonOutcome},
     },
     gpu::{
         Gpu,
@@ -21,7 +21,7 @@ use crate::{
         phase1::Run,
     },
     predicates::filter::PredicateContext2,
-    stats::{Fallback, Stats},
+    stats::{Fallback, Phase, Stats},
 };
 
 impl Complete<2> for Dimension<2> {
@@ -41,30 +41,32 @@ impl Complete<2> for Dimension<2> {
     fn complete(near: Near<'_, 2>, _tracer: ()) -> Result<Result<Mesh2, Fallback>, Error> {
         let Near { points, lattice, result, missing, duplicate_of, options, stats, stopwatch } = near;
         let NearMesh { mesh: Mesh { mut triangles, mut halfedges, hull }, uncertain } = result;
-        options.report("finish", progress::COMPLETION)?;
+        options.report(Phase::Finish, progress::COMPLETION)?;
         let mut failed = uncertain;
         if let Some(tests) = failed.as_mut().filter(|tests| !tests.is_empty()) {
             (*tests, stats.exact) = failed_tests(points, lattice, tests);
-            stats.phases.push(("check", stopwatch.lap()));
+            stats.phases.push((Phase::Check, stopwatch.lap()));
         }
         let mut hull = in_order(&hull, points.len());
         if !missing.is_empty() || !failed.as_ref().is_some_and(Vec::is_empty) {
             let share = progress::FINISH - progress::COMPLETION;
-            let report = |done: f64| options.report("flip", progress::COMPLETION + share * done);
+            let report = |done: f64| options.report(Phase::Flip, progress::COMPLETION + share * done);
             let vertices = PredicateContext2::of_input(points, lattice);
-            let triangulation = Triangulation2::from_mesh(triangles, halfedges, &hull, points.len() as u32);
+            let triangulation =
+                Triangulation2::from_mesh(triangles, halfedges, &hull, points.len() as u32, options.winding);
             let near = near_delaunay(triangulation, failed.as_deref(), &missing);
             let max_flips = FLIPS_PER_POINT * points.len() as u64;
             let triangulation = match lawson::lawson(&vertices, near, max_flips, &report)? {
-                Outcome::Delaunay(triangulation, _) => triangulation,
-                Outcome::Aborted(Aborted::Work) => return Ok(Err(Fallback::Flips)),
-                Outcome::Aborted(Aborted::Folded) => return Ok(Err(Fallback::Folded)),
+                LawsonOutcome::Delaunay(triangulation, _) => triangulation,
+                LawsonOutcome::Aborted(Aborted::BudgetExceeded) => return Ok(Err(Fallback::Flips)),
+                LawsonOutcome::Aborted(Aborted::Folded) => return Ok(Err(Fallback::Folded)),
             };
             stats.exact = stats.exact + vertices.exact_counts();
-            (triangles, halfedges, hull) = triangulation.into_mesh(&(0..points.len() as u32).collect::<Vec<_>>());
-            stats.phases.push(("flip", stopwatch.lap()));
+            (triangles, halfedges, hull) =
+                triangulation.into_mesh(&(0..points.len() as u32).collect::<Vec<_>>(), options.winding);
+            stats.phases.push((Phase::Flip, stopwatch.lap()));
         }
-        stats.phases.push(("finish", stopwatch.lap()));
+        stats.phases.push((Phase::Finish, stopwatch.lap()));
         Ok(Ok(Mesh2 { triangles, halfedges, hull, duplicate_of, dimension: 2, stats: Stats::default() }))
     }
 

@@ -34,7 +34,7 @@ pub struct Bound {
 /// Triangles in input indices and as [`Mesh2`](crate::d2::Mesh2) has them, but for the hull.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Mesh {
-    /// Three vertices per triangle, clockwise with the *y* axis up, none flat.
+    /// Three vertices per triangle in the order of [`Settings::winding`](crate::gpu::phase1::Settings::winding), none flat.
     pub triangles: Vec<[u32; 3]>,
     /// Entry *k* is the half-edge that runs against the one from vertex *k* to the next, 3·(triangle) + (vertex); -1 on the
     /// hull.

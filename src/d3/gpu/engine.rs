@@ -7,7 +7,7 @@ use crate::{
     d3::{
         cpu,
         gpu::{finish::NearMesh, trace::Tracer},
-        splay::{self, Aborted, NearDelaunay, Outcome},
+        splay::{self, Aborted, NearDelaunay, SplayOutcome},
         triangulation::{FiniteMesh, Triangulation},
     },
     gpu::{
@@ -18,7 +18,7 @@ use crate::{
     },
     parallel::Threads,
     predicates::filter::PredicateContext,
-    stats::{Fallback, Stats},
+    stats::{Fallback, Phase, Stats},
 };
 
 impl Complete<3> for Dimension<3> {
@@ -41,7 +41,7 @@ impl Complete<3> for Dimension<3> {
 
     fn complete(near: Near<'_, 3>, mut tracer: Option<Tracer>) -> Result<Result<Mesh3, Fallback>, Error> {
         let Near { points, lattice, result, missing, duplicate_of, options, stats, stopwatch } = near;
-        options.report("splay", progress::COMPLETION)?;
+        options.report(Phase::Splay, progress::COMPLETION)?;
         let vertices = PredicateContext::of_input(points, lattice);
         let near = near_delaunay(points.len(), result, &missing);
         if let Some(tracer) = &mut tracer {
@@ -49,21 +49,21 @@ impl Complete<3> for Dimension<3> {
         }
         let max_evaluations = near.evaluations_from_scratch();
         let share = progress::FINISH - progress::COMPLETION;
-        let report = |done: f64| options.report("splay", progress::COMPLETION + share * done);
+        let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
         let triangulation = match splay::splay(&vertices, near, max_evaluations, Threads::All, &report)? {
-            Outcome::Delaunay(triangulation, splay) => {
+            SplayOutcome::Delaunay(triangulation, splay) => {
                 stats.splay = Some(splay);
                 triangulation
             }
-            Outcome::Aborted(Aborted::Work) => return Ok(Err(Fallback::Work)),
-            Outcome::Aborted(Aborted::Inconsistent(what)) => return Ok(Err(Fallback::Inconsistent(what))),
+            SplayOutcome::Aborted(Aborted::BudgetExceeded) => return Ok(Err(Fallback::Splaying)),
+            SplayOutcome::Aborted(Aborted::Inconsistent(what)) => return Ok(Err(Fallback::Inconsistent(what))),
         };
-        stats.phases.push(("splay", stopwatch.lap()));
+        stats.phases.push((Phase::Splay, stopwatch.lap()));
 
-        options.report("finish", progress::FINISH)?;
+        options.report(Phase::Finish, progress::FINISH)?;
         stats.exact = vertices.exact_counts();
         let FiniteMesh { tetrahedra, neighbors, hull } = triangulation.into_mesh(None, Threads::All);
-        stats.phases.push(("finish", stopwatch.lap()));
+        stats.phases.push((Phase::Finish, stopwatch.lap()));
         stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
         Ok(Ok(Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats: Stats::default() }))
     }

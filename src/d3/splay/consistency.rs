@@ -1,17 +1,21 @@
-//! Splaying (Shewchuk 2005; §3.2.2): inserting points into stars until every tetrahedron of one is in those of its other
-//! vertices too. Then they are the stars of one triangulation, the Delaunay triangulation.
+//! Splaying (Shewchuk 2005; §3.2.2): points are inserted into stars until every tetrahedron of a
+//! star is also in the stars of its other vertices. Then the stars are those of one triangulation,
+//! the Delaunay triangulation.
 //!
-//! 1. The stars of the failed vertices are made convex. Other stars are convex in the triangulation already, and taken
-//!    from there when one is needed.
-//! 2. A tetrahedron is unsettled while it is in some stars, but not in all. A star that lacks it is given its vertices. If that
-//!    does not bring it about, then something on this star's link lies inside its circumsphere, and is inserted into the
-//!    stars that have it, which removes it.
+//! 1. The stars of the failed vertices are made convex. Other stars are already convex in the
+//!    triangulation, and are taken from there when they are needed.
+//! 2. A tetrahedron is unsettled while it is in some stars of its vertices, but not in all. Its
+//!    vertices are inserted into a star that lacks it. If the star still lacks it then, some vertex
+//!    on the star's link lies inside the circumsphere, and is inserted into the stars that have the
+//!    tetrahedron, which removes it.
 //!
-//! This is done for all unsettled tetrahedra in rounds, with each star by whichever thread is free. Tetrahedra that all stars
-//! agree about with the triangulation never enter the ledger. The star of infinity is never made: it would be the whole
-//! hull, and it agrees when those of the hull's vertices agree among themselves.
+//! Rounds do this for all unsettled tetrahedra, each star by whichever thread is free. Tetrahedra
+//! on which all stars agree with the triangulation never enter the ledger. The star of infinity is
+//! never built: it would be the whole hull, and it agrees if the stars of the hull's vertices agree
+//! among themselves.
 //!
-//! Every insertion makes a star wider for good, so it ends; how soon, nobody knows, hence a bound.
+//! Every insertion makes a star wider for good, so splaying ends. There is no useful bound on how
+//! soon, hence the budget.
 
 use crate::{
     Error,
@@ -20,25 +24,26 @@ use crate::{
 use crate::{
     d3::splay::{
         Aborted, Stop,
-        build::{How, Known},
+        build::{Known, Origin},
         ledger::{Entries, Entry, Key, Ledger},
         predicates::StarPredicates,
-        star::{Changes, LinkFinder, NONE, Star},
+        star::{Changes, LinkFinder, Star},
     },
+    index::NO_INDEX,
     stats::SplayStats,
 };
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Stars that a thread takes together.
-const STARS: usize = 4;
-/// Unsettled tetrahedra that a thread takes together.
-const TETRAHEDRA: usize = 64;
+/// The number of stars that a thread takes at a time.
+const STAR_GRAIN: usize = 4;
+/// The number of unsettled tetrahedra that a thread takes at a time.
+const TETRAHEDRON_GRAIN: usize = 64;
 
 /// The stars, on their way to consistency.
 pub(super) struct Splaying<'a> {
     known: Known<'a>,
     threads: Threads,
-    /// In a round, each is changed by one thread.
+    /// In a round, each star is changed by one thread only.
     stars: Vec<Mutex<Star>>,
     /// For each vertex, its place in `stars` plus 1, or 0.
     star_of: Vec<u32>,
@@ -46,19 +51,19 @@ pub(super) struct Splaying<'a> {
     stats: SplayStats,
 }
 
-/// What the star of a vertex is to do about an unsettled tetrahedron.
+/// What the star of a vertex has to do about an unsettled tetrahedron.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Request {
     vertex: u32,
-    /// The point whose insertion removes it, or [`NONE`] to insert its vertices.
+    /// The point whose insertion removes the tetrahedron, or [`NO_INDEX`] to insert its vertices.
     witness: u32,
     tetrahedron: Key,
 }
 
-/// What a thread made of the stars that it took together.
-struct Made {
-    /// Those that were not there before.
-    stars: Vec<(Star, How)>,
+/// What a thread did to the stars that it took.
+struct BatchResult {
+    /// The stars that are new.
+    stars: Vec<(Star, Origin)>,
     entries: Entries,
     insertions: usize,
 }
@@ -76,26 +81,30 @@ impl<'a> Splaying<'a> {
         }
     }
 
-    /// Makes the stars of the failed vertices convex, and all stars consistent, asking for at most `max_evaluations`. `report` learns
-    /// which share is done, and can stop it. Gives the slots of the tetrahedra to remove, those to add, and what it took.
+    /// Makes the stars of the failed vertices convex, and all stars consistent, with at most
+    /// `max_evaluations` predicate evaluations.
+    ///
+    /// Calls `report` with the share of the work that is done; an error from it ends the work.
+    /// Returns the slots of the tetrahedra to remove, the tetrahedra to add, and statistics.
     pub(super) fn run(
         mut self,
-        space: &StarPredicates<'_>,
+        predicates: &StarPredicates<'_>,
         failed: &[u32],
         max_evaluations: u64,
         report: &dyn Fn(f64) -> Result<(), Error>,
     ) -> Result<(Vec<u32>, Vec<Key>, SplayStats), Stop> {
-        let check_work = || if space.signs() > max_evaluations { Err(Aborted::Work) } else { Ok(()) };
+        let check_work =
+            || if predicates.evaluations() > max_evaluations { Err(Aborted::BudgetExceeded) } else { Ok(()) };
         report(0.0)?;
-        // How many stars there are between two reports: about as many milliseconds.
+        // The number of stars between two reports of progress, larger where threads share them.
         let batch_len = match self.threads {
             Threads::One => 1 << 9,
             Threads::All => 1 << 12,
         };
         let mut entries = Vec::new();
         for (i, batch) in failed.chunks(batch_len).enumerate() {
-            let made = self.convex(space, batch)?;
-            self.adopt(made, &mut entries);
+            let results = self.make_convex(predicates, batch)?;
+            self.adopt(results, &mut entries);
             check_work()?;
             report(0.5 * (i * batch_len + batch.len()) as f64 / failed.len() as f64)?;
         }
@@ -104,16 +113,17 @@ impl<'a> Splaying<'a> {
         while !unsettled.is_empty() {
             self.stats.rounds += 1;
             self.stats.checks += unsettled.len();
-            let requests = self.requests(space, &unsettled)?;
+            let requests = self.requests(predicates, &unsettled)?;
             let requests: Vec<&[Request]> = requests.chunk_by(|r, s| r.vertex == s.vertex).collect();
             let mut entries = Vec::new();
             for batch in requests.chunks(batch_len) {
                 report(share)?;
-                let made = self.wider(space, batch)?;
-                self.adopt(made, &mut entries);
+                let results = self.widen_stars(predicates, batch)?;
+                self.adopt(results, &mut entries);
                 check_work()?;
             }
-            // Rounds get smaller; how many there will be is not known.
+            // Rounds become smaller. Their number is not known, so each counts for a quarter of
+            // what is left.
             share += (1.0 - share) / 4.0;
             unsettled = self.ledger.enter(&entries)?;
         }
@@ -122,26 +132,26 @@ impl<'a> Splaying<'a> {
     }
 
     /// Makes the stars of these vertices, which have failed, convex.
-    fn convex(&self, space: &StarPredicates<'_>, vertices: &[u32]) -> Result<Vec<Made>, Aborted> {
-        let made = space.shared(self.threads, vertices.len(), STARS, |space, range| {
+    fn make_convex(&self, predicates: &StarPredicates<'_>, vertices: &[u32]) -> Result<Vec<BatchResult>, Aborted> {
+        let results = predicates.shared(self.threads, vertices.len(), STAR_GRAIN, |predicates, range| {
             let (mut links, mut entries) = (LinkFinder::default(), Vec::new());
-            let star = |&v: &u32| self.known.convex_star(space, &mut links, v, &mut entries);
+            let star = |&v: &u32| self.known.convex_star(predicates, &mut links, v, &mut entries);
             let stars = vertices[range].iter().map(star).collect::<Result<Vec<_>, _>>()?;
-            Ok(Made { stars, entries: self.ledger.sorted(entries), insertions: 0 })
+            Ok(BatchResult { stars, entries: self.ledger.sorted(entries), insertions: 0 })
         });
-        made.into_iter().collect()
+        results.into_iter().collect()
     }
 
     /// Adds the stars, counts what was done, and passes on the entries.
-    fn adopt(&mut self, made: Vec<Made>, entries: &mut Vec<Entries>) {
-        for Made { stars, entries: more, insertions } in made {
-            for (star, how) in stars {
-                match how {
-                    How::Pulled => self.stats.pulled += 1,
-                    How::Flipped(flips) => self.stats.flips += flips,
-                    How::FromPoints => self.stats.from_points += 1,
+    fn adopt(&mut self, results: Vec<BatchResult>, entries: &mut Vec<Entries>) {
+        for BatchResult { stars, entries: more, insertions } in results {
+            for (star, origin) in stars {
+                match origin {
+                    Origin::Pulled => self.stats.pulled += 1,
+                    Origin::Flipped(flips) => self.stats.flips += flips,
+                    Origin::FromPoints => self.stats.from_points += 1,
                 }
-                self.stats.built += usize::from(how != How::Pulled);
+                self.stats.built += usize::from(origin != Origin::Pulled);
                 self.star_of[star.vertex as usize] = self.stars.len() as u32 + 1;
                 self.stars.push(Mutex::new(star));
             }
@@ -150,17 +160,17 @@ impl<'a> Splaying<'a> {
         }
     }
 
-    /// The star of a vertex, if it is there.
+    /// Returns the star of a vertex, if it has been built.
     fn star(&self, v: u32) -> Option<MutexGuard<'_, Star>> {
         let place = (self.star_of[v as usize] as usize).checked_sub(1)?;
         Some(self.stars[place].lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// What stars are to do about unsettled tetrahedra, that of each star together.
-    fn requests(&self, space: &StarPredicates<'_>, unsettled: &[Key]) -> Result<Vec<Request>, Aborted> {
-        let requests = space.shared(self.threads, unsettled.len(), TETRAHEDRA, |space, range| {
+    /// Returns the requests for all unsettled tetrahedra, sorted by vertex.
+    fn requests(&self, predicates: &StarPredicates<'_>, unsettled: &[Key]) -> Result<Vec<Request>, Aborted> {
+        let requests = predicates.shared(self.threads, unsettled.len(), TETRAHEDRON_GRAIN, |predicates, range| {
             let mut requests = Vec::new();
-            unsettled[range].iter().try_for_each(|&key| self.add_requests(space, key, &mut requests))?;
+            unsettled[range].iter().try_for_each(|&key| self.add_requests(predicates, key, &mut requests))?;
             Ok(requests)
         });
         let mut requests = requests.into_iter().collect::<Result<Vec<_>, Aborted>>()?.concat();
@@ -168,7 +178,13 @@ impl<'a> Splaying<'a> {
         Ok(requests)
     }
 
-    fn add_requests(&self, space: &StarPredicates<'_>, key: Key, requests: &mut Vec<Request>) -> Result<(), Aborted> {
+    /// Adds the requests for one unsettled tetrahedron.
+    fn add_requests(
+        &self,
+        predicates: &StarPredicates<'_>,
+        key: Key,
+        requests: &mut Vec<Request>,
+    ) -> Result<(), Aborted> {
         const NO_REASON: Aborted = Aborted::Inconsistent("a star lacks a tetrahedron without reason");
         let held = self.ledger.held(key).ok_or(NO_REASON)?;
         let vertices = self.ledger.finite(&key);
@@ -176,11 +192,11 @@ impl<'a> Splaying<'a> {
         match vertices.iter().find(|&&v| held.never(key, v)) {
             None => {
                 let lacking = vertices.iter().filter(|&&v| !held.has(key, v));
-                requests.extend(lacking.map(|&v| request(v, NONE)));
+                requests.extend(lacking.map(|&v| request(v, NO_INDEX)));
             }
             Some(&v) => {
                 let star = self.star(v).ok_or(NO_REASON)?;
-                let witness = star.witness(space, key).ok_or(NO_REASON)?;
+                let witness = star.witness(predicates, key).ok_or(NO_REASON)?;
                 let having = vertices.iter().filter(|&&v| held.has(key, v));
                 requests.extend(having.map(|&v| request(v, witness)));
             }
@@ -188,34 +204,38 @@ impl<'a> Splaying<'a> {
         Ok(())
     }
 
-    /// Lets the stars do what these requests ask of them.
-    fn wider(&self, space: &StarPredicates<'_>, requests: &[&[Request]]) -> Result<Vec<Made>, Aborted> {
-        let made = space.shared(self.threads, requests.len(), STARS, |space, range| {
+    /// Lets the stars do what these requests ask of them, one list per star.
+    fn widen_stars(
+        &self,
+        predicates: &StarPredicates<'_>,
+        requests: &[&[Request]],
+    ) -> Result<Vec<BatchResult>, Aborted> {
+        let results = predicates.shared(self.threads, requests.len(), STAR_GRAIN, |predicates, range| {
             let (mut links, mut changes) = (LinkFinder::default(), Changes::default());
             let (mut stars, mut entries, mut insertions) = (Vec::new(), Vec::new(), 0);
             for requests in &requests[range] {
                 let v = requests[0].vertex;
                 let mut widen = |star: &mut Star, entries: &mut Vec<Entry>| {
-                    self.widen(space, star, requests, &mut changes, entries)
+                    self.widen(predicates, star, requests, &mut changes, entries)
                 };
                 match self.star(v) {
                     Some(mut star) => insertions += widen(&mut star, &mut entries)?,
                     None => {
-                        let (mut star, how) = self.known.convex_star(space, &mut links, v, &mut entries)?;
+                        let (mut star, origin) = self.known.convex_star(predicates, &mut links, v, &mut entries)?;
                         insertions += widen(&mut star, &mut entries)?;
-                        stars.push((star, how));
+                        stars.push((star, origin));
                     }
                 }
             }
-            Ok(Made { stars, entries: self.ledger.sorted(entries), insertions })
+            Ok(BatchResult { stars, entries: self.ledger.sorted(entries), insertions })
         });
-        made.into_iter().collect()
+        results.into_iter().collect()
     }
 
-    /// Does what the requests ask of a star; gives the number of points that were inserted.
+    /// Does what the requests ask of a star. Returns the number of points that were inserted.
     fn widen(
         &self,
-        space: &StarPredicates<'_>,
+        predicates: &StarPredicates<'_>,
         star: &mut Star,
         requests: &[Request],
         changes: &mut Changes,
@@ -224,7 +244,9 @@ impl<'a> Splaying<'a> {
         let mut points = Vec::new();
         for request in requests {
             match request.witness {
-                NONE => points.extend(self.ledger.finite(&request.tetrahedron).iter().filter(|&&p| p != star.vertex)),
+                NO_INDEX => {
+                    points.extend(self.ledger.finite(&request.tetrahedron).iter().filter(|&&p| p != star.vertex))
+                }
                 witness => points.push(witness),
             }
         }
@@ -233,12 +255,12 @@ impl<'a> Splaying<'a> {
         points.retain(|&p| !star.has(p));
         let mut insertions = 0;
         for &p in &points {
-            if star.insert(space, p, changes)? {
+            if star.insert(predicates, p, changes)? {
                 insertions += 1;
                 entries.extend(Entry::changes(star, &changes.removed, &changes.added));
             }
         }
-        let tried = requests.iter().filter(|request| request.witness == NONE);
+        let tried = requests.iter().filter(|request| request.witness == NO_INDEX);
         entries.extend(tried.map(|request| Entry::tried(request.tetrahedron, star.vertex)));
         Ok(insertions)
     }

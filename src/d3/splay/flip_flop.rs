@@ -1,31 +1,39 @@
-//! Flip-Flop (Gao, Cao, Tan, Huang 2013; §3.2.1): from a star as the triangulation has it to a convex one, by flips.
+//! Flip-Flop (Gao, Cao, Tan, Huang 2013; §3.2.1): flips make a star of the triangulation convex.
 //!
-//! 1. *Flip* an edge whose two tetrahedra are in conflict, if the result surrounds the star's vertex as before: the star,
-//!    lifted, gets wider.
-//! 2. If it would not, then one end of the edge is enclosed by the other three vertices, and is no vertex of the convex
-//!    star. *Flop* its edges away, whichever can be flipped, until three are left; then take it out.
+//! 1. *Flip* an edge whose two tetrahedra are in conflict, if the result surrounds the star's
+//!    vertex as before: the star, lifted, becomes wider.
+//! 2. If it would not, one end of the edge is enclosed by the other three vertices, and is not a
+//!    vertex of the convex star. *Flop* its edges away, whichever can be flipped, until three are
+//!    left; then remove it.
 //!
-//! Every vertex is taken out at most once, and between two removals the star only gets wider; so it ends. Where four
-//! points are coplanar with the star's vertex, there may be no edge to flop: such a star is built from its points instead.
+//! Every vertex is removed at most once, and between two removals the star only becomes wider; so
+//! Flip-Flop ends. Where four points are coplanar with the star's vertex, there may be no edge to
+//! flop: such a star is built from its points instead.
 
 use crate::d3::splay::{
     predicates::StarPredicates,
-    star::{NONE, Star, Triangle},
+    star::{Star, Triangle},
 };
+use crate::index::NO_INDEX;
 
-/// Flips for each triangle of the link, past which the star is built from its points.
-const MOST_FLIPS: usize = 16;
+/// The maximum number of flips per triangle of the link. A star that needs more is built from its
+/// points.
+const MAX_FLIPS_PER_TRIANGLE: usize = 16;
 
-/// Makes a star convex whose tetrahedra are positively oriented, and whose edges are locally convex unless both ends `may_fail`;
-/// gives the number of flips. The triangles that it makes have no tetrahedron of the triangulation; adds to `gone` those
-/// that have one, and are no more. `None` when it is stuck.
+/// Makes a star convex whose tetrahedra are positively oriented, and whose edges are locally convex
+/// unless both ends `may_fail`. Returns the number of flips, or `None` if it gets stuck or exceeds
+/// its bound.
+///
+/// New triangles have no tetrahedron of the triangulation. Triangles that had one and no longer
+/// exist are added to `removed`.
 pub(super) fn flip_flop(
     star: &mut Star,
-    space: &StarPredicates<'_>,
+    predicates: &StarPredicates<'_>,
     may_fail: impl Fn(u32) -> bool,
-    gone: &mut Vec<Triangle>,
+    removed: &mut Vec<Triangle>,
 ) -> Option<usize> {
-    let mut work = Flipping { budget: MOST_FLIPS * star.triangles.len(), flips: 0, edges: Vec::new(), gone };
+    let mut work =
+        Flipping { budget: MAX_FLIPS_PER_TRIANGLE * star.triangles.len(), flips: 0, edges: Vec::new(), removed };
     for (t, triangle) in star.triangles.iter().enumerate() {
         let t = t as u32;
         let may_fail = triangle.vertices.map(&may_fail);
@@ -35,16 +43,16 @@ pub(super) fn flip_flop(
     while let Some(edge) = work.edges.pop() {
         let Some(corners) = Corners::of(star, edge) else { continue };
         let Corners { a, b, c, d } = corners;
-        if space.conflict(star.tetrahedron([c, a, b]), d) <= 0 {
+        if predicates.conflict(star.tetrahedron([c, a, b]), d) <= 0 {
             continue;
         }
-        // The end that c, d and the other end enclose, if either.
-        let a_inside = space.orient(star.tetrahedron([c, a, d])) <= 0;
-        let b_inside = space.orient(star.tetrahedron([d, b, c])) <= 0;
+        // The end that c, d and the other end enclose, if there is one.
+        let a_inside = predicates.orient(star.tetrahedron([c, a, d])) <= 0;
+        let b_inside = predicates.orient(star.tetrahedron([d, b, c])) <= 0;
         match (a_inside, b_inside) {
             (false, false) => work.flip(star, edge)?,
-            (true, false) => work.remove(star, space, edge >> 2, a)?,
-            (false, true) => work.remove(star, space, edge >> 2, b)?,
+            (true, false) => work.remove(star, predicates, edge >> 2, a)?,
+            (false, true) => work.remove(star, predicates, edge >> 2, b)?,
             (true, true) => return None,
         }
     }
@@ -62,7 +70,7 @@ struct Corners {
 }
 
 impl Corners {
-    /// `None` for an edge of a triangle that is no longer there.
+    /// Returns `None` for an edge of a triangle that no longer exists.
     fn of(star: &Star, edge: u32) -> Option<Self> {
         let (t, k) = (star.triangles[edge as usize / 4], edge as usize % 4);
         let across = t.neighbors[k];
@@ -76,22 +84,25 @@ impl Corners {
     }
 }
 
+/// A run of Flip-Flop.
 struct Flipping<'a> {
     budget: usize,
     flips: usize,
-    /// Edges that may be in conflict; some are no longer there.
+    /// Edges that may be in conflict; some no longer exist.
     edges: Vec<u32>,
-    /// Triangles of the triangulation that are no longer there.
-    gone: &'a mut Vec<Triangle>,
+    /// Triangles of the triangulation that no longer exist.
+    removed: &'a mut Vec<Triangle>,
 }
 
 impl Flipping<'_> {
+    /// Counts a flip. Returns `None` if the budget is exceeded.
     fn count(&mut self) -> Option<()> {
         self.flips += 1;
         (self.flips <= self.budget).then_some(())
     }
 
-    /// Replaces (c, a, b), (d, b, a) by (c, a, d), (d, b, c), in the same slots. `None` past the bound.
+    /// Replaces (c, a, b), (d, b, a) by (c, a, d), (d, b, c), in the same slots. Returns `None` if
+    /// the budget is exceeded.
     fn flip(&mut self, star: &mut Star, edge: u32) -> Option<()> {
         self.count()?;
         let across = star.triangles[edge as usize / 4].neighbors[edge as usize % 4];
@@ -99,7 +110,7 @@ impl Flipping<'_> {
         let (j, l) = (across as usize / 4, across as usize % 4);
         let (ti, tj) = (star.triangles[i], star.triangles[j]);
         let Corners { a, b, c, d } = Corners::of(star, edge)?;
-        self.gone.extend([ti, tj].iter().filter(|t| t.tetrahedron != NONE));
+        self.removed.extend([ti, tj].iter().filter(|t| t.tetrahedron != NO_INDEX));
         let (bc, ca) = (ti.neighbors[(k + 1) % 3], ti.neighbors[(k + 2) % 3]);
         let (ad, db) = (tj.neighbors[(l + 1) % 3], tj.neighbors[(l + 2) % 3]);
         star.triangles[i] = Triangle::new([c, a, d]);
@@ -113,9 +124,11 @@ impl Flipping<'_> {
         Some(())
     }
 
-    /// Takes vertex `x` of triangle `t` out of the link. `None` when none of its edges can be flipped, or past the bound.
-    fn remove(&mut self, star: &mut Star, space: &StarPredicates<'_>, t: u32, x: u32) -> Option<()> {
-        // Edges from x, each as the triangle to the left of it and the corner opposite: (x, v, q) and the corner q.
+    /// Removes vertex `x` of triangle `t` from the link. Returns `None` if none of its edges can be
+    /// flipped, or if the budget is exceeded.
+    fn remove(&mut self, star: &mut Star, predicates: &StarPredicates<'_>, t: u32, x: u32) -> Option<()> {
+        // The edges at x, each given by the triangle (x, v, q) on its left and the opposite corner
+        // q.
         let mut spokes = Vec::new();
         let mut at = t;
         loop {
@@ -133,33 +146,35 @@ impl Flipping<'_> {
         while spokes.len() > 3 {
             let can_flip = |&edge: &u32| {
                 Corners::of(star, edge).is_some_and(|Corners { a: x, b: v, c: q, d: p }| {
-                    space.orient(star.tetrahedron([p, v, q])) > 0 && space.orient(star.tetrahedron([q, x, p])) > 0
+                    predicates.orient(star.tetrahedron([p, v, q])) > 0
+                        && predicates.orient(star.tetrahedron([q, x, p])) > 0
                 })
             };
             let at = spokes.iter().position(can_flip)?;
             let edge = spokes[at];
             self.flip(star, edge)?;
-            // The triangle (x, p, q) is now in the slot of (x, v, q); its edge from x to q is the next triangle's.
+            // The triangle (x, p, q) is now in the slot of (x, v, q); its edge from x to q belongs
+            // to the next triangle.
             spokes.remove(at);
             let previous = (at + spokes.len() - 1) % spokes.len();
             spokes[previous] = 4 * (edge >> 2);
         }
-        self.take_out(star, space, [spokes[0], spokes[1], spokes[2]])
+        self.take_out(star, predicates, [spokes[0], spokes[1], spokes[2]])
     }
 
     /// Replaces the three triangles (x, v, q) around a vertex x by one.
-    fn take_out(&mut self, star: &mut Star, space: &StarPredicates<'_>, spokes: [u32; 3]) -> Option<()> {
+    fn take_out(&mut self, star: &mut Star, predicates: &StarPredicates<'_>, spokes: [u32; 3]) -> Option<()> {
         self.count()?;
         let triangles = spokes.map(|edge| star.triangles[edge as usize / 4]);
-        // Spoke i has corner q at `edge % 4`, then x, then v.
+        // In triangle i, corner q is at `spokes[i] % 4`, then follow x and v.
         let corner = |i: usize| spokes[i] as usize % 4;
         let v: [u32; 3] = std::array::from_fn(|i| triangles[i].vertices[(corner(i) + 2) % 3]);
         let beyond: [u32; 3] = std::array::from_fn(|i| triangles[i].neighbors[(corner(i) + 1) % 3]);
         let outside = beyond.iter().all(|&edge| spokes.iter().all(|spoke| spoke >> 2 != edge >> 2));
-        if !outside || space.orient(star.tetrahedron(v)) <= 0 {
+        if !outside || predicates.orient(star.tetrahedron(v)) <= 0 {
             return None;
         }
-        self.gone.extend(triangles.iter().filter(|t| t.tetrahedron != NONE));
+        self.removed.extend(triangles.iter().filter(|t| t.tetrahedron != NO_INDEX));
         let slot = spokes[0] >> 2;
         star.release(spokes[1] >> 2);
         star.release(spokes[2] >> 2);
@@ -197,37 +212,38 @@ mod tests {
         link
     }
 
-    /// Flips edges of a convex star wherever it stays a star, then has Flip-Flop undo that; gives how often it was stuck.
+    /// Flips edges of each convex star wherever it remains a star, then undoes that by Flip-Flop.
+    /// Returns how often Flip-Flop was stuck.
     fn spoil_and_mend(points: &[[f64; 3]]) -> usize {
         let lattice = Lattice::fit(points.into());
         let vertices = PredicateContext::new(points.into(), &lattice, (0..points.len() as u32).collect());
         assert!(vertices.orient3d(0, 1, 2, 3) > 0);
         let mesh = insert_all(&vertices, &Options::default()).unwrap();
-        let space = StarPredicates::new(&vertices, mesh.infinite, [0, 1, 2, 3]);
+        let predicates = StarPredicates::new(&vertices, mesh.infinite, [0, 1, 2, 3]);
         let mut stuck = 0;
         let mut flips = 0;
         for v in 0..vertices.len() as u32 {
             let start = (0..mesh.tetrahedra.len() as u32).find(|&t| mesh.vertices(t).contains(&v)).unwrap();
             let mut star = LinkFinder::default().star(&mesh, v, start).unwrap();
             let convex = link(&star);
-            let mut gone = Vec::new();
-            let mut spoiling = Flipping { budget: usize::MAX, flips: 0, edges: Vec::new(), gone: &mut gone };
+            let mut removed = Vec::new();
+            let mut spoiling = Flipping { budget: usize::MAX, flips: 0, edges: Vec::new(), removed: &mut removed };
             let mut random = v;
             for _ in 0..100 {
                 random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
                 let edge = 4 * ((random >> 8) % star.triangles.len() as u32) + (random >> 4) % 3;
                 let Corners { a, b, c, d } = Corners::of(&star, edge).unwrap();
-                if [[c, a, d], [d, b, c]].iter().all(|&t| space.orient(star.tetrahedron(t)) > 0) {
+                if [[c, a, d], [d, b, c]].iter().all(|&t| predicates.orient(star.tetrahedron(t)) > 0) {
                     spoiling.flip(&mut star, edge).unwrap();
                 }
             }
             flips += spoiling.flips;
-            match flip_flop(&mut star, &space, |_| true, &mut gone) {
+            match flip_flop(&mut star, &predicates, |_| true, &mut removed) {
                 Some(_) => assert_eq!(link(&star), convex, "vertex {v}"),
                 None => stuck += 1,
             }
             let neighbors = convex.iter().flatten().copied();
-            let star = Star::from_points(&space, v, neighbors, &mut Changes::default()).unwrap();
+            let star = Star::from_points(&predicates, v, neighbors, &mut Changes::default()).unwrap();
             assert_eq!(link(&star), convex, "vertex {v}, from points");
         }
         assert!(flips > 0);

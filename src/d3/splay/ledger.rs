@@ -1,34 +1,39 @@
-//! The ledger: the tetrahedra about which the stars and the triangulation disagree, or did.
+//! The ledger: the tetrahedra on which the stars and the triangulation disagree, or have disagreed.
 
 use crate::d3::splay::{
     Aborted,
-    star::{NONE, Star, Triangle},
+    star::{Star, Triangle},
 };
-use crate::parallel::{self, Threads};
+use crate::{
+    index::NO_INDEX,
+    parallel::{self, Threads},
+};
 use rustc_hash::FxHashMap;
 
-/// An oriented tetrahedron: its vertices in ascending order, the first two exchanged if that would invert it. So an
-/// inverted tetrahedron of the triangulation is another than the one that the stars have of the same vertices.
+/// An oriented tetrahedron: its vertices in ascending order, the first two exchanged if sorting
+/// would invert it. So an inverted tetrahedron of the triangulation differs from the tetrahedron of
+/// the same vertices in the stars.
 pub(super) type Key = [u32; 4];
 
-/// Parts of the ledger, one for each of the threads that there may be.
+/// The number of parts of the ledger, each of which is updated by one thread at a time.
 const PARTS: usize = 16;
 
-/// What the stars make of a tetrahedron.
+/// Which stars have a tetrahedron.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Held {
-    /// The stars that have it: bit *k* for that of the key's vertex *k*. A star that was not needed has what the
-    /// triangulation has.
+    /// The stars that have it: bit *k* for the star of the key's vertex *k*. A star that has not
+    /// been built has what the triangulation has.
     by: u8,
-    /// The stars that never will, since all its vertices are among their points, and it is not theirs.
+    /// The stars that will never have it, because all its vertices are among their points, but it
+    /// is not theirs.
     never: u8,
-    /// It was touched, and is still to be looked at.
+    /// Whether it has changed and is still to be examined.
     touched: bool,
-    /// Where the triangulation has it, or [`NONE`].
+    /// The slot of the tetrahedron in the triangulation, or [`NO_INDEX`].
     tetrahedron: u32,
 }
 
-/// What became of a tetrahedron in the star of a vertex.
+/// What happened to a tetrahedron in the star of a vertex.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry {
     key: Key,
@@ -36,39 +41,40 @@ pub(super) struct Entry {
     event: Event,
 }
 
-/// What can become of it.
+/// What can happen to a tetrahedron in a star.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Event {
     /// The star has it now.
     Gained,
-    /// The star has it no more; the triangulation has it there, or [`NONE`].
+    /// The star no longer has it. The triangulation has it in this slot, or [`NO_INDEX`].
     Lost(u32),
-    /// Its vertices were inserted.
+    /// Its vertices were inserted into the star.
     Tried,
 }
 
-/// What has become of tetrahedra in some stars, by the part of the ledger that they belong to; that of each star in order.
+/// Entries, grouped by the part of the ledger that they belong to, and in each group those of a
+/// star in their order.
 pub(super) struct Entries {
     sorted: Vec<Entry>,
     ends: [u32; PARTS],
 }
 
 impl Entries {
-    /// Those for a part of the ledger.
+    /// Returns the entries for part `i` of the ledger.
     fn of_part(&self, i: usize) -> &[Entry] {
         let start = if i == 0 { 0 } else { self.ends[i - 1] };
         &self.sorted[start as usize..self.ends[i] as usize]
     }
 }
 
-/// The tetrahedra that are not as they were in the triangulation, in some star.
+/// The tetrahedra that differ, in some star, from the triangulation.
 pub(super) struct Ledger {
     parts: Vec<FxHashMap<Key, Held>>,
     infinite: u32,
     threads: Threads,
 }
 
-/// The key of a positively oriented tetrahedron.
+/// Returns the key of a positively oriented tetrahedron.
 pub(super) fn key(mut v: [u32; 4]) -> Key {
     let mut odd = false;
     for (i, j) in [(0, 1), (2, 3), (0, 2), (1, 3), (1, 2)] {
@@ -83,27 +89,28 @@ pub(super) fn key(mut v: [u32; 4]) -> Key {
     v
 }
 
-/// The bit of a vertex in [`Held`].
+/// Returns the bit of a vertex in [`Held`].
 fn bit(key: Key, vertex: u32) -> u8 {
     key.iter().position(|&v| v == vertex).map_or(0, |k| 1 << k)
 }
 
 impl Held {
+    /// Creates the state of a tetrahedron that the stars `by` have.
     fn new(by: u8, tetrahedron: u32) -> Self {
         Held { by, never: 0, touched: false, tetrahedron }
     }
 
-    /// Whether the star of a vertex has it.
+    /// Returns whether the star of a vertex has it.
     pub(super) fn has(&self, key: Key, vertex: u32) -> bool {
         self.by & bit(key, vertex) != 0
     }
 
-    /// Whether the star of a vertex never will.
+    /// Returns whether the star of a vertex will never have it.
     pub(super) fn never(&self, key: Key, vertex: u32) -> bool {
         self.never & bit(key, vertex) != 0
     }
 
-    /// Enters an event of the star with this bit.
+    /// Applies an event of the star with this bit.
     fn enter(&mut self, bit: u8, event: Event) -> Result<(), Aborted> {
         const HAS: Aborted = Aborted::Inconsistent("a star gains what it has, or loses what it has not");
         let has = self.by & bit != 0;
@@ -123,12 +130,13 @@ impl Held {
 }
 
 impl Entry {
-    /// The vertices of a tetrahedron have been inserted into the star of one of them.
+    /// Creates the entry for a star into which the vertices of a tetrahedron have been inserted.
     pub(super) fn tried(key: Key, vertex: u32) -> Self {
         Entry { key, vertex, event: Event::Tried }
     }
 
-    /// The entries for a star that has lost the triangles `removed`, and gained those that are `added`.
+    /// Returns the entries for a star that has lost the triangles `removed`, and gained those in
+    /// the slots `added`.
     pub(super) fn changes(star: &Star, removed: &[Triangle], added: &[u32]) -> impl Iterator<Item = Self> {
         let entry = |vertices, event| Entry { key: key(star.tetrahedron(vertices)), vertex: star.vertex, event };
         let lost = removed.iter().map(move |t| entry(t.vertices, Event::Lost(t.tetrahedron)));
@@ -137,7 +145,7 @@ impl Entry {
 }
 
 impl Ledger {
-    /// An empty one.
+    /// Creates an empty ledger.
     pub(super) fn new(infinite: u32, threads: Threads) -> Self {
         let parts = match threads {
             Threads::One => 1,
@@ -146,17 +154,18 @@ impl Ledger {
         Ledger { parts: vec![FxHashMap::default(); parts], infinite, threads }
     }
 
-    /// What the stars make of a tetrahedron that was entered.
+    /// Returns which stars have a tetrahedron, if it was entered.
     pub(super) fn held(&self, key: Key) -> Option<&Held> {
         self.parts[part(key, self.parts.len())].get(&key)
     }
 
-    /// The finite vertices of a tetrahedron: infinity, being the highest, is the last.
+    /// Returns the finite vertices of a tetrahedron. Infinity, which has the highest number, is the
+    /// last vertex.
     pub(super) fn finite<'k>(&self, key: &'k Key) -> &'k [u32] {
         &key[..if key[3] == self.infinite { 3 } else { 4 }]
     }
 
-    /// Sorts entries for [`Ledger::enter`].
+    /// Groups entries for [`Ledger::enter`].
     pub(super) fn sorted(&self, entries: Vec<Entry>) -> Entries {
         let count = self.parts.len();
         let mut ends = [0; PARTS];
@@ -179,8 +188,8 @@ impl Ledger {
         Entries { sorted, ends }
     }
 
-    /// Enters what has happened, and gives the tetrahedra that it leaves unsettled: those that
-    /// are in some stars, but not in all.
+    /// Enters what has happened. Returns the tetrahedra that it leaves unsettled: those that are in
+    /// some stars of their vertices, but not in all.
     pub(super) fn enter(&mut self, entries: &[Entries]) -> Result<Vec<Key>, Aborted> {
         let infinite = self.infinite;
         let unsettled = parallel::map_mut(self.threads, &mut self.parts, |i, held_by_key| {
@@ -188,11 +197,11 @@ impl Ledger {
             for entry in entries.iter().flat_map(|entries| entries.of_part(i)) {
                 let key = entry.key;
                 let held = match entry.event {
-                    Event::Lost(NONE) | Event::Tried => held_by_key.get_mut(&key).ok_or(UNKNOWN)?,
+                    Event::Lost(NO_INDEX) | Event::Tried => held_by_key.get_mut(&key).ok_or(UNKNOWN)?,
                     Event::Lost(tetrahedron) => {
                         held_by_key.entry(key).or_insert(Held::new(all(key, infinite), tetrahedron))
                     }
-                    Event::Gained => held_by_key.entry(key).or_insert(Held::new(0, NONE)),
+                    Event::Gained => held_by_key.entry(key).or_insert(Held::new(0, NO_INDEX)),
                 };
                 held.enter(bit(key, entry.vertex), entry.event)?;
                 if !std::mem::replace(&mut held.touched, true) {
@@ -210,17 +219,17 @@ impl Ledger {
         Ok(unsettled.into_iter().collect::<Result<Vec<_>, Aborted>>()?.concat())
     }
 
-    /// The tetrahedra on which the consistent stars and the triangulation differ: those to remove, as slots, and those
-    /// to add.
+    /// Returns the tetrahedra on which the consistent stars and the triangulation differ: the slots
+    /// of those to remove, and those to add.
     pub(super) fn difference(&mut self) -> Result<(Vec<u32>, Vec<Key>), Aborted> {
         let infinite = self.infinite;
         let parts = parallel::map_mut(self.threads, &mut self.parts, |_, held_by_key| {
             let (mut remove, mut add) = (Vec::new(), Vec::new());
             for (&key, held) in held_by_key.iter() {
                 match (held.by, held.tetrahedron) {
-                    (0, NONE) => {}
+                    (0, NO_INDEX) => {}
                     (0, slot) => remove.push(slot),
-                    (by, NONE) if by == all(key, infinite) => add.push(key),
+                    (by, NO_INDEX) if by == all(key, infinite) => add.push(key),
                     _ => return Err(Aborted::Inconsistent("a tetrahedron is unsettled at the end")),
                 }
             }
@@ -232,7 +241,7 @@ impl Ledger {
             remove.extend(slots);
             add.extend(keys);
         }
-        // The ledger's order is that of hashes.
+        // The order in the hash tables is arbitrary.
         remove.sort_unstable();
         add.sort_unstable();
         Ok((remove, add))
@@ -241,12 +250,12 @@ impl Ledger {
 
 const UNKNOWN: Aborted = Aborted::Inconsistent("a star has a tetrahedron that nobody entered");
 
-/// The bits of all stars that a tetrahedron should be in.
+/// Returns the bits of all stars in which a tetrahedron should be: those of its finite vertices.
 fn all(key: Key, infinite: u32) -> u8 {
     if key[3] == infinite { 0b0111 } else { 0b1111 }
 }
 
-/// The part of the ledger that a tetrahedron is in.
+/// Returns the part of the ledger to which a tetrahedron belongs.
 fn part(key: Key, parts: usize) -> usize {
     let mixed = key.iter().fold(0u32, |mixed, &v| (mixed.rotate_left(9) ^ v).wrapping_mul(0x9e37_79b9));
     (mixed >> 16) as usize % parts

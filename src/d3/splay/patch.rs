@@ -1,10 +1,12 @@
-//! Patching (§3.2.3): the tetrahedra T⁻ of the triangulation make room for T⁺; nothing else is touched.
+//! Patching (§3.2.3): the tetrahedra T⁻ of the triangulation are replaced by T⁺; nothing else is
+//! touched.
 //!
-//! Facets find each other by their vertices: those around the holes that T⁻ leaves, and those of T⁺. Where every facet of
-//! T⁺ finds its like, T⁺ fills the holes; since all of T⁺ is positively oriented, it fills them once; and where every
-//! facet of T⁺ is locally Delaunay, as the facets elsewhere are, the whole is Delaunay. All of this is checked.
+//! Facets are matched by their vertices: those around the holes that T⁻ leaves, and those of T⁺. If
+//! every facet of T⁺ is matched, T⁺ fills the holes. Since all of T⁺ is positively oriented, it
+//! fills them once. And if every facet of T⁺ is locally Delaunay, as the facets elsewhere are, the
+//! whole is Delaunay. All of this is checked.
 
-use crate::d3::splay::{Aborted, Stop, TETRAHEDRA, ledger::Key, predicates::StarPredicates};
+use crate::d3::splay::{Aborted, Stop, TETRAHEDRON_GRAIN, ledger::Key, predicates::StarPredicates};
 use crate::{
     d3::{
         mesh::FACETS,
@@ -15,11 +17,11 @@ use crate::{
 
 const UNMATCHED: Aborted = Aborted::Inconsistent("a facet of the patch has not one neighbour");
 
-/// Replaces the tetrahedra in the slots `remove` by `add`. `free` has unused slots, before and after; gives the slots of
-/// the new tetrahedra.
+/// Replaces the tetrahedra in the slots `remove` by `add`. `free` lists the unused slots, before
+/// and after. Returns the slots of the new tetrahedra.
 pub(super) fn patch(
     mesh: &mut Triangulation,
-    space: &StarPredicates<'_>,
+    predicates: &StarPredicates<'_>,
     threads: Threads,
     remove: &[u32],
     add: &[Key],
@@ -28,8 +30,8 @@ pub(super) fn patch(
     for &t in remove {
         mesh.set_state(t, state::FREE);
     }
-    // Each facet twice: from inside of the patch, and from what is across.
-    let around = parallel::map_grains(threads, remove.len(), TETRAHEDRA, |range| {
+    // Each facet comes twice: from inside the patch, and from what is across.
+    let around = parallel::map_grains(threads, remove.len(), TETRAHEDRON_GRAIN, |range| {
         let facets = remove[range].iter().flat_map(|&t| (0..4).map(move |k| (t, k)));
         let outer = facets.filter_map(|(t, k)| {
             let across = mesh.neighbors[t as usize][k];
@@ -56,12 +58,12 @@ pub(super) fn patch(
         mesh.join(f, g);
     }
     let mesh = &*mesh;
-    let checked = space.shared(threads, filled.len(), TETRAHEDRA, |space, range| {
+    let checked = predicates.shared(threads, filled.len(), TETRAHEDRON_GRAIN, |predicates, range| {
         filled[range].iter().try_for_each(|&t| {
-            if space.orient(mesh.vertices(t)) <= 0 {
+            if predicates.orient(mesh.vertices(t)) <= 0 {
                 return Err(Aborted::Inconsistent("the patch has a tetrahedron that is not positively oriented"));
             }
-            let is_delaunay = (0..4).all(|k| is_locally_delaunay(mesh, space, t, k));
+            let is_delaunay = (0..4).all(|k| is_locally_delaunay(mesh, predicates, t, k));
             if is_delaunay { Ok(()) } else { Err(Aborted::Inconsistent("the patch is not Delaunay")) }
         })
     });
@@ -69,14 +71,14 @@ pub(super) fn patch(
     Ok(filled)
 }
 
-/// Whether the vertex across facet `k` lies outside the circumsphere of tetrahedron `t`.
-pub(super) fn is_locally_delaunay(mesh: &Triangulation, space: &StarPredicates<'_>, t: u32, k: usize) -> bool {
+/// Returns whether the vertex across facet `k` lies outside the circumsphere of tetrahedron `t`.
+pub(super) fn is_locally_delaunay(mesh: &Triangulation, predicates: &StarPredicates<'_>, t: u32, k: usize) -> bool {
     let across = mesh.neighbors[t as usize][k];
     let apex = mesh.vertices(across >> 2)[across as usize & 3];
-    space.conflict(mesh.vertices(t), apex) < 0
+    predicates.conflict(mesh.vertices(t), apex) < 0
 }
 
-/// The vertices of facet `k`, in ascending order.
+/// Returns the vertices of facet `k`, in ascending order.
 fn facet(v: [u32; 4], k: usize) -> [u32; 3] {
     let mut facet = FACETS[k].map(|i| v[i]);
     facet.sort_unstable();

@@ -1,13 +1,15 @@
-//! Peeling: flat tetrahedra on the hull, which Phase 1 leaves where the hull has coplanar points (a perturbation of their
-//! coordinates decides there), give way to ghosts on their other side.
+//! Peeling: flat tetrahedra on the hull are replaced by ghosts on their other side. Phase 1 leaves
+//! such tetrahedra where the hull has coplanar points, because there it decides by a perturbation
+//! of the coordinates.
 //!
-//! A flat tetrahedron under one hull facet shows its fourth vertex inside that facet: a flip of the two into three ghosts.
-//! One under two hull facets is a flip of the three into two ghosts. Each flip peels one, so it ends. A flip must not put
-//! on the hull what is there already, which happens where tetrahedra are flat in the true coordinates only. What cannot be
-//! peeled is left for the stars.
+//! A flat tetrahedron under one facet of the hull has its fourth vertex inside that facet: the
+//! tetrahedron and the ghost are flipped into three ghosts. A flat tetrahedron under two facets of
+//! the hull is flipped, with their ghosts, into two ghosts. Each flip peels one tetrahedron, so
+//! peeling ends. A flip must not put on the hull what is already there, which can happen where
+//! tetrahedra are flat in the exact coordinates only. What cannot be peeled is left to the stars.
 
 use crate::d3::splay::{
-    TETRAHEDRA,
+    TETRAHEDRON_GRAIN,
     predicates::{StarPredicates, replaced},
 };
 use crate::{
@@ -17,25 +19,26 @@ use crate::{
 };
 use rustc_hash::FxHashMap;
 
-/// Peels the tetrahedra of `flat` that can be; those that cannot are left in it. Gives the slots of new ghosts, some of
-/// which may have been replaced again. `incident` has a tetrahedron of each vertex, before and after, and a ghost of those
-/// that are on the hull.
+/// Peels the tetrahedra of `flat` that can be peeled; the others are left in it. Returns the slots
+/// of new ghosts, some of which may have been replaced again.
 ///
-/// All threads find the signs, one flips.
+/// `incident` has a tetrahedron of each vertex, before and after, and a ghost of each vertex on the
+/// hull. All threads evaluate predicates, one thread flips.
 pub(super) fn peel(
     mesh: &mut Triangulation,
-    space: &StarPredicates<'_>,
+    predicates: &StarPredicates<'_>,
     threads: Threads,
     flat: &mut Vec<u32>,
     incident: &mut [u32],
     free: &mut Vec<u32>,
 ) -> Result<Vec<u32>, Error> {
-    let sides = space.shared(threads, flat.len(), TETRAHEDRA, |space, range| {
-        flat[range].iter().map(|&t| sides(mesh, space, t)).collect::<Vec<_>>()
+    let sides = predicates.shared(threads, flat.len(), TETRAHEDRON_GRAIN, |predicates, range| {
+        flat[range].iter().map(|&t| sides(mesh, predicates, t)).collect::<Vec<_>>()
     });
     let mut left: FxHashMap<u32, Sides> = flat.iter().copied().zip(sides.into_iter().flatten()).collect();
     let mut made = Vec::new();
-    // They lie on top of each other: what one has covered comes next.
+    // Flat tetrahedra lie on top of each other: the one that a peeled tetrahedron covered comes
+    // next.
     let mut next = Vec::new();
     loop {
         let before = left.len();
@@ -59,15 +62,18 @@ pub(super) fn peel(
     }
 }
 
-/// For each facet of a flat tetrahedron, whether a ghost in its place, on that facet, is not turned over.
+/// For each facet of a flat tetrahedron, whether a ghost in its place, on that facet, would not be
+/// inverted.
 type Sides = [bool; 4];
 
-fn sides(mesh: &Triangulation, space: &StarPredicates<'_>, t: u32) -> Sides {
+/// Returns the sides of flat tetrahedron `t`.
+fn sides(mesh: &Triangulation, predicates: &StarPredicates<'_>, t: u32) -> Sides {
     let v = mesh.vertices(t);
-    std::array::from_fn(|k| space.orient(replaced(v, k, mesh.infinite)) >= 0)
+    std::array::from_fn(|k| predicates.orient(replaced(v, k, mesh.infinite)) >= 0)
 }
 
-/// Peels one flat tetrahedron, and lists the new ghosts, if it lies under the hull facets that cover it.
+/// Peels one flat tetrahedron, and lists the new ghosts, if it lies under one or two facets of the
+/// hull and the new ghosts fit.
 fn peel_one(
     mesh: &mut Triangulation,
     t: u32,
@@ -87,7 +93,7 @@ fn peel_one(
     let ghost = across[x] >> 2;
     let g = mesh.vertices(ghost);
     let beyond = mesh.neighbors[ghost as usize];
-    // Where the ghost's corners are in t, and the ghost that has x in place of corner i.
+    // The corners of t at which the ghost's corners are, and the ghost with x in place of corner i.
     let in_t: [usize; 3] = std::array::from_fn(|i| v.iter().position(|&w| w == g[i]).unwrap_or(x));
     let moved = |i: usize| replaced(g, i, v[x]);
     let fits = |i: usize| sides[in_t[i]];
@@ -106,7 +112,8 @@ fn peel_one(
                 let j = (i + 1) % 3;
                 mesh.join(slot + j as u32, 4 * slots[j] + i as u32);
             }
-            // The only ones that were in these slots, and are no more or were not on the hull.
+            // Only these vertices are no longer in the slot recorded for them, or were not on the
+            // hull.
             incident[g[0] as usize] = slots[1];
             incident[v[x] as usize] = ghost;
             made.extend(slots);
@@ -125,7 +132,7 @@ fn peel_one(
             mesh.tetrahedra[ghost as usize] = moved(ia);
             mesh.tetrahedra[other as usize] = moved(ib);
             for (slot, at, outer) in [(ghost, ia, by_a), (other, ib, by_b)] {
-                // Vertex g[at] has gone from here: x has its corner.
+                // Vertex g[at] is no longer here: x has its corner.
                 mesh.join(4 * slot + 3, across[in_t[at]]);
                 mesh.join(4 * slot + at as u32, beyond[at]);
                 mesh.join(4 * slot + iy as u32, outer);
@@ -141,7 +148,8 @@ fn peel_one(
     Ok(())
 }
 
-/// Whether the edge from corner `x` to corner `y` of tetrahedron `t` is an edge of the hull.
+/// Returns whether the edge from corner `x` to corner `y` of tetrahedron `t` is an edge of the
+/// hull.
 fn is_hull_edge(mesh: &Triangulation, t: u32, x: usize, y: usize) -> bool {
     let (vx, vy) = (mesh.vertices(t)[x], mesh.vertices(t)[y]);
     let mut at = t;
@@ -162,7 +170,7 @@ fn is_hull_edge(mesh: &Triangulation, t: u32, x: usize, y: usize) -> bool {
     }
 }
 
-/// An unused slot.
+/// Returns an unused slot.
 fn take(mesh: &mut Triangulation, free: &mut Vec<u32>) -> Result<u32, Error> {
     free.pop().map_or_else(|| mesh.push(), Ok)
 }

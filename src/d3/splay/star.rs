@@ -1,38 +1,40 @@
-//! The star of a vertex, as its link: the triangles that make tetrahedra with it.
+//! The star of a vertex, represented by its link: the triangles that form tetrahedra with the
+//! vertex.
 //!
-//! A triangle (a, b, c) is counter-clockwise as seen from outside: s, a, b, c is positively oriented for the star's vertex
-//! s. A star is *convex* when, lifted to R⁴, it is the boundary of a convex cone, that is, when no tetrahedron's
-//! circumsphere holds a vertex of the link. Infinity is one of the points of every star, though it is not on the link of
-//! a star that surrounds its vertex.
+//! A triangle (a, b, c) is counter-clockwise as seen from outside: s, a, b, c is positively
+//! oriented for the star's vertex s. A star is *convex* if, lifted to R⁴, it is the boundary of a
+//! convex cone, that is, if no tetrahedron's circumsphere contains a vertex of the link. Infinity
+//! is one of the points of every star, though it is not on the link of a star that surrounds its
+//! vertex.
 
 use crate::d3::splay::{Aborted, predicates::StarPredicates};
 use crate::d3::{mesh::FACETS, triangulation::Triangulation};
+use crate::index::NO_INDEX;
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
-
-/// No tetrahedron, no vertex.
-pub(super) const NONE: u32 = u32::MAX;
 
 /// A triangle of a link.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Triangle {
-    /// Counter-clockwise as seen from outside; the first is [`NONE`] in an unused slot.
+    /// Counter-clockwise as seen from outside; the first is [`NO_INDEX`] in an unused slot.
     pub(super) vertices: [u32; 3],
-    /// Across the edge opposite corner *k*: 4·(triangle) + (corner opposite the edge there).
+    /// Entry *k* is across the edge opposite corner *k*: 4·(triangle) + (corner opposite the edge
+    /// there).
     pub(super) neighbors: [u32; 3],
-    /// The tetrahedron of the triangulation that it belongs to, or [`NONE`].
+    /// The tetrahedron of the triangulation to which it belongs, or [`NO_INDEX`].
     pub(super) tetrahedron: u32,
-    /// What the insertion numbered `epoch` found out: visible at 2·epoch, hidden at 2·epoch + 1.
+    /// What the insertion with number `epoch` found out: 2·epoch if the triangle is visible,
+    /// 2·epoch + 1 if it is hidden.
     seen: u32,
 }
 
 impl Triangle {
     pub(super) fn new(vertices: [u32; 3]) -> Self {
-        Triangle { vertices, neighbors: [NONE; 3], tetrahedron: NONE, seen: 0 }
+        Triangle { vertices, neighbors: [NO_INDEX; 3], tetrahedron: NO_INDEX, seen: 0 }
     }
 
     pub(super) fn is_used(&self) -> bool {
-        self.vertices[0] != NONE
+        self.vertices[0] != NO_INDEX
     }
 }
 
@@ -42,36 +44,38 @@ pub(super) struct Star {
     pub(super) vertex: u32,
     pub(super) triangles: Vec<Triangle>,
     free: Vec<u32>,
-    /// A triangle that was made of late.
+    /// A triangle that was created recently, where the next walk starts.
     recent: u32,
+    /// The number of insertions.
     epoch: u32,
 }
 
-/// What an insertion changed, and lists that it uses anew.
+/// What an insertion changed, and lists that insertions reuse.
 #[derive(Debug, Default)]
 pub(super) struct Changes {
     /// Triangles that are no longer in the link.
     pub(super) removed: Vec<Triangle>,
-    /// Where the new ones are.
+    /// The slots of the new triangles.
     pub(super) added: Vec<u32>,
     visible: Vec<u32>,
-    /// From, to, and what lies beyond, packed.
+    /// The edges between visible and hidden triangles: start, end, and what lies beyond, packed.
     horizon: Vec<(u32, u32, u32)>,
 }
 
 /// Finds the tetrahedra around a vertex.
 #[derive(Default)]
 pub(super) struct LinkFinder {
-    /// Where each tetrahedron stands in `around`.
+    /// The place of each tetrahedron in `around`.
     place: FxHashMap<u32, u32>,
-    /// Tetrahedra and the corner of theirs that is the vertex.
+    /// The tetrahedra, each with its corner at the vertex.
     around: Vec<(u32, usize)>,
 }
 
 impl LinkFinder {
-    /// Tables larger than this are given up, since to clear them takes longer than most stars do.
-    const MOST_TO_CLEAR: usize = 1 << 10;
+    /// Tables larger than this are replaced, because clearing them takes longer than most stars do.
+    const MAX_TO_CLEAR: usize = 1 << 10;
 
+    /// Adds tetrahedron `t` to `around`, if it is new.
     fn visit(&mut self, mesh: &Triangulation, t: u32, vertex: u32) -> Result<(), Aborted> {
         if let Entry::Vacant(entry) = self.place.entry(t) {
             let corner = mesh.vertices(t).iter().position(|&v| v == vertex);
@@ -82,13 +86,13 @@ impl LinkFinder {
         Ok(())
     }
 
-    /// The star of `vertex`, of which `start` is one tetrahedron.
+    /// Returns the star of `vertex` in the triangulation, given one of its tetrahedra, `start`.
     pub(super) fn star(&mut self, mesh: &Triangulation, vertex: u32, start: u32) -> Result<Star, Aborted> {
         if start as usize >= mesh.tetrahedra.len() {
             return Err(Aborted::Inconsistent("a vertex has no tetrahedron"));
         }
         self.around.clear();
-        if self.place.capacity() > Self::MOST_TO_CLEAR {
+        if self.place.capacity() > Self::MAX_TO_CLEAR {
             self.place = FxHashMap::default();
         }
         self.place.clear();
@@ -110,7 +114,8 @@ impl LinkFinder {
                 let place = self.place[&(across >> 2)];
                 let corner = self.around[place as usize].1;
                 let edge = FACETS[corner].iter().position(|&f| f == (across & 3) as usize);
-                // Were it the corner itself, the facet would not have the vertex, which the visit rules out.
+                // If it were the corner itself, the facet would not have the vertex, which the
+                // visit rules out.
                 4 * place + edge.unwrap_or(0) as u32
             });
             triangles.push(Triangle { neighbors, tetrahedron: t, ..Triangle::new(facet.map(|k| v[k])) });
@@ -120,21 +125,22 @@ impl LinkFinder {
 }
 
 impl Star {
-    /// The convex star of `vertex` among `points`, infinity and the kernel.
+    /// Builds the convex star of `vertex` among `points`, infinity and the spanning tetrahedron.
     pub(super) fn from_points(
-        space: &StarPredicates<'_>,
+        predicates: &StarPredicates<'_>,
         vertex: u32,
         points: impl Iterator<Item = u32>,
         changes: &mut Changes,
     ) -> Result<Self, Aborted> {
-        let kernel = space.kernel();
-        let infinite = space.infinite();
-        let first = kernel.map(|w| if w == vertex { infinite } else { w });
+        let spanning = predicates.spanning();
+        let infinite = predicates.infinite();
+        let first = spanning.map(|w| if w == vertex { infinite } else { w });
         let mut star = Star { vertex, triangles: Vec::new(), free: Vec::new(), recent: 0, epoch: 0 };
         let facet = |k: usize| FACETS[k].map(|i| first[i]);
-        let inverted = space.conflict(star.tetrahedron(facet(0)), first[0]) > 0;
+        let inverted = predicates.conflict(star.tetrahedron(facet(0)), first[0]) > 0;
         for (k, [i, j, l]) in FACETS.into_iter().enumerate() {
-            // The edge that facets k and i share lies opposite corner i of one and corner k of the other.
+            // The edge that facets k and i share lies opposite corner i of one and corner k of the
+            // other.
             let edge = |i: usize| {
                 let corner = if inverted { [0, 2, 1].map(|c| FACETS[i][c]) } else { FACETS[i] };
                 4 * i as u32 + corner.iter().position(|&c| c == k).map_or(0, |c| c as u32)
@@ -143,70 +149,74 @@ impl Star {
             star.triangles.push(Triangle { neighbors: order.map(edge), ..Triangle::new(order.map(|i| first[i])) });
         }
         if !first.contains(&infinite) {
-            // These four need not surround the vertex, so no walk would find the way.
-            if let Some(start) = star.scan(space, infinite) {
-                star.insert_from(space, infinite, start, changes)?;
+            // These four vertices need not surround the star's vertex, so a walk might not find the
+            // way.
+            if let Some(start) = star.scan(predicates, infinite) {
+                star.insert_from(predicates, infinite, start, changes)?;
             }
         }
         for p in points.filter(|p| !first.contains(p) && *p != infinite) {
-            star.insert(space, p, changes)?;
+            star.insert(predicates, p, changes)?;
         }
         changes.removed.clear();
         changes.added.clear();
         Ok(star)
     }
 
-    /// The vertices of the tetrahedron of a triangle.
+    /// Returns the vertices of the tetrahedron of a triangle.
     pub(super) fn tetrahedron(&self, [a, b, c]: [u32; 3]) -> [u32; 4] {
         [self.vertex, a, b, c]
     }
 
-    /// The triangles in use.
+    /// Iterates over the triangles in use.
     pub(super) fn used(&self) -> impl Iterator<Item = &Triangle> {
         self.triangles.iter().filter(|t| t.is_used())
     }
 
-    /// Whether a vertex is one of the link. Faster than a walk to it.
+    /// Returns whether a vertex is on the link. Faster than a walk to it.
     pub(super) fn has(&self, v: u32) -> bool {
         self.used().any(|t| t.vertices.contains(&v))
     }
 
-    /// A vertex of the link that lies inside the circumsphere of a positively oriented tetrahedron.
-    pub(super) fn witness(&self, space: &StarPredicates<'_>, tetrahedron: [u32; 4]) -> Option<u32> {
-        // Most vertices are somewhere the first corner.
+    /// Returns a vertex of the link that lies inside the circumsphere of a positively oriented
+    /// tetrahedron.
+    pub(super) fn witness(&self, predicates: &StarPredicates<'_>, tetrahedron: [u32; 4]) -> Option<u32> {
+        // Most vertices are the first corner of some triangle.
         let corners = (0..3).flat_map(|k| self.used().map(move |t| t.vertices[k]));
-        corners.filter(|v| !tetrahedron.contains(v)).find(|&v| space.conflict(tetrahedron, v) > 0)
+        corners.filter(|v| !tetrahedron.contains(v)).find(|&v| predicates.conflict(tetrahedron, v) > 0)
     }
 
-    /// Makes the star that of one point more, `p`; `changes` says how. False when `p` is a vertex of the link already, or
-    /// enclosed by the star.
+    /// Adds the point `p` to the star; `changes` says how. Returns `false` if `p` is already a
+    /// vertex of the link, or is enclosed by the star.
     pub(super) fn insert(
         &mut self,
-        space: &StarPredicates<'_>,
+        predicates: &StarPredicates<'_>,
         p: u32,
         changes: &mut Changes,
     ) -> Result<bool, Aborted> {
         changes.removed.clear();
         changes.added.clear();
-        match self.locate(space, p) {
+        match self.locate(predicates, p) {
             None => Ok(false),
-            Some(start) => self.insert_from(space, p, start, changes).map(|()| true),
+            Some(start) => self.insert_from(predicates, p, start, changes).map(|()| true),
         }
     }
 
-    fn sees(&self, space: &StarPredicates<'_>, p: u32, triangle: u32) -> bool {
+    /// Returns whether `p` sees a triangle from outside, that is, lies inside the circumsphere of
+    /// its tetrahedron.
+    fn sees(&self, predicates: &StarPredicates<'_>, p: u32, triangle: u32) -> bool {
         let corners = self.triangles[triangle as usize].vertices;
-        !corners.contains(&p) && space.conflict(self.tetrahedron(corners), p) > 0
+        !corners.contains(&p) && predicates.conflict(self.tetrahedron(corners), p) > 0
     }
 
-    /// Any triangle that `p` sees.
-    fn scan(&self, space: &StarPredicates<'_>, p: u32) -> Option<u32> {
-        (0..self.triangles.len() as u32).find(|&t| self.triangles[t as usize].is_used() && self.sees(space, p, t))
+    /// Returns any triangle that `p` sees.
+    fn scan(&self, predicates: &StarPredicates<'_>, p: u32) -> Option<u32> {
+        (0..self.triangles.len() as u32).find(|&t| self.triangles[t as usize].is_used() && self.sees(predicates, p, t))
     }
 
-    /// A triangle that `p` sees. If it sees any, then the one that the vertical through it meets: a walk in R³, across
-    /// the edges that separate a triangle from `p`.
-    fn locate(&self, space: &StarPredicates<'_>, p: u32) -> Option<u32> {
+    /// Returns a triangle that `p` sees. If `p` sees any, it sees the triangle that the vertical
+    /// through it meets: a walk in R³ finds it, across the edges that separate a triangle from `p`.
+    fn locate(&self, predicates: &StarPredicates<'_>, p: u32) -> Option<u32> {
         let mut t = self.recent;
         let mut came_through = 3;
         'walk: for _ in 0..self.triangles.len() {
@@ -215,21 +225,22 @@ impl Star {
                 return None;
             }
             for k in 0..3 {
-                if k != came_through && space.orient([self.vertex, v[(k + 1) % 3], v[(k + 2) % 3], p]) < 0 {
+                if k != came_through && predicates.orient([self.vertex, v[(k + 1) % 3], v[(k + 2) % 3], p]) < 0 {
                     t = neighbors[k] >> 2;
                     came_through = neighbors[k] as usize & 3;
                     continue 'walk;
                 }
             }
-            return self.sees(space, p, t).then_some(t);
+            return self.sees(predicates, p, t).then_some(t);
         }
-        self.scan(space, p)
+        self.scan(predicates, p)
     }
 
-    /// Beneath-beyond: replaces what `p` sees, `start` being part of it, by triangles from `p` to the horizon.
+    /// Replaces the triangles that `p` sees, of which `start` is one, by triangles from `p` to the
+    /// horizon (beneath-beyond).
     fn insert_from(
         &mut self,
-        space: &StarPredicates<'_>,
+        predicates: &StarPredicates<'_>,
         p: u32,
         start: u32,
         changes: &mut Changes,
@@ -249,7 +260,7 @@ impl Star {
             for k in 0..3 {
                 let other = self.triangles[t as usize].neighbors[k] >> 2;
                 if self.triangles[other as usize].seen < visible {
-                    let sees = self.sees(space, p, other);
+                    let sees = self.sees(predicates, p, other);
                     self.triangles[other as usize].seen = if sees { visible } else { hidden };
                     if sees {
                         list.push(other);
@@ -261,7 +272,7 @@ impl Star {
                 }
             }
         }
-        // Along the horizon, turning about its vertices on the visible side.
+        // Follows the horizon, turning about its vertices on the visible side.
         let (mut t, mut k) = first.ok_or(CONVEX)?;
         horizon.clear();
         for _ in 0..edges {
@@ -298,11 +309,13 @@ impl Star {
         Ok(())
     }
 
+    /// Makes two edges each other's neighbours.
     pub(super) fn join(&mut self, e: u32, f: u32) {
         self.triangles[e as usize / 4].neighbors[e as usize % 4] = f;
         self.triangles[f as usize / 4].neighbors[f as usize % 4] = e;
     }
 
+    /// Adds a triangle in an unused slot, or in a new one.
     fn push(&mut self, triangle: Triangle) -> u32 {
         match self.free.pop() {
             Some(slot) => {
@@ -316,8 +329,9 @@ impl Star {
         }
     }
 
+    /// Marks the slot of triangle `t` as unused.
     pub(super) fn release(&mut self, t: u32) {
-        self.triangles[t as usize].vertices[0] = NONE;
+        self.triangles[t as usize].vertices[0] = NO_INDEX;
         self.free.push(t);
     }
 

@@ -13,7 +13,21 @@ use crate::{
 use complex::Complex;
 
 /// What a mesh states: at least its tetrahedra. What is `None` is not checked.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::verify::{MeshView, verify3d};
+///
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
+/// // A mesh of another program, with its own arrays.
+/// let mut mesh = MeshView::of_tetrahedra(&[[0, 1, 2, 3]]);
+/// mesh.neighbors = Some(&[[-1; 4]]);
+/// assert!(verify3d(&points, mesh)?.passed());
+/// # Ok::<(), gdel::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, Default)]
+#[non_exhaustive]
 pub struct MeshView<'a> {
     /// As in [`Mesh3::tetrahedra`].
     pub tetrahedra: &'a [[u32; 4]],

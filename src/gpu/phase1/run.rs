@@ -22,6 +22,7 @@ use crate::{
         workgroups,
     },
     input::lattice::Lattice,
+    options::Winding,
     stats::{Round, Stopwatch},
 };
 
@@ -186,6 +187,7 @@ where
                 min_active: settings.min_active,
                 pick: settings.pick as u32,
                 entries: points,
+                clockwise: u32::from(settings.winding == Winding::Clockwise),
                 ..Params::default()
             },
             counters: Counters { first_node: 1, next_node: 1, ..Counters::default() },
@@ -242,7 +244,7 @@ where
             active: self.active(),
             flips: read.flips() - before.flips(),
             iterations: used,
-            milliseconds: self.round_clock.lap() * 1e3,
+            time: self.round_clock.lap(),
         });
         if inserts && read.inserted == before.inserted && self.waiting() > 0 {
             return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
@@ -333,7 +335,7 @@ where
         let more = tail_blocks(self.params.infinite, &self.settings);
         let blocks = before.saturating_add(more).min(MAX_SIMPLICES / BLOCK - 1);
         if blocks == before {
-            return Err(Error::TooManyTetrahedra { limit: MAX_SIMPLICES as usize });
+            return Err(Error::TooManySimplices { limit: MAX_SIMPLICES as usize });
         }
         let (bytes, limit) = (largest_bytes(blocks), self.gpu.max_storage_bytes());
         if bytes > limit.into() {
@@ -378,14 +380,14 @@ where
         let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
         let finite = self.kernels.readback.receive(gpu, &submission, finite).await?[0] as usize;
         let counters = counters_in(&words);
-        self.stats.milliseconds = self.clock.lap() * 1e3;
+        self.stats.time = self.clock.lap();
 
         let Run { kernels, points, memory, read_before, mut stats, mut clock, .. } = self;
         let readback = &mut kernels.readback;
         let (result, merged_into) =
             Dimension::<D>::read_result(gpu, readback, &memory.buffers, &memory.bound.finish, finite, &counters)
                 .await?;
-        stats.readback_milliseconds = clock.lap() * 1e3;
+        stats.readback_time = clock.lap();
         stats.counters = counters;
         stats.submits += 2;
         stats.readbacks = readback.count() - read_before;

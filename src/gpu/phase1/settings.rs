@@ -1,8 +1,11 @@
 //! How Phase 1 works.
 
-use crate::gpu::{
-    dim::{Dim, Dimension},
-    layout::Pick,
+use crate::{
+    gpu::{
+        dim::{Dim, Dimension},
+        layout::Pick,
+    },
+    options::Winding,
 };
 
 /// Settings for Phase 1 in `D` dimensions, for experiments: they change the time, and not the set of simplices.
@@ -31,6 +34,8 @@ pub struct Settings<const D: usize> {
     /// Whether points are ordered along the Hilbert curve, and so are the slots of their simplices in memory (§4.3,
     /// Figure 12).
     pub sort: bool,
+    /// 2D only: the orientation of the mesh.
+    pub winding: Winding,
 }
 
 impl<const D: usize> Default for Settings<D>
@@ -48,6 +53,7 @@ where
             slots_per_active: 0,
             max_iterations: Dimension::<D>::MAX_ITERATIONS,
             sort: true,
+            winding: Winding::CounterClockwise,
         }
     }
 }

@@ -4,6 +4,7 @@ use crate::{
     gpu::layout::Counters,
     stats::{GpuStats, Round},
 };
+use std::time::Duration;
 
 /// What a run of Phase 1 did.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -20,10 +21,10 @@ pub struct Phase1Stats {
     pub readbacks: usize,
     /// The most bytes of GPU memory that were held at a time.
     pub bytes: u64,
-    /// Milliseconds from the upload to the end of the last kernel, on the host's clock; 0 where there is none.
-    pub milliseconds: f64,
-    /// Milliseconds of the readback of the result, on the host's clock.
-    pub readback_milliseconds: f64,
+    /// The time from the upload to the end of the last kernel, on the host's clock; zero where there is none.
+    pub time: Duration,
+    /// The time of the readback of the result, on the host's clock.
+    pub readback_time: Duration,
 }
 
 impl Phase1Stats {

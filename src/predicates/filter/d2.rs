@@ -1,18 +1,31 @@
-//! The predicates of the plane.
+//! The 2D predicates.
 
 use crate::predicates::filter::{ERROR_BOUNDS, ExactStage, PredicateContext2, UNDERFLOW, in_sphere_bound, minus};
 use crate::predicates::{Sign, exact, integer, symbolic};
 
 impl PredicateContext2<'_> {
-    /// The sign of det(b − a, c − a): positive when a, b, c turn counter-clockwise, the y axis pointing up.
+    /// Returns the sign of det(b − a, c − a): positive if a, b, c turn counter-clockwise, the *y*
+    /// axis pointing up.
     #[inline]
     pub fn orient2d(&self, a: u32, b: u32, c: u32) -> Sign {
-        self.sign_of([a, b, c], Self::orient2d_at)
+        let stored = &self.coordinates;
+        if stored.is_empty() {
+            return self.orient2d_computed([a, b, c]);
+        }
+        let pc = stored[c as usize];
+        let [u, v] = [a, b].map(|v| minus(stored[v as usize], pc));
+        self.orient2d_of([a, b, c], u, v)
     }
 
+    #[inline(never)]
+    fn orient2d_computed(&self, vertices: [u32; 3]) -> Sign {
+        let [pa, pb, pc] = vertices.map(|v| self.computed(v));
+        self.orient2d_of(vertices, minus(pa, pc), minus(pb, pc))
+    }
+
+    /// From the differences to the last vertex.
     #[inline(always)]
-    fn orient2d_at(&self, vertices: [u32; 3], [pa, pb, pc]: [[f64; 2]; 3]) -> Sign {
-        let (u, v) = (minus(pa, pc), minus(pb, pc));
+    fn orient2d_of(&self, vertices: [u32; 3], u: [f64; 2], v: [f64; 2]) -> Sign {
         let det = u[0] * v[1] - u[1] * v[0];
         if det.abs() > self.orientation_bound {
             return if det > 0.0 { 1 } else { -1 };
@@ -51,22 +64,34 @@ impl PredicateContext2<'_> {
         }
     }
 
-    /// Positive when d is inside the circle through the counter-clockwise a, b, c. Ties are broken symbolically: never
-    /// zero for four different vertices, at least three of which are not collinear.
+    /// Returns the sign of the in-circle determinant: positive if d lies inside the circle through
+    /// the counter-clockwise a, b, c. Ties are broken symbolically: never zero for four different
+    /// vertices of which at least three are not collinear.
     #[inline]
     pub fn incircle(&self, [a, b, c]: [u32; 3], d: u32) -> Sign {
-        self.sign_of([a, b, c, d], Self::incircle_at)
+        let stored = &self.coordinates;
+        if stored.is_empty() {
+            return self.incircle_computed([a, b, c, d]);
+        }
+        let pd = stored[d as usize];
+        self.incircle_of([a, b, c, d], [a, b, c].map(|v| minus(stored[v as usize], pd)))
     }
 
+    #[inline(never)]
+    fn incircle_computed(&self, vertices: [u32; 4]) -> Sign {
+        let [pa, pb, pc, pd] = vertices.map(|v| self.computed(v));
+        self.incircle_of(vertices, [pa, pb, pc].map(|p| minus(p, pd)))
+    }
+
+    /// From the differences to the last vertex.
     #[inline(always)]
-    fn incircle_at(&self, vertices: [u32; 4], [pa, pb, pc, pd]: [[f64; 2]; 4]) -> Sign {
-        let [pa, pb, pc] = [pa, pb, pc].map(|p| minus(p, pd));
+    fn incircle_of(&self, vertices: [u32; 4], [a, b, c]: [[f64; 2]; 3]) -> Sign {
         let minor = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
-        let det = lift(pa) * minor(pb, pc) + lift(pb) * minor(pc, pa) + lift(pc) * minor(pa, pb);
+        let det = lift(a) * minor(b, c) + lift(b) * minor(c, a) + lift(c) * minor(a, b);
         if det.abs() > self.in_sphere_bound {
             return if det > 0.0 { 1 } else { -1 };
         }
-        self.incircle_unfiltered(vertices, [pa, pb, pc], det)
+        self.incircle_unfiltered(vertices, [a, b, c], det)
     }
 
     #[inline(never)]
@@ -108,7 +133,8 @@ impl PredicateContext2<'_> {
         })
     }
 
-    /// Whether b, which is collinear with the different points a and c, lies strictly between them.
+    /// Returns whether b, which is collinear with the different points a and c, lies strictly
+    /// between them.
     pub fn is_between(&self, a: u32, b: u32, c: u32) -> bool {
         let [a, b, c] = [a, b, c].map(|v| self.point(v));
         let ascending = |p: [f64; 2], q: [f64; 2]| p < q;
@@ -116,6 +142,7 @@ impl PredicateContext2<'_> {
     }
 }
 
+/// Returns the squared distance from the origin.
 #[inline]
 fn lift(p: [f64; 2]) -> f64 {
     p[0] * p[0] + p[1] * p[1]
@@ -127,7 +154,8 @@ mod tests {
     use crate::{input::lattice::Lattice, predicates::filter::Scale};
     use proptest::prelude::*;
 
-    /// Every sign that `PredicateContext2` gives for the first four points agrees with the exact predicates on `f64`.
+    /// Checks that every sign of a `PredicateContext2` for the first four points agrees with the
+    /// exact predicates on `f64`.
     fn agree(points: &[[f64; 2]]) -> Result<(), TestCaseError> {
         let lattice = Lattice::fit(points.into());
         // An order that differs from the input's, for the ties.

@@ -1,18 +1,30 @@
-//! The predicates of space.
+//! The 3D predicates.
 
 use crate::predicates::filter::{ERROR_BOUNDS, ExactStage, PredicateContext, UNDERFLOW, in_sphere_bound, minus};
 use crate::predicates::{Sign, exact, integer, symbolic};
 
 impl PredicateContext<'_> {
-    /// The sign of det(b − a, c − a, d − a).
+    /// Returns the sign of det(b − a, c − a, d − a).
     #[inline]
     pub fn orient3d(&self, a: u32, b: u32, c: u32, d: u32) -> Sign {
-        self.sign_of([a, b, c, d], Self::orient3d_at)
+        let stored = &self.coordinates;
+        if stored.is_empty() {
+            return self.orient3d_computed([a, b, c, d]);
+        }
+        let pd = stored[d as usize];
+        let [u, v, w] = [a, b, c].map(|v| minus(stored[v as usize], pd));
+        self.orient3d_of([a, b, c, d], u, v, w)
     }
 
+    #[inline(never)]
+    fn orient3d_computed(&self, vertices: [u32; 4]) -> Sign {
+        let [pa, pb, pc, pd] = vertices.map(|v| self.computed(v));
+        self.orient3d_of(vertices, minus(pa, pd), minus(pb, pd), minus(pc, pd))
+    }
+
+    /// From the differences to the last vertex.
     #[inline(always)]
-    fn orient3d_at(&self, vertices: [u32; 4], [pa, pb, pc, pd]: [[f64; 3]; 4]) -> Sign {
-        let (u, v, w) = (minus(pa, pd), minus(pb, pd), minus(pc, pd));
+    fn orient3d_of(&self, vertices: [u32; 4], u: [f64; 3], v: [f64; 3], w: [f64; 3]) -> Sign {
         // det(b − a, c − a, d − a) = −det(a − d, b − d, c − d).
         let det = u[0] * (v[2] * w[1] - v[1] * w[2])
             + u[1] * (v[0] * w[2] - v[2] * w[0])
@@ -54,21 +66,33 @@ impl PredicateContext<'_> {
         }
     }
 
-    /// Positive when e is inside the sphere through the positively oriented a, b, c, d. Ties are broken symbolically:
-    /// never zero for five different vertices, at least four of which are not coplanar.
+    /// Returns the sign of the in-sphere determinant: positive if e lies inside the sphere through
+    /// the positively oriented a, b, c, d. Ties are broken symbolically: never zero for five
+    /// different vertices of which at least four are not coplanar.
     #[inline(always)]
     pub fn insphere(&self, [a, b, c, d]: [u32; 4], e: u32) -> Sign {
-        self.sign_of([a, b, c, d, e], Self::insphere_at)
+        let stored = &self.coordinates;
+        if stored.is_empty() {
+            return self.insphere_computed([a, b, c, d, e]);
+        }
+        let pe = stored[e as usize];
+        self.insphere_of([a, b, c, d, e], [a, b, c, d].map(|v| minus(stored[v as usize], pe)))
     }
 
+    #[inline(never)]
+    fn insphere_computed(&self, vertices: [u32; 5]) -> Sign {
+        let [pa, pb, pc, pd, pe] = vertices.map(|v| self.computed(v));
+        self.insphere_of(vertices, [pa, pb, pc, pd].map(|p| minus(p, pe)))
+    }
+
+    /// From the differences to the last vertex.
     #[inline(always)]
-    fn insphere_at(&self, vertices: [u32; 5], [pa, pb, pc, pd, pe]: [[f64; 3]; 5]) -> Sign {
-        let [pa, pb, pc, pd] = [pa, pb, pc, pd].map(|p| minus(p, pe));
-        let det = insphere_determinant(pa, pb, pc, pd);
+    fn insphere_of(&self, vertices: [u32; 5], [a, b, c, d]: [[f64; 3]; 4]) -> Sign {
+        let det = insphere_determinant(a, b, c, d);
         if det.abs() > self.in_sphere_bound {
             return if det > 0.0 { 1 } else { -1 };
         }
-        self.insphere_unfiltered(vertices, [pa, pb, pc, pd], det)
+        self.insphere_unfiltered(vertices, [a, b, c, d], det)
     }
 
     #[inline(never)]
@@ -141,7 +165,8 @@ mod tests {
     use crate::input::lattice::Lattice;
     use proptest::prelude::*;
 
-    /// Every sign that `PredicateContext` gives for the first five points agrees with the exact predicates on `f64`.
+    /// Checks that every sign of a `PredicateContext` for the first five points agrees with the
+    /// exact predicates on `f64`.
     fn agree(points: &[[f64; 3]]) -> Result<(), TestCaseError> {
         let lattice = Lattice::fit(points.into());
         // An order that differs from the input's, for the ties.
@@ -194,7 +219,8 @@ mod tests {
 
         #[test]
         fn cospherical(points in prop::array::uniform5((0usize..1 << 20).prop_map(|i| {
-            // Rational points of the unit sphere are cospherical up to rounding; those of a sphere of integers exactly.
+            // Rational points of the unit sphere are cospherical up to rounding, integer points of
+            // the sphere of radius 9 exactly.
             let corners = [[0, 0, 9], [1, 4, 8], [4, 4, 7], [3, 6, 6]];
             let mut p = corners[i % 4].map(f64::from);
             p.rotate_left(i / 4 % 3);

@@ -1,4 +1,5 @@
-//! A point set prepared for fast exact predicates: floating-point filters, then lattice integers, then expansions.
+//! A point set prepared for fast exact predicates: floating-point filters first, then lattice
+//! integers, then expansions (the paper's §4.4).
 
 mod d2;
 mod d3;
@@ -6,22 +7,23 @@ mod d3;
 use crate::{
     Points,
     input::lattice::{Lattice, Width},
-    predicates::Sign,
     stats::ExactCounts,
 };
 use std::cell::Cell;
 
-/// What the roundoff of Shewchuk's determinants is at most, as a multiple of their permanents.
+/// The maximum roundoff of Shewchuk's determinants, as multiples of their permanents.
 #[derive(Clone, Copy)]
 struct ErrorBounds {
     orientation: f64,
     in_sphere: f64,
 }
 
+/// The maximum relative error of a rounded operation, 2⁻⁵³.
 const EPSILON: f64 = f64::EPSILON / 2.0;
 
-/// By the dimension: `orient2d` and `incircle`, `orient3d` and `insphere` (*Adaptive precision floating-point
-/// arithmetic*, 1997, §4), with the rounded differences counted in.
+/// By dimension: the bounds of `orient2d` and `incircle`, and of `orient3d` and `insphere`
+/// (*Adaptive precision floating-point arithmetic*, 1997, §4), which include the rounding of the
+/// differences.
 const ERROR_BOUNDS: [ErrorBounds; 4] = [
     ErrorBounds { orientation: 0.0, in_sphere: 0.0 },
     ErrorBounds { orientation: 0.0, in_sphere: 0.0 },
@@ -29,73 +31,84 @@ const ERROR_BOUNDS: [ErrorBounds; 4] = [
     ErrorBounds { orientation: (7.0 + 56.0 * EPSILON) * EPSILON, in_sphere: (16.0 + 224.0 * EPSILON) * EPSILON },
 ];
 
-/// Added to every error bound: coordinates are scaled to a range of 2³¹, so all that underflow can cost, 2⁻¹⁰⁷⁴ in any
-/// of some hundred operations and times at most 2¹⁵⁷ of later factors, is far below it.
+/// Added to every error bound, 2⁻⁹⁰⁰. Coordinates are scaled to a range of 2³¹, so the total effect
+/// of underflow, 2⁻¹⁰⁷⁴ in each of about a hundred operations, times at most 2¹⁵⁷ of later factors,
+/// is far below it.
 const UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
 
-/// Points in an order of the engine's choosing (*vertices*), with the predicates on them.
+/// Points in an order of the caller's choosing (*vertices*), with the predicates on them.
 ///
 /// The signs are those of the exact input coordinates; the symbolic ties are those of the input indices.
+///
+/// Each predicate checks once whether coordinates are stored and then reads them itself, in text that the four predicates
+/// have in common but do not share: one function for all, which took the determinant as a closure, passed the coordinates
+/// through memory and made the insertion take 1.5 times as long.
 pub struct PredicateContext<'a, const D: usize = 3> {
     input: Points<'a, D>,
     lattice: Lattice<D>,
-    /// The input index of each vertex; empty when the vertices are the input points in their order.
+    /// The input index of each vertex; empty if the vertices are the input points in their order.
     indices: Vec<u32>,
-    /// Input coordinates times a power of two that brings the range of every axis below 2³¹; for a narrow lattice, the
-    /// lattice coordinates. Empty when they are computed anew each time.
+    /// Input coordinates times a power of two that brings the range of every axis below 2³¹; for a
+    /// narrow lattice, the lattice coordinates. Empty if they are computed each time.
     coordinates: Vec<[f64; D]>,
     scaling: Scaling<D>,
     exact: ExactStage<D>,
-    /// Error bounds of the determinants' floating-point values that hold for all arguments.
+    /// Bounds, valid for all arguments, of the error of the determinants' floating-point values.
     orientation_bound: f64,
     in_sphere_bound: f64,
     counts: Cell<ExactCounts>,
 }
 
-/// Points of the plane, likewise.
+/// 2D points in an order of the caller's choosing (*vertices*), with the predicates on them.
 pub type PredicateContext2<'a> = PredicateContext<'a, 2>;
 
-/// What decides the signs that the filters leave open.
+/// The exact stage, which evaluates the predicates that the filters leave open.
 enum ExactStage<const D: usize> {
-    /// 31-bit integers, which the `coordinates` are.
+    /// 31-bit integers, which are the `coordinates`.
     Narrow,
-    /// 62-bit integers, where none of the points is rounded. Empty when they are computed anew each time.
+    /// 62-bit integers where no coordinate of the vertices is rounded, expansions elsewhere. Both
+    /// lists are empty if they are computed each time.
     Wide { positions: Vec<[i64; D]>, rounded: Vec<bool> },
 }
 
-/// How coordinates come from the input.
+/// How coordinates are computed from the input.
 enum Scaling<const D: usize> {
     /// They are the lattice coordinates.
     Lattice,
-    /// They are the input's times a power of two, but 0 where an axis does not vary.
+    /// They are the input's times a power of two, except that an axis on which the points agree is
+    /// 0.
     By(Scale, [bool; D]),
 }
 
-/// Multiplication by a power of two that `f64` need not have, as two that it has.
+/// A multiplication by a power of two that `f64` need not be able to represent, as two
+/// multiplications by powers of two that it represents.
 struct Scale([f64; 2]);
 
 impl Scale {
+    /// Creates the multiplication by 2^`exponent`.
     fn new(exponent: i32) -> Self {
         // |exponent| is at most 62 + 1074.
         let half = exponent.clamp(-2000, 2000) / 2;
         Scale([half, exponent.clamp(-2000, 2000) - half].map(|e| f64::from_bits(((1023 + e) as u64) << 52)))
     }
 
-    /// Exact unless the result is subnormal.
+    /// Multiplies `x`; exact unless the result is subnormal.
     fn apply(&self, x: f64) -> f64 {
         x * self.0[0] * self.0[1]
     }
 }
 
 impl<'a, const D: usize> PredicateContext<'a, D> {
-    /// Vertex *v* is `input` point `indices[v]`, and its coordinates lie at place *v* of an array, which is best for many
-    /// signs. The points must be finite and `lattice` fitted to them.
+    /// Creates a context in which vertex *v* is point `indices[v]` of the input. The points must be
+    /// finite, and `lattice` fitted to them.
+    ///
+    /// The coordinates of the vertices are stored, which is best for many predicate evaluations.
     pub fn new(input: Points<'a, D>, lattice: &Lattice<D>, indices: Vec<u32>) -> Self {
-        let mut vertices = PredicateContext::of_input(input, lattice);
-        vertices.coordinates.reserve_exact(indices.len());
-        let coordinates = indices.iter().map(|&i| vertices.computed(i));
-        vertices.coordinates = coordinates.collect();
-        if let ExactStage::Wide { positions, rounded } = &mut vertices.exact {
+        let mut context = PredicateContext::of_input(input, lattice);
+        context.coordinates.reserve_exact(indices.len());
+        let coordinates = indices.iter().map(|&i| context.computed(i));
+        context.coordinates = coordinates.collect();
+        if let ExactStage::Wide { positions, rounded } = &mut context.exact {
             positions.reserve_exact(indices.len());
             rounded.reserve_exact(indices.len());
             for &i in &indices {
@@ -104,11 +117,14 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
                 rounded.push(q.iter().any(|c| !c.exact));
             }
         }
-        vertices.indices = indices;
-        vertices
+        context.indices = indices;
+        context
     }
 
-    /// The vertices are the points of `input` in their order. Nothing is stored, which is best for few signs.
+    /// Creates a context whose vertices are the points of the input in their order. The points must
+    /// be finite, and `lattice` fitted to them.
+    ///
+    /// Nothing is stored, which is best for few predicate evaluations.
     pub fn of_input(input: Points<'a, D>, lattice: &Lattice<D>) -> Self {
         let (scaling, exact) = match lattice.width() {
             Width::Narrow => (Scaling::Lattice, ExactStage::Narrow),
@@ -118,7 +134,7 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
                 (Scaling::By(Scale::new(exponent), lattice.varies()), exact)
             }
         };
-        let mut vertices = PredicateContext {
+        let mut context = PredicateContext {
             input,
             lattice: lattice.clone(),
             indices: Vec::new(),
@@ -129,74 +145,53 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
             in_sphere_bound: 0.0,
             counts: Cell::default(),
         };
-        let [low, high] = lattice.bounds().map(|corner| vertices.scaled(corner));
+        let [low, high] = lattice.bounds().map(|corner| context.scaled(corner));
         let extents: [f64; D] = std::array::from_fn(|axis| (high[axis] - low[axis]).max(0.0));
-        vertices.orientation_bound = orientation_bound(extents);
-        vertices.in_sphere_bound = in_sphere_bound(extents);
-        vertices
+        context.orientation_bound = orientation_bound(extents);
+        context.in_sphere_bound = in_sphere_bound(extents);
+        context
     }
 
-    /// What [`PredicateContext::of_input`] makes others of, for another thread, if nothing is stored.
+    /// Returns the arguments of [`PredicateContext::of_input`] that create an equal context for
+    /// another thread, or `None` if coordinates are stored.
     pub(crate) fn source(&self) -> Option<(Points<'a, D>, &Lattice<D>)> {
         self.coordinates.is_empty().then_some((self.input, &self.lattice))
     }
 
-    /// Adds what others of the same points have counted.
+    /// Adds the counts of other contexts of the same points.
     pub(crate) fn add_counts(&self, more: ExactCounts) {
         self.counts.set(self.counts.get() + more);
     }
 
-    /// The number of vertices.
+    /// Returns the number of vertices.
     pub fn len(&self) -> usize {
         if self.indices.is_empty() { self.input.len() } else { self.indices.len() }
     }
 
-    /// Whether there are none.
+    /// Returns whether there are no vertices.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The exact coordinates of vertex `v`.
+    /// Returns the exact coordinates of vertex `v`.
     pub fn point(&self, v: u32) -> [f64; D] {
         self.input.get(self.input_index(v) as usize)
     }
 
-    /// The input index of vertex `v`.
+    /// Returns the input index of vertex `v`.
     #[inline]
     pub fn input_index(&self, v: u32) -> u32 {
         self.indices.get(v as usize).copied().unwrap_or(v)
     }
 
-    /// The input index of every vertex.
+    /// Returns the input index of every vertex.
     pub fn into_input_indices(self) -> Vec<u32> {
         self.indices
     }
 
-    /// What the filters left open so far.
+    /// Returns the number of predicate evaluations so far that the filters left open.
     pub fn exact_counts(&self) -> ExactCounts {
         self.counts.get()
-    }
-
-    /// A sign from the coordinates of vertices, stored or not: that is asked once for all of them.
-    #[inline(always)]
-    fn sign_of<const N: usize>(
-        &self,
-        vertices: [u32; N],
-        sign: impl Fn(&Self, [u32; N], [[f64; D]; N]) -> Sign,
-    ) -> Sign {
-        if self.coordinates.is_empty() {
-            return self.computed_sign_of(vertices, sign);
-        }
-        sign(self, vertices, vertices.map(|v| self.coordinates[v as usize]))
-    }
-
-    #[inline(never)]
-    fn computed_sign_of<const N: usize>(
-        &self,
-        vertices: [u32; N],
-        sign: impl Fn(&Self, [u32; N], [[f64; D]; N]) -> Sign,
-    ) -> Sign {
-        sign(self, vertices, vertices.map(|v| self.computed(v)))
     }
 
     /// The coordinates of vertex `v`, stored or not.
@@ -204,10 +199,12 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
         self.coordinates.get(v as usize).copied().unwrap_or_else(|| self.computed(v))
     }
 
+    /// Computes the coordinates of input point `i`.
     fn computed(&self, i: u32) -> [f64; D] {
         self.scaled(self.input.get(i as usize))
     }
 
+    /// Computes the coordinates of a point of the input.
     fn scaled(&self, p: [f64; D]) -> [f64; D] {
         match &self.scaling {
             Scaling::Lattice => self.lattice.narrow(p),
@@ -224,27 +221,28 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
         rounded: &[bool],
         vertices: [u32; N],
     ) -> Option<[[i64; D]; N]> {
-        let mut all = [[0; D]; N];
-        for (q, v) in all.iter_mut().zip(vertices) {
-            *q = match (positions.get(v as usize), rounded.get(v as usize)) {
-                (Some(&q), Some(false)) => q,
-                (Some(_), Some(true)) => return None,
-                _ => {
-                    let computed = self.lattice.coordinates(self.point(v));
-                    if computed.iter().any(|c| !c.exact) {
-                        return None;
-                    }
-                    computed.map(|c| c.value)
-                }
-            };
+        if positions.is_empty() {
+            return self.computed_wide(vertices);
         }
-        Some(all)
+        if vertices.iter().any(|&v| rounded[v as usize]) {
+            return None;
+        }
+        Some(vertices.map(|v| positions[v as usize]))
     }
 
+    #[inline(never)]
+    fn computed_wide<const N: usize>(&self, vertices: [u32; N]) -> Option<[[i64; D]; N]> {
+        let computed = vertices.map(|v| self.lattice.coordinates(self.point(v)));
+        let exact = computed.as_flattened().iter().all(|c| c.exact);
+        exact.then(|| computed.map(|q| q.map(|c| c.value)))
+    }
+
+    /// Returns the narrow lattice coordinates of vertex `v`.
     fn narrow(&self, v: u32) -> [i64; D] {
         self.coordinate(v).map(|x| x as i64)
     }
 
+    /// Increments one of the counts.
     fn count(&self, field: impl Fn(&mut ExactCounts) -> &mut u64) {
         let mut counts = self.counts.get();
         *field(&mut counts) += 1;
@@ -252,14 +250,17 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
     }
 }
 
-/// The error of an orientation's floating-point value where no difference of coordinates exceeds the `extents`: the
-/// permanent is at most D! times their product. The last factor covers the roundings here.
+/// Returns a bound of the error of an orientation's floating-point value if no difference of
+/// coordinates exceeds the `extents`: the permanent is at most D! times their product. The last
+/// factor covers the roundings in the bound itself.
 #[inline]
 fn orientation_bound<const D: usize>(extents: [f64; D]) -> f64 {
     ERROR_BOUNDS[D].orientation * greatest_permanent(extents) * (1.0 + 64.0 * EPSILON) + UNDERFLOW
 }
 
-/// Likewise for an in-sphere determinant: its permanent has D + 1 orientations, each times a squared length.
+/// Returns a bound of the error of an in-sphere determinant's floating-point value if no difference
+/// of coordinates exceeds the `extents`: its permanent has D + 1 orientations, each times a squared
+/// length.
 #[inline]
 fn in_sphere_bound<const D: usize>(extents: [f64; D]) -> f64 {
     let squared: f64 = extents.iter().map(|x| x * x).sum();
@@ -267,11 +268,13 @@ fn in_sphere_bound<const D: usize>(extents: [f64; D]) -> f64 {
     ERROR_BOUNDS[D].in_sphere * permanent * (1.0 + 64.0 * EPSILON) + UNDERFLOW
 }
 
+/// Returns D! times the product of the extents.
 #[inline]
 fn greatest_permanent<const D: usize>(extents: [f64; D]) -> f64 {
     extents.iter().zip(1..).map(|(x, factor)| x * f64::from(factor)).product()
 }
 
+/// Returns the difference of two points.
 #[inline]
 fn minus<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {
     std::array::from_fn(|axis| a[axis] - b[axis])

@@ -18,24 +18,24 @@ pub fn mesh_mark(state: &State) -> Vec<u32> {
     (0..state.triangles.len() as u32).map(|t| u32::from(kept(t))).collect()
 }
 
-/// The half-edge that becomes of the edge opposite vertex *k*, and the other way round: turned over, the triangle a, b, c
-/// is a, c, b.
-const TURNED: [usize; 3] = [1, 0, 2];
-
-/// Writes the answer. `offsets` is the exclusive scan of the marks. One thread a slot but the last.
+/// Writes the answer. `offsets` is the exclusive scan of the marks. One thread per slot but the last.
 pub fn mesh_compact(state: &State, offsets: &[u32]) -> Mesh {
     let mut mesh = Mesh::default();
     let is_kept = |t: u32| offsets[t as usize + 1] != offsets[t as usize];
     for t in (0..offsets.len() as u32 - 1).filter(|&t| is_kept(t)) {
         let [a, b, c] = state.triangle(t).map(|v| state.points[v as usize].index);
-        let turned = [a, c, b];
-        mesh.triangles.push(turned);
+        // Edges are numbered by the vertex opposite, half-edges by the vertex where they begin.
+        let (triangle, edge_of_halfedge, halfedge_of_edge) = match state.params.clockwise {
+            0 => ([a, b, c], [2, 0, 1], [1, 2, 0]),
+            _ => ([a, c, b], [1, 0, 2], [1, 0, 2]),
+        };
+        mesh.triangles.push(triangle);
         mesh.halfedges.push([0, 1, 2].map(|k| {
-            let (u, edge) = state.across(t, TURNED[k]);
+            let (u, edge) = state.across(t, edge_of_halfedge[k]);
             if is_kept(u) {
-                return (3 * offsets[u as usize]) as i32 + TURNED[edge] as i32;
+                return (3 * offsets[u as usize]) as i32 + halfedge_of_edge[edge];
             }
-            mesh.hull.push([turned[k], turned[(k + 1) % 3]]);
+            mesh.hull.push([triangle[k], triangle[(k + 1) % 3]]);
             NONE
         }));
     }

@@ -1,0 +1,57 @@
+//! Times the GPU backend in 3D: `cargo bench --features cli --bench measure_3d -- [uniform|gaussian|ball|thin-sphere|sphere|grid|FILE] [POINTS] [ADAPTER] [REPEATS]`.
+//!
+//! The variable SINGLE (1) rounds the coordinates to `f32`, SEED chooses others. Prints a line of JSON: medians over the
+//! repeats of the whole run and its phases, points in host memory to mesh in host memory. Before, it runs for a second to warm up:
+//! a device raises its clock slowly.
+
+use gdel::internals::d3::generate::{Distribution, generate};
+use gdel::internals::gpu::{AdapterChoice, Gpu, engine::GpuEngine};
+use gdel::internals::io::files::read_points;
+use gdel::{Points, internals::Options};
+use pollster::block_on;
+use std::{path::Path, time::Instant};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    // `cargo bench` adds `--bench`.
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
+    let argument = |i: usize, default: &str| arguments.get(i).cloned().unwrap_or(default.to_owned());
+    let (kind, count, adapter) = (argument(0, "uniform"), argument(1, "100000").parse::<usize>()?, argument(2, ""));
+    let repeats: usize = argument(3, "5").parse()?;
+    let option = |name: &str, default: u64| -> u64 {
+        std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(default)
+    };
+    let single = option("SINGLE", 0) != 0;
+    let doubles: Vec<[f64; 3]> = match Distribution::ALL.into_iter().find(|d| d.name() == kind) {
+        Some(distribution) => generate(distribution, count, option("SEED", 1)),
+        None => Points::from(&read_points(Path::new(&kind))?.points).iter().collect(),
+    };
+    let singles: Vec<[f32; 3]> = doubles.iter().map(|p| p.map(|x| x as f32)).collect();
+    let points: Points<'_> = if single { (&singles).into() } else { (&doubles).into() };
+
+    let choice = if adapter.is_empty() { AdapterChoice::Default } else { AdapterChoice::Name(adapter) };
+    let gpu = block_on(Gpu::open(&choice))?;
+    let name = gpu.adapter().name.clone();
+    let mut engine = block_on(GpuEngine::new(gpu))?;
+    let mut run = || -> Result<_, gdel::Error> {
+        let clock = Instant::now();
+        let mesh = block_on(engine.triangulate(points, &Options::default()))?;
+        Ok((1e3 * clock.elapsed().as_secs_f64(), mesh.tetrahedra.len(), mesh.stats))
+    };
+    let warm_up = Instant::now();
+    run()?;
+    while warm_up.elapsed().as_secs_f64() < 1.0 {
+        run()?;
+    }
+    let mut runs = (0..repeats.max(1)).map(|_| run()).collect::<Result<Vec<_>, _>>()?;
+    runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (ms, tetrahedra, stats) = &runs[runs.len() / 2];
+    let phases: serde_json::Map<_, _> =
+        stats.phases.iter().map(|&(phase, time)| (phase.to_string(), (1e3 * time.as_secs_f64()).into())).collect();
+    let line = serde_json::json!({
+        "input": kind, "points": points.len(), "single": single, "adapter": name, "ms": ms,
+        "all_ms": runs.iter().map(|run| run.0).collect::<Vec<_>>(), "phases_ms": phases, "tetrahedra": tetrahedra,
+        "splay": stats.splay, "fallback": stats.fallback,
+    });
+    println!("{line}");
+    Ok(())
+}

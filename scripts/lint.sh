@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Runs every lint that a change has to pass. `--online` adds those that need more than the package
+# registries: known vulnerabilities (the database of RustSec) and semantic versioning.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+PATH=$PWD/.cache/tools/bin:$PWD/.cache/tools/python/bin:$PATH
+
+step() {
+  echo "== $*"
+  "$@"
+}
+
+online=false
+[[ ${1:-} != --online ]] || online=true
+
+step cargo fmt --all --check
+step cargo clippy --locked --workspace --all-targets --all-features -- -D warnings
+# The library must build wherever Rust does, with any single feature and with none.
+step cargo hack check --locked --lib --each-feature --no-dev-deps -p gdel
+step cargo check --locked --lib --no-default-features --target wasm32-unknown-unknown
+RUSTDOCFLAGS="-D warnings" step cargo doc --locked --no-deps --all-features
+step typos
+step npm run lint --silent
+if $online; then
+  step cargo deny --all-features check
+  step cargo semver-checks
+else
+  step cargo deny --offline --all-features check bans licenses sources
+fi

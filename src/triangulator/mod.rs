@@ -1,0 +1,279 @@
+//! Triangulations with options, on the CPU or the GPU.
+
+#[cfg(feature = "gpu")]
+mod shared_device;
+
+#[cfg(feature = "gpu")]
+pub use shared_device::{MIN_POINTS, MIN_POINTS_2, OPENING_POINTS, OPENING_POINTS_2};
+
+#[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
+use crate::stats::{Fallback, Stats};
+#[cfg(feature = "gpu")]
+use crate::{AdapterChoice, gpu::Gpu};
+use crate::{
+    Backend, Error, Mesh2, Mesh3, Points, Points2, Progress,
+    options::{Options, Winding},
+};
+#[cfg(feature = "gpu")]
+use shared_device::SharedDevice;
+use std::{ops::ControlFlow, sync::Arc};
+
+/// Triangulates with options: which backend computes, what learns of the progress, which device is used.
+///
+/// A triangulator opens the GPU when it is first needed, and keeps it, with the kernels compiled for it, until the last clone
+/// of the triangulator is dropped. So create one and use it for many inputs. Clones are cheap and share the device, which does
+/// one run at a time; options set on a clone do not change the original.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Backend, Triangulator};
+///
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
+/// let triangulator = Triangulator::new().backend(Backend::Cpu);
+/// let mesh = triangulator.delaunay3d(&points)?;
+/// assert_eq!(mesh.tetrahedra.len(), 1);
+/// # Ok::<(), gdel::Error>(())
+/// ```
+///
+/// Methods that end in `_async` wait for the GPU without blocking the thread: for browsers, where nothing may block, and for
+/// executors. What the CPU has to do they do in the calling thread.
+#[derive(Debug, Clone, Default)]
+pub struct Triangulator {
+    options: Options,
+    #[cfg(feature = "gpu")]
+    device: Arc<SharedDevice>,
+}
+
+impl Triangulator {
+    /// Creates a triangulator with [`Backend::Auto`] on the adapter that the system recommends.
+    pub fn new() -> Self {
+        Triangulator::default()
+    }
+
+    /// Returns the triangulator of the functions [`delaunay3d`](crate::delaunay3d) and [`delaunay2d`](crate::delaunay2d), whose
+    /// device serves the whole process.
+    pub(crate) fn of_process() -> Self {
+        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+        {
+            static OF_PROCESS: std::sync::LazyLock<Triangulator> = std::sync::LazyLock::new(Triangulator::new);
+            OF_PROCESS.clone()
+        }
+        #[cfg(not(all(feature = "gpu", not(target_arch = "wasm32"))))]
+        Triangulator::new()
+    }
+
+    /// Creates a triangulator that uses an existing device, for example that of a renderer.
+    ///
+    /// The limits of the device are taken as they are: WebGPU's defaults suffice, larger buffers allow larger inputs.
+    /// [`Backend::Auto`] uses the device even if it is software. Its handlers for errors and loss remain the caller's, so that
+    /// losing it is reported as [`Error::Gpu`].
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # fn triangulate(device: gdel::wgpu::Device, queue: gdel::wgpu::Queue) -> Result<(), gdel::Error> {
+    /// use gdel::{Backend, Triangulator};
+    ///
+    /// let triangulator = Triangulator::from_device(device, queue).backend(Backend::Gpu);
+    /// let mesh = triangulator.delaunay2d(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f32]])?;
+    /// assert_eq!(mesh.triangles.len(), 1);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[cfg(feature = "gpu")]
+    pub fn from_device(device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        Triangulator::from_gpu(Gpu::from_device(device, queue))
+    }
+
+    #[doc(hidden)]
+    #[cfg(feature = "gpu")]
+    pub fn from_gpu(gpu: Gpu) -> Self {
+        Triangulator { device: Arc::new(SharedDevice::from_gpu(gpu)), ..Triangulator::default() }
+    }
+
+    /// Sets which backend computes. The default is [`Backend::Auto`].
+    #[must_use]
+    pub fn backend(mut self, backend: Backend) -> Self {
+        self.options.backend = backend;
+        self
+    }
+
+    /// Sets which adapter to open. The triangulator no longer shares its device with those that it was cloned from.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{AdapterChoice, Triangulator};
+    ///
+    /// let triangulator = Triangulator::new().adapter(AdapterChoice::Name("nvidia".to_owned()));
+    /// # let _ = triangulator;
+    /// ```
+    #[cfg(feature = "gpu")]
+    #[must_use]
+    pub fn adapter(mut self, adapter: AdapterChoice) -> Self {
+        self.device = Arc::new(SharedDevice::new(adapter));
+        self
+    }
+
+    /// Sets a function that is called a few hundred times per run, in the thread that triangulates.
+    /// [`ControlFlow::Break`] cancels the run, which then returns [`Error::Cancelled`].
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Error, Triangulator};
+    /// use std::ops::ControlFlow;
+    ///
+    /// let cancelled = Triangulator::new()
+    ///     .on_progress(|progress| {
+    ///         println!("{}: {:.0} %", progress.phase, 100.0 * progress.fraction);
+    ///         ControlFlow::Break(())
+    ///     })
+    ///     .delaunay2d(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]]);
+    /// assert_eq!(cancelled.unwrap_err(), Error::Cancelled);
+    /// ```
+    #[must_use]
+    pub fn on_progress(mut self, report: impl Fn(Progress) -> ControlFlow<()> + Send + Sync + 'static) -> Self {
+        self.options.on_progress = Some(Arc::new(report));
+        self
+    }
+
+    /// Sets whether a 3D run on the GPU keeps [`Stats::trace`](crate::stats::Stats::trace).
+    ///
+    /// All tetrahedra are then read back after every round and their facets tested once more, so a run takes several times as
+    /// long. Meant for small inputs.
+    #[must_use]
+    pub fn trace(mut self, trace: bool) -> Self {
+        self.options.trace = trace;
+        self
+    }
+
+    #[doc(hidden)]
+    #[must_use]
+    pub fn winding(mut self, winding: Winding) -> Self {
+        self.options.winding = winding;
+        self
+    }
+
+    /// Returns the 3D Delaunay triangulation of `points`. Blocks the thread; in browsers it therefore uses the CPU only.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`delaunay3d`](crate::delaunay3d). If the backend is [`Backend::Gpu`], also those of the GPU:
+    /// [`Error::GpuUnavailable`], [`Error::NoAdapter`], [`Error::AdapterNotFound`], [`Error::DeviceLost`],
+    /// [`Error::OutOfDeviceMemory`], [`Error::BufferTooLarge`] and [`Error::Gpu`].
+    pub fn delaunay3d<'a>(&self, points: impl Into<Points<'a>>) -> Result<Mesh3, Error> {
+        let points = points.into();
+        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+        {
+            pollster::block_on(self.device.delaunay3d(points, &self.options))
+        }
+        #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
+        without_gpu(&self.options, |options| crate::d3::cpu::delaunay3d(points, options), |mesh| &mut mesh.stats)
+    }
+
+    /// Returns the 2D Delaunay triangulation of `points`. Blocks the thread; in browsers it therefore uses the CPU only.
+    ///
+    /// # Errors
+    ///
+    /// The same as for [`Triangulator::delaunay3d`].
+    pub fn delaunay2d<'a>(&self, points: impl Into<Points2<'a>>) -> Result<Mesh2, Error> {
+        let points = points.into();
+        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+        {
+            pollster::block_on(self.device.delaunay2d(points, &self.options))
+        }
+        #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
+        without_gpu(&self.options, |options| crate::d2::cpu::delaunay2d(points, options), |mesh| &mut mesh.stats)
+    }
+
+    /// Returns the 3D Delaunay triangulation of `points`, and waits for the GPU without blocking the thread.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
+    /// // Any executor will do.
+    /// let mesh = pollster::block_on(gdel::Triangulator::new().delaunay3d_async(&points))?;
+    /// assert_eq!(mesh.tetrahedra.len(), 1);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// The same as for [`Triangulator::delaunay3d`].
+    pub async fn delaunay3d_async<'a>(&self, points: impl Into<Points<'a>>) -> Result<Mesh3, Error> {
+        #[cfg(feature = "gpu")]
+        {
+            self.device.delaunay3d(points.into(), &self.options).await
+        }
+        #[cfg(not(feature = "gpu"))]
+        self.delaunay3d(points)
+    }
+
+    /// Returns the 2D Delaunay triangulation of `points`, and waits for the GPU without blocking the thread.
+    ///
+    /// # Errors
+    ///
+    /// The same as for [`Triangulator::delaunay3d`].
+    pub async fn delaunay2d_async<'a>(&self, points: impl Into<Points2<'a>>) -> Result<Mesh2, Error> {
+        #[cfg(feature = "gpu")]
+        {
+            self.device.delaunay2d(points.into(), &self.options).await
+        }
+        #[cfg(not(feature = "gpu"))]
+        self.delaunay2d(points)
+    }
+
+    /// Opens the device and compiles the kernels for 3D, unless that was done.
+    #[doc(hidden)]
+    #[cfg(feature = "gpu")]
+    pub async fn gpu(&self) -> Result<Gpu, Error> {
+        self.device.gpu().await
+    }
+
+    /// Gives the device back now. The next run reopens it.
+    #[doc(hidden)]
+    #[cfg(feature = "gpu")]
+    pub async fn close(&self) {
+        self.device.close().await;
+    }
+}
+
+/// Triangulates where no GPU can be used: because it is not compiled in, or because a browser's cannot be waited for.
+#[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
+fn without_gpu<M>(
+    options: &Options,
+    triangulate: impl FnOnce(&Options) -> Result<M, Error>,
+    stats: impl FnOnce(&mut M) -> &mut Stats,
+) -> Result<M, Error> {
+    #[cfg(feature = "gpu")]
+    let reason = "a browser's GPU cannot be waited for; use the methods that end in `_async`";
+    #[cfg(not(feature = "gpu"))]
+    let reason = "gdel was built without the feature `gpu`";
+    let unavailable = Error::GpuUnavailable { reason };
+    match options.backend {
+        Backend::Cpu => triangulate(options),
+        Backend::Gpu => Err(unavailable),
+        Backend::Auto => {
+            let mut mesh = triangulate(options)?;
+            stats(&mut mesh).fallback = Some(Fallback::NoGpu(unavailable));
+            Ok(mesh)
+        }
+    }
+}
+
+/// Returns the GPU adapters of this machine, in the order that [`AdapterChoice::Index`] counts.
+///
+/// # Examples
+///
+/// ```
+/// for adapter in gdel::adapters() {
+///     println!("{} ({})", adapter.name, adapter.backend);
+/// }
+/// ```
+#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+pub fn adapters() -> Vec<crate::AdapterSummary> {
+    pollster::block_on(crate::gpu::adapters())
+}

@@ -1,0 +1,281 @@
+//! One device behind both dimensions: it is opened when it is first needed, and kept for later inputs with what was compiled
+//! for it.
+
+use crate::{
+    Backend, Error, Mesh2, Mesh3, Options, Points,
+    gpu::{
+        AdapterChoice, Gpu,
+        dim::Dimension,
+        engine::{Complete, GpuEngine, MeshOf},
+        phase1::Finish,
+    },
+    input::points::Points2,
+    stats::Fallback,
+};
+use async_lock::Mutex;
+
+/// The number of points in 3D from which on [`Backend::Auto`] takes the GPU engine if it is open.
+///
+/// A bound, from `cargo bench --features cli --bench experiments -- crossing` on one NVIDIA H200 and one core of the Xeon beside
+/// it, 2026-11-21: the GPU engine takes 27 ms for 100,000 uniform points, and never more for fewer; the CPU engine takes at
+/// least 2.0 µs per point, so it is no faster from 14,000 points on. The rest is for devices that take longer to start.
+pub const MIN_POINTS: usize = 24_000;
+
+/// The number of points in 3D that the CPU engine triangulates in the time that it takes to open the GPU and compile its
+/// kernels: 188 and 74 ms on the same machine, against 245 ms for 100,000 points. [`Backend::Auto`] opens it when it has
+/// seen so many in all that the GPU would have taken, so opening never costs more than was lost by not having done so.
+pub const OPENING_POINTS: usize = 100_000;
+
+/// The number of points in 2D from which on [`Backend::Auto`] takes the GPU engine if it is open: on the same machine (`cargo
+/// bench --bench measure_2d`, 2026-11-22), the GPU engine takes 8 ms for 50,000 points, and the CPU engine 0.43 µs per
+/// point, so it is no faster from 19,000 points on.
+pub const MIN_POINTS_2: usize = 30_000;
+
+/// The number of points in 2D that the CPU engine triangulates while the GPU is opened and its kernels compiled: 188 and
+/// 52 ms, at 0.43 µs per point.
+pub const OPENING_POINTS_2: usize = 560_000;
+
+/// What clones of a [`Triangulator`](crate::Triangulator) share. The device does one run at a time; others wait for it.
+#[derive(Debug, Default)]
+pub(super) struct SharedDevice {
+    adapter: AdapterChoice,
+    state: Mutex<State>,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    d3: Slot<3>,
+    /// On the same device.
+    d2: Slot<2>,
+    /// The caller's device, which [`Backend::Auto`] may take though it is software, and which is not destroyed here.
+    caller_supplied: Option<Gpu>,
+    /// Why [`Backend::Auto`] does not try to open a device again.
+    unusable: Option<Fallback>,
+}
+
+#[derive(Debug)]
+struct Slot<const D: usize>
+where
+    Dimension<D>: Finish<D>,
+{
+    /// The GPU engine, while it is open.
+    engine: Option<GpuEngine<D>>,
+    /// The points of the inputs so far that it would have been taken for, had it been open.
+    points_seen: usize,
+}
+
+impl<const D: usize> Default for Slot<D>
+where
+    Dimension<D>: Finish<D>,
+{
+    fn default() -> Self {
+        Slot { engine: None, points_seen: 0 }
+    }
+}
+
+/// What [`Backend::Auto`] has to know of a dimension.
+trait Choice<const D: usize>: Complete<D>
+where
+    Dimension<D>: Complete<D>,
+{
+    const MIN_POINTS: usize;
+    const OPENING_POINTS: usize;
+
+    fn slot(state: &mut State) -> &mut Slot<D>;
+}
+
+impl Choice<3> for Dimension<3> {
+    const MIN_POINTS: usize = MIN_POINTS;
+    const OPENING_POINTS: usize = OPENING_POINTS;
+
+    fn slot(state: &mut State) -> &mut Slot<3> {
+        &mut state.d3
+    }
+}
+
+impl Choice<2> for Dimension<2> {
+    const MIN_POINTS: usize = MIN_POINTS_2;
+    const OPENING_POINTS: usize = OPENING_POINTS_2;
+
+    fn slot(state: &mut State) -> &mut Slot<2> {
+        &mut state.d2
+    }
+}
+
+impl SharedDevice {
+    /// Creates the state for a device of this adapter.
+    pub(super) fn new(adapter: AdapterChoice) -> Self {
+        SharedDevice { adapter, ..SharedDevice::default() }
+    }
+
+    /// Creates the state for the caller's device. When that is lost, the default adapter replaces it.
+    pub(super) fn from_gpu(gpu: Gpu) -> Self {
+        let state = State { caller_supplied: Some(gpu), ..State::default() };
+        SharedDevice { state: Mutex::new(state), ..SharedDevice::default() }
+    }
+
+    /// Returns the GPU, with the kernels for 3D compiled. Opens it if necessary.
+    pub(super) async fn gpu(&self) -> Result<Gpu, Error> {
+        let mut state = self.state.lock().await;
+        Ok(state.open::<3>(&self.adapter).await?.gpu().clone())
+    }
+
+    /// Gives the device back now rather than with the last reference to it. The next run reopens it.
+    pub(super) async fn close(&self) {
+        let mut state = self.state.lock().await;
+        match (&state.caller_supplied, state.open_device()) {
+            (None, Some(gpu)) => gpu.device().destroy(),
+            (Some(_), _) | (None, None) => {}
+        }
+        state.close();
+    }
+
+    /// Triangulates `points` in 3D.
+    pub(super) async fn delaunay3d(&self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
+        self.run::<3>(points, options).await
+    }
+
+    /// Triangulates `points` in 2D.
+    pub(super) async fn delaunay2d(&self, points: Points2<'_>, options: &Options) -> Result<Mesh2, Error> {
+        self.run::<2>(points, options).await
+    }
+
+    async fn run<const D: usize>(&self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        match options.backend {
+            Backend::Cpu => Dimension::<D>::on_cpu(points, options),
+            Backend::Gpu => {
+                let mut state = self.state.lock().await;
+                state.open::<D>(&self.adapter).await?;
+                state.run::<D>(points, options).await
+            }
+            Backend::Auto => {
+                let options = &options.monotone();
+                let why = match self.try_gpu::<D>(points, options).await {
+                    Ok(result) => return result,
+                    Err(why) => why,
+                };
+                let mut mesh = Dimension::<D>::on_cpu(points, options)?;
+                Dimension::<D>::stats(&mut mesh).fallback = Some(why);
+                Ok(mesh)
+            }
+        }
+    }
+
+    /// Returns what the GPU engine makes of the points, or why the CPU engine has to.
+    async fn try_gpu<const D: usize>(
+        &self,
+        points: Points<'_, D>,
+        options: &Options,
+    ) -> Result<Result<MeshOf<D>, Error>, Fallback>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let min_points = Dimension::<D>::MIN_POINTS;
+        if points.len() < min_points {
+            return Err(Fallback::FewPoints { points: points.len(), least: min_points });
+        }
+        let mut state = self.state.lock().await;
+        state.open_if_it_pays::<D>(&self.adapter, points.len()).await?;
+        match state.run::<D>(points, options).await {
+            Err(error) if error.is_of_the_gpu() => Err(Fallback::GpuFailed(error)),
+            result => Ok(result),
+        }
+    }
+}
+
+impl State {
+    /// Returns the GPU engine, opened if it is not.
+    async fn open<const D: usize>(&mut self, adapter: &AdapterChoice) -> Result<&mut GpuEngine<D>, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let engine = match Dimension::<D>::slot(self).engine.take() {
+            Some(engine) => engine,
+            None => GpuEngine::new(self.device(adapter).await?).await?,
+        };
+        Ok(Dimension::<D>::slot(self).engine.insert(engine))
+    }
+
+    /// Returns the device of the engines that are open: they share one.
+    fn open_device(&self) -> Option<Gpu> {
+        let d3 = self.d3.engine.as_ref().map(GpuEngine::gpu);
+        d3.or(self.d2.engine.as_ref().map(GpuEngine::gpu)).cloned()
+    }
+
+    /// Returns that device, or opens a new one.
+    async fn device(&self, adapter: &AdapterChoice) -> Result<Gpu, Error> {
+        match self.open_device().or_else(|| self.caller_supplied.clone()) {
+            Some(gpu) => Ok(gpu),
+            None => Gpu::open(adapter).await,
+        }
+    }
+
+    /// Forgets what was compiled for the device.
+    fn close(&mut self) {
+        self.d3.engine = None;
+        self.d2.engine = None;
+    }
+
+    /// Opens the GPU engine for an input of `points` points if it is not open, or says why not to take it.
+    async fn open_if_it_pays<const D: usize>(&mut self, adapter: &AdapterChoice, points: usize) -> Result<(), Fallback>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        if let Some(why) = &self.unusable {
+            return Err(why.clone());
+        }
+        if let Some(gpu) = self.open_device() {
+            self.check_usable(&gpu)?;
+        }
+        if Dimension::<D>::slot(self).engine.is_some() {
+            return Ok(());
+        }
+        let missing = Dimension::<D>::OPENING_POINTS.saturating_sub(Dimension::<D>::slot(self).points_seen);
+        if points < missing && self.caller_supplied.is_none() {
+            Dimension::<D>::slot(self).points_seen += points;
+            return Err(Fallback::FewPoints { points, least: missing });
+        }
+        let opened = match self.device(adapter).await {
+            Ok(gpu) => match self.check_usable(&gpu) {
+                Ok(()) => GpuEngine::new(gpu).await.map_err(Fallback::NoGpu),
+                Err(why) => Err(why),
+            },
+            Err(error) => Err(Fallback::NoGpu(error)),
+        };
+        match opened {
+            Ok(engine) => {
+                Dimension::<D>::slot(self).engine = Some(engine);
+                Ok(())
+            }
+            Err(why) => Err(self.unusable.insert(why).clone()),
+        }
+    }
+
+    /// Runs the GPU engine, which is open. If its device gets lost, the next run has to open another.
+    async fn run<const D: usize>(&mut self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let Some(engine) = &mut Dimension::<D>::slot(self).engine else {
+            return Err(Error::NoAdapter { reason: "it is not open".to_owned() });
+        };
+        let result = engine.triangulate(points, options).await;
+        if matches!(result, Err(Error::DeviceLost { .. })) {
+            self.close();
+            self.caller_supplied = None;
+        }
+        result
+    }
+
+    /// Says why [`Backend::Auto`] cannot use this device: an adapter that is software is no use to it, unless the caller
+    /// supplied it.
+    fn check_usable(&self, gpu: &Gpu) -> Result<(), Fallback> {
+        match gpu.adapter().software && self.caller_supplied.is_none() {
+            true => Err(Fallback::SoftwareGpu(gpu.adapter().name.clone())),
+            false => Ok(()),
+        }
+    }
+}
