@@ -30,6 +30,7 @@
 //!
 //! The features `io`, `wasm` and `wasm-*` serve the program and the npm package; they add nothing to the public interface.
 #![cfg_attr(docsrs, feature(doc_cfg))]
+#![forbid(unsafe_code)]
 
 // What data passes through, in this order.
 mod input;

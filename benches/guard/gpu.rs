@@ -1,13 +1,15 @@
-//! What the GPU engine does on small inputs, for `scripts/guard.sh`, which compares it with
+//! Counts what the GPU backend does on small inputs, for `scripts/guard.sh`, which compares it with
 //! `figures.json`: a line for each count, its name and a number.
 //!
 //! A bench of the crate itself, since counts do not depend on optimisation: `cargo test --bench
 //! gpu_counts` links it with what is compiled for the tests anyway.
 
 use gdel::{
-    Engine, Options,
-    generate::{Distribution, generate},
-    plane::generate::{Distribution2, generate2d},
+    Backend, Triangulator,
+    internals::{
+        d2::generate::{Distribution2, generate2d},
+        d3::generate::{Distribution, generate},
+    },
     stats::Stats,
 };
 
@@ -15,7 +17,7 @@ const POINTS: usize = 10_000;
 
 fn print(input: &str, stats: &Stats) {
     assert_eq!(stats.fallback, None, "{input}");
-    let gpu = stats.gpu.as_ref().expect("the GPU engine was asked for");
+    let gpu = stats.gpu.as_ref().expect("the GPU backend was requested");
     assert!(gpu.adapter.contains("llvmpipe"), "the figures are those of lavapipe, not of {}", gpu.adapter);
     let counts = [
         ("rounds", gpu.rounds.len() as u64),
@@ -34,7 +36,7 @@ fn print(input: &str, stats: &Stats) {
 }
 
 fn main() {
-    let options = Options { engine: Engine::Gpu, ..Options::default() };
+    let triangulator = Triangulator::new().backend(Backend::Gpu);
     let grid = |side: u32| -> Vec<[f64; 3]> {
         (0..side.pow(3)).map(|i| [i % side, i / side % side, i / side.pow(2)].map(f64::from)).collect()
     };
@@ -44,7 +46,7 @@ fn main() {
         ("sphere", generate(Distribution::Sphere, POINTS, 1)),
     ];
     for (name, points) in inputs {
-        let mesh = gdel::delaunay3d(&points, &options).expect("lavapipe");
+        let mesh = triangulator.delaunay3d(&points).expect("lavapipe");
         print(&format!("3D {name}"), &mesh.stats);
     }
 
@@ -56,7 +58,7 @@ fn main() {
         ("clusters", generate2d(Distribution2::Clusters, POINTS, 1)),
     ];
     for (name, points) in inputs {
-        let mesh = gdel::delaunay2d(&points, &options).expect("lavapipe");
+        let mesh = triangulator.delaunay2d(&points).expect("lavapipe");
         print(&format!("2D {name}"), &mesh.stats);
     }
 }

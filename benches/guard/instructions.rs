@@ -4,9 +4,11 @@
 //! Setting up and dropping what a function returns are not counted.
 
 use gdel::{
-    Engine, Mesh2, Mesh3, Options, Points,
-    io::{MeshData, MeshFormat, PointCloud, PointFormat},
-    splay::Outcome,
+    Backend, Mesh2, Mesh3, Points, Triangulator,
+    internals::{
+        d3::splay::SplayOutcome,
+        io::{MeshData, MeshFormat, PointCloud, PointFormat},
+    },
     verify::{Report, verify2d as prove2d, verify3d as prove3d},
 };
 use gdel_guard::{
@@ -22,8 +24,8 @@ use std::hint::black_box;
 const PORTABLE_COPIES: &str = "glibc.cpu.hwcaps=-AVX_Fast_Unaligned_Load,-AVX2,-AVX512F,-AVX512VL,-ERMS,-FSRM,-SSSE3:\
                                glibc.cpu.x86_non_temporal_threshold=0x10000000";
 
-fn cpu() -> Options {
-    Options { engine: Engine::Cpu, ..Options::default() }
+fn cpu() -> Triangulator {
+    Triangulator::new().backend(Backend::Cpu)
 }
 
 #[library_benchmark]
@@ -32,14 +34,14 @@ fn cpu() -> Options {
 #[bench::sphere(points::sphere(POINTS))]
 #[bench::clusters(points::clusters())]
 fn delaunay3d(points: Vec<[f64; 3]>) -> (Vec<[f64; 3]>, Mesh3) {
-    let mesh = gdel::delaunay3d(&points, &cpu()).expect("finite points");
+    let mesh = cpu().delaunay3d(&points).expect("finite points");
     (points, mesh)
 }
 
 #[library_benchmark]
 #[bench::sphere(points::single(&points::sphere(POINTS)))]
 fn delaunay3d_f32(points: Vec<[f32; 3]>) -> (Vec<[f32; 3]>, Mesh3) {
-    let mesh = gdel::delaunay3d(&points, &cpu()).expect("finite points");
+    let mesh = cpu().delaunay3d(&points).expect("finite points");
     (points, mesh)
 }
 
@@ -49,7 +51,7 @@ fn delaunay3d_f32(points: Vec<[f32; 3]>) -> (Vec<[f32; 3]>, Mesh3) {
 #[bench::circle(points::circle2())]
 #[bench::clusters(points::clusters2())]
 fn delaunay2d(points: Vec<[f64; 2]>) -> (Vec<[f64; 2]>, Mesh2) {
-    let mesh = gdel::delaunay2d(&points, &cpu()).expect("finite points");
+    let mesh = cpu().delaunay2d(&points).expect("finite points");
     (points, mesh)
 }
 
@@ -95,17 +97,17 @@ fn incircle(lists: Lists<2, 4>) -> (i32, Lists<2, 4>) {
 #[bench::uniform(points::uniform(), 5e-4)]
 #[bench::grid(points::grid(11), 1e-6)]
 #[bench::sphere(points::sphere(FEW), 1e-4)]
-fn splay(spoilt: Spoilt) -> Outcome {
+fn splay(spoilt: Spoilt) -> SplayOutcome {
     spoilt.splay()
 }
 
 fn triangulated(points: Vec<[f64; 3]>) -> (Vec<[f64; 3]>, Mesh3) {
-    let mesh = gdel::delaunay3d(&points, &cpu()).expect("finite points");
+    let mesh = cpu().delaunay3d(&points).expect("finite points");
     (points, mesh)
 }
 
 fn triangulated2(points: Vec<[f64; 2]>) -> (Vec<[f64; 2]>, Mesh2) {
-    let mesh = gdel::delaunay2d(&points, &cpu()).expect("finite points");
+    let mesh = cpu().delaunay2d(&points).expect("finite points");
     (points, mesh)
 }
 

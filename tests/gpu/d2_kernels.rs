@@ -14,7 +14,9 @@ use gdel::internals::gpu::points::{DevicePoints, InputCounts};
 use gdel::internals::gpu::shader;
 use gdel::internals::gpu::{phase1::Buffers, start::first_simplex};
 use gdel::internals::input::lattice::Width;
-use gdel::internals::reference::d2::{self as reference, State, predicates::Vertex};
+use gdel::internals::reference::{self, d2, d2::predicates::Vertex};
+
+type State = reference::State<2>;
 
 struct Device {
     kernels: Kernels,
@@ -44,7 +46,7 @@ impl Device {
     fn upload(&self, state: &State) {
         let (gpu, b) = (&self.kernels.gpu, &self.buffers);
         self.kernels.write_control(&b.control, &state.params, &state.counters);
-        b.simplices.write(gpu, 0, &state.triangles);
+        b.simplices.write(gpu, 0, &state.simplices);
         b.neighbors.write(gpu, 0, &state.neighbors);
         b.status.write(gpu, 0, &state.status);
         b.active.write(gpu, 0, &state.active.concat());
@@ -59,7 +61,7 @@ impl Device {
         let active = kernels.read(&b.active);
         let (even, odd) = active.split_at(active.len() / 2);
         State {
-            triangles: kernels.read(&b.simplices),
+            simplices: kernels.read(&b.simplices),
             neighbors: kernels.read(&b.neighbors),
             status: kernels.read(&b.status),
             messages: kernels.read(&b.messages),
@@ -74,8 +76,9 @@ impl Device {
     }
 
     fn run(&self, name: &str) {
-        self.kernels
-            .run(shader::D2.get(name), &[self.buffers.bindings(), Aliases::new(&self.buffers).bindings()].concat());
+        let aliases = Aliases::new(&self.buffers);
+        let buffers = [self.buffers.bindings(), aliases.bindings()].concat();
+        self.kernels.run(shader::D2.get(name), &buffers);
     }
 
     /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.
@@ -91,7 +94,7 @@ impl Device {
     /// The same for a kernel whose results are the same to the last bit.
     fn equal(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) {
         let device = self.both(name, state, reference);
-        assert_eq!(device.triangles, state.triangles, "{name}");
+        assert_eq!(device.simplices, state.simplices, "{name}");
         assert_eq!(device.neighbors, state.neighbors, "{name}");
         assert_eq!(device.status, state.status, "{name}");
         assert_eq!(device.messages, state.messages, "{name}");
@@ -130,7 +133,7 @@ fn compare(width: Width, pick: Pick) {
     let mut points: Vec<Vertex> =
         (0..).zip(&positions).map(|(i, &position)| Vertex { position, index: (i * 77) % 200 }).collect();
     points.push(Vertex { position: start.interior_point, index: 200 });
-    let mut state = State::new(width, points, 4096);
+    let mut state = State::new(width, points, 0, 4096);
     state.params.pick = pick as u32;
     state.first = start.first;
     let device = Device::new(width, &state);
@@ -145,7 +148,7 @@ fn compare(width: Width, pick: Pick) {
         device.equal("pick_point", &mut state, reference::pick_point);
 
         let split = device.both("split", &mut state, reference::split);
-        assert_eq!((&split.triangles, &split.neighbors), (&state.triangles, &state.neighbors));
+        assert_eq!((&split.simplices, &split.neighbors), (&state.simplices, &state.neighbors));
         assert_eq!(split.status, state.status);
         let half = state.half();
         assert_eq!(listed(&split, half), listed(&state, half), "split");
@@ -163,7 +166,7 @@ fn compare(width: Width, pick: Pick) {
             let after = device.download(&state);
             assert!(done > 0 || state.counters.active_len[state.half()] == 0, "an iteration without progress");
             assert_eq!(after.counters, state.counters, "flip");
-            assert_eq!((&after.triangles, &after.neighbors), (&state.triangles, &state.neighbors), "flip");
+            assert_eq!((&after.simplices, &after.neighbors), (&state.simplices, &state.neighbors), "flip");
             assert_eq!(statuses(&after), statuses(&state), "flip");
             assert_eq!(flips(&after), flips(&state), "flip");
             after.validate_mesh();
@@ -178,12 +181,12 @@ fn compare(width: Width, pick: Pick) {
     let kernels = &device.kernels;
     device.upload(&state);
     device.run("mesh_mark");
-    let marks = reference::mesh_mark(&state);
+    let marks = d2::mesh_mark(&state);
     assert_eq!(kernels.read(&device.buffers.own.marks), marks);
     let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
     device.buffers.own.offsets.write(&kernels.gpu, 0, &offsets);
     device.run("mesh_compact");
-    let mesh = reference::mesh_compact(&state, &offsets);
+    let mesh = d2::mesh_compact(&state, &offsets);
     let count = mesh.triangles.len();
     let aliases = Aliases::new(&device.buffers);
     assert_eq!(kernels.read(&aliases.triangles)[..count], mesh.triangles);

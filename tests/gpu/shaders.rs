@@ -2,53 +2,58 @@
 
 use std::collections::BTreeSet;
 
-use gdel::internals::gpu::{
-    AdapterChoice, Gpu, Kernel, Storage,
-    dim::{Dim, Dimension},
-    phase1::Buffers,
-    points::DevicePoints,
-    shader::{self, Shader},
+use gdel::internals::{
+    d2, d3,
+    gpu::{
+        AdapterChoice, Gpu, Storage,
+        dim::OwnBuffers,
+        phase1::Buffers,
+        points::DevicePoints,
+        shader::{self, Shaders},
+    },
 };
-use gdel::internals::{d2, d3, input::lattice::Width};
 use pollster::block_on;
 
-fn open() -> Gpu {
-    block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU")
-}
-
-fn buffers<const D: usize>(gpu: &Gpu) -> Buffers<D>
-where
-    Dimension<D>: Dim<D>,
-{
-    let points = DevicePoints {
+fn points(gpu: &Gpu) -> DevicePoints {
+    DevicePoints {
         vertices: Storage::new(gpu, "vertices", 1).unwrap(),
         pairs: Storage::new(gpu, "pairs", 1).unwrap(),
         merged_into: Storage::new(gpu, "merged", 1).unwrap(),
         counts: Storage::new(gpu, "counts", 1).unwrap(),
-    };
-    Buffers::new(gpu, points, 1, 1).unwrap()
-}
-
-/// Every kernel is bound in every run, which finds a name that is missing; this finds those that are superfluous.
-#[test]
-fn every_name_of_a_buffer_is_one_of_a_variable() {
-    let gpu = open();
-    let variables: BTreeSet<&str> =
-        shader::D2.iter().chain(shader::D3.iter()).flat_map(Shader::variables).map(|&(name, _)| name).collect();
-    let (triangles, tetrahedra) = (buffers::<2>(&gpu), buffers::<3>(&gpu));
-    let aliases = (d2::gpu::aliases::Aliases::new(&triangles), d3::gpu::aliases::Aliases::new(&tetrahedra));
-    let sets = [triangles.bindings(), tetrahedra.bindings(), aliases.0.bindings(), aliases.1.bindings()];
-    for (name, _) in sets.concat() {
-        assert!(variables.contains(name), "no kernel has a variable {name}");
     }
 }
 
-/// The host chooses a kernel of either dimension by the same name.
+/// The names of all variables of some kernels.
+fn variables(shaders: &Shaders) -> BTreeSet<&'static str> {
+    shaders.iter().flat_map(|s| s.variables()).map(|&(name, _)| name).collect()
+}
+
+/// Every kernel is bound in every run, which finds a name that is missing; this finds those that are superfluous. The buffers
+/// that both dimensions have may have names that only one uses.
+#[test]
+fn every_name_of_a_buffer_is_one_of_a_variable() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let (d2_names, d3_names) = (variables(&shader::D2), variables(&shader::D3));
+    let in_2d = Buffers::<2>::new(&gpu, points(&gpu), 1, 1).unwrap();
+    let in_3d = Buffers::<3>::new(&gpu, points(&gpu), 1, 1).unwrap();
+    let (aliases_2d, aliases_3d) = (d2::gpu::aliases::Aliases::new(&in_2d), d3::gpu::aliases::Aliases::new(&in_3d));
+    for (name, _) in [in_2d.own.bindings(), aliases_2d.bindings()].concat() {
+        assert!(d2_names.contains(name), "no kernel for triangles has a variable {name}");
+    }
+    for (name, _) in [in_3d.own.bindings(), aliases_3d.bindings()].concat() {
+        assert!(d3_names.contains(name), "no kernel for tetrahedra has a variable {name}");
+    }
+    for (name, _) in [in_2d.bindings(), in_3d.bindings()].concat() {
+        assert!(d2_names.contains(name) || d3_names.contains(name), "no kernel has a variable {name}");
+    }
+}
+
+/// The dimensions share names, so that either's kernels can be chosen by them.
 #[test]
 fn shared_kernels_are_kernels_of_both_dimensions() {
-    let shared =
-        ["split", "relocate", "relocate_split", "locate", "points_gather", "pick_score", "flip_link", "flip_commit"];
-    for name in shared {
+    for name in
+        ["split", "relocate", "relocate_split", "locate", "points_gather", "pick_score", "flip_link", "flip_commit"]
+    {
         assert_eq!(shader::D2.get(name).name(), format!("d2/{name}"));
         assert_eq!(shader::D3.get(name).name(), format!("d3/{name}"));
     }
@@ -57,8 +62,12 @@ fn shared_kernels_are_kernels_of_both_dimensions() {
 #[test]
 #[should_panic(expected = "kernel d3/flip_link: not exactly one buffer is named neighbors")]
 fn a_missing_buffer_is_named() {
-    let gpu = open();
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let control = Storage::<u32>::new(&gpu, "control", 64).unwrap();
-    let kernel = Kernel::new(&gpu, shader::D3.get("flip_link"), Width::Narrow);
+    let kernel = gdel::internals::gpu::Kernel::new(
+        &gpu,
+        shader::D3.get("flip_link"),
+        gdel::internals::input::lattice::Width::Narrow,
+    );
     kernel.bind(&gpu, &[("control", control.buffer())]);
 }

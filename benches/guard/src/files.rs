@@ -2,8 +2,8 @@
 
 use crate::points::{self, POINTS};
 use gdel::{
-    Engine, Mesh3, Options,
-    io::{MeshFormat, PointFormat, write_ele, write_hull_stl, write_npz, write_vtu},
+    Backend, Mesh3, Triangulator,
+    internals::io::{MeshFormat, PointFormat, write_ele, write_hull_stl, write_npz, write_vtu},
 };
 use las::{Builder, Point, Transform, Vector};
 use std::{fmt::Write, io::Cursor};
@@ -97,7 +97,7 @@ pub fn mesh_file(format: MeshFormat) -> (MeshFormat, Vec<u8>) {
 }
 
 fn mesh(points: &[[f64; 3]]) -> Mesh3 {
-    gdel::delaunay3d(points, &Options { engine: Engine::Cpu, ..Options::default() }).expect("finite points")
+    Triangulator::new().backend(Backend::Cpu).delaunay3d(points).expect("finite points")
 }
 
 fn pcd_header(data: &str) -> String {

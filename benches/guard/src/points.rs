@@ -1,8 +1,8 @@
 //! Point clouds in 3D and 2D. The tests of `gdel::generate` pin the random ones.
 
-use gdel::{
-    generate::{Distribution, generate},
-    plane::generate::{Distribution2, generate2d},
+use gdel::internals::{
+    d2::generate::{Distribution2, generate2d},
+    d3::generate::{Distribution, generate},
 };
 
 /// The points of each cloud, but for the grids.

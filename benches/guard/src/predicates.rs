@@ -3,10 +3,12 @@
 use crate::points::POINTS;
 use gdel::{
     Points,
-    generate::{Distribution, generate},
-    lattice::{Lattice, Width},
-    plane::generate::{Distribution2, generate2d},
-    predicates::vertices::Vertices,
+    internals::{
+        d2::generate::{Distribution2, generate2d},
+        d3::generate::{Distribution, generate},
+        input::lattice::{Lattice, Width},
+        predicates::filter::PredicateContext,
+    },
 };
 
 /// The lists of each kind of arguments.
@@ -29,7 +31,7 @@ pub enum Stage {
 
 /// A point set, and lists of `N` of its points.
 pub struct Lists<const D: usize, const N: usize> {
-    vertices: Vertices<'static, D>,
+    vertices: PredicateContext<'static, D>,
     lists: Vec<[u32; N]>,
 }
 
@@ -39,7 +41,7 @@ where
 {
     /// Every `N` of `points` are a list. `sign` is the predicate; most of its signs must be decided
     /// by `stage`.
-    fn new(mut points: Vec<[f64; D]>, stage: Stage, sign: impl Fn(&Vertices<'_, D>, [u32; N]) -> i8) -> Self {
+    fn new(mut points: Vec<[f64; D]>, stage: Stage, sign: impl Fn(&PredicateContext<'_, D>, [u32; N]) -> i8) -> Self {
         points.truncate(N * LISTS);
         let lists: Vec<[u32; N]> = (0..points.len() as u32).collect::<Vec<_>>().as_chunks().0.to_vec();
         assert_eq!(lists.len(), LISTS);
@@ -56,7 +58,7 @@ where
         assert_eq!(lattice.width(), width, "{stage:?}");
 
         let indices: Vec<u32> = (0..points.len() as u32).collect();
-        let vertices = || Vertices::new(points.into(), &lattice, indices.clone());
+        let vertices = || PredicateContext::new(points.into(), &lattice, indices.clone());
         let tried = vertices();
         lists.iter().for_each(|&list| _ = sign(&tried, list));
         let counts = tried.exact_counts();

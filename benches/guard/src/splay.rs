@@ -3,12 +3,16 @@
 //! leaves them.
 
 use gdel::{
-    Engine, Options,
-    generate::{Distribution, generate},
-    lattice::Lattice,
-    parallel::Threads,
-    predicates::vertices::Vertices,
-    splay::{NearDelaunay, Outcome, splay},
+    Backend, Triangulator,
+    internals::{
+        d3::{
+            generate::{Distribution, generate},
+            splay::{NearDelaunay, SplayOutcome, splay},
+        },
+        input::lattice::Lattice,
+        parallel::Threads,
+        predicates::filter::PredicateContext,
+    },
 };
 
 #[allow(dead_code)]
@@ -17,7 +21,7 @@ mod flips;
 
 /// A triangulation that is nearly that of the vertices.
 pub struct Spoilt {
-    vertices: Vertices<'static>,
+    vertices: PredicateContext<'static>,
     near: NearDelaunay,
 }
 
@@ -28,10 +32,9 @@ impl Spoilt {
         let displaced =
             points.iter().zip(offsets).map(|(p, q)| std::array::from_fn(|i| p[i] + by * (2.0 * q[i] - 1.0)));
         let displaced: Vec<[f64; 3]> = displaced.collect();
-        let options = Options { engine: Engine::Cpu, ..Options::default() };
-        let mesh = gdel::delaunay3d(&displaced, &options).expect("finite points");
+        let mesh = Triangulator::new().backend(Backend::Cpu).delaunay3d(&displaced).expect("finite points");
         let points: &'static [[f64; 3]] = points.leak();
-        let vertices = Vertices::of_input(points.into(), &Lattice::fit(points.into()));
+        let vertices = PredicateContext::of_input(points.into(), &Lattice::fit(points.into()));
         let near = flips::near(points.len() as u32, &mesh.tetrahedra);
         let near = flips::found_out(&vertices, &near);
         assert!(near.missing.is_empty() && !near.failed.is_empty());
@@ -39,15 +42,15 @@ impl Spoilt {
     }
 
     /// Makes it Delaunay.
-    pub fn splay(self) -> Outcome {
+    pub fn splay(self) -> SplayOutcome {
         splay(&self.vertices, self.near, u64::MAX, Threads::One, &|_| Ok(())).expect("memory")
     }
 }
 
 /// Stops where splaying has given up.
-pub fn expect_delaunay(outcome: Outcome) {
+pub fn expect_delaunay(outcome: SplayOutcome) {
     match outcome {
-        Outcome::Delaunay(_, stats) => println!("{stats:?}"),
-        Outcome::GaveUp(reason) => panic!("splaying gave up: {reason:?}"),
+        SplayOutcome::Delaunay(_, stats) => println!("{stats:?}"),
+        SplayOutcome::Aborted(reason) => panic!("splaying aborted: {reason:?}"),
     }
 }

@@ -1,7 +1,8 @@
 //! The reference of `shaders/d3/hilbert.wgsl`.
 
-/// The place of a cell of a grid along the Hilbert curve (Skilling, *Programming the Hilbert curve*, 2004), here in the
-/// loops of the paper: of a 1024³ grid in space, of a 32768² one in the plane.
+/// Returns the place of a cell of a grid along the Hilbert curve (Skilling, *Programming the
+/// Hilbert curve*, 2004), here in the loops of the paper: of a 1024³ grid in 3D, of a 32768² one in
+/// 2D.
 pub fn hilbert_key<const D: usize>(mut x: [u32; D]) -> u32 {
     let bits = 30 / D as u32;
     for bit in (1..bits).rev() {

@@ -1,14 +1,14 @@
 //! Phase 1 on the references.
 
-use crate::gpu::layout::NONE;
-use crate::gpu::layout::Pick;
+use crate::gpu::dim::Dimension;
+use crate::gpu::layout::{NONE, Pick, SLOTS_FULL};
 use crate::gpu::start::first_simplex;
 use crate::input::lattice::Width;
 
-use crate::reference::d3::predicates::Vertex;
-use crate::reference::d3::{
-    State, flip_check, flip_commit, flip_link, locate, mark_failed, pick_point, pick_score, relocate, relocate_split,
-    split, start,
+use crate::reference::dim::{Kernels, ReferenceDim};
+use crate::reference::{
+    State, Vertex, flip_check, flip_commit, flip_link, locate, pick_point, pick_score, relocate, relocate_split, split,
+    start,
 };
 
 /// How to run.
@@ -18,11 +18,9 @@ pub struct Settings {
     pub pick: Pick,
     /// Insert all points before flipping (§5.3).
     pub insert_all: bool,
-    /// With fewer active tetrahedra than this, flipping waits for the next round; except at the end.
+    /// With fewer active simplices than this, flipping waits for the next round; except at the end.
     pub min_active: u32,
-    /// Flip iterations in a round, at most; except at the end.
-    pub iterations: u32,
-    /// Blocks in the tail.
+    /// Blocks in the tail; 2D has none.
     pub tail: u32,
     /// Nodes that the history can hold.
     pub history: u32,
@@ -36,22 +34,25 @@ impl Default for Settings {
             pick: Pick::Circumcenter,
             insert_all: false,
             min_active: 0,
-            iterations: u32::MAX,
             tail: 16,
-            history: 1 << 22,
+            history: 1 << 20,
             validate: false,
         }
     }
 }
 
-/// Runs Phase 1 on `sites`, which are sorted along the Hilbert curve and distinct. Nothing if they are coplanar.
-pub fn run(width: Width, mut sites: Vec<Vertex>, settings: &Settings) -> Option<State> {
+/// Runs Phase 1 on `sites`, which are sorted along the Hilbert curve and distinct. Returns `None`
+/// if they all lie in a line (2D) or plane (3D).
+pub fn run<const D: usize>(width: Width, mut sites: Vec<Vertex<D>>, settings: &Settings) -> Option<State<D>>
+where
+    Dimension<D>: Kernels<D>,
+{
     let begin = first_simplex(width, sites.len(), |i| sites[i].position)?;
     sites.push(Vertex { position: begin.interior_point, index: sites.iter().map(|s| s.index).max()? + 1 });
     let mut state = State::new(width, sites, settings.tail, settings.history);
     state.params.pick = settings.pick as u32;
     state.params.min_active = settings.min_active;
-    let check = |state: &State| {
+    let check = |state: &State<D>| {
         if settings.validate {
             state.validate();
         }
@@ -68,7 +69,7 @@ pub fn run(width: Width, mut sites: Vec<Vertex>, settings: &Settings) -> Option<
         relocate_split(&mut state);
         check(&state);
         if !settings.insert_all {
-            flip(&mut state, settings.iterations);
+            flip(&mut state);
             relocate(&mut state);
             check(&state);
         }
@@ -76,20 +77,23 @@ pub fn run(width: Width, mut sites: Vec<Vertex>, settings: &Settings) -> Option<
         grow(&mut state);
     }
     state.params.min_active = 0;
+    // A round in which nothing waits: its flips need no history.
+    pick_score(&mut state);
     while !state.is_idle(state.counters.iteration) {
-        flip(&mut state, settings.iterations);
+        flip(&mut state);
         grow(&mut state);
         check(&state);
     }
-    mark_failed(&mut state);
+    Dimension::<D>::finish(&mut state);
     Some(state)
 }
 
-fn flip(state: &mut State, iterations: u32) {
-    for _ in 0..iterations {
-        if state.is_idle(state.counters.iteration) || state.counters.overflow != 0 {
-            break;
-        }
+/// Runs flip iterations until too few simplices are active, or until slots or history are full.
+fn flip<const D: usize>(state: &mut State<D>)
+where
+    Dimension<D>: Kernels<D>,
+{
+    while !state.is_idle(state.counters.iteration) && state.counters.overflow == 0 {
         flip_check(state);
         flip_commit(state);
         flip_link(state);
@@ -99,27 +103,25 @@ fn flip(state: &mut State, iterations: u32) {
     }
 }
 
-/// Forgets all votes, so that flip iterations can be counted from the start again; which half of the active list is
-/// read stays the same.
-pub fn clear_votes(state: &mut State) {
+/// Forgets all votes, so that flip iterations can be counted from the start again; which half of
+/// the active list is read stays the same.
+pub fn clear_votes<const D: usize>(state: &mut State<D>)
+where
+    Dimension<D>: ReferenceDim<D>,
+{
     state.status.iter_mut().for_each(|s| s.vote = 0);
     state.counters.iteration &= 1;
 }
 
-/// More slots where they ran out.
-fn grow(state: &mut State) {
-    if std::mem::take(&mut state.counters.overflow) & crate::gpu::layout::SLOTS_FULL == 0 {
+/// Adds slots where they ran out.
+fn grow<const D: usize>(state: &mut State<D>)
+where
+    Dimension<D>: ReferenceDim<D>,
+{
+    if std::mem::take(&mut state.counters.overflow) & SLOTS_FULL == 0 {
         return;
     }
-    let blocks = state.params.blocks + state.params.blocks / 2;
-    let slots = (blocks * crate::gpu::layout::BLOCK) as usize;
-    state.params.blocks = blocks;
-    state.params.bid_bits = 33 - (slots as u32).leading_zeros();
-    state.tets.resize(slots, [0; 4]);
-    state.neighbors.resize(slots, [NONE; 4]);
-    state.status.resize(slots, Default::default());
-    state.messages.resize(slots, [0; 4]);
-    state.free.resize(blocks as usize, 0xff);
-    state.active.iter_mut().for_each(|half| half.resize(slots, Default::default()));
+    state.grow(state.params.blocks + state.params.blocks / 2);
+    // Bids have another form now.
     clear_votes(state);
 }
