@@ -1,19 +1,21 @@
 //! What the kernels of Phase 1 keep in GPU buffers.
 //!
-//! The structures have counterparts of the same name and layout in `shaders/`, which the compiler compares; the constants
-//! are those of the shaders.
+//! The structures have counterparts of the same name and layout in `shaders/`, which the compiler
+//! compares; the constants are those of the shaders.
 //!
-//! **Points** are sorted along the Hilbert curve; a *vertex* is a place in that order. Vertex `n` (the number of points)
-//! is the vertex at infinity. Its record holds the *interior point*, a point inside the first tetrahedron, and infinity
-//! lies opposite to it: replacing infinity by the interior point flips the sign of an orientation.
+//! **Points** are sorted along the Hilbert curve; a *vertex* is a place in that order. Vertex `n`
+//! (the number of points) is the vertex at infinity. Its record holds the *interior point*, a point
+//! inside the first tetrahedron, and infinity lies opposite to it: replacing infinity by the
+//! interior point flips the sign of an orientation.
 //!
-//! **Tetrahedra** live in slots. Slots 8v … 8v + 7 are the *block* of vertex *v*, so that a tetrahedron is near its
-//! vertices in memory without any sorting; the block of infinity starts the initial tetrahedra, and the blocks after it
-//! are the *tail*, which serves when the blocks of all vertices of a flip are full. `free` has one word a block whose low
-//! bits tell which of its slots are free.
+//! **Tetrahedra** live in slots. Slots 8v … 8v + 7 are the *block* of vertex *v*, so that a
+//! tetrahedron is near its vertices in memory without any sorting; the block of infinity starts the
+//! initial tetrahedra, and the blocks after it are the *tail*, which serves when the blocks of all
+//! vertices of a flip are full. `free` has one word per block whose low bits tell which of its
+//! slots are free.
 //!
-//! **Neighbours** are packed as 4·tetrahedron + face: entry *k* of a tetrahedron is the facet opposite its vertex *k*, as
-//! the tetrahedron on the other side numbers it.
+//! **Neighbours** are packed as 4·tetrahedron + face: entry *k* of a tetrahedron is the facet
+//! opposite its vertex *k*, as the tetrahedron on the other side numbers it.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -32,15 +34,17 @@ pub const BLOCK: u32 = common::BLOCK;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Status {
-    /// Facets to check (bits 0–3): the tetrahedron is in the active list exactly when there are some. Facets that were
-    /// found not locally Delaunay but not flippable (bits 4–7). The insertion round in which waiting points may lie
-    /// inside (bits 16–31).
+    /// Facets to check (bits 0–3): the tetrahedron is in the active list exactly when there are
+    /// some. Facets that were found not locally Delaunay but not flippable (bits 4–7). The
+    /// insertion round in which waiting points may lie inside (bits 16–31).
     pub flags: u32,
     /// The highest bid for this tetrahedron: the flip iteration above, the bidder's number below.
     pub vote: u32,
-    /// The node of the history that made this tetrahedron, times 4, plus which of its tetrahedra it is.
+    /// The node of the history that made this tetrahedron, times 4, plus which of its tetrahedra it
+    /// is.
     pub last: u32,
-    /// The first node of the round that changed the tetrahedron in this slot as it was when the round began.
+    /// The first node of the round that changed the tetrahedron in this slot as it was when the
+    /// round began.
     pub first: u32,
 }
 assert_layout!(Status);
@@ -58,9 +62,10 @@ pub const HELD_SHIFT: u32 = common::HELD_SHIFT;
 pub struct Active {
     /// The tetrahedron.
     pub tet: u32,
-    /// What the current flip iteration found: the facets still to check (bits 0–3), the facets that cannot be flipped
-    /// (bits 4–7), the kind of the proposed flip (bits 8–9), its facet (bits 10–11) and edge (bits 12–13). A flip that
-    /// was carried out leaves its kind, and the slot that a 3-2 flip gives back from bit 4 on, below [`DONE`].
+    /// What the current flip iteration found: the facets still to check (bits 0–3), the facets that
+    /// cannot be flipped (bits 4–7), the kind of the proposed flip (bits 8–9), its facet (bits
+    /// 10–11) and edge (bits 12–13). A flip that was carried out leaves its kind, and the slot that
+    /// a 3-2 flip gives back from bit 4 on, below [`DONE`].
     pub outcome: u32,
 }
 assert_layout!(Active);
@@ -84,8 +89,8 @@ pub const SLOT_SHIFT: u32 = d3::SLOT_SHIFT;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct FlipNode {
-    /// The ring around the edge, x₀, x₁, x₂, then the ends of the edge, d and e: the tetrahedra (xᵢ, xᵢ₊₁, d, e) are
-    /// positively oriented.
+    /// The ring around the edge, x₀, x₁, x₂, then the ends of the edge, d and e: the tetrahedra
+    /// (xᵢ, xᵢ₊₁, d, e) are positively oriented.
     pub vertices: [u32; 5],
     /// [`FLIP_23`] or [`FLIP_32`].
     pub kind: u32,
@@ -130,7 +135,8 @@ pub struct Counters {
     pub failed: u32,
     /// Points that another one stands for, because it lies at the same place.
     pub merged: u32,
-    /// Tetrahedra that are flat, or of which the lattice does not prove everything; in the plane, questions to the host.
+    /// Tetrahedra that are flat, or of which the lattice does not prove everything; in 2D,
+    /// tests that the host decides.
     pub uncertain: u32,
     /// Infinite tetrahedra, counted when they are numbered.
     pub ghosts: u32,
@@ -138,9 +144,9 @@ pub struct Counters {
     pub undecided: u32,
     /// Facets that are not locally Delaunay, found at the end.
     pub not_locally_delaunay: u32,
-    /// In the plane: flips so far.
+    /// In 2D: flips so far.
     pub flips_22: u32,
-    /// In the plane: edges of the hull.
+    /// In 2D: edges of the hull.
     pub hull: u32,
 }
 assert_layout!(Counters);
@@ -179,8 +185,8 @@ pub struct Params {
     pub entries_before: u32,
     /// Blocks that there were before there were more.
     pub blocks_before: u32,
-    /// In space: after a flip iteration with at least this many active tetrahedra, the next ones are found by looking at
-    /// all slots (§4.2).
+    /// In 3D: after a flip iteration with at least this many active tetrahedra, the next ones
+    /// are found by looking at all slots (§4.2).
     pub compact_from: u32,
     /// In 2D: 1 for a mesh that is clockwise with *y* up, 0 for one that is counter-clockwise.
     pub clockwise: u32,

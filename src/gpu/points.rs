@@ -1,14 +1,16 @@
-//! From points in host memory to vertices on the device: upload, duplicates, lattice, and order along the Hilbert curve
-//! (§4.3).
+//! From points in host memory to vertices on the device: upload, duplicates, lattice, and order
+//! along the Hilbert curve (§4.3).
 //!
 //! 1. The coordinates' bits are uploaded as they are; the device puts them on the lattice.
-//! 2. A hash table merges the points at the same place of the lattice; the lowest number stands for all. They are exact
-//!    duplicates, or were rounded to the same place.
-//! 3. Every point gets its place along the Hilbert curve as key, those that another stands for the last one.
+//! 2. A hash table merges the points at the same place of the lattice; the lowest number stands for
+//!    all. They are exact duplicates, or were rounded to the same place.
+//! 3. Every point gets its place along the Hilbert curve as key, those that another stands for the
+//!    last one.
 //! 4. The keys are sorted; ties stay in the order of the input.
 //! 5. The vertices are written in that order.
 //!
-//! So vertex *v* is point `pairs[v][1]`, and the points that others stand for are behind all vertices.
+//! So vertex *v* is point `pairs[v][1]`, and the points that others stand for are behind all
+//! vertices.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -46,7 +48,7 @@ pub struct InputParams {
     pub width: u32,
     /// Points whose vertices are wanted.
     pub wanted: [u32; 4],
-    /// The coordinates of a point: 3, or 2 in the plane.
+    /// The coordinates of a point: 2 or 3.
     pub dimension: u32,
     /// Zero.
     pub unused: [u32; 3],
@@ -78,7 +80,8 @@ const _: () = {
     assert!(std::mem::offset_of!(InputCounts, found) == 4 * constants::COUNT_FOUND as usize);
 };
 
-/// The bits of a sort key: 30 for the place along the curve, and the largest for points that others stand for.
+/// The bits of a sort key: 30 for the place along the curve, and the largest for points that others
+/// stand for.
 const KEY_BITS: u32 = 32;
 
 /// The kernels, for points of `D` coordinates.
@@ -106,8 +109,8 @@ pub struct PointInput<'a, const D: usize = 3> {
 /// The points on the device. Valid when the recorded commands have run.
 #[derive(Debug, Clone)]
 pub struct DevicePoints {
-    /// The vertices, as [`vertex`] lays them out, or [`plane::vertex`] in the plane, in the order of `pairs`; the last word
-    /// of a wide one in space is 1 if it was rounded. There is room for one more, the vertex at infinity.
+    /// The vertices, as [`Dim::append_vertex`] lays them out, in the order of `pairs`. There is room
+    /// for one more, the vertex at infinity.
     pub vertices: Storage<i32>,
     /// Sort key and point of each vertex.
     pub pairs: Storage<[u32; 2]>,
@@ -148,8 +151,8 @@ where
         }
     }
 
-    /// Uploads the points, and records what makes vertices of them. `kept` has the buffers of the last time, and is given
-    /// those of this time.
+    /// Uploads the points, and records what makes vertices of them. `kept` has the buffers of the
+    /// last time, and is given those of this time.
     ///
     /// # Errors
     ///
@@ -250,7 +253,7 @@ where
 }
 
 impl PointBuffers {
-    /// The bytes that they take on the device.
+    /// Returns the bytes that they take on the device.
     pub fn bytes(&self) -> u64 {
         self.bytes
     }

@@ -28,25 +28,25 @@ pub struct BoundWaitingList {
 }
 
 impl BoundWaitingList {
-    /// The bytes that it takes on the device beside the buffers that it shares.
+    /// Returns the bytes that it takes on the device beside the buffers that it shares.
     pub fn bytes(&self) -> u64 {
         self.bytes
     }
 }
 
 impl WaitingList {
-    /// The kernels.
+    /// Compiles the kernels.
     pub fn new(gpu: &Gpu) -> Self {
         let [mark, compact] =
             ["waiting_mark", "waiting_compact"].map(|name| Kernel::new(gpu, shader::COMMON.get(name), Width::Narrow));
         WaitingList { mark, compact, scan: Scan::new(gpu) }
     }
 
-    /// The bind groups for these buffers. What `marks` holds is lost when the list is compacted.
+    /// Binds the kernels to these buffers. What `marks` holds is lost when the list is compacted.
     ///
     /// # Errors
     ///
-    /// As [`Storage::new`].
+    /// Those of [`Storage::new`].
     pub fn bind(
         &self,
         gpu: &Gpu,
@@ -75,7 +75,8 @@ impl WaitingList {
         })
     }
 
-    /// Records the compaction of the list, which has `entries` entries, those that do not wait included.
+    /// Records the compaction of the list, which has `entries` entries, those that do not wait
+    /// included.
     pub fn record(
         &self,
         gpu: &Gpu,

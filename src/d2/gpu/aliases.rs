@@ -49,7 +49,7 @@ impl Aliases {
         }
     }
 
-    /// Returns them under the names that they have in shaders.
+    /// Returns the buffers under the names that they have in shaders.
     pub fn bindings(&self) -> Vec<Binding<'_>> {
         vec![
             ("mesh_triangles", self.triangles.buffer()),

@@ -44,8 +44,8 @@ impl Dim<2> for Dimension<2> {
         orient2d_wide(a, b, c)
     }
 
-    /// Returns, for the corners in turn: how far `p` lies in the direction (-1, -1), the square of its distance from the
-    /// first corner, and the area with the first two (times 2).
+    /// Returns, for the corners in turn: how far `p` lies in the direction (-1, -1), the square of
+    /// its distance from the first corner, and the area with the first two (times 2).
     fn spread(chosen: &[[f64; 2]], p: [f64; 2]) -> f64 {
         let minus = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
         match *chosen {

@@ -34,10 +34,11 @@ pub struct Bound {
 /// Triangles in input indices and as [`Mesh2`](crate::d2::Mesh2) has them, but for the hull.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Mesh {
-    /// Three vertices per triangle in the order of [`Settings::winding`](crate::gpu::phase1::Settings::winding), none flat.
+    /// Three vertices per triangle in the order of
+    /// [`Settings::winding`](crate::gpu::phase1::Settings::winding), none flat.
     pub triangles: Vec<[u32; 3]>,
-    /// Entry *k* is the half-edge that runs against the one from vertex *k* to the next, 3·(triangle) + (vertex); -1 on the
-    /// hull.
+    /// Entry *k* is the half-edge that runs against the one from vertex *k* to the next,
+    /// 3·(triangle) + (vertex); -1 on the hull.
     pub halfedges: Vec<[i32; 3]>,
     /// The half-edges of the hull, from where to where, in no order.
     pub hull: Vec<[u32; 2]>,
@@ -48,8 +49,8 @@ pub struct Mesh {
 pub struct NearMesh {
     /// The triangles: those of the true points, if all `uncertain` tests have the right answer.
     pub mesh: Mesh,
-    /// What the lattice does not prove of the mesh, because coordinates were rounded; `None` if that is more than the
-    /// device has room for.
+    /// What the lattice does not prove of the mesh, because coordinates were rounded; `None` if
+    /// that is more than the device has room for.
     pub uncertain: Option<Vec<UncertainTest>>,
 }
 

@@ -1,4 +1,5 @@
-//! The end of Phase 1: failed vertices (§3.2.1), the mesh without gaps, and what is flat or left open by rounding.
+//! The end of Phase 1: failed vertices (§3.2.1), the mesh without gaps, and what is flat or left
+//! open by rounding.
 
 use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
 use crate::{
@@ -29,7 +30,8 @@ pub struct Kernels {
 pub struct Bound {
     /// What is written over buffers that are of no more use.
     aliases: Aliases,
-    /// One tetrahedron of each point, plus 1; 0 for one that another stands for. Infinity comes last.
+    /// One tetrahedron of each point, plus 1; 0 for one that another stands for. Infinity comes
+    /// last.
     tet_of: Storage<u32>,
     params: Storage<ScanParams>,
     mark_failed: wgpu::BindGroup,
@@ -43,12 +45,12 @@ pub struct Bound {
 
 /// A triangulation whose only facets that are not locally Delaunay cannot be flipped.
 ///
-/// Vertices are places in the input. All tetrahedra are positively oriented in the sense of the perturbed predicates: there
-/// can be flat ones.
+/// Vertices are places in the input. All tetrahedra are positively oriented in the sense of the
+/// perturbed predicates: there can be flat ones.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct NearMesh {
-    /// Four vertices per tetrahedron, the finite ones first. The infinite ones have the vertex at infinity, the number of
-    /// points, last.
+    /// Four vertices per tetrahedron, the finite ones first. The infinite ones have the vertex at
+    /// infinity, the number of points, last.
     pub tets: Vec<[u32; 4]>,
     /// Entry *k* is 4·tetrahedron + face across the facet opposite vertex *k*.
     pub neighbors: Vec<[u32; 4]>,
@@ -56,12 +58,12 @@ pub struct NearMesh {
     pub finite: usize,
     /// The vertices with a facet that is not locally Delaunay, ascending.
     pub failed: Vec<u32>,
-    /// One tetrahedron of each vertex, infinity last; [`NONE`](crate::gpu::layout::NONE) for points that are merged into
-    /// others.
+    /// One tetrahedron of each vertex, infinity last; [`NONE`](crate::gpu::layout::NONE) for points
+    /// that are merged into others.
     pub tet_of: Vec<u32>,
-    /// Tetrahedra, ascending, that are flat (bit 4); and where coordinates were rounded to the lattice, those of which it
-    /// does not prove everything: whether facet *k* is locally Delaunay (bit *k*), or the orientation (bit 4). Each facet
-    /// is listed with one of its tetrahedra.
+    /// Tetrahedra, ascending, that are flat (bit 4); and where coordinates were rounded to the
+    /// lattice, those of which it does not prove everything: whether facet *k* is locally Delaunay
+    /// (bit *k*), or the orientation (bit 4). Each facet is listed with one of its tetrahedra.
     pub uncertain: Vec<[u32; 2]>,
 }
 

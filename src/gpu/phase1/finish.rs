@@ -49,13 +49,14 @@ where
         workgroups: u32,
     );
 
-    /// Returns the sums of a scan; their entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS) is the number of finite
-    /// simplices.
+    /// Returns the sums of a scan; their entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS) is
+    /// the number of finite simplices.
     fn sums(bound: &Self::Bound) -> &Storage<u32>;
 
-    /// Reads the mesh back, of which `finite` simplices are finite, and, if any point was merged, which one stands for each
-    /// ([`DevicePoints::merged_into`](crate::gpu::points::DevicePoints::merged_into)). Takes two submissions, so that the
-    /// host can take the first part while the device sends the second.
+    /// Reads the mesh back, of which `finite` simplices are finite, and, if any point was merged,
+    /// which one stands for each
+    /// ([`DevicePoints::merged_into`](crate::gpu::points::DevicePoints::merged_into)). Takes two
+    /// submissions, so that the host can take the first part while the device sends the second.
     ///
     /// # Errors
     ///

@@ -40,7 +40,8 @@ pub(crate) struct FlipPlan {
     pub(crate) iterations: u32,
     /// What the filter leaves open is decided in every so many iterations, and in the last one.
     pub(crate) exact_every: u32,
-    /// Whether there may be so many active simplices in one that the next ones are found by compaction (§4.2).
+    /// Whether there may be so many active simplices in one that the next ones are found by
+    /// compaction (§4.2).
     pub(crate) compacts: bool,
 }
 

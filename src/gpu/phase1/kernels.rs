@@ -11,8 +11,8 @@ use crate::{
     input::lattice::Width,
 };
 
-/// The kernels of Phase 1, for points of one width, and the buffers of the last run, which serve the next one if that has
-/// as many points of the same precision.
+/// The kernels of Phase 1, for points of one width, and the buffers of the last run, which serve
+/// the next one if that has as many points of the same precision.
 #[derive(Debug)]
 pub struct Phase1<const D: usize>
 where

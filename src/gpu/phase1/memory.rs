@@ -51,7 +51,8 @@ where
         Ok(Memory { bound: stages.bind(gpu, &buffers)?, buffers })
     }
 
-    /// Returns what is kept, if it is for these points and large enough, and creates all of it otherwise.
+    /// Returns what is kept, if it is for these points and large enough, and creates all of it
+    /// otherwise.
     pub(crate) fn new(
         stages: &Stages<D>,
         gpu: &Gpu,

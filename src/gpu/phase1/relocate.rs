@@ -1,4 +1,5 @@
-//! Waiting points: along the history after the flips (§4.1), and their list without those that were inserted.
+//! Waiting points: along the history after the flips (§4.1), and their list without those that were
+//! inserted.
 
 use crate::{
     Error,
@@ -64,7 +65,8 @@ impl Relocate {
         recorder.dispatch(&self.relocate, &bound.relocate, workgroups);
     }
 
-    /// Records the compaction of the list, which has `entries` entries, those that do not wait included.
+    /// Records the compaction of the list, which has `entries` entries, those that do not wait
+    /// included.
     pub(crate) fn record_compaction(
         &self,
         gpu: &Gpu,

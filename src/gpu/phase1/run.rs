@@ -48,8 +48,9 @@ where
 {
     /// The mesh, and what is to be repaired or checked of it.
     pub result: <Dimension<D> as Finish<D>>::Result,
-    /// Points that are vertices of no simplex, with that of the point at the same place of the lattice: exact duplicates,
-    /// and points that were rounded to the same place, which are inserted afterwards.
+    /// Points that are vertices of no simplex, with that of the point at the same place of the
+    /// lattice: exact duplicates, and points that were rounded to the same place, which are
+    /// inserted afterwards.
     pub merged: Vec<[u32; 2]>,
     /// What the run did.
     pub stats: Phase1Stats,
@@ -130,8 +131,8 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::TooManyPoints`]; [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when the device cannot hold
-    /// the buffers.
+    /// [`Error::TooManyPoints`]; [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when
+    /// the device cannot hold the buffers.
     pub async fn new(
         kernels: &'a mut Phase1<D>,
         gpu: &'a Gpu,
@@ -223,12 +224,13 @@ where
         self.counters.active_len[(self.counters.iteration & 1) as usize]
     }
 
-    /// Runs an insertion round, or, when all points are inserted, flip iterations. Returns whether there is more to do.
+    /// Runs an insertion round, or, when all points are inserted, flip iterations. Returns whether
+    /// there is more to do.
     ///
     /// # Errors
     ///
-    /// [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when there are more tetrahedra than the device can
-    /// hold; [`Error::DeviceLost`] and [`Error::Gpu`].
+    /// [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when there are more tetrahedra
+    /// than the device can hold; [`Error::DeviceLost`] and [`Error::Gpu`].
     pub async fn round(&mut self) -> Result<bool, Error> {
         let gpu = self.gpu;
         let before = self.counters;
@@ -302,7 +304,8 @@ where
         self.kernels.readback.copy(self.gpu, encoder, control, PARAM_WORDS, COUNTER_WORDS)
     }
 
-    /// Writes the parameters as the host knows them, and the counters as they were last read: no kernel runs between.
+    /// Writes the parameters as the host knows them, and the counters as they were last read: no
+    /// kernel runs between.
     fn write_control(&self) {
         self.memory.buffers.control.write(self.gpu, 0, bytemuck::cast_slice(&[self.params]));
         self.memory.buffers.control.write(self.gpu, PARAM_WORDS, bytemuck::cast_slice(&[self.counters]));

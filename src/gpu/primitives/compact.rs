@@ -23,16 +23,17 @@ pub struct BoundCompact {
 }
 
 impl Compact {
-    /// The kernels.
+    /// Compiles the kernels.
     pub fn new(gpu: &Gpu) -> Self {
         Compact { scan: Scan::new(gpu), scatter: Kernel::new(gpu, shader::COMMON.get("compact"), Width::Narrow) }
     }
 
-    /// Prepares a compaction: `kept` becomes the numbers, ascending, of the entries of `marks` that are 1 and not 0.
+    /// Prepares a compaction: `kept` becomes the numbers, ascending, of the entries of `marks` that
+    /// are 1 and not 0.
     ///
     /// # Errors
     ///
-    /// As [`Storage::new`].
+    /// Those of [`Storage::new`].
     pub fn bind(
         &self,
         gpu: &Gpu,
@@ -60,7 +61,8 @@ impl Compact {
 }
 
 impl BoundCompact {
-    /// The scan's sums; entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS) is the number of entries kept.
+    /// The scan's sums; entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS) is the number of
+    /// entries kept.
     pub fn sums(&self) -> &Storage<u32> {
         self.scan.sums()
     }

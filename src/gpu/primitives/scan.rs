@@ -1,4 +1,5 @@
-//! Exclusive prefix sums, reduce-then-scan: three dispatches, none of whose workgroups waits for another.
+//! Exclusive prefix sums, reduce-then-scan: three dispatches, none of whose workgroups waits for
+//! another.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -44,18 +45,19 @@ pub struct BoundScan {
 }
 
 impl Scan {
-    /// The kernels.
+    /// Compiles the kernels.
     pub fn new(gpu: &Gpu) -> Self {
         let kernel = |name| Kernel::new(gpu, shader::COMMON.get(name), Width::Narrow);
         let [reduce, sums, parts] = ["scan_reduce", "scan_sums", "scan_parts"].map(kernel);
         Scan { reduce, sums, parts }
     }
 
-    /// Prepares a scan: `offsets[i]` becomes the sum, modulo 2³², of `values[..i]`, for the first `count` of `params`.
+    /// Prepares a scan: `offsets[i]` becomes the sum, modulo 2³², of `values[..i]`, for the first
+    /// `count` of `params`.
     ///
     /// # Errors
     ///
-    /// As [`Storage::new`].
+    /// Those of [`Storage::new`].
     pub fn bind(
         &self,
         gpu: &Gpu,
@@ -85,7 +87,7 @@ impl Scan {
 }
 
 impl BoundScan {
-    /// The sums; entry [`GROUPS`] is that of all values.
+    /// Returns the sums; entry [`GROUPS`] is that of all values.
     pub fn sums(&self) -> &Storage<u32> {
         &self.sums
     }

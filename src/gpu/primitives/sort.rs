@@ -1,7 +1,8 @@
 //! Radix sort of key and value pairs by their keys, stable.
 //!
-//! Least significant digit first, eight bits a pass. A pass counts the digits of each tile, scans the counts, and sends
-//! every pair to its place: three dispatches, none of whose workgroups waits for another.
+//! Least significant digit first, eight bits a pass. A pass counts the digits of each tile, scans
+//! the counts, and sends every pair to its place: three dispatches, none of whose workgroups waits
+//! for another.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -49,19 +50,20 @@ pub struct BoundSort {
 }
 
 impl Sort {
-    /// The kernels.
+    /// Compiles the kernels.
     pub fn new(gpu: &Gpu) -> Self {
         let kernel = |name| Kernel::new(gpu, shader::COMMON.get(name), Width::Narrow);
         let [count, scan, scatter] = ["sort_count", "sort_scan", "sort_scatter"].map(kernel);
         Sort { count, scan, scatter }
     }
 
-    /// Prepares a sort of all `pairs` (key, value) by the lowest `bits` of their keys. `scratch` has the same length; the
-    /// two may change places, so that afterwards the sorted pairs are in `pairs`.
+    /// Prepares a sort of all `pairs` (key, value) by the lowest `bits` of their keys. `scratch`
+    /// has the same length; the two may change places, so that afterwards the sorted pairs are in
+    /// `pairs`.
     ///
     /// # Errors
     ///
-    /// As [`Storage::new`].
+    /// Those of [`Storage::new`].
     pub fn bind(
         &self,
         gpu: &Gpu,
