@@ -8,7 +8,7 @@ fn points_of_glam() {
     let points = [glam::Vec3::ZERO, glam::Vec3::X, glam::Vec3::Y, glam::Vec3::Z];
     assert_eq!(gdel::delaunay3d(&points).unwrap().tetrahedra.len(), 1);
     let points = vec![glam::DVec2::ZERO, glam::DVec2::X, glam::DVec2::Y];
-    assert_eq!(gdel::delaunay2d(&points).unwrap().triangles, [[0, 1, 2]]);
+    assert_eq!(gdel::delaunay2d(&points).unwrap().hull, [0, 1, 2]);
 }
 
 #[cfg(feature = "nalgebra")]
@@ -25,7 +25,7 @@ fn points_of_nalgebra() {
 #[test]
 fn points_of_ndarray() {
     use gdel::Points;
-    use ndarray::{Array2, arr2, s};
+    use ndarray::{Array2, Axis, Slice, arr2};
     let points = arr2(&[[0.0, 0.0, 9.0], [1.0, 0.0, 9.0], [0.0, 1.0, 9.0]]);
     let mesh = gdel::delaunay3d(Points::try_from(&points).unwrap()).unwrap();
     assert_eq!(mesh.dimension, 2);
@@ -33,10 +33,10 @@ fn points_of_ndarray() {
     let error = Points::<2>::try_from(&points).unwrap_err();
     assert_eq!(error, Error::ArrayShape { rows: 3, columns: 3, dimension: 2 });
     // Two of three columns are not contiguous.
-    let columns = points.slice(s![.., ..2]);
+    let columns = points.slice_axis(Axis(1), Slice::from(..2));
     assert_eq!(Points::<2>::try_from(columns).unwrap_err(), Error::ArrayLayout);
     let copy = columns.as_standard_layout();
-    assert_eq!(gdel::delaunay2d(Points::try_from(&copy).unwrap()).unwrap().triangles, [[0, 1, 2]]);
+    assert_eq!(gdel::delaunay2d(Points::try_from(&copy).unwrap()).unwrap().hull, [0, 1, 2]);
     assert!(Points::<2>::try_from(&Array2::<f32>::zeros((0, 2))).unwrap().is_empty());
 }
 
@@ -44,7 +44,7 @@ fn points_of_ndarray() {
 #[test]
 fn points_of_mint() {
     let points = [[0.0f32, 0.0], [1.0, 0.0], [0.0, 1.0]].map(mint::Point2::from);
-    assert_eq!(gdel::delaunay2d(&gdel::from_mint2(points)).unwrap().triangles, [[0, 1, 2]]);
+    assert_eq!(gdel::delaunay2d(&gdel::from_mint2(points)).unwrap().hull, [0, 1, 2]);
     let points = [[0.0f64, 0.0, 0.0], [1.0, 0.0, 0.0]].map(mint::Point3::from);
     assert_eq!(gdel::from_mint3(points), [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]);
 }
