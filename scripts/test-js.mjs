@@ -1,10 +1,11 @@
-// Runs the tests of the npm package and the demo page, or only those files that are named. Both have to be built.
+// Runs the tests of the npm package and the demo page, or only those files that are named. Both
+// have to be built.
 //
 //   node --no-concurrent-recompilation scripts/test-js.mjs [FILE…]
 //
-// Files run side by side, one per processor, each in a process of its own with the flags of this one: Node can deadlock when it
-// ends while V8 compiles on another thread (nodejs/node#54918). Tests wait for states, never for times; the only limit is there
-// to end what hangs.
+// Files run side by side, one per processor, each in a process of its own with the flags of this
+// one: Node can deadlock when it ends while V8 compiles on another thread (nodejs/node#54918).
+// Tests wait for states, never for times; the only limit is there to end what hangs.
 
 import { mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { availableParallelism, tmpdir } from 'node:os';

@@ -28,7 +28,7 @@
 //! | `glam`, `mint`, `nalgebra`, `ndarray` | conversions of these crates' points into [`Points`], without a copy |
 //! | `cli` | the program `gdel` |
 //!
-//! The features `io`, `wasm` and `wasm-*` serve the program and the npm package; they add nothing to the public interface.
+//! The feature `io` serves the program and the npm package; it adds nothing to the public interface.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
@@ -51,6 +51,7 @@ pub mod stats;
 pub mod verify;
 
 // Tools.
+mod fields;
 mod index;
 #[cfg(feature = "io")]
 mod io;
@@ -58,8 +59,6 @@ mod parallel;
 mod random;
 #[cfg(feature = "gpu")]
 mod reference;
-#[cfg(all(feature = "wasm", target_arch = "wasm32"))]
-mod wasm;
 
 pub use d2::{
     Mesh2,
@@ -155,6 +154,7 @@ pub mod internals {
     open!(
         d2,
         d3,
+        fields,
         #[cfg(feature = "gpu")]
         gpu,
         index,

@@ -1,45 +1,47 @@
 //! Statistics of a run: what it did, and how long each part took.
 
-use crate::{Backend, Error};
+use crate::{Backend, Error, fields::with_fields};
 use std::{fmt, time::Duration};
 
-/// Statistics of the run that computed a mesh.
-///
-/// With the feature `serde`, all statistics can be serialised; times become seconds, and names such as those of
-/// [`Phase`] become strings.
-///
-/// # Examples
-///
-/// ```
-/// use gdel::{Backend, Triangulator, stats::Phase};
-///
-/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
-/// let stats = Triangulator::new().backend(Backend::Cpu).delaunay2d(&points)?.stats;
-/// assert_eq!(stats.backend, Backend::Cpu);
-/// assert!(stats.time_of(Phase::Insert) <= stats.total_time());
-/// # Ok::<(), gdel::Error>(())
-/// ```
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
-pub struct Stats {
-    /// The backend that computed the mesh: [`Backend::Cpu`] or [`Backend::Gpu`].
-    pub backend: Backend,
-    /// Why the CPU computed the mesh, if it was not requested explicitly.
-    pub fallback: Option<Fallback>,
-    /// The phases in the order in which they ran, with the time that each took. Phases of an attempt that failed are not
-    /// included. All times are zero on WebAssembly without the feature `gpu`, where there is no clock.
-    #[cfg_attr(feature = "serde", serde(rename = "seconds", serialize_with = "serialize::phases"))]
-    pub phases: Vec<(Phase, Duration)>,
-    /// Predicate evaluations on the CPU that the floating-point filter left open, by what decided them.
-    pub exact: ExactCounts,
-    /// What the GPU did, including an attempt after which the CPU had to take over.
-    pub gpu: Option<GpuStats>,
-    /// What star splaying did after that; 3D only.
-    pub splay: Option<SplayStats>,
-    /// The intermediate triangulations, if [`Triangulator::trace`](crate::Triangulator::trace) requested them.
-    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
-    pub trace: Option<Trace>,
+with_fields! {
+    /// Statistics of the run that computed a mesh.
+    ///
+    /// With the feature `serde`, all statistics can be serialised; times become seconds, and names such as those of
+    /// [`Phase`] become strings. On WebAssembly without the feature `gpu` there is no clock, and all times are zero.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Backend, Triangulator, stats::Phase};
+    ///
+    /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
+    /// let stats = Triangulator::new().backend(Backend::Cpu).delaunay2d(&points)?.stats;
+    /// assert_eq!(stats.backend, Backend::Cpu);
+    /// assert!(stats.time_of(Phase::Insert) <= stats.total_time());
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    #[derive(Debug, Clone, PartialEq)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+    #[non_exhaustive]
+    pub struct Stats {
+        /// The backend that computed the mesh.
+        pub backend: Backend,
+        /// Why the CPU computed the mesh, if it was not requested explicitly.
+        pub fallback: Option<Fallback>,
+        /// The phases in the order in which they ran, with the time that each took. Phases of an attempt that failed
+        /// are not included.
+        #[cfg_attr(feature = "serde", serde(rename = "seconds", serialize_with = "serialize::phases"))]
+        pub phases: Vec<(Phase, Duration)>,
+        /// Predicate evaluations on the CPU that the floating-point filter left open, by what decided them.
+        pub exact: ExactCounts,
+        /// What the GPU did, including an attempt after which the CPU had to take over.
+        pub gpu: Option<GpuStats>,
+        /// What star splaying did after that; 3D only.
+        pub splay: Option<SplayStats>,
+        /// The intermediate triangulations, if [`Triangulator::trace`](crate::Triangulator::trace) requested them.
+        #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+        pub trace: Option<Trace>,
+    }
 }
 
 impl Stats {
@@ -207,130 +209,136 @@ impl Fallback {
     }
 }
 
-/// What Phase 1 did on the GPU.
-///
-/// # Examples
-///
-/// ```
-/// use gdel::{Backend, Triangulator};
-///
-/// let points: Vec<[f32; 2]> = (0..1000).map(|i| [(i * i % 997) as f32, i as f32]).collect();
-/// match Triangulator::new().backend(Backend::Gpu).delaunay2d(&points) {
-///     Ok(mesh) => {
-///         let gpu = mesh.stats.gpu.expect("the GPU was used");
-///         println!("{}: {} rounds, {} bytes", gpu.adapter, gpu.rounds.len(), gpu.bytes);
-///     }
-///     Err(error) => println!("{error}"),
-/// }
-/// ```
-#[derive(Debug, Clone, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
-pub struct GpuStats {
-    /// The name of the adapter.
-    pub adapter: String,
-    /// The insertion rounds, then the rounds that only flipped.
-    pub rounds: Vec<Round>,
-    /// The number of flips of two tetrahedra into three.
-    pub flips_23: u64,
-    /// The number of flips of three tetrahedra into two.
-    pub flips_32: u64,
-    /// The number of flips of two triangles into two, in 2D.
-    pub flips_22: u64,
-    /// The number of flip iterations that had something to do.
-    pub flip_iterations: u64,
-    /// The number of predicate evaluations that took exact arithmetic.
-    pub exact_tests: u64,
-    /// The number of facets that were not locally Delaunay and could not be flipped, including those with the vertex at
-    /// infinity.
-    pub not_locally_delaunay: u64,
-    /// The number of vertices of such facets, without the vertex at infinity.
-    pub failed_vertices: u64,
-    /// The number of points that were merged with another one at the same lattice position: duplicates, and points that
-    /// were rounded there.
-    pub merged: u64,
-    /// The number of results that were read back.
-    pub readbacks: u64,
-    /// The number of kernels that were run.
-    pub dispatches: u64,
-    /// The number of submissions to the queue.
-    pub submits: u64,
-    /// The largest amount of GPU memory that was held at a time, in bytes.
-    pub bytes: u64,
+with_fields! {
+    /// What Phase 1 did on the GPU.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Backend, Triangulator};
+    ///
+    /// let points: Vec<[f32; 2]> = (0..1000).map(|i| [(i * i % 997) as f32, i as f32]).collect();
+    /// match Triangulator::new().backend(Backend::Gpu).delaunay2d(&points) {
+    ///     Ok(mesh) => {
+    ///         let gpu = mesh.stats.gpu.expect("the GPU was used");
+    ///         println!("{}: {} rounds, {} bytes", gpu.adapter, gpu.rounds.len(), gpu.bytes);
+    ///     }
+    ///     Err(error) => println!("{error}"),
+    /// }
+    /// ```
+    #[derive(Debug, Clone, Default, PartialEq)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+    #[non_exhaustive]
+    pub struct GpuStats {
+        /// The name of the adapter.
+        pub adapter: String,
+        /// The insertion rounds, then the rounds that only flipped.
+        pub rounds: Vec<Round>,
+        /// The number of flips of two tetrahedra into three.
+        pub flips_23: u64,
+        /// The number of flips of three tetrahedra into two.
+        pub flips_32: u64,
+        /// The number of flips of two triangles into two, in 2D.
+        pub flips_22: u64,
+        /// The number of flip iterations that had something to do.
+        pub flip_iterations: u64,
+        /// The number of predicate evaluations that took exact arithmetic.
+        pub exact_tests: u64,
+        /// The number of facets that were not locally Delaunay and could not be flipped, including those with the vertex at
+        /// infinity.
+        pub not_locally_delaunay: u64,
+        /// The number of vertices of such facets, without the vertex at infinity.
+        pub failed_vertices: u64,
+        /// The number of points that were merged with another one at the same lattice position: duplicates, and points that
+        /// were rounded there.
+        pub merged: u64,
+        /// The number of results that were read back.
+        pub readbacks: u64,
+        /// The number of kernels that were run.
+        pub dispatches: u64,
+        /// The number of submissions to the queue.
+        pub submits: u64,
+        /// The largest amount of GPU memory that was held at a time, in bytes.
+        pub bytes: u64,
+    }
 }
 
-/// A round of Phase 1: insertions, and the flips that follow them.
-///
-/// # Examples
-///
-/// ```
-/// use gdel::{Backend, Triangulator};
-///
-/// let points: Vec<[f32; 2]> = (0..1000).map(|i| [(i * i % 997) as f32, i as f32]).collect();
-/// if let Ok(mesh) = Triangulator::new().backend(Backend::Gpu).delaunay2d(&points) {
-///     for round in mesh.stats.gpu.iter().flat_map(|gpu| &gpu.rounds) {
-///         println!("{} points, {} flips, {:?}", round.inserted, round.flips, round.time);
-///     }
-/// }
-/// ```
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
-pub struct Round {
-    /// The number of points that were inserted.
-    pub inserted: u32,
-    /// The number of tetrahedra, or triangles in 2D, whose facets were still to be checked at the end.
-    pub active: u32,
-    /// The number of flips.
-    pub flips: u32,
-    /// The number of flip iterations that had something to do.
-    pub iterations: u32,
-    /// The time from the end of the previous round, by the host's clock.
-    #[cfg_attr(feature = "serde", serde(rename = "seconds", serialize_with = "serialize::seconds"))]
-    pub time: Duration,
+with_fields! {
+    /// A round of Phase 1: insertions, and the flips that follow them.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Backend, Triangulator};
+    ///
+    /// let points: Vec<[f32; 2]> = (0..1000).map(|i| [(i * i % 997) as f32, i as f32]).collect();
+    /// if let Ok(mesh) = Triangulator::new().backend(Backend::Gpu).delaunay2d(&points) {
+    ///     for round in mesh.stats.gpu.iter().flat_map(|gpu| &gpu.rounds) {
+    ///         println!("{} points, {} flips, {:?}", round.inserted, round.flips, round.time);
+    ///     }
+    /// }
+    /// ```
+    #[derive(Debug, Clone, Copy, Default, PartialEq)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+    #[non_exhaustive]
+    pub struct Round {
+        /// The number of points that were inserted.
+        pub inserted: u32,
+        /// The number of tetrahedra, or triangles in 2D, whose facets were still to be checked at the end.
+        pub active: u32,
+        /// The number of flips.
+        pub flips: u32,
+        /// The number of flip iterations that had something to do.
+        pub iterations: u32,
+        /// The time from the end of the previous round, by the host's clock.
+        #[cfg_attr(feature = "serde", serde(rename = "seconds", serialize_with = "serialize::seconds"))]
+        pub time: Duration,
+    }
 }
 
-/// What star splaying did.
-///
-/// # Examples
-///
-/// ```
-/// // Star splaying repairs what the GPU's Phase 1 leaves open, so the CPU backend has none.
-/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
-/// assert_eq!(gdel::delaunay3d(&points)?.stats.splay, None);
-/// # Ok::<(), gdel::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
-pub struct SplayStats {
-    /// The number of flat tetrahedra on the hull that were peeled off.
-    pub peeled: usize,
-    /// The number of failed vertices.
-    pub failed: usize,
-    /// The number of stars that were made convex: those of failed vertices, and some that had flat or inverted
-    /// tetrahedra.
-    pub built: usize,
-    /// How many of these were built from their points because Flip-Flop could not start or was stuck.
-    pub from_points: usize,
-    /// The number of stars that were taken from the triangulation unchanged.
-    pub pulled: usize,
-    /// The number of Flip-Flop's flips.
-    pub flips: usize,
-    /// The number of insertions of points into stars.
-    pub insertions: usize,
-    /// The number of checks whether all stars agree about a tetrahedron.
-    pub checks: usize,
-    /// The number of tetrahedra that were removed from the triangulation.
-    pub removed: usize,
-    /// The number of tetrahedra that were added to it.
-    pub added: usize,
-    /// The number of missing points that were inserted.
-    pub inserted: usize,
-    /// The number of predicate evaluations.
-    pub signs: u64,
-    /// The number of rounds of insertions.
-    pub rounds: usize,
+with_fields! {
+    /// What star splaying did.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// // Star splaying repairs what the GPU's Phase 1 leaves open, so the CPU backend has none.
+    /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
+    /// assert_eq!(gdel::delaunay3d(&points)?.stats.splay, None);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+    #[non_exhaustive]
+    pub struct SplayStats {
+        /// The number of flat tetrahedra on the hull that were peeled off.
+        pub peeled: usize,
+        /// The number of failed vertices.
+        pub failed: usize,
+        /// The number of stars that were made convex: those of failed vertices, and some that had flat or inverted
+        /// tetrahedra.
+        pub built: usize,
+        /// How many of these were built from their points because Flip-Flop could not start or was stuck.
+        pub from_points: usize,
+        /// The number of stars that were taken from the triangulation unchanged.
+        pub pulled: usize,
+        /// The number of Flip-Flop's flips.
+        pub flips: usize,
+        /// The number of insertions of points into stars.
+        pub insertions: usize,
+        /// The number of checks whether all stars agree about a tetrahedron.
+        pub checks: usize,
+        /// The number of tetrahedra that were removed from the triangulation.
+        pub removed: usize,
+        /// The number of tetrahedra that were added to it.
+        pub added: usize,
+        /// The number of missing points that were inserted.
+        pub inserted: usize,
+        /// The number of predicate evaluations.
+        pub signs: u64,
+        /// The number of rounds of insertions.
+        pub rounds: usize,
+    }
 }
 
 /// The intermediate triangulations of a run on the GPU in 3D.
@@ -360,29 +368,31 @@ pub struct Trace {
     pub splayed: Vec<bool>,
 }
 
-/// The number of predicate evaluations that each exact stage decided after the floating-point filter.
-///
-/// # Examples
-///
-/// ```
-/// use gdel::{Backend, Triangulator};
-///
-/// // All eight corners of a cube lie on one sphere, so ties are broken symbolically.
-/// let cube: Vec<[f32; 3]> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|x| x as f32)).collect();
-/// let exact = Triangulator::new().backend(Backend::Cpu).delaunay3d(&cube)?.stats.exact;
-/// assert!(exact.symbolic > 0);
-/// # Ok::<(), gdel::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
-pub struct ExactCounts {
-    /// Decided by fixed-width integers on the lattice.
-    pub integer: u64,
-    /// Decided by floating-point expansions or big integers, where a point does not fit the lattice.
-    pub expansion: u64,
-    /// Cospherical or cocircular points: decided by the symbolic perturbation.
-    pub symbolic: u64,
+with_fields! {
+    /// The number of predicate evaluations that each exact stage decided after the floating-point filter.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Backend, Triangulator};
+    ///
+    /// // All eight corners of a cube lie on one sphere, so ties are broken symbolically.
+    /// let cube: Vec<[f32; 3]> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|x| x as f32)).collect();
+    /// let exact = Triangulator::new().backend(Backend::Cpu).delaunay3d(&cube)?.stats.exact;
+    /// assert!(exact.symbolic > 0);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+    #[non_exhaustive]
+    pub struct ExactCounts {
+        /// Decided by fixed-width integers on the lattice.
+        pub integer: u64,
+        /// Decided by floating-point expansions or big integers, where a point does not fit the lattice.
+        pub expansion: u64,
+        /// Cospherical or cocircular points: decided by the symbolic perturbation.
+        pub symbolic: u64,
+    }
 }
 
 impl std::ops::Add for ExactCounts {

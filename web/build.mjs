@@ -1,4 +1,5 @@
-// Builds the package into web/dist: wasm by cargo and wasm-bindgen, JavaScript by esbuild, declarations by tsc.
+// Builds the package into web/dist: WebAssembly by cargo and wasm-bindgen, JavaScript by esbuild,
+// declarations by tsc.
 
 import { execFileSync, spawn } from 'node:child_process';
 import { once } from 'node:events';
@@ -22,21 +23,18 @@ const root = dirname(web);
 const dist = join(web, 'dist');
 const pkg = (name) => join(web, 'pkg', name);
 
-/** The wasm modules: the feature of the crate, and the file in the package. */
-const MODULES = {
-  engine: { feature: 'wasm-engine', file: 'gdel.wasm' },
-  plane: { feature: 'wasm-plane', file: 'gdel-plane.wasm' },
-  tools: { feature: 'wasm-tools', file: 'gdel-tools.wasm' },
-};
+/** The wasm modules, each a feature of the crate in `wasm`, and their files in the package. */
+const MODULES = { d3: 'gdel-3d.wasm', d2: 'gdel-2d.wasm', tools: 'gdel-tools.wasm' };
 
 const say = (text) => console.log(`build: ${text}`);
-// wasm-bindgen from there, and wasm-opt from the npm package binaryen: Debian's does not know what rustc emits.
+// wasm-bindgen is there; wasm-opt is that of the npm package binaryen, since Debian's is too old
+// for what rustc emits.
 const PATH = [
   join(root, '.cache/tools/bin'),
   join(root, 'node_modules/.bin'),
   process.env.PATH,
 ].join(delimiter);
-// Messages of panics name source files, but not where they lie on this machine.
+// Panic messages name source files, which should not depend on the folders of this machine.
 const sources = { gdel: root, cargo: process.env.CARGO_HOME ?? join(homedir(), '.cargo') };
 const remapped = Object.entries(sources).map(
   ([name, folder]) => `--remap-path-prefix=${folder}=${name}`,
@@ -59,33 +57,33 @@ async function buildWasm() {
   });
   const compiled = join(
     JSON.parse(metadata).target_directory,
-    'wasm32-unknown-unknown/wasm/gdel.wasm',
+    'wasm32-unknown-unknown/wasm/gdel_web.wasm',
   );
   const finishing = [];
-  for (const [name, { feature }] of Object.entries(MODULES)) {
+  for (const name of Object.keys(MODULES)) {
     say(`${name}: cargo`);
     await run('cargo', [
       'build',
-      '--lib',
+      '--package',
+      'gdel-web',
       '--locked',
       '--profile',
       'wasm',
       '--target',
       'wasm32-unknown-unknown',
-      '--no-default-features',
       '--features',
-      feature,
+      name,
     ]);
     rmSync(pkg(name), { recursive: true, force: true });
     mkdirSync(pkg(name), { recursive: true });
     cpSync(compiled, join(pkg(name), 'gdel.wasm'));
-    // On the processors that the compiler of the next module leaves free.
+    // Runs while the next module is compiled.
     finishing.push(finishWasm(name));
   }
   await Promise.all(finishing);
 }
 
-/** The JavaScript for a compiled module, and the module made smaller and faster. */
+/** Generates the JavaScript for a compiled module, and optimises the module. */
 async function finishWasm(name) {
   const at = (file) => join(pkg(name), file);
   await run('wasm-bindgen', [
@@ -102,8 +100,10 @@ async function finishWasm(name) {
   await run('wasm-opt', [at('gdel_bg.wasm'), '-o', at('gdel_bg.wasm'), '-O3']);
 }
 
-/** The glue of wasm-bindgen keeps its instance in module variables. Here it becomes a function, of which each call has its
- * own, and which sees the global object that it is given. */
+/**
+ * Turns wasm-bindgen's glue, which keeps its instance in module variables, into a function. Each
+ * call of it has an instance of its own, and sees the global object that it is passed.
+ */
 const glue = {
   name: 'glue',
   setup(build) {
@@ -119,11 +119,11 @@ const glue = {
         format: 'cjs',
         target: 'es2022',
         minify: true,
-        // Used by the asynchronous initialisation only, which nobody calls.
+        // Only the asynchronous initialisation uses it, and nobody calls that.
         define: { 'import.meta.url': '""' },
       });
       const [{ text }] = outputFiles;
-      // wgpu tells errors apart by these classes, which not every environment has as globals.
+      // wgpu distinguishes errors by these classes, which are not globals everywhere.
       const classes = ['GPUValidationError', 'GPUOutOfMemoryError'].map(
         (name) =>
           `const ${name} = { [Symbol.hasInstance]: (e) => e?.constructor?.name === '${name}' };`,
@@ -134,7 +134,7 @@ const glue = {
   },
 };
 
-/** Files as text: the wasm modules, compressed, in base64, and the bundled worker. */
+/** Imports files as text: the compressed wasm modules in base64, and the bundled worker. */
 const inlined = {
   name: 'inlined',
   setup(build) {
@@ -143,7 +143,7 @@ const inlined = {
       const name = path.slice(path.indexOf(':') + 1);
       if (name === 'worker')
         return { contents: readFileSync(join(dist, 'worker.js'), 'utf8'), loader: 'text' };
-      const compressed = gzipSync(readFileSync(join(dist, MODULES[name].file)), { level: 9 });
+      const compressed = gzipSync(readFileSync(join(dist, MODULES[name])), { level: 9 });
       return { contents: compressed.toString('base64'), loader: 'text' };
     });
   },
@@ -157,15 +157,15 @@ async function bundle(entry, outfile, options = {}) {
     format: 'esm',
     target: 'es2022',
     legalComments: 'none',
-    // Not the names: those of classes are seen in consoles and debuggers.
+    // Names stay: those of classes are visible in consoles and debuggers.
     minifySyntax: true,
     minifyWhitespace: true,
     plugins: [glue, inlined],
-    // Files of the package that stay files of their own.
+    // These stay files of their own.
     external: ['./worker.js', 'node:*'],
     ...options,
   });
-  // On a line of its own, where tools find it that tell ES modules by patterns.
+  // On a line of its own, where tools that recognise ES modules by patterns find it.
   const file = join(dist, outfile);
   writeFileSync(file, readFileSync(file, 'utf8').replace(/export\{[^{}]*\};\s*$/, '\n$&'));
 }
@@ -173,7 +173,7 @@ async function bundle(entry, outfile, options = {}) {
 async function buildJs() {
   rmSync(dist, { recursive: true, force: true });
   mkdirSync(dist);
-  for (const [name, { file }] of Object.entries(MODULES))
+  for (const [name, file] of Object.entries(MODULES))
     cpSync(join(pkg(name), 'gdel_bg.wasm'), join(dist, file));
   say('JavaScript: esbuild');
   const runtime = (name) => ({ alias: { '#runtime': join(web, 'src', `runtime-${name}.ts`) } });
@@ -182,6 +182,14 @@ async function buildJs() {
   await bundle('index.ts', 'index.js', runtime('web'));
   await bundle('index.ts', 'node.js', runtime('node'));
   await bundle('index.ts', 'inline.js', { ...runtime('inline'), external: [] });
+  // The class is that of the main entry, so that both can be imported side by side.
+  for (const [name, main] of [
+    ['delaunator', 'index'],
+    ['delaunator-node', 'node'],
+  ]) {
+    const entry = `export { Delaunator, Delaunator as default, GdelError } from './${main}.js';\n`;
+    writeFileSync(join(dist, `${name}.js`), entry);
+  }
   say('declarations: tsc');
   await run(process.execPath, [join(root, 'node_modules/typescript/bin/tsc'), '--project', web]);
   // The three builds have one interface.
@@ -192,13 +200,7 @@ async function buildJs() {
 function reportSizes() {
   const kilobytes = (file) =>
     (gzipSync(readFileSync(join(dist, file)), { level: 9 }).length / 1e3).toFixed(1);
-  for (const file of [
-    ...Object.values(MODULES).map(({ file }) => file),
-    'index.js',
-    'worker.js',
-    'node.js',
-    'inline.js',
-  ]) {
+  for (const file of [...Object.values(MODULES), 'index.js', 'worker.js', 'node.js', 'inline.js']) {
     say(`${file}: ${statSync(join(dist, file)).size} bytes, ${kilobytes(file)} kB gzipped`);
   }
 }

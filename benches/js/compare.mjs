@@ -1,11 +1,11 @@
-// Times the packed package's CPU engine, the native engine, and the npm package qhull-wasm, in the plane delaunator, side by
-// side, and prints ratios.
+// Times the packed package's CPU backend, the native library, and the npm package qhull-wasm, in 2D
+// delaunator, side by side, and prints ratios.
 //
 //   npm run build && cargo build --release --features cli
 //   node benches/js/compare.mjs [--dim 2] [--points 100000] [--runs 3] [--native GDEL] [--without qhull,native]
 //
-// All sides take the same uniform points, in turn, on one core. The native binary's time is that which it states; reading
-// its file is left out.
+// All sides take the same uniform points, in turn, on one core. The native binary's time is that
+// which it states; reading its file is left out.
 
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
@@ -15,7 +15,7 @@ import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import Delaunator from 'delaunator';
 import { loadQhull } from 'qhull-wasm';
-import { createEngine, generate, Delaunator as Ours } from '../../web/dist/node.js';
+import { createTriangulator, generate, Delaunator as Ours } from '../../web/dist/node.js';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
 const { values } = parseArgs({
@@ -31,7 +31,7 @@ const [dimension, points, runs] = [+values.dim, +values.points, +values.runs];
 const folder = mkdtempSync(join(tmpdir(), 'gdel-bench-'));
 process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
 
-// Coordinates of the cube, uniform and independent, serve the plane as well.
+// Coordinates of the cube, uniform and independent, serve 2D as well.
 const input = (await generate('uniform', Math.ceil((dimension * points) / 3), { seed: 1 })).slice(
   0,
   dimension * points,
@@ -39,7 +39,7 @@ const input = (await generate('uniform', Math.ceil((dimension * points) / 3), { 
 const file = join(folder, 'points.f64');
 writeFileSync(file, new Uint8Array(input.buffer));
 
-const engine = await createEngine({ engine: 'cpu' });
+const triangulator = await createTriangulator({ backend: 'cpu' });
 await Ours.load();
 const qhull = await loadQhull();
 let wasmBytes = 0;
@@ -56,8 +56,8 @@ const sides = {
   async 'gdel-wasm'() {
     const copy = input.slice();
     const started = performance.now();
-    const mesh = await (dimension === 2 ? engine.delaunay2d : engine.delaunay3d).call(
-      engine,
+    const mesh = await (dimension === 2 ? triangulator.delaunay2d : triangulator.delaunay3d).call(
+      triangulator,
       copy,
       { transfer: true },
     );
@@ -94,7 +94,7 @@ for (let run = 0; run < runs; run++) {
     counts[name] = count;
   }
 }
-engine.dispose();
+triangulator.dispose();
 
 const median = (times) => times.slice().sort((a, b) => a - b)[times.length >> 1];
 const ours = median(seconds['gdel-wasm']);

@@ -1,10 +1,12 @@
-// Times the packed package's GPU engine in Node through the npm package `webgpu` (Dawn), and prints JSON.
+// Times the packed package's GPU backend in Node through the npm package `webgpu` (Dawn), and
+// prints JSON.
 //
 //   node benches/js/gpu.mjs [--package FOLDER] [--webgpu FOLDER] [--points 100000,1000000] [--kind uniform] [--runs 5] [--native GDEL]
 //
-// To run it on another machine, carry this file, web/dist and node_modules/webgpu there; of the latter, `index.js`,
-// `package.json` and the `.dawn.node` of its platform in `dist` are enough. --package and --webgpu say where they lie. On
-// Linux it takes libvulkan1 and the driver. With --native, a `gdel` binary triangulates the same points in turn.
+// To run it on another machine, carry this file, web/dist and node_modules/webgpu there; of the
+// latter, `index.js`, `package.json` and the `.dawn.node` of its platform in `dist` are enough.
+// --package and --webgpu say where they lie. On Linux it takes libvulkan1 and the driver. With
+// --native, a `gdel` binary triangulates the same points in turn.
 
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
@@ -25,7 +27,7 @@ const { values } = parseArgs({
   },
 });
 const load = (folder, file) => import(pathToFileURL(join(resolve(folder), file)));
-const { createEngine, generate } = await load(values.package, 'node.js');
+const { createTriangulator, generate } = await load(values.package, 'node.js');
 const { create } = await load(values.webgpu, 'index.js');
 
 const folder = mkdtempSync(join(tmpdir(), 'gdel-bench-'));
@@ -33,7 +35,7 @@ process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
 const median = (numbers) => numbers.slice().sort((a, b) => a - b)[numbers.length >> 1];
 
 const opened = performance.now();
-const engine = await createEngine({ gpu: create([]), engine: 'gpu' });
+const triangulator = await createTriangulator({ gpu: create([]), backend: 'gpu' });
 const openMilliseconds = performance.now() - opened;
 const runs = +values.runs;
 
@@ -62,7 +64,7 @@ for (const count of values.points.split(',').map(Number)) {
   for (let run = -1; run < runs; run++) {
     const copy = points.slice();
     const started = performance.now();
-    mesh = await engine.delaunay3d(copy, { engine: 'gpu', transfer: true });
+    mesh = await triangulator.delaunay3d(copy, { backend: 'gpu', transfer: true });
     if (run >= 0) times.push(performance.now() - started);
   }
   const { gpu, splay, phases, why, adapter, wasmBytes } = mesh.stats;
@@ -90,4 +92,4 @@ for (const count of values.points.split(',').map(Number)) {
     }),
   );
 }
-engine.dispose();
+triangulator.dispose();

@@ -1,5 +1,5 @@
-// How long visitors of the page and users of the package wait: times against their budgets, on the machine at hand. For a
-// machine that does nothing else.
+// How long visitors of the page and users of the package wait: times against their budgets, on the
+// machine at hand. For a machine that does nothing else.
 //
 //   npm run bench:page
 //
@@ -62,7 +62,7 @@ async function benchPage() {
         tasks.push(...list.getEntries().map(({ duration }) => duration)),
       ).observe({ type: 'longtask' });
     });
-    await generate(page, 'uniform', 1_000_000, { engine: 'cpu' });
+    await generate(page, 'uniform', 1_000_000, { backend: 'cpu' });
     report('longest task of the page, 1 M points', await page.evaluate(() => tasks), 50, 'maximum');
     const cuts = [];
     for (const keep of [0.4, 0.45, 0.6, 0.62, 0.64]) {
@@ -77,7 +77,10 @@ async function benchPage() {
   }
 }
 
-/** Runs in pages and in Node: the time from an abort in the middle of a run until its promise is rejected, and until the next run is done. */
+/**
+ * Runs in pages and in Node: the time from an abort in the middle of a run until its promise is
+ * rejected, and until the next run is done.
+ */
 async function abortTimes(module) {
   const { delaunay3d, generate } = await import(module);
   const points = await generate('uniform', 200_000);
@@ -88,7 +91,7 @@ async function abortTimes(module) {
     aborted = performance.now();
     controller.abort();
   };
-  await delaunay3d(points, { engine: 'cpu', signal: controller.signal, onProgress }).catch(
+  await delaunay3d(points, { backend: 'cpu', signal: controller.signal, onProgress }).catch(
     () => {},
   );
   const rejected = performance.now() - aborted;
@@ -107,7 +110,9 @@ function reportAborts(where, found) {
   report(`abort in ${where}, until the next run is done`, of('next'));
 }
 
-/** The longest task of the page's main thread, in milliseconds on the processor, while `work` runs. */
+/**
+ * The longest task of the page's main thread, in milliseconds on the processor, while `work` runs.
+ */
 async function longestTask(browser, page, work) {
   await browser.startTracing(page, { categories: ['toplevel', 'devtools.timeline'] });
   await page.evaluate(work);
@@ -145,7 +150,7 @@ async function benchPackage() {
             longestTask(
               browser,
               page,
-              async () => void (await delaunay3d(points, { engine: 'cpu' })),
+              async () => void (await delaunay3d(points, { backend: 'cpu' })),
             );
           report(
             'longest task of a page that triangulates 1 M points',

@@ -14,3 +14,4 @@ mod fingerprints;
 mod inputs;
 mod meshes;
 mod predicates;
+mod typescript;

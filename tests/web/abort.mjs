@@ -4,8 +4,8 @@
  * Aborts a run at its first report, or at the first of a phase.
  *
  * @param start starts the run with the options that it is given
- * @returns the code of the run's error, and whether it had failed before the next event was handled: nobody waits for the
- *   engine to stop
+ * @returns the code of the run's error, and whether it had failed before the next event was
+ * handled: nobody waits for the backend to stop
  */
 export async function abortOf(start, phase) {
   const controller = new AbortController();

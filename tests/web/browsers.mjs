@@ -14,8 +14,8 @@ const QUIET = [
 /** WebGPU, on the software adapter that Chromium has everywhere. */
 export const WEBGPU = ['--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader'];
 
-// A file of tests that hangs gets SIGTERM, which Playwright takes for a wish to close the browsers only. When the process
-// exits, it kills those that are left.
+// A file of tests that hangs gets SIGTERM, which Playwright takes for a wish to close the browsers
+// only. When the process exits, it kills those that are left.
 process.once('SIGTERM', () => process.exit(1));
 
 export function launchChromium(flags = []) {
@@ -25,7 +25,10 @@ export function launchChromium(flags = []) {
   });
 }
 
-/** Mozilla's own build, through WebDriver BiDi: the channel tells Playwright not to look for its patched one. */
+/**
+ * Mozilla's own build, through WebDriver BiDi: the channel tells Playwright not to look for its
+ * patched one.
+ */
 export function launchFirefox() {
   return firefox.launch({
     channel: 'moz-firefox',

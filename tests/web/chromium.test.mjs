@@ -39,21 +39,21 @@ const TETRAHEDRON = [
   [0, 0, 1],
 ];
 
-test('the CPU engine gives the native meshes, in a worker', async () => {
+test('the CPU backend gives the native meshes, in a worker', async () => {
   const page = await open();
   for (const { kind, count, seed, fingerprint } of pinned) {
     const found = await page.evaluate(
       async ({ kind, count, seed }) => {
         const { delaunay3d, generate } = await import('/gdel/index.js');
         const { fingerprint } = await import('/tests/fingerprints.mjs');
-        const mesh = await delaunay3d(await generate(kind, count, { seed }), { engine: 'cpu' });
+        const mesh = await delaunay3d(await generate(kind, count, { seed }), { backend: 'cpu' });
         return { fingerprint: fingerprint(mesh.tetrahedra), stats: mesh.stats };
       },
       { kind, count, seed },
     );
     assert.equal(found.fingerprint, fingerprint, kind);
     assert.equal(found.stats.thread, 'worker');
-    assert.equal(found.stats.why, null);
+    assert.equal(found.stats.fallback, null);
     assert.ok(found.stats.phases.some(({ milliseconds }) => milliseconds > 0));
   }
   await page.close();
@@ -65,21 +65,22 @@ test('auto avoids a software adapter, and says so', async () => {
     const { delaunay3d, generate } = await import('/gdel/index.js');
     return (await delaunay3d(await generate('uniform', 30_000))).stats;
   });
-  assert.equal(stats.engine, 'cpu');
-  assert.match(stats.why, /swiftshader.*software/);
+  assert.equal(stats.backend, 'cpu');
+  assert.match(stats.fallback, /swiftshader.*software/);
   const few = await page.evaluate(
     async (points) => (await (await import('/gdel/index.js')).delaunay3d(points)).stats,
     TETRAHEDRON,
   );
-  assert.match(few.why, /too few/);
+  assert.match(few.fallback, /too few/);
   await page.close();
 });
 
 // One device for all of this: SwiftShader takes long to compile the kernels.
-test('the GPU engine: native mesh, trace, progress, abort, device loss', {
+test('the GPU backend: native mesh, trace, progress, abort, device loss', {
   timeout: 900_000,
 }, async () => {
-  // The worker destroys its device after as many submits as it was told, so that it gets lost in the middle of a run.
+  // The worker destroys its device after as many submits as it was told, so that it gets lost in
+  // the middle of a run.
   const loseDevice = `
     const { requestDevice } = GPUAdapter.prototype;
     const { submit } = GPUQueue.prototype;
@@ -104,14 +105,14 @@ test('the GPU engine: native mesh, trace, progress, abort, device loss', {
   });
   const small = pinned.find(({ count }) => count < 100);
   const found = await page.evaluate(async ({ kind, count, seed }) => {
-    const { createEngine, generate } = await import('/gdel/index.js');
+    const { createTriangulator, generate } = await import('/gdel/index.js');
     const { fingerprint } = await import('/tests/fingerprints.mjs');
     const { abortOf } = await import('/tests/abort.mjs');
     const points = await generate(kind, count, { seed });
-    const engine = await createEngine({ engine: 'gpu' });
+    const triangulator = await createTriangulator({ backend: 'gpu' });
     const fractions = [];
     const onProgress = ({ fraction }) => fractions.push(fraction);
-    const mesh = await engine.delaunay3d(points, {
+    const mesh = await triangulator.delaunay3d(points, {
       outputs: ['neighbors', 'hull', 'duplicateOf', 'trace'],
       onProgress,
     });
@@ -131,18 +132,26 @@ test('the GPU engine: native mesh, trace, progress, abort, device loss', {
       channel.onmessage = told;
       channel.postMessage(3);
     });
-    const lossCode = await code(engine.delaunay3d(points));
-    const again = await engine.delaunay3d(points);
+    const lossCode = await code(triangulator.delaunay3d(points));
+    const again = await triangulator.delaunay3d(points);
 
-    const aborted = await abortOf((options) => engine.delaunay3d(points, options));
-    engine.dispose();
+    const aborted = await abortOf((options) => triangulator.delaunay3d(points, options));
+    triangulator.dispose();
     const prints = [mesh, again].map(({ tetrahedra }) => fingerprint(tetrahedra));
-    return { info: engine.info, stats: mesh.stats, prints, trace, fractions, aborted, lossCode };
+    return {
+      info: triangulator.info,
+      stats: mesh.stats,
+      prints,
+      trace,
+      fractions,
+      aborted,
+      lossCode,
+    };
   }, small);
   assert.deepEqual(found.prints, [small.fingerprint, small.fingerprint]);
-  assert.equal(found.info.engine, 'gpu');
-  assert.equal(found.stats.engine, 'gpu');
-  assert.equal(found.stats.why, null);
+  assert.equal(found.info.backend, 'gpu');
+  assert.equal(found.stats.backend, 'gpu');
+  assert.equal(found.stats.fallback, null);
   assert.equal(found.stats.adapter.architecture, 'swiftshader');
   for (const count of ['readbacks', 'dispatches', 'submits', 'bytes'])
     assert.ok(found.stats.gpu[count] > 0, count);
@@ -154,19 +163,19 @@ test('the GPU engine: native mesh, trace, progress, abort, device loss', {
   await page.close();
 });
 
-test('without WebGPU: auto takes the CPU engine and says why, gpu is an error', async (t) => {
+test('without WebGPU: auto takes the CPU backend and says why, gpu is an error', async (t) => {
   const plain = await launchChromium(['--disable-features=WebGPU']);
   t.after(() => plain.close());
   const page = await open({}, plain);
   const found = await page.evaluate(async () => {
     const { delaunay3d, generate } = await import('/gdel/index.js');
     const points = await generate('uniform', 30_000);
-    const code = await delaunay3d(points, { engine: 'gpu' }).catch((error) => error.code);
+    const code = await delaunay3d(points, { backend: 'gpu' }).catch((error) => error.code);
     return { code, stats: (await delaunay3d(points)).stats };
   });
   assert.equal(found.code, 'NO_ADAPTER');
-  assert.equal(found.stats.engine, 'cpu');
-  assert.match(found.stats.why, /WebGPU/);
+  assert.equal(found.stats.backend, 'cpu');
+  assert.match(found.stats.fallback, /WebGPU/);
 });
 
 test('a worker that is blocked: the calling thread does the work', async () => {
@@ -225,14 +234,14 @@ test('the inlined build works from one file', async () => {
   await page.close();
 });
 
-test('an abort takes effect at once, and the engine goes on', async () => {
+test('an abort takes effect at once, and the triangulator keeps working', async () => {
   const page = await open();
   const found = await page.evaluate(async (tetrahedron) => {
     const { delaunay3d, generate } = await import('/gdel/index.js');
     const { abortOf } = await import('/tests/abort.mjs');
     const points = await generate('uniform', 200_000);
     const aborted = await abortOf(
-      (options) => delaunay3d(points, { engine: 'cpu', ...options }),
+      (options) => delaunay3d(points, { backend: 'cpu', ...options }),
       'insert',
     );
     return { ...aborted, next: (await delaunay3d(tetrahedron)).tetrahedra.length };

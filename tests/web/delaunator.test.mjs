@@ -1,11 +1,24 @@
 // The class Delaunator beside that of the npm package delaunator.
 
 import assert from 'node:assert/strict';
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
 import { test } from 'node:test';
+import { pathToFileURL } from 'node:url';
 import Theirs from 'delaunator';
 import { importFrom, project } from './package.mjs';
 
-const { Delaunator, delaunay2d, GdelError } = await importFrom(project());
+const folder = project();
+const main = await importFrom(folder);
+const { delaunay2d, GdelError } = main;
+const subpath = createRequire(join(folder, 'main.js')).resolve('gdel-wasm/delaunator');
+const { default: Delaunator, ...named } = await import(pathToFileURL(subpath));
+
+test('gdel-wasm/delaunator and the main entry export the same classes', () => {
+  assert.equal(Delaunator, main.Delaunator);
+  assert.equal(named.Delaunator, main.Delaunator);
+  assert.equal(named.GdelError, main.GdelError);
+});
 
 test('before it is loaded, the error says what to do', async () => {
   assert.throws(
@@ -16,7 +29,7 @@ test('before it is loaded, the error says what to do', async () => {
   await Promise.all([Delaunator.load(), Delaunator.load()]);
 });
 
-/** The same in every run: 32 bits a call (mulberry32), as a number from 0 to 1. */
+/** The same in every run: 32 bits per call (mulberry32), as a number from 0 to 1. */
 function random(seed) {
   return () => {
     seed = (seed + 0x6d2b79f5) | 0;
@@ -42,9 +55,9 @@ function orient(coords, a, b, c) {
     });
   const used = parts.filter(({ mantissa }) => mantissa !== 0n).map(({ exponent }) => exponent);
   // biome-ignore lint/complexity/useMathMinMax: Math.min takes no big integers.
-  const least = used.reduce((x, y) => (x < y ? x : y), used[0] ?? 1n);
+  const min = used.reduce((x, y) => (x < y ? x : y), used[0] ?? 1n);
   const [ax, ay, bx, by, cx, cy] = parts.map(({ mantissa, exponent }) =>
-    mantissa === 0n ? 0n : mantissa << (exponent - least),
+    mantissa === 0n ? 0n : mantissa << (exponent - min),
   );
   const det = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
   return det > 0n ? 1 : det < 0n ? -1 : 0;

@@ -15,13 +15,13 @@ const skip = deno
   : 'Deno is not installed, and scripts/setup.sh found none for this machine';
 
 const SCRIPT = `
-  import { createEngine, Delaunator, delaunay2d, delaunay3d, generate, verify } from 'gdel-wasm';
+  import { createTriangulator, Delaunator, delaunay2d, delaunay3d, generate, verify } from 'gdel-wasm';
   import { fingerprint } from ${JSON.stringify(join(root, 'tests/web/fingerprints.mjs'))};
   const [{ kind, count, seed }] = JSON.parse(Deno.args[0]);
   const points = await generate(kind, count, { seed });
-  const mesh = await delaunay3d(points, { engine: 'cpu' });
+  const mesh = await delaunay3d(points, { backend: 'cpu' });
   const { passed } = await verify(points, mesh);
-  const engine = await createEngine();
+  const triangulator = await createTriangulator();
   await Delaunator.load();
   const square = [[0, 0], [1, 0], [0, 1], [1, 1]];
   console.log(JSON.stringify({
@@ -29,14 +29,15 @@ const SCRIPT = `
     fingerprint: fingerprint(mesh.tetrahedra),
     thread: mesh.stats.thread,
     passed,
-    info: engine.info,
+    info: triangulator.info,
     triangles: [(await delaunay2d(square)).triangles.length, Delaunator.from(square).triangles.length],
     failed: await delaunay3d([[0, NaN, 0]]).catch(({ code }) => code),
   }));
-  engine.dispose();
+  triangulator.dispose();
 `;
 
-// No driver: what Deno's own WebGPU makes of those that a machine has, software ones first of all, is not what is tested.
+// No driver: what Deno's own WebGPU makes of those that a machine has, software ones first of all,
+// is not what is tested.
 const env = {
   ...process.env,
   NO_COLOR: '1',
@@ -48,7 +49,10 @@ const env = {
 /** No machine needs nearly as long. */
 const HANG = 300_000;
 
-/** The first line that a program prints. It is stopped then, with all that it started: Deno waits for workers, even idle ones. */
+/**
+ * The first line that a program prints. It is stopped then, with all that it started: Deno waits
+ * for workers, even idle ones.
+ */
 async function firstLine(command, args, options) {
   const child = spawn(command, args, {
     ...options,
@@ -89,6 +93,6 @@ test('in Deno, the mesh is the native one, from a worker', { skip }, async () =>
   assert.equal(found.passed, true);
   assert.deepEqual(found.triangles, [6, 6]);
   assert.equal(found.failed, 'NOT_FINITE');
-  assert.equal(found.info.engine, 'cpu');
-  assert.ok(found.info.why, JSON.stringify(found.info));
+  assert.equal(found.info.backend, 'cpu');
+  assert.ok(found.info.fallback, JSON.stringify(found.info));
 });

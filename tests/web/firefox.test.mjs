@@ -1,4 +1,5 @@
-// The installed package in Debian's Firefox ESR, which has no WebGPU: the CPU engine works, and says why.
+// The installed package in Debian's Firefox ESR, which has no WebGPU: the CPU backend works, and
+// says why.
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
@@ -16,7 +17,7 @@ after(async () => {
   server?.close();
 });
 
-test('the CPU engine gives the native meshes, in a worker, and says why', async () => {
+test('the CPU backend gives the native meshes, in a worker, and says why', async () => {
   const page = await browser.newPage();
   await page.goto(server.url);
   for (const { kind, count, seed, fingerprint } of pinned) {
@@ -30,14 +31,14 @@ test('the CPU engine gives the native meshes, in a worker, and says why', async 
       { kind, count, seed },
     );
     assert.equal(found.fingerprint, fingerprint, kind);
-    assert.equal(found.stats.engine, 'cpu');
+    assert.equal(found.stats.backend, 'cpu');
     assert.equal(found.stats.thread, 'worker');
-    assert.match(found.stats.why, count > 24_000 ? /WebGPU is not available/ : /too few/);
+    assert.match(found.stats.fallback, count > 24_000 ? /WebGPU is not available/ : /too few/);
   }
   await page.close();
 });
 
-test('an abort takes effect at once, and the engine goes on', async () => {
+test('an abort takes effect at once, and the triangulator keeps working', async () => {
   const page = await browser.newPage();
   await page.goto(server.url);
   const found = await page.evaluate(async () => {

@@ -1,4 +1,5 @@
-// The installed package in Node: the CPU engine in a worker thread, bad input, cancellation, files.
+// The installed package in Node: the CPU backend in a worker thread, bad input, cancellation,
+// files.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -13,7 +14,7 @@ import { importFrom, pinned, project, root } from './package.mjs';
 
 const folder = project();
 const {
-  createEngine,
+  createTriangulator,
   delaunay2d,
   delaunay3d,
   generate,
@@ -124,7 +125,7 @@ test('coplanar, collinear, equal and no points have their dimension', async () =
   );
 });
 
-test('in the plane, the triangles are those of delaunator', async () => {
+test('in 2D, the triangles are those of delaunator', async () => {
   const points = (await generate('uniform', 3000)).subarray(0, 2 * 4000);
   const mesh = await delaunay2d(points);
   const theirs = new Delaunator(points);
@@ -156,7 +157,7 @@ test('in the plane, the triangles are those of delaunator', async () => {
   await rejects(delaunay2d([[0, Infinity]]), 'NOT_FINITE', /point 0: the y/);
 });
 
-test('in the plane, hard input is proven, and what is wrong is found', async () => {
+test('in 2D, hard input is proven, and what is wrong is found', async () => {
   for (const kind of [
     'uniform',
     'gaussian',
@@ -193,7 +194,7 @@ test('in the plane, hard input is proven, and what is wrong is found', async () 
   await rejects(generate2d('disk', -1), 'BAD_INPUT');
 });
 
-test('meshes of the plane as files', async () => {
+test('2D meshes as files', async () => {
   const mesh = await delaunay2d([
     [0, 0],
     [3, 0],
@@ -273,16 +274,16 @@ test('bad input is a typed error that says what and where', async () => {
     ]),
     { index: 1 },
   );
-  await rejects(delaunay3d(TETRAHEDRON, { engine: 'tpu' }), 'BAD_INPUT', /tpu/);
+  await rejects(delaunay3d(TETRAHEDRON, { backend: 'tpu' }), 'BAD_INPUT', /tpu/);
   await rejects(delaunay3d(TETRAHEDRON, { outputs: ['faces'] }), 'BAD_INPUT', /faces/);
   await rejects(delaunay3d(TETRAHEDRON, { outputs: 'hull' }), 'BAD_INPUT', /hull/);
   await rejects(delaunay3d(TETRAHEDRON, { point: 'x' }), 'BAD_INPUT');
-  await rejects(delaunay3d(TETRAHEDRON, { engine: 'gpu' }), 'NO_ADAPTER');
-  await rejects(createEngine({ engine: 'gpu' }), 'NO_ADAPTER');
+  await rejects(delaunay3d(TETRAHEDRON, { backend: 'gpu' }), 'NO_ADAPTER');
+  await rejects(createTriangulator({ backend: 'gpu' }), 'NO_ADAPTER');
   await rejects(generate('cube', 10), 'BAD_INPUT', /uniform/);
   for (const count of [-1, 1.5, NaN, 2 ** 32, '7'])
     await rejects(generate('uniform', count), 'BAD_INPUT');
-  // After all that, the engine works.
+  // After all that, the shared triangulator works.
   assert.equal((await delaunay3d(TETRAHEDRON)).tetrahedra.length, 4);
 });
 
@@ -334,70 +335,76 @@ test('progress rises from 0 to 1', async () => {
   assert.equal(fractions.at(-1), 1);
 });
 
-test('an abort takes effect at once, and the engine goes on', async () => {
-  const engine = await createEngine({ engine: 'cpu' });
+test('an abort takes effect at once, and the triangulator keeps working', async () => {
+  const triangulator = await createTriangulator({ backend: 'cpu' });
   const points = await generate('uniform', 200_000);
-  await rejects(engine.delaunay3d(points, { signal: AbortSignal.abort() }), 'ABORTED');
-  const aborted = await abortOf((options) => engine.delaunay3d(points, options), 'insert');
+  await rejects(triangulator.delaunay3d(points, { signal: AbortSignal.abort() }), 'ABORTED');
+  const aborted = await abortOf((options) => triangulator.delaunay3d(points, options), 'insert');
   assert.deepEqual(aborted, { code: 'ABORTED', atOnce: true });
-  const small = await engine.delaunay3d(TETRAHEDRON);
+  const small = await triangulator.delaunay3d(TETRAHEDRON);
   assert.equal(small.tetrahedra.length, 4);
   const own = new Error('my reason');
-  await assert.rejects(engine.delaunay3d(points, { signal: AbortSignal.abort(own) }), own);
-  engine.dispose();
-  await rejects(engine.delaunay3d(TETRAHEDRON), 'DISPOSED');
+  await assert.rejects(triangulator.delaunay3d(points, { signal: AbortSignal.abort(own) }), own);
+  triangulator.dispose();
+  await rejects(triangulator.delaunay3d(TETRAHEDRON), 'DISPOSED');
 });
 
-test('a disposed engine fails its runs and lets the others work', async () => {
-  const engine = await createEngine({ engine: 'cpu' });
+test('a disposed triangulator fails its runs and lets the others work', async () => {
+  const triangulator = await createTriangulator({ backend: 'cpu' });
   assert.deepEqual(
-    { ...engine.info },
+    { ...backend.info },
     {
-      engine: 'cpu',
-      why: 'the caller asked for it',
+      backend: 'cpu',
+      fallback: null,
       adapter: null,
       thread: 'worker',
       whyThread: null,
     },
   );
-  const run = engine.delaunay3d(await generate('uniform', 300_000), {
-    onProgress: () => engine.dispose(),
+  const run = triangulator.delaunay3d(await generate('uniform', 300_000), {
+    onProgress: () => triangulator.dispose(),
   });
   await rejects(run, 'DISPOSED');
   assert.equal((await delaunay3d(TETRAHEDRON)).tetrahedra.length, 4);
 });
 
 test('without a worker, runs take place in the calling thread', async () => {
-  const engine = await createEngine({ worker: false });
-  assert.equal(engine.info.thread, 'caller');
+  const triangulator = await createTriangulator({ worker: false });
+  assert.equal(triangulator.info.thread, 'caller');
   const controller = new AbortController();
   const points = await generate('uniform', 200_000);
   let reports = 0;
   const onProgress = () => ++reports === 2 && controller.abort();
-  await rejects(engine.delaunay3d(points, { signal: controller.signal, onProgress }), 'ABORTED');
-  const mesh = await engine.delaunay3d(TETRAHEDRON);
+  await rejects(
+    triangulator.delaunay3d(points, { signal: controller.signal, onProgress }),
+    'ABORTED',
+  );
+  const mesh = await triangulator.delaunay3d(TETRAHEDRON);
   assert.equal(mesh.stats.thread, 'caller');
   assert.match(mesh.stats.whyThread, /no worker/);
-  engine.dispose();
+  triangulator.dispose();
 });
 
 test('50 runs need no more memory than a few', async () => {
-  const engine = await createEngine({ engine: 'cpu' });
+  const triangulator = await createTriangulator({ backend: 'cpu' });
   const points = await generate('uniform', 20_000);
   const bytes = [];
-  for (let i = 0; i < 50; i++) bytes.push((await engine.delaunay3d(points)).stats.wasmBytes);
+  for (let i = 0; i < 50; i++) bytes.push((await triangulator.delaunay3d(points)).stats.wasmBytes);
   assert.equal(bytes.at(-1), bytes[2]);
-  engine.dispose();
+  triangulator.dispose();
 });
 
 test('one million points fit into 700 MB', async () => {
-  const engine = await createEngine({ engine: 'cpu' });
-  const { stats, tetrahedra } = await engine.delaunay3d(await generate('uniform', 1_000_000), {
-    transfer: true,
-  });
+  const triangulator = await createTriangulator({ backend: 'cpu' });
+  const { stats, tetrahedra } = await triangulator.delaunay3d(
+    await generate('uniform', 1_000_000),
+    {
+      transfer: true,
+    },
+  );
   assert.ok(tetrahedra.length > 4 * 6_700_000);
   assert.ok(stats.wasmBytes < 700e6, `${stats.wasmBytes}`);
-  engine.dispose();
+  triangulator.dispose();
 });
 
 test('files are read, and what is broken is said', async () => {

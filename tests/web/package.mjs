@@ -17,7 +17,7 @@ import { parse } from './fingerprints.mjs';
 
 export const root = dirname(dirname(dirname(fileURLToPath(import.meta.url))));
 
-/** The meshes that the native engine gives, too. */
+/** The meshes that the native library gives, too. */
 export const pinned = parse(readFileSync(join(root, 'tests/data/fingerprints.txt'), 'utf8'));
 
 /** An empty folder that goes when the tests are done. */

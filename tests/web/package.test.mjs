@@ -47,10 +47,10 @@ test('no file says where it was built', () => {
   }
 });
 
-test('the engine’s wasm is below 250 kB and all JavaScript below 25 kB, gzipped', () => {
-  const wasm = kilobytes('gdel.wasm');
+test('the 3D module is below 250 kB and all JavaScript below 25 kB, gzipped', () => {
+  const wasm = kilobytes('gdel-3d.wasm');
   const js = kilobytes('index.js') + kilobytes('worker.js');
-  console.log(`gdel.wasm ${wasm.toFixed(1)} kB, index.js and worker.js ${js.toFixed(1)} kB`);
+  console.log(`gdel-3d.wasm ${wasm.toFixed(1)} kB, index.js and worker.js ${js.toFixed(1)} kB`);
   assert.ok(wasm < 250);
   assert.ok(js < 25);
 });

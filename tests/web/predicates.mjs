@@ -1,10 +1,14 @@
-// Cases for the predicates in WGSL, in space and in the plane, with their signs in big integers; and the assembly of WGSL.
+// Cases for the predicates in WGSL, in 3D and 2D, with their signs in big integers; and the
+// assembly of WGSL.
 
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from './package.mjs';
 
-/** The WGSL of a file with its includes resolved, each once, and these values for placeholders: `{ width, dim }`. */
+/**
+ * The WGSL of a file with its includes resolved, each once, and these values for placeholders: `{
+ * width, dim }`.
+ */
 export function assemble(path, values, included = new Set()) {
   const lines = readFileSync(join(root, path), 'utf8').split('\n');
   const resolved = lines.map((line) => {
@@ -20,7 +24,7 @@ export function assemble(path, values, included = new Set()) {
   return resolved.join('\n');
 }
 
-/** The vertex at infinity, in space. */
+/** The vertex at infinity in 3D. */
 const INFINITE = 0xffff_ffff;
 
 const BITS = { narrow: 31n, wide: 62n };
@@ -36,9 +40,9 @@ function generator(seed) {
     x = ((x ^ (x >> 27n)) * 0x94d049bb133111ebn) & mask;
     return x ^ (x >> 31n);
   };
-  /** From least to most, both included. */
-  const between = (least, most) => least + (next() % (most - least + 1n));
-  const small = (least, most) => Number(between(BigInt(least), BigInt(most)));
+  /** Returns a number from min to max, both included. */
+  const between = (min, max) => min + (next() % (max - min + 1n));
+  const small = (min, max) => Number(between(BigInt(min), BigInt(max)));
   const shuffle = (array) => {
     for (let i = array.length - 1; i > 0; i--) {
       const j = small(0, i);
@@ -57,7 +61,7 @@ const FAMILIES = {
   corners: (d, max, { small }) => list(d + 2, () => list(d, () => (small(0, 1) ? max : 0n))),
   smallGrid: grid,
   infinite: grid,
-  /** In a plane, or on a line in the plane, exactly or off by one. */
+  /** In a plane, or on a line in 2D, exactly or off by one. */
   flat(d, max, { between, small }) {
     const limit = max / 64n;
     const directions = list(d - 1, () => list(d, () => between(-limit, limit)));
@@ -116,7 +120,10 @@ const FAMILIES = {
   },
 };
 
-/** A few steps apart, at the ends of the lattice or anywhere: all kinds of degeneracy, also points that coincide. */
+/**
+ * A few steps apart, at the ends of the lattice or anywhere: all kinds of degeneracy, also points
+ * that coincide.
+ */
 function grid(d, max, { between, small }) {
   const side = between(1n, 4n);
   const step = small(0, 1) ? 1n : between(1n, max / side);
@@ -158,9 +165,10 @@ function determinant(rows) {
 const sign = (value) => (value > 0n ? 1 : value < 0n ? -1 : 0);
 
 /**
- * The exact signs of a case: the orientation of all vertices but the last, as det(b − a, c − a, …); the determinant of
- * the in-sphere test; and that with ties broken by the heights of the points, the lowest index first. The last is 0 only
- * where all points are coplanar, or collinear in the plane. Null where there is none.
+ * The exact signs of a case: the orientation of all vertices but the last, as det(b − a, c − a, …);
+ * the determinant of the in-sphere test; and that with ties broken by the heights of the points,
+ * the lowest index first. The last is 0 only where all points are coplanar, or collinear in 2D.
+ * Null if there is none.
  */
 export function exactSigns(vertices) {
   const isInfinite = vertices.map(({ index }) => index === INFINITE);

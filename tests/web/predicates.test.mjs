@@ -76,7 +76,7 @@ function signs(inputs, cases, count) {
       device.queue.submit([encoder.finish()]);
       await staging.mapAsync(GPUMapMode.READ);
       const found = Array.from(new Int32Array(staging.getMappedRange()));
-      [...buffers, result, staging].forEach((buffer) => buffer.destroy());
+      for (const buffer of [...buffers, result, staging]) buffer.destroy();
       return found;
     },
     { inputs, cases, count },
@@ -94,7 +94,7 @@ for (const dimension of [3, 2]) {
         const zeros = { orientation: 0, inSphere: 0 };
         const open = { orientation: 0, inSphere: 0 };
         for (const [i, vertices] of all.entries()) {
-          // In the plane there is one filter.
+          // In 2D there is one filter.
           const [
             orientExact,
             orient,
@@ -147,7 +147,8 @@ for (const dimension of [3, 2]) {
         console.log(
           `${dimension}D ${width} ${family}: of ${CASES}, zeros ${JSON.stringify(zeros)}, open after the filter ${JSON.stringify(open)}`,
         );
-        // The families are what they say: degenerate ones have zeros, and ones that are nearly zero.
+        // The families are what they say: degenerate ones have zeros, and ones that are nearly
+        // zero.
         if (family === 'uniform')
           assert.ok(open.orientation < CASES / 50 && open.inSphere < CASES / 50);
         if (['corners', 'smallGrid', 'collinear'].includes(family))

@@ -117,18 +117,20 @@ test('a plain script, without a bundler', async () => {
 test('TypeScript, strict, with both resolutions, whatever else is switched on', () => {
   const folder = project({
     'main.ts': `
-      import { createEngine, delaunay3d, GdelError, generate, type Mesh3, type Stats } from 'gdel-wasm';
+      import { createTriangulator, delaunay3d, GdelError, generate, type Mesh3, type Stats } from 'gdel-wasm';
       import { delaunay3d as inlined } from 'gdel-wasm/inline';
+      import Delaunator from 'gdel-wasm/delaunator';
       const mesh: Mesh3 = await delaunay3d(new Float32Array(3), { outputs: ['hull'], onProgress: ({ fraction }) => fraction.toFixed() });
       const bytes: Uint8Array = await mesh.toVTU();
       await delaunay3d([{ x: 1, y: 2, z: 3 }], { point: ({ x, y, z }) => [x, y, z] });
       await inlined([[1, 2, 3]] as const);
       const { gpu }: Stats = mesh.stats;
-      using engine = await createEngine({ engine: 'cpu' });
-      await engine.delaunay3d(await generate('ball', 10, { seed: 3 }), { signal: new AbortController().signal });
-      try { await delaunay3d([]); } catch (error) { if (error instanceof GdelError && error.code === 'ABORTED') console.log(gpu, bytes); }
-      // @ts-expect-error: there is no such engine
-      await delaunay3d([], { engine: 'tpu' });
+      const halfedges: Int32Array = Delaunator.from([[0, 0], [1, 0], [0, 1]]).halfedges;
+      using triangulator = await createTriangulator({ backend: 'cpu' });
+      await triangulator.delaunay3d(await generate('ball', 10, { seed: 3 }), { signal: new AbortController().signal });
+      try { await delaunay3d([]); } catch (error) { if (error instanceof GdelError && error.code === 'ABORTED') console.log(gpu, bytes, halfedges); }
+      // @ts-expect-error: there is no such backend
+      await delaunay3d([], { backend: 'tpu' });
       // @ts-expect-error: objects need an accessor
       await delaunay3d([{ x: 1 }]);`,
   });
@@ -170,10 +172,14 @@ test('every file that the package names is in it', () => {
     'inline.js',
     'worker.js',
     'worker-node.js',
-    'gdel.wasm',
+    'delaunator.js',
+    'delaunator-node.js',
+    'gdel-3d.wasm',
+    'gdel-2d.wasm',
     'gdel-tools.wasm',
     'index.d.ts',
     'inline.d.ts',
+    'delaunator.d.ts',
   ]) {
     assert.ok(files.includes(file), file);
   }

@@ -1,4 +1,5 @@
-// Chromium's compiler takes every kernel. It is stricter than the one of wgpu about where barriers may stand.
+// Chromium's compiler takes every kernel. It is stricter than the one of wgpu about where barriers
+// may stand.
 
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';

@@ -1,4 +1,5 @@
-// How the package deals with its worker and keeps the calling thread free, with workers that do as the test says.
+// How the package deals with its worker and keeps the calling thread free, with workers that do as
+// the test says.
 
 import assert from 'node:assert/strict';
 import { join } from 'node:path';

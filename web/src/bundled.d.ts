@@ -1,6 +1,9 @@
 // What the build script makes of the wasm packages and of the worker.
 
-/** The JavaScript side of a wasm module, with a state of its own in each call: a broken instance can be replaced. */
+/**
+ * The JavaScript side of a wasm module, with a state of its own in each call: a broken instance can
+ * be replaced.
+ */
 declare module 'glue:*' {
   const makeGlue: (globalThis: object) => any;
   export default makeGlue;

@@ -1,7 +1,7 @@
-// The tasks, on the WebAssembly instances that carry them out: in a worker or in the calling thread.
+// The tasks, on the WebAssembly instances that run them: in a worker or in the calling thread.
 
-import makeEngineGlue from 'glue:engine';
-import makePlaneGlue from 'glue:plane';
+import makeGlue2d from 'glue:d2';
+import makeGlue3d from 'glue:d3';
 import makeToolsGlue from 'glue:tools';
 import { type PlainError, toPlainError } from './errors.js';
 import type {
@@ -13,12 +13,12 @@ import type {
   TaskName,
   Tasks,
 } from './protocol.js';
-import type { AdapterInfo, EngineName, Output } from './types.js';
+import type { AdapterInfo, Backend, Output } from './types.js';
 
-/** Progress is told at most so often: a message costs the page more than a phase is worth. */
+/** The shortest time between two progress reports, since each is a message to the page. */
 const PROGRESS_MILLISECONDS = 20;
 
-/** What a module is able to do. */
+/** The tasks of a module. */
 interface ModuleTasks {
   handlers: Handlers;
   memory: WebAssembly.Memory;
@@ -26,8 +26,8 @@ interface ModuleTasks {
 }
 
 const TASKS: Record<ModuleName, (module: WebAssembly.Module, gpu?: object) => ModuleTasks> = {
-  engine: engineTasks,
-  plane: planeTasks,
+  d3: tasks3d,
+  d2: tasks2d,
   tools: toolsTasks,
 };
 
@@ -87,7 +87,7 @@ interface Adapter {
   limits: { maxStorageBufferBindingSize: number; maxBufferSize: number };
 }
 
-/** The global object as wgpu wants to see it: that of a worker, with `gpu` as its `navigator.gpu`. */
+/** Returns a global object for wgpu: that of a worker, with `gpu` as its `navigator.gpu`. */
 function scopeWith(gpu: object): object {
   const scope: object = Object.create(globalThis);
   const values = { WorkerGlobalScope: Object, navigator: { gpu }, performance };
@@ -95,11 +95,18 @@ function scopeWith(gpu: object): object {
   return scope;
 }
 
-/** The choice between the engines of one module. */
-function chooser(memory: WebAssembly.Memory, gpu: object | undefined) {
+/** What 3D and 2D tasks share: an instance, its triangulator, and the choice of the backend. */
+function instance(
+  makeGlue: (globalThis: object) => any,
+  module: WebAssembly.Module,
+  gpu: object | undefined,
+) {
+  const glue = makeGlue(gpu ? scopeWith(gpu) : globalThis);
+  const { memory }: { memory: WebAssembly.Memory } = glue.initSync({ module });
+  const triangulator = new glue.WasmTriangulator();
   let looking: Promise<AdapterInfo> | undefined;
 
-  /** The adapter, as far as there is one. */
+  /** Looks for an adapter. */
   async function look(): Promise<AdapterInfo> {
     const none = (message: string): PlainError => ({ code: 'NO_ADAPTER', message, fatal: false });
     const api = (gpu ?? globalThis.navigator?.gpu) as Gpu | undefined;
@@ -109,93 +116,92 @@ function chooser(memory: WebAssembly.Memory, gpu: object | undefined) {
     return describe(adapter);
   }
 
-  /** What `engine` would use. The crate makes the choice, but knows less of adapters: their names are not all told to it. */
-  async function choose(engine: EngineName): Promise<CoreInfo> {
+  /**
+   * Returns what `backend` would use. The Rust library also chooses, but it does not see all names
+   * of an adapter.
+   */
+  async function choose(backend: Backend): Promise<CoreInfo> {
     let adapter: AdapterInfo | null = null;
     try {
       adapter = await (looking ??= look());
-      if (engine === 'auto' && adapter.software) {
+      if (backend === 'auto' && adapter.software) {
         const name = [adapter.vendor, adapter.architecture, adapter.description]
           .filter(Boolean)
           .join(' ');
         return {
-          engine: 'cpu',
-          why: `the adapter (${name}) is software, slower than the CPU engine`,
+          backend: 'cpu',
+          fallback: `the GPU adapter (${name}) is software, which is slower than the CPU backend`,
           adapter,
         };
       }
-      return { engine: 'gpu', why: null, adapter };
+      return { backend: 'gpu', fallback: null, adapter };
     } catch (thrown) {
       looking = undefined;
       const error = toPlainError(thrown, memory.buffer.byteLength);
-      if (engine === 'gpu' || error.fatal) throw thrown;
-      return { engine: 'cpu', why: error.message, adapter };
+      if (backend === 'gpu' || error.fatal) throw thrown;
+      return { backend: 'cpu', fallback: error.message, adapter };
     }
   }
 
-  /** Chooses an engine if that is not decided, triangulates, and adds to the mesh what only this side knows. */
+  /** Triangulates, and adds to the mesh what is only known in JavaScript. */
   async function run(
-    points: Coordinates,
-    engine: EngineName,
-    isDecided: boolean,
+    { points, backend }: { points: Coordinates; backend: Backend },
+    minGpuCoordinates: number,
     control: Control,
     triangulate: (
-      engine: EngineName,
+      backend: Backend,
       report: (phase: string, fraction: number) => boolean,
     ) => Promise<any>,
   ): Promise<any> {
     const started = performance.now();
-    const info = isDecided ? null : await choose(engine);
-    const mesh = await triangulate(info?.engine === 'cpu' ? 'cpu' : engine, (phase, fraction) => {
+    const isDecided =
+      backend === 'cpu' || (backend === 'auto' && points.length < minGpuCoordinates);
+    const info = isDecided ? null : await choose(backend);
+    const mesh = await triangulate(info?.backend === 'cpu' ? 'cpu' : backend, (phase, fraction) => {
       control.onProgress({ phase, fraction });
       return control.isAborted();
     });
     const stats: CoreStats = {
       ...mesh.stats,
-      why: mesh.stats.why ?? info?.why ?? null,
-      adapter: mesh.stats.engine === 'gpu' ? (info?.adapter ?? null) : null,
+      fallback: mesh.stats.fallback ?? info?.fallback ?? null,
+      adapter: mesh.stats.backend === 'gpu' ? (info?.adapter ?? null) : null,
       milliseconds: performance.now() - started,
       wasmBytes: memory.buffer.byteLength,
     };
     return { ...mesh, points, stats };
   }
 
-  return { choose, run };
+  return { glue, memory, triangulator, choose, run, dispose: () => void triangulator.close() };
 }
 
-function engineTasks(module: WebAssembly.Module, gpu?: object): ModuleTasks {
-  const glue = makeEngineGlue(gpu ? scopeWith(gpu) : globalThis);
-  const { memory } = glue.initSync({ module });
-  const engines = new glue.WasmEngines();
-  const leastGpuPoints: number = glue.least_gpu_points();
-  const { choose, run } = chooser(memory, gpu);
+function tasks3d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
+  const { glue, memory, triangulator, choose, run, dispose } = instance(makeGlue3d, module, gpu);
 
   const handlers: Handlers = {
-    async open({ engine }) {
-      const info = await choose(engine);
-      if (info.engine === 'cpu') return info;
+    async open({ backend }) {
+      const info = await choose(backend);
+      if (info.backend === 'cpu') return info;
       try {
-        await engines.open();
+        await triangulator.open();
         return info;
       } catch (thrown) {
         const error = toPlainError(thrown, memory.buffer.byteLength);
-        if (engine === 'gpu' || error.fatal) throw thrown;
-        return { ...info, engine: 'cpu', why: error.message };
+        if (backend === 'gpu' || error.fatal) throw thrown;
+        return { ...info, backend: 'cpu', fallback: error.message };
       }
     },
 
-    async delaunay3d({ points, engine, outputs }, control) {
-      const has = (output: Output) => outputs.includes(output);
-      const wanted = new glue.Outputs(
+    async delaunay3d(args, control) {
+      const has = (output: Output) => args.outputs.includes(output);
+      const outputs = new glue.Outputs(
         has('neighbors'),
         has('hull'),
         has('duplicateOf'),
         has('trace'),
       );
-      const isDecided =
-        engine === 'cpu' || (engine === 'auto' && points.length < 3 * leastGpuPoints);
-      const mesh = await run(points, engine, isDecided, control, (chosen, report) =>
-        engines.delaunay3d(points, chosen, wanted, report),
+      const minGpuCoordinates = 3 * glue.min_gpu_points_3d();
+      const mesh = await run(args, minGpuCoordinates, control, (backend, report) =>
+        triangulator.delaunay3d(args.points, backend, outputs, report),
       );
       const {
         neighbors = new Int32Array(0),
@@ -205,46 +211,45 @@ function engineTasks(module: WebAssembly.Module, gpu?: object): ModuleTasks {
       return { ...mesh, neighbors, hull, duplicateOf };
     },
   };
-  return { handlers, memory, dispose: () => void engines.close() };
+  return { handlers, memory, dispose };
 }
 
-function planeTasks(module: WebAssembly.Module, gpu?: object): ModuleTasks {
-  const glue = makePlaneGlue(gpu ? scopeWith(gpu) : globalThis);
-  const { memory } = glue.initSync({ module });
-  const engines = new glue.PlaneEngines();
-  const leastGpuPoints: number = glue.least_gpu_points();
-  const { run } = chooser(memory, gpu);
+function tasks2d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
+  const { glue, memory, triangulator, run, dispose } = instance(makeGlue2d, module, gpu);
 
   const handlers: Handlers = {
-    delaunay2d({ points, engine }, control) {
-      const isDecided =
-        engine === 'cpu' || (engine === 'auto' && points.length < 2 * leastGpuPoints);
-      return run(points, engine, isDecided, control, (chosen, report) =>
-        engines.delaunay2d(points, chosen, report),
+    delaunay2d(args, control) {
+      const minGpuCoordinates = 2 * glue.min_gpu_points_2d();
+      return run(args, minGpuCoordinates, control, (backend, report) =>
+        triangulator.delaunay2d(args.points, backend, report),
       );
     },
   };
-  return { handlers, memory, dispose: () => void engines.close() };
+  return { handlers, memory, dispose };
 }
 
-/** The arrays of a triangulation of the plane. */
+/** The arrays of a 2D triangulation. */
 export type Triangles = Pick<
   Tasks['delaunay2d']['result'],
   'triangles' | 'halfedges' | 'hull' | 'duplicateOf' | 'dimension'
 >;
 
-/** The CPU engine of the plane as a function that returns with the result. Throws a {@link PlainError}; a new instance takes
- * the place of one that broke. */
-export function makeTriangulator(module: WebAssembly.Module): (points: Coordinates) => Triangles {
+/**
+ * Returns a function that triangulates in 2D with the CPU backend before it returns. It throws a
+ * {@link PlainError}, and replaces an instance that broke.
+ */
+export function createBlockingTriangulator(
+  module: WebAssembly.Module,
+): (points: Coordinates) => Triangles {
   let glue: any;
   let memory: WebAssembly.Memory | undefined;
   return (points) => {
     try {
       if (!glue) {
-        glue = makePlaneGlue(globalThis);
+        glue = makeGlue2d(globalThis);
         ({ memory } = glue.initSync({ module }));
       }
-      return glue.delaunay2d_at_once(points);
+      return glue.delaunay2d_blocking(points);
     } catch (thrown) {
       const error = toPlainError(thrown, memory?.buffer.byteLength ?? 0);
       if (error.fatal) glue = undefined;
@@ -253,7 +258,10 @@ export function makeTriangulator(module: WebAssembly.Module): (points: Coordinat
   };
 }
 
-/** Chromium says `isFallbackAdapter`; the names are those of the software rasterisers that browsers and Mesa have. */
+/**
+ * Describes an adapter. Chromium sets `isFallbackAdapter`; the names are those of the software
+ * rasterisers of browsers, Mesa and Windows.
+ */
 function describe({ info, limits }: Adapter): AdapterInfo {
   const { vendor, architecture, device, description } = info;
   const software = /swiftshader|llvmpipe|lavapipe|softpipe|warp|basic render/i;
@@ -273,54 +281,19 @@ function toolsTasks(module: WebAssembly.Module): ModuleTasks {
   const glue = makeToolsGlue(globalThis);
   const { memory } = glue.initSync({ module });
 
-  function withMesh<R>({ points, mesh }: Tasks['verify']['args'], body: (mesh: any) => R): R {
-    const copy = new glue.Mesh(
-      points,
-      mesh.tetrahedra,
-      mesh.neighbors,
-      mesh.hull,
-      mesh.duplicateOf,
-      mesh.dimension,
-    );
-    return freed(copy, body);
-  }
-
-  function withPlaneMesh<R>(
-    { points, mesh }: Tasks['verify2d']['args'],
-    body: (mesh: any) => R,
-  ): R {
-    const copy = new glue.PlaneMesh(
-      points,
-      mesh.triangles,
-      mesh.halfedges,
-      mesh.hull,
-      mesh.duplicateOf,
-      mesh.dimension,
-    );
-    return freed(copy, body);
-  }
-
-  function freed<R>(copy: { free(): void }, body: (mesh: any) => R): R {
-    try {
-      return body(copy);
-    } finally {
-      copy.free();
-    }
-  }
-
   const handlers: Handlers = {
-    generate: async ({ kind, count, seed }) => glue.generate(kind, count, seed),
     readPoints: async ({ bytes, extension }) => glue.read_points(bytes, extension),
-    write: async (args) => withMesh(args, (mesh) => mesh.write(args.format)),
-    verify: async (args) => withMesh(args, (mesh) => mesh.verify()),
+    generate: async ({ kind, count, seed }) => glue.generate3d(kind, count, seed),
+    write: async ({ points, mesh, format }) => glue.write3d(points, mesh, format),
+    verify: async ({ points, mesh }) => glue.verify3d(points, mesh),
     generate2d: async ({ kind, count, seed }) => glue.generate2d(kind, count, seed),
-    write2d: async (args) => withPlaneMesh(args, (mesh) => mesh.write(args.format)),
-    verify2d: async (args) => withPlaneMesh(args, (mesh) => mesh.verify()),
+    write2d: async ({ points, mesh, format }) => glue.write2d(points, mesh, format),
+    verify2d: async ({ points, mesh }) => glue.verify2d(points, mesh),
   };
   return { handlers, memory, dispose() {} };
 }
 
-/** The buffers of a result that can change hands. */
+/** Returns the buffers of a result, to be transferred. */
 export function buffersOf(value: unknown): ArrayBuffer[] {
   const found = new Set<ArrayBuffer>();
   const visit = (value: unknown) => {

@@ -1,4 +1,4 @@
-// The class of the npm package delaunator, on the CPU engine in the calling thread.
+// The interface of the npm package delaunator, on the CPU backend in the calling thread.
 
 import { runtime } from '#runtime';
 import type { Triangles } from './core.js';
@@ -10,38 +10,52 @@ let triangulate: ((points: Float32Array | Float64Array) => Triangles) | undefine
 let loading: Promise<void> | undefined;
 
 /**
- * The 2D Delaunay triangulation in the form of the npm package `delaunator`: at once, in the calling thread, by the CPU
- * engine. Its answer is exact, and the same as that of {@link delaunay2d}, which is better for large inputs on a page, since
- * it does not block.
+ * A 2D Delaunay triangulation with the interface of the npm package `delaunator`: synchronous, in
+ * the calling thread, with the CPU backend. The result is exact, and the same as that of
+ * `delaunay2d`, which does not block and is therefore better for large inputs on a page.
  *
  * ```js
- * import { Delaunator } from 'gdel-wasm';
+ * import { Delaunator } from 'gdel-wasm/delaunator';
  * await Delaunator.load(); // once
  * const { triangles, halfedges, hull } = new Delaunator(coords);
  * ```
  *
- * @typeParam T The coordinates' array.
+ * @typeParam T The type of the coordinate array.
  */
 export class Delaunator<T extends ArrayLike<number> = Float64Array> {
-  /** x, y, x, y, …: the array itself, not a copy. */
+  /** The coordinates x, y, x, y, …: the array that was passed, not a copy. */
   readonly coords: T;
-  /** Three vertices a triangle, counter-clockwise where the y axis points down: det(b − a, c − a) < 0. Never flat. */
+  /**
+   * Three vertices per triangle, counter-clockwise if the y axis points down: det(b − a, c − a) <
+   * 0. No triangle is flat.
+   */
   triangles!: Uint32Array;
-  /** Three a triangle: the half-edge that runs against the one from vertex *k* to the next, −1 on the hull. */
+  /**
+   * Three per triangle: the opposite of the half-edge from vertex *k* to the next one, or −1 on the
+   * hull.
+   */
   halfedges!: Int32Array;
-  /** The vertices of the convex hull, those in the middle of its edges included, in the triangles' sense. The distinct
-   * points in order, by x and then by y, if all are collinear. */
+  /**
+   * The vertices on the convex hull, including those in the middle of its edges, in the orientation
+   * of the triangles. If all points are collinear: the distinct points, sorted by x and then by y.
+   */
   hull!: Uint32Array;
-  /** One a point: −1, or the lowest index of a point with the same coordinates, which stands for this one. */
+  /**
+   * One per point: −1, or the lowest index of a point with the same coordinates, which represents
+   * this one in the mesh.
+   */
   duplicateOf!: Int32Array;
-  /** 2; or 1, 0 where all points are collinear, equal: then there are no triangles. 0 for no points. */
+  /**
+   * The affine dimension of the points: 2, or 1 if they are collinear, or 0 if they are coincident
+   * or there are none. Below 2 there are no triangles.
+   */
   dimension!: 0 | 1 | 2;
 
-  /** Loads what the constructor needs. Once; later calls do nothing. */
+  /** Loads the WebAssembly module that the constructor needs. Later calls do nothing. */
   static load(): Promise<void> {
-    loading ??= Promise.all([compiled('plane'), runtime.code()]).then(
-      ([module, { makeTriangulator }]) => {
-        triangulate = makeTriangulator(module);
+    loading ??= Promise.all([compiled('d2'), runtime.code()]).then(
+      ([module, { createBlockingTriangulator }]) => {
+        triangulate = createBlockingTriangulator(module);
       },
       (error: unknown) => {
         loading = undefined;
@@ -51,7 +65,7 @@ export class Delaunator<T extends ArrayLike<number> = Float64Array> {
     return loading;
   }
 
-  /** From points of any form, `[x, y]` by default. */
+  /** Triangulates points of any form, `[x, y]` by default. */
   static from<P>(
     points: ArrayLike<P>,
     getX: (point: P) => number = (point) => (point as ArrayLike<number>)[0]!,
@@ -67,18 +81,23 @@ export class Delaunator<T extends ArrayLike<number> = Float64Array> {
   }
 
   /**
-   * @throws {@link GdelError} `NOT_LOADED` before {@link Delaunator.load} is done, `NOT_FINITE`, `BAD_INPUT`,
-   * `TOO_MANY_POINTS`, `OUT_OF_MEMORY`.
+   * Triangulates `coords`.
+   *
+   * @throws {@link GdelError} `NOT_LOADED` before {@link Delaunator.load} is done, `NOT_FINITE`,
+   * `BAD_INPUT`, `TOO_MANY_POINTS`, `OUT_OF_MEMORY`.
    */
   constructor(coords: T) {
     this.coords = coords;
     this.update();
   }
 
-  /** Triangulates anew, after the values in {@link coords} were changed. */
+  /** Triangulates again after the values in {@link coords} were changed. */
   update(): void {
     if (!triangulate)
-      throw new GdelError('NOT_LOADED', 'before the first triangulation: await Delaunator.load()');
+      throw new GdelError(
+        'NOT_LOADED',
+        'the WebAssembly module is not loaded yet: await Delaunator.load() first',
+      );
     try {
       Object.assign(this, arraysOf(triangulate(numbers(this.coords))));
     } catch (error) {
@@ -86,21 +105,30 @@ export class Delaunator<T extends ArrayLike<number> = Float64Array> {
     }
   }
 
-  /** The number of entries of {@link triangles}. */
+  /** The length of {@link triangles}. */
   get trianglesLen(): number {
     return this.triangles.length;
   }
 }
 
+export default Delaunator;
+export { GdelError, type GdelErrorCode } from './errors.js';
+
 function arraysOf({ triangles, halfedges, hull, duplicateOf, dimension }: Triangles): Triangles {
   return { triangles, halfedges, hull, duplicateOf, dimension };
 }
 
-/** What wasm can take: nothing that is not a number is made one. */
+/**
+ * Returns the coordinates as WebAssembly takes them. Unlike `Float64Array.from`, converts nothing
+ * to a number.
+ */
 function numbers(coords: ArrayLike<number>): Float32Array | Float64Array {
   if (coords instanceof Float32Array || coords instanceof Float64Array) return coords;
   if (typeof coords !== 'object' || coords === null || !Number.isInteger(coords.length)) {
-    throw new GdelError('BAD_INPUT', `coordinates are an array of numbers, not ${nameOf(coords)}`);
+    throw new GdelError(
+      'BAD_INPUT',
+      `coordinates must be an array of numbers, not ${nameOf(coords)}`,
+    );
   }
   checkCount(coords.length / 2);
   const copy = new Float64Array(coords.length);

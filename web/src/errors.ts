@@ -4,43 +4,51 @@ export type GdelErrorCode =
   | 'NOT_FINITE'
   /** An argument has the wrong type, length or value. */
   | 'BAD_INPUT'
-  /** More points than an engine can number. */
+  /** There are more points than can be triangulated. */
   | 'TOO_MANY_POINTS'
-  /** More tetrahedra than an engine can number, which only contrived input has. */
+  /**
+   * There are more tetrahedra or triangles than can be numbered, which only contrived input has.
+   */
   | 'TOO_MANY_TETRAHEDRA'
   /** The `signal` was aborted. */
   | 'ABORTED'
-  /** `engine: 'gpu'` was asked for, but there is no WebGPU adapter or it gives no device. */
+  /** `backend: 'gpu'` was requested, but there is no WebGPU adapter, or it cannot be opened. */
   | 'NO_ADAPTER'
-  /** The GPU was reset or taken away during the run. The next run opens it anew. */
+  /** The GPU was reset or removed during the run. The next run reopens it. */
   | 'DEVICE_LOST'
-  /** The GPU has not enough memory. */
+  /** The GPU ran out of memory. */
   | 'OUT_OF_DEVICE_MEMORY'
-  /** A buffer would exceed what this adapter can bind. */
+  /** A buffer would be larger than this adapter allows. */
   | 'BUFFER_TOO_LARGE'
-  /** The GPU or its driver reports what should not happen. */
+  /** The GPU or its driver reported an unexpected error. */
   | 'GPU'
-  /** WebAssembly's memory, at most 4 GB, does not suffice. */
+  /** WebAssembly ran out of memory, of which there is at most 4 GB. */
   | 'OUT_OF_MEMORY'
   /** A file is broken; the message says where. */
   | 'BAD_FILE'
-  /** No reader or writer for this name or format. */
+  /** There is no reader or writer for this file name or format. */
   | 'UNKNOWN_FORMAT'
-  /** WebAssembly cannot be loaded: the file is not there, or a Content-Security-Policy lacks `'wasm-unsafe-eval'`. */
+  /**
+   * WebAssembly cannot be loaded: the file is missing, or a Content-Security-Policy lacks
+   * `'wasm-unsafe-eval'`.
+   */
   | 'LOAD_FAILED'
-  /** A `Delaunator` was made before the promise of `Delaunator.load()` was fulfilled. */
+  /** A `Delaunator` was created before the promise of `Delaunator.load()` was fulfilled. */
   | 'NOT_LOADED'
-  /** The engine was disposed of. */
+  /** The triangulator was disposed of. */
   | 'DISPOSED'
-  /** A defect of this package. */
+  /** A bug in this package. */
   | 'INTERNAL';
 
-/** Every failure of this package, except that of an aborted run whose signal has an own reason. */
+/**
+ * The error of every failure in this package. Only a run aborted by a signal with a reason of its
+ * own is rejected with that reason instead.
+ */
 export class GdelError extends Error {
   override readonly name = 'GdelError';
-  /** What kind of failure it is: for programs, as the message is for people. */
+  /** The kind of failure, for programs to test. The message is for people. */
   readonly code: GdelErrorCode;
-  /** The point that is to blame, by its index in the input, where there is one. */
+  /** The index of the point that caused the failure, if a point did. */
   declare readonly index?: number;
 
   constructor(
@@ -67,7 +75,10 @@ export function toGdelError({ code, message, index }: PlainError): GdelError {
   return new GdelError(code, message, index === undefined ? {} : { index });
 }
 
-/** What the surface in Rust throws has a `code`; all else is a panic or a trap, which ends the instance. */
+/**
+ * Converts what WebAssembly threw. Errors of the bindings have a `code`; everything else is a panic
+ * or a trap, which ends the instance.
+ */
 export function toPlainError(thrown: unknown, memoryBytes: number): PlainError {
   const { code, message, index } = (
     typeof thrown === 'object' && thrown ? thrown : {}
@@ -80,17 +91,18 @@ export function toPlainError(thrown: unknown, memoryBytes: number): PlainError {
       fatal: code === 'BAD_FILE',
     };
   }
-  // Rust aborts without a word where an allocation fails: a trap in a memory near its 4 GB is taken for that.
+  // Rust traps without a message if an allocation fails: so a trap in a memory of nearly 4 GB
+  // counts as that.
   if (thrown instanceof WebAssembly.RuntimeError && memoryBytes > 3 * 2 ** 30) {
     return {
       code: 'OUT_OF_MEMORY',
-      message: `WebAssembly's memory of ${memoryBytes} bytes does not suffice`,
+      message: `WebAssembly ran out of memory, of which it has ${memoryBytes} bytes`,
       fatal: true,
     };
   }
   return {
     code: 'INTERNAL',
-    message: `a defect of gdel-wasm: ${message ?? String(thrown)}`,
+    message: `a bug in gdel-wasm: ${message ?? String(thrown)}`,
     fatal: true,
   };
 }

@@ -1,4 +1,5 @@
-// Where tasks run: one worker, made when it is needed, or the calling thread. One task at a time; others wait.
+// Where tasks run: in one worker, which is started when it is needed, or in the calling thread. One
+// task runs at a time; others wait.
 
 import { runtime } from '#runtime';
 import { GdelError, type PlainError, toGdelError } from './errors.js';
@@ -12,14 +13,17 @@ import {
 import type { WorkerThread } from './runtime.js';
 import type { Progress, TaskOptions } from './types.js';
 
-/** An aborted task that does not stop by itself within this time is stopped by ending its thread. */
+/**
+ * The time after which an aborted task that has not stopped by itself is stopped by ending its
+ * thread.
+ */
 const GRACE_MILLISECONDS = 50;
 
-/** How to run one task. */
+/** A place where tasks run. */
 interface Connection {
   thread: 'worker' | 'caller';
   whyThread: string | null;
-  /** Takes a module for later tasks. */
+  /** Accepts a module for later tasks. */
   load(name: ModuleName, module: WebAssembly.Module): void;
   /** Rejects with a {@link PlainError}. */
   run<T extends TaskName>(
@@ -34,7 +38,7 @@ interface Connection {
 
 const modules = new Map<ModuleName, Promise<WebAssembly.Module>>();
 
-/** Compiled once, for all workers. */
+/** Returns a module, compiled once for all workers. */
 export function compiled(name: ModuleName): Promise<WebAssembly.Module> {
   let module = modules.get(name);
   if (!module) {
@@ -60,7 +64,7 @@ export class Host {
   #connection: Promise<Connection> | undefined;
   /** The modules that each connection has. */
   readonly #loaded = new WeakMap<Connection, Set<ModuleName>>();
-  /** Why workers are of no use here; found out once. */
+  /** Why no worker can be used here, if that is known. */
   #noWorker: string | null = null;
   #last: Promise<unknown> = Promise.resolve();
   #disposed = false;
@@ -68,7 +72,7 @@ export class Host {
   constructor(options: HostOptions = {}) {
     this.#options = options;
     if (options.gpu) this.#noWorker = 'a GPU object cannot be sent to another thread';
-    else if (options.worker === false) this.#noWorker = 'the caller asked for no worker';
+    else if (options.worker === false) this.#noWorker = 'the option worker is false';
   }
 
   /** Runs a task after all earlier ones. */
@@ -81,7 +85,7 @@ export class Host {
     throwIfAborted(signal);
     const work = this.#last.then(async () => {
       throwIfAborted(signal);
-      if (this.#disposed) throw new GdelError('DISPOSED', 'the engine was disposed of');
+      if (this.#disposed) throw new GdelError('DISPOSED', 'the triangulator was disposed of');
       const connection = await this.#connect();
       await this.#load(connection, MODULE_OF[task]);
       throwIfAborted(signal);
@@ -117,7 +121,7 @@ export class Host {
     this.#connection = undefined;
   }
 
-  /** Gives the connection a module that it does not have. */
+  /** Sends the connection a module, unless it has it. */
   async #load(connection: Connection, name: ModuleName): Promise<void> {
     const loaded = this.#loaded.get(connection) ?? new Set();
     this.#loaded.set(connection, loaded);
@@ -174,13 +178,17 @@ function workerConnection(thread: WorkerThread, onDeath: () => void): Connection
     load: (name, module) => thread.post({ type: 'load', name, module }, []),
     close() {
       thread.terminate();
-      pending?.fail({ code: 'DISPOSED', message: 'the engine was disposed of', fatal: false });
+      pending?.fail({
+        code: 'DISPOSED',
+        message: 'the triangulator was disposed of',
+        fatal: false,
+      });
     },
     run(task, args, transfer, onProgress, signal) {
       const id = next++;
       let timer: ReturnType<typeof setTimeout> | undefined;
-      // Messages reach a worker only between its tasks' turns, and wasm that runs has none. So what does not answer is
-      // ended; the next run starts a new worker.
+      // A worker receives messages only in its event loop, to which running WebAssembly does not
+      // return. So a worker that does not answer is ended, and the next run starts a new one.
       const abort = () => {
         thread.post({ type: 'abort', id }, []);
         timer = setTimeout(
@@ -211,8 +219,10 @@ function workerConnection(thread: WorkerThread, onDeath: () => void): Connection
   };
 }
 
-/** In the calling thread. A run stops at its next report when the signal is aborted, which a callback of its own can do,
- * or anything while the GPU is at work. */
+/**
+ * Runs tasks in the calling thread. A run stops at its next progress report after an abort, which
+ * can come from its own callback or, while the GPU works, from anywhere.
+ */
 async function callerConnection(gpu: object | undefined, whyThread: string): Promise<Connection> {
   const { makeCore } = await runtime.code();
   const cores = new Map<ModuleName, ReturnType<typeof makeCore>>();
@@ -232,7 +242,7 @@ async function callerConnection(gpu: object | undefined, whyThread: string): Pro
   };
 }
 
-/** The signal's reason; in place of the usual `AbortError`, an error of this package's type. */
+/** Returns the signal's reason, or a {@link GdelError} in place of the usual `AbortError`. */
 function abortReason(signal: AbortSignal): unknown {
   const reason: unknown = signal.reason;
   const isUsual = reason === undefined || (reason instanceof Error && reason.name === 'AbortError');
@@ -243,7 +253,7 @@ export function throwIfAborted(signal: AbortSignal | undefined): void {
   if (signal?.aborted) throw abortReason(signal);
 }
 
-/** The result, unless the signal is aborted before. */
+/** Returns the result, unless the signal is aborted first. */
 function untilAborted<R>(work: Promise<R>, signal: AbortSignal | undefined): Promise<R> {
   if (!signal) return work;
   return new Promise((resolve, reject) => {

@@ -1,15 +1,16 @@
 /**
- * Exact 3D and 2D Delaunay triangulation in the browser and in Node: WebGPU where there is a GPU, WebAssembly everywhere.
+ * Exact 3D and 2D Delaunay triangulation in browsers, Node and Deno: with WebGPU if there is a GPU,
+ * with WebAssembly everywhere.
  *
  * @packageDocumentation
  */
 /// <reference lib="esnext.disposable" preserve="true" />
 
 export { Delaunator } from './delaunator.js';
-export { createEngine, delaunay2d, delaunay3d, Engine } from './engine.js';
 export { GdelError, type GdelErrorCode } from './errors.js';
 export { Mesh3 } from './mesh.js';
 export { Mesh2 } from './mesh2.js';
+export type { ExactCounts, GpuStats, Round, SplayStats } from './stats.js';
 export {
   type GenerateOptions,
   generate,
@@ -19,28 +20,27 @@ export {
   verify,
   verify2d,
 } from './tools.js';
+export { createTriangulator, delaunay2d, delaunay3d, Triangulator } from './triangulator.js';
 export type {
   AccessorOptions,
   AdapterInfo,
+  Backend,
   Check,
   Distribution,
   Distribution2,
-  EngineInfo,
-  EngineName,
-  EngineOptions,
-  GpuStats,
-  MeshStatement,
-  MeshStatement2,
+  MeshView,
+  MeshView2,
   Output,
-  PlaneOptions,
   PointCloud,
   Points,
   Progress,
   Report,
   Report2,
   RunOptions,
-  SplayStats,
+  RunOptions2,
   Stats,
   TaskOptions,
   Trace,
+  TriangulatorInfo,
+  TriangulatorOptions,
 } from './types.js';

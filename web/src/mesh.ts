@@ -3,24 +3,39 @@ import { write } from './tools.js';
 import type { Output, Stats, TaskOptions, Trace } from './types.js';
 
 /**
- * A 3D Delaunay triangulation, as plain arrays. All indices are those of the input points, which {@link points} has.
+ * A 3D Delaunay triangulation in typed arrays. All vertices are indices of the input points.
  */
 export class Mesh3 {
-  /** Four vertices a tetrahedron, positively oriented: det(b − a, c − a, d − a) > 0. Never flat. */
+  /**
+   * Four vertices per tetrahedron, positively oriented: det(b − a, c − a, d − a) > 0. No
+   * tetrahedron is flat.
+   */
   readonly tetrahedra: Uint32Array;
-  /** Four a tetrahedron: entry *k* is the tetrahedron across the facet opposite vertex *k*, −1 outside the hull. */
+  /**
+   * Four per tetrahedron: entry *k* is the tetrahedron across the facet opposite vertex *k*, or −1
+   * on the hull.
+   */
   readonly neighbors: Int32Array;
-  /** Three vertices a triangle of the convex hull, counter-clockwise as seen from outside. */
+  /** Three vertices per triangle of the convex hull, counter-clockwise as seen from outside. */
   readonly hull: Uint32Array;
-  /** One a point: −1, or the lowest index of a point with the same coordinates, which stands for this one. */
+  /**
+   * One per point: −1, or the lowest index of a point with the same coordinates, which represents
+   * this one in the mesh.
+   */
   readonly duplicateOf: Int32Array;
-  /** 3; or 2, 1, 0 where all points are coplanar, collinear, equal: then there are no tetrahedra. 0 for no points. */
+  /**
+   * The affine dimension of the points: 3, or 2, 1, 0 if they are coplanar, collinear, coincident;
+   * 0 if there are none. Below 3 there are no tetrahedra.
+   */
   readonly dimension: 0 | 1 | 2 | 3;
-  /** x, y, z, x, y, z, … as they were triangulated: a copy of the input, or its buffer if that was transferred. */
+  /**
+   * The coordinates x, y, z, x, y, z, …: a copy of the input, or its buffer if that was
+   * transferred.
+   */
   readonly points: Float32Array | Float64Array;
-  /** What the run did. */
+  /** Statistics of the run. */
   readonly stats: Stats;
-  /** How the mesh came about, where `outputs` asked for it and the GPU engine made it. */
+  /** The intermediate triangulations, if `outputs` has `'trace'` and the GPU computed the mesh. */
   readonly trace?: Trace;
   readonly #outputs: readonly Output[];
 
@@ -37,33 +52,39 @@ export class Mesh3 {
     this.#outputs = outputs;
   }
 
-  /** The tetrahedra as VTK's XML unstructured grid (`.vtu`), which ParaView and PyVista read. */
+  /**
+   * Returns the tetrahedra as VTK's XML unstructured grid (`.vtu`), which ParaView and PyVista
+   * read.
+   */
   async toVTU(options: TaskOptions = {}): Promise<Uint8Array> {
     return (await this.#write('vtu', [], options)).vtu!;
   }
 
-  /** The hull as Stanford PLY (`.ply`), binary. */
+  /** Returns the hull as Stanford PLY (`.ply`), binary. */
   async toPLY(options: TaskOptions = {}): Promise<Uint8Array> {
     return (await this.#write('ply', ['hull'], options)).ply!;
   }
 
-  /** The hull as Wavefront OBJ (`.obj`). */
+  /** Returns the hull as Wavefront OBJ (`.obj`). */
   async toOBJ(options: TaskOptions = {}): Promise<Uint8Array> {
     return (await this.#write('obj', ['hull'], options)).obj!;
   }
 
-  /** The hull as binary STL (`.stl`), whose numbers are single precision. */
+  /** Returns the hull as binary STL (`.stl`), which has single precision. */
   async toSTL(options: TaskOptions = {}): Promise<Uint8Array> {
     return (await this.#write('stl', ['hull'], options)).stl!;
   }
 
-  /** The hull as binary glTF 2.0 (`.glb`), whose numbers are single precision: relative to the node's translation where
-   * that would lose something. Axes stay as they are, though glTF has y point up. */
+  /**
+   * Returns the hull as binary glTF 2.0 (`.glb`), which has single precision. If that would lose
+   * something, coordinates are relative to the node's translation. Axes stay as they are, though
+   * glTF has *y* up.
+   */
   async toGLB(options: TaskOptions = {}): Promise<Uint8Array> {
     return (await this.#write('glb', ['hull'], options)).glb!;
   }
 
-  /** TetGen's three files: points, tetrahedra and neighbours, counted from 0. */
+  /** Returns TetGen's three files: points, tetrahedra and neighbors, counted from 0. */
   async toTetGen(
     options: TaskOptions = {},
   ): Promise<{ node: Uint8Array; ele: Uint8Array; neigh: Uint8Array }> {
@@ -71,12 +92,12 @@ export class Mesh3 {
     return { node: node!, ele: ele!, neigh: neigh! };
   }
 
-  /** NumPy's `.npz` with the arrays `points`, `tetrahedra` and `neighbors`. */
+  /** Returns NumPy's `.npz` with the arrays `points`, `tetrahedra` and `neighbors`. */
   async toNPZ(options: TaskOptions = {}): Promise<Uint8Array> {
     return (await this.#write('npz', ['neighbors'], options)).npz!;
   }
 
-  /** Only what the format needs is copied to the writer. */
+  /** Copies only what the format needs to the writer. */
   #write(
     format: string,
     needs: readonly Output[],
@@ -86,7 +107,7 @@ export class Mesh3 {
     if (missing)
       throw new GdelError(
         'BAD_INPUT',
-        `${format} files need '${missing}' among the outputs of the run`,
+        `${format} files need '${missing}', which was not among the outputs of the run`,
       );
     const isHull = needs.includes('hull');
     const mesh = {

@@ -2,26 +2,41 @@ import { write2d } from './tools.js';
 import type { Stats, TaskOptions } from './types.js';
 
 /**
- * A 2D Delaunay triangulation, as plain arrays in the form of the npm package `delaunator`: what works on a `Delaunator`'s
- * `coords`, `triangles`, `halfedges` and `hull` works on this. All indices are those of the input points.
+ * A 2D Delaunay triangulation in the arrays of the npm package `delaunator`: code for a
+ * `Delaunator`'s `coords`, `triangles`, `halfedges` and `hull` works with this, too. All vertices
+ * are indices of the input points.
  *
- * Files have the triangles counter-clockwise where the y axis points up, as other programs do.
+ * In files the triangles are counter-clockwise if the y axis points up, as other programs expect.
  */
 export class Mesh2 {
-  /** Three vertices a triangle, counter-clockwise where the y axis points down: det(b − a, c − a) < 0. Never flat. */
+  /**
+   * Three vertices per triangle, counter-clockwise if the y axis points down: det(b − a, c − a) <
+   * 0. No triangle is flat.
+   */
   readonly triangles: Uint32Array;
-  /** Three a triangle: the half-edge that runs against the one from vertex *k* to the next, −1 on the hull. */
+  /**
+   * Three per triangle: the opposite of the half-edge from vertex *k* to the next one, or −1 on the
+   * hull.
+   */
   readonly halfedges: Int32Array;
-  /** The vertices of the convex hull, those in the middle of its edges included, in the triangles' sense. The distinct
-   * points in order if all are collinear. */
+  /**
+   * The vertices on the convex hull, including those in the middle of its edges, in the orientation
+   * of the triangles. If all points are collinear: the distinct points, sorted.
+   */
   readonly hull: Uint32Array;
-  /** One a point: −1, or the lowest index of a point with the same coordinates, which stands for this one. */
+  /**
+   * One per point: −1, or the lowest index of a point with the same coordinates, which represents
+   * this one in the mesh.
+   */
   readonly duplicateOf: Int32Array;
-  /** 2; or 1, 0 where all points are collinear, equal: then there are no triangles. 0 for no points. */
+  /**
+   * The affine dimension of the points: 2, or 1 if they are collinear, or 0 if they are coincident
+   * or there are none. Below 2 there are no triangles.
+   */
   readonly dimension: 0 | 1 | 2;
-  /** x, y, x, y, … as they were triangulated: a copy of the input, or its buffer if that was transferred. */
+  /** The coordinates x, y, x, y, …: a copy of the input, or its buffer if that was transferred. */
   readonly coords: Float32Array | Float64Array;
-  /** What the run did. */
+  /** Statistics of the run. */
   readonly stats: Stats;
 
   /** @internal */
@@ -35,33 +50,44 @@ export class Mesh2 {
     this.stats = arrays.stats;
   }
 
-  /** VTK's XML unstructured grid (`.vtu`), which ParaView and PyVista read. */
+  /**
+   * Returns the triangles as VTK's XML unstructured grid (`.vtu`), which ParaView and PyVista read.
+   */
   async toVTU(options: TaskOptions = {}): Promise<Uint8Array> {
     return (await this.#write('vtu', options)).vtu!;
   }
 
-  /** Stanford PLY (`.ply`), binary. */
+  /** Returns the triangles as Stanford PLY (`.ply`), binary. */
   async toPLY(options: TaskOptions = {}): Promise<Uint8Array> {
     return (await this.#write('ply', options)).ply!;
   }
 
-  /** Wavefront OBJ (`.obj`). */
+  /** Returns the triangles as Wavefront OBJ (`.obj`). */
   async toOBJ(options: TaskOptions = {}): Promise<Uint8Array> {
     return (await this.#write('obj', options)).obj!;
   }
 
-  /** STL (`.stl`): binary where single precision holds the coordinates, else text. */
+  /**
+   * Returns the triangles as STL (`.stl`): binary if the coordinates fit single precision,
+   * otherwise text.
+   */
   async toSTL(options: TaskOptions = {}): Promise<Uint8Array> {
     return (await this.#write('stl', options)).stl!;
   }
 
-  /** Binary glTF 2.0 (`.glb`), whose numbers are single precision: relative to the node's translation where that would lose
-   * something. Axes stay as they are, though glTF has y point up. */
+  /**
+   * Returns the triangles as binary glTF 2.0 (`.glb`), which has single precision. If that would
+   * lose something, coordinates are relative to the node's translation. Axes stay as they are,
+   * though glTF has *y* up.
+   */
   async toGLB(options: TaskOptions = {}): Promise<Uint8Array> {
     return (await this.#write('glb', options)).glb!;
   }
 
-  /** The three files of the program Triangle: points, triangles and neighbours, counted from 0. */
+  /**
+   * Returns the three files of the program Triangle: points, triangles and neighbors, counted from
+   * 0.
+   */
   async toTriangle(
     options: TaskOptions = {},
   ): Promise<{ node: Uint8Array; ele: Uint8Array; neigh: Uint8Array }> {
@@ -69,7 +95,7 @@ export class Mesh2 {
     return { node: node!, ele: ele!, neigh: neigh! };
   }
 
-  /** NumPy's `.npz` with the arrays `points`, `triangles` and `halfedges`. */
+  /** Returns NumPy's `.npz` with the arrays `points`, `triangles` and `halfedges`. */
   async toNPZ(options: TaskOptions = {}): Promise<Uint8Array> {
     return (await this.#write('npz', options)).npz!;
   }

@@ -1,17 +1,17 @@
-// From the forms in which points come to one typed array of one's own.
+// Converts points of any form to one typed array that nobody else uses.
 
 import { GdelError } from './errors.js';
 import { throwIfAborted } from './host.js';
 import type { Coordinates } from './protocol.js';
 
-/** The most points that the engines can number. */
-const MOST_POINTS = 2 ** 27;
+/** The largest number of points that can be triangulated. */
+const MAX_POINTS = 2 ** 27;
 
-/** How long a conversion or a copy may keep the thread before it lets others have it. */
+/** How long a conversion or a copy may block the thread before it yields. */
 const SLICE_MILLISECONDS = 8;
 
 /** Longer arrays are copied in slices of this length. */
-const COPIED_AT_ONCE = 2 ** 18;
+const SLICE_LENGTH = 2 ** 18;
 
 export interface Own {
   coordinates: Coordinates;
@@ -25,26 +25,24 @@ interface Conversion {
   signal: AbortSignal | undefined;
 }
 
-/** The coordinates as an array that belongs to nobody else. */
+/** Returns the coordinates as an array that nobody else uses. */
 export function ownCoordinates(points: unknown, conversion: Conversion): Own | Promise<Own> {
   const { dimension, transfer, point } = conversion;
   if ((points instanceof Float32Array || points instanceof Float64Array) && !point) {
     checkTyped(points, dimension);
     if (transfer && points.buffer instanceof ArrayBuffer) return own(moved(points));
-    return points.length <= COPIED_AT_ONCE
-      ? own(points.slice())
-      : copied(points, conversion.signal);
+    return points.length <= SLICE_LENGTH ? own(points.slice()) : copied(points, conversion.signal);
   }
   if (ArrayBuffer.isView(points) && !point) {
     throw new GdelError(
       'BAD_INPUT',
-      `points in one typed array are a Float32Array or a Float64Array, not ${nameOf(points)}`,
+      `points in one typed array must be a Float32Array or a Float64Array, not ${nameOf(points)}`,
     );
   }
   if (!isArrayLike(points)) {
     throw new GdelError(
       'BAD_INPUT',
-      `points are a typed array or an array of rows, not ${nameOf(points)}`,
+      `points must be a typed array or an array of rows, not ${nameOf(points)}`,
     );
   }
   checkCount(points.length);
@@ -55,53 +53,53 @@ function own(coordinates: Coordinates): Own {
   return { coordinates, transfer: [coordinates.buffer as ArrayBuffer] };
 }
 
-/** The array itself, taken away from the caller. */
+/** Takes the array's buffer from the caller. */
 function moved(points: Coordinates): Coordinates {
   return structuredClone(points, { transfer: [points.buffer as ArrayBuffer] });
 }
 
-/** A copy that lets others have the thread in between: fresh memory alone takes 10 ms for a million points. */
+/** Copies in slices, yielding in between: fresh memory alone takes 10 ms for a million points. */
 async function copied(points: Coordinates, signal: AbortSignal | undefined): Promise<Own> {
   const { length } = points;
   const copy = points instanceof Float32Array ? new Float32Array(length) : new Float64Array(length);
   let since = performance.now();
-  for (let at = 0; at < length; at += COPIED_AT_ONCE) {
+  for (let at = 0; at < length; at += SLICE_LENGTH) {
     if (performance.now() - since > SLICE_MILLISECONDS) {
-      await othersTurn();
+      await yieldToEvents();
       throwIfAborted(signal);
       since = performance.now();
     }
     if (points.length !== length)
-      throw new GdelError('BAD_INPUT', 'the points’ buffer was detached while it was copied');
-    copy.set(points.subarray(at, at + COPIED_AT_ONCE), at);
+      throw new GdelError('BAD_INPUT', 'the buffer of the points was detached while it was copied');
+    copy.set(points.subarray(at, at + SLICE_LENGTH), at);
   }
   return own(copy);
 }
 
 function checkTyped(points: Coordinates, dimension: number): void {
   try {
-    // Throws if the buffer was detached, which then has no length left to tell.
+    // Throws if the buffer is detached. Its length would be 0, as of no points.
     new Uint8Array(points.buffer);
   } catch {
     throw new GdelError(
       'BAD_INPUT',
-      'the points’ buffer is detached: it was transferred to someone else',
+      'the buffer of the points is detached, because it was transferred',
     );
   }
   if (points.length % dimension !== 0) {
     throw new GdelError(
       'BAD_INPUT',
-      `${points.length} coordinates are not a multiple of ${dimension}`,
+      `${points.length} coordinates are not a whole number of points: the length must be a multiple of ${dimension}`,
     );
   }
   checkCount(points.length / dimension);
 }
 
 export function checkCount(count: number): void {
-  if (count > MOST_POINTS) {
+  if (count > MAX_POINTS) {
     throw new GdelError(
       'TOO_MANY_POINTS',
-      `${count} points are too many: at most ${MOST_POINTS} can be numbered`,
+      `${count} points are too many: at most ${MAX_POINTS} can be triangulated`,
     );
   }
 }
@@ -114,12 +112,14 @@ async function fromRows(
   try {
     coordinates = new Float64Array(dimension * rows.length);
   } catch (cause) {
-    throw new GdelError('OUT_OF_MEMORY', `there is no room for ${rows.length} points`, { cause });
+    throw new GdelError('OUT_OF_MEMORY', `there is not enough memory for ${rows.length} points`, {
+      cause,
+    });
   }
   let since = performance.now();
   for (let i = 0; i < rows.length; i++) {
     if (i % 4096 === 4095 && performance.now() - since > SLICE_MILLISECONDS) {
-      await othersTurn();
+      await yieldToEvents();
       throwIfAborted(signal);
       since = performance.now();
     }
@@ -146,8 +146,8 @@ async function fromRows(
   return own(coordinates);
 }
 
-/** Lets waiting events be handled: sooner than a timer, which browsers hold back. */
-function othersTurn(): Promise<void> {
+/** Yields to waiting events. Continues sooner than a timer, which browsers delay. */
+function yieldToEvents(): Promise<void> {
   return new Promise((resolve) => {
     const { port1, port2 } = new MessageChannel();
     port1.onmessage = () => {

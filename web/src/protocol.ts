@@ -1,11 +1,10 @@
-// What the page and the worker say to each other.
+// The messages between the page and the worker.
 
 import type { PlainError } from './errors.js';
 import type {
-  EngineInfo,
-  EngineName,
-  MeshStatement,
-  MeshStatement2,
+  Backend,
+  MeshView,
+  MeshView2,
   Output,
   PointCloud,
   Progress,
@@ -13,22 +12,23 @@ import type {
   Report2,
   Stats,
   Trace,
+  TriangulatorInfo,
 } from './types.js';
 
 /** The wasm modules. */
-export type ModuleName = 'engine' | 'plane' | 'tools';
+export type ModuleName = 'd3' | 'd2' | 'tools';
 
 export type Coordinates = Float32Array | Float64Array;
 
-export type CoreInfo = Omit<EngineInfo, 'thread' | 'whyThread'>;
+export type CoreInfo = Omit<TriangulatorInfo, 'thread' | 'whyThread'>;
 
 export type CoreStats = Omit<Stats, 'thread' | 'whyThread'>;
 
-/** What can be asked for: arguments and result of each task. */
+/** The arguments and the result of each task. */
 export interface Tasks {
-  open: { args: { engine: EngineName }; result: CoreInfo };
+  open: { args: { backend: Backend }; result: CoreInfo };
   delaunay3d: {
-    args: { points: Coordinates; engine: EngineName; outputs: readonly Output[] };
+    args: { points: Coordinates; backend: Backend; outputs: readonly Output[] };
     result: {
       points: Coordinates;
       tetrahedra: Uint32Array;
@@ -41,7 +41,7 @@ export interface Tasks {
     };
   };
   delaunay2d: {
-    args: { points: Coordinates; engine: EngineName };
+    args: { points: Coordinates; backend: Backend };
     result: {
       points: Coordinates;
       triangles: Uint32Array;
@@ -55,25 +55,25 @@ export interface Tasks {
   generate: { args: { kind: string; count: number; seed: bigint }; result: Float64Array };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };
   write: {
-    args: { points: Coordinates; mesh: MeshStatement; format: string };
+    args: { points: Coordinates; mesh: MeshView; format: string };
     result: Record<string, Uint8Array>;
   };
-  verify: { args: { points: Coordinates; mesh: MeshStatement }; result: Report };
+  verify: { args: { points: Coordinates; mesh: MeshView }; result: Report };
   generate2d: { args: { kind: string; count: number; seed: bigint }; result: Float64Array };
   write2d: {
-    args: { points: Coordinates; mesh: MeshStatement2; format: string };
+    args: { points: Coordinates; mesh: MeshView2; format: string };
     result: Record<string, Uint8Array>;
   };
-  verify2d: { args: { points: Coordinates; mesh: MeshStatement2 }; result: Report2 };
+  verify2d: { args: { points: Coordinates; mesh: MeshView2 }; result: Report2 };
 }
 
 export type TaskName = keyof Tasks;
 
-/** Which module carries out which task. */
+/** The module that runs each task. */
 export const MODULE_OF: Readonly<Record<TaskName, ModuleName>> = {
-  open: 'engine',
-  delaunay3d: 'engine',
-  delaunay2d: 'plane',
+  open: 'd3',
+  delaunay3d: 'd3',
+  delaunay2d: 'd2',
   generate: 'tools',
   readPoints: 'tools',
   write: 'tools',
@@ -83,7 +83,7 @@ export const MODULE_OF: Readonly<Record<TaskName, ModuleName>> = {
   verify2d: 'tools',
 };
 
-/** How a task talks to its caller. */
+/** The connection of a task to its caller. */
 export interface Control {
   onProgress(progress: Progress): void;
   isAborted(): boolean;

@@ -22,8 +22,10 @@ export interface Runtime {
   code(): Promise<typeof import('./worker.js')>;
 }
 
-/** The thread when it has loaded its code. To be called in the turn that made the thread: in Deno, a message that was sent
- * before the first listener is there can be lost. */
+/**
+ * The thread when it has loaded its code. To be called in the turn that made the thread: in Deno, a
+ * message that was sent before the first listener is there can be lost.
+ */
 export function whenReady(thread: WorkerThread): Promise<WorkerThread> {
   return new Promise((resolve, reject) => {
     thread.onMessage((message) => message.type === 'ready' && resolve(thread));

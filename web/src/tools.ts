@@ -1,4 +1,4 @@
-// Files, verification, and synthetic points: in a second wasm module with a worker of its own.
+// Files, verification and synthetic points, in a WebAssembly module with a worker of its own.
 
 import { GdelError } from './errors.js';
 import { Host } from './host.js';
@@ -7,8 +7,8 @@ import type { Coordinates } from './protocol.js';
 import type {
   Distribution,
   Distribution2,
-  MeshStatement,
-  MeshStatement2,
+  MeshView,
+  MeshView2,
   PointCloud,
   Points,
   Report,
@@ -22,15 +22,15 @@ function host(): Host {
   return (shared ??= new Host());
 }
 
-/** How to generate points. */
+/** Options for synthetic points. */
 export interface GenerateOptions extends TaskOptions {
-  /** 0 to 2⁵³ − 1, default 1. */
+  /** The seed, 0 to 2⁵³ − 1, default 1. */
   seed?: number | undefined;
 }
 
 /**
- * Synthetic points: the distributions of the gDel3D paper's §5.1. The same name, number and seed give the same points,
- * bit for bit, on every machine and in the command line's `gdel generate`.
+ * Generates points of the distributions of the gDel3D paper's §5.1. The same name, number and seed
+ * give the same points, bit for bit, on every machine and in the command line's `gdel generate`.
  *
  * @returns x, y, z, x, y, z, …
  */
@@ -43,7 +43,7 @@ export async function generate(
 }
 
 /**
- * Synthetic points of the plane, as {@link generate}: `gdel generate --dim 2`.
+ * Generates points in 2D, as the command line's `gdel generate --dim 2` does; see {@link generate}.
  *
  * @returns x, y, x, y, …
  */
@@ -55,28 +55,31 @@ export async function generate2d(
   return host().run('generate2d', { kind, ...cloud(count, options) }, [], options);
 }
 
-/** How many points of which seed, checked. */
+/** Returns the number of points and the seed, checked. */
 function cloud(count: number, { seed = 1 }: GenerateOptions): { count: number; seed: bigint } {
-  const isCount = (n: unknown, most: number) =>
-    Number.isInteger(n) && (n as number) >= 0 && (n as number) <= most;
+  const isCount = (n: unknown, max: number) =>
+    Number.isInteger(n) && (n as number) >= 0 && (n as number) <= max;
   if (!isCount(count, 2 ** 27))
-    throw new GdelError('BAD_INPUT', `${count} is no number of points from 0 to 2²⁷`);
+    throw new GdelError(
+      'BAD_INPUT',
+      `the number of points must be an integer from 0 to 2²⁷, not ${count}`,
+    );
   if (!isCount(seed, Number.MAX_SAFE_INTEGER))
-    throw new GdelError('BAD_INPUT', `${seed} is no seed from 0 to 2⁵³ − 1`);
+    throw new GdelError('BAD_INPUT', `the seed must be an integer from 0 to 2⁵³ − 1, not ${seed}`);
   return { count, seed: BigInt(seed) };
 }
 
-/** How to read a file. */
+/** Options for reading a file. */
 export interface ReadOptions extends TaskOptions {
-  /** The file's name, whose extension says the format. Default: that of a `File`. */
+  /** The name of the file, whose extension tells the format. Default: that of a `File`. */
   name?: string | undefined;
-  /** The extension itself, such as `'ply'`, where there is no name. */
+  /** The extension, such as `'ply'`, if there is no name. */
   format?: string | undefined;
 }
 
 /**
- * Reads the points of a file: PLY, OBJ, STL, XYZ, TXT, ASC, PTS, CSV, TSV, PCD, LAS, LAZ, NPY, and raw little-endian
- * `f32` and `f64`.
+ * Reads the points of a file: PLY, OBJ, STL, XYZ, TXT, ASC, PTS, CSV, TSV, PCD, LAS, LAZ, NPY, and
+ * raw little-endian `f32` and `f64`.
  *
  * @throws {@link GdelError} `UNKNOWN_FORMAT`; `BAD_FILE`, which says where the file is broken.
  */
@@ -90,14 +93,14 @@ export async function readPoints(
   if (extension === undefined) {
     throw new GdelError(
       'UNKNOWN_FORMAT',
-      'the file’s format is not known: give its name or format',
+      'the format of the file is unknown: pass the option name or format',
     );
   }
   let bytes: Uint8Array;
   if (data instanceof Blob) bytes = new Uint8Array(await data.arrayBuffer());
   else if (data instanceof ArrayBuffer || data instanceof Uint8Array)
     bytes = new Uint8Array(data).slice();
-  else throw new GdelError('BAD_INPUT', 'a file is a Blob, an ArrayBuffer or a Uint8Array');
+  else throw new GdelError('BAD_INPUT', 'a file must be a Blob, an ArrayBuffer or a Uint8Array');
   const { points, noReturn } = await host().run(
     'readPoints',
     { bytes, extension: extension.replace(/^\./, '') },
@@ -108,34 +111,34 @@ export async function readPoints(
 }
 
 /**
- * Proves that a mesh is the Delaunay triangulation of the points, or says what is wrong with it: exactly, and without
- * knowing how the mesh was made. A defect is no error but part of the report.
+ * Proves that a mesh is the Delaunay triangulation of the points, or tells what is wrong with it:
+ * exactly, and whoever computed the mesh. A wrong mesh is no error: the report describes it.
  */
 export async function verify(
   points: Points,
-  mesh: MeshStatement,
+  mesh: MeshView,
   options: TaskOptions = {},
 ): Promise<Report> {
   const { tetrahedra, neighbors, hull, duplicateOf, dimension } = mesh;
   if (!(tetrahedra instanceof Uint32Array))
-    throw new GdelError('BAD_INPUT', 'tetrahedra are a Uint32Array');
-  const statement = { tetrahedra, neighbors, hull, duplicateOf, dimension };
-  const args = { points: await coordinatesOf(points, 3, options), mesh: statement };
+    throw new GdelError('BAD_INPUT', 'tetrahedra must be a Uint32Array');
+  const view = { tetrahedra, neighbors, hull, duplicateOf, dimension };
+  const args = { points: await coordinatesOf(points, 3, options), mesh: view };
   const { thread: _, whyThread: __, ...report } = await host().run('verify', args, [], options);
   return report;
 }
 
-/** As {@link verify}, in the plane. */
+/** Does for a 2D mesh what {@link verify} does in 3D. */
 export async function verify2d(
   points: Points,
-  mesh: MeshStatement2,
+  mesh: MeshView2,
   options: TaskOptions = {},
 ): Promise<Report2> {
   const { triangles, halfedges, hull, duplicateOf, dimension } = mesh;
   if (!(triangles instanceof Uint32Array))
-    throw new GdelError('BAD_INPUT', 'triangles are a Uint32Array');
-  const statement = { triangles, halfedges, hull, duplicateOf, dimension };
-  const args = { points: await coordinatesOf(points, 2, options), mesh: statement };
+    throw new GdelError('BAD_INPUT', 'triangles must be a Uint32Array');
+  const view = { triangles, halfedges, hull, duplicateOf, dimension };
+  const args = { points: await coordinatesOf(points, 2, options), mesh: view };
   const { thread: _, whyThread: __, ...report } = await host().run('verify2d', args, [], options);
   return report;
 }
@@ -149,20 +152,20 @@ async function coordinatesOf(
     .coordinates;
 }
 
-/** The files of a format, by extension. */
+/** Returns a 3D mesh as files of a format, by extension. */
 export async function write(
   points: Coordinates,
-  mesh: MeshStatement,
+  mesh: MeshView,
   format: string,
   options: TaskOptions,
 ): Promise<Record<string, Uint8Array>> {
   return host().run('write', { points, mesh, format }, [], options);
 }
 
-/** As {@link write}, in the plane. */
+/** Returns a 2D mesh as files of a format, by extension. */
 export async function write2d(
   points: Coordinates,
-  mesh: MeshStatement2,
+  mesh: MeshView2,
   format: string,
   options: TaskOptions,
 ): Promise<Record<string, Uint8Array>> {

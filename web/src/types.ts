@@ -1,65 +1,87 @@
+import type { Stats as RunStats } from './stats.js';
+
 /**
- * Points: x, y, z, x, y, z, … in one typed array, or one row a point. Every finite number is taken at its exact value.
+ * Points: x, y, z, x, y, z, … in one typed array, or one row per point. Every finite number counts
+ * with its exact value.
  *
- * A `Float32Array` or `Float64Array` is the fastest; anything else is converted to `Float64Array`. More than 2 MB are copied
- * or converted a slice at a time so that the page stays responsive: do not change them before the result is there.
+ * A `Float32Array` or `Float64Array` is fastest; anything else is converted to a `Float64Array`.
+ * More than 2 MB are copied or converted in slices, so that the page stays responsive: do not
+ * change them before the result is there.
  */
 export type Points = Float32Array | Float64Array | ArrayLike<ArrayLike<number>>;
 
-/** `'auto'`: the GPU where there is a hardware adapter and enough points, else the CPU. */
-export type EngineName = 'auto' | 'gpu' | 'cpu';
+/**
+ * What computes a mesh. `'auto'` is the GPU for large inputs if it is hardware, and otherwise the
+ * CPU.
+ */
+export type Backend = 'auto' | 'gpu' | 'cpu';
 
 /**
- * What a run can deliver besides the tetrahedra. `'trace'` is for small inputs: the GPU engine then reads everything back
- * after every round.
+ * The arrays that a run can return besides the tetrahedra. `'trace'` is for small inputs, since
+ * everything is then read back from the GPU after every round.
  */
 export type Output = 'neighbors' | 'hull' | 'duplicateOf' | 'trace';
 
-/** How far a run has come. */
+/** The progress of a run. */
 export interface Progress {
-  /** The phase that is running, as in {@link Stats.phases}. */
+  /** The name of the running phase, as in `stats.phases`. */
   phase: string;
-  /** The share of the whole run that is done, 0 to 1. It never falls, except where the CPU engine takes over. */
+  /**
+   * The completed part of the run, 0 to 1. It never decreases, unless the CPU takes over from the
+   * GPU.
+   */
   fraction: number;
 }
 
-/** For everything that can take long. */
+/** Options of everything that can take long. */
 export interface TaskOptions {
-  /** Aborts the work, within 100 ms; the promise is rejected at once, with the signal's reason if that is not the
-   * usual `AbortError`, else with a {@link GdelError} of code `ABORTED`. */
+  /**
+   * Aborts the work within 100 ms. The promise is rejected at once: with the signal's reason, or
+   * with a {@link GdelError} of code `ABORTED` in place of the usual `AbortError`.
+   */
   signal?: AbortSignal | undefined;
-  /** Called at most some 50 times a second, the last time with fraction 1. */
+  /** Called at most about 50 times per second, the last time with fraction 1. */
   onProgress?: ((progress: Progress) => void) | undefined;
 }
 
-/** How to triangulate. */
+/** Options for a 3D triangulation. */
 export interface RunOptions extends TaskOptions {
-  /** Which engine; all give the same set of tetrahedra. Default: the engine's own, `'auto'`. */
-  engine?: EngineName | undefined;
-  /** The arrays to deliver besides `tetrahedra`; those left out are empty. Default: all but `'trace'`. */
+  /**
+   * The backend; the result does not depend on it. Default: that of the triangulator, or `'auto'`.
+   */
+  backend?: Backend | undefined;
+  /** The arrays to return besides `tetrahedra`; others are empty. Default: all but `'trace'`. */
   outputs?: readonly Output[] | undefined;
-  /** Give the input's buffer away instead of copying it: the array, and every other view of its buffer, is empty
-   * afterwards. {@link Mesh3.points} gives the coordinates back. Default: false. */
+  /**
+   * Whether to transfer the input's buffer instead of copying it. The array, and every other view
+   * of its buffer, is then empty; the mesh has the coordinates. Default: false.
+   */
   transfer?: boolean | undefined;
 }
 
-/** How to triangulate in the plane. */
-export type PlaneOptions = Omit<RunOptions, 'outputs'>;
+/** Options for a 2D triangulation. */
+export type RunOptions2 = Omit<RunOptions, 'outputs'>;
 
-/** How to triangulate points that are objects. */
+/** Options for points that are objects. */
 export interface AccessorOptions<T> extends RunOptions {
-  /** The coordinates of an item. */
+  /** Returns the coordinates of an item. */
   point: (item: T, index: number) => ArrayLike<number>;
 }
 
-/** How to make an engine. */
-export interface EngineOptions {
-  /** The engine of runs that name none, default `'auto'`. With `'gpu'`, `createEngine` fails where no GPU can be used. */
-  engine?: EngineName | undefined;
-  /** A `GPU` object where `navigator.gpu` is missing, such as `create([])` of the npm package `webgpu` in Node. It cannot
-   * be sent to another thread, so runs then take place in the calling one. */
+/** Options of `createTriangulator`. */
+export interface TriangulatorOptions {
+  /**
+   * The backend of runs that do not choose one, default `'auto'`. With `'gpu'`,
+   * `createTriangulator` fails if no GPU can be used.
+   */
+  backend?: Backend | undefined;
+  /**
+   * A `GPU` object to use instead of `navigator.gpu`, such as `create([])` of the npm package
+   * `webgpu` in Node. It cannot be sent to another thread, so runs then take place in the calling
+   * thread.
+   */
   gpu?: object | undefined;
-  /** Whether to work in a thread of its own, default true. */
+  /** Whether to work in a worker, default true. */
   worker?: boolean | undefined;
 }
 
@@ -69,128 +91,50 @@ export interface AdapterInfo {
   architecture: string;
   device: string;
   description: string;
-  /** It computes on the CPU: correct, but slower than the CPU engine. */
+  /** Whether it computes on the CPU: correctly, but slower than the CPU backend. */
   software: boolean;
-  /** The largest buffer that a kernel can see, in bytes: what bounds the size of the input. */
+  /** The largest buffer that a kernel can bind, in bytes: this limits the size of the input. */
   maxStorageBufferBindingSize: number;
 }
 
-/** What an engine works with. */
-export interface EngineInfo {
-  /** The engine that `'auto'` takes for large inputs. */
-  engine: 'gpu' | 'cpu';
-  /** Why that is the CPU engine; null where it is the GPU. */
-  why: string | null;
-  /** The adapter that was found, used or not. */
+/** What a triangulator uses. */
+export interface TriangulatorInfo {
+  /** The backend for large inputs. */
+  backend: 'gpu' | 'cpu';
+  /** Why that is the CPU, if it was not requested explicitly; otherwise null. */
+  fallback: string | null;
+  /** The adapter that was found, whether it is used or not. */
   adapter: AdapterInfo | null;
   /** Where the work is done. */
   thread: 'worker' | 'caller';
-  /** Why it is done in the calling thread; null where there is a worker. */
+  /** Why it is done in the calling thread; null if there is a worker. */
   whyThread: string | null;
 }
 
-/** What a run did. */
-export interface Stats {
-  /** The engine that made the mesh. */
-  engine: 'gpu' | 'cpu';
-  /** Why the CPU engine made it, where that was not asked for; else null. */
-  why: string | null;
-  /** The adapter, where the GPU engine made the mesh. */
+/** Statistics of the run that computed a mesh. */
+export interface Stats extends RunStats {
+  /** The adapter, if the GPU computed the mesh. */
   adapter: AdapterInfo | null;
-  /** Where the work was done, and why, if that was in the calling thread. */
+  /** Where the work was done. */
   thread: 'worker' | 'caller';
+  /** Why it was done in the calling thread; null if it was done in a worker. */
   whyThread: string | null;
-  /** The phases in the order in which they ran. */
-  phases: { name: string; milliseconds: number }[];
-  /** Milliseconds of the whole run, copies to and from WebAssembly included. */
+  /** Milliseconds of the whole run, including copies to and from WebAssembly. */
   milliseconds: number;
-  /** Signs that the floating-point filter left open, by what decided them. */
-  exact: {
-    /** Integers on the lattice. */
-    integer: number;
-    /** Expansions or big integers, where a point does not fit the lattice. */
-    expansion: number;
-    /** Cospherical points: the symbolic perturbation. */
-    symbolic: number;
-  };
-  /** What the GPU did, also where the CPU engine had to take over from it; else null. */
-  gpu: GpuStats | null;
-  /** What star splaying did after that. */
-  splay: SplayStats | null;
-  /** Bytes of WebAssembly memory: the most that was ever needed, since it never shrinks. */
+  /** The size of the WebAssembly memory in bytes: the maximum so far, since it never shrinks. */
   wasmBytes: number;
 }
 
-/** What the flipping phase did on the GPU. */
-export interface GpuStats {
-  /** The insertion rounds, then the rounds in which the last flips were done. */
-  rounds: {
-    /** Points that were inserted. */
-    inserted: number;
-    /** Tetrahedra whose facets are still to be checked at the end. */
-    active: number;
-    flips: number;
-    /** Flip iterations that had something to do. */
-    iterations: number;
-    milliseconds: number;
-  }[];
-  /** Flips of two tetrahedra into three. */
-  flips23: number;
-  /** Flips of three tetrahedra into two. */
-  flips32: number;
-  flipIterations: number;
-  /** Signs that took exact arithmetic. */
-  exactTests: number;
-  /** Facets that were not locally Delaunay and could not be flipped. */
-  notLocallyDelaunay: number;
-  /** The vertices of such facets. */
-  failedVertices: number;
-  /** Points that another one at the same place of the lattice stood for. */
-  united: number;
-  readbacks: number;
-  dispatches: number;
-  submits: number;
-  /** The most bytes of GPU memory that were held at a time. */
-  bytes: number;
-}
-
-/** What star splaying did. */
-export interface SplayStats {
-  /** Flat tetrahedra on the hull that were peeled off. */
-  peeled: number;
-  /** Failed vertices. */
-  failed: number;
-  /** Stars that were made convex. */
-  built: number;
-  /** Of these, the ones that were built from their points. */
-  fromPoints: number;
-  /** Stars that were taken from the triangulation as they are. */
-  pulled: number;
-  /** Flips of Flip-Flop. */
-  flips: number;
-  /** Points that were inserted into stars. */
-  insertions: number;
-  /** Checks whether all stars agree about a tetrahedron. */
-  checks: number;
-  /** Tetrahedra that were removed from the triangulation. */
-  removed: number;
-  /** Tetrahedra that were added to it. */
-  added: number;
-  /** Points that only splaying inserted. */
-  inserted: number;
-  /** Signs that were asked for. */
-  signs: number;
-  /** Rounds of insertions. */
-  rounds: number;
-}
-
-/** How a mesh came about, step by step, in the GPU engine. */
+/** The intermediate triangulations of a run on the GPU. */
 export interface Trace {
-  /** The finite tetrahedra after each of {@link GpuStats.rounds}. The last are what splaying begins with. */
+  /** The finite tetrahedra after each round of Phase 1. Star splaying begins with the last. */
   rounds: { tetrahedra: Uint32Array }[];
-  /** Three a facet: those between finite tetrahedra that were not locally Delaunay when flipping was done. */
+  /**
+   * Three vertices per facet: the facets between finite tetrahedra that were not locally Delaunay
+   * after Phase 1.
+   */
   nonDelaunayFacets: Uint32Array;
-  /** One a tetrahedron of the mesh: 0 if flipping made it, 1 if splaying did. */
+  /** One per tetrahedron of the mesh: 0 if Phase 1 created it, 1 if star splaying did. */
   created: Uint8Array;
 }
 
@@ -208,29 +152,33 @@ export type Distribution2 =
   | 'two-lines'
   | 'clusters';
 
-/** Points of a file. */
+/** The points of a file. */
 export interface PointCloud {
   /** x, y, z, x, y, z, … in the precision of the file. */
   points: Float32Array | Float64Array;
-  /** Points of the file that are left out because they hold no measurement (NaN in a PCD file). */
+  /**
+   * The number of points that are left out because they hold no measurement (NaN in a PCD file).
+   */
   noReturn: number;
 }
 
-/** A property that the verifier decides, and how that ended. */
+/** A property of a mesh, and what the verifier found about it. */
 export interface Check {
-  /** Such as `'orientation'` or `'delaunay'`. */
+  /** The name of the property, such as `'orientation'` or `'delaunay'`. */
   name: string;
   outcome: 'passed' | 'failed' | 'not stated' | 'not decided';
   passed: boolean;
-  /** The first defect, in words. */
+  /** The first violation, in words. */
   detail: string;
-  /** In how many places the property does not hold. */
+  /** The number of violations. */
   defects: number;
 }
 
-/** What the verifier found. */
+/** What the verifier found in 3D. */
 export interface Report {
-  /** The mesh is the Delaunay triangulation of the points, with the ties broken as documented. */
+  /**
+   * Whether the mesh is the Delaunay triangulation of the points, with ties broken as documented.
+   */
   passed: boolean;
   /** The affine dimension of the points, 0 to 3. */
   dimension: number;
@@ -246,8 +194,8 @@ export interface Report {
   };
 }
 
-/** What the verifier takes for a mesh: what is missing is not checked. */
-export interface MeshStatement {
+/** A 3D mesh to verify. What is missing is not checked. */
+export interface MeshView {
   tetrahedra: Uint32Array;
   neighbors?: Int32Array | undefined;
   hull?: Uint32Array | undefined;
@@ -255,7 +203,7 @@ export interface MeshStatement {
   dimension?: number | undefined;
 }
 
-/** What the verifier found in the plane. */
+/** What the verifier found in 2D. */
 export interface Report2 extends Omit<Report, 'counts'> {
   counts: {
     points: number;
@@ -267,8 +215,8 @@ export interface Report2 extends Omit<Report, 'counts'> {
   };
 }
 
-/** What the verifier takes for a mesh of the plane: what is missing is not checked. */
-export interface MeshStatement2 {
+/** A 2D mesh to verify. What is missing is not checked. */
+export interface MeshView2 {
   triangles: Uint32Array;
   halfedges?: Int32Array | undefined;
   hull?: Uint32Array | undefined;

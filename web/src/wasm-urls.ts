@@ -1,10 +1,10 @@
-// The wasm files beside this one, each written out, so that bundlers find them.
+// The wasm files beside this one. Each URL is written out, so that bundlers find the file.
 
 import type { ModuleName } from './protocol.js';
 
-/** Functions, since only what is needed may be looked for. */
+/** Functions, so that only the files that are needed are looked for. */
 export const wasmUrl: Readonly<Record<ModuleName, () => URL>> = {
-  engine: () => new URL('./gdel.wasm', import.meta.url),
-  plane: () => new URL('./gdel-plane.wasm', import.meta.url),
+  d3: () => new URL('./gdel-3d.wasm', import.meta.url),
+  d2: () => new URL('./gdel-2d.wasm', import.meta.url),
   tools: () => new URL('./gdel-tools.wasm', import.meta.url),
 };

@@ -1,4 +1,5 @@
-// The worker: one task at a time, each in the core of its wasm module. Also loaded by the page itself where it may have no worker.
+// The worker: one task at a time, each in the core of its wasm module. Also loaded by the page
+// itself where it may have no worker.
 
 import { buffersOf, type Core, makeCore } from './core.js';
 import type { PlainError } from './errors.js';
@@ -11,7 +12,7 @@ import {
   type ToWorker,
 } from './protocol.js';
 
-export { makeCore, makeTriangulator } from './core.js';
+export { createBlockingTriangulator, makeCore } from './core.js';
 
 /** The port to whoever made this worker. */
 export interface Port {
@@ -57,7 +58,10 @@ export function serve(port: Port): void {
   port.post({ type: 'ready' }, []);
 }
 
-/** The name of our workers: a page's own worker may load this file too, and its messages are not for us. */
+/**
+ * The name of our workers: a page's own worker may load this file too, and its messages are not for
+ * us.
+ */
 const WORKER_NAME = 'gdel-wasm';
 
 declare const DedicatedWorkerGlobalScope: { new (): Worker & { name: string } } | undefined;

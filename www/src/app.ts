@@ -2,7 +2,7 @@ import * as Comlink from 'comlink';
 import type { Filter } from './geometry/filter';
 import { connect } from './model/client';
 import type { Edit } from './model/edits';
-import { type Drawing, type DrawRequest, MOST_POINTS_TO_RECORD, type Summary } from './model/model';
+import { type Drawing, type DrawRequest, MAX_POINTS_TO_RECORD, type Summary } from './model/model';
 import { type Dimension, type Source, titleOf } from './model/source';
 import type { Progress } from './model/worker';
 import type { Page, Part } from './page';
@@ -38,7 +38,10 @@ import { usePanel } from './ui/usePanel';
 import { viewPanel } from './ui/viewPanel';
 import type { Viewer } from './view/viewer';
 
-/** Ties the parts together: settings and points in, the model in its worker, the drawing and the panels out. */
+/**
+ * Ties the parts together: settings and points in, the model in its worker, the drawing and the
+ * panels out.
+ */
 export class App implements Page {
   settings: Settings = fromHash(location.hash);
   readonly model = connect();
@@ -88,10 +91,10 @@ export class App implements Page {
   }
 
   run(source: Source, settings: Partial<Settings> = {}): Promise<boolean> {
-    const { edits = [], engine = this.settings.engine } = settings;
+    const { edits = [], backend = this.settings.backend } = settings;
     return whileBusy(
       this.newRun(source, { edits, ...settings }, (onProgress) =>
-        this.model.run(source, edits, engine, onProgress),
+        this.model.run(source, edits, backend, onProgress),
       ),
     );
   }
@@ -112,7 +115,7 @@ export class App implements Page {
         alpha: null,
       });
     }
-    void this.run(to.source, { ...to, engine: settings.engine });
+    void this.run(to.source, { ...to, backend: settings.backend });
   }
 
   edit(edits: readonly Edit[]): Promise<void> {
@@ -131,7 +134,7 @@ export class App implements Page {
         done = this.settings.edits;
         const { summary, drawing, positions, hull } = await this.model.edit(
           done,
-          this.settings.engine,
+          this.settings.backend,
           this.request(),
         );
         if (run !== this.lastRun) return;
@@ -232,9 +235,9 @@ export class App implements Page {
 
   private get canRecord(): boolean {
     return (
-      this.summary!.space === 3 &&
       this.summary!.dimension === 3 &&
-      this.summary!.points <= MOST_POINTS_TO_RECORD
+      this.summary!.dimension === 3 &&
+      this.summary!.points <= MAX_POINTS_TO_RECORD
     );
   }
 
@@ -256,12 +259,12 @@ export class App implements Page {
         () => this.cameraMoved(),
         () =>
           showMessage(
-            'The graphics card was reset, and the drawing with it. Reload the page to see it again.',
+            'The GPU was reset, and the drawing is lost. Reload the page to see it again.',
           ),
       );
     } catch {
       showMessage(
-        'This browser can draw neither with WebGPU nor with WebGL 2. Triangulating and downloading work all the same.',
+        'This browser can draw neither with WebGPU nor with WebGL 2. Triangulating and downloading still work.',
       );
       return;
     }
@@ -276,7 +279,7 @@ export class App implements Page {
   /** Gives the viewer what stays the same for a mesh, however it is cut. */
   private async newMesh(): Promise<void> {
     if (!this.viewer) return;
-    this.viewer.setDimension(this.summary!.space);
+    this.viewer.setDimension(this.summary!.dimension);
     this.viewer.pose = this.settings.camera;
     this.positions = await this.model.positions();
     this.viewer.showPoints(this.positions);
@@ -285,7 +288,10 @@ export class App implements Page {
     this.look();
   }
 
-  /** Draws what the settings say. Of settings that change while a drawing is made, only the last are drawn. */
+  /**
+   * Draws what the settings say. Of settings that change while a drawing is made, only the last are
+   * drawn.
+   */
   private draw(): Promise<void> {
     this.look();
     return whileBusy(this.followSettings().then(() => this.onScreen()));
@@ -386,8 +392,8 @@ export class App implements Page {
   /** The visitor followed a link to another view of this page. */
   private followHash(): void {
     const settings = fromHash(location.hash);
-    const pointsOf = ({ source, edits, engine }: Settings) =>
-      JSON.stringify([source, edits, engine]);
+    const pointsOf = ({ source, edits, backend }: Settings) =>
+      JSON.stringify([source, edits, backend]);
     if (pointsOf(settings) === pointsOf(this.settings)) this.change(settings);
     else void this.run(settings.source, settings);
   }
@@ -397,7 +403,7 @@ export class App implements Page {
 function complaint(source: Source, error: unknown): string {
   const { name, message } = error as Error;
   if (name === 'ABORTED' || name === 'AbortError')
-    return 'Cancelled. What you see is the triangulation before.';
+    return 'Cancelled. The previous triangulation is still shown.';
   const subject = source.kind === 'file' ? `${titleOf(source)}: ` : '';
   return `${subject}${message}`;
 }

@@ -18,22 +18,25 @@ export interface Page {
   /** What is on the screen; null before anything is. */
   readonly lastDrawing: Drawing | null;
   /**
-   * Gets points and triangulates them, and takes over the settings once there is a new mesh. Says what goes wrong on the page;
-   * resolves to whether there is one.
+   * Gets points and triangulates them, and takes over the settings once there is a new mesh. Says
+   * what goes wrong on the page; resolves to whether there is one.
    */
   run(source: Source, settings?: Partial<Settings>): Promise<boolean>;
-  /** Runs the present points again, on the GPU, and keeps what happened on the way. Resolves as {@link run}. */
+  /**
+   * Runs the present points again, on the GPU, and keeps what happened on the way. Resolves as
+   * {@link run}.
+   */
   record(): Promise<boolean>;
-  /** Goes to space or to the plane, to what was there before. */
+  /** Switches to 3D or 2D, to what was there before. */
   goTo(dimension: Dimension): void;
   /**
-   * Triangulates the points of the plane with these changes by hand instead of the present ones. Of changes that come faster than
-   * they can be triangulated, only the last count.
+   * Triangulates the 2D points with these changes by hand instead of the current ones. Of changes
+   * that come faster than they can be triangulated, only the last count.
    */
   edit(edits: readonly Edit[]): Promise<void>;
   /** The points as drawn; null before there are any. */
   readonly positions: Float32Array | null;
-  /** What a click on the plane does. */
+  /** What a click does in 2D. */
   tool: Tool;
   /** Shows and hides layers as the settings say, after other things were given to the viewer. */
   look(): void;

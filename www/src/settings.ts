@@ -1,7 +1,7 @@
+import type { Backend } from 'gdel-wasm';
 import type { Filter } from './geometry/filter';
 import type { ColorBy } from './geometry/scale';
 import { type Edit, editsFromText, editsToText } from './model/edits';
-import type { Engine } from './model/model';
 import {
   DISTRIBUTIONS,
   type Dimension,
@@ -18,16 +18,16 @@ export type Up = 'y' | 'z';
 export const LAYERS = ['simplices', 'edges', 'points', 'hull', 'facets', 'voronoi'] as const;
 export type Layer = (typeof LAYERS)[number];
 
-/** What a click on the plane does to points. */
+/** What a click does to 2D points. */
 export const TOOLS = ['move', 'add', 'remove'] as const;
 export type Tool = (typeof TOOLS)[number];
 
 /** Everything that makes up a view, and so a link. */
 export interface Settings {
   source: Source;
-  /** What was changed by hand, in the plane only. */
+  /** The changes by hand, in 2D only. */
   edits: readonly Edit[];
-  engine: Engine;
+  backend: Backend;
   color: ColorBy;
   map: ColorMapName;
   filter: Filter['kind'];
@@ -48,7 +48,10 @@ export function filterFor({ kind, dimension }: Source): Filter['kind'] {
   return kind === 'generator' || dimension === 2 ? 'all' : 'carve';
 }
 
-/** What tells most: inside a scan sizes differ by orders of magnitude, in a synthetic cloud shapes do. */
+/**
+ * What tells most: inside a scan sizes differ by orders of magnitude, in a synthetic cloud shapes
+ * do.
+ */
 export function colorFor(source: Source): ColorBy {
   return source.kind === 'generator' ? 'quality' : 'circumradius';
 }
@@ -61,13 +64,13 @@ export function upFor(source: Source): Up {
     : 'y';
 }
 
-/** Where the camera is at first: beside a model, above the plane. */
+/** Where the camera is at first: beside a 3D model, above a 2D one. */
 export const HOME: Record<Dimension, CameraPose> = {
   3: [0.5, 0.24, 2.85, 0, 0, 0],
   2: [0, 0, 2.7, 0, 0, 0],
 };
 
-/** What a visitor sees first, in space or in the plane. */
+/** What a visitor sees first in 3D or 2D. */
 export function defaults(dimension: Dimension = 3): Settings {
   const source: Source =
     dimension === 3
@@ -76,7 +79,7 @@ export function defaults(dimension: Dimension = 3): Settings {
   return {
     source,
     edits: [],
-    engine: 'auto',
+    backend: 'auto',
     color: colorFor(source),
     map: 'viridis',
     filter: filterFor(source),
@@ -97,7 +100,10 @@ export function defaults(dimension: Dimension = 3): Settings {
   };
 }
 
-/** The part of the address after '#'. Only what differs from the defaults is in it, and never a file. */
+/**
+ * The part of the address after '#'. Only what differs from the defaults is in it, and never a
+ * file.
+ */
 export function toHash(settings: Settings): string {
   const { source, edits } = settings;
   const start = defaults(source.dimension);
@@ -110,7 +116,7 @@ export function toHash(settings: Settings): string {
   start.filter = filterFor(source);
   start.up = upFor(source);
   start.color = colorFor(source);
-  for (const key of ['engine', 'color', 'map', 'filter', 'up'] as const) {
+  for (const key of ['backend', 'color', 'map', 'filter', 'up'] as const) {
     if (settings[key] !== start[key]) hash.set(key, settings[key]);
   }
   if (settings.alpha !== null) hash.set('alpha', String(Number(settings.alpha.toPrecision(4))));
@@ -125,7 +131,10 @@ export function toHash(settings: Settings): string {
   return hash.toString();
 }
 
-/** The settings in a hash. What is missing or makes no sense is as in the defaults: a link may come from anywhere. */
+/**
+ * The settings in a hash. What is missing or makes no sense is as in the defaults: a link may come
+ * from anywhere.
+ */
 export function fromHash(hash: string): Settings {
   const given = new URLSearchParams(hash.replace(/^#/, ''));
   const dimension = given.get('dim') === '2' ? 2 : 3;
@@ -135,7 +144,7 @@ export function fromHash(hash: string): Settings {
 
   settings.source = sourceFrom(given.get('points'), dimension) ?? settings.source;
   if (dimension === 2) settings.edits = editsFromText(given.get('edits') ?? '') ?? [];
-  settings.engine = choice('engine', ['auto', 'gpu', 'cpu'], settings.engine);
+  settings.backend = choice('backend', ['auto', 'gpu', 'cpu'], settings.backend);
   settings.color = choice('color', colorsIn(dimension), colorFor(settings.source));
   settings.map = choice('map', Object.keys(COLOR_MAPS) as ColorMapName[], settings.map);
   settings.filter = choice(
@@ -160,7 +169,7 @@ export function fromHash(hash: string): Settings {
   return settings;
 }
 
-/** The quantities that there are in space or in the plane. */
+/** Returns the quantities that exist in a dimension. */
 export function colorsIn(dimension: Dimension): ColorBy[] {
   return dimension === 3
     ? ['quality', 'volume', 'circumradius', 'phase']
@@ -173,9 +182,9 @@ function sourceFrom(text: string | null, dimension: Dimension): Source | null {
     return { kind: 'sample', dimension, sample: text as Sample };
   const [distribution, count, seed] = text.split('_');
   const points = Number(count);
-  const least = dimension === 3 ? 1 : 0;
+  const min = dimension === 3 ? 1 : 0;
   if (!Object.hasOwn(DISTRIBUTIONS[dimension], distribution) || !count) return null;
-  if (!Number.isSafeInteger(points) || points < least || points > MOST_POINTS) return null;
+  if (!Number.isSafeInteger(points) || points < min || points > MAX_POINTS) return null;
   const start = Number(seed);
   return generator(
     dimension,
@@ -198,7 +207,7 @@ export function generator(
 }
 
 /** More points than this would be asking a browser for trouble. */
-export const MOST_POINTS = 10_000_000;
+export const MAX_POINTS = 10_000_000;
 
 function numbers(text: string | null, count: number): number[] | null {
   const values = text?.split('_').map(Number);

@@ -1,4 +1,5 @@
-// What all tests of the page need: the built page behind a static server, and Chromium with or without WebGPU.
+// What all tests of the page need: the built page behind a static server, and Chromium with or
+// without WebGPU.
 
 import { execFileSync } from 'node:child_process';
 import { mkdirSync } from 'node:fs';
@@ -25,7 +26,8 @@ export async function serve() {
   };
 }
 
-// SwiftShader, Chromium's software rasteriser. Without its Vulkan, headless Chromium cannot show what WebGPU draws.
+// SwiftShader, Chromium's software rasteriser. Without its Vulkan, headless Chromium cannot show
+// what WebGPU draws.
 const WEBGPU = [
   ...COMPUTE,
   '--enable-features=Vulkan',
@@ -37,10 +39,15 @@ export function launch({ webgpu = true } = {}) {
   return launchChromium(webgpu ? WEBGPU : ['--enable-unsafe-swiftshader']);
 }
 
-/** How long a page may take for one thing before it counts as hung. No machine needs nearly as long. */
+/**
+ * How long a page may take for one thing before it counts as hung. No machine needs nearly as long.
+ */
 const HANG = 300_000;
 
-/** Opens the page and waits for the first drawing. Collects the errors that the page does not handle, and the paths of all files that it loads. */
+/**
+ * Opens the page and waits for the first drawing. Collects the errors that the page does not
+ * handle, and the paths of all files that it loads.
+ */
 export async function open(browser, url, { hang = HANG, ...options } = {}) {
   // A context of its own: axe needs one, and no visit sees what another left.
   const context = await browser.newContext({
@@ -61,16 +68,17 @@ export async function open(browser, url, { hang = HANG, ...options } = {}) {
 }
 
 /**
- * Waits until the page has done what it was asked to do: what it says and what it draws belong to the last request. Handlers
- * of events mark the page as busy before they return, so this can be called right after an event.
+ * Waits until the page has done what it was asked to do: what it says and what it draws belong to
+ * the last request. Handlers of events mark the page as busy before they return, so this can be
+ * called right after an event.
  */
 export async function settled(page) {
   await page.locator('#stage[aria-busy="false"]').waitFor({ state: 'attached' });
 }
 
 /**
- * Waits for a condition on something that does not make the page busy: its address, a chart, the live mode. Asks by the
- * clock, because a page that has nothing to draw gets no frames.
+ * Waits for a condition on something that does not make the page busy: its address, a chart, the
+ * live mode. Asks by the clock, because a page that has nothing to draw gets no frames.
  */
 export async function until(page, condition, argument) {
   await page.waitForFunction(condition, argument, { polling: 50 });
@@ -122,11 +130,11 @@ export async function request(page, distribution, points) {
   await page.click('#generator button[type=submit]');
 }
 
-/** Generates points with a given engine, through the panel. */
-export async function generate(page, distribution, points, { engine = 'auto' } = {}) {
+/** Generates points with a given backend, through the panel. */
+export async function generate(page, distribution, points, { backend = 'auto' } = {}) {
   await tab(page, 'points');
-  if (!(await page.isChecked(`input[name=engine][value=${engine}]`)))
-    await choose(page, 'engine', engine);
+  if (!(await page.isChecked(`input[name=backend][value=${backend}]`)))
+    await choose(page, 'backend', backend);
   await request(page, distribution, points);
   await settled(page);
 }
@@ -155,11 +163,16 @@ export async function copied(page, button) {
   return page.evaluate(() => navigator.clipboard.readText());
 }
 
-/** Runs the points on all engines and returns what the page says of them. */
+/**
+ * Runs the points on both backends and the other library and returns what the page says of them.
+ */
 export async function compare(page) {
   await tab(page, 'compare');
   await page.click('#compare-run');
-  await until(page, () => document.querySelector('#compare-run').textContent === 'Run all engines');
+  await until(
+    page,
+    () => document.querySelector('#compare-run').textContent === 'Run the comparison',
+  );
   return text(page, 'times-note');
 }
 

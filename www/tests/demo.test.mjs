@@ -148,11 +148,11 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await other.context().close();
   });
 
-  test('compares engines and proves the mesh', async () => {
+  test('compares backends and proves the mesh', async () => {
     await generate(page, 'grid', 3000);
     const note = await compare(page);
-    assert.match(note, /GPU engine: left out/);
-    assert.match(note, /CPU engine: [\d,]+ tetrahedra, as many/);
+    assert.match(note, /GPU backend: left out/);
+    assert.match(note, /CPU backend: [\d,]+ tetrahedra, as many/);
     assert.match(note, /qhull-wasm: .* qhull-wasm took [\d.]+ times as long/);
     assert.equal(await page.locator('#times svg rect').count(), 2);
     const { note: verdict, passed, failed } = await prove(page);
@@ -167,7 +167,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await page.fill('#live-number', '500');
     await page.click('#live');
     await until(page, () =>
-      document.querySelector('#took').textContent.includes('frames a second'),
+      document.querySelector('#took').textContent.includes('frames per second'),
     );
     await page.locator('#live-times svg').waitFor();
     await pictureOf(page, 'live');
@@ -267,13 +267,13 @@ describe('without WebGPU', () => {
 
   test('works on the CPU, draws with WebGL, and says so', async () => {
     const page = await open(browser, server.url);
-    assert.match(await text(page, 'engine-used'), /^On the CPU: /);
+    assert.match(await text(page, 'backend-used'), /^On the CPU: /);
     assert.equal((await shown(page)).total, 246_218);
     await tab(page, 'use');
     await until(page, () => document.querySelector('#machine').textContent.includes('WebGL 2'));
     await pictureOf(page, 'no-webgpu');
     await tab(page, 'points');
-    await choose(page, 'engine', 'gpu');
+    await choose(page, 'backend', 'gpu');
     assert.ok(await page.locator('#message').isVisible());
     assert.match(await text(page, 'message-text'), /adapter/);
     assert.ok(numbers(await text(page, 'count')).length > 0);

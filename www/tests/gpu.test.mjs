@@ -1,4 +1,4 @@
-// The GPU engine in the page, on Chromium's software rasteriser.
+// The GPU backend in the page, on Chromium's software rasteriser.
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
@@ -32,9 +32,9 @@ after(async () => {
   await server.close();
 });
 
-/** What the page says of the present mesh, which comes from this engine. */
-async function countOn(page, engine) {
-  assert.ok((await text(page, 'engine-used')).startsWith(`On the ${engine}`));
+/** What the page says of the present mesh, which comes from this backend. */
+async function countOn(page, backend) {
+  assert.ok((await text(page, 'backend-used')).startsWith(`On the ${backend}`));
   const count = await text(page, 'count');
   assert.match(count, / points → [\d,]+ (tetrahedra|triangles)$/);
   return count;
@@ -42,7 +42,7 @@ async function countOn(page, engine) {
 
 test('gives the same on GPU and CPU', async () => {
   const onCpu = await countOn(page, 'CPU');
-  await choose(page, 'engine', 'gpu');
+  await choose(page, 'backend', 'gpu');
   assert.equal(await countOn(page, 'GPU'), onCpu);
 });
 
@@ -55,7 +55,7 @@ test('shows a recorded run round by round', async () => {
   const repair = await text(page, 'repair');
   const isDelaunay = repair === 'Every facet was locally Delaunay after Phase 1.';
   if (!isDelaunay)
-    assert.match(repair, /^Facets that were not .* Splaying repaired 100 % of them\./);
+    assert.match(repair, /^Facets that were not .* Star splaying repaired 100 % of them\./);
   const result = (await shown(page)).total;
   await slide(page, 'step', 0);
   assert.match(await text(page, 'step-label'), /^After round 1 of/);
@@ -76,14 +76,16 @@ test('shows a recorded run round by round', async () => {
   await pictureOf(page, 'phase');
 });
 
-test('shows what happened in the plane', async () => {
-  const page = await open(browser, `${server.url}#dim=2&points=uniform_500_1&engine=gpu`, { hang });
+test('shows what happened in 2D', async () => {
+  const page = await open(browser, `${server.url}#dim=2&points=uniform_500_1&backend=gpu`, {
+    hang,
+  });
   const onGpu = await countOn(page, 'GPU');
   await tab(page, 'run');
   await page.locator('#rounds-chart svg').first().waitFor();
   await pictureOf(page, 'plane-run');
   await tab(page, 'points');
-  await choose(page, 'engine', 'cpu');
+  await choose(page, 'backend', 'cpu');
   assert.equal(await countOn(page, 'CPU'), onGpu);
   await page.context().close();
 });

@@ -1,4 +1,5 @@
-// The parts of the page that work without one. They are TypeScript, which Vite loads as it does for the page.
+// The parts of the page that work without one. They are TypeScript, which Vite loads as it does for
+// the page.
 
 import { readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';

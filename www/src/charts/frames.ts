@@ -2,7 +2,7 @@ import { CHART, chart } from './theme';
 
 /** The last frames' times in milliseconds, as a line. */
 export function framesChart(milliseconds: readonly number[]): Promise<Element> {
-  return chart('Milliseconds to triangulate each of the last frames', (Plot) => ({
+  return chart('Milliseconds per frame to triangulate, for the last frames', (Plot) => ({
     ...CHART,
     height: 84,
     marginLeft: 28,

@@ -4,7 +4,10 @@ export const CHART = {
   style: { background: 'none', color: 'var(--ink)', fontFamily: 'var(--sans)', fontSize: '11px' },
 } as const;
 
-/** Draws a chart with Observable Plot, which is fetched when the first is wanted. To a screen reader it is one picture with a description, not the parts that Plot names. */
+/**
+ * Draws a chart with Observable Plot, which is fetched when the first is wanted. To a screen reader
+ * it is one picture with a description, not the parts that Plot names.
+ */
 export async function chart(
   description: string,
   options: (Plot: typeof import('@observablehq/plot')) => import('@observablehq/plot').PlotOptions,

@@ -2,16 +2,16 @@ import { duration } from '../ui/dom';
 import { CHART, chart } from './theme';
 
 export interface Time {
-  engine: string;
+  name: string;
   milliseconds: number;
-  /** The page's own engines are set off from the others. */
+  /** The page's own backends are set off from the others. */
   ours: boolean;
 }
 
 /** Times side by side. */
 export function timesChart(times: readonly Time[]): Promise<Element> {
   return chart(
-    times.map(({ engine, milliseconds }) => `${engine}: ${duration(milliseconds)}`).join(', '),
+    times.map(({ name, milliseconds }) => `${name}: ${duration(milliseconds)}`).join(', '),
     (Plot) => ({
       ...CHART,
       height: 20 + 44 * times.length,
@@ -20,23 +20,23 @@ export function timesChart(times: readonly Time[]): Promise<Element> {
       marginTop: 8,
       marginBottom: 4,
       x: { axis: null },
-      y: { axis: null, domain: times.map(({ engine }) => engine), padding: 0.62 },
+      y: { axis: null, domain: times.map(({ name }) => name), padding: 0.62 },
       marks: [
         Plot.barX(times, {
-          y: 'engine',
+          y: 'name',
           x: 'milliseconds',
           fill: (d) => (d.ours ? 'var(--accent)' : 'var(--muted)'),
         }),
         Plot.text(times, {
-          y: 'engine',
+          y: 'name',
           x: 0,
-          text: 'engine',
+          text: 'name',
           textAnchor: 'start',
           dy: -15,
           fill: 'currentColor',
         }),
         Plot.text(times, {
-          y: 'engine',
+          y: 'name',
           x: 'milliseconds',
           text: (d) => duration(d.milliseconds),
           textAnchor: 'start',

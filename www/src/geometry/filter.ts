@@ -1,15 +1,15 @@
 import { facetCircumradiusSquared } from './measures';
 import { FACETS } from './mesh';
 
-/** Which tetrahedra a filter keeps, before the plane cuts. */
+/** Which tetrahedra a filter keeps, before the cutting plane cuts. */
 export type Filter =
   /** Every tetrahedron: the points' convex hull is full. */
   | { kind: 'all' }
   /** The alpha complex's tetrahedra: those with a circumradius of at most alpha. */
   | { kind: 'alpha'; alpha: number }
   /**
-   * What a ball of radius alpha cannot carve away from outside: it enters through the facets whose circumcircle is larger
-   * than it. Of a scanned surface, this leaves the solid.
+   * What a ball of radius alpha cannot carve away from outside: it enters through the facets whose
+   * circumcircle is larger than it. Of a scanned surface, this leaves the solid.
    */
   | { kind: 'carve'; alpha: number };
 
@@ -99,8 +99,8 @@ function carve(
 }
 
 /**
- * An alpha that suits a cloud: ten times the typical distance between neighbouring points, measured as the median of the
- * shortest edges of a sample of the simplices, tetrahedra or triangles.
+ * An alpha that suits a cloud: ten times the typical distance between neighbouring points, measured
+ * as the median of the shortest edges of a sample of the simplices, tetrahedra or triangles.
  */
 export function typicalAlpha(
   points: ArrayLike<number>,
@@ -113,7 +113,7 @@ export function typicalAlpha(
   const shortest = new Float64Array(samples);
   for (let i = 0; i < samples; i++) {
     const t = corners * Math.floor((i * count) / samples);
-    let least = Infinity;
+    let min = Infinity;
     for (let j = 0; j < corners; j++) {
       for (let k = j + 1; k < corners; k++) {
         let squared = 0;
@@ -123,10 +123,10 @@ export function typicalAlpha(
               points[dimension * simplices[t + k] + axis]) **
             2;
         }
-        least = Math.min(least, squared);
+        min = Math.min(min, squared);
       }
     }
-    shortest[i] = Math.sqrt(least);
+    shortest[i] = Math.sqrt(min);
   }
   shortest.sort();
   return samples > 0 ? 10 * shortest[samples >> 1] : 0;

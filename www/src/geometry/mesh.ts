@@ -4,12 +4,16 @@ export interface Tetrahedralisation {
   positions: Float32Array;
   /** Four point indices a tetrahedron, positively oriented. */
   tetrahedra: Uint32Array;
-  /** Four a tetrahedron: entry k is the tetrahedron across the facet opposite vertex k, -1 outside the hull. */
+  /**
+   * Four a tetrahedron: entry k is the tetrahedron across the facet opposite vertex k, -1 outside
+   * the hull.
+   */
   neighbors: Int32Array;
 }
 
 /**
- * The corners of the facet opposite vertex k, counter-clockwise as seen from outside the tetrahedron: entries 3k … 3k + 2.
+ * The corners of the facet opposite vertex k, counter-clockwise as seen from outside the
+ * tetrahedron: entries 3k … 3k + 2.
  */
 export const FACETS = Uint8Array.of(1, 2, 3, 0, 3, 2, 0, 1, 3, 0, 2, 1);
 
@@ -19,7 +23,10 @@ export interface Frame {
   scale: number;
 }
 
-/** The frame that moves the bounding box of points, of two or three coordinates each, into the unit ball. */
+/**
+ * The frame that moves the bounding box of points, of two or three coordinates each, into the unit
+ * ball.
+ */
 export function frameOf(points: ArrayLike<number>, dimension: 2 | 3 = 3): Frame {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
@@ -42,7 +49,10 @@ export function frameOf(points: ArrayLike<number>, dimension: 2 | 3 = 3): Frame 
   return { center, scale: radius > 0 ? 1 / radius : 1 };
 }
 
-/** The points in the frame, three coordinates each. The difference is taken in double precision, so large offsets do no harm. */
+/**
+ * The points in the frame, three coordinates each. The difference is taken in double precision, so
+ * large offsets do no harm.
+ */
 export function toFrame(
   points: ArrayLike<number>,
   { center, scale }: Frame,

@@ -17,8 +17,9 @@ export interface Pieces {
 }
 
 /**
- * Of the tetrahedra that a filter keeps below a level, those nearest to the surface, at most `most`: layer by layer, from the
- * facets of the boundary inwards. What lies deeper could hardly be seen.
+ * Of the tetrahedra that a filter keeps below a level, those nearest to the surface, at most
+ * `most`: layer by layer, from the facets of the boundary inwards. What lies deeper could hardly be
+ * seen.
  */
 export function outermost(
   { neighbors }: Tetrahedralisation,
@@ -74,8 +75,8 @@ export function piecesOf(
 }
 
 /**
- * The pieces' facets as triangles, nine coordinates each, four a piece: moved apart by `apart` times their centroids, and the
- * whole scaled down to the size it had.
+ * The pieces' facets as triangles, nine coordinates each, four a piece: moved apart by `apart`
+ * times their centroids, and the whole scaled down to the size it had.
  */
 export function trianglesOf({ a, b, c, d, owners }: Pieces, apart: number): Float32Array {
   const corners = [a, b, c, d];

@@ -1,6 +1,8 @@
 import type { Tetrahedralisation } from './mesh';
 
-/** The cutting plane in the frame of the drawing: what lies on the side of its normal is cut away. */
+/**
+ * The cutting plane in the frame of the drawing: what lies on the side of its normal is cut away.
+ */
 export interface Plane {
   /** Of length 1. */
   normal: readonly [number, number, number];
@@ -9,8 +11,8 @@ export interface Plane {
 }
 
 /**
- * A mesh measured along one direction, so that moving the plane along it needs no look at most of the neighbours: 50 million
- * memory accesses fewer at a million points.
+ * A mesh measured along one direction, so that moving the plane along it needs no look at most of
+ * the neighbours: 50 million memory accesses fewer at a million points.
  */
 export interface Heights {
   normal: readonly [number, number, number];

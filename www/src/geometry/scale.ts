@@ -11,8 +11,8 @@ export interface ColorScale {
 }
 
 /**
- * The scale for a quantity of the tetrahedra that a filter keeps: quality from 0 to 1, lengths and volumes from the 1st to the
- * 99th percentile, by logarithm.
+ * The scale for a quantity of the tetrahedra that a filter keeps: quality from 0 to 1, lengths and
+ * volumes from the 1st to the 99th percentile, by logarithm.
  */
 export function scaleFor(by: ColorBy, measures: Measures, kept: Uint8Array): ColorScale {
   if (by === 'quality') return { by, domain: [0, 1], kind: 'linear' };
@@ -21,7 +21,9 @@ export function scaleFor(by: ColorBy, measures: Measures, kept: Uint8Array): Col
   return { by, domain: [low, high], kind: 'log' };
 }
 
-/** From a tetrahedron to its position on the map, 0 to 1. `created`: 1 for those that Phase 2 made. */
+/**
+ * From a tetrahedron to its position on the map, 0 to 1. `created`: 1 for those that Phase 2 made.
+ */
 export function mapping(
   { by, domain: [low, high], kind }: ColorScale,
   measures: Measures,

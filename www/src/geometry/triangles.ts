@@ -1,21 +1,27 @@
 import type { Measures } from './measures';
 import type { Surface } from './surface';
 
-/** A triangulation of the plane as the drawing code sees it. */
+/** A 2D triangulation as the drawing code sees it. */
 export interface Triangulation {
   /** Three coordinates a point, the third 0: moved and scaled into the unit circle. */
   positions: Float32Array;
   /** Three point indices a triangle, clockwise with y up. */
   triangles: Uint32Array;
-  /** Three a triangle: the half-edge that runs against the one from vertex k to the next, -1 on the hull. */
+  /**
+   * Three a triangle: the half-edge that runs against the one from vertex k to the next, -1 on the
+   * hull.
+   */
   halfedges: Int32Array;
-  /** The vertices of the hull in order, clockwise with y up; the distinct points in order where all are collinear. */
+  /**
+   * The vertices of the hull in order, clockwise with y up; the distinct points in order where all
+   * are collinear.
+   */
   hull: Uint32Array;
 }
 
 /**
- * Area (in the place of the volume), circumradius, and radius ratio 2 · inradius / circumradius of every triangle, in double
- * precision.
+ * Area (in the place of the volume), circumradius, and radius ratio 2 · inradius / circumradius of
+ * every triangle, in double precision.
  */
 export function measureTriangles(points: ArrayLike<number>, triangles: Uint32Array): Measures {
   const count = triangles.length / 3;

@@ -17,13 +17,14 @@ export interface Voronoi {
 /**
  * The edges of the Voronoi diagram within a box; the third coordinate of their ends is 0.
  *
- * Each lies on the bisector of a Delaunay edge, from the circumcentre of the triangle on one side to that of the other; on the
- * hull it goes on outwards without end, also where that circumcentre lies outside of the hull. Circumcentres are not computed:
- * those of thin triangles are too far away for numbers. What is, is their place on the bisector. It errs only along it.
+ * Each lies on the bisector of a Delaunay edge, from the circumcentre of the triangle on one side
+ * to that of the other; on the hull it goes on outwards without end, also where that circumcentre
+ * lies outside of the hull. Circumcentres are not computed: those of thin triangles are too far
+ * away for numbers. What is, is their place on the bisector. It errs only along it.
  *
- * 1. Where all points are collinear: the bisectors of neighbouring points.
- * 2. Else, of each pair of half-edges the first: from middle + s · normal, s = cot(angle opposite) / 2, to the same with the other
- *    side's -s, or to infinity.
+ * 1. Where all points are collinear: the bisectors of neighbouring points. 2. Else, of each pair of
+ * half-edges the first: from middle + s · normal, s = cot(angle opposite) / 2, to the same with the
+ * other side's -s, or to infinity.
  */
 export function voronoiEdges(
   points: ArrayLike<number>,
@@ -38,15 +39,18 @@ export function voronoiEdges(
   let from = 0;
   let to = 0;
   // Liang and Barsky's clipping, one axis.
-  const within = (at: number, by: number, least: number, most: number) => {
-    if (by === 0) return at >= least && at <= most;
-    const s = (least - at) / by;
-    const t = (most - at) / by;
+  const within = (at: number, by: number, min: number, max: number) => {
+    if (by === 0) return at >= min && at <= max;
+    const s = (min - at) / by;
+    const t = (max - at) / by;
     from = Math.max(from, Math.min(s, t));
     to = Math.min(to, Math.max(s, t));
     return from < to;
   };
-  /** The bisector of p and q, from a place on it to another, 0 between the two and 1 as far to the left of p → q as q is. */
+  /**
+   * The bisector of p and q, from a place on it to another, 0 between the two and 1 as far to the
+   * left of p → q as q is.
+   */
   const add = (p: number, q: number, start: number, stop: number) => {
     const px = (points[2 * p] - center[0]) * scale;
     const py = (points[2 * p + 1] - center[1]) * scale;
@@ -83,7 +87,10 @@ export function voronoiEdges(
   return { ends: lines.slice(0, end), box };
 }
 
-/** Half the cotangent of the angle opposite a half-edge: the circumcentre's distance from it, in lengths of the edge. */
+/**
+ * Half the cotangent of the angle opposite a half-edge: the circumcentre's distance from it, in
+ * lengths of the edge.
+ */
 function halfCotangent(points: ArrayLike<number>, triangles: Uint32Array, e: number): number {
   const [a, b, c] = [2 * triangles[e], 2 * triangles[next(e)], 2 * triangles[next(next(e))]];
   const ux = points[a] - points[c],

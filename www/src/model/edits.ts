@@ -1,11 +1,14 @@
-/** One change that a visitor made to the points of the plane by hand. */
+/** A change that a visitor made to 2D points by hand. */
 export type Edit =
   | { do: 'add'; at: [number, number] }
   | { do: 'move'; point: number; at: [number, number] }
   /** The points behind it move up. */
   | { do: 'remove'; point: number };
 
-/** The points, x, y, x, y, …, after all changes in order. What names a point that is not there changes nothing. */
+/**
+ * The points, x, y, x, y, …, after all changes in order. What names a point that is not there
+ * changes nothing.
+ */
 export function applyEdits(
   points: Float32Array | Float64Array,
   edits: readonly Edit[],

@@ -1,21 +1,24 @@
-import { type Engine as Gdel, generate, generate2d } from 'gdel-wasm';
+import { type Backend, generate, generate2d, type Triangulator } from 'gdel-wasm';
 import { frameOf } from '../geometry/mesh';
-import type { Drawing, DrawRequest, Engine, Model } from './model';
-import { PlaneModel } from './planeModel';
+import type { Drawing, DrawRequest, Model } from './model';
+import { Model2d } from './model2d';
+import { Model3d } from './model3d';
 import type { Dimension } from './source';
-import { SpaceModel } from './spaceModel';
 
 /** One frame of the live mode. */
 export interface LiveFrame {
   drawing: Drawing;
-  /** The points as drawn, in the plane; in space they are inside. */
+  /** The points as drawn, in 2D; in 3D they are inside the mesh. */
   positions: Float32Array | null;
   simplices: number;
   /** For the triangulation alone. */
   milliseconds: number;
 }
 
-/** Points of a ball or a disk that turn at different speeds, so that no two frames have the same triangulation. */
+/**
+ * Points of a ball or a disk that turn at different speeds, so that no two frames have the same
+ * triangulation.
+ */
 export class Live {
   private readonly moved: Float32Array;
   private constructor(
@@ -35,24 +38,24 @@ export class Live {
   }
 
   async frame(
-    gdel: Gdel,
-    engine: Engine,
+    triangulator: Triangulator,
+    backend: Backend,
     seconds: number,
     request: DrawRequest,
   ): Promise<{ model: Model; frame: LiveFrame }> {
-    const space = this.dimension === 3;
-    if (space) this.turnBall(seconds);
+    const is3d = this.dimension === 3;
+    if (is3d) this.turnBall(seconds);
     else this.stirDisk(seconds);
-    const model = space
-      ? await SpaceModel.make(gdel, this.moved, { engine, outputs: ['neighbors'] }, BALL)
-      : await PlaneModel.make(gdel, this.moved, { engine }, DISK);
+    const model = is3d
+      ? await Model3d.make(triangulator, this.moved, { backend, outputs: ['neighbors'] }, BALL)
+      : await Model2d.make(triangulator, this.moved, { backend }, DISK);
     const drawing = model.draw(request);
     const { milliseconds } = model.mesh.stats;
     return {
       model,
       frame: {
         drawing,
-        positions: space ? null : model.positions,
+        positions: is3d ? null : model.positions,
         simplices: drawing.total,
         milliseconds,
       },

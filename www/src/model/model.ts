@@ -1,4 +1,4 @@
-import type { EngineName, Stats } from 'gdel-wasm';
+import type { Stats } from 'gdel-wasm';
 import type { Filter } from '../geometry/filter';
 import type { Frame } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
@@ -10,22 +10,23 @@ import type { Voronoi } from '../geometry/voronoi';
 import type { Dimension } from './source';
 
 /** At most so many tetrahedra are drawn one by one when they are pulled apart. */
-export const MOST_PIECES = 300_000;
+export const MAX_PIECES = 300_000;
 
 /** At most so many facets are drawn: more would take gigabytes. */
-export const MOST_FACETS = 4_000_000;
+export const MAX_FACETS = 4_000_000;
 
-/** Of up to so many points, a run can be recorded: the triangulation after each round, and what flipping left. */
-export const MOST_POINTS_TO_RECORD = 40_000;
+/**
+ * Of up to so many points, a run can be recorded: the triangulation after each round, and what
+ * flipping left.
+ */
+export const MAX_POINTS_TO_RECORD = 40_000;
 
-export type Engine = EngineName;
-
-/** What a run gave, in numbers. */
+/** The result of a run in numbers. */
 export interface Summary {
-  /** 2 in the plane: then the simplices are triangles, and the hull's facets are edges. */
-  space: Dimension;
-  /** The points' own dimension: where it is less, there are no simplices. */
-  dimension: number;
+  /** In 2D the simplices are triangles, and the hull's facets are edges. */
+  dimension: Dimension;
+  /** The dimension of the points' affine hull. If it is smaller, there are no simplices. */
+  affineDimension: number;
   points: number;
   duplicates: number;
   simplices: number;
@@ -50,14 +51,14 @@ export interface Summary {
 /** What is to be drawn. */
 export interface DrawRequest {
   filter: Filter;
-  /** Cuts in space only. */
+  /** The cutting plane, in 3D only. */
   plane: Plane;
   color: ColorBy;
   /** Whether the tetrahedra are pulled apart. */
   pieces: boolean;
   /** The round to look at, or null for the result. */
   round: number | null;
-  /** Whether the Voronoi diagram is wanted; in the plane only. */
+  /** Whether the Voronoi diagram is wanted; in 2D only. */
   voronoi: boolean;
 }
 
@@ -67,12 +68,12 @@ export interface Drawing {
   pieces: Pieces | null;
   voronoi: Voronoi | null;
   scale: ColorScale;
-  /** How many simplices the filter and the plane leave, and of how many. */
+  /** How many simplices the filter and the cutting plane keep, and of how many. */
   shown: number;
   total: number;
   /** Facets that are not drawn, because there are too many. */
   leftOut: number;
-  /** How high the plane lies in the frame. Infinite where it cuts nothing. */
+  /** The height of the cutting plane in the frame. Infinite if it cuts nothing. */
   level: number;
   /** How long this took. */
   milliseconds: number;
@@ -87,7 +88,7 @@ export interface Picked {
   circumradius: number;
   radiusRatio: number;
   phase: 1 | 2 | null;
-  /** Its edges as drawn, in the plane with its circumcircle: two ends of three coordinates a line. */
+  /** Its edges as drawn, in 2D with its circumcircle: two ends of three coordinates per line. */
   outline: Float32Array;
 }
 

@@ -1,6 +1,6 @@
 import type { Mesh2, Mesh3 } from 'gdel-wasm';
 
-/** The formats that the package writes. TetGen's files are those of Triangle in the plane. */
+/** The formats that the package writes. In 2D, TetGen's files are those of Triangle. */
 export const FORMATS = ['VTU', 'TetGen', 'NPZ', 'PLY', 'OBJ', 'STL'] as const;
 export type Format = (typeof FORMATS)[number];
 

@@ -2,10 +2,13 @@ import { generate, generate2d, readPoints } from 'gdel-wasm';
 import bunny from '../../samples/bunny.f32.gz?url';
 import dragon from '../../samples/dragon.f32.gz?url';
 
-/** Space or the plane. */
+/** 3D or 2D. */
 export type Dimension = 2 | 3;
 
-/** The synthetic distributions: in space those of the paper's section 5.1, in the plane those of 5.6 and some hard ones. */
+/**
+ * The synthetic distributions: in 3D those of section 5.1 of the paper, in 2D those of 5.6 and some
+ * difficult ones.
+ */
 export const DISTRIBUTIONS = {
   3: {
     uniform: 'Uniform in a cube',
@@ -45,7 +48,7 @@ type Generator<D extends Dimension> = {
   seed: number;
 };
 
-/** Where points come from. In the plane, a file's z is left out. */
+/** Where points come from. In 2D, the z of a file is ignored. */
 export type Source =
   | { kind: 'sample'; dimension: 3; sample: Sample }
   | Generator<2>
@@ -65,7 +68,9 @@ export interface LoadOptions {
   onProgress: (progress: { phase: string; fraction: number }) => void;
 }
 
-/** Fetches, generates or reads the points: as many coordinates each as the source's dimension says. */
+/**
+ * Fetches, generates or reads the points: as many coordinates each as the source's dimension says.
+ */
 export async function load(
   source: Source,
   options: LoadOptions,

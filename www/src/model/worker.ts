@@ -1,14 +1,21 @@
 import * as Comlink from 'comlink';
-import { createEngine, type EngineInfo, GdelError, verify, verify2d } from 'gdel-wasm';
+import {
+  type Backend,
+  createTriangulator,
+  GdelError,
+  type TriangulatorInfo,
+  verify,
+  verify2d,
+} from 'gdel-wasm';
 import { frameOf } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
 import { applyEdits, type Edit } from './edits';
 import { Live, type LiveFrame } from './live';
-import type { Drawing, DrawRequest, Engine, Model, Picked, Summary } from './model';
-import { PlaneModel } from './planeModel';
+import type { Drawing, DrawRequest, Model, Picked, Summary } from './model';
+import { Model2d } from './model2d';
+import { Model3d } from './model3d';
 import { type Format, type SavedFile, save } from './save';
 import { type Dimension, load, type Source } from './source';
-import { SpaceModel } from './spaceModel';
 
 export type Progress = (progress: { phase: string; fraction: number }) => void;
 
@@ -22,43 +29,48 @@ export interface Edited {
 
 /** The points and the mesh live in this worker, so that the page never waits for them. */
 class ModelWorker {
-  private readonly gdel = createEngine();
-  private model: SpaceModel | PlaneModel | null = null;
-  /** The points of the plane before any change by hand. */
+  private readonly triangulator = createTriangulator();
+  private model: Model3d | Model2d | null = null;
+  /** The 2D points before any change by hand. */
   private start: Float32Array | Float64Array = new Float64Array();
   private live: Live | null = null;
   /** What the page shows: the mesh, or the last frame of the live mode. */
   private shown: Model | null = null;
   private abort = new AbortController();
 
-  /** Gets the points and triangulates them. The old mesh stays until the new one is there. */
+  /** Loads the points and triangulates them. The old mesh stays until the new one is ready. */
   run(
     source: Source,
     edits: readonly Edit[],
-    engine: Engine,
+    backend: Backend,
     onProgress: Progress,
   ): Promise<Summary> {
     return named(async () => {
       const signal = this.begin();
       const points = await load(source, { signal, onProgress });
-      const options = { engine, signal, onProgress };
-      const gdel = await this.gdel;
+      const options = { backend, signal, onProgress };
+      const triangulator = await this.triangulator;
       this.model =
         source.dimension === 3
-          ? await SpaceModel.make(gdel, points, options)
-          : await PlaneModel.make(gdel, applyEdits(points, edits), options, frameOf(points, 2));
+          ? await Model3d.make(triangulator, points, options)
+          : await Model2d.make(
+              triangulator,
+              applyEdits(points, edits),
+              options,
+              frameOf(points, 2),
+            );
       this.start = points;
       onProgress({ phase: 'Measuring', fraction: 1 });
       return this.model.summary();
     });
   }
 
-  /** Triangulates the points of the plane with other changes, in the same frame. */
-  edit(edits: readonly Edit[], engine: Engine, request: DrawRequest): Promise<Edited> {
+  /** Triangulates the 2D points with other changes, in the same frame. */
+  edit(edits: readonly Edit[], backend: Backend, request: DrawRequest): Promise<Edited> {
     return named(async () => {
-      const options = { engine, signal: this.begin() };
-      const model = await PlaneModel.make(
-        await this.gdel,
+      const options = { backend, signal: this.begin() };
+      const model = await Model2d.make(
+        await this.triangulator,
         applyEdits(this.start, edits),
         options,
         this.current.frame,
@@ -73,38 +85,44 @@ class ModelWorker {
     });
   }
 
-  /** Triangulates the present points of space once more, on the GPU, and keeps what happened on the way. */
+  /**
+   * Triangulates the current 3D points again, on the GPU, and records the intermediate
+   * triangulations.
+   */
   record(onProgress: Progress): Promise<Summary> {
     return named(async () => {
       const options = {
-        engine: 'gpu',
+        backend: 'gpu',
         signal: this.begin(),
         onProgress,
         outputs: [...ALL, 'trace'],
       } as const;
-      this.model = await SpaceModel.make(await this.gdel, this.current.points, options);
+      this.model = await Model3d.make(await this.triangulator, this.current.points, options);
       return this.model.summary();
     });
   }
 
-  /** Triangulates the present points once more, for the comparison. */
-  time(engine: Engine): Promise<{ milliseconds: number; simplices: number }> {
+  /** Triangulates the current points again, for the comparison. */
+  time(backend: Backend): Promise<{ milliseconds: number; simplices: number }> {
     return named(async () => {
-      const gdel = await this.gdel;
+      const triangulator = await this.triangulator;
       const { points } = this.current;
-      const options = { engine, signal: this.begin() };
-      if (this.current instanceof PlaneModel) {
-        const { stats, triangles } = await gdel.delaunay2d(points, options);
+      const options = { backend, signal: this.begin() };
+      if (this.current instanceof Model2d) {
+        const { stats, triangles } = await triangulator.delaunay2d(points, options);
         return { milliseconds: stats.milliseconds, simplices: triangles.length / 3 };
       }
-      const { stats, tetrahedra } = await gdel.delaunay3d(points, { ...options, outputs: [] });
+      const { stats, tetrahedra } = await triangulator.delaunay3d(points, {
+        ...options,
+        outputs: [],
+      });
       return { milliseconds: stats.milliseconds, simplices: tetrahedra.length / 4 };
     });
   }
 
-  /** What the engines work with here. */
-  info(): Promise<EngineInfo> {
-    return named(async () => (await this.gdel).info);
+  /** Returns what the triangulator uses here. */
+  info(): Promise<TriangulatorInfo> {
+    return named(async () => (await this.triangulator).info);
   }
 
   cancel(): void {
@@ -136,13 +154,13 @@ class ModelWorker {
 
   /** The facets that were not locally Delaunay after Phase 1, where the run was recorded. */
   nonDelaunayFacets(): Float32Array | null {
-    return this.current instanceof SpaceModel ? this.current.nonDelaunayFacets() : null;
+    return this.current instanceof Model3d ? this.current.nonDelaunayFacets() : null;
   }
 
   verify() {
     return named(async () => {
       const { current } = this;
-      const { checks } = await (current instanceof PlaneModel
+      const { checks } = await (current instanceof Model2d
         ? verify2d(current.points, current.mesh)
         : verify(current.points, current.mesh));
       return checks;
@@ -153,17 +171,22 @@ class ModelWorker {
     return named(() => save(this.current.mesh, format));
   }
 
-  /** Moves the points of the live mode to a moment, in seconds, and triangulates them. */
+  /** Moves the points of the live mode to a time in seconds, and triangulates them. */
   async liveFrame(
     dimension: Dimension,
     count: number,
-    engine: Engine,
+    backend: Backend,
     seconds: number,
     request: DrawRequest,
   ): Promise<LiveFrame> {
     if (this.live?.dimension !== dimension || this.live.count !== count)
       this.live = await Live.make(dimension, count);
-    const { model, frame } = await this.live.frame(await this.gdel, engine, seconds, request);
+    const { model, frame } = await this.live.frame(
+      await this.triangulator,
+      backend,
+      seconds,
+      request,
+    );
     this.shown = model;
     return frame;
   }
@@ -174,7 +197,7 @@ class ModelWorker {
     return this.abort.signal;
   }
 
-  private get current(): SpaceModel | PlaneModel {
+  private get current(): Model3d | Model2d {
     if (!this.model) throw new Error('There is no mesh yet.');
     return this.model;
   }

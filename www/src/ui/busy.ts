@@ -3,8 +3,8 @@ import { byId } from './dom';
 let pending = 0;
 
 /**
- * Marks the stage as busy until `work` is done. Assistive technology then announces results once, when they and the drawing
- * belong together, and tests wait for it.
+ * Marks the stage as busy until `work` is done. Assistive technology then announces results once,
+ * when they and the drawing belong together, and tests wait for it.
  */
 export async function whileBusy<T>(work: Promise<T>): Promise<T> {
   pending++;

@@ -4,7 +4,7 @@ import type { Page, Part } from '../page';
 import { byId, count, create, duration } from './dom';
 import { nameOf } from './result';
 
-/** The panel that runs the same points on other engines, and the one that proves the mesh. */
+/** The panel that runs the same points with other libraries, and the one that proves the mesh. */
 export function comparePanel(page: Page): Part {
   byId('compare-run').addEventListener('click', () => void compare(page));
   byId('verify-run').addEventListener('click', () => void prove(page));
@@ -28,9 +28,9 @@ async function compare(page: Page): Promise<void> {
   }
   const { signal } = (abort = new AbortController());
   signal.addEventListener('abort', () => page.model.cancel());
-  const { space, simplices } = page.summary!;
-  const cells = space === 3 ? 'tetrahedra' : 'triangles';
-  const other = space === 3 ? 'qhull-wasm' : 'delaunator';
+  const { dimension, simplices } = page.summary!;
+  const cells = dimension === 3 ? 'tetrahedra' : 'triangles';
+  const other = dimension === 3 ? 'qhull-wasm' : 'delaunator';
   const times: Time[] = [];
   const notes: string[] = [];
   const add = async (time: Time, note: string) => {
@@ -47,34 +47,34 @@ async function compare(page: Page): Promise<void> {
   button.textContent = 'Stop';
   try {
     const { adapter } = await page.model.info();
-    for (const [engine, name] of [
-      ['gpu', 'GPU engine'],
-      ['cpu', 'CPU engine'],
+    for (const [backend, name] of [
+      ['gpu', 'GPU backend'],
+      ['cpu', 'CPU backend'],
     ] as const) {
-      if (engine === 'gpu' && adapter?.software) {
+      if (backend === 'gpu' && adapter?.software) {
         notes.push(
-          `GPU engine: left out, because the adapter is only software (${nameOf(adapter)}).`,
+          `GPU backend: left out, because the adapter is only software (${nameOf(adapter)}).`,
         );
         continue;
       }
       say(`Running the ${name} …`);
       try {
-        const { milliseconds, simplices: found } = await page.model.time(engine);
-        await add({ engine: name, milliseconds, ours: true }, agree(name, found));
+        const { milliseconds, simplices: found } = await page.model.time(backend);
+        await add({ name, milliseconds, ours: true }, agree(name, found));
       } catch (error) {
         if (signal.aborted) throw error;
         notes.push(`${name}: ${(error as Error).message}`);
       }
     }
     say(
-      `Running ${other}${space === 3 ? '; at 100,000 points it takes seconds, at a million most of a minute' : ''} …`,
+      `Running ${other}${dimension === 3 ? '; it takes seconds for 100,000 points, and almost a minute for a million' : ''} …`,
     );
     const theirs = await runOther(other, await page.model.points(), signal);
     const flat = theirs.flat
-      ? ` ${count(theirs.flat)} of them have no ${space === 3 ? 'volume' : 'area'}.`
+      ? ` ${count(theirs.flat)} of them have no ${dimension === 3 ? 'volume' : 'area'}.`
       : '';
     await add(
-      { engine: other, milliseconds: theirs.milliseconds, ours: false },
+      { name: other, milliseconds: theirs.milliseconds, ours: false },
       agree(other, theirs.simplices) + flat,
     );
     const fastest = times
@@ -82,7 +82,7 @@ async function compare(page: Page): Promise<void> {
       .sort((a, b) => a.milliseconds - b.milliseconds)[0];
     if (fastest)
       notes.push(
-        `${other} took ${(theirs.milliseconds / fastest.milliseconds).toFixed(1)} times as long as the ${fastest.engine}.`,
+        `${other} took ${(theirs.milliseconds / fastest.milliseconds).toFixed(1)} times as long as the ${fastest.name}.`,
       );
     byId('times-note').textContent = notes.join(' ');
   } catch (error) {
@@ -90,7 +90,7 @@ async function compare(page: Page): Promise<void> {
     byId('times-note').textContent = notes.join(' ');
   } finally {
     abort = null;
-    button.textContent = 'Run all engines';
+    button.textContent = 'Run the comparison';
     say('');
   }
 }

@@ -2,7 +2,7 @@ import type { Dimension } from '../model/source';
 import type { Page, Part } from '../page';
 import { radios } from './dom';
 
-/** The switch between space and the plane, which also says to the page's style what is to be seen. */
+/** The switch between 3D and 2D, which also tells the style sheet what to show. */
 export function dimensionSwitch(page: Page): Part {
   const buttons = radios('dimension', (value) => page.goTo(Number(value) as Dimension));
   return {

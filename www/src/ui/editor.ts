@@ -12,7 +12,10 @@ export const CLICK = 5;
 /** How far a point that is held moves with an arrow key, as a share of what is seen. */
 const NUDGE = 0.01;
 
-/** Points of the plane by hand: with the mouse, by touch, and with the keys, for a crosshair in the middle of the drawing. */
+/**
+ * Edits 2D points by hand: with the mouse, by touch, and with the keys, for a crosshair in the
+ * middle of the drawing.
+ */
 export function editor(page: Page): Part {
   const canvas = byId<HTMLCanvasElement>('canvas');
   const ring = byId('ring');
@@ -29,8 +32,8 @@ export function editor(page: Page): Part {
   const near = (x: number, y: number, reach: number): number | null => {
     const { viewer, positions } = page;
     if (!viewer || !positions) return null;
-    const [px, py] = viewer.onPlane(x, y);
-    const [ex] = viewer.onPlane(x + reach, y);
+    const [px, py] = viewer.at2d(x, y);
+    const [ex] = viewer.at2d(x + reach, y);
     let nearest = (ex - px) ** 2;
     let found: number | null = null;
     for (let i = 0; i < positions.length; i += 3) {
@@ -40,14 +43,17 @@ export function editor(page: Page): Part {
     return found;
   };
 
-  /** A place on the canvas in the input's units, rounded to a fraction of a pixel: so links stay short. */
+  /**
+   * A place on the canvas in the input's units, rounded to a fraction of a pixel: so links stay
+   * short.
+   */
   const place = (x: number, y: number): [number, number] => {
     const { viewer } = page;
     const { center, scale } = page.summary!.frame;
     const toInput = ([fx, fy]: [number, number]) =>
       [fx / scale + center[0], fy / scale + center[1]] as const;
-    const [ix, iy] = toInput(viewer!.onPlane(x, y));
-    const pixel = toInput(viewer!.onPlane(x + 1, y))[0] - ix;
+    const [ix, iy] = toInput(viewer!.at2d(x, y));
+    const pixel = toInput(viewer!.at2d(x + 1, y))[0] - ix;
     const digits = Math.min(15, Math.max(0, 1 - Math.floor(Math.log10(pixel))));
     return [Number(ix.toFixed(digits)), Number(iy.toFixed(digits))];
   };
@@ -147,7 +153,7 @@ export function editor(page: Page): Part {
   };
   const takeBack = () => {
     if (page.settings.edits.length === 0) return;
-    said.textContent = 'Taken back';
+    said.textContent = 'Undone';
     void page.edit(page.settings.edits.slice(0, -1));
   };
   canvas.addEventListener('keydown', (event) => {

@@ -4,7 +4,7 @@ import { byId } from './dom';
 
 const TURN = Math.PI / 36;
 
-/** How far the view of the plane moves, as a share of what is seen. */
+/** How far the 2D view moves, as a share of what is visible. */
 const STEP = 0.08;
 
 /** The keys that work while the drawing has the focus. */

@@ -5,7 +5,10 @@ import { showLegend } from './legend';
 
 const KEPT = 120;
 
-/** The live mode: asks for one frame after the other, as fast as they come, until it is stopped or there is a new mesh. */
+/**
+ * The live mode: asks for one frame after the other, as fast as they come, until it is stopped or
+ * there is a new mesh.
+ */
 export function live(page: Page): Part {
   const button = byId<HTMLButtonElement>('live');
   const number = byId<HTMLInputElement>('live-number');
@@ -30,7 +33,7 @@ export function live(page: Page): Part {
     page.viewer?.showHull(null);
     page.viewer?.showFacets(null);
     // What they say is of the run before.
-    byId('engine-used').textContent = '';
+    byId('backend-used').textContent = '';
     byId('strip').hidden = true;
     const { dimension } = page.settings.source;
     let charted = 0;
@@ -39,7 +42,7 @@ export function live(page: Page): Part {
       const { settings, viewer } = page;
       const points = Math.min(200_000, Math.max(10, Math.round(number.valueAsNumber) || 3000));
       const seconds = (performance.now() - run) / 1000;
-      const frame = await page.model.liveFrame(dimension, points, settings.engine, seconds, {
+      const frame = await page.model.liveFrame(dimension, points, settings.backend, seconds, {
         filter: { kind: 'all' },
         plane: { normal: settings.normal, keep: settings.keep },
         color: settings.color === 'phase' ? 'quality' : settings.color,
@@ -65,11 +68,15 @@ export function live(page: Page): Part {
           `${count(points)} moving points → ${count(frame.simplices)} ${dimension === 3 ? 'tetrahedra' : 'triangles'}`;
         byId('took').replaceChildren(
           create('b', {}, duration(frame.milliseconds)),
-          create('span', {}, `a frame, ${measured(1000 / (now - last))} frames a second`),
+          create('span', {}, `per frame, ${measured(1000 / (now - last))} frames per second`),
         );
         const chart = await framesChart(frames);
         times.replaceChildren(
-          create('p', { className: 'note' }, 'Milliseconds to triangulate each of the last frames'),
+          create(
+            'p',
+            { className: 'note' },
+            'Milliseconds per frame to triangulate, for the last frames',
+          ),
           chart,
         );
       }

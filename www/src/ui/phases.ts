@@ -1,6 +1,6 @@
 /**
- * One colour a phase, the same in every chart: Okabe and Ito's, which stay apart with colour blindness. First those of the CPU
- * engine, then those of the GPU engine.
+ * One colour a phase, the same in every chart: Okabe and Ito's, which stay apart with colour
+ * blindness. First those of the CPU backend, then those of the GPU backend.
  */
 const COLORS: Record<string, string> = {
   sort: '#0072b2',

@@ -4,7 +4,10 @@ import type { Page, Part } from '../page';
 import { byId, count, create, measured } from './dom';
 import { CLICK } from './editor';
 
-/** Shows the simplex under the pointer: its outline on the model, in the plane with its circumcircle, and its numbers beside it. */
+/**
+ * Shows the simplex under the pointer: its outline on the model, in 2D with its circumcircle, and
+ * its numbers beside it.
+ */
 export function pointer(page: Page): Part {
   const canvas = byId<HTMLCanvasElement>('canvas');
   const tip = byId('tip');
@@ -32,7 +35,7 @@ export function pointer(page: Page): Part {
     busy = false;
   };
 
-  /** In the plane, other tools have other uses for a click. */
+  /** In 2D, other tools have other uses for a click. */
   const asks = () => page.settings.source.dimension === 3 || page.tool === 'move';
   let pressed: { x: number; y: number } | null = null;
 

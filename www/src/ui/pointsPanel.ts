@@ -1,4 +1,4 @@
-import type { Engine } from '../model/model';
+import type { Backend } from 'gdel-wasm';
 import { DISTRIBUTIONS, type Dimension, SAMPLES, type Sample } from '../model/source';
 import type { Page, Part } from '../page';
 import { generator } from '../settings';
@@ -6,7 +6,7 @@ import { byId, count, create, radios } from './dom';
 
 const QUICK = [1_000, 10_000, 100_000, 1_000_000];
 
-/** The panel with the samples, the generators, the file button and the choice of engine. */
+/** The panel with the samples, the generators, the file button and the choice of backend. */
 export function pointsPanel(page: Page): Part {
   const samples = Object.entries(SAMPLES).map(([name, { title, points }]) => {
     const button = create(
@@ -55,9 +55,9 @@ export function pointsPanel(page: Page): Part {
     file.value = '';
   });
 
-  const engines = radios('engine', (engine) => {
+  const backends = radios('backend', (backend) => {
     const { source, edits } = page.settings;
-    page.run(source, { engine: engine as Engine, edits });
+    page.run(source, { backend: backend as Backend, edits });
   });
 
   let offered: Dimension | null = null;
@@ -74,7 +74,7 @@ export function pointsPanel(page: Page): Part {
   };
 
   return {
-    changed({ source, engine }) {
+    changed({ source, backend }) {
       offer(source.dimension);
       for (const { name, button } of samples) {
         button.setAttribute(
@@ -87,7 +87,7 @@ export function pointsPanel(page: Page): Part {
         number.value = String(source.count);
         seed.value = String(source.seed);
       }
-      for (const radio of engines) radio.checked = radio.value === engine;
+      for (const radio of backends) radio.checked = radio.value === backend;
     },
   };
 }

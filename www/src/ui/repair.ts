@@ -9,6 +9,6 @@ export function repairOf(
   if (nonDelaunayFacets === 0) return 'Every facet was locally Delaunay after Phase 1.';
   return (
     `Facets that were not locally Delaunay after Phase 1: ${count(nonDelaunayFacets)}, ${share(nonDelaunayFacets, 2 * simplices + hullFacets / 2)} of all. ` +
-    `Splaying repaired ${share(repaired, nonDelaunayFacets)} of them. It made ${count(splayed)} of the tetrahedra, ${share(splayed, simplices)}.`
+    `Star splaying repaired ${share(repaired, nonDelaunayFacets)} of them. It created ${count(splayed)} of the tetrahedra, ${share(splayed, simplices)}.`
   );
 }

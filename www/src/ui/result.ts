@@ -4,24 +4,24 @@ import { byId, count, create, duration } from './dom';
 
 /** Says in the page's title block what came out, how long it took and what did it. */
 export function showResult(summary: Summary): void {
-  const { space, dimension, points, simplices } = summary;
-  const of = space === 3 ? 'tetrahedra' : 'triangles';
+  const { dimension, affineDimension, points, simplices } = summary;
+  const of = dimension === 3 ? 'tetrahedra' : 'triangles';
   byId('count').textContent =
-    dimension === space
+    affineDimension === dimension
       ? `${count(points)} points → ${count(simplices)} ${of}`
       : points < 2
         ? `${['No points', 'One point'][points]}, so there are no ${of}`
-        : `${count(points)} points: ${FLAT[dimension]}, so there are no ${of}`;
+        : `${count(points)} points: ${FLAT[affineDimension]}, so there are no ${of}`;
   byId('took').replaceChildren(create('b', {}, duration(summary.stats.milliseconds)));
-  byId('engine-used').textContent = engineOf(summary.stats);
+  byId('backend-used').textContent = backendOf(summary.stats);
 }
 
 const FLAT = ['all in one place', 'all on one line', 'all in one plane'];
 
-/** The engine and its adapter in words, and why the CPU engine where it took over. */
-export function engineOf({ engine, adapter, why }: Stats): string {
-  if (engine === 'gpu') return `On the GPU: ${adapter ? nameOf(adapter) : 'WebGPU'}`;
-  return why ? `On the CPU: ${why}` : 'On the CPU, in WebAssembly';
+/** Returns the backend and its adapter in words, or why it was the CPU. */
+export function backendOf({ backend, adapter, fallback }: Stats): string {
+  if (backend === 'gpu') return `On the GPU: ${adapter ? nameOf(adapter) : 'WebGPU'}`;
+  return fallback ? `On the CPU: ${fallback}` : 'On the CPU, in WebAssembly';
 }
 
 /** Browsers leave out much of what they know about an adapter. */

@@ -1,6 +1,6 @@
 import { breakdownChart, type Run } from '../charts/breakdown';
 import { roundsChart, timelineChart } from '../charts/rounds';
-import { MOST_POINTS_TO_RECORD, type Summary } from '../model/model';
+import { MAX_POINTS_TO_RECORD, type Summary } from '../model/model';
 import { titleOf } from '../model/source';
 import type { Page, Part } from '../page';
 import { byId, count, create } from './dom';
@@ -34,7 +34,7 @@ export function runPanel(page: Page): Part {
     stepper(summary);
     showFigures(summary);
     showRepair(summary);
-    const title = `${titleOf(page.settings.source)}, ${count(summary.points)}, ${summary.stats.engine.toUpperCase()}`;
+    const title = `${titleOf(page.settings.source)}, ${count(summary.points)}, ${summary.stats.backend.toUpperCase()}`;
     const again = runs.findIndex((run) => run.title === title);
     if (again >= 0) runs.splice(again, 1);
     runs.unshift({ title, phases: summary.stats.phases });
@@ -53,13 +53,20 @@ export function runPanel(page: Page): Part {
   };
 }
 
-function showFigures({ space, points, duplicates, simplices, hullFacets, stats }: Summary): void {
+function showFigures({
+  dimension,
+  points,
+  duplicates,
+  simplices,
+  hullFacets,
+  stats,
+}: Summary): void {
   const { gpu, splay, exact } = stats;
   const rows: [string, number | null | undefined][] = [
     ['Points', points],
     ['of them exact duplicates', duplicates],
-    [space === 3 ? 'Tetrahedra' : 'Triangles', simplices],
-    [space === 3 ? 'Triangles of the hull' : 'Edges of the hull', hullFacets],
+    [dimension === 3 ? 'Tetrahedra' : 'Triangles', simplices],
+    [dimension === 3 ? 'Triangles of the hull' : 'Edges of the hull', hullFacets],
     ['Rounds of Phase 1', gpu?.rounds.length],
     ['Flips', gpu && gpu.flips23 + gpu.flips32],
     ['Failed vertices', gpu?.failedVertices],
@@ -80,7 +87,7 @@ function showFigures({ space, points, duplicates, simplices, hullFacets, stats }
 
 function showRepair(summary: Summary): void {
   const { trace, points } = summary;
-  const small = points <= MOST_POINTS_TO_RECORD;
+  const small = points <= MAX_POINTS_TO_RECORD;
   byId('record-section').hidden = trace !== null || !small;
   byId('recorded').hidden = trace === null;
   if (!trace) {
@@ -88,7 +95,7 @@ function showRepair(summary: Summary): void {
       'Phase 1 flips in parallel on the GPU and gets stuck in a few places. There, Phase 2 splays stars. ' +
       (small
         ? 'Recorded, a run shows where, and how it came about round by round. That takes several times as long.'
-        : `Runs of up to ${count(MOST_POINTS_TO_RECORD)} points can be recorded to see where.`);
+        : `Runs of up to ${count(MAX_POINTS_TO_RECORD)} points can be recorded to see where.`);
     return;
   }
   byId('repair').textContent = repairOf(trace, summary);

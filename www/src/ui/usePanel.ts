@@ -13,7 +13,7 @@ export function usePanel(page: Page): Part {
   const buttons = [...FORMATS, ...VIEWS].map((format) => {
     const button = create('button', { type: 'button' }, format);
     button.addEventListener('click', () => void download(page, format, button));
-    if (format === 'SVG') button.classList.add('in-plane');
+    if (format === 'SVG') button.classList.add('only-2d');
     return button;
   });
   byId('downloads').append(...buttons);
@@ -24,7 +24,7 @@ export function usePanel(page: Page): Part {
       await navigator.clipboard.writeText(byId('code').textContent!);
       copy.textContent = 'Copied';
     } catch {
-      copy.textContent = 'Not allowed here: select it';
+      copy.textContent = 'Copying is blocked: select the text';
     }
     setTimeout(() => (copy.textContent = 'Copy'), 2500);
   });
@@ -75,16 +75,16 @@ async function download(
 }
 
 /** Lines that do with the package what the page has just done. */
-function codeFor({ settings: { source, engine, edits } }: Page): string {
+function codeFor({ settings: { source, backend, edits } }: Page): string {
   const flat = source.dimension === 2;
-  const options = engine === 'auto' ? '' : `, { engine: '${engine}' }`;
+  const options = backend === 'auto' ? '' : `, { backend: '${backend}' }`;
   return [
     `// npm install gdel-wasm`,
     ...(edits.length > 0 ? EDITED : source.kind === 'generator' ? generated(source) : read(source)),
     `const mesh = await ${flat ? 'delaunay2d' : 'delaunay3d'}(points${options});`,
     ``,
     ...(flat ? RESULTS[2] : RESULTS[3]),
-    `mesh.stats;      // engine, phases, rounds`,
+    `mesh.stats;      // backend, phases, rounds`,
     ``,
     `const vtu = await mesh.toVTU();`,
   ].join('\n');
@@ -132,7 +132,7 @@ const RESULTS = {
   3: [
     `mesh.tetrahedra; // 4 point indices each`,
     `mesh.neighbors;  // 4 each, -1 is outside`,
-    `mesh.hull;       // 3 indices a triangle`,
+    `mesh.hull;       // 3 indices per triangle`,
   ],
   2: [
     `mesh.triangles;  // 3 point indices each`,
@@ -148,17 +148,17 @@ const bytes = (n: number) =>
 const LIMITS = [
   ['maxBufferSize', 'Largest buffer', bytes],
   ['maxStorageBufferBindingSize', 'Largest storage buffer', bytes],
-  ['maxStorageBuffersPerShaderStage', 'Storage buffers a stage', count],
-  ['maxComputeInvocationsPerWorkgroup', 'Threads a workgroup', count],
-  ['maxComputeWorkgroupStorageSize', 'Memory a workgroup', bytes],
-  ['maxComputeWorkgroupsPerDimension', 'Workgroups a dimension', count],
+  ['maxStorageBuffersPerShaderStage', 'Storage buffers per stage', count],
+  ['maxComputeInvocationsPerWorkgroup', 'Threads per workgroup', count],
+  ['maxComputeWorkgroupStorageSize', 'Memory per workgroup', bytes],
+  ['maxComputeWorkgroupsPerDimension', 'Workgroups per dimension', count],
 ] as const;
 
 async function describeMachine({ model, viewer }: Page): Promise<void> {
-  const { adapter, why, thread, whyThread } = await model.info();
+  const { adapter, fallback, thread, whyThread } = await model.info();
   const rows: [string, string][] = [
     ['Adapter', adapter ? nameOf(adapter) : 'none'],
-    ['Large inputs', why ? `CPU engine: ${why}` : 'GPU engine'],
+    ['Large inputs', fallback ? `CPU backend: ${fallback}` : 'GPU backend'],
     ['Work is done', thread === 'worker' ? 'in a worker' : `in the page’s worker: ${whyThread}`],
     ['Drawing', viewer ? viewer.api : 'none'],
   ];

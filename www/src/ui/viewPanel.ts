@@ -1,6 +1,6 @@
 import type { Filter } from '../geometry/filter';
 import type { ColorBy } from '../geometry/scale';
-import { MOST_PIECES } from '../model/model';
+import { MAX_PIECES } from '../model/model';
 import type { Dimension } from '../model/source';
 import type { Page, Part } from '../page';
 import { colorsIn, LAYERS, type Layer, type Settings, type Up } from '../settings';
@@ -8,7 +8,7 @@ import { COLOR_MAPS, type ColorMapName } from '../view/colormap';
 import { byId, count, create, measured, radios } from './dom';
 import { QUANTITIES } from './legend';
 
-/** What the layers of space and those of the plane are called. */
+/** The names of the layers in 3D and 2D. */
 const LAYER_NAMES: Record<Dimension, Partial<Record<Layer, string>>> = {
   3: {
     simplices: 'Tetrahedra',
@@ -49,7 +49,7 @@ const NORMALS: Record<string, Settings['normal']> = {
   '−Z': [0, 0, -1],
 };
 
-/** The panel that says how the mesh is drawn, and the slider for the plane on the stage. */
+/** The panel that says how the mesh is drawn, and the slider for the cutting plane on the stage. */
 export function viewPanel(page: Page): Part {
   const color = byId<HTMLSelectElement>('color');
   color.addEventListener('change', () => page.change({ color: color.value as ColorBy }));
@@ -134,7 +134,7 @@ export function viewPanel(page: Page): Part {
     drew({ pieces, shown }) {
       byId('apart-note').textContent =
         pieces && pieces.owners.length < shown
-          ? `The outermost ${count(pieces.owners.length)} of ${count(shown)} are drawn: at most ${count(MOST_PIECES)} at a time.`
+          ? `The outermost ${count(pieces.owners.length)} of ${count(shown)} are drawn: at most ${count(MAX_PIECES)} at a time.`
           : '';
     },
   };

@@ -9,12 +9,18 @@ export const COLOR_MAPS = {
 
 export type ColorMapName = keyof typeof COLOR_MAPS;
 
-/** The colours of tetrahedra that Phase 1 made and of those that splaying made: blue and orange, apart for everybody. */
+/**
+ * The colours of tetrahedra that Phase 1 made and of those that splaying made: blue and orange,
+ * apart for everybody.
+ */
 export const PHASE_COLORS = ['#4a7fb5', '#f0803c'] as const;
 
 const STEPS = 256;
 
-/** A map as 256 RGBA texels. The darkest and the lightest ends are left out: there, shading and edges would not show. */
+/**
+ * A map as 256 RGBA texels. The darkest and the lightest ends are left out: there, shading and
+ * edges would not show.
+ */
 export function texels(map: ColorMapName | 'phases'): Uint8Array {
   const rgba = new Uint8Array(4 * STEPS);
   for (let i = 0; i < STEPS; i++) rgba.set([...rgbOf(map, i / (STEPS - 1)), 255], 4 * i);

@@ -36,7 +36,10 @@ import {
 } from 'three/webgpu';
 import { type ColorMapName, texels } from './colormap';
 
-/** What all materials share, and the page changes: colours of the theme, the plane, how far the pieces are apart. */
+/**
+ * What all materials share, and the page changes: colours of the theme, the cutting plane, how far
+ * the pieces are apart.
+ */
 export class Look {
   readonly ink = uniform(new Color());
   readonly accent = uniform(new Color());
@@ -49,7 +52,7 @@ export class Look {
   readonly pointsAbove = uniform(-1e9);
   /** 1 to draw them all the same. */
   readonly pointsEverywhere = uniform(0);
-  /** 1 to fill the triangles of the plane, 0 for their edges alone. */
+  /** 1 to fill the 2D triangles, 0 for only their edges. */
   readonly fill = uniform(1);
   /** Of the Voronoi diagram, which fades where it would cover everything. */
   readonly voronoiOpacity = uniform(1);
@@ -72,7 +75,10 @@ export class Look {
   }
 }
 
-/** 1 on the edges of unindexed triangles, one pixel wide; fades out where triangles are too small to have any. */
+/**
+ * 1 on the edges of unindexed triangles, one pixel wide; fades out where triangles are too small to
+ * have any.
+ */
 const edgeness = Fn(() => {
   const corner = vertexIndex.mod(3);
   const weights = varying(
@@ -90,7 +96,7 @@ const edgeness = Fn(() => {
     .mul(float(1).sub(smoothstep(0.25, 0.7, crowded)));
 });
 
-/** How much the triangles of the plane cover of the ground. */
+/** The opacity of the 2D triangles. */
 const PALE = 0.55;
 
 // Dark in both themes: light edges would drown the colours.
@@ -116,7 +122,7 @@ export function surfaceMaterial(look: Look): MeshBasicNodeMaterial {
   return material;
 }
 
-/** For the triangles of the plane; reads the attribute `value`. */
+/** For the 2D triangles; reads the attribute `value`. */
 export function flatMaterial(look: Look): MeshBasicNodeMaterial {
   const material = new MeshBasicNodeMaterial({ transparent: true, depthWrite: false });
   const edge = edgeness().mul(look.edges);
@@ -127,7 +133,10 @@ export function flatMaterial(look: Look): MeshBasicNodeMaterial {
   return material;
 }
 
-/** For lines so many pixels wide; reads the instances' ends `a` and `b`, and in x and y which end and which side. */
+/**
+ * For lines so many pixels wide; reads the instances' ends `a` and `b`, and in x and y which end
+ * and which side.
+ */
 export function linesMaterial(
   look: Look,
   color: Node<'color'>,
@@ -162,7 +171,10 @@ export function voronoiMaterial(look: Look): MeshBasicNodeMaterial {
   return linesMaterial(look, look.accent, 1.5, look.voronoiOpacity.mul(fade));
 }
 
-/** For whole tetrahedra, one an instance; reads the instances' `a`, `b`, `c`, `d`, `value` and the corner number in x. */
+/**
+ * For whole tetrahedra, one an instance; reads the instances' `a`, `b`, `c`, `d`, `value` and the
+ * corner number in x.
+ */
 export function piecesMaterial(look: Look): MeshBasicNodeMaterial {
   const material = new MeshBasicNodeMaterial();
   const [a, b, c, d] = ['a', 'b', 'c', 'd'].map((name) => attribute<'vec3'>(name, 'vec3'));

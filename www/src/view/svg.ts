@@ -2,15 +2,15 @@ import type { Page } from '../page';
 import { rgbOf } from './colormap';
 
 /** More than this would be a file that nothing opens. */
-const MOST_TRIANGLES = 100_000;
+const MAX_TRIANGLES = 100_000;
 
-/** What the page shows of the plane, as a picture: the unit square of the frame and a margin, y up. */
+/** What the page shows in 2D, as a picture: the unit square of the frame and a margin, y up. */
 export function toSVG({ settings, lastDrawing, positions, summary }: Page): string {
   if (!lastDrawing?.surface || !positions || !summary)
     throw new Error('There is nothing to see yet.');
   const { surface, voronoi } = lastDrawing;
   const { layers, map } = settings;
-  if (surface.owners.length > MOST_TRIANGLES)
+  if (surface.owners.length > MAX_TRIANGLES)
     throw new Error('A picture of so many triangles would be too large for most programs.');
   const style = getComputedStyle(document.documentElement);
   const color = (name: string) => style.getPropertyValue(`--${name}`).trim();

@@ -43,7 +43,10 @@ import {
   voronoiMaterial,
 } from './materials';
 
-/** Where the camera is: the direction from the target as angles, the distance, and the target. In the plane it looks straight down. */
+/**
+ * Where the camera is: the direction from the target as angles, the distance, and the target. In 2D
+ * it looks straight down.
+ */
 export type CameraPose = [
   azimuth: number,
   elevation: number,
@@ -55,7 +58,7 @@ export type CameraPose = [
 
 const EVERYWHERE = new Sphere(new Vector3(), Infinity);
 
-/** What can be shown and hidden. The hull and the surface have one layer for space and one for the plane. */
+/** What can be shown and hidden. The hull and the surface have one layer for 3D and one for 2D. */
 interface Layers {
   surface: Mesh;
   flat: Mesh;
@@ -132,7 +135,7 @@ export class Viewer {
     return 'isWebGPUBackend' in this.renderer.backend ? 'WebGPU' : 'WebGL 2';
   }
 
-  /** From now on, what comes lies in space or in the plane. What was shown goes. */
+  /** Switches to 3D or 2D, and removes what was shown. */
   setDimension(dimension: Dimension): void {
     if (dimension === this.dimension) return;
     this.dimension = dimension;
@@ -166,7 +169,7 @@ export class Viewer {
     this.replace(this.layers.pieces, pieces && instances(pieces));
   }
 
-  /** The corners of the hull's facets: triangles in space, edges in the plane. */
+  /** The corners of the hull's facets: triangles in 3D, edges in 2D. */
   showHull(corners: Float32Array | null): void {
     if (this.dimension === 2) this.replace(this.layers.hullEdges, corners && lines(corners));
     else this.replace(this.layers.hull, corners && triangles(corners));
@@ -260,27 +263,27 @@ export class Viewer {
     this.pose = [a + azimuth, Math.min(1.55, Math.max(-1.55, e + elevation)), d * zoom, ...target];
   }
 
-  /** Moves over the plane, by shares of what is seen of it. */
+  /** Moves the 2D view, by shares of what is visible. */
   pan(right: number, up: number): void {
     const [a, e, d, x, y, z] = this.pose;
     const [width, height] = this.seen;
     this.pose = [a, e, d, x + right * width, y + up * height, z];
   }
 
-  /** How much of the plane is seen, in the frame. */
+  /** How much of the frame is visible in 2D. */
   get seen(): [width: number, height: number] {
     const height = 2 * this.pose[2] * Math.tan((Math.PI / 360) * this.camera.fov);
     return [height * this.camera.aspect, height];
   }
 
-  /** The place on the plane under a place on the canvas. */
-  onPlane(x: number, y: number): [x: number, y: number] {
+  /** Returns the 2D place under a place on the canvas. */
+  at2d(x: number, y: number): [x: number, y: number] {
     const { origin, direction } = this.ray(x, y);
     const t = -origin[2] / direction[2];
     return [origin[0] + t * direction[0], origin[1] + t * direction[1]];
   }
 
-  /** The place on the canvas of a place on the plane. */
+  /** Returns the place on the canvas of a 2D place. */
   onCanvas(x: number, y: number): [x: number, y: number] {
     this.camera.updateMatrixWorld();
     const projected = new Vector3(x, y, 0).project(this.camera);
@@ -296,7 +299,10 @@ export class Viewer {
     return direction.applyQuaternion(this.model.quaternion.clone().invert()).toArray();
   }
 
-  /** The ray through a place on the canvas, in CSS pixels from its top left corner, in the model's axes. */
+  /**
+   * The ray through a place on the canvas, in CSS pixels from its top left corner, in the model's
+   * axes.
+   */
   ray(x: number, y: number): Ray {
     const { clientWidth, clientHeight } = this.canvas;
     const caster = new Raycaster();
@@ -326,7 +332,10 @@ export class Viewer {
     );
   }
 
-  /** In the plane, points and Voronoi diagram become smaller and paler where many of them are seen, and come back near by. */
+  /**
+   * In 2D, points and Voronoi diagram become smaller and paler where many of them are seen, and
+   * come back near by.
+   */
   private thinOut(): void {
     const count = this.layers.points?.count ?? 1;
     // In pixels, of points spread over the unit circle.
@@ -368,8 +377,8 @@ export class Viewer {
     this.camera.fov =
       (360 / Math.PI) *
       Math.atan((zoom * Math.tan(Math.PI / 9.5)) / Math.min(1, this.camera.aspect));
-    // The title is at the top left: the model makes room, sidewards where there is width, else downwards, and by being smaller
-    // where it would fill the canvas.
+    // The title is at the top left: the model makes room, sidewards where there is width, else
+    // downwards, and by being smaller where it would fill the canvas.
     const [right, down] = wide
       ? [0.07 * clientWidth, 0.02 * clientHeight]
       : [0, 0.05 * clientHeight];

@@ -12,7 +12,10 @@ import { closeTo } from './close';
 
 const SIDE = 4;
 
-/** The points of a grid, each cube of it in five tetrahedra, mirrored from cube to cube so that their facets match. */
+/**
+ * The points of a grid, each cube of it in five tetrahedra, mirrored from cube to cube so that
+ * their facets match.
+ */
 function grid() {
   const points: number[] = [];
   for (let x = 0; x <= SIDE; x++)

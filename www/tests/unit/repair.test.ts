@@ -7,7 +7,7 @@ const MESH = { simplices: 2000, hullFacets: 400 };
 test('says how much splaying had to do', () => {
   assert.equal(
     repairOf({ rounds: 9, nonDelaunayFacets: 21, repaired: 21, splayed: 1200 }, MESH),
-    'Facets that were not locally Delaunay after Phase 1: 21, 0.5 % of all. Splaying repaired 100 % of them. It made 1,200 of the tetrahedra, 60 %.',
+    'Facets that were not locally Delaunay after Phase 1: 21, 0.5 % of all. Star splaying repaired 100 % of them. It created 1,200 of the tetrahedra, 60 %.',
   );
 });
 

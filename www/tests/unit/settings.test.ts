@@ -11,7 +11,7 @@ test('a link restores every setting', () => {
   const settings = {
     ...defaults(),
     source: { kind: 'generator', dimension: 3, distribution: 'thin-sphere', count: 1234, seed: 9 },
-    engine: 'cpu',
+    backend: 'cpu',
     color: 'volume',
     map: 'magma',
     filter: 'alpha',
@@ -33,7 +33,7 @@ test('a link restores every setting', () => {
   assert.deepEqual(fromHash(toHash(settings as never)), settings);
 });
 
-test('a link to the plane restores the points and what was changed by hand', () => {
+test('a link to 2D restores the points and what was changed by hand', () => {
   assert.deepEqual(fromHash('#dim=2'), defaults(2));
   const settings = {
     ...defaults(2),
@@ -59,7 +59,7 @@ test('a link to the plane restores the points and what was changed by hand', () 
   assert.deepEqual(fromHash(toHash(settings as never)), settings);
 });
 
-test('in the plane there is nothing to carve, no phase of creation, and nothing to look at from the side', () => {
+test('in 2D there is nothing to carve, no phase of creation, and nothing to look at from the side', () => {
   for (const hash of [
     '#dim=2&filter=carve',
     '#dim=2&color=phase',
@@ -81,7 +81,7 @@ test('what makes no sense in a link is left out', () => {
     '#points=uniform_0_1',
     '#points=uniform',
     '#dim=4',
-    '#engine=magic',
+    '#backend=magic',
     '#cut=0_0_0_0.5',
     '#cut=1_2',
     '#camera=NaN_0_0_0_0_0',

@@ -36,7 +36,10 @@ const lengthOf = (lines: Float32Array) => {
   return sum;
 };
 
-/** The length of d3's diagram within a box: every edge is in two of its cells, but for those of the box. */
+/**
+ * The length of d3's diagram within a box: every edge is in two of its cells, but for those of the
+ * box.
+ */
 function lengthOfTheirs(points: Float64Array, { low, high }: Box): number {
   const voronoi = new Delaunay(points).voronoi([low[0], low[1], high[0], high[1]]);
   const inside = ([ax, ay]: number[], [bx, by]: number[]) =>

@@ -1,4 +1,4 @@
-import type { Engine as Gdel, Mesh3, RunOptions } from 'gdel-wasm';
+import type { Mesh3, RunOptions, Triangulator } from 'gdel-wasm';
 import { applyFilter, type Filter, type Kept, typicalAlpha } from '../geometry/filter';
 import { type Measures, measure } from '../geometry/measures';
 import { FACETS, type Frame, frameOf, type Tetrahedralisation, toFrame } from '../geometry/mesh';
@@ -11,8 +11,8 @@ import {
   cornersOf,
   type Drawing,
   type DrawRequest,
-  MOST_FACETS,
-  MOST_PIECES,
+  MAX_FACETS,
+  MAX_PIECES,
   type Model,
   type Picked,
   type Summary,
@@ -21,8 +21,8 @@ import {
 /** The corners of a tetrahedron's edges. */
 const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
 
-/** The model of points in space. */
-export class SpaceModel implements Model {
+/** The model of 3D points. */
+export class Model3d implements Model {
   readonly positions: Float32Array;
   private readonly drawable: Tetrahedralisation;
   private readonly created: Uint8Array | null;
@@ -46,13 +46,13 @@ export class SpaceModel implements Model {
   }
 
   static async make(
-    gdel: Gdel,
+    triangulator: Triangulator,
     points: Float32Array | Float64Array,
     options: RunOptions,
     frame?: Frame,
-  ): Promise<SpaceModel> {
-    const mesh = await gdel.delaunay3d(points, options);
-    return new SpaceModel(points, mesh, frame ?? frameOf(points));
+  ): Promise<Model3d> {
+    const mesh = await triangulator.delaunay3d(points, options);
+    return new Model3d(points, mesh, frame ?? frameOf(points));
   }
 
   summary(): Summary {
@@ -61,8 +61,8 @@ export class SpaceModel implements Model {
     let duplicates = 0;
     for (const stand of mesh.duplicateOf) if (stand >= 0) duplicates++;
     return {
-      space: 3,
-      dimension: mesh.dimension,
+      dimension: 3,
+      affineDimension: mesh.dimension,
       points: this.points.length / 3,
       duplicates,
       simplices: mesh.tetrahedra.length / 4,
@@ -99,12 +99,12 @@ export class SpaceModel implements Model {
     return {
       surface: pieces
         ? null
-        : surfaceOf(this.drawable, boundary.facets.subarray(0, MOST_FACETS), value),
+        : surfaceOf(this.drawable, boundary.facets.subarray(0, MAX_FACETS), value),
       pieces: pieces
         ? piecesOf(
             this.positions,
             tetrahedra,
-            outermost(this.drawable, kept, heights, level, boundary, MOST_PIECES),
+            outermost(this.drawable, kept, heights, level, boundary, MAX_PIECES),
             value,
           )
         : null,
@@ -112,7 +112,7 @@ export class SpaceModel implements Model {
       scale,
       shown: boundary.shown,
       total: tetrahedra.length / 4,
-      leftOut: pieces ? 0 : Math.max(0, boundary.facets.length - MOST_FACETS),
+      leftOut: pieces ? 0 : Math.max(0, boundary.facets.length - MAX_FACETS),
       level,
       milliseconds: performance.now() - started,
     };
@@ -131,7 +131,7 @@ export class SpaceModel implements Model {
     const level = levelOf(plane, heights);
     const owners = Uint32Array.from(heights.height.keys())
       .filter((t) => heights.height[t] <= level)
-      .slice(0, MOST_PIECES);
+      .slice(0, MAX_PIECES);
     const scale = scaleFor(
       color === 'phase' ? 'quality' : color,
       measures,

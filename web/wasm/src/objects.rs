@@ -3,15 +3,15 @@
 use js_sys::{Object, Reflect};
 use wasm_bindgen::JsValue;
 
-use crate::Error;
+use gdel::Error;
 
-/// Sets a property of an object that was made here.
-pub(super) fn set(object: &JsValue, key: &str, value: impl Into<JsValue>) {
+/// Sets a property of an object that was created here.
+pub(crate) fn set(object: &JsValue, key: &str, value: impl Into<JsValue>) {
     Reflect::set(object, &key.into(), &value.into()).expect("a plain object takes any property");
 }
 
-/// A plain object.
-pub(super) fn object<const N: usize>(entries: [(&str, JsValue); N]) -> JsValue {
+/// Creates a plain object.
+pub(crate) fn object<const N: usize>(entries: [(&str, JsValue); N]) -> JsValue {
     let object = Object::new().into();
     for (key, value) in entries {
         set(&object, key, value);
@@ -19,15 +19,30 @@ pub(super) fn object<const N: usize>(entries: [(&str, JsValue); N]) -> JsValue {
     object
 }
 
-/// An `Error` with a `code`.
-pub(super) fn error(code: &str, message: &str) -> js_sys::Error {
+/// Creates an `Error` with a `code`.
+pub(crate) fn error(code: &str, message: &str) -> js_sys::Error {
     let error = js_sys::Error::new(message);
     set(&error, "code", code);
     error
 }
 
-impl From<Error> for JsValue {
-    fn from(error: Error) -> JsValue {
+/// What a function throws: an `Error` with a `code`.
+pub struct Thrown(js_sys::Error);
+
+impl From<Thrown> for JsValue {
+    fn from(thrown: Thrown) -> JsValue {
+        thrown.0.into()
+    }
+}
+
+impl From<js_sys::Error> for Thrown {
+    fn from(error: js_sys::Error) -> Self {
+        Thrown(error)
+    }
+}
+
+impl From<Error> for Thrown {
+    fn from(error: Error) -> Self {
         let code = match error {
             Error::NotFinite { .. } => "NOT_FINITE",
             Error::NotWholePoints { .. } | Error::ArrayShape { .. } | Error::ArrayLayout => "BAD_INPUT",
@@ -40,11 +55,13 @@ impl From<Error> for JsValue {
             Error::TooManySimplices { .. } => "TOO_MANY_TETRAHEDRA",
             Error::OutOfMemory { .. } => "OUT_OF_MEMORY",
             Error::Cancelled => "ABORTED",
+            // A new kind of error that was not given a code here.
+            _ => "INTERNAL",
         };
         let object = self::error(code, &error.to_string());
         if let Error::NotFinite { index, .. } = error {
             set(&object, "index", index as f64);
         }
-        object.into()
+        Thrown(object)
     }
 }

@@ -1,4 +1,4 @@
-import type { Engine as Gdel, Mesh2, PlaneOptions } from 'gdel-wasm';
+import type { Mesh2, RunOptions2, Triangulator } from 'gdel-wasm';
 import { typicalAlpha } from '../geometry/filter';
 import type { Measures } from '../geometry/measures';
 import { type Frame, toFrame } from '../geometry/mesh';
@@ -10,7 +10,7 @@ import {
   cornersOf,
   type Drawing,
   type DrawRequest,
-  MOST_FACETS,
+  MAX_FACETS,
   type Model,
   type Picked,
   type Summary,
@@ -21,8 +21,8 @@ const MARGIN = 0.2;
 
 const CIRCLE_STEPS = 128;
 
-/** The model of points in the plane. */
-export class PlaneModel implements Model {
+/** The model of 2D points. */
+export class Model2d implements Model {
   readonly positions: Float32Array;
   private readonly drawable: Triangulation;
   private measures: Measures | null = null;
@@ -44,12 +44,12 @@ export class PlaneModel implements Model {
   }
 
   static async make(
-    gdel: Gdel,
+    triangulator: Triangulator,
     points: Float32Array | Float64Array,
-    options: PlaneOptions,
+    options: RunOptions2,
     frame: Frame,
-  ): Promise<PlaneModel> {
-    return new PlaneModel(points, await gdel.delaunay2d(points, options), frame);
+  ): Promise<Model2d> {
+    return new Model2d(points, await triangulator.delaunay2d(points, options), frame);
   }
 
   summary(): Summary {
@@ -58,8 +58,8 @@ export class PlaneModel implements Model {
     let duplicates = 0;
     for (const stand of mesh.duplicateOf) if (stand >= 0) duplicates++;
     return {
-      space: 2,
-      dimension: mesh.dimension,
+      dimension: 2,
+      affineDimension: mesh.dimension,
       points: this.points.length / 2,
       duplicates,
       simplices: mesh.triangles.length / 3,
@@ -87,7 +87,7 @@ export class PlaneModel implements Model {
     this.drawing = {
       surface: flatSurface(
         this.drawable,
-        all.slice(0, Math.min(count, MOST_FACETS)),
+        all.slice(0, Math.min(count, MAX_FACETS)),
         mapping(scale, this.measured, null),
       ),
       pieces: null,
@@ -102,7 +102,7 @@ export class PlaneModel implements Model {
       scale,
       shown: count,
       total: kept.length,
-      leftOut: Math.max(0, count - MOST_FACETS),
+      leftOut: Math.max(0, count - MAX_FACETS),
       level: Infinity,
       milliseconds: performance.now() - started,
     };

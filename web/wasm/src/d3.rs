@@ -1,16 +1,16 @@
-//! The engines of space.
+//! 3D triangulation.
 
+use gdel::{Mesh3, internals::triangulator::MIN_POINTS, stats::Trace};
 use js_sys::{Array, Function, Int32Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use crate::wasm::{
-    objects::{object, set},
+use crate::{
+    objects::{Thrown, object, set},
     points::Coordinates,
-    run::{self, for_run},
+    triangulator::{WasmTriangulator, statistics},
 };
-use crate::{Mesh3, Triangulator, stats::Trace, triangulator::MIN_POINTS};
 
-/// What to copy out of this module's memory, besides the tetrahedra.
+/// What to copy out of this module's memory besides the tetrahedra.
 #[wasm_bindgen]
 #[derive(Clone, Copy)]
 pub struct Outputs {
@@ -28,56 +28,41 @@ impl Outputs {
     }
 }
 
-/// The number of points from which on the engine `auto` thinks of the GPU.
+/// Returns the number of points from which on the backend `auto` considers the GPU in 3D.
 #[wasm_bindgen]
-pub fn least_gpu_points() -> u32 {
+pub fn min_gpu_points_3d() -> u32 {
     MIN_POINTS as u32
 }
 
-/// Both engines, for any number of runs.
 #[wasm_bindgen]
-#[derive(Default)]
-pub struct WasmEngines {
-    engines: Triangulator,
-}
-
-#[wasm_bindgen]
-impl WasmEngines {
-    #[wasm_bindgen(constructor)]
-    pub fn new() -> Self {
-        WasmEngines::default()
-    }
-
-    /// Opens the adapter that `navigator.gpu` recommends for speed, and compiles the kernels.
-    pub async fn open(&self) -> Result<(), JsValue> {
-        self.engines.gpu().await?;
+impl WasmTriangulator {
+    /// Opens the adapter that `navigator.gpu` recommends for speed, and compiles the kernels for
+    /// 3D.
+    pub async fn open(&self) -> Result<(), Thrown> {
+        self.triangulator.gpu().await?;
         Ok(())
     }
 
-    /// Gives the device back.
-    pub async fn close(&self) {
-        self.engines.close().await;
-    }
-
-    /// Triangulates with the engine `auto`, `gpu` or `cpu`. `report(phase, fraction)` breaks off by returning true.
+    /// Triangulates in 3D.
     pub async fn delaunay3d(
         &self,
         points: JsValue,
-        engine: &str,
+        backend: &str,
         outputs: Outputs,
         report: Function,
-    ) -> Result<JsValue, JsValue> {
+    ) -> Result<JsValue, Thrown> {
         let coordinates = Coordinates::new(&points)?;
         drop(points);
-        let triangulator = for_run(&self.engines, engine, report).trace(outputs.trace);
+        let triangulator = self.for_run(backend, report).trace(outputs.trace);
         Ok(mesh3(triangulator.delaunay3d_async(coordinates.points()?).await?, outputs))
     }
 }
 
-/// Each array is freed as soon as it is copied: a mesh is large, and this memory never shrinks.
+/// Copies a mesh. Each array is freed as soon as it is copied: a mesh is large, and WebAssembly's
+/// memory never shrinks.
 fn mesh3(mesh: Mesh3, outputs: Outputs) -> JsValue {
     let Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension, stats, .. } = mesh;
-    let result = object([("dimension", dimension.into()), ("stats", run::stats(&stats))]);
+    let result = object([("dimension", dimension.into()), ("stats", statistics(&stats))]);
     set(&result, "tetrahedra", Uint32Array::new_from_slice(tetrahedra.as_flattened()));
     drop(tetrahedra);
     if outputs.neighbors {

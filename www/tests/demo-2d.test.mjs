@@ -49,7 +49,7 @@ async function press(page, key) {
   await settled(page);
 }
 
-describe('the plane', () => {
+describe('2D', () => {
   let browser;
   let page;
   before(async () => {
@@ -202,7 +202,7 @@ describe('the plane', () => {
     const note = await compare(page);
     assert.match(
       note,
-      /CPU engine: ([\d,]+) triangles, as many\. delaunator: \1 triangles, as many\. delaunator took/,
+      /CPU backend: ([\d,]+) triangles, as many\. delaunator: \1 triangles, as many\. delaunator took/,
     );
     await pictureOf(page, 'plane-compare');
   });
@@ -221,7 +221,7 @@ describe('the plane', () => {
     assert.equal(await text(page, 'count'), before);
   });
 
-  test('takes a scan from above, and goes to space and back', async () => {
+  test('takes a scan from above, and goes to 3D and back', async () => {
     await drop(page, 'scan.ply', readFileSync(join(root, 'tests/data/bunny.ply')));
     assert.match(await text(page, 'count'), /^35,947 points → [\d,]+ triangles$/);
     const flat = await text(page, 'count');

@@ -1,0 +1,51 @@
+//! 2D triangulation, in delaunator's orientation.
+
+use gdel::{
+    Backend, Mesh2, Triangulator,
+    internals::{Winding, triangulator::MIN_POINTS_2},
+};
+use js_sys::{Function, Int32Array, Uint32Array};
+use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+
+use crate::{
+    objects::{Thrown, object},
+    points::Coordinates,
+    triangulator::{WasmTriangulator, statistics},
+};
+
+/// Returns the number of points from which on the backend `auto` considers the GPU in 2D.
+#[wasm_bindgen]
+pub fn min_gpu_points_2d() -> u32 {
+    MIN_POINTS_2 as u32
+}
+
+#[wasm_bindgen]
+impl WasmTriangulator {
+    /// Triangulates in 2D.
+    pub async fn delaunay2d(&self, points: JsValue, backend: &str, report: Function) -> Result<JsValue, Thrown> {
+        let coordinates = Coordinates::new(&points)?;
+        drop(points);
+        let triangulator = self.for_run(backend, report).winding(Winding::Clockwise);
+        Ok(mesh2(triangulator.delaunay2d_async(coordinates.points()?).await?))
+    }
+}
+
+/// Triangulates in 2D with the CPU backend, without returning to the event loop.
+#[wasm_bindgen]
+pub fn delaunay2d_blocking(points: JsValue) -> Result<JsValue, Thrown> {
+    let coordinates = Coordinates::new(&points)?;
+    drop(points);
+    let triangulator = Triangulator::new().backend(Backend::Cpu).winding(Winding::Clockwise);
+    Ok(mesh2(triangulator.delaunay2d(coordinates.points()?)?))
+}
+
+fn mesh2(mesh: Mesh2) -> JsValue {
+    object([
+        ("dimension", mesh.dimension.into()),
+        ("stats", statistics(&mesh.stats)),
+        ("triangles", Uint32Array::new_from_slice(mesh.triangles.as_flattened()).into()),
+        ("halfedges", Int32Array::new_from_slice(mesh.halfedges.as_flattened()).into()),
+        ("hull", Uint32Array::new_from_slice(&mesh.hull).into()),
+        ("duplicateOf", Int32Array::new_from_slice(&mesh.duplicate_of).into()),
+    ])
+}

@@ -1,0 +1,34 @@
+//! The WebAssembly bindings of the npm package: typed arrays in, typed arrays out, errors as
+//! `Error` objects with a `code`. The TypeScript in `web/src` is their only caller.
+//!
+//! The features `d3`, `d2` and `tools` are the three modules of the package.
+#![cfg(target_arch = "wasm32")]
+
+#[cfg(feature = "d2")]
+mod d2;
+#[cfg(feature = "d3")]
+mod d3;
+mod objects;
+mod points;
+#[cfg(feature = "tools")]
+mod tools;
+#[cfg(any(feature = "d2", feature = "d3"))]
+mod triangulator;
+
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// Reports panics. A panic ends the instance, since unwinding does not work here: its message goes
+/// to the console and, as an exception, to the caller, who then creates a new instance.
+#[wasm_bindgen(start)]
+fn start() {
+    std::panic::set_hook(Box::new(|panic| {
+        // The decoder of LAZ panics on broken data: the file is at fault, so the console stays empty.
+        #[cfg(feature = "tools")]
+        if gdel::internals::io::panics_are_caught() {
+            let broken = objects::error("BAD_FILE", "the compressed data is broken");
+            wasm_bindgen::throw_val(broken.into());
+        }
+        console_error_panic_hook::hook(panic);
+        wasm_bindgen::throw_str(&panic.to_string());
+    }));
+}

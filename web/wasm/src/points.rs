@@ -1,0 +1,62 @@
+//! Points from JavaScript.
+
+use gdel::{Error, Points};
+use js_sys::{Float32Array, Float64Array};
+use wasm_bindgen::{JsCast, JsValue};
+
+use crate::objects::{Thrown, error};
+
+/// Interleaved coordinates, copied into this module's memory.
+pub(crate) enum Coordinates {
+    F32(Vec<f32>),
+    F64(Vec<f64>),
+}
+
+impl Coordinates {
+    /// Copies a `Float32Array` or a `Float64Array`.
+    pub(crate) fn new(array: &JsValue) -> Result<Self, Thrown> {
+        if let Some(array) = array.dyn_ref::<Float32Array>() {
+            let mut values = zeros(array.length())?;
+            array.copy_to(&mut values);
+            return Ok(Coordinates::F32(values));
+        }
+        let array: &Float64Array =
+            array.dyn_ref().ok_or_else(|| error("BAD_INPUT", "points must be a Float32Array or a Float64Array"))?;
+        let mut values = zeros(array.length())?;
+        array.copy_to(&mut values);
+        Ok(Coordinates::F64(values))
+    }
+
+    /// Negates the *y* coordinates of 2D points.
+    #[cfg(feature = "tools")]
+    pub(crate) fn flip_y(&mut self) {
+        match self {
+            Coordinates::F32(values) => values.iter_mut().skip(1).step_by(2).for_each(|y| *y = -*y),
+            Coordinates::F64(values) => values.iter_mut().skip(1).step_by(2).for_each(|y| *y = -*y),
+        }
+    }
+
+    /// Returns the coordinates as points.
+    pub(crate) fn points<const D: usize>(&self) -> Result<Points<'_, D>, Error> {
+        match self {
+            Coordinates::F32(values) => Points::from_interleaved_f32(values),
+            Coordinates::F64(values) => Points::from_interleaved_f64(values),
+        }
+    }
+}
+
+/// Returns an empty array with room for `length` elements, or an error if memory does not suffice.
+pub(crate) fn room<T>(length: usize) -> Result<Vec<T>, Thrown> {
+    let mut values = Vec::new();
+    values.try_reserve_exact(length).map_err(|_| {
+        error("OUT_OF_MEMORY", &format!("WebAssembly's memory has no room for an array of length {length}"))
+    })?;
+    Ok(values)
+}
+
+/// Returns an array of zeros, or an error if memory does not suffice.
+pub(crate) fn zeros<T: Clone + Default>(length: u32) -> Result<Vec<T>, Thrown> {
+    let mut values = room(length as usize)?;
+    values.resize(length as usize, T::default());
+    Ok(values)
+}

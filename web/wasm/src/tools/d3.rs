@@ -1,0 +1,86 @@
+//! Files, verification and synthetic points in 3D.
+
+use gdel::{
+    Mesh3, MeshView,
+    internals::{
+        d3::generate::{Distribution, generate},
+        io::{SurfaceFormat, write_ele, write_neigh, write_node, write_npz, write_vtu},
+    },
+    verify3d as verify,
+};
+use js_sys::Float64Array;
+use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+
+use crate::{
+    objects::{Thrown, object},
+    tools::{
+        file, generated,
+        mesh::{CallerMesh, points_of_mesh},
+        report_object, unknown_format,
+    },
+};
+
+/// Returns `count` points of a distribution, interleaved.
+#[wasm_bindgen]
+pub fn generate3d(kind: &str, count: u32, seed: u64) -> Result<Float64Array, Thrown> {
+    generated(&Distribution::ALL, Distribution::name, generate, kind, count, seed)
+}
+
+fn caller_mesh(mesh: &JsValue) -> Result<CallerMesh<4, 3>, Thrown> {
+    CallerMesh::new(mesh, "tetrahedra", "neighbors")
+}
+
+/// Returns a mesh or its hull as files of a format: `{ extension: bytes }`, several for TetGen.
+#[wasm_bindgen]
+pub fn write3d(points: &JsValue, mesh: &JsValue, format: &str) -> Result<JsValue, Thrown> {
+    let coordinates = points_of_mesh::<3>(points)?;
+    let points = coordinates.points::<3>()?;
+    let caller = caller_mesh(mesh)?;
+    caller.check_vertices(points)?;
+    let mut mesh = Mesh3::default();
+    mesh.tetrahedra = caller.simplices;
+    mesh.neighbors = caller.neighbors.unwrap_or_default();
+    mesh.hull = caller.hull.unwrap_or_default();
+    mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
+    mesh.dimension = caller.dimension.unwrap_or(3);
+    let mesh = &mesh;
+    match format {
+        "vtu" => Ok(object([file("vtu", |to| write_vtu(to, points, mesh))?])),
+        "npz" => Ok(object([file("npz", |to| write_npz(to, points, mesh))?])),
+        "tetgen" => Ok(object([
+            file("node", |to| write_node(to, points))?,
+            file("ele", |to| write_ele(to, mesh))?,
+            file("neigh", |to| write_neigh(to, mesh))?,
+        ])),
+        _ => {
+            let hull = SurfaceFormat::from_extension(format).ok_or_else(|| unknown_format(format))?;
+            Ok(object([file(hull.extensions()[0], |to| hull.write(to, points, mesh))?]))
+        }
+    }
+}
+
+/// Returns what the verifier finds.
+#[wasm_bindgen]
+pub fn verify3d(points: &JsValue, mesh: &JsValue) -> Result<JsValue, Thrown> {
+    let coordinates = points_of_mesh::<3>(points)?;
+    let mesh = caller_mesh(mesh)?;
+    let mut view = MeshView::of_tetrahedra(&mesh.simplices);
+    view.neighbors = mesh.neighbors.as_deref();
+    view.hull = mesh.hull.as_deref();
+    view.duplicate_of = mesh.duplicate_of.as_deref();
+    view.dimension = mesh.dimension;
+    let report = verify(coordinates.points::<3>()?, view)?;
+    let counts = report.counts;
+    Ok(report_object(
+        &report,
+        [
+            ("points", counts.points),
+            ("distinctPoints", counts.distinct_points),
+            ("vertices", counts.vertices),
+            ("edges", counts.edges),
+            ("facets", counts.facets),
+            ("tetrahedra", counts.tetrahedra),
+            ("hullTriangles", counts.hull_triangles),
+        ],
+    ))
+}

@@ -1,0 +1,93 @@
+//! Meshes from JavaScript.
+
+use gdel::Points;
+use js_sys::{Int32Array, Reflect, Uint32Array};
+use wasm_bindgen::{JsCast, JsValue};
+
+use crate::{
+    objects::{Thrown, error},
+    points::{Coordinates, room, zeros},
+};
+
+/// A mesh copied into this module's memory: `N` vertices per simplex, `H` per hull facet in `hull`.
+/// `None` stands for what the caller did not state.
+pub(super) struct CallerMesh<const N: usize, const H: usize> {
+    pub(super) simplices: Vec<[u32; N]>,
+    pub(super) neighbors: Option<Vec<[i32; N]>>,
+    pub(super) hull: Option<Vec<[u32; H]>>,
+    pub(super) duplicate_of: Option<Vec<i32>>,
+    pub(super) dimension: Option<u8>,
+}
+
+impl<const N: usize, const H: usize> CallerMesh<N, H> {
+    /// Copies the arrays of `mesh`, of which those of simplices and neighbors have these names.
+    pub(super) fn new(mesh: &JsValue, simplices: &str, neighbors: &str) -> Result<Self, Thrown> {
+        let all = property::<Uint32Array>(mesh, simplices)?;
+        let all = all.ok_or_else(|| error("BAD_INPUT", &format!("the mesh has no {simplices}")))?;
+        Ok(CallerMesh {
+            simplices: rows(simplices, all.length(), |to| all.copy_to(to))?,
+            neighbors: property::<Int32Array>(mesh, neighbors)?
+                .map(|array| rows(neighbors, array.length(), |to| array.copy_to(to)))
+                .transpose()?,
+            hull: property::<Uint32Array>(mesh, "hull")?
+                .map(|array| rows("hull", array.length(), |to| array.copy_to(to)))
+                .transpose()?,
+            duplicate_of: property::<Int32Array>(mesh, "duplicateOf")?
+                .map(|array| {
+                    let mut values = zeros(array.length())?;
+                    array.copy_to(&mut values);
+                    Ok::<_, Thrown>(values)
+                })
+                .transpose()?,
+            dimension: get(mesh, "dimension").as_f64().map(|dimension| dimension as u8),
+        })
+    }
+
+    /// Fails unless all vertices are among the points, which the writers rely on.
+    pub(super) fn check_vertices<const D: usize>(&self, points: Points<'_, D>) -> Result<(), Thrown> {
+        let mut vertices = self.simplices.as_flattened().iter().chain(self.hull.iter().flatten().flatten());
+        match vertices.find(|&&v| v as usize >= points.len()) {
+            Some(v) => {
+                let message = format!("a vertex of the mesh is point {v}, but there are only {} points", points.len());
+                Err(error("BAD_INPUT", &message).into())
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// Copies the points of a mesh, and checks them.
+pub(super) fn points_of_mesh<const D: usize>(points: &JsValue) -> Result<Coordinates, Thrown> {
+    let coordinates = Coordinates::new(points)?;
+    coordinates.points::<D>()?.validate()?;
+    Ok(coordinates)
+}
+
+fn get(object: &JsValue, name: &str) -> JsValue {
+    Reflect::get(object, &name.into()).unwrap_or(JsValue::UNDEFINED)
+}
+
+/// Returns a property that is an array, or `None` if it is undefined.
+fn property<T: JsCast>(object: &JsValue, name: &str) -> Result<Option<T>, Thrown> {
+    let value = get(object, name);
+    if value.is_undefined() {
+        return Ok(None);
+    }
+    let array = value.dyn_into();
+    Ok(Some(array.map_err(|_| error("BAD_INPUT", &format!("{name} is not an array of the required type")))?))
+}
+
+fn rows<T: bytemuck::Pod + Default, const N: usize>(
+    name: &str,
+    length: u32,
+    copy: impl FnOnce(&mut [T]),
+) -> Result<Vec<[T; N]>, Thrown> {
+    let length = length as usize;
+    if !length.is_multiple_of(N) {
+        return Err(error("BAD_INPUT", &format!("the length of {name}, {length}, is not a multiple of {N}")).into());
+    }
+    let mut rows = room(length / N)?;
+    rows.resize(length / N, [T::default(); N]);
+    copy(rows.as_flattened_mut());
+    Ok(rows)
+}
