@@ -38,7 +38,7 @@ def build():
 
 
 def generate(kind, count, path):
-    subprocess.run([GDEL, "generate", kind, str(count), "--seed", "1", "-o", path], check=True)
+    subprocess.run([GDEL, "generate", kind, str(count), "--seed", "1", "--force", "-o", path], check=True)
 
 
 def uniform(path):

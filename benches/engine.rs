@@ -10,7 +10,7 @@ use gdel::{
             generate::{Distribution, generate},
         },
     },
-    verify::verify3d,
+    verify3d,
 };
 
 fn full_grid(side: u32) -> Vec<[f64; 3]> {

@@ -5,6 +5,10 @@
 
 use std::time::Instant;
 
+#[path = "../tests/gpu/assemble.rs"]
+mod assemble;
+
+use assemble::assemble;
 use gdel::{
     Points,
     internals::{
@@ -12,7 +16,7 @@ use gdel::{
         gpu::{
             AdapterChoice, Gpu, Kernel, Profiler, Readback, Recorder, Storage,
             points::{PointInput, PointStage},
-            shader, workgroups,
+            workgroups,
         },
         input::lattice::{Lattice, Width},
     },
@@ -74,8 +78,8 @@ fn predicate(gpu: &Gpu, width: Width, name: &str, arguments: &str) {
     const VERTICES: usize = 1 << 16;
     const TESTS: usize = 1 << 22;
     let wgsl = format!(
-        "//!include shared/predicates
-//!include shared/filter
+        "//!include d3/predicates
+//!include d3/filter
 @group(0) @binding(0) var<storage, read> vertices: array<vec4i>;
 @group(0) @binding(1) var<storage, read_write> signs: array<i32>;
 @compute @workgroup_size(256)
@@ -96,8 +100,8 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
     let (kernel, bindings) = block_on(gpu.with_error_scope("bench", || {
         let vertices = Storage::with_contents(gpu, "vertices", &words)?;
         let signs = Storage::<i32>::new(gpu, "signs", TESTS)?;
-        let kernel = Kernel::from_wgsl(gpu, name, &shader::assemble_text(&wgsl, width), &[]);
-        let bindings = kernel.bind(gpu, &[vertices.buffer(), signs.buffer()]);
+        let kernel = Kernel::from_wgsl(gpu, name, &assemble(&wgsl, width), &["vertices", "signs"], &[]);
+        let bindings = kernel.bind(gpu, &[("vertices", vertices.buffer()), ("signs", signs.buffer())]);
         Ok((kernel, bindings))
     }))
     .expect("the kernel is valid");

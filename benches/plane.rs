@@ -5,7 +5,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use gdel::{
     Backend, Triangulator,
     internals::d2::generate::{Distribution2, generate2d},
-    verify::verify2d,
+    verify2d,
 };
 
 fn plane(c: &mut Criterion) {

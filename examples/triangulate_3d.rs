@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example triangulate_3d`
 
-use gdel::{delaunay3d, verify::verify3d};
+use gdel::{delaunay3d, verify3d};
 
 fn main() -> Result<(), gdel::Error> {
     // A 10 × 10 × 10 grid: full of ties, which are broken by index.

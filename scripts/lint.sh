@@ -3,7 +3,7 @@
 # registries: known vulnerabilities (the database of RustSec) and semantic versioning.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-PATH=$PWD/.cache/tools/bin:$PATH
+PATH=$PWD/.cache/tools/bin:$PWD/.cache/tools/python/bin:$PATH
 
 step() {
   echo "== $*"
@@ -20,6 +20,7 @@ step cargo hack check --locked --lib --each-feature --no-dev-deps -p gdel
 step cargo check --locked --lib --no-default-features --target wasm32-unknown-unknown
 RUSTDOCFLAGS="-D warnings" step cargo doc --locked --no-deps --all-features
 step typos
+step npm run lint --silent
 if $online; then
   step cargo deny --all-features check
   step cargo semver-checks

@@ -2,8 +2,9 @@
 # Installs what building and testing gdel needs, starting from a Debian 12 with rustup, Node 20 and git. It says what it
 # does and skips what is there: a second run starts at once.
 #
-# `scripts/setup.sh web` also installs what the npm package needs: wasm-pack, wasm-bindgen and the npm packages;
-# `scripts/setup.sh web-tests` the browsers on top.
+# `scripts/setup.sh guard` also installs what scripts/guard.sh counts instructions with: valgrind and gungraun's runner;
+# `scripts/setup.sh lints` what scripts/lint.sh runs; `scripts/setup.sh web` what the npm package needs: wasm-bindgen and the
+# npm packages; `scripts/setup.sh web-tests` what checks and tests it on top: the browsers, Deno and the linter.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -15,14 +16,16 @@ fail() {
 
 what=${1:-rust}
 case $what in
-  rust | web | web-tests) ;;
-  *) fail "usage: scripts/setup.sh [web | web-tests]" ;;
+  rust | guard | lints | web | web-tests) ;;
+  *) fail "usage: scripts/setup.sh [guard | lints | web | web-tests]" ;;
 esac
 
 # System packages: the linker that rustc calls, and a software Vulkan driver (lavapipe) for the tests of the GPU code;
 # two browsers for those of the npm package.
 packages=(gcc libc6-dev libvulkan1 mesa-vulkan-drivers)
 [[ $what != web-tests ]] || packages+=(chromium firefox-esr)
+[[ $what != guard ]] || packages+=(valgrind)
+[[ $what != lints ]] || packages+=(python3-venv)
 
 install_packages() {
   local missing=() package
@@ -72,29 +75,36 @@ install_rust_parts() {
   done
 }
 
-# A tool from crates.io, into .cache/tools, unless that version is there or on the PATH. The tools do not have to be fast,
-# but to compile fast: with the optimisation that their work needs.
+# The version of a crate in the lock file.
+locked() { sed -n "/^name = \"$1\"$/{n;s/^version = \"\(.*\)\"$/\1/p}" Cargo.lock; }
+
+# Installs a tool from crates.io into .cache/tools, unless it is there or on the PATH in this version. The tools do not have to
+# be fast, but to compile fast: with the optimisation that their work needs.
 install_tool() {
-  local optimisation=$1 command=$2 crate=$3 version=$4
+  local optimisation=$1 command=$2 crate=$3 version=$4 candidate
   shift 4
   for candidate in ".cache/tools/bin/$command" "$command"; do
-    [[ $("$candidate" --version 2>/dev/null) != "$command $version" ]] || return 0
+    [[ $("$candidate" --version 2>/dev/null) != "$command $version"* ]] || return 0
   done
   say "compiling $crate $version: a few minutes"
   CARGO_PROFILE_RELEASE_OPT_LEVEL=$optimisation CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
     cargo install --quiet --root .cache/tools --version "$version" "$@" "$crate"
 }
 
-install_web_parts() {
+# The glue that wasm-bindgen writes has to be of the version that the crate was compiled with.
+install_wasm_bindgen() {
+  install_tool 1 wasm-bindgen wasm-bindgen-cli "$(locked wasm-bindgen)" --no-default-features --bin wasm-bindgen
+}
+
+# The bench and its runner have to be of one version.
+install_guard_parts() {
+  install_tool 0 gungraun-runner gungraun-runner "$(locked gungraun-runner)" --locked
+}
+
+install_npm_packages() {
   local node=0
   node=$(node --version 2>/dev/null | sed 's/^v\([0-9]*\).*/\1/') || true
   [[ ${node:-0} -ge 20 ]] || fail "Node 20 or later is needed: see https://nodejs.org"
-
-  # The glue that wasm-bindgen writes has to be of the version that the crate was compiled with.
-  local bindgen
-  bindgen=$(sed -n '/^name = "wasm-bindgen"$/{n;s/^version = "\(.*\)"$/\1/p}' Cargo.lock)
-  install_tool 1 wasm-bindgen wasm-bindgen-cli "$bindgen" --no-default-features --bin wasm-bindgen
-  install_tool 0 wasm-pack wasm-pack 0.15.1
 
   if [[ ! node_modules/.package-lock.json -nt package-lock.json ]]; then
     say "installing the npm packages"
@@ -103,8 +113,27 @@ install_web_parts() {
   fi
 }
 
-# For one test, which says so where it is missing. Not among the npm packages: a lock file would have to name its binaries for
-# all systems, and not every registry has them.
+# The linter and formatter. This and Deno are not among the npm packages: a lock file would have to name their binaries for all
+# systems, and not every registry has them.
+install_biome() {
+  local version=2.6.8
+  [[ $(.cache/biome/node_modules/.bin/biome --version 2>/dev/null) != "Version: $version" ]] || return 0
+  say "installing Biome"
+  npm install --prefix .cache/biome --no-save --no-audit --no-fund --loglevel=error "@biomejs/biome@$version"
+}
+
+# cargo-hack checks the features one by one, cargo-deny licences and sources, typos the spelling.
+install_lints() {
+  local typos=1.52.0
+  install_tool 0 cargo-hack cargo-hack 0.6.46 --locked
+  install_tool 0 cargo-deny cargo-deny 0.20.2 --locked --no-default-features
+  [[ $(.cache/tools/python/bin/typos --version 2>/dev/null) != "typos-cli $typos" ]] || return 0
+  say "installing typos"
+  python3 -m venv .cache/tools/python
+  .cache/tools/python/bin/pip install --quiet --disable-pip-version-check "typos==$typos"
+}
+
+# For one test, which says so where it is missing.
 install_deno() {
   [[ ! -e .cache/tools/node_modules/.bin/deno && -z $(command -v deno) ]] || return 0
   say "installing Deno"
@@ -118,6 +147,19 @@ else
   say "no apt-get here: these packages of Debian, or what they are elsewhere, have to be there: ${packages[*]}"
 fi
 install_rust_parts
-[[ $what == rust ]] || install_web_parts
-[[ $what != web-tests ]] || install_deno
+case $what in
+  guard) install_guard_parts ;;
+  lints)
+    install_lints
+    install_biome
+    ;;
+  web | web-tests)
+    install_npm_packages
+    install_wasm_bindgen
+    ;;
+esac
+if [[ $what == web-tests ]]; then
+  install_biome
+  install_deno
+fi
 say "ready"

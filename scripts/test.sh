@@ -1,18 +1,72 @@
 #!/usr/bin/env bash
-# Runs all tests, or those that the arguments select, as `cargo test` does.
+# Sets up what is missing and runs all tests: those of the crate, the npm package and the demo page.
+#
+#   scripts/test.sh                everything
+#   scripts/test.sh crate          the crate
+#   scripts/test.sh js [FILE…]     the package and the page, or these test files of theirs
+#   scripts/test.sh ARGUMENT…      what `cargo test` makes of these arguments
 #
 # The tests of the GPU code run on lavapipe, Mesa's software Vulkan driver, where it is installed: the same device
 # everywhere, so that a failure here is a failure elsewhere. Set VK_DRIVER_FILES to choose another driver.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-lavapipe=$(compgen -G '/usr/share/vulkan/icd.d/lvp_icd.*.json' | head -n 1 || true)
-if [[ -z ${VK_DRIVER_FILES:-} && -n $lavapipe ]]; then
-  export VK_DRIVER_FILES=$lavapipe
-fi
-[[ $# -eq 0 ]] || exec cargo test --locked --all-features "$@"
-cargo test --locked --all-features --lib --bins --tests
-cargo test --locked --all-features --doc
-for example in examples/*.rs; do
-  cargo run --locked --all-features --example "$(basename "$example" .rs)"
-done
+scratch=$(mktemp -d)
+# What still runs when a step has failed ends, too.
+trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$scratch"' EXIT
+
+on_lavapipe() {
+  local lavapipe
+  lavapipe=$(compgen -G '/usr/share/vulkan/icd.d/lvp_icd.*.json' | head -n 1 || true)
+  if [[ -z ${VK_DRIVER_FILES:-} && -n $lavapipe ]]; then
+    VK_DRIVER_FILES=$lavapipe "$@"
+  else
+    "$@"
+  fi
+}
+
+targets=(--all-features --lib --bins --tests --examples)
+build_crate() { cargo test --locked --no-run "${targets[@]}"; }
+test_crate() {
+  on_lavapipe cargo test --locked "${targets[@]}" &&
+    on_lavapipe cargo test --locked --all-features --doc &&
+    for example in examples/*.rs; do
+      on_lavapipe "${CARGO_TARGET_DIR:-target}/debug/examples/$(basename "$example" .rs)" || return
+    done
+}
+
+build_js() { node web/build.mjs && npm run build --silent --workspace www; }
+test_js() { node --no-concurrent-recompilation scripts/test-js.mjs "$@"; }
+
+# Runs a step of the crate and one of the package and the page at the same time, since neither keeps all processors busy.
+# What the second one says comes after the first one.
+both() {
+  local status=0 log=$scratch/$2
+  "$2" >"$log" 2>&1 &
+  local beside=$!
+  "$1" || status=1
+  wait "$beside" || status=1
+  cat "$log"
+  return "$status"
+}
+
+case ${1:-} in
+  '')
+    scripts/setup.sh web-tests
+    both build_crate build_js
+    # The page's tests check with it what the page saves.
+    export GDEL=${CARGO_TARGET_DIR:-$PWD/target}/debug/gdel
+    both test_crate test_js
+    echo 'All tests of the crate, the package and the page have passed.'
+    ;;
+  crate)
+    scripts/setup.sh
+    test_crate
+    ;;
+  js)
+    scripts/setup.sh web-tests
+    build_js
+    test_js "${@:2}"
+    ;;
+  *) on_lavapipe cargo test --locked --all-features "$@" ;;
+esac

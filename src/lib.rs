@@ -30,6 +30,7 @@
 //!
 //! The features `io`, `wasm` and `wasm-*` serve the program and the npm package; they add nothing to the public interface.
 #![cfg_attr(docsrs, feature(doc_cfg))]
+#![forbid(unsafe_code)]
 
 // What data passes through, in this order.
 mod input;
@@ -60,8 +61,14 @@ mod reference;
 #[cfg(all(feature = "wasm", target_arch = "wasm32"))]
 mod wasm;
 
-pub use d2::Mesh2;
-pub use d3::Mesh3;
+pub use d2::{
+    Mesh2,
+    verify::{MeshView2, verify2d},
+};
+pub use d3::{
+    Mesh3,
+    verify::{MeshView, verify3d},
+};
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use gpu::{AdapterChoice, AdapterSummary};

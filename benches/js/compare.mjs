@@ -15,7 +15,7 @@ import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import Delaunator from 'delaunator';
 import { loadQhull } from 'qhull-wasm';
-import { Delaunator as Ours, createEngine, generate } from '../../web/dist/node.js';
+import { createEngine, generate, Delaunator as Ours } from '../../web/dist/node.js';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
 const { values } = parseArgs({
@@ -32,7 +32,10 @@ const folder = mkdtempSync(join(tmpdir(), 'gdel-bench-'));
 process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
 
 // Coordinates of the cube, uniform and independent, serve the plane as well.
-const input = (await generate('uniform', Math.ceil((dimension * points) / 3), { seed: 1 })).slice(0, dimension * points);
+const input = (await generate('uniform', Math.ceil((dimension * points) / 3), { seed: 1 })).slice(
+  0,
+  dimension * points,
+);
 const file = join(folder, 'points.f64');
 writeFileSync(file, new Uint8Array(input.buffer));
 
@@ -53,9 +56,16 @@ const sides = {
   async 'gdel-wasm'() {
     const copy = input.slice();
     const started = performance.now();
-    const mesh = await (dimension === 2 ? engine.delaunay2d : engine.delaunay3d).call(engine, copy, { transfer: true });
+    const mesh = await (dimension === 2 ? engine.delaunay2d : engine.delaunay3d).call(
+      engine,
+      copy,
+      { transfer: true },
+    );
     wasmBytes = mesh.stats.wasmBytes;
-    return [(performance.now() - started) / 1e3, (mesh.triangles ?? mesh.tetrahedra).length / (dimension + 1)];
+    return [
+      (performance.now() - started) / 1e3,
+      (mesh.triangles ?? mesh.tetrahedra).length / (dimension + 1),
+    ];
   },
   ...(dimension === 2
     ? {
@@ -65,7 +75,9 @@ const sides = {
     : {
         native() {
           const args = ['triangulate', file, '--backend', 'cpu', '--stats', 'json'];
-          const { seconds, tetrahedra } = JSON.parse(execFileSync(values.native, args, { encoding: 'utf8' }));
+          const { seconds, tetrahedra } = JSON.parse(
+            execFileSync(values.native, args, { encoding: 'utf8' }),
+          );
           return [seconds.total, tetrahedra];
         },
         qhull: () => timed(() => qhull.delaunay(input, 3).facets.length),
@@ -86,10 +98,14 @@ engine.dispose();
 
 const median = (times) => times.slice().sort((a, b) => a - b)[times.length >> 1];
 const ours = median(seconds['gdel-wasm']);
-console.log(`${points} uniform points, medians of ${runs}, ${process.version}, WebAssembly memory ${(wasmBytes / 1e6).toFixed(0)} MB`);
+console.log(
+  `${points} uniform points, medians of ${runs}, ${process.version}, WebAssembly memory ${(wasmBytes / 1e6).toFixed(0)} MB`,
+);
 for (const name of names) {
   const time = median(seconds[name]);
   const ratios = seconds[name].map((other, run) => seconds['gdel-wasm'][run] / other);
   const range = `${Math.min(...ratios).toFixed(2)}–${Math.max(...ratios).toFixed(2)}`;
-  console.log(`${name.padEnd(10)} ${time.toFixed(3)} s, ${counts[name]} ${dimension === 2 ? 'triangles' : 'tetrahedra'}, gdel-wasm / it ${(ours / time).toFixed(2)} (${range})`);
+  console.log(
+    `${name.padEnd(10)} ${time.toFixed(3)} s, ${counts[name]} ${dimension === 2 ? 'triangles' : 'tetrahedra'}, gdel-wasm / it ${(ours / time).toFixed(2)} (${range})`,
+  );
 }

@@ -43,7 +43,16 @@ for (const count of values.points.split(',').map(Number)) {
   if (values.native) {
     const file = join(folder, 'points.f64');
     writeFileSync(file, new Uint8Array(points.buffer));
-    const args = ['triangulate', file, '--backend', 'gpu', '--stats', 'json', '--repeat', String(runs + 1)];
+    const args = [
+      'triangulate',
+      file,
+      '--backend',
+      'gpu',
+      '--stats',
+      'json',
+      '--repeat',
+      String(runs + 1),
+    ];
     const lines = execFileSync(values.native, args, { encoding: 'utf8' }).trim().split('\n');
     // The first run opens the device.
     native = median(lines.slice(1).map((line) => 1e3 * JSON.parse(line).seconds.total));

@@ -1,8 +1,9 @@
-//! The 2D triangulation of any finite points, proven by the verifier. The first byte chooses how bytes become coordinates:
-//! small integers, which are often degenerate, or numbers of all exponents.
+//! The 2D triangulation of any finite points, proven by the verifier. The first byte chooses how
+//! bytes become coordinates: small integers, which are often degenerate, or numbers of all
+//! exponents.
 #![no_main]
 
-use gdel::{internals::Options, verify::verify2d, delaunay2d};
+use gdel::{Options, delaunay2d, verify2d};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|data: &[u8]| {

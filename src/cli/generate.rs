@@ -1,11 +1,11 @@
-//! `gdel generate`: synthetic point clouds.
+//! `gdel generate`: random point clouds.
 
-use super::{Failure, dimension::Dimension, progress::Progress};
-use clap::{Args, CommandFactory, builder::PossibleValuesParser, error::ErrorKind};
-use gdel::internals::{
-    d2::generate::{Distribution2, generate2d},
-    d3::generate::{Distribution, generate},
-    io::files,
+use super::{Failure, dimension::Dimension, progress::Progress, usage};
+use clap::{Args, builder::PossibleValuesParser, error::ErrorKind};
+use gdel::{
+    internals::d2::generate::{Distribution2, generate2d},
+    internals::d3::generate::{Distribution, generate},
+    internals::io::files::PointOutput,
 };
 use std::path::PathBuf;
 
@@ -18,18 +18,23 @@ pub(super) struct Arguments {
     /// How many points
     #[arg(value_name = "N")]
     count: u32,
-    /// Points of space, or of the plane with z = 0
+    /// The dimension of the points; 2D points have two columns in text, CSV, NumPy and .node files,
+    /// else z = 0
     #[arg(long, value_enum, default_value_t = Dimension::Three)]
     dim: Dimension,
     /// The same seed gives the same points
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// The file to write: .ply, .obj, .xyz, .csv, .npy, .f32 (rounded) or .f64
+    /// The file to write: .ply, .obj, .xyz, .csv, .npy, .node, .f32 (rounded to single precision)
+    /// or .f64
     #[arg(short, long = "output", value_name = "FILE")]
     output: PathBuf,
+    /// Replace the file if it exists
+    #[arg(short, long)]
+    force: bool,
 }
 
-/// Those of both dimensions, each once.
+/// Returns the names of the distributions of both dimensions, each once.
 fn names() -> PossibleValuesParser {
     let mut names = Distribution::ALL.map(Distribution::name).to_vec();
     names.extend(
@@ -44,22 +49,22 @@ fn names() -> PossibleValuesParser {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let output = PointOutput::new(&arguments.output)?;
+    output.check(arguments.force)?;
     let _progress = Progress::new("generating");
     let (name, count, seed) = (&arguments.kind, arguments.count as usize, arguments.seed);
-    let points = match arguments.dim {
-        Dimension::Three => Distribution::ALL.into_iter().find(|d| d.name() == name).map(|d| generate(d, count, seed)),
-        Dimension::Two => Distribution2::ALL
-            .into_iter()
-            .find(|d| d.name() == name)
-            .map(|d| generate2d(d, count, seed).into_iter().map(|[x, y]| [x, y, 0.0]).collect()),
-    };
-    let Some(points) = points else {
-        let what = match arguments.dim {
-            Dimension::Three => format!("{name} is a distribution in the plane: add --dim 2"),
-            Dimension::Two => format!("{name} is no distribution in the plane"),
-        };
-        super::Cli::command().error(ErrorKind::InvalidValue, what).exit()
-    };
-    files::write_points(&arguments.output, (&points).into())?;
+    match arguments.dim {
+        Dimension::Three => match Distribution::ALL.into_iter().find(|d| d.name() == name) {
+            Some(distribution) => output.write((&generate(distribution, count, seed)).into())?,
+            None => usage(ErrorKind::InvalidValue, &format!("{name} is a distribution in 2D: add --dim 2")),
+        },
+        Dimension::Two => match Distribution2::ALL.into_iter().find(|d| d.name() == name) {
+            Some(distribution) => output.write((&generate2d(distribution, count, seed)).into())?,
+            None => {
+                let known = Distribution2::ALL.map(Distribution2::name).join(", ");
+                usage(ErrorKind::InvalidValue, &format!("{name} is a distribution in 3D; those in 2D are {known}"))
+            }
+        },
+    }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! The command line: what can be asked for, and how it ends.
+//! The command line: its commands, and how they end.
 
 #[cfg(feature = "gpu")]
 mod adapters;
@@ -6,16 +6,31 @@ mod dimension;
 mod generate;
 mod progress;
 mod report;
+mod signals;
 mod triangulate;
 mod verify;
 
-use clap::{Parser, Subcommand};
-use gdel::internals::io::files::FileError;
-use std::{io, panic, path::PathBuf, process::ExitCode};
+use clap::{CommandFactory, Parser, Subcommand, error::ErrorKind};
+use gdel::internals::io::{
+    PointFormat,
+    files::{FileError, Input, shown},
+    printable,
+};
+use std::{
+    env,
+    ffi::OsString,
+    io, panic,
+    path::{Path, PathBuf},
+    process::{self, ExitCode},
+};
 
 /// Exact 3D and 2D Delaunay triangulation of point clouds.
 #[derive(Parser)]
-#[command(version, about, after_help = "Exit codes: 0 done, 1 bad input or output, 2 wrong usage.")]
+#[command(
+    version,
+    about = "Exact 3D and 2D Delaunay triangulation of point clouds",
+    after_help = "Exit codes: 0 done, 1 bad input or output, 2 wrong usage."
+)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -31,20 +46,27 @@ enum Command {
     Adapters,
 }
 
-/// Why a command failed. The text is one line.
+/// Why a command failed. The text is one line of printable characters.
 #[derive(Debug, thiserror::Error)]
 enum Failure {
     #[error(transparent)]
     File(#[from] FileError),
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}", shown(path))]
     Points { path: PathBuf, source: gdel::Error },
-    #[error("{}: not the Delaunay triangulation: {what}", path.display())]
+    #[error("{}: not the Delaunay triangulation: {what}", shown(path))]
     Mesh { path: PathBuf, what: String },
+    #[error("{}: not a mesh of the points in {}: {what}", shown(path), shown(input))]
+    OtherPoints { path: PathBuf, input: PathBuf, what: String },
+    #[error(
+        "{}: this file holds no points: name the file that does first, as in `gdel verify POINTS MESH`",
+        shown(path)
+    )]
+    NoPoints { path: PathBuf },
     #[error("standard output: {0}")]
     StandardOutput(#[from] io::Error),
 }
 
-/// Parses the arguments (clap exits with 2 when they are wrong) and runs the command.
+/// Parses the arguments and runs the command.
 pub(crate) fn main() -> ExitCode {
     let report = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
@@ -52,7 +74,8 @@ pub(crate) fn main() -> ExitCode {
             report(info);
         }
     }));
-    let result = match Cli::parse().command {
+    signals::watch();
+    let result = match parse().command {
         Command::Triangulate(arguments) => triangulate::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
@@ -68,4 +91,31 @@ pub(crate) fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Parses the arguments; where they are wrong, the program says so and exits with 2.
+fn parse() -> Cli {
+    Cli::try_parse().unwrap_or_else(|error| {
+        // The message quotes the arguments, which may be names of files that speak to the terminal.
+        let is_clean = |argument: OsString| printable(&argument.to_string_lossy()) == argument.to_string_lossy();
+        if error.use_stderr() && !env::args_os().all(is_clean) {
+            let text = error.to_string();
+            eprintln!("{}", text.trim_end().split('\n').map(printable).collect::<Vec<_>>().join("\n"));
+            process::exit(error.exit_code());
+        }
+        error.exit()
+    })
+}
+
+/// Creates the input at `path`; without a format, standard input is wrong usage.
+fn input(path: &Path, format: Option<PointFormat>) -> Result<Input, FileError> {
+    match Input::new(path, format) {
+        Err(error @ FileError::NoFormat) => usage(ErrorKind::MissingRequiredArgument, &error.to_string()),
+        input => input,
+    }
+}
+
+/// Exits as on wrong usage.
+fn usage(kind: ErrorKind, what: &str) -> ! {
+    Cli::command().error(kind, what).exit()
 }

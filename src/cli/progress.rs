@@ -24,8 +24,8 @@ struct State {
     fraction: Option<f64>,
 }
 
-/// Shows on stderr what is being done, from a second after its creation until it is dropped; nothing where stderr is
-/// no terminal.
+/// Shows on stderr what is being done, from a second after its creation until it is dropped; shows
+/// nothing where stderr is no terminal.
 pub(super) struct Progress {
     state: Arc<Mutex<State>>,
     stop: Option<Sender<()>>,
@@ -63,7 +63,7 @@ impl Progress {
         Progress { state, stop: Some(stop), thread: thread.ok() }
     }
 
-    /// The function that tells the bar how far the work has come.
+    /// Returns the function that tells the bar how far the work has come.
     pub(super) fn reporter(&self) -> impl Fn(&'static str, f64) + Send + Sync + 'static {
         let state = Arc::clone(&self.state);
         move |what, fraction| {

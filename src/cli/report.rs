@@ -1,9 +1,10 @@
 //! What a run says about itself.
 
+use super::dimension::{Counts, Triangulation};
 use gdel::{
-    Backend, Mesh2, Mesh3,
+    Backend,
     internals::io::PointCloud,
-    stats::{ExactCounts, Fallback, GpuStats, Phase, SplayStats, Stats},
+    stats::{ExactCounts, Fallback, GpuStats, Phase, SplayStats},
 };
 use serde::{Serialize, Serializer, ser::SerializeMap};
 use std::{fmt, time::Duration};
@@ -15,29 +16,27 @@ pub(super) struct Report<'a> {
     points: usize,
     /// Points of the file that hold no measurement.
     no_return: usize,
+    /// Columns of a text file that are no coordinates.
+    ignored_columns: usize,
     duplicates: usize,
     dimension: u8,
     /// Those that the dimension of the mesh has.
     #[serde(flatten)]
     counts: Counts,
+    /// Whether the mesh was proven to be the Delaunay triangulation, where that was requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    verified: Option<bool>,
     backend: Backend,
     /// Why the CPU computed the mesh, where it was not requested explicitly.
     #[serde(skip_serializing_if = "Option::is_none")]
     fallback: Option<&'a Fallback>,
     seconds: Seconds<'a>,
-    /// Signs that the filters left open on the CPU.
+    /// Predicate evaluations that the filters left open on the CPU.
     exact: ExactCounts,
     #[serde(skip_serializing_if = "Option::is_none")]
     gpu: Option<&'a GpuStats>,
     #[serde(skip_serializing_if = "Option::is_none")]
     splay: Option<&'a SplayStats>,
-}
-
-#[derive(Clone, Copy, Serialize)]
-#[serde(untagged)]
-enum Counts {
-    ThreeD { tetrahedra: usize, hull_triangles: usize },
-    TwoD { triangles: usize, hull_edges: usize },
 }
 
 /// Without reading and writing files.
@@ -58,31 +57,21 @@ impl Serialize for Seconds<'_> {
 }
 
 impl<'a> Report<'a> {
-    pub(super) fn new(cloud: &PointCloud, mesh: &'a Mesh3, total: Duration) -> Self {
-        let counts = Counts::ThreeD { tetrahedra: mesh.tetrahedra.len(), hull_triangles: mesh.hull.len() };
-        Self::with(cloud, counts, mesh.duplicate_count(), mesh.dimension, &mesh.stats, total)
-    }
-
-    pub(super) fn of_plane(cloud: &PointCloud, mesh: &'a Mesh2, total: Duration) -> Self {
-        let hull_edges = if mesh.dimension == 2 { mesh.hull.len() } else { 0 };
-        let counts = Counts::TwoD { triangles: mesh.triangles.len(), hull_edges };
-        Self::with(cloud, counts, mesh.duplicate_count(), mesh.dimension, &mesh.stats, total)
-    }
-
-    fn with(
-        cloud: &PointCloud,
-        counts: Counts,
-        duplicates: usize,
-        dimension: u8,
-        stats: &'a Stats,
+    pub(super) fn new<const D: usize, const N: usize>(
+        cloud: &PointCloud<D>,
+        mesh: &'a impl Triangulation<D, N>,
         total: Duration,
+        verified: Option<bool>,
     ) -> Self {
+        let stats = mesh.stats();
         Report {
             points: cloud.points.len(),
             no_return: cloud.no_return,
-            duplicates,
-            dimension,
-            counts,
+            ignored_columns: cloud.ignored_columns,
+            duplicates: mesh.duplicates(),
+            dimension: mesh.dimension(),
+            counts: mesh.counts(),
+            verified,
             backend: stats.backend,
             fallback: stats.fallback.as_ref(),
             seconds: Seconds { total, phases: &stats.phases },
@@ -102,10 +91,15 @@ impl fmt::Display for Report<'_> {
         if self.no_return > 0 {
             write!(f, " and {} without a return, dropped", self.no_return)?;
         }
+        match self.ignored_columns {
+            0 => {}
+            1 => write!(f, "; the column after the coordinates is ignored")?,
+            n => write!(f, "; {n} columns after the coordinates are ignored")?,
+        }
         writeln!(f)?;
         let (full, simplices) = match self.counts {
-            Counts::ThreeD { .. } => (3, "tetrahedra"),
-            Counts::TwoD { .. } => (2, "triangles"),
+            Counts::D3 { .. } => (3, "tetrahedra"),
+            Counts::D2 { .. } => (2, "triangles"),
         };
         if self.dimension < full {
             let shape = match (self.dimension, self.points) {
@@ -117,10 +111,10 @@ impl fmt::Display for Report<'_> {
             writeln!(f, "dimension       {} ({shape}, so there are no {simplices})", self.dimension)?;
         }
         match self.counts {
-            Counts::ThreeD { tetrahedra, hull_triangles } => {
+            Counts::D3 { tetrahedra, hull_triangles } => {
                 writeln!(f, "tetrahedra      {tetrahedra}\nhull triangles  {hull_triangles}")?;
             }
-            Counts::TwoD { triangles, hull_edges } => {
+            Counts::D2 { triangles, hull_edges } => {
                 writeln!(f, "triangles       {triangles}\nhull edges      {hull_edges}")?;
             }
         }
@@ -131,6 +125,11 @@ impl fmt::Display for Report<'_> {
         for (phase, time) in self.seconds.phases {
             write!(f, ", {phase} {:.3}", time.as_secs_f64())?;
         }
-        write!(f, ")")
+        write!(f, ")")?;
+        match self.verified {
+            Some(true) => write!(f, "\nverified        this is the Delaunay triangulation"),
+            Some(false) => write!(f, "\nverified        NOT the Delaunay triangulation"),
+            None => Ok(()),
+        }
     }
 }

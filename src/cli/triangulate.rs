@@ -2,16 +2,16 @@
 
 use super::{
     Failure,
-    dimension::{Dimension, plane_points},
+    dimension::{Dimension, Triangulation, format_parser, read},
+    input,
     progress::Progress,
     report::Report,
     verify,
 };
 use clap::{Args, ValueEnum};
 use gdel::{
-    Backend, Triangulator,
-    internals::io::files::{self, FileError, Output},
-    verify::Report as Proof,
+    Backend, Mesh2, Mesh3, Points, Triangulator,
+    internals::io::{PointFormat, files::Output},
 };
 use std::{
     io::{self, Write},
@@ -21,39 +21,47 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Triangulate a point cloud.
+/// Compute the Delaunay triangulation of a point cloud.
 #[derive(Args)]
 pub(super) struct Arguments {
-    /// The points: .ply, .obj, .stl, .xyz, .txt, .asc, .pts, .csv, .tsv, .pcd, .las, .laz, .npy, .f32 or .f64
+    /// The points: .ply, .obj, .stl, .off, .xyz, .txt, .asc, .pts, .csv, .tsv, .pcd, .las, .laz,
+    /// .npy, .node, .f32 or .f64; or `-` for standard input, with `--format`
     input: PathBuf,
-    /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu or .npz; the hull as .ply,
-    /// .obj, .stl or .glb; may be given several times
+    /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu or .npz;
+    /// its hull as .ply, .obj, .stl or .glb; may be given several times
     #[arg(short, long = "output", value_name = "OUTPUT", value_parser = parse_output)]
     outputs: Vec<Output>,
-    /// Triangulate space, or the plane: then z is dropped, and all outputs have the triangles
+    /// Replace existing files whatever they are; without this, only earlier outputs of gdel are
+    /// replaced
+    #[arg(short, long)]
+    force: bool,
+    /// The dimension of the points; 2D drops z, and all outputs have the triangles
     #[arg(long, value_enum, default_value_t = Dimension::Three)]
     dim: Dimension,
-    /// What computes; all give the same mesh
+    /// The format of the input, whatever its extension
+    #[arg(long, value_parser = format_parser())]
+    format: Option<PointFormat>,
+    /// Where to compute; the mesh is the same everywhere
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
-    /// Print statistics in this form instead of a summary; with --repeat one object a line and run
+    /// Print statistics instead of a summary: one line per run
     #[arg(long, value_enum)]
     stats: Option<StatsForm>,
     /// Triangulate this many times
     #[arg(long, value_name = "N", default_value = "1")]
     repeat: NonZeroUsize,
-    /// Prove that the result is the Delaunay triangulation
+    /// Prove that the result is the Delaunay triangulation; with --repeat, the last one
     #[arg(long)]
     verify: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum BackendName {
-    /// The GPU for large inputs where there is one, else the CPU
+    /// The GPU for large inputs where there is a graphics card, else the CPU
     Auto,
     /// Incremental insertion on one core
     Cpu,
-    /// Flipping on the GPU, then star splaying (3D) or flips (2D) on the CPU
+    /// Flipping on the graphics card; an error where there is none
     Gpu,
 }
 
@@ -78,74 +86,54 @@ fn parse_output(path: &str) -> Result<Output, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match arguments.dim {
+        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
+        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
+    }
+}
+
+fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure> {
+    let input = input(&arguments.input, arguments.format)?;
+    arguments.outputs.iter().try_for_each(|output| output.check(&[input.path()], arguments.force))?;
     let cloud = {
         let _progress = Progress::new("reading");
-        files::read_points(&arguments.input)?
+        read::<D>(&input)?
     };
-    arguments.outputs.iter().try_for_each(Output::check)?;
-    let path = &arguments.input;
-    match arguments.dim {
-        Dimension::Three => {
-            let report = |mesh: &_, total| print(arguments.stats, &Report::new(&cloud, mesh, total));
-            let mesh = triangulate(arguments, |triangulator| triangulator.delaunay3d(&cloud), report)?;
-            conclude(arguments, || verify::prove(path, &cloud, &mesh))?;
-            write(arguments, |output| output.write((&cloud).into(), &mesh))
-        }
-        Dimension::Two => {
-            let points = plane_points(path, &cloud);
-            let report = |mesh: &_, total| print(arguments.stats, &Report::of_plane(&cloud, mesh, total));
-            let mesh = triangulate(arguments, |triangulator| triangulator.delaunay2d(&points), report)?;
-            conclude(arguments, || verify::prove2(path, (&points).into(), &mesh))?;
-            write(arguments, |output| output.write2((&points).into(), &mesh))
-        }
-    }
-}
-
-/// Runs and reports as often as asked for; gives the last mesh.
-fn triangulate<M>(
-    arguments: &Arguments,
-    run: impl Fn(&Triangulator) -> Result<M, gdel::Error>,
-    report: impl Fn(&M, Duration) -> io::Result<()>,
-) -> Result<M, Failure> {
+    let points = Points::from(&cloud);
+    let failure = |source| Failure::Points { path: input.path().into(), source };
+    let report = |mesh: &M, total, verified| print(arguments.stats, &Report::new(&cloud, mesh, total, verified));
     // One device for all runs.
     let triangulator = Triangulator::new().backend(arguments.backend.into());
-    let once = || {
-        let (mesh, total) = {
-            let progress = Progress::new("triangulating");
-            let show = progress.reporter();
-            let triangulator = triangulator.clone().on_progress(move |progress| {
-                show(progress.phase.name(), progress.fraction);
-                ControlFlow::Continue(())
-            });
-            let start = Instant::now();
-            let mesh =
-                run(&triangulator).map_err(|source| Failure::Points { path: arguments.input.clone(), source })?;
-            (mesh, start.elapsed())
-        };
-        report(&mesh, total)?;
-        Ok::<M, Failure>(mesh)
-    };
     // Each run gives its memory back before the next.
     for _ in 1..arguments.repeat.get() {
-        once()?;
+        let (mesh, total) = triangulate::<M, D, N>(points, &triangulator).map_err(failure)?;
+        report(&mesh, total, None)?;
     }
-    once()
-}
-
-/// Verifies, if that is asked for.
-fn conclude(arguments: &Arguments, prove: impl FnOnce() -> Result<Proof, Failure>) -> Result<(), Failure> {
-    if arguments.verify {
-        verify::conclude(&arguments.input, &prove()?)?;
-        if arguments.stats.is_none() {
-            writeln!(io::stdout().lock(), "verified")?;
-        }
+    let (mesh, total) = triangulate::<M, D, N>(points, &triangulator).map_err(failure)?;
+    let proof =
+        if arguments.verify { Some(verify::proof(|| M::verify(points, &mesh)).map_err(failure)?) } else { None };
+    report(&mesh, total, proof.as_ref().map(|proof| proof.passed()))?;
+    if let Some(proof) = &proof {
+        verify::conclude(input.path(), proof)?;
     }
-    Ok(())
-}
-
-fn write(arguments: &Arguments, write: impl Fn(&Output) -> Result<(), FileError>) -> Result<(), Failure> {
     let _progress = Progress::new("writing");
-    Ok(arguments.outputs.iter().try_for_each(write)?)
+    Ok(arguments.outputs.iter().try_for_each(|output| output.write(points, &mesh))?)
+}
+
+/// Triangulates, and measures how long that takes.
+fn triangulate<M: Triangulation<D, N>, const D: usize, const N: usize>(
+    points: Points<'_, D>,
+    triangulator: &Triangulator,
+) -> Result<(M, Duration), gdel::Error> {
+    let progress = Progress::new("triangulating");
+    let show = progress.reporter();
+    let triangulator = triangulator.clone().on_progress(move |progress| {
+        show(progress.phase.name(), progress.fraction);
+        ControlFlow::Continue(())
+    });
+    let start = Instant::now();
+    let mesh = M::triangulate(points, &triangulator)?;
+    Ok((mesh, start.elapsed()))
 }
 
 fn print(form: Option<StatsForm>, report: &Report<'_>) -> Result<(), io::Error> {

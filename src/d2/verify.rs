@@ -1,7 +1,8 @@
-//! The verifier for meshes of the plane.
+//! Verification of a 2D mesh: see [`verify`](mod@crate::verify) for what is checked and why it is
+//! enough.
 
 use crate::verify::{
-    input::{Input, dimension_in_plane},
+    input::{Input, dimension_2d},
     report::{Check, Defect, Findings, Outcome, Report},
 };
 use crate::{
@@ -18,7 +19,7 @@ use crate::{
 /// # Examples
 ///
 /// ```
-/// use gdel::verify::{MeshView2, verify2d};
+/// use gdel::{MeshView2, verify2d};
 ///
 /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
 /// // A mesh of another program, with its own arrays.
@@ -30,20 +31,23 @@ use crate::{
 #[derive(Debug, Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct MeshView2<'a> {
-    /// As in [`Mesh2::triangles`].
+    /// The vertices of each triangle: see [`Mesh2::triangles`].
     pub triangles: &'a [[u32; 3]],
-    /// As in [`Mesh2::halfedges`].
+    /// The opposite half-edges: see [`Mesh2::halfedges`].
     pub halfedges: Option<&'a [[i32; 3]]>,
-    /// As in [`Mesh2::hull`], from any of its vertices.
+    /// Entry *k* is the triangle across the edge opposite vertex *k*, as in Triangle's files;
+    /// [`NONE`] on the hull.
+    pub neighbors: Option<&'a [[i32; 3]]>,
+    /// The vertices of the hull, from any of them on: see [`Mesh2::hull`].
     pub hull: Option<&'a [u32]>,
-    /// As in [`Mesh2::duplicate_of`].
+    /// The points that stand for duplicates: see [`Mesh2::duplicate_of`].
     pub duplicate_of: Option<&'a [i32]>,
-    /// As in [`Mesh2::dimension`].
+    /// The affine dimension of the points: see [`Mesh2::dimension`].
     pub dimension: Option<u8>,
 }
 
 impl<'a> MeshView2<'a> {
-    /// A mesh of which only the triangles are known.
+    /// Creates the view of a mesh of which only the triangles are known.
     pub fn of_triangles(triangles: &'a [[u32; 3]]) -> Self {
         MeshView2 { triangles, ..MeshView2::default() }
     }
@@ -54,6 +58,7 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
         MeshView2 {
             triangles: &mesh.triangles,
             halfedges: Some(&mesh.halfedges),
+            neighbors: None,
             hull: Some(&mesh.hull),
             duplicate_of: Some(&mesh.duplicate_of),
             dimension: Some(mesh.dimension),
@@ -64,7 +69,7 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
 /// Checks that `mesh` is the Delaunay triangulation of `points`, of any mesh whatever.
 ///
 /// ```
-/// use gdel::verify::{MeshView2, verify2d};
+/// use gdel::{MeshView2, verify2d};
 /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
 /// assert!(verify2d(&points, MeshView2::of_triangles(&[[0, 1, 2]]))?.passed());
 /// let turned = verify2d(&points, MeshView2::of_triangles(&[[0, 2, 1]]))?;
@@ -77,7 +82,7 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
 /// As for [`verify3d`](crate::d3::verify::verify3d).
 pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView2<'m>>) -> Result<Report, Error> {
     let mesh = mesh.into();
-    let input = Input::new(points.into(), dimension_in_plane)?;
+    let input = Input::new(points.into(), dimension_2d)?;
     let mut report = Report { dimension: input.dimension, ..Report::default() };
     report.counts.points = input.points.len();
     report.counts.distinct_points = input.distinct;
@@ -100,8 +105,15 @@ pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView
     report.decide(Check::Vertices, || input.check_vertices(mesh.triangles, "triangle", Defect::at_triangle).into());
     report.decide(Check::Orientation, || check_orientation(&input.points, mesh.triangles).into());
     report.decide(Check::Facets, || bad_edges.into());
-    report
-        .decide(Check::Neighbors, || mesh.halfedges.map_or(Outcome::NotStated, |h| complex.check_halfedges(h).into()));
+    report.decide(Check::Neighbors, || match (mesh.halfedges, mesh.neighbors) {
+        (None, None) => Outcome::NotStated,
+        (halfedges, neighbors) => {
+            let mut findings = Findings::default();
+            halfedges.into_iter().for_each(|stated| complex.check_halfedges(stated, &mut findings));
+            neighbors.into_iter().for_each(|stated| complex.check_neighbors(stated, &mut findings));
+            findings.into()
+        }
+    });
     let mut ties = Outcome::Passed;
     report.decide(Check::Delaunay, || {
         let (delaunay, canonical) = complex.check_delaunay(&input.points);
@@ -206,7 +218,8 @@ struct Complex<'a> {
 }
 
 impl<'a> Complex<'a> {
-    /// Needs vertices that are indices of points, three different ones a triangle. Also says which edges are wrong.
+    /// Needs vertices that are indices of points, three different ones per triangle. Also says
+    /// which edges are wrong.
     fn new(triangles: &'a [[u32; 3]]) -> (Self, Findings) {
         let mut findings = Findings::default();
         let mut complex = Complex { triangles, halfedges: vec![[NONE; 3]; triangles.len()], ..Complex::default() };
@@ -248,12 +261,11 @@ impl<'a> Complex<'a> {
         [t[k], t[(k + 1) % 3]]
     }
 
-    fn check_halfedges(&self, stated: &[[i32; 3]]) -> Findings {
-        let mut findings = Findings::default();
+    fn check_halfedges(&self, stated: &[[i32; 3]], findings: &mut Findings) {
         if stated.len() != self.triangles.len() {
             let detail = format!("half-edges of {} triangles, not of {}", stated.len(), self.triangles.len());
             findings.add(|| Defect::in_mesh(detail));
-            return findings;
+            return;
         }
         for (t, (stated, expected)) in stated.iter().zip(&self.halfedges).enumerate() {
             for k in 0..3 {
@@ -263,7 +275,24 @@ impl<'a> Complex<'a> {
                 }
             }
         }
-        findings
+    }
+
+    fn check_neighbors(&self, stated: &[[i32; 3]], findings: &mut Findings) {
+        if stated.len() != self.triangles.len() {
+            let detail = format!("neighbors of {} triangles, not of {}", stated.len(), self.triangles.len());
+            findings.add(|| Defect::in_mesh(detail));
+            return;
+        }
+        for (t, (stated, across)) in stated.iter().zip(&self.halfedges).enumerate() {
+            for k in 0..3 {
+                // The edge opposite vertex k begins at the next.
+                let expected = if across[(k + 1) % 3] == NONE { NONE } else { across[(k + 1) % 3] / 3 };
+                if stated[k] != expected {
+                    let detail = format!("the neighbor opposite vertex {k} is {expected}, not {}", stated[k]);
+                    findings.add(|| Defect::at_triangle(t, detail));
+                }
+            }
+        }
     }
 
     /// The Delaunay property, and that of the ties. Needs counter-clockwise orientation.

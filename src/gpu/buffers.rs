@@ -22,26 +22,27 @@ const USAGES: wgpu::BufferUsages =
     wgpu::BufferUsages::STORAGE.union(wgpu::BufferUsages::COPY_SRC).union(wgpu::BufferUsages::COPY_DST);
 
 impl<T: Pod> Storage<T> {
-    /// A buffer of `len` elements; of one when `len` is 0, because an empty buffer cannot be bound.
+    /// Creates a buffer of `len` elements; of one when `len` is 0, because an empty buffer cannot
+    /// be bound.
     ///
     /// # Errors
     ///
-    /// [`Error::BufferTooLarge`] when the device cannot bind that much. That it has not enough memory is found by
-    /// [`Gpu::with_error_scope`].
+    /// [`Error::BufferTooLarge`] when the device cannot bind that much. That it has not enough
+    /// memory is found by [`Gpu::with_error_scope`].
     pub fn new(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
         Self::create(gpu, label, len, USAGES, false)
     }
 
-    /// A buffer that timestamps are written to.
+    /// Creates a buffer that timestamps are written to.
     pub(crate) fn for_queries(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
         Self::create(gpu, label, len, USAGES | wgpu::BufferUsages::QUERY_RESOLVE, false)
     }
 
-    /// A buffer that holds `contents`.
+    /// Creates a buffer that holds `contents`.
     ///
     /// # Errors
     ///
-    /// As [`Storage::new`].
+    /// Those of [`Storage::new`].
     pub fn with_contents(gpu: &Gpu, label: &'static str, contents: &[T]) -> Result<Self, Error> {
         if contents.is_empty() {
             return Self::new(gpu, label, 0);
@@ -78,13 +79,14 @@ impl<T: Pod> Storage<T> {
         Ok(Storage { buffer: gpu.device().create_buffer(&descriptor), label, len, elements: PhantomData })
     }
 
-    /// Makes room for `len` elements: at least half as many again as there are now, if the device can bind them, so
-    /// that growing step by step costs no more than a constant number of copies of each element. The first elements
-    /// are copied by a command in `encoder`; bind groups of the old buffer must be made anew.
+    /// Makes room for `len` elements: at least half as many again as there are now, if the device
+    /// can bind them, so that growing step by step costs no more than a constant number of copies
+    /// of each element. The first elements are copied by a command in `encoder`; bind groups of the
+    /// old buffer must be made anew.
     ///
     /// # Errors
     ///
-    /// As [`Storage::new`]; the buffer is unchanged then.
+    /// Those of [`Storage::new`]; the buffer is unchanged then.
     pub fn grow(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, len: usize) -> Result<(), Error> {
         if len <= self.len {
             return Ok(());
@@ -102,17 +104,17 @@ impl<T: Pod> Storage<T> {
         gpu.queue().write_buffer(&self.buffer, (start * size_of::<T>()) as u64, bytemuck::cast_slice(contents));
     }
 
-    /// The number of elements.
+    /// Returns the number of elements.
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether there are no elements.
+    /// Returns whether there are no elements.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// The size on the device, in bytes.
+    /// Returns the size on the device, in bytes.
     pub fn bytes(&self) -> u64 {
         self.buffer.size()
     }
@@ -123,7 +125,7 @@ impl<T: Pod> Storage<T> {
         Storage { buffer: self.buffer.clone(), label: self.label, len, elements: PhantomData }
     }
 
-    /// The buffer.
+    /// Returns the buffer.
     pub fn buffer(&self) -> &wgpu::Buffer {
         &self.buffer
     }

@@ -103,8 +103,8 @@ impl Gpu {
     ///
     /// # Errors
     ///
-    /// [`Error::NoAdapter`] when there is none or it gives no device, [`Error::AdapterNotFound`] when there is none of
-    /// that index or name.
+    /// [`Error::NoAdapter`] when there is none or it gives no device, [`Error::AdapterNotFound`]
+    /// when there is none of that index or name.
     pub async fn open(choice: &AdapterChoice) -> Result<Self, Error> {
         let instance = instance();
         let adapter = choose(&instance, choice).await?;
@@ -130,30 +130,31 @@ impl Gpu {
         Ok(gpu)
     }
 
-    /// Uses the caller's device. Its limits are taken as they are: the defaults of WebGPU are enough, larger buffers allow
-    /// larger inputs. Its handlers for errors and loss are left alone, so that its loss comes out as [`Error::Gpu`].
+    /// Uses the caller's device. Its limits are taken as they are: the defaults of WebGPU are
+    /// enough, larger buffers allow larger inputs. Its handlers for errors and loss are left alone,
+    /// so that its loss comes out as [`Error::Gpu`].
     pub fn from_device(device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let adapter = AdapterSummary::new(device.adapter_info(), &device.limits(), device.features());
         Gpu { device, queue, adapter, lost: Arc::default() }
     }
 
-    /// The device.
+    /// Returns the device.
     pub fn device(&self) -> &wgpu::Device {
         &self.device
     }
 
-    /// The queue.
+    /// Returns the queue.
     pub fn queue(&self) -> &wgpu::Queue {
         &self.queue
     }
 
-    /// What the device runs on.
+    /// Returns the adapter that the device runs on.
     pub fn adapter(&self) -> &AdapterSummary {
         &self.adapter
     }
 
-    /// Workgroups of a dispatch, at most, for a kernel that strides. On a CPU each one costs time even if it finds nothing to
-    /// do, and more of them than keep its cores busy gain nothing.
+    /// Workgroups of a dispatch, at most, for a kernel that strides. On a CPU each one costs time
+    /// even if it finds nothing to do, and more of them than keep its cores busy gain nothing.
     pub(crate) fn max_workgroups(&self) -> u32 {
         match self.adapter.software {
             true => 2 * std::thread::available_parallelism().map_or(2, |n| n.get() as u32),
@@ -161,18 +162,19 @@ impl Gpu {
         }
     }
 
-    /// The largest storage buffer that this device can bind, in bytes.
+    /// Returns the size of the largest storage buffer that this device can bind, in bytes.
     pub fn max_storage_bytes(&self) -> u64 {
         self.adapter.max_storage_buffer_bytes
     }
 
-    /// Runs `body`, which creates resources or submits commands, and turns what the device reports for it into an
-    /// error. In browsers the answer takes a trip to the GPU process, so create many resources in one `body`.
+    /// Runs `body`, which creates resources or submits commands, and turns what the device reports
+    /// for it into an error. In browsers the answer takes a trip to the GPU process, so create many
+    /// resources in one `body`.
     ///
     /// # Errors
     ///
-    /// [`Error::OutOfDeviceMemory`], [`Error::DeviceLost`], the errors of `body`, and [`Error::Gpu`] for what should
-    /// not happen.
+    /// [`Error::OutOfDeviceMemory`], [`Error::DeviceLost`], the errors of `body`, and
+    /// [`Error::Gpu`] for what should not happen.
     pub async fn with_error_scope<T>(
         &self,
         what: &'static str,
@@ -182,7 +184,8 @@ impl Gpu {
             use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
             let [a, b, c] = [Validation, Internal, OutOfMemory].map(|filter| self.device.push_error_scope(filter));
             let result = body();
-            // The scopes are a stack; popped here and not after the await, because they belong to this thread.
+            // The scopes are a stack; popped here and not after the await, because they belong to
+            // this thread.
             let [c, b, a] = [c, b, a].map(wgpu::ErrorScopeGuard::pop);
             (result, [c, b, a])
         };
@@ -199,9 +202,10 @@ impl Gpu {
         }
     }
 
-    /// The error for an operation that failed: the loss of the device, if that is why.
+    /// Returns the error for an operation that failed: the loss of the device, if that is why.
     pub(crate) fn failure(&self, message: &str) -> Error {
-        // Natively the loss is told only when the device is polled; that this fails in its turn tells nothing new.
+        // Natively the loss is told only when the device is polled; that this fails in its turn
+        // tells nothing new.
         let _ = self.device.poll(wgpu::PollType::Poll);
         match self.lost.get() {
             Some(reason) => Error::DeviceLost { reason: reason.clone() },

@@ -1,14 +1,20 @@
 //! What differs between the dimensions in what the device and the host share.
 //!
-//! The frame of the GPU engine is generic over the number `D` of coordinates, as [`Points`](crate::Points) and
-//! [`Lattice`](crate::input::lattice::Lattice) are. [`Dim`] supplies what differs; `d2/gpu/dim.rs` and
-//! `d3/gpu/dim.rs` implement it for [`Dimension<2>`] and [`Dimension<3>`].
+//! The frame of the GPU engine is generic over the number `D` of coordinates, as
+//! [`Points`](crate::Points) and [`Lattice`](crate::input::lattice::Lattice) are. [`Dim`] supplies
+//! what differs; `d2/gpu/dim.rs` and `d3/gpu/dim.rs` implement it for [`Dimension<2>`] and
+//! [`Dimension<3>`].
 
 use std::fmt::Debug;
 
 use bytemuck::Pod;
 
-use crate::{Error, gpu::Gpu, input::lattice::Width, predicates::Sign};
+use crate::{
+    Error,
+    gpu::{Binding, Gpu, shader::Shaders},
+    input::lattice::Width,
+    predicates::Sign,
+};
 
 /// The marker that [`Dim`] is implemented for: triangulations of points with `D` coordinates.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -31,8 +37,8 @@ pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
 
     /// What simplices are called in labels and messages.
     const SIMPLICES: &'static str;
-    /// What stands before the names of the kernels that only this dimension has.
-    const SHADERS: &'static str;
+    /// The shaders of the kernels.
+    const SHADERS: &'static Shaders;
     /// The largest number of points: simplices are numbered in 30 bits.
     const MAX_POINTS: usize;
     /// The default of [`Settings::history`](crate::gpu::phase1::Settings::history).
@@ -40,15 +46,15 @@ pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
     /// The default of [`Settings::max_iterations`](crate::gpu::phase1::Settings::max_iterations).
     const MAX_ITERATIONS: u32;
 
-    /// Returns the blocks, of [`BLOCK`](crate::gpu::layout::BLOCK) slots each, for `points` points. `tail` of them belong
-    /// to no vertex; 2D needs none and ignores it.
+    /// Returns the blocks, of [`BLOCK`](crate::gpu::layout::BLOCK) slots each, for `points` points.
+    /// `tail` of them belong to no vertex; 2D needs none and ignores it.
     fn blocks(points: u32, tail: u32) -> u32;
 
     /// Returns the words that a vertex takes on the device.
     fn vertex_words(width: Width) -> usize;
 
-    /// Appends the words of a vertex at `position`, which the lattice has `rounded` or not. 3D stores the input index with
-    /// it; 2D stores it elsewhere and ignores it here.
+    /// Appends the words of a vertex at `position`, which the lattice has `rounded` or not. 3D
+    /// stores the input index with it; 2D stores it elsewhere and ignores it here.
     fn append_vertex(words: &mut Vec<i32>, width: Width, position: [i64; D], index: u32, rounded: bool);
 
     /// Returns the orientation of the corners of a simplex, without perturbation.
@@ -58,7 +64,8 @@ pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
     /// Panics if there are not `D + 1` corners.
     fn orient(width: Width, corners: &[[i64; D]]) -> Sign;
 
-    /// Returns how good `p` is as the next corner of a large simplex that has the corners `chosen`: the larger, the better.
+    /// Returns how good `p` is as the next corner of a large simplex that has the corners `chosen`:
+    /// the larger, the better.
     fn spread(chosen: &[[f64; D]], p: [f64; D]) -> f64;
 }
 
@@ -80,6 +87,9 @@ pub trait OwnBuffers: Debug + Clone {
 
     /// Records that what must be zero in the beginning is.
     fn record_clear(&self, encoder: &mut wgpu::CommandEncoder);
+
+    /// Returns the buffers under the names that they have in shaders.
+    fn bindings(&self) -> Vec<Binding<'_>>;
 
     /// Returns the bytes that they take on the device.
     fn bytes(&self) -> u64;

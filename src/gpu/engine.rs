@@ -1,4 +1,5 @@
-//! The GPU engine: Phase 1 on the device, and on the CPU what it leaves open (the paper's §3 and §5.6).
+//! The GPU engine: Phase 1 on the device, and on the CPU what it leaves open (the paper's §3 and
+//! §5.6).
 //!
 //! `points → lattice → Phase 1 → what it may have missed → mesh`
 
@@ -9,7 +10,7 @@ use crate::{
     gpu::{
         Gpu,
         dim::Dimension,
-        phase1::{Input, Phase1, Phase1Output, Run, Settings, Stages},
+        phase1::{Finish, Input, Phase1, Phase1Output, Run, Settings},
         start::first_simplex,
     },
     index::NONE,
@@ -21,8 +22,8 @@ use crate::{
     stats::{Fallback, Phase, Stats, Stopwatch},
 };
 
-/// The shares of a run at which its phases begin, as progress reports them: about those of the time that it takes uniform
-/// points, and between Phase 1 and its completion lies the readback.
+/// The shares of a run at which its phases begin, as progress reports them: about those of the time
+/// that it takes uniform points, and between Phase 1 and its completion lies the readback.
 pub mod progress {
     /// Phase 1, after the lattice.
     pub const PHASE_1: f64 = 0.05;
@@ -35,11 +36,12 @@ pub mod progress {
 /// The mesh of `D` dimensions.
 pub type MeshOf<const D: usize> = <Dimension<D> as Complete<D>>::Mesh;
 
-/// How a dimension's engine completes what Phase 1 leaves, and the CPU engine that stands in for it.
+/// How a dimension's engine completes what Phase 1 leaves, and the CPU engine that stands in for
+/// it.
 #[expect(async_fn_in_trait, reason = "only this crate implements it, and no caller is generic over threads")]
-pub trait Complete<const D: usize>: Stages<D>
+pub trait Complete<const D: usize>: Finish<D>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     /// The result.
     type Mesh;
@@ -61,7 +63,8 @@ where
     /// Those of [`Readback::read`](crate::gpu::Readback::read).
     async fn trace_round(tracer: &mut Self::Tracer, gpu: &Gpu, run: &Run<'_, D>) -> Result<(), Error>;
 
-    /// Makes the mesh of what Phase 1 left, or says why the CPU engine has to; its statistics are set by the caller.
+    /// Makes the mesh of what Phase 1 left, or says why the CPU engine has to; its statistics are
+    /// set by the caller.
     ///
     /// # Errors
     ///
@@ -82,16 +85,16 @@ where
 /// What Phase 1 left, and what goes with it.
 pub struct Near<'a, const D: usize>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     /// The points of the run.
     pub(crate) points: Points<'a, D>,
     /// The lattice that is fitted to them.
     pub(crate) lattice: &'a Lattice<D>,
     /// The result of Phase 1.
-    pub(crate) result: <Dimension<D> as Stages<D>>::Result,
-    /// The points that Phase 1 did not insert though they are no duplicates, each with the vertex at the same place of the
-    /// lattice.
+    pub(crate) result: <Dimension<D> as Finish<D>>::Result,
+    /// The points that Phase 1 did not insert though they are no duplicates, each with the vertex
+    /// at the same place of the lattice.
     pub(crate) missing: Vec<[u32; 2]>,
     /// The mesh's entry of the same name.
     pub(crate) duplicate_of: Vec<i32>,
@@ -103,11 +106,12 @@ where
     pub(crate) stopwatch: &'a mut Stopwatch,
 }
 
-/// A device with the kernels of `D` dimensions compiled for it: make one and use it for many inputs.
+/// A device with the kernels of `D` dimensions compiled for it: make one and use it for many
+/// inputs.
 #[derive(Debug)]
 pub struct GpuEngine<const D: usize>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     gpu: Gpu,
     wide: Phase1<D>,
@@ -130,7 +134,8 @@ where
         Ok(GpuEngine { gpu, wide, narrow: None, settings: Settings::default() })
     }
 
-    /// Changes the settings for Phase 1, for experiments: they change the time, and not the set of simplices.
+    /// Changes the settings for Phase 1, for experiments: they change the time, and not the set of
+    /// simplices.
     pub fn set_settings(&mut self, settings: Settings<D>) {
         self.settings = settings;
     }
@@ -142,8 +147,9 @@ where
 
     /// Triangulates `points`: the result is the same set of simplices as every engine's.
     ///
-    /// Input that is no work for a device, because its points lie in a line (2D) or plane (3D) or nearly so, and input of
-    /// which completing Phase 1 takes too much work, is left to the CPU engine; [`Stats::fallback`] then says why.
+    /// Input that is no work for a device, because its points lie in a line (2D) or plane (3D) or
+    /// nearly so, and input of which completing Phase 1 takes too much work, is left to the CPU
+    /// engine; [`Stats::fallback`] then says why.
     ///
     /// # Errors
     ///
@@ -205,8 +211,9 @@ where
         Ok(mesh)
     }
 
-    /// Returns the device with the kernels for points of this width, compiled if they are not, and gives the buffers of the
-    /// other ones back: points of the other width are likely to come never again, or not soon.
+    /// Returns the device with the kernels for points of this width, compiled if they are not, and
+    /// gives the buffers of the other ones back: points of the other width are likely to come never
+    /// again, or not soon.
     async fn kernels(&mut self, width: Width) -> Result<(&Gpu, &mut Phase1<D>), Error> {
         let phase1 = match width {
             Width::Narrow => {

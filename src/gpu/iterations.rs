@@ -1,11 +1,13 @@
-//! How many flip iterations the host records ahead for a round, and when votes have to be cleared between them.
+//! How many flip iterations the host records ahead for a round, and when votes have to be cleared
+//! between them.
 
 use crate::gpu::{
     Recorder,
     layout::{BLOCK, Counters},
 };
 
-/// Returns the bits of a bidder's number: twice as many as there are slots in `blocks`, because the upper half is for marks.
+/// Returns the bits of a bidder's number: twice as many as there are slots in `blocks`, because the
+/// upper half is for marks.
 pub(crate) fn bid_bits(blocks: u32) -> u32 {
     33 - (blocks * BLOCK).leading_zeros()
 }
@@ -19,13 +21,14 @@ const MARGIN: u32 = 3;
 /// The same while few points are in, when each round takes longer than the last one.
 const EARLY_MARGIN: u32 = 10;
 
-/// Where few signs are left open, exact checks wait for each other: one alone takes longer than all filters of an iteration.
-/// Where they are many, there would be no progress. So they follow the filter in every so many iterations, when the
-/// filter leaves at most one sign open for so many visited simplices.
+/// Where few signs are left open, exact checks wait for each other: one alone takes longer than all
+/// filters of an iteration. Where they are many, there would be no progress. So they follow the
+/// filter in every so many iterations, when the filter leaves at most one sign open for so many
+/// visited simplices.
 const EXACT_EVERY: [(u32, u64); 2] = [(4, 16), (2, 3)];
 
-/// The flip iterations of a run. An iteration that finds nothing to do costs microseconds, a flip that has to wait for the
-/// next round may cost failed vertices.
+/// The flip iterations of a run. An iteration that finds nothing to do costs microseconds, a flip
+/// that has to wait for the next round may cost failed vertices.
 #[derive(Debug)]
 pub(crate) struct Iterations {
     /// To record for a round.
@@ -42,8 +45,8 @@ impl Iterations {
         Iterations { planned: MIN_PLANNED, counted: 0, exact_every: EXACT_EVERY[0].0 }
     }
 
-    /// Plans the next round by the counters before and after the last one, of which it returns the iterations. `waiting`
-    /// points are left.
+    /// Plans the next round by the counters before and after the last one, of which it returns the
+    /// iterations. `waiting` points are left.
     pub(crate) fn plan(&mut self, before: &Counters, after: &Counters, waiting: u32) -> u32 {
         self.counted = after.iteration;
         let used = after.iterations - before.iterations;
@@ -67,8 +70,8 @@ impl Iterations {
         self.counted = 1;
     }
 
-    /// Records the iterations of a round: some `flips`, and `clear` wherever a bid has no room for the number of the next
-    /// iteration.
+    /// Records the iterations of a round: some `flips`, and `clear` wherever a bid has no room for
+    /// the number of the next iteration.
     pub(crate) fn record(
         &mut self,
         recorder: &mut Recorder<'_>,

@@ -1,50 +1,60 @@
 //! What the kernels of Phase 1 keep in GPU buffers.
 //!
-//! Every structure here has a counterpart of the same name and layout in `shaders/shared/layout.wgsl`; a test compares
-//! their sizes and constants.
+//! The structures have counterparts of the same name and layout in `shaders/`, which the compiler
+//! compares; the constants are those of the shaders.
 //!
-//! **Points** are sorted along the Hilbert curve; a *vertex* is a place in that order. Vertex `n` (the number of points)
-//! is the vertex at infinity. Its record holds the *kernel point*, a point inside the first tetrahedron, and infinity
-//! lies opposite to it: replacing infinity by the kernel point flips the sign of an orientation.
+//! **Points** are sorted along the Hilbert curve; a *vertex* is a place in that order. Vertex `n`
+//! (the number of points) is the vertex at infinity. Its record holds the *interior point*, a point
+//! inside the first tetrahedron, and infinity lies opposite to it: replacing infinity by the
+//! interior point flips the sign of an orientation.
 //!
-//! **Tetrahedra** live in slots. Slots 8v … 8v + 7 are the *block* of vertex *v*, so that a tetrahedron is near its
-//! vertices in memory without any sorting; the block of infinity starts the initial tetrahedra, and the blocks after it
-//! are the *tail*, which serves when the blocks of all vertices of a flip are full. `free` has one word a block whose low
-//! bits tell which of its slots are free.
+//! **Tetrahedra** live in slots. Slots 8v … 8v + 7 are the *block* of vertex *v*, so that a
+//! tetrahedron is near its vertices in memory without any sorting; the block of infinity starts the
+//! initial tetrahedra, and the blocks after it are the *tail*, which serves when the blocks of all
+//! vertices of a flip are full. `free` has one word per block whose low bits tell which of its
+//! slots are free.
 //!
-//! **Neighbours** are packed as 4·tetrahedron + face: entry *k* of a tetrahedron is the facet opposite its vertex *k*, as
-//! the tetrahedron on the other side numbers it.
+//! **Neighbours** are packed as 4·tetrahedron + face: entry *k* of a tetrahedron is the facet
+//! opposite its vertex *k*, as the tetrahedron on the other side numbers it.
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::gpu::shader::{
+    assert_layout,
+    constants::{common, d3},
+};
+
 /// Nothing: no tetrahedron, no node, no vertex.
-pub const NONE: u32 = crate::index::NO_INDEX;
+pub const NONE: u32 = common::NONE;
 
 /// Slots in a block.
-pub const BLOCK: u32 = 8;
+pub const BLOCK: u32 = common::BLOCK;
 
 /// What a tetrahedron is doing.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Status {
-    /// Facets to check (bits 0–3): the tetrahedron is in the active list exactly when there are some. Facets that were
-    /// found not locally Delaunay but not flippable (bits 4–7). The insertion round in which waiting points may lie
-    /// inside (bits 16–31).
+    /// Facets to check (bits 0–3): the tetrahedron is in the active list exactly when there are
+    /// some. Facets that were found not locally Delaunay but not flippable (bits 4–7). The
+    /// insertion round in which waiting points may lie inside (bits 16–31).
     pub flags: u32,
     /// The highest bid for this tetrahedron: the flip iteration above, the bidder's number below.
     pub vote: u32,
-    /// The node of the history that made this tetrahedron, times 4, plus which of its tetrahedra it is.
+    /// The node of the history that made this tetrahedron, times 4, plus which of its tetrahedra it
+    /// is.
     pub last: u32,
-    /// The first node of the round that changed the tetrahedron in this slot as it was when the round began.
+    /// The first node of the round that changed the tetrahedron in this slot as it was when the
+    /// round began.
     pub first: u32,
 }
+assert_layout!(Status);
 
 /// The facets to check, in [`Status::flags`].
-pub const CHECK: u32 = 0xf;
+pub const CHECK: u32 = common::CHECK;
 /// Where the facets that are not locally Delaunay and not flippable start in [`Status::flags`].
-pub const SUSPECT_SHIFT: u32 = 4;
+pub const SUSPECT_SHIFT: u32 = common::SUSPECT_SHIFT;
 /// Where the insertion round starts in [`Status::flags`].
-pub const HELD_SHIFT: u32 = 16;
+pub const HELD_SHIFT: u32 = common::HELD_SHIFT;
 
 /// An entry of the active list.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
@@ -52,33 +62,35 @@ pub const HELD_SHIFT: u32 = 16;
 pub struct Active {
     /// The tetrahedron.
     pub tet: u32,
-    /// What the current flip iteration found: the facets still to check (bits 0–3), the facets that cannot be flipped
-    /// (bits 4–7), the kind of the proposed flip (bits 8–9), its facet (bits 10–11) and edge (bits 12–13). A flip that
-    /// was carried out leaves its kind, and the slot that a 3-2 flip gives back from bit 4 on, below [`DONE`].
+    /// What the current flip iteration found: the facets still to check (bits 0–3), the facets that
+    /// cannot be flipped (bits 4–7), the kind of the proposed flip (bits 8–9), its facet (bits
+    /// 10–11) and edge (bits 12–13). A flip that was carried out leaves its kind, and the slot that
+    /// a 3-2 flip gives back from bit 4 on, below [`DONE`].
     pub outcome: u32,
 }
+assert_layout!(Active);
 
 /// Where the kind of flip is in [`Active::outcome`].
-pub const KIND_SHIFT: u32 = 8;
+pub const KIND_SHIFT: u32 = common::KIND_SHIFT;
 /// Where the facet is in [`Active::outcome`].
-pub const FACET_SHIFT: u32 = 10;
+pub const FACET_SHIFT: u32 = common::FACET_SHIFT;
 /// Where the edge is in [`Active::outcome`].
-pub const EDGE_SHIFT: u32 = 12;
+pub const EDGE_SHIFT: u32 = d3::EDGE_SHIFT;
 /// A flip of two tetrahedra into three, in [`Active::outcome`] and [`FlipNode::kind`].
-pub const FLIP_23: u32 = 1;
+pub const FLIP_23: u32 = d3::FLIP_23;
 /// A flip of three tetrahedra into two.
-pub const FLIP_32: u32 = 2;
+pub const FLIP_32: u32 = d3::FLIP_32;
 /// The flip was carried out.
-pub const DONE: u32 = 1 << 31;
+pub const DONE: u32 = common::DONE;
 /// Where the slot that was given back is in [`Active::outcome`], with [`DONE`].
-pub const SLOT_SHIFT: u32 = 2;
+pub const SLOT_SHIFT: u32 = d3::SLOT_SHIFT;
 
 /// A flip in the history.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct FlipNode {
-    /// The ring around the edge, x₀, x₁, x₂, then the ends of the edge, d and e: the tetrahedra (xᵢ, xᵢ₊₁, d, e) are
-    /// positively oriented.
+    /// The ring around the edge, x₀, x₁, x₂, then the ends of the edge, d and e: the tetrahedra
+    /// (xᵢ, xᵢ₊₁, d, e) are positively oriented.
     pub vertices: [u32; 5],
     /// [`FLIP_23`] or [`FLIP_32`].
     pub kind: u32,
@@ -87,6 +99,7 @@ pub struct FlipNode {
     /// The nodes that changed these later, or [`NONE`].
     pub next: [u32; 3],
 }
+assert_layout!(FlipNode);
 
 /// The counters that the kernels share.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
@@ -122,7 +135,8 @@ pub struct Counters {
     pub failed: u32,
     /// Points that another one stands for, because it lies at the same place.
     pub merged: u32,
-    /// Tetrahedra that are flat, or of which the lattice does not prove everything; in the plane, questions to the host.
+    /// Tetrahedra that are flat, or of which the lattice does not prove everything; in 2D,
+    /// tests that the host decides.
     pub uncertain: u32,
     /// Infinite tetrahedra, counted when they are numbered.
     pub ghosts: u32,
@@ -130,11 +144,12 @@ pub struct Counters {
     pub undecided: u32,
     /// Facets that are not locally Delaunay, found at the end.
     pub not_locally_delaunay: u32,
-    /// In the plane: flips so far.
+    /// In 2D: flips so far.
     pub flips_22: u32,
-    /// In the plane: edges of the hull.
+    /// In 2D: edges of the hull.
     pub hull: u32,
 }
+assert_layout!(Counters);
 
 impl Counters {
     /// Returns the flips of all kinds so far.
@@ -144,9 +159,9 @@ impl Counters {
 }
 
 /// A flip was put off because no slot was found for its third tetrahedron.
-pub const SLOTS_FULL: u32 = 1;
+pub const SLOTS_FULL: u32 = common::SLOTS_FULL;
 /// A flip was put off because the history was full.
-pub const HISTORY_FULL: u32 = 2;
+pub const HISTORY_FULL: u32 = common::HISTORY_FULL;
 
 /// What the kernels are told. In the buffer `control` it stands before the [`Counters`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
@@ -170,12 +185,13 @@ pub struct Params {
     pub entries_before: u32,
     /// Blocks that there were before there were more.
     pub blocks_before: u32,
-    /// In space: after a flip iteration with at least this many active tetrahedra, the next ones are found by looking at
-    /// all slots (§4.2).
+    /// In 3D: after a flip iteration with at least this many active tetrahedra, the next ones
+    /// are found by looking at all slots (§4.2).
     pub compact_from: u32,
     /// In 2D: 1 for a mesh that is clockwise with *y* up, 0 for one that is counter-clockwise.
     pub clockwise: u32,
 }
+assert_layout!(Params);
 
 /// Words of [`Params`], after which the [`Counters`] stand in the buffer `control`.
 pub const PARAM_WORDS: usize = size_of::<Params>() / 4;
@@ -190,9 +206,9 @@ pub enum Pick {
     #[default]
     Circumcenter = 0,
     /// The one nearest to the centroid.
-    Centroid = 1,
+    Centroid = common::PICK_CENTROID,
     /// Any.
-    Random = 2,
+    Random = common::PICK_RANDOM,
 }
 
 /// A point that waits to be inserted.
@@ -204,3 +220,4 @@ pub struct Waiting {
     /// The tetrahedron that it lies in; [`NONE`] once it is inserted.
     pub tet: u32,
 }
+assert_layout!(Waiting);

@@ -1,14 +1,16 @@
-//! From points in host memory to vertices on the device: upload, duplicates, lattice, and order along the Hilbert curve
-//! (§4.3).
+//! From points in host memory to vertices on the device: upload, duplicates, lattice, and order
+//! along the Hilbert curve (§4.3).
 //!
 //! 1. The coordinates' bits are uploaded as they are; the device puts them on the lattice.
-//! 2. A hash table unites the points at the same place of the lattice; the lowest number stands for all. They are exact
-//!    duplicates, or were rounded to the same place.
-//! 3. Every point gets its place along the Hilbert curve as key, those that another stands for the last one.
+//! 2. A hash table merges the points at the same place of the lattice; the lowest number stands for
+//!    all. They are exact duplicates, or were rounded to the same place.
+//! 3. Every point gets its place along the Hilbert curve as key, those that another stands for the
+//!    last one.
 //! 4. The keys are sorted; ties stay in the order of the input.
 //! 5. The vertices are written in that order.
 //!
-//! So vertex *v* is point `pairs[v][1]`, and the points that others stand for are behind all vertices.
+//! So vertex *v* is point `pairs[v][1]`, and the points that others stand for are behind all
+//! vertices.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -18,12 +20,13 @@ use crate::{
     gpu::{
         Gpu, Kernel, Recorder, Storage,
         dim::{Dim, Dimension},
+        shader::{assert_layout, constants::common as constants},
         workgroups,
     },
     input::lattice::{Lattice, Width},
 };
 
-/// What the kernels are told. Mirrors `InputParams` in `shaders/shared/input.wgsl`.
+/// The parameters of the kernels.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct InputParams {
@@ -45,13 +48,14 @@ pub struct InputParams {
     pub width: u32,
     /// Points whose vertices are wanted.
     pub wanted: [u32; 4],
-    /// The coordinates of a point: 3, or 2 in the plane.
+    /// The coordinates of a point: 2 or 3.
     pub dimension: u32,
     /// Zero.
     pub unused: [u32; 3],
 }
+assert_layout!(InputParams);
 
-/// What the kernels count. Mirrors `InputCounts` in `shaders/shared/input_counts.wgsl`.
+/// The counters of the kernels.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct InputCounts {
@@ -68,14 +72,22 @@ pub struct InputCounts {
     /// The vertices of the wanted points.
     pub found: [u32; 4],
 }
+assert_layout!(InputCounts);
+// Some kernels see the words of the structure.
+const _: () = {
+    assert!(std::mem::offset_of!(InputCounts, merged) == 4 * constants::COUNT_MERGED as usize);
+    assert!(std::mem::offset_of!(InputCounts, rounded) == 4 * constants::COUNT_ROUNDED as usize);
+    assert!(std::mem::offset_of!(InputCounts, found) == 4 * constants::COUNT_FOUND as usize);
+};
 
-/// The bits of a sort key: 30 for the place along the curve, and the largest for points that others stand for.
+/// The bits of a sort key: 30 for the place along the curve, and the largest for points that others
+/// stand for.
 const KEY_BITS: u32 = 32;
 
 /// The kernels, for points of `D` coordinates.
 #[derive(Debug)]
 pub struct PointStage<const D: usize> {
-    unite: Kernel,
+    merge: Kernel,
     keys: Kernel,
     gather: Kernel,
     sort: Sort,
@@ -97,8 +109,8 @@ pub struct PointInput<'a, const D: usize = 3> {
 /// The points on the device. Valid when the recorded commands have run.
 #[derive(Debug, Clone)]
 pub struct DevicePoints {
-    /// The vertices, as [`vertex`] lays them out, or [`plane::vertex`] in the plane, in the order of `pairs`; the last word
-    /// of a wide one in space is 1 if it was rounded. There is room for one more, the vertex at infinity.
+    /// The vertices, as [`Dim::append_vertex`] lays them out, in the order of `pairs`. There is room
+    /// for one more, the vertex at infinity.
     pub vertices: Storage<i32>,
     /// Sort key and point of each vertex.
     pub pairs: Storage<[u32; 2]>,
@@ -117,7 +129,7 @@ pub struct PointBuffers {
     input: Storage<u32>,
     table: Storage<u32>,
     device: DevicePoints,
-    unite: wgpu::BindGroup,
+    merge: wgpu::BindGroup,
     keys: wgpu::BindGroup,
     sort: BoundSort,
     gather: wgpu::BindGroup,
@@ -130,17 +142,17 @@ where
 {
     /// Compiles the kernels.
     pub fn new(gpu: &Gpu) -> Self {
-        let kernel = |name: &str| Kernel::new(gpu, name, Width::Narrow, &[]);
+        let kernel = |name| Kernel::new(gpu, Dimension::<D>::SHADERS.get(name), Width::Narrow);
         PointStage {
-            unite: kernel("points_unite"),
+            merge: kernel("points_merge"),
             keys: kernel("points_keys"),
-            gather: kernel(&format!("{}points_gather", Dimension::<D>::SHADERS)),
+            gather: kernel("points_gather"),
             sort: Sort::new(gpu),
         }
     }
 
-    /// Uploads the points, and records what makes vertices of them. `kept` has the buffers of the last time, and is given
-    /// those of this time.
+    /// Uploads the points, and records what makes vertices of them. `kept` has the buffers of the
+    /// last time, and is given those of this time.
     ///
     /// # Errors
     ///
@@ -184,8 +196,8 @@ where
         encoder.clear_buffer(buffers.table.buffer(), 0, None);
         encoder.clear_buffer(buffers.device.counts.buffer(), 0, None);
         let groups = workgroups(n as u32);
-        recorder.stage("unite");
-        recorder.dispatch(&self.unite, &buffers.unite, groups);
+        recorder.stage("merge");
+        recorder.dispatch(&self.merge, &buffers.merge, groups);
         recorder.stage("keys");
         recorder.dispatch(&self.keys, &buffers.keys, groups);
         if sort {
@@ -215,21 +227,17 @@ where
         let counts = Storage::new(gpu, "point counts", 1)?;
         let vertex_words = Dimension::<D>::vertex_words(width);
         let vertices = Storage::new(gpu, "vertices", (n + 1) * vertex_words)?;
-        let [unite, keys, gather]: [&[&wgpu::Buffer]; 3] = [
-            &[params.buffer(), input.buffer(), table.buffer(), slots.buffer()],
-            &[
-                params.buffer(),
-                input.buffer(),
-                table.buffer(),
-                slots.buffer(),
-                pairs.buffer(),
-                merged_into.buffer(),
-                counts.buffer(),
-            ],
-            &[params.buffer(), input.buffer(), pairs.buffer(), vertices.buffer(), counts.buffer()],
+        let buffers = [
+            ("params", params.buffer()),
+            ("input", input.buffer()),
+            ("table", table.buffer()),
+            ("slots", slots.buffer()),
+            ("pairs", pairs.buffer()),
+            ("merged_into", merged_into.buffer()),
+            ("counts", counts.buffer()),
+            ("vertices", vertices.buffer()),
         ];
-        let (unite, keys) = (self.unite.bind(gpu, unite), self.keys.bind(gpu, keys));
-        let gather = self.gather.bind(gpu, gather);
+        let [merge, keys, gather] = [&self.merge, &self.keys, &self.gather].map(|kernel| kernel.bind(gpu, &buffers));
         // An even number of passes: the pairs end up where they were.
         let sort = self.sort.bind(gpu, &mut pairs, &mut scratch, KEY_BITS)?;
         let bytes = params.bytes()
@@ -240,12 +248,12 @@ where
             + merged_into.bytes()
             + vertices.bytes();
         let device = DevicePoints { vertices, pairs, merged_into, counts };
-        Ok(PointBuffers { form, params, input, table, device, unite, keys, sort, gather, bytes })
+        Ok(PointBuffers { form, params, input, table, device, merge, keys, sort, gather, bytes })
     }
 }
 
 impl PointBuffers {
-    /// The bytes that they take on the device.
+    /// Returns the bytes that they take on the device.
     pub fn bytes(&self) -> u64 {
         self.bytes
     }

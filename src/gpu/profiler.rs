@@ -3,8 +3,8 @@
 use crate::Error;
 use crate::gpu::{Gpu, Pending, Readback, Storage};
 
-/// The stages that one submission can time; WebGPU allows no more queries in a set than twice this. Later stages of
-/// the submission count as part of the last timed one.
+/// The stages that one submission can time; WebGPU allows no more queries in a set than twice this.
+/// Later stages of the submission count as part of the last timed one.
 const CAPACITY: usize = 2048;
 
 /// Times the stages of submissions.
@@ -12,7 +12,7 @@ const CAPACITY: usize = 2048;
 pub struct Profiler {
     queries: wgpu::QuerySet,
     ticks: Storage<u64>,
-    /// Nanoseconds a tick.
+    /// Nanoseconds per tick.
     period: f64,
     readback: Readback,
     /// The stages of the submission that is being recorded.
@@ -23,7 +23,7 @@ pub struct Profiler {
 }
 
 impl Profiler {
-    /// A profiler; `None` where the device has no timestamps.
+    /// Creates a profiler, or returns `None` where the device has no timestamps.
     ///
     /// # Errors
     ///
@@ -49,7 +49,7 @@ impl Profiler {
         }))
     }
 
-    /// The queries for the compute pass of a stage.
+    /// Returns the queries for the compute pass of a stage.
     pub(crate) fn begin(&mut self, name: &'static str) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
         let slot = self.recording.len();
         (slot < CAPACITY).then(|| {
@@ -74,12 +74,12 @@ impl Profiler {
         self.waiting.push((stages, pending));
     }
 
-    /// Milliseconds per stage since the profiler was made, in the order in which the stages first ran. Waits for
-    /// `last`, the last submission that it has timed.
+    /// Returns the milliseconds per stage since the profiler was made, in the order in which the
+    /// stages first ran. Waits for `last`, the last submission that it has timed.
     ///
     /// # Errors
     ///
-    /// As [`Readback::receive`].
+    /// Those of [`Readback::receive`].
     pub async fn milliseconds(
         &mut self,
         gpu: &Gpu,

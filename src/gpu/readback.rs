@@ -10,8 +10,8 @@ use crate::parallel::{Threads, for_chunks};
 
 /// A pool of staging buffers.
 ///
-/// A readback has two halves, so that the next batch of commands can run while the host waits: [`Readback::copy`]
-/// records it, [`Readback::receive`] waits for it after the submission.
+/// A readback has two halves, so that the next batch of commands can run while the host waits:
+/// [`Readback::copy`] records it, [`Readback::receive`] waits for it after the submission.
 #[derive(Debug, Default)]
 pub struct Readback {
     idle: Vec<wgpu::Buffer>,
@@ -24,7 +24,8 @@ pub struct Readback {
 pub struct Pending<T> {
     staging: wgpu::Buffer,
     len: usize,
-    /// The bytes that are mapped, from the start: the elements, and what lies behind them in `staging`, up to [`with_room`].
+    /// The bytes that are mapped, from the start: the elements, and what lies behind them in
+    /// `staging`, up to [`with_room`].
     mapped_bytes: u64,
     mapped: oneshot::Receiver<Result<(), wgpu::BufferAsyncError>>,
     elements: std::marker::PhantomData<T>,
@@ -94,7 +95,7 @@ impl Readback {
     ///
     /// # Errors
     ///
-    /// As [`Readback::receive`].
+    /// Those of [`Readback::receive`].
     pub async fn read<T: Pod>(
         &mut self,
         gpu: &Gpu,
@@ -112,12 +113,13 @@ impl Readback {
         self.receive(gpu, &submission, pending).await
     }
 
-    /// How many readbacks were recorded.
+    /// Returns how many readbacks were recorded.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// The smallest idle staging buffer of as many bytes, or a new one of at least `wanted`, a little larger for next time.
+    /// Returns the smallest idle staging buffer of as many bytes, or a new one of at least
+    /// `wanted`, a little larger for next time.
     fn staging(&mut self, gpu: &Gpu, bytes: u64, wanted: u64) -> wgpu::Buffer {
         let fitting =
             (0..self.idle.len()).filter(|&i| self.idle[i].size() >= bytes).min_by_key(|&i| self.idle[i].size());
@@ -136,12 +138,14 @@ impl Readback {
     }
 }
 
-/// So many elements are given room, `len` being read, so that Phase 2 need not move the whole to add a few tetrahedra.
+/// Returns how many elements are given room when `len` are read, so that Phase 2 need not move the
+/// whole to add a few tetrahedra.
 fn with_room(len: usize) -> usize {
     len + len / 64
 }
 
-/// `len` elements from the bytes of a mapped buffer. Pages of fresh memory are what takes long here, so threads share them.
+/// Copies `len` elements from the bytes of a mapped buffer. Pages of fresh memory are what takes
+/// long here, so threads share them.
 #[cfg(not(target_arch = "wasm32"))]
 fn copied<T: Pod>(view: &wgpu::BufferView, len: usize) -> Vec<T> {
     let mut result = bytemuck::zeroed_vec(with_room(len));
@@ -154,8 +158,9 @@ fn copied<T: Pod>(view: &wgpu::BufferView, len: usize) -> Vec<T> {
     result
 }
 
-/// `len` elements from the bytes of a mapped buffer, which lie outside of the memory of wasm: to look at them as a slice
-/// would copy them once more. The room is copied along, since to fill it, and the rest, with zeros before takes as long as to copy.
+/// Copies `len` elements from the bytes of a mapped buffer, which lie outside of the memory of
+/// wasm: to look at them as a slice would copy them once more. The room is copied along, since to
+/// fill it, and the rest, with zeros before takes as long as to copy.
 #[cfg(target_arch = "wasm32")]
 fn copied<T: Pod>(view: &wgpu::BufferView, len: usize) -> Vec<T> {
     let bytes = view.as_uint8array();

@@ -11,14 +11,14 @@ pub struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// Starts recording. With a profiler each stage is a compute pass of its own, because browsers write timestamps
-    /// only at the ends of passes; without one all stages share a pass.
+    /// Starts recording. With a profiler each stage is a compute pass of its own, because browsers
+    /// write timestamps only at the ends of passes; without one all stages share a pass.
     pub fn new(gpu: &Gpu, profiler: Option<&'a mut Profiler>) -> Self {
         let encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("gdel") });
         Recorder { encoder, pass: None, profiler, dispatches: 0 }
     }
 
-    /// The dispatches from here on are timed under `name`.
+    /// Times the dispatches from here on under `name`.
     pub fn stage(&mut self, name: &'static str) {
         if let Some(profiler) = &mut self.profiler {
             self.pass = None;
@@ -38,13 +38,13 @@ impl<'a> Recorder<'a> {
         self.dispatches += 1;
     }
 
-    /// The encoder, for copies; this ends the compute pass.
+    /// Returns the encoder, for copies; this ends the compute pass.
     pub fn encoder(&mut self) -> &mut wgpu::CommandEncoder {
         self.pass = None;
         &mut self.encoder
     }
 
-    /// The dispatches so far.
+    /// Returns the number of dispatches so far.
     pub fn dispatches(&self) -> usize {
         self.dispatches
     }

@@ -1,72 +1,68 @@
-//! Assembly of WGSL: `shaders/` with its includes resolved.
+//! The shaders, as the build assembles them from `shaders/`.
 //!
-//! A line `//!include NAME` stands for the file `shaders/NAME.wgsl`, once in each assembled shader however often it is
-//! asked for. `{width}` in a name is `narrow` or `wide`: the two forms of the exact arithmetic have the same functions.
+//! A file with an entry point is a kernel. A line `//!include NAME` in it stands for the file
+//! `shaders/NAME.wgsl`. `{width}` in a name is `narrow` or `wide`: the two forms of the exact
+//! arithmetic have the same functions. `{dim}` is `d2` or `d3`: the files there have the functions
+//! in which a kernel of both dimensions differs.
+//!
+//! The build validates each kernel in each form. It derives from the WGSL what the host would
+//! otherwise have to repeat: the bindings of the buffers, the constants, and the layouts of the
+//! structures, which `assert_layout!` compares with those of the host.
 
 use crate::input::lattice::Width;
 
-/// The files of `shaders/`, by name, as `build.rs` gathers them: without comments.
-const SOURCES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
 
-/// The kernels: the files that can be assembled into a shader of their own, which are those outside `shared/`.
-pub fn kernels() -> impl Iterator<Item = &'static str> {
-    SOURCES.iter().map(|&(name, _)| name).filter(|name| !name.starts_with("shared/"))
+/// The kernels for one dimension, or for any.
+#[derive(Debug)]
+pub struct Shaders(&'static [Shader]);
+
+/// The WGSL of a kernel.
+#[derive(Debug)]
+pub struct Shader {
+    name: &'static str,
+    narrow: &'static [&'static str],
+    wide: &'static [&'static str],
+    variables: &'static [(&'static str, u32)],
 }
 
-/// The WGSL of the kernel `name`, complete.
-///
-/// # Panics
-///
-/// When there is no file of this name, or one that it includes is missing: a mistake in this crate, which the test
-/// that assembles all kernels finds.
-pub fn assemble(name: &str, width: Width) -> String {
-    let mut assembly = Assembly { width, included: Vec::new(), text: String::new() };
-    assembly.append(name);
-    assembly.text
-}
-
-/// The WGSL of a kernel that is not one of this crate's files, such as a test's: `text` with its includes resolved.
-///
-/// # Panics
-///
-/// When an included file is missing.
-pub fn assemble_text(text: &str, width: Width) -> String {
-    let mut assembly = Assembly { width, included: Vec::new(), text: String::new() };
-    assembly.append_text(text);
-    assembly.text
-}
-
-struct Assembly {
-    width: Width,
-    included: Vec<&'static str>,
-    text: String,
-}
-
-impl Assembly {
-    fn append(&mut self, name: &str) {
-        let form = match self.width {
-            Width::Narrow => "narrow",
-            Width::Wide => "wide",
-        };
-        let wanted = name.replace("{width}", form);
-        let Some(&(name, text)) = SOURCES.iter().find(|(name, _)| *name == wanted) else {
-            panic!("no shader source is named {wanted:?}");
-        };
-        if !self.included.contains(&name) {
-            self.included.push(name);
-            self.append_text(text);
-        }
+impl Shaders {
+    /// Returns the kernel of this name, which is that of its file.
+    ///
+    /// # Panics
+    ///
+    /// Panics if there is none: a mistake in this crate.
+    pub fn get(&self, name: &str) -> &'static Shader {
+        self.find(name).unwrap_or_else(|| panic!("no kernel is named {name}"))
     }
 
-    fn append_text(&mut self, text: &str) {
-        for line in text.lines() {
-            match line.strip_prefix("//!include ") {
-                Some(name) => self.append(name.trim()),
-                None => {
-                    self.text.push_str(line);
-                    self.text.push('\n');
-                }
-            }
+    /// Returns the kernel of this name, if these have one.
+    pub fn find(&self, name: &str) -> Option<&'static Shader> {
+        self.iter().find(|shader| shader.name.rsplit('/').next() == Some(name))
+    }
+
+    /// Returns all kernels.
+    pub fn iter(&self) -> impl Iterator<Item = &'static Shader> {
+        self.0.iter()
+    }
+}
+
+impl Shader {
+    /// Returns the name, with the folder of the dimension or of the file.
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// Returns the names of the storage buffers, with their bindings in group 0.
+    pub fn variables(&self) -> &'static [(&'static str, u32)] {
+        self.variables
+    }
+
+    /// Assembles the WGSL.
+    pub fn wgsl(&self, width: Width) -> String {
+        match width {
+            Width::Narrow => self.narrow.concat(),
+            Width::Wide => self.wide.concat(),
         }
     }
 }

@@ -17,14 +17,14 @@ where
     pub interior_point: [i64; D],
 }
 
-/// Points that are looked at for a large first simplex: enough for one that most points lie in, and so few that looking takes
-/// no time.
+/// Points that are looked at for a large first simplex: enough for one that most points lie in, and
+/// so few that looking takes no time.
 const SAMPLE: usize = 4096;
 
 /// Returns a first simplex for `count` points of a lattice, as large as a sample of them gives.
 ///
-/// Returns `None` if all points lie in a line (2D) or plane (3D), or if the lattice has no point inside the simplex that
-/// was found.
+/// Returns `None` if all points lie in a line (2D) or plane (3D), or if the lattice has no point
+/// inside the simplex that was found.
 pub fn first_simplex<const D: usize>(
     width: Width,
     count: usize,
@@ -63,7 +63,8 @@ where
         let positions: Vec<[i64; D]> = corners.iter().map(|&i| position(i)).collect();
         <Dimension<D>>::orient(width, &positions)
     };
-    // Where the volume is lost in rounding, any point that is not in a line or plane with the others will do.
+    // Where the volume is lost in rounding, any point that is not in a line or plane with the
+    // others will do.
     if orient(&first) == 0 {
         first[D] = sample().find(|&i| orient(&[&first[..D], &[i]].concat()) != 0)?;
     }

@@ -3,7 +3,7 @@
 use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
 use crate::{
     Error,
-    gpu::{Gpu, Kernel, Recorder, Storage, layout::Waiting},
+    gpu::{Gpu, Kernel, Recorder, Storage, layout::Waiting, shader},
     input::lattice::Width,
 };
 
@@ -28,25 +28,25 @@ pub struct BoundWaitingList {
 }
 
 impl BoundWaitingList {
-    /// The bytes that it takes on the device beside the buffers that it shares.
+    /// Returns the bytes that it takes on the device beside the buffers that it shares.
     pub fn bytes(&self) -> u64 {
         self.bytes
     }
 }
 
 impl WaitingList {
-    /// The kernels.
+    /// Compiles the kernels.
     pub fn new(gpu: &Gpu) -> Self {
         let [mark, compact] =
-            ["waiting_mark", "waiting_compact"].map(|name| Kernel::new(gpu, name, Width::Narrow, &[]));
+            ["waiting_mark", "waiting_compact"].map(|name| Kernel::new(gpu, shader::COMMON.get(name), Width::Narrow));
         WaitingList { mark, compact, scan: Scan::new(gpu) }
     }
 
-    /// The bind groups for these buffers. What `marks` holds is lost when the list is compacted.
+    /// Binds the kernels to these buffers. What `marks` holds is lost when the list is compacted.
     ///
     /// # Errors
     ///
-    /// As [`Storage::new`].
+    /// Those of [`Storage::new`].
     pub fn bind(
         &self,
         gpu: &Gpu,
@@ -57,11 +57,17 @@ impl WaitingList {
         let params = Storage::new(gpu, "scan parameters", 1)?;
         let compacted = Storage::new(gpu, "compacted list", list.len())?;
         let offsets = Storage::new(gpu, "offsets", list.len())?;
-        let (control, waiting) = (control.buffer(), list.buffer());
+        let buffers = [
+            ("control", control.buffer()),
+            ("waiting", list.buffer()),
+            ("marks", marks.buffer()),
+            ("offsets", offsets.buffer()),
+            ("compacted", compacted.buffer()),
+        ];
         Ok(BoundWaitingList {
             list: list.clone(),
-            mark: self.mark.bind(gpu, &[control, waiting, marks.buffer()]),
-            compact: self.compact.bind(gpu, &[control, waiting, offsets.buffer(), compacted.buffer()]),
+            mark: self.mark.bind(gpu, &buffers),
+            compact: self.compact.bind(gpu, &buffers),
             scan: self.scan.bind(gpu, &params, marks, &offsets)?,
             bytes: compacted.bytes() + offsets.bytes(),
             params,
@@ -69,7 +75,8 @@ impl WaitingList {
         })
     }
 
-    /// Records the compaction of the list, which has `entries` entries, those that do not wait included.
+    /// Records the compaction of the list, which has `entries` entries, those that do not wait
+    /// included.
     pub fn record(
         &self,
         gpu: &Gpu,

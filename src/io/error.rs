@@ -23,9 +23,9 @@ impl fmt::Display for Position {
     }
 }
 
-/// Why a file's content cannot be read.
+/// Why a file's content cannot be read. The text is one line of printable characters.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{at}: {what}")]
+#[error("{at}: {}", printable(what))]
 pub struct FormatError {
     /// Where.
     pub at: Position,
@@ -47,10 +47,24 @@ impl FormatError {
     }
 }
 
-/// A piece of a file for an error message: printable, and short however long the piece is.
+/// Quotes a piece of a file for an error message: printable, and short however long the piece is.
 pub(crate) fn quote(piece: &[u8]) -> String {
     const LONGEST: usize = 40;
     let text: String = String::from_utf8_lossy(&piece[..piece.len().min(4 * LONGEST)]).chars().take(LONGEST).collect();
     let dots = if text.len() < piece.len() { "…" } else { "" };
-    format!("`{}{dots}`", text.escape_debug())
+    format!("`{}{dots}`", printable(&text))
+}
+
+/// Returns `text` with its control characters escaped, and those that change the direction of
+/// writing: in the name of a file or a message from elsewhere, they would reach the terminal as
+/// commands.
+pub fn printable(text: &str) -> String {
+    let is_command = |c: char| {
+        c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    let mut result = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_command(c) { result.extend(c.escape_default()) } else { result.push(c) }
+    }
+    result
 }

@@ -1,20 +1,26 @@
-//! Files by path: formats by extension, and writing that leaves nothing half-written.
+//! Files by path: formats by extension, and outputs that are written atomically.
 
-use crate::io::{FormatError, HullFormat, MeshData, MeshData2, MeshFormat, PointCloud, PointFormat, tetgen};
-use crate::{Mesh2, Mesh3, Points, Points2};
+use crate::Points;
+use crate::io::{FormatError, Mesh, MeshData, MeshFormat, PointCloud, PointFormat, printable, tetgen};
 use std::{
     fs,
-    io::{self, BufWriter, Write},
+    io::{self, Read},
     path::{Path, PathBuf},
 };
-use tempfile::{Builder, NamedTempFile};
 
-/// Why a file was not read or written. Its text is one line that starts with the file's name.
+mod output;
+mod temporary;
+
+pub use output::{Output, PointOutput};
+pub use temporary::remove_temporary_files;
+
+/// Why a file was not read or written. Its text is one line of printable characters that starts
+/// with the file's name.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {
     /// The file system refused to read.
-    #[error("{}: cannot be read: {source}", path.display())]
+    #[error("{}: cannot be read: {source}", shown(path))]
     Read {
         /// The file.
         path: PathBuf,
@@ -22,7 +28,7 @@ pub enum FileError {
         source: io::Error,
     },
     /// The file system refused to write.
-    #[error("{}: cannot be written: {source}", path.display())]
+    #[error("{}: cannot be written: {source}", shown(path))]
     Write {
         /// The file.
         path: PathBuf,
@@ -30,7 +36,7 @@ pub enum FileError {
         source: io::Error,
     },
     /// The content is broken.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}", shown(path))]
     Format {
         /// The file.
         path: PathBuf,
@@ -38,7 +44,7 @@ pub enum FileError {
         source: FormatError,
     },
     /// The extension names no format that serves.
-    #[error("{}: unknown extension, {what} end in {known}", path.display())]
+    #[error("{}: unknown extension, {what} end in {known}", shown(path))]
     Extension {
         /// The file.
         path: PathBuf,
@@ -47,9 +53,34 @@ pub enum FileError {
         /// The extensions that serve.
         known: String,
     },
+    /// The format of standard input is not given.
+    #[error("standard input has no extension: give its format with `--format`, as in `--format xyz`")]
+    NoFormat,
+    /// An output would replace an input.
+    #[error("{}: this is the input {}: choose another name for the output", shown(path), shown(input))]
+    IsInput {
+        /// The output.
+        path: PathBuf,
+        /// The input.
+        input: PathBuf,
+    },
+    /// An output would replace a file that is not known to be an older one of its kind.
+    #[error("{}: this file exists, and is not {what}: add `--force` to replace it", shown(path))]
+    Exists {
+        /// The output.
+        path: PathBuf,
+        /// What could be replaced.
+        what: String,
+    },
 }
 
-/// The format of `path` among those that `format_of` knows by extension.
+/// Returns the name of a file for messages: without control characters, and `standard input` for
+/// `-`.
+pub fn shown(path: &Path) -> String {
+    if path == Path::new("-") { "standard input".into() } else { printable(&path.to_string_lossy()) }
+}
+
+/// Finds the format of `path` among those that `format_of` knows by extension.
 fn by_extension<F: Copy>(
     path: &Path,
     what: &'static str,
@@ -64,199 +95,105 @@ fn by_extension<F: Copy>(
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, FileError> {
-    fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })
+    let in_file = |source| FileError::Read { path: path.into(), source };
+    if path.is_dir() {
+        return Err(in_file(io::ErrorKind::IsADirectory.into()));
+    }
+    fs::read(path).map_err(in_file)
 }
 
-/// Reads a point cloud; the extension says in which format.
+/// A point cloud to read: a file, or standard input.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Input {
+    path: PathBuf,
+    format: PointFormat,
+}
+
+impl Input {
+    /// Creates the input at `path`, where `-` is standard input. Without a `format`, the extension
+    /// says which it is.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::Extension`] or [`FileError::NoFormat`], when the format is not known.
+    pub fn new(path: &Path, format: Option<PointFormat>) -> Result<Self, FileError> {
+        let format = match format {
+            Some(format) => format,
+            None if path == Path::new("-") => return Err(FileError::NoFormat),
+            // "Is a directory" is better to know than that `.` is no known extension.
+            None if path.is_dir() => PointFormat::Text,
+            None => {
+                let known = PointFormat::ALL.iter().flat_map(|f| f.extensions()).copied();
+                by_extension(path, "point clouds", PointFormat::from_extension, known)?
+            }
+        };
+        Ok(Input { path: path.into(), format })
+    }
+
+    /// Returns the file; `-` is standard input.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Reads all points.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::Read`] or [`FileError::Format`].
+    pub fn read<const D: usize>(&self) -> Result<PointCloud<D>, FileError> {
+        let path = &self.path;
+        let bytes = if path == Path::new("-") {
+            let mut bytes = Vec::new();
+            let read = io::stdin().lock().read_to_end(&mut bytes);
+            read.map_err(|source| FileError::Read { path: path.clone(), source })?;
+            bytes
+        } else {
+            read(path)?
+        };
+        self.format.read(bytes).map_err(|source| FileError::Format { path: path.clone(), source })
+    }
+}
+
+/// Reads a 3D point cloud; the extension says in which format. [`Input`] reads 2D points, too.
 ///
 /// # Errors
 ///
 /// [`FileError`].
 pub fn read_points(path: &Path) -> Result<PointCloud, FileError> {
-    if path.is_dir() {
-        return Err(FileError::Read { path: path.into(), source: io::ErrorKind::IsADirectory.into() });
-    }
-    let known = PointFormat::ALL.iter().flat_map(|f| f.extensions()).copied();
-    let format = by_extension(path, "point clouds", PointFormat::from_extension, known)?;
-    format.read(read(path)?).map_err(|source| FileError::Format { path: path.into(), source })
+    Input::new(path, None)?.read()
 }
 
-/// Reads a mesh; the extension says in which format. For any of TetGen's three files the `.ele` is read, and the
-/// `.neigh` beside it where there is one.
+/// Reads a mesh; the extension says in which format. For any of the three files of TetGen or
+/// Triangle the `.ele` is read, and the `.neigh` and `.node` beside it where there are such.
 ///
 /// # Errors
 ///
 /// [`FileError`].
-pub fn read_mesh(path: &Path) -> Result<MeshData, FileError> {
+pub fn read_mesh<M: Mesh<D, N>, const D: usize, const N: usize>(path: &Path) -> Result<MeshData<D, N>, FileError> {
     let known = MeshFormat::ALL.iter().flat_map(|f| f.extensions()).copied();
     let format = by_extension(path, "meshes", MeshFormat::from_extension, known)?;
     let path = if format == MeshFormat::TetGen { &path.with_extension("ele") } else { path };
     let in_file = |path: &Path, source| FileError::Format { path: path.into(), source };
-    let mut mesh = format.read(&read(path)?).map_err(|source| in_file(path, source))?;
-    let neigh = path.with_extension("neigh");
-    if format == MeshFormat::TetGen && neigh.exists() {
-        mesh.neighbors = Some(tetgen::read_neigh(&read(&neigh)?).map_err(|source| in_file(&neigh, source))?);
+    let mut mesh = format.read::<M, D, N>(&read(path)?).map_err(|source| in_file(path, source))?;
+    if format == MeshFormat::TetGen {
+        let [neigh, node] = ["neigh", "node"].map(|extension| path.with_extension(extension));
+        if neigh.exists() {
+            let neighbors = tetgen::read_neigh::<M, D, N>(&read(&neigh)?);
+            mesh.neighbors = Some(neighbors.map_err(|source| in_file(&neigh, source))?);
+        }
+        if node.exists() {
+            let cloud = tetgen::read_node(&read(&node)?).map_err(|source| in_file(&node, source))?;
+            mesh.points = Some(cloud.points);
+        }
     }
     Ok(mesh)
 }
 
-/// Reads a mesh of the plane; the extension says in which format. For any of Triangle's three files the `.ele` is read.
+/// Writes a point cloud; the extension says in which format. A file of the same name is replaced.
 ///
 /// # Errors
 ///
 /// [`FileError`].
-pub fn read_mesh2(path: &Path) -> Result<MeshData2, FileError> {
-    let known = MeshFormat::ALL.iter().flat_map(|f| f.extensions());
-    let format = by_extension(path, "meshes", MeshFormat::from_extension, known.copied())?;
-    let path = if format == MeshFormat::TetGen { &path.with_extension("ele") } else { path };
-    format.read2(&read(path)?).map_err(|source| FileError::Format { path: path.into(), source })
-}
-
-/// A file to write, with a format that takes what a triangulation gives.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Output {
-    path: PathBuf,
-    format: OutputFormat,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum OutputFormat {
-    Mesh(MeshFormat),
-    Hull(HullFormat),
-}
-
-impl Output {
-    /// The output at `path`; the extension says in which format.
-    ///
-    /// # Errors
-    ///
-    /// [`FileError::Extension`].
-    pub fn new(path: &Path) -> Result<Self, FileError> {
-        let format_of = |extension: &str| {
-            let mesh = MeshFormat::from_extension(extension).map(OutputFormat::Mesh);
-            mesh.or_else(|| HullFormat::from_extension(extension).map(OutputFormat::Hull))
-        };
-        let meshes = MeshFormat::ALL.iter().flat_map(|f| f.extensions());
-        let hulls = HullFormat::ALL.iter().flat_map(|f| f.extensions());
-        let format = by_extension(path, "meshes and hulls", format_of, meshes.chain(hulls).copied())?;
-        Ok(Output { path: path.into(), format })
-    }
-
-    /// Finds out early whether the file can be written, before the work whose result goes there.
-    ///
-    /// # Errors
-    ///
-    /// [`FileError::Write`].
-    pub fn check(&self) -> Result<(), FileError> {
-        let in_file = |source| FileError::Write { path: self.path.clone(), source };
-        if self.path.is_dir() {
-            return Err(in_file(io::ErrorKind::IsADirectory.into()));
-        }
-        temporary(&self.path).map(drop).map_err(in_file)
-    }
-
-    /// Writes the mesh, or its hull. Files of the same name are replaced once all is written; on failure they stay as
-    /// they are.
-    ///
-    /// # Errors
-    ///
-    /// [`FileError::Write`].
-    pub fn write(&self, points: Points<'_>, mesh: &Mesh3) -> Result<(), FileError> {
-        let part = |extension: &str, content: Content<'_>| prepare(&self.path.with_extension(extension), content);
-        let parts = match self.format {
-            OutputFormat::Mesh(MeshFormat::TetGen) => vec![
-                part("node", &|to| tetgen::write_node(to, points))?,
-                part("ele", &|to| tetgen::write_ele(to, mesh))?,
-                part("neigh", &|to| tetgen::write_neigh(to, mesh))?,
-            ],
-            OutputFormat::Mesh(MeshFormat::Vtu) => {
-                vec![prepare(&self.path, &|to| crate::io::write_vtu(to, points, mesh))?]
-            }
-            OutputFormat::Mesh(MeshFormat::Npz) => {
-                vec![prepare(&self.path, &|to| crate::io::write_npz(to, points, mesh))?]
-            }
-            OutputFormat::Hull(format) => vec![prepare(&self.path, &|to| format.write(to, points, mesh))?],
-        };
-        parts.into_iter().try_for_each(publish)
-    }
-
-    /// Writes the mesh of the plane, also in the formats of surfaces; those of space get z = 0. Files of the same name are
-    /// replaced once all is written; on failure they stay as they are.
-    ///
-    /// # Errors
-    ///
-    /// [`FileError::Write`].
-    pub fn write2(&self, points: Points2<'_>, mesh: &Mesh2) -> Result<(), FileError> {
-        let part = |extension: &str, content: Content<'_>| prepare(&self.path.with_extension(extension), content);
-        let whole = |content: Content<'_>| Ok(vec![prepare(&self.path, content)?]);
-        let parts = match self.format {
-            OutputFormat::Mesh(MeshFormat::TetGen) => vec![
-                part("node", &|to| tetgen::write_node(to, points))?,
-                part("ele", &|to| crate::io::write_ele2(to, mesh))?,
-                part("neigh", &|to| crate::io::write_neigh2(to, mesh))?,
-            ],
-            OutputFormat::Mesh(MeshFormat::Vtu) => whole(&|to| crate::io::write_vtu2(to, points, mesh))?,
-            OutputFormat::Mesh(MeshFormat::Npz) => whole(&|to| crate::io::write_npz2(to, points, mesh))?,
-            OutputFormat::Hull(HullFormat::Ply) => whole(&|to| crate::io::write_ply2(to, points, mesh))?,
-            OutputFormat::Hull(HullFormat::Obj) => whole(&|to| crate::io::write_obj2(to, points, mesh))?,
-            OutputFormat::Hull(HullFormat::Stl) => whole(&|to| crate::io::write_stl2(to, points, mesh))?,
-            OutputFormat::Hull(HullFormat::Glb) => whole(&|to| crate::io::write_glb2(to, points, mesh))?,
-        };
-        parts.into_iter().try_for_each(publish)
-    }
-}
-
-/// Writes a point cloud; the extension says in which format.
-///
-/// # Errors
-///
-/// [`FileError`].
-pub fn write_points(path: &Path, points: Points<'_>) -> Result<(), FileError> {
-    let known = PointFormat::ALL.iter().filter(|f| f.is_written()).flat_map(|f| f.extensions()).copied();
-    let format_of = |extension: &str| PointFormat::from_extension(extension).filter(|f| f.is_written());
-    let format = by_extension(path, "point clouds that can be written", format_of, known)?;
-    publish(prepare(path, &|to| format.write(to, points))?)
-}
-
-type Content<'c> = &'c dyn Fn(&mut dyn Write) -> io::Result<()>;
-
-/// A file that is written but does not have its name yet.
-struct Prepared {
-    path: PathBuf,
-    file: NamedTempFile,
-}
-
-fn temporary(path: &Path) -> io::Result<NamedTempFile> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = Builder::new();
-    builder.prefix(".gdel-").suffix(".tmp");
-    // As any new file, less what the umask takes; temporary files are private otherwise.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder).map_err(|error| {
-        // The bare error of the system: the crate adds the temporary name, which tells the user nothing.
-        let bare =
-            error.get_ref().and_then(|outer| outer.source()).and_then(|source| source.downcast_ref::<io::Error>());
-        bare.and_then(io::Error::raw_os_error).map_or(error, io::Error::from_raw_os_error)
-    })
-}
-
-fn prepare(path: &Path, content: Content<'_>) -> Result<Prepared, FileError> {
-    let write = || {
-        let mut file = temporary(path)?;
-        let mut buffer = BufWriter::with_capacity(1 << 16, file.as_file_mut());
-        content(&mut buffer)?;
-        buffer.flush()?;
-        drop(buffer);
-        Ok(Prepared { path: path.into(), file })
-    };
-    write().map_err(|source| FileError::Write { path: path.into(), source })
-}
-
-fn publish(prepared: Prepared) -> Result<(), FileError> {
-    let Prepared { path, file } = prepared;
-    match file.persist(&path) {
-        Ok(_) => Ok(()),
-        Err(error) => Err(FileError::Write { path, source: error.error }),
-    }
+pub fn write_points<const D: usize>(path: &Path, points: Points<'_, D>) -> Result<(), FileError> {
+    PointOutput::new(path)?.write(points)
 }

@@ -1,9 +1,10 @@
 //! The formats by file extension.
 
+use crate::Points;
 use crate::io::{
-    FormatError, MeshData, MeshData2, PointCloud, glb, las, npy, npz, obj, pcd, plane, ply, raw, stl, tetgen, text, vtu,
+    FormatError, Mesh, MeshData, PointCloud, glb, las, npy, npz, obj, off, pcd, ply, raw, stl, surface::Surface,
+    tetgen, text, vtu,
 };
-use crate::{Mesh3, Points};
 use std::io::{self, Write};
 
 /// Declares an enum of formats with their file extensions, lower case; the first is the usual one.
@@ -19,12 +20,12 @@ macro_rules! formats {
             /// All formats of this kind.
             pub const ALL: &[$name] = &[$($name::$variant),+];
 
-            /// The format of files with this extension, in any case, without the dot.
+            /// Returns the format of files with this extension, in any case, without the dot.
             pub fn from_extension(extension: &str) -> Option<Self> {
                 Self::ALL.iter().copied().find(|f| f.extensions().iter().any(|e| e.eq_ignore_ascii_case(extension)))
             }
 
-            /// The extensions of this format, the usual one first.
+            /// Returns the extensions of this format, the usual one first.
             pub fn extensions(self) -> &'static [&'static str] {
                 match self {
                     $($name::$variant => &[$($extension),+],)+
@@ -43,39 +44,47 @@ formats! {
         Obj: "obj",
         /// STL, ASCII or binary: the triangles' corners, equal ones once.
         Stl: "stl",
-        /// x, y, z a line, separated by white space, commas or semicolons; more columns are ignored.
+        /// Geomview's OFF, in text: the vertices.
+        Off: "off",
+        /// x, y, z per line, separated by white space, commas or semicolons; more columns are
+        /// ignored.
         Text: "xyz" | "txt" | "asc" | "pts",
-        /// Comma-, semicolon- or tab-separated values; a first row of names may say which columns are x, y and z.
+        /// Comma-, semicolon- or tab-separated values; a first row of names may say which columns
+        /// are x, y and z.
         Csv: "csv" | "tsv",
         /// Point Cloud Library.
         Pcd: "pcd",
         /// ASPRS LAS and its compressed form LAZ.
         Las: "las" | "laz",
-        /// A NumPy array of shape (n, 3).
+        /// A NumPy array of shape (n, 3), for 2D points also (n, 2), of whole or floating-point
+        /// numbers.
         Npy: "npy",
-        /// Nothing but x, y, z as little-endian single precision.
+        /// The points of TetGen or Triangle.
+        Node: "node",
+        /// Nothing but x, y, z as little-endian single precision, also for 2D points.
         RawF32: "f32",
-        /// Nothing but x, y, z as little-endian double precision.
+        /// Nothing but x, y, z as little-endian double precision, also for 2D points.
         RawF64: "f64",
     }
 }
 
 formats! {
-    /// A format of tetrahedral meshes.
+    /// A format of tetrahedra, or of the triangles of a 2D mesh.
     MeshFormat {
-        /// TetGen, in the plane Triangle: `.node` (points), `.ele` (tetrahedra) and `.neigh` (neighbours), always together,
-        /// counted from 0.
+        /// TetGen, in 2D Triangle: `.node` (points), `.ele` (tetrahedra) and `.neigh` (neighbours),
+        /// always together, counted from 0.
         TetGen: "ele" | "node" | "neigh",
         /// VTK's XML unstructured grid.
         Vtu: "vtu",
-        /// NumPy arrays `points`, `tetrahedra` and `neighbors`.
+        /// NumPy arrays `points`, `tetrahedra` and `neighbors`; in 2D `points`, `triangles` and
+        /// `halfedges`.
         Npz: "npz",
     }
 }
 
 formats! {
-    /// A format of the hull's triangles.
-    HullFormat {
+    /// A format of the hull's triangles, or of all triangles of a 2D mesh.
+    SurfaceFormat {
         /// Stanford PLY, binary little-endian.
         Ply: "ply",
         /// Wavefront OBJ.
@@ -90,47 +99,72 @@ formats! {
 impl PointFormat {
     /// Reads a whole file of this format.
     ///
+    /// 3D points (`D` = 3) need *x*, *y* and *z*; of 2D points (`D` = 2) a *z* is dropped.
+    ///
+    /// A file without points is an empty cloud, whatever its format. So files of zero bytes are
+    /// read where a format has no header (text, CSV, OBJ and raw numbers), and are errors where it
+    /// has one.
+    ///
     /// # Errors
     ///
     /// Where the file is broken, and how.
-    pub fn read(self, bytes: Vec<u8>) -> Result<PointCloud, FormatError> {
-        if bytes.is_empty() {
+    pub fn read<const D: usize>(self, bytes: Vec<u8>) -> Result<PointCloud<D>, FormatError> {
+        let has_header = !matches!(
+            self,
+            PointFormat::Obj | PointFormat::Text | PointFormat::Csv | PointFormat::RawF32 | PointFormat::RawF64
+        );
+        if bytes.is_empty() && has_header {
             return Err(FormatError::byte(0, "the file is empty"));
         }
+        match self {
+            PointFormat::Text => text::read(&bytes),
+            PointFormat::Csv => text::read_csv(&bytes),
+            PointFormat::Npy => npy::read(&bytes),
+            PointFormat::Node => tetgen::read_node(&bytes),
+            _ => self.read_3d(bytes).map(PointCloud::resize),
+        }
+    }
+
+    /// Reads a format whose points always have three coordinates.
+    fn read_3d(self, bytes: Vec<u8>) -> Result<PointCloud, FormatError> {
         match self {
             PointFormat::Ply => ply::read(&bytes),
             PointFormat::Obj => obj::read(&bytes),
             PointFormat::Stl => stl::read(&bytes),
-            PointFormat::Text => text::read(&bytes),
-            PointFormat::Csv => text::read_csv(&bytes),
+            PointFormat::Off => off::read(&bytes),
             PointFormat::Pcd => pcd::read(&bytes),
             PointFormat::Las => las::read(bytes),
-            PointFormat::Npy => npy::read(&bytes),
             PointFormat::RawF32 => raw::read_f32(&bytes),
             PointFormat::RawF64 => raw::read_f64(&bytes),
+            PointFormat::Text | PointFormat::Csv | PointFormat::Npy | PointFormat::Node => self.read(bytes),
         }
     }
 
-    /// Whether [`write`](Self::write) knows this format.
+    /// Returns whether [`write`](Self::write) knows this format.
     pub fn is_written(self) -> bool {
-        !matches!(self, PointFormat::Stl | PointFormat::Pcd | PointFormat::Las)
+        !matches!(self, PointFormat::Stl | PointFormat::Off | PointFormat::Pcd | PointFormat::Las)
     }
 
-    /// Writes points in this format.
+    /// Writes points in this format. 2D points have two columns in text, CSV, NumPy and `.node`
+    /// files, else *z* = 0.
     ///
     /// # Errors
     ///
-    /// When `to` cannot be written; [`io::ErrorKind::Unsupported`] for the formats that are read only.
-    pub fn write(self, to: impl Write, points: Points<'_>) -> io::Result<()> {
+    /// When `to` cannot be written; [`io::ErrorKind::Unsupported`] for the formats that are read
+    /// only.
+    pub fn write<const D: usize>(self, to: impl Write, points: Points<'_, D>) -> io::Result<()> {
         match self {
             PointFormat::Ply => ply::write_points(to, points),
             PointFormat::Obj => obj::write_points(to, points),
             PointFormat::Text => text::write(to, points),
             PointFormat::Csv => text::write_csv(to, points),
             PointFormat::Npy => npy::write(to, points),
+            PointFormat::Node => tetgen::write_node(to, points),
             PointFormat::RawF32 => raw::write_f32(to, points),
             PointFormat::RawF64 => raw::write_f64(to, points),
-            PointFormat::Stl | PointFormat::Pcd | PointFormat::Las => Err(io::ErrorKind::Unsupported.into()),
+            PointFormat::Stl | PointFormat::Off | PointFormat::Pcd | PointFormat::Las => {
+                Err(io::ErrorKind::Unsupported.into())
+            }
         }
     }
 }
@@ -141,40 +175,44 @@ impl MeshFormat {
     /// # Errors
     ///
     /// Where the file is broken, and how.
-    pub fn read(self, bytes: &[u8]) -> Result<MeshData, FormatError> {
+    pub fn read<M: Mesh<D, N>, const D: usize, const N: usize>(
+        self,
+        bytes: &[u8],
+    ) -> Result<MeshData<D, N>, FormatError> {
         match self {
-            MeshFormat::TetGen => Ok(MeshData { tetrahedra: tetgen::read_ele(bytes)?, neighbors: None }),
-            MeshFormat::Vtu => vtu::read_vtu(bytes),
-            MeshFormat::Npz => npz::read_npz(bytes),
-        }
-    }
-
-    /// Reads a whole file of this format that has a mesh of the plane; of Triangle's, the `.ele` file.
-    ///
-    /// # Errors
-    ///
-    /// Where the file is broken, and how.
-    pub fn read2(self, bytes: &[u8]) -> Result<MeshData2, FormatError> {
-        match self {
-            MeshFormat::TetGen => plane::read_ele2(bytes),
-            MeshFormat::Vtu => plane::read_vtu2(bytes),
-            MeshFormat::Npz => npz::read_npz2(bytes),
+            MeshFormat::TetGen => Ok(M::from_arrays(tetgen::read_ele::<M, D, N>(bytes)?, None)),
+            MeshFormat::Vtu => vtu::read_vtu::<M, D, N>(bytes),
+            MeshFormat::Npz => npz::read_npz::<M, D, N>(bytes),
         }
     }
 }
 
-impl HullFormat {
-    /// Writes the hull of `mesh` in this format.
+impl SurfaceFormat {
+    /// Writes the hull of a 3D mesh, or all triangles of a 2D mesh with *z* = 0; without the points
+    /// that are not its vertices.
+    ///
+    /// PLY has the points' precision. STL is binary where that holds the coordinates exactly, which
+    /// is in single precision, else ASCII. The numbers of binary glTF are single precision:
+    /// coordinates which that does not hold exactly are relative to the middle of the surface,
+    /// whose place in double precision is the translation of the node. Axes stay as they are,
+    /// though glTF has *y* point up.
     ///
     /// # Errors
     ///
-    /// When `to` cannot be written.
-    pub fn write(self, to: impl Write, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
+    /// When `to` cannot be written; [`io::ErrorKind::FileTooLarge`] beyond the 4 GB that binary
+    /// glTF can hold.
+    pub fn write<const D: usize, const N: usize, M: Mesh<D, N>>(
+        self,
+        to: impl Write,
+        points: Points<'_, D>,
+        mesh: &M,
+    ) -> io::Result<()> {
+        let surface = &Surface::new(points, mesh);
         match self {
-            HullFormat::Ply => ply::write_hull_ply(to, points, mesh),
-            HullFormat::Obj => obj::write_hull_obj(to, points, mesh),
-            HullFormat::Stl => stl::write_hull_stl(to, points, mesh),
-            HullFormat::Glb => glb::write_hull_glb(to, points, mesh),
+            SurfaceFormat::Ply => ply::write_surface(to, surface),
+            SurfaceFormat::Obj => obj::write_surface(to, surface),
+            SurfaceFormat::Stl => stl::write_surface(to, surface),
+            SurfaceFormat::Glb => glb::write_surface(to, surface),
         }
     }
 }

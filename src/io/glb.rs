@@ -2,48 +2,37 @@
 //!
 //! Written here, since two chunks and a few lines of JSON need no library.
 
-use crate::io::mesh_data::Surface;
-use crate::{Mesh3, Points};
+use crate::io::surface::{MARK, Surface};
 use std::io::{self, Write};
 
 /// The file's header, and that of a chunk, which is its length and type.
 const HEADER: usize = 12;
 const CHUNK_HEADER: usize = 8;
 
-/// Writes the hull as binary glTF, with the vertices of the hull only.
+/// Writes binary glTF.
 ///
-/// Its numbers are single precision. Coordinates which that does not hold exactly are relative to the middle of the hull,
-/// whose place in double precision is the translation of the node; where they leave the range of single precision, they are
-/// scaled, too. Axes stay as they are, though glTF has *y* point up.
+/// Its numbers are single precision. Coordinates which that does not hold exactly are relative to
+/// the middle of the surface, whose place in double precision is the translation of the node; where
+/// they leave the range of single precision, they are scaled, too. Axes stay as they are, though
+/// glTF has *y* point up.
 ///
-/// # Errors
-///
-/// When `to` cannot be written; [`io::ErrorKind::FileTooLarge`] beyond 4 GB, which is as much as the format can hold.
-pub fn write_hull_glb<W: Write>(to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
-    write_surface(to, points, &mesh.hull, "convex hull")
-}
-
-/// `name` must need no escapes in JSON.
-pub(super) fn write_surface(
-    mut to: impl Write,
-    points: Points<'_>,
-    triangles: &[[u32; 3]],
-    name: &str,
-) -> io::Result<()> {
-    let surface = Surface::new(points, triangles);
-    let place = Place::of(&surface);
+/// Fails with [`io::ErrorKind::FileTooLarge`] beyond 4 GB, which is as much as the format can hold.
+pub(super) fn write_surface<const D: usize>(mut to: impl Write, surface: &Surface<'_, D>) -> io::Result<()> {
+    let name = surface.name;
+    let triangles = surface.triangles().len();
+    let place = Place::of(surface);
     let positions = || surface.vertices().map(|p| place.relative(p));
     let position_bytes = 12 * surface.vertices().len();
-    let binary_bytes = position_bytes + 12 * triangles.len();
-    let mut json = match triangles.len() {
+    let binary_bytes = position_bytes + 12 * triangles;
+    let mut json = match triangles {
         // A mesh may not be empty, but a node may.
         0 => format!(
-            r#"{{"asset":{{"version":"2.0","generator":"gdel"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"name":"{name}"}}]}}"#
+            r#"{{"asset":{{"version":"2.0","generator":"{MARK}"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"name":"{name}"}}]}}"#
         ),
         count => {
             let [min, max] = bounds(positions().map(|p| p.map(f64::from)));
             let node = place.json();
-            r#"{"asset":{"version":"2.0","generator":"gdel"},"scene":0,"scenes":[{"nodes":[0]}],"#.to_owned()
+            format!(r#"{{"asset":{{"version":"2.0","generator":"{MARK}"}},"scene":0,"scenes":[{{"nodes":[0]}}],"#)
                 + &format!(r#""nodes":[{{"mesh":0,"name":"{name}"{node}}}],"#)
                 + r#""meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"#
                 + &format!(r#""buffers":[{{"byteLength":{binary_bytes}}}],"bufferViews":["#)
@@ -85,21 +74,21 @@ fn length(bytes: usize) -> io::Result<u32> {
     u32::try_from(bytes).map_err(|_| io::Error::new(io::ErrorKind::FileTooLarge, "a .glb file holds at most 4 GB"))
 }
 
-/// The lowest and the highest coordinates of at least one point.
+/// Returns the lowest and the highest coordinates of at least one point.
 fn bounds(points: impl Iterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
     points.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |[low, high], p| {
         [std::array::from_fn(|i| low[i].min(p[i])), std::array::from_fn(|i| high[i].max(p[i]))]
     })
 }
 
-/// Where the numbers of the file are in space: at `middle` + `scale`·number.
+/// Where the numbers of the file are: at `middle` + `scale`·number.
 struct Place {
     middle: [f64; 3],
     scale: f64,
 }
 
 impl Place {
-    fn of(surface: &Surface<'_>) -> Self {
+    fn of<const D: usize>(surface: &Surface<'_, D>) -> Self {
         if surface.vertices().flatten().all(|x| f64::from(x as f32) == x) {
             return Place { middle: [0.0; 3], scale: 1.0 };
         }
@@ -115,7 +104,7 @@ impl Place {
         std::array::from_fn(|i| ((p[i] - self.middle[i]) / self.scale) as f32)
     }
 
-    /// The node's properties.
+    /// Returns the node's properties.
     fn json(&self) -> String {
         let mut json = String::new();
         if self.middle != [0.0; 3] {

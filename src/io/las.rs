@@ -1,14 +1,14 @@
 //! ASPRS LAS and LAZ, by the crates `las` and `laz`.
 //!
-//! The crates allocate what a broken file says, and panic on some. So what a file says is checked here before they see
-//! it, and a panic is taken for what it is: a broken file.
+//! The crates allocate what a broken file says, and panic on some. So what a file says is checked
+//! here before they see it, and a panic is taken for what it is: a broken file.
 
 use crate::io::{FormatError, PointBuf, PointCloud};
 use las::raw;
-use laz::{LazItemType, LazVlr};
+use laz::{LasZipError, LazItemType, LazVlr};
 use std::{
     cell::Cell,
-    io::Cursor,
+    io::{self, Cursor},
     panic::{AssertUnwindSafe, catch_unwind},
 };
 
@@ -16,8 +16,8 @@ thread_local! {
     static PANICS_ARE_CAUGHT: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether this thread runs a decoder whose panics become errors. A program's panic hook asks this to know when to be
-/// silent.
+/// Returns whether this thread runs a decoder whose panics become errors. A program's panic hook
+/// asks this to know when to be silent.
 pub fn panics_are_caught() -> bool {
     PANICS_ARE_CAUGHT.get()
 }
@@ -29,7 +29,8 @@ const EVLR: std::ops::Range<usize> = 235..247;
 const BATCH: u64 = 1 << 14;
 
 pub(super) fn read(mut bytes: Vec<u8>) -> Result<PointCloud, FormatError> {
-    let header = raw::Header::read_from(bytes.as_slice()).map_err(|error| FormatError::byte(0, error.to_string()))?;
+    let size = bytes.len();
+    let header = raw::Header::read_from(bytes.as_slice()).map_err(|error| in_header(&error, size))?;
     check_size(&header, bytes.len())?;
     if header.evlr.is_some() {
         // Nothing in these is about coordinates, and the crate allocates what they say.
@@ -51,7 +52,8 @@ fn check_size(header: &raw::Header, size: usize) -> Result<(), FormatError> {
     let promised = points.checked_mul(header.point_data_record_length.into());
     match (data, promised) {
         (None, _) => Err(FormatError::byte(size, "the file ends before its points")),
-        // A mesh cannot name more points than this, and the product cannot overflow in what follows.
+        // A mesh cannot name more points than this, and the product cannot overflow in what
+        // follows.
         (_, promised) if points > u32::MAX.into() || promised.is_none() => {
             Err(FormatError::byte(0, format!("{points} points are too many")))
         }
@@ -70,24 +72,53 @@ fn point_count(header: &raw::Header) -> u64 {
 }
 
 fn decode(bytes: Vec<u8>) -> Result<PointCloud, FormatError> {
-    let header = las::Header::new(Cursor::new(bytes.as_slice())).map_err(|e| FormatError::byte(0, e.to_string()))?;
+    let size = bytes.len();
+    let header = las::Header::new(Cursor::new(bytes.as_slice())).map_err(|error| in_header(&error, size))?;
     if header.point_format().is_compressed {
-        let start = raw::Header::read_from(bytes.as_slice()).map_err(|e| FormatError::byte(0, e.to_string()))?;
-        let vlr = header.laz_vlr().map_err(|error| FormatError::byte(0, error.to_string()))?;
+        let start = raw::Header::read_from(bytes.as_slice()).map_err(|error| in_header(&error, size))?;
+        let vlr = header.laz_vlr().map_err(|error| in_header(&error, size))?;
         check_laz(&bytes, start.offset_to_point_data as usize, &vlr, header.point_format().len())?;
     }
-    let mut reader = las::Reader::new(Cursor::new(bytes)).map_err(|error| FormatError::byte(0, error.to_string()))?;
+    let mut reader = las::Reader::new(Cursor::new(bytes)).map_err(|error| in_header(&error, size))?;
     let mut points = Vec::new();
-    let mut batch = reader.read_points(0).map_err(|error| FormatError::point(0, error.to_string()))?;
+    let mut batch = reader.read_points(0).map_err(|error| in_points(&error, 0, size))?;
     while (points.len() as u64) < header.number_of_points() {
-        reader.fill_points(BATCH, &mut batch).map_err(|error| FormatError::point(points.len(), error.to_string()))?;
+        reader.fill_points(BATCH, &mut batch).map_err(|error| in_points(&error, points.len(), size))?;
         points.extend(batch.x().zip(batch.y()).zip(batch.z()).map(|((x, y), z)| [x, y, z]));
     }
     PointCloud::new(PointBuf::F64(points))
 }
 
-/// Checks what the decompressor of LAZ would allocate: its table of chunks, and in each chunk the layers of the point
-/// formats from 6 on. `start` is the byte where the chunks begin, after the eight bytes that say where their table is.
+/// Describes an error of the crate in what goes before the points, in a file of `size` bytes.
+fn in_header(error: &las::Error, size: usize) -> FormatError {
+    if is_end(error) {
+        return FormatError::byte(size, "the file ends within its header: it is truncated");
+    }
+    FormatError::byte(0, format!("not a LAS or LAZ file that can be read: {error}"))
+}
+
+/// Describes an error of the crate after the first `read` points.
+fn in_points(error: &las::Error, read: usize, size: usize) -> FormatError {
+    if is_end(error) {
+        let what = format!("the file ends within its compressed points: it is truncated after about {read} of them");
+        return FormatError::byte(size, what);
+    }
+    FormatError::point(read, format!("the compressed data is broken: {error}"))
+}
+
+/// Returns whether an error of the crate is that the file has ended.
+fn is_end(error: &las::Error) -> bool {
+    match error {
+        las::Error::Io(error) | las::Error::LasZipError(LasZipError::IoError(error)) => {
+            error.kind() == io::ErrorKind::UnexpectedEof
+        }
+        _ => false,
+    }
+}
+
+/// Checks what the decompressor of LAZ would allocate: its table of chunks, and in each chunk the
+/// layers of the point formats from 6 on. `start` is the byte where the chunks begin, after the
+/// eight bytes that say where their table is.
 fn check_laz(bytes: &[u8], start: usize, vlr: &LazVlr, record: u16) -> Result<(), FormatError> {
     if vlr.items_size() != u64::from(record) {
         let what = format!("points of {record} bytes cannot be made of items of {} bytes", vlr.items_size());
@@ -116,7 +147,8 @@ fn check_laz(bytes: &[u8], start: usize, vlr: &LazVlr, record: u16) -> Result<()
     if layers == 0 {
         return Ok(());
     }
-    // Each chunk is its first point, the number of its points, the sizes of its layers, and the layers.
+    // Each chunk is its first point, the number of its points, the sizes of its layers, and the
+    // layers.
     let end = table.map_or(bytes.len(), |place| place.min(bytes.len()));
     let mut at = start + 8;
     while at < end {

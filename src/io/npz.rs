@@ -1,11 +1,16 @@
 //! NumPy's `.npz`: a ZIP archive of arrays.
 
 use crate::io::{
-    FormatError, MeshData, MeshData2,
+    FormatError, Mesh, MeshData,
+    mesh::Names,
     npy::{self, Array},
+    surface::MARK,
 };
-use crate::{Mesh2, Mesh3, Points, Points2};
-use std::io::{self, Cursor, Read, Write};
+use crate::{Points, index::NONE};
+use std::{
+    io::{self, Cursor, Read, Write},
+    ops::RangeInclusive,
+};
 use zip::{
     CompressionMethod, ZipArchive, ZipWriter,
     result::ZipError,
@@ -15,28 +20,43 @@ use zip::{
 /// No ZIP member expands by more: DEFLATE's limit.
 const LARGEST_RATIO: u64 = 1032;
 
-/// Reads the arrays `tetrahedra` and, where there is one, `neighbors`.
+/// Reads the arrays of [`write_npz`]; only that of the tetrahedra or triangles must be there.
 ///
 /// # Errors
 ///
-/// When the archive or an array is broken, or `tetrahedra` is missing.
-pub fn read_npz(bytes: &[u8]) -> Result<MeshData, FormatError> {
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| FormatError::byte(0, error.to_string()))?;
-    let Some(tetrahedra) = read_indices(&mut archive, "tetrahedra", 0..=u32::MAX.into())? else {
-        return Err(FormatError::byte(0, "the archive has no array `tetrahedra`"));
+/// When the archive or an array is broken or missing.
+pub fn read_npz<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> Result<MeshData<D, N>, FormatError> {
+    let mut archive = ZipArchive::new(Cursor::new(bytes))
+        .map_err(|error| FormatError::byte(0, format!("not a whole ZIP archive, which .npz is: {error}")))?;
+    let Names { simplices, adjacency, .. } = M::NAMES;
+    let Some(rows) = read_indices(&mut archive, simplices, 0..=u32::MAX.into())? else {
+        return Err(FormatError::byte(0, format!("the archive has no array `{simplices}`")));
     };
-    let neighbors = read_indices(&mut archive, "neighbors", -1..=i32::MAX.into())?;
-    Ok(MeshData {
-        tetrahedra: tetrahedra.into_iter().map(|t| t.map(|v| v as u32)).collect(),
-        neighbors: neighbors.map(|rows| rows.into_iter().map(|n| n.map(|t| t as i32)).collect()),
-    })
+    let simplices = rows.into_iter().map(|row| row.map(|v| v as u32)).collect();
+    let adjacency = read_indices(&mut archive, adjacency, NONE.into()..=i32::MAX.into())?;
+    let adjacency = adjacency.map(|rows| rows.into_iter().map(|row| row.map(|n| n as i32)).collect());
+    let points = read_array(&mut archive, "points", |array| array.points())?.map(|cloud| cloud.points);
+    Ok(MeshData { points, ..M::from_arrays(simplices, adjacency) })
 }
 
 fn read_indices<const N: usize>(
     archive: &mut ZipArchive<Cursor<&[u8]>>,
     name: &str,
-    range: std::ops::RangeInclusive<i64>,
+    range: RangeInclusive<i64>,
 ) -> Result<Option<Vec<[i64; N]>>, FormatError> {
+    let rows: Option<Vec<[i64; N]>> = read_array(archive, name, |array| array.indices())?;
+    match rows.iter().flatten().flatten().find(|index| !range.contains(index)) {
+        Some(index) => Err(FormatError::byte(0, format!("array `{name}`: {index} is no index"))),
+        None => Ok(rows),
+    }
+}
+
+/// Reads the array of that name, where there is one.
+fn read_array<T>(
+    archive: &mut ZipArchive<Cursor<&[u8]>>,
+    name: &str,
+    read: impl FnOnce(Array<'_>) -> Result<T, FormatError>,
+) -> Result<Option<T>, FormatError> {
     let in_array = |what: String| FormatError::byte(0, format!("array `{name}`: {what}"));
     let member = match archive.by_name(&format!("{name}.npy")) {
         Ok(member) => member,
@@ -46,70 +66,78 @@ fn read_indices<const N: usize>(
     let limit = member.compressed_size().saturating_mul(LARGEST_RATIO);
     let mut array = Vec::new();
     member.take(limit).read_to_end(&mut array).map_err(|error| in_array(error.to_string()))?;
-    let rows = Array::parse(&array).and_then(|array| array.indices()).map_err(|error| in_array(error.to_string()))?;
-    match rows.as_flattened().iter().find(|index| !range.contains(index)) {
-        Some(index) => Err(in_array(format!("{index} is no index"))),
-        None => Ok(Some(rows)),
+    let array = Array::parse(&array).and_then(read).map_err(|error| in_array(error.to_string()))?;
+    Ok(Some(array))
+}
+
+/// Writes `points` (f4 or f8, n × 3) and, of a 3D mesh, `tetrahedra` (u4, m × 4) and `neighbors`
+/// (i4, m × 4), uncompressed as `numpy.savez` does; of a 2D mesh `points` (n × 2), `triangles` (m ×
+/// 3) and `halfedges` (m × 3), as [`Mesh2`](crate::Mesh2) has them.
+///
+/// # Errors
+///
+/// When `to` cannot be written.
+pub fn write_npz<const D: usize, const N: usize, M: Mesh<D, N>>(
+    to: impl Write,
+    points: Points<'_, D>,
+    mesh: &M,
+) -> io::Result<()> {
+    let mut failure = None;
+    let result = write_arrays(Latch { to, failure: &mut failure }, |archive| {
+        archive.array("points")?;
+        npy::write(&mut archive.0, points)?;
+        archive.array(M::NAMES.simplices)?;
+        npy::write_array(&mut archive.0, "<u4", mesh.simplices(), u32::to_le_bytes)?;
+        archive.array(M::NAMES.adjacency)?;
+        npy::write_array(&mut archive.0, "<i4", mesh.adjacency(), i32::to_le_bytes)
+    });
+    failure.map_or(result, Err)
+}
+
+/// A file that keeps its first failure, and is silent about it: `ZipWriter`, when it is dropped
+/// before its end, tries to write that end, and prints what comes of it.
+struct Latch<'f, W> {
+    to: W,
+    failure: &'f mut Option<io::Error>,
+}
+
+impl<W: Write> Write for Latch<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.failure.is_some() {
+            return Ok(bytes.len());
+        }
+        match self.to.write(bytes) {
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => Err(error),
+            Err(error) => {
+                *self.failure = Some(error);
+                Ok(bytes.len())
+            }
+            Ok(0) if !bytes.is_empty() => {
+                *self.failure = Some(io::ErrorKind::WriteZero.into());
+                Ok(bytes.len())
+            }
+            written => written,
+        }
     }
-}
 
-/// Writes `points` (f4 or f8, n × 3), `tetrahedra` (u4, m × 4) and `neighbors` (i4, m × 4), uncompressed as
-/// `numpy.savez` does.
-///
-/// # Errors
-///
-/// When `to` cannot be written.
-pub fn write_npz<W: Write>(to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
-    write_arrays(to, |archive| {
-        archive.array("points")?;
-        npy::write(&mut archive.0, points)?;
-        archive.array("tetrahedra")?;
-        npy::write_array(&mut archive.0, "<u4", &mesh.tetrahedra, u32::to_le_bytes)?;
-        archive.array("neighbors")?;
-        npy::write_array(&mut archive.0, "<i4", &mesh.neighbors, i32::to_le_bytes)
-    })
-}
-
-/// Writes `points` (f4 or f8, n × 2), `triangles` (u4, m × 3) and `halfedges` (i4, m × 3), as [`Mesh2`] has them.
-///
-/// # Errors
-///
-/// When `to` cannot be written.
-pub fn write_npz2<W: Write>(to: W, points: Points2<'_>, mesh: &Mesh2) -> io::Result<()> {
-    write_arrays(to, |archive| {
-        archive.array("points")?;
-        npy::write(&mut archive.0, points)?;
-        archive.array("triangles")?;
-        npy::write_array(&mut archive.0, "<u4", &mesh.triangles, u32::to_le_bytes)?;
-        archive.array("halfedges")?;
-        npy::write_array(&mut archive.0, "<i4", &mesh.halfedges, i32::to_le_bytes)
-    })
-}
-
-/// Reads the arrays `triangles` and, where there is one, `halfedges`.
-///
-/// # Errors
-///
-/// When the archive or an array is broken, or `triangles` is missing.
-pub fn read_npz2(bytes: &[u8]) -> Result<MeshData2, FormatError> {
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| FormatError::byte(0, error.to_string()))?;
-    let Some(triangles) = read_indices(&mut archive, "triangles", 0..=u32::MAX.into())? else {
-        return Err(FormatError::byte(0, "the archive has no array `triangles`"));
-    };
-    let halfedges = read_indices(&mut archive, "halfedges", -1..=i32::MAX.into())?;
-    Ok(MeshData2 {
-        triangles: triangles.into_iter().map(|t| t.map(|v| v as u32)).collect(),
-        halfedges: halfedges.map(|rows| rows.into_iter().map(|h| h.map(|e| e as i32)).collect()),
-    })
+    fn flush(&mut self) -> io::Result<()> {
+        if self.failure.is_none()
+            && let Err(error) = self.to.flush()
+        {
+            *self.failure = Some(error);
+        }
+        Ok(())
+    }
 }
 
 /// An archive that is being written.
 struct Archive<W: Write>(ZipWriter<StreamWriter<W>>);
 
 impl<W: Write> Archive<W> {
-    /// Begins the array of that name.
+    /// Starts the array of that name.
     fn array(&mut self, name: &str) -> io::Result<()> {
-        // 64-bit sizes, so that no mesh is too large, and no date, so that equal meshes make equal files.
+        // 64-bit sizes, so that no mesh is too large, and no date, so that equal meshes make equal
+        // files.
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Stored)
             .large_file(true)
@@ -121,5 +149,6 @@ impl<W: Write> Archive<W> {
 fn write_arrays<W: Write>(to: W, write: impl FnOnce(&mut Archive<W>) -> io::Result<()>) -> io::Result<()> {
     let mut archive = Archive(ZipWriter::new_stream(to));
     write(&mut archive)?;
+    archive.0.set_comment(MARK).map_err(io::Error::from)?;
     archive.0.finish()?.into_inner().flush()
 }

@@ -1,19 +1,21 @@
 //! Wavefront OBJ.
 //!
-//! Read here because the crates do not do what is needed: `tobj` returns no vertices but those of faces, and so
-//! nothing for a point cloud; `obj` reads single precision only.
+//! Read here because the crates do not do what is needed: `tobj` returns no vertices but those of
+//! faces, and so nothing for a point cloud; `obj` reads single precision only.
 
+use crate::Points;
 use crate::io::{
     FormatError, PointBuf, PointCloud,
-    mesh_data::Surface,
+    surface::{MARK, Surface, padded},
     text::{fields, lines, number},
 };
-use crate::{Mesh3, Points};
 use std::io::{self, Write};
 
 pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     let mut points = Vec::new();
+    let mut has_content = false;
     for (line, content) in lines(bytes) {
+        has_content |= !content.is_empty() && !content.starts_with(b"#");
         let mut words = fields(content);
         if words.next() != Some(b"v") {
             continue;
@@ -23,30 +25,35 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
             let word = words.next().ok_or_else(|| FormatError::line(line, "a vertex needs x, y and z"))?;
             *x = number(word, line)?;
         }
+        let mut more = 0;
+        for word in words.take_while(|word| !word.starts_with(b"#")) {
+            number(word, line)?;
+            more += 1;
+        }
+        // A weight, a color, or both; or a color with its opacity.
+        if !matches!(more, 0 | 1 | 3 | 4) {
+            let what = format!("{} numbers in one vertex: there must be one vertex per line", 3 + more);
+            return Err(FormatError::line(line, what));
+        }
         points.push(point);
     }
-    if points.is_empty() {
+    if points.is_empty() && has_content {
         return Err(FormatError::line(1, "the file has no vertices (lines that start with `v`)"));
     }
     PointCloud::new(PointBuf::F64(points))
 }
 
-pub(super) fn write_points<W: Write>(mut to: W, points: Points<'_>) -> io::Result<()> {
-    points.iter().try_for_each(|[x, y, z]| writeln!(to, "v {x:?} {y:?} {z:?}"))
+pub(super) fn write_points<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {
+    write_vertices(&mut to, points.iter().map(padded))
 }
 
-/// Writes the hull as Wavefront OBJ, with the vertices of the hull only.
-///
-/// # Errors
-///
-/// When `to` cannot be written.
-pub fn write_hull_obj<W: Write>(to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
-    write_surface(to, points, &mesh.hull)
+fn write_vertices(to: &mut impl Write, mut vertices: impl Iterator<Item = [f64; 3]>) -> io::Result<()> {
+    vertices.try_for_each(|[x, y, z]| writeln!(to, "v {x:?} {y:?} {z:?}"))
 }
 
-pub(super) fn write_surface(mut to: impl Write, points: Points<'_>, triangles: &[[u32; 3]]) -> io::Result<()> {
-    let surface = Surface::new(points, triangles);
-    surface.vertices().try_for_each(|[x, y, z]| writeln!(to, "v {x:?} {y:?} {z:?}"))?;
+pub(super) fn write_surface<const D: usize>(mut to: impl Write, surface: &Surface<'_, D>) -> io::Result<()> {
+    writeln!(to, "# {MARK}: {}", surface.name)?;
+    write_vertices(&mut to, surface.vertices())?;
     surface.triangles().try_for_each(|t| {
         let [a, b, c] = t.map(|v| v + 1);
         writeln!(to, "f {a} {b} {c}")

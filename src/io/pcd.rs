@@ -1,86 +1,44 @@
 //! PCD, the Point Cloud Library's format.
 //!
-//! Read here because `pcd-rs` allocates what a header says (4 GiB for eight bytes) and panics when the sizes of
-//! compressed data disagree with its header, and because the `lzf` crate is deprecated.
+//! Read here because `pcd-rs` allocates what a header says (4 GiB for eight bytes) and panics when
+//! the sizes of compressed data disagree with its header, and because the `lzf` crate is
+//! deprecated.
 
 use crate::io::{
     FormatError, PointCloud,
     error::quote,
     point_cloud::narrow,
-    text::{fields, lines},
+    scalar::Scalar,
+    text::{fields, lines, split_line, without_mark},
 };
-
-/// The type of a field.
-#[derive(Clone, Copy, PartialEq)]
-enum Scalar {
-    I8,
-    I16,
-    I32,
-    I64,
-    U8,
-    U16,
-    U32,
-    U64,
-    F32,
-    F64,
-}
-
-impl Scalar {
-    fn new(kind: &[u8], size: usize) -> Option<Self> {
-        Some(match (kind, size) {
-            (b"I", 1) => Scalar::I8,
-            (b"I", 2) => Scalar::I16,
-            (b"I", 4) => Scalar::I32,
-            (b"I", 8) => Scalar::I64,
-            (b"U", 1) => Scalar::U8,
-            (b"U", 2) => Scalar::U16,
-            (b"U", 4) => Scalar::U32,
-            (b"U", 8) => Scalar::U64,
-            (b"F", 4) => Scalar::F32,
-            (b"F", 8) => Scalar::F64,
-            _ => return None,
-        })
-    }
-
-    /// Whether `f32` holds every value.
-    fn is_single(self) -> bool {
-        !matches!(self, Scalar::I32 | Scalar::I64 | Scalar::U32 | Scalar::U64 | Scalar::F64)
-    }
-
-    /// The value at the start of `bytes`, which hold at least one.
-    fn decode(self, bytes: &[u8]) -> f64 {
-        fn at<const N: usize>(bytes: &[u8]) -> [u8; N] {
-            std::array::from_fn(|i| bytes[i])
-        }
-        match self {
-            Scalar::I8 => i8::from_le_bytes(at(bytes)).into(),
-            Scalar::I16 => i16::from_le_bytes(at(bytes)).into(),
-            Scalar::I32 => i32::from_le_bytes(at(bytes)).into(),
-            Scalar::I64 => i64::from_le_bytes(at(bytes)) as f64,
-            Scalar::U8 => bytes[0].into(),
-            Scalar::U16 => u16::from_le_bytes(at(bytes)).into(),
-            Scalar::U32 => u32::from_le_bytes(at(bytes)).into(),
-            Scalar::U64 => u64::from_le_bytes(at(bytes)) as f64,
-            Scalar::F32 => f32::from_le_bytes(at(bytes)).into(),
-            Scalar::F64 => f64::from_le_bytes(at(bytes)),
-        }
-    }
-
-    fn parse(self, field: &[u8], line: usize) -> Result<f64, FormatError> {
-        let text = std::str::from_utf8(field).ok();
-        let value = match self {
-            Scalar::F32 => text.and_then(|t| t.parse::<f32>().ok()).map(f64::from),
-            _ => text.and_then(|t| t.parse().ok()),
-        };
-        value.ok_or_else(|| FormatError::line(line, format!("{} is not a number", quote(field))))
-    }
-}
 
 struct Field {
     is_axis: Option<usize>,
     scalar: Scalar,
-    size: usize,
     count: usize,
+}
+
+impl Field {
+    /// Returns the number of bytes of its values in a point.
+    fn size(&self) -> usize {
+        self.scalar.size() * self.count
+    }
+}
+
+fn scalar(kind: &[u8], size: usize) -> Option<Scalar> {
+    Some(match (kind, size) {
+        (b"I", 1) => Scalar::I8,
+        (b"I", 2) => Scalar::I16,
+        (b"I", 4) => Scalar::I32,
+        (b"I", 8) => Scalar::I64,
+        (b"U", 1) => Scalar::U8,
+        (b"U", 2) => Scalar::U16,
+        (b"U", 4) => Scalar::U32,
+        (b"U", 8) => Scalar::U64,
+        (b"F", 4) => Scalar::F32,
+        (b"F", 8) => Scalar::F64,
+        _ => return None,
+    })
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -104,9 +62,13 @@ impl Header {
         let mut names: Vec<&[u8]> = Vec::new();
         let [mut sizes, mut kinds, mut counts] = [const { Vec::<&[u8]>::new() }; 3];
         let [mut width, mut height, mut points] = [None; 3];
-        let mut offset = 0;
-        for (line, content) in lines(bytes) {
-            offset += bytes[offset..].iter().position(|&b| b == b'\n').map_or(bytes.len() - offset, |at| at + 1);
+        let mut rest = without_mark(bytes);
+        for line in 1.. {
+            if rest.is_empty() {
+                break;
+            }
+            let content;
+            (content, rest) = split_line(rest);
             let mut words = content.split(|b| b.is_ascii_whitespace()).filter(|word| !word.is_empty());
             let Some(keyword) = words.next() else { continue };
             let count = || {
@@ -128,12 +90,23 @@ impl Header {
                         b"binary_compressed" => Encoding::Compressed,
                         other => return Err(FormatError::line(line, format!("DATA {} is not known", quote(other)))),
                     };
-                    let grid = width.and_then(|w| w.checked_mul(height.unwrap_or(1)));
-                    let points = points
-                        .or(grid)
-                        .ok_or_else(|| FormatError::line(line, "the header gives no number of POINTS"))?;
+                    let grid = width.map(|w: usize| w.checked_mul(height.unwrap_or(1)));
+                    let points = match (points, grid) {
+                        (Some(points), None) => points,
+                        (Some(points), Some(grid)) if grid == Some(points) => points,
+                        (None, Some(Some(grid))) => grid,
+                        (None, None) => {
+                            return Err(FormatError::line(line, "the header gives no number of POINTS"));
+                        }
+                        (_, Some(_)) => {
+                            let [w, h, n] = [width, height, points].map(|n| n.map_or("none".into(), |n| n.to_string()));
+                            let what = format!("WIDTH {w} and HEIGHT {h} do not make POINTS {n}");
+                            return Err(FormatError::line(line, what));
+                        }
+                    };
                     let fields =
                         declare(&names, &sizes, &kinds, &counts).map_err(|what| FormatError::line(line, what))?;
+                    let offset = bytes.len() - rest.len();
                     return Ok(Header { fields, points, encoding, offset, line: line + 1 });
                 }
                 b"VERSION" | b"VIEWPOINT" => {}
@@ -146,9 +119,9 @@ impl Header {
         Err(FormatError::byte(bytes.len(), "the file ends within its header: there is no DATA line"))
     }
 
-    /// The bytes of one point.
+    /// Returns the number of bytes of a point.
     fn record(&self) -> usize {
-        self.fields.iter().map(|f| f.size * f.count).sum()
+        self.fields.iter().map(Field::size).sum()
     }
 
     fn is_single(&self) -> bool {
@@ -170,15 +143,20 @@ fn declare(names: &[&[u8]], sizes: &[&[u8]], kinds: &[&[u8]], counts: &[&[u8]]) 
     let mut fields = Vec::new();
     for (i, name) in names.iter().enumerate() {
         let size = integer(sizes[i]).ok_or_else(|| format!("SIZE {} is not a number", quote(sizes[i])))?;
-        let scalar = Scalar::new(kinds[i], size)
+        let scalar = scalar(kinds[i], size)
             .ok_or_else(|| format!("a field of TYPE {} and SIZE {size} is not known", quote(kinds[i])))?;
+        let is_axis = axes.iter().position(|axis| axis == name);
         let count = match counts.get(i).map(|word| (word, integer(word))) {
-            // PCL takes 0 for 1.
-            None | Some((_, Some(0))) => 1,
-            Some((_, Some(count))) if count <= LARGEST_COUNT => count,
-            Some((word, _)) => return Err(format!("COUNT {} is not a sensible number", quote(word))),
+            None => 1,
+            Some((_, Some(1))) => 1,
+            // Programs disagree whether 0 means 1 or none.
+            Some((_, Some(count))) if is_axis.is_none() && (1..=LARGEST_COUNT).contains(&count) => count,
+            Some((word, _)) => {
+                let must = if is_axis.is_some() { "must be 1" } else { "is not a sensible number" };
+                return Err(format!("COUNT {} of the field {} {must}", quote(word), quote(name)));
+            }
         };
-        fields.push(Field { is_axis: axes.iter().position(|axis| axis == name), scalar, size, count });
+        fields.push(Field { is_axis, scalar, count });
     }
     for (k, axis) in ["x", "y", "z"].iter().enumerate() {
         if fields.iter().filter(|f| f.is_axis == Some(k)).count() != 1 {
@@ -199,10 +177,15 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
                 let what = format!("the file ends here, but its header promises {} points", header.points);
                 FormatError::byte(bytes.len(), what)
             })?;
+            // Some programs pad the file with zeros.
+            let end = header.offset + records.len();
+            if bytes.len() - end >= header.record() && bytes[end..].iter().any(|&b| b != 0) {
+                return Err(goes_on(FormatError::byte, end, header.points));
+            }
             let mut start = 0;
             let columns = header.fields.iter().map(|field| {
                 let column = Column { field, start, stride: header.record() };
-                start += field.size * field.count;
+                start += field.size();
                 column
             });
             decode(records, columns, header.points)
@@ -213,8 +196,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
                 .ok_or_else(|| FormatError::byte(header.offset + 8, "the compressed data is broken"))?;
             let mut start = 0;
             let columns = header.fields.iter().map(|field| {
-                let column = Column { field, start, stride: field.size * field.count };
-                start += field.size * field.count * header.points;
+                let column = Column { field, start, stride: field.size() };
+                start += field.size() * header.points;
                 column
             });
             decode(&records, columns, header.points)
@@ -223,15 +206,22 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     let read = all.len();
     let points: Vec<_> = all.into_iter().filter(|p| !p.iter().any(|x| x.is_nan())).collect();
     let no_return = read - points.len();
-    PointCloud::without_no_return(narrow(points, header.is_single()), no_return)
+    Ok(PointCloud { no_return, ..PointCloud::new(narrow(points, header.is_single()))? })
+}
+
+fn goes_on(at: fn(usize, String) -> FormatError, place: usize, points: usize) -> FormatError {
+    at(place, format!("the file goes on after the {points} points that its header promises"))
 }
 
 fn read_ascii(data: &[u8], header: &Header) -> Result<Vec<[f64; 3]>, FormatError> {
     let mut points = Vec::new();
     let mut last = header.line;
     for (line, content) in lines(data).map(|(line, content)| (line - 1 + header.line, content)) {
-        if content.is_empty() || points.len() == header.points {
+        if content.is_empty() {
             continue;
+        }
+        if points.len() == header.points {
+            return Err(goes_on(FormatError::line, line, header.points));
         }
         last = line;
         let row: Vec<&[u8]> = fields(content).collect();
@@ -242,7 +232,9 @@ fn read_ascii(data: &[u8], header: &Header) -> Result<Vec<[f64; 3]>, FormatError
                 let word = row.get(at).ok_or_else(|| {
                     FormatError::line(line, format!("only {} values where the header promises more", row.len()))
                 })?;
-                point[axis] = field.scalar.parse(word, line)?;
+                let value = field.scalar.parse(word);
+                point[axis] =
+                    value.ok_or_else(|| FormatError::line(line, format!("{} is not a number", quote(word))))?;
             }
             at += field.count;
         }
@@ -263,20 +255,20 @@ struct Column<'a> {
     stride: usize,
 }
 
-/// The points in `records`, which hold `count` values of each column.
+/// Decodes the points in `records`, which hold `count` values of each column.
 fn decode<'a>(records: &[u8], columns: impl Iterator<Item = Column<'a>>, count: usize) -> Vec<[f64; 3]> {
     let mut points = vec![[0.0; 3]; count];
     for column in columns {
         if let Some(axis) = column.field.is_axis {
             for (i, point) in points.iter_mut().enumerate() {
-                point[axis] = column.field.scalar.decode(&records[column.start + i * column.stride..]);
+                point[axis] = column.field.scalar.decode(&records[column.start + i * column.stride..], false);
             }
         }
     }
     points
 }
 
-/// The compressed data, and its size when decompressed: all points, a field after the other.
+/// Returns the compressed data, and its size when decompressed: all points, field by field.
 fn compressed_block<'a>(bytes: &'a [u8], header: &Header) -> Result<(&'a [u8], usize), FormatError> {
     let ends = || FormatError::byte(bytes.len(), "the file ends within its compressed data");
     let (sizes, data) = bytes[header.offset..].split_first_chunk::<8>().ok_or_else(ends)?;
@@ -297,8 +289,9 @@ fn compressed_block<'a>(bytes: &'a [u8], header: &Header) -> Result<(&'a [u8], u
 /// Three bytes of LZF stand for at most 264.
 const LARGEST_LZF_RATIO: usize = 88;
 
-/// Decompresses LZF: literal runs of up to 32 bytes (a byte below 32 goes before them) and matches of up to 264 bytes
-/// at a distance of up to 8192. `None` when the data is broken or does not make `size` bytes.
+/// Decompresses LZF: literal runs of up to 32 bytes (a byte below 32 goes before them) and matches
+/// of up to 264 bytes at a distance of up to 8192. `None` when the data is broken or does not make
+/// `size` bytes.
 fn decompress_lzf(mut data: &[u8], size: usize) -> Option<Vec<u8>> {
     let mut output = Vec::with_capacity(size);
     while let Some((&control, rest)) = data.split_first() {

@@ -1,177 +1,297 @@
 //! Stanford PLY.
+//!
+//! Read here because the errors of `serde-ply` name Rust's types where a user needs the place and
+//! the cause, and because it takes no lines that end in `\r`.
 
-use crate::io::{FormatError, PointBuf, PointCloud, mesh_data::Surface};
-use crate::{Mesh3, Points};
-use serde::{Deserialize, de::IgnoredAny};
-use serde_ply::{DeserializeError, ElementDef, PlyFormat, PlyReader, PropertyType, ScalarType};
-use std::io::{self, BufRead, ErrorKind, Read, Write};
+use crate::Points;
+use crate::io::{
+    FormatError, PointCloud,
+    error::quote,
+    point_cloud::narrow,
+    scalar::Scalar,
+    surface::{MARK, Surface, padded},
+    text::{line_at, split_line},
+};
+use std::io::{self, Write};
 
-#[derive(Deserialize)]
-struct Vertex<T> {
-    x: T,
-    y: T,
-    z: T,
+#[derive(Clone, Copy, PartialEq)]
+enum Encoding {
+    Ascii,
+    LittleEndian,
+    BigEndian,
 }
 
-impl<T> From<Vertex<T>> for [T; 3] {
-    fn from(v: Vertex<T>) -> Self {
-        [v.x, v.y, v.z]
-    }
+/// The type of a property.
+#[derive(Clone, Copy)]
+enum Kind {
+    Number(Scalar),
+    List { count: Scalar, item: Scalar },
+}
+
+struct Property {
+    name: Vec<u8>,
+    kind: Kind,
+}
+
+struct Element {
+    name: Vec<u8>,
+    count: usize,
+    properties: Vec<Property>,
+    /// The line of the header that declares it.
+    line: usize,
+}
+
+struct Header {
+    encoding: Encoding,
+    elements: Vec<Element>,
+    /// Where the data starts.
+    offset: usize,
 }
 
 pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
-    let mut rest = bytes;
-    let format = match PlyReader::from_reader(&mut rest) {
-        Ok(reader) => reader.header().format,
-        Err(error) => {
-            let read = &bytes[..bytes.len() - rest.len()];
-            return Err(FormatError::line(line_of(read), describe(&error)));
-        }
+    let header = Header::parse(bytes)?;
+    let mut vertices = header.elements.iter().filter(|element| element.name == b"vertex");
+    let vertex = match (vertices.next(), vertices.next()) {
+        (Some(vertex), None) => vertex,
+        (None, _) => return Err(FormatError::line(1, "the header declares no element `vertex`")),
+        (_, Some(second)) => return Err(FormatError::line(second.line, "a second element `vertex`")),
     };
-    // serde-ply wants white space after every number, and not all files end with a line end. Binary data gets none, so
-    // that a file that lacks its last byte is still found out.
-    let line_end: &[u8] = if format == PlyFormat::Ascii { b"\n" } else { b"" };
-    let mut input = Read::chain(bytes, line_end);
-    read_elements(&mut input)
-        .map_err(|error| {
-            let (rest, _) = input.get_ref();
-            let offset = bytes.len() - rest.len();
-            match (error, format) {
-                (ElementError::Header(what), _) => FormatError::line(1, what),
-                (ElementError::Data(what), PlyFormat::Ascii) => FormatError::line(line_of(&bytes[..offset]), what),
-                (ElementError::Data(what), _) => FormatError::byte(offset, what),
+    let is_single = vertex.coordinates_are_single()?;
+    let mut data = Data { bytes, at: header.offset, encoding: header.encoding };
+    let mut points = Vec::new();
+    // Elements after the vertices are read too: a file that ends in them is broken, and its user
+    // should know.
+    for element in &header.elements {
+        let axes: Vec<Option<usize>> = element
+            .properties
+            .iter()
+            .map(|property| axis(&property.name).filter(|_| element.name == b"vertex"))
+            .collect();
+        for index in 0..element.count {
+            let mut point = [0.0; 3];
+            for (property, axis) in element.properties.iter().zip(&axes) {
+                let ends = |data: &Data<'_>| data.ends(element, index);
+                match (property.kind, axis) {
+                    (Kind::Number(scalar), Some(axis)) => {
+                        point[*axis] = data.number(scalar)?.ok_or_else(|| ends(&data))?
+                    }
+                    (Kind::Number(scalar), None) => data.number(scalar)?.map(drop).ok_or_else(|| ends(&data))?,
+                    (Kind::List { count, item }, _) => data.skip_list(count, item)?.ok_or_else(|| ends(&data))?,
+                }
             }
+            if element.name == b"vertex" {
+                points.push(point);
+            }
+        }
+    }
+    if let Some(more) = data.word().filter(|_| header.encoding == Encoding::Ascii) {
+        let what = format!("{} goes on after all that the header promises", quote(more));
+        return Err(data.error(what));
+    }
+    PointCloud::new(narrow(points, is_single))
+}
+
+/// Returns which coordinate a property of the vertices is.
+fn axis(name: &[u8]) -> Option<usize> {
+    [b"x", b"y", b"z"].iter().position(|axis| *axis == name)
+}
+
+impl Header {
+    fn parse(bytes: &[u8]) -> Result<Self, FormatError> {
+        // The lone `\r` of old Macintosh programs: a `\n` after the header's end is data.
+        let ends_in_cr = bytes.starts_with(b"ply\r") && bytes.get(4) != Some(&b'\n');
+        let mut encoding = None;
+        let mut elements: Vec<Element> = Vec::new();
+        let mut rest = bytes;
+        for line in 1.. {
+            let (content, next) = split_line(rest);
+            let words: Vec<&[u8]> =
+                content.split(|b| b.is_ascii_whitespace()).filter(|word| !word.is_empty()).collect();
+            let wrong = |what: String| Err(FormatError::line(line, what));
+            match words.as_slice() {
+                [b"ply"] if line == 1 => {}
+                _ if line == 1 => {
+                    return wrong(format!("not PLY: the first line is not `ply`, but {}", quote(content)));
+                }
+                [b"comment" | b"obj_info", ..] | [] => {}
+                [b"format", name, b"1.0"] => {
+                    encoding = Some(match *name {
+                        b"ascii" => Encoding::Ascii,
+                        b"binary_little_endian" => Encoding::LittleEndian,
+                        b"binary_big_endian" => Encoding::BigEndian,
+                        _ => return wrong(format!("the format {} is not known", quote(name))),
+                    });
+                }
+                [b"format", ..] => return wrong("`format NAME 1.0` expected".into()),
+                [b"element", name, count] => {
+                    let Some(count) = std::str::from_utf8(count).ok().and_then(|text| text.parse().ok()) else {
+                        return wrong(format!("{} is not a count of {}", quote(count), quote(name)));
+                    };
+                    elements.push(Element { name: name.to_vec(), count, properties: Vec::new(), line });
+                }
+                [b"property", declaration @ ..] => {
+                    let Some(element) = elements.last_mut() else {
+                        return wrong("a property before the first element".into());
+                    };
+                    match property(declaration) {
+                        Ok(property) => element.properties.push(property),
+                        Err(what) => return wrong(what),
+                    }
+                }
+                [b"end_header"] => {
+                    let Some(encoding) = encoding else {
+                        return wrong("the header ends without a line `format`".into());
+                    };
+                    if let Some(endless) = elements.iter().find(|e| e.properties.is_empty() && e.count > 0) {
+                        // There would be no end of these: they take no bytes.
+                        let what = format!("the element {} has no properties", quote(&endless.name));
+                        return Err(FormatError::line(endless.line, what));
+                    }
+                    let end = bytes.len() - rest.len() + content.len() + 1;
+                    let offset = if ends_in_cr { end } else { bytes.len() - next.len() };
+                    return Ok(Header { encoding, elements, offset: offset.min(bytes.len()) });
+                }
+                _ => return wrong(format!("{} is no line of a PLY header", quote(content))),
+            }
+            if next.is_empty() {
+                return wrong("the file ends before its header does, which is at a line `end_header`".into());
+            }
+            rest = next;
+        }
+        Err(FormatError::line(1, "the header has no end"))
+    }
+}
+
+/// Parses what follows `property`.
+fn property(declaration: &[&[u8]]) -> Result<Property, String> {
+    let scalar = |word: &[u8]| {
+        Ok(match word {
+            b"char" | b"int8" => Scalar::I8,
+            b"uchar" | b"uint8" => Scalar::U8,
+            b"short" | b"int16" => Scalar::I16,
+            b"ushort" | b"uint16" => Scalar::U16,
+            b"int" | b"int32" => Scalar::I32,
+            b"uint" | b"uint32" => Scalar::U32,
+            b"float" | b"float32" => Scalar::F32,
+            b"double" | b"float64" => Scalar::F64,
+            _ => return Err(format!("the type {} is not known", quote(word))),
         })
-        .and_then(PointCloud::new)
-}
-
-enum ElementError {
-    Header(String),
-    Data(String),
-}
-
-fn read_elements(input: impl BufRead) -> Result<PointBuf, ElementError> {
-    let data = |element: &str, error: &DeserializeError| ElementError::Data(format!("{element}: {}", describe(error)));
-    let mut reader = PlyReader::from_reader(input).map_err(|error| data("header", &error))?;
-    let elements = &reader.header().elem_defs;
-    if let Some(endless) = elements.iter().find(|element| element.properties.is_empty() && element.count > 0) {
-        // There would be no end of these: they take no bytes.
-        return Err(ElementError::Header(format!("the element `{}` has no properties", endless.name)));
-    }
-    let vertex = elements.iter().position(|element| element.name == "vertex");
-    let vertex = vertex.ok_or_else(|| ElementError::Header("there is no element `vertex`".into()))?;
-    let is_single = coordinates_are_single(&elements[vertex]).map_err(ElementError::Header)?;
-    let names: Vec<String> = elements.iter().map(|element| element.name.clone()).collect();
-
-    let mut points = PointBuf::F32(Vec::new());
-    for (i, name) in names.iter().enumerate() {
-        let in_element = |error| data(name, &error);
-        if i != vertex {
-            // Those after the vertices are read too: a file that ends in them is broken, and its user should know.
-            reader.next_element::<Skipped>().map_err(in_element)?;
-        } else if is_single {
-            let vertices = reader.next_element::<Vec<Vertex<f32>>>().map_err(in_element)?;
-            points = PointBuf::F32(vertices.into_iter().map(Into::into).collect());
-        } else {
-            let vertices = reader.next_element::<Vec<Vertex<f64>>>().map_err(in_element)?;
-            points = PointBuf::F64(vertices.into_iter().map(Into::into).collect());
+    };
+    match *declaration {
+        [b"list", count, item, name] => {
+            let count = Some(scalar(count)?).filter(|count| count.is_integer());
+            let count = count.ok_or("the length of a list must be of a type of whole numbers")?;
+            Ok(Property { name: name.to_vec(), kind: Kind::List { count, item: scalar(item)? } })
         }
+        [kind, name] => Ok(Property { name: name.to_vec(), kind: Kind::Number(scalar(kind)?) }),
+        _ => Err("`property TYPE NAME` or `property list TYPE TYPE NAME` expected".into()),
     }
-    Ok(points)
 }
 
-/// Whether `f32` holds every value of x, y and z.
-fn coordinates_are_single(vertex: &ElementDef) -> Result<bool, String> {
-    let mut all_single = true;
-    for axis in ["x", "y", "z"] {
-        all_single &= match vertex.get_property(axis).map(|property| &property.property_type) {
-            Some(PropertyType::Scalar(ScalarType::F64 | ScalarType::I32 | ScalarType::U32)) => false,
-            Some(PropertyType::Scalar(_)) => true,
-            Some(PropertyType::List { .. }) => return Err(format!("the vertices' property `{axis}` is a list")),
-            None => return Err(format!("the vertices have no property `{axis}`")),
-        };
-    }
-    Ok(all_single)
-}
-
-/// Rows of whatever properties, read and dropped.
-struct Skipped;
-
-impl<'de> Deserialize<'de> for Skipped {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Rows;
-        impl<'de> serde::de::Visitor<'de> for Rows {
-            type Value = Skipped;
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str("rows")
-            }
-            fn visit_seq<A: serde::de::SeqAccess<'de>>(self, mut rows: A) -> Result<Skipped, A::Error> {
-                while rows.next_element::<SkippedRow>()?.is_some() {}
-                Ok(Skipped)
-            }
+impl Element {
+    /// Returns whether `f32` holds every value of x, y and z.
+    fn coordinates_are_single(&self) -> Result<bool, FormatError> {
+        let mut are_single = true;
+        for name in ["x", "y", "z"] {
+            let wrong = |what: &str| FormatError::line(self.line, format!("the vertices {what} `{name}`"));
+            let mut properties = self.properties.iter().filter(|property| property.name == name.as_bytes());
+            are_single &= match (properties.next().map(|property| property.kind), properties.next()) {
+                (Some(Kind::Number(scalar)), None) => scalar.is_single(),
+                (Some(Kind::List { .. }), None) => return Err(wrong("have a list as property")),
+                (None, _) => return Err(wrong("have no property")),
+                (_, Some(_)) => return Err(wrong("have more than one property")),
+            };
         }
-        deserializer.deserialize_seq(Rows)
+        Ok(are_single)
     }
 }
 
-struct SkippedRow;
+/// The numbers of a file, from the byte `at` on.
+struct Data<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    encoding: Encoding,
+}
 
-impl<'de> Deserialize<'de> for SkippedRow {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Row;
-        impl<'de> serde::de::Visitor<'de> for Row {
-            type Value = SkippedRow;
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str("a row")
-            }
-            fn visit_map<A: serde::de::MapAccess<'de>>(self, mut row: A) -> Result<SkippedRow, A::Error> {
-                while row.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
-                Ok(SkippedRow)
+impl<'a> Data<'a> {
+    /// Returns the next word of text.
+    fn word(&mut self) -> Option<&'a [u8]> {
+        let start = self.at + self.bytes[self.at..].iter().position(|b| !b.is_ascii_whitespace())?;
+        let word = &self.bytes[start..];
+        let word = &word[..word.iter().position(u8::is_ascii_whitespace).unwrap_or(word.len())];
+        self.at = start + word.len();
+        Some(word)
+    }
+
+    /// Returns the next number; `None` where the file ends before it.
+    fn number(&mut self, scalar: Scalar) -> Result<Option<f64>, FormatError> {
+        if self.encoding != Encoding::Ascii {
+            let Some(bytes) = self.bytes[self.at..].get(..scalar.size()) else { return Ok(None) };
+            self.at += bytes.len();
+            return Ok(Some(scalar.decode(bytes, self.encoding == Encoding::BigEndian)));
+        }
+        let Some(word) = self.word() else { return Ok(None) };
+        let number = scalar.parse(word).ok_or_else(|| self.error(format!("{} is not a number", quote(word))))?;
+        Ok(Some(number))
+    }
+
+    /// Goes behind a list; `None` where the file ends in it.
+    fn skip_list(&mut self, count: Scalar, item: Scalar) -> Result<Option<()>, FormatError> {
+        let Some(length) = self.number(count)? else { return Ok(None) };
+        if length < 0.0 || length.fract() != 0.0 {
+            return Err(self.error(format!("a list of {length} entries")));
+        }
+        let length = length as usize;
+        if self.encoding != Encoding::Ascii {
+            let size = length.checked_mul(item.size()).filter(|&size| size <= self.bytes.len() - self.at);
+            return Ok(size.map(|size| self.at += size));
+        }
+        for _ in 0..length {
+            if self.number(item)?.is_none() {
+                return Ok(None);
             }
         }
-        deserializer.deserialize_map(Row)
+        Ok(Some(()))
+    }
+
+    /// Creates the error of what was read last.
+    fn error(&self, what: String) -> FormatError {
+        match self.encoding {
+            Encoding::Ascii => FormatError::line(line_at(self.bytes, self.at.saturating_sub(1)), what),
+            _ => FormatError::byte(self.at, what),
+        }
+    }
+
+    fn ends(&self, element: &Element, index: usize) -> FormatError {
+        let (name, count) = (quote(&element.name), element.count);
+        let what = format!("the file ends before all {count} of its elements {name}: only {index} are complete");
+        match self.encoding {
+            Encoding::Ascii => FormatError::line(line_at(self.bytes, self.bytes.len().saturating_sub(1)), what),
+            _ => FormatError::byte(self.bytes.len(), what),
+        }
     }
 }
 
-/// The number of the line that was last begun in what was read; the reader stops after the white space that ends a
-/// number, so a line end there still belongs to the line.
-fn line_of(read: &[u8]) -> usize {
-    let read = read.strip_suffix(b"\n").unwrap_or(read);
-    read.iter().filter(|&&b| b == b'\n').count() + 1
-}
-
-fn describe(error: &DeserializeError) -> String {
-    match error.0.kind() {
-        ErrorKind::UnexpectedEof => "the file ends before all that its header promises".into(),
-        _ => error.to_string(),
-    }
-}
-
-pub(super) fn write_points<W: Write>(mut to: W, points: Points<'_>) -> io::Result<()> {
-    write_header(&mut to, matches!(points, Points::F32(_)), points.len())?;
+pub(super) fn write_points<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {
+    write_header(&mut to, "gdel", matches!(points, Points::F32(_)), points.len())?;
     writeln!(to, "end_header")?;
-    match points {
-        Points::F32(p) => p.as_flattened().iter().try_for_each(|x| to.write_all(&x.to_le_bytes())),
-        Points::F64(p) => p.as_flattened().iter().try_for_each(|x| to.write_all(&x.to_le_bytes())),
-    }
+    let vertices = points.iter().map(padded);
+    write_vertices(to, vertices, matches!(points, Points::F32(_)))
 }
 
-/// Writes the hull as binary little-endian PLY, with the vertices of the hull only, in the points' precision.
-///
-/// # Errors
-///
-/// When `to` cannot be written.
-pub fn write_hull_ply<W: Write>(to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
-    write_surface(to, points, &mesh.hull)
+fn write_vertices(mut to: impl Write, mut vertices: impl Iterator<Item = [f64; 3]>, is_single: bool) -> io::Result<()> {
+    vertices.try_for_each(|p| {
+        p.iter().try_for_each(|&x| match is_single {
+            true => to.write_all(&(x as f32).to_le_bytes()),
+            false => to.write_all(&x.to_le_bytes()),
+        })
+    })
 }
 
-pub(super) fn write_surface(mut to: impl Write, points: Points<'_>, triangles: &[[u32; 3]]) -> io::Result<()> {
-    let surface = Surface::new(points, triangles);
-    write_header(&mut to, surface.is_single(), surface.vertices().len())?;
-    writeln!(to, "element face {}\nproperty list uchar int vertex_indices\nend_header", triangles.len())?;
-    for x in surface.vertices().flatten() {
-        if surface.is_single() { to.write_all(&(x as f32).to_le_bytes())? } else { to.write_all(&x.to_le_bytes())? }
-    }
+pub(super) fn write_surface<const D: usize>(mut to: impl Write, surface: &Surface<'_, D>) -> io::Result<()> {
+    write_header(&mut to, &format!("{MARK}: {}", surface.name), surface.is_single(), surface.vertices().len())?;
+    writeln!(to, "element face {}\nproperty list uchar int vertex_indices\nend_header", surface.triangles().len())?;
+    write_vertices(&mut to, surface.vertices(), surface.is_single())?;
     for triangle in surface.triangles() {
         to.write_all(&[3])?;
         triangle.iter().try_for_each(|v| to.write_all(&v.to_le_bytes()))?;
@@ -179,8 +299,8 @@ pub(super) fn write_surface(mut to: impl Write, points: Points<'_>, triangles: &
     Ok(())
 }
 
-fn write_header(mut to: impl Write, is_single: bool, vertices: usize) -> io::Result<()> {
-    writeln!(to, "ply\nformat binary_little_endian 1.0\ncomment gdel\nelement vertex {vertices}")?;
+fn write_header(mut to: impl Write, comment: &str, is_single: bool, vertices: usize) -> io::Result<()> {
+    writeln!(to, "ply\nformat binary_little_endian 1.0\ncomment {comment}\nelement vertex {vertices}")?;
     let number = if is_single { "float" } else { "double" };
     ["x", "y", "z"].iter().try_for_each(|axis| writeln!(to, "property {number} {axis}"))
 }

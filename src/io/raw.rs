@@ -1,7 +1,7 @@
 //! Bare little-endian coordinates: x, y, z, x, y, z, …
 
 use crate::Points;
-use crate::io::{FormatError, PointBuf, PointCloud};
+use crate::io::{FormatError, PointBuf, PointCloud, surface::padded};
 use std::io::{self, Write};
 
 pub(super) fn read_f32(bytes: &[u8]) -> Result<PointCloud, FormatError> {
@@ -25,10 +25,10 @@ fn triples<const N: usize, T>(bytes: &[u8], decode: fn([u8; N]) -> T) -> Result<
 }
 
 /// Rounds double precision to the nearest single.
-pub(super) fn write_f32<W: Write>(mut to: W, points: Points<'_>) -> io::Result<()> {
-    points.iter().flatten().try_for_each(|x| to.write_all(&(x as f32).to_le_bytes()))
+pub(super) fn write_f32<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {
+    points.iter().flat_map(padded).try_for_each(|x| to.write_all(&(x as f32).to_le_bytes()))
 }
 
-pub(super) fn write_f64<W: Write>(mut to: W, points: Points<'_>) -> io::Result<()> {
-    points.iter().flatten().try_for_each(|x| to.write_all(&x.to_le_bytes()))
+pub(super) fn write_f64<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {
+    points.iter().flat_map(padded).try_for_each(|x| to.write_all(&x.to_le_bytes()))
 }

@@ -1,15 +1,15 @@
 //! STL, ASCII and binary.
 //!
-//! Read here because `stl_io` says no line where a file is broken, refuses solids without a name, stops after the
-//! first of several, and takes a binary file whose header happens to begin with `solid` for text.
+//! Read here because `stl_io` says no line where a file is broken, refuses solids without a name,
+//! stops after the first of several, and takes a binary file whose header happens to begin with
+//! `solid` for text.
 
 use crate::io::{
     FormatError, PointBuf, PointCloud,
     error::quote,
-    mesh_data::Surface,
+    surface::{MARK, Surface},
     text::{fields, lines, number},
 };
-use crate::{Mesh3, Points};
 use std::{
     collections::HashMap,
     io::{self, Write},
@@ -19,12 +19,14 @@ use std::{
 const HEADER: usize = 80;
 const TRIANGLE: usize = 50;
 
-/// The corners, each of those with equal coordinates once, in the order of their first appearance.
+/// Reads the corners, each of those with equal coordinates once, in the order of their first
+/// appearance.
 pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     if is_ascii(bytes) { read_ascii(bytes) } else { read_binary(bytes) }
 }
 
-/// Programs also write binary files that begin with `solid`, so the size decides, where it can.
+/// Returns whether a file is text. Programs also write binary files that begin with `solid`, so the
+/// size decides, where it can.
 fn is_ascii(bytes: &[u8]) -> bool {
     let text = bytes.trim_ascii_start();
     if !text.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) {
@@ -51,6 +53,11 @@ fn read_binary(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     if (triangles.len() as u64) < count {
         let what = format!("the file ends here, but its header promises {count} triangles");
         return Err(FormatError::byte(bytes.len(), what));
+    }
+    // Some programs pad the file with zeros.
+    if triangles[count as usize..].iter().flatten().any(|&b| b != 0) {
+        let what = format!("the file goes on after the {count} triangles that its header promises");
+        return Err(FormatError::byte(HEADER + 4 + TRIANGLE * count as usize, what));
     }
     let mut points = Distinct::default();
     for triangle in &triangles[..count as usize] {
@@ -119,30 +126,16 @@ impl<T, Bits: Eq + std::hash::Hash> Distinct<T, Bits> {
     }
 }
 
-/// Writes the hull as STL: binary where that holds the coordinates exactly, which is in single precision, else ASCII.
-///
-/// # Errors
-///
-/// When `to` cannot be written.
-pub fn write_hull_stl<W: Write>(to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
-    write_surface(to, points, &mesh.hull, "convex hull")
-}
-
-/// `name` must be short.
-pub(super) fn write_surface(
-    mut to: impl Write,
-    points: Points<'_>,
-    triangles: &[[u32; 3]],
-    name: &str,
-) -> io::Result<()> {
-    let is_single = Surface::new(points, triangles).vertices().flatten().all(|x| f64::from(x as f32) == x);
-    let corners = |t: &[u32; 3]| t.map(|v| points.get(v as usize));
-    match u32::try_from(triangles.len()) {
+/// Writes binary STL where that holds the coordinates exactly, which is in single precision, else
+/// ASCII.
+pub(super) fn write_surface<const D: usize>(mut to: impl Write, surface: &Surface<'_, D>) -> io::Result<()> {
+    let is_single = surface.vertices().flatten().all(|x| f64::from(x as f32) == x);
+    let name = format!("{MARK}: {}", surface.name);
+    match u32::try_from(surface.corners().len()) {
         Ok(count) if is_single => {
-            to.write_all(format!("{:\0<HEADER$}", format!("gdel {name}")).as_bytes())?;
+            to.write_all(format!("{name:\0<HEADER$}").as_bytes())?;
             to.write_all(&count.to_le_bytes())?;
-            for t in triangles {
-                let corners = corners(t);
+            for corners in surface.corners() {
                 for x in [normal(corners)].iter().chain(&corners).flatten() {
                     to.write_all(&(*x as f32).to_le_bytes())?;
                 }
@@ -152,8 +145,7 @@ pub(super) fn write_surface(
         }
         _ => {
             writeln!(to, "solid {name}")?;
-            for t in triangles {
-                let corners = corners(t);
+            for corners in surface.corners() {
                 let [x, y, z] = normal(corners);
                 writeln!(to, "facet normal {x:?} {y:?} {z:?}\n outer loop")?;
                 for [x, y, z] in corners {
@@ -166,7 +158,7 @@ pub(super) fn write_surface(
     }
 }
 
-/// The unit normal; zero where it cannot be computed, which readers take as "work it out".
+/// Returns the unit normal; zero where it cannot be computed, which readers take as "work it out".
 fn normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     let [a, b, c] = [a, b, c].map(glam::DVec3::from);
     (b - a).cross(c - a).normalize_or_zero().to_array()

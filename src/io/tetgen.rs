@@ -1,96 +1,126 @@
 //! The text files of Triangle and TetGen: `.node`, `.ele` and `.neigh`.
 
 use crate::io::{
-    FormatError,
+    FormatError, Mesh, PointBuf, PointCloud,
     error::quote,
-    text::{fields, lines},
+    surface::MARK,
+    text::{fields, lines, number},
 };
-use crate::{Mesh3, Points};
+use crate::{Points, index::NONE};
 use std::{
-    fmt::{self, Debug, Display, Formatter},
+    fmt::{self, Display},
     io::{self, Write},
 };
 
-/// Writes the points: a line of counts, then a line a point, counted from 0.
+/// Writes the points: a line of counts, then a line per point, numbered from 0.
 ///
 /// # Errors
 ///
 /// When `to` cannot be written.
-pub fn write_node<W: Write, const D: usize>(mut to: W, points: Points<'_, D>) -> io::Result<()> {
+pub fn write_node<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {
     writeln!(to, "{} {D} 0 0", points.len())?;
-    points.iter().enumerate().try_for_each(|(i, p)| writeln!(to, "{}", Numbered(i, &p)))
+    write_rows(to, points.iter().map(|p| p.map(Shortest)))
 }
 
-/// Writes the tetrahedra, counted from 0.
-///
-/// # Errors
-///
-/// When `to` cannot be written.
-pub fn write_ele<W: Write>(to: W, mesh: &Mesh3) -> io::Result<()> {
-    write_rows(to, " 0", &mesh.tetrahedra)
-}
+/// A number with the digits that it takes to read it back.
+struct Shortest(f64);
 
-/// Writes the neighbours: the *k*-th is across the facet opposite the *k*-th vertex, -1 outside.
-///
-/// # Errors
-///
-/// When `to` cannot be written.
-pub fn write_neigh<W: Write>(to: W, mesh: &Mesh3) -> io::Result<()> {
-    write_rows(to, "", &mesh.neighbors)
-}
-
-/// The count and length of the rows, `more`, and the rows, counted from 0.
-pub(super) fn write_rows<T: Debug, const N: usize>(mut to: impl Write, more: &str, rows: &[[T; N]]) -> io::Result<()> {
-    writeln!(to, "{} {N}{more}", rows.len())?;
-    rows.iter().enumerate().try_for_each(|(i, row)| writeln!(to, "{}", Numbered(i, row)))
-}
-
-/// The text of a row, for one call of `write!`: a call for each entry takes 1.3 times the instructions.
-struct Numbered<'a, T>(usize, &'a [T]);
-
-impl<T: Debug> Display for Numbered<'_, T> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        Display::fmt(&self.0, f)?;
-        self.1.iter().try_for_each(|entry| {
-            f.write_str(" ")?;
-            entry.fmt(f)
-        })
+impl Display for Shortest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}", self.0)
     }
 }
 
-/// Reads the tetrahedra's vertices, counted from 0. A file whose first tetrahedron is number 1 counts from 1.
+/// Writes the tetrahedra, or for Triangle the triangles, numbered from 0.
+///
+/// # Errors
+///
+/// When `to` cannot be written.
+pub fn write_ele<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl Write, mesh: &M) -> io::Result<()> {
+    writeln!(to, "{} {N} 0", mesh.simplices().len())?;
+    write_rows(to, mesh.simplices().iter().copied())
+}
+
+/// Writes the neighbours: the *k*-th is opposite the *k*-th vertex in [`write_ele`]'s file, -1
+/// outside.
+///
+/// # Errors
+///
+/// When `to` cannot be written.
+pub fn write_neigh<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl Write, mesh: &M) -> io::Result<()> {
+    writeln!(to, "{} {N}", mesh.opposites().len())?;
+    write_rows(to, mesh.opposites())
+}
+
+/// Writes the rows, numbered from 0, and a comment where TetGen and Triangle have theirs.
+fn write_rows<T: Display, const N: usize>(mut to: impl Write, rows: impl Iterator<Item = [T; N]>) -> io::Result<()> {
+    for (i, row) in rows.enumerate() {
+        write!(to, "{i}")?;
+        row.iter().try_for_each(|entry| write!(to, " {entry}"))?;
+        writeln!(to)?;
+    }
+    writeln!(to, "# {MARK}")
+}
+
+/// Reads the points of a `.node` file, numbered from 0 or 1; of 2D points the third coordinate is
+/// dropped.
+pub(super) fn read_node<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
+    let (first_line, header) = content(bytes).next().ok_or_else(|| FormatError::line(1, "the file is empty"))?;
+    match integer(fields(header).nth(1), first_line)? {
+        2 if D == 2 => PointCloud::new(PointBuf::F64(read_points(bytes)?)),
+        3 => Ok(PointCloud::new(PointBuf::F64(read_points::<3>(bytes)?))?.resize()),
+        2 => Err(FormatError::line(first_line, "2D points: they have two coordinates each")),
+        other => Err(FormatError::line(first_line, format!("points of {other} coordinates"))),
+    }
+}
+
+fn read_points<const E: usize>(bytes: &[u8]) -> Result<Vec<[f64; E]>, FormatError> {
+    let rows = read_rows(bytes, "points", |field, line| {
+        number(field.ok_or_else(|| FormatError::line(line, "a coordinate is missing"))?, line)
+    })?;
+    Ok(rows.rows.into_iter().map(|row| row.entries).collect())
+}
+
+/// Reads the vertices of the tetrahedra, or of the triangles in the sense that
+/// [`Mesh2`](crate::Mesh2) has, counted from 0. A file whose first row is number 1 counts from 1.
 ///
 /// # Errors
 ///
 /// Where the file is broken, and how.
-pub fn read_ele(bytes: &[u8]) -> Result<Vec<[u32; 4]>, FormatError> {
-    read_simplices(bytes, "tetrahedra")
+pub fn read_ele<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> Result<Vec<[u32; N]>, FormatError> {
+    let Rows { rows, base } = read_rows(bytes, M::NAMES.simplices, integer)?;
+    let index = |v: i64| u32::try_from(v.checked_sub(base)?).ok();
+    rows.into_iter().map(|row: Row<i64, N>| row.resolve(index)).collect()
 }
 
-/// Likewise for the simplices with `N` vertices that `what` names.
-pub(super) fn read_simplices<const N: usize>(bytes: &[u8], what: &str) -> Result<Vec<[u32; N]>, FormatError> {
-    let rows = read_rows(bytes, what)?;
-    rows.into_iter().map(|row| row.resolve(|v| u32::try_from(v).ok())).collect()
-}
-
-/// Reads the neighbours, counted as in [`read_ele`].
+/// Reads the neighbours, counted as in [`read_ele`]; -1 is outside.
 ///
 /// # Errors
 ///
 /// Where the file is broken, and how.
-pub fn read_neigh(bytes: &[u8]) -> Result<Vec<[i32; 4]>, FormatError> {
-    let rows = read_rows(bytes, "tetrahedra")?;
+pub fn read_neigh<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> Result<Vec<[i32; N]>, FormatError> {
+    let Rows { rows, base } = read_rows(bytes, M::NAMES.simplices, integer)?;
     // "None" is -1 in files that count from 1 as well.
-    rows.into_iter().map(|row| row.resolve(|t| i32::try_from(t.max(-1)).ok())).collect()
+    let index = |t: i64| match t {
+        -1 => Some(NONE),
+        _ => i32::try_from(t.checked_sub(base)?).ok().filter(|&t| t >= 0),
+    };
+    rows.into_iter().map(|row: Row<i64, N>| row.resolve(index)).collect()
 }
 
-/// Numbers of a line, less the number of the first row.
-struct Row<const N: usize> {
+/// Numbered rows, and the number of the first.
+struct Rows<T, const N: usize> {
+    rows: Vec<Row<T, N>>,
+    base: i64,
+}
+
+/// The numbers of a line after that of the row.
+struct Row<T, const N: usize> {
     line: usize,
-    entries: [i64; N],
+    entries: [T; N],
 }
 
-impl<const N: usize> Row<N> {
+impl<const N: usize> Row<i64, N> {
     fn resolve<T: Copy + Default>(&self, index: impl Fn(i64) -> Option<T>) -> Result<[T; N], FormatError> {
         let mut result = [T::default(); N];
         for (to, &entry) in result.iter_mut().zip(&self.entries) {
@@ -100,16 +130,25 @@ impl<const N: usize> Row<N> {
     }
 }
 
-/// The rows under a line with their count: a number, `N` entries, and whatever else.
-fn read_rows<const N: usize>(bytes: &[u8], what: &str) -> Result<Vec<Row<N>>, FormatError> {
-    let mut content = lines(bytes)
+/// Returns the lines that are neither empty nor comments, with their numbers.
+fn content(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    lines(bytes)
         .map(|(line, content)| (line, content.split(|&b| b == b'#').next().unwrap_or_default().trim_ascii()))
-        .filter(|(_, content)| !content.is_empty());
+        .filter(|(_, content)| !content.is_empty())
+}
+
+/// Reads the rows under a line with their count: a number, `N` entries, and whatever else.
+fn read_rows<T: Copy + Default, const N: usize>(
+    bytes: &[u8],
+    what: &str,
+    parse: impl Fn(Option<&[u8]>, usize) -> Result<T, FormatError>,
+) -> Result<Rows<T, N>, FormatError> {
+    let mut content = content(bytes);
     let (first_line, header) = content.next().ok_or_else(|| FormatError::line(1, "the file is empty"))?;
     let mut header = fields(header);
     let count = integer(header.next(), first_line)?;
     if integer(header.next(), first_line)? < N as i64 {
-        return Err(FormatError::line(first_line, format!("{what} have at least {N} entries a line")));
+        return Err(FormatError::line(first_line, format!("{what} have at least {N} entries per line")));
     }
     let mut rows = Vec::new();
     let mut base = 0;
@@ -124,10 +163,9 @@ fn read_rows<const N: usize>(bytes: &[u8], what: &str) -> Result<Vec<Row<N>>, Fo
         if number.checked_sub(base) != i64::try_from(rows.len()).ok() || !(0..=1).contains(&base) {
             return Err(FormatError::line(line, format!("row {} is numbered {number}", rows.len())));
         }
-        let mut entries = [0; N];
+        let mut entries = [T::default(); N];
         for entry in &mut entries {
-            let value = integer(fields.next(), line)?;
-            *entry = value.saturating_sub(base);
+            *entry = parse(fields.next(), line)?;
         }
         rows.push(Row { line, entries });
     }
@@ -135,7 +173,7 @@ fn read_rows<const N: usize>(bytes: &[u8], what: &str) -> Result<Vec<Row<N>>, Fo
         let what = format!("the first line promises {count} rows, the file holds {}", rows.len());
         return Err(FormatError::line(last_line, what));
     }
-    Ok(rows)
+    Ok(Rows { rows, base })
 }
 
 fn integer(field: Option<&[u8]>, line: usize) -> Result<i64, FormatError> {

@@ -4,13 +4,48 @@ use crate::Points;
 use crate::io::{FormatError, PointBuf, PointCloud, error::quote};
 use std::io::{self, Write};
 
-/// The lines of a text file with their numbers, without line ends and a byte order mark.
-pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
-    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    text.split(|&b| b == b'\n').map(|line| line.trim_ascii()).zip(1..).map(|(line, number)| (number, line))
+/// Splits off the first line, without its end: `\n`, `\r\n`, or the lone `\r` of old Macintosh
+/// programs.
+pub(super) fn split_line(text: &[u8]) -> (&[u8], &[u8]) {
+    let end = text.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(text.len());
+    let (line, rest) = text.split_at(end);
+    let rest = rest.strip_prefix(b"\r\n").or_else(|| rest.get(1..)).unwrap_or_default();
+    (line, rest)
 }
 
-/// The fields of a line: separated by semicolons or commas where it has any, else by white space.
+/// Returns the text without a byte order mark.
+pub(super) fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
+}
+
+/// Returns the lines of a text file with their numbers, without the white space around them.
+pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    let mut text = without_mark(bytes);
+    let lines = std::iter::from_fn(move || {
+        if text.is_empty() {
+            return None;
+        }
+        let (line, rest) = split_line(text);
+        text = rest;
+        Some(line.trim_ascii())
+    });
+    (1..).zip(lines)
+}
+
+/// Returns the number of the line that contains byte `offset`.
+pub(super) fn line_at(bytes: &[u8], offset: usize) -> usize {
+    let (mut line, mut rest) = (1, bytes);
+    loop {
+        (_, rest) = split_line(rest);
+        if rest.is_empty() || bytes.len() - rest.len() > offset {
+            return line;
+        }
+        line += 1;
+    }
+}
+
+/// Returns the fields of a line: separated by semicolons or commas where it has any, else by white
+/// space.
 pub(super) fn fields(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     let separator = [b';', b','].into_iter().find(|separator| line.contains(separator));
     line.split(move |b| separator.map_or(b.is_ascii_whitespace(), |s| *b == s))
@@ -18,7 +53,7 @@ pub(super) fn fields(line: &[u8]) -> impl Iterator<Item = &[u8]> {
         .filter(move |field| separator.is_some() || !field.is_empty())
 }
 
-/// A finite number.
+/// Parses a finite number.
 pub(super) fn number(field: &[u8], line: usize) -> Result<f64, FormatError> {
     match parse(field) {
         Some(x) if x.is_finite() => Ok(x),
@@ -31,38 +66,146 @@ fn parse(field: &[u8]) -> Option<f64> {
     std::str::from_utf8(field).ok()?.parse().ok()
 }
 
-/// Which fields of a row are x, y and z.
-struct Columns([usize; 3]);
+/// Names the coordinates that a point has, for messages.
+pub(super) fn axes<const D: usize>() -> &'static str {
+    if D == 2 { "x and y" } else { "x, y and z" }
+}
 
-impl Columns {
-    const FIRST_THREE: Columns = Columns([0, 1, 2]);
+/// The rows of a text file become points.
+struct Table<const D: usize> {
+    /// Which fields of a row are the coordinates; `None` before the first row.
+    columns: Option<[usize; D]>,
+    /// Which field is the *z* that 2D points do without.
+    dropped: Option<usize>,
+    points: Vec<[f64; D]>,
+    dropped_z: bool,
+    /// The line of the first point, its number of fields, and how many of these, from the first on,
+    /// are numbers.
+    first: Option<(usize, usize, usize)>,
+    /// Whether the first row names the columns.
+    is_named: bool,
+    /// Whether the file says how many points it has.
+    is_counted: bool,
+}
 
-    /// The columns that a first row names, or `None` when it holds numbers, so is a point itself.
-    fn from_names(row: &[&[u8]]) -> Option<Self> {
-        if row.iter().any(|field| parse(field).is_some()) {
-            return None;
+impl<const D: usize> Table<D> {
+    fn new() -> Self {
+        Table {
+            columns: None,
+            dropped: None,
+            points: Vec::new(),
+            dropped_z: false,
+            first: None,
+            is_named: false,
+            is_counted: false,
         }
-        let column = |name: &[u8]| row.iter().position(|field| field.eq_ignore_ascii_case(name));
-        Some(Columns([column(b"x")?, column(b"y")?, column(b"z")?]))
     }
 
-    fn point(&self, row: &[&[u8]], line: usize) -> Result<[f64; 3], FormatError> {
-        let mut point = [0.0; 3];
-        for (x, &column) in point.iter_mut().zip(&self.0) {
+    /// Adds the point of a row; a first row without any number holds the names of the columns.
+    fn add(&mut self, row: &[&[u8]], line: usize) -> Result<(), FormatError> {
+        let columns = match self.columns {
+            Some(columns) => columns,
+            None if row.len() > 1 && row.iter().all(|field| parse(field).is_none()) => {
+                return self.name_columns(row, line);
+            }
+            None => {
+                self.dropped = (D == 2).then_some(2);
+                *self.columns.insert(std::array::from_fn(|axis| axis))
+            }
+        };
+        let mut point = [0.0; D];
+        for (x, column) in point.iter_mut().zip(columns) {
             let field = row.get(column).ok_or_else(|| {
-                FormatError::line(line, format!("x, y and z expected, but there are only {} values", row.len()))
+                let what = format!("{} expected, but there are only {} values", axes::<D>(), row.len());
+                FormatError::line(line, what)
             })?;
             *x = number(field, line)?;
         }
-        Ok(point)
+        if let Some(column) = self.dropped
+            && !self.dropped_z
+        {
+            self.dropped_z = row.get(column).and_then(|field| parse(field)).is_some_and(|z| z != 0.0);
+        }
+        match self.first {
+            None => self.first = Some((line, row.len(), leading_numbers(row))),
+            Some((first, fields, numbers)) if !self.is_counted && row.len() != fields => {
+                let here = leading_numbers(row);
+                if here != numbers {
+                    let what = format!(
+                        "{here} numbers, but line {first} has {numbers}: there must be one point per line, with as many \
+                         values on each"
+                    );
+                    return Err(FormatError::line(line, what));
+                }
+            }
+            Some(_) => {}
+        }
+        self.points.push(point);
+        Ok(())
+    }
+
+    fn name_columns(&mut self, row: &[&[u8]], line: usize) -> Result<(), FormatError> {
+        /// As many names are quoted in a message.
+        const QUOTED: usize = 8;
+        let column = |name: &str| row.iter().position(|field| bare(field).eq_ignore_ascii_case(name.as_bytes()));
+        let found = ["x", "y", "z"].map(column);
+        if found[..D].contains(&None) {
+            let names: Vec<String> = row.iter().take(QUOTED).map(|name| quote(name)).collect();
+            let more = if row.len() > QUOTED { ", …" } else { "" };
+            let what = format!(
+                "this line names no columns {}, in upper or lower case, but {}{more}: rename those of the coordinates, or \
+                 remove the line if they are the first {D}",
+                axes::<D>(),
+                names.join(", ")
+            );
+            return Err(FormatError::line(line, what));
+        }
+        self.columns = Some(std::array::from_fn(|axis| found[axis].unwrap_or(axis)));
+        self.dropped = if D == 2 { found[2] } else { None };
+        self.is_named = true;
+        Ok(())
+    }
+
+    fn finish(self) -> Result<PointCloud<D>, FormatError> {
+        let is_bare = !self.is_named && !self.is_counted;
+        let (line, fields, numbers) = self.first.unwrap_or_default();
+        if is_bare && self.points.len() == 1 && numbers >= 2 * D {
+            let what = format!("all {numbers} numbers of the file are on one line: there must be one point per line");
+            return Err(FormatError::line(line, what));
+        }
+        let known = self.dropped.map_or(D, |column| column + 1);
+        let ignored_columns = if self.is_named { 0 } else { fields.saturating_sub(known) };
+        let cloud = PointCloud::new(PointBuf::F64(self.points))?;
+        Ok(PointCloud { dropped_z: self.dropped_z, ignored_columns, ..cloud })
     }
 }
 
-/// XYZ, and PTS, where a line with nothing but a count goes before the points of each scan.
-pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
-    let mut columns = None;
-    let mut points = Vec::new();
-    // The line of the count before the points of the current scan, and what `points.len()` will be after them.
+/// Returns a column's name without the mark of a comment that CloudCompare and others put before
+/// the first.
+fn bare(name: &[u8]) -> &[u8] {
+    let start = name.iter().position(|b| !b"/# ".contains(b)).unwrap_or(name.len());
+    &name[start..]
+}
+
+fn leading_numbers(row: &[&[u8]]) -> usize {
+    row.iter().take_while(|field| parse(field).is_some()).count()
+}
+
+/// Refuses text in UTF-16, which Windows calls Unicode: its numbers have a zero byte after each
+/// digit.
+fn check_encoding(bytes: &[u8]) -> Result<(), FormatError> {
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return Err(FormatError::byte(0, "this is text in UTF-16: save it as UTF-8"));
+    }
+    Ok(())
+}
+
+/// Reads XYZ, and PTS, where a line with nothing but a count goes before the points of each scan.
+pub(super) fn read<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
+    check_encoding(bytes)?;
+    let mut table = Table::new();
+    // The line of the count before the points of the current scan, and what the number of points
+    // will be after them.
     let mut scan: Option<(usize, usize)> = None;
     let mut row = Vec::new();
     for (line, content) in lines(bytes) {
@@ -71,27 +214,23 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
         }
         row.clear();
         row.extend(fields(content));
-        let between_scans = scan.map_or(points.is_empty(), |(_, end)| end == points.len());
+        let points = table.points.len();
+        let between_scans = scan.map_or(points == 0, |(_, end)| end == points);
         if let (true, [count]) = (between_scans, row.as_slice())
-            && let Some(end) = whole_number(count).and_then(|n| n.checked_add(points.len()))
+            && let Some(end) = whole_number(count).and_then(|n| n.checked_add(points))
         {
             scan = Some((line, end));
+            table.is_counted = true;
             continue;
         }
-        if columns.is_none() {
-            columns = Columns::from_names(&row);
-            if columns.is_some() {
-                continue;
-            }
-        }
-        points.push(columns.get_or_insert(Columns::FIRST_THREE).point(&row, line)?);
+        table.add(&row, line)?;
     }
     match scan {
-        Some((line, end)) if end != points.len() => Err(FormatError::line(
+        Some((line, end)) if end != table.points.len() => Err(FormatError::line(
             line,
-            format!("the count promises {end} points in all, the file holds {}", points.len()),
+            format!("the count promises {end} points in all, one per line; the file holds {}", table.points.len()),
         )),
-        _ => PointCloud::new(PointBuf::F64(points)),
+        _ => table.finish(),
     }
 }
 
@@ -99,49 +238,53 @@ fn whole_number(field: &[u8]) -> Option<usize> {
     std::str::from_utf8(field).ok()?.parse().ok()
 }
 
-/// Comma-, semicolon- or tab-separated values with quoted fields; text with white space between is taken too.
-pub(super) fn read_csv(bytes: &[u8]) -> Result<PointCloud, FormatError> {
+/// Reads comma-, semicolon- or tab-separated values with quoted fields; text with white space
+/// between is taken too.
+pub(super) fn read_csv<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
+    check_encoding(bytes)?;
     let first = lines(bytes).map(|(_, line)| line).find(|line| !line.is_empty()).unwrap_or_default();
     let Some(delimiter) = [b';', b',', b'\t'].into_iter().find(|d| first.contains(d)) else {
         return read(bytes);
     };
+    let text = without_mark(bytes);
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
         .comment(Some(b'#'))
         .delimiter(delimiter)
         .trim(csv::Trim::All)
-        .from_reader(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
-    let mut columns = None;
-    let mut points = Vec::new();
+        .from_reader(text);
+    let mut table = Table::new();
     let mut record = csv::ByteRecord::new();
+    // The crate counts no lines that end in `\r` alone; rows will do there.
+    let counts_lines = text.contains(&b'\n');
+    let line_of = |at: &csv::Position| if counts_lines { at.line() } else { at.record() + 1 } as usize;
     loop {
-        let line = reader.position().line() as usize;
+        let start = reader.position().clone();
         match reader.read_byte_record(&mut record) {
             Ok(true) => {}
-            Ok(false) => break,
-            Err(error) => return Err(FormatError::line(line, error.to_string())),
+            Ok(false) => return table.finish(),
+            Err(error) => return Err(FormatError::line(line_of(&start), error.to_string())),
         }
-        let line = record.position().map_or(line, |position| position.line() as usize);
         let row: Vec<&[u8]> = record.iter().collect();
-        if columns.is_none() {
-            columns = Columns::from_names(&row);
-            if columns.is_some() {
-                continue;
-            }
-        }
-        points.push(columns.get_or_insert(Columns::FIRST_THREE).point(&row, line)?);
+        table.add(&row, line_of(record.position().unwrap_or(&start)))?;
     }
-    PointCloud::new(PointBuf::F64(points))
 }
 
-/// One point a line, with digits enough to read back the same numbers: those of the `f64` of the same value, as a
-/// reader of decimals cannot know that single precision is meant.
-pub(super) fn write<W: Write>(mut to: W, points: Points<'_>) -> io::Result<()> {
-    points.iter().try_for_each(|[x, y, z]| writeln!(to, "{x:?} {y:?} {z:?}"))
+/// Writes one point per line, with digits enough to read back the same numbers: those of the `f64`
+/// of the same value, as a reader of decimals cannot know that single precision is meant.
+pub(super) fn write<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {
+    points.iter().try_for_each(|p| write_row(&mut to, p, " "))
 }
 
-pub(super) fn write_csv<W: Write>(mut to: W, points: Points<'_>) -> io::Result<()> {
-    writeln!(to, "x,y,z")?;
-    points.iter().try_for_each(|[x, y, z]| writeln!(to, "{x:?},{y:?},{z:?}"))
+pub(super) fn write_csv<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {
+    writeln!(to, "{}", ["x", "y", "z"][..D].join(","))?;
+    points.iter().try_for_each(|p| write_row(&mut to, p, ","))
+}
+
+fn write_row<const D: usize>(to: &mut impl Write, p: [f64; D], separator: &str) -> io::Result<()> {
+    for (axis, x) in p.iter().enumerate() {
+        write!(to, "{}{x:?}", if axis > 0 { separator } else { "" })?;
+    }
+    writeln!(to)
 }

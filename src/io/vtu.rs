@@ -3,8 +3,14 @@
 //! Written and read here, with `quick-xml` for the XML: the newest `vtkio` (0.7) is a
 //! release candidate.
 
-use crate::io::{FormatError, MeshData, error::quote};
-use crate::{Mesh3, Points};
+use crate::Points;
+use crate::io::{
+    FormatError, Mesh, MeshData, PointBuf,
+    error::quote,
+    point_cloud::narrow,
+    scalar::Scalar,
+    surface::{MARK, padded},
+};
 use base64::{
     Engine, alphabet,
     engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig},
@@ -16,32 +22,22 @@ use quick_xml::{
 };
 use std::io::{self, Read, Write};
 
-/// VTK's number for triangles.
-pub(super) const TRIANGLE: u8 = 5;
-/// VTK's number for tetrahedra.
-const TETRA: u8 = 10;
-
-/// Writes points and tetrahedra, as binary data appended to the XML, which is exact and the fastest to load.
+/// Writes points and tetrahedra or triangles, as binary data appended to the XML, which is exact
+/// and the fastest to load. 2D points get *z* = 0.
 ///
 /// # Errors
 ///
 /// When `to` cannot be written.
-pub fn write_vtu<W: Write>(to: W, points: Points<'_>, mesh: &Mesh3) -> io::Result<()> {
-    write_cells(to, points, &mesh.tetrahedra, TETRA)
-}
-
-/// Likewise for cells with `N` corners of the type with VTK's number `kind`.
-pub(super) fn write_cells<const N: usize>(
+pub fn write_vtu<const D: usize, const N: usize, M: Mesh<D, N>>(
     mut to: impl Write,
-    points: Points<'_>,
-    corners: &[[u32; N]],
-    kind: u8,
+    points: Points<'_, D>,
+    mesh: &M,
 ) -> io::Result<()> {
     let (number, size) = match points {
         Points::F32(_) => ("Float32", 4),
         Points::F64(_) => ("Float64", 8),
     };
-    let cells = corners.len() as u64;
+    let cells = mesh.simplices().len() as u64;
     let lengths = [points.len() as u64 * 3 * size, cells * N as u64 * 8, cells * 8, cells];
     // Each array has its length in eight bytes before it.
     let mut end = 0;
@@ -54,6 +50,7 @@ pub(super) fn write_cells<const N: usize>(
         to,
         r#"<?xml version="1.0"?>
 <VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">
+  <!-- {MARK} -->
   <UnstructuredGrid>
     <Piece NumberOfPoints="{}" NumberOfCells="{cells}">
       <Points>
@@ -72,50 +69,53 @@ _"#,
     )?;
     let [coordinates, connectivity, offsets, types] = lengths.map(u64::to_le_bytes);
     to.write_all(&coordinates)?;
-    match points {
-        Points::F32(p) => p.as_flattened().iter().try_for_each(|x| to.write_all(&x.to_le_bytes()))?,
-        Points::F64(p) => p.as_flattened().iter().try_for_each(|x| to.write_all(&x.to_le_bytes()))?,
-    }
+    points.iter().flat_map(padded).try_for_each(|x| match points {
+        Points::F32(_) => to.write_all(&(x as f32).to_le_bytes()),
+        Points::F64(_) => to.write_all(&x.to_le_bytes()),
+    })?;
     to.write_all(&connectivity)?;
-    corners.as_flattened().iter().try_for_each(|&v| to.write_all(&u64::from(v).to_le_bytes()))?;
+    let vertices = mesh.simplices().iter().flatten().copied();
+    vertices.into_iter().try_for_each(|v| to.write_all(&u64::from(v).to_le_bytes()))?;
     to.write_all(&offsets)?;
     (1..=cells).try_for_each(|cell| to.write_all(&(N as u64 * cell).to_le_bytes()))?;
     to.write_all(&types)?;
-    (0..cells).try_for_each(|_| to.write_all(&[kind]))?;
+    (0..cells).try_for_each(|_| to.write_all(&[M::NAMES.vtk]))?;
     to.write_all(b"\n  </AppendedData>\n</VTKFile>\n")
 }
 
-/// Reads the tetrahedra; all forms of data are known: ASCII, base64, appended, compressed with zlib.
+/// Reads points and tetrahedra or triangles; all forms of data are known: ASCII, base64, appended,
+/// compressed with zlib.
 ///
 /// # Errors
 ///
-/// Where the file is broken, and how; when it has cells that are no tetrahedra.
-pub fn read_vtu(bytes: &[u8]) -> Result<MeshData, FormatError> {
-    Ok(MeshData { tetrahedra: read_cells(bytes, TETRA, "tetrahedr", ["on", "a"])?, neighbors: None })
-}
-
-/// The corners of the cells, all of the type with VTK's number `kind`, whose name ends differently for one and for more.
-pub(super) fn read_cells<const N: usize>(
-    bytes: &[u8],
-    kind: u8,
-    name: &str,
-    [one, more]: [&str; 2],
-) -> Result<Vec<[u32; N]>, FormatError> {
+/// Where the file is broken, and how; when it has cells of other types, or 2D points with *z* other
+/// than 0.
+pub fn read_vtu<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> Result<MeshData<D, N>, FormatError> {
+    let names = M::NAMES;
     let file = File::parse(bytes)?;
     let types = file.integers("types")?;
-    if let Some(cell) = types.iter().position(|&t| t != i64::from(kind)) {
-        return Err(FormatError::byte(0, format!("cell {cell} is no {name}{one}, but of VTK's type {}", types[cell])));
+    if let Some(cell) = types.iter().position(|&t| t != i64::from(names.vtk)) {
+        let what = format!("cell {cell} is no {}, but of VTK's type {}", names.simplex, types[cell]);
+        return Err(FormatError::byte(0, what));
     }
     let connectivity = file.integers("connectivity")?;
     let (cells, rest) = connectivity.as_chunks::<N>();
     if !rest.is_empty() || cells.len() != types.len() {
-        let what = format!("{} {name}{more} do not have {} vertices", types.len(), connectivity.len());
+        let name = if types.len() == 1 { names.simplex } else { names.simplices };
+        let what = format!("{} {name} cannot have {} vertices", types.len(), connectivity.len());
         return Err(FormatError::byte(0, what));
     }
     if let Some(v) = connectivity.iter().find(|&&v| u32::try_from(v).is_err()) {
         return Err(FormatError::byte(0, format!("{v} is no index of a point")));
     }
-    Ok(cells.iter().map(|t| t.map(|v| v as u32)).collect())
+    let simplices = cells.iter().map(|cell| cell.map(|v| v as u32)).collect();
+    let points = file.points()?.map(|points| {
+        if let Some(i) = Points::from(&points).iter().position(|p| D == 2 && p[2] != 0.0) {
+            return Err(FormatError::point(i, "z is not 0, as it is in a 2D mesh"));
+        }
+        Ok(points.resize())
+    });
+    Ok(MeshData { points: points.transpose()?, ..M::from_arrays(simplices, None) })
 }
 
 /// The data arrays of a file, not yet decoded.
@@ -131,6 +131,8 @@ struct File<'a> {
 
 struct DataArray<'a> {
     name: String,
+    /// Whether it stands in `Points`.
+    is_points: bool,
     scalar: String,
     format: String,
     offset: usize,
@@ -139,11 +141,23 @@ struct DataArray<'a> {
     at: usize,
 }
 
+impl DataArray<'_> {
+    fn broken(&self, what: &str) -> FormatError {
+        let name = if self.is_points { "Points" } else { &self.name };
+        FormatError::byte(self.at, format!("data array `{name}`: {what}"))
+    }
+}
+
+fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split(|b| b.is_ascii_whitespace()).filter(|word| !word.is_empty())
+}
+
 impl<'a> File<'a> {
     fn parse(bytes: &'a [u8]) -> Result<Self, FormatError> {
         let mut file =
             File { arrays: Vec::new(), big_endian: false, length_size: 4, is_compressed: false, appended: None };
         let mut xml = Reader::from_reader(bytes);
+        let (mut in_points, mut pieces) = (false, 0);
         loop {
             let at = position(&xml);
             let event = xml.read_event().map_err(|error| FormatError::byte(at, error.to_string()))?;
@@ -162,6 +176,13 @@ impl<'a> File<'a> {
                             }
                         };
                     }
+                    "Points" => in_points = !is_empty,
+                    "Piece" => {
+                        pieces += 1;
+                        if pieces > 1 {
+                            return Err(FormatError::byte(at, "a second `Piece`: only one is read"));
+                        }
+                    }
                     "DataArray" => {
                         let start = position(&xml);
                         let length =
@@ -169,6 +190,7 @@ impl<'a> File<'a> {
                         let offset = attribute(&tag, "offset").parse().unwrap_or(0);
                         file.arrays.push(DataArray {
                             name: attribute(&tag, "Name"),
+                            is_points: in_points,
                             scalar: attribute(&tag, "type"),
                             format: attribute(&tag, "format"),
                             offset,
@@ -185,26 +207,55 @@ impl<'a> File<'a> {
                     }
                     _ => {}
                 },
+                Event::End(tag) if tag.name().as_ref() == "Points" => in_points = false,
                 Event::Eof => return Ok(file),
                 _ => {}
             }
         }
     }
 
-    /// The array of that name as integers.
+    /// Returns the array of that name as integers.
     fn integers(&self, name: &str) -> Result<Vec<i64>, FormatError> {
         let array = self
             .arrays
             .iter()
             .find(|array| array.name == name)
             .ok_or_else(|| FormatError::byte(0, format!("there is no data array `{name}`")))?;
-        let broken = |what: &str| FormatError::byte(array.at, format!("data array `{name}`: {what}"));
-        let block = match array.format.as_str() {
-            "ascii" => {
-                let words = array.text.split(|b| b.is_ascii_whitespace()).filter(|word| !word.is_empty());
-                let numbers = words.map(|word| std::str::from_utf8(word).ok()?.parse().ok());
-                return numbers.collect::<Option<_>>().ok_or_else(|| broken("not all of its values are integers"));
+        let values = match self.bytes(array)? {
+            Some(bytes) => self.decode_integers(&bytes, &array.scalar),
+            None => words(array.text).map(|word| std::str::from_utf8(word).ok()?.parse().ok()).collect(),
+        };
+        values.ok_or_else(|| array.broken("not all of its values are integers"))
+    }
+
+    /// Returns the points, where the file has them.
+    fn points(&self) -> Result<Option<PointBuf>, FormatError> {
+        let Some(array) = self.arrays.iter().find(|array| array.is_points) else { return Ok(None) };
+        let scalar = match array.scalar.as_str() {
+            "Float32" => Scalar::F32,
+            "Float64" => Scalar::F64,
+            other => return Err(array.broken(&format!("points of type {} are not read", quote(other.as_bytes())))),
+        };
+        let values: Option<Vec<f64>> = match self.bytes(array)? {
+            Some(bytes) => {
+                let values = bytes.chunks_exact(scalar.size());
+                let is_whole = values.remainder().is_empty();
+                is_whole.then(|| values.map(|value| scalar.decode(value, self.big_endian)).collect())
             }
+            None => words(array.text).map(|word| scalar.parse(word)).collect(),
+        };
+        let values = values.ok_or_else(|| array.broken("not all of its values are numbers"))?;
+        match values.as_chunks::<3>() {
+            (points, []) => Ok(Some(narrow(points.to_vec(), scalar.is_single()))),
+            _ => Err(array.broken("its values are not three for each point")),
+        }
+    }
+
+    /// Returns the binary data of an array; `None` where it is text.
+    fn bytes(&self, array: &DataArray<'_>) -> Result<Option<Vec<u8>>, FormatError> {
+        let broken = |what: &str| array.broken(what);
+        let block = match array.format.as_str() {
+            "ascii" => return Ok(None),
             "binary" => self.unpack(&decode_base64(array.text).ok_or_else(|| broken("its base64 is broken"))?),
             "appended" => {
                 let (data, is_base64) = self.appended.ok_or_else(|| broken("there is no appended data"))?;
@@ -218,11 +269,10 @@ impl<'a> File<'a> {
             }
             other => return Err(broken(&format!("the format {} is not known", quote(other.as_bytes())))),
         };
-        let block = block.ok_or_else(|| broken("its data is broken or ends too early"))?;
-        self.decode(&block, &array.scalar).ok_or_else(|| broken("it does not hold integers"))
+        block.map(Some).ok_or_else(|| broken("its data is broken or ends too early"))
     }
 
-    /// A length (4 or 8 bytes) at the start of `data`, and what follows it.
+    /// Returns the length (4 or 8 bytes) at the start of `data`, and what follows it.
     fn length<'d>(&self, data: &'d [u8]) -> Option<(usize, &'d [u8])> {
         let (bytes, rest) = data.split_at_checked(self.length_size)?;
         let value = bytes.iter().enumerate().fold(0u64, |value, (i, &byte)| {
@@ -232,8 +282,8 @@ impl<'a> File<'a> {
         Some((usize::try_from(value).ok()?, rest))
     }
 
-    /// The array's bytes: after their length, or in compressed blocks after the number of blocks, the size of a block,
-    /// of the last one, and the compressed sizes of all.
+    /// Returns the array's bytes: after their length, or in compressed blocks after the number of
+    /// blocks, the size of a block, of the last one, and the compressed sizes of all.
     fn unpack(&self, data: &[u8]) -> Option<Vec<u8>> {
         let (length, mut rest) = self.length(data)?;
         if !self.is_compressed {
@@ -252,7 +302,7 @@ impl<'a> File<'a> {
         Some(result)
     }
 
-    fn decode(&self, block: &[u8], scalar: &str) -> Option<Vec<i64>> {
+    fn decode_integers(&self, block: &[u8], scalar: &str) -> Option<Vec<i64>> {
         let size = match scalar {
             "Int8" | "UInt8" => 1,
             "Int32" | "UInt32" => 4,
@@ -283,13 +333,14 @@ fn position(xml: &Reader<&[u8]>) -> usize {
     xml.buffer_position() as usize
 }
 
-/// The attribute's value, empty where there is none. No attribute that matters has anything to unescape.
+/// Returns the attribute's value, empty where there is none. No attribute that matters has anything
+/// to unescape.
 fn attribute(tag: &BytesStart<'_>, name: &str) -> String {
     tag.try_get_attribute(name).ok().flatten().map(|attribute| attribute.value.into_owned()).unwrap_or_default()
 }
 
-/// Decodes base64 that may consist of several pieces, each with its padding: VTK encodes a length and the data after
-/// it one by one.
+/// Decodes base64 that may consist of several pieces, each with its padding: VTK encodes a length
+/// and the data after it one by one.
 fn decode_base64(text: &[u8]) -> Option<Vec<u8>> {
     const ENGINE: GeneralPurpose = GeneralPurpose::new(
         &alphabet::STANDARD,

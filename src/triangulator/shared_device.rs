@@ -7,7 +7,7 @@ use crate::{
         AdapterChoice, Gpu,
         dim::Dimension,
         engine::{Complete, GpuEngine, MeshOf},
-        phase1::Stages,
+        phase1::Finish,
     },
     input::points::Points2,
     stats::Fallback,
@@ -56,7 +56,7 @@ struct State {
 #[derive(Debug)]
 struct Slot<const D: usize>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     /// The GPU engine, while it is open.
     engine: Option<GpuEngine<D>>,
@@ -66,7 +66,7 @@ where
 
 impl<const D: usize> Default for Slot<D>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     fn default() -> Self {
         Slot { engine: None, points_seen: 0 }

@@ -21,7 +21,7 @@ pub(crate) struct Input<const D: usize> {
 }
 
 impl<const D: usize> Input<D> {
-    /// `affine_dimension` is that of the points.
+    /// Derives what follows from the points; `affine_dimension` computes their dimension.
     pub(crate) fn new(points: Points<'_, D>, affine_dimension: fn(&[[f64; D]]) -> u8) -> Result<Self, Error> {
         points.validate()?;
         let limit = i32::MAX as usize;
@@ -64,7 +64,8 @@ impl<const D: usize> Input<D> {
         findings
     }
 
-    /// Needs vertices that are indices of points. `what` the simplices are, and how to blame one.
+    /// Checks which points are vertices, which must be indices of points. `what` the simplices are,
+    /// and `blame` creates the defect of one.
     pub(crate) fn check_vertices<const N: usize>(
         &self,
         simplices: &[[u32; N]],
@@ -96,7 +97,7 @@ impl<const D: usize> Input<D> {
         findings
     }
 
-    /// The distinct points by their lowest indices, in the order of their coordinates.
+    /// Returns the distinct points by their lowest indices, in the order of their coordinates.
     pub(crate) fn distinct_in_order(&self) -> Vec<u32> {
         let mut distinct: Vec<u32> =
             (0u32..).zip(&self.representative).filter(|&(i, &r)| r == i).map(|(i, _)| i).collect();
@@ -105,7 +106,7 @@ impl<const D: usize> Input<D> {
     }
 }
 
-/// By the first coordinate, then by the next.
+/// Compares by the first coordinate, then by the next.
 fn compare<const D: usize>(a: &[f64; D], b: &[f64; D]) -> Ordering {
     a.iter().zip(b).map(|(x, y)| x.total_cmp(y)).find(|&order| order != Ordering::Equal).unwrap_or(Ordering::Equal)
 }
@@ -123,18 +124,18 @@ fn representatives<const D: usize>(points: &[[f64; D]]) -> Vec<u32> {
     representative
 }
 
-/// The affine dimension of points of the plane.
-pub(crate) fn dimension_in_plane(points: &[[f64; 2]]) -> u8 {
+/// Returns the affine dimension of 2D points.
+pub(crate) fn dimension_2d(points: &[[f64; 2]]) -> u8 {
     let mut points = points.iter().copied();
     let Some(a) = points.next() else { return 0 };
     let Some(b) = points.find(|&p| p != a) else { return 0 };
     if points.any(|p| orient2d(a, b, p) != 0) { 2 } else { 1 }
 }
 
-/// The affine dimension of points of space.
-pub(crate) fn dimension_in_space(points: &[[f64; 3]]) -> u8 {
-    // As a function of d, orient3d(a, b, c, d) is affine. It vanishes everywhere, so that a, b, c are collinear, exactly
-    // when it vanishes at four points that are not coplanar.
+/// Returns the affine dimension of 3D points.
+pub(crate) fn dimension_3d(points: &[[f64; 3]]) -> u8 {
+    // As a function of d, orient3d(a, b, c, d) is affine. It vanishes everywhere, so that a, b, c
+    // are collinear, exactly when it vanishes at four points that are not coplanar.
     const FRAME: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let mut points = points.iter().copied();
     let Some(a) = points.next() else { return 0 };

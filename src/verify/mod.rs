@@ -1,24 +1,25 @@
-//! Whether a mesh is the Delaunay triangulation of its points: decided exactly, and independently of how it was made.
+//! Whether a mesh is the Delaunay triangulation of its points: decided exactly, and independently
+//! of how it was made.
 //!
-//! The checks are local but together sufficient (Mehlhorn et al., *Checking geometric programs or verification of
-//! geometric structures*, 1999):
+//! The checks are local but together sufficient (Mehlhorn et al., *Checking geometric programs or
+//! verification of geometric structures*, 1999):
 //!
-//! 1. The tetrahedra are positively oriented and meet across facets from either side, so the map of the mesh into space
-//!    covers every point away from the hull triangles a number of times that changes at those triangles only.
-//! 2. A point inside one tetrahedron sees all hull triangles from their inner side and is covered once. So every ray
-//!    from it leaves through one hull triangle, the hull bounds a star-shaped body, and its inside is covered once.
-//! 3. The hull has no concave edge, so the body is convex; every distinct point is a vertex, so it is the convex hull.
-//! 4. A triangulation of the convex hull that is locally Delaunay across every facet is a Delaunay triangulation, and one
-//!    that is so for perturbed heights is the only one.
+//! 1. The tetrahedra are positively oriented and meet across facets from either side, so the map of
+//!    the mesh into 3D space covers every point away from the hull triangles a number of times that
+//!    changes at those triangles only.
+//! 2. A point inside one tetrahedron sees all hull triangles from their inner side and is covered
+//!    once. So every ray from it leaves through one hull triangle, the hull bounds a star-shaped
+//!    body, and its inside is covered once.
+//! 3. The hull has no concave edge, so the body is convex; every distinct point is a vertex, so it
+//!    is the convex hull.
+//! 4. A triangulation of the convex hull that is locally Delaunay across every facet is a Delaunay
+//!    triangulation, and one that is so for perturbed heights is the only one.
 //!
-//! In the plane it is simpler. Triangles that are all oriented alike and meet across edges from either side cover a point
-//! as often as their boundary winds around it: once inside, if that is a convex polygon that turns once.
+//! 2D is simpler. Triangles that are all oriented alike and meet across edges from either side
+//! cover a point as often as their boundary winds around it: once inside, if that is a convex
+//! polygon that turns once.
 
 pub(crate) mod input;
 pub(crate) mod report;
 
-pub use crate::{
-    d2::verify::{MeshView2, verify2d},
-    d3::verify::{MeshView, verify3d},
-};
 pub use report::{Check, Counts, Defect, Outcome, Report};

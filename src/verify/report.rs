@@ -5,13 +5,13 @@ use std::fmt;
 /// A property of the Delaunay triangulation that the verifier decides.
 ///
 /// Together they are sufficient: a mesh that passes all of them *is* the triangulation that
-/// [`delaunay3d`](crate::delaunay3d) defines. In the plane, tetrahedra are triangles, facets are edges, the neighbours are
-/// half-edges, and the checks after the convex hull are not needed.
+/// [`delaunay3d`](crate::delaunay3d) defines. In 2D, tetrahedra are triangles, facets are edges,
+/// the neighbours are half-edges, and the checks after the convex hull are not needed.
 ///
 /// # Examples
 ///
 /// ```
-/// use gdel::verify::{Check, verify3d};
+/// use gdel::{verify::Check, verify3d};
 ///
 /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
 /// let mut mesh = gdel::delaunay3d(&points)?;
@@ -25,25 +25,28 @@ use std::fmt;
 pub enum Check {
     /// The dimension that the mesh states is the affine dimension of the points.
     Dimension,
-    /// The duplicates that the mesh states are those of the points, each with the lowest index of its coordinates.
+    /// The duplicates that the mesh states are those of the points, each with the lowest index of
+    /// its coordinates.
     Duplicates,
     /// Every tetrahedron has four different vertices that are indices of points.
     Indices,
-    /// The vertices are the distinct points, all of them where the points span three dimensions, and each is named by
-    /// the lowest index of its coordinates.
+    /// The vertices are the distinct points, all of them where the points span three dimensions,
+    /// and each is named by the lowest index of its coordinates.
     Vertices,
     /// Every tetrahedron is positively oriented; none is flat.
     Orientation,
-    /// No facet belongs to more than two tetrahedra, and two that share a facet lie on either side of it.
+    /// No facet belongs to more than two tetrahedra, and two that share a facet lie on either side
+    /// of it.
     Facets,
     /// The neighbours that the mesh states are the tetrahedra across the facets.
     Neighbors,
     /// No tetrahedron's circumsphere has the opposite vertex of a neighbour strictly inside.
     Delaunay,
-    /// Where the opposite vertex of a neighbour lies on the circumsphere, the symbolic perturbation of the heights puts
-    /// it outside.
+    /// Where the opposite vertex of a neighbour lies on the circumsphere, the symbolic perturbation
+    /// of the heights puts it outside.
     CanonicalTies,
-    /// The hull triangles that the mesh states are the facets of a single tetrahedron, turned outwards.
+    /// The hull triangles that the mesh states are the facets of a single tetrahedron, turned
+    /// outwards.
     Hull,
     /// Every edge of the hull is between exactly two hull triangles.
     HullClosed,
@@ -51,8 +54,8 @@ pub enum Check {
     HullConvex,
     /// Vertices − edges + facets − tetrahedra = 1, as in a ball.
     EulerCharacteristic,
-    /// The tetrahedra cover the hull's inside once: all hull triangles are seen from one point inside, and no second
-    /// tetrahedron contains that point.
+    /// The tetrahedra cover the hull's inside once: all hull triangles are seen from one point
+    /// inside, and no second tetrahedron contains that point.
     Covering,
 }
 
@@ -75,7 +78,7 @@ impl Check {
         Check::Covering,
     ];
 
-    /// A short name, such as `hull-convex`.
+    /// Returns a short name, such as `hull-convex`.
     pub fn name(self) -> &'static str {
         match self {
             Check::Dimension => "dimension",
@@ -95,7 +98,7 @@ impl Check {
         }
     }
 
-    /// The checks without which this one has no meaning.
+    /// Returns the checks without which this one has no meaning.
     fn requires(self) -> &'static [Check] {
         match self {
             Check::Dimension | Check::Duplicates | Check::Indices => &[],
@@ -114,7 +117,7 @@ impl fmt::Display for Check {
     }
 }
 
-/// Where a check fails, and how.
+/// Where and how a mesh fails a check.
 ///
 /// # Examples
 ///
@@ -122,7 +125,7 @@ impl fmt::Display for Check {
 /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
 /// let mut mesh = gdel::delaunay2d(&points)?;
 /// mesh.triangles[0].swap(0, 1);
-/// let report = gdel::verify::verify2d(&points, &mesh)?;
+/// let report = gdel::verify2d(&points, &mesh)?;
 /// let (_, defect, _) = report.failures().next().expect("the triangle is clockwise");
 /// assert_eq!(defect.triangle, Some(0));
 /// # Ok::<(), gdel::Error>(())
@@ -130,11 +133,11 @@ impl fmt::Display for Check {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Defect {
-    /// The index of the tetrahedron, where there is one to blame.
+    /// The index of the tetrahedron that is to blame; `None` where it is not one.
     pub tetrahedron: Option<usize>,
-    /// The index of the triangle of a mesh in the plane, where there is one to blame.
+    /// The index of the triangle of a 2D mesh that is to blame; `None` where it is not one.
     pub triangle: Option<usize>,
-    /// The index of the point, where there is one to blame.
+    /// The index of the point that is to blame; `None` where it is not one.
     pub point: Option<usize>,
     /// What is wrong, in words.
     pub detail: String,
@@ -178,7 +181,7 @@ impl fmt::Display for Defect {
 /// # Examples
 ///
 /// ```
-/// use gdel::verify::{Check, MeshView2, Outcome, verify2d};
+/// use gdel::{MeshView2, verify::{Check, Outcome}, verify2d};
 ///
 /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
 /// let report = verify2d(&points, MeshView2::of_triangles(&[[0, 1, 2]]))?;
@@ -225,13 +228,13 @@ impl From<Findings> for Outcome {
     }
 }
 
-/// How many there are of everything.
+/// The numbers of points, edges, facets and so on.
 ///
 /// # Examples
 ///
 /// ```
 /// let points = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0], [0.0, 0.0f64]];
-/// let counts = gdel::verify::verify2d(&points, &gdel::delaunay2d(&points)?)?.counts;
+/// let counts = gdel::verify2d(&points, &gdel::delaunay2d(&points)?)?.counts;
 /// assert_eq!((counts.points, counts.distinct_points, counts.edges), (5, 4, 5));
 /// # Ok::<(), gdel::Error>(())
 /// ```
@@ -242,17 +245,17 @@ pub struct Counts {
     pub points: usize,
     /// Points without duplicates.
     pub distinct_points: usize,
-    /// Points that are corners of tetrahedra, or of triangles in the plane.
+    /// Points that are corners of tetrahedra, or of triangles in 2D.
     pub vertices: usize,
     /// Edges.
     pub edges: usize,
-    /// Facets of tetrahedra, those on the hull included; triangles in the plane.
+    /// Facets of tetrahedra, those on the hull included; triangles in 2D.
     pub facets: usize,
     /// Tetrahedra.
     pub tetrahedra: usize,
     /// Facets of a single tetrahedron.
     pub hull_triangles: usize,
-    /// In the plane, edges of a single triangle.
+    /// In 2D, edges of a single triangle.
     pub hull_edges: usize,
 }
 
@@ -262,7 +265,7 @@ pub struct Counts {
 ///
 /// ```
 /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
-/// let report = gdel::verify::verify2d(&points, &gdel::delaunay2d(&points)?)?;
+/// let report = gdel::verify2d(&points, &gdel::delaunay2d(&points)?)?;
 /// assert!(report.passed());
 /// // One line per check.
 /// println!("{report}");
@@ -275,18 +278,18 @@ pub struct Report {
     pub outcomes: Vec<(Check, Outcome)>,
     /// The affine dimension of the points, 0 to 3.
     pub dimension: u8,
-    /// What the points and the mesh consist of. Where the indices are broken, only points and simplices are
-    /// counted.
+    /// What the points and the mesh consist of. Where the indices are broken, only points and
+    /// simplices are counted.
     pub counts: Counts,
 }
 
 impl Report {
-    /// Whether the mesh is the Delaunay triangulation of the points.
+    /// Returns whether the mesh is the Delaunay triangulation of the points.
     pub fn passed(&self) -> bool {
         self.outcomes.iter().all(|(_, outcome)| matches!(outcome, Outcome::Passed | Outcome::NotStated))
     }
 
-    /// The checks that failed, with the first defect of each and the number of its defects.
+    /// Returns the checks that failed, with the first defect of each and the number of its defects.
     pub fn failures(&self) -> impl Iterator<Item = (Check, &Defect, usize)> {
         self.outcomes.iter().filter_map(|(check, outcome)| match outcome {
             Outcome::Failed { first, count } => Some((*check, first, *count)),
@@ -294,7 +297,7 @@ impl Report {
         })
     }
 
-    /// The outcome of one check.
+    /// Returns the outcome of one check.
     pub fn outcome(&self, check: Check) -> Option<&Outcome> {
         self.outcomes.iter().find(|(c, _)| *c == check).map(|(_, outcome)| outcome)
     }
@@ -310,7 +313,7 @@ impl Report {
     }
 }
 
-/// One line a check, for a terminal.
+/// Prints one line per check.
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, (check, outcome)) in self.outcomes.iter().enumerate() {

@@ -14,10 +14,7 @@ use crate::{
         generate::{self, Distribution2},
         verify::{MeshView2, verify2d},
     },
-    io::{
-        HullFormat, write_ele2, write_glb2, write_neigh2, write_node, write_npz2, write_obj2, write_ply2, write_stl2,
-        write_vtu2,
-    },
+    io::{SurfaceFormat, write_ele, write_neigh, write_node, write_npz, write_vtu},
 };
 
 /// `count` points of the distribution of that name in the plane, interleaved.
@@ -78,34 +75,33 @@ impl PlaneMesh {
         mesh.halfedges = self.halfedges.iter().flatten().map(|&[a, b, c]| [c, b, a].map(turned)).collect();
         let mesh = &mesh;
         match format {
-            "vtu" => Ok(object([file("vtu", |to| write_vtu2(to, points, mesh))?])),
-            "npz" => Ok(object([file("npz", |to| write_npz2(to, points, mesh))?])),
+            "vtu" => Ok(object([file("vtu", |to| write_vtu(to, points, mesh))?])),
+            "npz" => Ok(object([file("npz", |to| write_npz(to, points, mesh))?])),
             "triangle" => Ok(object([
                 file("node", |to| write_node(to, points))?,
-                file("ele", |to| write_ele2(to, mesh))?,
-                file("neigh", |to| write_neigh2(to, mesh))?,
+                file("ele", |to| write_ele(to, mesh))?,
+                file("neigh", |to| write_neigh(to, mesh))?,
             ])),
-            _ => Ok(object([match HullFormat::from_extension(format).ok_or_else(|| no_format(format))? {
-                HullFormat::Ply => file("ply", |to| write_ply2(to, points, mesh))?,
-                HullFormat::Obj => file("obj", |to| write_obj2(to, points, mesh))?,
-                HullFormat::Stl => file("stl", |to| write_stl2(to, points, mesh))?,
-                HullFormat::Glb => file("glb", |to| write_glb2(to, points, mesh))?,
-            }])),
+            _ => {
+                let format = SurfaceFormat::from_extension(format).ok_or_else(|| no_format(format))?;
+                Ok(object([file(format.extensions()[0], |to| format.write(to, points, mesh))?]))
+            }
         }
     }
 
     /// What the verifier finds.
     pub fn verify(&self) -> Result<JsValue, JsValue> {
-        let mut view = MeshView2::of_triangles(&self.triangles);
-        view.halfedges = self.halfedges.as_deref();
-        view.hull = self.hull.as_deref();
-        view.duplicate_of = self.duplicate_of.as_deref();
-        view.dimension = self.dimension;
-        // Delaunator's triangles are counter-clockwise where y points down. Collinear points have an order, but no sense.
-        let report = match self.triangles.is_empty() {
-            true => verify2d(self.points.points::<2>()?, view)?,
-            false => verify2d(self.points.upside_down().points::<2>()?, view)?,
-        };
+        let report = verify2d(
+            self.points.points::<2>()?,
+            MeshView2 {
+                triangles: &self.triangles,
+                halfedges: self.halfedges.as_deref(),
+                neighbors: None,
+                hull: self.hull.as_deref(),
+                duplicate_of: self.duplicate_of.as_deref(),
+                dimension: self.dimension,
+            },
+        )?;
         let counts = report.counts;
         Ok(report_object(
             &report,

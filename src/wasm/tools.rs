@@ -13,7 +13,7 @@ use crate::{
         generate::{self, Distribution},
         verify::{MeshView, verify3d},
     },
-    io::{HullFormat, PointBuf, PointFormat, write_ele, write_neigh, write_node, write_npz, write_vtu},
+    io::{PointBuf, PointCloud, PointFormat, SurfaceFormat, write_ele, write_neigh, write_node, write_npz, write_vtu},
     verify::{Check, Outcome, Report},
 };
 
@@ -43,7 +43,7 @@ pub fn read_points(bytes: &Uint8Array, extension: &str) -> Result<JsValue, JsVal
         .ok_or_else(|| error("UNKNOWN_FORMAT", &format!("there is no format of point clouds named {extension:?}")))?;
     let mut content = zeros(bytes.length())?;
     bytes.copy_to(&mut content);
-    let cloud = format.read(content).map_err(|e| error("BAD_FILE", &e.to_string()))?;
+    let cloud: PointCloud = format.read(content).map_err(|e| error("BAD_FILE", &e.to_string()))?;
     let points = match &cloud.points {
         PointBuf::F32(points) => Float32Array::new_from_slice(points.as_flattened()).into(),
         PointBuf::F64(points) => Float64Array::new_from_slice(points.as_flattened()).into(),
@@ -109,7 +109,7 @@ impl Mesh {
                 file("neigh", |to| write_neigh(to, mesh))?,
             ])),
             _ => {
-                let hull = HullFormat::from_extension(format).ok_or_else(|| no_format(format))?;
+                let hull = SurfaceFormat::from_extension(format).ok_or_else(|| no_format(format))?;
                 Ok(object([file(hull.extensions()[0], |to| hull.write(to, points, mesh))?]))
             }
         }

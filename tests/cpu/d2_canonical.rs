@@ -16,7 +16,7 @@ use gdel::{
         mesh,
         predicates::filter::PredicateContext2,
     },
-    verify::verify2d,
+    verify2d,
 };
 use proptest::prelude::*;
 use rand_pcg::{

@@ -7,12 +7,13 @@ use crate::broken::{
 };
 use crate::oracle::definition2;
 use gdel::{
-    Error, Mesh2, delaunay2d,
+    Error, Mesh2, MeshView2, delaunay2d,
     internals::{
         d2::generate::{Distribution2, generate2d},
         mesh,
     },
-    verify::{Check, MeshView2, Outcome, verify2d},
+    verify::{Check, Outcome},
+    verify2d,
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;
@@ -366,12 +367,14 @@ proptest! {
         points in prop::collection::vec(prop::array::uniform2(any::<f64>().prop_filter("finite", |x| x.is_finite())), 0..9),
         triangles in prop::collection::vec(prop::array::uniform3(prop_oneof![20 => 0..9u32, 1 => any::<u32>()]), 0..9),
         halfedges in prop::option::of(prop::collection::vec(any::<[i32; 3]>(), 0..9)),
+        neighbors in prop::option::of(prop::collection::vec(any::<[i32; 3]>(), 0..9)),
         hull in prop::option::of(prop::collection::vec(any::<u32>(), 0..9)),
         duplicate_of in prop::option::of(prop::collection::vec(any::<i32>(), 0..9)),
         dimension in any::<Option<u8>>(),
     ) {
         let mut statement = MeshView2::of_triangles(&triangles);
         statement.halfedges = halfedges.as_deref();
+        statement.neighbors = neighbors.as_deref();
         statement.hull = hull.as_deref();
         statement.duplicate_of = duplicate_of.as_deref();
         statement.dimension = dimension;

@@ -4,7 +4,7 @@ use crate::oracle::{Definition, definition};
 use gdel::{
     delaunay3d,
     internals::{Options, d3::cpu::delaunay3d_in_order, input::order::Order},
-    verify::verify3d,
+    verify3d,
 };
 use proptest::prelude::*;
 

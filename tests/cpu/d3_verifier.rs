@@ -7,12 +7,13 @@ use crate::broken::{
 };
 use crate::oracle::{self, definition};
 use gdel::{
-    Error, Mesh3, delaunay3d,
+    Error, Mesh3, MeshView, delaunay3d,
     internals::{
         d3::generate::{Distribution, generate},
         mesh,
     },
-    verify::{Check, MeshView, Outcome, verify3d},
+    verify::{Check, Outcome},
+    verify3d,
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;

@@ -12,7 +12,7 @@ use gdel::{
         },
         input::order::Order,
     },
-    verify::verify3d,
+    verify3d,
 };
 
 /// Verifies the mesh of the points, and checks that `shuffles` random insertion orders give the

@@ -11,9 +11,12 @@ use gdel::internals::gpu::Storage;
 use gdel::internals::gpu::layout::Pick;
 use gdel::internals::gpu::layout::{Counters, DONE, NONE};
 use gdel::internals::gpu::points::{DevicePoints, InputCounts};
+use gdel::internals::gpu::shader;
 use gdel::internals::gpu::{phase1::Buffers, start::first_simplex};
 use gdel::internals::input::lattice::Width;
-use gdel::internals::reference::d2::{self as reference, State, predicates::Vertex};
+use gdel::internals::reference::{self, d2, d2::predicates::Vertex};
+
+type State = reference::State<2>;
 
 struct Device {
     kernels: Kernels,
@@ -43,7 +46,7 @@ impl Device {
     fn upload(&self, state: &State) {
         let (gpu, b) = (&self.kernels.gpu, &self.buffers);
         self.kernels.write_control(&b.control, &state.params, &state.counters);
-        b.simplices.write(gpu, 0, &state.triangles);
+        b.simplices.write(gpu, 0, &state.simplices);
         b.neighbors.write(gpu, 0, &state.neighbors);
         b.status.write(gpu, 0, &state.status);
         b.active.write(gpu, 0, &state.active.concat());
@@ -58,7 +61,7 @@ impl Device {
         let active = kernels.read(&b.active);
         let (even, odd) = active.split_at(active.len() / 2);
         State {
-            triangles: kernels.read(&b.simplices),
+            simplices: kernels.read(&b.simplices),
             neighbors: kernels.read(&b.neighbors),
             status: kernels.read(&b.status),
             messages: kernels.read(&b.messages),
@@ -72,36 +75,14 @@ impl Device {
         }
     }
 
-    fn bindings(&self, kernel: &str) -> Vec<&wgpu::Buffer> {
-        let b = &self.buffers;
-        let (control, vertices, pairs) = (b.control.buffer(), b.points.vertices.buffer(), b.points.pairs.buffer());
-        let (triangles, neighbors) = (b.simplices.buffer(), b.neighbors.buffer());
-        let (status, active, messages) = (b.status.buffer(), b.active.buffer(), b.messages.buffer());
-        let (history, waiting, scores) = (b.history.buffer(), b.waiting.buffer(), b.scores.buffer());
-        let (counts, marks, offsets) = (b.points.counts.buffer(), b.own.marks.buffer(), b.own.offsets.buffer());
-        match kernel {
-            "plane/locate" => vec![control, vertices, pairs, counts, waiting, triangles, neighbors],
-            "plane/pick_score" => vec![control, vertices, triangles, waiting, messages, scores],
-            "pick_point" => vec![control, waiting, messages, scores],
-            "plane/split" => vec![control, triangles, neighbors, status, active, messages, waiting],
-            "plane/relocate_split" => vec![control, vertices, pairs, triangles, status, messages, waiting],
-            "plane/flip_check" => vec![control, vertices, pairs, triangles, neighbors, status, active],
-            "plane/flip_commit" => vec![control, triangles, neighbors, status, active, messages, history],
-            "plane/flip_link" => vec![control, neighbors, status, active, messages],
-            "plane/relocate" => vec![control, vertices, pairs, status, history, waiting],
-            "clear_votes" => vec![control, status],
-            "plane/mesh_mark" => vec![control, vertices, pairs, triangles, neighbors, counts, marks, active],
-            "plane/mesh_compact" => vec![control, pairs, triangles, neighbors, offsets, messages, status, waiting],
-            _ => panic!("no bindings are known for {kernel}"),
-        }
-    }
-
-    fn run(&self, name: &'static str) {
-        self.kernels.run(name, &self.bindings(name));
+    fn run(&self, name: &str) {
+        let aliases = Aliases::new(&self.buffers);
+        let buffers = [self.buffers.bindings(), aliases.bindings()].concat();
+        self.kernels.run(shader::D2.get(name), &buffers);
     }
 
     /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.
-    fn both(&self, name: &'static str, state: &mut State, reference: impl Fn(&mut State)) -> State {
+    fn both(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) -> State {
         self.upload(state);
         self.run(name);
         reference(state);
@@ -111,9 +92,9 @@ impl Device {
     }
 
     /// The same for a kernel whose results are the same to the last bit.
-    fn equal(&self, name: &'static str, state: &mut State, reference: impl Fn(&mut State)) {
+    fn equal(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) {
         let device = self.both(name, state, reference);
-        assert_eq!(device.triangles, state.triangles, "{name}");
+        assert_eq!(device.simplices, state.simplices, "{name}");
         assert_eq!(device.neighbors, state.neighbors, "{name}");
         assert_eq!(device.status, state.status, "{name}");
         assert_eq!(device.messages, state.messages, "{name}");
@@ -152,32 +133,32 @@ fn compare(width: Width, pick: Pick) {
     let mut points: Vec<Vertex> =
         (0..).zip(&positions).map(|(i, &position)| Vertex { position, index: (i * 77) % 200 }).collect();
     points.push(Vertex { position: start.interior_point, index: 200 });
-    let mut state = State::new(width, points, 4096);
+    let mut state = State::new(width, points, 0, 4096);
     state.params.pick = pick as u32;
     state.first = start.first;
     let device = Device::new(width, &state);
-    device.equal("plane/locate", &mut state, |s| {
+    device.equal("locate", &mut state, |s| {
         let first = s.first;
         reference::start(s, first);
         reference::locate(s);
     });
     while !state.waiting.is_empty() {
         state.messages.fill([0; 4]);
-        device.equal("plane/pick_score", &mut state, reference::pick_score);
+        device.equal("pick_score", &mut state, reference::pick_score);
         device.equal("pick_point", &mut state, reference::pick_point);
 
-        let split = device.both("plane/split", &mut state, reference::split);
-        assert_eq!((&split.triangles, &split.neighbors), (&state.triangles, &state.neighbors));
+        let split = device.both("split", &mut state, reference::split);
+        assert_eq!((&split.simplices, &split.neighbors), (&state.simplices, &state.neighbors));
         assert_eq!(split.status, state.status);
         let half = state.half();
         assert_eq!(listed(&split, half), listed(&state, half), "split");
 
-        device.equal("plane/relocate_split", &mut state, reference::relocate_split);
+        device.equal("relocate_split", &mut state, reference::relocate_split);
         while !state.is_idle(state.counters.iteration) {
-            device.equal("plane/flip_check", &mut state, reference::flip_check);
+            device.equal("flip_check", &mut state, reference::flip_check);
             device.upload(&state);
-            device.run("plane/flip_commit");
-            device.run("plane/flip_link");
+            device.run("flip_commit");
+            device.run("flip_link");
             reference::flip_commit(&mut state);
             let half = (state.counters.link_iteration & 1) as usize;
             let done = state.active[half].iter().filter(|a| a.outcome & DONE != 0).count();
@@ -185,13 +166,13 @@ fn compare(width: Width, pick: Pick) {
             let after = device.download(&state);
             assert!(done > 0 || state.counters.active_len[state.half()] == 0, "an iteration without progress");
             assert_eq!(after.counters, state.counters, "flip");
-            assert_eq!((&after.triangles, &after.neighbors), (&state.triangles, &state.neighbors), "flip");
+            assert_eq!((&after.simplices, &after.neighbors), (&state.simplices, &state.neighbors), "flip");
             assert_eq!(statuses(&after), statuses(&state), "flip");
             assert_eq!(flips(&after), flips(&state), "flip");
             after.validate_mesh();
             state.validate_mesh();
         }
-        device.equal("plane/relocate", &mut state, reference::relocate);
+        device.equal("relocate", &mut state, reference::relocate);
         state.waiting.retain(|w| w.tet != NONE);
         state.params.entries = state.waiting.len() as u32;
     }
@@ -199,13 +180,13 @@ fn compare(width: Width, pick: Pick) {
 
     let kernels = &device.kernels;
     device.upload(&state);
-    device.run("plane/mesh_mark");
-    let marks = reference::mesh_mark(&state);
+    device.run("mesh_mark");
+    let marks = d2::mesh_mark(&state);
     assert_eq!(kernels.read(&device.buffers.own.marks), marks);
     let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
     device.buffers.own.offsets.write(&kernels.gpu, 0, &offsets);
-    device.run("plane/mesh_compact");
-    let mesh = reference::mesh_compact(&state, &offsets);
+    device.run("mesh_compact");
+    let mesh = d2::mesh_compact(&state, &offsets);
     let count = mesh.triangles.len();
     let aliases = Aliases::new(&device.buffers);
     assert_eq!(kernels.read(&aliases.triangles)[..count], mesh.triangles);
@@ -217,7 +198,7 @@ fn compare(width: Width, pick: Pick) {
 }
 
 #[test]
-fn kernels_agree_with_their_twins() {
+fn kernels_agree_with_their_references() {
     compare(Width::Narrow, Pick::Circumcenter);
     compare(Width::Wide, Pick::Centroid);
     compare(Width::Narrow, Pick::Random);

@@ -9,8 +9,10 @@ use gdel::internals::gpu::phase1::{Input, Phase1, Run, Settings};
 use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::gpu::{AdapterChoice, Gpu, Readback, Storage};
 use gdel::internals::input::lattice::{Lattice, Width};
-use gdel::internals::reference::d2::{State, mesh_compact, mesh_mark, predicates::Vertex};
+use gdel::internals::reference::d2::{mesh_compact, mesh_mark, predicates::Vertex};
 use pollster::block_on;
+
+type State = gdel::internals::reference::State<2>;
 
 fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {
     block_on(Readback::default().read(gpu, storage, 0, storage.len())).unwrap()
@@ -34,7 +36,7 @@ fn state_of(gpu: &Gpu, width: Width, run: &Run<'_, 2>) -> State {
         points: points.map(|(words, index)| Vertex { position: vertex::position(words), index }).collect(),
         first: [0; 3],
         merged: pairs.iter().map(|&[key, _]| key == u32::MAX).collect(),
-        triangles: read(gpu, &b.simplices),
+        simplices: read(gpu, &b.simplices),
         neighbors: read(gpu, &b.neighbors),
         status: read(gpu, &b.status),
         messages: read(gpu, &b.messages),
@@ -43,6 +45,7 @@ fn state_of(gpu: &Gpu, width: Width, run: &Run<'_, 2>) -> State {
         waiting,
         scores: read(gpu, &b.scores),
         counters,
+        own: Default::default(),
     }
 }
 

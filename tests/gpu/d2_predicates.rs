@@ -13,7 +13,7 @@ use gdel::internals::{
 use rand::{RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg64Mcg;
 
-const KERNEL: &str = include_str!("../shaders/plane_predicates.wgsl");
+const KERNEL: &str = include_str!("../shaders/d2_predicates.wgsl");
 
 fn on_the_gpu(kernel: &SignKernel, width: Width, cases: &[Case]) -> Vec<[i32; 5]> {
     let mut words = Vec::new();
@@ -24,11 +24,11 @@ fn on_the_gpu(kernel: &SignKernel, width: Width, cases: &[Case]) -> Vec<[i32; 5]
     let indices: Vec<u32> = cases.iter().flatten().map(|v| v.index).collect();
     let vertices = Storage::with_contents(&kernel.gpu, "vertices", &words).unwrap();
     let indices = Storage::with_contents(&kernel.gpu, "indices", &indices).unwrap();
-    kernel.signs(&[vertices.buffer(), indices.buffer()], cases.len())
+    kernel.signs(&[("vertices", vertices.buffer()), ("indices", indices.buffer())], cases.len())
 }
 
 fn check(width: Width) {
-    let kernel = SignKernel::new(width, KERNEL);
+    let kernel = SignKernel::new(width, KERNEL, &["vertices", "indices", "signs"]);
     for &family in FAMILIES {
         let cases = cases(family, width, 20_000);
         let mut zeros = [0, 0];

@@ -9,10 +9,13 @@ use crate::kernels::{Kernels, shuffled};
 use gdel::internals::d3::gpu::vertex;
 use gdel::internals::gpu::layout::{CHECK, Counters, DONE, NONE};
 use gdel::internals::gpu::points::{DevicePoints, InputCounts};
+use gdel::internals::gpu::shader;
 use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::gpu::{Storage, layout::Pick, phase1::Buffers};
 use gdel::internals::input::lattice::Width;
-use gdel::internals::reference::d3::{self as reference, State, predicates::Vertex};
+use gdel::internals::reference::{self, d3, d3::predicates::Vertex};
+
+type State = reference::State<3>;
 
 struct Device {
     kernels: Kernels,
@@ -45,16 +48,16 @@ impl Device {
         }
         self.kernels.write_control(&b.control, &state.params, &state.counters);
         b.points.vertices.write(gpu, 0, &words);
-        b.simplices.write(gpu, 0, &state.tets);
+        b.simplices.write(gpu, 0, &state.simplices);
         b.neighbors.write(gpu, 0, &state.neighbors);
         b.status.write(gpu, 0, &state.status);
         b.active.write(gpu, 0, &state.active.concat());
-        b.own.free.write(gpu, 0, &state.free);
+        b.own.free.write(gpu, 0, &state.own.free);
         b.messages.write(gpu, 0, &state.messages);
         b.history.write(gpu, 0, &state.history);
         b.waiting.write(gpu, 0, &state.waiting);
         b.scores.write(gpu, 0, &state.scores);
-        b.own.failed.write(gpu, 0, &state.failed);
+        b.own.failed.write(gpu, 0, &state.own.failed);
     }
 
     fn download(&self, like: &State) -> State {
@@ -62,16 +65,15 @@ impl Device {
         let active = kernels.read(&b.active);
         let (even, odd) = active.split_at(active.len() / 2);
         State {
-            tets: kernels.read(&b.simplices),
+            simplices: kernels.read(&b.simplices),
             neighbors: kernels.read(&b.neighbors),
             status: kernels.read(&b.status),
-            free: kernels.read(&b.own.free),
             messages: kernels.read(&b.messages),
             active: [even.to_vec(), odd.to_vec()],
             history: kernels.read(&b.history),
             waiting: kernels.read(&b.waiting)[..like.waiting.len()].to_vec(),
             scores: kernels.read(&b.scores),
-            failed: kernels.read(&b.own.failed),
+            own: d3::OwnState { free: kernels.read(&b.own.free), failed: kernels.read(&b.own.failed) },
             // The references do not count these.
             counters: Counters {
                 exact: like.counters.exact,
@@ -82,38 +84,14 @@ impl Device {
         }
     }
 
-    fn bindings(&self, kernel: &str) -> Vec<&wgpu::Buffer> {
-        let b = &self.buffers;
-        let (control, vertices, tets) = (b.control.buffer(), b.points.vertices.buffer(), b.simplices.buffer());
-        let (neighbors, status, active) = (b.neighbors.buffer(), b.status.buffer(), b.active.buffer());
-        let (free, messages, history) = (b.own.free.buffer(), b.messages.buffer(), b.history.buffer());
-        let (waiting, scores, failed) = (b.waiting.buffer(), b.scores.buffer(), b.own.failed.buffer());
-        match kernel {
-            "locate" => {
-                let (pairs, counts) = (b.points.pairs.buffer(), b.points.counts.buffer());
-                vec![control, vertices, pairs, counts, waiting, tets, neighbors, free]
-            }
-            "pick_score" => vec![control, vertices, tets, waiting, messages, scores],
-            "pick_point" => vec![control, waiting, messages, scores],
-            "split" => vec![control, tets, neighbors, status, active, free, messages, waiting],
-            "relocate_split" => vec![control, vertices, tets, status, messages, waiting],
-            "flip_check" | "flip_check_exact" => vec![control, vertices, tets, neighbors, status, active, messages],
-            "flip_commit" => vec![control, tets, neighbors, status, active, free, messages, history],
-            "flip_link" => vec![control, neighbors, status, active, free, messages],
-            "flip_compact" => vec![control, status, active],
-            "relocate" => vec![control, vertices, status, history, waiting],
-            "clear_votes" => vec![control, status],
-            "mark_failed" => vec![control, vertices, tets, neighbors, status, failed, self.failed_points.buffer()],
-            _ => panic!("no bindings are known for {kernel}"),
-        }
-    }
-
-    fn run(&self, name: &'static str) {
-        self.kernels.run(name, &self.bindings(name));
+    fn run(&self, name: &str) {
+        let mut buffers = self.buffers.bindings();
+        buffers.push(("failed_points", self.failed_points.buffer()));
+        self.kernels.run(shader::D3.get(name), &buffers);
     }
 
     /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.
-    fn both(&self, name: &'static str, state: &mut State, reference: impl Fn(&mut State)) -> State {
+    fn both(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) -> State {
         self.upload(state);
         self.run(name);
         reference(state);
@@ -135,29 +113,29 @@ impl Device {
     }
 
     /// The same for a kernel whose results are the same to the last bit.
-    fn equal(&self, name: &'static str, state: &mut State, reference: impl Fn(&mut State)) {
+    fn equal(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) {
         let device = self.both(name, state, reference);
-        assert_eq!(device.tets, state.tets, "{name}");
+        assert_eq!(device.simplices, state.simplices, "{name}");
         assert_eq!(device.neighbors, state.neighbors, "{name}");
         assert_eq!(device.status, state.status, "{name}");
-        assert_eq!(device.free, state.free, "{name}");
+        assert_eq!(device.own.free, state.own.free, "{name}");
         assert_eq!(device.messages, state.messages, "{name}");
         assert_eq!(device.active, state.active, "{name}");
         assert_eq!(device.history, state.history, "{name}");
         assert_eq!(device.waiting, state.waiting, "{name}");
         assert_eq!(device.scores, state.scores, "{name}");
-        assert_eq!(device.failed, state.failed, "{name}");
+        assert_eq!(device.own.failed, state.own.failed, "{name}");
     }
 }
 
 /// What the choice of slots and numbers in the history leaves the same: the tetrahedra by their vertices, with the
 /// facets to check and the neighbours across each facet, and the flips of the history.
 fn essence(state: &State) -> (BTreeSet<Vec<u32>>, BTreeSet<Vec<u32>>) {
-    let tets = (0..state.tets.len()).filter(|&t| state.is_used(t)).map(|t| {
-        let mut record = state.tets[t].to_vec();
+    let tets = (0..state.simplices.len()).filter(|&t| state.is_used(t)).map(|t| {
+        let mut record = state.simplices[t].to_vec();
         record.push(state.status[t].flags);
         for across in state.neighbors[t] {
-            record.extend(state.tets[(across >> 2) as usize]);
+            record.extend(state.simplices[(across >> 2) as usize]);
             record.push(across & 3);
         }
         record
@@ -206,8 +184,8 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
         device.equal("pick_point", &mut state, reference::pick_point);
 
         let split = device.both("split", &mut state, reference::split);
-        assert_eq!((&split.tets, &split.neighbors), (&state.tets, &state.neighbors));
-        assert_eq!((&split.status, &split.free), (&state.status, &state.free));
+        assert_eq!((&split.simplices, &split.neighbors), (&state.simplices, &state.neighbors));
+        assert_eq!((&split.status, &split.own.free), (&state.status, &state.own.free));
         let half = state.half();
         assert_eq!(listed(&split, half), listed(&state, half), "split");
 
@@ -221,7 +199,7 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
             reference::flip_commit(&mut state);
             let done = state.active[half_of(&state)].iter().filter(|a| a.outcome & DONE != 0).count();
             reference::flip_link(&mut state);
-            reference::flip_compact(&mut state);
+            d3::flip_compact(&mut state);
             let after = device.download(&state);
             assert!(done > 0 || state.counters.active_len[state.half()] == 0, "an iteration without progress");
             assert_eq!(after.counters, state.counters, "flip");
@@ -237,9 +215,12 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
     }
     // Every facet is suspect, so that there is something to look at.
     state.status.iter_mut().for_each(|s| s.flags |= CHECK << 4);
-    device.equal("mark_failed", &mut state, reference::mark_failed);
-    let mut failed: Vec<u32> =
-        (0..).zip(&state.failed).filter(|&(_, &f)| f != 0).map(|(v, _): (usize, _)| state.points[v].index).collect();
+    device.equal("mark_failed", &mut state, d3::mark_failed);
+    let mut failed: Vec<u32> = (0..)
+        .zip(&state.own.failed)
+        .filter(|&(_, &f)| f != 0)
+        .map(|(v, _): (usize, _)| state.points[v].index)
+        .collect();
     let mut points = device.kernels.read(&device.failed_points);
     points.truncate(failed.len());
     failed.sort_unstable();
@@ -253,7 +234,7 @@ fn half_of(state: &State) -> usize {
 }
 
 #[test]
-fn kernels_agree_with_their_twins() {
+fn kernels_agree_with_their_references() {
     compare(Width::Narrow, Pick::Circumcenter, 20);
     compare(Width::Wide, Pick::Centroid, u32::MAX);
     compare(Width::Narrow, Pick::Random, 1);

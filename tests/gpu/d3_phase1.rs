@@ -7,7 +7,7 @@ use gdel::internals::d3::mesh::FACETS;
 use gdel::internals::gpu::layout::{Active, Counters, FlipNode, Status, Waiting};
 use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::input::lattice::{Lattice, Width};
-use gdel::internals::reference::d3::{State, predicates::Vertex};
+use gdel::internals::reference::d3::{self, predicates::Vertex};
 use gdel::internals::{
     d3::gpu::vertex,
     gpu::{
@@ -17,6 +17,8 @@ use gdel::internals::{
     },
 };
 use pollster::block_on;
+
+type State = gdel::internals::reference::State<3>;
 
 fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {
     block_on(Readback::default().read(gpu, storage, 0, storage.len())).unwrap()
@@ -44,17 +46,16 @@ fn state_of(gpu: &Gpu, width: Width, run: &Run<'_, 3>) -> State {
         points: vertices(width, &read(gpu, &b.points.vertices)),
         first: [0; 4],
         merged: read(gpu, &b.points.pairs).into_iter().map(|[key, _]| key == u32::MAX).collect(),
-        tets: read(gpu, &b.simplices),
+        simplices: read(gpu, &b.simplices),
         neighbors: read(gpu, &b.neighbors),
         status: read::<Status>(gpu, &b.status),
-        free: read(gpu, &b.own.free),
         messages: read(gpu, &b.messages),
         active: [even.to_vec(), odd.to_vec()],
         history: read::<FlipNode>(gpu, &b.history),
         waiting,
         scores: read(gpu, &b.scores),
-        failed: read(gpu, &b.own.failed),
         counters,
+        own: d3::OwnState { free: read(gpu, &b.own.free), failed: read(gpu, &b.own.failed) },
     }
 }
 
@@ -78,15 +79,15 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, se
 
     let index = |v: u32| if v as usize == count { v } else { state.points[v as usize].index };
     let mut marked = state.clone();
-    gdel::internals::reference::d3::mark_failed(&mut marked);
-    let mut failed: Vec<u32> = (0..).zip(&marked.failed).filter(|&(_, &f)| f != 0).map(|(v, _)| index(v)).collect();
+    d3::mark_failed(&mut marked);
+    let mut failed: Vec<u32> = (0..).zip(&marked.own.failed).filter(|&(_, &f)| f != 0).map(|(v, _)| index(v)).collect();
     failed.sort_unstable();
     assert_eq!(output.failed, failed, "{}", points.name);
     assert_eq!(marked.validate_end(), stats.counters.not_locally_delaunay as usize, "{}", points.name);
 
     // The finite tetrahedra are in the order of their slots, and no infinite one is lost or turned over.
     let infinite = count as u32;
-    let used: Vec<[u32; 4]> = state.tets.iter().copied().filter(|t| *t != [0; 4]).collect();
+    let used: Vec<[u32; 4]> = state.simplices.iter().copied().filter(|t| *t != [0; 4]).collect();
     let (ghosts, finite): (Vec<_>, Vec<_>) = used.iter().map(|t| t.map(index)).partition(|t| t.contains(&infinite));
     assert_eq!(output.tets[..output.finite], finite, "{}", points.name);
     let facet = |t: &[u32; 4]| {

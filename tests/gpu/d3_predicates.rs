@@ -10,7 +10,7 @@ use gdel::internals::{
     reference::d3::{predicates as reference, predicates::Vertex},
 };
 
-const KERNEL: &str = include_str!("../shaders/predicates.wgsl");
+const KERNEL: &str = include_str!("../shaders/d3_predicates.wgsl");
 
 fn on_the_gpu(kernel: &SignKernel, width: Width, cases: &[Case]) -> Vec<[i32; 7]> {
     let mut words = Vec::new();
@@ -19,11 +19,11 @@ fn on_the_gpu(kernel: &SignKernel, width: Width, cases: &[Case]) -> Vec<[i32; 7]
     }
     assert_eq!(words.len(), 5 * cases.len() * vertex::words_per_vertex(width));
     let vertices = Storage::with_contents(&kernel.gpu, "vertices", &words).unwrap();
-    kernel.signs(&[vertices.buffer()], cases.len())
+    kernel.signs(&[("vertices", vertices.buffer())], cases.len())
 }
 
 fn check(width: Width) {
-    let kernel = SignKernel::new(width, KERNEL);
+    let kernel = SignKernel::new(width, KERNEL, &["vertices", "signs"]);
     for &family in FAMILIES {
         let cases = cases(family, width, 10_000);
         let mut zeros = [0, 0];

@@ -2,11 +2,12 @@
 
 use gdel::internals::gpu::layout::Pick;
 use gdel::internals::input::lattice::Width;
-use gdel::internals::reference::d3::State;
 use gdel::internals::reference::d3::predicates::{Vertex, insphere, orient3d};
-use gdel::internals::reference::d3::run::{Settings, run};
+use gdel::internals::reference::run::{Settings, run};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
+
+type State = gdel::internals::reference::State<3>;
 
 type Point = [i64; 3];
 
@@ -74,8 +75,11 @@ fn degenerate() {
     ];
     for (i, points) in inputs.into_iter().enumerate() {
         println!("input {i}, {} points", points.len());
-        let (state, bad) = valid(points, Settings::default());
+        let (state, bad) = valid(points.clone(), Settings::default());
         println!("{:?} {bad}", state.counters);
+        valid(points.clone(), Settings { insert_all: true, ..Settings::default() });
+        // Flips wait for slots and for room in the history, and nothing is lost.
+        valid(points, Settings { min_active: 30, tail: 1, history: 20, ..Settings::default() });
     }
 }
 
@@ -85,7 +89,7 @@ fn failed_vertices_are_few() {
     for pick in [Pick::Circumcenter, Pick::Centroid, Pick::Random] {
         let start = std::time::Instant::now();
         let state = run(Width::Narrow, sites.clone(), &Settings { pick, ..Settings::default() }).expect("not flat");
-        let failed: u32 = state.failed.iter().sum();
+        let failed: u32 = state.own.failed.iter().sum();
         println!("{pick:?} failed {failed} {:?} {:?}", state.counters, start.elapsed());
         if pick == Pick::Circumcenter {
             assert!(failed <= 150, "{failed} of 100,000 vertices failed");

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use bytemuck::Pod;
 use gdel::internals::gpu::layout::PARAM_WORDS;
 use gdel::internals::gpu::layout::{Counters, Params};
-use gdel::internals::gpu::{AdapterChoice, Gpu, Kernel, Readback, Recorder, Storage};
+use gdel::internals::gpu::{AdapterChoice, Binding, Gpu, Kernel, Readback, Recorder, Storage, shader::Shader};
 use gdel::internals::input::lattice::Width;
 use pollster::block_on;
 use rand::{SeedableRng, seq::SliceRandom};
@@ -25,10 +25,10 @@ impl Kernels {
         Kernels { gpu, width, compiled: RefCell::default() }
     }
 
-    /// Runs a kernel on these buffers, in the order of its bindings.
-    pub fn run(&self, name: &'static str, buffers: &[&wgpu::Buffer]) {
+    /// Runs a kernel on these buffers.
+    pub fn run(&self, shader: &'static Shader, buffers: &[Binding<'_>]) {
         let mut compiled = self.compiled.borrow_mut();
-        let kernel = compiled.entry(name).or_insert_with(|| Kernel::new(&self.gpu, name, self.width, &[]));
+        let kernel = compiled.entry(shader.name()).or_insert_with(|| Kernel::new(&self.gpu, shader, self.width));
         let bindings = kernel.bind(&self.gpu, buffers);
         let mut recorder = Recorder::new(&self.gpu, None);
         recorder.dispatch(kernel, &bindings, 3);

@@ -1,6 +1,7 @@
 //! The host of the GPU, its kernels and stages, and Phase 1: against their references on the CPU, and the references on their own.
 #![cfg(feature = "gpu")]
 
+mod assemble;
 mod d2_cases;
 mod d2_inputs;
 mod d3_cases;

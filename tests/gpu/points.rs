@@ -11,7 +11,7 @@ use gdel::{
             points::{InputCounts, PointInput, PointStage},
         },
         input::lattice::{Lattice, Width},
-        reference::d3::hilbert::hilbert_key,
+        reference::hilbert::hilbert_key,
     },
 };
 use pollster::block_on;

@@ -1,9 +1,10 @@
 //! Signs of predicates, by a kernel and by big integers, in the plane and in space.
 
+use crate::assemble::assemble;
 use crate::oracle;
 use bytemuck::Pod;
 use gdel::internals::{
-    gpu::{AdapterChoice, Gpu, Kernel, Readback, Recorder, Storage, shader, workgroups},
+    gpu::{AdapterChoice, Binding, Gpu, Kernel, Readback, Recorder, Storage, workgroups},
     input::lattice::Width,
     predicates::Sign,
 };
@@ -17,19 +18,20 @@ pub struct SignKernel {
 }
 
 impl SignKernel {
-    pub fn new(width: Width, text: &str) -> Self {
+    /// Compiles a kernel that includes shaders and has these buffers.
+    pub fn new(width: Width, text: &str, variables: &[&'static str]) -> Self {
         let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a GPU or lavapipe");
-        let wgsl = shader::assemble_text(text, width);
-        let kernel =
-            block_on(gpu.with_error_scope("test", || Ok(Kernel::from_wgsl(&gpu, "predicates", &wgsl, &[])))).unwrap();
+        let wgsl = assemble(text, width);
+        let compile = || Ok(Kernel::from_wgsl(&gpu, "predicates", &wgsl, variables, &[]));
+        let kernel = block_on(gpu.with_error_scope("test", compile)).unwrap();
         SignKernel { gpu, kernel }
     }
 
     /// The signs of so many cases, which these buffers hold.
-    pub fn signs<T: Pod>(&self, inputs: &[&wgpu::Buffer], cases: usize) -> Vec<T> {
+    pub fn signs<T: Pod>(&self, inputs: &[Binding<'_>], cases: usize) -> Vec<T> {
         let gpu = &self.gpu;
         let signs = Storage::<T>::new(gpu, "signs", cases).unwrap();
-        let bindings = self.kernel.bind(gpu, &[inputs, &[signs.buffer()]].concat());
+        let bindings = self.kernel.bind(gpu, &[inputs, &[("signs", signs.buffer())]].concat());
         let mut recorder = Recorder::new(gpu, None);
         recorder.dispatch(&self.kernel, &bindings, workgroups(cases as u32));
         recorder.submit(gpu);

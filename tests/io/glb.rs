@@ -1,9 +1,6 @@
 //! Binary glTF, read back by the crate `gltf`, which also validates it.
 
-use gdel::{
-    Mesh2, Mesh3, Points,
-    internals::io::{write_glb2, write_hull_glb},
-};
+use gdel::{Mesh2, Mesh3, Points, internals::io::SurfaceFormat};
 
 /// A file's triangles by the places of their corners in space, and the translation of its node.
 fn read(file: &[u8]) -> (Vec<[[f64; 3]; 3]>, [f64; 3]) {
@@ -45,7 +42,7 @@ fn length(file: &[u8], at: usize) -> usize {
 fn hull_of(points: &[[f64; 3]]) -> (Mesh3, Vec<u8>) {
     let mesh = gdel::delaunay3d(points).expect("finite points");
     let mut file = Vec::new();
-    write_hull_glb(&mut file, points.into(), &mesh).expect("memory");
+    SurfaceFormat::Glb.write(&mut file, points.into(), &mesh).expect("memory");
     assert_eq!(length(&file, 8), file.len());
     (mesh, file)
 }
@@ -111,7 +108,7 @@ fn triangles_of_the_plane_lie_at_z_0_and_turn_counter_clockwise() {
     let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.5f64]];
     let mesh: Mesh2 = gdel::delaunay2d(&points).expect("finite points");
     let mut file = Vec::new();
-    write_glb2(&mut file, Points::from(&points), &mesh).expect("memory");
+    SurfaceFormat::Glb.write(&mut file, Points::from(&points), &mesh).expect("memory");
     let (triangles, _) = read(&file);
     assert_eq!(triangles.len(), 2);
     for [a, b, c] in triangles {

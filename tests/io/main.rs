@@ -4,6 +4,8 @@
 mod samples;
 
 mod bad_input;
+mod degenerate;
 mod glb;
 mod meshes;
+mod outputs;
 mod points;

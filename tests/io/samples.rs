@@ -1,9 +1,10 @@
-//! Small valid files of every format: written by hand, or by other crates than those that read them.
+//! Small valid files of every format: written by hand, or by other crates than those that read
+//! them.
 #![allow(dead_code)]
 
 use gdel::{
-    Mesh3,
-    internals::io::{MeshFormat, PointFormat, write_ele, write_npz, write_vtu},
+    Mesh2, Mesh3,
+    internals::io::{MeshFormat, PointFormat, write_ele, write_neigh, write_npz, write_vtu},
 };
 use las::{Builder, Point, Transform, Vector};
 use std::io::Cursor;
@@ -32,7 +33,7 @@ pub fn point_clouds() -> Vec<(PointFormat, &'static str, Vec<u8>)> {
         (Obj, "", b"# cube\nmtllib a.mtl\nv 0 0 0\nv 1 0 0 1.0\nvt 0 0\nv\t0 1 -1e-3\nf 1/1 2/1 3/1\n".to_vec()),
         (Stl, "ascii", ascii_stl().into()),
         (Stl, "binary", binary_stl(b"solid but binary")),
-        (Text, "xyz", b"# x y z\r\n1 2 3 255 0 0\r\n\r\n-4.5e-3\t5 6\r\n".to_vec()),
+        (Text, "xyz", b"# x y z\r\n1 2 3 255 0 0\r\n\r\n-4.5e-3\t5 6 1 2 3\r\n".to_vec()),
         (Text, "pts", b"2\n1 2 3 0.5 1 2 3\n4 5 6 0.5 1 2 3\n1\n7 8 9 0.5 1 2 3".to_vec()),
         (Csv, "named", b"id,y,z,x\n\"a,b\",2,3,1\n2, 5 ,6,4\n".to_vec()),
         (Csv, "bare", b"1;2;3\n4;5;6\n".to_vec()),
@@ -40,6 +41,8 @@ pub fn point_clouds() -> Vec<(PointFormat, &'static str, Vec<u8>)> {
         (Pcd, "binary", pcd("binary", &POINTS)),
         (Pcd, "compressed", pcd("binary_compressed", &POINTS)),
         (Npy, "", npy(&POINTS)),
+        (Off, "", OFF.into()),
+        (Node, "", b"# Node\n3 3 1 1\n1 0 0 0.5 7 1\n2 1 0 0 8 0 # two\n3 0 1e-3 0 9 0\n# Generated\n".to_vec()),
         (RawF32, "", POINTS.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect()),
         (RawF64, "", points_f64().as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect()),
     ];
@@ -64,6 +67,30 @@ pub fn meshes() -> Vec<(MeshFormat, &'static str, Vec<u8>)> {
         (MeshFormat::Vtu, "zlib", VTU_ZLIB.into()),
         (MeshFormat::Npz, "", npz),
     ]
+}
+
+/// Samples of 2D meshes.
+pub fn meshes2() -> Vec<(MeshFormat, &'static str, Vec<u8>)> {
+    let (points, mesh) = mesh2();
+    let [mut ele, mut vtu, mut npz] = [const { Vec::new() }; 3];
+    write_ele(&mut ele, &mesh).expect("memory");
+    write_vtu(&mut vtu, (&points).into(), &mesh).expect("memory");
+    write_npz(&mut npz, (&points).into(), &mesh).expect("memory");
+    vec![(MeshFormat::TetGen, "", ele), (MeshFormat::Vtu, "", vtu), (MeshFormat::Npz, "", npz)]
+}
+
+fn mesh2() -> (Vec<[f64; 2]>, Mesh2) {
+    let points = vec![[0.0, 0.0], [4.0, 0.0], [0.0, 3.0], [5.0, 5.0], [1.0, 1.0]];
+    let mesh = gdel::delaunay2d(&points).expect("five points");
+    (points, mesh)
+}
+
+/// The `.neigh` files of a 3D and of a 2D mesh.
+pub fn neighbors() -> [Vec<u8>; 2] {
+    let [mut of_3d, mut of_2d] = [const { Vec::new() }; 2];
+    write_neigh(&mut of_3d, &mesh()).expect("memory");
+    write_neigh(&mut of_2d, &mesh2().1).expect("memory");
+    [of_3d, of_2d]
 }
 
 /// PLY with an element before the vertices, a list among their properties, and faces after them.
@@ -228,6 +255,9 @@ pub fn las(format: u8, is_compressed: bool, extra_bytes: u16) -> Vec<u8> {
     }
     writer.into_inner().expect("memory").into_inner()
 }
+
+/// A tetrahedron with colors, comments and all.
+pub const OFF: &str = "# Geomview\nCOFF\n4 2 0\n0 0 0 255 0 0 255\n1 0 0 0 0 0 0 # comment\n\n0 1 0 1 1 1 1\n0 0 1e-3 0 0 0 0\n3 0 1 2\n3 0 1 3 0.5 0.5 0.5\n";
 
 /// As other programs write it: ASCII, arrays in no particular order, point and cell data.
 pub const VTU_ASCII: &str = r#"<?xml version="1.0"?>

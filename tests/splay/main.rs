@@ -8,7 +8,7 @@ mod phase1;
 
 use flips::{Soup, found_out, near};
 use gdel::{
-    Points,
+    MeshView, Points,
     internals::{
         Options,
         d3::{
@@ -22,7 +22,7 @@ use gdel::{
         predicates::filter::PredicateContext,
     },
     stats::SplayStats,
-    verify::{MeshView, verify3d},
+    verify3d,
 };
 use inputs::Cloud;
 use rand::{RngExt, seq::SliceRandom};

@@ -8,9 +8,9 @@ use gdel::{
         index::NO_INDEX,
         input::lattice::{Lattice, Width},
         predicates::filter::PredicateContext,
-        reference::d3::{
-            State,
-            predicates::Vertex,
+        reference::{
+            self,
+            d3::predicates::Vertex,
             run::{Settings, run},
         },
     },
@@ -19,19 +19,19 @@ use gdel::{
 
 /// Returns the triangulation without the gaps between tetrahedra, and what has failed; flat
 /// tetrahedra are uncertain.
-fn near(state: &State, vertices: &PredicateContext<'_>) -> NearDelaunay {
-    let used: Vec<usize> = (0..state.tets.len()).filter(|&t| state.is_used(t)).collect();
-    let mut number = vec![NO_INDEX; state.tets.len()];
+fn near(state: &reference::State<3>, vertices: &PredicateContext<'_>) -> NearDelaunay {
+    let used: Vec<usize> = (0..state.simplices.len()).filter(|&t| state.is_used(t)).collect();
+    let mut number = vec![NO_INDEX; state.simplices.len()];
     used.iter().zip(0..).for_each(|(&t, n)| number[t] = n);
     let infinite = vertices.len() as u32;
     // The order of the vertices that puts infinity last: two exchanges keep the orientation.
-    let order = |t: usize| match state.tets[t].iter().position(|&v| v == infinite) {
+    let order = |t: usize| match state.simplices[t].iter().position(|&v| v == infinite) {
         Some(0) => [3, 2, 1, 0],
         Some(1) => [2, 3, 0, 1],
         Some(2) => [1, 0, 3, 2],
         _ => [0, 1, 2, 3],
     };
-    let tetrahedra: Vec<[u32; 4]> = used.iter().map(|&t| order(t).map(|k| state.tets[t][k])).collect();
+    let tetrahedra: Vec<[u32; 4]> = used.iter().map(|&t| order(t).map(|k| state.simplices[t][k])).collect();
     let renumbered = |across: u32| {
         let (u, face) = (across as usize / 4, across as usize % 4);
         // Each of these orders is its own inverse.
@@ -46,7 +46,7 @@ fn near(state: &State, vertices: &PredicateContext<'_>) -> NearDelaunay {
     }
     let triangulation = Triangulation::new(tetrahedra, neighbors, infinite);
     let uncertain = flat_or_inverted(&triangulation, vertices);
-    let failed = (0..vertices.len() as u32).filter(|&v| state.failed[v as usize] != 0).collect();
+    let failed = (0..vertices.len() as u32).filter(|&v| state.own.failed[v as usize] != 0).collect();
     NearDelaunay { triangulation, incident, failed, uncertain, missing: Vec::new() }
 }
 

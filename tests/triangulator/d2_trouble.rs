@@ -6,7 +6,7 @@ use crate::d2::ENGINE;
 use gdel::{
     Mesh2,
     internals::{Options, d2::cpu::delaunay2d_in_order, input::order::Order},
-    verify::verify2d,
+    verify2d,
 };
 use pollster::block_on;
 use rand::{RngExt, SeedableRng};

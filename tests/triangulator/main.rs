@@ -16,7 +16,7 @@ use gdel::{
         d3::cpu,
         gpu::{AdapterChoice, Gpu, engine::GpuEngine},
     },
-    verify::verify3d,
+    verify3d,
 };
 use pollster::block_on;
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};

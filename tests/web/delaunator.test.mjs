@@ -8,7 +8,11 @@ import { importFrom, project } from './package.mjs';
 const { Delaunator, delaunay2d, GdelError } = await importFrom(project());
 
 test('before it is loaded, the error says what to do', async () => {
-  assert.throws(() => new Delaunator([0, 0]), (error) => error instanceof GdelError && error.code === 'NOT_LOADED' && /load\(\)/.test(error.message));
+  assert.throws(
+    () => new Delaunator([0, 0]),
+    (error) =>
+      error instanceof GdelError && error.code === 'NOT_LOADED' && /load\(\)/.test(error.message),
+  );
   await Promise.all([Delaunator.load(), Delaunator.load()]);
 });
 
@@ -27,16 +31,21 @@ const list = (length, item) => Array.from({ length }, (_, i) => item(i));
 /** The sign of det(b − a, c − a), exactly: doubles are integers times a power of two. */
 function orient(coords, a, b, c) {
   const view = new DataView(new ArrayBuffer(8));
-  const parts = [a, b, c].flatMap((v) => [coords[2 * v], coords[2 * v + 1]]).map((x) => {
-    view.setFloat64(0, x);
-    const bits = view.getBigUint64(0);
-    const exponent = (bits >> 52n) & 0x7ffn;
-    const mantissa = (bits & 0xfffffffffffffn) | (exponent ? 1n << 52n : 0n);
-    return { mantissa: bits >> 63n ? -mantissa : mantissa, exponent: exponent || 1n };
-  });
+  const parts = [a, b, c]
+    .flatMap((v) => [coords[2 * v], coords[2 * v + 1]])
+    .map((x) => {
+      view.setFloat64(0, x);
+      const bits = view.getBigUint64(0);
+      const exponent = (bits >> 52n) & 0x7ffn;
+      const mantissa = (bits & 0xfffffffffffffn) | (exponent ? 1n << 52n : 0n);
+      return { mantissa: bits >> 63n ? -mantissa : mantissa, exponent: exponent || 1n };
+    });
   const used = parts.filter(({ mantissa }) => mantissa !== 0n).map(({ exponent }) => exponent);
+  // biome-ignore lint/complexity/useMathMinMax: Math.min takes no big integers.
   const least = used.reduce((x, y) => (x < y ? x : y), used[0] ?? 1n);
-  const [ax, ay, bx, by, cx, cy] = parts.map(({ mantissa, exponent }) => (mantissa === 0n ? 0n : mantissa << (exponent - least)));
+  const [ax, ay, bx, by, cx, cy] = parts.map(({ mantissa, exponent }) =>
+    mantissa === 0n ? 0n : mantissa << (exponent - least),
+  );
   const det = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
   return det > 0n ? 1 : det < 0n ? -1 : 0;
 }
@@ -57,15 +66,22 @@ function keepsTheContract({ coords, triangles, halfedges, hull, trianglesLen }) 
     assert.equal(triangles[e], triangles[next(twin)]);
     assert.equal(triangles[twin], triangles[next(e)]);
   }
-  for (let t = 0; t < triangles.length; t += 3) assert.equal(orient(coords, ...triangles.subarray(t, t + 3)), -1, `triangle ${t / 3}`);
+  for (let t = 0; t < triangles.length; t += 3)
+    assert.equal(orient(coords, ...triangles.subarray(t, t + 3)), -1, `triangle ${t / 3}`);
   if (triangles.length) {
     assert.equal(hull.length, outer.size);
     for (const [i, v] of hull.entries()) assert.equal(outer.get(v), hull[(i + 1) % hull.length]);
     // Euler: 2n − 2 − h triangles, with all distinct points.
-    const distinct = new Set(list(coords.length / 2, (i) => `${coords[2 * i] + 0} ${coords[2 * i + 1] + 0}`)).size;
+    const distinct = new Set(
+      list(coords.length / 2, (i) => `${coords[2 * i] + 0} ${coords[2 * i + 1] + 0}`),
+    ).size;
     assert.equal(triangles.length / 3, 2 * distinct - 2 - hull.length);
     for (const [i, v] of hull.entries()) {
-      assert.notEqual(orient(coords, v, hull[(i + 1) % hull.length], hull[(i + 2) % hull.length]), 1, 'the hull is convex');
+      assert.notEqual(
+        orient(coords, v, hull[(i + 1) % hull.length], hull[(i + 2) % hull.length]),
+        1,
+        'the hull is convex',
+      );
     }
   }
 }
@@ -116,7 +132,8 @@ test('duplicates are no vertices', () => {
   assert.equal(ours.triangles.length, new Theirs(coords).triangles.length);
   for (const [i, other] of ours.duplicateOf.entries()) {
     assert.equal(ours.triangles.includes(i), other === -1);
-    if (other >= 0) assert.deepEqual(coords.slice(2 * i, 2 * i + 2), coords.slice(2 * other, 2 * other + 2));
+    if (other >= 0)
+      assert.deepEqual(coords.slice(2 * i, 2 * i + 2), coords.slice(2 * other, 2 * other + 2));
   }
 });
 
@@ -145,14 +162,32 @@ test('nearly collinear and nearly equal points keep the contract', () => {
   const next = random(3);
   const up = (x, ulps) => x + ulps * 2 ** (Math.floor(Math.log2(Math.abs(x) || 2 ** -1022)) - 52);
   const inputs = {
-    'a line off by single bits': list(300, (i) => [1 + i / 7, up(2 + (3 * i) / 7, Math.floor(3 * next()) - 1)]),
-    'a line and one point far away': [...list(200, (i) => [i / 3, (i / 3) * 0.1 + 0.7]), [1e9, -1e9]],
+    'a line off by single bits': list(300, (i) => [
+      1 + i / 7,
+      up(2 + (3 * i) / 7, Math.floor(3 * next()) - 1),
+    ]),
+    'a line and one point far away': [
+      ...list(200, (i) => [i / 3, (i / 3) * 0.1 + 0.7]),
+      [1e9, -1e9],
+    ],
     'two nearly equal lines': list(200, (i) => [i % 100, i < 100 ? 0 : 1e-14]),
-    'clusters of neighbouring numbers': list(300, (i) => [up(100 + (i % 10), i % 7), up(300 + (i % 3), i % 5)]),
-    'a circle in rounded numbers': list(500, (i) => [Math.cos((i * Math.PI) / 250), Math.sin((i * Math.PI) / 250)]),
-    'a sliver with a large offset': list(100, (i) => [5e6 + i * 1e-3, 6e6 + i * 2e-3 + (i % 2) * 1e-9]),
-    'very small and very large': list(200, () => [next() * 10 ** (-300 * next()), next() * 10 ** (150 * next())]),
-    'denormal': list(60, (i) => [(i % 8) * 5e-324, Math.floor(i / 8) * 5e-324]),
+    'clusters of neighbouring numbers': list(300, (i) => [
+      up(100 + (i % 10), i % 7),
+      up(300 + (i % 3), i % 5),
+    ]),
+    'a circle in rounded numbers': list(500, (i) => [
+      Math.cos((i * Math.PI) / 250),
+      Math.sin((i * Math.PI) / 250),
+    ]),
+    'a sliver with a large offset': list(100, (i) => [
+      5e6 + i * 1e-3,
+      6e6 + i * 2e-3 + (i % 2) * 1e-9,
+    ]),
+    'very small and very large': list(200, () => [
+      next() * 10 ** (-300 * next()),
+      next() * 10 ** (150 * next()),
+    ]),
+    denormal: list(60, (i) => [(i % 8) * 5e-324, Math.floor(i / 8) * 5e-324]),
     'a fan at one point': [[0, 0], ...list(100, (i) => [2 ** -i, 2 ** -i * (i + 1)])],
   };
   for (const [name, points] of Object.entries(inputs)) {
@@ -167,11 +202,30 @@ test('nearly collinear and nearly equal points keep the contract', () => {
 });
 
 test('from, accessors, kinds of arrays, and update are as there', async () => {
-  const points = [[0, 0], [3, 0], [0, 3], [3, 3], [1, 2]];
+  const points = [
+    [0, 0],
+    [3, 0],
+    [0, 3],
+    [3, 3],
+    [1, 2],
+  ];
   const objects = points.map(([x, y]) => ({ x, y }));
   const expected = canonical(Delaunator.from(points));
-  assert.deepEqual(canonical(Delaunator.from(objects, (p) => p.x, (p) => p.y)), expected);
-  for (const coords of [points.flat(), Float32Array.from(points.flat()), Int16Array.from(points.flat())]) {
+  assert.deepEqual(
+    canonical(
+      Delaunator.from(
+        objects,
+        (p) => p.x,
+        (p) => p.y,
+      ),
+    ),
+    expected,
+  );
+  for (const coords of [
+    points.flat(),
+    Float32Array.from(points.flat()),
+    Int16Array.from(points.flat()),
+  ]) {
     assert.deepEqual(canonical(new Delaunator(coords)), expected);
   }
   const ours = Delaunator.from(points);
@@ -185,7 +239,11 @@ test('from, accessors, kinds of arrays, and update are as there', async () => {
 });
 
 test('bad input is a typed error that leaves the class usable', () => {
-  const throws = (coords, code) => assert.throws(() => new Delaunator(coords), (error) => error instanceof GdelError && error.code === code);
+  const throws = (coords, code) =>
+    assert.throws(
+      () => new Delaunator(coords),
+      (error) => error instanceof GdelError && error.code === code,
+    );
   throws(undefined, 'BAD_INPUT');
   throws([0, '1'], 'BAD_INPUT');
   throws([0, 1, 2], 'BAD_INPUT');

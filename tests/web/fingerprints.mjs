@@ -6,7 +6,7 @@ export function canonical(tetrahedra) {
   for (let t = 0; t < tetrahedra.length; t += 4) rows.push(tetrahedra.slice(t, t + 4).sort());
   rows.sort((a, b) => a[0] - b[0] || a[1] - b[1] || a[2] - b[2] || a[3] - b[3]);
   const flat = new Uint32Array(tetrahedra.length);
-  rows.forEach((row, t) => flat.set(row, 4 * t));
+  for (const [t, row] of rows.entries()) flat.set(row, 4 * t);
   return flat;
 }
 

@@ -7,7 +7,8 @@ import { fingerprint } from './fingerprints.mjs';
 import { importFrom, pinned, project } from './package.mjs';
 
 const swiftshader = '/usr/lib/chromium/vk_swiftshader_icd.json';
-if (!process.env.VK_DRIVER_FILES && existsSync(swiftshader)) process.env.VK_DRIVER_FILES = swiftshader;
+if (!process.env.VK_DRIVER_FILES && existsSync(swiftshader))
+  process.env.VK_DRIVER_FILES = swiftshader;
 const { create } = await import('webgpu');
 
 test('the mesh is the native one; a run can be aborted', { timeout: 600_000 }, async () => {
@@ -27,7 +28,10 @@ test('the mesh is the native one; a run can be aborted', { timeout: 600_000 }, a
   assert.ok(mesh.stats.adapter.maxStorageBufferBindingSize >= 128 * 2 ** 20);
 
   const controller = new AbortController();
-  const run = engine.delaunay3d(points, { signal: controller.signal, onProgress: () => controller.abort() });
+  const run = engine.delaunay3d(points, {
+    signal: controller.signal,
+    onProgress: () => controller.abort(),
+  });
   await assert.rejects(run, { code: 'ABORTED' });
   engine.dispose();
   await assert.rejects(engine.delaunay3d(points), { code: 'DISPOSED' });

@@ -7,12 +7,24 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { NodeIO } from '@gltf-transform/core';
 import Delaunator from 'delaunator';
+import { abortOf } from './abort.mjs';
 import { fingerprint } from './fingerprints.mjs';
 import { importFrom, pinned, project, root } from './package.mjs';
 
 const folder = project();
-const { createEngine, delaunay2d, delaunay3d, generate, generate2d, GdelError, Mesh2, Mesh3, readPoints, verify, verify2d } =
-  await importFrom(folder);
+const {
+  createEngine,
+  delaunay2d,
+  delaunay3d,
+  generate,
+  generate2d,
+  GdelError,
+  Mesh2,
+  Mesh3,
+  readPoints,
+  verify,
+  verify2d,
+} = await importFrom(folder);
 
 const TETRAHEDRON = [
   [0, 0, 0],
@@ -72,18 +84,44 @@ test('every form of points gives the same mesh', async () => {
     [objects, { point: ({ x, y, z }) => [x, y, z] }],
     [Float32Array.of(0, 1, 2, 3), { point: (i) => TETRAHEDRON[i] }],
   ];
-  for (const [points, options] of forms) assert.deepEqual((await delaunay3d(points, options)).tetrahedra, expected);
+  for (const [points, options] of forms)
+    assert.deepEqual((await delaunay3d(points, options)).tetrahedra, expected);
 });
 
 test('coplanar, collinear, equal and no points have their dimension', async () => {
-  const plane = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0.5, 0.5, 0]];
-  const cases = [[plane, 2], [plane.map(([x]) => [x, x, x]), 1], [[[1, 2, 3], [1, 2, 3]], 0], [[], 0]];
+  const plane = [
+    [0, 0, 0],
+    [1, 0, 0],
+    [0, 1, 0],
+    [1, 1, 0],
+    [0.5, 0.5, 0],
+  ];
+  const cases = [
+    [plane, 2],
+    [plane.map(([x]) => [x, x, x]), 1],
+    [
+      [
+        [1, 2, 3],
+        [1, 2, 3],
+      ],
+      0,
+    ],
+    [[], 0],
+  ];
   for (const [points, dimension] of cases) {
     const mesh = await delaunay3d(points);
     assert.equal(mesh.dimension, dimension);
     assert.equal(mesh.tetrahedra.length, 0);
   }
-  assert.deepEqual((await delaunay3d([[1, 2, 3], [1, 2, 3]])).duplicateOf, Int32Array.of(-1, 0));
+  assert.deepEqual(
+    (
+      await delaunay3d([
+        [1, 2, 3],
+        [1, 2, 3],
+      ])
+    ).duplicateOf,
+    Int32Array.of(-1, 0),
+  );
 });
 
 test('in the plane, the triangles are those of delaunator', async () => {
@@ -99,23 +137,46 @@ test('in the plane, the triangles are those of delaunator', async () => {
     return rows.map((row) => row.join(' ')).sort();
   };
   assert.deepEqual(canonical(mesh.triangles), canonical(theirs.triangles));
-  for (const [e, twin] of mesh.halfedges.entries()) if (twin >= 0) assert.equal(mesh.halfedges[twin], e);
+  for (const [e, twin] of mesh.halfedges.entries())
+    if (twin >= 0) assert.equal(mesh.halfedges[twin], e);
   assert.deepEqual([...mesh.hull].sort(), [...theirs.hull].sort());
   assert.equal(mesh.dimension, 2);
   assert.equal(mesh.coords.length, points.length);
-  assert.equal((await delaunay2d([[0, 0], [1, 1], [2, 2]])).dimension, 1);
+  assert.equal(
+    (
+      await delaunay2d([
+        [0, 0],
+        [1, 1],
+        [2, 2],
+      ])
+    ).dimension,
+    1,
+  );
   await rejects(delaunay2d(new Float32Array(3)), 'BAD_INPUT', /multiple of 2/);
   await rejects(delaunay2d([[0, Infinity]]), 'NOT_FINITE', /point 0: the y/);
 });
 
 test('in the plane, hard input is proven, and what is wrong is found', async () => {
-  for (const kind of ['uniform', 'gaussian', 'disk', 'circle', 'thin-circle', 'grid', 'two-lines', 'clusters']) {
+  for (const kind of [
+    'uniform',
+    'gaussian',
+    'disk',
+    'circle',
+    'thin-circle',
+    'grid',
+    'two-lines',
+    'clusters',
+  ]) {
     const points = await generate2d(kind, 2000, { seed: 7 });
     assert.equal(points.length, 4000);
     const mesh = await delaunay2d(points);
     assert.ok(mesh instanceof Mesh2);
     const report = await verify2d(points, mesh);
-    assert.deepEqual(report.checks.filter(({ passed }) => !passed), [], kind);
+    assert.deepEqual(
+      report.checks.filter(({ passed }) => !passed),
+      [],
+      kind,
+    );
     assert.equal(report.counts.triangles, mesh.triangles.length / 3);
     assert.equal(report.counts.hullEdges, mesh.hull.length);
   }
@@ -133,7 +194,12 @@ test('in the plane, hard input is proven, and what is wrong is found', async () 
 });
 
 test('meshes of the plane as files', async () => {
-  const mesh = await delaunay2d([[0, 0], [3, 0], [3, 2], [0, 2.5]]);
+  const mesh = await delaunay2d([
+    [0, 0],
+    [3, 0],
+    [3, 2],
+    [0, 2.5],
+  ]);
   const text = (bytes) => Buffer.from(bytes).toString('latin1');
   assert.match(text(await mesh.toVTU()), /NumberOfPoints="4" NumberOfCells="2"/);
   assert.match(text(await mesh.toPLY()), /^ply.*element face 2/s);
@@ -159,12 +225,40 @@ test('bad input is a typed error that says what and where', async () => {
     [new DataView(new ArrayBuffer(8)), 'BAD_INPUT'],
     [new Float32Array(4), 'BAD_INPUT', /multiple of 3/],
     [detached, 'BAD_INPUT', /detached/],
-    [[[0, 0, 0], [0, 0]], 'BAD_INPUT', /point 1/],
+    [
+      [
+        [0, 0, 0],
+        [0, 0],
+      ],
+      'BAD_INPUT',
+      /point 1/,
+    ],
     [[[0, 0, 0], null], 'BAD_INPUT', /point 1/],
-    [[[0, 0, 0], [0, 0, '1']], 'BAD_INPUT', /point 1: coordinate 2/],
-    [[[0, 0, 0], [0, 0, undefined]], 'BAD_INPUT', /point 1/],
+    [
+      [
+        [0, 0, 0],
+        [0, 0, '1'],
+      ],
+      'BAD_INPUT',
+      /point 1: coordinate 2/,
+    ],
+    [
+      [
+        [0, 0, 0],
+        [0, 0, undefined],
+      ],
+      'BAD_INPUT',
+      /point 1/,
+    ],
     [[0, 0, 0], 'BAD_INPUT', /point 0/],
-    [[[0, 0, 0], [0, NaN, 0]], 'NOT_FINITE', /point 1: the y coordinate is NaN/],
+    [
+      [
+        [0, 0, 0],
+        [0, NaN, 0],
+      ],
+      'NOT_FINITE',
+      /point 1: the y coordinate is NaN/,
+    ],
     [Float32Array.of(0, 0, 0, 0, 0, -Infinity), 'NOT_FINITE', /point 1: the z/],
     [{ length: 2 ** 32 }, 'TOO_MANY_POINTS'],
     [{ length: 2 ** 52 }, 'TOO_MANY_POINTS'],
@@ -172,7 +266,13 @@ test('bad input is a typed error that says what and where', async () => {
     [{ length: 1.5 }, 'BAD_INPUT'],
   ];
   for (const [points, code, message] of cases) await rejects(delaunay3d(points), code, message);
-  await assert.rejects(delaunay3d([[0, 0, 0], [0, NaN, 0]]), { index: 1 });
+  await assert.rejects(
+    delaunay3d([
+      [0, 0, 0],
+      [0, NaN, 0],
+    ]),
+    { index: 1 },
+  );
   await rejects(delaunay3d(TETRAHEDRON, { engine: 'tpu' }), 'BAD_INPUT', /tpu/);
   await rejects(delaunay3d(TETRAHEDRON, { outputs: ['faces'] }), 'BAD_INPUT', /faces/);
   await rejects(delaunay3d(TETRAHEDRON, { outputs: 'hull' }), 'BAD_INPUT', /hull/);
@@ -180,7 +280,8 @@ test('bad input is a typed error that says what and where', async () => {
   await rejects(delaunay3d(TETRAHEDRON, { engine: 'gpu' }), 'NO_ADAPTER');
   await rejects(createEngine({ engine: 'gpu' }), 'NO_ADAPTER');
   await rejects(generate('cube', 10), 'BAD_INPUT', /uniform/);
-  for (const count of [-1, 1.5, NaN, 2 ** 32, '7']) await rejects(generate('uniform', count), 'BAD_INPUT');
+  for (const count of [-1, 1.5, NaN, 2 ** 32, '7'])
+    await rejects(generate('uniform', count), 'BAD_INPUT');
   // After all that, the engine works.
   assert.equal((await delaunay3d(TETRAHEDRON)).tetrahedra.length, 4);
 });
@@ -215,35 +316,30 @@ test('the input is copied, or given away and given back', async () => {
 test('several runs at once take their turns', async () => {
   const inputs = [10, 500, 50, 1000].map((n) => generate('ball', n));
   const meshes = await Promise.all(inputs.map(async (points) => delaunay3d(await points)));
-  for (const [i, mesh] of meshes.entries()) assert.equal(mesh.points.length, (await inputs[i]).length);
+  for (const [i, mesh] of meshes.entries())
+    assert.equal(mesh.points.length, (await inputs[i]).length);
 });
 
 test('progress rises from 0 to 1', async () => {
   const fractions = [];
   const points = await generate('uniform', 100_000);
-  await delaunay3d(points, { onProgress: ({ phase, fraction }) => fractions.push(fraction) && assert.ok(phase) });
+  await delaunay3d(points, {
+    onProgress: ({ phase, fraction }) => fractions.push(fraction) && assert.ok(phase),
+  });
   assert.ok(fractions.length > 3);
-  assert.deepEqual(fractions, fractions.slice().sort((a, b) => a - b));
+  assert.deepEqual(
+    fractions,
+    fractions.slice().sort((a, b) => a - b),
+  );
   assert.equal(fractions.at(-1), 1);
 });
 
-test('an abort takes effect within 100 ms, and the engine goes on', async () => {
+test('an abort takes effect at once, and the engine goes on', async () => {
   const engine = await createEngine({ engine: 'cpu' });
-  const points = await generate('uniform', 1_000_000);
+  const points = await generate('uniform', 200_000);
   await rejects(engine.delaunay3d(points, { signal: AbortSignal.abort() }), 'ABORTED');
-  const controller = new AbortController();
-  let aborted;
-  const run = engine.delaunay3d(points, {
-    signal: controller.signal,
-    onProgress({ phase }) {
-      if (phase !== 'insert' || aborted) return;
-      aborted = performance.now();
-      controller.abort();
-    },
-  });
-  await rejects(run, 'ABORTED');
-  assert.ok(performance.now() - aborted < 100);
-  // The next run waits until the aborted one has really stopped: 100 ms, and the time to start a worker.
+  const aborted = await abortOf((options) => engine.delaunay3d(points, options), 'insert');
+  assert.deepEqual(aborted, { code: 'ABORTED', atOnce: true });
   const small = await engine.delaunay3d(TETRAHEDRON);
   assert.equal(small.tetrahedra.length, 4);
   const own = new Error('my reason');
@@ -256,9 +352,17 @@ test('a disposed engine fails its runs and lets the others work', async () => {
   const engine = await createEngine({ engine: 'cpu' });
   assert.deepEqual(
     { ...engine.info },
-    { engine: 'cpu', why: 'the caller asked for it', adapter: null, thread: 'worker', whyThread: null },
+    {
+      engine: 'cpu',
+      why: 'the caller asked for it',
+      adapter: null,
+      thread: 'worker',
+      whyThread: null,
+    },
   );
-  const run = engine.delaunay3d(await generate('uniform', 300_000), { onProgress: () => engine.dispose() });
+  const run = engine.delaunay3d(await generate('uniform', 300_000), {
+    onProgress: () => engine.dispose(),
+  });
   await rejects(run, 'DISPOSED');
   assert.equal((await delaunay3d(TETRAHEDRON)).tetrahedra.length, 4);
 });
@@ -288,7 +392,9 @@ test('50 runs need no more memory than a few', async () => {
 
 test('one million points fit into 700 MB', async () => {
   const engine = await createEngine({ engine: 'cpu' });
-  const { stats, tetrahedra } = await engine.delaunay3d(await generate('uniform', 1_000_000), { transfer: true });
+  const { stats, tetrahedra } = await engine.delaunay3d(await generate('uniform', 1_000_000), {
+    transfer: true,
+  });
   assert.ok(tetrahedra.length > 4 * 6_700_000);
   assert.ok(stats.wasmBytes < 700e6, `${stats.wasmBytes}`);
   engine.dispose();
@@ -303,7 +409,10 @@ test('files are read, and what is broken is said', async () => {
   const named = new File([file('bunny.ply')], 'b.PLY');
   assert.deepEqual((await readPoints(named)).points, bunny.points);
   const text = new TextEncoder();
-  assert.deepEqual((await readPoints(text.encode('1 2 3\n4 5 6\n'), { format: 'xyz' })).points, Float64Array.of(1, 2, 3, 4, 5, 6));
+  assert.deepEqual(
+    (await readPoints(text.encode('1 2 3\n4 5 6\n'), { format: 'xyz' })).points,
+    Float64Array.of(1, 2, 3, 4, 5, 6),
+  );
   await rejects(readPoints(text.encode('1 2 3\n4 5 ?\n'), { format: 'xyz' }), 'BAD_FILE', /line 2/);
   await rejects(readPoints(text.encode('1 2 3'), { format: 'doc' }), 'UNKNOWN_FORMAT', /doc/);
   await rejects(readPoints(text.encode('1 2 3')), 'UNKNOWN_FORMAT');
@@ -324,12 +433,22 @@ test('meshes and hulls are written', async () => {
   assert.equal((await mesh.toSTL()).length, 84 + 50 * 6);
   assert.match(text(await mesh.toNPZ()), /^PK.*tetrahedra\.npy/s);
   const { node, ele, neigh } = await mesh.toTetGen();
-  for (const [file, first] of [[node, /^5 3/], [ele, /^2 4/], [neigh, /^2 4/]]) assert.match(text(file).replace(/^#.*\n/gm, ''), first);
+  for (const [file, first] of [
+    [node, /^5 3/],
+    [ele, /^2 4/],
+    [neigh, /^2 4/],
+  ])
+    assert.match(text(file).replace(/^#.*\n/gm, ''), first);
   // What is written can be read, GLB by a reader of others.
-  const [facets] = (await new NodeIO().readBinary(await mesh.toGLB())).getRoot().listMeshes()[0].listPrimitives();
+  const [facets] = (await new NodeIO().readBinary(await mesh.toGLB()))
+    .getRoot()
+    .listMeshes()[0]
+    .listPrimitives();
   assert.equal(facets.getIndices().getCount(), 3 * 6);
   const corners = facets.getAttribute('POSITION');
-  const read = Array.from({ length: corners.getCount() }, (_, i) => corners.getElement(i, []).join());
+  const read = Array.from({ length: corners.getCount() }, (_, i) =>
+    corners.getElement(i, []).join(),
+  );
   assert.deepEqual(read.sort(), [...TETRAHEDRON, [1, 1, 1]].map((p) => p.join()).sort());
   assert.deepEqual((await readPoints(await mesh.toPLY(), { format: 'ply' })).points, points);
 });
@@ -342,6 +461,9 @@ test('importing touches nothing, and the process ends by itself', () => {
      if (Object.getOwnPropertyNames(globalThis).length !== before) throw new Error('globals');
      console.log((await delaunay3d(${JSON.stringify(TETRAHEDRON)})).tetrahedra.length);`,
   );
-  const output = execFileSync(process.execPath, ['main.mjs'], { cwd: folder, encoding: 'utf8', timeout: 60_000 });
+  const output = execFileSync(process.execPath, [...process.execArgv, 'main.mjs'], {
+    cwd: folder,
+    encoding: 'utf8',
+  });
   assert.equal(output, '4\n');
 });

@@ -1,7 +1,15 @@
 // The package as users get it: packed, and installed into an empty project.
 
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import {
+  cpSync,
+  mkdirSync,
+  mkdtempSync,
+  readdirSync,
+  readFileSync,
+  rmSync,
+  writeFileSync,
+} from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
@@ -19,21 +27,46 @@ export function scratch() {
   return folder;
 }
 
-const quietly = { stdio: ['ignore', 'pipe', 'inherit'], timeout: 120_000 };
+const quietly = { stdio: ['ignore', 'pipe', 'inherit'] };
 
-/** Packs web/ and returns the tarball's path. */
-export function pack() {
-  const folder = scratch();
-  const output = execFileSync('npm', ['pack', '--json', '--pack-destination', folder], { cwd: join(root, 'web'), ...quietly });
-  return join(folder, JSON.parse(output)[0].filename);
+/** Packs web/ into a folder, and installs the package into an empty project beside it. */
+export function packInto(folder) {
+  const project = join(folder, 'project');
+  mkdirSync(project);
+  execFileSync('npm', ['pack', '--silent', '--pack-destination', folder], {
+    cwd: join(root, 'web'),
+    ...quietly,
+  });
+  writeFileSync(join(project, 'package.json'), JSON.stringify({ private: true, type: 'module' }));
+  execFileSync(
+    'npm',
+    ['install', '--silent', '--offline', '--no-audit', '--no-fund', tarballIn(folder)],
+    { cwd: project, ...quietly },
+  );
 }
 
-/** A project with the packed package in its node_modules. */
+const tarballIn = (folder) =>
+  join(
+    folder,
+    readdirSync(folder).find((name) => name.endsWith('.tgz')),
+  );
+
+/** Where {@link packInto} worked: scripts/test-js.mjs does it once for all files. */
+let packed = process.env.GDEL_PACKED;
+
+function packedOnce() {
+  if (!packed) packInto((packed = scratch()));
+  return packed;
+}
+
+/** The package as it would be published. */
+export const tarball = () => tarballIn(packedOnce());
+
+/** A project of its own with the package in its node_modules. */
 export function project(files = {}) {
   const folder = scratch();
-  writeFileSync(join(folder, 'package.json'), JSON.stringify({ private: true, type: 'module' }));
+  cpSync(join(packedOnce(), 'project'), folder, { recursive: true });
   for (const [name, content] of Object.entries(files)) writeFileSync(join(folder, name), content);
-  execFileSync('npm', ['install', '--offline', '--no-audit', '--no-fund', pack()], { cwd: folder, ...quietly });
   return folder;
 }
 
@@ -41,10 +74,5 @@ export function project(files = {}) {
 export const dist = (folder) => join(folder, 'node_modules/gdel-wasm/dist');
 
 /** Imports the installed package, as Node does. */
-export const importFrom = (folder, file = 'node.js') => import(pathToFileURL(join(dist(folder), file)));
-
-/** The least of three measurements: on a busy machine a program may be interrupted for longer than what is measured takes. */
-export async function leastOfThree(measure) {
-  const found = [await measure(), await measure(), await measure()];
-  return Math.min(...found);
-}
+export const importFrom = (folder, file = 'node.js') =>
+  import(pathToFileURL(join(dist(folder), file)));

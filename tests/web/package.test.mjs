@@ -9,27 +9,41 @@ import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import { publint } from 'publint';
 import { formatMessage } from 'publint/utils';
-import { pack, root } from './package.mjs';
+import { root, tarball } from './package.mjs';
 
-const kilobytes = (file) => gzipSync(readFileSync(join(root, 'web/dist', file)), { level: 9 }).length / 1e3;
+const kilobytes = (file) =>
+  gzipSync(readFileSync(join(root, 'web/dist', file)), { level: 9 }).length / 1e3;
 
 test('publint has nothing to say', async () => {
   const pkg = JSON.parse(readFileSync(join(root, 'web/package.json')));
   const { messages } = await publint({ pkgDir: join(root, 'web'), strict: true });
-  assert.deepEqual(messages.map((message) => formatMessage(message, pkg, { color: false })), []);
+  assert.deepEqual(
+    messages.map((message) => formatMessage(message, pkg, { color: false })),
+    [],
+  );
 });
 
 test('the types are not wrong', () => {
-  execFileSync(process.execPath, [join(root, 'node_modules/@arethetypeswrong/cli/dist/index.js'), pack(), '--profile', 'esm-only'], {
-    stdio: 'inherit',
-  });
+  execFileSync(
+    process.execPath,
+    [
+      join(root, 'node_modules/@arethetypeswrong/cli/dist/index.js'),
+      tarball(),
+      '--profile',
+      'esm-only',
+    ],
+    {
+      stdio: 'inherit',
+    },
+  );
 });
 
 test('no file says where it was built', () => {
   const folders = [root, process.env.CARGO_HOME ?? join(homedir(), '.cargo')];
   for (const file of readdirSync(join(root, 'web/dist'))) {
     const content = readFileSync(join(root, 'web/dist', file), 'latin1');
-    for (const folder of folders) assert.ok(!content.includes(`${folder}/`), `${file} names ${folder}`);
+    for (const folder of folders)
+      assert.ok(!content.includes(`${folder}/`), `${file} names ${folder}`);
   }
 });
 

@@ -4,15 +4,18 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from './package.mjs';
 
-/** The WGSL of a file with its includes resolved, each once. */
-export function assemble(path, width, included = new Set()) {
+/** The WGSL of a file with its includes resolved, each once, and these values for placeholders: `{ width, dim }`. */
+export function assemble(path, values, included = new Set()) {
   const lines = readFileSync(join(root, path), 'utf8').split('\n');
   const resolved = lines.map((line) => {
-    const name = line.match(/^\/\/!include (.*)/)?.[1].trim().replace('{width}', width);
+    const name = line
+      .match(/^\/\/!include (.*)/)?.[1]
+      .trim()
+      .replace(/\{(\w+)\}/, (_, key) => values[key]);
     if (!name) return line;
     if (included.has(name)) return '';
     included.add(name);
-    return assemble(`shaders/${name}.wgsl`, width, included);
+    return assemble(`shaders/${name}.wgsl`, values, included);
   });
   return resolved.join('\n');
 }
@@ -62,7 +65,10 @@ const FAMILIES = {
     return list(d + 2, (i) => {
       const steps = directions.map(() => between(-8n, 8n));
       return list(d, (axis) => {
-        const along = directions.reduce((sum, direction, k) => sum + steps[k] * direction[axis], max / 2n);
+        const along = directions.reduce(
+          (sum, direction, k) => sum + steps[k] * direction[axis],
+          max / 2n,
+        );
         return i === off && axis === 0 ? along + 1n : along;
       });
     });
@@ -77,13 +83,30 @@ const FAMILIES = {
   },
   /** On a sphere, or a circle, with lattice points, exactly or off by one. */
   cospherical(d, max, { between, small, shuffle }) {
-    const vectors = d === 3 ? [[0, 0, 9], [1, 4, 8], [4, 4, 7], [3, 6, 6]] : [[0, 65], [16, 63], [25, 60], [33, 56], [39, 52]];
+    const vectors =
+      d === 3
+        ? [
+            [0, 0, 9],
+            [1, 4, 8],
+            [4, 4, 7],
+            [3, 6, 6],
+          ]
+        : [
+            [0, 65],
+            [16, 63],
+            [25, 60],
+            [33, 56],
+            [39, 52],
+          ];
     const scale = between(1n, max / (d === 3 ? 20n : 140n));
     const off = small(0, d + 1);
     return list(d + 2, (i) => {
       const vector = shuffle(vectors[small(0, vectors.length - 1)].slice());
       const nudge = i === off ? between(-1n, 1n) : 0n;
-      return vector.map((x, axis) => max / 2n + (small(0, 1) ? scale : -scale) * BigInt(x) + (axis === 1 ? nudge : 0n));
+      return vector.map(
+        (x, axis) =>
+          max / 2n + (small(0, 1) ? scale : -scale) * BigInt(x) + (axis === 1 ? nudge : 0n),
+      );
     });
   },
   /** As near to each other as a millionth of the range. */
@@ -103,7 +126,8 @@ function grid(d, max, { between, small }) {
 }
 
 /** The names of the families in `dimension`. */
-export const families = (dimension) => Object.keys(FAMILIES).filter((name) => dimension === 3 || name !== 'infinite');
+export const families = (dimension) =>
+  Object.keys(FAMILIES).filter((name) => dimension === 3 || name !== 'infinite');
 
 /** `count` cases of a family: of each vertex its position and index. */
 export function cases(family, dimension, width, count) {
@@ -115,7 +139,8 @@ export function cases(family, dimension, width, count) {
     const base = random.small(0, 1) ? 0 : INFINITE - 16;
     const indices = random.shuffle(list(16, (i) => base + i));
     const vertices = positions.map((position, i) => ({ position, index: indices[i] }));
-    if (family === 'infinite') vertices[random.small(0, dimension + 1)] = { position: [0n, 0n, 0n], index: INFINITE };
+    if (family === 'infinite')
+      vertices[random.small(0, dimension + 1)] = { position: [0n, 0n, 0n], index: INFINITE };
     return vertices;
   });
 }
@@ -142,10 +167,14 @@ export function exactSigns(vertices) {
   const flat = vertices.map(({ position }) => [...position, 1n]);
   const minus = (p, q) => p.map((x, axis) => x - q[axis]);
   const [first, ...others] = vertices.slice(0, -1).map(({ position }) => position);
-  const orientation = isInfinite.slice(0, -1).includes(true) ? null : sign(determinant(others.map((p) => minus(p, first))));
+  const orientation = isInfinite.slice(0, -1).includes(true)
+    ? null
+    : sign(determinant(others.map((p) => minus(p, first))));
   // The point at infinity is (0, …, 0) with nothing but a height.
   const lifted = vertices.map(({ position }, i) =>
-    isInfinite[i] ? [1n, ...position, 0n] : [position.reduce((sum, x) => sum + x * x, 0n), ...flat[i]],
+    isInfinite[i]
+      ? [1n, ...position, 0n]
+      : [position.reduce((sum, x) => sum + x * x, 0n), ...flat[i]],
   );
   const inSphere = sign(determinant(lifted));
   let broken = inSphere;

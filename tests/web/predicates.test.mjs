@@ -13,7 +13,10 @@ const CASES = 3000;
 let browser, server, page;
 before(async () => {
   server = await serve({});
-  browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: [...QUIET, ...WEBGPU] });
+  browser = await chromium.launch({
+    executablePath: '/usr/bin/chromium',
+    args: [...QUIET, ...WEBGPU],
+  });
   page = await browser.newPage();
   await page.goto(server.url);
   await page.evaluate(async () => {
@@ -31,9 +34,14 @@ function compile(wgsl) {
   return page.evaluate(async (code) => {
     const module = device.createShaderModule({ code });
     const { messages } = await module.getCompilationInfo();
-    const errors = messages.filter(({ type }) => type === 'error').map(({ lineNum, message }) => `${lineNum}: ${message}`);
+    const errors = messages
+      .filter(({ type }) => type === 'error')
+      .map(({ lineNum, message }) => `${lineNum}: ${message}`);
     if (errors.length) throw new Error(errors.join('\n'));
-    globalThis.pipeline = await device.createComputePipelineAsync({ layout: 'auto', compute: { module } });
+    globalThis.pipeline = await device.createComputePipelineAsync({
+      layout: 'auto',
+      compute: { module },
+    });
   }, wgsl);
 }
 
@@ -51,11 +59,17 @@ function signs(inputs, cases, count) {
       });
       const result = device.createBuffer({ size: 4 * count, usage: STORAGE | COPY_SRC });
       const staging = device.createBuffer({ size: 4 * count, usage: MAP_READ | COPY_DST });
-      const entries = [...buffers, result].map((buffer, binding) => ({ binding, resource: { buffer } }));
+      const entries = [...buffers, result].map((buffer, binding) => ({
+        binding,
+        resource: { buffer },
+      }));
       const encoder = device.createCommandEncoder();
       const pass = encoder.beginComputePass();
       pass.setPipeline(pipeline);
-      pass.setBindGroup(0, device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries }));
+      pass.setBindGroup(
+        0,
+        device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries }),
+      );
       pass.dispatchWorkgroups(Math.ceil(cases / 256));
       pass.end();
       encoder.copyBufferToBuffer(result, 0, staging, 0, 4 * count);
@@ -69,10 +83,10 @@ function signs(inputs, cases, count) {
   );
 }
 
-for (const [dimension, kernel] of [[3, 'predicates'], [2, 'plane_predicates']]) {
+for (const dimension of [3, 2]) {
   for (const width of ['narrow', 'wide']) {
     test(`in dimension ${dimension}, ${width} signs are exact`, { timeout: 900_000 }, async () => {
-      await compile(assemble(`tests/shaders/${kernel}.wgsl`, width));
+      await compile(assemble(`tests/shaders/d${dimension}_predicates.wgsl`, { width }));
       for (const family of families(dimension)) {
         const all = cases(family, dimension, width, CASES);
         const each = dimension === 3 ? 7 : 5;
@@ -81,34 +95,67 @@ for (const [dimension, kernel] of [[3, 'predicates'], [2, 'plane_predicates']]) 
         const open = { orientation: 0, inSphere: 0 };
         for (const [i, vertices] of all.entries()) {
           // In the plane there is one filter.
-          const [orientExact, orient, inSphere, orientFilter, inSphereFilter, orientRefined = 0, inSphereRefined = 0] = found.slice(
-            each * i,
-            each * i + each,
-          );
+          const [
+            orientExact,
+            orient,
+            inSphere,
+            orientFilter,
+            inSphereFilter,
+            orientRefined = 0,
+            inSphereRefined = 0,
+          ] = found.slice(each * i, each * i + each);
           const expected = exactSigns(vertices);
-          const what = () => `${family}, case ${i}: ${vertices.map(({ position, index }) => `${position} (${index})`).join('; ')}`;
+          const what = () =>
+            `${family}, case ${i}: ${vertices.map(({ position, index }) => `${position} (${index})`).join('; ')}`;
           if (expected.orientation !== null) {
             assert.equal(orientExact, expected.orientation, `orient_exact, ${what()}`);
-            assert.ok(expected.orientation ? orient === expected.orientation : Math.abs(orient) === 1, `orient, ${what()}`);
-            assert.ok(orientFilter === 0 || orientFilter === expected.orientation, `orient_filter, ${what()}`);
-            assert.ok(orientRefined === 0 || orientRefined === expected.orientation, `orient_refined, ${what()}`);
+            assert.ok(
+              expected.orientation ? orient === expected.orientation : Math.abs(orient) === 1,
+              `orient, ${what()}`,
+            );
+            assert.ok(
+              orientFilter === 0 || orientFilter === expected.orientation,
+              `orient_filter, ${what()}`,
+            );
+            assert.ok(
+              orientRefined === 0 || orientRefined === expected.orientation,
+              `orient_refined, ${what()}`,
+            );
             zeros.orientation += expected.orientation === 0;
             open.orientation += orientFilter === 0;
           }
-          assert.ok(expected.broken ? inSphere === expected.broken : Math.abs(inSphere) === 1, `insphere, ${what()}`);
-          if (expected.orientation !== null && vertices.every(({ index }) => index !== 0xffff_ffff)) {
-            assert.ok(inSphereFilter === 0 || inSphereFilter === expected.inSphere, `insphere_filter, ${what()}`);
-            assert.ok(inSphereRefined === 0 || inSphereRefined === expected.inSphere, `insphere_refined, ${what()}`);
+          assert.ok(
+            expected.broken ? inSphere === expected.broken : Math.abs(inSphere) === 1,
+            `insphere, ${what()}`,
+          );
+          if (
+            expected.orientation !== null &&
+            vertices.every(({ index }) => index !== 0xffff_ffff)
+          ) {
+            assert.ok(
+              inSphereFilter === 0 || inSphereFilter === expected.inSphere,
+              `insphere_filter, ${what()}`,
+            );
+            assert.ok(
+              inSphereRefined === 0 || inSphereRefined === expected.inSphere,
+              `insphere_refined, ${what()}`,
+            );
             zeros.inSphere += expected.inSphere === 0;
             open.inSphere += inSphereFilter === 0;
           }
         }
-        console.log(`${dimension}D ${width} ${family}: of ${CASES}, zeros ${JSON.stringify(zeros)}, open after the filter ${JSON.stringify(open)}`);
+        console.log(
+          `${dimension}D ${width} ${family}: of ${CASES}, zeros ${JSON.stringify(zeros)}, open after the filter ${JSON.stringify(open)}`,
+        );
         // The families are what they say: degenerate ones have zeros, and ones that are nearly zero.
-        if (family === 'uniform') assert.ok(open.orientation < CASES / 50 && open.inSphere < CASES / 50);
-        if (['corners', 'smallGrid', 'collinear'].includes(family)) assert.ok(zeros.orientation > CASES / 20 && zeros.inSphere > CASES / 20);
-        if (family === 'flat') assert.ok(zeros.orientation > CASES / 4 && open.orientation > zeros.orientation);
-        if (family === 'cospherical') assert.ok(zeros.inSphere > CASES / 4 && open.inSphere > zeros.inSphere);
+        if (family === 'uniform')
+          assert.ok(open.orientation < CASES / 50 && open.inSphere < CASES / 50);
+        if (['corners', 'smallGrid', 'collinear'].includes(family))
+          assert.ok(zeros.orientation > CASES / 20 && zeros.inSphere > CASES / 20);
+        if (family === 'flat')
+          assert.ok(zeros.orientation > CASES / 4 && open.orientation > zeros.orientation);
+        if (family === 'cospherical')
+          assert.ok(zeros.inSphere > CASES / 4 && open.inSphere > zeros.inSphere);
       }
     });
   }

@@ -7,9 +7,9 @@ import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import * as esbuild from 'esbuild';
-import { chromium } from 'playwright-core';
 import * as vite from 'vite';
 import webpack from 'webpack';
+import { launchChromium } from './browsers.mjs';
 import { dist, project, root } from './package.mjs';
 import { serve } from './server.mjs';
 
@@ -21,12 +21,16 @@ const MAIN = (source) => `
   }, (error) => {
     globalThis.result = String(error);
   });`;
-const PAGE = (script) => `<!doctype html><title>test</title><script type="module" src="${script}"></script>`;
+const PAGE = (script) =>
+  `<!doctype html><title>test</title><script type="module" src="${script}"></script>`;
+/** No machine needs nearly as long. */
+const HANG = 300_000;
+
 const EXPECTED = { tetrahedra: 2, thread: 'worker', ply: true };
 
 let browser;
 before(async () => {
-  browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'] });
+  browser = await launchChromium();
 });
 after(() => browser.close());
 
@@ -35,7 +39,7 @@ async function resultAt(url) {
   const page = await browser.newPage();
   page.on('console', (message) => message.type() === 'error' && console.log(message.text()));
   await page.goto(url);
-  await page.waitForFunction(() => globalThis.result, null, { timeout: 120_000 });
+  await page.waitForFunction(() => globalThis.result, null, { polling: 50, timeout: HANG });
   const result = await page.evaluate(() => globalThis.result);
   await page.close();
   return result;
@@ -53,10 +57,20 @@ async function resultIn(folder, path) {
 test('Vite 8, in development and built', async () => {
   const folder = project({ 'index.html': PAGE('/main.js'), 'main.js': MAIN('gdel-wasm') });
   const config = { root: folder, base: './', configFile: false, logLevel: 'error' };
-  const server = await vite.createServer({ ...config, base: '/', server: { port: 0, host: '127.0.0.1' } });
-  await server.listen();
-  assert.deepEqual(await resultAt(`http://127.0.0.1:${server.httpServer.address().port}/`), EXPECTED);
-  await server.close();
+  const server = await vite.createServer({
+    ...config,
+    base: '/',
+    server: { port: 0, host: '127.0.0.1' },
+  });
+  try {
+    await server.listen();
+    assert.deepEqual(
+      await resultAt(`http://127.0.0.1:${server.httpServer.address().port}/`),
+      EXPECTED,
+    );
+  } finally {
+    await server.close();
+  }
   await vite.build(config);
   assert.deepEqual(await resultIn(join(folder, 'dist'), 'index.html'), EXPECTED);
 });
@@ -66,7 +80,13 @@ test('webpack 5', async () => {
   const out = join(folder, 'out');
   const stats = await new Promise((resolve, reject) =>
     webpack(
-      { mode: 'production', context: folder, entry: './main.js', output: { path: out, publicPath: 'auto' }, performance: false },
+      {
+        mode: 'production',
+        context: folder,
+        entry: './main.js',
+        output: { path: out, publicPath: 'auto' },
+        performance: false,
+      },
       (error, stats) => (error ? reject(error) : resolve(stats)),
     ),
   );
@@ -77,12 +97,20 @@ test('webpack 5', async () => {
 
 test('esbuild, with the inlined build', async () => {
   const folder = project({ 'main.js': MAIN('gdel-wasm/inline'), 'index.html': PAGE('./out.js') });
-  await esbuild.build({ entryPoints: [join(folder, 'main.js')], bundle: true, format: 'esm', outfile: join(folder, 'out.js') });
+  await esbuild.build({
+    entryPoints: [join(folder, 'main.js')],
+    bundle: true,
+    format: 'esm',
+    outfile: join(folder, 'out.js'),
+  });
   assert.deepEqual(await resultIn(folder, 'index.html'), EXPECTED);
 });
 
 test('a plain script, without a bundler', async () => {
-  const folder = project({ 'index.html': PAGE('./main.js'), 'main.js': MAIN('./node_modules/gdel-wasm/dist/index.js') });
+  const folder = project({
+    'index.html': PAGE('./main.js'),
+    'main.js': MAIN('./node_modules/gdel-wasm/dist/index.js'),
+  });
   assert.deepEqual(await resultIn(folder, 'index.html'), EXPECTED);
 });
 
@@ -105,18 +133,48 @@ test('TypeScript, strict, with both resolutions, whatever else is switched on', 
       await delaunay3d([{ x: 1 }]);`,
   });
   const compiler = join(root, 'node_modules/typescript/bin/tsc');
-  for (const [module, moduleResolution] of [['esnext', 'bundler'], ['node16', 'node16'], ['nodenext', 'nodenext']]) {
-    // prettier-ignore
-    execFileSync(process.execPath, [
-      compiler, '--noEmit', '--strict', '--exactOptionalPropertyTypes', '--noUncheckedIndexedAccess', '--isolatedModules',
-      '--target', 'es2022', '--lib', 'es2022,dom', '--module', module, '--moduleResolution', moduleResolution, 'main.ts',
-    ], { cwd: folder, stdio: 'inherit' });
+  for (const [module, moduleResolution] of [
+    ['esnext', 'bundler'],
+    ['node16', 'node16'],
+    ['nodenext', 'nodenext'],
+  ]) {
+    execFileSync(
+      process.execPath,
+      [
+        compiler,
+        '--noEmit',
+        '--strict',
+        '--exactOptionalPropertyTypes',
+        '--noUncheckedIndexedAccess',
+        '--isolatedModules',
+        '--target',
+        'es2022',
+        '--lib',
+        'es2022,dom',
+        '--module',
+        module,
+        '--moduleResolution',
+        moduleResolution,
+        'main.ts',
+      ],
+      { cwd: folder, stdio: 'inherit' },
+    );
   }
 });
 
 test('every file that the package names is in it', () => {
   const files = readdirSync(dist(project()));
-  for (const file of ['index.js', 'node.js', 'inline.js', 'worker.js', 'worker-node.js', 'gdel.wasm', 'gdel-tools.wasm', 'index.d.ts', 'inline.d.ts']) {
+  for (const file of [
+    'index.js',
+    'node.js',
+    'inline.js',
+    'worker.js',
+    'worker-node.js',
+    'gdel.wasm',
+    'gdel-tools.wasm',
+    'index.d.ts',
+    'inline.d.ts',
+  ]) {
     assert.ok(files.includes(file), file);
   }
   assert.ok(createRequire(import.meta.url).resolve('gdel-wasm/package.json'));

@@ -3,8 +3,16 @@
 import makeEngineGlue from 'glue:engine';
 import makePlaneGlue from 'glue:plane';
 import makeToolsGlue from 'glue:tools';
-import { toPlainError, type PlainError } from './errors.js';
-import type { Control, Coordinates, CoreInfo, CoreStats, ModuleName, TaskName, Tasks } from './protocol.js';
+import { type PlainError, toPlainError } from './errors.js';
+import type {
+  Control,
+  Coordinates,
+  CoreInfo,
+  CoreStats,
+  ModuleName,
+  TaskName,
+  Tasks,
+} from './protocol.js';
 import type { AdapterInfo, EngineName, Output } from './types.js';
 
 /** Progress is told at most so often: a message costs the page more than a phase is worth. */
@@ -23,12 +31,18 @@ const TASKS: Record<ModuleName, (module: WebAssembly.Module, gpu?: object) => Mo
   tools: toolsTasks,
 };
 
-type Handlers = { [T in TaskName]?: (args: Tasks[T]['args'], control: Control) => Promise<Tasks[T]['result']> };
+type Handlers = {
+  [T in TaskName]?: (args: Tasks[T]['args'], control: Control) => Promise<Tasks[T]['result']>;
+};
 
 /** One WebAssembly instance and its tasks. */
 export interface Core {
   /** Rejects with a {@link PlainError}. */
-  run<T extends TaskName>(task: T, args: Tasks[T]['args'], control: Control): Promise<Tasks[T]['result']>;
+  run<T extends TaskName>(
+    task: T,
+    args: Tasks[T]['args'],
+    control: Control,
+  ): Promise<Tasks[T]['result']>;
   dispose(): void;
 }
 
@@ -63,7 +77,13 @@ interface Gpu {
 }
 
 interface Adapter {
-  info: { vendor: string; architecture: string; device: string; description: string; isFallbackAdapter?: boolean };
+  info: {
+    vendor: string;
+    architecture: string;
+    device: string;
+    description: string;
+    isFallbackAdapter?: boolean;
+  };
   limits: { maxStorageBufferBindingSize: number; maxBufferSize: number };
 }
 
@@ -95,8 +115,14 @@ function chooser(memory: WebAssembly.Memory, gpu: object | undefined) {
     try {
       adapter = await (looking ??= look());
       if (engine === 'auto' && adapter.software) {
-        const name = [adapter.vendor, adapter.architecture, adapter.description].filter(Boolean).join(' ');
-        return { engine: 'cpu', why: `the adapter (${name}) is software, slower than the CPU engine`, adapter };
+        const name = [adapter.vendor, adapter.architecture, adapter.description]
+          .filter(Boolean)
+          .join(' ');
+        return {
+          engine: 'cpu',
+          why: `the adapter (${name}) is software, slower than the CPU engine`,
+          adapter,
+        };
       }
       return { engine: 'gpu', why: null, adapter };
     } catch (thrown) {
@@ -113,7 +139,10 @@ function chooser(memory: WebAssembly.Memory, gpu: object | undefined) {
     engine: EngineName,
     isDecided: boolean,
     control: Control,
-    triangulate: (engine: EngineName, report: (phase: string, fraction: number) => boolean) => Promise<any>,
+    triangulate: (
+      engine: EngineName,
+      report: (phase: string, fraction: number) => boolean,
+    ) => Promise<any>,
   ): Promise<any> {
     const started = performance.now();
     const info = isDecided ? null : await choose(engine);
@@ -157,12 +186,22 @@ function engineTasks(module: WebAssembly.Module, gpu?: object): ModuleTasks {
 
     async delaunay3d({ points, engine, outputs }, control) {
       const has = (output: Output) => outputs.includes(output);
-      const wanted = new glue.Outputs(has('neighbors'), has('hull'), has('duplicateOf'), has('trace'));
-      const isDecided = engine === 'cpu' || (engine === 'auto' && points.length < 3 * leastGpuPoints);
+      const wanted = new glue.Outputs(
+        has('neighbors'),
+        has('hull'),
+        has('duplicateOf'),
+        has('trace'),
+      );
+      const isDecided =
+        engine === 'cpu' || (engine === 'auto' && points.length < 3 * leastGpuPoints);
       const mesh = await run(points, engine, isDecided, control, (chosen, report) =>
         engines.delaunay3d(points, chosen, wanted, report),
       );
-      const { neighbors = new Int32Array(0), hull = new Uint32Array(0), duplicateOf = new Int32Array(0) } = mesh;
+      const {
+        neighbors = new Int32Array(0),
+        hull = new Uint32Array(0),
+        duplicateOf = new Int32Array(0),
+      } = mesh;
       return { ...mesh, neighbors, hull, duplicateOf };
     },
   };
@@ -178,8 +217,11 @@ function planeTasks(module: WebAssembly.Module, gpu?: object): ModuleTasks {
 
   const handlers: Handlers = {
     delaunay2d({ points, engine }, control) {
-      const isDecided = engine === 'cpu' || (engine === 'auto' && points.length < 2 * leastGpuPoints);
-      return run(points, engine, isDecided, control, (chosen, report) => engines.delaunay2d(points, chosen, report));
+      const isDecided =
+        engine === 'cpu' || (engine === 'auto' && points.length < 2 * leastGpuPoints);
+      return run(points, engine, isDecided, control, (chosen, report) =>
+        engines.delaunay2d(points, chosen, report),
+      );
     },
   };
   return { handlers, memory, dispose: () => void engines.close() };
@@ -220,7 +262,9 @@ function describe({ info, limits }: Adapter): AdapterInfo {
     architecture,
     device,
     description,
-    software: info.isFallbackAdapter === true || software.test([vendor, architecture, device, description].join(' ')),
+    software:
+      info.isFallbackAdapter === true ||
+      software.test([vendor, architecture, device, description].join(' ')),
     maxStorageBufferBindingSize: Math.min(limits.maxStorageBufferBindingSize, limits.maxBufferSize),
   };
 }
@@ -230,12 +274,29 @@ function toolsTasks(module: WebAssembly.Module): ModuleTasks {
   const { memory } = glue.initSync({ module });
 
   function withMesh<R>({ points, mesh }: Tasks['verify']['args'], body: (mesh: any) => R): R {
-    const copy = new glue.Mesh(points, mesh.tetrahedra, mesh.neighbors, mesh.hull, mesh.duplicateOf, mesh.dimension);
+    const copy = new glue.Mesh(
+      points,
+      mesh.tetrahedra,
+      mesh.neighbors,
+      mesh.hull,
+      mesh.duplicateOf,
+      mesh.dimension,
+    );
     return freed(copy, body);
   }
 
-  function withPlaneMesh<R>({ points, mesh }: Tasks['verify2d']['args'], body: (mesh: any) => R): R {
-    const copy = new glue.PlaneMesh(points, mesh.triangles, mesh.halfedges, mesh.hull, mesh.duplicateOf, mesh.dimension);
+  function withPlaneMesh<R>(
+    { points, mesh }: Tasks['verify2d']['args'],
+    body: (mesh: any) => R,
+  ): R {
+    const copy = new glue.PlaneMesh(
+      points,
+      mesh.triangles,
+      mesh.halfedges,
+      mesh.hull,
+      mesh.duplicateOf,
+      mesh.dimension,
+    );
     return freed(copy, body);
   }
 
@@ -272,4 +333,3 @@ export function buffersOf(value: unknown): ArrayBuffer[] {
   visit(value);
   return [...found];
 }
-

@@ -1,10 +1,10 @@
 // The class of the npm package delaunator, on the CPU engine in the calling thread.
 
-import { GdelError, toGdelError, type PlainError } from './errors.js';
+import { runtime } from '#runtime';
+import type { Triangles } from './core.js';
+import { GdelError, type PlainError, toGdelError } from './errors.js';
 import { compiled } from './host.js';
 import { checkCount, nameOf } from './points.js';
-import type { Triangles } from './core.js';
-import { runtime } from '#runtime';
 
 let triangulate: ((points: Float32Array | Float64Array) => Triangles) | undefined;
 let loading: Promise<void> | undefined;
@@ -77,7 +77,8 @@ export class Delaunator<T extends ArrayLike<number> = Float64Array> {
 
   /** Triangulates anew, after the values in {@link coords} were changed. */
   update(): void {
-    if (!triangulate) throw new GdelError('NOT_LOADED', 'before the first triangulation: await Delaunator.load()');
+    if (!triangulate)
+      throw new GdelError('NOT_LOADED', 'before the first triangulation: await Delaunator.load()');
     try {
       Object.assign(this, arraysOf(triangulate(numbers(this.coords))));
     } catch (error) {
@@ -105,7 +106,8 @@ function numbers(coords: ArrayLike<number>): Float32Array | Float64Array {
   const copy = new Float64Array(coords.length);
   for (let i = 0; i < copy.length; i++) {
     const value: unknown = coords[i];
-    if (typeof value !== 'number') throw new GdelError('BAD_INPUT', `coordinate ${i} is ${nameOf(value)}, not a number`);
+    if (typeof value !== 'number')
+      throw new GdelError('BAD_INPUT', `coordinate ${i} is ${nameOf(value)}, not a number`);
     copy[i] = value;
   }
   return copy;

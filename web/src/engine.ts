@@ -44,7 +44,10 @@ export class Engine {
 
   /** As the function {@link delaunay2d}. */
   delaunay2d(points: Points, options?: PlaneOptions): Promise<Mesh2>;
-  delaunay2d<T>(points: ArrayLike<T>, options: PlaneOptions & Pick<AccessorOptions<T>, 'point'>): Promise<Mesh2>;
+  delaunay2d<T>(
+    points: ArrayLike<T>,
+    options: PlaneOptions & Pick<AccessorOptions<T>, 'point'>,
+  ): Promise<Mesh2>;
   delaunay2d(points: unknown, options: PlaneOptions = {}): Promise<Mesh2> {
     return triangulatePlane(this.#host, points, { engine: this.#engine, ...options });
   }
@@ -67,7 +70,8 @@ export async function createEngine(options: EngineOptions = {}): Promise<Engine>
   checkEngine(engine);
   const host = new Host({ gpu, worker });
   try {
-    if (engine !== 'cpu') return new Engine(host, engine, await host.run('open', { engine }, [], {}));
+    if (engine !== 'cpu')
+      return new Engine(host, engine, await host.run('open', { engine }, [], {}));
     // A run on no points shows that the engine works, and where.
     const args = { points: new Float64Array(0), engine, outputs: [] };
     const { thread, whyThread } = await host.run('delaunay3d', args, [], {});
@@ -121,12 +125,20 @@ async function triangulate(host: Host, points: unknown, options: AnyOptions): Pr
   const { signal, onProgress } = options;
   throwIfAborted(signal);
   const outputs = options.outputs ?? DEFAULT_OUTPUTS;
-  const unknown = Array.isArray(outputs) ? outputs.find((output) => !ALL_OUTPUTS.includes(output)) : outputs;
+  const unknown = Array.isArray(outputs)
+    ? outputs.find((output) => !ALL_OUTPUTS.includes(output))
+    : outputs;
   if (unknown !== undefined) {
-    throw new GdelError('BAD_INPUT', `outputs are among ${ALL_OUTPUTS.join(', ')}, not ${String(unknown)}`);
+    throw new GdelError(
+      'BAD_INPUT',
+      `outputs are among ${ALL_OUTPUTS.join(', ')}, not ${String(unknown)}`,
+    );
   }
   const { args, transfer } = await prepare(points, 3, options);
-  const result = await host.run('delaunay3d', { ...args, outputs }, transfer, { signal, onProgress });
+  const result = await host.run('delaunay3d', { ...args, outputs }, transfer, {
+    signal,
+    onProgress,
+  });
   const { stats, thread, whyThread, ...arrays } = result;
   return new Mesh3({ ...arrays, stats: { ...stats, thread, whyThread } }, outputs);
 }
@@ -141,12 +153,21 @@ async function triangulatePlane(host: Host, points: unknown, options: AnyOptions
 }
 
 /** The arguments of a run, checked. Typed arrays are copied before this returns. */
-async function prepare(points: unknown, dimension: number, { engine = 'auto', transfer = false, signal, point }: AnyOptions) {
+async function prepare(
+  points: unknown,
+  dimension: number,
+  { engine = 'auto', transfer = false, signal, point }: AnyOptions,
+) {
   checkEngine(engine);
   if (point !== undefined && typeof point !== 'function') {
     throw new GdelError('BAD_INPUT', 'the option point is a function');
   }
-  const conversion = { dimension, transfer, point: point as AccessorOptions<unknown>['point'] | undefined, signal };
+  const conversion = {
+    dimension,
+    transfer,
+    point: point as AccessorOptions<unknown>['point'] | undefined,
+    signal,
+  };
   const own = await ownCoordinates(points, conversion);
   return { args: { points: own.coordinates, engine }, transfer: own.transfer };
 }

@@ -43,7 +43,11 @@ export class GdelError extends Error {
   /** The point that is to blame, by its index in the input, where there is one. */
   declare readonly index?: number;
 
-  constructor(code: GdelErrorCode, message: string, options: { index?: number; cause?: unknown } = {}) {
+  constructor(
+    code: GdelErrorCode,
+    message: string,
+    options: { index?: number; cause?: unknown } = {},
+  ) {
     super(message, 'cause' in options ? { cause: options.cause } : undefined);
     this.code = code;
     if (options.index !== undefined) this.index = options.index;
@@ -65,13 +69,28 @@ export function toGdelError({ code, message, index }: PlainError): GdelError {
 
 /** What the surface in Rust throws has a `code`; all else is a panic or a trap, which ends the instance. */
 export function toPlainError(thrown: unknown, memoryBytes: number): PlainError {
-  const { code, message, index } = (typeof thrown === 'object' && thrown ? thrown : {}) as Partial<PlainError>;
+  const { code, message, index } = (
+    typeof thrown === 'object' && thrown ? thrown : {}
+  ) as Partial<PlainError>;
   if (typeof code === 'string') {
-    return { code, message: String(message), ...(index === undefined ? {} : { index }), fatal: code === 'BAD_FILE' };
+    return {
+      code,
+      message: String(message),
+      ...(index === undefined ? {} : { index }),
+      fatal: code === 'BAD_FILE',
+    };
   }
   // Rust aborts without a word where an allocation fails: a trap in a memory near its 4 GB is taken for that.
   if (thrown instanceof WebAssembly.RuntimeError && memoryBytes > 3 * 2 ** 30) {
-    return { code: 'OUT_OF_MEMORY', message: `WebAssembly's memory of ${memoryBytes} bytes does not suffice`, fatal: true };
+    return {
+      code: 'OUT_OF_MEMORY',
+      message: `WebAssembly's memory of ${memoryBytes} bytes does not suffice`,
+      fatal: true,
+    };
   }
-  return { code: 'INTERNAL', message: `a defect of gdel-wasm: ${message ?? String(thrown)}`, fatal: true };
+  return {
+    code: 'INTERNAL',
+    message: `a defect of gdel-wasm: ${message ?? String(thrown)}`,
+    fatal: true,
+  };
 }

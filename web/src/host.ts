@@ -1,8 +1,14 @@
 // Where tasks run: one worker, made when it is needed, or the calling thread. One task at a time; others wait.
 
-import { GdelError, toGdelError, type PlainError } from './errors.js';
-import { MODULE_OF, type FromWorker, type ModuleName, type TaskName, type Tasks } from './protocol.js';
 import { runtime } from '#runtime';
+import { GdelError, type PlainError, toGdelError } from './errors.js';
+import {
+  type FromWorker,
+  MODULE_OF,
+  type ModuleName,
+  type TaskName,
+  type Tasks,
+} from './protocol.js';
 import type { WorkerThread } from './runtime.js';
 import type { Progress, TaskOptions } from './types.js';
 
@@ -35,7 +41,9 @@ export function compiled(name: ModuleName): Promise<WebAssembly.Module> {
     module = runtime.compile(name).catch((cause: unknown) => {
       modules.delete(name);
       const why = cause instanceof Error ? cause.message : String(cause);
-      throw new GdelError('LOAD_FAILED', `the WebAssembly module cannot be loaded: ${why}`, { cause });
+      throw new GdelError('LOAD_FAILED', `the WebAssembly module cannot be loaded: ${why}`, {
+        cause,
+      });
     });
     modules.set(name, module);
   }
@@ -81,7 +89,10 @@ export class Host {
       const report = (progress: Progress) => signal?.aborted || onProgress?.(progress);
       try {
         const { thread, whyThread } = connection;
-        return Object.assign(await connection.run(task, args, transfer, report, signal), { thread, whyThread });
+        return Object.assign(await connection.run(task, args, transfer, report, signal), {
+          thread,
+          whyThread,
+        });
       } catch (thrown) {
         const error = thrown as PlainError;
         if (error.fatal) this.#drop(connection);
@@ -94,7 +105,10 @@ export class Host {
 
   dispose(): void {
     this.#disposed = true;
-    void this.#connection?.then((connection) => connection.close(), () => {});
+    void this.#connection?.then(
+      (connection) => connection.close(),
+      () => {},
+    );
     this.#connection = undefined;
   }
 
@@ -138,14 +152,20 @@ export class Host {
 
 function workerConnection(thread: WorkerThread, onDeath: () => void): Connection {
   let next = 0;
-  let pending: { id: number; handle: (message: FromWorker) => void; fail: (error: PlainError) => void } | undefined;
+  let pending:
+    | { id: number; handle: (message: FromWorker) => void; fail: (error: PlainError) => void }
+    | undefined;
   thread.keepAlive(false);
   thread.onMessage((message) => {
     if (message.type !== 'ready' && message.id === pending?.id) pending.handle(message);
   });
   thread.onError((error) => {
     onDeath();
-    pending?.fail({ code: 'INTERNAL', message: `the worker failed: ${error.message}`, fatal: true });
+    pending?.fail({
+      code: 'INTERNAL',
+      message: `the worker failed: ${error.message}`,
+      fatal: true,
+    });
   });
 
   return {
@@ -203,8 +223,12 @@ async function callerConnection(gpu: object | undefined, whyThread: string): Pro
       cores.set(name, makeCore(name, module, gpu));
     },
     run: (task, args, _transfer, onProgress, signal) =>
-      cores.get(MODULE_OF[task])!.run(task, args, { onProgress, isAborted: () => signal?.aborted ?? false }),
-    close: () => cores.forEach((core) => core.dispose()),
+      cores
+        .get(MODULE_OF[task])!
+        .run(task, args, { onProgress, isAborted: () => signal?.aborted ?? false }),
+    close() {
+      for (const core of cores.values()) core.dispose();
+    },
   };
 }
 

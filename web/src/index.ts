@@ -10,7 +10,15 @@ export { createEngine, delaunay2d, delaunay3d, Engine } from './engine.js';
 export { GdelError, type GdelErrorCode } from './errors.js';
 export { Mesh3 } from './mesh.js';
 export { Mesh2 } from './mesh2.js';
-export { generate, generate2d, readPoints, verify, verify2d, type GenerateOptions, type ReadOptions } from './tools.js';
+export {
+  type GenerateOptions,
+  generate,
+  generate2d,
+  type ReadOptions,
+  readPoints,
+  verify,
+  verify2d,
+} from './tools.js';
 export type {
   AccessorOptions,
   AdapterInfo,

@@ -39,45 +39,55 @@ export class Mesh3 {
 
   /** The tetrahedra as VTK's XML unstructured grid (`.vtu`), which ParaView and PyVista read. */
   async toVTU(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('vtu', [], options))['vtu']!;
+    return (await this.#write('vtu', [], options)).vtu!;
   }
 
   /** The hull as Stanford PLY (`.ply`), binary. */
   async toPLY(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('ply', ['hull'], options))['ply']!;
+    return (await this.#write('ply', ['hull'], options)).ply!;
   }
 
   /** The hull as Wavefront OBJ (`.obj`). */
   async toOBJ(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('obj', ['hull'], options))['obj']!;
+    return (await this.#write('obj', ['hull'], options)).obj!;
   }
 
   /** The hull as binary STL (`.stl`), whose numbers are single precision. */
   async toSTL(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('stl', ['hull'], options))['stl']!;
+    return (await this.#write('stl', ['hull'], options)).stl!;
   }
 
   /** The hull as binary glTF 2.0 (`.glb`), whose numbers are single precision: relative to the node's translation where
    * that would lose something. Axes stay as they are, though glTF has y point up. */
   async toGLB(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('glb', ['hull'], options))['glb']!;
+    return (await this.#write('glb', ['hull'], options)).glb!;
   }
 
   /** TetGen's three files: points, tetrahedra and neighbours, counted from 0. */
-  async toTetGen(options: TaskOptions = {}): Promise<{ node: Uint8Array; ele: Uint8Array; neigh: Uint8Array }> {
+  async toTetGen(
+    options: TaskOptions = {},
+  ): Promise<{ node: Uint8Array; ele: Uint8Array; neigh: Uint8Array }> {
     const { node, ele, neigh } = await this.#write('tetgen', ['neighbors'], options);
     return { node: node!, ele: ele!, neigh: neigh! };
   }
 
   /** NumPy's `.npz` with the arrays `points`, `tetrahedra` and `neighbors`. */
   async toNPZ(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('npz', ['neighbors'], options))['npz']!;
+    return (await this.#write('npz', ['neighbors'], options)).npz!;
   }
 
   /** Only what the format needs is copied to the writer. */
-  #write(format: string, needs: readonly Output[], options: TaskOptions): Promise<Record<string, Uint8Array>> {
+  #write(
+    format: string,
+    needs: readonly Output[],
+    options: TaskOptions,
+  ): Promise<Record<string, Uint8Array>> {
     const missing = needs.find((output) => !this.#outputs.includes(output));
-    if (missing) throw new GdelError('BAD_INPUT', `${format} files need '${missing}' among the outputs of the run`);
+    if (missing)
+      throw new GdelError(
+        'BAD_INPUT',
+        `${format} files need '${missing}' among the outputs of the run`,
+      );
     const isHull = needs.includes('hull');
     const mesh = {
       tetrahedra: isHull ? new Uint32Array(0) : this.tetrahedra,

@@ -37,39 +37,41 @@ export class Mesh2 {
 
   /** VTK's XML unstructured grid (`.vtu`), which ParaView and PyVista read. */
   async toVTU(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('vtu', options))['vtu']!;
+    return (await this.#write('vtu', options)).vtu!;
   }
 
   /** Stanford PLY (`.ply`), binary. */
   async toPLY(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('ply', options))['ply']!;
+    return (await this.#write('ply', options)).ply!;
   }
 
   /** Wavefront OBJ (`.obj`). */
   async toOBJ(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('obj', options))['obj']!;
+    return (await this.#write('obj', options)).obj!;
   }
 
   /** STL (`.stl`): binary where single precision holds the coordinates, else text. */
   async toSTL(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('stl', options))['stl']!;
+    return (await this.#write('stl', options)).stl!;
   }
 
   /** Binary glTF 2.0 (`.glb`), whose numbers are single precision: relative to the node's translation where that would lose
    * something. Axes stay as they are, though glTF has y point up. */
   async toGLB(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('glb', options))['glb']!;
+    return (await this.#write('glb', options)).glb!;
   }
 
   /** The three files of the program Triangle: points, triangles and neighbours, counted from 0. */
-  async toTriangle(options: TaskOptions = {}): Promise<{ node: Uint8Array; ele: Uint8Array; neigh: Uint8Array }> {
+  async toTriangle(
+    options: TaskOptions = {},
+  ): Promise<{ node: Uint8Array; ele: Uint8Array; neigh: Uint8Array }> {
     const { node, ele, neigh } = await this.#write('triangle', options);
     return { node: node!, ele: ele!, neigh: neigh! };
   }
 
   /** NumPy's `.npz` with the arrays `points`, `triangles` and `halfedges`. */
   async toNPZ(options: TaskOptions = {}): Promise<Uint8Array> {
-    return (await this.#write('npz', options))['npz']!;
+    return (await this.#write('npz', options)).npz!;
   }
 
   #write(format: string, options: TaskOptions): Promise<Record<string, Uint8Array>> {

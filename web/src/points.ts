@@ -31,13 +31,21 @@ export function ownCoordinates(points: unknown, conversion: Conversion): Own | P
   if ((points instanceof Float32Array || points instanceof Float64Array) && !point) {
     checkTyped(points, dimension);
     if (transfer && points.buffer instanceof ArrayBuffer) return own(moved(points));
-    return points.length <= COPIED_AT_ONCE ? own(points.slice()) : copied(points, conversion.signal);
+    return points.length <= COPIED_AT_ONCE
+      ? own(points.slice())
+      : copied(points, conversion.signal);
   }
   if (ArrayBuffer.isView(points) && !point) {
-    throw new GdelError('BAD_INPUT', `points in one typed array are a Float32Array or a Float64Array, not ${nameOf(points)}`);
+    throw new GdelError(
+      'BAD_INPUT',
+      `points in one typed array are a Float32Array or a Float64Array, not ${nameOf(points)}`,
+    );
   }
   if (!isArrayLike(points)) {
-    throw new GdelError('BAD_INPUT', `points are a typed array or an array of rows, not ${nameOf(points)}`);
+    throw new GdelError(
+      'BAD_INPUT',
+      `points are a typed array or an array of rows, not ${nameOf(points)}`,
+    );
   }
   checkCount(points.length);
   return fromRows(points, conversion);
@@ -63,7 +71,8 @@ async function copied(points: Coordinates, signal: AbortSignal | undefined): Pro
       throwIfAborted(signal);
       since = performance.now();
     }
-    if (points.length !== length) throw new GdelError('BAD_INPUT', 'the points’ buffer was detached while it was copied');
+    if (points.length !== length)
+      throw new GdelError('BAD_INPUT', 'the points’ buffer was detached while it was copied');
     copy.set(points.subarray(at, at + COPIED_AT_ONCE), at);
   }
   return own(copy);
@@ -74,21 +83,33 @@ function checkTyped(points: Coordinates, dimension: number): void {
     // Throws if the buffer was detached, which then has no length left to tell.
     new Uint8Array(points.buffer);
   } catch {
-    throw new GdelError('BAD_INPUT', 'the points’ buffer is detached: it was transferred to someone else');
+    throw new GdelError(
+      'BAD_INPUT',
+      'the points’ buffer is detached: it was transferred to someone else',
+    );
   }
   if (points.length % dimension !== 0) {
-    throw new GdelError('BAD_INPUT', `${points.length} coordinates are not a multiple of ${dimension}`);
+    throw new GdelError(
+      'BAD_INPUT',
+      `${points.length} coordinates are not a multiple of ${dimension}`,
+    );
   }
   checkCount(points.length / dimension);
 }
 
 export function checkCount(count: number): void {
   if (count > MOST_POINTS) {
-    throw new GdelError('TOO_MANY_POINTS', `${count} points are too many: at most ${MOST_POINTS} can be numbered`);
+    throw new GdelError(
+      'TOO_MANY_POINTS',
+      `${count} points are too many: at most ${MOST_POINTS} can be numbered`,
+    );
   }
 }
 
-async function fromRows(rows: ArrayLike<unknown>, { dimension, point, signal }: Conversion): Promise<Own> {
+async function fromRows(
+  rows: ArrayLike<unknown>,
+  { dimension, point, signal }: Conversion,
+): Promise<Own> {
   let coordinates: Float64Array;
   try {
     coordinates = new Float64Array(dimension * rows.length);
@@ -104,12 +125,20 @@ async function fromRows(rows: ArrayLike<unknown>, { dimension, point, signal }: 
     }
     const row = point ? point(rows[i], i) : rows[i];
     if (!isArrayLike(row) || row.length < dimension) {
-      throw new GdelError('BAD_INPUT', `point ${i} is ${nameOf(row)}, not an array of ${dimension} numbers`, { index: i });
+      throw new GdelError(
+        'BAD_INPUT',
+        `point ${i} is ${nameOf(row)}, not an array of ${dimension} numbers`,
+        { index: i },
+      );
     }
     for (let axis = 0; axis < dimension; axis++) {
       const value = row[axis];
       if (typeof value !== 'number') {
-        throw new GdelError('BAD_INPUT', `point ${i}: coordinate ${axis} is ${nameOf(value)}, not a number`, { index: i });
+        throw new GdelError(
+          'BAD_INPUT',
+          `point ${i}: coordinate ${axis} is ${nameOf(value)}, not a number`,
+          { index: i },
+        );
       }
       coordinates[dimension * i + axis] = value;
     }

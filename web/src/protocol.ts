@@ -54,10 +54,16 @@ export interface Tasks {
   };
   generate: { args: { kind: string; count: number; seed: bigint }; result: Float64Array };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };
-  write: { args: { points: Coordinates; mesh: MeshStatement; format: string }; result: Record<string, Uint8Array> };
+  write: {
+    args: { points: Coordinates; mesh: MeshStatement; format: string };
+    result: Record<string, Uint8Array>;
+  };
   verify: { args: { points: Coordinates; mesh: MeshStatement }; result: Report };
   generate2d: { args: { kind: string; count: number; seed: bigint }; result: Float64Array };
-  write2d: { args: { points: Coordinates; mesh: MeshStatement2; format: string }; result: Record<string, Uint8Array> };
+  write2d: {
+    args: { points: Coordinates; mesh: MeshStatement2; format: string };
+    result: Record<string, Uint8Array>;
+  };
   verify2d: { args: { points: Coordinates; mesh: MeshStatement2 }; result: Report2 };
 }
 

@@ -4,7 +4,7 @@ import engine from 'base64:engine';
 import plane from 'base64:plane';
 import tools from 'base64:tools';
 import source from 'text:worker';
-import { whenReady, type Runtime } from './runtime.js';
+import { type Runtime, whenReady } from './runtime.js';
 import { blobWorker } from './web-worker.js';
 import * as code from './worker.js';
 

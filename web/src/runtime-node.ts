@@ -2,7 +2,7 @@
 
 import { readFile } from 'node:fs/promises';
 import { Worker } from 'node:worker_threads';
-import { whenReady, type Runtime } from './runtime.js';
+import { type Runtime, whenReady } from './runtime.js';
 import { wasmUrl } from './wasm-urls.js';
 
 export const runtime: Runtime = {
@@ -12,7 +12,9 @@ export const runtime: Runtime = {
 
   workers: [
     () => {
-      const worker = new Worker(new URL('./worker-node.js', import.meta.url), { name: 'gdel-wasm' });
+      const worker = new Worker(new URL('./worker-node.js', import.meta.url), {
+        name: 'gdel-wasm',
+      });
       return whenReady({
         post: (message, transfer) => worker.postMessage(message, transfer),
         onMessage: (handler) => worker.on('message', handler),

@@ -1,6 +1,6 @@
 // Browsers and Deno: files beside this one.
 
-import { whenReady, type Runtime } from './runtime.js';
+import { type Runtime, whenReady } from './runtime.js';
 import { wasmUrl } from './wasm-urls.js';
 import { blobWorker, webWorker } from './web-worker.js';
 
@@ -17,11 +17,19 @@ export const runtime: Runtime = {
 
   workers: [
     () =>
-      whenReady(webWorker(new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'gdel-wasm' }))),
+      whenReady(
+        webWorker(
+          new Worker(new URL('./worker.js', import.meta.url), {
+            type: 'module',
+            name: 'gdel-wasm',
+          }),
+        ),
+      ),
     // Scripts from another origin, such as a CDN, may not be workers, but their text may.
     async () => {
       const url = new URL('./worker.js', import.meta.url);
-      if (url.origin === globalThis.location?.origin) throw new Error('the worker was blocked or could not be loaded');
+      if (url.origin === globalThis.location?.origin)
+        throw new Error('the worker was blocked or could not be loaded');
       const response = await fetch(url);
       if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
       return whenReady(blobWorker(await response.text()));

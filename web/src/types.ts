@@ -198,7 +198,15 @@ export interface Trace {
 export type Distribution = 'uniform' | 'gaussian' | 'ball' | 'sphere' | 'thin-sphere' | 'grid';
 
 /** The distributions of {@link generate2d}. */
-export type Distribution2 = 'uniform' | 'gaussian' | 'disk' | 'circle' | 'thin-circle' | 'grid' | 'two-lines' | 'clusters';
+export type Distribution2 =
+  | 'uniform'
+  | 'gaussian'
+  | 'disk'
+  | 'circle'
+  | 'thin-circle'
+  | 'grid'
+  | 'two-lines'
+  | 'clusters';
 
 /** Points of a file. */
 export interface PointCloud {

@@ -10,7 +10,9 @@ export function webWorker(worker: Worker): WorkerThread {
         event.preventDefault();
         handler(new Error(event.message || 'the worker was blocked or could not be loaded'));
       });
-      worker.addEventListener('messageerror', () => handler(new Error('a message could not be read')));
+      worker.addEventListener('messageerror', () =>
+        handler(new Error('a message could not be read')),
+      );
     },
     terminate: () => worker.terminate(),
     keepAlive() {},

@@ -1,8 +1,15 @@
 // The worker: one task at a time, each in the core of its wasm module. Also loaded by the page itself where it may have no worker.
 
-import { buffersOf, makeCore, type Core } from './core.js';
+import { buffersOf, type Core, makeCore } from './core.js';
 import type { PlainError } from './errors.js';
-import { MODULE_OF, type FromWorker, type ModuleName, type TaskName, type Tasks, type ToWorker } from './protocol.js';
+import {
+  type FromWorker,
+  MODULE_OF,
+  type ModuleName,
+  type TaskName,
+  type Tasks,
+  type ToWorker,
+} from './protocol.js';
 
 export { makeCore, makeTriangulator } from './core.js';
 
@@ -20,7 +27,12 @@ export function serve(port: Port): void {
   async function run(id: number, task: TaskName, args: Tasks[TaskName]['args']) {
     try {
       const core = cores.get(MODULE_OF[task]);
-      if (!core) throw { code: 'INTERNAL', message: `no module for ${task} was loaded`, fatal: true } satisfies PlainError;
+      if (!core)
+        throw {
+          code: 'INTERNAL',
+          message: `no module for ${task} was loaded`,
+          fatal: true,
+        } satisfies PlainError;
       const result = await core.run(task, args, {
         onProgress: (progress) => port.post({ type: 'progress', id, progress }, []),
         isAborted: () => aborted.has(id),

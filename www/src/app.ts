@@ -6,11 +6,20 @@ import { type Drawing, type DrawRequest, MOST_POINTS_TO_RECORD, type Summary } f
 import { type Dimension, type Source, titleOf } from './model/source';
 import type { Progress } from './model/worker';
 import type { Page, Part } from './page';
-import { colorFor, defaults, filterFor, fromHash, type Settings, toHash, type Tool, upFor } from './settings';
-import { showBusy } from './ui/busy';
+import {
+  colorFor,
+  defaults,
+  filterFor,
+  fromHash,
+  type Settings,
+  type Tool,
+  toHash,
+  upFor,
+} from './settings';
+import { showBusy, whileBusy } from './ui/busy';
 import { comparePanel } from './ui/comparePanel';
-import { byId } from './ui/dom';
 import { dimensionSwitch } from './ui/dimension';
+import { byId } from './ui/dom';
 import { wireDrop } from './ui/drop';
 import { editor } from './ui/editor';
 import { wireKeyboard } from './ui/keyboard';
@@ -59,21 +68,32 @@ export class App implements Page {
     wireDrop(this);
     wireShare(this);
     this.parts = [
-      dimensionSwitch(this), pointsPanel(this), viewPanel(this), runPanel(this), comparePanel(this), usePanel(this), pointer(this),
+      dimensionSwitch(this),
+      pointsPanel(this),
+      viewPanel(this),
+      runPanel(this),
+      comparePanel(this),
+      usePanel(this),
+      pointer(this),
       // Before the keys of the drawing: a point that is held takes the arrow keys.
-      editor(this), live(this),
+      editor(this),
+      live(this),
     ];
     wireKeyboard(this);
     byId('cancel').addEventListener('click', () => this.model.cancel());
     window.addEventListener('hashchange', () => this.followHash());
     this.tell();
-    void this.startViewer();
+    void whileBusy(this.startViewer());
     void this.run(this.settings.source, this.settings);
   }
 
   run(source: Source, settings: Partial<Settings> = {}): Promise<boolean> {
     const { edits = [], engine = this.settings.engine } = settings;
-    return this.newRun(source, { edits, ...settings }, (onProgress) => this.model.run(source, edits, engine, onProgress));
+    return whileBusy(
+      this.newRun(source, { edits, ...settings }, (onProgress) =>
+        this.model.run(source, edits, engine, onProgress),
+      ),
+    );
   }
 
   goTo(dimension: Dimension): void {
@@ -83,20 +103,37 @@ export class App implements Page {
     // A scan can be looked at in both.
     if (settings.source.kind === 'file') {
       const source: Source = { ...settings.source, dimension };
-      Object.assign(to, { source, edits: [], filter: filterFor(source), color: colorFor(source), up: upFor(source), alpha: null });
+      Object.assign(to, {
+        source,
+        edits: [],
+        filter: filterFor(source),
+        color: colorFor(source),
+        up: upFor(source),
+        alpha: null,
+      });
     }
     void this.run(to.source, { ...to, engine: settings.engine });
   }
 
-  async edit(edits: readonly Edit[]): Promise<void> {
+  edit(edits: readonly Edit[]): Promise<void> {
     this.settings.edits = edits;
-    if (this.editing) return;
+    return this.editing ? Promise.resolve() : whileBusy(this.followEdits());
+  }
+
+  private async followEdits(): Promise<void> {
     this.editing = true;
     const run = this.lastRun;
     try {
-      for (let done: readonly Edit[] | null = null; done !== this.settings.edits && run === this.lastRun; ) {
+      for (
+        let done: readonly Edit[] | null = null;
+        done !== this.settings.edits && run === this.lastRun;
+      ) {
         done = this.settings.edits;
-        const { summary, drawing, positions, hull } = await this.model.edit(done, this.settings.engine, this.request());
+        const { summary, drawing, positions, hull } = await this.model.edit(
+          done,
+          this.settings.engine,
+          this.request(),
+        );
         if (run !== this.lastRun) return;
         this.summary = summary;
         this.drawn = JSON.stringify(this.request());
@@ -109,6 +146,7 @@ export class App implements Page {
         for (const part of this.parts) part.edited?.(summary);
       }
       this.tell();
+      await this.onScreen();
     } catch (error) {
       if (run === this.lastRun) showMessage((error as Error).message);
     } finally {
@@ -117,7 +155,9 @@ export class App implements Page {
   }
 
   record(): Promise<boolean> {
-    return this.newRun(this.settings.source, {}, (onProgress) => this.model.record(onProgress));
+    return whileBusy(
+      this.newRun(this.settings.source, {}, (onProgress) => this.model.record(onProgress)),
+    );
   }
 
   private async newRun(
@@ -131,13 +171,20 @@ export class App implements Page {
     // Progress has a port of its own: the last of it may come after the result.
     let running = true;
     try {
-      const summary = await start(Comlink.proxy((progress) => running && isLast() && showBusy(progress)));
+      const summary = await start(
+        Comlink.proxy((progress) => running && isLast() && showBusy(progress)),
+      );
       if (!isLast()) return false;
       const before = this.settings;
       if (source !== before.source) {
         if (source.dimension !== before.source.dimension) this.left = { ...before };
         if (source.kind !== before.source.kind) before.color = colorFor(source);
-        Object.assign(before, { source, filter: filterFor(source), up: upFor(source), alpha: null });
+        Object.assign(before, {
+          source,
+          filter: filterFor(source),
+          up: upFor(source),
+          alpha: null,
+        });
       }
       Object.assign(before, settings);
       this.summary = summary;
@@ -163,7 +210,12 @@ export class App implements Page {
 
   change(settings: Partial<Settings>): void {
     Object.assign(this.settings, settings);
-    if ((settings.color === 'phase' || settings.layers?.facets) && this.summary && !this.summary.trace && this.canRecord) {
+    if (
+      (settings.color === 'phase' || settings.layers?.facets) &&
+      this.summary &&
+      !this.summary.trace &&
+      this.canRecord
+    ) {
       void this.record();
     }
     if (settings.camera && this.viewer) this.viewer.pose = settings.camera;
@@ -175,11 +227,15 @@ export class App implements Page {
     showResult(this.summary!);
     showStrip(this.summary!);
     this.drawn = '';
-    void this.newMesh().then(() => this.draw());
+    void whileBusy(this.newMesh().then(() => this.draw()));
   }
 
   private get canRecord(): boolean {
-    return this.summary!.space === 3 && this.summary!.dimension === 3 && this.summary!.points <= MOST_POINTS_TO_RECORD;
+    return (
+      this.summary!.space === 3 &&
+      this.summary!.dimension === 3 &&
+      this.summary!.points <= MOST_POINTS_TO_RECORD
+    );
   }
 
   showRound(round: number | null): void {
@@ -198,10 +254,15 @@ export class App implements Page {
       this.viewer = await Viewer.create(
         byId<HTMLCanvasElement>('canvas'),
         () => this.cameraMoved(),
-        () => showMessage('The graphics card was reset, and the drawing with it. Reload the page to see it again.'),
+        () =>
+          showMessage(
+            'The graphics card was reset, and the drawing with it. Reload the page to see it again.',
+          ),
       );
     } catch {
-      showMessage('This browser can draw neither with WebGPU nor with WebGL 2. Triangulating and downloading work all the same.');
+      showMessage(
+        'This browser can draw neither with WebGPU nor with WebGL 2. Triangulating and downloading work all the same.',
+      );
       return;
     }
     paint(this.viewer);
@@ -225,12 +286,25 @@ export class App implements Page {
   }
 
   /** Draws what the settings say. Of settings that change while a drawing is made, only the last are drawn. */
-  private async draw(): Promise<void> {
+  private draw(): Promise<void> {
     this.look();
+    return whileBusy(this.followSettings().then(() => this.onScreen()));
+  }
+
+  /** Resolves once the browser shows what the viewer was given. */
+  private async onScreen(): Promise<void> {
+    await this.viewer?.drawn();
+  }
+
+  private async followSettings(): Promise<void> {
     if (this.drawing || this.live || !this.viewer || !this.summary) return;
     this.drawing = true;
     try {
-      for (let request = this.request(); JSON.stringify(request) !== this.drawn; request = this.request()) {
+      for (
+        let request = this.request();
+        JSON.stringify(request) !== this.drawn;
+        request = this.request()
+      ) {
         this.drawn = JSON.stringify(request);
         this.show(await this.model.draw(request));
       }
@@ -255,12 +329,21 @@ export class App implements Page {
 
   private request(): DrawRequest {
     const { normal, keep, color, apart, layers } = this.settings;
-    return { filter: this.filter, plane: { normal, keep }, color, pieces: apart > 0, round: this.round, voronoi: layers.voronoi };
+    return {
+      filter: this.filter,
+      plane: { normal, keep },
+      color,
+      pieces: apart > 0,
+      round: this.round,
+      voronoi: layers.voronoi,
+    };
   }
 
   private get filter(): Filter {
     const { filter, alpha } = this.settings;
-    return filter === 'all' ? { kind: 'all' } : { kind: filter, alpha: alpha ?? this.summary!.alpha.typical };
+    return filter === 'all'
+      ? { kind: 'all' }
+      : { kind: filter, alpha: alpha ?? this.summary!.alpha.typical };
   }
 
   look(): void {
@@ -281,7 +364,8 @@ export class App implements Page {
     viewer.setVisible('hullEdges', layers.hull);
     viewer.setVisible('facets', layers.facets);
     viewer.setVisible('points', layers.points);
-    viewer.look.pointsEverywhere.value = layers.simplices && !flat && this.summary?.dimension === 3 ? 0 : 1;
+    viewer.look.pointsEverywhere.value =
+      layers.simplices && !flat && this.summary?.dimension === 3 ? 0 : 1;
   }
 
   private cameraMoved(): void {
@@ -293,13 +377,17 @@ export class App implements Page {
   private rememberInHash(): void {
     clearTimeout(this.hashTimer);
     // Browsers allow only so many changes of the address a second.
-    this.hashTimer = window.setTimeout(() => history.replaceState(null, '', `#${toHash(this.settings)}`), 300);
+    this.hashTimer = window.setTimeout(
+      () => history.replaceState(null, '', `#${toHash(this.settings)}`),
+      300,
+    );
   }
 
   /** The visitor followed a link to another view of this page. */
   private followHash(): void {
     const settings = fromHash(location.hash);
-    const pointsOf = ({ source, edits, engine }: Settings) => JSON.stringify([source, edits, engine]);
+    const pointsOf = ({ source, edits, engine }: Settings) =>
+      JSON.stringify([source, edits, engine]);
     if (pointsOf(settings) === pointsOf(this.settings)) this.change(settings);
     else void this.run(settings.source, settings);
   }
@@ -308,7 +396,8 @@ export class App implements Page {
 /** What to say when a run ends without a mesh. */
 function complaint(source: Source, error: unknown): string {
   const { name, message } = error as Error;
-  if (name === 'ABORTED' || name === 'AbortError') return 'Cancelled. What you see is the triangulation before.';
+  if (name === 'ABORTED' || name === 'AbortError')
+    return 'Cancelled. What you see is the triangulation before.';
   const subject = source.kind === 'file' ? `${titleOf(source)}: ` : '';
   return `${subject}${message}`;
 }

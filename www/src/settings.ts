@@ -2,7 +2,14 @@ import type { Filter } from './geometry/filter';
 import type { ColorBy } from './geometry/scale';
 import { type Edit, editsFromText, editsToText } from './model/edits';
 import type { Engine } from './model/model';
-import { type Dimension, type Distribution, DISTRIBUTIONS, type Sample, SAMPLES, type Source } from './model/source';
+import {
+  DISTRIBUTIONS,
+  type Dimension,
+  type Distribution,
+  SAMPLES,
+  type Sample,
+  type Source,
+} from './model/source';
 import { COLOR_MAPS, type ColorMapName } from './view/colormap';
 import type { CameraPose } from './view/viewer';
 
@@ -49,11 +56,16 @@ export function colorFor(source: Source): ColorBy {
 /** Scans of the land have z up, models y. */
 export function upFor(source: Source): Up {
   const land = /\.(las|laz|pcd|pts|xyz|asc|txt|csv|tsv)$/i;
-  return source.kind === 'file' && source.dimension === 3 && land.test(source.file.name) ? 'z' : 'y';
+  return source.kind === 'file' && source.dimension === 3 && land.test(source.file.name)
+    ? 'z'
+    : 'y';
 }
 
 /** Where the camera is at first: beside a model, above the plane. */
-export const HOME: Record<Dimension, CameraPose> = { 3: [0.5, 0.24, 2.85, 0, 0, 0], 2: [0, 0, 2.7, 0, 0, 0] };
+export const HOME: Record<Dimension, CameraPose> = {
+  3: [0.5, 0.24, 2.85, 0, 0, 0],
+  2: [0, 0, 2.7, 0, 0, 0],
+};
 
 /** What a visitor sees first, in space or in the plane. */
 export function defaults(dimension: Dimension = 3): Settings {
@@ -73,7 +85,14 @@ export function defaults(dimension: Dimension = 3): Settings {
     keep: 0.5,
     up: 'y',
     apart: 0,
-    layers: { simplices: true, edges: true, points: true, hull: dimension === 2, facets: false, voronoi: dimension === 2 },
+    layers: {
+      simplices: true,
+      edges: true,
+      points: true,
+      hull: dimension === 2,
+      facets: false,
+      voronoi: dimension === 2,
+    },
     camera: [...HOME[dimension]],
   };
 }
@@ -85,7 +104,8 @@ export function toHash(settings: Settings): string {
   const hash = new URLSearchParams();
   if (source.dimension === 2) hash.set('dim', '2');
   if (source.kind === 'sample') hash.set('points', source.sample);
-  if (source.kind === 'generator') hash.set('points', [source.distribution, source.count, source.seed].join('_'));
+  if (source.kind === 'generator')
+    hash.set('points', [source.distribution, source.count, source.seed].join('_'));
   if (source.kind === 'generator' && edits.length > 0) hash.set('edits', editsToText(edits));
   start.filter = filterFor(source);
   start.up = upFor(source);
@@ -98,7 +118,8 @@ export function toHash(settings: Settings): string {
   if (cut !== list([...start.normal, start.keep])) hash.set('cut', cut);
   if (settings.apart !== 0) hash.set('apart', short(settings.apart));
   const layers = LAYERS.filter((layer) => settings.layers[layer]).join('_');
-  if (layers !== LAYERS.filter((layer) => start.layers[layer]).join('_')) hash.set('layers', layers);
+  if (layers !== LAYERS.filter((layer) => start.layers[layer]).join('_'))
+    hash.set('layers', layers);
   const camera = list(settings.camera);
   if (camera !== list(start.camera)) hash.set('camera', camera);
   return hash.toString();
@@ -117,7 +138,11 @@ export function fromHash(hash: string): Settings {
   settings.engine = choice('engine', ['auto', 'gpu', 'cpu'], settings.engine);
   settings.color = choice('color', colorsIn(dimension), colorFor(settings.source));
   settings.map = choice('map', Object.keys(COLOR_MAPS) as ColorMapName[], settings.map);
-  settings.filter = choice('filter', dimension === 2 ? ['all', 'alpha'] : ['all', 'alpha', 'carve'], filterFor(settings.source));
+  settings.filter = choice(
+    'filter',
+    dimension === 2 ? ['all', 'alpha'] : ['all', 'alpha', 'carve'],
+    filterFor(settings.source),
+  );
   settings.up = choice('up', ['y', 'z'], upFor(settings.source));
   const alpha = Number(given.get('alpha'));
   if (alpha > 0 && alpha < Infinity) settings.alpha = alpha;
@@ -137,23 +162,36 @@ export function fromHash(hash: string): Settings {
 
 /** The quantities that there are in space or in the plane. */
 export function colorsIn(dimension: Dimension): ColorBy[] {
-  return dimension === 3 ? ['quality', 'volume', 'circumradius', 'phase'] : ['quality', 'volume', 'circumradius'];
+  return dimension === 3
+    ? ['quality', 'volume', 'circumradius', 'phase']
+    : ['quality', 'volume', 'circumradius'];
 }
 
 function sourceFrom(text: string | null, dimension: Dimension): Source | null {
   if (!text) return null;
-  if (dimension === 3 && Object.hasOwn(SAMPLES, text)) return { kind: 'sample', dimension, sample: text as Sample };
+  if (dimension === 3 && Object.hasOwn(SAMPLES, text))
+    return { kind: 'sample', dimension, sample: text as Sample };
   const [distribution, count, seed] = text.split('_');
   const points = Number(count);
   const least = dimension === 3 ? 1 : 0;
   if (!Object.hasOwn(DISTRIBUTIONS[dimension], distribution) || !count) return null;
   if (!Number.isSafeInteger(points) || points < least || points > MOST_POINTS) return null;
   const start = Number(seed);
-  return generator(dimension, distribution, points, Number.isSafeInteger(start) && start >= 0 ? start : 0);
+  return generator(
+    dimension,
+    distribution,
+    points,
+    Number.isSafeInteger(start) && start >= 0 ? start : 0,
+  );
 }
 
 /** The source with a distribution that the dimension has. */
-export function generator(dimension: Dimension, distribution: string, count: number, seed: number): Source {
+export function generator(
+  dimension: Dimension,
+  distribution: string,
+  count: number,
+  seed: number,
+): Source {
   return dimension === 3
     ? { kind: 'generator', dimension, distribution: distribution as Distribution<3>, count, seed }
     : { kind: 'generator', dimension, distribution: distribution as Distribution<2>, count, seed };

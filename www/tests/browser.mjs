@@ -1,9 +1,11 @@
 // What all tests of the page need: the built page behind a static server, and Chromium with or without WebGPU.
 
+import { execFileSync } from 'node:child_process';
 import { mkdirSync } from 'node:fs';
+import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { chromium } from 'playwright-core';
 import { preview } from 'vite';
+import { WEBGPU as COMPUTE, launchChromium } from '../../tests/web/browsers.mjs';
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 
@@ -12,51 +14,75 @@ mkdirSync(SCREENSHOTS, { recursive: true });
 
 /** Serves www/dist. Resolves to its address and how to end it. */
 export async function serve() {
-  const server = await preview({ root: here('..'), preview: { port: 0, host: '127.0.0.1' }, logLevel: 'error' });
-  return { url: server.resolvedUrls.local[0].replace('localhost', '127.0.0.1'), close: () => server.close() };
+  const server = await preview({
+    root: here('..'),
+    preview: { port: 0, host: '127.0.0.1' },
+    logLevel: 'error',
+  });
+  return {
+    url: server.resolvedUrls.local[0].replace('localhost', '127.0.0.1'),
+    close: () => server.close(),
+  };
 }
-
-const FLAGS = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
 
 // SwiftShader, Chromium's software rasteriser. Without its Vulkan, headless Chromium cannot show what WebGPU draws.
 const WEBGPU = [
-  '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--enable-features=Vulkan', '--use-vulkan=swiftshader',
+  ...COMPUTE,
+  '--enable-features=Vulkan',
+  '--use-vulkan=swiftshader',
   '--use-angle=vulkan',
 ];
 
 export function launch({ webgpu = true } = {}) {
-  return chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: [...FLAGS, ...(webgpu ? WEBGPU : ['--enable-unsafe-swiftshader'])],
-  });
+  return launchChromium(webgpu ? WEBGPU : ['--enable-unsafe-swiftshader']);
 }
 
-/** Opens the page and waits for the first drawing. Collects the errors that the page does not handle. */
-export async function open(browser, url, options = {}) {
+/** How long a page may take for one thing before it counts as hung. No machine needs nearly as long. */
+const HANG = 300_000;
+
+/** Opens the page and waits for the first drawing. Collects the errors that the page does not handle, and the paths of all files that it loads. */
+export async function open(browser, url, { hang = HANG, ...options } = {}) {
   // A context of its own: axe needs one, and no visit sees what another left.
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, colorScheme: 'light', ...options });
+  const context = await browser.newContext({
+    viewport: { width: 1440, height: 900 },
+    colorScheme: 'light',
+    ...options,
+  });
   const page = await context.newPage();
-  page.setDefaultTimeout(120_000);
+  page.setDefaultTimeout(hang);
   page.problems = [];
+  page.files = new Set();
+  page.on('response', (response) => page.files.add(new URL(response.url()).pathname));
   page.on('pageerror', (error) => page.problems.push(error.stack ?? error.message));
   page.on('console', (message) => message.type() === 'error' && page.problems.push(message.text()));
   await page.goto(url);
-  await drawn(page);
+  await settled(page);
   return page;
 }
 
-/** The page has drawn what its last run gave. Asked by the clock: a page that is new to a busy machine may get no frame for long. */
-export async function drawn(page) {
-  const isDrawn = () => document.querySelector('#shown').textContent !== '' && document.querySelector('#busy').hidden;
-  await page.waitForFunction(isDrawn, undefined, { polling: 100 });
+/**
+ * Waits until the page has done what it was asked to do: what it says and what it draws belong to the last request. Handlers
+ * of events mark the page as busy before they return, so this can be called right after an event.
+ */
+export async function settled(page) {
+  await page.locator('#stage[aria-busy="false"]').waitFor({ state: 'attached' });
+}
+
+/**
+ * Waits for a condition on something that does not make the page busy: its address, a chart, the live mode. Asks by the
+ * clock, because a page that has nothing to draw gets no frames.
+ */
+export async function until(page, condition, argument) {
+  await page.waitForFunction(condition, argument, { polling: 50 });
 }
 
 /** The numbers in a text, without their commas. */
-export const numbers = (text) => (text.match(/\d[\d,.]*/g) ?? []).map((n) => Number(n.replaceAll(',', '')));
+export const numbers = (text) =>
+  (text.match(/\d[\d,.]*/g) ?? []).map((n) => Number(n.replaceAll(',', '')));
 
 export const text = (page, id) => page.locator(`#${id}`).textContent();
 
-/** How many tetrahedra are shown, and of how many. */
+/** How many simplices are shown, and of how many. */
 export async function shown(page) {
   const found = numbers(await text(page, 'shown'));
   return { shown: found[0], total: found.at(-1) };
@@ -72,25 +98,37 @@ export async function slide(page, id, value) {
     slider.value = String(value);
     slider.dispatchEvent(new Event('input', { bubbles: true }));
   }, value);
+  await settled(page);
 }
 
 /** Chooses a radio button, whose own box is not to be seen. */
 export async function choose(page, name, value) {
   await page.locator(`input[name="${name}"][value="${value}"]`).evaluate((radio) => radio.click());
+  await settled(page);
 }
 
-/** Generates points with a given engine, through the panel. */
-export async function generate(page, distribution, points, { engine = 'auto', wait = true } = {}) {
+/** Chooses what the simplices are coloured by. */
+export async function colorBy(page, color) {
+  await tab(page, 'view');
+  await page.selectOption('#color', color);
+  await settled(page);
+}
+
+/** Asks the panel for generated points, without waiting for them. */
+export async function request(page, distribution, points) {
   await tab(page, 'points');
-  if (!(await page.isChecked(`input[name=engine][value=${engine}]`))) {
-    await choose(page, 'engine', engine);
-    await drawn(page);
-  }
   await page.selectOption('#distribution', distribution);
   await page.fill('#number', String(points));
   await page.click('#generator button[type=submit]');
-  if (wait) await page.waitForFunction((n) => document.querySelector('#count').textContent.startsWith(`${n} points`), points.toLocaleString('en'));
-  if (wait) await drawn(page);
+}
+
+/** Generates points with a given engine, through the panel. */
+export async function generate(page, distribution, points, { engine = 'auto' } = {}) {
+  await tab(page, 'points');
+  if (!(await page.isChecked(`input[name=engine][value=${engine}]`)))
+    await choose(page, 'engine', engine);
+  await request(page, distribution, points);
+  await settled(page);
 }
 
 /** Drops a file on the page. */
@@ -105,11 +143,66 @@ export async function drop(page, name, bytes) {
   );
   await page.dispatchEvent('#stage', 'dragover', { dataTransfer: transfer });
   await page.dispatchEvent('#stage', 'drop', { dataTransfer: transfer });
+  await settled(page);
 }
 
-/** Saves a picture of the page. */
+/** Clicks on a button that copies something, and returns that. */
+export async function copied(page, button) {
+  await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+  await page.evaluate(() => navigator.clipboard.writeText(''));
+  await page.click(button);
+  await until(page, async () => (await navigator.clipboard.readText()) !== '');
+  return page.evaluate(() => navigator.clipboard.readText());
+}
+
+/** Runs the points on all engines and returns what the page says of them. */
+export async function compare(page) {
+  await tab(page, 'compare');
+  await page.click('#compare-run');
+  await until(page, () => document.querySelector('#compare-run').textContent === 'Run all engines');
+  return text(page, 'times-note');
+}
+
+/** Has the mesh verified. Resolves to how many checks passed and failed. */
+export async function prove(page) {
+  await tab(page, 'compare');
+  await page.click('#verify-run');
+  await page.locator('#verify-run:enabled').waitFor();
+  const [passed, failed] = await Promise.all(
+    ['pass', 'fail'].map((verdict) => page.locator(`#verdicts .${verdict}`).count()),
+  );
+  return { note: await text(page, 'verify-note'), passed, failed };
+}
+
+/** Downloads the mesh in one format into a folder. Resolves to the paths of its files. */
+export async function save(page, format, folder, files = 1) {
+  const downloads = [];
+  const all = new Promise((resolve) => {
+    page.on('download', function listen(download) {
+      if (downloads.push(download) < files) return;
+      page.off('download', listen);
+      resolve();
+    });
+  });
+  await page.getByRole('button', { name: format, exact: true }).click();
+  await all;
+  const paths = downloads.map((download) => join(folder, download.suggestedFilename()));
+  await Promise.all(downloads.map((download, i) => download.saveAs(paths[i])));
+  return paths;
+}
+
+/** Runs the command line, as scripts/test.sh has built it, and fails when it does. */
+export function gdel(...args) {
+  const [command, ...first] = process.env.GDEL
+    ? [process.env.GDEL]
+    : ['cargo', 'run', '--quiet', '--locked', '--bin', 'gdel', '--'];
+  execFileSync(command, [...first, ...args], {
+    cwd: here('../..'),
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
+}
+
+/** Saves a picture of the page, with its transitions ended. */
 export async function pictureOf(page, name) {
-  // Fonts and transitions settle.
-  await page.waitForTimeout(400);
-  return page.screenshot({ path: `${SCREENSHOTS}${name}.png` });
+  return page.screenshot({ path: `${SCREENSHOTS}${name}.png`, animations: 'disabled' });
 }

@@ -1,11 +1,11 @@
-// What the first view may weigh. How long it may take is in slow/, for a machine that has nothing else to do.
+// What the first view may weigh. How long it takes is measured by benches/js/page.mjs.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { drawn, launch, serve } from './browser.mjs';
+import { launch, open, serve } from './browser.mjs';
 
 const dist = fileURLToPath(new URL('../dist/', import.meta.url));
 
@@ -21,16 +21,10 @@ after(async () => {
 });
 
 test('the first view takes less than 500 kB', async () => {
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 } });
-  const page = await context.newPage();
-  page.setDefaultTimeout(120_000);
-  const files = new Set();
-  page.on('response', (response) => files.add(new URL(response.url()).pathname));
-  await page.goto(server.url);
-  await drawn(page);
-  await context.close();
-  const counted = [...files].filter((path) => !/bunny|viewer|three/.test(path));
-  const kilobytes = (path) => gzipSync(readFileSync(dist + (path === '/' ? 'index.html' : path.slice(1)))).length / 1e3;
+  const page = await open(browser, server.url);
+  const counted = [...page.files].filter((path) => !/bunny|viewer|three/.test(path));
+  const kilobytes = (path) =>
+    gzipSync(readFileSync(dist + (path === '/' ? 'index.html' : path.slice(1)))).length / 1e3;
   let sum = 0;
   for (const path of counted.sort()) {
     console.log(`${kilobytes(path).toFixed(1).padStart(8)} kB ${path}`);

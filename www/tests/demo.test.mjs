@@ -1,12 +1,33 @@
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import AxeBuilder from '@axe-core/playwright';
-import { choose, drawn, drop, generate, launch, numbers, open, pictureOf, serve, shown, slide, tab, text } from './browser.mjs';
+import {
+  choose,
+  colorBy,
+  compare,
+  copied,
+  drop,
+  gdel,
+  generate,
+  launch,
+  numbers,
+  open,
+  pictureOf,
+  prove,
+  request,
+  save,
+  serve,
+  settled,
+  shown,
+  slide,
+  tab,
+  text,
+  until,
+} from './browser.mjs';
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
 const bunny = readFileSync(join(root, 'tests/data/bunny.ply'));
@@ -35,33 +56,34 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
 
   test('says that coplanar points have no tetrahedra, and goes on', async () => {
     await drop(page, 'flat.xyz', '0 0 0\n1 0 0\n0 1 0\n1 1 0\n');
-    await page.waitForFunction(() => document.querySelector('#count').textContent.includes('in one plane'));
+    assert.match(await text(page, 'count'), /in one plane/);
     await pictureOf(page, 'flat');
   });
 
   test('cuts, colours and pulls apart', async () => {
     await generate(page, 'uniform', 5000);
     await slide(page, 'keep', 1);
-    await page.waitForFunction(() => document.querySelector('#shown').textContent.startsWith('all'));
+    assert.match(await text(page, 'shown'), /^all/);
     await slide(page, 'keep', 0.5);
-    await page.waitForFunction(() => document.querySelector('#shown').textContent.includes(' of '));
     const half = await shown(page);
     assert.ok(half.shown > 0.4 * half.total && half.shown < 0.6 * half.total);
 
-    await tab(page, 'view');
-    for (const [color, title] of [['quality', 'Radius ratio'], ['volume', 'Volume'], ['circumradius', 'Circumradius']]) {
-      await page.selectOption('#color', color);
-      await page.waitForFunction((title) => document.querySelector('#legend-title').textContent.startsWith(title), title);
+    for (const [color, title] of [
+      ['quality', 'Radius ratio'],
+      ['volume', 'Volume'],
+      ['circumradius', 'Circumradius'],
+    ]) {
+      await colorBy(page, color);
+      assert.ok((await text(page, 'legend-title')).startsWith(title));
       await pictureOf(page, `colour-${color}`);
     }
     await slide(page, 'apart', 0.4);
-    await drawn(page);
     await pictureOf(page, 'apart');
     await slide(page, 'apart', 0);
 
     await choose(page, 'filter', 'alpha');
     await slide(page, 'alpha', 0.3);
-    await page.waitForFunction((all) => !document.querySelector('#shown').textContent.includes(all), half.shown.toLocaleString('en'));
+    assert.notEqual((await shown(page)).shown, half.shown);
     await pictureOf(page, 'alpha');
   });
 
@@ -77,27 +99,25 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await page.focus('#canvas');
     const before = page.url();
     for (let i = 0; i < 5; i++) await page.keyboard.press('ArrowLeft');
-    await page.waitForFunction((before) => location.href !== before, before);
+    await until(page, (before) => location.href !== before, before);
     assert.match(page.url(), /camera=/);
     await page.keyboard.press('[');
-    await page.waitForFunction(() => location.hash.includes('cut='));
+    await until(page, () => location.hash.includes('cut='));
   });
 
   test('takes a dropped scan', async () => {
     await drop(page, 'scan.ply', bunny);
-    await page.waitForFunction(() => document.querySelector('#count').textContent.startsWith('35,947'));
-    await drawn(page);
+    assert.match(await text(page, 'count'), /^35,947 /);
     assert.equal((await shown(page)).total, 246_218);
   });
 
   test('says what is wrong with a broken file, and goes on', async () => {
     await drop(page, 'broken.ply', bunny.subarray(0, 5000));
-    await page.locator('#message').waitFor();
-    const message = await text(page, 'message-text');
-    assert.match(message, /^broken\.ply: .{10,}/);
+    assert.ok(await page.locator('#message').isVisible());
+    assert.match(await text(page, 'message-text'), /^broken\.ply: .{10,}/);
     await pictureOf(page, 'broken-file');
     await drop(page, 'picture.jpg', Buffer.from([255, 216, 255]));
-    await page.waitForFunction(() => document.querySelector('#message-text').textContent.startsWith('picture.jpg'));
+    assert.match(await text(page, 'message-text'), /^picture\.jpg/);
     await page.click('#message-close');
     await generate(page, 'gaussian', 1000);
     assert.ok(await page.locator('#message').isHidden());
@@ -105,9 +125,9 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
 
   test('can be cancelled', async () => {
     const before = await text(page, 'count');
-    await generate(page, 'uniform', 2_000_000, { wait: false });
+    await request(page, 'uniform', 2_000_000);
     await page.locator('#cancel').click();
-    await page.locator('#message').waitFor();
+    await settled(page);
     assert.match(await text(page, 'message-text'), /^Cancelled/);
     assert.equal(await text(page, 'count'), before);
     assert.ok(await page.locator('#busy').isHidden());
@@ -115,14 +135,10 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
 
   test('makes a link that shows the same', async () => {
     await generate(page, 'thin-sphere', 2000);
-    await tab(page, 'view');
-    await page.selectOption('#color', 'volume');
+    await colorBy(page, 'volume');
     await slide(page, 'keep', 0.7);
     await choose(page, 'normal', 'Y');
-    await page.waitForTimeout(600);
-    await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
-    await page.click('#share');
-    const link = await page.evaluate(() => navigator.clipboard.readText());
+    const link = await copied(page, '#share');
     assert.match(link, /thin-sphere_2000/);
     const other = await open(browser, link);
     for (const id of ['shown', 'count', 'legend-title', 'legend-low', 'legend-high']) {
@@ -134,18 +150,14 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
 
   test('compares engines and proves the mesh', async () => {
     await generate(page, 'grid', 3000);
-    await tab(page, 'compare');
-    await page.click('#compare-run');
-    await page.waitForFunction(() => document.querySelector('#times-note').textContent.includes('times as long'));
-    const note = await text(page, 'times-note');
+    const note = await compare(page);
     assert.match(note, /GPU engine: left out/);
     assert.match(note, /CPU engine: [\d,]+ tetrahedra, as many/);
-    assert.match(note, /qhull-wasm: /);
+    assert.match(note, /qhull-wasm: .* qhull-wasm took [\d.]+ times as long/);
     assert.equal(await page.locator('#times svg rect').count(), 2);
-    await page.click('#verify-run');
-    await page.waitForFunction(() => document.querySelector('#verify-note').textContent.startsWith('Proven'));
-    assert.ok((await page.locator('#verdicts .pass').count()) >= 4);
-    assert.equal(await page.locator('#verdicts .fail').count(), 0);
+    const { note: verdict, passed, failed } = await prove(page);
+    assert.match(verdict, /^Proven/);
+    assert.ok(passed >= 4 && failed === 0);
     await pictureOf(page, 'compare');
   });
 
@@ -154,57 +166,51 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     const before = await text(page, 'count');
     await page.fill('#live-number', '500');
     await page.click('#live');
-    await page.waitForFunction(() => document.querySelector('#took').textContent.includes('frames a second'));
+    await until(page, () =>
+      document.querySelector('#took').textContent.includes('frames a second'),
+    );
     await page.locator('#live-times svg').waitFor();
     await pictureOf(page, 'live');
     await page.click('#live');
-    await page.waitForFunction((before) => document.querySelector('#count').textContent === before, before);
+    await settled(page);
+    assert.equal(await text(page, 'count'), before);
   });
 
   test('downloads what the command line proves', async () => {
+    await tab(page, 'points');
     await page.click('#samples button');
-    await page.waitForFunction(() => document.querySelector('#count').textContent.startsWith('35,947'));
-    await drawn(page);
+    await settled(page);
+    assert.match(await text(page, 'count'), /^35,947 /);
     await tab(page, 'use');
     const folder = mkdtempSync(join(tmpdir(), 'gdel-demo-'));
-    const save = async (format, files = 1) => {
-      const arrived = [];
-      const all = new Promise((resolve) => {
-        page.on('download', async function listen(download) {
-          const path = join(folder, download.suggestedFilename());
-          await download.saveAs(path);
-          arrived.push(path);
-          if (arrived.length === files) {
-            page.off('download', listen);
-            resolve(arrived);
-          }
-        });
-      });
-      await page.getByRole('button', { name: format, exact: true }).click();
-      return all;
-    };
-    const gdel = (...args) => execFileSync('cargo', ['run', '--quiet', '--locked', '--bin', 'gdel', '--', ...args], { cwd: root });
     const points = join(folder, 'points.ply');
     writeFileSync(points, bunny);
-    for (const [format, files, mesh] of [['VTU', 1, '.vtu'], ['NPZ', 1, '.npz'], ['TetGen', 3, '.ele']]) {
-      const saved = await save(format, files);
+    for (const [format, files, mesh] of [
+      ['VTU', 1, '.vtu'],
+      ['NPZ', 1, '.npz'],
+      ['TetGen', 3, '.ele'],
+    ]) {
+      const saved = await save(page, format, folder, files);
       // Fails if the mesh is not the Delaunay triangulation of the points.
-      gdel('verify', points, saved.find((path) => path.endsWith(mesh)));
+      gdel(
+        'verify',
+        points,
+        saved.find((path) => path.endsWith(mesh)),
+      );
     }
     for (const format of ['PLY', 'OBJ', 'STL']) {
-      const [hull] = await save(format);
+      const [hull] = await save(page, format, folder);
       // The hull's corners are the points of its file.
       gdel('triangulate', hull);
     }
-    const [glb] = await save('GLB');
+    const [glb] = await save(page, 'GLB', folder);
     assert.equal(readFileSync(glb).subarray(0, 4).toString(), 'glTF');
     rmSync(folder, { recursive: true });
   });
 
   test('has code to copy', async () => {
     await tab(page, 'use');
-    await page.click('#copy');
-    const code = await page.evaluate(() => navigator.clipboard.readText());
+    const code = await copied(page, '#copy');
     assert.match(code, /import \{ delaunay3d, readPoints \}\s+from 'gdel-wasm'/);
     await pictureOf(page, 'use');
   });
@@ -221,14 +227,23 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
         await tab(page, name);
         await pictureOf(page, `${colorScheme}-${name}`);
         const { violations } = await new AxeBuilder({ page }).analyze();
-        assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`), [], name);
+        assert.deepEqual(
+          violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`),
+          [],
+          name,
+        );
       }
       await page.context().close();
     });
   }
 
   test('fits a phone', async () => {
-    const page = await open(browser, server.url, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, deviceScaleFactor: 2 });
+    const page = await open(browser, server.url, {
+      viewport: { width: 390, height: 844 },
+      isMobile: true,
+      hasTouch: true,
+      deviceScaleFactor: 2,
+    });
     const width = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(width <= 390, `${width} pixels wide`);
     await pictureOf(page, 'phone');
@@ -236,27 +251,32 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await page.locator('#tip').waitFor();
     await tab(page, 'view');
     const { violations } = await new AxeBuilder({ page }).analyze();
-    assert.deepEqual(violations.map(({ id }) => id), []);
+    assert.deepEqual(
+      violations.map(({ id }) => id),
+      [],
+    );
     await pictureOf(page, 'phone-view');
     await page.context().close();
   });
 });
 
 describe('without WebGPU', () => {
+  let browser;
+  before(async () => (browser = await launch({ webgpu: false })));
+  after(() => browser.close());
+
   test('works on the CPU, draws with WebGL, and says so', async () => {
-    const browser = await launch({ webgpu: false });
     const page = await open(browser, server.url);
     assert.match(await text(page, 'engine-used'), /^On the CPU: /);
     assert.equal((await shown(page)).total, 246_218);
     await tab(page, 'use');
-    await page.waitForFunction(() => document.querySelector('#machine').textContent.includes('WebGL 2'));
+    await until(page, () => document.querySelector('#machine').textContent.includes('WebGL 2'));
     await pictureOf(page, 'no-webgpu');
     await tab(page, 'points');
     await choose(page, 'engine', 'gpu');
-    await page.locator('#message').waitFor();
+    assert.ok(await page.locator('#message').isVisible());
     assert.match(await text(page, 'message-text'), /adapter/);
     assert.ok(numbers(await text(page, 'count')).length > 0);
     assert.deepEqual(page.problems, []);
-    await browser.close();
   });
 });

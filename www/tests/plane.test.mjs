@@ -1,21 +1,37 @@
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import AxeBuilder from '@axe-core/playwright';
-import { choose, drawn, drop, generate, launch, open, pictureOf, serve, shown, slide, tab, text } from './browser.mjs';
+import {
+  choose,
+  colorBy,
+  compare,
+  copied,
+  drop,
+  gdel,
+  generate,
+  launch,
+  open,
+  pictureOf,
+  prove,
+  save,
+  serve,
+  settled,
+  shown,
+  slide,
+  tab,
+  text,
+  until,
+} from './browser.mjs';
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
 
 let server;
 before(async () => (server = await serve()));
 after(() => server.close());
-
-/** The page says how many points there are. */
-const points = (page, n) => page.waitForFunction((n) => document.querySelector('#count').textContent.startsWith(`${n} points`), n.toLocaleString('en'));
 
 /** A place on the canvas, as a share of its width and height. */
 async function at(page, x, y) {
@@ -25,6 +41,12 @@ async function at(page, x, y) {
 
 async function click(page, x, y) {
   await page.mouse.click(...(await at(page, x, y)));
+  await settled(page);
+}
+
+async function press(page, key) {
+  await page.keyboard.press(key);
+  await settled(page);
 }
 
 describe('the plane', () => {
@@ -53,17 +75,22 @@ describe('the plane', () => {
   test('points are added, moved, removed and taken back with the mouse', async () => {
     await tab(page, 'points');
     await page.click('#clear');
-    await page.waitForFunction(() => document.querySelector('#count').textContent.startsWith('No points'));
+    await settled(page);
+    assert.match(await text(page, 'count'), /^No points/);
     await click(page, 0.3, 0.3);
-    await page.waitForFunction(() => document.querySelector('#count').textContent.startsWith('One point'));
+    assert.match(await text(page, 'count'), /^One point/);
     await click(page, 0.7, 0.7);
-    await page.waitForFunction(() => document.querySelector('#count').textContent.includes('on one line'));
+    assert.match(await text(page, 'count'), /on one line/);
     await pictureOf(page, 'plane-two-points');
-    for (const [n, x, y] of [[3, 0.7, 0.3], [4, 0.3, 0.7], [5, 0.5, 0.52]]) {
+    for (const [n, x, y] of [
+      [3, 0.7, 0.3],
+      [4, 0.3, 0.7],
+      [5, 0.5, 0.52],
+    ]) {
       await click(page, x, y);
-      await points(page, n);
+      assert.ok((await text(page, 'count')).startsWith(`${n} points`));
     }
-    assert.match(await text(page, 'count'), /^5 points → 4 triangles$/);
+    assert.equal(await text(page, 'count'), '5 points → 4 triangles');
 
     // Out of the square, past a corner.
     await choose(page, 'tool', 'move');
@@ -72,38 +99,42 @@ describe('the plane', () => {
     await page.mouse.down();
     for (let x = 0.5; x < 0.83; x += 0.04) await page.mouse.move(...(await at(page, x, 0.52)));
     await page.mouse.up();
-    await page.waitForFunction(() => document.querySelector('#count').textContent === '5 points → 3 triangles');
+    await settled(page);
+    assert.equal(await text(page, 'count'), '5 points → 3 triangles');
     await pictureOf(page, 'plane-drawn');
-    await page.waitForFunction((before) => location.href !== before && location.hash.includes('move_4_'), before);
+    await until(
+      page,
+      (before) => location.href !== before && location.hash.includes('move_4_'),
+      before,
+    );
     // One change, however many steps the way had.
     assert.equal(page.url().match(/move/g).length, 1);
 
     await page.click('#undo');
-    await page.waitForFunction(() => document.querySelector('#count').textContent === '5 points → 4 triangles');
+    await settled(page);
+    assert.equal(await text(page, 'count'), '5 points → 4 triangles');
     await choose(page, 'tool', 'remove');
     await click(page, 0.5, 0.52);
-    await page.waitForFunction(() => document.querySelector('#count').textContent === '4 points → 2 triangles');
+    assert.equal(await text(page, 'count'), '4 points → 2 triangles');
   });
 
   test('points are added, moved and removed with the keys', async () => {
     await page.focus('#canvas');
-    await page.keyboard.press('Enter');
-    await page.waitForFunction(() => document.querySelector('#count').textContent === '5 points → 4 triangles');
+    await press(page, 'Enter');
+    assert.equal(await text(page, 'count'), '5 points → 4 triangles');
     await pictureOf(page, 'plane-cross');
-    await page.keyboard.press('Space');
+    await press(page, 'Space');
     assert.equal(await text(page, 'edited'), 'Point held');
     const before = page.url();
-    for (let i = 0; i < 6; i++) await page.keyboard.press('ArrowLeft');
-    await page.waitForFunction((before) => location.href !== before, before);
-    await page.keyboard.press('Space');
-    await page.keyboard.press('Control+z');
-    await page.keyboard.press('Delete');
-    await page.waitForFunction(() => document.querySelector('#count').textContent === '4 points → 2 triangles');
+    for (let i = 0; i < 6; i++) await press(page, 'ArrowLeft');
+    await until(page, (before) => location.href !== before, before);
+    for (const key of ['Space', 'Control+z', 'Delete']) await press(page, key);
+    assert.equal(await text(page, 'count'), '4 points → 2 triangles');
     // Without a point in hand, they move the view.
     const still = await text(page, 'count');
     await page.keyboard.press('ArrowUp');
     await page.keyboard.press('+');
-    await page.waitForFunction(() => location.hash.includes('camera='));
+    await until(page, () => location.hash.includes('camera='));
     assert.equal(await text(page, 'count'), still);
     await page.keyboard.press('Home');
   });
@@ -114,13 +145,13 @@ describe('the plane', () => {
     const count = await text(page, 'count');
     await page.mouse.move(...(await at(page, 0.6, 0.4)));
     await page.mouse.wheel(0, -600);
-    await page.waitForFunction(() => location.hash.includes('camera='));
+    await until(page, () => location.hash.includes('camera='));
     const zoomed = page.url();
     await page.mouse.move(...(await at(page, 0.15, 0.9)));
     await page.mouse.down();
     await page.mouse.move(...(await at(page, 0.3, 0.8)), { steps: 4 });
     await page.mouse.up();
-    await page.waitForFunction((zoomed) => location.href !== zoomed, zoomed);
+    await until(page, (zoomed) => location.href !== zoomed, zoomed);
     assert.equal(await text(page, 'count'), count);
     await pictureOf(page, 'plane-zoomed');
     await page.click('#reset');
@@ -130,13 +161,10 @@ describe('the plane', () => {
     await generate(page, 'disk', 40);
     await choose(page, 'tool', 'add');
     await click(page, 0.2, 0.25);
-    await points(page, 41);
-    await tab(page, 'view');
-    await page.selectOption('#color', 'circumradius');
+    assert.match(await text(page, 'count'), /^41 points/);
+    await colorBy(page, 'circumradius');
     await page.getByLabel('Voronoi diagram').uncheck();
-    await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
-    await page.click('#share');
-    const link = await page.evaluate(() => navigator.clipboard.readText());
+    const link = await copied(page, '#share');
     assert.match(link, /dim=2.*disk_40_1.*edits=add_/);
     const other = await open(browser, link);
     for (const id of ['shown', 'count', 'legend-title', 'legend-low', 'legend-high']) {
@@ -150,10 +178,10 @@ describe('the plane', () => {
     await generate(page, 'thin-circle', 400);
     await tab(page, 'view');
     await page.getByLabel('Voronoi diagram').check();
+    await settled(page);
     const { total } = await shown(page);
     await choose(page, 'filter', 'alpha');
     await slide(page, 'alpha', 0.5);
-    await page.waitForFunction(() => document.querySelector('#shown').textContent.includes(' of '));
     assert.ok((await shown(page)).shown < total);
     await pictureOf(page, 'plane-alpha');
     await choose(page, 'filter', 'all');
@@ -163,20 +191,19 @@ describe('the plane', () => {
     for (const distribution of ['circle', 'grid', 'two-lines', 'clusters']) {
       await generate(page, distribution, 600);
       await pictureOf(page, `plane-${distribution}`);
-      await tab(page, 'compare');
-      await page.click('#verify-run');
-      await page.waitForFunction(() => document.querySelector('#verify-note').textContent.startsWith('Proven'));
-      assert.ok((await page.locator('#verdicts .pass').count()) >= 8);
-      assert.equal(await page.locator('#verdicts .fail').count(), 0);
+      const { note, passed, failed } = await prove(page);
+      assert.match(note, /^Proven/, distribution);
+      assert.ok(passed >= 8 && failed === 0, distribution);
     }
   });
 
   test('runs delaunator on the same points', async () => {
     await generate(page, 'uniform', 5000);
-    await tab(page, 'compare');
-    await page.click('#compare-run');
-    await page.waitForFunction(() => document.querySelector('#times-note').textContent.includes('times as long'));
-    assert.match(await text(page, 'times-note'), /CPU engine: ([\d,]+) triangles, as many\. delaunator: \1 triangles, as many\./);
+    const note = await compare(page);
+    assert.match(
+      note,
+      /CPU engine: ([\d,]+) triangles, as many\. delaunator: \1 triangles, as many\. delaunator took/,
+    );
     await pictureOf(page, 'plane-compare');
   });
 
@@ -185,28 +212,29 @@ describe('the plane', () => {
     const before = await text(page, 'count');
     await page.fill('#live-number', '800');
     await page.click('#live');
-    await page.waitForFunction(() => /moving points → [\d,]+ triangles/.test(document.querySelector('#count').textContent));
+    await until(page, () =>
+      /moving points → [\d,]+ triangles/.test(document.querySelector('#count').textContent),
+    );
     await pictureOf(page, 'plane-live');
     await page.click('#live');
-    await page.waitForFunction((before) => document.querySelector('#count').textContent === before, before);
+    await settled(page);
+    assert.equal(await text(page, 'count'), before);
   });
 
   test('takes a scan from above, and goes to space and back', async () => {
     await drop(page, 'scan.ply', readFileSync(join(root, 'tests/data/bunny.ply')));
-    await points(page, 35_947);
-    await drawn(page);
+    assert.match(await text(page, 'count'), /^35,947 points → [\d,]+ triangles$/);
+    const flat = await text(page, 'count');
     await pictureOf(page, 'plane-scan');
     await choose(page, 'dimension', '3');
-    await page.waitForFunction(() => document.querySelector('#count').textContent === '35,947 points → 246,218 tetrahedra');
-    await drawn(page);
+    assert.equal(await text(page, 'count'), '35,947 points → 246,218 tetrahedra');
     await choose(page, 'dimension', '2');
-    await page.waitForFunction(() => document.querySelector('#count').textContent.endsWith('triangles'));
-    await drawn(page);
+    assert.equal(await text(page, 'count'), flat);
   });
 
   test('says that points on a line have no triangles, and goes on', async () => {
     await drop(page, 'line.xyz', '0 0 0\n1 1 0\n3 3 0\n4 4 7\n');
-    await page.waitForFunction(() => document.querySelector('#count').textContent.includes('on one line'));
+    assert.match(await text(page, 'count'), /on one line/);
     await pictureOf(page, 'plane-line');
   });
 
@@ -214,28 +242,32 @@ describe('the plane', () => {
     await generate(page, 'grid', 500);
     await tab(page, 'use');
     const folder = mkdtempSync(join(tmpdir(), 'gdel-demo-'));
-    const save = async (format, files = 1) => {
-      const downloads = [];
-      const all = new Promise((resolve) => page.on('download', function listen(download) {
-        if (downloads.push(download) === files) resolve(page.off('download', listen));
-      }));
-      await page.getByRole('button', { name: format, exact: true }).click();
-      await all;
-      const paths = downloads.map((download) => join(folder, download.suggestedFilename()));
-      await Promise.all(downloads.map((download, i) => download.saveAs(paths[i])));
-      return paths;
-    };
-    const gdel = (...args) => execFileSync('cargo', ['run', '--quiet', '--locked', '--bin', 'gdel', '--', ...args], { cwd: root });
     const file = join(folder, 'points.xyz');
     gdel('generate', '--dim', '2', 'grid', '500', '--seed', '1', '-o', file);
-    for (const [format, files, mesh] of [['VTU', 1, '.vtu'], ['NPZ', 1, '.npz'], ['TetGen', 3, '.ele']]) {
-      const saved = await save(format, files);
+    for (const [format, files, mesh] of [
+      ['VTU', 1, '.vtu'],
+      ['NPZ', 1, '.npz'],
+      ['TetGen', 3, '.ele'],
+    ]) {
+      const saved = await save(page, format, folder, files);
       // Fails if the mesh is not the Delaunay triangulation of the points.
-      gdel('verify', '--dim', '2', file, saved.find((path) => path.endsWith(mesh)));
+      gdel(
+        'verify',
+        '--dim',
+        '2',
+        file,
+        saved.find((path) => path.endsWith(mesh)),
+      );
     }
-    for (const format of ['PLY', 'OBJ', 'STL']) gdel('triangulate', '--dim', '2', (await save(format))[0]);
-    assert.equal(readFileSync((await save('GLB'))[0]).subarray(0, 4).toString(), 'glTF');
-    const svg = readFileSync((await save('SVG'))[0], 'utf8');
+    for (const format of ['PLY', 'OBJ', 'STL'])
+      gdel('triangulate', '--dim', '2', (await save(page, format, folder))[0]);
+    assert.equal(
+      readFileSync((await save(page, 'GLB', folder))[0])
+        .subarray(0, 4)
+        .toString(),
+      'glTF',
+    );
+    const svg = readFileSync((await save(page, 'SVG', folder))[0], 'utf8');
     const { total } = await shown(page);
     assert.equal(svg.match(/<path fill="rgb/g).length, total);
     writeFileSync(fileURLToPath(new URL('screenshots/plane.svg', import.meta.url)), svg);
@@ -248,30 +280,45 @@ describe('the plane', () => {
 
   for (const colorScheme of ['light', 'dark']) {
     test(`has no accessibility faults, ${colorScheme}`, async () => {
-      const page = await open(browser, `${server.url}#dim=2`, { colorScheme, reducedMotion: 'reduce' });
+      const page = await open(browser, `${server.url}#dim=2`, {
+        colorScheme,
+        reducedMotion: 'reduce',
+      });
       for (const name of ['points', 'view', 'run', 'compare', 'use']) {
         await tab(page, name);
         await pictureOf(page, `plane-${colorScheme}-${name}`);
         const { violations } = await new AxeBuilder({ page }).analyze();
-        assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`), [], name);
+        assert.deepEqual(
+          violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`),
+          [],
+          name,
+        );
       }
       await page.context().close();
     });
   }
 
   test('works on a phone by touch', async () => {
-    const page = await open(browser, `${server.url}#dim=2&points=uniform_60_1`, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, deviceScaleFactor: 2 });
+    const page = await open(browser, `${server.url}#dim=2&points=uniform_60_1`, {
+      viewport: { width: 390, height: 844 },
+      isMobile: true,
+      hasTouch: true,
+      deviceScaleFactor: 2,
+    });
     const width = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(width <= 390, `${width} pixels wide`);
     await page.touchscreen.tap(...(await at(page, 0.5, 0.6)));
     await page.locator('#tip').waitFor();
     await pictureOf(page, 'plane-phone');
-    await choose(page, 'tool', 'add');
-    await page.touchscreen.tap(...(await at(page, 0.12, 0.72)));
-    await points(page, 61);
-    await choose(page, 'tool', 'remove');
-    await page.touchscreen.tap(...(await at(page, 0.12, 0.72)));
-    await points(page, 60);
+    for (const [tool, count] of [
+      ['add', 61],
+      ['remove', 60],
+    ]) {
+      await choose(page, 'tool', tool);
+      await page.touchscreen.tap(...(await at(page, 0.12, 0.72)));
+      await settled(page);
+      assert.ok((await text(page, 'count')).startsWith(`${count} points`));
+    }
     assert.deepEqual(page.problems, []);
     await page.context().close();
   });

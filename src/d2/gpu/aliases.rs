@@ -11,7 +11,7 @@
 use crate::{
     d2::gpu::layout::UncertainTest,
     gpu::{
-        Storage,
+        Binding, Storage,
         layout::{Active, Status, Waiting},
         phase1::{Buffers, Slot},
     },
@@ -47,5 +47,15 @@ impl Aliases {
             hull: b.waiting.cast(),
             uncertain: b.active.cast(),
         }
+    }
+
+    /// Returns the buffers under the names that they have in shaders.
+    pub fn bindings(&self) -> Vec<Binding<'_>> {
+        vec![
+            ("mesh_triangles", self.triangles.buffer()),
+            ("halfedges", self.halfedges.buffer()),
+            ("hull", self.hull.buffer()),
+            ("uncertain_tests", self.uncertain.buffer()),
+        ]
     }
 }

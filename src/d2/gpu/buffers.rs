@@ -2,7 +2,7 @@
 
 use crate::{
     Error,
-    gpu::{Gpu, Storage, dim, layout::BLOCK},
+    gpu::{Binding, Gpu, Storage, dim, layout::BLOCK},
 };
 
 /// The buffers of Phase 1 that only 2D has.
@@ -27,6 +27,10 @@ impl dim::OwnBuffers for OwnBuffers {
 
     /// Records nothing: both are written before they are read.
     fn record_clear(&self, _encoder: &mut wgpu::CommandEncoder) {}
+
+    fn bindings(&self) -> Vec<Binding<'_>> {
+        vec![("marks", self.marks.buffer()), ("offsets", self.offsets.buffer())]
+    }
 
     fn bytes(&self) -> u64 {
         self.marks.bytes() + self.offsets.bytes()

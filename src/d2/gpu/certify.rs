@@ -1,4 +1,5 @@
-//! What rounding to the lattice leaves open of the device's triangulation: its questions, answered in the true coordinates.
+//! The tests of the device's triangulation that rounding to the lattice makes uncertain, decided in
+//! the true coordinates.
 
 use crate::d2::{lawson::NearDelaunay2, triangulation::Triangulation2};
 use crate::{
@@ -10,18 +11,19 @@ use crate::{
     stats::ExactCounts,
 };
 
-/// As many questions are worth handing to another thread.
+/// The number of tests that are worth handing to another thread.
 const GRAIN: usize = 1 << 10;
 
-/// Of these questions, those of which the true answer is not what the triangulation needs; and what it took to know.
+/// Returns those of these tests of which the true answer is not what the triangulation needs, and
+/// what it took to know.
 pub(crate) fn failed_tests(
     points: Points2<'_>,
     lattice: &Lattice<2>,
-    questions: &[UncertainTest],
+    tests: &[UncertainTest],
 ) -> (Vec<UncertainTest>, ExactCounts) {
-    let parts = parallel::map_grains(Threads::All, questions.len(), GRAIN, |range| {
+    let parts = parallel::map_grains(Threads::All, tests.len(), GRAIN, |range| {
         let vertices = PredicateContext2::of_input(points, lattice);
-        let wrong: Vec<UncertainTest> = questions[range].iter().copied().filter(|q| !is_right(&vertices, q)).collect();
+        let wrong: Vec<UncertainTest> = tests[range].iter().copied().filter(|q| !is_right(&vertices, q)).collect();
         (wrong, vertices.exact_counts())
     });
     parts.into_iter().fold(Default::default(), |(mut wrong, counts), (more, counted)| {
@@ -30,41 +32,43 @@ pub(crate) fn failed_tests(
     })
 }
 
-fn is_right(vertices: &PredicateContext2<'_>, question: &UncertainTest) -> bool {
+/// Returns whether the true answer is what the triangulation needs.
+fn is_right(vertices: &PredicateContext2<'_>, test: &UncertainTest) -> bool {
     let infinite = vertices.len() as u32;
-    let &UncertainTest { triangle: [p, a, b], beyond } = question;
+    let &UncertainTest { triangle: [p, a, b], beyond } = test;
     let orient = |[a, b, c]: [u32; 3]| vertices.orient2d(a, b, c);
     match beyond {
         COUNTER_CLOCKWISE => orient([p, a, b]) > 0,
         FLAT => orient([p, a, b]) == 0,
         q if [p, a, b].contains(&infinite) => orient([p, a, b].map(|v| if v == infinite { q } else { v })) <= 0,
-        // An edge of a flat triangle is one of the hull, or between two that the answer leaves out; and whether a triangle is
-        // counter-clockwise is a question of its own.
+        // An edge of a flat triangle is one of the hull, or between two that the answer leaves out;
+        // and whether a triangle is counter-clockwise is a test of its own.
         q => vertices.incircle([p, a, b], q) <= 0 || orient([p, a, b]) <= 0 || orient([q, b, a]) <= 0,
     }
 }
 
-/// What flipping and insertion take: `triangulation`, which is Delaunay but for the `wrong` signs (`None`: none of its signs
-/// is known), and the points that it lacks, each with the vertex at the same place of the lattice.
+/// Returns what flipping and insertion take: `triangulation`, which is Delaunay but for the `wrong` signs
+/// (`None`: none of its signs is known), and the points that it lacks, each with the vertex at the
+/// same place of the lattice.
 pub(crate) fn near_delaunay(
     triangulation: Triangulation2,
     wrong: Option<&[UncertainTest]>,
     missing: &[[u32; 2]],
 ) -> NearDelaunay2 {
     let infinite = triangulation.infinite;
-    let mut is_doubtful = vec![wrong.is_none(); infinite as usize + 1];
+    let mut is_uncertain = vec![wrong.is_none(); infinite as usize + 1];
     for &UncertainTest { triangle: [p, a, b], beyond } in wrong.unwrap_or_default() {
         for v in [p, a, b, beyond].into_iter().filter(|&v| v <= infinite) {
-            is_doubtful[v as usize] = true;
+            is_uncertain[v as usize] = true;
         }
     }
     let mut uncertain = Vec::new();
     let mut start_of = rustc_hash::FxHashMap::default();
     start_of.extend(missing.iter().map(|&[_, representative]| (representative, 0)));
     for (t, triangle) in (0..).zip(&triangulation.triangles) {
-        // A triangle that a question names; at a vertex of one, any edge of the hull, since flat triangles between the two may
-        // have been left out.
-        let mut finite = triangle.iter().filter(|&&v| v != infinite).map(|&v| is_doubtful[v as usize]);
+        // A triangle that a test names; at a vertex of one, any edge of the hull, since flat
+        // triangles between the two may have been left out.
+        let mut finite = triangle.iter().filter(|&&v| v != infinite).map(|&v| is_uncertain[v as usize]);
         if if triangle.contains(&infinite) { finite.any(|is| is) } else { finite.all(|is| is) } {
             uncertain.push(t);
         }

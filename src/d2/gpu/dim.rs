@@ -6,7 +6,10 @@ use crate::{
         layout::{EdgeFlip, blocks},
         vertex,
     },
-    gpu::dim::{Dim, Dimension},
+    gpu::{
+        dim::{Dim, Dimension},
+        shader::{self, Shaders},
+    },
     input::lattice::Width,
     predicates::{Sign, integer::orient2d_wide},
 };
@@ -17,7 +20,7 @@ impl Dim<2> for Dimension<2> {
     type OwnBuffers = OwnBuffers;
 
     const SIMPLICES: &'static str = "triangles";
-    const SHADERS: &'static str = "plane/";
+    const SHADERS: &'static Shaders = &shader::D2;
     /// There are two slots per point, and some.
     const MAX_POINTS: usize = 500_000_000;
     const HISTORY: u32 = 2;
@@ -41,8 +44,8 @@ impl Dim<2> for Dimension<2> {
         orient2d_wide(a, b, c)
     }
 
-    /// Returns, for the corners in turn: how far `p` lies in the direction (-1, -1), the square of its distance from the
-    /// first corner, and the area with the first two (times 2).
+    /// Returns, for the corners in turn: how far `p` lies in the direction (-1, -1), the square of
+    /// its distance from the first corner, and the area with the first two (times 2).
     fn spread(chosen: &[[f64; 2]], p: [f64; 2]) -> f64 {
         let minus = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
         match *chosen {

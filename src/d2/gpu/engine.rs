@@ -1,5 +1,5 @@
-//! How the GPU engine of 2D completes what Phase 1 leaves: on the CPU, exact edge flips for what the lattice leaves open
-//! (the paper's §5.6).
+//! How the GPU engine of 2D completes what Phase 1 leaves: on the CPU, exact edge flips for what
+//! the lattice leaves open (the paper's §5.6).
 //!
 //! `result of Phase 1 → tests that rounding makes uncertain → mesh`, or, where one of these fails,
 //! `result of Phase 1 → uncertain tests → flips → missing points → mesh`
@@ -79,7 +79,8 @@ impl Complete<2> for Dimension<2> {
     }
 }
 
-/// The flips per point after which the CPU engine is sooner done: about as many as it takes from nothing.
+/// The flips per point after which the CPU engine is sooner done: about as many as it takes from
+/// nothing.
 const FLIPS_PER_POINT: u64 = 3;
 
 /// Returns the vertices of the hull, from the lowest index, by its edges.

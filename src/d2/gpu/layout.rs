@@ -1,23 +1,28 @@
-//! What the kernels of the plane keep in GPU buffers: what [`gpu::layout`](crate::gpu::layout) says of tetrahedra holds of
-//! triangles, with the differences below. `shaders/shared/plane_layout.wgsl` has the counterparts.
+//! What the kernels of 2D keep in GPU buffers: what [`gpu::layout`](crate::gpu::layout) says
+//! of tetrahedra holds of triangles, with the differences below. `shaders/d2/simplex.wgsl` has the
+//! counterparts.
 //!
-//! **Triangles** live in slots of four words, of which the last is 0. Slots 2v and 2v + 1 are the two that the insertion
-//! of vertex *v* adds; those of infinity and the two after them start the first triangles. Flips change no slot's owner,
-//! so there is no list of free ones. The kernels that know nothing of dimensions count slots by blocks of eight: there are
-//! at least as many, and the last slot is never used.
+//! **Triangles** live in slots of four words, of which the last is 0. Slots 2v and 2v + 1 are the
+//! two that the insertion of vertex *v* adds; those of infinity and the two after them start the
+//! first triangles. Flips change no slot's owner, so there is no list of free ones. The kernels
+//! that know nothing of dimensions count slots by blocks of eight: there are at least as many, and
+//! the last slot is never used.
 //!
-//! **Neighbours** are packed as 4·triangle + edge: entry *k* of a triangle is the edge opposite its vertex *k*, as the
-//! triangle on the other side numbers it.
+//! **Neighbours** are packed as 4·triangle + edge: entry *k* of a triangle is the edge opposite its
+//! vertex *k*, as the triangle on the other side numbers it.
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::gpu::layout::BLOCK;
+use crate::gpu::{
+    layout::BLOCK,
+    shader::{assert_layout, constants::d2},
+};
 
 /// Slots of a vertex.
-pub const PLANE_BLOCK: u32 = 2;
+pub const PLANE_BLOCK: u32 = d2::SLOTS_PER_POINT;
 
 /// A flip of two triangles into two, where the layout of tetrahedra has the kind of a flip.
-pub const FLIP_22: u32 = 3;
+pub const FLIP_22: u32 = d2::FLIP_22;
 
 /// Blocks of eight slots for `points` points.
 pub fn blocks(points: u32) -> u32 {
@@ -35,20 +40,24 @@ pub struct EdgeFlip {
     /// The nodes that changed these later, or [`NONE`](crate::gpu::layout::NONE).
     pub next: [u32; 2],
 }
+assert_layout!(EdgeFlip);
 
-/// A sign that the lattice does not prove of the true coordinates, because some were rounded; by input indices, where the
-/// number of points is the vertex at infinity.
+/// A sign that the lattice does not prove of the true coordinates, because some were rounded; by
+/// input indices, where the number of points is the vertex at infinity.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct UncertainTest {
     /// A triangle p, a, b.
     pub triangle: [u32; 3],
-    /// The vertex opposite the edge a b in the triangle across: it must not be in conflict with this one. If infinity is
-    /// among the triangle's vertices, it must not lie beyond the line of the others. Or [`COUNTER_CLOCKWISE`] or [`FLAT`].
+    /// The vertex opposite the edge a b in the triangle across: it must not be in conflict with
+    /// this one. If infinity is among the triangle's vertices, it must not lie beyond the line of
+    /// the others. Or [`COUNTER_CLOCKWISE`] or [`FLAT`].
     pub beyond: u32,
 }
+assert_layout!(UncertainTest);
 
 /// In the place of [`UncertainTest::beyond`]: the triangle must be counter-clockwise.
-pub const COUNTER_CLOCKWISE: u32 = u32::MAX;
-/// In the place of [`UncertainTest::beyond`]: the triangle, which the answer leaves out, must be flat.
-pub const FLAT: u32 = u32::MAX - 1;
+pub const COUNTER_CLOCKWISE: u32 = d2::COUNTER_CLOCKWISE;
+/// In the place of [`UncertainTest::beyond`]: the triangle, which the answer leaves out, must be
+/// flat.
+pub const FLAT: u32 = d2::FLAT;

@@ -7,5 +7,4 @@ mod dim;
 mod engine;
 pub mod finish;
 pub mod layout;
-pub mod stages;
 pub mod vertex;

@@ -20,8 +20,8 @@ pub const fn words_per_vertex(width: Width) -> usize {
 /// The bit of a wide vertex's third word that says that the point was rounded.
 pub const ROUNDED: u32 = 1 << 31;
 
-/// Appends the words of a vertex with lattice coordinates `position`. `rounded` says that they are not the true ones; only the
-/// wide form keeps that, because the narrow lattice rounds nothing.
+/// Appends the words of a vertex with lattice coordinates `position`. `rounded` says that they are
+/// not the true ones; only the wide form keeps that, because the narrow lattice rounds nothing.
 pub fn append_words(words: &mut Vec<i32>, width: Width, position: [i64; 2], rounded: bool) {
     let [x, y] = position;
     match width {

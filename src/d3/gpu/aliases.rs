@@ -8,7 +8,7 @@
 //! | `scores` | the scores of waiting points; marks while their list is compacted | the list of failed vertices |
 
 use crate::gpu::{
-    Storage,
+    Binding, Storage,
     layout::{Active, Status},
     phase1::{Buffers, Slot},
 };
@@ -16,19 +16,20 @@ use crate::gpu::{
 /// What is written over buffers of the rounds at the end of Phase 1.
 #[derive(Debug)]
 pub struct Aliases {
-    /// The mesh without gaps: vertices of the tetrahedra, as places in the input. Infinite tetrahedra come last, and have
-    /// infinity last.
+    /// The mesh without gaps: vertices of the tetrahedra, as places in the input. Infinite
+    /// tetrahedra come last, and have infinity last.
     pub tets: Storage<Slot>,
     /// Neighbours, 4·tetrahedron + face.
     pub neighbors: Storage<Slot>,
-    /// Tetrahedra that are flat or of which the lattice does not prove everything, with what is open, as
-    /// `shaders/certify.wgsl` has it.
+    /// Tetrahedra that are flat or of which the lattice does not prove everything, with what is
+    /// open, as `shaders/d3/certify.wgsl` has it.
     pub uncertain: Storage<Active>,
     /// The places in the input of the failed vertices.
     pub failed: Storage<u32>,
 }
 
-// The mesh has no more tetrahedra than there are slots, and the active list has two entries per slot.
+// The mesh has no more tetrahedra than there are slots, and the active list has two entries per
+// slot.
 const _: () = assert!(2 * size_of::<Active>() >= size_of::<Slot>());
 // A slot's tetrahedron is listed at most once.
 const _: () = assert!(size_of::<Status>() >= size_of::<Active>());
@@ -43,5 +44,15 @@ impl Aliases {
             // There is a score per point, and no vertex is listed twice.
             failed: b.scores.clone(),
         }
+    }
+
+    /// Returns the buffers under the names that they have in shaders.
+    pub fn bindings(&self) -> Vec<Binding<'_>> {
+        vec![
+            ("mesh_tetrahedra", self.tets.buffer()),
+            ("mesh_neighbors", self.neighbors.buffer()),
+            ("uncertain", self.uncertain.buffer()),
+            ("failed_points", self.failed.buffer()),
+        ]
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     Error,
-    gpu::{Gpu, Storage, dim},
+    gpu::{Binding, Gpu, Storage, dim},
 };
 
 /// The buffers of Phase 1 that only 3D has.
@@ -31,6 +31,10 @@ impl dim::OwnBuffers for OwnBuffers {
     /// Records that no vertex failed.
     fn record_clear(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.clear_buffer(self.failed.buffer(), 0, None);
+    }
+
+    fn bindings(&self) -> Vec<Binding<'_>> {
+        vec![("free", self.free.buffer()), ("failed", self.failed.buffer())]
     }
 
     fn bytes(&self) -> u64 {

@@ -5,6 +5,7 @@ use crate::{
     gpu::{
         dim::{Dim, Dimension},
         layout::FlipNode,
+        shader::{self, Shaders},
     },
     input::lattice::Width,
     predicates::{Sign, integer},
@@ -16,7 +17,7 @@ impl Dim<3> for Dimension<3> {
     type OwnBuffers = OwnBuffers;
 
     const SIMPLICES: &'static str = "tetrahedra";
-    const SHADERS: &'static str = "";
+    const SHADERS: &'static Shaders = &shader::D3;
     /// There are eight slots per point, and some.
     const MAX_POINTS: usize = 120_000_000;
     /// Uniform points take 3.1 nodes per point in the round that takes most.
@@ -44,8 +45,9 @@ impl Dim<3> for Dimension<3> {
         }
     }
 
-    /// Returns, for the corners in turn: how far `p` lies in the direction (-1, -1, -1), the square of its distance from the
-    /// first corner, that of the area with the first two (times 2), and the volume with all three (times 6).
+    /// Returns, for the corners in turn: how far `p` lies in the direction (-1, -1, -1), the square
+    /// of its distance from the first corner, that of the area with the first two (times 2), and
+    /// the volume with all three (times 6).
     fn spread(chosen: &[[f64; 3]], p: [f64; 3]) -> f64 {
         let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
         let cross = |u: [f64; 3], v: [f64; 3]| {

@@ -1,4 +1,5 @@
-//! How the GPU engine of 3D completes what Phase 1 leaves: star splaying on the CPU (the paper's §3).
+//! How the GPU engine of 3D completes what Phase 1 leaves: star splaying on the CPU (the paper's
+//! §3).
 //!
 //! `result of Phase 1 → splay → drop the ghosts → input indices → mesh`
 

@@ -1,19 +1,21 @@
 //! Points as the kernels see them.
 //!
-//! The buffer `vertices` is an array of `vec4<i32>`. A lattice coordinate has a high word of 31 bits and, in the wide
-//! form, a low word of 31 more.
+//! The buffer `vertices` is an array of `vec4<i32>`. A lattice coordinate has a high word of 31
+//! bits and, in the wide form, a low word of 31 more.
 //!
 //! | form | words of vertex *v* |
 //! | --- | --- |
 //! | narrow | `vertices[v]` = x, y, z, input index |
 //! | wide | `vertices[2 v]` = high words of x, y, z, input index; `vertices[2 v + 1]` = their low words, 1 if rounded |
 //!
-//! One buffer and not two, because a kernel can bind only eight; the words of a wide vertex share a 32-byte sector.
+//! One buffer and not two, because a kernel can bind only eight; the words of a wide vertex share a
+//! 32-byte sector.
 
+use crate::gpu::shader::constants::d3;
 use crate::input::lattice::Width;
 
 /// The vertex at infinity: above every vertex, and above every input index.
-pub const INFINITE: u32 = u32::MAX;
+pub const INFINITE: u32 = d3::INFINITE;
 
 /// Returns the words that one vertex takes.
 pub const fn words_per_vertex(width: Width) -> usize {
@@ -23,8 +25,8 @@ pub const fn words_per_vertex(width: Width) -> usize {
     }
 }
 
-/// Appends the words of a vertex with lattice coordinates `position`. `rounded` says that they are not the true ones; only the
-/// wide form keeps that, because the narrow lattice rounds nothing.
+/// Appends the words of a vertex with lattice coordinates `position`. `rounded` says that they are
+/// not the true ones; only the wide form keeps that, because the narrow lattice rounds nothing.
 pub fn append_words(words: &mut Vec<i32>, width: Width, position: [i64; 3], index: u32, rounded: bool) {
     let [x, y, z] = position;
     let index = index as i32;

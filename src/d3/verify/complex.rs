@@ -1,4 +1,5 @@
-//! What is true of the vertex indices alone: which tetrahedra share facets, the boundary, the counts.
+//! What is true of the vertex indices alone: which tetrahedra share facets, the boundary, the
+//! counts.
 
 use crate::verify::report::{Defect, Findings};
 use crate::{d3::mesh::FACETS, index::NONE};
@@ -31,7 +32,8 @@ struct FacetSide {
 #[derive(Default)]
 pub(crate) struct Complex<'a> {
     pub(crate) tetrahedra: &'a [[u32; 4]],
-    /// The tetrahedron across each facet; none where the facet has one tetrahedron only, or more than two.
+    /// The tetrahedron across each facet; none where the facet has one tetrahedron only, or more
+    /// than two.
     across: Vec<[u32; 4]>,
     /// The facets of one tetrahedron only.
     pub(crate) hull: Vec<Side>,
@@ -58,13 +60,14 @@ pub(crate) fn check_indices(tetrahedra: &[[u32; 4]], points: usize) -> Findings 
 }
 
 impl<'a> Complex<'a> {
-    /// Needs vertices that are indices of points, four different ones a tetrahedron.
+    /// Needs vertices that are indices of points, four different ones per tetrahedron.
     pub(crate) fn new(tetrahedra: &'a [[u32; 4]], points: usize) -> Self {
         let across = vec![[OUTSIDE; 4]; tetrahedra.len()];
         let mut complex = Complex { tetrahedra, across, ..Complex::default() };
         let stars = LowerStars::new(tetrahedra, points);
-        // Every edge and every facet is met in the star of its lowest vertex. PredicateContext in the order in which they appear
-        // are near each other, and so are their tetrahedra in memory.
+        // Every edge and every facet is met in the star of its lowest vertex. PredicateContext in
+        // the order in which they appear are near each other, and so are their tetrahedra in
+        // memory.
         let order = first_appearances(tetrahedra, points);
         let mut seen_from = vec![OUTSIDE; points];
         let mut facets = Vec::new();
@@ -111,7 +114,8 @@ impl<'a> Complex<'a> {
         }
     }
 
-    /// The corners of a facet, counter-clockwise as seen from outside a positively oriented tetrahedron.
+    /// The corners of a facet, counter-clockwise as seen from outside a positively oriented
+    /// tetrahedron.
     pub(crate) fn corners(&self, side: Side) -> [u32; 3] {
         FACETS[side.k].map(|i| self.tetrahedra[side.tetrahedron][i])
     }
@@ -183,8 +187,8 @@ impl<'a> Complex<'a> {
         findings
     }
 
-    /// Also finds the two hull triangles at each edge of a closed hull, from either of which the edge is `k` of the
-    /// triangle's corners *k* and *k* + 1.
+    /// Also finds the two hull triangles at each edge of a closed hull, from either of which the
+    /// edge is `k` of the triangle's corners *k* and *k* + 1.
     pub(crate) fn check_hull_closed(&self, ridges: &mut Vec<[(Side, usize); 2]>) -> Findings {
         let mut findings = Findings::default();
         let mut edges = Vec::with_capacity(3 * self.hull.len());
@@ -212,7 +216,7 @@ impl<'a> Complex<'a> {
     pub(crate) fn check_euler_characteristic(&self) -> Findings {
         let mut findings = Findings::default();
         let [vertices, edges, facets, tetrahedra] = [self.vertices, self.edges, self.facets, self.tetrahedra.len()];
-        // No tetrahedra are no ball, but right where the points do not span space; the vertices tell.
+        // No tetrahedra are no ball, but right where the points are coplanar; the vertices tell.
         if tetrahedra > 0 && vertices + facets != edges + tetrahedra + 1 {
             findings.add(|| {
                 Defect::in_mesh(format!(
@@ -263,14 +267,14 @@ impl LowerStars {
     }
 }
 
-/// The triangle's vertices ascending, and whether that turns the same way.
+/// Returns the triangle's vertices ascending, and whether that turns the same way.
 fn sorted([a, b, c]: [u32; 3]) -> (bool, [u32; 3]) {
     let mut ascending = [a, b, c];
     ascending.sort_unstable();
     ((a < b) as u8 + (b < c) as u8 + (c < a) as u8 == 2, ascending)
 }
 
-/// The same triangle, from its lowest vertex.
+/// Returns the same triangle, from its lowest vertex on.
 fn from_lowest([a, b, c]: [u32; 3]) -> [u32; 3] {
     if a <= b && a <= c {
         [a, b, c]
@@ -281,7 +285,7 @@ fn from_lowest([a, b, c]: [u32; 3]) -> [u32; 3] {
     }
 }
 
-/// The facets of which `v` is the lowest vertex, each by the vertex that it is opposite to.
+/// Returns the facets of which `v` is the lowest vertex, each by the vertex that it is opposite to.
 fn lowest_of(v: u32, vertices: [u32; 4]) -> impl Iterator<Item = usize> {
     let lower = vertices.into_iter().filter(|&w| w < v).count();
     (0..4).filter(move |&k| match lower {
@@ -291,7 +295,7 @@ fn lowest_of(v: u32, vertices: [u32; 4]) -> impl Iterator<Item = usize> {
     })
 }
 
-/// The vertices of the tetrahedra, each once.
+/// Returns the vertices of the tetrahedra, each once.
 fn first_appearances(tetrahedra: &[[u32; 4]], points: usize) -> Vec<u32> {
     let mut seen = vec![false; points];
     let new = |v: &u32| !std::mem::replace(&mut seen[*v as usize], true);

@@ -60,7 +60,8 @@ pub(crate) fn check_hull_convex(points: &[[f64; 3]], complex: &Complex<'_>, ridg
         let [a, b, c] = std::array::from_fn(|i| corners[(k + i) % 3]);
         let d = complex.corners(other)[(other_k + 2) % 3];
         let concave = match orientation(points, [a, b, c, d]) {
-            // Coplanar triangles must lie on either side of their edge, as seen with a point off their plane.
+            // Coplanar triangles must lie on either side of their edge, as seen with a point off
+            // their plane.
             0 => {
                 let apex = complex.apex(side);
                 orientation(points, [a, b, apex, d]) * orientation(points, [a, b, apex, c]) >= 0
@@ -82,8 +83,9 @@ pub(crate) fn check_hull_convex(points: &[[f64; 3]], complex: &Complex<'_>, ridg
 pub(crate) fn check_covering(points: &[[f64; 3]], complex: &Complex<'_>) -> Findings {
     let mut findings = Findings::default();
     let Some(&[a, b, c, d]) = complex.tetrahedra.first() else { return findings };
-    // The point a + ε(b − a) + ε²(c − a) + ε³(d − a) with ε infinitesimal is inside the first tetrahedron and on no
-    // plane through three points: the first of a, b, c, d that is not on the plane decides its side.
+    // The point a + ε(b − a) + ε²(c − a) + ε³(d − a) with ε infinitesimal is inside the first
+    // tetrahedron and on no plane through three points: the first of a, b, c, d that is not on the
+    // plane decides its side.
     let probe = at(points, [a, b, c, d]);
     let within = |facet: [u32; 3]| {
         let [u, v, w] = at(points, facet);

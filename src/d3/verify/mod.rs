@@ -1,4 +1,5 @@
-//! Verification of a 3D mesh: see [`verify`](mod@crate::verify) for what is checked and why it is enough.
+//! Verification of a 3D mesh: see [`verify`](mod@crate::verify) for what is checked and why it is
+//! enough.
 
 mod complex;
 mod geometry;
@@ -7,17 +8,17 @@ use crate::{
     Error, Mesh3, Points,
     verify::{
         Check, Defect, Outcome, Report,
-        input::{Input, dimension_in_space},
+        input::{Input, dimension_3d},
     },
 };
 use complex::Complex;
 
-/// What a mesh states: at least its tetrahedra. What is `None` is not checked.
+/// What a 3D mesh states: at least its tetrahedra. What is `None` is not checked.
 ///
 /// # Examples
 ///
 /// ```
-/// use gdel::verify::{MeshView, verify3d};
+/// use gdel::{MeshView, verify3d};
 ///
 /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
 /// // A mesh of another program, with its own arrays.
@@ -29,20 +30,21 @@ use complex::Complex;
 #[derive(Debug, Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct MeshView<'a> {
-    /// As in [`Mesh3::tetrahedra`].
+    /// The vertices of each tetrahedron: see [`Mesh3::tetrahedra`].
     pub tetrahedra: &'a [[u32; 4]],
-    /// As in [`Mesh3::neighbors`].
+    /// The tetrahedra across the facets: see [`Mesh3::neighbors`].
     pub neighbors: Option<&'a [[i32; 4]]>,
-    /// As in [`Mesh3::hull`]; the triangles in any order, each from any of its vertices.
+    /// The triangles of the hull in any order, each from any of its vertices on: see
+    /// [`Mesh3::hull`].
     pub hull: Option<&'a [[u32; 3]]>,
-    /// As in [`Mesh3::duplicate_of`].
+    /// The points that stand for duplicates: see [`Mesh3::duplicate_of`].
     pub duplicate_of: Option<&'a [i32]>,
-    /// As in [`Mesh3::dimension`].
+    /// The affine dimension of the points: see [`Mesh3::dimension`].
     pub dimension: Option<u8>,
 }
 
 impl<'a> MeshView<'a> {
-    /// A mesh of which only the tetrahedra are known.
+    /// Creates the view of a mesh of which only the tetrahedra are known.
     pub fn of_tetrahedra(tetrahedra: &'a [[u32; 4]]) -> Self {
         MeshView { tetrahedra, ..MeshView::default() }
     }
@@ -63,7 +65,7 @@ impl<'a> From<&'a Mesh3> for MeshView<'a> {
 /// Checks that `mesh` is the Delaunay triangulation of `points`, of any mesh whatever.
 ///
 /// ```
-/// use gdel::verify::{MeshView, verify3d};
+/// use gdel::{MeshView, verify3d};
 /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
 /// assert!(verify3d(&points, MeshView::of_tetrahedra(&[[0, 1, 2, 3]]))?.passed());
 /// let inside_out = verify3d(&points, MeshView::of_tetrahedra(&[[1, 0, 2, 3]]))?;
@@ -73,11 +75,12 @@ impl<'a> From<&'a Mesh3> for MeshView<'a> {
 ///
 /// # Errors
 ///
-/// [`Error::NotFinite`] when a coordinate is NaN or infinite, and [`Error::TooManyPoints`] when an index cannot name
-/// every point. A defect of the mesh is no error, but a failed check in the [`Report`].
+/// [`Error::NotFinite`] when a coordinate is NaN or infinite, and [`Error::TooManyPoints`] when an
+/// index cannot name every point. A defect of the mesh is no error, but a failed check in the
+/// [`Report`].
 pub fn verify3d<'p, 'm>(points: impl Into<Points<'p>>, mesh: impl Into<MeshView<'m>>) -> Result<Report, Error> {
     let mesh = mesh.into();
-    let input = Input::new(points.into(), dimension_in_space)?;
+    let input = Input::new(points.into(), dimension_3d)?;
     let mut report = Report { dimension: input.dimension, ..Report::default() };
     report.counts.points = input.points.len();
     report.counts.distinct_points = input.distinct;

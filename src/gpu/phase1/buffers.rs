@@ -3,7 +3,7 @@
 use crate::{
     Error,
     gpu::{
-        Gpu, Recorder, Storage,
+        Binding, Gpu, Recorder, Storage,
         dim::{Dim, Dimension, Flip, OwnBuffers},
         layout::{Active, BLOCK, COUNTER_WORDS, PARAM_WORDS, Status, Waiting},
         points::DevicePoints,
@@ -15,9 +15,9 @@ pub type Slot = [u32; 4];
 
 /// The buffers that the stages share; [`layout`](crate::gpu::layout) explains them.
 ///
-/// In 3D a point takes about 950 bytes: 8.5 slots of 80 bytes each, 4 nodes of the history of 48, and some words. In 2D it
-/// takes about 280 bytes beside those of its coordinates and their sorting: 2 slots of 96 bytes each, 2 nodes of the
-/// history of 24, and some words.
+/// In 3D a point takes about 950 bytes: 8.5 slots of 80 bytes each, 4 nodes of the history of 48,
+/// and some words. In 2D it takes about 280 bytes beside those of its coordinates and their
+/// sorting: 2 slots of 96 bytes each, 2 nodes of the history of 24, and some words.
 #[derive(Debug, Clone)]
 pub struct Buffers<const D: usize>
 where
@@ -47,7 +47,8 @@ where
     pub own: <Dimension<D> as Dim<D>>::OwnBuffers,
 }
 
-/// Returns the bytes of the largest of the buffers: with 16 bytes per slot, several have this size, and no other is larger.
+/// Returns the bytes of the largest of the buffers: with 16 bytes per slot, several have this size,
+/// and no other is larger.
 pub(crate) fn largest_bytes(blocks: u32) -> u128 {
     u128::from(blocks) * u128::from(BLOCK) * size_of::<Slot>() as u128
 }
@@ -84,7 +85,8 @@ where
         })
     }
 
-    /// Returns larger buffers with the same contents, for `blocks` blocks. New slots are zero; the caller frees them.
+    /// Returns larger buffers with the same contents, for `blocks` blocks. New slots are zero; the
+    /// caller frees them.
     ///
     /// # Errors
     ///
@@ -111,13 +113,39 @@ where
         Ok(larger)
     }
 
-    /// Records that what must be zero in the beginning is: slots without simplices, their status, and what the dimension
-    /// adds.
+    /// Records that what must be zero in the beginning is: slots without simplices, their status,
+    /// and what the dimension adds.
     pub fn record_clear(&self, recorder: &mut Recorder<'_>) {
         let encoder = recorder.encoder();
         encoder.clear_buffer(self.simplices.buffer(), 0, None);
         encoder.clear_buffer(self.status.buffer(), 0, None);
         self.own.record_clear(encoder);
+    }
+
+    /// Returns the buffers under the names that they have in shaders: several, where a buffer is
+    /// put to more than one use.
+    pub fn bindings(&self) -> Vec<Binding<'_>> {
+        let mut bindings = self.own.bindings();
+        bindings.extend([
+            ("control", self.control.buffer()),
+            ("vertices", self.points.vertices.buffer()),
+            ("pairs", self.points.pairs.buffer()),
+            ("counts", self.points.counts.buffer()),
+            ("simplices", self.simplices.buffer()),
+            ("neighbors", self.neighbors.buffer()),
+            ("status", self.status.buffer()),
+            ("actives", self.active.buffer()),
+            // Scores and points are picked before there are messages, and messages pass between
+            // commit and link, after the list of entries that the check leaves undecided. Each has
+            // an element per slot, or an entry of one word.
+            ("messages", self.messages.buffer()),
+            ("picks", self.messages.buffer()),
+            ("undecided_entries", self.messages.buffer()),
+            ("history", self.history.buffer()),
+            ("waiting", self.waiting.buffer()),
+            ("scores", self.scores.buffer()),
+        ]);
+        bindings
     }
 
     /// Returns the blocks of slots that there are.

@@ -5,28 +5,28 @@ use crate::{
     gpu::{
         Gpu, Readback,
         dim::Dimension,
-        phase1::{memory::Kept, stages::Stages},
+        phase1::{finish::Finish, memory::Kept, stages::Stages},
         points::PointStage,
     },
     input::lattice::Width,
 };
 
-/// The kernels of Phase 1, for points of one width, and the buffers of the last run, which serve the next one if that has
-/// as many points of the same precision.
+/// The kernels of Phase 1, for points of one width, and the buffers of the last run, which serve
+/// the next one if that has as many points of the same precision.
 #[derive(Debug)]
 pub struct Phase1<const D: usize>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     pub(crate) points: PointStage<D>,
-    pub(crate) stages: <Dimension<D> as Stages<D>>::Kernels,
+    pub(crate) stages: Stages<D>,
     pub(crate) readback: Readback,
     pub(crate) kept: Kept<D>,
 }
 
 impl<const D: usize> Phase1<D>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     /// Compiles the kernels.
     ///
@@ -37,7 +37,7 @@ where
         gpu.with_error_scope("pipelines", || {
             Ok(Phase1 {
                 points: PointStage::new(gpu),
-                stages: Dimension::<D>::compile(gpu, width),
+                stages: Stages::new(gpu, width),
                 readback: Readback::default(),
                 kept: Kept::default(),
             })

@@ -5,7 +5,11 @@ use crate::{
     gpu::{
         Gpu, Recorder,
         dim::Dimension,
-        phase1::{buffers::Buffers, stages::Stages},
+        phase1::{
+            buffers::Buffers,
+            finish::Finish,
+            stages::{BoundStages, Stages},
+        },
         points::{DevicePoints, PointBuffers},
     },
 };
@@ -14,17 +18,17 @@ use crate::{
 #[derive(Debug)]
 pub(crate) struct Memory<const D: usize>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     pub(crate) buffers: Buffers<D>,
-    pub(crate) bound: <Dimension<D> as Stages<D>>::Bound,
+    pub(crate) bound: BoundStages<D>,
 }
 
 /// What a run left.
 #[derive(Debug)]
 pub(crate) struct Kept<const D: usize>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     pub(crate) points: Option<PointBuffers>,
     pub(crate) memory: Option<Memory<D>>,
@@ -32,7 +36,7 @@ where
 
 impl<const D: usize> Default for Kept<D>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     fn default() -> Self {
         Kept { points: None, memory: None }
@@ -41,15 +45,16 @@ where
 
 impl<const D: usize> Memory<D>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
-    fn bind(kernels: &<Dimension<D> as Stages<D>>::Kernels, gpu: &Gpu, buffers: Buffers<D>) -> Result<Self, Error> {
-        Ok(Memory { bound: Dimension::<D>::bind(kernels, gpu, &buffers)?, buffers })
+    fn bind(stages: &Stages<D>, gpu: &Gpu, buffers: Buffers<D>) -> Result<Self, Error> {
+        Ok(Memory { bound: stages.bind(gpu, &buffers)?, buffers })
     }
 
-    /// Returns what is kept, if it is for these points and large enough, and creates all of it otherwise.
+    /// Returns what is kept, if it is for these points and large enough, and creates all of it
+    /// otherwise.
     pub(crate) fn new(
-        kernels: &<Dimension<D> as Stages<D>>::Kernels,
+        stages: &Stages<D>,
         gpu: &Gpu,
         kept: Option<Memory<D>>,
         points: DevicePoints,
@@ -63,23 +68,23 @@ where
         };
         match kept {
             Some(memory) if fits(&memory.buffers) => Ok(memory),
-            _ => Memory::bind(kernels, gpu, Buffers::new(gpu, points, blocks, history)?),
+            _ => Memory::bind(stages, gpu, Buffers::new(gpu, points, blocks, history)?),
         }
     }
 
     /// Returns the same with more blocks.
     pub(crate) fn with_blocks(
         &self,
-        kernels: &<Dimension<D> as Stages<D>>::Kernels,
+        stages: &Stages<D>,
         gpu: &Gpu,
         recorder: &mut Recorder<'_>,
         blocks: u32,
     ) -> Result<Self, Error> {
-        Memory::bind(kernels, gpu, self.buffers.with_blocks(gpu, recorder, blocks)?)
+        Memory::bind(stages, gpu, self.buffers.with_blocks(gpu, recorder, blocks)?)
     }
 
     /// Returns the bytes that it takes, but for the points.
     pub(crate) fn bytes(&self) -> u64 {
-        self.buffers.bytes() + Dimension::<D>::bound_bytes(&self.bound)
+        self.buffers.bytes() + self.bound.bytes()
     }
 }

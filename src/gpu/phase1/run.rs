@@ -9,10 +9,11 @@ use crate::{
         layout::{BLOCK, COUNTER_WORDS, Counters, NONE, PARAM_WORDS, Params, SLOTS_FULL},
         phase1::{
             buffers::{Buffers, largest_bytes},
+            finish::Finish,
+            flip::FlipPlan,
             kernels::Phase1,
             memory::{Kept, Memory},
             settings::Settings,
-            stages::{FlipPlan, Stages},
             stats::Phase1Stats,
         },
         points::{PointBuffers, PointInput},
@@ -43,12 +44,13 @@ where
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase1Output<const D: usize>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     /// The mesh, and what is to be repaired or checked of it.
-    pub result: <Dimension<D> as Stages<D>>::Result,
-    /// Points that are vertices of no simplex, with that of the point at the same place of the lattice: exact duplicates,
-    /// and points that were rounded to the same place, which are inserted afterwards.
+    pub result: <Dimension<D> as Finish<D>>::Result,
+    /// Points that are vertices of no simplex, with that of the point at the same place of the
+    /// lattice: exact duplicates, and points that were rounded to the same place, which are
+    /// inserted afterwards.
     pub merged: Vec<[u32; 2]>,
     /// What the run did.
     pub stats: Phase1Stats,
@@ -57,7 +59,7 @@ where
 /// A run that is under way.
 pub struct Run<'a, const D: usize>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     kernels: &'a mut Phase1<D>,
     gpu: &'a Gpu,
@@ -120,7 +122,7 @@ fn counters_in(words: &[u32]) -> Counters {
 
 impl<'a, const D: usize> Run<'a, D>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     /// The largest number of points.
     pub const MAX_POINTS: usize = Dimension::<D>::MAX_POINTS;
@@ -129,8 +131,8 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::TooManyPoints`]; [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when the device cannot hold
-    /// the buffers.
+    /// [`Error::TooManyPoints`]; [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when
+    /// the device cannot hold the buffers.
     pub async fn new(
         kernels: &'a mut Phase1<D>,
         gpu: &'a Gpu,
@@ -222,12 +224,13 @@ where
         self.counters.active_len[(self.counters.iteration & 1) as usize]
     }
 
-    /// Runs an insertion round, or, when all points are inserted, flip iterations. Returns whether there is more to do.
+    /// Runs an insertion round, or, when all points are inserted, flip iterations. Returns whether
+    /// there is more to do.
     ///
     /// # Errors
     ///
-    /// [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when there are more tetrahedra than the device can
-    /// hold; [`Error::DeviceLost`] and [`Error::Gpu`].
+    /// [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when there are more tetrahedra
+    /// than the device can hold; [`Error::DeviceLost`] and [`Error::Gpu`].
     pub async fn round(&mut self) -> Result<bool, Error> {
         let gpu = self.gpu;
         let before = self.counters;
@@ -268,27 +271,26 @@ where
         if std::mem::take(&mut self.first) {
             self.write_control();
             self.memory.buffers.record_clear(&mut recorder);
-            Dimension::<D>::record_first(stages, &mut recorder, &self.memory.bound, workgroups);
+            stages.insert.record_first(&mut recorder, &self.memory.bound.insert, workgroups);
         } else {
             let waiting = self.waiting();
             self.params.entries_before = self.params.entries;
             // Compacting the list costs about as much as walking it a few times.
             if waiting < self.params.entries / 4 * 3 {
-                let (entries, bound) = (self.params.entries, &self.memory.bound);
-                Dimension::<D>::record_compaction(stages, gpu, &mut recorder, bound, entries, workgroups);
+                let (entries, bound) = (self.params.entries, &self.memory.bound.relocate);
+                stages.relocate.record_compaction(gpu, &mut recorder, bound, entries, workgroups);
                 self.params.entries = waiting;
             }
             self.counters.overflow = 0;
             self.write_control();
         }
         let Memory { buffers, bound } = &self.memory;
-        Dimension::<D>::record_insertion(stages, &mut recorder, bound, buffers, workgroups);
+        stages.insert.record(&mut recorder, &bound.insert, buffers, workgroups);
         if !(self.settings.insert_all && inserts) {
             self.record_flips(&mut recorder);
         }
         if inserts {
-            let (stages, bound) = (&self.kernels.stages, &self.memory.bound);
-            Dimension::<D>::record_relocation(stages, &mut recorder, bound, workgroups);
+            self.kernels.stages.relocate.record(&mut recorder, &self.memory.bound.relocate, workgroups);
         }
         self.stats.dispatches += recorder.dispatches();
         let pending = self.read_counters(recorder.encoder());
@@ -302,7 +304,8 @@ where
         self.kernels.readback.copy(self.gpu, encoder, control, PARAM_WORDS, COUNTER_WORDS)
     }
 
-    /// Writes the parameters as the host knows them, and the counters as they were last read: no kernel runs between.
+    /// Writes the parameters as the host knows them, and the counters as they were last read: no
+    /// kernel runs between.
     fn write_control(&self) {
         self.memory.buffers.control.write(self.gpu, 0, bytemuck::cast_slice(&[self.params]));
         self.memory.buffers.control.write(self.gpu, PARAM_WORDS, bytemuck::cast_slice(&[self.counters]));
@@ -315,7 +318,7 @@ where
 
     fn record_flips(&mut self, recorder: &mut Recorder<'_>) {
         let workgroups = self.workgroups();
-        let (stages, bound) = (&self.kernels.stages, &self.memory.bound);
+        let (flip, bound) = (&self.kernels.stages.flip, &self.memory.bound.flip);
         let exact_every = self.iterations.exact_every();
         let compacts = self.settings.slots_per_active > 0;
         self.iterations.record(
@@ -323,9 +326,9 @@ where
             self.params.bid_bits,
             |recorder, iterations| {
                 let plan = FlipPlan { iterations, exact_every, compacts };
-                Dimension::<D>::record_flips(stages, recorder, bound, plan, workgroups);
+                flip.record(recorder, bound, plan, workgroups);
             },
-            |recorder| Dimension::<D>::record_clear_votes(stages, recorder, bound, workgroups),
+            |recorder| flip.record_clear_votes(recorder, bound, workgroups),
         );
     }
 
@@ -348,9 +351,10 @@ where
         self.memory = self.memory.with_blocks(stages, self.gpu, recorder, blocks)?;
         (self.params.blocks_before, self.params.blocks) = (before, blocks);
         self.params.bid_bits = bid_bits(blocks);
-        Dimension::<D>::record_grow(stages, recorder, &self.memory.bound, self.workgroups());
+        let (bound, workgroups) = (&self.memory.bound, self.workgroups());
+        stages.insert.record_fill_free(recorder, &bound.insert, "grow", workgroups);
         // Bids have another form now.
-        Dimension::<D>::record_clear_votes(stages, recorder, &self.memory.bound, self.workgroups());
+        stages.flip.record_clear_votes(recorder, &bound.flip, workgroups);
         self.iterations.restart();
         Ok(())
     }
@@ -367,8 +371,8 @@ where
         let (submission, counters, finite) = gpu
             .with_error_scope("the end of Phase 1", || {
                 let mut recorder = Recorder::new(gpu, profiler);
-                let (stages, bound) = (&self.kernels.stages, &self.memory.bound);
-                Dimension::<D>::record_finish(stages, gpu, &mut recorder, bound, blocks, workgroups);
+                let (finish, bound) = (&self.kernels.stages.finish, &self.memory.bound.finish);
+                Dimension::<D>::record(finish, gpu, &mut recorder, bound, blocks, workgroups);
                 self.stats.dispatches += recorder.dispatches();
                 let encoder = recorder.encoder();
                 let finite = self.kernels.readback.copy(gpu, encoder, Dimension::<D>::sums(bound), GROUPS, 1);
@@ -384,7 +388,8 @@ where
         let Run { kernels, points, memory, read_before, mut stats, mut clock, .. } = self;
         let readback = &mut kernels.readback;
         let (result, merged_into) =
-            Dimension::<D>::read_result(gpu, readback, &memory.buffers, &memory.bound, finite, &counters).await?;
+            Dimension::<D>::read_result(gpu, readback, &memory.buffers, &memory.bound.finish, finite, &counters)
+                .await?;
         stats.readback_time = clock.lap();
         stats.counters = counters;
         stats.submits += 2;
@@ -398,7 +403,7 @@ where
 
 impl<const D: usize> Phase1<D>
 where
-    Dimension<D>: Stages<D>,
+    Dimension<D>: Finish<D>,
 {
     /// Runs Phase 1.
     ///

@@ -8,31 +8,36 @@ use crate::{
     options::Winding,
 };
 
-/// Settings for Phase 1 in `D` dimensions, for experiments: they change the time, and not the set of simplices.
+/// Settings for Phase 1 in `D` dimensions, for experiments: they change the time, and not the set
+/// of simplices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings<const D: usize> {
-    /// How points are picked. The circumcentre is that of a tetrahedron's sphere or of a triangle's circle.
+    /// How points are picked. The circumcentre is that of a tetrahedron's sphere or of a triangle's
+    /// circle.
     pub pick: Pick,
     /// Whether to insert all points before flipping (§5.3; `InsAll` in Figure 12).
     pub insert_all: bool,
-    /// With fewer active simplices than this, and than one per 1,024 points that are inserted, flipping waits for the next
-    /// round; except at the end.
+    /// With fewer active simplices than this, and than one per 1,024 points that are inserted,
+    /// flipping waits for the next round; except at the end.
     pub min_active: u32,
     /// The largest number of workgroups per dispatch. Kernels stride over what there is to do.
     pub workgroups: u32,
-    /// 3D only: there is a block in the tail for so many points, at the start and again whenever slots run out.
+    /// 3D only: there is a block in the tail for so many points, at the start and again whenever
+    /// slots run out.
     pub points_per_tail_block: u32,
-    /// Nodes of the history per point, if the device can bind so many. Flips for which there is no room wait for the next
-    /// round.
+    /// Nodes of the history per point, if the device can bind so many. Flips for which there is no
+    /// room wait for the next round.
     pub history: u32,
-    /// 3D only: after a flip iteration with an active tetrahedron per so many slots, or more of them, the next ones are
-    /// found by looking at all slots; otherwise the flips list them (§4.2). With 0, they always do.
+    /// 3D only: after a flip iteration with an active tetrahedron per so many slots, or more of
+    /// them, the next ones are found by looking at all slots; otherwise the flips list them (§4.2).
+    /// With 0, they always do.
     pub slots_per_active: u32,
-    /// The flip iterations of a run after which the GPU engine leaves it to the CPU engine. Most inputs take some hundred,
-    /// a million points or not. More are a sign that the flips wait for each other; then the CPU engine is sooner done.
+    /// The flip iterations of a run after which the GPU engine leaves it to the CPU engine. Most
+    /// inputs take some hundred, a million points or not. More are a sign that the flips wait for
+    /// each other; then the CPU engine is sooner done.
     pub max_iterations: u32,
-    /// Whether points are ordered along the Hilbert curve, and so are the slots of their simplices in memory (§4.3,
-    /// Figure 12).
+    /// Whether points are ordered along the Hilbert curve, and so are the slots of their simplices
+    /// in memory (§4.3, Figure 12).
     pub sort: bool,
     /// 2D only: the orientation of the mesh.
     pub winding: Winding,

@@ -9,7 +9,8 @@ use std::time::Duration;
 /// What a run of Phase 1 did.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Phase1Stats {
-    /// The insertion rounds, the first with the ordering of the points; then the rounds of the last flips.
+    /// The insertion rounds, the first with the ordering of the points; then the rounds of the last
+    /// flips.
     pub rounds: Vec<Round>,
     /// The kernels' counters.
     pub counters: Counters,
@@ -21,7 +22,8 @@ pub struct Phase1Stats {
     pub readbacks: usize,
     /// The most bytes of GPU memory that were held at a time.
     pub bytes: u64,
-    /// The time from the upload to the end of the last kernel, on the host's clock; zero where there is none.
+    /// The time from the upload to the end of the last kernel, on the host's clock; zero where
+    /// there is none.
     pub time: Duration,
     /// The time of the readback of the result, on the host's clock.
     pub readback_time: Duration,

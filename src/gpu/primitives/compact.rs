@@ -3,7 +3,7 @@
 use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
 use crate::{
     Error,
-    gpu::{Gpu, Kernel, Recorder, Storage, workgroups},
+    gpu::{Gpu, Kernel, Recorder, Storage, shader, workgroups},
     input::lattice::Width,
 };
 
@@ -23,16 +23,17 @@ pub struct BoundCompact {
 }
 
 impl Compact {
-    /// The kernels.
+    /// Compiles the kernels.
     pub fn new(gpu: &Gpu) -> Self {
-        Compact { scan: Scan::new(gpu), scatter: Kernel::new(gpu, "compact", Width::Narrow, &[]) }
+        Compact { scan: Scan::new(gpu), scatter: Kernel::new(gpu, shader::COMMON.get("compact"), Width::Narrow) }
     }
 
-    /// Prepares a compaction: `kept` becomes the numbers, ascending, of the entries of `marks` that are 1 and not 0.
+    /// Prepares a compaction: `kept` becomes the numbers, ascending, of the entries of `marks` that
+    /// are 1 and not 0.
     ///
     /// # Errors
     ///
-    /// As [`Storage::new`].
+    /// Those of [`Storage::new`].
     pub fn bind(
         &self,
         gpu: &Gpu,
@@ -42,7 +43,13 @@ impl Compact {
     ) -> Result<BoundCompact, Error> {
         let offsets = Storage::new(gpu, "compaction offsets", marks.len())?;
         let scan = self.scan.bind(gpu, params, marks, &offsets)?;
-        let scatter = self.scatter.bind(gpu, &[params.buffer(), marks.buffer(), offsets.buffer(), kept.buffer()]);
+        let buffers = [
+            ("params", params.buffer()),
+            ("marks", marks.buffer()),
+            ("offsets", offsets.buffer()),
+            ("kept", kept.buffer()),
+        ];
+        let scatter = self.scatter.bind(gpu, &buffers);
         Ok(BoundCompact { scan, scatter, workgroups: workgroups(marks.len() as u32) })
     }
 
@@ -54,7 +61,8 @@ impl Compact {
 }
 
 impl BoundCompact {
-    /// The scan's sums; entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS) is the number of entries kept.
+    /// The scan's sums; entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS) is the number of
+    /// entries kept.
     pub fn sums(&self) -> &Storage<u32> {
         self.scan.sums()
     }

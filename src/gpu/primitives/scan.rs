@@ -1,25 +1,30 @@
-//! Exclusive prefix sums, reduce-then-scan: three dispatches, none of whose workgroups waits for another.
+//! Exclusive prefix sums, reduce-then-scan: three dispatches, none of whose workgroups waits for
+//! another.
 
 use bytemuck::{Pod, Zeroable};
 
 use crate::{
     Error,
-    gpu::{Gpu, Kernel, Recorder, Storage},
+    gpu::{
+        Gpu, Kernel, Recorder, Storage,
+        shader::{self, assert_layout, constants::primitives as constants},
+    },
     input::lattice::Width,
 };
 
-/// The workgroups that share a scan, at most. `SCAN_GROUPS` in `shaders/shared/scan.wgsl`.
-pub const GROUPS: usize = 1024;
-/// The values that a workgroup takes at a time. `SCAN_STEP` in `shaders/shared/scan.wgsl`.
-pub const STEP: usize = 1024;
+/// The maximum number of workgroups that share a scan.
+pub const GROUPS: usize = constants::SCAN_GROUPS as usize;
+/// The number of values that a workgroup scans at a time.
+pub const STEP: usize = constants::SCAN_STEP as usize;
 
-/// What the kernels of a scan are told. Mirrors `ScanParams` in `shaders/shared/scan.wgsl`.
+/// The parameters of the kernels.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct ScanParams {
     /// The number of values, at most 2³⁰. A kernel may write it.
     pub count: u32,
 }
+assert_layout!(ScanParams);
 
 /// The kernels of a scan.
 #[derive(Debug)]
@@ -40,18 +45,19 @@ pub struct BoundScan {
 }
 
 impl Scan {
-    /// The kernels.
+    /// Compiles the kernels.
     pub fn new(gpu: &Gpu) -> Self {
-        let [reduce, sums, parts] =
-            ["scan_reduce", "scan_sums", "scan_parts"].map(|name| Kernel::new(gpu, name, Width::Narrow, &[]));
+        let kernel = |name| Kernel::new(gpu, shader::COMMON.get(name), Width::Narrow);
+        let [reduce, sums, parts] = ["scan_reduce", "scan_sums", "scan_parts"].map(kernel);
         Scan { reduce, sums, parts }
     }
 
-    /// Prepares a scan: `offsets[i]` becomes the sum, modulo 2³², of `values[..i]`, for the first `count` of `params`.
+    /// Prepares a scan: `offsets[i]` becomes the sum, modulo 2³², of `values[..i]`, for the first
+    /// `count` of `params`.
     ///
     /// # Errors
     ///
-    /// As [`Storage::new`].
+    /// Those of [`Storage::new`].
     pub fn bind(
         &self,
         gpu: &Gpu,
@@ -60,11 +66,13 @@ impl Scan {
         offsets: &Storage<u32>,
     ) -> Result<BoundScan, Error> {
         let sums = Storage::new(gpu, "scan sums", GROUPS + 1)?;
-        let bindings = [
-            self.reduce.bind(gpu, &[params.buffer(), values.buffer(), sums.buffer()]),
-            self.sums.bind(gpu, &[params.buffer(), sums.buffer()]),
-            self.parts.bind(gpu, &[params.buffer(), values.buffer(), sums.buffer(), offsets.buffer()]),
+        let buffers = [
+            ("params", params.buffer()),
+            ("values", values.buffer()),
+            ("sums", sums.buffer()),
+            ("offsets", offsets.buffer()),
         ];
+        let bindings = [&self.reduce, &self.sums, &self.parts].map(|kernel| kernel.bind(gpu, &buffers));
         let groups = values.len().div_ceil(STEP).clamp(1, GROUPS) as u32;
         Ok(BoundScan { sums, bindings, groups })
     }
@@ -79,7 +87,7 @@ impl Scan {
 }
 
 impl BoundScan {
-    /// The sums; entry [`GROUPS`] is that of all values.
+    /// Returns the sums; entry [`GROUPS`] is that of all values.
     pub fn sums(&self) -> &Storage<u32> {
         &self.sums
     }

@@ -1,25 +1,29 @@
 //! Radix sort of key and value pairs by their keys, stable.
 //!
-//! Least significant digit first, eight bits a pass. A pass counts the digits of each tile, scans the counts, and sends
-//! every pair to its place: three dispatches, none of whose workgroups waits for another.
+//! Least significant digit first, eight bits a pass. A pass counts the digits of each tile, scans
+//! the counts, and sends every pair to its place: three dispatches, none of whose workgroups waits
+//! for another.
 
 use bytemuck::{Pod, Zeroable};
 
 use crate::{
     Error,
-    gpu::{Gpu, Kernel, MAX_WORKGROUPS, Recorder, Storage},
+    gpu::{
+        Gpu, Kernel, MAX_WORKGROUPS, Recorder, Storage,
+        shader::{self, assert_layout, constants::primitives as constants},
+    },
     input::lattice::Width,
 };
 
-/// The pairs of a tile. `RADIX_TILE` in `shaders/shared/radix.wgsl`.
-pub const TILE: usize = 2048;
-/// The values of a digit. `RADIX_DIGITS` in `shaders/shared/radix.wgsl`.
-const DIGITS: usize = 256;
-/// A thread a digit is enough for so many tiles. `RADIX_FEW` in `shaders/shared/radix.wgsl`.
-pub const FEW: u32 = 8;
+/// The number of pairs in a tile.
+pub const TILE: usize = constants::RADIX_TILE as usize;
+/// The number of values of a digit.
+const DIGITS: usize = constants::RADIX_DIGITS as usize;
+/// The maximum number of tiles for which one invocation per digit is enough.
+pub const FEW: u32 = constants::RADIX_FEW;
 const DIGIT_BITS: u32 = DIGITS.trailing_zeros();
 
-/// What the kernels of a pass are told. Mirrors `SortParams` in `shaders/shared/radix.wgsl`.
+/// The parameters of the kernels of a pass.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct SortParams {
@@ -28,6 +32,7 @@ pub struct SortParams {
     /// Where the digit begins in the key.
     pub shift: u32,
 }
+assert_layout!(SortParams);
 
 /// The kernels of a sort.
 #[derive(Debug)]
@@ -45,19 +50,20 @@ pub struct BoundSort {
 }
 
 impl Sort {
-    /// The kernels.
+    /// Compiles the kernels.
     pub fn new(gpu: &Gpu) -> Self {
-        let [count, scan, scatter] =
-            ["sort_count", "sort_scan", "sort_scatter"].map(|name| Kernel::new(gpu, name, Width::Narrow, &[]));
+        let kernel = |name| Kernel::new(gpu, shader::COMMON.get(name), Width::Narrow);
+        let [count, scan, scatter] = ["sort_count", "sort_scan", "sort_scatter"].map(kernel);
         Sort { count, scan, scatter }
     }
 
-    /// Prepares a sort of all `pairs` (key, value) by the lowest `bits` of their keys. `scratch` has the same length; the
-    /// two may change places, so that afterwards the sorted pairs are in `pairs`.
+    /// Prepares a sort of all `pairs` (key, value) by the lowest `bits` of their keys. `scratch`
+    /// has the same length; the two may change places, so that afterwards the sorted pairs are in
+    /// `pairs`.
     ///
     /// # Errors
     ///
-    /// As [`Storage::new`].
+    /// Those of [`Storage::new`].
     pub fn bind(
         &self,
         gpu: &Gpu,
@@ -72,12 +78,14 @@ impl Sort {
         for pass in 0..bits.div_ceil(DIGIT_BITS) {
             let contents = SortParams { count: pairs.len() as u32, shift: pass * DIGIT_BITS };
             let params = Storage::with_contents(gpu, "sort parameters", &[contents])?;
-            passes.push([
-                self.count.bind(gpu, &[params.buffer(), pairs.buffer(), counts.buffer()]),
-                self.scan.bind(gpu, &[params.buffer(), counts.buffer(), totals.buffer()]),
-                self.scatter
-                    .bind(gpu, &[params.buffer(), pairs.buffer(), counts.buffer(), totals.buffer(), scratch.buffer()]),
-            ]);
+            let buffers = [
+                ("params", params.buffer()),
+                ("pairs", pairs.buffer()),
+                ("counts", counts.buffer()),
+                ("totals", totals.buffer()),
+                ("sorted", scratch.buffer()),
+            ];
+            passes.push([&self.count, &self.scan, &self.scatter].map(|kernel| kernel.bind(gpu, &buffers)));
             std::mem::swap(pairs, scratch);
         }
         Ok(BoundSort { passes, tiles: tiles as u32 })

@@ -3,27 +3,28 @@
 use crate::d2::gpu::finish::Mesh;
 use crate::index::NONE;
 
-use crate::reference::d2::State;
+use crate::reference::State;
 use crate::reference::d2::predicates;
 
-/// Marks the triangles of the answer: finite ones that are not flat. One thread a slot.
-pub fn mesh_mark(state: &State) -> Vec<u32> {
+/// Marks the triangles of the answer: finite ones that are not flat. One invocation per slot.
+pub fn mesh_mark(state: &State<2>) -> Vec<u32> {
     let kept = |t: u32| {
-        let triangle = state.triangle(t);
+        let triangle = state.corners(t);
         let corners = || triangle.map(|v| state.points[v as usize].position);
         state.is_used(t as usize)
             && !triangle.contains(&state.params.infinite)
             && predicates::orient2d_exact(corners()) != 0
     };
-    (0..state.triangles.len() as u32).map(|t| u32::from(kept(t))).collect()
+    (0..state.simplices.len() as u32).map(|t| u32::from(kept(t))).collect()
 }
 
-/// Writes the answer. `offsets` is the exclusive scan of the marks. One thread per slot but the last.
-pub fn mesh_compact(state: &State, offsets: &[u32]) -> Mesh {
+/// Writes the mesh. `offsets` is the exclusive scan of the marks. One invocation per slot but the
+/// last.
+pub fn mesh_compact(state: &State<2>, offsets: &[u32]) -> Mesh {
     let mut mesh = Mesh::default();
     let is_kept = |t: u32| offsets[t as usize + 1] != offsets[t as usize];
     for t in (0..offsets.len() as u32 - 1).filter(|&t| is_kept(t)) {
-        let [a, b, c] = state.triangle(t).map(|v| state.points[v as usize].index);
+        let [a, b, c] = state.corners(t).map(|v| state.points[v as usize].index);
         // Edges are numbered by the vertex opposite, half-edges by the vertex where they begin.
         let (triangle, edge_of_halfedge, halfedge_of_edge) = match state.params.clockwise {
             0 => ([a, b, c], [2, 0, 1], [1, 2, 0]),

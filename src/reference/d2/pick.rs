@@ -1,49 +1,16 @@
-//! Which point each triangle inserts (§3.1).
+//! Which point a triangle inserts (§3.1).
 
 use crate::gpu::layout::Pick;
-use crate::gpu::layout::{NONE, Waiting};
 
-use crate::reference::d2::State;
+use crate::reference::State;
+use crate::reference::pick::{difference, scale_of};
 
-/// Scores each waiting point and finds the best score of each triangle. One thread a waiting point.
-///
-/// It also begins the insertion round.
-pub fn pick_score(state: &mut State) {
-    state.counters.round += 1;
-    state.counters.first_node = state.counters.next_node;
-    for i in 0..state.waiting.len() {
-        let Waiting { point: p, tet: t } = state.waiting[i];
-        if t == NONE {
-            continue;
-        }
-        let score = score(state, t, p);
-        state.scores[i] = score;
-        let best = &mut state.messages[t as usize][0];
-        *best = score.max(*best);
-    }
-}
-
-/// Picks the point with the best score, the last of equals. One thread a waiting point.
-pub fn pick_point(state: &mut State) {
-    for (&Waiting { point: p, tet: t }, &score) in state.waiting.iter().zip(&state.scores) {
-        if t != NONE && score == state.messages[t as usize][0] {
-            let picked = &mut state.messages[t as usize][1];
-            *picked = (p + 1).max(*picked);
-        }
-    }
-}
-
-/// How much a triangle wants a point, at least 1. Scores of different triangles do not compare.
-fn score(state: &State, t: u32, p: u32) -> u32 {
-    let vertices = state.triangle(t);
+/// Returns how much a triangle wants a point, at least 1. Scores of different triangles do not
+/// compare.
+pub(super) fn score(state: &State<2>, t: u32, p: u32) -> u32 {
+    let vertices = state.corners(t);
     let infinite = state.params.infinite;
-    if state.params.pick == Pick::Random as u32 {
-        return (p ^ state.counters.inserted.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) >> 1 | 1;
-    }
-    // Of wide coordinates, the high words.
-    let drop = state.width.bits() - 31;
-    let q = |v: u32| state.points[v as usize].position.map(|x| x >> drop);
-    let difference = |v: u32, w: u32| -> [f32; 2] { std::array::from_fn(|i| (q(v)[i] - q(w)[i]) as f32) };
+    let difference = |v: u32, w: u32| difference(state, v, w);
     let scaled = |d: [f32; 2], scale: f32| d.map(|x| x * scale);
     if let Some(k) = vertices.iter().position(|&v| v == infinite) {
         // The hull grows most by the point that is farthest from the edge.
@@ -59,21 +26,24 @@ fn score(state: &State, t: u32, p: u32) -> u32 {
     if state.params.pick == Pick::Centroid as u32 {
         return 0x7f80_0000 - square([a[0] + b[0] + c[0], a[1] + b[1] + c[1]]).to_bits();
     }
-    // The in-circle determinant: for one triangle it grows as the distance from the circumcentre falls.
+    // The in-circle determinant: for one triangle it grows as the distance from the circumcentre
+    // falls.
     let inside = square(a) * cross(b, c) + square(b) * cross(c, a) + square(c) * cross(a, b);
     score_or_betweenness(inside, -median([dot(a, b), dot(b, c), dot(c, a)]))
 }
 
-/// The score of a point by its distance; where that is 0 because the point lies on the line of the edge or of the flat
-/// triangle, by how much it lies in the middle between two neighbouring vertices, below all scores by distance. So collinear
-/// points halve what is between them, and it does not take a round for each.
+/// Returns the score of a point by its distance; where that is 0 because the point lies on the line
+/// of the edge or of the flat triangle, by how much it lies in the middle between two neighbouring
+/// vertices, below all scores by distance. So collinear points halve what is between them, and it
+/// does not take a round for each.
 fn score_or_betweenness(distance: f32, betweenness: f32) -> u32 {
     let score = if distance == 0.0 { betweenness * BELOW_DISTANCES } else { distance };
     score.abs().to_bits() + 1
 }
 
-/// For a point of the line of a flat triangle, of the three products of the ways to its vertices: that of the neighbours. The
-/// product of the outer vertices is lower, the third is positive.
+/// Returns, for a point of the line of a flat triangle, of the three products of the ways to its
+/// vertices that of the neighbours. The product of the outer vertices is lower, the third is
+/// positive.
 fn median([x, y, z]: [f32; 3]) -> f32 {
     x.min(y).max(x.max(y).min(z))
 }
@@ -83,12 +53,6 @@ const BELOW_DISTANCES: f32 = f32::from_bits((127 - 70) << 23);
 
 fn dot(a: [f32; 2], b: [f32; 2]) -> f32 {
     a[0] * b[0] + a[1] * b[1]
-}
-
-/// A power of two that brings the largest of these below 2.
-fn scale_of(vectors: &[[f32; 2]]) -> f32 {
-    let largest = vectors.iter().flatten().fold(1.0f32, |m, x| m.max(x.abs()));
-    f32::from_bits(0x7f00_0000 - (largest.to_bits() & 0x7f80_0000))
 }
 
 fn cross(a: [f32; 2], b: [f32; 2]) -> f32 {

@@ -1,29 +1,23 @@
-//! The reference of `shaders/shared/plane_predicates.wgsl`, in big integers.
+//! The reference of `shaders/d2/predicates.wgsl`, in big integers.
 
 use num_bigint::BigInt;
 
 use crate::predicates::Sign;
 
 /// A lattice point with its input index.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Vertex {
-    /// Lattice coordinates, 0 ≤ q < 2^bits.
-    pub position: [i64; 2],
-    /// The input index, which breaks ties.
-    pub index: u32,
-}
+pub type Vertex = crate::reference::Vertex<2>;
 
 /// The sets of coordinates to lower: 2·rank + (y: 0, x: 1) is the bit of one coordinate.
 const PERTURBATIONS: [u32; 5] = [0, 1, 2, 4, 6];
 
-/// The places of the vertices in the order of their indices.
+/// Returns the places of the vertices in the order of their indices.
 fn by_index<const N: usize>(vertices: [Vertex; N]) -> [usize; N] {
     let mut order: [usize; N] = std::array::from_fn(|i| i);
     order.sort_unstable_by_key(|&i| vertices[i].index);
     order
 }
 
-/// The positions with the coordinates in `set` lowered.
+/// Returns the positions with the coordinates in `set` lowered.
 fn lowered<const N: usize>(vertices: [Vertex; N], set: u32) -> [[i64; 2]; N] {
     let mut positions = vertices.map(|v| v.position);
     for (rank, i) in by_index(vertices).into_iter().enumerate() {
@@ -42,19 +36,20 @@ fn minus(p: [i64; 2], q: [i64; 2]) -> [i64; 2] {
     [p[0] - q[0], p[1] - q[1]]
 }
 
-/// The sign of det(b − a, c − a): 0 for collinear points.
+/// Returns the sign of det(b − a, c − a): 0 for collinear points.
 pub fn orient2d_exact([a, b, c]: [[i64; 2]; 3]) -> Sign {
     cross(minus(b, a), minus(c, a)).signum() as Sign
 }
 
-/// The sign of det(b − a, c − a), with ties broken: never 0 for vertices with different indices.
+/// Returns the sign of det(b − a, c − a), with ties broken: never 0 for vertices with different
+/// indices.
 pub fn orient2d(vertices: [Vertex; 3]) -> Sign {
     let signs = PERTURBATIONS.into_iter().map(|set| orient2d_exact(lowered(vertices, set)));
     signs.into_iter().find(|&sign| sign != 0).unwrap_or(0)
 }
 
-/// Positive when d is inside the circle through the positively oriented a, b, c, with ties broken: never 0 for vertices
-/// with different indices.
+/// Returns the sign of d against the circle through the positively oriented a, b, c, positive
+/// inside, with ties broken: never 0 for vertices with different indices.
 pub fn incircle(vertices: [Vertex; 4]) -> Sign {
     let positions = vertices.map(|v| v.position);
     let heights = positions.map(|p| {

@@ -1,45 +1,24 @@
-//! Which flip each active tetrahedron proposes (§3.1, §4.2).
+//! Which flip a tetrahedron proposes (§3.1, §4.2).
 
 use crate::d3::mesh::FACETS;
 use crate::gpu::layout::{CHECK, EDGE_SHIFT, FACET_SHIFT, FLIP_23, FLIP_32, KIND_SHIFT, SUSPECT_SHIFT};
 
-use crate::reference::d3::State;
+use crate::reference::State;
 
-/// Checks the facets of each active tetrahedron until one can be flipped, and bids for the tetrahedra that this flip
-/// would change. One thread an entry of the active list.
-pub fn flip_check(state: &mut State) {
-    if state.is_idle(state.counters.iteration) {
-        return;
-    }
-    let half = state.half();
-    let entries = state.counters.active_len[half] as usize;
-    state.counters.visits += entries as u32;
-    state.counters.iterations += 1;
-    for i in 0..entries {
-        let t = state.active[half][i].tet;
-        let (outcome, changes) = proposal(state, t);
-        state.active[half][i].outcome = outcome;
-        let bid = state.bid(i);
-        for tet in changes {
-            let vote = &mut state.status[tet as usize].vote;
-            *vote = bid.max(*vote);
-        }
-    }
-}
-
-/// The outcome for a tetrahedron, and the tetrahedra that its proposed flip would change.
-fn proposal(state: &State, t: u32) -> (u32, Vec<u32>) {
+/// Returns the outcome for a tetrahedron, and the tetrahedra that its proposed flip would change:
+/// it proposes to flip the first facet that is not locally Delaunay and can be flipped.
+pub(super) fn proposal(state: &State<3>, t: u32) -> (u32, Vec<u32>) {
     let flags = state.status[t as usize].flags;
     let mut check = flags & CHECK;
     let mut suspect = flags >> SUSPECT_SHIFT & CHECK & !check;
-    let tet = state.tets[t as usize];
-    for k in 0..4usize {
+    let tet = state.corners(t);
+    for k in 0..4 {
         if check >> k & 1 == 0 {
             continue;
         }
-        let (u, face) = (state.neighbors[t as usize][k] >> 2, state.neighbors[t as usize][k] & 3);
+        let (u, face) = state.across(t, k);
         let theirs = u < t && state.status[u as usize].flags >> face & 1 != 0;
-        let e = state.tets[u as usize][face as usize];
+        let e = state.corners(u)[face];
         if theirs || !state.inside(tet, e) {
             check &= !(1 << k);
             continue;
@@ -55,10 +34,10 @@ fn proposal(state: &State, t: u32) -> (u32, Vec<u32>) {
             [] => return (found(FLIP_23, 0), vec![t, u]),
             [i] => {
                 let opposite = (i + 2) % 3;
-                let w = state.neighbors[t as usize][corners[opposite]] >> 2;
-                let there = state.tets[u as usize].iter().position(|&v| v == x[opposite]);
+                let (w, _) = state.across(t, corners[opposite]);
+                let there = state.corners(u).iter().position(|&v| v == x[opposite]);
                 let there = there.expect("neighbours share a facet");
-                if state.neighbors[u as usize][there] >> 2 == w {
+                if state.across(u, there).0 == w {
                     return (found(FLIP_32, i), vec![t, u, w]);
                 }
             }

@@ -3,35 +3,30 @@
 use crate::d3::mesh::FACETS;
 use crate::gpu::layout::SUSPECT_SHIFT;
 
-use crate::reference::d3::State;
+use crate::reference::State;
 
-/// Marks the vertices of the facets that are not locally Delaunay. One thread a slot.
+/// Marks the vertices of the facets that are not locally Delaunay. One invocation per slot.
 ///
-/// Only facets that a flip iteration found so and could not flip need another look: what lies around them may have
-/// changed since.
-pub fn mark_failed(state: &mut State) {
-    for t in 0..state.tets.len() {
-        if !state.is_used(t) {
+/// Only facets that a flip iteration found so and could not flip need another look: what lies
+/// around them may have changed since.
+pub fn mark_failed(state: &mut State<3>) {
+    for t in 0..state.simplices.len() as u32 {
+        if !state.is_used(t as usize) {
             continue;
         }
+        let tet = state.corners(t);
         for (k, corners) in FACETS.iter().enumerate() {
-            if state.status[t].flags >> SUSPECT_SHIFT >> k & 1 == 0 {
+            let suspect = |t: u32, k: usize| state.status[t as usize].flags >> SUSPECT_SHIFT >> k & 1 != 0;
+            let (u, face) = state.across(t, k);
+            if !suspect(t, k) || !state.inside(tet, state.corners(u)[face]) {
                 continue;
             }
-            let across = state.neighbors[t][k];
-            let e = state.tets[(across >> 2) as usize][(across & 3) as usize];
-            if state.inside(state.tets[t], e) {
-                // Both sides may be suspect: the one with the lower number counts.
-                let other = (across >> 2) as usize;
-                if other > t || state.status[other].flags >> SUSPECT_SHIFT >> (across & 3) & 1 == 0 {
-                    state.counters.not_locally_delaunay += 1;
-                }
-                for &corner in corners {
-                    let v = state.tets[t][corner];
-                    if v != state.params.infinite {
-                        state.failed[v as usize] = 1;
-                    }
-                }
+            // Both sides may be suspect: the one with the lower number counts.
+            if u > t || !suspect(u, face) {
+                state.counters.not_locally_delaunay += 1;
+            }
+            for v in corners.map(|c| tet[c]).into_iter().filter(|&v| v != state.params.infinite) {
+                state.own.failed[v as usize] = 1;
             }
         }
     }

@@ -1,7 +1,7 @@
-//! The reference of `shaders/shared/predicates.wgsl`, which explains how ties are broken.
+//! The reference of `shaders/d3/predicates.wgsl`, which explains how ties are broken.
 //!
-//! The signs agree; the way to them differs: fixed-width integers of the CPU decide nearly everything, and big integers
-//! what is left to the lowered coordinates.
+//! The signs agree; the way to them differs: fixed-width integers of the CPU decide nearly
+//! everything, and big integers what is left to the lowered coordinates.
 
 use num_bigint::BigInt;
 
@@ -12,13 +12,7 @@ use crate::{
 };
 
 /// A lattice point with its input index, or the vertex at infinity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Vertex {
-    /// Lattice coordinates, 0 ≤ q < 2^bits; of no meaning for the vertex at infinity.
-    pub position: [i64; 3],
-    /// The input index, which breaks ties; [`INFINITE`] for the vertex at infinity.
-    pub index: u32,
-}
+pub type Vertex = crate::reference::Vertex<3>;
 
 impl Vertex {
     /// The vertex at infinity.
@@ -28,13 +22,14 @@ impl Vertex {
 /// The sets of coordinates to lower: 3·rank + (z: 0, y: 1, x: 2) is the bit of one coordinate.
 const PERTURBATIONS: [u32; 15] = [0, 1, 2, 4, 8, 10, 12, 16, 20, 32, 64, 66, 68, 80, 84];
 
-/// The position of the point of this rank with the coordinates in `set` lowered.
+/// Returns the position of the point of this rank with the coordinates in `set` lowered.
 fn lowered(position: [i64; 3], set: u32, rank: usize) -> [i64; 3] {
     let bits = set >> (3 * rank);
     std::array::from_fn(|axis| position[axis] - i64::from(bits >> (2 - axis) & 1))
 }
 
-/// The places of the vertices in the order of their indices, and the sign of that permutation.
+/// Returns the places of the vertices in the order of their indices, and the sign of that
+/// permutation.
 fn ranks<const N: usize>(vertices: [Vertex; N]) -> ([usize; N], Sign) {
     let mut order: [usize; N] = std::array::from_fn(|i| i);
     order.sort_unstable_by_key(|&i| vertices[i].index);
@@ -49,7 +44,8 @@ fn orient3d_at(width: Width, [a, b, c, d]: [[i64; 3]; 4]) -> Sign {
     }
 }
 
-/// The sign of det(b − a, c − a, d − a), with ties broken: never 0 for vertices with different indices.
+/// Returns the sign of det(b − a, c − a, d − a), with ties broken: never 0 for vertices with
+/// different indices.
 pub fn orient3d(width: Width, vertices: [Vertex; 4]) -> Sign {
     match orient3d_at(width, vertices.map(|v| v.position)) {
         0 => {
@@ -62,8 +58,9 @@ pub fn orient3d(width: Width, vertices: [Vertex; 4]) -> Sign {
     }
 }
 
-/// Positive when e is inside the sphere through the positively oriented a, b, c, d, with ties broken: never 0 for
-/// vertices with different indices, one of which may be at infinity.
+/// Returns the sign of e against the sphere through the positively oriented a, b, c, d, positive
+/// inside, with ties broken: never 0 for vertices with different indices, one of which may be at
+/// infinity.
 pub fn insphere(width: Width, vertices: [Vertex; 5]) -> Sign {
     if let Some(k) = vertices.iter().position(|v| v.index == INFINITE) {
         let sign = orient3d(width, symbolic::without(vertices, k));
@@ -96,7 +93,8 @@ pub fn insphere(width: Width, vertices: [Vertex; 5]) -> Sign {
     })
 }
 
-/// The in-sphere determinant of the positions `lowered`, with the heights of `positions`.
+/// Returns the sign of the in-sphere determinant of the positions `lowered`, with the heights of
+/// `positions`.
 fn lifted(positions: [[i64; 3]; 5], lowered: [[i64; 3]; 5]) -> Sign {
     let big = |p: [i64; 3], q: [i64; 3]| -> [BigInt; 3] { std::array::from_fn(|axis| BigInt::from(p[axis] - q[axis])) };
     let [a, b, c, d]: [_; 4] = std::array::from_fn(|i| big(lowered[i], lowered[4]));

@@ -10,6 +10,9 @@ export function framesChart(milliseconds: readonly number[]): Promise<Element> {
     marginBottom: 6,
     x: { axis: null },
     y: { label: null, ticks: 3, grid: true, zero: true },
-    marks: [Plot.areaY(milliseconds, { fill: 'var(--accent)', fillOpacity: 0.15 }), Plot.lineY(milliseconds, { stroke: 'var(--accent)' })],
+    marks: [
+      Plot.areaY(milliseconds, { fill: 'var(--accent)', fillOpacity: 0.15 }),
+      Plot.lineY(milliseconds, { stroke: 'var(--accent)' }),
+    ],
   }));
 }

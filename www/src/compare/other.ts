@@ -8,11 +8,16 @@ export interface OtherResult {
 
 const WORKERS = {
   'qhull-wasm': () => new Worker(new URL('./qhull.worker.ts', import.meta.url), { type: 'module' }),
-  delaunator: () => new Worker(new URL('./delaunator.worker.ts', import.meta.url), { type: 'module' }),
+  delaunator: () =>
+    new Worker(new URL('./delaunator.worker.ts', import.meta.url), { type: 'module' }),
 };
 
 /** Runs a library on points in a worker of its own. Aborting ends the worker. */
-export function runOther(library: keyof typeof WORKERS, points: Float32Array | Float64Array, signal: AbortSignal): Promise<OtherResult> {
+export function runOther(
+  library: keyof typeof WORKERS,
+  points: Float32Array | Float64Array,
+  signal: AbortSignal,
+): Promise<OtherResult> {
   const worker = WORKERS[library]();
   const result = new Promise<OtherResult>((resolve, reject) => {
     worker.onmessage = ({ data }) => resolve(data);

@@ -74,7 +74,8 @@ function carve(
       tetrahedra[4 * t + FACETS[3 * k]],
       tetrahedra[4 * t + FACETS[3 * k + 1]],
       tetrahedra[4 * t + FACETS[3 * k + 2]],
-    ) > alpha * alpha;
+    ) >
+    alpha * alpha;
 
   const carved = new Uint32Array(kept.length);
   let end = 0;
@@ -101,7 +102,11 @@ function carve(
  * An alpha that suits a cloud: ten times the typical distance between neighbouring points, measured as the median of the
  * shortest edges of a sample of the simplices, tetrahedra or triangles.
  */
-export function typicalAlpha(points: ArrayLike<number>, simplices: Uint32Array, dimension: 2 | 3 = 3): number {
+export function typicalAlpha(
+  points: ArrayLike<number>,
+  simplices: Uint32Array,
+  dimension: 2 | 3 = 3,
+): number {
   const corners = dimension + 1;
   const count = simplices.length / corners;
   const samples = Math.min(count, 10_000);
@@ -113,7 +118,10 @@ export function typicalAlpha(points: ArrayLike<number>, simplices: Uint32Array, 
       for (let k = j + 1; k < corners; k++) {
         let squared = 0;
         for (let axis = 0; axis < dimension; axis++) {
-          squared += (points[dimension * simplices[t + j] + axis] - points[dimension * simplices[t + k] + axis]) ** 2;
+          squared +=
+            (points[dimension * simplices[t + j] + axis] -
+              points[dimension * simplices[t + k] + axis]) **
+            2;
         }
         least = Math.min(least, squared);
       }

@@ -19,25 +19,43 @@ export function measure(points: ArrayLike<number>, tetrahedra: Uint32Array): Mea
     const b = 3 * tetrahedra[4 * t + 1];
     const c = 3 * tetrahedra[4 * t + 2];
     const d = 3 * tetrahedra[4 * t + 3];
-    const ax = points[a], ay = points[a + 1], az = points[a + 2];
-    const ux = points[b] - ax, uy = points[b + 1] - ay, uz = points[b + 2] - az;
-    const vx = points[c] - ax, vy = points[c + 1] - ay, vz = points[c + 2] - az;
-    const wx = points[d] - ax, wy = points[d + 1] - ay, wz = points[d + 2] - az;
+    const ax = points[a],
+      ay = points[a + 1],
+      az = points[a + 2];
+    const ux = points[b] - ax,
+      uy = points[b + 1] - ay,
+      uz = points[b + 2] - az;
+    const vx = points[c] - ax,
+      vy = points[c + 1] - ay,
+      vz = points[c + 2] - az;
+    const wx = points[d] - ax,
+      wy = points[d + 1] - ay,
+      wz = points[d + 2] - az;
     // The cross products of the edges at a: twice the areas of its facets.
-    const vwx = vy * wz - vz * wy, vwy = vz * wx - vx * wz, vwz = vx * wy - vy * wx;
-    const wux = wy * uz - wz * uy, wuy = wz * ux - wx * uz, wuz = wx * uy - wy * ux;
-    const uvx = uy * vz - uz * vy, uvy = uz * vx - ux * vz, uvz = ux * vy - uy * vx;
+    const vwx = vy * wz - vz * wy,
+      vwy = vz * wx - vx * wz,
+      vwz = vx * wy - vy * wx;
+    const wux = wy * uz - wz * uy,
+      wuy = wz * ux - wx * uz,
+      wuz = wx * uy - wy * ux;
+    const uvx = uy * vz - uz * vy,
+      uvy = uz * vx - ux * vz,
+      uvz = ux * vy - uy * vx;
     const six = Math.abs(ux * vwx + uy * vwy + uz * vwz);
     const uu = ux * ux + uy * uy + uz * uz;
     const vv = vx * vx + vy * vy + vz * vz;
     const ww = wx * wx + wy * wy + wz * wz;
-    const radius = length(
-      uu * vwx + vv * wux + ww * uvx,
-      uu * vwy + vv * wuy + ww * uvy,
-      uu * vwz + vv * wuz + ww * uvz,
-    ) / (2 * six);
+    const radius =
+      length(
+        uu * vwx + vv * wux + ww * uvx,
+        uu * vwy + vv * wuy + ww * uvy,
+        uu * vwz + vv * wuz + ww * uvz,
+      ) /
+      (2 * six);
     const twiceArea =
-      length(vwx, vwy, vwz) + length(wux, wuy, wuz) + length(uvx, uvy, uvz) +
+      length(vwx, vwy, vwz) +
+      length(wux, wuy, wuz) +
+      length(uvx, uvy, uvz) +
       length(vwx + wux + uvx, vwy + wuy + uvy, vwz + wuz + uvz);
     volume[t] = six / 6;
     circumradius[t] = six > 0 ? radius : Infinity;
@@ -47,7 +65,12 @@ export function measure(points: ArrayLike<number>, tetrahedra: Uint32Array): Mea
 }
 
 /** The square of a triangle's circumradius; infinite where its corners are collinear. */
-export function facetCircumradiusSquared(points: ArrayLike<number>, p: number, q: number, r: number): number {
+export function facetCircumradiusSquared(
+  points: ArrayLike<number>,
+  p: number,
+  q: number,
+  r: number,
+): number {
   const ux = points[3 * q] - points[3 * p];
   const uy = points[3 * q + 1] - points[3 * p + 1];
   const uz = points[3 * q + 2] - points[3 * p + 2];

@@ -31,7 +31,10 @@ export function frameOf(points: ArrayLike<number>, dimension: 2 | 3 = 3): Frame 
     }
   }
   // Without points, the unit cube or square.
-  if (points.length === 0) low.fill(0), high.fill(1);
+  if (points.length === 0) {
+    low.fill(0);
+    high.fill(1);
+  }
   if (dimension === 2) low[2] = high[2] = 0;
   // Halves first: the sum of two large coordinates could overflow.
   const center = low.map((l, axis) => l / 2 + high[axis] / 2) as [number, number, number];
@@ -40,10 +43,15 @@ export function frameOf(points: ArrayLike<number>, dimension: 2 | 3 = 3): Frame 
 }
 
 /** The points in the frame, three coordinates each. The difference is taken in double precision, so large offsets do no harm. */
-export function toFrame(points: ArrayLike<number>, { center, scale }: Frame, dimension: 2 | 3 = 3): Float32Array {
+export function toFrame(
+  points: ArrayLike<number>,
+  { center, scale }: Frame,
+  dimension: 2 | 3 = 3,
+): Float32Array {
   const positions = new Float32Array((points.length / dimension) * 3);
   for (let i = 0, p = 0; i < points.length; i += dimension, p += 3) {
-    for (let axis = 0; axis < dimension; axis++) positions[p + axis] = (points[i + axis] - center[axis]) * scale;
+    for (let axis = 0; axis < dimension; axis++)
+      positions[p + axis] = (points[i + axis] - center[axis]) * scale;
   }
   return positions;
 }

@@ -12,16 +12,28 @@ export function firstHit(triangles: Float32Array, { origin, direction }: Ray): n
   let hit = -1;
   for (let i = 0; i < triangles.length; i += 9) {
     // Möller and Trumbore's test.
-    const ax = triangles[i], ay = triangles[i + 1], az = triangles[i + 2];
-    const ux = triangles[i + 3] - ax, uy = triangles[i + 4] - ay, uz = triangles[i + 5] - az;
-    const vx = triangles[i + 6] - ax, vy = triangles[i + 7] - ay, vz = triangles[i + 8] - az;
-    const px = dy * vz - dz * vy, py = dz * vx - dx * vz, pz = dx * vy - dy * vx;
+    const ax = triangles[i],
+      ay = triangles[i + 1],
+      az = triangles[i + 2];
+    const ux = triangles[i + 3] - ax,
+      uy = triangles[i + 4] - ay,
+      uz = triangles[i + 5] - az;
+    const vx = triangles[i + 6] - ax,
+      vy = triangles[i + 7] - ay,
+      vz = triangles[i + 8] - az;
+    const px = dy * vz - dz * vy,
+      py = dz * vx - dx * vz,
+      pz = dx * vy - dy * vx;
     const determinant = ux * px + uy * py + uz * pz;
     if (determinant <= 0) continue;
-    const sx = ox - ax, sy = oy - ay, sz = oz - az;
+    const sx = ox - ax,
+      sy = oy - ay,
+      sz = oz - az;
     const u = sx * px + sy * py + sz * pz;
     if (u < 0 || u > determinant) continue;
-    const qx = sy * uz - sz * uy, qy = sz * ux - sx * uz, qz = sx * uy - sy * ux;
+    const qx = sy * uz - sz * uy,
+      qy = sz * ux - sx * uz,
+      qz = sx * uy - sy * ux;
     const v = dx * qx + dy * qy + dz * qz;
     if (v < 0 || u + v > determinant) continue;
     const distance = (vx * qx + vy * qy + vz * qz) / determinant;

@@ -84,7 +84,8 @@ export function trianglesOf({ a, b, c, d, owners }: Pieces, apart: number): Floa
     for (let axis = 0; axis < 3; axis++) {
       const v = 3 * i + axis;
       const move = apart * 0.25 * (a[v] + b[v] + c[v] + d[v]);
-      for (let j = 0; j < 12; j++) triangles[36 * i + 3 * j + axis] = (corners[FACETS[j]][v] + move) / (1 + apart);
+      for (let j = 0; j < 12; j++)
+        triangles[36 * i + 3 * j + axis] = (corners[FACETS[j]][v] + move) / (1 + apart);
     }
   }
   return triangles;

@@ -41,7 +41,11 @@ export function heightsAlong(
   const height = new Float32Array(count);
   for (let t = 0, v = 0; t < count; t++, v += 4) {
     height[t] =
-      0.25 * (points[tetrahedra[v]] + points[tetrahedra[v + 1]] + points[tetrahedra[v + 2]] + points[tetrahedra[v + 3]]);
+      0.25 *
+      (points[tetrahedra[v]] +
+        points[tetrahedra[v + 1]] +
+        points[tetrahedra[v + 2]] +
+        points[tetrahedra[v + 3]]);
   }
   const reach = new Float32Array(count);
   for (let t = 0; t < count; t++) {

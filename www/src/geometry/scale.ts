@@ -36,7 +36,12 @@ export function mapping(
 }
 
 /** Two percentiles of the positive, finite values of a sample of those kept. */
-export function percentiles(values: Float32Array, low: number, high: number, kept?: Uint8Array): [number, number] {
+export function percentiles(
+  values: Float32Array,
+  low: number,
+  high: number,
+  kept?: Uint8Array,
+): [number, number] {
   const step = Math.max(1, Math.floor(values.length / 20_000));
   const sample: number[] = [];
   for (let i = 0; i < values.length; i += step) {
@@ -44,6 +49,7 @@ export function percentiles(values: Float32Array, low: number, high: number, kep
   }
   if (sample.length === 0) return [1, 1];
   const sorted = Float32Array.from(sample).sort();
-  const at = (share: number) => sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
+  const at = (share: number) =>
+    sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
   return [at(low), at(high)];
 }

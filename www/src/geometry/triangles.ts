@@ -26,8 +26,10 @@ export function measureTriangles(points: ArrayLike<number>, triangles: Uint32Arr
     const a = 2 * triangles[3 * t];
     const b = 2 * triangles[3 * t + 1];
     const c = 2 * triangles[3 * t + 2];
-    const ux = points[b] - points[a], uy = points[b + 1] - points[a + 1];
-    const vx = points[c] - points[a], vy = points[c + 1] - points[a + 1];
+    const ux = points[b] - points[a],
+      uy = points[b + 1] - points[a + 1];
+    const vx = points[c] - points[a],
+      vy = points[c + 1] - points[a + 1];
     const twice = Math.abs(ux * vy - uy * vx);
     const [ab, ac, bc] = [Math.hypot(ux, uy), Math.hypot(vx, vy), Math.hypot(ux - vx, uy - vy)];
     volume[t] = twice / 2;
@@ -38,7 +40,11 @@ export function measureTriangles(points: ArrayLike<number>, triangles: Uint32Arr
 }
 
 /** The given triangles as the graphics card wants them, counter-clockwise with y up. */
-export function flatSurface({ positions, triangles }: Triangulation, owners: Uint32Array, value: (t: number) => number): Surface {
+export function flatSurface(
+  { positions, triangles }: Triangulation,
+  owners: Uint32Array,
+  value: (t: number) => number,
+): Surface {
   const corners = new Float32Array(9 * owners.length);
   const values = new Float32Array(3 * owners.length);
   for (let i = 0; i < owners.length; i++) {

@@ -25,7 +25,12 @@ export interface Voronoi {
  * 2. Else, of each pair of half-edges the first: from middle + s · normal, s = cot(angle opposite) / 2, to the same with the other
  *    side's -s, or to infinity.
  */
-export function voronoiEdges(points: ArrayLike<number>, { center, scale }: Frame, mesh: Triangulation, box: Box): Voronoi {
+export function voronoiEdges(
+  points: ArrayLike<number>,
+  { center, scale }: Frame,
+  mesh: Triangulation,
+  box: Box,
+): Voronoi {
   const { low, high } = box;
   const { triangles, halfedges, hull } = mesh;
   let lines = new Float32Array(6 * Math.max(16, triangles.length));
@@ -81,8 +86,10 @@ export function voronoiEdges(points: ArrayLike<number>, { center, scale }: Frame
 /** Half the cotangent of the angle opposite a half-edge: the circumcentre's distance from it, in lengths of the edge. */
 function halfCotangent(points: ArrayLike<number>, triangles: Uint32Array, e: number): number {
   const [a, b, c] = [2 * triangles[e], 2 * triangles[next(e)], 2 * triangles[next(next(e))]];
-  const ux = points[a] - points[c], uy = points[a + 1] - points[c + 1];
-  const vx = points[b] - points[c], vy = points[b + 1] - points[c + 1];
+  const ux = points[a] - points[c],
+    uy = points[a + 1] - points[c + 1];
+  const vx = points[b] - points[c],
+    vy = points[b + 1] - points[c + 1];
   const dot = ux * vx + uy * vy;
   const cross = Math.abs(ux * vy - uy * vx);
   // Where the area underflows, the angle is 0 or flat.

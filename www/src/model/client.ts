@@ -5,5 +5,7 @@ import type { ModelWorker } from './worker';
 export type ModelClient = Comlink.Remote<ModelWorker>;
 
 export function connect(): ModelClient {
-  return Comlink.wrap<ModelWorker>(new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' }));
+  return Comlink.wrap<ModelWorker>(
+    new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' }),
+  );
 }

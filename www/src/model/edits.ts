@@ -6,7 +6,10 @@ export type Edit =
   | { do: 'remove'; point: number };
 
 /** The points, x, y, x, y, …, after all changes in order. What names a point that is not there changes nothing. */
-export function applyEdits(points: Float32Array | Float64Array, edits: readonly Edit[]): Float32Array | Float64Array {
+export function applyEdits(
+  points: Float32Array | Float64Array,
+  edits: readonly Edit[],
+): Float32Array | Float64Array {
   if (edits.length === 0) return points;
   const edited = new Float64Array(points.length + 2 * edits.length);
   edited.set(points);
@@ -36,7 +39,11 @@ export function withEdit(edits: readonly Edit[], edit: Edit): Edit[] {
 /** For a link: `add_x_y*move_point_x_y*remove_point`. */
 export function editsToText(edits: readonly Edit[]): string {
   return edits
-    .map((edit) => [edit.do, ...('point' in edit ? [edit.point] : []), ...('at' in edit ? edit.at : [])].join('_'))
+    .map((edit) =>
+      [edit.do, ...('point' in edit ? [edit.point] : []), ...('at' in edit ? edit.at : [])].join(
+        '_',
+      ),
+    )
     .join('*');
 }
 
@@ -51,8 +58,10 @@ export function editsFromText(text: string): Edit[] | null {
     const at = numbers.slice(-2) as [number, number];
     const names = Number.isSafeInteger(point) && point >= 0;
     if (what === 'add' && numbers.length === 2) edits.push({ do: 'add', at });
-    else if (what === 'move' && numbers.length === 3 && names) edits.push({ do: 'move', point, at });
-    else if (what === 'remove' && numbers.length === 1 && names) edits.push({ do: 'remove', point });
+    else if (what === 'move' && numbers.length === 3 && names)
+      edits.push({ do: 'move', point, at });
+    else if (what === 'remove' && numbers.length === 1 && names)
+      edits.push({ do: 'remove', point });
     else return null;
   }
   return edits;

@@ -1,6 +1,6 @@
 import { type Engine as Gdel, generate, generate2d } from 'gdel-wasm';
 import { frameOf } from '../geometry/mesh';
-import type { DrawRequest, Drawing, Engine, Model } from './model';
+import type { Drawing, DrawRequest, Engine, Model } from './model';
 import { PlaneModel } from './planeModel';
 import type { Dimension } from './source';
 import { SpaceModel } from './spaceModel';
@@ -27,10 +27,19 @@ export class Live {
   }
 
   static async make(dimension: Dimension, count: number): Promise<Live> {
-    return new Live(dimension, count, await (dimension === 3 ? generate('ball', count) : generate2d('disk', count)));
+    return new Live(
+      dimension,
+      count,
+      await (dimension === 3 ? generate('ball', count) : generate2d('disk', count)),
+    );
   }
 
-  async frame(gdel: Gdel, engine: Engine, seconds: number, request: DrawRequest): Promise<{ model: Model; frame: LiveFrame }> {
+  async frame(
+    gdel: Gdel,
+    engine: Engine,
+    seconds: number,
+    request: DrawRequest,
+  ): Promise<{ model: Model; frame: LiveFrame }> {
     const space = this.dimension === 3;
     if (space) this.turnBall(seconds);
     else this.stirDisk(seconds);
@@ -39,13 +48,22 @@ export class Live {
       : await PlaneModel.make(gdel, this.moved, { engine }, DISK);
     const drawing = model.draw(request);
     const { milliseconds } = model.mesh.stats;
-    return { model, frame: { drawing, positions: space ? null : model.positions, simplices: drawing.total, milliseconds } };
+    return {
+      model,
+      frame: {
+        drawing,
+        positions: space ? null : model.positions,
+        simplices: drawing.total,
+        milliseconds,
+      },
+    };
   }
 
   private turnBall(seconds: number): void {
     for (let i = 0; i < this.start.length; i += 3) {
       const [x, y, z] = [this.start[i], this.start[i + 1], this.start[i + 2]];
-      const angle = seconds * (0.9 - 0.8 * Math.hypot(x, z)) + 0.35 * Math.sin(0.7 * seconds + 3 * y);
+      const angle =
+        seconds * (0.9 - 0.8 * Math.hypot(x, z)) + 0.35 * Math.sin(0.7 * seconds + 3 * y);
       const swell = 1 + 0.12 * Math.sin(1.1 * seconds + 4 * y);
       this.moved[i] = swell * (x * Math.cos(angle) + z * Math.sin(angle));
       this.moved[i + 1] = y;

@@ -6,7 +6,15 @@ import { firstHit, type Ray } from '../geometry/pick';
 import { mapping, percentiles, scaleFor } from '../geometry/scale';
 import { flatSurface, measureTriangles, type Triangulation } from '../geometry/triangles';
 import { type Box, type Voronoi, voronoiEdges } from '../geometry/voronoi';
-import { cornersOf, type Drawing, type DrawRequest, type Model, MOST_FACETS, type Picked, type Summary } from './model';
+import {
+  cornersOf,
+  type Drawing,
+  type DrawRequest,
+  MOST_FACETS,
+  type Model,
+  type Picked,
+  type Summary,
+} from './model';
 
 /** How far beyond the points the Voronoi diagram goes on, as a share of their extent. */
 const MARGIN = 0.2;
@@ -27,10 +35,20 @@ export class PlaneModel implements Model {
     readonly frame: Frame,
   ) {
     this.positions = toFrame(points, frame, 2);
-    this.drawable = { positions: this.positions, triangles: mesh.triangles, halfedges: mesh.halfedges, hull: mesh.hull };
+    this.drawable = {
+      positions: this.positions,
+      triangles: mesh.triangles,
+      halfedges: mesh.halfedges,
+      hull: mesh.hull,
+    };
   }
 
-  static async make(gdel: Gdel, points: Float32Array | Float64Array, options: PlaneOptions, frame: Frame): Promise<PlaneModel> {
+  static async make(
+    gdel: Gdel,
+    points: Float32Array | Float64Array,
+    options: PlaneOptions,
+    frame: Frame,
+  ): Promise<PlaneModel> {
     return new PlaneModel(points, await gdel.delaunay2d(points, options), frame);
   }
 
@@ -67,9 +85,20 @@ export class PlaneModel implements Model {
     }
     const scale = scaleFor(color, this.measured, kept);
     this.drawing = {
-      surface: flatSurface(this.drawable, all.slice(0, Math.min(count, MOST_FACETS)), mapping(scale, this.measured, null)),
+      surface: flatSurface(
+        this.drawable,
+        all.slice(0, Math.min(count, MOST_FACETS)),
+        mapping(scale, this.measured, null),
+      ),
       pieces: null,
-      voronoi: voronoi ? (this.diagram ??= voronoiEdges(this.points, this.frame, this.drawable, this.surroundings())) : null,
+      voronoi: voronoi
+        ? (this.diagram ??= voronoiEdges(
+            this.points,
+            this.frame,
+            this.drawable,
+            this.surroundings(),
+          ))
+        : null,
       scale,
       shown: count,
       total: kept.length,
@@ -93,7 +122,9 @@ export class PlaneModel implements Model {
     return {
       index,
       vertices,
-      neighbors: [...halfedges.subarray(3 * index, 3 * index + 3)].map((e) => (e < 0 ? -1 : Math.floor(e / 3))),
+      neighbors: [...halfedges.subarray(3 * index, 3 * index + 3)].map((e) =>
+        e < 0 ? -1 : Math.floor(e / 3),
+      ),
       volume: volume[index],
       circumradius: circumradius[index],
       radiusRatio: radiusRatio[index],
@@ -145,5 +176,8 @@ function outlineOf(corners: Float32Array): Float32Array {
     return [ax + x + radius * Math.cos(angle), ay + y + radius * Math.sin(angle), 0];
   });
   const circle = around.slice(1).flatMap((to, i) => [...around[i], ...to]);
-  return Float32Array.from([...cornersOf(corners, [0, 1, 1, 2, 2, 0]), ...(Number.isFinite(radius) ? circle : [])]);
+  return Float32Array.from([
+    ...cornersOf(corners, [0, 1, 1, 2, 2, 0]),
+    ...(Number.isFinite(radius) ? circle : []),
+  ]);
 }

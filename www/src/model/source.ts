@@ -37,7 +37,13 @@ export const SAMPLES = {
 
 export type Sample = keyof typeof SAMPLES;
 
-type Generator<D extends Dimension> = { kind: 'generator'; dimension: D; distribution: Distribution<D>; count: number; seed: number };
+type Generator<D extends Dimension> = {
+  kind: 'generator';
+  dimension: D;
+  distribution: Distribution<D>;
+  count: number;
+  seed: number;
+};
 
 /** Where points come from. In the plane, a file's z is left out. */
 export type Source =
@@ -60,11 +66,16 @@ export interface LoadOptions {
 }
 
 /** Fetches, generates or reads the points: as many coordinates each as the source's dimension says. */
-export async function load(source: Source, options: LoadOptions): Promise<Float32Array | Float64Array> {
+export async function load(
+  source: Source,
+  options: LoadOptions,
+): Promise<Float32Array | Float64Array> {
   if (source.kind === 'generator') {
     const { count, seed } = source;
     options.onProgress({ phase: 'Generating points', fraction: 0 });
-    return source.dimension === 3 ? generate(source.distribution, count, { seed }) : generate2d(source.distribution, count, { seed });
+    return source.dimension === 3
+      ? generate(source.distribution, count, { seed })
+      : generate2d(source.distribution, count, { seed });
   }
   if (source.kind === 'sample') {
     options.onProgress({ phase: `Fetching the ${titleOf(source)}`, fraction: 0 });
@@ -93,7 +104,8 @@ function withoutZ(points: Float32Array | Float64Array): Float32Array | Float64Ar
 async function fetchSample(sample: Sample, signal: AbortSignal): Promise<Float32Array> {
   const { url, title } = SAMPLES[sample];
   const response = await fetch(url, { signal });
-  if (!response.ok) throw new Error(`The ${title} could not be fetched: the server answered ${response.status}.`);
+  if (!response.ok)
+    throw new Error(`The ${title} could not be fetched: the server answered ${response.status}.`);
   const data = await response.arrayBuffer();
   return new Float32Array(isGzip(data) ? await gunzip(data) : data);
 }
@@ -105,5 +117,7 @@ function isGzip(data: ArrayBuffer): boolean {
 }
 
 function gunzip(data: ArrayBuffer): Promise<ArrayBuffer> {
-  return new Response(new Blob([data]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+  return new Response(
+    new Blob([data]).stream().pipeThrough(new DecompressionStream('gzip')),
+  ).arrayBuffer();
 }

@@ -4,10 +4,19 @@ import { type Measures, measure } from '../geometry/measures';
 import { FACETS, type Frame, frameOf, type Tetrahedralisation, toFrame } from '../geometry/mesh';
 import { firstHit, type Ray } from '../geometry/pick';
 import { outermost, piecesOf, trianglesOf } from '../geometry/pieces';
-import { heightsAlong, type Heights, levelOf, type Plane } from '../geometry/plane';
+import { type Heights, heightsAlong, levelOf, type Plane } from '../geometry/plane';
 import { mapping, percentiles, scaleFor } from '../geometry/scale';
 import { boundaryOf, surfaceOf } from '../geometry/surface';
-import { cornersOf, type Drawing, type DrawRequest, type Model, MOST_FACETS, MOST_PIECES, type Picked, type Summary } from './model';
+import {
+  cornersOf,
+  type Drawing,
+  type DrawRequest,
+  MOST_FACETS,
+  MOST_PIECES,
+  type Model,
+  type Picked,
+  type Summary,
+} from './model';
 
 /** The corners of a tetrahedron's edges. */
 const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
@@ -28,11 +37,20 @@ export class SpaceModel implements Model {
     readonly frame: Frame,
   ) {
     this.positions = toFrame(points, frame);
-    this.drawable = { positions: this.positions, tetrahedra: mesh.tetrahedra, neighbors: mesh.neighbors };
+    this.drawable = {
+      positions: this.positions,
+      tetrahedra: mesh.tetrahedra,
+      neighbors: mesh.neighbors,
+    };
     this.created = mesh.trace?.created ?? null;
   }
 
-  static async make(gdel: Gdel, points: Float32Array | Float64Array, options: RunOptions, frame?: Frame): Promise<SpaceModel> {
+  static async make(
+    gdel: Gdel,
+    points: Float32Array | Float64Array,
+    options: RunOptions,
+    frame?: Frame,
+  ): Promise<SpaceModel> {
     const mesh = await gdel.delaunay3d(points, options);
     return new SpaceModel(points, mesh, frame ?? frameOf(points));
   }
@@ -64,7 +82,8 @@ export class SpaceModel implements Model {
   }
 
   draw(request: DrawRequest): Drawing {
-    this.drawing = request.round === null ? this.drawResult(request) : this.drawRound(request, request.round);
+    this.drawing =
+      request.round === null ? this.drawResult(request) : this.drawRound(request, request.round);
     return this.drawing;
   }
 
@@ -78,9 +97,16 @@ export class SpaceModel implements Model {
     const value = mapping(scale, this.measured, this.created);
     const { tetrahedra } = this.drawable;
     return {
-      surface: pieces ? null : surfaceOf(this.drawable, boundary.facets.subarray(0, MOST_FACETS), value),
+      surface: pieces
+        ? null
+        : surfaceOf(this.drawable, boundary.facets.subarray(0, MOST_FACETS), value),
       pieces: pieces
-        ? piecesOf(this.positions, tetrahedra, outermost(this.drawable, kept, heights, level, boundary, MOST_PIECES), value)
+        ? piecesOf(
+            this.positions,
+            tetrahedra,
+            outermost(this.drawable, kept, heights, level, boundary, MOST_PIECES),
+            value,
+          )
         : null,
       voronoi: null,
       scale,
@@ -106,7 +132,11 @@ export class SpaceModel implements Model {
     const owners = Uint32Array.from(heights.height.keys())
       .filter((t) => heights.height[t] <= level)
       .slice(0, MOST_PIECES);
-    const scale = scaleFor(color === 'phase' ? 'quality' : color, measures, new Uint8Array(tetrahedra.length / 4).fill(1));
+    const scale = scaleFor(
+      color === 'phase' ? 'quality' : color,
+      measures,
+      new Uint8Array(tetrahedra.length / 4).fill(1),
+    );
     return {
       surface: null,
       pieces: piecesOf(this.positions, tetrahedra, owners, mapping(scale, measures, null)),
@@ -139,8 +169,10 @@ export class SpaceModel implements Model {
     const vertices = [...tetrahedra.subarray(4 * index, 4 * index + 4)];
     const corners = cornersOf(this.positions, vertices);
     for (let axis = 0; axis < 3; axis++) {
-      const move = (apart * (corners[axis] + corners[3 + axis] + corners[6 + axis] + corners[9 + axis])) / 4;
-      for (let k = 0; k < 4; k++) corners[3 * k + axis] = (corners[3 * k + axis] + move) / (1 + apart);
+      const move =
+        (apart * (corners[axis] + corners[3 + axis] + corners[6 + axis] + corners[9 + axis])) / 4;
+      for (let k = 0; k < 4; k++)
+        corners[3 * k + axis] = (corners[3 * k + axis] + move) / (1 + apart);
     }
     return {
       index,
@@ -170,13 +202,17 @@ export class SpaceModel implements Model {
   private keptBy(filter: Filter): Kept {
     if (JSON.stringify(this.filtered?.filter) !== JSON.stringify(filter)) {
       const { tetrahedra, neighbors } = this.mesh;
-      this.filtered = { filter, kept: applyFilter(filter, this.points, tetrahedra, neighbors, this.measured.circumradius) };
+      this.filtered = {
+        filter,
+        kept: applyFilter(filter, this.points, tetrahedra, neighbors, this.measured.circumradius),
+      };
     }
     return this.filtered!.kept;
   }
 
   private heightsAlong(normal: Plane['normal']): Heights {
-    if (this.heights?.normal.join() !== normal.join()) this.heights = heightsAlong(normal, this.drawable);
+    if (this.heights?.normal.join() !== normal.join())
+      this.heights = heightsAlong(normal, this.drawable);
     return this.heights!;
   }
 }
@@ -186,10 +222,15 @@ function missing(triangles: Uint32Array, tetrahedra: Uint32Array): number {
   const key = (a: number, b: number, c: number) => [a, b, c].sort((p, q) => p - q).join();
   const corners = new Set(triangles);
   const left = new Set<string>();
-  for (let i = 0; i < triangles.length; i += 3) left.add(key(triangles[i], triangles[i + 1], triangles[i + 2]));
+  for (let i = 0; i < triangles.length; i += 3)
+    left.add(key(triangles[i], triangles[i + 1], triangles[i + 2]));
   for (let t = 0; t < tetrahedra.length; t += 4) {
     for (let k = 0; k < 12; k += 3) {
-      const [a, b, c] = [tetrahedra[t + FACETS[k]], tetrahedra[t + FACETS[k + 1]], tetrahedra[t + FACETS[k + 2]]];
+      const [a, b, c] = [
+        tetrahedra[t + FACETS[k]],
+        tetrahedra[t + FACETS[k + 1]],
+        tetrahedra[t + FACETS[k + 2]],
+      ];
       if (corners.has(a) && corners.has(b) && corners.has(c)) left.delete(key(a, b, c));
     }
   }

@@ -4,7 +4,7 @@ import { frameOf } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
 import { applyEdits, type Edit } from './edits';
 import { Live, type LiveFrame } from './live';
-import type { DrawRequest, Drawing, Engine, Model, Picked, Summary } from './model';
+import type { Drawing, DrawRequest, Engine, Model, Picked, Summary } from './model';
 import { PlaneModel } from './planeModel';
 import { type Format, type SavedFile, save } from './save';
 import { type Dimension, load, type Source } from './source';
@@ -32,7 +32,12 @@ class ModelWorker {
   private abort = new AbortController();
 
   /** Gets the points and triangulates them. The old mesh stays until the new one is there. */
-  run(source: Source, edits: readonly Edit[], engine: Engine, onProgress: Progress): Promise<Summary> {
+  run(
+    source: Source,
+    edits: readonly Edit[],
+    engine: Engine,
+    onProgress: Progress,
+  ): Promise<Summary> {
     return named(async () => {
       const signal = this.begin();
       const points = await load(source, { signal, onProgress });
@@ -52,16 +57,31 @@ class ModelWorker {
   edit(edits: readonly Edit[], engine: Engine, request: DrawRequest): Promise<Edited> {
     return named(async () => {
       const options = { engine, signal: this.begin() };
-      const model = await PlaneModel.make(await this.gdel, applyEdits(this.start, edits), options, this.current.frame);
+      const model = await PlaneModel.make(
+        await this.gdel,
+        applyEdits(this.start, edits),
+        options,
+        this.current.frame,
+      );
       this.model = this.shown = model;
-      return { summary: model.summary(), drawing: model.draw(request), positions: model.positions, hull: model.hull() };
+      return {
+        summary: model.summary(),
+        drawing: model.draw(request),
+        positions: model.positions,
+        hull: model.hull(),
+      };
     });
   }
 
   /** Triangulates the present points of space once more, on the GPU, and keeps what happened on the way. */
   record(onProgress: Progress): Promise<Summary> {
     return named(async () => {
-      const options = { engine: 'gpu', signal: this.begin(), onProgress, outputs: [...ALL, 'trace'] } as const;
+      const options = {
+        engine: 'gpu',
+        signal: this.begin(),
+        onProgress,
+        outputs: [...ALL, 'trace'],
+      } as const;
       this.model = await SpaceModel.make(await this.gdel, this.current.points, options);
       return this.model.summary();
     });
@@ -122,7 +142,9 @@ class ModelWorker {
   verify() {
     return named(async () => {
       const { current } = this;
-      const { checks } = await (current instanceof PlaneModel ? verify2d(current.points, current.mesh) : verify(current.points, current.mesh));
+      const { checks } = await (current instanceof PlaneModel
+        ? verify2d(current.points, current.mesh)
+        : verify(current.points, current.mesh));
       return checks;
     });
   }
@@ -132,8 +154,15 @@ class ModelWorker {
   }
 
   /** Moves the points of the live mode to a moment, in seconds, and triangulates them. */
-  async liveFrame(dimension: Dimension, count: number, engine: Engine, seconds: number, request: DrawRequest): Promise<LiveFrame> {
-    if (this.live?.dimension !== dimension || this.live.count !== count) this.live = await Live.make(dimension, count);
+  async liveFrame(
+    dimension: Dimension,
+    count: number,
+    engine: Engine,
+    seconds: number,
+    request: DrawRequest,
+  ): Promise<LiveFrame> {
+    if (this.live?.dimension !== dimension || this.live.count !== count)
+      this.live = await Live.make(dimension, count);
     const { model, frame } = await this.live.frame(await this.gdel, engine, seconds, request);
     this.shown = model;
     return frame;
@@ -158,9 +187,12 @@ async function named<T>(work: () => Promise<T>): Promise<T> {
   try {
     return await work();
   } catch (error) {
-    throw error instanceof GdelError ? Object.assign(new Error(error.message), { name: error.code }) : error;
+    throw error instanceof GdelError
+      ? Object.assign(new Error(error.message), { name: error.code })
+      : error;
   }
 }
 
 export type { ModelWorker };
+
 Comlink.expose(new ModelWorker());

@@ -1,9 +1,29 @@
 import { byId } from './dom';
 
-/** The box with the progress bar. */
+let pending = 0;
+
+/**
+ * Marks the stage as busy until `work` is done. Assistive technology then announces results once, when they and the drawing
+ * belong together, and tests wait for it.
+ */
+export async function whileBusy<T>(work: Promise<T>): Promise<T> {
+  pending++;
+  mark();
+  try {
+    return await work;
+  } finally {
+    pending--;
+    mark();
+  }
+}
+
+function mark(): void {
+  byId('stage').setAttribute('aria-busy', String(pending > 0));
+}
+
+/** Shows the box with the progress bar; null hides it. */
 export function showBusy(progress: { phase: string; fraction: number } | null): void {
   byId('busy').hidden = progress === null;
-  byId('stage').setAttribute('aria-busy', String(progress !== null));
   if (!progress) return;
   const phase = byId('busy-phase');
   // The status is read out, so it changes only when it has to.

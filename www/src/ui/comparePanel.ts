@@ -40,14 +40,21 @@ async function compare(page: Page): Promise<void> {
     byId('times-note').textContent = notes.join(' ');
   };
   const agree = (name: string, found: number) =>
-    found === simplices ? `${name}: ${count(found)} ${cells}, as many.` : `${name}: ${count(found)} ${cells}, not ${count(simplices)}.`;
+    found === simplices
+      ? `${name}: ${count(found)} ${cells}, as many.`
+      : `${name}: ${count(found)} ${cells}, not ${count(simplices)}.`;
 
   button.textContent = 'Stop';
   try {
     const { adapter } = await page.model.info();
-    for (const [engine, name] of [['gpu', 'GPU engine'], ['cpu', 'CPU engine']] as const) {
+    for (const [engine, name] of [
+      ['gpu', 'GPU engine'],
+      ['cpu', 'CPU engine'],
+    ] as const) {
       if (engine === 'gpu' && adapter?.software) {
-        notes.push(`GPU engine: left out, because the adapter is only software (${nameOf(adapter)}).`);
+        notes.push(
+          `GPU engine: left out, because the adapter is only software (${nameOf(adapter)}).`,
+        );
         continue;
       }
       say(`Running the ${name} …`);
@@ -59,12 +66,24 @@ async function compare(page: Page): Promise<void> {
         notes.push(`${name}: ${(error as Error).message}`);
       }
     }
-    say(`Running ${other}${space === 3 ? '; at 100,000 points it takes seconds, at a million most of a minute' : ''} …`);
+    say(
+      `Running ${other}${space === 3 ? '; at 100,000 points it takes seconds, at a million most of a minute' : ''} …`,
+    );
     const theirs = await runOther(other, await page.model.points(), signal);
-    const flat = theirs.flat ? ` ${count(theirs.flat)} of them have no ${space === 3 ? 'volume' : 'area'}.` : '';
-    await add({ engine: other, milliseconds: theirs.milliseconds, ours: false }, agree(other, theirs.simplices) + flat);
-    const fastest = times.filter(({ ours }) => ours).sort((a, b) => a.milliseconds - b.milliseconds)[0];
-    if (fastest) notes.push(`${other} took ${(theirs.milliseconds / fastest.milliseconds).toFixed(1)} times as long as the ${fastest.engine}.`);
+    const flat = theirs.flat
+      ? ` ${count(theirs.flat)} of them have no ${space === 3 ? 'volume' : 'area'}.`
+      : '';
+    await add(
+      { engine: other, milliseconds: theirs.milliseconds, ours: false },
+      agree(other, theirs.simplices) + flat,
+    );
+    const fastest = times
+      .filter(({ ours }) => ours)
+      .sort((a, b) => a.milliseconds - b.milliseconds)[0];
+    if (fastest)
+      notes.push(
+        `${other} took ${(theirs.milliseconds / fastest.milliseconds).toFixed(1)} times as long as the ${fastest.engine}.`,
+      );
     byId('times-note').textContent = notes.join(' ');
   } catch (error) {
     notes.push(signal.aborted ? 'Stopped.' : `${other}: ${(error as Error).message}`);
@@ -91,7 +110,14 @@ async function prove(page: Page): Promise<void> {
     byId('verdicts').replaceChildren(
       ...checks.map(({ name, passed, detail }) => {
         const verdict = create('li', { className: passed ? 'pass' : 'fail' });
-        verdict.append(create('span', {}, create('span', { className: 'hidden' }, passed ? 'Passed: ' : 'Failed: '), detail ? `${name}: ${detail}` : name));
+        verdict.append(
+          create(
+            'span',
+            {},
+            create('span', { className: 'hidden' }, passed ? 'Passed: ' : 'Failed: '),
+            detail ? `${name}: ${detail}` : name,
+          ),
+        );
         return verdict;
       }),
     );

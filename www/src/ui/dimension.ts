@@ -1,5 +1,5 @@
-import type { Page, Part } from '../page';
 import type { Dimension } from '../model/source';
+import type { Page, Part } from '../page';
 import { radios } from './dom';
 
 /** The switch between space and the plane, which also says to the page's style what is to be seen. */

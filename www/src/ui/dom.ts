@@ -31,7 +31,11 @@ export const count = (n: number): string => whole.format(n);
 
 /** A measured value to three digits: 0.0124, 1.2e-9. */
 export const measured = (x: number): string =>
-  x === 0 || (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e6) ? three.format(x) : Number.isFinite(x) ? x.toExponential(2) : '∞';
+  x === 0 || (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e6)
+    ? three.format(x)
+    : Number.isFinite(x)
+      ? x.toExponential(2)
+      : '∞';
 
 /** A time: 0.3 ms, 84 ms, 1.24 s. */
 export const duration = (milliseconds: number): string =>
@@ -40,4 +44,6 @@ export const duration = (milliseconds: number): string =>
     : `${three.format(milliseconds / 1000)} s`;
 
 export const share = (part: number, of: number): string =>
-  of === 0 ? '0 %' : `${new Intl.NumberFormat('en', { maximumSignificantDigits: 2 }).format((100 * part) / of)} %`;
+  of === 0
+    ? '0 %'
+    : `${new Intl.NumberFormat('en', { maximumSignificantDigits: 2 }).format((100 * part) / of)} %`;

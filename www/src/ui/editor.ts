@@ -44,7 +44,8 @@ export function editor(page: Page): Part {
   const place = (x: number, y: number): [number, number] => {
     const { viewer } = page;
     const { center, scale } = page.summary!.frame;
-    const toInput = ([fx, fy]: [number, number]) => [fx / scale + center[0], fy / scale + center[1]] as const;
+    const toInput = ([fx, fy]: [number, number]) =>
+      [fx / scale + center[0], fy / scale + center[1]] as const;
     const [ix, iy] = toInput(viewer!.onPlane(x, y));
     const pixel = toInput(viewer!.onPlane(x + 1, y))[0] - ix;
     const digits = Math.min(15, Math.max(0, 1 - Math.floor(Math.log10(pixel))));
@@ -57,12 +58,16 @@ export function editor(page: Page): Part {
   };
   const add = (x: number, y: number) => change({ do: 'add', at: place(x, y) }, 'Point added');
   const remove = (point: number) => change({ do: 'remove', point }, 'Point removed');
-  const move = (point: number, x: number, y: number) => change({ do: 'move', point, at: place(x, y) }, '');
+  const move = (point: number, x: number, y: number) =>
+    change({ do: 'move', point, at: place(x, y) }, '');
 
   const mark = (point: number | null) => {
     ring.hidden = point === null || !page.viewer || point >= points();
     if (ring.hidden) return;
-    const [x, y] = page.viewer!.onCanvas(page.positions![3 * point!], page.positions![3 * point! + 1]);
+    const [x, y] = page.viewer!.onCanvas(
+      page.positions![3 * point!],
+      page.positions![3 * point! + 1],
+    );
     ring.style.translate = `${x}px ${y}px`;
   };
 
@@ -114,7 +119,10 @@ export function editor(page: Page): Part {
   const nudge = (right: number, up: number) => {
     const { positions, viewer } = page;
     const [width] = viewer!.seen;
-    const [x, y] = viewer!.onCanvas(positions![3 * held!] + right * NUDGE * width, positions![3 * held! + 1] + up * NUDGE * width);
+    const [x, y] = viewer!.onCanvas(
+      positions![3 * held!] + right * NUDGE * width,
+      positions![3 * held! + 1] + up * NUDGE * width,
+    );
     void move(held!, x, y);
   };
   const keys: Record<string, () => void> = {
@@ -145,7 +153,11 @@ export function editor(page: Page): Part {
   canvas.addEventListener('keydown', (event) => {
     if (!flat() || event.altKey) return;
     const undoes = (event.ctrlKey || event.metaKey) && event.key === 'z';
-    const act = undoes ? takeBack : event.ctrlKey || event.metaKey ? undefined : ((held !== null ? whileHeld[event.key] : undefined) ?? keys[event.key]);
+    const act = undoes
+      ? takeBack
+      : event.ctrlKey || event.metaKey
+        ? undefined
+        : ((held !== null ? whileHeld[event.key] : undefined) ?? keys[event.key]);
     if (!act) return;
     event.preventDefault();
     event.stopImmediatePropagation();

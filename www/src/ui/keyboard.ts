@@ -9,10 +9,13 @@ const STEP = 0.08;
 
 /** The keys that work while the drawing has the focus. */
 export function wireKeyboard(page: Page): void {
-  const slice = (by: number) => page.change({ keep: Math.min(1, Math.max(0, page.settings.keep + by)) });
+  const slice = (by: number) =>
+    page.change({ keep: Math.min(1, Math.max(0, page.settings.keep + by)) });
   const isFlat = () => page.settings.source.dimension === 2;
   const go = (right: number, up: number) =>
-    isFlat() ? page.viewer?.pan(right * STEP, up * STEP) : page.viewer?.orbit(right * TURN, up * TURN, 1);
+    isFlat()
+      ? page.viewer?.pan(right * STEP, up * STEP)
+      : page.viewer?.orbit(right * TURN, up * TURN, 1);
   const home = () => page.change({ camera: HOME[page.settings.source.dimension] });
   const keys: Record<string, () => void> = {
     ArrowLeft: () => go(-1, 0),

@@ -7,16 +7,24 @@ import { byId, count, measured } from './dom';
 
 /** What a quantity is called, and in which units. */
 export const QUANTITIES: Record<ColorBy, Record<Dimension, [name: string, unit: string]>> = {
-  quality: { 3: ['Radius ratio', '3 r/R, 1 is regular'], 2: ['Radius ratio', '2 r/R, 1 is regular'] },
+  quality: {
+    3: ['Radius ratio', '3 r/R, 1 is regular'],
+    2: ['Radius ratio', '2 r/R, 1 is regular'],
+  },
   volume: { 3: ['Volume', 'file units³'], 2: ['Area', 'file units²'] },
   circumradius: { 3: ['Circumradius', 'file units'], 2: ['Circumradius', 'file units'] },
   phase: { 3: ['Phase of creation', ''], 2: ['Phase of creation', ''] },
 };
 
 /** What the colours mean, and how much of the mesh is to be seen. */
-export function showLegend({ scale, shown, total, leftOut, milliseconds }: Drawing, { map, source, layers }: Settings): void {
+export function showLegend(
+  { scale, shown, total, leftOut, milliseconds }: Drawing,
+  { map, source, layers }: Settings,
+): void {
   byId('legend').hidden = total === 0 || !layers.simplices;
-  byId('legend-title').textContent = QUANTITIES[scale.by][source.dimension].filter(Boolean).join(', ');
+  byId('legend-title').textContent = QUANTITIES[scale.by][source.dimension]
+    .filter(Boolean)
+    .join(', ');
   const [low, high] = scale.domain;
   const phases = scale.kind === 'phases';
   byId('ramp').style.background = phases
@@ -26,5 +34,7 @@ export function showLegend({ scale, shown, total, leftOut, milliseconds }: Drawi
   byId('legend-high').textContent = phases ? '2: splayed' : measured(high);
   byId('shown').title = `${milliseconds.toFixed(1)} ms to cut`;
   const missing = leftOut > 0 ? `, ${count(leftOut)} facets left out` : '';
-  byId('shown').textContent = (shown === total ? `all ${count(total)} shown` : `${count(shown)} of ${count(total)} shown`) + missing;
+  byId('shown').textContent =
+    (shown === total ? `all ${count(total)} shown` : `${count(shown)} of ${count(total)} shown`) +
+    missing;
 }

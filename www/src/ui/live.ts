@@ -61,10 +61,17 @@ export function live(page: Page): Part {
       if (frames.length > KEPT) frames.shift();
       if (now - charted > 400) {
         charted = now;
-        byId('count').textContent = `${count(points)} moving points → ${count(frame.simplices)} ${dimension === 3 ? 'tetrahedra' : 'triangles'}`;
-        byId('took').replaceChildren(create('b', {}, duration(frame.milliseconds)), create('span', {}, `a frame, ${measured(1000 / (now - last))} frames a second`));
+        byId('count').textContent =
+          `${count(points)} moving points → ${count(frame.simplices)} ${dimension === 3 ? 'tetrahedra' : 'triangles'}`;
+        byId('took').replaceChildren(
+          create('b', {}, duration(frame.milliseconds)),
+          create('span', {}, `a frame, ${measured(1000 / (now - last))} frames a second`),
+        );
         const chart = await framesChart(frames);
-        times.replaceChildren(create('p', { className: 'note' }, 'Milliseconds to triangulate each of the last frames'), chart);
+        times.replaceChildren(
+          create('p', { className: 'note' }, 'Milliseconds to triangulate each of the last frames'),
+          chart,
+        );
       }
       last = now;
     }

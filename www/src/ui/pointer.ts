@@ -1,6 +1,6 @@
 import type { Picked } from '../model/model';
-import type { Page, Part } from '../page';
 import type { Dimension } from '../model/source';
+import type { Page, Part } from '../page';
 import { byId, count, create, measured } from './dom';
 import { CLICK } from './editor';
 
@@ -42,20 +42,36 @@ export function pointer(page: Page): Part {
     void ask();
   });
   canvas.addEventListener('pointerleave', (event) => event.pointerType === 'mouse' && hide());
-  canvas.addEventListener('pointerdown', ({ offsetX, offsetY }) => {
-    pressed = { x: offsetX, y: offsetY };
-    hide();
-  }, { capture: true });
+  canvas.addEventListener(
+    'pointerdown',
+    ({ offsetX, offsetY }) => {
+      pressed = { x: offsetX, y: offsetY };
+      hide();
+    },
+    { capture: true },
+  );
   canvas.addEventListener('click', (event) => {
     // The end of a drag is no question.
-    if (!asks() || !pressed || Math.hypot(event.offsetX - pressed.x, event.offsetY - pressed.y) >= CLICK) return;
+    if (
+      !asks() ||
+      !pressed ||
+      Math.hypot(event.offsetX - pressed.x, event.offsetY - pressed.y) >= CLICK
+    )
+      return;
     asked = { x: event.offsetX, y: event.offsetY };
     void ask();
   });
   return { ran: hide, edited: hide };
 }
 
-function describe(tip: HTMLElement, picked: Picked, dimension: Dimension, x: number, y: number, canvas: HTMLElement): void {
+function describe(
+  tip: HTMLElement,
+  picked: Picked,
+  dimension: Dimension,
+  x: number,
+  y: number,
+  canvas: HTMLElement,
+): void {
   const rows: [string, string][] = [
     [dimension === 3 ? 'tetrahedron' : 'triangle', count(picked.index)],
     ['vertices', picked.vertices.join(' ')],
@@ -65,7 +81,9 @@ function describe(tip: HTMLElement, picked: Picked, dimension: Dimension, x: num
     ['circumradius', measured(picked.circumradius)],
   ];
   if (picked.phase) rows.push(['made in phase', String(picked.phase)]);
-  tip.replaceChildren(...rows.flatMap(([name, value]) => [create('dt', {}, name), create('dd', {}, value)]));
+  tip.replaceChildren(
+    ...rows.flatMap(([name, value]) => [create('dt', {}, name), create('dd', {}, value)]),
+  );
   const { offsetWidth, offsetHeight } = tip;
   tip.style.left = `${Math.max(8, x + 18 + offsetWidth > canvas.clientWidth ? x - 18 - offsetWidth : x + 18)}px`;
   tip.style.top = `${Math.min(Math.max(8, y - 20), canvas.clientHeight - offsetHeight - 8)}px`;

@@ -1,5 +1,5 @@
 import type { Engine } from '../model/model';
-import { type Dimension, DISTRIBUTIONS, type Sample, SAMPLES } from '../model/source';
+import { DISTRIBUTIONS, type Dimension, SAMPLES, type Sample } from '../model/source';
 import type { Page, Part } from '../page';
 import { generator } from '../settings';
 import { byId, count, create, radios } from './dom';
@@ -9,8 +9,15 @@ const QUICK = [1_000, 10_000, 100_000, 1_000_000];
 /** The panel with the samples, the generators, the file button and the choice of engine. */
 export function pointsPanel(page: Page): Part {
   const samples = Object.entries(SAMPLES).map(([name, { title, points }]) => {
-    const button = create('button', { type: 'button' }, title, create('small', {}, `${count(points)} points`));
-    button.addEventListener('click', () => page.run({ kind: 'sample', dimension: 3, sample: name as Sample }));
+    const button = create(
+      'button',
+      { type: 'button' },
+      title,
+      create('small', {}, `${count(points)} points`),
+    );
+    button.addEventListener('click', () =>
+      page.run({ kind: 'sample', dimension: 3, sample: name as Sample }),
+    );
     return { name, button };
   });
   byId('samples').append(...samples.map(({ button }) => button));
@@ -19,7 +26,14 @@ export function pointsPanel(page: Page): Part {
   const number = byId<HTMLInputElement>('number');
   const seed = byId<HTMLInputElement>('seed');
   const generate = () =>
-    page.run(generator(page.settings.source.dimension, distribution.value, number.valueAsNumber, seed.valueAsNumber));
+    page.run(
+      generator(
+        page.settings.source.dimension,
+        distribution.value,
+        number.valueAsNumber,
+        seed.valueAsNumber,
+      ),
+    );
   byId<HTMLFormElement>('generator').addEventListener('submit', (event) => {
     event.preventDefault();
     generate();
@@ -35,7 +49,8 @@ export function pointsPanel(page: Page): Part {
   const file = byId<HTMLInputElement>('file');
   byId('open').addEventListener('click', () => file.click());
   file.addEventListener('change', () => {
-    if (file.files?.[0]) page.run({ kind: 'file', dimension: page.settings.source.dimension, file: file.files[0] });
+    if (file.files?.[0])
+      page.run({ kind: 'file', dimension: page.settings.source.dimension, file: file.files[0] });
     // The same file again is a change, too.
     file.value = '';
   });
@@ -50,7 +65,11 @@ export function pointsPanel(page: Page): Part {
   const offer = (dimension: Dimension) => {
     if (dimension === offered) return;
     offered = dimension;
-    distribution.replaceChildren(...Object.entries(DISTRIBUTIONS[dimension]).map(([value, title]) => create('option', { value }, title)));
+    distribution.replaceChildren(
+      ...Object.entries(DISTRIBUTIONS[dimension]).map(([value, title]) =>
+        create('option', { value }, title),
+      ),
+    );
     number.value = dimension === 3 ? '100000' : '1000';
   };
 
@@ -58,7 +77,10 @@ export function pointsPanel(page: Page): Part {
     changed({ source, engine }) {
       offer(source.dimension);
       for (const { name, button } of samples) {
-        button.setAttribute('aria-pressed', String(source.kind === 'sample' && source.sample === name));
+        button.setAttribute(
+          'aria-pressed',
+          String(source.kind === 'sample' && source.sample === name),
+        );
       }
       if (source.kind === 'generator' && source.count > 0) {
         distribution.value = source.distribution;

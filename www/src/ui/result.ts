@@ -26,5 +26,10 @@ export function engineOf({ engine, adapter, why }: Stats): string {
 
 /** Browsers leave out much of what they know about an adapter. */
 export function nameOf({ description, device, vendor, architecture }: AdapterInfo): string {
-  return description || device || [vendor, architecture].filter(Boolean).join(' ') || 'an adapter without a name';
+  return (
+    description ||
+    device ||
+    [vendor, architecture].filter(Boolean).join(' ') ||
+    'an adapter without a name'
+  );
 }

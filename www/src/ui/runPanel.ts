@@ -14,7 +14,9 @@ export function runPanel(page: Page): Part {
   const runs: Run[] = [];
   const stepper = stepMode(page);
   const shade = byId<HTMLInputElement>('shade');
-  shade.addEventListener('change', () => page.change({ layers: { ...page.settings.layers, facets: shade.checked } }));
+  shade.addEventListener('change', () =>
+    page.change({ layers: { ...page.settings.layers, facets: shade.checked } }),
+  );
 
   /** Charts wait until somebody looks: their library is as large as the rest of the page. */
   let charted = true;
@@ -24,7 +26,8 @@ export function runPanel(page: Page): Part {
     const rounds = page.summary?.stats.gpu?.rounds ?? [];
     byId('breakdown').replaceChildren(await breakdownChart(runs));
     byId('rounds-section').hidden = rounds.length === 0;
-    if (rounds.length > 0) byId('rounds-chart').replaceChildren(await roundsChart(rounds), await timelineChart(rounds));
+    if (rounds.length > 0)
+      byId('rounds-chart').replaceChildren(await roundsChart(rounds), await timelineChart(rounds));
   };
 
   const ran = (summary: Summary) => {
@@ -69,7 +72,9 @@ function showFigures({ space, points, duplicates, simplices, hullFacets, stats }
   byId('figures').replaceChildren(
     ...rows
       .filter(([, value]) => value != null)
-      .map(([name, value]) => create('tr', {}, create('th', { scope: 'row' }, name), create('td', {}, count(value!)))),
+      .map(([name, value]) =>
+        create('tr', {}, create('th', { scope: 'row' }, name), create('td', {}, count(value!))),
+      ),
   );
 }
 
@@ -122,7 +127,16 @@ function stepMode(page: Page): (summary: Summary) => void {
   });
   byId('record').addEventListener('click', () => page.record());
   byId('record-few').addEventListener('click', async () => {
-    if (await page.run({ kind: 'generator', dimension: 3, distribution: 'thin-sphere', count: 3_000, seed: 1 })) await page.record();
+    if (
+      await page.run({
+        kind: 'generator',
+        dimension: 3,
+        distribution: 'thin-sphere',
+        count: 3_000,
+        seed: 1,
+      })
+    )
+      await page.record();
   });
 
   return ({ trace }) => {

@@ -10,7 +10,8 @@ export function wireShare(page: Page): void {
     history.replaceState(null, '', `#${hash}`);
     try {
       await navigator.clipboard.writeText(location.href);
-      button.textContent = page.settings.source.kind === 'file' ? 'Copied, without the file' : 'Link copied';
+      button.textContent =
+        page.settings.source.kind === 'file' ? 'Copied, without the file' : 'Link copied';
     } catch {
       // No permission, or no secure page: the link is in the address bar.
       button.textContent = 'Link is in the address bar';

@@ -22,5 +22,8 @@ export function wireTheme(onChange: () => void): void {
 /** Gives the theme's colours to the drawing. */
 export function paint(viewer: Viewer): void {
   const style = getComputedStyle(document.documentElement);
-  viewer.setTheme(style.getPropertyValue('--ink').trim(), style.getPropertyValue('--accent').trim());
+  viewer.setTheme(
+    style.getPropertyValue('--ink').trim(),
+    style.getPropertyValue('--accent').trim(),
+  );
 }

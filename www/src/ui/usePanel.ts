@@ -36,15 +36,29 @@ export function usePanel(page: Page): Part {
 
 /** The file with what is to be seen. */
 async function viewAs(format: (typeof VIEWS)[number], page: Page): Promise<SavedFile> {
-  if (format === 'GLB') return { extension: '.glb', bytes: await (await import('../view/glb')).toGLB(page) };
-  return { extension: '.svg', bytes: new TextEncoder().encode((await import('../view/svg')).toSVG(page)) };
+  if (format === 'GLB')
+    return { extension: '.glb', bytes: await (await import('../view/glb')).toGLB(page) };
+  return {
+    extension: '.svg',
+    bytes: new TextEncoder().encode((await import('../view/svg')).toSVG(page)),
+  };
 }
 
-async function download(page: Page, format: Format | (typeof VIEWS)[number], button: HTMLButtonElement): Promise<void> {
+async function download(
+  page: Page,
+  format: Format | (typeof VIEWS)[number],
+  button: HTMLButtonElement,
+): Promise<void> {
   button.disabled = true;
   try {
-    const files = format === 'GLB' || format === 'SVG' ? [await viewAs(format, page)] : await page.model.save(format);
-    const stem = titleOf(page.settings.source).replace(/\.[^.]*$/, '').replace(/[^\w-]+/g, '-').toLowerCase();
+    const files =
+      format === 'GLB' || format === 'SVG'
+        ? [await viewAs(format, page)]
+        : await page.model.save(format);
+    const stem = titleOf(page.settings.source)
+      .replace(/\.[^.]*$/, '')
+      .replace(/[^\w-]+/g, '-')
+      .toLowerCase();
     for (const { extension, bytes } of files) {
       const link = create('a', {
         href: URL.createObjectURL(new Blob([bytes as Uint8Array<ArrayBuffer>])),
@@ -76,10 +90,20 @@ function codeFor({ settings: { source, engine, edits } }: Page): string {
   ].join('\n');
 }
 
-const EDITED = [`import { delaunay2d } from 'gdel-wasm';`, ``, `const points = [[0, 0], [1, 0], [0, 1]];`];
+const EDITED = [
+  `import { delaunay2d } from 'gdel-wasm';`,
+  ``,
+  `const points = [[0, 0], [1, 0], [0, 1]];`,
+];
 
-function generated({ dimension, distribution, count, seed }: Source & { kind: 'generator' }): string[] {
-  const [triangulate, make] = dimension === 2 ? ['delaunay2d', 'generate2d'] : ['delaunay3d', 'generate'];
+function generated({
+  dimension,
+  distribution,
+  count,
+  seed,
+}: Source & { kind: 'generator' }): string[] {
+  const [triangulate, make] =
+    dimension === 2 ? ['delaunay2d', 'generate2d'] : ['delaunay3d', 'generate'];
   return [
     `import { ${triangulate}, ${make} }`,
     `  from 'gdel-wasm';`,
@@ -90,7 +114,8 @@ function generated({ dimension, distribution, count, seed }: Source & { kind: 'g
 }
 
 function read(source: Exclude<Source, { kind: 'generator' }>): string[] {
-  const name = source.kind === 'file' ? source.file.name.replaceAll("'", "\\'") : `${source.sample}.ply`;
+  const name =
+    source.kind === 'file' ? source.file.name.replaceAll("'", "\\'") : `${source.sample}.ply`;
   const flat = source.dimension === 2;
   return [
     `import { ${flat ? 'delaunay2d' : 'delaunay3d'}, readPoints }`,
@@ -116,7 +141,8 @@ const RESULTS = {
   ],
 };
 
-const bytes = (n: number) => (n < 2 ** 20 ? `${count(n / 2 ** 10)} KiB` : `${count(Math.floor(n / 2 ** 20))} MiB`);
+const bytes = (n: number) =>
+  n < 2 ** 20 ? `${count(n / 2 ** 10)} KiB` : `${count(Math.floor(n / 2 ** 20))} MiB`;
 
 /** The limits of WebGPU that bound the size of the input, or its speed. */
 const LIMITS = [
@@ -137,6 +163,13 @@ async function describeMachine({ model, viewer }: Page): Promise<void> {
     ['Drawing', viewer ? viewer.api : 'none'],
   ];
   const limits = (await navigator.gpu?.requestAdapter())?.limits;
-  if (limits) rows.push(...LIMITS.map(([limit, name, show]): [string, string] => [name, show(limits[limit])]));
-  byId('machine').replaceChildren(...rows.map(([name, value]) => create('tr', {}, create('th', { scope: 'row' }, name), create('td', {}, value))));
+  if (limits)
+    rows.push(
+      ...LIMITS.map(([limit, name, show]): [string, string] => [name, show(limits[limit])]),
+    );
+  byId('machine').replaceChildren(
+    ...rows.map(([name, value]) =>
+      create('tr', {}, create('th', { scope: 'row' }, name), create('td', {}, value)),
+    ),
+  );
 }

@@ -1,9 +1,9 @@
 import type { Filter } from '../geometry/filter';
 import type { ColorBy } from '../geometry/scale';
 import { MOST_PIECES } from '../model/model';
-import type { Page, Part } from '../page';
 import type { Dimension } from '../model/source';
-import { colorsIn, type Layer, LAYERS, type Settings, type Up } from '../settings';
+import type { Page, Part } from '../page';
+import { colorsIn, LAYERS, type Layer, type Settings, type Up } from '../settings';
 import { COLOR_MAPS, type ColorMapName } from '../view/colormap';
 import { byId, count, create, measured, radios } from './dom';
 import { QUANTITIES } from './legend';
@@ -29,7 +29,8 @@ const LAYER_NAMES: Record<Dimension, Partial<Record<Layer, string>>> = {
 const FILTER_NOTES: Record<Dimension, Record<Filter['kind'], string>> = {
   3: {
     all: 'Every tetrahedron. Together they fill the convex hull.',
-    carve: 'Carved from outside with a ball of radius α. Of a scanned surface, this leaves the solid.',
+    carve:
+      'Carved from outside with a ball of radius α. Of a scanned surface, this leaves the solid.',
     alpha: 'Only tetrahedra with a circumradius of at most α.',
   },
   2: {
@@ -40,7 +41,12 @@ const FILTER_NOTES: Record<Dimension, Record<Filter['kind'], string>> = {
 };
 
 const NORMALS: Record<string, Settings['normal']> = {
-  X: [1, 0, 0], Y: [0, 1, 0], Z: [0, 0, 1], '−X': [-1, 0, 0], '−Y': [0, -1, 0], '−Z': [0, 0, -1],
+  X: [1, 0, 0],
+  Y: [0, 1, 0],
+  Z: [0, 0, 1],
+  '−X': [-1, 0, 0],
+  '−Y': [0, -1, 0],
+  '−Z': [0, 0, -1],
 };
 
 /** The panel that says how the mesh is drawn, and the slider for the plane on the stage. */
@@ -61,7 +67,10 @@ export function viewPanel(page: Page): Part {
     byId('normals').append(create('label', {}, radio, create('span', {}, title)));
     return { radio, normal };
   });
-  byId('face').addEventListener('click', () => page.viewer && page.change({ normal: page.viewer.towardsCamera }));
+  byId('face').addEventListener(
+    'click',
+    () => page.viewer && page.change({ normal: page.viewer.towardsCamera }),
+  );
 
   const ups = radios('up', (up) => page.change({ up: up as Up }));
   const filters = radios('filter', (filter) => page.change({ filter: filter as Filter['kind'] }));
@@ -73,7 +82,9 @@ export function viewPanel(page: Page): Part {
 
   const layers = LAYERS.map((layer) => {
     const box = create('input', { type: 'checkbox' });
-    box.addEventListener('change', () => page.change({ layers: { ...page.settings.layers, [layer]: box.checked } }));
+    box.addEventListener('change', () =>
+      page.change({ layers: { ...page.settings.layers, [layer]: box.checked } }),
+    );
     return { layer, box };
   });
 
@@ -82,11 +93,17 @@ export function viewPanel(page: Page): Part {
   const offer = (dimension: Dimension) => {
     if (dimension === offered) return;
     offered = dimension;
-    color.replaceChildren(...colorsIn(dimension).map((value) => create('option', { value }, QUANTITIES[value][dimension][0])));
+    color.replaceChildren(
+      ...colorsIn(dimension).map((value) =>
+        create('option', { value }, QUANTITIES[value][dimension][0]),
+      ),
+    );
     const names = LAYER_NAMES[dimension];
     const offers = Object.keys(names) as Layer[];
     byId('layers').replaceChildren(
-      ...offers.map((layer) => create('label', {}, layers.find((each) => each.layer === layer)!.box, names[layer]!)),
+      ...offers.map((layer) =>
+        create('label', {}, layers.find((each) => each.layer === layer)!.box, names[layer]!),
+      ),
     );
   };
 
@@ -96,7 +113,8 @@ export function viewPanel(page: Page): Part {
     color.value = settings.color;
     map.value = settings.map;
     keep.value = String(settings.keep);
-    for (const { radio, normal } of normals) radio.checked = normal.join() === settings.normal.join();
+    for (const { radio, normal } of normals)
+      radio.checked = normal.join() === settings.normal.join();
     for (const radio of filters) radio.checked = radio.value === settings.filter;
     for (const radio of ups) radio.checked = radio.value === settings.up;
     byId('filter-note').textContent = FILTER_NOTES[dimension][settings.filter];

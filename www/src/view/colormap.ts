@@ -29,8 +29,13 @@ export function gradient(map: ColorMapName): string {
 
 /** The colour at a position from 0 to 1, as three bytes. */
 export function rgbOf(map: ColorMapName | 'phases', position: number): [number, number, number] {
-  const css = map === 'phases' ? PHASE_COLORS[position < 0.5 ? 0 : 1] : COLOR_MAPS[map](0.1 + 0.88 * position);
+  const css =
+    map === 'phases'
+      ? PHASE_COLORS[position < 0.5 ? 0 : 1]
+      : COLOR_MAPS[map](0.1 + 0.88 * position);
   const hex = /^#(..)(..)(..)$/.exec(css);
-  const parts = hex ? hex.slice(1).map((byte) => parseInt(byte, 16)) : css.match(/\d+/g)!.map(Number);
+  const parts = hex
+    ? hex.slice(1).map((byte) => parseInt(byte, 16))
+    : css.match(/\d+/g)!.map(Number);
   return [parts[0], parts[1], parts[2]];
 }

@@ -19,13 +19,17 @@ export async function toGLB({ settings, lastDrawing }: Page): Promise<Uint8Array
     return linear.setRGB(r / 255, g / 255, b / 255, 'srgb').toArray();
   });
   const colors = new Float32Array(positions.length);
-  for (let i = 0; i < positions.length / 3; i++) colors.set(palette[Math.round(values[Math.floor(i / each)] * 255)], 3 * i);
+  for (let i = 0; i < positions.length / 3; i++)
+    colors.set(palette[Math.round(values[Math.floor(i / each)] * 255)], 3 * i);
 
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(positions, 3));
   geometry.setAttribute('color', new BufferAttribute(colors, 3));
   geometry.computeVertexNormals();
-  const mesh = new Mesh(geometry, new MeshStandardMaterial({ vertexColors: true, roughness: 1, metalness: 0 }));
+  const mesh = new Mesh(
+    geometry,
+    new MeshStandardMaterial({ vertexColors: true, roughness: 1, metalness: 0 }),
+  );
   if (settings.up === 'z') mesh.rotation.x = -Math.PI / 2;
   const glb = await new GLTFExporter().parseAsync(mesh, { binary: true });
   return new Uint8Array(glb as ArrayBuffer);

@@ -1,12 +1,40 @@
 import {
-  attribute, cameraProjectionMatrix, float, Fn, instancedBufferAttribute, mix, modelViewMatrix, normalFlat, positionGeometry, select,
-  smoothstep, texture, uniform, uv, varying, vec2, vec3, vec4, vertexIndex,
+  attribute,
+  cameraProjectionMatrix,
+  Fn,
+  float,
+  instancedBufferAttribute,
+  mix,
+  modelViewMatrix,
+  normalFlat,
+  positionGeometry,
+  select,
+  smoothstep,
+  texture,
+  uniform,
+  uv,
+  varying,
+  vec2,
+  vec3,
+  vec4,
+  vertexIndex,
 } from 'three/tsl';
 import {
-  Color, DataTexture, DoubleSide, type InstancedBufferAttribute, LinearFilter, MeshBasicNodeMaterial, type Node, PointsNodeMaterial,
-  RGBAFormat, SRGBColorSpace, UnsignedByteType, Vector2, Vector3,
+  Color,
+  DataTexture,
+  DoubleSide,
+  type InstancedBufferAttribute,
+  LinearFilter,
+  MeshBasicNodeMaterial,
+  type Node,
+  PointsNodeMaterial,
+  RGBAFormat,
+  SRGBColorSpace,
+  UnsignedByteType,
+  Vector2,
+  Vector3,
 } from 'three/webgpu';
-import { texels, type ColorMapName } from './colormap';
+import { type ColorMapName, texels } from './colormap';
 
 /** What all materials share, and the page changes: colours of the theme, the plane, how far the pieces are apart. */
 export class Look {
@@ -48,12 +76,18 @@ export class Look {
 const edgeness = Fn(() => {
   const corner = vertexIndex.mod(3);
   const weights = varying(
-    vec3(select(corner.equal(0), 1, 0), select(corner.equal(1), 1, 0), select(corner.equal(2), 1, 0)),
+    vec3(
+      select(corner.equal(0), 1, 0),
+      select(corner.equal(1), 1, 0),
+      select(corner.equal(2), 1, 0),
+    ),
   );
   const width = weights.fwidth();
   const inside = smoothstep(vec3(0), width.mul(1.1), weights);
   const crowded = width.x.max(width.y).max(width.z);
-  return float(1).sub(inside.x.min(inside.y).min(inside.z)).mul(float(1).sub(smoothstep(0.25, 0.7, crowded)));
+  return float(1)
+    .sub(inside.x.min(inside.y).min(inside.z))
+    .mul(float(1).sub(smoothstep(0.25, 0.7, crowded)));
 });
 
 /** How much the triangles of the plane cover of the ground. */
@@ -62,11 +96,15 @@ const PALE = 0.55;
 // Dark in both themes: light edges would drown the colours.
 const EDGE = vec3(0.004, 0.005, 0.008);
 
-const colorOf = (look: Look, value: Node<'float'>) => texture(look.map, vec2(value.mul(255 / 256).add(0.5 / 256), 0.5)).rgb;
+const colorOf = (look: Look, value: Node<'float'>) =>
+  texture(look.map, vec2(value.mul(255 / 256).add(0.5 / 256), 0.5)).rgb;
 
 /** The colour of a value under a lamp beside the camera. */
 function shaded(look: Look, value: Node<'float'>): Node<'vec3'> {
-  const lit = normalFlat.dot(vec3(0.28, 0.48, 0.83)).mul(0.5).add(0.5);
+  const lit = normalFlat
+    .dot(vec3(0.28, 0.48, 0.83))
+    .mul(0.5)
+    .add(0.5);
   const color = colorOf(look, value).mul(lit.mul(lit).mul(0.9).add(0.2));
   return mix(color, EDGE, edgeness().mul(look.edges).mul(0.5));
 }
@@ -90,9 +128,20 @@ export function flatMaterial(look: Look): MeshBasicNodeMaterial {
 }
 
 /** For lines so many pixels wide; reads the instances' ends `a` and `b`, and in x and y which end and which side. */
-export function linesMaterial(look: Look, color: Node<'color'>, width: number, opacity: Node<'float'>): MeshBasicNodeMaterial {
-  const material = new MeshBasicNodeMaterial({ transparent: true, depthTest: false, depthWrite: false, side: DoubleSide });
-  const toClip = (end: string) => cameraProjectionMatrix.mul(modelViewMatrix.mul(vec4(attribute<'vec3'>(end, 'vec3'), 1)));
+export function linesMaterial(
+  look: Look,
+  color: Node<'color'>,
+  width: number,
+  opacity: Node<'float'>,
+): MeshBasicNodeMaterial {
+  const material = new MeshBasicNodeMaterial({
+    transparent: true,
+    depthTest: false,
+    depthWrite: false,
+    side: DoubleSide,
+  });
+  const toClip = (end: string) =>
+    cameraProjectionMatrix.mul(modelViewMatrix.mul(vec4(attribute<'vec3'>(end, 'vec3'), 1)));
   const [a, b] = [toClip('a'), toClip('b')];
   const along = b.xy.div(b.w).sub(a.xy.div(a.w)).mul(look.size).normalize();
   const across = vec2(along.y.negate(), along.x).mul(positionGeometry.y.mul(width)).div(look.size);
@@ -105,7 +154,9 @@ export function linesMaterial(look: Look, color: Node<'color'>, width: number, o
 
 /** For the Voronoi diagram, whose edges go on where nothing is any more. */
 export function voronoiMaterial(look: Look): MeshBasicNodeMaterial {
-  const place = varying(mix(attribute<'vec3'>('a', 'vec3'), attribute<'vec3'>('b', 'vec3'), positionGeometry.x).xy);
+  const place = varying(
+    mix(attribute<'vec3'>('a', 'vec3'), attribute<'vec3'>('b', 'vec3'), positionGeometry.x).xy,
+  );
   const outwards = place.sub(look.voronoiMiddle).abs().div(look.voronoiReach);
   const fade = float(1).sub(smoothstep(0.7, 1, outwards.x.max(outwards.y)));
   return linesMaterial(look, look.accent, 1.5, look.voronoiOpacity.mul(fade));
@@ -116,7 +167,11 @@ export function piecesMaterial(look: Look): MeshBasicNodeMaterial {
   const material = new MeshBasicNodeMaterial();
   const [a, b, c, d] = ['a', 'b', 'c', 'd'].map((name) => attribute<'vec3'>(name, 'vec3'));
   const corner = positionGeometry.x;
-  const own = select(corner.lessThan(0.5), a, select(corner.lessThan(1.5), b, select(corner.lessThan(2.5), c, d)));
+  const own = select(
+    corner.lessThan(0.5),
+    a,
+    select(corner.lessThan(1.5), b, select(corner.lessThan(2.5), c, d)),
+  );
   const centroid = a.add(b).add(c).add(d).mul(0.25);
   material.positionNode = own.add(centroid.mul(look.apart)).div(look.apart.add(1));
   material.colorNode = shaded(look, varying(attribute<'float'>('value', 'float')));
@@ -124,25 +179,41 @@ export function piecesMaterial(look: Look): MeshBasicNodeMaterial {
 }
 
 /** For points, as instanced sprites of a size in pixels. */
-export function pointsMaterial(look: Look, positions: InstancedBufferAttribute): PointsNodeMaterial {
+export function pointsMaterial(
+  look: Look,
+  positions: InstancedBufferAttribute,
+): PointsNodeMaterial {
   const position = instancedBufferAttribute<'vec3'>(positions, 'vec3');
-  const material = new PointsNodeMaterial({ sizeAttenuation: false, transparent: true, depthWrite: false });
+  const material = new PointsNodeMaterial({
+    sizeAttenuation: false,
+    transparent: true,
+    depthWrite: false,
+  });
   material.positionNode = position;
   material.sizeNode = select(
-    position.dot(look.planeNormal).greaterThan(look.pointsAbove).or(look.pointsEverywhere.greaterThan(0)),
+    position
+      .dot(look.planeNormal)
+      .greaterThan(look.pointsAbove)
+      .or(look.pointsEverywhere.greaterThan(0)),
     look.pointSize,
     float(0),
   );
   material.colorNode = look.ink;
   // Round, where there is room for it.
   const round = float(1).sub(smoothstep(0.38, 0.5, uv().sub(0.5).length()));
-  material.opacityNode = look.pointOpacity.mul(select(look.pointSize.greaterThan(3), round, float(1)));
+  material.opacityNode = look.pointOpacity.mul(
+    select(look.pointSize.greaterThan(3), round, float(1)),
+  );
   return material;
 }
 
 /** For the hull: edges only, seen through. */
 export function hullMaterial(look: Look): MeshBasicNodeMaterial {
-  const material = new MeshBasicNodeMaterial({ transparent: true, depthWrite: false, side: DoubleSide });
+  const material = new MeshBasicNodeMaterial({
+    transparent: true,
+    depthWrite: false,
+    side: DoubleSide,
+  });
   material.colorNode = look.ink;
   material.opacityNode = edgeness().mul(0.22);
   return material;
@@ -150,7 +221,12 @@ export function hullMaterial(look: Look): MeshBasicNodeMaterial {
 
 /** For facets to point out: filled with the accent colour, visible through everything. */
 export function accentMaterial(look: Look): MeshBasicNodeMaterial {
-  const material = new MeshBasicNodeMaterial({ transparent: true, depthTest: false, depthWrite: false, side: DoubleSide });
+  const material = new MeshBasicNodeMaterial({
+    transparent: true,
+    depthTest: false,
+    depthWrite: false,
+    side: DoubleSide,
+  });
   material.colorNode = look.accent;
   material.opacityNode = edgeness().mul(0.3).add(0.6);
   return material;

@@ -6,22 +6,29 @@ const MOST_TRIANGLES = 100_000;
 
 /** What the page shows of the plane, as a picture: the unit square of the frame and a margin, y up. */
 export function toSVG({ settings, lastDrawing, positions, summary }: Page): string {
-  if (!lastDrawing?.surface || !positions || !summary) throw new Error('There is nothing to see yet.');
+  if (!lastDrawing?.surface || !positions || !summary)
+    throw new Error('There is nothing to see yet.');
   const { surface, voronoi } = lastDrawing;
   const { layers, map } = settings;
-  if (surface.owners.length > MOST_TRIANGLES) throw new Error('A picture of so many triangles would be too large for most programs.');
+  if (surface.owners.length > MOST_TRIANGLES)
+    throw new Error('A picture of so many triangles would be too large for most programs.');
   const style = getComputedStyle(document.documentElement);
   const color = (name: string) => style.getPropertyValue(`--${name}`).trim();
-  const at = (array: Float32Array, i: number) => `${(1000 * array[i]).toFixed(2)} ${(-1000 * array[i + 1]).toFixed(2)}`;
+  const at = (array: Float32Array, i: number) =>
+    `${(1000 * array[i]).toFixed(2)} ${(-1000 * array[i + 1]).toFixed(2)}`;
   const width = 1000 / Math.sqrt(Math.max(100, summary.points)) / 40;
 
   const parts: string[] = [];
-  const edge = layers.edges ? ` stroke="${color('ink')}" stroke-opacity="0.6" stroke-width="${width.toFixed(2)}" stroke-linejoin="round"` : '';
+  const edge = layers.edges
+    ? ` stroke="${color('ink')}" stroke-opacity="0.6" stroke-width="${width.toFixed(2)}" stroke-linejoin="round"`
+    : '';
   if (layers.simplices || layers.edges) {
     parts.push(`<g${edge}>`);
     for (let t = 0; t < surface.owners.length; t++) {
       const fill = layers.simplices ? `rgb(${rgbOf(map, surface.values[3 * t]).join()})` : 'none';
-      parts.push(`<path fill="${fill}" d="M${[0, 3, 6].map((corner) => at(surface.positions, 9 * t + corner)).join('L')}Z"/>`);
+      parts.push(
+        `<path fill="${fill}" d="M${[0, 3, 6].map((corner) => at(surface.positions, 9 * t + corner)).join('L')}Z"/>`,
+      );
     }
     parts.push('</g>');
   }
@@ -29,7 +36,9 @@ export function toSVG({ settings, lastDrawing, positions, summary }: Page): stri
     let path = '';
     const { ends } = voronoi;
     for (let i = 0; i < ends.length; i += 6) path += `M${at(ends, i)}L${at(ends, i + 3)}`;
-    parts.push(`<path fill="none" stroke="${color('accent')}" stroke-width="${(1.5 * width).toFixed(2)}" d="${path}"/>`);
+    parts.push(
+      `<path fill="none" stroke="${color('accent')}" stroke-width="${(1.5 * width).toFixed(2)}" d="${path}"/>`,
+    );
   }
   if (layers.points) {
     parts.push(`<g fill="${color('ink')}">`);

@@ -1,9 +1,29 @@
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import {
-  BufferAttribute, BufferGeometry, Color, Group, InstancedBufferAttribute, InstancedBufferGeometry,
-  InstancedInterleavedBuffer, InterleavedBufferAttribute, type Material, Mesh, MOUSE, type Object3D, PerspectiveCamera, Raycaster, Scene, Sphere, Spherical, Sprite, TOUCH, Vector2, Vector3, WebGPURenderer,
-} from 'three/webgpu';
 import { float } from 'three/tsl';
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  Group,
+  InstancedBufferAttribute,
+  InstancedBufferGeometry,
+  InstancedInterleavedBuffer,
+  InterleavedBufferAttribute,
+  type Material,
+  Mesh,
+  MOUSE,
+  type Object3D,
+  PerspectiveCamera,
+  Raycaster,
+  Scene,
+  Sphere,
+  Spherical,
+  Sprite,
+  TOUCH,
+  Vector2,
+  Vector3,
+  WebGPURenderer,
+} from 'three/webgpu';
 import { FACETS } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
 import type { Pieces } from '../geometry/pieces';
@@ -11,10 +31,27 @@ import type { Surface } from '../geometry/surface';
 import type { Voronoi } from '../geometry/voronoi';
 import type { Dimension } from '../model/source';
 import type { ColorMapName } from './colormap';
-import { accentMaterial, flatMaterial, hullMaterial, linesMaterial, Look, piecesMaterial, pointsMaterial, surfaceMaterial, voronoiMaterial } from './materials';
+import {
+  accentMaterial,
+  flatMaterial,
+  hullMaterial,
+  Look,
+  linesMaterial,
+  piecesMaterial,
+  pointsMaterial,
+  surfaceMaterial,
+  voronoiMaterial,
+} from './materials';
 
 /** Where the camera is: the direction from the target as angles, the distance, and the target. In the plane it looks straight down. */
-export type CameraPose = [azimuth: number, elevation: number, distance: number, x: number, y: number, z: number];
+export type CameraPose = [
+  azimuth: number,
+  elevation: number,
+  distance: number,
+  x: number,
+  y: number,
+  z: number,
+];
 
 const EVERYWHERE = new Sphere(new Vector3(), Infinity);
 
@@ -63,9 +100,15 @@ export class Viewer {
       pieces: this.add(new Mesh(new BufferGeometry(), piecesMaterial(look))),
       voronoi: this.add(new Mesh(new BufferGeometry(), voronoiMaterial(look)), 1),
       hull: this.add(new Mesh(new BufferGeometry(), hullMaterial(look)), 2),
-      hullEdges: this.add(new Mesh(new BufferGeometry(), linesMaterial(look, look.ink, 2, float(0.8))), 2),
+      hullEdges: this.add(
+        new Mesh(new BufferGeometry(), linesMaterial(look, look.ink, 2, float(0.8))),
+        2,
+      ),
       facets: this.add(new Mesh(new BufferGeometry(), accentMaterial(look)), 4),
-      outline: this.add(new Mesh(new BufferGeometry(), linesMaterial(look, look.ink, 2, float(1))), 5),
+      outline: this.add(
+        new Mesh(new BufferGeometry(), linesMaterial(look, look.ink, 2, float(1))),
+        5,
+      ),
       points: null,
     };
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
@@ -73,7 +116,11 @@ export class Viewer {
   }
 
   /** Fails where the browser can draw neither with WebGPU nor with WebGL 2. */
-  static async create(canvas: HTMLCanvasElement, onCamera: () => void, onLost: () => void): Promise<Viewer> {
+  static async create(
+    canvas: HTMLCanvasElement,
+    onCamera: () => void,
+    onLost: () => void,
+  ): Promise<Viewer> {
     const renderer = new WebGPURenderer({ canvas, antialias: true, alpha: true });
     renderer.onDeviceLost = onLost;
     await renderer.init();
@@ -90,7 +137,8 @@ export class Viewer {
     if (dimension === this.dimension) return;
     this.dimension = dimension;
     const flat = dimension === 2;
-    for (const layer of Object.values<Mesh | Sprite | null>(this.layers as never)) if (layer instanceof Mesh) this.replace(layer, null);
+    for (const layer of Object.values<Mesh | Sprite | null>(this.layers as never))
+      if (layer instanceof Mesh) this.replace(layer, null);
     this.showPoints(null);
     this.controls.enableRotate = !flat;
     this.controls.zoomToCursor = flat;
@@ -142,12 +190,17 @@ export class Viewer {
       this.layers.points = null;
     }
     if (positions && positions.length > 0) {
-      const points = new Sprite(pointsMaterial(this.look, new InstancedBufferAttribute(positions, 3)));
+      const points = new Sprite(
+        pointsMaterial(this.look, new InstancedBufferAttribute(positions, 3)),
+      );
       points.count = positions.length / 3;
       this.look.pointSize.value = points.count < 1000 ? 4 : 1.5;
       // Many points on a small canvas would cover everything.
       const { clientWidth, clientHeight } = this.canvas;
-      this.look.pointOpacity.value = Math.min(0.5, Math.max(0.04, 0.068 * Math.sqrt((clientWidth * clientHeight) / points.count)));
+      this.look.pointOpacity.value = Math.min(
+        0.5,
+        Math.max(0.04, 0.068 * Math.sqrt((clientWidth * clientHeight) / points.count)),
+      );
       points.renderOrder = 1;
       points.frustumCulled = false;
       this.model.add(points);
@@ -159,7 +212,9 @@ export class Viewer {
   /** Shows or hides what a layer holds, without giving it up. */
   setVisible(layer: Exclude<keyof Layers, 'outline'>, visible: boolean): void {
     const object = this.layers[layer];
-    if (object) object.visible = visible && (object instanceof Sprite || object.geometry.hasAttribute('position'));
+    if (object)
+      object.visible =
+        visible && (object instanceof Sprite || object.geometry.hasAttribute('position'));
     this.render();
   }
 
@@ -183,14 +238,18 @@ export class Viewer {
 
   get pose(): CameraPose {
     const { x, y, z } = this.controls.target;
-    const around = new Spherical().setFromVector3(this.camera.position.clone().sub(this.controls.target));
+    const around = new Spherical().setFromVector3(
+      this.camera.position.clone().sub(this.controls.target),
+    );
     return [around.theta, Math.PI / 2 - around.phi, around.radius, x, y, z];
   }
 
   set pose([azimuth, elevation, distance, x, y, z]: CameraPose) {
     this.controls.target.set(x, y, z);
     const phi = Math.min(Math.PI - 1e-3, Math.max(1e-3, Math.PI / 2 - elevation));
-    this.camera.position.setFromSpherical(new Spherical(distance, phi, azimuth)).add(this.controls.target);
+    this.camera.position
+      .setFromSpherical(new Spherical(distance, phi, azimuth))
+      .add(this.controls.target);
     this.controls.update();
     this.render();
   }
@@ -225,7 +284,10 @@ export class Viewer {
   onCanvas(x: number, y: number): [x: number, y: number] {
     this.camera.updateMatrixWorld();
     const projected = new Vector3(x, y, 0).project(this.camera);
-    return [((projected.x + 1) / 2) * this.canvas.clientWidth, ((1 - projected.y) / 2) * this.canvas.clientHeight];
+    return [
+      ((projected.x + 1) / 2) * this.canvas.clientWidth,
+      ((1 - projected.y) / 2) * this.canvas.clientHeight,
+    ];
   }
 
   /** The direction from the model to the camera, in the model's axes, of length 1. */
@@ -239,7 +301,10 @@ export class Viewer {
     const { clientWidth, clientHeight } = this.canvas;
     const caster = new Raycaster();
     this.camera.updateMatrixWorld();
-    caster.setFromCamera(new Vector2((x / clientWidth) * 2 - 1, 1 - (y / clientHeight) * 2), this.camera);
+    caster.setFromCamera(
+      new Vector2((x / clientWidth) * 2 - 1, 1 - (y / clientHeight) * 2),
+      this.camera,
+    );
     const { origin, direction } = caster.ray.applyMatrix4(this.model.matrixWorld.clone().invert());
     return { origin: origin.toArray(), direction: direction.toArray() };
   }
@@ -256,7 +321,9 @@ export class Viewer {
   /** Resolves after the next drawing has been handed to the browser. */
   drawn(): Promise<void> {
     this.render();
-    return new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve())));
+    return new Promise((resolve) =>
+      requestAnimationFrame(() => requestAnimationFrame(() => resolve())),
+    );
   }
 
   /** In the plane, points and Voronoi diagram become smaller and paler where many of them are seen, and come back near by. */
@@ -278,7 +345,10 @@ export class Viewer {
     return object;
   }
 
-  private replace(layer: Object3D & { geometry: BufferGeometry; material: Material | Material[] }, geometry: BufferGeometry | null) {
+  private replace(
+    layer: Object3D & { geometry: BufferGeometry; material: Material | Material[] },
+    geometry: BufferGeometry | null,
+  ) {
     layer.geometry.dispose();
     layer.geometry = geometry ?? new BufferGeometry();
     layer.visible = geometry !== null;
@@ -295,10 +365,14 @@ export class Viewer {
     // The smaller side of the canvas sees the same angle, whichever side it is.
     const wide = clientWidth > 700;
     const zoom = this.dimension === 2 && !wide ? 1.12 : 1;
-    this.camera.fov = (360 / Math.PI) * Math.atan((zoom * Math.tan(Math.PI / 9.5)) / Math.min(1, this.camera.aspect));
+    this.camera.fov =
+      (360 / Math.PI) *
+      Math.atan((zoom * Math.tan(Math.PI / 9.5)) / Math.min(1, this.camera.aspect));
     // The title is at the top left: the model makes room, sidewards where there is width, else downwards, and by being smaller
     // where it would fill the canvas.
-    const [right, down] = wide ? [0.07 * clientWidth, 0.02 * clientHeight] : [0, 0.05 * clientHeight];
+    const [right, down] = wide
+      ? [0.07 * clientWidth, 0.02 * clientHeight]
+      : [0, 0.05 * clientHeight];
     this.camera.setViewOffset(clientWidth, clientHeight, -right, -down, clientWidth, clientHeight);
     this.render();
   }
@@ -332,9 +406,10 @@ function instances({ a, b, c, d, values, owners }: Pieces): BufferGeometry | nul
   if (owners.length === 0) return null;
   const geometry = new InstancedBufferGeometry();
   const corners = new Float32Array(36);
-  FACETS.forEach((corner, i) => (corners[3 * i] = corner));
+  for (const [i, corner] of FACETS.entries()) corners[3 * i] = corner;
   geometry.setAttribute('position', new BufferAttribute(corners, 3));
-  for (const [name, array] of Object.entries({ a, b, c, d })) geometry.setAttribute(name, new InstancedBufferAttribute(array, 3));
+  for (const [name, array] of Object.entries({ a, b, c, d }))
+    geometry.setAttribute(name, new InstancedBufferAttribute(array, 3));
   geometry.setAttribute('value', new InstancedBufferAttribute(values, 1));
   geometry.instanceCount = owners.length;
   geometry.boundingSphere = EVERYWHERE;

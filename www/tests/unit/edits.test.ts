@@ -1,4 +1,5 @@
-import { expect, test } from 'vitest';
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
 import { applyEdits, type Edit, editsFromText, editsToText, withEdit } from '../../src/model/edits';
 
 const EDITS: Edit[] = [
@@ -10,28 +11,44 @@ const EDITS: Edit[] = [
 
 test('changes apply in order, and leave the points before as they are', () => {
   const before = Float64Array.of(1, 2, 3, 4);
-  expect([...applyEdits(before, EDITS)]).toEqual([7, 8, 9, 1e-7]);
-  expect([...before]).toEqual([1, 2, 3, 4]);
-  expect(applyEdits(before, [])).toBe(before);
+  assert.deepEqual([...applyEdits(before, EDITS)], [7, 8, 9, 1e-7]);
+  assert.deepEqual([...before], [1, 2, 3, 4]);
+  assert.equal(applyEdits(before, []), before);
 });
 
 test('what names a point that is not there changes nothing', () => {
-  const edits: Edit[] = [{ do: 'remove', point: 2 }, { do: 'move', point: 99, at: [0, 0] }];
-  expect([...applyEdits(Float64Array.of(1, 2, 3, 4), edits)]).toEqual([1, 2, 3, 4]);
+  const edits: Edit[] = [
+    { do: 'remove', point: 2 },
+    { do: 'move', point: 99, at: [0, 0] },
+  ];
+  assert.deepEqual([...applyEdits(Float64Array.of(1, 2, 3, 4), edits)], [1, 2, 3, 4]);
 });
 
 test('many moves of one point are one change', () => {
   const to = (x: number): Edit => ({ do: 'move', point: 3, at: [x, 0] });
-  expect(withEdit(withEdit(EDITS, to(1)), to(2))).toEqual([...EDITS, to(2)]);
-  expect(withEdit([to(1)], { do: 'move', point: 4, at: [2, 0] })).toHaveLength(2);
+  assert.deepEqual(withEdit(withEdit(EDITS, to(1)), to(2)), [...EDITS, to(2)]);
+  assert.equal(withEdit([to(1)], { do: 'move', point: 4, at: [2, 0] }).length, 2);
 });
 
 test('a link holds them', () => {
-  expect(editsFromText(editsToText(EDITS))).toEqual(EDITS);
+  assert.deepEqual(editsFromText(editsToText(EDITS)), EDITS);
 });
 
 test('what makes no sense in a link is no change', () => {
-  for (const text of ['', 'add', 'add_1', 'add_1_2_3', 'add_1_NaN', 'add__2', 'move_1_2', 'move_-1_2_3', 'move_0.5_2_3', 'remove_x', 'remove_1*', 'drop_1']) {
-    expect(editsFromText(text), text).toBeNull();
+  for (const text of [
+    '',
+    'add',
+    'add_1',
+    'add_1_2_3',
+    'add_1_NaN',
+    'add__2',
+    'move_1_2',
+    'move_-1_2_3',
+    'move_0.5_2_3',
+    'remove_x',
+    'remove_1*',
+    'drop_1',
+  ]) {
+    assert.equal(editsFromText(text), null, text);
   }
 });

@@ -1,4 +1,5 @@
-import { describe, expect, test } from 'vitest';
+import assert from 'node:assert/strict';
+import { describe, test } from 'node:test';
 import { applyFilter, typicalAlpha } from '../../src/geometry/filter';
 import { measure } from '../../src/geometry/measures';
 import { FACETS, frameOf, toFrame } from '../../src/geometry/mesh';
@@ -7,13 +8,15 @@ import { outermost, piecesOf, trianglesOf } from '../../src/geometry/pieces';
 import { heightsAlong, levelOf } from '../../src/geometry/plane';
 import { mapping, scaleFor } from '../../src/geometry/scale';
 import { boundaryOf, surfaceOf } from '../../src/geometry/surface';
+import { closeTo } from './close';
 
 const SIDE = 4;
 
 /** The points of a grid, each cube of it in five tetrahedra, mirrored from cube to cube so that their facets match. */
 function grid() {
   const points: number[] = [];
-  for (let x = 0; x <= SIDE; x++) for (let y = 0; y <= SIDE; y++) for (let z = 0; z <= SIDE; z++) points.push(x, y, z);
+  for (let x = 0; x <= SIDE; x++)
+    for (let y = 0; y <= SIDE; y++) for (let z = 0; z <= SIDE; z++) points.push(x, y, z);
   const at = (x: number, y: number, z: number) => (x * (SIDE + 1) + y) * (SIDE + 1) + z;
   const tetrahedra: number[] = [];
   for (let x = 0; x < SIDE; x++) {
@@ -23,7 +26,14 @@ function grid() {
           const bits = (x + y + z) % 2 ? c ^ 1 : c;
           return at(x + (bits & 1), y + ((bits >> 1) & 1), z + ((bits >> 2) & 1));
         };
-        for (const t of [[0, 1, 2, 4], [3, 1, 2, 7], [5, 1, 4, 7], [6, 2, 4, 7], [1, 2, 4, 7]]) tetrahedra.push(...positive(points, t.map(corner)));
+        for (const t of [
+          [0, 1, 2, 4],
+          [3, 1, 2, 7],
+          [5, 1, 4, 7],
+          [6, 2, 4, 7],
+          [1, 2, 4, 7],
+        ])
+          tetrahedra.push(...positive(points, t.map(corner)));
       }
     }
   }
@@ -32,9 +42,13 @@ function grid() {
 }
 
 function positive(points: number[], [a, b, c, d]: number[]): number[] {
-  const minus = (p: number, q: number) => [0, 1, 2].map((k) => points[3 * p + k] - points[3 * q + k]);
+  const minus = (p: number, q: number) =>
+    [0, 1, 2].map((k) => points[3 * p + k] - points[3 * q + k]);
   const [u, v, w] = [minus(b, a), minus(c, a), minus(d, a)];
-  const volume = u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+  const volume =
+    u[0] * (v[1] * w[2] - v[2] * w[1]) +
+    u[1] * (v[2] * w[0] - v[0] * w[2]) +
+    u[2] * (v[0] * w[1] - v[1] * w[0]);
   return volume > 0 ? [a, b, c, d] : [b, a, c, d];
 }
 
@@ -42,7 +56,10 @@ function neighborsOf(tetrahedra: Uint32Array): Int32Array {
   const neighbors = new Int32Array(tetrahedra.length).fill(-1);
   const waiting = new Map<string, number>();
   for (let f = 0; f < tetrahedra.length; f++) {
-    const key = [0, 1, 2].map((j) => tetrahedra[(f & ~3) + FACETS[3 * (f & 3) + j]]).sort((p, q) => p - q).join();
+    const key = [0, 1, 2]
+      .map((j) => tetrahedra[(f & ~3) + FACETS[3 * (f & 3) + j]])
+      .sort((p, q) => p - q)
+      .join();
     const other = waiting.get(key);
     if (other === undefined) waiting.set(key, f);
     else {
@@ -73,75 +90,115 @@ function enclosed(triangles: Float32Array): number {
 
 describe('measures', () => {
   test('volumes add up to the cube', () => {
-    expect(measures.volume.reduce((sum, v) => sum + v, 0)).toBeCloseTo(SIDE ** 3, 3);
+    closeTo(
+      measures.volume.reduce((sum, v) => sum + v, 0),
+      SIDE ** 3,
+      3,
+    );
   });
 
   test('a regular tetrahedron has radius ratio 1, its circumradius is right, also far away', () => {
     const regular = Float64Array.of(1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1).map((x) => x + 1e6);
     const { radiusRatio, circumradius, volume } = measure(regular, Uint32Array.of(0, 1, 2, 3));
-    expect(radiusRatio[0]).toBeCloseTo(1, 5);
-    expect(circumradius[0]).toBeCloseTo(Math.sqrt(3), 5);
-    expect(volume[0]).toBeCloseTo(8 / 3, 5);
+    closeTo(radiusRatio[0], 1, 5);
+    closeTo(circumradius[0], Math.sqrt(3), 5);
+    closeTo(volume[0], 8 / 3, 5);
   });
 
   test('a flat tetrahedron has no volume and no finite circumradius', () => {
-    const flat = measure(Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0), Uint32Array.of(0, 1, 2, 3));
-    expect([flat.volume[0], flat.circumradius[0], flat.radiusRatio[0]]).toEqual([0, Infinity, 0]);
+    const flat = measure(
+      Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0),
+      Uint32Array.of(0, 1, 2, 3),
+    );
+    assert.deepEqual([flat.volume[0], flat.circumradius[0], flat.radiusRatio[0]], [0, Infinity, 0]);
   });
 });
 
 describe('the cut', () => {
-  for (const normal of [[1, 0, 0], [0, 0, -1], [0.6, 0.64, 0.48]] as const) {
+  for (const normal of [
+    [1, 0, 0],
+    [0, 0, -1],
+    [0.6, 0.64, 0.48],
+  ] as const) {
     for (const keep of [0, 0.3, 0.5, 1]) {
       test(`along ${normal} at ${keep} bounds just the tetrahedra below it`, () => {
         const heights = heightsAlong(normal, mesh);
         const level = levelOf({ normal, keep }, heights);
         const { facets, shown } = boundaryOf(mesh, all, heights, level);
         const below = Array.from(heights.height.keys()).filter((t) => heights.height[t] <= level);
-        expect(shown).toBe(below.length);
+        assert.equal(shown, below.length);
         const surface = surfaceOf(mesh, facets, () => 0.5);
         const volume = below.reduce((sum, t) => sum + measures.volume[t], 0);
         // A surface that were open, or wound the wrong way somewhere, would enclose something else.
-        expect(enclosed(surface.positions)).toBeCloseTo(volume * frame.scale ** 3, 4);
+        closeTo(enclosed(surface.positions), volume * frame.scale ** 3, 4);
         const owners = new Set(below);
-        expect(surface.owners.every((t) => owners.has(t))).toBe(true);
+        assert.equal(
+          surface.owners.every((t) => owners.has(t)),
+          true,
+        );
       });
     }
   }
 
   test('keeps everything at 1 and shows the hull', () => {
     const heights = heightsAlong([1, 0, 0], mesh);
-    const { facets, shown } = boundaryOf(mesh, all, heights, levelOf({ normal: [1, 0, 0], keep: 1 }, heights));
-    expect(shown).toBe(count);
-    expect(facets.length).toBe(6 * 2 * SIDE * SIDE);
+    const { facets, shown } = boundaryOf(
+      mesh,
+      all,
+      heights,
+      levelOf({ normal: [1, 0, 0], keep: 1 }, heights),
+    );
+    assert.equal(shown, count);
+    assert.equal(facets.length, 6 * 2 * SIDE * SIDE);
   });
 });
 
 describe('filters', () => {
   test('the alpha complex keeps what is small enough', () => {
-    const { kept } = applyFilter({ kind: 'alpha', alpha: 0.1 }, points, tetrahedra, neighbors, measures.circumradius);
-    expect(kept.every((k) => k === 0)).toBe(true);
+    const { kept } = applyFilter(
+      { kind: 'alpha', alpha: 0.1 },
+      points,
+      tetrahedra,
+      neighbors,
+      measures.circumradius,
+    );
+    assert.equal(
+      kept.every((k) => k === 0),
+      true,
+    );
   });
 
   test('carving takes nothing from outside where no facet is large, and all where every facet is', () => {
     const carved = (alpha: number) =>
-      applyFilter({ kind: 'carve', alpha }, points, tetrahedra, neighbors, measures.circumradius).kept.reduce((s, k) => s + k, 0);
-    expect(carved(1)).toBe(count);
-    expect(carved(0.1)).toBe(0);
+      applyFilter(
+        { kind: 'carve', alpha },
+        points,
+        tetrahedra,
+        neighbors,
+        measures.circumradius,
+      ).kept.reduce((s, k) => s + k, 0);
+    assert.equal(carved(1), count);
+    assert.equal(carved(0.1), 0);
   });
 
   test('a ball of radius alpha carves a tetrahedron whose facets have a larger circumcircle', () => {
     const regular = Float64Array.of(1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1);
     const one = Uint32Array.of(0, 1, 2, 3);
     const kept = (alpha: number) =>
-      applyFilter({ kind: 'carve', alpha }, regular, one, Int32Array.of(-1, -1, -1, -1), measure(regular, one).circumradius).kept[0];
+      applyFilter(
+        { kind: 'carve', alpha },
+        regular,
+        one,
+        Int32Array.of(-1, -1, -1, -1),
+        measure(regular, one).circumradius,
+      ).kept[0];
     // Equilateral facets with sides of √8.
     const circumradius = Math.sqrt(8 / 3);
-    expect([kept(0.999 * circumradius), kept(1.001 * circumradius)]).toEqual([0, 1]);
+    assert.deepEqual([kept(0.999 * circumradius), kept(1.001 * circumradius)], [0, 1]);
   });
 
   test('the typical alpha is ten edges of the grid', () => {
-    expect(typicalAlpha(points, tetrahedra)).toBeCloseTo(10, 5);
+    closeTo(typicalAlpha(points, tetrahedra), 10, 5);
   });
 });
 
@@ -151,21 +208,28 @@ describe('pieces', () => {
 
   test('all tetrahedra where there is room, each once', () => {
     const owners = outermost(mesh, all, heights, Infinity, boundary, count);
-    expect([...owners].sort((a, b) => a - b)).toEqual([...Array(count).keys()]);
+    assert.deepEqual(
+      [...owners].sort((a, b) => a - b),
+      [...Array(count).keys()],
+    );
   });
 
   test('the outermost first where there is not', () => {
     const outer = new Set([...boundary.facets].map((f) => f >>> 2));
     const owners = outermost(mesh, all, heights, Infinity, boundary, outer.size);
-    expect(new Set(owners)).toEqual(outer);
-    expect(outermost(mesh, all, heights, Infinity, boundary, 3).length).toBe(3);
+    assert.deepEqual(new Set(owners), outer);
+    assert.equal(outermost(mesh, all, heights, Infinity, boundary, 3).length, 3);
   });
 
   test('are closed, and all shrink alike when pulled apart', () => {
     const owners = Uint32Array.from({ length: count }, (_, t) => t);
     const pieces = piecesOf(positions, tetrahedra, owners, () => 0);
     for (const apart of [0, 0.7]) {
-      expect(enclosed(trianglesOf(pieces, apart))).toBeCloseTo((SIDE * frame.scale) ** 3 / (1 + apart) ** 3, 4);
+      closeTo(
+        enclosed(trianglesOf(pieces, apart)),
+        (SIDE * frame.scale) ** 3 / (1 + apart) ** 3,
+        4,
+      );
     }
   });
 });
@@ -176,17 +240,17 @@ test('a ray meets the nearest triangle that faces it', () => {
   const { positions: triangles, owners } = surfaceOf(mesh, facets, () => 0);
   const hit = firstHit(triangles, { origin: [5, 0.05, 0.03], direction: [-1, 0, 0] });
   const xs = [0, 3, 6].map((j) => triangles[9 * hit + j]);
-  for (const x of xs) expect(x).toBeCloseTo(SIDE * 0.5 * frame.scale, 5);
-  expect(owners[hit]).toBe(facets[hit] >>> 2);
-  expect(firstHit(triangles, { origin: [5, 2, 0], direction: [-1, 0, 0] })).toBe(-1);
+  for (const x of xs) closeTo(x, SIDE * 0.5 * frame.scale, 5);
+  assert.equal(owners[hit], facets[hit] >>> 2);
+  assert.equal(firstHit(triangles, { origin: [5, 2, 0], direction: [-1, 0, 0] }), -1);
 });
 
 test('scales leave out the extremes and stay within the map', () => {
   const kept = all.kept;
   const scale = scaleFor('volume', measures, kept);
-  expect(scale.domain[0]).toBeCloseTo(1 / 6, 5);
-  expect(scale.domain[1]).toBeCloseTo(1 / 3, 5);
+  closeTo(scale.domain[0], 1 / 6, 5);
+  closeTo(scale.domain[1], 1 / 3, 5);
   const value = mapping(scale, measures, null);
-  for (let t = 0; t < count; t++) expect(value(t)).toBeGreaterThanOrEqual(0);
-  expect(mapping(scaleFor('quality', measures, kept), measures, null)(4)).toBeCloseTo(1, 5);
+  for (let t = 0; t < count; t++) assert.ok(value(t) >= 0);
+  closeTo(mapping(scaleFor('quality', measures, kept), measures, null)(4), 1, 5);
 });

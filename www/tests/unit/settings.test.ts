@@ -1,9 +1,10 @@
-import { expect, test } from 'vitest';
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
 import { defaults, fromHash, toHash } from '../../src/settings';
 
 test('the first view needs no more than the name of its points', () => {
-  expect(toHash(defaults())).toBe('points=bunny');
-  expect(fromHash('')).toEqual(defaults());
+  assert.equal(toHash(defaults()), 'points=bunny');
+  assert.deepEqual(fromHash(''), defaults());
 });
 
 test('a link restores every setting', () => {
@@ -19,41 +20,76 @@ test('a link restores every setting', () => {
     keep: 0.375,
     up: 'z',
     apart: 0.5,
-    layers: { simplices: true, edges: false, points: false, hull: true, facets: false, voronoi: false },
+    layers: {
+      simplices: true,
+      edges: false,
+      points: false,
+      hull: true,
+      facets: false,
+      voronoi: false,
+    },
     camera: [1, -0.5, 3, 0.1, 0.2, -0.3],
   } as const;
-  expect(fromHash(toHash(settings as never))).toEqual(settings);
+  assert.deepEqual(fromHash(toHash(settings as never)), settings);
 });
 
 test('a link to the plane restores the points and what was changed by hand', () => {
-  expect(fromHash('#dim=2')).toEqual(defaults(2));
+  assert.deepEqual(fromHash('#dim=2'), defaults(2));
   const settings = {
     ...defaults(2),
     source: { kind: 'generator', dimension: 2, distribution: 'two-lines', count: 0, seed: 9 },
-    edits: [{ do: 'add', at: [0.5, -2] }, { do: 'move', point: 0, at: [1e-7, 3] }, { do: 'remove', point: 0 }],
+    edits: [
+      { do: 'add', at: [0.5, -2] },
+      { do: 'move', point: 0, at: [1e-7, 3] },
+      { do: 'remove', point: 0 },
+    ],
     color: 'volume',
     filter: 'alpha',
     alpha: 0.25,
-    layers: { simplices: false, edges: true, points: true, hull: false, facets: false, voronoi: true },
+    layers: {
+      simplices: false,
+      edges: true,
+      points: true,
+      hull: false,
+      facets: false,
+      voronoi: true,
+    },
     camera: [0, 0, 0.5, 0.1, -0.2, 0],
   } as const;
-  expect(fromHash(toHash(settings as never))).toEqual(settings);
+  assert.deepEqual(fromHash(toHash(settings as never)), settings);
 });
 
 test('in the plane there is nothing to carve, no phase of creation, and nothing to look at from the side', () => {
-  for (const hash of ['#dim=2&filter=carve', '#dim=2&color=phase', '#dim=2&points=bunny', '#dim=2&points=sphere_5_1', '#dim=2&edits=add_1']) {
-    expect(fromHash(hash), hash).toEqual(defaults(2));
+  for (const hash of [
+    '#dim=2&filter=carve',
+    '#dim=2&color=phase',
+    '#dim=2&points=bunny',
+    '#dim=2&points=sphere_5_1',
+    '#dim=2&edits=add_1',
+  ]) {
+    assert.deepEqual(fromHash(hash), defaults(2), hash);
   }
-  expect(fromHash('#dim=2&camera=1_1_2_3_4_5').camera).toEqual([0, 0, 2, 3, 4, 0]);
-  expect(fromHash('#edits=add_1_2').edits).toEqual([]);
+  assert.deepEqual(fromHash('#dim=2&camera=1_1_2_3_4_5').camera, [0, 0, 2, 3, 4, 0]);
+  assert.deepEqual(fromHash('#edits=add_1_2').edits, []);
 });
 
 test('what makes no sense in a link is left out', () => {
   for (const hash of [
-    '#points=toString', '#points=uniform_-5_1', '#points=uniform_1e99_1', '#points=uniform_0_1', '#points=uniform', '#dim=4', '#engine=magic', '#cut=0_0_0_0.5', '#cut=1_2',
-    '#camera=NaN_0_0_0_0_0', '#camera=0_0_-1_0_0_0', '#alpha=-1', '#map=constructor',
+    '#points=toString',
+    '#points=uniform_-5_1',
+    '#points=uniform_1e99_1',
+    '#points=uniform_0_1',
+    '#points=uniform',
+    '#dim=4',
+    '#engine=magic',
+    '#cut=0_0_0_0.5',
+    '#cut=1_2',
+    '#camera=NaN_0_0_0_0_0',
+    '#camera=0_0_-1_0_0_0',
+    '#alpha=-1',
+    '#map=constructor',
   ]) {
-    expect(fromHash(hash), hash).toEqual(defaults());
+    assert.deepEqual(fromHash(hash), defaults(), hash);
   }
-  expect(fromHash('#apart=7').apart).toBe(1);
+  assert.equal(fromHash('#apart=7').apart, 1);
 });

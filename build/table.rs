@@ -1,0 +1,206 @@
+//! The generated module.
+
+use std::{
+    collections::{BTreeMap, btree_map::Entry},
+    env,
+    fmt::Write,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use crate::{
+    check::{Reflection, Structure, check},
+    sources::{File, Sources},
+};
+
+/// The values of `{dim}`, which are also folders.
+const DIMENSIONS: [&str; 2] = ["d2", "d3"];
+/// The values of `{width}`.
+const WIDTHS: [&str; 2] = ["narrow", "wide"];
+/// The structure of `control` is two on the host: the second begins with this member.
+const CONTROL: (&str, &str) = ("Control", "iteration");
+
+/// A shader in all its forms.
+struct Shader<'a> {
+    name: String,
+    /// The files for each width.
+    parts: [Vec<&'a File>; 2],
+    variables: Vec<(String, u32)>,
+}
+
+/// What the shaders declare for the host, with the folder of the file that declares it.
+#[derive(Default)]
+struct Declarations {
+    constants: BTreeMap<(String, String), u32>,
+    structures: BTreeMap<String, Structure>,
+}
+
+/// Writes the generated module.
+///
+/// # Errors
+///
+/// Says what is wrong with a shader.
+pub fn write() -> Result<(), String> {
+    let sources = Sources::read(Path::new("shaders")).map_err(|e| format!("shaders: {e}"))?;
+    let mut declarations = Declarations::default();
+    // Of the dimensions, and of none.
+    let mut tables: [Vec<Shader<'_>>; 3] = Default::default();
+    for file in sources.files().filter(|file| file.is_kernel()) {
+        let (folder, name) = file.name.split_once('/').ok_or_else(|| format!("{}: it is in no folder", file.path()))?;
+        let shader = |dimension: &str| -> Result<_, String> {
+            let [narrow, wide] =
+                WIDTHS.map(|width| sources.assemble(file, &[("{dim}", dimension), ("{width}", width)]));
+            Ok([narrow?, wide?])
+        };
+        match DIMENSIONS.iter().position(|&dimension| dimension == folder) {
+            Some(i) => tables[i].push(declarations.add(file.name.clone(), shader(folder)?)?),
+            None => {
+                let forms = DIMENSIONS.map(shader);
+                let [first, second] = forms;
+                let (first, second) = (first?, second?);
+                if names(&first) == names(&second) {
+                    tables[2].push(declarations.add(file.name.clone(), first)?);
+                } else {
+                    for (i, parts) in [first, second].into_iter().enumerate() {
+                        tables[i].push(declarations.add(format!("{}/{name}", DIMENSIONS[i]), parts)?);
+                    }
+                }
+            }
+        }
+    }
+    let module = module(&sources, &tables, &declarations).expect("strings can be written to");
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it")).join("shaders.rs");
+    fs::write(&out, module).map_err(|e| format!("{}: {e}", out.display()))
+}
+
+fn names<'a>(parts: &'a [Vec<&File>; 2]) -> Vec<&'a str> {
+    parts.iter().flatten().map(|file| &*file.name).collect()
+}
+
+impl Declarations {
+    /// Validates a shader.
+    fn add<'a>(&mut self, name: String, parts: [Vec<&'a File>; 2]) -> Result<Shader<'a>, String> {
+        let [narrow, wide] = &parts;
+        let reflection = check(narrow)?;
+        let variables = reflection.variables.clone();
+        self.declare(narrow, reflection)?;
+        if narrow.iter().map(|file| &file.name).ne(wide.iter().map(|file| &file.name)) {
+            let reflection = check(wide)?;
+            if reflection.variables != variables {
+                return Err(format!("shaders/{name}: it uses other buffers for wide coordinates than for narrow ones"));
+            }
+            self.declare(wide, reflection)?;
+        }
+        Ok(Shader { name, parts, variables })
+    }
+
+    fn declare(&mut self, parts: &[&File], reflection: Reflection) -> Result<(), String> {
+        for (name, value) in reflection.constants {
+            let file = parts.iter().find(|file| file.declares("const", &name)).expect("a file declares it");
+            let folder = file.name.split('/').next().expect("it is in a folder").to_owned();
+            match self.constants.entry((folder, name)) {
+                Entry::Occupied(entry) if *entry.get() != value => {
+                    return Err(format!("{}: `{}` has another value in another file", file.path(), entry.key().1));
+                }
+                Entry::Occupied(_) => {}
+                Entry::Vacant(entry) => _ = entry.insert(value),
+            }
+        }
+        for (name, structure) in reflection.structures {
+            match self.structures.entry(name) {
+                Entry::Occupied(entry) if *entry.get() != structure => {
+                    return Err(format!("{}: `{}` has two layouts", kernel(parts), entry.key()));
+                }
+                Entry::Occupied(_) => {}
+                Entry::Vacant(entry) => _ = entry.insert(structure),
+            }
+        }
+        Ok(())
+    }
+}
+
+fn kernel(parts: &[&File]) -> String {
+    parts.last().expect("a shader has files").path()
+}
+
+/// The text of the generated module.
+fn module(
+    sources: &Sources,
+    tables: &[Vec<Shader<'_>>; 3],
+    declarations: &Declarations,
+) -> Result<String, std::fmt::Error> {
+    let mut text = String::new();
+    for file in sources.files() {
+        writeln!(text, "#[allow(dead_code)]\nconst {}: &str = {:?};", constant(file), file.code())?;
+    }
+    let [d2, d3, common] = tables;
+    let all = [("D2", "triangles", Some(d2)), ("D3", "tetrahedra", Some(d3)), ("COMMON", "any simplices", None)];
+    for (name, simplices, own) in all {
+        writeln!(text, "/// The kernels for {simplices}.\npub static {name}: Shaders = Shaders(&[")?;
+        for Shader { name, parts, variables } in own.into_iter().flatten().chain(common) {
+            let [narrow, wide] = parts.each_ref().map(|parts| {
+                let constants: Vec<_> = parts.iter().map(|file| constant(file)).collect();
+                constants.join(", ")
+            });
+            writeln!(
+                text,
+                "Shader {{ name: {name:?}, narrow: &[{narrow}], wide: &[{wide}], variables: &{variables:?} }},"
+            )?;
+        }
+        writeln!(text, "]);")?;
+    }
+    write_constants(&mut text, declarations)?;
+    write_layouts(&mut text, declarations)?;
+    Ok(text)
+}
+
+/// The name of the constant that holds a file's text.
+fn constant(file: &File) -> String {
+    file.name.replace('/', "_").to_uppercase()
+}
+
+fn write_constants(text: &mut String, declarations: &Declarations) -> std::fmt::Result {
+    writeln!(text, "/// The constants of the shaders, by folder.\n#[allow(dead_code)]\npub(crate) mod constants {{")?;
+    let mut before = None;
+    for ((folder, name), value) in &declarations.constants {
+        if before != Some(folder) {
+            let end = if before.is_some() { "}\n" } else { "" };
+            writeln!(text, "{end}pub(crate) mod {folder} {{")?;
+            before = Some(folder);
+        }
+        writeln!(text, "pub(crate) const {name}: u32 = {value};")?;
+    }
+    writeln!(text, "}}\n}}")
+}
+
+/// A macro that takes the name of a structure of the host and asserts that it has the layout that
+/// the shaders' one of this name has.
+fn write_layouts(text: &mut String, declarations: &Declarations) -> std::fmt::Result {
+    writeln!(text, "macro_rules! assert_layout {{")?;
+    for (name, structure) in &declarations.structures {
+        let Structure { size, members } = structure;
+        if name == CONTROL.0 {
+            let start = members.iter().position(|(member, _)| member == CONTROL.1).expect("it has this member");
+            let (params, counters) = members.split_at(start);
+            let before = counters[0].1;
+            write_layout(text, "Params", before, params, 0)?;
+            write_layout(text, "Counters", size - before, counters, before)?;
+        } else {
+            write_layout(text, name, *size, members, 0)?;
+        }
+    }
+    writeln!(text, "}}\npub(crate) use assert_layout;")
+}
+
+fn write_layout(text: &mut String, name: &str, size: u32, members: &[(String, u32)], start: u32) -> std::fmt::Result {
+    writeln!(text, "({name}) => {{ const _: () = {{")?;
+    writeln!(text, "assert!(size_of::<{name}>() == {size}, \"{name} has another size in the shaders\");")?;
+    for (member, offset) in members {
+        let offset = offset - start;
+        writeln!(
+            text,
+            "assert!(std::mem::offset_of!({name}, {member}) == {offset}, \"{name}::{member} lies elsewhere in the shaders\");"
+        )?;
+    }
+    writeln!(text, "}}; }};")
+}

@@ -1,0 +1,14 @@
+// What the kernels for points count.
+struct InputCounts {
+    // Points at the same place of the lattice as one of a lower number.
+    merged: atomic<u32>,
+    // Those of them that have the same coordinates too.
+    duplicates: atomic<u32>,
+    // Points with a coordinate that was rounded to the lattice.
+    rounded: atomic<u32>,
+    unused: u32,
+    // The points that the wanted ones were merged into.
+    stands_for: array<u32, 4>,
+    // The vertices of the wanted points.
+    found: array<u32, 4>,
+}

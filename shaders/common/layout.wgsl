@@ -1,0 +1,77 @@
+// The contents of the buffers that the kernels of Phase 1 share in both dimensions.
+// src/gpu/layout.rs explains them; the build checks that its structures have the same layout.
+//!include primitives/workgroup
+
+const NONE: u32 = 0xffffffff;
+const BLOCK: u32 = 8;
+// The sort key of a point that was merged into another: it goes behind all vertices.
+const MERGED_KEY: u32 = 0xffffffff;
+
+// How a simplex picks its point; otherwise by the circumcentre.
+const PICK_CENTROID: u32 = 1;
+const PICK_RANDOM: u32 = 2;
+
+// The parameters (`Params` on the host), then from `iteration` on the counters (`Counters`).
+struct Control {
+    infinite: u32,
+    blocks: u32,
+    history: u32,
+    bid_bits: u32,
+    min_active: u32,
+    pick: u32,
+    entries: u32,
+    entries_before: u32,
+    blocks_before: u32,
+    compact_from: u32,
+    clockwise: u32,
+
+    iteration: u32,
+    link_iteration: u32,
+    active_len: array<atomic<u32>, 2>,
+    round: u32,
+    next_node: atomic<u32>,
+    first_node: u32,
+    inserted: atomic<u32>,
+    flips_23: atomic<u32>,
+    flips_32: atomic<u32>,
+    exact: atomic<u32>,
+    overflow: atomic<u32>,
+    iterations: u32,
+    visits: u32,
+    failed: atomic<u32>,
+    merged: u32,
+    uncertain: atomic<u32>,
+    ghosts: atomic<u32>,
+    undecided: atomic<u32>,
+    not_locally_delaunay: atomic<u32>,
+    flips_22: atomic<u32>,
+    hull: atomic<u32>,
+}
+
+struct Status {
+    flags: atomic<u32>,
+    vote: atomic<u32>,
+    last: u32,
+    first: u32,
+}
+
+const CHECK: u32 = 0xf;
+const SUSPECT_SHIFT: u32 = 4;
+const HELD_SHIFT: u32 = 16;
+
+struct Active {
+    tet: u32,
+    outcome: u32,
+}
+
+const KIND_SHIFT: u32 = 8;
+const FACET_SHIFT: u32 = 10;
+const DONE: u32 = 0x80000000;
+
+const SLOTS_FULL: u32 = 1;
+const HISTORY_FULL: u32 = 2;
+
+struct Waiting {
+    point: u32,
+    tet: u32,
+}

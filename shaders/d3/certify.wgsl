@@ -1,0 +1,83 @@
+// Lists the tetrahedra that are flat, and where coordinates were rounded to the lattice also those
+// of which the filter does not decide the orientation or whether a facet is locally Delaunay. The
+// filter's bound includes the rounding; where nothing was rounded, the lattice is the truth. One
+// invocation per slot.
+//
+// Each facet is examined from the tetrahedron in the lower slot. Whether a facet to infinity bounds
+// a finite tetrahedron follows from the orientation of that tetrahedron.
+//!include d3/simplex
+@group(0) @binding(0) var<storage, read_write> control: Control;
+@group(0) @binding(1) var<storage, read> vertices: array<vec4i>;
+@group(0) @binding(2) var<storage, read> simplices: array<vec4u>;
+@group(0) @binding(3) var<storage, read> neighbors: array<vec4u>;
+// The output of mesh_number.
+@group(0) @binding(4) var<storage, read> numbers: array<u32>;
+// The words of InputCounts.
+@group(0) @binding(5) var<storage, read> counts: array<u32>;
+// The number of a tetrahedron, and its undecided facets (bits 0 to 3) and orientation (bit 4).
+@group(0) @binding(6) var<storage, read_write> uncertain: array<vec2u>;
+//!include common/count_words
+//!include d3/predicates
+//!include d3/filter
+//!include d3/rounding_{width}
+
+const ORIENTATION: u32 = 16;
+
+fn any_rounded(tet: vec4u) -> bool {
+    return rounded(tet.x) || rounded(tet.y) || rounded(tet.z) || rounded(tet.w);
+}
+
+fn orientation_of(tet: vec4u) -> i32 {
+    return orient3d_filter(load_high(tet.x), load_high(tet.y), load_high(tet.z), load_high(tet.w));
+}
+
+fn is_flat(tet: vec4u) -> bool {
+    return orient3d_exact(load_vertex(tet.x), load_vertex(tet.y), load_vertex(tet.z), load_vertex(tet.w)) == 0;
+}
+
+// Returns the undecided facets of tetrahedron t.
+fn undecided_facets(t: u32, tet: vec4u) -> u32 {
+    let near = neighbors[t];
+    let at_infinity = tet == vec4u(control.infinite);
+    var undecided = 0u;
+    for (var k = 0u; k < 4; k++) {
+        let u = near[k] >> 2;
+        let e = simplices[u][near[k] & 3];
+        if u < t || e == control.infinite || at_infinity[k] {
+            continue;
+        }
+        var is_undecided = false;
+        if any(at_infinity) {
+            let finite = select(tet, vec4u(e), at_infinity);
+            is_undecided = any_rounded(finite) && orientation_of(finite) == 0;
+        } else if any_rounded(tet) || rounded(e) {
+            is_undecided = insphere_filter(
+                load_high(tet.x), load_high(tet.y), load_high(tet.z), load_high(tet.w), load_high(e)
+            ) == 0;
+        }
+        undecided |= select(0u, 1u << k, is_undecided);
+    }
+    return undecided;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    for (var t = id.x; t < control.blocks * BLOCK; t += groups.x * WORKGROUP) {
+        let tet = simplices[t];
+        if all(tet == vec4u(0)) {
+            continue;
+        }
+        var undecided = 0u;
+        if counts[COUNT_ROUNDED] != 0 {
+            undecided = undecided_facets(t, tet);
+        }
+        if !any(tet == vec4u(control.infinite)) && orientation_of(tet) == 0 {
+            if any_rounded(tet) || is_flat(tet) {
+                undecided |= ORIENTATION;
+            }
+        }
+        if undecided != 0 {
+            uncertain[atomicAdd(&control.uncertain, 1u)] = vec2u(numbers[t] >> 2, undecided);
+        }
+    }
+}

@@ -1,0 +1,49 @@
+// Marks the vertices of the facets that are not locally Delaunay (§3.2.1). One invocation per slot.
+//
+// Only facets that a flip iteration found so and could not flip are examined again: the tetrahedra
+// around them may have changed since.
+//!include d3/simplex
+@group(0) @binding(0) var<storage, read_write> control: Control;
+@group(0) @binding(1) var<storage, read> vertices: array<vec4i>;
+@group(0) @binding(2) var<storage, read> simplices: array<vec4u>;
+@group(0) @binding(3) var<storage, read> neighbors: array<vec4u>;
+@group(0) @binding(4) var<storage, read_write> status: array<Status>;
+// Whether each vertex failed.
+@group(0) @binding(5) var<storage, read_write> failed: array<atomic<u32>>;
+// The input indices of the failed vertices.
+@group(0) @binding(6) var<storage, read_write> failed_points: array<u32>;
+//!include d3/signs
+
+fn fail(v: u32) {
+    if v != control.infinite && atomicExchange(&failed[v], 1u) == 0 {
+        failed_points[atomicAdd(&control.failed, 1u)] = index_of(v);
+    }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    for (var t = id.x; t < control.blocks * BLOCK; t += groups.x * WORKGROUP) {
+        let suspect = (atomicLoad(&status[t].flags) >> SUSPECT_SHIFT) & CHECK;
+        let tet = simplices[t];
+        if suspect == 0 || all(tet == vec4u(0)) {
+            continue;
+        }
+        let near = neighbors[t];
+        for (var k = 0u; k < 4; k++) {
+            if ((suspect >> k) & 1) != 0 && conflict(tet, simplices[near[k] >> 2][near[k] & 3]) > 0 {
+                let c = facet(k);
+                fail(tet[c.x]);
+                fail(tet[c.y]);
+                fail(tet[c.z]);
+                // Both sides may be suspect: the one with the lower number counts.
+                let other = near[k] >> 2;
+                if other > t || ((atomicLoad(&status[other].flags) >> (SUSPECT_SHIFT + (near[k] & 3))) & 1) == 0 {
+                    atomicAdd(&control.not_locally_delaunay, 1u);
+                }
+            }
+        }
+    }
+    if exact_signs != 0 {
+        atomicAdd(&control.exact, exact_signs);
+    }
+}

@@ -1,0 +1,45 @@
+// Signs on vertices that may be at infinity: the filters first, then the exact arithmetic. Never 0.
+//
+// Expects: vertices: array<VertexWords>; control.
+//!include d3/predicates
+//!include d3/filter
+//!include d3/refined_{width}
+
+// The number of predicate evaluations of this invocation that the filters did not decide.
+var<private> exact_signs: u32 = 0;
+
+// Returns the orientation of four finite vertices. The number of infinity stands for the interior
+// point.
+fn orient_finite(v: vec4u) -> i32 {
+    var sign = orient3d_filter(load_high(v.x), load_high(v.y), load_high(v.z), load_high(v.w));
+    if sign == 0 {
+        let a = load_vertex(v.x);
+        let b = load_vertex(v.y);
+        let c = load_vertex(v.z);
+        let d = load_vertex(v.w);
+        sign = orient3d_refined(a, b, c, d);
+        if sign == 0 {
+            exact_signs += 1;
+            sign = orient3d(a, b, c, d);
+        }
+    }
+    return sign;
+}
+
+fn insphere_finite(tet: vec4u, e: u32) -> i32 {
+    var sign = insphere_filter(load_high(tet.x), load_high(tet.y), load_high(tet.z), load_high(tet.w), load_high(e));
+    if sign == 0 {
+        let a = load_vertex(tet.x);
+        let b = load_vertex(tet.y);
+        let c = load_vertex(tet.z);
+        let d = load_vertex(tet.w);
+        let f = load_vertex(e);
+        sign = insphere_refined(a, b, c, d, f);
+        if sign == 0 {
+            exact_signs += 1;
+            sign = insphere(a, b, c, d, f);
+        }
+    }
+    return sign;
+}
+//!include d3/signs_at_infinity

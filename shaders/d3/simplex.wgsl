@@ -1,0 +1,57 @@
+// Tetrahedra: what the buffers hold of them, and the functions that d2/simplex has for triangles.
+//!include common/layout
+
+// Slots 8v to 8v + 7 belong to vertex v.
+const SLOTS_PER_POINT: u32 = BLOCK;
+
+const EDGE_SHIFT: u32 = 12;
+const FLIP_23: u32 = 1;
+const FLIP_32: u32 = 2;
+const SLOT_SHIFT: u32 = 2;
+
+struct FlipNode {
+    vertices: array<u32, 5>,
+    kind: u32,
+    tets: array<u32, 3>,
+    next: array<u32, 3>,
+}
+
+// A tetrahedron by its vertices.
+alias Simplex = vec4u;
+const CORNERS: u32 = 4;
+
+// Returns the words of a slot for a tetrahedron.
+fn packed(tet: Simplex) -> vec4u {
+    return tet;
+}
+
+// Returns the tetrahedron of the words of a slot.
+fn unpacked(words: vec4u) -> Simplex {
+    return words;
+}
+
+// Returns the corners of the facet opposite vertex k, counter-clockwise as seen from outside.
+fn facet(k: u32) -> vec3u {
+    return select(select(select(vec3u(0, 2, 1), vec3u(0, 1, 3), k == 2), vec3u(0, 3, 2), k == 1), vec3u(1, 2, 3), k == 0);
+}
+
+// Returns the place of a vertex in a tetrahedron that has it.
+fn place_of(tet: vec4u, v: u32) -> u32 {
+    return select(select(select(3u, 2u, tet.z == v), 1u, tet.y == v), 0u, tet.x == v);
+}
+
+// Returns the tetrahedron with vertex k replaced.
+fn replaced(tet: vec4u, k: u32, v: u32) -> vec4u {
+    return select(tet, vec4u(v), vec4u(0, 1, 2, 3) == vec4u(k));
+}
+
+// Returns the slot of child k of tetrahedron t, split at point p: the one with p in place of vertex
+// k.
+fn child_slot(t: u32, p: u32, k: u32) -> u32 {
+    return select(SLOTS_PER_POINT * p + k - 1, t, k == 0);
+}
+
+// Returns the slots of all children.
+fn child_slots(t: u32, p: u32) -> vec4u {
+    return vec4u(t, child_slot(t, p, 1), child_slot(t, p, 2), child_slot(t, p, 3));
+}

@@ -1,0 +1,110 @@
+//! Flipping: check, commit, link (§3.1, §4.2).
+
+use crate::{
+    gpu::{
+        Gpu, Kernel, Recorder,
+        dim::{Dim, Dimension},
+        phase1::buffers::Buffers,
+    },
+    input::lattice::Width,
+};
+
+/// The kernels of flipping.
+#[derive(Debug)]
+pub(crate) struct Flip {
+    check: Kernel,
+    /// In a dimension of which the check leaves open what the filter does.
+    check_exact: Option<Kernel>,
+    commit: Kernel,
+    link: Kernel,
+    /// In a dimension that can find the active simplices by looking at all slots (§4.2).
+    compact: Option<Kernel>,
+    clear_votes: Kernel,
+}
+
+/// The bind groups of flipping.
+#[derive(Debug)]
+pub(crate) struct BoundFlip {
+    check: wgpu::BindGroup,
+    check_exact: Option<wgpu::BindGroup>,
+    commit: wgpu::BindGroup,
+    link: wgpu::BindGroup,
+    compact: Option<wgpu::BindGroup>,
+    clear_votes: wgpu::BindGroup,
+}
+
+/// The flip iterations to record.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FlipPlan {
+    /// How many.
+    pub(crate) iterations: u32,
+    /// What the filter leaves open is decided in every so many iterations, and in the last one.
+    pub(crate) exact_every: u32,
+    /// Whether there may be so many active simplices in one that the next ones are found by
+    /// compaction (§4.2).
+    pub(crate) compacts: bool,
+}
+
+impl Flip {
+    /// Compiles the kernels of `D` dimensions.
+    pub(crate) fn new<const D: usize>(gpu: &Gpu, width: Width) -> Self
+    where
+        Dimension<D>: Dim<D>,
+    {
+        let kernel = |name| Kernel::new(gpu, Dimension::<D>::SHADERS.get(name), width);
+        let optional = |name| Dimension::<D>::SHADERS.find(name).map(|shader| Kernel::new(gpu, shader, width));
+        Flip {
+            check: kernel("flip_check"),
+            check_exact: optional("flip_check_exact"),
+            commit: kernel("flip_commit"),
+            link: kernel("flip_link"),
+            compact: optional("flip_compact"),
+            clear_votes: kernel("clear_votes"),
+        }
+    }
+
+    /// Binds the kernels to these buffers.
+    pub(crate) fn bind<const D: usize>(&self, gpu: &Gpu, b: &Buffers<D>) -> BoundFlip
+    where
+        Dimension<D>: Dim<D>,
+    {
+        let buffers = b.bindings();
+        BoundFlip {
+            check: self.check.bind(gpu, &buffers),
+            check_exact: self.check_exact.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
+            commit: self.commit.bind(gpu, &buffers),
+            link: self.link.bind(gpu, &buffers),
+            compact: self.compact.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
+            clear_votes: self.clear_votes.bind(gpu, &buffers),
+        }
+    }
+
+    /// Records flip iterations. Those that find too few active simplices do nothing.
+    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundFlip, plan: FlipPlan, workgroups: u32) {
+        let check_exact = self.check_exact.as_ref().zip(bound.check_exact.as_ref());
+        let compact = self.compact.as_ref().zip(bound.compact.as_ref()).filter(|_| plan.compacts);
+        for i in 1..=plan.iterations {
+            recorder.stage("flip: check");
+            recorder.dispatch(&self.check, &bound.check, workgroups);
+            let is_exact = i.is_multiple_of(plan.exact_every) || i == plan.iterations;
+            if let Some((kernel, bindings)) = check_exact.filter(|_| is_exact) {
+                recorder.stage("flip: check exactly");
+                recorder.dispatch(kernel, bindings, workgroups);
+            }
+            recorder.stage("flip: commit");
+            recorder.dispatch(&self.commit, &bound.commit, workgroups);
+            recorder.stage("flip: link");
+            recorder.dispatch(&self.link, &bound.link, workgroups);
+            if let Some((kernel, bindings)) = compact {
+                recorder.stage("flip: compact");
+                recorder.dispatch(kernel, bindings, workgroups);
+            }
+        }
+    }
+
+    /// Records that flip iterations are counted from the start again.
+    pub(crate) fn record_clear_votes(&self, recorder: &mut Recorder<'_>, bound: &BoundFlip, workgroups: u32) {
+        recorder.stage("clear votes");
+        recorder.dispatch(&self.clear_votes, &bound.clear_votes, workgroups);
+    }
+}

@@ -1,0 +1,144 @@
+//! What the formats ask of a mesh, in 3D and in 2D.
+
+use crate::{Mesh2, Mesh3, d2::verify::MeshView2, d3::verify::MeshView, index::NONE, io::PointBuf};
+use std::borrow::Cow;
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for crate::Mesh2 {}
+    impl Sealed for crate::Mesh3 {}
+}
+
+/// What files and messages call the parts of a mesh.
+#[doc(hidden)]
+#[derive(Debug, Clone, Copy)]
+pub struct Names {
+    pub(super) simplex: &'static str,
+    /// Also the name of the array of NumPy.
+    pub(super) simplices: &'static str,
+    /// The name of NumPy's second array.
+    pub(super) adjacency: &'static str,
+    /// What the formats of triangles hold.
+    pub(super) surface: &'static str,
+    /// VTK's number for a simplex.
+    pub(super) vtk: u8,
+}
+
+/// A mesh that files can hold: [`Mesh3`] with `D` = 3 coordinates per point and `N` = 4 vertices
+/// per tetrahedron, or [`Mesh2`] with 2 and 3. It cannot be implemented for others.
+pub trait Mesh<const D: usize, const N: usize>: sealed::Sealed {
+    #[doc(hidden)]
+    const NAMES: Names;
+
+    /// Returns the vertices of the tetrahedra or triangles.
+    #[doc(hidden)]
+    fn simplices(&self) -> &[[u32; N]];
+
+    /// Returns the rows of the second array in NumPy's files: neighbours, or half-edges.
+    #[doc(hidden)]
+    fn adjacency(&self) -> &[[i32; N]];
+
+    /// Returns entry *k* of each row: the simplex opposite vertex *k*, or -1.
+    #[doc(hidden)]
+    fn opposites(&self) -> impl ExactSizeIterator<Item = [i32; N]>;
+
+    /// Returns the triangles of the hull, or all triangles of a 2D mesh, in the sense that files
+    /// have.
+    #[doc(hidden)]
+    fn surface(&self) -> Cow<'_, [[u32; 3]]>;
+
+    /// Creates the data of a file from NumPy's arrays.
+    #[doc(hidden)]
+    fn from_arrays(simplices: Vec<[u32; N]>, adjacency: Option<Vec<[i32; N]>>) -> MeshData<D, N>;
+}
+
+impl Mesh<3, 4> for Mesh3 {
+    const NAMES: Names = Names {
+        simplex: "tetrahedron",
+        simplices: "tetrahedra",
+        adjacency: "neighbors",
+        surface: "convex hull",
+        vtk: 10,
+    };
+
+    fn simplices(&self) -> &[[u32; 4]] {
+        &self.tetrahedra
+    }
+
+    fn adjacency(&self) -> &[[i32; 4]] {
+        &self.neighbors
+    }
+
+    fn opposites(&self) -> impl ExactSizeIterator<Item = [i32; 4]> {
+        self.neighbors.iter().copied()
+    }
+
+    fn surface(&self) -> Cow<'_, [[u32; 3]]> {
+        Cow::Borrowed(&self.hull)
+    }
+
+    fn from_arrays(simplices: Vec<[u32; 4]>, neighbors: Option<Vec<[i32; 4]>>) -> MeshData3 {
+        MeshData { simplices, neighbors, halfedges: None, points: None }
+    }
+}
+
+impl Mesh<2, 3> for Mesh2 {
+    const NAMES: Names =
+        Names { simplex: "triangle", simplices: "triangles", adjacency: "halfedges", surface: "triangulation", vtk: 5 };
+
+    fn simplices(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    fn adjacency(&self) -> &[[i32; 3]] {
+        &self.halfedges
+    }
+
+    fn opposites(&self) -> impl ExactSizeIterator<Item = [i32; 3]> {
+        let triangle = |halfedge: i32| if halfedge == NONE { NONE } else { halfedge / 3 };
+        self.halfedges.iter().map(move |&[ab, bc, ca]| [bc, ca, ab].map(triangle))
+    }
+
+    fn surface(&self) -> Cow<'_, [[u32; 3]]> {
+        Cow::Borrowed(&self.triangles)
+    }
+
+    fn from_arrays(simplices: Vec<[u32; 3]>, halfedges: Option<Vec<[i32; 3]>>) -> MeshData2 {
+        MeshData { simplices, neighbors: None, halfedges, points: None }
+    }
+}
+
+/// A mesh as a file gives it: nothing about it has been checked.
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct MeshData<const D: usize, const N: usize> {
+    /// The indices of the vertices of each tetrahedron, or of each triangle in the sense that
+    /// [`Mesh2`] has.
+    pub simplices: Vec<[u32; N]>,
+    /// Entry *k* is the tetrahedron, or triangle, opposite vertex *k*, -1 outside; `None` when the
+    /// file does not say.
+    pub neighbors: Option<Vec<[i32; N]>>,
+    /// The half-edges of a 2D mesh as in [`Mesh2`]; `None` when the file does not say.
+    pub halfedges: Option<Vec<[i32; N]>>,
+    /// The points that the vertices are indices of; `None` when the file does not have them.
+    pub points: Option<PointBuf<D>>,
+}
+
+/// A 3D mesh as a file gives it.
+pub type MeshData3 = MeshData<3, 4>;
+
+/// A 2D mesh as a file gives it.
+pub type MeshData2 = MeshData<2, 3>;
+
+impl<'a> From<&'a MeshData3> for MeshView<'a> {
+    fn from(mesh: &'a MeshData3) -> Self {
+        MeshView { neighbors: mesh.neighbors.as_deref(), ..MeshView::of_tetrahedra(&mesh.simplices) }
+    }
+}
+
+impl<'a> From<&'a MeshData2> for MeshView2<'a> {
+    fn from(mesh: &'a MeshData2) -> Self {
+        let (halfedges, neighbors) = (mesh.halfedges.as_deref(), mesh.neighbors.as_deref());
+        MeshView2 { halfedges, neighbors, ..MeshView2::of_triangles(&mesh.simplices) }
+    }
+}

@@ -1,0 +1,63 @@
+//! Which point each simplex inserts (§3.1).
+
+use crate::gpu::dim::Dimension;
+use crate::gpu::layout::{NONE, Pick, Waiting};
+
+use crate::reference::State;
+use crate::reference::dim::{Kernels, ReferenceDim};
+
+/// Scores each waiting point and finds the best score of each simplex. One invocation per waiting
+/// point.
+///
+/// It also begins the insertion round.
+pub fn pick_score<const D: usize>(state: &mut State<D>)
+where
+    Dimension<D>: Kernels<D>,
+{
+    state.counters.round += 1;
+    state.counters.first_node = state.counters.next_node;
+    for i in 0..state.waiting.len() {
+        let Waiting { point: p, tet: t } = state.waiting[i];
+        if t == NONE {
+            continue;
+        }
+        let score = if state.params.pick == Pick::Random as u32 {
+            (p ^ state.counters.inserted.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) >> 1 | 1
+        } else {
+            Dimension::<D>::score(state, t, p)
+        };
+        state.scores[i] = score;
+        let best = &mut state.messages[t as usize][0];
+        *best = score.max(*best);
+    }
+}
+
+/// Picks the point with the best score, the last of equals. One invocation per waiting point.
+pub fn pick_point<const D: usize>(state: &mut State<D>)
+where
+    Dimension<D>: ReferenceDim<D>,
+{
+    for (&Waiting { point: p, tet: t }, &score) in state.waiting.iter().zip(&state.scores) {
+        if t != NONE && score == state.messages[t as usize][0] {
+            let picked = &mut state.messages[t as usize][1];
+            *picked = (p + 1).max(*picked);
+        }
+    }
+}
+
+/// Returns the way from vertex `w` to vertex `v`. Of wide coordinates, it takes the high words.
+pub(super) fn difference<const D: usize>(state: &State<D>, v: u32, w: u32) -> [f32; D]
+where
+    Dimension<D>: ReferenceDim<D>,
+{
+    let drop = state.width.bits() - 31;
+    let q = |v: u32| state.points[v as usize].position.map(|x| x >> drop);
+    let (v, w) = (q(v), q(w));
+    std::array::from_fn(|axis| (v[axis] - w[axis]) as f32)
+}
+
+/// Returns a power of two that brings the largest of these below 2.
+pub(super) fn scale_of<const D: usize>(vectors: &[[f32; D]]) -> f32 {
+    let largest = vectors.iter().flatten().fold(1.0f32, |m, x| m.max(x.abs()));
+    f32::from_bits(0x7f00_0000 - (largest.to_bits() & 0x7f80_0000))
+}

@@ -1,0 +1,29 @@
+//! Waiting points follow the history of the round's flips (§4.1).
+
+use crate::gpu::dim::Dimension;
+use crate::gpu::layout::{NONE, Waiting};
+
+use crate::reference::State;
+use crate::reference::dim::ReferenceDim;
+
+/// Moves each waiting point to the simplex that it lies in after the flips. One invocation per
+/// waiting point.
+pub fn relocate<const D: usize>(state: &mut State<D>)
+where
+    Dimension<D>: ReferenceDim<D>,
+{
+    let first_node = state.counters.first_node;
+    for i in 0..state.waiting.len() {
+        let Waiting { point: p, tet: mut t } = state.waiting[i];
+        if t == NONE {
+            continue;
+        }
+        let start = state.status[t as usize].first;
+        let mut next = if start >= first_node { start } else { NONE };
+        while next != NONE {
+            let flip = &state.history[(next - first_node) as usize];
+            (t, next) = Dimension::<D>::descend(flip, p, |corners| state.orient(corners));
+        }
+        state.waiting[i].tet = t;
+    }
+}

@@ -1,0 +1,127 @@
+//! Phase 1 on the references.
+
+use crate::gpu::dim::Dimension;
+use crate::gpu::layout::{NONE, Pick, SLOTS_FULL};
+use crate::gpu::start::first_simplex;
+use crate::input::lattice::Width;
+
+use crate::reference::dim::{Kernels, ReferenceDim};
+use crate::reference::{
+    State, Vertex, flip_check, flip_commit, flip_link, locate, pick_point, pick_score, relocate, relocate_split, split,
+    start,
+};
+
+/// How to run.
+#[derive(Debug, Clone, Copy)]
+pub struct Settings {
+    /// How points are picked.
+    pub pick: Pick,
+    /// Insert all points before flipping (§5.3).
+    pub insert_all: bool,
+    /// With fewer active simplices than this, flipping waits for the next round; except at the end.
+    pub min_active: u32,
+    /// Blocks in the tail; 2D has none.
+    pub tail: u32,
+    /// Nodes that the history can hold.
+    pub history: u32,
+    /// Validate after every phase.
+    pub validate: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            pick: Pick::Circumcenter,
+            insert_all: false,
+            min_active: 0,
+            tail: 16,
+            history: 1 << 20,
+            validate: false,
+        }
+    }
+}
+
+/// Runs Phase 1 on `sites`, which are sorted along the Hilbert curve and distinct. Returns `None`
+/// if they all lie in a line (2D) or plane (3D).
+pub fn run<const D: usize>(width: Width, mut sites: Vec<Vertex<D>>, settings: &Settings) -> Option<State<D>>
+where
+    Dimension<D>: Kernels<D>,
+{
+    let begin = first_simplex(width, sites.len(), |i| sites[i].position)?;
+    sites.push(Vertex { position: begin.interior_point, index: sites.iter().map(|s| s.index).max()? + 1 });
+    let mut state = State::new(width, sites, settings.tail, settings.history);
+    state.params.pick = settings.pick as u32;
+    state.params.min_active = settings.min_active;
+    let check = |state: &State<D>| {
+        if settings.validate {
+            state.validate();
+        }
+    };
+    start(&mut state, begin.first);
+    locate(&mut state);
+    check(&state);
+    state.waiting.retain(|w| w.tet != NONE);
+    while !state.waiting.is_empty() {
+        state.messages.fill([0; 4]);
+        pick_score(&mut state);
+        pick_point(&mut state);
+        split(&mut state);
+        relocate_split(&mut state);
+        check(&state);
+        if !settings.insert_all {
+            flip(&mut state);
+            relocate(&mut state);
+            check(&state);
+        }
+        state.waiting.retain(|w| w.tet != NONE);
+        grow(&mut state);
+    }
+    state.params.min_active = 0;
+    // A round in which nothing waits: its flips need no history.
+    pick_score(&mut state);
+    while !state.is_idle(state.counters.iteration) {
+        flip(&mut state);
+        grow(&mut state);
+        check(&state);
+    }
+    Dimension::<D>::finish(&mut state);
+    Some(state)
+}
+
+/// Runs flip iterations until too few simplices are active, or until slots or history are full.
+fn flip<const D: usize>(state: &mut State<D>)
+where
+    Dimension<D>: Kernels<D>,
+{
+    while !state.is_idle(state.counters.iteration) && state.counters.overflow == 0 {
+        flip_check(state);
+        flip_commit(state);
+        flip_link(state);
+        if (state.counters.iteration + 2) >= 1 << (32 - state.params.bid_bits) {
+            clear_votes(state);
+        }
+    }
+}
+
+/// Forgets all votes, so that flip iterations can be counted from the start again; which half of
+/// the active list is read stays the same.
+pub fn clear_votes<const D: usize>(state: &mut State<D>)
+where
+    Dimension<D>: ReferenceDim<D>,
+{
+    state.status.iter_mut().for_each(|s| s.vote = 0);
+    state.counters.iteration &= 1;
+}
+
+/// Adds slots where they ran out.
+fn grow<const D: usize>(state: &mut State<D>)
+where
+    Dimension<D>: ReferenceDim<D>,
+{
+    if std::mem::take(&mut state.counters.overflow) & SLOTS_FULL == 0 {
+        return;
+    }
+    state.grow(state.params.blocks + state.params.blocks / 2);
+    // Bids have another form now.
+    clear_votes(state);
+}

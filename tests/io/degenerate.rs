@@ -1,0 +1,142 @@
+//! Random degenerate points through files: written, read, triangulated, and the mesh again written,
+//! read and proven.
+
+use gdel::{
+    Mesh2, Mesh3, Points,
+    internals::io::{
+        Mesh, MeshData, MeshFormat, PointBuf, PointCloud, PointFormat, read_neigh, write_ele, write_neigh,
+    },
+    verify::Report,
+};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// Point clouds per dimension; 2,000 are run by hand: `GDEL_DEGENERATE=2000 cargo test --test io`.
+const CASES: u64 = 100;
+
+/// Creates few points of a random kind that is degenerate: with ties, duplicates, and less than `D`
+/// dimensions.
+fn degenerate<const D: usize>(random: &mut Pcg64Mcg) -> Vec<[f64; D]> {
+    let count = random.random_range(0..60);
+    let side = random.random_range(1..7);
+    let scale = 2f64.powi(random.random_range(-40..40));
+    let flat = random.random_range(0..=D);
+    let kind = random.random_range(0..5);
+    let point = |random: &mut Pcg64Mcg| {
+        let mut p: [f64; D] = std::array::from_fn(|_| f64::from(random.random_range(0..side)));
+        match kind {
+            // A grid, of fewer dimensions where `flat` says so.
+            0 => p.iter_mut().skip(flat).for_each(|x| *x = 1.0),
+            // Points on a line through no corner.
+            1 => p = std::array::from_fn(|axis| p[0] * (axis + 1) as f64 + 0.5),
+            // Signs and order of 3, 4 and 12 from the origin: all on a sphere.
+            2 => {
+                let numbers = [3.0, 4.0, 12.0];
+                let turn = random.random_range(0..D);
+                p = std::array::from_fn(|axis| numbers[(axis + turn) % D]);
+                p.iter_mut().for_each(|x| *x *= if random.random() { 1.0 } else { -1.0 });
+            }
+            // Nearly a grid.
+            3 => p.iter_mut().for_each(|x| *x += f64::from(random.random_range(-1..2)) * f64::EPSILON),
+            // Of all sizes.
+            _ => p.iter_mut().for_each(|x| *x *= 2f64.powi(random.random_range(-300..300))),
+        }
+        p.map(|x| x * scale)
+    };
+    (0..count).map(|_| point(random)).collect()
+}
+
+/// What the test does in either dimension.
+trait Triangulation<const D: usize, const N: usize>: Mesh<D, N> + Sized {
+    fn triangulate(points: Points<'_, D>) -> Self;
+    fn verify(points: Points<'_, D>, mesh: &Self) -> Report;
+    fn verify_data(points: Points<'_, D>, mesh: &MeshData<D, N>) -> Report;
+}
+
+impl Triangulation<3, 4> for Mesh3 {
+    fn triangulate(points: Points<'_>) -> Self {
+        gdel::delaunay3d(points).expect("finite points")
+    }
+
+    fn verify(points: Points<'_>, mesh: &Self) -> Report {
+        gdel::verify3d(points, mesh).expect("finite points")
+    }
+
+    fn verify_data(points: Points<'_>, mesh: &MeshData<3, 4>) -> Report {
+        gdel::verify3d(points, mesh).expect("finite points")
+    }
+}
+
+impl Triangulation<2, 3> for Mesh2 {
+    fn triangulate(points: Points<'_, 2>) -> Self {
+        gdel::delaunay2d(points).expect("finite points")
+    }
+
+    fn verify(points: Points<'_, 2>, mesh: &Self) -> Report {
+        gdel::verify2d(points, mesh).expect("finite points")
+    }
+
+    fn verify_data(points: Points<'_, 2>, mesh: &MeshData<2, 3>) -> Report {
+        gdel::verify2d(points, mesh).expect("finite points")
+    }
+}
+
+fn check<M: Triangulation<D, N>, const D: usize, const N: usize>() {
+    let cases = std::env::var("GDEL_DEGENERATE").map_or(CASES, |count| count.parse().expect("a number"));
+    let point_formats = [PointFormat::Text, PointFormat::Csv, PointFormat::Npy, PointFormat::Node, PointFormat::RawF64];
+    for case in 0..cases {
+        let random = &mut Pcg64Mcg::seed_from_u64(case);
+        let points = degenerate::<D>(random);
+        let stored = PointBuf::F64(points.clone());
+        let points = Points::F64(&points);
+        let format = point_formats[case as usize % point_formats.len()];
+        let mut file = Vec::new();
+        format.write(&mut file, points).expect("memory");
+        let cloud: PointCloud<D> = format.read(file).unwrap_or_else(|error| panic!("case {case}, {format:?}: {error}"));
+        assert_eq!(cloud.points, stored, "case {case}, {format:?}");
+
+        let mesh = M::triangulate((&cloud).into());
+        let report = M::verify(points, &mesh);
+        assert!(report.passed(), "case {case}: {report}");
+        let files = MeshFormat::ALL.iter().map(|format| {
+            let mut file = Vec::new();
+            match format {
+                MeshFormat::TetGen => write_ele(&mut file, &mesh),
+                MeshFormat::Vtu => gdel::internals::io::write_vtu(&mut file, points, &mesh),
+                MeshFormat::Npz => gdel::internals::io::write_npz(&mut file, points, &mesh),
+            }
+            .expect("memory");
+            format.read::<M, D, N>(&file).unwrap_or_else(|error| panic!("case {case}, {format:?}: {error}"))
+        });
+        for mut data in files {
+            assert!(data.points.is_none() || data.points == Some(stored.clone()), "case {case}");
+            let mut neigh = Vec::new();
+            write_neigh(&mut neigh, &mesh).expect("memory");
+            data.neighbors = Some(read_neigh::<M, D, N>(&neigh).expect("a whole file"));
+            let report = M::verify_data(points, &data);
+            assert!(report.passed(), "case {case}: {report}");
+            // A simplex that is left out, or has another vertex, is found.
+            if data.simplices.is_empty() {
+                continue;
+            }
+            let at = random.random_range(0..data.simplices.len());
+            let mut lacking = data.clone();
+            lacking.simplices.remove(at);
+            (lacking.neighbors, lacking.halfedges) = (None, None);
+            assert!(!M::verify_data(points, &lacking).passed(), "case {case}: simplex {at} is missing");
+            let vertex = &mut data.simplices[at][random.random_range(0..N)];
+            *vertex = (*vertex + random.random_range(1..points.len() as u32)) % points.len() as u32;
+            assert!(!M::verify_data(points, &data).passed(), "case {case}: simplex {at} has another vertex");
+        }
+    }
+}
+
+#[test]
+fn degenerate_points_in_3d_through_files() {
+    check::<Mesh3, _, _>();
+}
+
+#[test]
+fn degenerate_points_in_2d_through_files() {
+    check::<Mesh2, _, _>();
+}
