@@ -112,7 +112,7 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
     let (mesh, total) = triangulate::<M, D, N>(points, &triangulator).map_err(failure)?;
     let proof =
         if arguments.verify { Some(verify::proof(|| M::verify(points, &mesh)).map_err(failure)?) } else { None };
-    report(&mesh, total, proof.as_ref().map(|proof| proof.passed()))?;
+    report(&mesh, total, proof.as_ref().map(gdel::verify::Report::passed))?;
     if let Some(proof) = &proof {
         verify::conclude(input.path(), proof)?;
     }

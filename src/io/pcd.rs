@@ -69,7 +69,7 @@ impl Header {
             }
             let content;
             (content, rest) = split_line(rest);
-            let mut words = content.split(|b| b.is_ascii_whitespace()).filter(|word| !word.is_empty());
+            let mut words = content.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
             let Some(keyword) = words.next() else { continue };
             let count = || {
                 let word = words.clone().next().unwrap_or_default();

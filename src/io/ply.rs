@@ -73,7 +73,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
                 let ends = |data: &Data<'_>| data.ends(element, index);
                 match (property.kind, axis) {
                     (Kind::Number(scalar), Some(axis)) => {
-                        point[*axis] = data.number(scalar)?.ok_or_else(|| ends(&data))?
+                        point[*axis] = data.number(scalar)?.ok_or_else(|| ends(&data))?;
                     }
                     (Kind::Number(scalar), None) => data.number(scalar)?.map(drop).ok_or_else(|| ends(&data))?,
                     (Kind::List { count, item }, _) => data.skip_list(count, item)?.ok_or_else(|| ends(&data))?,
@@ -105,8 +105,7 @@ impl Header {
         let mut rest = bytes;
         for line in 1.. {
             let (content, next) = split_line(rest);
-            let words: Vec<&[u8]> =
-                content.split(|b| b.is_ascii_whitespace()).filter(|word| !word.is_empty()).collect();
+            let words: Vec<&[u8]> = content.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect();
             let wrong = |what: String| Err(FormatError::line(line, what));
             match words.as_slice() {
                 [b"ply"] if line == 1 => {}

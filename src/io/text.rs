@@ -49,7 +49,7 @@ pub(super) fn line_at(bytes: &[u8], offset: usize) -> usize {
 pub(super) fn fields(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     let separator = [b';', b','].into_iter().find(|separator| line.contains(separator));
     line.split(move |b| separator.map_or(b.is_ascii_whitespace(), |s| *b == s))
-        .map(|field| field.trim_ascii())
+        .map(<[u8]>::trim_ascii)
         .filter(move |field| separator.is_some() || !field.is_empty())
 }
 

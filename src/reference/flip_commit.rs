@@ -9,7 +9,7 @@ use crate::reference::dim::{Kernels, ReferenceDim};
 /// Carries out the proposed flips that won. One invocation per entry of the active list.
 ///
 /// A flip owns its simplices, so it overwrites them in place; the outer facets of the new ones keep
-/// their old neighbours until [`flip_link`](crate::reference::flip_link), and each old simplex gets
+/// their old neighbours until `flip_link`, and each old simplex gets
 /// a message that says where its outer facets went. A flip that finds no slot, or no room in the
 /// history, is put off: it stays in the active list.
 pub fn flip_commit<const D: usize>(state: &mut State<D>)

@@ -33,7 +33,7 @@ where
         let mut facet: Vec<u32> = Dimension::<D>::facet(k).iter().map(|&c| corners.as_ref()[c]).collect();
         let inversions: usize = (0..D).map(|i| facet[..i].iter().filter(|&&v| v > facet[i]).count()).sum();
         facet.sort_unstable();
-        (facet, inversions % 2 != 0)
+        (facet, !inversions.is_multiple_of(2))
     }
 
     /// Panics unless the part about simplices holds.

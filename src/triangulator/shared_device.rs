@@ -123,9 +123,8 @@ impl SharedDevice {
     /// Gives the device back now rather than with the last reference to it. The next run reopens it.
     pub(super) async fn close(&self) {
         let mut state = self.state.lock().await;
-        match (&state.caller_supplied, state.open_device()) {
-            (None, Some(gpu)) => gpu.device().destroy(),
-            (Some(_), _) | (None, None) => {}
+        if let (None, Some(gpu)) = (&state.caller_supplied, state.open_device()) {
+            gpu.device().destroy();
         }
         state.close();
     }

@@ -261,7 +261,7 @@ proptest! {
 
     #[test]
     fn points_of_a_circle(points in prop::sample::select(vec![25, 65, 325, 4225]).prop_flat_map(|r| some(circle(r), 20))) {
-        check(&points)?
+        check(&points)?;
     }
 
     #[test]
@@ -278,7 +278,7 @@ proptest! {
 
     #[test]
     fn points_of_a_grid_and_of_another_scale(points in some(prop_oneof![grid(3), mixed_scales()], 14)) {
-        check(&points)?
+        check(&points)?;
     }
 }
 

@@ -97,7 +97,7 @@ proptest! {
 
     #[test]
     fn points_of_a_sphere(points in prop::sample::select(vec![9, 26, 41, 65]).prop_flat_map(|r| some(sphere(r), 18))) {
-        check(&points)?
+        check(&points)?;
     }
 
     #[test]
@@ -117,7 +117,7 @@ proptest! {
 
     #[test]
     fn points_of_a_grid_and_of_another_scale(points in some(prop_oneof![grid(3), mixed_scales()], 12)) {
-        check(&points)?
+        check(&points)?;
     }
 }
 

@@ -100,10 +100,10 @@ impl Cases {
     fn points<const D: usize, const N: usize>(&mut self, kind: Kind, position: Position) -> [[f64; D]; N] {
         let mut coordinates = |mut f: Box<dyn FnMut(&mut Self) -> f64>| [(); N].map(|()| [(); D].map(|()| f(self)));
         match kind {
-            Kind::Random => coordinates(Box::new(|cases| cases.unit())),
+            Kind::Random => coordinates(Box::new(Cases::unit)),
             Kind::Grid => coordinates(Box::new(|cases| cases.small(2))),
             Kind::Offset => coordinates(Box::new(|cases| 1e7 + cases.below(50) as f64 / 1000.0)),
-            Kind::AnyFinite => coordinates(Box::new(|cases| cases.any_finite())),
+            Kind::AnyFinite => coordinates(Box::new(Cases::any_finite)),
             Kind::MixedScales => [(); N].map(|()| {
                 let scale = self.scale();
                 [(); D].map(|()| self.small(5) * scale)

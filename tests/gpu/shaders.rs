@@ -25,7 +25,7 @@ fn points(gpu: &Gpu) -> DevicePoints {
 
 /// The names of all variables of some kernels.
 fn variables(shaders: &Shaders) -> BTreeSet<&'static str> {
-    shaders.iter().flat_map(|s| s.variables()).map(|&(name, _)| name).collect()
+    shaders.iter().flat_map(gdel::internals::gpu::shader::Shader::variables).map(|&(name, _)| name).collect()
 }
 
 /// Every kernel is bound in every run, which finds a name that is missing; this finds those that are superfluous. The buffers

@@ -21,7 +21,7 @@ fn cloud(n: usize, seed: u64, mut point: impl FnMut(&mut Pcg64Mcg) -> [f64; 3]) 
 }
 
 pub fn uniform(n: usize, seed: u64) -> Cloud {
-    cloud(n, seed, |rng| rng.random())
+    cloud(n, seed, rand::RngExt::random)
 }
 
 fn normal(rng: &mut Pcg64Mcg) -> f64 {

@@ -26,7 +26,7 @@ pub static ENGINE: LazyLock<Mutex<GpuEngine<2>>> = LazyLock::new(|| {
 });
 
 fn triangulate(points: Points2<'_>, settings: &Settings<2>) -> Mesh2 {
-    let mut engine = ENGINE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let mut engine = ENGINE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     engine.set_settings(*settings);
     block_on(engine.triangulate(points, &Options::default())).expect("triangulates")
 }

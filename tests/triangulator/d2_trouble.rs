@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 /// The mesh of the engine `gpu`, which all others agree with.
 fn agreed(points: &[[f64; 2]]) -> Mesh2 {
     let mesh = {
-        let mut engine = ENGINE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let mut engine = ENGINE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         block_on(engine.triangulate(points.into(), &Options::default())).expect("triangulates")
     };
     let report = verify2d(points, &mesh).expect("finite points");

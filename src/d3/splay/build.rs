@@ -91,7 +91,7 @@ fn recognize(star: &mut Star, removed: &mut Vec<Triangle>) -> Vec<u32> {
     for (i, t) in star.triangles.iter_mut().enumerate().filter(|(_, t)| t.is_used() && t.tetrahedron == NO_INDEX) {
         match removed.binary_search_by_key(&rotated(t.vertices), |t| t.vertices) {
             Ok(at) if removed[at].tetrahedron != NO_INDEX => {
-                t.tetrahedron = std::mem::replace(&mut removed[at].tetrahedron, NO_INDEX)
+                t.tetrahedron = std::mem::replace(&mut removed[at].tetrahedron, NO_INDEX);
             }
             _ => added.push(i as u32),
         }

@@ -245,7 +245,7 @@ impl<'a> Splaying<'a> {
         for request in requests {
             match request.witness {
                 NO_INDEX => {
-                    points.extend(self.ledger.finite(&request.tetrahedron).iter().filter(|&&p| p != star.vertex))
+                    points.extend(self.ledger.finite(&request.tetrahedron).iter().filter(|&&p| p != star.vertex));
                 }
                 witness => points.push(witness),
             }
