@@ -18,7 +18,7 @@ step cargo clippy --locked --workspace --all-targets --all-features -- -D warnin
 # The library must build wherever Rust does, with any single feature and with none.
 step cargo hack check --locked --lib --each-feature --no-dev-deps -p gdel
 step cargo check --locked --lib --no-default-features --target wasm32-unknown-unknown
-step cargo clippy --locked --package gdel-web --all-features --target wasm32-unknown-unknown -- -D warnings
+step cargo check --locked --package gdel-web --all-features --target wasm32-unknown-unknown
 RUSTDOCFLAGS="-D warnings" step cargo doc --locked --no-deps --all-features
 step typos
 step npm run lint --silent

@@ -352,7 +352,7 @@ test('an abort takes effect at once, and the triangulator keeps working', async 
 test('a disposed triangulator fails its runs and lets the others work', async () => {
   const triangulator = await createTriangulator({ backend: 'cpu' });
   assert.deepEqual(
-    { ...backend.info },
+    { ...triangulator.info },
     {
       backend: 'cpu',
       fallback: null,
@@ -381,7 +381,7 @@ test('without a worker, runs take place in the calling thread', async () => {
   );
   const mesh = await triangulator.delaunay3d(TETRAHEDRON);
   assert.equal(mesh.stats.thread, 'caller');
-  assert.match(mesh.stats.whyThread, /no worker/);
+  assert.match(mesh.stats.whyThread, /option worker/);
   triangulator.dispose();
 });
 
