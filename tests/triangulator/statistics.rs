@@ -2,6 +2,7 @@
 
 use crate::engine;
 use gdel::{
+    Mesh3,
     internals::{
         Options,
         d3::{
@@ -16,18 +17,20 @@ use gdel::{
 use pollster::block_on;
 use std::collections::{HashMap, HashSet};
 
+/// Triangulates points of a thin sphere, all of them inserted before the first flip. Flips then leave
+/// hundreds of facets that are not locally Delaunay, whatever the order in which a device flips.
+fn triangulate_thin_sphere(options: &Options) -> (Vec<[f64; 3]>, Mesh3) {
+    let points = generate(Distribution::ThinSphere, 8_000, 5);
+    let mut engine = engine();
+    engine.set_settings(Settings { insert_all: true, ..Settings::default() });
+    let mesh = block_on(engine.triangulate((&points).into(), options));
+    engine.set_settings(Settings::default());
+    (points, mesh.expect("triangulates"))
+}
+
 #[test]
 fn the_statistics_add_up() {
-    // Flips leave more facets where all points are inserted before them: hundreds here, whatever the order in which a device
-    // happens to flip.
-    let points = generate(Distribution::ThinSphere, 8_000, 5);
-    let mesh = {
-        let mut engine = engine();
-        engine.set_settings(Settings { insert_all: true, ..Settings::default() });
-        let mesh = block_on(engine.triangulate((&points).into(), &Options::default()));
-        engine.set_settings(Settings::default());
-        mesh.expect("triangulates")
-    };
+    let (_, mesh) = triangulate_thin_sphere(&Options::default());
     let (gpu, splay) = (mesh.stats.gpu.expect("the GPU worked"), mesh.stats.splay.expect("and splaying"));
     let sum = |of: fn(&Round) -> u32| gpu.rounds.iter().map(|round| u64::from(of(round))).sum::<u64>();
     assert_eq!(gpu.adapter, engine().gpu().adapter().name);
@@ -45,9 +48,7 @@ fn the_statistics_add_up() {
 
 #[test]
 fn the_trace_has_every_round_and_what_splaying_did() {
-    let points = generate(Distribution::ThinSphere, 8_000, 5);
-    let options = Options { trace: true, ..Options::default() };
-    let mesh = block_on(engine().triangulate((&points).into(), &options)).expect("triangulates");
+    let (points, mesh) = triangulate_thin_sphere(&Options { trace: true, ..Options::default() });
     let (trace, gpu) = (mesh.stats.trace.as_ref().expect("asked for"), mesh.stats.gpu.as_ref().expect("used"));
     assert_eq!(trace.rounds.len(), gpu.rounds.len());
 
