@@ -129,7 +129,7 @@ fn stats_of_the_gpu_engine_as_json() {
     }
     let auto = &stats(folder.path(), &["p.npy", "--backend", "auto"])[0];
     assert_eq!(auto["backend"], "cpu");
-    assert!(auto["fallback"].as_str().unwrap().contains("900 points are too few"), "{auto}");
+    assert!(auto["fallback"]["message"].as_str().unwrap().contains("900 points are too few"), "{auto}");
 }
 
 #[test]
