@@ -16,7 +16,7 @@ online=false
 step cargo fmt --all --check
 step cargo clippy --locked --workspace --all-targets --all-features -- -D warnings
 # The library must build wherever Rust does, with any single feature and with none.
-step cargo hack check --locked --lib --each-feature --no-dev-deps -p gdel
+step cargo hack check --locked --lib --each-feature -p gdel
 step cargo check --locked --lib --no-default-features --target wasm32-unknown-unknown
 step cargo check --locked --package gdel-web --all-features --target wasm32-unknown-unknown
 RUSTDOCFLAGS="-D warnings" step cargo doc --locked --no-deps --all-features

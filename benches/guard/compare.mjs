@@ -3,7 +3,7 @@
 //   node benches/guard/compare.mjs [--accept] SECTION…
 
 import { execFileSync } from 'node:child_process';
-import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
@@ -32,7 +32,9 @@ const marginOf = (row) => MARGINS.find(([pattern]) => pattern.test(row))?.[1] ??
 /** The counts of each section, by row. */
 const SECTIONS = {
   instructions() {
-    const runs = counted('instructions.jsonl').filter((line) => line.startsWith('{')).map((line) => JSON.parse(line));
+    const runs = counted('instructions.jsonl')
+      .filter((line) => line.startsWith('{'))
+      .map((line) => JSON.parse(line));
     return runs.map(({ function_name, id, profiles }) => {
       const profile = profiles.find(({ tool }) => tool === 'Callgrind');
       return [`instructions ${function_name}, ${id}`, profile.data.total.metrics.Ir.values.new];
@@ -48,7 +50,9 @@ const SECTIONS = {
     const dist = join(root, 'web/dist');
     if (!existsSync(dist)) throw new Error('web/dist is missing: run `npm run build` first');
     // inline.js holds the others.
-    const files = readdirSync(dist).filter((file) => /\.(wasm|js)$/.test(file) && file !== 'inline.js');
+    const files = readdirSync(dist).filter(
+      (file) => /\.(wasm|js)$/.test(file) && file !== 'inline.js',
+    );
     return files.flatMap((file) => {
       const content = readFileSync(join(dist, file));
       return [
@@ -61,7 +65,9 @@ const SECTIONS = {
 
 const names = process.argv.slice(2).filter((name) => name !== '--accept');
 const accept = process.argv.includes('--accept');
-const figures = existsSync(FIGURES) ? JSON.parse(readFileSync(FIGURES, 'utf8')) : { rustc: null, counts: {} };
+const figures = existsSync(FIGURES)
+  ? JSON.parse(readFileSync(FIGURES, 'utf8'))
+  : { rustc: null, counts: {} };
 const rustc = execFileSync('rustc', ['--version'], { cwd: root, encoding: 'utf8' }).trim();
 const isOtherRustc = names.includes('instructions') && rustc !== figures.rustc;
 
@@ -71,7 +77,9 @@ for (const name of names) {
   if (rows.length === 0) throw new Error(`nothing was counted of ${name}`);
   for (const [row, count] of rows) after.set(row, count);
 }
-const before = new Map(Object.entries(figures.counts).filter(([row]) => names.includes(row.split(' ', 1)[0])));
+const before = new Map(
+  Object.entries(figures.counts).filter(([row]) => names.includes(row.split(' ', 1)[0])),
+);
 
 const number = (count) => count.toLocaleString('en');
 const complaints = [];
@@ -86,9 +94,14 @@ for (const row of [...new Set([...before.keys(), ...after.keys()])].sort()) {
     delete accepted[row];
     continue;
   } else if (Math.abs(now - old) * 100 > marginOf(row) * old) {
-    const change = old === 0 ? '' : ` (${now > old ? '+' : '−'}${((Math.abs(now - old) / old) * 100).toFixed(1)} %)`;
+    const change =
+      old === 0
+        ? ''
+        : ` (${now > old ? '+' : '−'}${((Math.abs(now - old) / old) * 100).toFixed(1)} %)`;
     const word = now > old ? 'more' : 'fewer';
-    complain(`${number(old)} before, ${number(now)} now${change}: ${word} than the margin of ${marginOf(row)} % allows`);
+    complain(
+      `${number(old)} before, ${number(now)} now${change}: ${word} than the margin of ${marginOf(row)} % allows`,
+    );
   } else if (!(isOtherRustc && row.startsWith('instructions '))) {
     continue;
   }
@@ -99,17 +112,33 @@ if (accept) {
   const rows = Object.keys(accepted).sort();
   const lines = rows.map((row) => `    ${JSON.stringify(row)}: ${accepted[row]}`);
   const kept = names.includes('instructions') ? rustc : figures.rustc;
-  writeFileSync(FIGURES, `{\n  "rustc": ${JSON.stringify(kept)},\n  "counts": {\n${lines.join(',\n')}\n  }\n}\n`);
-  console.log(`guard: accepted into benches/guard/figures.json:\n${complaints.join('\n') || '  nothing was off its margin'}`);
+  writeFileSync(
+    FIGURES,
+    `{\n  "rustc": ${JSON.stringify(kept)},\n  "counts": {\n${lines.join(',\n')}\n  }\n}\n`,
+  );
+  console.log(
+    `guard: accepted into benches/guard/figures.json:\n${complaints.join('\n') || '  nothing was off its margin'}`,
+  );
 } else if (complaints.length > 0) {
-  console.error(`guard: ${complaints.length} of ${after.size} counts are off:\n${complaints.join('\n')}`);
+  console.error(
+    `guard: ${complaints.length} of ${after.size} counts are off:\n${complaints.join('\n')}`,
+  );
   if (isOtherRustc) {
-    console.error(`The figures were taken with ${figures.rustc}, and this is ${rustc}: it may be the compiler's doing.`);
+    console.error(
+      `The figures were taken with ${figures.rustc}, and this is ${rustc}: it may be the compiler's doing.`,
+    );
   }
-  console.error('A loss has to be mended. To accept a change deliberately, better counts too, so that they cannot be lost');
-  console.error(`again unseen, run this, and commit benches/guard/figures.json:\n\n  scripts/guard.sh --accept ${names.join(' ')}\n`);
+  console.error(
+    'A loss has to be mended. To accept a change deliberately, better counts too, so that they cannot be lost',
+  );
+  console.error(
+    `again unseen, run this, and commit benches/guard/figures.json:\n\n  scripts/guard.sh --accept ${names.join(' ')}\n`,
+  );
   process.exit(1);
 } else {
   console.log(`guard: ${after.size} counts are within their margins`);
-  if (isOtherRustc) console.log(`guard: note that the figures were taken with ${figures.rustc}, and this is ${rustc}`);
+  if (isOtherRustc)
+    console.log(
+      `guard: note that the figures were taken with ${figures.rustc}, and this is ${rustc}`,
+    );
 }
