@@ -2,8 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { chromium } from 'playwright-core';
-import { QUIET, WEBGPU } from './chromium.mjs';
+import { launchChromium, WEBGPU } from './browsers.mjs';
 import { assemble, buffers, cases, exactSigns, families } from './predicates.mjs';
 import { serve } from './server.mjs';
 
@@ -13,10 +12,7 @@ const CASES = 3000;
 let browser, server, page;
 before(async () => {
   server = await serve({});
-  browser = await chromium.launch({
-    executablePath: '/usr/bin/chromium',
-    args: [...QUIET, ...WEBGPU],
-  });
+  browser = await launchChromium(WEBGPU);
   page = await browser.newPage();
   await page.goto(server.url);
   await page.evaluate(async () => {
@@ -94,7 +90,7 @@ for (const dimension of [3, 2]) {
         const zeros = { orientation: 0, inSphere: 0 };
         const open = { orientation: 0, inSphere: 0 };
         for (const [i, vertices] of all.entries()) {
-          // In 2D there is one filter.
+          // In the plane there is one filter.
           const [
             orientExact,
             orient,
@@ -147,8 +143,7 @@ for (const dimension of [3, 2]) {
         console.log(
           `${dimension}D ${width} ${family}: of ${CASES}, zeros ${JSON.stringify(zeros)}, open after the filter ${JSON.stringify(open)}`,
         );
-        // The families are what they say: degenerate ones have zeros, and ones that are nearly
-        // zero.
+        // The families are what they say: degenerate ones have zeros, and ones that are nearly zero.
         if (family === 'uniform')
           assert.ok(open.orientation < CASES / 50 && open.inSphere < CASES / 50);
         if (['corners', 'smallGrid', 'collinear'].includes(family))
