@@ -54,9 +54,9 @@ count_instructions() {
 count_gpu() {
   local lavapipe
   lavapipe=$(compgen -G '/usr/share/vulkan/icd.d/lvp_icd.*.json' | head -n 1)
-  cargo test --quiet --locked --bench gpu_counts --no-run
+  cargo test --quiet --locked --all-features --bench gpu_counts --no-run
   VK_DRIVER_FILES=$lavapipe LP_NUM_THREADS=1 LP_NATIVE_VECTOR_WIDTH=256 \
-    taskset --cpu-list "$(two_cores)" cargo test --quiet --locked --bench gpu_counts >"$counts/gpu.txt"
+    taskset --cpu-list "$(two_cores)" cargo test --quiet --locked --all-features --bench gpu_counts >"$counts/gpu.txt"
 }
 
 # The first two of the cores that this process may use.
