@@ -81,11 +81,10 @@ locked() { sed -n "/^name = \"$1\"$/{n;s/^version = \"\(.*\)\"$/\1/p}" Cargo.loc
 # Installs a tool from crates.io into .cache/tools, unless it is there or on the PATH in this version. The tools do not have to
 # be fast, but to compile fast: with the optimisation that their work needs.
 install_tool() {
-  local optimisation=$1 command=$2 crate=$3 version=$4 candidate
+  local optimisation=$1 command=$2 crate=$3 version=$4
   shift 4
-  for candidate in ".cache/tools/bin/$command" "$command"; do
-    [[ $("$candidate" --version 2>/dev/null) != "$command $version"* ]] || return 0
-  done
+  ! grep -qs "^\"$crate $version " .cache/tools/.crates.toml || return 0
+  [[ $("$command" --version 2>/dev/null) != "$command $version"* ]] || return 0
   say "compiling $crate $version: a few minutes"
   CARGO_PROFILE_RELEASE_OPT_LEVEL=$optimisation CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
     cargo install --quiet --root .cache/tools --version "$version" "$@" "$crate"
