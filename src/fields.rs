@@ -3,11 +3,6 @@
 
 use std::{borrow::Cow, time::Duration};
 
-use crate::{
-    Backend,
-    stats::{Fallback, Phase, Trace},
-};
-
 /// A value in the form that JavaScript has.
 pub enum Value<'a> {
     /// Not among the fields of the JavaScript object.
@@ -171,52 +166,5 @@ impl<T: Field> Field for Vec<T> {
 
     fn typescript() -> Option<String> {
         T::typescript().map(|element| format!("{element}[]"))
-    }
-}
-
-impl Field for Backend {
-    fn value(&self) -> Value<'_> {
-        Value::Text(self.name().into())
-    }
-
-    /// Of a finished run: never `auto`.
-    fn typescript() -> Option<String> {
-        Some("'gpu' | 'cpu'".to_owned())
-    }
-}
-
-impl Field for Fallback {
-    fn value(&self) -> Value<'_> {
-        Value::Text(self.to_string().into())
-    }
-
-    fn typescript() -> Option<String> {
-        Some("string".to_owned())
-    }
-}
-
-impl Field for (Phase, Duration) {
-    fn value(&self) -> Value<'_> {
-        let &(phase, time) = self;
-        let milliseconds = Value::Number(1e3 * time.as_secs_f64());
-        Value::Object(vec![
-            ("name".to_owned(), Value::Text(phase.name().into())),
-            ("milliseconds".to_owned(), milliseconds),
-        ])
-    }
-
-    fn typescript() -> Option<String> {
-        Some("{ name: string; milliseconds: number }".to_owned())
-    }
-}
-
-/// In JavaScript the trace belongs to the mesh, and has typed arrays.
-impl Field for Option<Trace> {
-    fn value(&self) -> Value<'_> {
-        Value::Omitted
-    }
-
-    fn typescript() -> Option<String> {
-        None
     }
 }

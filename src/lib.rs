@@ -44,6 +44,7 @@ mod d3;
 mod gpu;
 
 // What a run says about itself, and what is checked afterwards.
+mod backend;
 mod error;
 mod mesh;
 mod options;
@@ -60,6 +61,7 @@ mod random;
 #[cfg(feature = "gpu")]
 mod reference;
 
+pub use backend::Backend;
 pub use d2::{
     Mesh2,
     verify::{MeshView2, verify2d},
@@ -77,7 +79,7 @@ pub use input::points::{Points, Points2};
 pub use input::points::{from_mint2, from_mint3};
 pub use mesh::Stars;
 pub(crate) use options::Options;
-pub use options::{Backend, Progress};
+pub use options::Progress;
 pub use predicates::{Sign, incircle, insphere, orient2d, orient3d};
 pub use triangulator::Triangulator;
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]

@@ -1,6 +1,9 @@
 //! Statistics of a run: what it did, and how long each part took.
 
-use crate::{Backend, Error, fields::with_fields};
+use crate::{
+    Backend, Error,
+    fields::{Field, Value, with_fields},
+};
 use std::{fmt, time::Duration};
 
 with_fields! {
@@ -404,6 +407,42 @@ impl std::ops::Add for ExactCounts {
             expansion: self.expansion + more.expansion,
             symbolic: self.symbolic + more.symbolic,
         }
+    }
+}
+
+impl Field for Fallback {
+    fn value(&self) -> Value<'_> {
+        Value::Text(self.to_string().into())
+    }
+
+    fn typescript() -> Option<String> {
+        Some("string".to_owned())
+    }
+}
+
+impl Field for (Phase, Duration) {
+    fn value(&self) -> Value<'_> {
+        let &(phase, time) = self;
+        let milliseconds = Value::Number(1e3 * time.as_secs_f64());
+        Value::Object(vec![
+            ("name".to_owned(), Value::Text(phase.name().into())),
+            ("milliseconds".to_owned(), milliseconds),
+        ])
+    }
+
+    fn typescript() -> Option<String> {
+        Some("{ name: string; milliseconds: number }".to_owned())
+    }
+}
+
+/// In JavaScript the trace belongs to the mesh, and has typed arrays.
+impl Field for Option<Trace> {
+    fn value(&self) -> Value<'_> {
+        Value::Omitted
+    }
+
+    fn typescript() -> Option<String> {
+        None
     }
 }
 
