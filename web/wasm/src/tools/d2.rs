@@ -2,21 +2,18 @@
 
 use gdel::{
     Mesh2, MeshView2, NONE,
-    internals::{
-        d2::generate::{Distribution2, generate2d as generate},
-        io::{SurfaceFormat, write_ele, write_neigh, write_node, write_npz, write_vtu},
-    },
+    internals::d2::generate::{Distribution2, generate2d as generate},
     verify2d as verify,
 };
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
-    objects::{Thrown, object},
+    objects::Thrown,
     tools::{
-        file, generated,
+        files, generated,
         mesh::{CallerMesh, points_of_mesh},
-        report_object, unknown_format,
+        report_object,
     },
 };
 
@@ -48,20 +45,7 @@ pub fn write2d(points: &JsValue, mesh: &JsValue, format: &str) -> Result<JsValue
         halfedges.reverse();
         *halfedges = halfedges.map(reversed);
     }
-    let mesh = &mesh;
-    match format {
-        "vtu" => Ok(object([file("vtu", |to| write_vtu(to, points, mesh))?])),
-        "npz" => Ok(object([file("npz", |to| write_npz(to, points, mesh))?])),
-        "triangle" => Ok(object([
-            file("node", |to| write_node(to, points))?,
-            file("ele", |to| write_ele(to, mesh))?,
-            file("neigh", |to| write_neigh(to, mesh))?,
-        ])),
-        _ => {
-            let format = SurfaceFormat::from_extension(format).ok_or_else(|| unknown_format(format))?;
-            Ok(object([file(format.extensions()[0], |to| format.write(to, points, mesh))?]))
-        }
-    }
+    files(points, &mesh, format, "triangle")
 }
 
 /// Returns what the verifier finds.

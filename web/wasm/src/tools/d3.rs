@@ -2,21 +2,18 @@
 
 use gdel::{
     Mesh3, MeshView,
-    internals::{
-        d3::generate::{Distribution, generate},
-        io::{SurfaceFormat, write_ele, write_neigh, write_node, write_npz, write_vtu},
-    },
+    internals::d3::generate::{Distribution, generate},
     verify3d as verify,
 };
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
-    objects::{Thrown, object},
+    objects::Thrown,
     tools::{
-        file, generated,
+        files, generated,
         mesh::{CallerMesh, points_of_mesh},
-        report_object, unknown_format,
+        report_object,
     },
 };
 
@@ -43,20 +40,7 @@ pub fn write3d(points: &JsValue, mesh: &JsValue, format: &str) -> Result<JsValue
     mesh.hull = caller.hull.unwrap_or_default();
     mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
     mesh.dimension = caller.dimension.unwrap_or(3);
-    let mesh = &mesh;
-    match format {
-        "vtu" => Ok(object([file("vtu", |to| write_vtu(to, points, mesh))?])),
-        "npz" => Ok(object([file("npz", |to| write_npz(to, points, mesh))?])),
-        "tetgen" => Ok(object([
-            file("node", |to| write_node(to, points))?,
-            file("ele", |to| write_ele(to, mesh))?,
-            file("neigh", |to| write_neigh(to, mesh))?,
-        ])),
-        _ => {
-            let hull = SurfaceFormat::from_extension(format).ok_or_else(|| unknown_format(format))?;
-            Ok(object([file(hull.extensions()[0], |to| hull.write(to, points, mesh))?]))
-        }
-    }
+    files(points, &mesh, format, "tetgen")
 }
 
 /// Returns what the verifier finds.

@@ -5,7 +5,11 @@ mod d3;
 mod mesh;
 
 use gdel::{
-    internals::io::{PointBuf, PointCloud, PointFormat},
+    Points,
+    internals::io::{
+        Mesh, PointBuf, PointCloud, PointFormat, SurfaceFormat, write_ele, write_neigh, write_node, write_npz,
+        write_vtu,
+    },
     verify::{Check, Outcome, Report},
 };
 use js_sys::{Array, Float32Array, Float64Array, Uint8Array};
@@ -93,7 +97,26 @@ fn file(
     Ok((extension, Uint8Array::new_from_slice(&bytes).into()))
 }
 
-/// Returns the error for a format that no writer knows.
-fn unknown_format(format: &str) -> Thrown {
-    error("UNKNOWN_FORMAT", &format!("{format:?} is not a known format of meshes")).into()
+/// Returns a mesh as files of a format: `{ extension: bytes }`. The format `triple` is the three text
+/// files of TetGen or Triangle.
+fn files<M: Mesh<D, N>, const D: usize, const N: usize>(
+    points: Points<'_, D>,
+    mesh: &M,
+    format: &str,
+    triple: &str,
+) -> Result<JsValue, Thrown> {
+    match format {
+        "vtu" => Ok(object([file("vtu", |to| write_vtu(to, points, mesh))?])),
+        "npz" => Ok(object([file("npz", |to| write_npz(to, points, mesh))?])),
+        _ if format == triple => Ok(object([
+            file("node", |to| write_node(to, points))?,
+            file("ele", |to| write_ele(to, mesh))?,
+            file("neigh", |to| write_neigh(to, mesh))?,
+        ])),
+        _ => {
+            let surface = SurfaceFormat::from_extension(format)
+                .ok_or_else(|| error("UNKNOWN_FORMAT", &format!("{format:?} is not a known format of meshes")))?;
+            Ok(object([file(surface.extensions()[0], |to| surface.write(to, points, mesh))?]))
+        }
+    }
 }
