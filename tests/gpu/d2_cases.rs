@@ -1,4 +1,4 @@
-//! Four vertices of the plane each, for the predicates: generic, nearly degenerate and degenerate.
+//! Four vertices each, for the 2D predicates: generic, nearly degenerate and degenerate.
 
 use crate::positions::{clustered, corners, cospherical, direction, grid, indices, largest, uniform};
 use gdel::internals::{input::lattice::Width, reference::d2::predicates::Vertex};

@@ -1,4 +1,4 @@
-//! Inputs in the plane: generic and degenerate.
+//! 2D inputs: generic and degenerate.
 
 use rand::{RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;

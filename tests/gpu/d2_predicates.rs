@@ -1,4 +1,4 @@
-//! The predicates of the plane in WGSL and their reference, against big integers and a perturbation that is carried out.
+//! The 2D predicates in WGSL and their reference, against big integers and a perturbation that is carried out.
 
 use crate::d2_cases::{Case, FAMILIES, cases};
 use crate::perturbation::{perturbed_rows, sign_of_columns};

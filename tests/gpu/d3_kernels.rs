@@ -1,4 +1,4 @@
-//! Every kernel of Phase 1 against its reference, on the same buffers.
+//! Every 3D kernel against its reference, on the same buffers.
 //!
 //! The points have coordinates, or high words of them, below 8, so that the scores are exact in `f32` and ties of every kind abound. After each
 //! kernel the device gets the reference's buffers again, so that each is compared on its own.

@@ -1,4 +1,4 @@
-//! What the tests that run kernel by kernel share, in the plane and in space.
+//! What the tests that run kernel by kernel share, in 2D and 3D.
 
 use std::cell::RefCell;
 use std::collections::HashMap;

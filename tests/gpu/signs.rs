@@ -1,4 +1,4 @@
-//! Signs of predicates, by a kernel and by big integers, in the plane and in space.
+//! Signs of predicates, by a kernel and by big integers, in 2D and 3D.
 
 use crate::assemble::assemble;
 use crate::oracle;
