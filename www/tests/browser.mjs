@@ -1,10 +1,12 @@
 // What all tests of the page need: the built page behind a static server, and Chromium with or
 // without WebGPU.
 
+import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import AxeBuilder from '@axe-core/playwright';
 import { preview } from 'vite';
 import { WEBGPU as COMPUTE, launchChromium } from '../../tests/web/browsers.mjs';
 
@@ -218,4 +220,36 @@ export function gdel(...args) {
 /** Saves a picture of the page, with its transitions ended. */
 export async function pictureOf(page, name) {
   return page.screenshot({ path: `${SCREENSHOTS}${name}.png`, animations: 'disabled' });
+}
+
+/** Expects no accessibility faults in what the page shows. */
+export async function expectAccessible(page, what) {
+  const { violations } = await new AxeBuilder({ page }).analyze();
+  assert.deepEqual(
+    violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`),
+    [],
+    what,
+  );
+}
+
+/** Expects no accessibility faults in any panel, and saves a picture of each. */
+export async function expectAccessiblePanels(page, pictures) {
+  for (const name of ['points', 'view', 'run', 'compare', 'use']) {
+    await tab(page, name);
+    await pictureOf(page, `${pictures}-${name}`);
+    await expectAccessible(page, name);
+  }
+}
+
+/** Opens the page on a phone, on which it must not be wider than the screen. */
+export async function openOnPhone(browser, url) {
+  const page = await open(browser, url, {
+    viewport: { width: 390, height: 844 },
+    isMobile: true,
+    hasTouch: true,
+    deviceScaleFactor: 2,
+  });
+  const width = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(width <= 390, `${width} pixels wide`);
+  return page;
 }

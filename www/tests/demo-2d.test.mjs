@@ -4,17 +4,18 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import AxeBuilder from '@axe-core/playwright';
 import {
   choose,
   colorBy,
   compare,
   copied,
   drop,
+  expectAccessiblePanels,
   gdel,
   generate,
   launch,
   open,
+  openOnPhone,
   pictureOf,
   prove,
   save,
@@ -284,29 +285,13 @@ describe('2D', () => {
         colorScheme,
         reducedMotion: 'reduce',
       });
-      for (const name of ['points', 'view', 'run', 'compare', 'use']) {
-        await tab(page, name);
-        await pictureOf(page, `plane-${colorScheme}-${name}`);
-        const { violations } = await new AxeBuilder({ page }).analyze();
-        assert.deepEqual(
-          violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`),
-          [],
-          name,
-        );
-      }
+      await expectAccessiblePanels(page, `2d-${colorScheme}`);
       await page.context().close();
     });
   }
 
   test('works on a phone by touch', async () => {
-    const page = await open(browser, `${server.url}#dim=2&points=uniform_60_1`, {
-      viewport: { width: 390, height: 844 },
-      isMobile: true,
-      hasTouch: true,
-      deviceScaleFactor: 2,
-    });
-    const width = await page.evaluate(() => document.documentElement.scrollWidth);
-    assert.ok(width <= 390, `${width} pixels wide`);
+    const page = await openOnPhone(browser, `${server.url}#dim=2&points=uniform_60_1`);
     await page.touchscreen.tap(...(await at(page, 0.5, 0.6)));
     await page.locator('#tip').waitFor();
     await pictureOf(page, 'plane-phone');

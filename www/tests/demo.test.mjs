@@ -4,18 +4,20 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import AxeBuilder from '@axe-core/playwright';
 import {
   choose,
   colorBy,
   compare,
   copied,
   drop,
+  expectAccessible,
+  expectAccessiblePanels,
   gdel,
   generate,
   launch,
   numbers,
   open,
+  openOnPhone,
   pictureOf,
   prove,
   request,
@@ -223,38 +225,18 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
   for (const colorScheme of ['light', 'dark']) {
     test(`has no accessibility faults, ${colorScheme}`, async () => {
       const page = await open(browser, server.url, { colorScheme, reducedMotion: 'reduce' });
-      for (const name of ['points', 'view', 'run', 'compare', 'use']) {
-        await tab(page, name);
-        await pictureOf(page, `${colorScheme}-${name}`);
-        const { violations } = await new AxeBuilder({ page }).analyze();
-        assert.deepEqual(
-          violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`),
-          [],
-          name,
-        );
-      }
+      await expectAccessiblePanels(page, colorScheme);
       await page.context().close();
     });
   }
 
   test('fits a phone', async () => {
-    const page = await open(browser, server.url, {
-      viewport: { width: 390, height: 844 },
-      isMobile: true,
-      hasTouch: true,
-      deviceScaleFactor: 2,
-    });
-    const width = await page.evaluate(() => document.documentElement.scrollWidth);
-    assert.ok(width <= 390, `${width} pixels wide`);
+    const page = await openOnPhone(browser, server.url);
     await pictureOf(page, 'phone');
     await page.touchscreen.tap(190, 300);
     await page.locator('#tip').waitFor();
     await tab(page, 'view');
-    const { violations } = await new AxeBuilder({ page }).analyze();
-    assert.deepEqual(
-      violations.map(({ id }) => id),
-      [],
-    );
+    await expectAccessible(page);
     await pictureOf(page, 'phone-view');
     await page.context().close();
   });
