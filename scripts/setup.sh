@@ -3,8 +3,8 @@
 # does and skips what is there: a second run starts at once.
 #
 # `scripts/setup.sh guard` also installs what scripts/guard.sh counts instructions with: valgrind and gungraun's runner;
-# `scripts/setup.sh lints` what scripts/lint.sh runs; `scripts/setup.sh web` what the npm package needs: wasm-bindgen and the
-# npm packages; `scripts/setup.sh web-tests` what checks and tests it on top: the browsers, Deno and the linter.
+# `scripts/setup.sh lints` what scripts/lint.sh runs; `scripts/setup.sh web` what the npm package needs: wasm-pack,
+# wasm-bindgen and the npm packages; `scripts/setup.sh web-tests` what checks and tests it on top: the browsers, Deno and the linter.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -91,8 +91,9 @@ install_tool() {
 }
 
 # The glue that wasm-bindgen writes has to be of the version that the crate was compiled with.
-install_wasm_bindgen() {
+install_wasm_tools() {
   install_tool 1 wasm-bindgen wasm-bindgen-cli "$(locked wasm-bindgen)" --no-default-features --bin wasm-bindgen
+  install_tool 0 wasm-pack wasm-pack 0.15.1
 }
 
 # The bench and its runner have to be of one version.
@@ -154,7 +155,7 @@ case $what in
     ;;
   web | web-tests)
     install_npm_packages
-    install_wasm_bindgen
+    install_wasm_tools
     ;;
 esac
 if [[ $what == web-tests ]]; then

@@ -1,8 +1,7 @@
-// Builds the package into web/dist: WebAssembly by cargo and wasm-bindgen, JavaScript by esbuild,
-// declarations by tsc.
+// Builds the package into web/dist: WebAssembly by wasm-pack, JavaScript by esbuild, declarations by
+// tsc.
 
-import { execFileSync, spawn } from 'node:child_process';
-import { once } from 'node:events';
+import { execFileSync } from 'node:child_process';
 import {
   cpSync,
   existsSync,
@@ -43,61 +42,18 @@ const given =
   process.env.CARGO_ENCODED_RUSTFLAGS?.split('\x1f') ?? process.env.RUSTFLAGS?.split(/\s+/) ?? [];
 const CARGO_ENCODED_RUSTFLAGS = [...given, ...remapped].filter(Boolean).join('\x1f');
 const env = { ...process.env, PATH, CARGO_ENCODED_RUSTFLAGS };
-const options = { cwd: root, stdio: ['ignore', 'inherit', 'inherit'], env };
+const run = (command, args) =>
+  execFileSync(command, args, { cwd: root, stdio: ['ignore', 'inherit', 'inherit'], env });
 
-async function run(command, args) {
-  const [status] = await once(spawn(command, args, options), 'exit');
-  if (status !== 0) throw new Error(`${command} failed`);
-}
-
-async function buildWasm() {
-  const metadata = execFileSync('cargo', ['metadata', '--no-deps', '--format-version=1'], {
-    cwd: root,
-    env,
-  });
-  const compiled = join(
-    JSON.parse(metadata).target_directory,
-    'wasm32-unknown-unknown/wasm/gdel_web.wasm',
-  );
-  const finishing = [];
+function buildWasm() {
   for (const name of Object.keys(MODULES)) {
-    say(`${name}: cargo`);
-    await run('cargo', [
-      'build',
-      '--package',
-      'gdel-web',
-      '--locked',
-      '--profile',
-      'wasm',
-      '--target',
-      'wasm32-unknown-unknown',
-      '--features',
-      name,
-    ]);
-    rmSync(pkg(name), { recursive: true, force: true });
-    mkdirSync(pkg(name), { recursive: true });
-    cpSync(compiled, join(pkg(name), 'gdel.wasm'));
-    // Runs while the next module is compiled.
-    finishing.push(finishWasm(name));
+    say(`${name}: wasm-pack`);
+    const packing = ['--profile', 'wasm', '--target', 'web', '--no-pack', '--no-typescript'];
+    const to = ['--out-dir', pkg(name), '--out-name', 'gdel'];
+    const args = ['build', '--mode', 'no-install', ...packing, ...to, join(web, 'wasm')];
+    const cargo = ['--locked', '--features', name];
+    run('wasm-pack', ['--log-level', 'warn', ...args, '--', ...cargo]);
   }
-  await Promise.all(finishing);
-}
-
-/** Generates the JavaScript for a compiled module, and optimises the module. */
-async function finishWasm(name) {
-  const at = (file) => join(pkg(name), file);
-  await run('wasm-bindgen', [
-    at('gdel.wasm'),
-    '--out-dir',
-    pkg(name),
-    '--out-name',
-    'gdel',
-    '--target',
-    'web',
-    '--no-typescript',
-    '--omit-default-module-path',
-  ]);
-  await run('wasm-opt', [at('gdel_bg.wasm'), '-o', at('gdel_bg.wasm'), '-O3']);
 }
 
 /**
@@ -191,7 +147,7 @@ async function buildJs() {
     writeFileSync(join(dist, `${name}.js`), entry);
   }
   say('declarations: tsc');
-  await run(process.execPath, [join(root, 'node_modules/typescript/bin/tsc'), '--project', web]);
+  run(process.execPath, [join(root, 'node_modules/typescript/bin/tsc'), '--project', web]);
   // The three builds have one interface.
   cpSync(join(dist, 'index.d.ts'), join(dist, 'inline.d.ts'));
   for (const file of ['LICENSE-MIT', 'LICENSE-APACHE']) cpSync(join(root, file), join(web, file));
@@ -205,6 +161,6 @@ function reportSizes() {
   }
 }
 
-if (!process.argv.includes('--js') || !existsSync(pkg('tools'))) await buildWasm();
+if (!process.argv.includes('--js') || !existsSync(pkg('tools'))) buildWasm();
 await buildJs();
 reportSizes();
