@@ -39,15 +39,17 @@ build_js() { node web/build.mjs && npm run build --silent --workspace www; }
 test_js() { node --no-concurrent-recompilation scripts/test-js.mjs "$@"; }
 
 # Runs a step of the crate and one of the package and the page at the same time, since neither keeps all processors busy.
-# What the second one says comes after the first one.
+# What the second one says comes after the first one; it is left out where only the first one failed, so that the
+# failure is the last thing that is said.
 both() {
-  local status=0 log=$scratch/$2
+  local log=$scratch/$2 first=passed second=passed
   "$2" >"$log" 2>&1 &
   local beside=$!
-  "$1" || status=1
-  wait "$beside" || status=1
-  cat "$log"
-  return "$status"
+  "$1" || first=failed
+  wait "$beside" || second=failed
+  [[ $first == failed && $second == passed ]] || cat "$log"
+  echo "$1 has $first, $2 has $second."
+  [[ $first == passed && $second == passed ]]
 }
 
 case ${1:-} in
