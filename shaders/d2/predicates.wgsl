@@ -4,8 +4,10 @@
 // the left; incircle(a, b, c, d) is positive when d is inside the circle through the positively
 // oriented a, b, c, and changes sign with every exchange of two arguments.
 //
-// Ties are broken as d3/predicates explains: heights first, then the lowered coordinates ε(i, j), j
-// = y, x. A set S of lowered coordinates is a bit set, 2·rank + (y: 0, x: 1).
+// Ties are broken as d3/predicates explains: by the heights of the points, by infinity that leans
+// away from the interior point, then by the lowered coordinates ε(i, j), j = y, x. So a point of the
+// hull between two others on a line is beyond their edge, and no flat triangles lie along the hull.
+// A set S of lowered coordinates is a bit set, 2·rank + (y: 0, x: 1).
 //!include d2/exact_{width}
 
 // The last one is never zero.
@@ -44,29 +46,10 @@ fn put_in_order(a: ptr<function, Vertex>, b: ptr<function, Vertex>, parity: ptr<
     }
 }
 
-// Returns orient2d with ties broken by the lowered coordinates: never 0 for vertices with different
-// indices.
-fn orient2d(a_: Vertex, b_: Vertex, c_: Vertex) -> i32 {
-    var a = a_;
-    var b = b_;
-    var c = c_;
-    var parity = 1;
-    put_in_order(&a, &b, &parity);
-    put_in_order(&b, &c, &parity);
-    put_in_order(&a, &b, &parity);
-    let u = difference(a.position, c.position);
-    let v = difference(b.position, c.position);
-    var sign = 0;
-    for (var i = 0; i < 5 && sign == 0; i++) {
-        let s = PERTURBATIONS[i];
-        sign = sign_of_determinant(determinant(lowered(u, lowering(s, 0)), lowered(v, lowering(s, 1))));
-    }
-    return sign * parity;
-}
-
-// Returns incircle with ties broken by the heights first and the lowered coordinates then: never 0
-// for vertices with different indices.
-fn incircle(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex) -> i32 {
+// Returns the sign that four vertices give to an in-circle test or an orientation, never 0 where
+// these are not: incircle(a, b, c, d); or, if `of_three`, the orientation of a, b, c, where d is the
+// interior point.
+fn perturbed_sign(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex, of_three: bool) -> i32 {
     var a = a_;
     var b = b_;
     var c = c_;
@@ -102,6 +85,8 @@ fn incircle(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex) -> i32 {
         let by_height = select(select(select(sd, sc, sc != 0), sb, sb != 0), sa, sa != 0);
         let by_volume = sign_of_volume(volume);
         sign = select(by_height, by_volume, by_volume != 0);
+        // Raising the last point moves it out of the circle of three that are positively oriented.
+        sign = select(sign, -sd, of_three && sd != 0);
     }
     return sign * parity;
 }

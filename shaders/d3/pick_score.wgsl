@@ -11,11 +11,22 @@ fn triple(a: vec3f, b: vec3f, c: vec3f) -> f32 {
     return dot(a, cross(b, c));
 }
 
+fn square(a: vec3f) -> f32 {
+    return dot(a, a);
+}
+
 // Returns a power of two that brings the largest of these below 2.
 fn scale_of(a: vec3f, b: vec3f, c: vec3f) -> f32 {
     let m = max(max(abs(a), abs(b)), abs(c));
     let largest = max(max(max(m.x, m.y), m.z), 1);
     return bitcast<f32>(0x7f000000 - (bitcast<u32>(largest) & 0x7f800000));
+}
+
+//!include common/scores
+
+// Returns an upper bound of |triple(a, b, c)|, from the absolute values.
+fn permanent(a: vec3f, b: vec3f, c: vec3f) -> f32 {
+    return dot(a, b.yzx * c.zxy + b.zxy * c.yzx);
 }
 
 fn score_of(tet: vec4u, p: u32) -> u32 {
@@ -24,10 +35,14 @@ fn score_of(tet: vec4u, p: u32) -> u32 {
         // The hull grows most by the point that is farthest from the facet.
         let k = place_of(tet, infinite);
         let a = tet[(k + 1) % 4];
-        let u = from_to(a, tet[(k + 2) % 4]);
-        let v = from_to(a, tet[(k + 3) % 4]);
+        var u = from_to(a, tet[(k + 2) % 4]);
+        var v = from_to(a, tet[(k + 3) % 4]);
         let scale = scale_of(u, v, vec3f(0));
-        return bitcast<u32>(abs(triple(u * scale, v * scale, from_to(a, p) * scale))) + 1;
+        u *= scale;
+        v *= scale;
+        let w = from_to(a, p) * scale;
+        let nearest = min(min(square(w), square(w - u)), square(w - v));
+        return score(triple(u, v, w), permanent(abs(u), abs(v), abs(w)), nearest);
     }
     let scale = scale_of(from_to(tet.x, tet.y), from_to(tet.x, tet.z), from_to(tet.x, tet.w));
     let a = from_to(p, tet.x) * scale;
@@ -40,7 +55,7 @@ fn score_of(tet: vec4u, p: u32) -> u32 {
     }
     // The in-sphere determinant: for one tetrahedron it grows as the distance from the circumcentre
     // falls.
-    let inside = dot(a, a) * triple(b, c, d) - dot(b, b) * triple(c, d, a) + dot(c, c) * triple(d, a, b)
-        - dot(d, d) * triple(a, b, c);
-    return bitcast<u32>(abs(inside)) + 1;
+    let inside = square(a) * triple(b, c, d) - square(b) * triple(c, d, a) + square(c) * triple(d, a, b)
+        - square(d) * triple(a, b, c);
+    return score(inside, 0, min(min(square(a), square(b)), min(square(c), square(d))));
 }

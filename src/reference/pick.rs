@@ -61,3 +61,20 @@ pub(super) fn scale_of<const D: usize>(vectors: &[[f32; D]]) -> f32 {
     let largest = vectors.iter().flatten().fold(1.0f32, |m, x| m.max(x.abs()));
     f32::from_bits(0x7f00_0000 - (largest.to_bits() & 0x7f80_0000))
 }
+
+/// Returns a score by how far a point is from what bounds a simplex, a determinant whose terms sum
+/// up to `permanent` if none is negative; where that is nothing but rounding, a lower one, by the
+/// square of the distance from the nearest vertex.
+pub(super) fn score(distance: f32, permanent: f32, from_nearest: f32) -> u32 {
+    const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
+    if distance.abs() > ROUNDING * permanent {
+        distance.abs().to_bits() | 1 << 31
+    } else {
+        from_nearest.to_bits() + 1
+    }
+}
+
+/// Returns the smallest of some distances.
+pub(super) fn nearest<const N: usize>(squares: [f32; N]) -> f32 {
+    squares.into_iter().fold(f32::INFINITY, f32::min)
+}

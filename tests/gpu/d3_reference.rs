@@ -2,6 +2,7 @@
 
 use gdel::internals::gpu::layout::Pick;
 use gdel::internals::input::lattice::Width;
+use gdel::internals::predicates::integer::orient3d_narrow;
 use gdel::internals::reference::d3::predicates::{Vertex, insphere, orient3d};
 use gdel::internals::reference::run::{Settings, run};
 use rand::{RngExt, SeedableRng};
@@ -110,7 +111,8 @@ fn five(rng: &mut Pcg32, size: i64) -> [Vertex; 5] {
     }
 }
 
-/// A point inside a tetrahedron is inside its circumsphere, in every kind of degenerate position.
+/// A point inside a tetrahedron is inside its circumsphere, in every kind of degenerate position, and never inside a flat
+/// one whose plane does not hold the interior point.
 #[test]
 fn inside_is_inside_the_sphere() {
     let mut rng = Pcg32::seed_from_u64(3);
@@ -123,15 +125,22 @@ fn inside_is_inside_the_sphere() {
         if (0..5).any(|i| (0..i).any(|j| s[i].position == s[j].position)) {
             continue;
         }
+        let interior = Vertex { position: std::array::from_fn(|_| rng.random_range(0..3)), index: 100 };
+        let orient = |four| orient3d(Width::Narrow, four, interior);
         let replaced = |k: usize| {
             let mut four = [s[0], s[1], s[2], s[3]];
             four[k] = s[4];
             four
         };
-        let positive = orient3d(Width::Narrow, [s[0], s[1], s[2], s[3]]) > 0;
-        if positive && (0..4).all(|k| orient3d(Width::Narrow, replaced(k)) > 0) {
+        if orient([s[0], s[1], s[2], s[3]]) > 0 && (0..4).all(|k| orient(replaced(k)) > 0) {
             found += 1;
             assert_eq!(insphere(Width::Narrow, s), 1, "{s:?}");
+            let is_flat = |four: [Vertex; 4]| {
+                let [a, b, c, d] = four.map(|v| v.position);
+                orient3d_narrow(a, b, c, d) == 0
+            };
+            let four = [s[0], s[1], s[2], s[3]];
+            assert!(!is_flat(four) || is_flat([s[0], s[1], s[2], interior]), "{s:?}");
         }
     }
     assert!(found > 20);

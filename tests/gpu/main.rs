@@ -26,4 +26,5 @@ mod d3_reference_predicates;
 mod host;
 mod points;
 mod primitives;
+mod scratch;
 mod shaders;

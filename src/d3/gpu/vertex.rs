@@ -11,11 +11,7 @@
 //! One buffer and not two, because a kernel can bind only eight; the words of a wide vertex share a
 //! 32-byte sector.
 
-use crate::gpu::shader::constants::d3;
 use crate::input::lattice::Width;
-
-/// The vertex at infinity: above every vertex, and above every input index.
-pub const INFINITE: u32 = d3::INFINITE;
 
 /// Returns the words that one vertex takes.
 pub const fn words_per_vertex(width: Width) -> usize {

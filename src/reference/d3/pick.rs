@@ -3,7 +3,8 @@
 use crate::gpu::layout::Pick;
 
 use crate::reference::State;
-use crate::reference::pick::{difference, scale_of};
+use crate::reference::pick::{difference, nearest, scale_of};
+use crate::reference::pick;
 
 /// Returns how much a tetrahedron wants a point, at least 1. Scores of different tetrahedra do not
 /// compare.
@@ -17,7 +18,9 @@ pub(super) fn score(state: &State<3>, t: u32, p: u32) -> u32 {
         let (u, v) = (difference(b, a), difference(c, a));
         let scale = scale_of(&[u, v]);
         let [u, v, w] = [u, v, difference(p, a)].map(|d| d.map(|x| x * scale));
-        return triple(u, v, w).abs().to_bits() + 1;
+        let minus = |p: [f32; 3], q: [f32; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+        let from_nearest = nearest([w, minus(w, u), minus(w, v)].map(square));
+        return pick::score(triple(u, v, w), permanent(u, v, w), from_nearest);
     }
     let scale = scale_of(&[1, 2, 3].map(|i| difference(vertices[i], vertices[0])));
     let d = vertices.map(|v| difference(v, p).map(|x| x * scale));
@@ -27,13 +30,23 @@ pub(super) fn score(state: &State<3>, t: u32, p: u32) -> u32 {
     }
     // The in-sphere determinant: for one tetrahedron it grows as the distance from the circumcentre
     // falls.
-    let lift = d.map(|v| v.iter().map(|x| x * x).sum::<f32>());
+    let lift = d.map(square);
     let inside = lift[0] * triple(d[1], d[2], d[3]) - lift[1] * triple(d[2], d[3], d[0])
         + lift[2] * triple(d[3], d[0], d[1])
         - lift[3] * triple(d[0], d[1], d[2]);
-    inside.abs().to_bits() + 1
+    pick::score(inside, 0.0, nearest(lift))
+}
+
+fn square(a: [f32; 3]) -> f32 {
+    a.iter().map(|x| x * x).sum()
 }
 
 fn triple(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> f32 {
     a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+}
+
+/// Returns the sum of the terms of `triple`, all of them taken as positive.
+fn permanent(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> f32 {
+    let [a, b, c] = [a, b, c].map(|v| v.map(f32::abs));
+    a[0] * (b[1] * c[2] + b[2] * c[1]) + a[1] * (b[2] * c[0] + b[0] * c[2]) + a[2] * (b[0] * c[1] + b[1] * c[0])
 }
