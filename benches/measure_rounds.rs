@@ -58,10 +58,19 @@ where
         let mut rounds = Vec::new();
         let mut before = Counters::default();
         let mut stopped = false;
+        let mut waiting_before = std::collections::BTreeSet::new();
         while !stopped && block_on(run.round())? {
             let now = run.control().1;
             rounds.push((now.inserted - before.inserted, now.iterations - before.iterations, now.flips() - before.flips()));
             before = now;
+            if std::env::var_os("WHO").is_some() {
+                let w: Vec<gdel::internals::gpu::layout::Waiting> = block_on(gdel::internals::gpu::Readback::default().read(gpu, &run.buffers().waiting, 0, run.control().0.entries as usize))?;
+                let pairs = block_on(gdel::internals::gpu::Readback::default().read(gpu, &run.buffers().points.pairs, 0, points.len()))?;
+                let now: std::collections::BTreeSet<u32> = w.iter().filter(|w| w.tet != u32::MAX).map(|w| w.point).collect();
+                let gone: Vec<String> = waiting_before.difference(&now).map(|&p| format!("{:?}", points.get(pairs[p as usize][1] as usize))).collect();
+                println!("round {} inserted {}: {:?}", rounds.len(), gone.len(), &gone[..gone.len().min(60)]);
+                waiting_before = now;
+            }
             stopped = now.iterations > most;
         }
         let counters = run.control().1;
@@ -109,10 +118,15 @@ fn spatial() -> Vec<Cloud<3>> {
         ("raster, whole heights", Box::new(|| clouds::raster(120, 1.0))),
         ("raster, heights in 1/8", Box::new(|| clouds::raster(120, 0.125))),
         ("raster, unrounded", Box::new(|| clouds::raster(120, 0.0))),
+        ("terrain", Box::new(|| clouds::terrain(120, 0.7, 0.0))),
+        ("terrain, whole heights", Box::new(|| clouds::terrain(120, 0.7, 1.0))),
+        ("terrain with a straight border", Box::new(|| clouds::terrain(120, 0.0, 0.0))),
+        ("terrain with a straight border, whole heights", Box::new(|| clouds::terrain(120, 0.0, 1.0))),
         ("raster, shuffled", Box::new(|| clouds::shuffled(&clouds::raster(120, 1.0), 1))),
         ("raster, tilted", Box::new(move || rotated(clouds::raster(120, 1.0)))),
         ("full grid 22³", Box::new(|| clouds::grid(22))),
         ("full grid 32³", Box::new(|| clouds::grid(32))),
+        ("full grid 22³, shuffled", Box::new(|| clouds::shuffled(&clouds::grid(22), 1))),
         ("full grid 22³, tilted", Box::new(move || rotated(clouds::grid(22)))),
         ("flat ground", Box::new(|| clouds::flat_ground(5_000))),
         ("two skew lines", Box::new(|| clouds::two_skew_lines(300))),

@@ -41,6 +41,16 @@ pub fn raster(side: u32, step: f64) -> Vec<[f64; 3]> {
     (0..side * side).map(height).collect()
 }
 
+/// Returns a raster like [`raster`], of smooth and steep terrain.
+pub fn terrain(side: u32, phase: f64, step: f64) -> Vec<[f64; 3]> {
+    let height = |i: u32| {
+        let [x, y] = [i % side, i / side].map(f64::from);
+        let z = 40.0 * libm::sin(0.05 * x + phase) * libm::cos(0.04 * y) + 0.1 * x;
+        [x, y, if step > 0.0 { libm::rint(z / step) * step } else { z }]
+    };
+    (0..side * side).map(height).collect()
+}
+
 /// Returns `n` points of the moment curve (t, t², t³), every two of which are neighbours.
 pub fn moment_curve(n: u32) -> Vec<[f64; 3]> {
     (0..n).map(|i| f64::from(i) / f64::from(n)).map(|t| [t, t * t, t * t * t]).collect()

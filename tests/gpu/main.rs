@@ -26,5 +26,4 @@ mod d3_reference_predicates;
 mod host;
 mod points;
 mod primitives;
-mod scratch;
 mod shaders;
