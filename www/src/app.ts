@@ -236,7 +236,6 @@ export class App implements Page {
   private get canRecord(): boolean {
     return (
       this.summary!.dimension === 3 &&
-      this.summary!.dimension === 3 &&
       this.summary!.points <= MAX_POINTS_TO_RECORD
     );
   }
