@@ -1,7 +1,7 @@
 import type { LiveFrame } from './live';
 import type { Model } from './model';
 
-/** What the page shows, and so what the pointer picks from: the mesh, or a frame of the live mode. */
+/** What the page shows and the pointer picks from: the mesh, or a frame of the live mode. */
 export class Shown {
   private shown: Model | null = null;
   /** Counts the meshes that were shown. */
@@ -18,8 +18,8 @@ export class Shown {
   }
 
   /**
-   * Shows a frame of the live mode once it is made, unless a mesh was shown meanwhile: the live mode
-   * ends while the worker still triangulates its last frame.
+   * Shows a frame of the live mode once it is made, unless a mesh was shown meanwhile: the live
+   * mode ends while the worker still triangulates its last frame.
    */
   async frame(making: Promise<{ model: Model; frame: LiveFrame }>): Promise<LiveFrame> {
     const { meshes } = this;
