@@ -1,13 +1,10 @@
 //! What the experiments share: the device, the inputs, and how time is taken.
 
 use gdel::{
-    Mesh3, Points,
+    Mesh3, Points3,
     internals::{
-        Options,
-        d3::{
-            cpu,
-            generate::{Distribution, generate},
-        },
+        Options, cpu,
+        d3::generate::{Distribution3, generate3d},
         gpu::{AdapterChoice, Gpu, engine::GpuEngine, phase1::Settings},
         io::{PointCloud, files},
     },
@@ -86,8 +83,8 @@ impl Context {
         self.sizes.clone().unwrap_or_else(|| default.to_vec())
     }
 
-    pub fn points(&self, distribution: Distribution, size: usize) -> Vec<[f64; 3]> {
-        generate(distribution, size, self.seed)
+    pub fn points(&self, distribution: Distribution3, size: usize) -> Vec<[f64; 3]> {
+        generate3d(distribution, size, self.seed)
     }
 
     /// The GPU engine; other settings than the default ones are for experiments about them.
@@ -101,25 +98,25 @@ impl Context {
     pub fn on_gpu<'a>(
         &self,
         engine: &mut GpuEngine<3>,
-        points: impl Into<Points<'a>>,
+        points: impl Into<Points3<'a>>,
     ) -> Result<Timed, Box<dyn Error>> {
         let points = points.into();
         self.median(|| block_on(engine.triangulate(points, &Options::default())))
     }
 
     /// What the GPU engine says about a run that is not timed.
-    pub fn once_on_gpu(&self, engine: &mut GpuEngine<3>, points: Points<'_>) -> Result<Stats, Box<dyn Error>> {
+    pub fn once_on_gpu(&self, engine: &mut GpuEngine<3>, points: Points3<'_>) -> Result<Stats, Box<dyn Error>> {
         Ok(block_on(engine.triangulate(points, &Options::default()))?.stats)
     }
 
     /// The CPU engine's.
-    pub fn on_cpu<'a>(&self, points: impl Into<Points<'a>>) -> Result<Timed, Box<dyn Error>> {
+    pub fn on_cpu<'a>(&self, points: impl Into<Points3<'a>>) -> Result<Timed, Box<dyn Error>> {
         let points = points.into();
-        self.median(|| cpu::delaunay3d(points, &Options::default()))
+        self.median(|| cpu::delaunay::<3>(points, &Options::default()))
     }
 
     /// CGAL's milliseconds, where its program is there.
-    pub fn on_cgal<'a>(&self, points: impl Into<Points<'a>>) -> Result<Option<f64>, Box<dyn Error>> {
+    pub fn on_cgal<'a>(&self, points: impl Into<Points3<'a>>) -> Result<Option<f64>, Box<dyn Error>> {
         let Some(program) = &self.cgal else { return Ok(None) };
         let points = points.into();
         let file = tempfile::Builder::new().suffix(".f64").tempfile()?;

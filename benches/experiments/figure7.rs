@@ -1,7 +1,8 @@
 //! Figure 7: where the time goes, by distribution.
 //!
-//! The kernels are timed in a run of their own, with a compute pass for each dispatch; what they do not account for of the
-//! wall time of Phase 1 is the host's: buffers, recording, waiting, and the readback of the mesh.
+//! The kernels are timed in a run of their own, with a compute pass for each dispatch; what they do
+//! not account for of the wall time of Phase 1 is the host's: buffers, recording, waiting, and the
+//! readback of the mesh.
 
 use crate::{
     charts::{Bars, Chart},
@@ -78,7 +79,8 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
         let [a, b, c, d, e, f, g, h] = spent.map(|milliseconds| json!(milliseconds));
         let total = timed.milliseconds;
         table.push([json!(distribution.name()), json!(size), json!(total), a, b, c, d, e, f, g, h]);
-        // Timing each dispatch takes time itself, so that on slow hosts nothing may be left for the rest.
+        // Timing each dispatch takes time itself, so that on slow hosts nothing may be left for the
+        // rest.
         shares.iter_mut().zip(spent).for_each(|((_, share), ms)| share.push(ms.max(0.0) / total * 100.0));
     }
     let chart = Chart::Bars(Bars {

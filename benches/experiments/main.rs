@@ -1,7 +1,8 @@
-//! Repeats the paper's experiments: `cargo bench --features cli --bench experiments -- NAME [OPTIONS]`, `--help` for both.
+//! Repeats the paper's experiments:
+//! `cargo bench --features cli --bench experiments -- NAME [OPTIONS]`, `--help` for both.
 //!
-//! Each prints tables in Markdown, and writes them as JSON and its charts as SVG. To add one: a file with a function from
-//! [`Context`] to [`Outcome`], and a line in [`EXPERIMENTS`].
+//! Each prints tables in Markdown, and writes them as JSON and its charts as SVG. To add one: a
+//! file with a function from [`Context`] to [`Outcome`], and a line in [`EXPERIMENTS`].
 
 mod charts;
 mod context;

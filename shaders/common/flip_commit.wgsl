@@ -19,6 +19,11 @@
 //!include common/history
 //!include {dim}/flip_commit
 
+// Returns whether waiting points may lie in a simplex.
+fn is_held(t: u32) -> bool {
+    return atomicLoad(&status[t].flags) >> HELD_SHIFT == control.round;
+}
+
 var<workgroup> entries_here: u32;
 // The number of flips of this workgroup whose simplices may hold waiting points, and the number of
 // the first one in the history.

@@ -22,10 +22,7 @@ fn winner(i: u32, entry: Active, iteration: u32, bits: u32) -> Flip {
         let u = neighbors[t][k] >> 2;
         let bid = bid_of(i, iteration, bits);
         if atomicLoad(&status[t].vote) == bid && atomicLoad(&status[u].vote) == bid {
-            let round = control.round;
-            let held = atomicLoad(&status[t].flags) >> HELD_SHIFT == round
-                || atomicLoad(&status[u].flags) >> HELD_SHIFT == round;
-            flip = Flip(FLIP_22, t, k, held);
+            flip = Flip(FLIP_22, t, k, is_held(t) || is_held(u));
         }
     }
     return flip;

@@ -68,12 +68,7 @@ fn winner(i: u32, entry: Active, iteration: u32, bits: u32) -> Flip {
             won = won && atomicLoad(&status[w].vote) == bid;
         }
         if won {
-            let round = control.round;
-            var held = atomicLoad(&status[t].flags) >> HELD_SHIFT == round
-                || atomicLoad(&status[u].flags) >> HELD_SHIFT == round;
-            if kind == FLIP_32 {
-                held = held || atomicLoad(&status[w].flags) >> HELD_SHIFT == round;
-            }
+            let held = is_held(t) || is_held(u) || (kind == FLIP_32 && is_held(w));
             flip = Flip(kind, t, u, w, k, c, held);
         }
     }

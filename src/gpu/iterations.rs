@@ -18,7 +18,7 @@ const MIN_PLANNED: u32 = 8;
 const MAX_PLANNED: u32 = 64;
 /// How many more to record than the last round took.
 const MARGIN: u32 = 3;
-/// The same while few points are in, when each round takes longer than the last one.
+/// How many more while few points are inserted and each round takes longer than the last one.
 const EARLY_MARGIN: u32 = 10;
 
 /// Where few signs are left open, exact checks wait for each other: one alone takes longer than all

@@ -22,6 +22,7 @@ mod relocate;
 pub mod run;
 mod split;
 mod state;
+mod ties;
 mod validate;
 
 pub use flip_check::flip_check;

@@ -2,7 +2,7 @@
 
 use gdel::internals::{
     d2::generate::{Distribution2, generate2d},
-    d3::generate::{Distribution, generate},
+    d3::generate::{Distribution3, generate3d},
 };
 
 /// The points of each cloud, but for the grids.
@@ -12,11 +12,11 @@ pub const POINTS: usize = 10_000;
 pub const FEW: usize = 1500;
 
 pub fn uniform() -> Vec<[f64; 3]> {
-    generate(Distribution::Uniform, POINTS, 1)
+    generate3d(Distribution3::Uniform, POINTS, 1)
 }
 
 pub fn sphere(points: usize) -> Vec<[f64; 3]> {
-    generate(Distribution::Sphere, points, 1)
+    generate3d(Distribution3::Sphere, points, 1)
 }
 
 /// All points of a grid: 22³ is about [`POINTS`], 11³ about [`FEW`].
@@ -26,8 +26,8 @@ pub fn grid(side: u32) -> Vec<[f64; 3]> {
 
 /// In 64 cubes of side 10⁻⁶.
 pub fn clusters() -> Vec<[f64; 3]> {
-    let centers = generate(Distribution::Uniform, 64, 2);
-    let offsets = generate(Distribution::Uniform, POINTS, 3).into_iter();
+    let centers = generate3d(Distribution3::Uniform, 64, 2);
+    let offsets = generate3d(Distribution3::Uniform, POINTS, 3).into_iter();
     let around = |(i, offset): (usize, [f64; 3])| {
         let center = centers[i % centers.len()];
         std::array::from_fn(|axis| center[axis] + 1e-6 * offset[axis])

@@ -5,7 +5,7 @@ use gdel::{
     Points,
     internals::{
         d2::generate::{Distribution2, generate2d},
-        d3::generate::{Distribution, generate},
+        d3::generate::{Distribution3, generate3d},
         input::lattice::{Lattice, Width},
         predicates::filter::PredicateContext,
     },
@@ -75,7 +75,7 @@ where
 
 impl Lists<3, 4> {
     pub fn orient3d(stage: Stage) -> Self {
-        let points = generate(Distribution::Uniform, 4 * LISTS, 1).into_iter();
+        let points = generate3d(Distribution3::Uniform, 4 * LISTS, 1).into_iter();
         let points = match stage {
             Stage::Filter => points.collect(),
             Stage::Narrow => points.map(|[x, y, _]| coplanar(integers([x, y], 29))).collect(),
@@ -95,9 +95,9 @@ impl Lists<3, 4> {
 
 impl Lists<3, 5> {
     pub fn insphere(stage: Stage) -> Self {
-        let near_sphere = || generate(Distribution::Sphere, 5 * LISTS, 1).into_iter();
+        let near_sphere = || generate3d(Distribution3::Sphere, 5 * LISTS, 1).into_iter();
         let points = match stage {
-            Stage::Filter => generate(Distribution::Uniform, 5 * LISTS, 1),
+            Stage::Filter => generate3d(Distribution3::Uniform, 5 * LISTS, 1),
             Stage::Narrow => nearly_cocircular(),
             Stage::Wide => near_sphere().map(|p| integers(p, 52)).collect(),
             Stage::Expansion => near_sphere().collect(),

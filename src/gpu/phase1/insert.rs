@@ -1,11 +1,8 @@
 //! Insertion: the first simplices, picking, splitting, and the points inside (§3.1).
 
 use crate::{
-    gpu::{
-        Gpu, Kernel, Recorder,
-        dim::{Dim, Dimension},
-        phase1::buffers::Buffers,
-    },
+    dimension::Dimension,
+    gpu::{Gpu, Kernel, Recorder, dim::Dim, phase1::buffers::Buffers},
     input::lattice::Width,
 };
 

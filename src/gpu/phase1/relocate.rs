@@ -2,10 +2,11 @@
 //! inserted.
 
 use crate::{
-    Error,
+    dimension::Dimension,
+    error::Error,
     gpu::{
         Gpu, Kernel, Recorder,
-        dim::{Dim, Dimension},
+        dim::Dim,
         phase1::buffers::Buffers,
         waiting::{BoundWaitingList, WaitingList},
     },
@@ -47,14 +48,14 @@ impl Relocate {
     ///
     /// # Errors
     ///
-    /// Those of [`Storage::new`](crate::gpu::Storage::new).
+    /// Returns the errors of [`Storage::new`](crate::gpu::Storage::new).
     pub(crate) fn bind<const D: usize>(&self, gpu: &Gpu, b: &Buffers<D>) -> Result<BoundRelocate, Error>
     where
         Dimension<D>: Dim<D>,
     {
         Ok(BoundRelocate {
             relocate: self.relocate.bind(gpu, &b.bindings()),
-            // The scores are of no use any more when the list is compacted.
+            // The scores are no longer needed when the list is compacted.
             list: self.list.bind(gpu, &b.control, &b.waiting, &b.scores)?,
         })
     }
