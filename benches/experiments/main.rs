@@ -48,7 +48,7 @@ struct Arguments {
     /// Files with the points of models, such as .cache/dragon.ply (scripts/fetch-dragon.sh)
     #[arg(long, value_delimiter = ',', default_value = "tests/data/bunny.ply")]
     models: Vec<PathBuf>,
-    /// The graphics card: its number in `gdel adapters`, or a part of its name
+    /// The GPU: its number in `gdel adapters`, or a part of its name
     #[arg(long)]
     adapter: Option<String>,
     /// Timed runs, of which the median counts, after one that does not

@@ -41,7 +41,7 @@ enum Command {
     Triangulate(triangulate::Arguments),
     Generate(generate::Arguments),
     Verify(verify::Arguments),
-    /// List the graphics devices of this machine
+    /// List the GPUs of this machine
     #[cfg(feature = "gpu")]
     Adapters,
 }

@@ -190,7 +190,7 @@ fn auto_goes_on_in_2d_without_the_device_that_it_lost() {
     assert!(matches!(mesh.stats.fallback, Some(Fallback::FewPoints { .. })), "{:?}", mesh.stats.fallback);
 }
 
-/// On machines with a graphics card there is nothing to see here.
+/// On machines with a hardware GPU this test shows nothing.
 #[test]
 fn auto_does_not_take_a_software_adapter() {
     let engines = Triangulator::new();
