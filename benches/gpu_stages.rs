@@ -37,7 +37,7 @@ fn random_points(n: usize) -> Vec<[f64; 3]> {
     (0..n).map(|_| std::array::from_fn(|_| rng.random())).collect()
 }
 
-/// Milliseconds per stage, and for all with the host's part.
+/// Returns milliseconds per stage, and for all with the host's part.
 fn points(gpu: &Gpu, stage: &PointStage<3>, points: Points3<'_>) {
     let mut stages: Vec<(&str, Vec<f64>)> = Vec::new();
     let mut note = |name, ms| match stages.iter_mut().find(|(stage, _)| *stage == name) {
@@ -73,7 +73,7 @@ fn points(gpu: &Gpu, stage: &PointStage<3>, points: Points3<'_>) {
     println!("{:>9} points {form}: ms: {}", points.len(), columns.join(", "));
 }
 
-/// Nanoseconds of device time per test.
+/// Returns nanoseconds of device time per test.
 fn predicate(gpu: &Gpu, width: Width, name: &str, arguments: &str) {
     const VERTICES: usize = 1 << 16;
     const TESTS: usize = 1 << 22;

@@ -26,7 +26,8 @@ use gdel::{Points2, internals::Options};
 use pollster::block_on;
 use std::time::Instant;
 
-/// The points of a distribution by its name, and all points of a square grid as `full-grid`.
+/// Returns the points of a distribution by its name, and all points of a square grid as
+/// `full-grid`.
 fn points(kind: &str, count: usize, seed: u64) -> Result<Vec<[f64; 2]>, String> {
     if kind == "full-grid" {
         let side = (count as f64).sqrt().ceil() as usize;

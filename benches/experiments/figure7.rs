@@ -29,7 +29,7 @@ const SIZE: usize = 1_000_000;
 const TASKS: [&str; 8] =
     ["sort points", "insert", "flip", "relocate", "other kernels", "host and readback", "splay", "finish"];
 
-/// The task that a stage of the profiler belongs to.
+/// Returns the task that a stage of the profiler belongs to.
 fn task(stage: &str) -> &'static str {
     match stage {
         "unite" | "keys" | "sort" | "gather" => "sort points",
@@ -93,7 +93,7 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
     Ok(Outcome { tables: vec![table], charts: vec![chart] })
 }
 
-/// Milliseconds of each stage on the device; none where it has no timestamps.
+/// Returns milliseconds of each stage on the device; none where it has no timestamps.
 fn kernels(context: &Context, points: &[[f64; 3]]) -> Result<Vec<(&'static str, f64)>, Box<dyn Error>> {
     let gpu = &context.gpu;
     let Some(mut profiler) = Profiler::new(gpu)? else { return Ok(Vec::new()) };

@@ -26,7 +26,7 @@ pub struct Spoilt {
 }
 
 impl Spoilt {
-    /// The triangulation of `points`, each coordinate of which is off by at most `by`.
+    /// Returns the triangulation of `points`, each coordinate of which is off by at most `by`.
     pub fn new(points: Vec<[f64; 3]>, by: f64) -> Self {
         let offsets = generate3d(Distribution3::Uniform, points.len(), 4);
         let displaced =
@@ -47,7 +47,7 @@ impl Spoilt {
     }
 }
 
-/// Stops where splaying has given up.
+/// Panics if splaying aborted.
 pub fn expect_delaunay(outcome: SplayOutcome) {
     match outcome {
         SplayOutcome::Delaunay(_, stats) => println!("{stats:?}"),
