@@ -131,10 +131,13 @@ impl<'a, const D: usize> Points<'a, D> {
 
     /// Checks that every coordinate is a finite number, by `threads`.
     pub(crate) fn validate_by(&self, threads: Threads) -> Result<(), Error> {
-        let is_finite = |p: &[f64; D]| p.iter().all(|x| x.is_finite());
         let bad = parallel::map_ranges(threads, self.len(), |range| {
             let start = range.start;
-            self.range(range).iter().position(|p| !is_finite(&p)).map(|i| start + i)
+            let at = match self.range(range) {
+                Points::F32(p) => p.iter().position(|p| !p.iter().all(|x| x.is_finite())),
+                Points::F64(p) => p.iter().position(|p| !p.iter().all(|x| x.is_finite())),
+            };
+            at.map(|i| start + i)
         });
         let Some(index) = bad.into_iter().flatten().next() else { return Ok(()) };
         let p = self.get(index);
