@@ -1,7 +1,6 @@
 // Flips of triangles.
 //
-// Expects: control, simplices, neighbors, status, messages.
-@group(0) @binding(6) var<storage, read_write> history: array<EdgeFlip>;
+// Expects: control, simplices, neighbors, status, messages, history; common/bids, common/history.
 
 // A flip that won both of its triangles.
 struct Flip {
@@ -14,13 +13,13 @@ struct Flip {
 }
 
 // Returns the flip that entry i proposes; kind 0 if it proposes none, or has lost.
-fn winner(i: u32, entry: Active, iteration: u32, bits: u32) -> Flip {
+fn winner(i: u32, entry: Active, bids: Bids) -> Flip {
     var flip = Flip();
     if ((entry.outcome >> KIND_SHIFT) & 3) != 0 {
         let t = entry.tet;
         let k = (entry.outcome >> FACET_SHIFT) & 3;
         let u = neighbors[t][k] >> 2;
-        let bid = bid_of(i, iteration, bits);
+        let bid = bid_of(i, bids);
         if atomicLoad(&status[t].vote) == bid && atomicLoad(&status[u].vote) == bid {
             let round = control.round;
             let held = atomicLoad(&status[t].flags) >> HELD_SHIFT == round
@@ -33,7 +32,8 @@ fn winner(i: u32, entry: Active, iteration: u32, bits: u32) -> Flip {
 
 // Carries out a flip. `node` is its number in the history, NONE where no waiting point can lie in
 // its triangles. Returns the entry's outcome.
-fn carry_out(flip: Flip, node: u32, iteration: u32, mark: u32) -> u32 {
+fn carry_out(flip: Flip, node: u32, bids: Bids) -> u32 {
+    let mark = changed_mark(bids);
     let t = flip.t;
     let k = flip.k;
     let near_t = neighbors[t].xyz;

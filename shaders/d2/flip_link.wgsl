@@ -1,8 +1,8 @@
 // What a flip of triangles leaves to link.
 //
-// Expects: control, neighbors; Changed, flips and join of common/flip_link.
+// Expects: control, neighbors; Changed, flips and join of common/link_pass.
 
-// Returns whether this kernel lists the triangles to check next: no other one does.
+// Returns whether flip_link lists the triangles to check next: no other kernel does.
 fn lists_next(entries: u32) -> bool {
     return true;
 }

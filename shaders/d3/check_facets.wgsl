@@ -4,13 +4,10 @@
 // Where there are so few entries that most of the device would idle, four invocations share one:
 // each looks at one facet, and the first puts together what they found. The outcome is the same.
 //
-// Expects: control; orient and conflict of d3/signs or d3/signs_filtered.
+// Expects: control, simplices, neighbors, status, actives; orient and conflict of d3/signs or
+// d3/signs_filtered.
 //!include d3/simplex
 //!include common/bids
-@group(0) @binding(2) var<storage, read> simplices: array<vec4u>;
-@group(0) @binding(3) var<storage, read> neighbors: array<vec4u>;
-@group(0) @binding(4) var<storage, read_write> status: array<Status>;
-@group(0) @binding(5) var<storage, read_write> actives: array<Active>;
 
 // What was found out about the facets of an entry: those that need no more checking (bits 0–3), and
 // the proposed flip and the facets that cannot be flipped as in Active.outcome. This bit, if a sign
@@ -78,7 +75,7 @@ fn check_facet(t: u32, tet: vec4u, near: vec4u, k: u32) -> u32 {
 // checked. `lanes` invocations in a row share an entry, and the first of them learns this. All of
 // the workgroup must call it, also those that have no entry, and not write found_here again before
 // a barrier.
-fn check_facets(has_entry: bool, i: u32, at: u32, iteration: u32, bits: u32, local: u32, lanes: u32) -> bool {
+fn check_facets(has_entry: bool, i: u32, at: u32, bids: Bids, local: u32, lanes: u32) -> bool {
     let lane = local % lanes;
     var found = 0u;
     var t = NONE;
@@ -113,7 +110,7 @@ fn check_facets(has_entry: bool, i: u32, at: u32, iteration: u32, bits: u32, loc
             actives[at].outcome = (found & ~CHECK) | (suspect << SUSPECT_SHIFT) | (check & ~found);
             let kind = (found >> KIND_SHIFT) & 3;
             if kind != 0 {
-                let bid = bid_of(i, iteration, bits);
+                let bid = bid_of(i, bids);
                 let k = (found >> FACET_SHIFT) & 3;
                 atomicMax(&status[t].vote, bid);
                 atomicMax(&status[near[k] >> 2].vote, bid);

@@ -1,8 +1,6 @@
 // Flips of tetrahedra.
 //
-// Expects: control, simplices, neighbors, status, messages.
-@group(0) @binding(6) var<storage, read_write> free: array<atomic<u32>>;
-@group(0) @binding(7) var<storage, read_write> history: array<FlipNode>;
+// Expects: control, simplices, neighbors, status, messages, history; common/bids, common/history.
 
 // The blocks of the tail in which a flip looks for a free slot.
 const PROBES: u32 = 16;
@@ -22,10 +20,10 @@ fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
             block = ring[i];
         }
         // Another flip may be faster; then the next place is tried.
-        var places = atomicLoad(&free[block]);
+        var places = atomicLoad(&control.free[block]);
         while places != 0 && slot == NONE {
             let place = firstTrailingBit(places);
-            let before = atomicAnd(&free[block], ~(1u << place));
+            let before = atomicAnd(&control.free[block], ~(1u << place));
             if ((before >> place) & 1) != 0 {
                 slot = block * BLOCK + place;
             }
@@ -50,12 +48,12 @@ struct Flip {
 }
 
 // Returns the flip that entry i proposes; kind 0 if it proposes none, or has lost.
-fn winner(i: u32, entry: Active, iteration: u32, bits: u32) -> Flip {
+fn winner(i: u32, entry: Active, bids: Bids) -> Flip {
     var flip = Flip(0, entry.tet, 0, 0, 0, vec3u(0), false);
     let kind = (entry.outcome >> KIND_SHIFT) & 3;
     if kind != 0 {
         let t = entry.tet;
-        let bid = bid_of(i, iteration, bits);
+        let bid = bid_of(i, bids);
         let near = neighbors[t];
         let k = (entry.outcome >> FACET_SHIFT) & 3;
         let turn = (entry.outcome >> EDGE_SHIFT) & 3;
@@ -82,7 +80,8 @@ fn winner(i: u32, entry: Active, iteration: u32, bits: u32) -> Flip {
 
 // Carries out a flip. `node` is its number in the history, NONE where no waiting point can lie in
 // its tetrahedra. Returns the entry's outcome; 0 if there is no slot.
-fn carry_out(flip: Flip, node: u32, iteration: u32, mark: u32) -> u32 {
+fn carry_out(flip: Flip, node: u32, bids: Bids) -> u32 {
+    let mark = changed_mark(bids);
     let first = control.first_node;
     let kind = flip.kind;
     let t = flip.t;
@@ -101,7 +100,7 @@ fn carry_out(flip: Flip, node: u32, iteration: u32, mark: u32) -> u32 {
     var e = apex;
     var third = w;
     if kind == FLIP_23 {
-        third = free_slot(ring, d, e, t, iteration);
+        third = free_slot(ring, d, e, t, bids.iteration);
     } else {
         ring = vec3u(d, x.z, apex);
         d = x.x;

@@ -1,9 +1,8 @@
 // What a flip of tetrahedra leaves to link.
 //
-// Expects: control, neighbors; Changed, flips and join of common/flip_link.
-@group(0) @binding(5) var<storage, read_write> free: array<atomic<u32>>;
+// Expects: control, neighbors; Changed, flips and join of common/link_pass.
 
-// Returns whether this kernel lists the tetrahedra to check next; otherwise flip_compact does.
+// Returns whether flip_link lists the tetrahedra to check next; otherwise flip_compact does.
 fn lists_next(entries: u32) -> bool {
     return entries < control.compact_from;
 }
@@ -15,7 +14,7 @@ fn changed_by(entry: Active) -> Changed {
         return Changed(3, vec3u(entry.tet, inner.x >> 2, inner.y >> 2));
     }
     let slot = (entry.outcome & ~DONE) >> SLOT_SHIFT;
-    atomicOr(&free[slot / BLOCK], 1u << (slot % BLOCK));
+    atomicOr(&control.free[slot / BLOCK], 1u << (slot % BLOCK));
     return Changed(2, vec3u(entry.tet, inner.w >> 2, 0));
 }
 

@@ -16,6 +16,9 @@ struct FlipNode {
     next: array<u32, 3>,
 }
 
+// A flip in the history.
+alias HistoryNode = FlipNode;
+
 // A tetrahedron by its vertices.
 alias Simplex = vec4u;
 const CORNERS: u32 = 4;
