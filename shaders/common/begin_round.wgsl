@@ -7,8 +7,8 @@
 @group(0) @binding(1) var<storage, read_write> scan: ScanParams;
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(local_invocation_index) local: u32) {
-    if local != 0 {
+fn main(@builtin(global_invocation_id) id: vec3u) {
+    if id.x != 0 {
         return;
     }
     let inserted = atomicLoad(&control.inserted);

@@ -6,16 +6,26 @@
 // outer facets went. A flip that finds no slot, or no room in the history, is put off: it stays in
 // the active list.
 //
-// Numbers in the history are taken for a whole workgroup at a time: millions of flips would queue
-// for the one counter.
+// A workgroup first collects the winners among many entries, and then carries them out, so that
+// nearly all of its invocations wait for memory at the same time: only a third of the entries win.
+// Numbers in the history are taken for all of them at once: millions of flips would queue for the
+// one counter.
 //
 // Expects: control, simplices, neighbors, status, actives, messages, history.
 //!include common/bids
 //!include common/history
 //!include {dim}/flip_commit
 
-// The number of flips of this workgroup whose simplices may hold waiting points, and the number of
-// the first one in the history.
+// The entries among which a workgroup collects winners.
+const COMMIT_STEP: u32 = 4 * WORKGROUP;
+
+// The entries that won, counted from the first one in the lower 16 bits; in the upper ones, the
+// number of each among those whose simplices may hold waiting points, plus 1, or 0 if they cannot.
+var<workgroup> winners: array<u32, COMMIT_STEP>;
+var<workgroup> winners_len: atomic<u32>;
+var<workgroup> winners_here: u32;
+// The number of winners whose simplices may hold waiting points, and the number of the first one in
+// the history.
 var<workgroup> held_here: atomic<u32>;
 var<workgroup> first_here: u32;
 
@@ -23,22 +33,26 @@ var<workgroup> first_here: u32;
 fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     let list = half_of(bids.iteration);
     let room = control.first_node + control.history;
-    for (var start = group * WORKGROUP; start < entries; start += groups * WORKGROUP) {
+    for (var start = group * COMMIT_STEP; start < entries; start += groups * COMMIT_STEP) {
         if local == 0 {
+            atomicStore(&winners_len, 0u);
             atomicStore(&held_here, 0u);
         }
         workgroupBarrier();
-        let i = start + local;
-        var flip = Flip();
-        var node = NONE;
-        if i < entries {
-            flip = winner(i, actives[list + i], bids);
-            if flip.held {
-                node = atomicAdd(&held_here, 1u);
+        let end = min(start + COMMIT_STEP, entries);
+        for (var i = start + local; i < end; i += WORKGROUP) {
+            let proposal = proposal_of(actives[list + i]);
+            if proposal.kind != 0 && has_won(proposal, bid_of(i, bids)) {
+                var number = 0u;
+                if is_held(proposal) {
+                    number = atomicAdd(&held_here, 1u) + 1;
+                }
+                winners[atomicAdd(&winners_len, 1u)] = (i - start) | (number << 16);
             }
         }
         workgroupBarrier();
         if local == 0 {
+            winners_here = atomicLoad(&winners_len);
             // The counter is not raised far beyond the end, so that it never overflows.
             let wanted = atomicLoad(&held_here);
             first_here = room;
@@ -47,14 +61,15 @@ fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
             }
         }
         let first_number = workgroupUniformLoad(&first_here);
-        if flip.held {
-            node += first_number;
-        }
-        if flip.kind != 0 {
-            if flip.held && node >= room {
+        let count = workgroupUniformLoad(&winners_here);
+        for (var j = local; j < count; j += WORKGROUP) {
+            let i = start + (winners[j] & 0xffff);
+            let number = winners[j] >> 16;
+            let node = select(first_number + number - 1, NONE, number == 0);
+            if node != NONE && node >= room {
                 atomicOr(&control.overflow, HISTORY_FULL);
             } else {
-                let outcome = carry_out(flip, node, bids);
+                let outcome = carry_out(proposal_of(actives[list + i]), node, bids);
                 if outcome != 0 {
                     actives[list + i].outcome = outcome;
                 } else {
@@ -62,6 +77,7 @@ fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
                 }
             }
         }
+        workgroupBarrier();
     }
     if local == 0 && group == 0 {
         control.link_iteration = bids.iteration;

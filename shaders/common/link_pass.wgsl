@@ -4,12 +4,20 @@
 // An outer neighbour that did not change gets the new neighbour; one that did has left a message,
 // which is followed. So each facet is written once.
 //
+// A workgroup first collects the flips among its entries and then shares out their outer facets:
+// each is a chain of loads that depend on each other, and one invocation per flip would do them one
+// after the other.
+//
 // Expects: control, neighbors, status, actives, messages.
 //!include common/bids
 //!include {dim}/flip_link
 
 var<workgroup> wanted: atomic<u32>;
 var<workgroup> given: u32;
+// The flips of the entries at hand, by the simplices that they made.
+var<workgroup> done: array<Changed, WORKGROUP>;
+var<workgroup> done_len: atomic<u32>;
+var<workgroup> done_here: u32;
 // Flips by their kind.
 var<workgroup> flips: array<atomic<u32>, 4>;
 
@@ -42,6 +50,7 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
     for (var start = group * WORKGROUP; start < entries; start += groups * WORKGROUP) {
         if local == 0 {
             atomicStore(&wanted, 0u);
+            atomicStore(&done_len, 0u);
         }
         workgroupBarrier();
         var changed = Changed(0, vec3u(0));
@@ -50,6 +59,7 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
             if (entry.outcome & DONE) != 0 {
                 atomicAdd(&flips[entry.outcome & 3], 1u);
                 changed = changed_by(entry);
+                done[atomicAdd(&done_len, 1u)] = changed;
             } else if atomicLoad(&status[entry.tet].vote) != mark {
                 // Otherwise the flip that changed this simplex lists it.
                 let flags = atomicLoad(&status[entry.tet].flags);
@@ -57,14 +67,12 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
                 changed = Changed(select(0u, 1u, (entry.outcome & CHECK) != 0), vec3u(entry.tet, 0, 0));
             }
         }
-        if changed.count > 1 {
-            join_outer(changed, mark);
-        }
         let count = select(0u, changed.count, lists);
         var at = atomicAdd(&wanted, count);
         workgroupBarrier();
         if local == 0 {
             given = atomicAdd(&control.active_len[(bids.iteration + 1) & 1], atomicLoad(&wanted));
+            done_here = atomicLoad(&done_len);
         }
         at += workgroupUniformLoad(&given) + next;
         if count > 0 {
@@ -76,6 +84,13 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
         if count > 2 {
             actives[at + 2] = Active(changed.slots.z, 0);
         }
+        let facets = OUTER_FACETS * workgroupUniformLoad(&done_here);
+        for (var j = local; j < facets; j += WORKGROUP) {
+            let flip = done[j / OUTER_FACETS];
+            let outer = outer_facet(j % OUTER_FACETS, flip.count);
+            join(flip.slots[outer.x], outer.y, mark);
+        }
+        workgroupBarrier();
     }
     workgroupBarrier();
     if local == 0 && entries != 0 {

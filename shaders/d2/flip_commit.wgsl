@@ -2,42 +2,46 @@
 //
 // Expects: control, simplices, neighbors, status, messages, history; common/bids, common/history.
 
-// A flip that won both of its triangles.
-struct Flip {
+// A proposed flip.
+struct Proposal {
+    // 0 if there is none.
     kind: u32,
-    // One of the triangles, and its edge.
+    // The triangles, and the edge of t.
     t: u32,
+    u: u32,
     k: u32,
-    // Whether waiting points may lie in the triangles.
-    held: bool,
 }
 
-// Returns the flip that entry i proposes; kind 0 if it proposes none, or has lost.
-fn winner(i: u32, entry: Active, bids: Bids) -> Flip {
-    var flip = Flip();
-    if ((entry.outcome >> KIND_SHIFT) & 3) != 0 {
-        let t = entry.tet;
-        let k = (entry.outcome >> FACET_SHIFT) & 3;
-        let u = neighbors[t][k] >> 2;
-        let bid = bid_of(i, bids);
-        if atomicLoad(&status[t].vote) == bid && atomicLoad(&status[u].vote) == bid {
-            let round = control.round;
-            let held = atomicLoad(&status[t].flags) >> HELD_SHIFT == round
-                || atomicLoad(&status[u].flags) >> HELD_SHIFT == round;
-            flip = Flip(FLIP_22, t, k, held);
-        }
+// Returns the flip that an entry proposes.
+fn proposal_of(entry: Active) -> Proposal {
+    let kind = (entry.outcome >> KIND_SHIFT) & 3;
+    var proposal = Proposal(kind, entry.tet, 0, (entry.outcome >> FACET_SHIFT) & 3);
+    if kind != 0 {
+        proposal.u = neighbors[entry.tet][proposal.k] >> 2;
     }
-    return flip;
+    return proposal;
+}
+
+// Returns whether a proposal has won both of its triangles with this bid.
+fn has_won(p: Proposal, bid: u32) -> bool {
+    return atomicLoad(&status[p.t].vote) == bid && atomicLoad(&status[p.u].vote) == bid;
+}
+
+// Returns whether waiting points may lie in the triangles of a proposal.
+fn is_held(p: Proposal) -> bool {
+    let round = control.round;
+    return atomicLoad(&status[p.t].flags) >> HELD_SHIFT == round
+        || atomicLoad(&status[p.u].flags) >> HELD_SHIFT == round;
 }
 
 // Carries out a flip. `node` is its number in the history, NONE where no waiting point can lie in
 // its triangles. Returns the entry's outcome.
-fn carry_out(flip: Flip, node: u32, bids: Bids) -> u32 {
+fn carry_out(flip: Proposal, node: u32, bids: Bids) -> u32 {
     let mark = changed_mark(bids);
     let t = flip.t;
     let k = flip.k;
     let near_t = neighbors[t].xyz;
-    let u = near_t[k] >> 2;
+    let u = flip.u;
     let near_u = neighbors[u].xyz;
     // t is (d, a, b) and u is (e, b, a), counted from the corners opposite the edge.
     let tri_t = simplices[t].xyz;

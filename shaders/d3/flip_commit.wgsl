@@ -33,54 +33,53 @@ fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
     return slot;
 }
 
-// A flip that won all of its tetrahedra.
-struct Flip {
+// A proposed flip.
+struct Proposal {
+    // 0 if there is none.
     kind: u32,
-    // The tetrahedra; the third one only in 3-2 flips.
+    // The tetrahedra; the third one only in 3-2 flips, otherwise the second one again.
     t: u32,
     u: u32,
     w: u32,
     // The facet of t, and its corners.
     k: u32,
     c: vec3u,
-    // Whether waiting points may lie in the tetrahedra.
-    held: bool,
 }
 
-// Returns the flip that entry i proposes; kind 0 if it proposes none, or has lost.
-fn winner(i: u32, entry: Active, bids: Bids) -> Flip {
-    var flip = Flip(0, entry.tet, 0, 0, 0, vec3u(0), false);
+// Returns the flip that an entry proposes.
+fn proposal_of(entry: Active) -> Proposal {
     let kind = (entry.outcome >> KIND_SHIFT) & 3;
+    var proposal = Proposal(kind, entry.tet, 0, 0, 0, vec3u(0));
     if kind != 0 {
-        let t = entry.tet;
-        let bid = bid_of(i, bids);
-        let near = neighbors[t];
+        let near = neighbors[entry.tet];
         let k = (entry.outcome >> FACET_SHIFT) & 3;
         let turn = (entry.outcome >> EDGE_SHIFT) & 3;
         let f = facet(k);
-        let c = vec3u(f[turn], f[(turn + 1) % 3], f[(turn + 2) % 3]);
-        let u = near[k] >> 2;
-        let w = near[c.z] >> 2;
-        var won = atomicLoad(&status[t].vote) == bid && atomicLoad(&status[u].vote) == bid;
-        if kind == FLIP_32 {
-            won = won && atomicLoad(&status[w].vote) == bid;
-        }
-        if won {
-            let round = control.round;
-            var held = atomicLoad(&status[t].flags) >> HELD_SHIFT == round
-                || atomicLoad(&status[u].flags) >> HELD_SHIFT == round;
-            if kind == FLIP_32 {
-                held = held || atomicLoad(&status[w].flags) >> HELD_SHIFT == round;
-            }
-            flip = Flip(kind, t, u, w, k, c, held);
-        }
+        proposal.k = k;
+        proposal.c = vec3u(f[turn], f[(turn + 1) % 3], f[(turn + 2) % 3]);
+        proposal.u = near[k] >> 2;
+        proposal.w = select(proposal.u, near[proposal.c.z] >> 2, kind == FLIP_32);
     }
-    return flip;
+    return proposal;
+}
+
+// Returns whether a proposal has won all of its tetrahedra with this bid.
+fn has_won(p: Proposal, bid: u32) -> bool {
+    return atomicLoad(&status[p.t].vote) == bid && atomicLoad(&status[p.u].vote) == bid
+        && atomicLoad(&status[p.w].vote) == bid;
+}
+
+// Returns whether waiting points may lie in the tetrahedra of a proposal.
+fn is_held(p: Proposal) -> bool {
+    let round = control.round;
+    return atomicLoad(&status[p.t].flags) >> HELD_SHIFT == round
+        || atomicLoad(&status[p.u].flags) >> HELD_SHIFT == round
+        || atomicLoad(&status[p.w].flags) >> HELD_SHIFT == round;
 }
 
 // Carries out a flip. `node` is its number in the history, NONE where no waiting point can lie in
 // its tetrahedra. Returns the entry's outcome; 0 if there is no slot.
-fn carry_out(flip: Flip, node: u32, bids: Bids) -> u32 {
+fn carry_out(flip: Proposal, node: u32, bids: Bids) -> u32 {
     let mark = changed_mark(bids);
     let first = control.first_node;
     let kind = flip.kind;

@@ -1,4 +1,4 @@
-//! A run of Phase 1: what the host records, and what it reads back.
+//! A run of Phase 1: what the host records ahead, and what it reads back.
 
 use crate::{
     Error, Points,
@@ -74,6 +74,8 @@ where
     read_before: usize,
     /// Batches of rounds whose counters are not read yet, oldest first.
     submitted: VecDeque<Batch>,
+    /// About the most points that can be inserted after the rounds that were submitted.
+    inserted_at_most: u32,
     /// The rounds that were submitted.
     rounds_submitted: u32,
     /// Those of them that were submitted before slots were added.
@@ -89,9 +91,13 @@ struct Batch {
     submission: wgpu::SubmissionIndex,
     counters: Pending<u32>,
     rounds: u32,
-    /// The flip iterations that were recorded for each round, a dispatch per pass.
+    /// The flip iterations that were recorded for the last round, a dispatch per pass.
     recorded: u32,
 }
+
+/// How many points a round inserts per point that is inserted, as a rule at most: hardly more of its
+/// simplices have points to pick from.
+const GROWTH: u32 = 5;
 
 /// Flip iterations are done in one workgroup until this many times as many simplices are active as
 /// when it begins with that.
@@ -232,6 +238,7 @@ where
             read_before: kernels.readback.count(),
             kernels,
             submitted: VecDeque::new(),
+            inserted_at_most: D as u32 + 1,
             rounds_submitted: 0,
             rounds_before_growth: 0,
             iterations: Iterations::new(),
@@ -300,8 +307,7 @@ where
                 time,
             });
             if is_last {
-                let is_early = self.waiting() / 4 > inserted;
-                self.iterations.plan(used - (few - few_before), recorded, is_early);
+                self.iterations.plan(used - (few - few_before), recorded, inserted, self.waiting());
             }
             if inserted == inserted_before && inserted + read.merged < self.params.infinite {
                 return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
@@ -309,14 +315,7 @@ where
             last = now;
         }
         self.iterations.plan_exact(read.exact.wrapping_sub(before.exact), read.visits.wrapping_sub(before.visits));
-        let more = self.waiting() > 0 || self.active() > 0;
-        if !more {
-            // What was submitted beyond the end has nothing to do.
-            while let Some(Batch { submission, counters, .. }) = self.submitted.pop_front() {
-                self.kernels.readback.receive(gpu, &submission, counters).await?;
-            }
-        }
-        Ok(more)
+        Ok(self.waiting() > 0 || self.active() > 0)
     }
 
     fn submit_batch(&mut self) -> Result<Batch, Error> {
@@ -340,8 +339,12 @@ where
             }
         }
         let rounds = self.settings.rounds.clamp(1, LOGGED as u32);
-        let recorded = self.iterations.planned();
+        let mut recorded = 0;
         for _ in 0..rounds {
+            // All flips of the first rounds are few.
+            let active = self.inserted_at_most.saturating_mul(GROWTH * (D as u32 + 1));
+            recorded = if active <= self.params.few_limit { 0 } else { self.iterations.planned() };
+            self.inserted_at_most = self.inserted_at_most.saturating_mul(1 + GROWTH);
             self.record_round(&mut recorder, recorded);
         }
         self.rounds_submitted += rounds;
@@ -419,6 +422,10 @@ where
                 Ok((recorder.submit(gpu), counters, finite))
             })
             .await?;
+        // What was submitted beyond the end had nothing to do, and came before.
+        for Batch { submission, counters, .. } in std::mem::take(&mut self.submitted) {
+            self.kernels.readback.receive(gpu, &submission, counters).await?;
+        }
         let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
         let finite = self.kernels.readback.receive(gpu, &submission, finite).await?[0] as usize;
         let counters = counters_in(&words);
