@@ -3,7 +3,7 @@
 //!include {dim}/simplex
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read_write> neighbors: array<vec4u>;
-@group(0) @binding(2) var<storage, read_write> status: array<Status>;
+@group(0) @binding(2) var<storage, read_write> status: array<OwnedStatus>;
 @group(0) @binding(3) var<storage, read_write> actives: array<Active>;
 @group(0) @binding(4) var<storage, read> messages: array<vec4u>;
 //!include common/link_pass

@@ -64,8 +64,16 @@ struct Control {
 
 struct Status {
     flags: atomic<u32>,
-    vote: atomic<u32>,
     last: u32,
+    vote: atomic<u32>,
+    first: u32,
+}
+
+// The same for kernels in which no two invocations share the flags of a simplex.
+struct OwnedStatus {
+    // The flags, and the last node.
+    made: vec2u,
+    vote: atomic<u32>,
     first: u32,
 }
 

@@ -62,8 +62,8 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
                 done[atomicAdd(&done_len, 1u)] = changed;
             } else if atomicLoad(&status[entry.tet].vote) != mark {
                 // Otherwise the flip that changed this simplex lists it.
-                let flags = atomicLoad(&status[entry.tet].flags);
-                atomicStore(&status[entry.tet].flags, (flags & ~0xffu) | (entry.outcome & 0xff));
+                let flags = status[entry.tet].made.x;
+                status[entry.tet].made.x = (flags & ~0xffu) | (entry.outcome & 0xff);
                 changed = Changed(select(0u, 1u, (entry.outcome & CHECK) != 0), vec3u(entry.tet, 0, 0));
             }
         }

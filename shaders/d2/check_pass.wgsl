@@ -15,7 +15,7 @@ fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
         let t = actives[list + i].tet;
         let tri = simplices[t].xyz;
         let near = neighbors[t].xyz;
-        var check = atomicLoad(&status[t].flags) & CHECK;
+        var check = status[t].made.x & CHECK;
         var flip = 0u;
         var u = NONE;
         for (var k = 0u; k < 3 && flip == 0; k++) {
@@ -25,7 +25,7 @@ fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
             u = near[k] >> 2;
             let edge = near[k] & 3;
             // Where both sides are to check an edge, the lower one does.
-            let theirs = u < t && ((atomicLoad(&status[u].flags) >> edge) & 1) != 0;
+            let theirs = u < t && ((status[u].made.x >> edge) & 1) != 0;
             var violated = false;
             if !theirs {
                 violated = inside(tri, simplices[u][edge]);

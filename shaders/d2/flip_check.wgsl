@@ -4,7 +4,7 @@
 @group(0) @binding(1) var<storage, read> vertices: array<VertexWords>;
 @group(0) @binding(3) var<storage, read> simplices: array<vec4u>;
 @group(0) @binding(4) var<storage, read> neighbors: array<vec4u>;
-@group(0) @binding(5) var<storage, read_write> status: array<Status>;
+@group(0) @binding(5) var<storage, read_write> status: array<OwnedStatus>;
 @group(0) @binding(6) var<storage, read_write> actives: array<Active>;
 //!include d2/check_pass
 

@@ -30,8 +30,8 @@ fn has_won(p: Proposal, bid: u32) -> bool {
 // Returns whether waiting points may lie in the triangles of a proposal.
 fn is_held(p: Proposal) -> bool {
     let round = control.round;
-    return atomicLoad(&status[p.t].flags) >> HELD_SHIFT == round
-        || atomicLoad(&status[p.u].flags) >> HELD_SHIFT == round;
+    return status[p.t].made.x >> HELD_SHIFT == round
+        || status[p.u].made.x >> HELD_SHIFT == round;
 }
 
 // Carries out a flip. `node` is its number in the history, NONE where no waiting point can lie in

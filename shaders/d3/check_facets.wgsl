@@ -29,7 +29,7 @@ fn check_facet(t: u32, tet: vec4u, near: vec4u, k: u32) -> u32 {
     let face = near[k] & 3;
     var found = 1u << k;
     // Where both sides are to check a facet, the lower one does.
-    if u < t && ((atomicLoad(&status[u].flags) >> face) & 1) != 0 {
+    if u < t && ((status[u].made.x >> face) & 1) != 0 {
         return found;
     }
     let beyond = simplices[u];
@@ -85,7 +85,7 @@ fn check_facets(has_entry: bool, i: u32, at: u32, bids: Bids, local: u32, lanes:
         t = actives[at].tet;
         let tet = simplices[t];
         near = neighbors[t];
-        flags = atomicLoad(&status[t].flags);
+        flags = status[t].made.x;
         for (var k = lane; k < 4 && (found & ENOUGH) == 0; k += lanes) {
             if ((flags >> k) & 1) != 0 {
                 found |= check_facet(t, tet, near, k);

@@ -4,7 +4,7 @@
 @group(0) @binding(1) var<storage, read> vertices: array<vec4i>;
 @group(0) @binding(2) var<storage, read> simplices: array<vec4u>;
 @group(0) @binding(3) var<storage, read> neighbors: array<vec4u>;
-@group(0) @binding(4) var<storage, read_write> status: array<Status>;
+@group(0) @binding(4) var<storage, read_write> status: array<OwnedStatus>;
 @group(0) @binding(5) var<storage, read_write> actives: array<Active>;
 // Its first words name the entries with undecided signs.
 @group(0) @binding(6) var<storage, read_write> messages: array<vec4u>;

@@ -2,32 +2,63 @@
 //
 // Expects: control, simplices, neighbors, status, messages, history; common/bids, common/history.
 
-// The blocks of the tail in which a flip looks for a free slot.
-const PROBES: u32 = 16;
+// The blocks of the tail in which a flip looks for a free slot: so many at a time, so often.
+const TAIL_BLOCKS: u32 = 4;
+const TAIL_TRIES: u32 = 4;
+
+// Takes a slot of a block that had these free places. Returns NONE if other flips were faster.
+fn take_from(block: u32, free: u32) -> u32 {
+    var places = free;
+    var slot = NONE;
+    while places != 0 && slot == NONE {
+        let place = firstTrailingBit(places);
+        let before = atomicAnd(&control.free[block], ~(1u << place));
+        if ((before >> place) & 1) != 0 {
+            slot = block * BLOCK + place;
+        }
+        places = before & ~(1u << place);
+    }
+    return slot;
+}
 
 // Takes a free slot from the block of a vertex of the flip, else from one of a few blocks of the
-// tail. Returns NONE if there is none.
+// tail. Returns NONE if there is none. The blocks are looked at together, because each look is a
+// long wait.
 fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
+    let free = vec4u(
+        atomicLoad(&control.free[ring.x]),
+        atomicLoad(&control.free[ring.y]),
+        atomicLoad(&control.free[ring.z]),
+        atomicLoad(&control.free[d])
+    );
+    let free_e = atomicLoad(&control.free[e]);
+    var slot = take_from(ring.x, free.x);
+    if slot == NONE {
+        slot = take_from(ring.y, free.y);
+    }
+    if slot == NONE {
+        slot = take_from(ring.z, free.z);
+    }
+    if slot == NONE {
+        slot = take_from(d, free.w);
+    }
+    if slot == NONE {
+        slot = take_from(e, free_e);
+    }
     let tail = control.blocks - control.infinite - 1;
     let seed = scramble(t, iteration, 31);
-    let probes = 5 + select(PROBES, 0u, tail == 0);
-    var slot = NONE;
-    for (var i = 0u; i < probes && slot == NONE; i++) {
-        var block = control.infinite + 1 + (seed + (i - 5) * 0x9e3779b9u) % max(tail, 1u);
-        block = select(block, e, i == 4);
-        block = select(block, d, i == 3);
-        if i < 3 {
-            block = ring[i];
-        }
-        // Another flip may be faster; then the next place is tried.
-        var places = atomicLoad(&control.free[block]);
-        while places != 0 && slot == NONE {
-            let place = firstTrailingBit(places);
-            let before = atomicAnd(&control.free[block], ~(1u << place));
-            if ((before >> place) & 1) != 0 {
-                slot = block * BLOCK + place;
-            }
-            places = before & ~(1u << place);
+    for (var i = 0u; i < TAIL_TRIES && slot == NONE && tail != 0; i++) {
+        let first = control.infinite + 1;
+        let at = vec4u(seed) + (TAIL_BLOCKS * i + vec4u(0, 1, 2, 3)) * 0x9e3779b9u;
+        let block = first + at % tail;
+        let places = vec4u(
+            atomicLoad(&control.free[block.x]),
+            atomicLoad(&control.free[block.y]),
+            atomicLoad(&control.free[block.z]),
+            atomicLoad(&control.free[block.w])
+        );
+        for (var j = 0u; j < TAIL_BLOCKS && slot == NONE; j++) {
+            slot = take_from(block[j], places[j]);
         }
     }
     return slot;
@@ -72,9 +103,9 @@ fn has_won(p: Proposal, bid: u32) -> bool {
 // Returns whether waiting points may lie in the tetrahedra of a proposal.
 fn is_held(p: Proposal) -> bool {
     let round = control.round;
-    return atomicLoad(&status[p.t].flags) >> HELD_SHIFT == round
-        || atomicLoad(&status[p.u].flags) >> HELD_SHIFT == round
-        || atomicLoad(&status[p.w].flags) >> HELD_SHIFT == round;
+    return status[p.t].made.x >> HELD_SHIFT == round
+        || status[p.u].made.x >> HELD_SHIFT == round
+        || status[p.w].made.x >> HELD_SHIFT == round;
 }
 
 // Carries out a flip. `node` is its number in the history, NONE where no waiting point can lie in
@@ -113,9 +144,7 @@ fn carry_out(flip: Proposal, node: u32, bids: Bids) -> u32 {
             if kind == FLIP_32 {
                 link_node(w, node, first);
             }
-            history[node - first] = FlipNode(
-                array(ring.x, ring.y, ring.z, d, e), kind, array(t, u, third), array(NONE, NONE, NONE)
-            );
+            history[node - first] = FlipNode(ring, d, vec3u(t, u, third), e, vec3u(NONE), kind);
         }
         let flags = select(control.round << HELD_SHIFT, 0u, node == NONE);
         let last = select(node << 2, 0u, node == NONE);

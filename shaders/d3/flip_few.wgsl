@@ -9,7 +9,7 @@
 @group(0) @binding(1) var<storage, read> vertices: array<VertexWords>;
 @group(0) @binding(2) var<storage, read_write> simplices: array<vec4u>;
 @group(0) @binding(3) var<storage, read_write> neighbors: array<vec4u>;
-@group(0) @binding(4) var<storage, read_write> status: array<Status>;
+@group(0) @binding(4) var<storage, read_write> status: array<OwnedStatus>;
 @group(0) @binding(5) var<storage, read_write> actives: array<Active>;
 @group(0) @binding(6) var<storage, read_write> messages: array<vec4u>;
 @group(0) @binding(7) var<storage, read_write> history: array<HistoryNode>;

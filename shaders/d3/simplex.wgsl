@@ -9,11 +9,14 @@ const FLIP_23: u32 = 1;
 const FLIP_32: u32 = 2;
 const SLOT_SHIFT: u32 = 2;
 
+// Its parts take 16 bytes each, so that they are written and read as a whole.
 struct FlipNode {
-    vertices: array<u32, 5>,
+    ring: vec3u,
+    d: u32,
+    tets: vec3u,
+    e: u32,
+    next: vec3u,
     kind: u32,
-    tets: array<u32, 3>,
-    next: array<u32, 3>,
 }
 
 // A flip in the history.

@@ -4,14 +4,11 @@
 /// points while each round inserts several times as many points as the one before.
 const FIRST_PLANNED: u32 = 28;
 /// The smallest number of iterations to record for a round.
-const MIN_PLANNED: u32 = 8;
+const MIN_PLANNED: u32 = 6;
 /// The largest number: what more there is to do waits for the next round.
 const MAX_PLANNED: u32 = 64;
-/// How many more to record than a round took.
-const MARGIN: u32 = 6;
-/// The most to record for a round when most points are in already: the batch that is under way
-/// inserts nearly all of the others.
-const LATE_PLANNED: u32 = 12;
+/// How many more to record than an earlier round took.
+const MARGIN: u32 = 3;
 
 /// Where few signs are left open, exact checks wait for each other: one alone takes longer than all
 /// filters of an iteration. Where they are many, there would be no progress. So they follow the
@@ -35,21 +32,20 @@ impl Iterations {
         Iterations { planned: FIRST_PLANNED, exact_every: EXACT_EVERY[0].0 }
     }
 
-    /// Plans the rounds after the next batch, by one that took `used` of `recorded` iterations and
-    /// after which `inserted` points are inserted and others wait.
+    /// Plans a round by an earlier one, which took `used` of `recorded` iterations and after which
+    /// `inserted` points are inserted and others wait.
     pub(crate) fn plan(&mut self, used: u32, recorded: u32, inserted: u32, waiting: u32) {
         if recorded == 0 {
             return;
         }
-        if used >= recorded {
-            self.planned = (2 * used).clamp(MIN_PLANNED, MAX_PLANNED);
-        } else if waiting / 4 <= inserted {
-            // Rounds take fewer and fewer iterations from here on.
-            self.planned = (used + MARGIN).clamp(MIN_PLANNED, MAX_PLANNED);
-        }
-        if waiting < inserted / 4 {
-            self.planned = self.planned.min(LATE_PLANNED);
-        }
+        let wanted = match used {
+            _ if used >= recorded => 2 * used,
+            // While each round inserts more than the one before, each takes about as many.
+            _ if waiting / 4 > inserted => used + MARGIN,
+            // From then on, each takes fewer.
+            _ => used / 4 * 3 + MARGIN,
+        };
+        self.planned = wanted.clamp(MIN_PLANNED, MAX_PLANNED);
     }
 
     /// Plans how often exact checks follow the filter, which left `exact` signs of `visits` visited

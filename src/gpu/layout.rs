@@ -38,12 +38,12 @@ pub struct Status {
     /// some. Facets that were found not locally Delaunay but not flippable (bits 4–7). The
     /// insertion round in which waiting points may lie inside (bits 16–31).
     pub flags: u32,
-    /// The highest bid for this tetrahedron. The bids of a flip iteration are above all those of
-    /// the ones before it.
-    pub vote: u32,
     /// The node of the history that made this tetrahedron, times 4, plus which of its tetrahedra it
     /// is.
     pub last: u32,
+    /// The highest bid for this tetrahedron. The bids of a flip iteration are above all those of
+    /// the ones before it.
+    pub vote: u32,
     /// The first node of the round that changed the tetrahedron in this slot as it was when the
     /// round began.
     pub first: u32,
@@ -90,15 +90,19 @@ pub const SLOT_SHIFT: u32 = d3::SLOT_SHIFT;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct FlipNode {
-    /// The ring around the edge, x₀, x₁, x₂, then the ends of the edge, d and e: the tetrahedra
+    /// The ring around the edge, x₀, x₁, x₂: with the ends of the edge, the tetrahedra
     /// (xᵢ, xᵢ₊₁, d, e) are positively oriented.
-    pub vertices: [u32; 5],
-    /// [`FLIP_23`] or [`FLIP_32`].
-    pub kind: u32,
+    pub ring: [u32; 3],
+    /// One end of the edge.
+    pub d: u32,
     /// The tetrahedra that it made: 2-3, (xᵢ, xᵢ₊₁, d, e); 3-2, that with e and that with d.
     pub tets: [u32; 3],
+    /// The other end of the edge.
+    pub e: u32,
     /// The nodes that changed these later, or [`NONE`].
     pub next: [u32; 3],
+    /// [`FLIP_23`] or [`FLIP_32`].
+    pub kind: u32,
 }
 assert_layout!(FlipNode);
 

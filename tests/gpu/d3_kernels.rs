@@ -174,11 +174,10 @@ fn essence(state: &State) -> (BTreeSet<Vec<u32>>, BTreeSet<Vec<u32>>) {
     });
     let nodes = (state.counters.next_node - state.counters.first_node) as usize;
     let flips = state.history[..nodes].iter().map(|node| {
-        let mut record = node.vertices.to_vec();
-        record.push(node.kind);
+        let mut record = [&node.ring[..], &[node.d, node.e, node.kind]].concat();
         record.extend(node.next.map(|next| match next {
             NONE => NONE,
-            next => state.history[(next - state.counters.first_node) as usize].vertices[0],
+            next => state.history[(next - state.counters.first_node) as usize].ring[0],
         }));
         record
     });

@@ -338,14 +338,15 @@ where
                 flip.record_clear_votes(&mut recorder, bound, self.workgroups());
             }
         }
-        let rounds = self.settings.rounds.clamp(1, LOGGED as u32);
-        let mut recorded = 0;
-        for _ in 0..rounds {
+        let (mut rounds, mut recorded) = (0, 0);
+        let limit = self.settings.rounds.clamp(1, LOGGED as u32);
+        while rounds < limit || (self.settings.batches > 1 && recorded == 0 && rounds < LOGGED as u32) {
             // All flips of the first rounds are few.
             let active = self.inserted_at_most.saturating_mul(GROWTH * (D as u32 + 1));
             recorded = if active <= self.params.few_limit { 0 } else { self.iterations.planned() };
             self.inserted_at_most = self.inserted_at_most.saturating_mul(1 + GROWTH);
             self.record_round(&mut recorder, recorded);
+            rounds += 1;
         }
         self.rounds_submitted += rounds;
         self.stats.dispatches += recorder.dispatches();

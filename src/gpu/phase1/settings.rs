@@ -36,7 +36,8 @@ pub struct Settings<const D: usize> {
     /// without a dispatch per pass.
     pub few: u32,
     /// The rounds of insertion and flips that are submitted together, at most
-    /// [`LOGGED`](crate::gpu::layout::LOGGED).
+    /// [`LOGGED`](crate::gpu::layout::LOGGED); the first ones, which take hardly any time, in one
+    /// batch if there are several.
     pub rounds: u32,
     /// The batches of rounds that are submitted before the counters of the first one are read.
     pub batches: u32,
@@ -65,7 +66,7 @@ where
             history: Dimension::<D>::HISTORY,
             slots_per_active: 0,
             few: 256,
-            rounds: 4,
+            rounds: 1,
             batches: 2,
             max_iterations: Dimension::<D>::MAX_ITERATIONS,
             sort: true,
