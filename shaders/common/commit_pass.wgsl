@@ -17,11 +17,13 @@
 //!include {dim}/flip_commit
 
 // The entries among which a workgroup collects winners.
-const COMMIT_STEP: u32 = 4 * WORKGROUP;
+const COMMIT_STEP: u32 = 2 * WORKGROUP;
 
 // The entries that won, counted from the first one in the lower 16 bits; in the upper ones, the
 // number of each among those whose simplices may hold waiting points, plus 1, or 0 if they cannot.
 var<workgroup> winners: array<u32, COMMIT_STEP>;
+// The third simplex of each of their flips; NONE if it is put off.
+var<workgroup> thirds: array<u32, COMMIT_STEP>;
 var<workgroup> winners_len: atomic<u32>;
 var<workgroup> winners_here: u32;
 // The number of winners whose simplices may hold waiting points, and the number of the first one in
@@ -32,7 +34,8 @@ var<workgroup> first_here: u32;
 // Commits the flips of `entries` entries, of which workgroup `group` of `groups` takes its share.
 fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     let list = half_of(bids.iteration);
-    let room = control.first_node + control.history;
+    let round = Round(control.round, control.first_node);
+    let room = round.first_node + control.history;
     for (var start = group * COMMIT_STEP; start < entries; start += groups * COMMIT_STEP) {
         if local == 0 {
             atomicStore(&winners_len, 0u);
@@ -44,7 +47,7 @@ fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
             let proposal = proposal_of(actives[list + i]);
             if proposal.kind != 0 && has_won(proposal, bid_of(i, bids)) {
                 var number = 0u;
-                if is_held(proposal) {
+                if is_held(proposal, round.number) {
                     number = atomicAdd(&held_here, 1u) + 1;
                 }
                 winners[atomicAdd(&winners_len, 1u)] = (i - start) | (number << 16);
@@ -66,15 +69,23 @@ fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
             let i = start + (winners[j] & 0xffff);
             let number = winners[j] >> 16;
             let node = select(first_number + number - 1, NONE, number == 0);
+            var third = NONE;
             if node != NONE && node >= room {
                 atomicOr(&control.overflow, HISTORY_FULL);
             } else {
-                let outcome = carry_out(proposal_of(actives[list + i]), node, bids);
-                if outcome != 0 {
-                    actives[list + i].outcome = outcome;
-                } else {
+                third = begin_flip(proposal_of(actives[list + i]), node, bids, round);
+                if third == NONE {
                     atomicOr(&control.overflow, SLOTS_FULL);
                 }
+            }
+            thirds[j] = third;
+        }
+        // In two steps, because a flip in one takes so many registers that few invocations run at a
+        // time.
+        for (var j = local; j < count; j += WORKGROUP) {
+            if thirds[j] != NONE {
+                let i = start + (winners[j] & 0xffff);
+                actives[list + i].outcome = end_flip(proposal_of(actives[list + i]), thirds[j]);
             }
         }
         workgroupBarrier();

@@ -2,13 +2,20 @@
 //
 // Expects: control; status: array<OwnedStatus>; history, whose nodes have `next`.
 
+// What the flips of a round have to know of it. Read once, because the compiler cannot know that no
+// store changes it.
+struct Round {
+    number: u32,
+    first_node: u32,
+}
+
 // Makes the node that made simplex t, or t's place in the list of first nodes, point to `node`.
-fn link_node(t: u32, node: u32, first: u32) {
+fn link_node(t: u32, node: u32, round: Round) {
     let made = status[t].made;
-    if made.x >> HELD_SHIFT == control.round {
+    if made.x >> HELD_SHIFT == round.number {
         let last = made.y;
-        if last >> 2 >= first {
-            history[(last >> 2) - first].next[last & 3] = node;
+        if last >> 2 >= round.first_node {
+            history[(last >> 2) - round.first_node].next[last & 3] = node;
         } else {
             status[t].first = node;
         }

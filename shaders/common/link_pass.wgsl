@@ -86,9 +86,9 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
         }
         let facets = OUTER_FACETS * workgroupUniformLoad(&done_here);
         for (var j = local; j < facets; j += WORKGROUP) {
-            let flip = done[j / OUTER_FACETS];
-            let outer = outer_facet(j % OUTER_FACETS, flip.count);
-            join(flip.slots[outer.x], outer.y, mark);
+            let flip = j / OUTER_FACETS;
+            let outer = outer_facet(j % OUTER_FACETS, done[flip].count);
+            join(done[flip].slots[outer.x], outer.y, mark);
         }
         workgroupBarrier();
     }

@@ -14,7 +14,6 @@ fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     for (var i = group * WORKGROUP + local; i < entries; i += groups * WORKGROUP) {
         let t = actives[list + i].tet;
         let tri = simplices[t].xyz;
-        let near = neighbors[t].xyz;
         var check = status[t].made.x & CHECK;
         var flip = 0u;
         var u = NONE;
@@ -22,8 +21,9 @@ fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
             if ((check >> k) & 1) == 0 {
                 continue;
             }
-            u = near[k] >> 2;
-            let edge = near[k] & 3;
+            let across = neighbors[t][k];
+            u = across >> 2;
+            let edge = across & 3;
             // Where both sides are to check an edge, the lower one does.
             let theirs = u < t && ((status[u].made.x >> edge) & 1) != 0;
             var violated = false;

@@ -41,6 +41,11 @@ fn facet(k: u32) -> vec3u {
     return select(select(select(vec3u(0, 2, 1), vec3u(0, 1, 3), k == 2), vec3u(0, 3, 2), k == 1), vec3u(1, 2, 3), k == 0);
 }
 
+// Returns a facet's corners from corner `turn` on.
+fn turned(f: vec3u, turn: u32) -> vec3u {
+    return select(select(f, f.yzx, turn == 1), f.zxy, turn == 2);
+}
+
 // Returns the place of a vertex in a tetrahedron that has it.
 fn place_of(tet: vec4u, v: u32) -> u32 {
     return select(select(select(3u, 2u, tet.z == v), 1u, tet.y == v), 0u, tet.x == v);

@@ -123,8 +123,10 @@ impl Device {
         reference::begin_round(state);
         assert_eq!(kernels.read(&params)[0], state.counters.entries_before);
         self.run("waiting_mark");
+        // Behind the list are scores, and their sums are of no use.
         let marks = kernels.read(&b.scores);
-        let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
+        let offsets: Vec<u32> =
+            marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, sum.wrapping_add(m)))).collect();
         self.offsets.write(&kernels.gpu, 0, &offsets);
         self.run("waiting_compact");
         let device = self.download(state);

@@ -61,7 +61,7 @@ where
             pick: Pick::Circumcenter,
             insert_all: false,
             min_active: 1024,
-            workgroups: 1024,
+            workgroups: 512,
             points_per_tail_block: 16,
             history: Dimension::<D>::HISTORY,
             slots_per_active: 0,
