@@ -2,8 +2,7 @@
 //
 // Expects: control, simplices, neighbors, status, messages, history; common/bids, common/history.
 
-// The blocks of the tail in which a flip looks for a free slot: so many at a time, so often.
-const TAIL_BLOCKS: u32 = 4;
+// How often a flip looks for a free slot in four blocks of the tail.
 const TAIL_TRIES: u32 = 4;
 
 // Takes a slot of a block that had these free places. Returns NONE if other flips were faster.
@@ -22,44 +21,35 @@ fn take_from(block: u32, free: u32) -> u32 {
 }
 
 // Takes a free slot from the block of a vertex of the flip, else from one of a few blocks of the
-// tail. Returns NONE if there is none. The blocks are looked at together, because each look is a
+// tail. Returns NONE if there is none. Several blocks are looked at together, because each look is a
 // long wait.
 fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
-    let free = vec4u(
-        atomicLoad(&control.free[ring.x]),
-        atomicLoad(&control.free[ring.y]),
-        atomicLoad(&control.free[ring.z]),
-        atomicLoad(&control.free[d])
-    );
-    let free_e = atomicLoad(&control.free[e]);
-    var slot = take_from(ring.x, free.x);
-    if slot == NONE {
-        slot = take_from(ring.y, free.y);
-    }
-    if slot == NONE {
-        slot = take_from(ring.z, free.z);
-    }
-    if slot == NONE {
-        slot = take_from(d, free.w);
-    }
-    if slot == NONE {
-        slot = take_from(e, free_e);
-    }
     let tail = control.blocks - control.infinite - 1;
     let seed = scramble(t, iteration, 31);
-    for (var i = 0u; i < TAIL_TRIES && slot == NONE && tail != 0; i++) {
-        let first = control.infinite + 1;
-        let at = vec4u(seed) + (TAIL_BLOCKS * i + vec4u(0, 1, 2, 3)) * 0x9e3779b9u;
-        let block = first + at % tail;
-        let places = vec4u(
-            atomicLoad(&control.free[block.x]),
-            atomicLoad(&control.free[block.y]),
-            atomicLoad(&control.free[block.z]),
-            atomicLoad(&control.free[block.w])
-        );
-        for (var j = 0u; j < TAIL_BLOCKS && slot == NONE; j++) {
-            slot = take_from(block[j], places[j]);
+    var blocks = vec4u(ring, d);
+    var last = e;
+    var slot = NONE;
+    for (var i = 0u; i <= TAIL_TRIES && slot == NONE; i++) {
+        let x = atomicLoad(&control.free[blocks.x]);
+        let y = atomicLoad(&control.free[blocks.y]);
+        let z = atomicLoad(&control.free[blocks.z]);
+        let w = atomicLoad(&control.free[blocks.w]);
+        var block = last;
+        var places = atomicLoad(&control.free[last]);
+        block = select(block, blocks.w, w != 0);
+        places = select(places, w, w != 0);
+        block = select(block, blocks.z, z != 0);
+        places = select(places, z, z != 0);
+        block = select(block, blocks.y, y != 0);
+        places = select(places, y, y != 0);
+        block = select(block, blocks.x, x != 0);
+        places = select(places, x, x != 0);
+        slot = take_from(block, places);
+        if tail == 0 {
+            break;
         }
+        blocks = control.infinite + 1 + (vec4u(seed) + (4 * i + vec4u(0, 1, 2, 3)) * 0x9e3779b9u) % tail;
+        last = blocks.w;
     }
     return slot;
 }

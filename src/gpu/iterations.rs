@@ -32,18 +32,19 @@ impl Iterations {
         Iterations { planned: FIRST_PLANNED, exact_every: EXACT_EVERY[0].0 }
     }
 
-    /// Plans a round by an earlier one, which took `used` of `recorded` iterations and after which
+    /// Plans a round by the one before the last one, which took `used` of `recorded` iterations and after which
     /// `inserted` points are inserted and others wait.
     pub(crate) fn plan(&mut self, used: u32, recorded: u32, inserted: u32, waiting: u32) {
         if recorded == 0 {
             return;
         }
+        // Most points are in, will be after the round that is planned, or will not.
+        let (is_late, is_middle) = (waiting / 4 <= inserted, waiting / 24 <= inserted);
         let wanted = match used {
             _ if used >= recorded => 2 * used,
-            // While each round inserts more than the one before, each takes about as many.
-            _ if waiting / 4 > inserted => used + MARGIN,
-            // From then on, each takes fewer.
-            _ => used / 4 * 3 + MARGIN,
+            _ if is_late => used / 2 + MARGIN,
+            _ if is_middle => used / 4 * 3 + MARGIN,
+            _ => used + MARGIN,
         };
         self.planned = wanted.clamp(MIN_PLANNED, MAX_PLANNED);
     }

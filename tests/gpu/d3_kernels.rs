@@ -126,7 +126,7 @@ impl Device {
         // Behind the list are scores, and their sums are of no use.
         let marks = kernels.read(&b.scores);
         let offsets: Vec<u32> =
-            marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, sum.wrapping_add(m)))).collect();
+            marks.iter().scan(0u32, |sum, &m| Some(std::mem::replace(sum, sum.wrapping_add(m)))).collect();
         self.offsets.write(&kernels.gpu, 0, &offsets);
         self.run("waiting_compact");
         let device = self.download(state);

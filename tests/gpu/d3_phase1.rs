@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::d3_inputs::{self as inputs, Input as Points};
 use gdel::internals::d3::mesh::FACETS;
-use gdel::internals::gpu::layout::{Active, Counters, FREE_START, FlipNode, Status, Waiting};
+use gdel::internals::gpu::layout::{Active, FREE_START, FlipNode, Status, Waiting};
 use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::input::lattice::{Lattice, Width};
 use gdel::internals::reference::d3::{self, predicates::Vertex};

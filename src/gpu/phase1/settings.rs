@@ -65,7 +65,7 @@ where
             points_per_tail_block: 16,
             history: Dimension::<D>::HISTORY,
             slots_per_active: 0,
-            few: 256,
+            few: 96,
             rounds: 1,
             batches: 2,
             max_iterations: Dimension::<D>::MAX_ITERATIONS,
