@@ -52,7 +52,7 @@ impl Device {
         b.active.write(gpu, 0, &state.active.concat());
         b.messages.write(gpu, 0, &state.messages);
         b.history.write(gpu, 0, &state.history);
-        b.waiting.write(gpu, 0, &state.waiting);
+        b.waiting.write(gpu, waiting_start(state), &state.waiting);
         b.scores.write(gpu, 0, &state.scores);
     }
 
@@ -67,7 +67,7 @@ impl Device {
             messages: kernels.read(&b.messages),
             active: [even.to_vec(), odd.to_vec()],
             history: kernels.read(&b.history),
-            waiting: kernels.read(&b.waiting)[..like.waiting.len()].to_vec(),
+            waiting: kernels.read(&b.waiting)[waiting_start(like)..][..like.waiting.len()].to_vec(),
             scores: kernels.read(&b.scores),
             // The references do not count these.
             counters: Counters { exact: like.counters.exact, ..kernels.read_counters(&b.control) },
@@ -122,6 +122,11 @@ fn listed(state: &State, half: usize) -> BTreeSet<u32> {
     state.active[half][..state.counters.active_len[half] as usize].iter().map(|a| a.tet).collect()
 }
 
+/// Where the half of the list of waiting points starts that is in use.
+fn waiting_start(state: &State) -> usize {
+    (state.counters.waiting_half * state.params.infinite) as usize
+}
+
 /// The statuses but for the numbers in the history.
 fn statuses(state: &State) -> Vec<[u32; 2]> {
     state.status.iter().map(|s| [s.flags, s.vote]).collect()
@@ -142,8 +147,9 @@ fn compare(width: Width, pick: Pick) {
         reference::start(s, first);
         reference::locate(s);
     });
-    while !state.waiting.is_empty() {
+    while state.waiting.iter().any(|entry| entry.tet != NONE) {
         state.messages.fill([0; 4]);
+        reference::begin_round(&mut state);
         device.equal("pick_score", &mut state, reference::pick_score);
         device.equal("pick_point", &mut state, reference::pick_point);
 
@@ -173,8 +179,6 @@ fn compare(width: Width, pick: Pick) {
             state.validate_mesh();
         }
         device.equal("relocate", &mut state, reference::relocate);
-        state.waiting.retain(|w| w.tet != NONE);
-        state.params.entries = state.waiting.len() as u32;
     }
     device.equal("clear_votes", &mut state, reference::run::clear_votes);
 

@@ -7,8 +7,9 @@ use std::collections::BTreeSet;
 
 use crate::kernels::{Kernels, shuffled};
 use gdel::internals::d3::gpu::vertex;
-use gdel::internals::gpu::layout::{CHECK, Counters, DONE, NONE};
+use gdel::internals::gpu::layout::{CHECK, Counters, DONE, FREE_START, NONE};
 use gdel::internals::gpu::points::{DevicePoints, InputCounts};
+use gdel::internals::gpu::primitives::scan::ScanParams;
 use gdel::internals::gpu::shader;
 use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::gpu::{Storage, layout::Pick, phase1::Buffers};
@@ -21,6 +22,8 @@ struct Device {
     kernels: Kernels,
     buffers: Buffers<3>,
     failed_points: Storage<u32>,
+    scan: Storage<ScanParams>,
+    offsets: Storage<u32>,
 }
 
 impl Device {
@@ -37,7 +40,9 @@ impl Device {
         };
         let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
         let failed_points = Storage::new(gpu, "failed points", count).unwrap();
-        Device { kernels, buffers, failed_points }
+        let scan = Storage::new(gpu, "scan parameters", 1).unwrap();
+        let offsets = Storage::new(gpu, "offsets", count).unwrap();
+        Device { kernels, buffers, failed_points, scan, offsets }
     }
 
     fn upload(&self, state: &State) {
@@ -52,10 +57,10 @@ impl Device {
         b.neighbors.write(gpu, 0, &state.neighbors);
         b.status.write(gpu, 0, &state.status);
         b.active.write(gpu, 0, &state.active.concat());
-        b.own.free.write(gpu, 0, &state.own.free);
+        b.control.write(gpu, FREE_START, &state.own.free);
         b.messages.write(gpu, 0, &state.messages);
         b.history.write(gpu, 0, &state.history);
-        b.waiting.write(gpu, 0, &state.waiting);
+        b.waiting.write(gpu, waiting_start(state), &state.waiting);
         b.scores.write(gpu, 0, &state.scores);
         b.own.failed.write(gpu, 0, &state.own.failed);
     }
@@ -71,9 +76,12 @@ impl Device {
             messages: kernels.read(&b.messages),
             active: [even.to_vec(), odd.to_vec()],
             history: kernels.read(&b.history),
-            waiting: kernels.read(&b.waiting)[..like.waiting.len()].to_vec(),
+            waiting: kernels.read(&b.waiting)[waiting_start(like)..][..like.waiting.len()].to_vec(),
             scores: kernels.read(&b.scores),
-            own: d3::OwnState { free: kernels.read(&b.own.free), failed: kernels.read(&b.own.failed) },
+            own: d3::OwnState {
+                free: kernels.read(&b.control)[FREE_START..].to_vec(),
+                failed: kernels.read(&b.own.failed),
+            },
             // The references do not count these.
             counters: Counters {
                 exact: like.counters.exact,
@@ -86,7 +94,12 @@ impl Device {
 
     fn run(&self, name: &str) {
         let mut buffers = self.buffers.bindings();
-        buffers.push(("failed_points", self.failed_points.buffer()));
+        buffers.extend([
+            ("failed_points", self.failed_points.buffer()),
+            ("scan", self.scan.buffer()),
+            ("marks", self.buffers.scores.buffer()),
+            ("offsets", self.offsets.buffer()),
+        ]);
         self.kernels.run(shader::D3.get(name), &buffers);
     }
 
@@ -98,6 +111,27 @@ impl Device {
         let device = self.download(state);
         assert_eq!(device.counters, state.counters, "{name}");
         device
+    }
+
+    /// Beginning a round is one function for the reference, and three kernels and a scan.
+    fn begin_round(&self, state: &mut State) {
+        self.upload(state);
+        let (kernels, b) = (&self.kernels, &self.buffers);
+        self.run("begin_round");
+        let params: Storage<u32> = self.scan.cast();
+        let before = state.waiting.clone();
+        reference::begin_round(state);
+        assert_eq!(kernels.read(&params)[0], state.counters.entries_before);
+        self.run("waiting_mark");
+        // Behind the list are scores, and their sums are of no use.
+        let marks = kernels.read(&b.scores);
+        let offsets: Vec<u32> =
+            marks.iter().scan(0u32, |sum, &m| Some(std::mem::replace(sum, sum.wrapping_add(m)))).collect();
+        self.offsets.write(&kernels.gpu, 0, &offsets);
+        self.run("waiting_compact");
+        let device = self.download(state);
+        assert_eq!(device.counters, state.counters, "begin_round");
+        assert_eq!(device.waiting, state.waiting, "begin_round: {before:?}");
     }
 
     /// Checking is one function for the reference, and two kernels.
@@ -142,11 +176,10 @@ fn essence(state: &State) -> (BTreeSet<Vec<u32>>, BTreeSet<Vec<u32>>) {
     });
     let nodes = (state.counters.next_node - state.counters.first_node) as usize;
     let flips = state.history[..nodes].iter().map(|node| {
-        let mut record = node.vertices.to_vec();
-        record.push(node.kind);
+        let mut record = [&node.ring[..], &[node.d, node.e, node.kind]].concat();
         record.extend(node.next.map(|next| match next {
             NONE => NONE,
-            next => state.history[(next - state.counters.first_node) as usize].vertices[0],
+            next => state.history[(next - state.counters.first_node) as usize].ring[0],
         }));
         record
     });
@@ -178,8 +211,9 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
         reference::start(s, first);
         reference::locate(s);
     });
-    while !state.waiting.is_empty() {
+    while state.waiting.iter().any(|entry| entry.tet != NONE) {
         state.messages.fill([0; 4]);
+        device.begin_round(&mut state);
         device.equal("pick_score", &mut state, reference::pick_score);
         device.equal("pick_point", &mut state, reference::pick_point);
 
@@ -210,8 +244,6 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
             state.validate_mesh();
         }
         device.equal("relocate", &mut state, reference::relocate);
-        state.waiting.retain(|w| w.tet != NONE);
-        state.params.entries = state.waiting.len() as u32;
     }
     // Every facet is suspect, so that there is something to look at.
     state.status.iter_mut().for_each(|s| s.flags |= CHECK << 4);
@@ -227,6 +259,11 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
     points.sort_unstable();
     assert_eq!(points, failed);
     device.equal("clear_votes", &mut state, reference::run::clear_votes);
+}
+
+/// Where the half of the list of waiting points starts that is in use.
+fn waiting_start(state: &State) -> usize {
+    (state.counters.waiting_half * state.params.infinite) as usize
 }
 
 fn half_of(state: &State) -> usize {

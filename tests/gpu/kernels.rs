@@ -4,8 +4,8 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 
 use bytemuck::Pod;
-use gdel::internals::gpu::layout::PARAM_WORDS;
 use gdel::internals::gpu::layout::{Counters, Params};
+use gdel::internals::gpu::layout::{FREE_START, PARAM_WORDS};
 use gdel::internals::gpu::{AdapterChoice, Binding, Gpu, Kernel, Readback, Recorder, Storage, shader::Shader};
 use gdel::internals::input::lattice::Width;
 use pollster::block_on;
@@ -45,7 +45,7 @@ impl Kernels {
     }
 
     pub fn read_counters(&self, control: &Storage<u32>) -> Counters {
-        *bytemuck::from_bytes(bytemuck::cast_slice(&self.read(control)[PARAM_WORDS..]))
+        *bytemuck::from_bytes(bytemuck::cast_slice(&self.read(control)[PARAM_WORDS..FREE_START]))
     }
 }
 

@@ -61,9 +61,9 @@ where
     /// Those of [`Storage::new`](crate::gpu::Storage::new).
     pub(crate) fn bind(&self, gpu: &Gpu, b: &Buffers<D>) -> Result<BoundStages<D>, Error> {
         Ok(BoundStages {
-            insert: self.insert.bind(gpu, b),
+            insert: self.insert.bind(gpu, b)?,
             flip: self.flip.bind(gpu, b),
-            relocate: self.relocate.bind(gpu, b)?,
+            relocate: self.relocate.bind(gpu, b),
             finish: Dimension::<D>::bind(&self.finish, gpu, b)?,
         })
     }
@@ -75,6 +75,6 @@ where
 {
     /// Returns the bytes that they take on the device beside the buffers that they share.
     pub(crate) fn bytes(&self) -> u64 {
-        self.relocate.bytes() + Dimension::<D>::bound_bytes(&self.finish)
+        self.insert.bytes() + Dimension::<D>::bound_bytes(&self.finish)
     }
 }
