@@ -1,12 +1,13 @@
-//! Times Phase 1 in 3D: `cargo bench --features cli --bench measure_phase1 -- [uniform|gaussian|ball|thin-sphere|sphere|grid|FILE] [POINTS] [ADAPTER] [REPEATS]`, on
-//! coordinates rounded to `f32`.
+//! Times Phase 1 in 3D:
+//! `cargo bench --features cli --bench measure_phase1 -- [KIND|FILE] [POINTS] [ADAPTER] [REPEATS]`,
+//! on coordinates rounded to `f32`.
 //!
 //! The variables PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE, SLOTS_PER_ACTIVE, WORKGROUPS, FEW, ROUNDS, BATCHES and SEED change the
 //! settings. Prints a line of JSON: medians over the repeats, after a second of runs to warm up, since a device raises its
 //! clock slowly; and the stages of one more run, which is slower because each dispatch is timed.
 
 use gdel::Points;
-use gdel::internals::d3::generate::{Distribution, generate};
+use gdel::internals::d3::generate::{Distribution3, generate3d};
 use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::gpu::{AdapterChoice, Gpu, Profiler};
 use gdel::internals::input::lattice::Lattice;
@@ -49,8 +50,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let choice = if adapter.is_empty() { AdapterChoice::Default } else { AdapterChoice::Name(adapter) };
     let gpu = block_on(Gpu::open(&choice))?;
-    let doubles: Vec<[f64; 3]> = match Distribution::ALL.into_iter().find(|d| d.name() == kind) {
-        Some(distribution) => generate(distribution, count, option("SEED", 1).into()),
+    let doubles: Vec<[f64; 3]> = match Distribution3::ALL.into_iter().find(|d| d.name() == kind) {
+        Some(distribution) => generate3d(distribution, count, option("SEED", 1).into()),
         None => Points::from(&read_points(Path::new(&kind))?.points).iter().collect(),
     };
     let points: Vec<[f32; 3]> = doubles.into_iter().map(|p| p.map(|x| x as f32)).collect();

@@ -124,7 +124,7 @@ fn kernel(parts: &[&File]) -> String {
     parts.last().expect("a shader has files").path()
 }
 
-/// The text of the generated module.
+/// Returns the text of the generated module.
 fn module(
     sources: &Sources,
     tables: &[Vec<Shader<'_>>; 3],
@@ -155,7 +155,7 @@ fn module(
     Ok(text)
 }
 
-/// The name of the constant that holds a file's text.
+/// Returns the name of the constant that holds a file's text.
 fn constant(file: &File) -> String {
     file.name.replace('/', "_").to_uppercase()
 }
@@ -174,8 +174,8 @@ fn write_constants(text: &mut String, declarations: &Declarations) -> std::fmt::
     writeln!(text, "}}\n}}")
 }
 
-/// A macro that takes the name of a structure of the host and asserts that it has the layout that
-/// the shaders' one of this name has.
+/// Writes a macro that takes the name of a structure of the host and asserts that it has the layout
+/// that the shaders' one of this name has.
 fn write_layouts(text: &mut String, declarations: &Declarations) -> std::fmt::Result {
     writeln!(text, "macro_rules! assert_layout {{")?;
     for (name, structure) in &declarations.structures {

@@ -6,8 +6,9 @@
 #   scripts/test.sh js [FILE…]     the package and the page, or these test files of theirs
 #   scripts/test.sh ARGUMENT…      what `cargo test` makes of these arguments
 #
-# The tests of the GPU code run on lavapipe, Mesa's software Vulkan driver, where it is installed: the same device
-# everywhere, so that a failure here is a failure elsewhere. Set VK_DRIVER_FILES to choose another driver.
+# The tests of the GPU code run on lavapipe, Mesa's software Vulkan driver, where it is installed:
+# the same device everywhere, so that a failure here is a failure elsewhere. Set VK_DRIVER_FILES to
+# choose another driver.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -42,9 +43,9 @@ test_crate() {
 build_js() { node web/build.mjs && npm run build --silent --workspace www; }
 test_js() { node --no-concurrent-recompilation scripts/test-js.mjs "$@"; }
 
-# Runs a step of the crate and one of the package and the page at the same time, since neither keeps all processors busy.
-# What the second one says comes after the first one; it is left out where only the first one failed, so that the
-# failure is the last thing that is said.
+# Runs a step of the crate and one of the package and the page at the same time, since neither keeps
+# all processors busy. What the second one says comes after the first one; it is left out where only
+# the first one failed, so that the failure is the last thing that is said.
 both() {
   local log=$scratch/$2 first=passed second=passed
   "$2" >"$log" 2>&1 &

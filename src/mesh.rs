@@ -1,11 +1,11 @@
 //! What meshes of both dimensions have in common.
 
-use crate::index::NONE;
+use crate::{index::NONE, stats::Stats};
 
 /// The simplices around each vertex of a mesh: tetrahedra in 3D, triangles in 2D.
 ///
-/// [`Mesh3::stars`](crate::Mesh3::stars) and [`Mesh2::stars`](crate::Mesh2::stars) create it in one pass over the mesh. Build
-/// it once for many vertices.
+/// [`Mesh3::stars`](crate::Mesh3::stars) and [`Mesh2::stars`](crate::Mesh2::stars) create it in one
+/// pass over the mesh. Build it once for many vertices.
 ///
 /// # Examples
 ///
@@ -20,7 +20,8 @@ use crate::index::NONE;
 /// ```
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Stars {
-    /// Where the star of each vertex starts in `simplices`; one more entry says where the last one ends.
+    /// Where the star of each vertex starts in `simplices`; one more entry says where the last one
+    /// ends.
     starts: Vec<usize>,
     simplices: Vec<u32>,
 }
@@ -28,7 +29,8 @@ pub struct Stars {
 impl Stars {
     /// Sorts simplices by their vertices, which are below `points`. Within a star they ascend.
     pub(crate) fn new<const N: usize>(simplices: &[[u32; N]], points: usize) -> Self {
-        // Entry v + 1 counts the simplices of v, then says where the next of them goes, and at last where they end.
+        // Entry v + 1 counts the simplices of v, then says where the next of them goes, and at last
+        // where they end.
         let mut starts = vec![0; points + 1];
         for &v in simplices.as_flattened() {
             starts[v as usize + 1] += 1;
@@ -55,8 +57,9 @@ impl Stars {
         }
     }
 
-    /// Returns the indices of the simplices that have vertex `v`. In 2D they turn counter-clockwise around it, and the first
-    /// one lies behind the hull edge that starts at `v` if there is one. A duplicate has none.
+    /// Returns the indices of the simplices that have vertex `v`. In 2D they turn counter-clockwise
+    /// around it, and the first one lies behind the hull edge that starts at `v` if there is one. A
+    /// duplicate has none.
     ///
     /// # Panics
     ///
@@ -81,16 +84,58 @@ pub fn canonical<const N: usize>(simplices: &[[u32; N]]) -> Vec<[u32; N]> {
     simplices
 }
 
-/// Methods on `duplicate_of`, which both meshes have.
-macro_rules! point_methods {
+/// What meshes of both dimensions say of their points and of their run.
+pub trait Mesh {
+    /// Sets what the mesh says of its points.
+    fn set_input(&mut self, duplicate_of: Vec<i32>, dimension: u8);
+
+    /// Returns the number of points that are duplicates.
+    fn duplicates(&self) -> usize;
+
+    /// Returns the affine dimension of the points.
+    fn dimension(&self) -> u8;
+
+    /// Returns the statistics.
+    fn stats(&self) -> &Stats;
+
+    /// Returns the statistics, to be changed.
+    fn stats_mut(&mut self) -> &mut Stats;
+}
+
+/// Implements [`Mesh`], and methods on `duplicate_of`, which both meshes have.
+macro_rules! common_methods {
     ($mesh:ident) => {
+        impl $crate::mesh::Mesh for $mesh {
+            fn set_input(&mut self, duplicate_of: Vec<i32>, dimension: u8) {
+                (self.duplicate_of, self.dimension) = (duplicate_of, dimension);
+            }
+
+            fn duplicates(&self) -> usize {
+                self.duplicate_count()
+            }
+
+            fn dimension(&self) -> u8 {
+                self.dimension
+            }
+
+            fn stats(&self) -> &$crate::stats::Stats {
+                &self.stats
+            }
+
+            fn stats_mut(&mut self) -> &mut $crate::stats::Stats {
+                &mut self.stats
+            }
+        }
+
         impl $mesh {
-            /// Returns the vertices: the distinct points in ascending order, each by the lowest index of its coordinates.
+            /// Returns the vertices: the distinct points in ascending order, each by the lowest
+            /// index of its coordinates.
             pub fn vertices(&self) -> impl Iterator<Item = u32> + Clone + '_ {
                 (0..).zip(&self.duplicate_of).filter(|&(_, &d)| d == $crate::index::NONE).map(|(i, _)| i)
             }
 
-            /// Returns whether an earlier point has the same coordinates as point `i`, which therefore is no vertex.
+            /// Returns whether an earlier point has the same coordinates as point `i`, which
+            /// therefore is not a vertex.
             ///
             /// # Panics
             ///
@@ -115,4 +160,4 @@ macro_rules! point_methods {
         }
     };
 }
-pub(crate) use point_methods;
+pub(crate) use common_methods;

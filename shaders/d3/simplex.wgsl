@@ -1,5 +1,6 @@
 // Tetrahedra: what the buffers hold of them, and the functions that d2/simplex has for triangles.
 //!include common/layout
+//!include common/slots
 
 // Slots 8v to 8v + 7 belong to vertex v.
 const SLOTS_PER_POINT: u32 = BLOCK;
@@ -54,12 +55,6 @@ fn place_of(tet: vec4u, v: u32) -> u32 {
 // Returns the tetrahedron with vertex k replaced.
 fn replaced(tet: vec4u, k: u32, v: u32) -> vec4u {
     return select(tet, vec4u(v), vec4u(0, 1, 2, 3) == vec4u(k));
-}
-
-// Returns the slot of child k of tetrahedron t, split at point p: the one with p in place of vertex
-// k.
-fn child_slot(t: u32, p: u32, k: u32) -> u32 {
-    return select(SLOTS_PER_POINT * p + k - 1, t, k == 0);
 }
 
 // Returns the slots of all children.

@@ -24,13 +24,13 @@ use crate::gpu::shader::{
     constants::{common, d3},
 };
 
-/// Nothing: no tetrahedron, no node, no vertex.
+/// Marks the absence of a tetrahedron, a node or a vertex.
 pub const NONE: u32 = common::NONE;
 
 /// Slots in a block.
 pub const BLOCK: u32 = common::BLOCK;
 
-/// What a tetrahedron is doing.
+/// The status of a tetrahedron.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Status {
@@ -196,7 +196,7 @@ pub const SLOTS_FULL: u32 = common::SLOTS_FULL;
 /// A flip was put off because the history was full.
 pub const HISTORY_FULL: u32 = common::HISTORY_FULL;
 
-/// What the kernels are told. In the buffer `control` it stands before the [`Counters`].
+/// The parameters of the kernels. In the buffer `control` it stands before the [`Counters`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Params {

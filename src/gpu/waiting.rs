@@ -2,7 +2,7 @@
 
 use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
 use crate::{
-    Error,
+    error::Error,
     gpu::{Gpu, Kernel, Recorder, Storage, layout::Waiting, shader},
     input::lattice::Width,
 };
@@ -50,7 +50,7 @@ impl WaitingList {
     ///
     /// # Errors
     ///
-    /// Those of [`Storage::new`].
+    /// Returns the errors of [`Storage::new`].
     pub fn bind(
         &self,
         gpu: &Gpu,

@@ -1,6 +1,6 @@
 //! Which flip each active simplex proposes (§3.1, §4.2).
 
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 
 use crate::reference::State;
 use crate::reference::dim::Kernels;

@@ -1,6 +1,7 @@
 //! Carrying out the flips that won all of their simplices.
 
-use crate::gpu::dim::{Dimension, Flip};
+use crate::dimension::Dimension;
+use crate::gpu::dim::Flip;
 use crate::gpu::layout::{HELD_SHIFT, HISTORY_FULL, NONE, Status};
 
 use crate::reference::State;

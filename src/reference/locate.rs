@@ -1,6 +1,7 @@
 //! The first simplices, and which of them each point lies in.
 
-use crate::gpu::dim::{Corners, Dimension};
+use crate::dimension::Dimension;
+use crate::gpu::dim::Corners;
 use crate::gpu::layout::{NONE, Waiting};
 
 use crate::reference::State;

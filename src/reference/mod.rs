@@ -23,6 +23,7 @@ mod relocate;
 pub mod run;
 mod split;
 mod state;
+mod ties;
 mod validate;
 
 pub use begin_round::begin_round;

@@ -1,6 +1,6 @@
 //! Which point each simplex inserts (§3.1).
 
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 use crate::gpu::layout::{NONE, Pick, Waiting};
 
 use crate::reference::State;

@@ -1,6 +1,6 @@
 //! Phase 1 on the references.
 
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 use crate::gpu::layout::{NONE, Pick, SLOTS_FULL};
 use crate::gpu::start::first_simplex;
 use crate::input::lattice::Width;

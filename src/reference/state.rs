@@ -2,7 +2,8 @@
 
 use bytemuck::Zeroable;
 
-use crate::gpu::dim::{Corners, Dim, Dimension, Flip};
+use crate::dimension::Dimension;
+use crate::gpu::dim::{Corners, Dim, Flip};
 use crate::gpu::layout::{Active, BLOCK, Counters, HELD_SHIFT, NONE, Params, Status, Waiting};
 use crate::input::lattice::Width;
 use crate::predicates::Sign;
@@ -27,7 +28,7 @@ where
 {
     /// The width of the lattice.
     pub width: Width,
-    /// What the kernels are told.
+    /// The parameters of the kernels.
     pub params: Params,
     /// The vertices, and the interior point.
     pub points: Vec<Vertex<D>>,

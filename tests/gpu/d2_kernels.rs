@@ -1,20 +1,22 @@
 //! Every 2D kernel against its reference, on the same buffers.
 //!
-//! The points have coordinates, or high words of them, below 16, so that the scores are exact in `f32` and ties of every
-//! kind abound. After each kernel the device gets the reference's buffers again, so that each is compared on its own.
+//! The points have coordinates, or high words of them, below 16, so that the scores are exact in
+//! `f32` and ties of every kind abound. After each kernel the device gets the reference's buffers
+//! again, so that each is compared on its own.
 
+use crate::kernels::{Device, listed, shuffled};
+use crate::states::read_counters;
+use gdel::internals::{
+    d2::gpu::aliases::Aliases,
+    gpu::{
+        layout::{DONE, NONE, Pick},
+        phase1::Aliases as _,
+        start::first_simplex,
+    },
+    input::lattice::Width,
+    reference::{self, d2, d2::predicates::Vertex},
+};
 use std::collections::BTreeSet;
-
-use crate::kernels::{Kernels, shuffled};
-use gdel::internals::d2::gpu::{aliases::Aliases, vertex};
-use gdel::internals::gpu::Storage;
-use gdel::internals::gpu::layout::Pick;
-use gdel::internals::gpu::layout::{Counters, DONE, NONE};
-use gdel::internals::gpu::points::{DevicePoints, InputCounts};
-use gdel::internals::gpu::shader;
-use gdel::internals::gpu::{phase1::Buffers, start::first_simplex};
-use gdel::internals::input::lattice::Width;
-use gdel::internals::reference::{self, d2, d2::predicates::Vertex};
 
 type State = reference::State<2>;
 
@@ -141,7 +143,9 @@ fn compare(width: Width, pick: Pick) {
     let mut state = State::new(width, points, 0, 4096);
     state.params.pick = pick as u32;
     state.first = start.first;
-    let device = Device::new(width, &state);
+    let device = Device::<2>::new(width, &state);
+    let aliases = Aliases::new(&device.buffers);
+    let device = device.with(&aliases.bindings());
     device.equal("locate", &mut state, |s| {
         let first = s.first;
         reference::start(s, first);
@@ -182,21 +186,19 @@ fn compare(width: Width, pick: Pick) {
     }
     device.equal("clear_votes", &mut state, reference::run::clear_votes);
 
-    let kernels = &device.kernels;
     device.upload(&state);
     device.run("mesh_mark");
     let marks = d2::mesh_mark(&state);
-    assert_eq!(kernels.read(&device.buffers.own.marks), marks);
-    let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
-    device.buffers.own.offsets.write(&kernels.gpu, 0, &offsets);
+    assert_eq!(device.read(&device.buffers.marks), marks);
+    let numbers: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
+    device.buffers.numbers.write(&device.kernels.gpu, 0, &numbers);
     device.run("mesh_compact");
-    let mesh = d2::mesh_compact(&state, &offsets);
+    let mesh = d2::mesh_compact(&state, &numbers);
     let count = mesh.triangles.len();
-    let aliases = Aliases::new(&device.buffers);
-    assert_eq!(kernels.read(&aliases.triangles)[..count], mesh.triangles);
-    assert_eq!(kernels.read(&aliases.halfedges)[..count], mesh.halfedges);
-    let hull: Vec<[u32; 2]> = kernels.read(&aliases.hull);
-    let counters = kernels.read_counters(&device.buffers.control);
+    assert_eq!(device.read(&aliases.triangles)[..count], mesh.triangles);
+    assert_eq!(device.read(&aliases.halfedges)[..count], mesh.halfedges);
+    let hull: Vec<[u32; 2]> = device.read(&aliases.hull);
+    let counters = read_counters(&device.kernels.gpu, &device.buffers.control);
     let hull: BTreeSet<[u32; 2]> = hull[..counters.hull as usize].iter().copied().collect();
     assert_eq!(hull, mesh.hull.into_iter().collect());
 }

@@ -1,8 +1,19 @@
 //! Every 3D kernel against its reference, on the same buffers.
 //!
-//! The points have coordinates, or high words of them, below 8, so that the scores are exact in `f32` and ties of every kind abound. After each
-//! kernel the device gets the reference's buffers again, so that each is compared on its own.
+//! The points have coordinates, or high words of them, below 8, so that the scores are exact in
+//! `f32` and ties of every kind abound. After each kernel the device gets the reference's buffers
+//! again, so that each is compared on its own.
 
+use crate::kernels::{Device, listed, shuffled};
+use gdel::internals::{
+    gpu::{
+        Storage,
+        layout::{CHECK, Counters, DONE, NONE, Pick},
+        start::first_simplex,
+    },
+    input::lattice::Width,
+    reference::{self, d3, d3::predicates::Vertex},
+};
 use std::collections::BTreeSet;
 
 use crate::kernels::{Kernels, shuffled};
@@ -186,13 +197,21 @@ fn essence(state: &State) -> (BTreeSet<Vec<u32>>, BTreeSet<Vec<u32>>) {
     (tets.collect(), flips.collect())
 }
 
-fn listed(state: &State, half: usize) -> BTreeSet<u32> {
-    state.active[half][..state.counters.active_len[half] as usize].iter().map(|a| a.tet).collect()
-}
-
 /// The tetrahedra with facets to check.
 fn to_check(state: &State) -> BTreeSet<u32> {
     (0..).zip(&state.status).filter(|(_, s)| s.flags & CHECK != 0).map(|(t, _)| t).collect()
+}
+
+/// Checks: one function of the reference, and two kernels.
+fn check(device: &Device<3>, state: &mut State) {
+    device.upload(state);
+    device.run("flip_check");
+    device.run("flip_check_exact");
+    reference::flip_check(state);
+    let after = device.download(state);
+    assert_eq!(after.status, state.status, "check");
+    assert_eq!(after.active, state.active, "check");
+    assert_eq!(Counters { undecided: 0, ..after.counters }, state.counters, "check");
 }
 
 fn compare(width: Width, pick: Pick, compact_from: u32) {
@@ -205,7 +224,9 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
     state.params.pick = pick as u32;
     state.params.compact_from = compact_from;
     state.first = start.first;
-    let device = Device::new(width, &state);
+    let device = Device::<3>::new(width, &state);
+    let failed_points = Storage::new(&device.kernels.gpu, "failed points", 250).unwrap();
+    let device = device.with(&[("failed_points", failed_points.buffer())]);
     device.equal("locate", &mut state, |s| {
         let first = s.first;
         reference::start(s, first);
@@ -225,7 +246,7 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
 
         device.equal("relocate_split", &mut state, reference::relocate_split);
         while !state.is_idle(state.counters.iteration) {
-            device.check(&mut state);
+            check(&device, &mut state);
             device.upload(&state);
             device.run("flip_commit");
             device.run("flip_link");
@@ -253,7 +274,7 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
         .filter(|&(_, &f)| f != 0)
         .map(|(v, _): (usize, _)| state.points[v].index)
         .collect();
-    let mut points = device.kernels.read(&device.failed_points);
+    let mut points = device.read::<u32>(&failed_points);
     points.truncate(failed.len());
     failed.sort_unstable();
     points.sort_unstable();

@@ -1,5 +1,7 @@
-//! Phase 1 on the GPU: a valid triangulation after every round, and every stage against the references of its kernels.
+//! Phase 1 on the GPU: a valid triangulation after every round, and every stage against the
+//! references of its kernels.
 
+use crate::states::{download, read};
 use std::collections::BTreeSet;
 
 use crate::d3_inputs::{self as inputs, Input as Points};
@@ -11,30 +13,26 @@ use gdel::internals::reference::d3::{self, predicates::Vertex};
 use gdel::internals::{
     d3::gpu::vertex,
     gpu::{
-        AdapterChoice, Gpu, Readback, Storage,
+        AdapterChoice, Gpu,
         layout::Pick,
         phase1::{Input, Phase1, Phase1Output, Run, Settings},
     },
 };
+use gdel::internals::{dimension::Dimension, gpu::dim::Dim};
 use pollster::block_on;
 
 type State = gdel::internals::reference::State<3>;
 
-fn read<T: bytemuck::Pod>(gpu: &Gpu, storage: &Storage<T>) -> Vec<T> {
-    block_on(Readback::default().read(gpu, storage, 0, storage.len())).unwrap()
-}
-
 /// The vertices of a buffer.
 fn vertices(width: Width, words: &[i32]) -> Vec<Vertex> {
     words
-        .chunks(vertex::words_per_vertex(width))
+        .chunks(Dimension::<3>::vertex_words(width))
         .map(|words| Vertex { position: vertex::position(words), index: words[3] as u32 })
         .collect()
 }
 
 /// The buffers of a run, as the references have them.
 fn state_of(gpu: &Gpu, width: Width, run: &Run<'_, 3>) -> State {
-    let b = run.buffers();
     let (params, counters) = run.control();
     let active: Vec<Active> = read(gpu, &b.active);
     let (even, odd) = active.split_at(active.len() / 2);
@@ -88,7 +86,8 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, se
     assert_eq!(output.failed, failed, "{}", points.name);
     assert_eq!(marked.validate_end(), stats.counters.not_locally_delaunay as usize, "{}", points.name);
 
-    // The finite tetrahedra are in the order of their slots, and no infinite one is lost or turned over.
+    // The finite tetrahedra are in the order of their slots, and no infinite one is lost or turned
+    // over.
     let infinite = count as u32;
     let used: Vec<[u32; 4]> = state.simplices.iter().copied().filter(|t| *t != [0; 4]).collect();
     let (ghosts, finite): (Vec<_>, Vec<_>) = used.iter().map(|t| t.map(index)).partition(|t| t.contains(&infinite));

@@ -1,8 +1,6 @@
 //! What the tests that run kernel by kernel share, in 2D and 3D.
 
-use std::cell::RefCell;
-use std::collections::HashMap;
-
+use crate::states::{self, Own};
 use bytemuck::Pod;
 use gdel::internals::gpu::layout::{Counters, Params};
 use gdel::internals::gpu::layout::{FREE_START, PARAM_WORDS};
@@ -11,6 +9,10 @@ use gdel::internals::input::lattice::Width;
 use pollster::block_on;
 use rand::{SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;
+use std::{
+    cell::RefCell,
+    collections::{BTreeSet, HashMap},
+};
 
 /// The GPU and the kernels that were run on it.
 pub struct Kernels {
@@ -34,14 +36,67 @@ impl Kernels {
         recorder.dispatch(kernel, &bindings, 3);
         recorder.submit(&self.gpu);
     }
+}
 
-    pub fn read<T: Pod>(&self, storage: &Storage<T>) -> Vec<T> {
-        block_on(Readback::default().read(&self.gpu, storage, 0, storage.len())).unwrap()
+/// The buffers of a dimension on the device, where its kernels run one by one.
+pub struct Device<const D: usize>
+where
+    Dimension<D>: Own<D>,
+{
+    pub kernels: Kernels,
+    pub buffers: Buffers<D>,
+    /// What only some kernels are bound to.
+    more: Vec<(&'static str, wgpu::Buffer)>,
+}
+
+impl<const D: usize> Device<D>
+where
+    Dimension<D>: Own<D>,
+{
+    /// Creates the buffers for the points of `state`.
+    pub fn new(width: Width, state: &State<D>) -> Self {
+        let kernels = Kernels::new(width);
+        let gpu = &kernels.gpu;
+        let count = state.params.infinite as usize;
+        let first = state.first.as_ref();
+        let counts = InputCounts { found: std::array::from_fn(|k| first[k.min(D)]), ..Default::default() };
+        let pairs: Vec<[u32; 2]> = state.points[..count].iter().map(|v| [0, v.index]).collect();
+        let mut words = Vec::new();
+        for v in &state.points {
+            Dimension::<D>::append_vertex(&mut words, width, v.position, v.index, false);
+        }
+        let points = DevicePoints {
+            vertices: Storage::with_contents(gpu, "vertices", &words).unwrap(),
+            pairs: Storage::with_contents(gpu, "pairs", &pairs).unwrap(),
+            merged_into: Storage::new(gpu, "merged", count).unwrap(),
+            counts: Storage::with_contents(gpu, "counts", &[counts]).unwrap(),
+        };
+        let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
+        Device { kernels, buffers, more: Vec::new() }
     }
 
-    pub fn write_control(&self, control: &Storage<u32>, params: &Params, counters: &Counters) {
-        control.write(&self.gpu, 0, bytemuck::cast_slice(&[*params]));
-        control.write(&self.gpu, PARAM_WORDS, bytemuck::cast_slice(&[*counters]));
+    /// Binds kernels to these buffers, too.
+    pub fn with(mut self, more: &[(&'static str, &wgpu::Buffer)]) -> Self {
+        self.more.extend(more.iter().map(|&(name, buffer)| (name, buffer.clone())));
+        self
+    }
+
+    pub fn upload(&self, state: &State<D>) {
+        states::upload(&self.kernels.gpu, &self.buffers, state);
+    }
+
+    pub fn download(&self, like: &State<D>) -> State<D> {
+        states::download(&self.kernels.gpu, &self.buffers, like)
+    }
+
+    pub fn read<T: Pod>(&self, storage: &Storage<T>) -> Vec<T> {
+        states::read(&self.kernels.gpu, storage)
+    }
+
+    pub fn run(&self, name: &str) {
+        let mut buffers = self.buffers.bindings();
+        buffers.extend(self.more.iter().map(|(name, buffer)| (*name, buffer)));
+        self.kernels.run(Dimension::<D>::SHADERS.get(name), &buffers);
     }
 
     pub fn read_counters(&self, control: &Storage<u32>) -> Counters {
@@ -49,7 +104,16 @@ impl Kernels {
     }
 }
 
-/// So many of these positions, in no order; on a wide lattice they become the high words of coordinates.
+/// Returns the simplices in a half of the active list.
+pub fn listed<const D: usize>(state: &State<D>, half: usize) -> BTreeSet<u32>
+where
+    Dimension<D>: Own<D>,
+{
+    state.active[half][..state.counters.active_len[half] as usize].iter().map(|a| a.tet).collect()
+}
+
+/// Returns so many of these positions, in no order; on a wide lattice they become the high words of
+/// coordinates.
 pub fn shuffled<const D: usize>(width: Width, mut positions: Vec<[i64; D]>, count: usize) -> Vec<[i64; D]> {
     positions.shuffle(&mut Pcg32::seed_from_u64(4));
     positions.truncate(count);

@@ -1,7 +1,7 @@
 //! The buffers of Phase 1 that only 3D has.
 
 use crate::{
-    Error,
+    error::Error,
     gpu::{Binding, Gpu, Storage, dim},
 };
 
@@ -10,6 +10,9 @@ use crate::{
 pub struct OwnBuffers {
     /// Whether each vertex failed.
     pub failed: Storage<u32>,
+    /// One tetrahedron of the mesh at each point, plus 1; 0 for points that are merged into others.
+    /// Infinity comes last.
+    pub tet_of: Storage<u32>,
 }
 
 impl dim::OwnBuffers for OwnBuffers {
@@ -21,9 +24,10 @@ impl dim::OwnBuffers for OwnBuffers {
         Ok(self.clone())
     }
 
-    /// Records that no vertex failed.
+    /// Records that no vertex failed, and that no point has a tetrahedron.
     fn record_clear(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.clear_buffer(self.failed.buffer(), 0, None);
+        encoder.clear_buffer(self.tet_of.buffer(), 0, None);
     }
 
     fn bindings(&self) -> Vec<Binding<'_>> {

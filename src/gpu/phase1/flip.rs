@@ -1,11 +1,8 @@
 //! Flipping: check, commit, link (§3.1, §4.2).
 
 use crate::{
-    gpu::{
-        Gpu, Kernel, Recorder,
-        dim::{Dim, Dimension},
-        phase1::buffers::Buffers,
-    },
+    dimension::Dimension,
+    gpu::{Gpu, Kernel, Recorder, dim::Dim, phase1::buffers::Buffers},
     input::lattice::Width,
 };
 

@@ -38,7 +38,7 @@ mod stages;
 mod stats;
 
 pub use buffers::{Buffers, Slot};
-pub use finish::Finish;
+pub use finish::{Aliases, Copied, Copies, Finish, Step};
 pub use kernels::Phase1;
 pub use run::{Input, Phase1Output, Run};
 pub use settings::Settings;

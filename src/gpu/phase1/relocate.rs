@@ -3,7 +3,7 @@
 use crate::{
     gpu::{
         Gpu, Kernel, Recorder,
-        dim::{Dim, Dimension},
+        dim::Dim,
         phase1::buffers::Buffers,
     },
     input::lattice::Width,

@@ -1,7 +1,8 @@
 //! A run of Phase 1: what the host records ahead, and what it reads back.
 
 use crate::{
-    Error, Points,
+    dimension::Dimension,
+    error::Error,
     gpu::{
         Gpu, Pending, Profiler, Recorder,
         dim::{Dim, Dimension, Flip},
@@ -9,7 +10,7 @@ use crate::{
         layout::{BLOCK, COUNTER_WORDS, Counters, LOGGED, NONE, PARAM_WORDS, Params, SLOTS_FULL},
         phase1::{
             buffers::{Buffers, largest_bytes},
-            finish::Finish,
+            finish::{BoundFinish, Finish},
             flip::FlipPlan,
             kernels::Phase1,
             memory::{Kept, Memory},
@@ -21,7 +22,7 @@ use crate::{
         start::Start,
         workgroups,
     },
-    input::lattice::Lattice,
+    input::{lattice::Lattice, points::Points},
     options::Winding,
     stats::{Round, Stopwatch},
 };
@@ -41,7 +42,7 @@ where
     pub start: Start<D>,
 }
 
-/// What a run gives.
+/// The output of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase1Output<const D: usize>
 where
@@ -57,7 +58,7 @@ where
     pub stats: Phase1Stats,
 }
 
-/// A run that is under way.
+/// A run in progress.
 pub struct Run<'a, const D: usize>
 where
     Dimension<D>: Finish<D>,
@@ -168,8 +169,8 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::TooManyPoints`]; [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when
-    /// the device cannot hold the buffers.
+    /// Returns [`Error::TooManyPoints`]; [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`]
+    /// when the device cannot hold the buffers.
     pub async fn new(
         kernels: &'a mut Phase1<D>,
         gpu: &'a Gpu,
@@ -409,16 +410,17 @@ where
     /// Those of [`Run::advance`].
     pub async fn finish(mut self) -> Result<Phase1Output<D>, Error> {
         let gpu = self.gpu;
-        let (blocks, workgroups) = (self.params.blocks, self.workgroups());
+        let workgroups = self.workgroups();
         let profiler = self.profiler.take();
         let (submission, counters, finite) = gpu
             .with_error_scope("the end of Phase 1", || {
                 let mut recorder = Recorder::new(gpu, profiler);
                 let (finish, bound) = (&self.kernels.stages.finish, &self.memory.bound.finish);
-                Dimension::<D>::record(finish, gpu, &mut recorder, bound, blocks, workgroups);
+                finish.record(&mut recorder, bound, workgroups);
                 self.stats.dispatches += recorder.dispatches();
+                self.stats.submits += 1;
                 let encoder = recorder.encoder();
-                let finite = self.kernels.readback.copy(gpu, encoder, Dimension::<D>::sums(bound), GROUPS, 1);
+                let finite = self.kernels.readback.copy(gpu, encoder, bound.sums(), GROUPS, 1);
                 let counters = self.read_counters(encoder);
                 Ok((recorder.submit(gpu), counters, finite))
             })
@@ -434,12 +436,10 @@ where
 
         let Run { kernels, points, memory, read_before, mut stats, mut clock, .. } = self;
         let readback = &mut kernels.readback;
-        let (result, merged_into) =
-            Dimension::<D>::read_result(gpu, readback, &memory.buffers, &memory.bound.finish, finite, &counters)
-                .await?;
+        let (result, merged_into) = memory.bound.finish.read(gpu, readback, &memory.buffers, finite, &counters).await?;
         stats.readback_time = clock.lap();
         stats.counters = counters;
-        stats.submits += 2;
+        stats.submits += BoundFinish::<D>::SUBMITS;
         stats.readbacks = readback.count() - read_before;
         stats.bytes = memory.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
         kernels.kept = Kept { points, memory: Some(memory) };

@@ -1,10 +1,8 @@
-//! How Phase 1 works.
+//! Settings for Phase 1.
 
 use crate::{
-    gpu::{
-        dim::{Dim, Dimension},
-        layout::Pick,
-    },
+    dimension::Dimension,
+    gpu::{dim::Dim, layout::Pick},
     options::Winding,
 };
 
@@ -42,8 +40,8 @@ pub struct Settings<const D: usize> {
     /// The batches of rounds that are submitted before the counters of the first one are read.
     pub batches: u32,
     /// The flip iterations of a run after which the GPU engine leaves it to the CPU engine. Most
-    /// inputs take some hundred, a million points or not. More are a sign that the flips wait for
-    /// each other; then the CPU engine is sooner done.
+    /// inputs take a few hundred, whatever their size. More are a sign that the flips wait for each
+    /// other; then the CPU engine finishes sooner.
     pub max_iterations: u32,
     /// Whether points are ordered along the Hilbert curve, and so are the slots of their simplices
     /// in memory (§4.3, Figure 12).

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::d3::mesh::FACETS;
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 use crate::gpu::layout::{BLOCK, Counters, DONE, FLIP_23, FlipNode, SLOT_SHIFT};
 use crate::input::lattice::Width;
 use crate::predicates::Sign;
@@ -107,7 +107,7 @@ impl Kernels<3> for Dimension<3> {
 }
 
 /// The buffers that only 3D has, in host memory.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct OwnState {
     /// The free slots of each block.
     pub free: Vec<u32>,
