@@ -10,11 +10,6 @@
 @group(0) @binding(6) var<storage, read_write> history: array<HistoryNode>;
 //!include common/commit_pass
 
-// Returns whether waiting points may lie in a simplex.
-fn is_held(t: u32) -> bool {
-    return atomicLoad(&status[t].flags) >> HELD_SHIFT == control.round;
-}
-
 var<workgroup> entries_here: u32;
 
 @compute @workgroup_size(WORKGROUP)

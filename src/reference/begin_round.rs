@@ -1,6 +1,6 @@
 //! What the kernels of a round have to know of what the last one left.
 
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 use crate::gpu::layout::{LOGGED, NONE};
 
 use crate::reference::State;

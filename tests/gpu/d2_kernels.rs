@@ -20,93 +20,6 @@ use std::collections::BTreeSet;
 
 type State = reference::State<2>;
 
-struct Device {
-    kernels: Kernels,
-    buffers: Buffers<2>,
-}
-
-impl Device {
-    fn new(width: Width, state: &State) -> Self {
-        let kernels = Kernels::new(width);
-        let gpu = &kernels.gpu;
-        let count = state.params.infinite as usize;
-        let [a, b, c] = state.first;
-        let counts = InputCounts { found: [a, b, c, c], ..Default::default() };
-        let pairs: Vec<[u32; 2]> = state.points[..count].iter().map(|v| [0, v.index]).collect();
-        let mut words = Vec::new();
-        state.points.iter().for_each(|v| vertex::append_words(&mut words, width, v.position, false));
-        let points = DevicePoints {
-            vertices: Storage::with_contents(gpu, "vertices", &words).unwrap(),
-            pairs: Storage::with_contents(gpu, "pairs", &pairs).unwrap(),
-            merged_into: Storage::new(gpu, "merged", count).unwrap(),
-            counts: Storage::with_contents(gpu, "counts", &[counts]).unwrap(),
-        };
-        let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
-        Device { kernels, buffers }
-    }
-
-    fn upload(&self, state: &State) {
-        let (gpu, b) = (&self.kernels.gpu, &self.buffers);
-        self.kernels.write_control(&b.control, &state.params, &state.counters);
-        b.simplices.write(gpu, 0, &state.simplices);
-        b.neighbors.write(gpu, 0, &state.neighbors);
-        b.status.write(gpu, 0, &state.status);
-        b.active.write(gpu, 0, &state.active.concat());
-        b.messages.write(gpu, 0, &state.messages);
-        b.history.write(gpu, 0, &state.history);
-        b.waiting.write(gpu, waiting_start(state), &state.waiting);
-        b.scores.write(gpu, 0, &state.scores);
-    }
-
-    fn download(&self, like: &State) -> State {
-        let (kernels, b) = (&self.kernels, &self.buffers);
-        let active = kernels.read(&b.active);
-        let (even, odd) = active.split_at(active.len() / 2);
-        State {
-            simplices: kernels.read(&b.simplices),
-            neighbors: kernels.read(&b.neighbors),
-            status: kernels.read(&b.status),
-            messages: kernels.read(&b.messages),
-            active: [even.to_vec(), odd.to_vec()],
-            history: kernels.read(&b.history),
-            waiting: kernels.read(&b.waiting)[waiting_start(like)..][..like.waiting.len()].to_vec(),
-            scores: kernels.read(&b.scores),
-            // The references do not count these.
-            counters: Counters { exact: like.counters.exact, ..kernels.read_counters(&b.control) },
-            ..like.clone()
-        }
-    }
-
-    fn run(&self, name: &str) {
-        let aliases = Aliases::new(&self.buffers);
-        let buffers = [self.buffers.bindings(), aliases.bindings()].concat();
-        self.kernels.run(shader::D2.get(name), &buffers);
-    }
-
-    /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.
-    fn both(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) -> State {
-        self.upload(state);
-        self.run(name);
-        reference(state);
-        let device = self.download(state);
-        assert_eq!(device.counters, state.counters, "{name}");
-        device
-    }
-
-    /// The same for a kernel whose results are the same to the last bit.
-    fn equal(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) {
-        let device = self.both(name, state, reference);
-        assert_eq!(device.simplices, state.simplices, "{name}");
-        assert_eq!(device.neighbors, state.neighbors, "{name}");
-        assert_eq!(device.status, state.status, "{name}");
-        assert_eq!(device.messages, state.messages, "{name}");
-        assert_eq!(device.active, state.active, "{name}");
-        assert_eq!(device.history, state.history, "{name}");
-        assert_eq!(device.waiting, state.waiting, "{name}");
-        assert_eq!(device.scores, state.scores, "{name}");
-    }
-}
-
 /// What the choice of numbers in the history leaves the same: the flips by their edges.
 fn flips(state: &State) -> BTreeSet<Vec<u32>> {
     let nodes = (state.counters.next_node - state.counters.first_node) as usize;
@@ -118,15 +31,6 @@ fn flips(state: &State) -> BTreeSet<Vec<u32>> {
         [node.edge, node.triangles, next[0], next[1]].concat()
     });
     flips.collect()
-}
-
-fn listed(state: &State, half: usize) -> BTreeSet<u32> {
-    state.active[half][..state.counters.active_len[half] as usize].iter().map(|a| a.tet).collect()
-}
-
-/// Where the half of the list of waiting points starts that is in use.
-fn waiting_start(state: &State) -> usize {
-    (state.counters.waiting_half * state.params.infinite) as usize
 }
 
 /// The statuses but for the numbers in the history.
@@ -153,7 +57,7 @@ fn compare(width: Width, pick: Pick) {
     });
     while state.waiting.iter().any(|entry| entry.tet != NONE) {
         state.messages.fill([0; 4]);
-        reference::begin_round(&mut state);
+        device.begin_round(&mut state);
         device.equal("pick_score", &mut state, reference::pick_score);
         device.equal("pick_point", &mut state, reference::pick_point);
 

@@ -19,11 +19,7 @@ type State = gdel::internals::reference::State<2>;
 /// The buffers of a run, as the references have them.
 fn state_of(gpu: &Gpu, width: Width, run: &Run<'_, 2>) -> State {
     let (params, counters) = run.control();
-    let active: Vec<Active> = read(gpu, &b.active);
-    let (even, odd) = active.split_at(active.len() / 2);
-    let mut waiting: Vec<Waiting> = read(gpu, &b.waiting);
-    waiting.drain(..(counters.waiting_half * params.infinite) as usize);
-    waiting.truncate(counters.entries as usize);
+    let b = run.buffers();
     let pairs = read(gpu, &b.points.pairs);
     let indices = pairs.iter().map(|&[_, point]| point).chain([params.infinite]);
     let words = read(gpu, &b.points.vertices);

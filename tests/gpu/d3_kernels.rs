@@ -16,165 +16,11 @@ use gdel::internals::{
 };
 use std::collections::BTreeSet;
 
-use crate::kernels::{Kernels, shuffled};
-use gdel::internals::d3::gpu::vertex;
-use gdel::internals::gpu::layout::{CHECK, Counters, DONE, FREE_START, NONE};
-use gdel::internals::gpu::points::{DevicePoints, InputCounts};
-use gdel::internals::gpu::primitives::scan::ScanParams;
-use gdel::internals::gpu::shader;
-use gdel::internals::gpu::start::first_simplex;
-use gdel::internals::gpu::{Storage, layout::Pick, phase1::Buffers};
-use gdel::internals::input::lattice::Width;
-use gdel::internals::reference::{self, d3, d3::predicates::Vertex};
-
 type State = reference::State<3>;
 
-struct Device {
-    kernels: Kernels,
-    buffers: Buffers<3>,
-    failed_points: Storage<u32>,
-    scan: Storage<ScanParams>,
-    offsets: Storage<u32>,
-}
-
-impl Device {
-    fn new(width: Width, state: &State) -> Self {
-        let kernels = Kernels::new(width);
-        let gpu = &kernels.gpu;
-        let count = state.params.infinite as usize;
-        let points = DevicePoints {
-            vertices: Storage::new(gpu, "vertices", (count + 1) * vertex::words_per_vertex(width)).unwrap(),
-            pairs: Storage::with_contents(gpu, "pairs", &vec![[0; 2]; count]).unwrap(),
-            merged_into: Storage::new(gpu, "merged", count).unwrap(),
-            counts: Storage::with_contents(gpu, "counts", &[InputCounts { found: state.first, ..Default::default() }])
-                .unwrap(),
-        };
-        let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
-        let failed_points = Storage::new(gpu, "failed points", count).unwrap();
-        let scan = Storage::new(gpu, "scan parameters", 1).unwrap();
-        let offsets = Storage::new(gpu, "offsets", count).unwrap();
-        Device { kernels, buffers, failed_points, scan, offsets }
-    }
-
-    fn upload(&self, state: &State) {
-        let (gpu, b) = (&self.kernels.gpu, &self.buffers);
-        let mut words = Vec::new();
-        for v in &state.points {
-            vertex::append_words(&mut words, self.kernels.width, v.position, v.index, false);
-        }
-        self.kernels.write_control(&b.control, &state.params, &state.counters);
-        b.points.vertices.write(gpu, 0, &words);
-        b.simplices.write(gpu, 0, &state.simplices);
-        b.neighbors.write(gpu, 0, &state.neighbors);
-        b.status.write(gpu, 0, &state.status);
-        b.active.write(gpu, 0, &state.active.concat());
-        b.control.write(gpu, FREE_START, &state.own.free);
-        b.messages.write(gpu, 0, &state.messages);
-        b.history.write(gpu, 0, &state.history);
-        b.waiting.write(gpu, waiting_start(state), &state.waiting);
-        b.scores.write(gpu, 0, &state.scores);
-        b.own.failed.write(gpu, 0, &state.own.failed);
-    }
-
-    fn download(&self, like: &State) -> State {
-        let (kernels, b) = (&self.kernels, &self.buffers);
-        let active = kernels.read(&b.active);
-        let (even, odd) = active.split_at(active.len() / 2);
-        State {
-            simplices: kernels.read(&b.simplices),
-            neighbors: kernels.read(&b.neighbors),
-            status: kernels.read(&b.status),
-            messages: kernels.read(&b.messages),
-            active: [even.to_vec(), odd.to_vec()],
-            history: kernels.read(&b.history),
-            waiting: kernels.read(&b.waiting)[waiting_start(like)..][..like.waiting.len()].to_vec(),
-            scores: kernels.read(&b.scores),
-            own: d3::OwnState {
-                free: kernels.read(&b.control)[FREE_START..].to_vec(),
-                failed: kernels.read(&b.own.failed),
-            },
-            // The references do not count these.
-            counters: Counters {
-                exact: like.counters.exact,
-                failed: like.counters.failed,
-                ..kernels.read_counters(&b.control)
-            },
-            ..like.clone()
-        }
-    }
-
-    fn run(&self, name: &str) {
-        let mut buffers = self.buffers.bindings();
-        buffers.extend([
-            ("failed_points", self.failed_points.buffer()),
-            ("scan", self.scan.buffer()),
-            ("marks", self.buffers.scores.buffer()),
-            ("offsets", self.offsets.buffer()),
-        ]);
-        self.kernels.run(shader::D3.get(name), &buffers);
-    }
-
-    /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.
-    fn both(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) -> State {
-        self.upload(state);
-        self.run(name);
-        reference(state);
-        let device = self.download(state);
-        assert_eq!(device.counters, state.counters, "{name}");
-        device
-    }
-
-    /// Beginning a round is one function for the reference, and three kernels and a scan.
-    fn begin_round(&self, state: &mut State) {
-        self.upload(state);
-        let (kernels, b) = (&self.kernels, &self.buffers);
-        self.run("begin_round");
-        let params: Storage<u32> = self.scan.cast();
-        let before = state.waiting.clone();
-        reference::begin_round(state);
-        assert_eq!(kernels.read(&params)[0], state.counters.entries_before);
-        self.run("waiting_mark");
-        // Behind the list are scores, and their sums are of no use.
-        let marks = kernels.read(&b.scores);
-        let offsets: Vec<u32> =
-            marks.iter().scan(0u32, |sum, &m| Some(std::mem::replace(sum, sum.wrapping_add(m)))).collect();
-        self.offsets.write(&kernels.gpu, 0, &offsets);
-        self.run("waiting_compact");
-        let device = self.download(state);
-        assert_eq!(device.counters, state.counters, "begin_round");
-        assert_eq!(device.waiting, state.waiting, "begin_round: {before:?}");
-    }
-
-    /// Checking is one function for the reference, and two kernels.
-    fn check(&self, state: &mut State) {
-        self.upload(state);
-        self.run("flip_check");
-        self.run("flip_check_exact");
-        reference::flip_check(state);
-        let device = self.download(state);
-        assert_eq!(device.status, state.status, "check");
-        assert_eq!(device.active, state.active, "check");
-        assert_eq!(Counters { undecided: 0, ..device.counters }, state.counters, "check");
-    }
-
-    /// The same for a kernel whose results are the same to the last bit.
-    fn equal(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) {
-        let device = self.both(name, state, reference);
-        assert_eq!(device.simplices, state.simplices, "{name}");
-        assert_eq!(device.neighbors, state.neighbors, "{name}");
-        assert_eq!(device.status, state.status, "{name}");
-        assert_eq!(device.own.free, state.own.free, "{name}");
-        assert_eq!(device.messages, state.messages, "{name}");
-        assert_eq!(device.active, state.active, "{name}");
-        assert_eq!(device.history, state.history, "{name}");
-        assert_eq!(device.waiting, state.waiting, "{name}");
-        assert_eq!(device.scores, state.scores, "{name}");
-        assert_eq!(device.own.failed, state.own.failed, "{name}");
-    }
-}
-
-/// What the choice of slots and numbers in the history leaves the same: the tetrahedra by their vertices, with the
-/// facets to check and the neighbours across each facet, and the flips of the history.
+/// What the choice of slots and numbers in the history leaves the same: the tetrahedra by their
+/// vertices, with the facets to check and the neighbours across each facet, and the flips of the
+/// history.
 fn essence(state: &State) -> (BTreeSet<Vec<u32>>, BTreeSet<Vec<u32>>) {
     let tets = (0..state.simplices.len()).filter(|&t| state.is_used(t)).map(|t| {
         let mut record = state.simplices[t].to_vec();
@@ -280,11 +126,6 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
     points.sort_unstable();
     assert_eq!(points, failed);
     device.equal("clear_votes", &mut state, reference::run::clear_votes);
-}
-
-/// Where the half of the list of waiting points starts that is in use.
-fn waiting_start(state: &State) -> usize {
-    (state.counters.waiting_half * state.params.infinite) as usize
 }
 
 fn half_of(state: &State) -> usize {

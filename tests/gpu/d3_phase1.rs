@@ -6,7 +6,6 @@ use std::collections::BTreeSet;
 
 use crate::d3_inputs::{self as inputs, Input as Points};
 use gdel::internals::d3::mesh::FACETS;
-use gdel::internals::gpu::layout::{Active, FREE_START, FlipNode, Status, Waiting};
 use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::input::lattice::{Lattice, Width};
 use gdel::internals::reference::d3::{self, predicates::Vertex};
@@ -34,28 +33,10 @@ fn vertices(width: Width, words: &[i32]) -> Vec<Vertex> {
 /// The buffers of a run, as the references have them.
 fn state_of(gpu: &Gpu, width: Width, run: &Run<'_, 3>) -> State {
     let (params, counters) = run.control();
-    let active: Vec<Active> = read(gpu, &b.active);
-    let (even, odd) = active.split_at(active.len() / 2);
-    let mut waiting: Vec<Waiting> = read(gpu, &b.waiting);
-    waiting.drain(..(counters.waiting_half * params.infinite) as usize);
-    waiting.truncate(counters.entries as usize);
-    State {
-        width,
-        params,
-        points: vertices(width, &read(gpu, &b.points.vertices)),
-        first: [0; 4],
-        merged: read(gpu, &b.points.pairs).into_iter().map(|[key, _]| key == u32::MAX).collect(),
-        simplices: read(gpu, &b.simplices),
-        neighbors: read(gpu, &b.neighbors),
-        status: read::<Status>(gpu, &b.status),
-        messages: read(gpu, &b.messages),
-        active: [even.to_vec(), odd.to_vec()],
-        history: read::<FlipNode>(gpu, &b.history),
-        waiting,
-        scores: read(gpu, &b.scores),
-        counters,
-        own: d3::OwnState { free: read(gpu, &b.control)[FREE_START..].to_vec(), failed: read(gpu, &b.own.failed) },
-    }
+    let b = run.buffers();
+    let points = vertices(width, &read(gpu, &b.points.vertices));
+    let merged = read(gpu, &b.points.pairs).into_iter().map(|[key, _]| key == u32::MAX).collect();
+    download(gpu, b, &State { params, counters, merged, ..State::new(width, points, 0, 0) })
 }
 
 fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, settings: Settings<3>) {

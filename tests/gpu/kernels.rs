@@ -2,10 +2,21 @@
 
 use crate::states::{self, Own};
 use bytemuck::Pod;
-use gdel::internals::gpu::layout::{Counters, Params};
-use gdel::internals::gpu::layout::{FREE_START, PARAM_WORDS};
-use gdel::internals::gpu::{AdapterChoice, Binding, Gpu, Kernel, Readback, Recorder, Storage, shader::Shader};
-use gdel::internals::input::lattice::Width;
+use gdel::{
+    internals::{
+        dimension::Dimension,
+        gpu::{
+            AdapterChoice, Binding, Gpu, Kernel, Recorder, Storage,
+            dim::Dim,
+            phase1::Buffers,
+            points::{DevicePoints, InputCounts},
+            shader::Shader,
+        },
+        input::lattice::Width,
+        reference::{self, State},
+    },
+    wgpu,
+};
 use pollster::block_on;
 use rand::{SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;
@@ -45,6 +56,8 @@ where
 {
     pub kernels: Kernels,
     pub buffers: Buffers<D>,
+    scan: Storage<u32>,
+    offsets: Storage<u32>,
     /// What only some kernels are bound to.
     more: Vec<(&'static str, wgpu::Buffer)>,
 }
@@ -72,7 +85,10 @@ where
             counts: Storage::with_contents(gpu, "counts", &[counts]).unwrap(),
         };
         let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
-        Device { kernels, buffers, more: Vec::new() }
+        let scan = Storage::new(gpu, "scan parameters", 1).unwrap();
+        let offsets = Storage::new(gpu, "offsets", count).unwrap();
+        let more = vec![("scan", scan.buffer().clone()), ("offsets", offsets.buffer().clone())];
+        Device { kernels, buffers, scan, offsets, more }
     }
 
     /// Binds kernels to these buffers, too.
@@ -99,8 +115,36 @@ where
         self.kernels.run(Dimension::<D>::SHADERS.get(name), &buffers);
     }
 
-    pub fn read_counters(&self, control: &Storage<u32>) -> Counters {
-        *bytemuck::from_bytes(bytemuck::cast_slice(&self.read(control)[PARAM_WORDS..FREE_START]))
+    /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's
+    /// buffers.
+    pub fn both(&self, name: &str, state: &mut State<D>, reference: impl Fn(&mut State<D>)) -> State<D> {
+        self.upload(state);
+        self.run(name);
+        reference(state);
+        let device = self.download(state);
+        assert_eq!(device.counters, state.counters, "{name}");
+        device
+    }
+
+    /// Begins a round: one function of the reference; three kernels, and a scan.
+    pub fn begin_round(&self, state: &mut State<D>) {
+        self.upload(state);
+        self.run("begin_round");
+        reference::begin_round(state);
+        let entries = state.counters.entries_before;
+        assert_eq!(self.read(&self.scan), [entries], "begin_round");
+        self.run("waiting_mark");
+        let marks = &self.read(&self.buffers.marks)[..entries as usize];
+        let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
+        self.offsets.write(&self.kernels.gpu, 0, &offsets);
+        self.run("waiting_compact");
+        states::assert_equal(&self.download(state), state, "begin_round");
+    }
+
+    /// Runs a kernel and its reference, whose results are the same to the last bit.
+    pub fn equal(&self, name: &str, state: &mut State<D>, reference: impl Fn(&mut State<D>)) {
+        let device = self.both(name, state, reference);
+        states::assert_equal(&device, state, name);
     }
 }
 

@@ -17,7 +17,10 @@ pub struct OwnBuffers {
 
 impl dim::OwnBuffers for OwnBuffers {
     fn new(gpu: &Gpu, points: usize, _blocks: u32) -> Result<Self, Error> {
-        Ok(OwnBuffers { failed: Storage::new(gpu, "failed vertices", points)? })
+        Ok(OwnBuffers {
+            failed: Storage::new(gpu, "failed vertices", points)?,
+            tet_of: Storage::new(gpu, "tetrahedra of points", points + 1)?,
+        })
     }
 
     fn with_blocks(&self, _gpu: &Gpu, _encoder: &mut wgpu::CommandEncoder, _blocks: u32) -> Result<Self, Error> {
@@ -31,10 +34,10 @@ impl dim::OwnBuffers for OwnBuffers {
     }
 
     fn bindings(&self) -> Vec<Binding<'_>> {
-        vec![("failed", self.failed.buffer())]
+        vec![("failed", self.failed.buffer()), ("tet_of", self.tet_of.buffer())]
     }
 
     fn bytes(&self) -> u64 {
-        self.failed.bytes()
+        self.failed.bytes() + self.tet_of.bytes()
     }
 }

@@ -5,7 +5,7 @@ use crate::{
     error::Error,
     gpu::{
         Binding, Gpu, Recorder, Storage,
-        dim::{Dim, Dimension, Flip, OwnBuffers},
+        dim::{Dim, Flip, OwnBuffers},
         layout::{Active, BLOCK, FREE_START, PARAM_WORDS, Status, Waiting},
         points::DevicePoints,
     },

@@ -2,10 +2,11 @@
 //! inside (§3.1).
 
 use crate::{
-    Error,
+    dimension::Dimension,
+    error::Error,
     gpu::{
         Gpu, Kernel, Recorder,
-        dim::{Dim, Dimension},
+        dim::Dim,
         phase1::buffers::Buffers,
         waiting::{BoundWaitingList, WaitingList},
     },

@@ -1,11 +1,8 @@
 //! Waiting points along the history after the flips (§4.1).
 
 use crate::{
-    gpu::{
-        Gpu, Kernel, Recorder,
-        dim::Dim,
-        phase1::buffers::Buffers,
-    },
+    dimension::Dimension,
+    gpu::{Gpu, Kernel, Recorder, dim::Dim, phase1::buffers::Buffers},
     input::lattice::Width,
 };
 

@@ -5,7 +5,7 @@ use crate::{
     error::Error,
     gpu::{
         Gpu, Pending, Profiler, Recorder,
-        dim::{Dim, Dimension, Flip},
+        dim::{Dim, Flip},
         iterations::Iterations,
         layout::{BLOCK, COUNTER_WORDS, Counters, LOGGED, NONE, PARAM_WORDS, Params, SLOTS_FULL},
         phase1::{

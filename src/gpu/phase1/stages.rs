@@ -64,7 +64,7 @@ impl Stages {
             insert: self.insert.bind(gpu, b)?,
             flip: self.flip.bind(gpu, b),
             relocate: self.relocate.bind(gpu, b),
-            finish: Dimension::<D>::bind(&self.finish, gpu, b)?,
+            finish: self.finish.bind(gpu, b)?,
         })
     }
 }
@@ -75,6 +75,6 @@ where
 {
     /// Returns the bytes that they take on the device beside the buffers that they share.
     pub(crate) fn bytes(&self) -> u64 {
-        self.insert.bytes() + Dimension::<D>::bound_bytes(&self.finish)
+        self.insert.bytes()
     }
 }
