@@ -244,12 +244,18 @@ export function createBlocking3d(
     instance((glue) => withEmpty(glue.delaunay3d_blocking(points, outputsOf(glue, outputs))));
 }
 
-/** Does in 2D what {@link createBlocking3d} does in 3D. */
-export function createBlocking2d(
-  module: WebAssembly.Module,
-): (points: Coordinates) => Blocking<'delaunay2d'> {
+/**
+ * Does in 2D what {@link createBlocking3d} does in 3D, for callers that need the statistics and for
+ * those that do not.
+ */
+export function createBlocking2d(module: WebAssembly.Module) {
   const instance = blockingInstance(makeGlue2d, module);
-  return (points) => instance((glue) => glue.delaunay2d_blocking(points));
+  return {
+    mesh: (points: Coordinates): Blocking<'delaunay2d'> =>
+      instance((glue) => glue.delaunay2d_blocking(points, true)),
+    arrays: (points: Coordinates): Omit<Blocking<'delaunay2d'>, 'stats'> =>
+      instance((glue) => glue.delaunay2d_blocking(points, false)),
+  };
 }
 
 function blockingInstance(makeGlue: (globalThis: object) => any, module: WebAssembly.Module) {
@@ -263,9 +269,11 @@ function blockingInstance(makeGlue: (globalThis: object) => any, module: WebAsse
     const { glue, memory } = (instance ??= open());
     try {
       const mesh = triangulate(glue);
-      mesh.stats.adapter = null;
-      mesh.stats.milliseconds = performance.now() - started;
-      mesh.stats.wasmBytes = memory.buffer.byteLength;
+      if (mesh.stats) {
+        mesh.stats.adapter = null;
+        mesh.stats.milliseconds = performance.now() - started;
+        mesh.stats.wasmBytes = memory.buffer.byteLength;
+      }
       return mesh;
     } catch (thrown) {
       const error = toPlainError(thrown, memory.buffer.byteLength);

@@ -4,6 +4,7 @@ import { type Coordinates, inThisRealm, isDetached, kindOf } from './arrays.js';
 import { GdelError } from './errors.js';
 import { nameOf, objectOf } from './options.js';
 import { checkCount } from './points.js';
+import { startOf } from './start.js';
 import { load2d, triangulate2dNow } from './sync.js';
 
 /**
@@ -84,6 +85,14 @@ export class Delaunator<T extends ArrayLike<number> = Float64Array> {
   update(): void {
     const coordinates = numbers(this.coords);
     const { triangles, halfedges, hull, duplicateOf, dimension } = triangulate2dNow(coordinates);
+    const start = dimension < 2 ? undefined : startOf(coordinates, duplicateOf);
+    if (start) {
+      const { seed, last } = start;
+      // delaunator begins with the vertex before its last one. A triangle alone is the seed.
+      const second = last < 0 ? seed[1] : last;
+      startAt(hull, hull.indexOf(second) - 1);
+      if (triangles.length === 3) startAt(triangles, triangles.indexOf(seed[0]));
+    }
     Object.assign(this, { triangles, halfedges, hull, duplicateOf, dimension });
   }
 
@@ -101,6 +110,15 @@ function triangulated(coords: Float64Array): Delaunator<Float64Array> {
 }
 
 export { GdelError, type GdelErrorCode } from './errors.js';
+
+/** Lets a cyclic array start at an index, which may be −1 for the last one; −2 changes nothing. */
+function startAt(array: Uint32Array, index: number): void {
+  if (index < -1) return;
+  const start = (index + array.length) % array.length;
+  const before = array.slice(0, start);
+  array.copyWithin(0, start);
+  array.set(before, array.length - start);
+}
 
 function lengthOf(what: string, array: ArrayLike<unknown>): number {
   const { length } = objectOf(what, array);

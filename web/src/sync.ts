@@ -107,16 +107,16 @@ export function delaunay2dSync<T>(
 export function delaunay2dSync(points: unknown, options?: object): Mesh2 {
   const { triangulate, place } = loaded(loadable2d, 'load2d');
   const coordinates = coordinatesOf(points, 2, options);
-  const arrays = thrown(() => triangulate(coordinates));
+  const arrays = thrown(() => triangulate.mesh(coordinates));
   return new Mesh2({ ...arrays, points: coordinates }, place);
 }
 
-/** Does the same as {@link delaunay2dSync} for coordinates that are not copied. */
+/** Returns the arrays alone, for coordinates that are not copied. */
 export function triangulate2dNow(
   coordinates: Coordinates,
-): Omit<Tasks['delaunay2d']['result'], 'points'> {
+): Omit<Tasks['delaunay2d']['result'], 'points' | 'stats'> {
   const { triangulate } = loaded(loadable2d, 'Delaunator.load');
-  return thrown(() => triangulate(coordinates));
+  return thrown(() => triangulate.arrays(coordinates));
 }
 
 /** Returns the coordinates of points of any form. */
