@@ -85,7 +85,10 @@ const glue = {
         (name) =>
           `const ${name} = { [Symbol.hasInstance]: (e) => e?.constructor?.name === '${name}' };`,
       );
-      const contents = `export default function (globalThis) { const module = { exports: {} }; ${classes.join(' ')}\n${text}\nreturn module.exports; }`;
+      // jsdom does not have these, but Node below it does.
+      const coders =
+        "const { TextDecoder, TextEncoder } = globalThis.TextDecoder ? globalThis : globalThis.process.getBuiltinModule('node:util');";
+      const contents = `export default function (globalThis) { const module = { exports: {} }; ${classes.join(' ')} ${coders}\n${text}\nreturn module.exports; }`;
       return { contents, loader: 'js' };
     });
   },

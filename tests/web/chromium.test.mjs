@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launchChromium, WEBGPU } from './browsers.mjs';
 import { dist, pinned, project, root } from './package.mjs';
+import { testPages } from './pages.mjs';
 import { serve } from './server.mjs';
 
 const folder = project();
@@ -279,3 +280,5 @@ test('50 runs need no more memory than a few', async () => {
   assert.equal(bytes.at(-1), bytes[2]);
   await page.close();
 });
+
+testPages(() => browser, folders);

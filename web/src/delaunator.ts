@@ -35,7 +35,8 @@ export class Delaunator<T extends ArrayLike<number> = Float64Array> {
   halfedges!: Int32Array;
   /**
    * The vertices on the convex hull, including those in the middle of its edges, in the orientation
-   * of the triangles. If all points are collinear: the distinct points, sorted by x and then by y.
+   * of the triangles, beginning where delaunator does. If all points are collinear: the distinct
+   * points, sorted by x and then by y.
    */
   hull!: Uint32Array;
   /**

@@ -1,7 +1,7 @@
 // What environments differ in: where files are, how they are read, and how a worker is started. One
-// build serves all of them, by what is there. Node's modules are asked for and never imported:
-// bundlers would follow an import.
+// build serves all of them, by what is there.
 
+import { builtin } from './builtin.js';
 import { GdelError } from './errors.js';
 import type { FromWorker, ModuleName, ToWorker } from './protocol.js';
 
@@ -32,18 +32,6 @@ export interface Loaded<T> {
  * would otherwise be waited for without end.
  */
 const HANG_MILLISECONDS = 60_000;
-
-/** Returns a module of Node, and undefined where there are none. */
-function builtin<Name extends keyof BuiltInModules>(name: Name): BuiltInModules[Name] | undefined {
-  return globalThis.process?.getBuiltinModule?.(name);
-}
-
-interface BuiltInModules {
-  'node:fs/promises': typeof import('node:fs/promises');
-  'node:url': typeof import('node:url');
-  'node:worker_threads': typeof import('node:worker_threads');
-  'node:zlib': typeof import('node:zlib');
-}
 
 export const messageOf = (error: unknown): string =>
   error instanceof Error || (typeof error === 'object' && error && 'message' in error)
@@ -109,9 +97,14 @@ async function compileFile(url: URL): Promise<WebAssembly.Module> {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`${url.href}: ${response.status} ${response.statusText}`);
   // Streaming compilation needs the right type, which not every server sends.
-  if (response.headers.get('content-type')?.startsWith('application/wasm'))
-    return WebAssembly.compileStreaming(response);
-  return WebAssembly.compile(await response.arrayBuffer());
+  const isStream = response.headers.get('content-type')?.startsWith('application/wasm');
+  try {
+    return await (isStream
+      ? WebAssembly.compileStreaming(response)
+      : WebAssembly.compile(await response.arrayBuffer()));
+  } catch (cause) {
+    throw new Error(`${url.href}: ${messageOf(cause)}`, { cause });
+  }
 }
 
 async function decompressed(base64: string): Promise<BufferSource> {
@@ -139,7 +132,8 @@ export async function startWorker({
   file,
   copy,
 }: WorkerAsset): Promise<Loaded<WorkerThread>> {
-  if (typeof Worker === 'function') {
+  // The build for `require` knows files of a disk only.
+  if (typeof Worker === 'function' && (start || copy)) {
     return fileOrCopy(start && (() => whenReady(webWorker(start()))), copy, (source) =>
       whenReady(blobWorker(source)),
     );
@@ -179,6 +173,7 @@ function whenReady(thread: WorkerThread): Promise<WorkerThread> {
 
 /** A worker of the web's interface. */
 function webWorker(worker: Worker): WorkerThread {
+  const bun = worker as { ref?(): void; unref?(): void };
   return {
     post: (message, transfer) => worker.postMessage(message, transfer),
     onMessage: (handler) => worker.addEventListener('message', (event) => handler(event.data)),
@@ -192,7 +187,8 @@ function webWorker(worker: Worker): WorkerThread {
       );
     },
     terminate: () => worker.terminate(),
-    keepAlive() {},
+    // Browsers do not have these, Bun does.
+    keepAlive: (busy) => (busy ? bun.ref?.() : bun.unref?.()),
   };
 }
 

@@ -1,6 +1,7 @@
 // The worker: one task at a time, each in the core of its wasm module.
 
 import { buffersOf } from './arrays.js';
+import { builtin } from './builtin.js';
 import { type Core, makeCore } from './core.js';
 import type { PlainError } from './errors.js';
 import type { FromWorker, ModuleName, TaskName, Tasks, ToWorker } from './protocol.js';
@@ -58,15 +59,16 @@ interface Scope {
 }
 
 const scope = globalThis as unknown as Scope;
-if (typeof scope.postMessage === 'function') {
-  serve({
-    post: (message, transfer) => scope.postMessage(message, transfer),
-    listen: (handler) => scope.addEventListener('message', ({ data }) => handler(data)),
-  });
-} else {
-  const port = process.getBuiltinModule('node:worker_threads').parentPort!;
+// Bun has this port in every worker, and in some it is the only one.
+const port = builtin('node:worker_threads')?.parentPort;
+if (port) {
   serve({
     post: (message, transfer) => port.postMessage(message, transfer),
     listen: (handler) => port.on('message', handler),
+  });
+} else {
+  serve({
+    post: (message, transfer) => scope.postMessage(message, transfer),
+    listen: (handler) => scope.addEventListener('message', ({ data }) => handler(data)),
   });
 }
