@@ -123,6 +123,20 @@ pub enum Error {
         /// The number of tetrahedra, or triangles in 2D, that room was requested for.
         simplices: usize,
     },
+    /// A mesh was given with other points than its own.
+    #[error("the mesh has {expected} points, not {points}")]
+    PointCount {
+        /// The number of points that were given.
+        points: usize,
+        /// The number of points of the mesh.
+        expected: usize,
+    },
+    /// A mesh is not the Delaunay triangulation of the points that were given with it, and cannot be used.
+    #[error("the mesh is not the Delaunay triangulation of the points: {what}")]
+    BrokenMesh {
+        /// How that was noticed.
+        what: &'static str,
+    },
     /// The progress callback requested to stop.
     #[error("the triangulation was cancelled")]
     Cancelled,
@@ -147,7 +161,7 @@ impl Error {
             OutOfDeviceMemory { .. } | BufferTooLarge { .. } | Gpu { .. } => true,
             TooManyPoints { .. } | TooManySimplices { .. } => true,
             NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
-            OutOfMemory { .. } | Cancelled => false,
+            OutOfMemory { .. } | PointCount { .. } | BrokenMesh { .. } | Cancelled => false,
         }
     }
 }

@@ -40,8 +40,12 @@ mod triangulator;
 // The wings: 2D and 3D, file by file the same.
 mod d2;
 mod d3;
+mod geometry;
 #[cfg(feature = "gpu")]
 mod gpu;
+
+// What is derived from a mesh.
+mod derived;
 
 // What a run says about itself, and what is checked afterwards.
 mod backend;
@@ -70,6 +74,7 @@ pub use d3::{
     Mesh3,
     verify::{MeshView, verify3d},
 };
+pub use derived::{Location, Locator, Locator2};
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use gpu::{AdapterChoice, AdapterSummary};
@@ -77,7 +82,7 @@ pub use index::NONE;
 pub use input::points::{Points, Points2};
 #[cfg(feature = "mint")]
 pub use input::points::{from_mint2, from_mint3};
-pub use mesh::Stars;
+pub use mesh::{Csr, Mesh};
 pub(crate) use options::Options;
 pub use options::Progress;
 pub use predicates::{Sign, incircle, insphere, orient2d, orient3d};
@@ -159,6 +164,7 @@ pub mod internals {
         fields,
         #[cfg(feature = "gpu")]
         gpu,
+        geometry,
         index,
         input,
         #[cfg(feature = "io")]
