@@ -131,6 +131,14 @@ pub enum Error {
         /// The number of points of the mesh.
         expected: usize,
     },
+    /// There is not one value per point.
+    #[error("there are {values} values for {points} points")]
+    ValueCount {
+        /// The number of values.
+        values: usize,
+        /// The number of points.
+        points: usize,
+    },
     /// A mesh is not the Delaunay triangulation of the points that were given with it, and cannot be used.
     #[error("the mesh is not the Delaunay triangulation of the points: {what}")]
     BrokenMesh {
@@ -161,7 +169,8 @@ impl Error {
             OutOfDeviceMemory { .. } | BufferTooLarge { .. } | Gpu { .. } => true,
             TooManyPoints { .. } | TooManySimplices { .. } => true,
             NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
-            OutOfMemory { .. } | PointCount { .. } | BrokenMesh { .. } | Cancelled => false,
+            OutOfMemory { .. } | Cancelled => false,
+            PointCount { .. } | ValueCount { .. } | BrokenMesh { .. } => false,
         }
     }
 }

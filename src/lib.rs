@@ -74,7 +74,7 @@ pub use d3::{
     Mesh3,
     verify::{MeshView, verify3d},
 };
-pub use derived::{Location, Locator, Locator2};
+pub use derived::{Interpolation, Interpolator, Interpolator2, Location, Locator, Locator2};
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use gpu::{AdapterChoice, AdapterSummary};
@@ -161,6 +161,7 @@ pub mod internals {
     open!(
         d2,
         d3,
+        derived,
         fields,
         #[cfg(feature = "gpu")]
         gpu,

@@ -89,6 +89,8 @@ pub struct Locator<'a, const D: usize = 3, const N: usize = 4> {
     bounds: [[f64; D]; 2],
     /// A bound of the error of orientations with a query within `bounds`.
     orientation_bound: f64,
+    /// A power of two that makes the extent of the points neither large nor small.
+    pub(super) scale: f64,
     pub(super) key: CurveKey<D>,
     /// Some simplices, in the lower half, by the places of their first vertices along the curve, in the upper half.
     starts: Vec<u64>,
@@ -142,7 +144,8 @@ where
         let mut starts: Vec<u64> = complex.simplices.iter().enumerate().step_by(START_STRIDE).map(start).collect();
         starts.sort_unstable();
         let orientation_bound = orientation_bound(bounds);
-        Locator { complex, bounds, orientation_bound, key, starts, neighbors: OnceLock::new() }
+        let scale = vector::scale_of(bounds);
+        Locator { complex, bounds, orientation_bound, scale, key, starts, neighbors: OnceLock::new() }
     }
 
     /// Returns where a point lies.
@@ -254,10 +257,10 @@ where
             }
             if leave == N {
                 let simplex = if on_facet { self.first_around(query, t) } else { t };
-                return Ok(Place { simplex, beyond: None });
+                return Ok(Place { simplex, beyond: None, on_facet });
             }
             let Some(next) = self.complex.across(t, leave) else {
-                return Ok(Place { simplex: t, beyond: Some(leave) });
+                return Ok(Place { simplex: t, beyond: Some(leave), on_facet: false });
             };
             came_through = self.complex.facet_towards(next, t);
             t = next;
@@ -265,34 +268,44 @@ where
         Err(Error::BrokenMesh { what: "a walk over it does not end" })
     }
 
-    /// Returns the simplex with the first vertices, if they are sorted, of those around `t` that contain a query that lies on
-    /// the boundary of `t`.
-    #[inline(never)]
-    fn first_around(&self, query: [f64; D], t: usize) -> usize {
+    /// Returns the facets that contain a query, which simplex `t` contains, as (simplex, opposite vertex): all facets of the
+    /// hull, and those between simplices from both sides.
+    fn facets_at(&self, query: [f64; D], t: usize) -> Vec<(usize, usize)> {
         let bound = self.bound_with(query);
-        // The simplices around a face, across facets that contain the query.
+        let mut facets = Vec::new();
         let mut around = vec![t];
         let mut seen = FxHashSet::from_iter([t]);
-        let mut next = 0;
-        while let Some(&t) = around.get(next) {
-            next += 1;
+        while let Some(t) = around.pop() {
             let corners = self.complex.corners(t);
             let rows = corners.map(|p| vector::minus(p, query));
             for k in 0..N {
-                if let Some(across) = self.complex.across(t, k)
-                    && side(bound, &corners, &rows, k, query) == 0
-                    && seen.insert(across)
-                {
-                    around.push(across);
+                if side(bound, &corners, &rows, k, query) == 0 {
+                    facets.push((t, k));
+                    around.extend(self.complex.across(t, k).filter(|&across| seen.insert(across)));
                 }
             }
         }
+        facets
+    }
+
+    /// Returns the facets of the hull that contain a query, which simplex `t` contains, as (simplex, opposite vertex).
+    pub(super) fn hull_facets_at(&self, query: [f64; D], t: usize) -> Vec<(usize, usize)> {
+        let mut facets = self.facets_at(query, t);
+        facets.retain(|&(t, k)| self.complex.across(t, k).is_none());
+        facets
+    }
+
+    /// Returns the simplex with the first vertices, if they are sorted, of those that contain a query that lies on the boundary
+    /// of `t`.
+    #[inline(never)]
+    fn first_around(&self, query: [f64; D], t: usize) -> usize {
         let sorted = |t: usize| {
             let mut vertices = self.complex.simplices[t];
             vertices.sort_unstable();
             vertices
         };
-        around.into_iter().min_by_key(|&t| sorted(t)).unwrap_or(t)
+        let around = self.facets_at(query, t).into_iter().map(|(t, _)| t);
+        around.min_by_key(|&t| sorted(t)).unwrap_or(t)
     }
 }
 
@@ -302,6 +315,8 @@ pub(super) struct Place {
     pub(super) simplex: usize,
     /// The facet, opposite vertex *k*, that sees a point outside the hull.
     pub(super) beyond: Option<usize>,
+    /// Whether a point that is inside lies on a facet of the simplex.
+    pub(super) on_facet: bool,
 }
 
 /// Returns a bound of the error of orientations of points within a box.

@@ -6,8 +6,10 @@
 //! whatever the number of threads.
 
 mod complex;
+mod interpolate;
 mod locate;
 mod nearest;
 mod queries;
 
+pub use interpolate::{Interpolation, Interpolator, Interpolator2, StolenMeasures};
 pub use locate::{Location, Locator, Locator2};

@@ -29,6 +29,10 @@ impl Geometry<2, 3> for Euclidean {
         exact::incircle(a, b, c, p)
     }
 
+    fn determinant_in<T: Ring>([u, v]: &[[T; 2]; 2]) -> T {
+        u[0].clone() * v[1].clone() - u[1].clone() * v[0].clone()
+    }
+
     fn circumcenter_fraction<T: Ring>([b, c]: &[[T; 2]; 2]) -> ([T; 2], T) {
         let (bb, cc) = (polynomial::dot(b, b), polynomial::dot(c, c));
         let [[bx, by], [cx, cy]] = [b.clone(), c.clone()];

@@ -5,10 +5,11 @@
 
 mod d2;
 mod d3;
+pub(crate) mod real;
 pub(crate) mod vector;
 
 pub(crate) use d2::angles;
-pub(crate) use d3::dihedral_angles;
+pub(crate) use d3::{dihedral_angles, precise_triangle_circumcenter_offset, triangle_circumcenter_offset};
 
 use crate::{
     Points,
@@ -47,6 +48,9 @@ pub trait Geometry<const D: usize, const N: usize>: Copy + Send + Sync + 'static
 
     /// Returns 1 if a point is inside the circumsphere of a positively oriented simplex, −1 outside, 0 on it; exactly.
     fn in_sphere(simplex: &[[f64; D]; N], p: [f64; D]) -> Sign;
+
+    /// Returns the determinant of the rows, exactly if the ring is exact.
+    fn determinant_in<T: Ring>(rows: &[[T; D]; D]) -> T;
 
     /// Returns the circumcentre relative to the origin, which is a vertex of the simplex, times the second result. The
     /// edges lead to the other vertices.
@@ -107,20 +111,71 @@ fn exact_circumcenter_offset<const D: usize, const N: usize>(simplex: &[[f64; D]
 where
     Euclidean: Geometry<D, N>,
 {
-    let exponent = common_exponent(simplex.as_flattened());
-    let [origin, others @ ..] = &simplex.map(|p| p.map(|x| Big::new(x, exponent)))[..] else { return [0.0; D] };
-    let edges: [[Big; D]; D] = std::array::from_fn(|i| minus(&others[i], origin));
-    let (numerator, denominator) = Euclidean::circumcenter_fraction(&edges);
-    // A flat simplex has no circumcentre: that of a mesh is none.
-    if big_sign(&denominator) == 0 {
-        return [f64::INFINITY; D];
+    rounded(exact_offset::<D, N, D>(simplex, Euclidean::circumcenter_fraction))
+}
+
+/// A point as numerators, a positive denominator, and the exponent of a power of two.
+type Fraction<const D: usize> = ([Big; D], Big, i32);
+
+/// Returns a point relative to the first of the given points, exactly; `fraction` finds it from the differences of the others to
+/// the first. There is none if the denominator is 0.
+#[inline(never)]
+fn exact_offset<const D: usize, const K: usize, const E: usize>(
+    points: &[[f64; D]; K],
+    fraction: impl Fn(&[[Big; D]; E]) -> ([Big; D], Big),
+) -> Option<Fraction<D>> {
+    let exponent = common_exponent(points.as_flattened());
+    let integers = points.map(|p| p.map(|x| Big::new(x, exponent)));
+    let (numerator, denominator) = fraction(&std::array::from_fn(|i| minus(&integers[i + 1], &integers[0])));
+    match big_sign(&denominator) {
+        1 => Some((numerator, denominator, exponent)),
+        -1 => Some((numerator.map(|x| Big::from(0) - x), Big::from(0) - denominator, exponent)),
+        _ => None,
     }
-    let negative = big_sign(&denominator) < 0;
-    let denominator = if negative { Big::from(0) - denominator } else { denominator };
-    numerator.map(|x| {
-        let value = quotient(&x, &denominator, exponent);
-        if negative { -value } else { value }
+}
+
+/// Returns the coordinates of a point, correctly rounded unless they are subnormal; infinite ones if there is no point.
+fn rounded<const D: usize>(fraction: Option<Fraction<D>>) -> [f64; D] {
+    fraction.map_or([f64::INFINITY; D], |(numerator, denominator, exponent)| {
+        numerator.map(|x| quotient(&x, &denominator, exponent))
     })
+}
+
+/// Returns the barycentric coordinates of a point that a simplex contains. Their errors are below 2⁻³⁷, however flat the simplex
+/// is, and their sum is 1 up to rounding.
+pub(crate) fn barycentric<const D: usize, const N: usize>(simplex: &[[f64; D]; N], p: [f64; D]) -> [f64; N]
+where
+    Euclidean: Geometry<D, N>,
+{
+    let rows = simplex.map(|corner| vector::minus(corner, p));
+    // None is negative for a point inside.
+    let shares: [f64; N] = std::array::from_fn(|k| Euclidean::determinant(&facet(&rows, k)).max(0.0));
+    let sum: f64 = shares.iter().sum();
+    // The errors are at most 10·D!·2⁻⁵³·extentᴰ.
+    let extent = rows.as_flattened().iter().fold(0.0f64, |extent, x| extent.max(x.abs()));
+    if (1e-90..1e90).contains(&extent) && sum * 1024.0 > extent.powi(D as i32) {
+        return shares.map(|share| share / sum);
+    }
+    exact_barycentric(simplex, p)
+}
+
+#[inline(never)]
+fn exact_barycentric<const D: usize, const N: usize>(simplex: &[[f64; D]; N], p: [f64; D]) -> [f64; N]
+where
+    Euclidean: Geometry<D, N>,
+{
+    let exponent = common_exponent(simplex.as_flattened()).min(common_exponent(&p));
+    let integer = |p: [f64; D]| p.map(|x| Big::new(x, exponent));
+    let origin = integer(p);
+    let rows = simplex.map(|corner| minus(&integer(corner), &origin));
+    let shares: [Big; N] = std::array::from_fn(|k| {
+        Euclidean::determinant_in(&<Euclidean as Geometry<D, N>>::FACETS[k].map(|corner| rows[corner].clone()))
+    });
+    let sum = shares.iter().cloned().fold(Big::from(0), |sum, share| sum + share);
+    if big_sign(&sum) <= 0 {
+        return [f64::NAN; N];
+    }
+    shares.map(|share| quotient(&share, &sum, 0))
 }
 
 /// Returns the centre of the sphere through the vertices of a simplex: see [`circumcenter_offset`].

@@ -4,5 +4,6 @@
 mod clouds;
 mod geometry;
 mod inputs;
+mod interpolate;
 mod locate;
 mod nearest;
