@@ -139,6 +139,12 @@ pub enum Error {
         /// The number of points.
         points: usize,
     },
+    /// The box that a Voronoi diagram is to be clipped to has no inside, or is not finite.
+    #[error("the box has no inside: along the {axis} axis, its lower end must be below its upper end, and both finite")]
+    EmptyBox {
+        /// `'x'`, `'y'` or `'z'`.
+        axis: char,
+    },
     /// A mesh is not the Delaunay triangulation of the points that were given with it, and cannot be used.
     #[error("the mesh is not the Delaunay triangulation of the points: {what}")]
     BrokenMesh {
@@ -170,7 +176,7 @@ impl Error {
             TooManyPoints { .. } | TooManySimplices { .. } => true,
             NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
             OutOfMemory { .. } | Cancelled => false,
-            PointCount { .. } | ValueCount { .. } | BrokenMesh { .. } => false,
+            PointCount { .. } | ValueCount { .. } | EmptyBox { .. } | BrokenMesh { .. } => false,
         }
     }
 }

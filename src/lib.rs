@@ -74,7 +74,9 @@ pub use d3::{
     Mesh3,
     verify::{MeshView, verify3d},
 };
-pub use derived::{Interpolation, Interpolator, Interpolator2, Location, Locator, Locator2};
+pub use derived::{
+    Cell, Clip, Diagram, Interpolation, Interpolator, Interpolator2, Location, Locator, Locator2, Voronoi, Voronoi2,
+};
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use gpu::{AdapterChoice, AdapterSummary};

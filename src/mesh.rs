@@ -86,6 +86,18 @@ impl Csr {
         neighbors
     }
 
+    /// Appends a list.
+    pub(crate) fn push(&mut self, list: impl IntoIterator<Item = u32>) {
+        self.indices.extend(list);
+        self.offsets.push(self.indices.len());
+    }
+
+    /// Removes all lists.
+    pub(crate) fn clear(&mut self) {
+        self.offsets.truncate(1);
+        self.indices.clear();
+    }
+
     /// Gives each list to `arrange`, which may change the order within it.
     pub(crate) fn arrange(&mut self, mut arrange: impl FnMut(u32, &mut [u32])) {
         for (i, ends) in (0..).zip(self.offsets.windows(2)) {

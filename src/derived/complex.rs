@@ -10,7 +10,7 @@ use std::borrow::Cow;
 /// A mesh and its points, checked as far as indices need it: no index leads out of an array. That the mesh is the
 /// Delaunay triangulation of the points is not checked; what walks over the mesh limits its steps.
 #[derive(Debug, Clone)]
-pub(crate) struct Complex<'a, const D: usize, const N: usize> {
+pub struct Complex<'a, const D: usize, const N: usize> {
     pub(crate) points: Points<'a, D>,
     pub(crate) simplices: &'a [[u32; N]],
     /// Entry *k* is opposite vertex *k*, in 2D too.

@@ -86,7 +86,7 @@ impl Location {
 pub struct Locator<'a, const D: usize = 3, const N: usize = 4> {
     pub(super) complex: Complex<'a, D, N>,
     /// The minimum and the maximum of each axis.
-    bounds: [[f64; D]; 2],
+    pub(super) bounds: [[f64; D]; 2],
     /// A bound of the error of orientations with a query within `bounds`.
     orientation_bound: f64,
     /// A power of two that makes the extent of the points neither large nor small.

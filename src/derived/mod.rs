@@ -10,6 +10,8 @@ mod interpolate;
 mod locate;
 mod nearest;
 mod queries;
+mod voronoi;
 
 pub use interpolate::{Interpolation, Interpolator, Interpolator2, StolenMeasures};
 pub use locate::{Location, Locator, Locator2};
+pub use voronoi::{Cell, Clip, Diagram, Voronoi, Voronoi2, VoronoiShapes};

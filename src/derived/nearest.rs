@@ -98,7 +98,7 @@ where
     }
 
     /// Returns the neighbours of each vertex.
-    fn vertex_neighbors(&self) -> &Csr {
+    pub(super) fn vertex_neighbors(&self) -> &Csr {
         self.neighbors.get_or_init(|| Csr::vertex_neighbors(self.complex.simplices, self.complex.points.len()))
     }
 

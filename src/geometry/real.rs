@@ -9,7 +9,7 @@ use num_bigint::BigInt;
 use std::ops::{Add, Mul, Sub};
 
 /// A floating-point number.
-pub(crate) trait Real: Ring + Copy {
+pub trait Real: Ring + Copy {
     /// The largest relative error of an operation, and of a coordinate of a circumcentre by its circumradius as far as it
     /// is not along the normal of a flat simplex.
     const EPSILON: f64;

@@ -7,3 +7,4 @@ mod inputs;
 mod interpolate;
 mod locate;
 mod nearest;
+mod voronoi;

@@ -16,7 +16,6 @@ use rustc_hash::FxHashMap;
 #[doc(hidden)]
 pub trait StolenMeasures<const D: usize, const N: usize>: Geometry<D, N> {
     /// Fills in the measures of the vertices of a cavity, except for a factor that is the same for all.
-    #[expect(private_interfaces, private_bounds)]
     fn measure<T: Real>(cavity: &mut Cavity<T, D>);
 
     /// Appends the natural neighbours of a query on the facets of the hull that are listed, as (simplex, opposite vertex), with
@@ -35,7 +34,6 @@ impl StolenMeasures<2, 3> for Euclidean {
     ///
     /// An edge of a triangle of the cavity from *a* to *b* is dual to the Voronoi edge between the circumcentres on its left
     /// and its right, which runs clockwise around *a* and counter-clockwise around *b*.
-    #[expect(private_interfaces, private_bounds)]
     fn measure<T: Real>(Cavity { vertices, facets, magnitude }: &mut Cavity<T, 2>) {
         let area = |p: [T; 2], q: [T; 2]| p[0] * q[1] - p[1] * q[0];
         // The centre on the edge of the cavity's boundary that ends at each vertex, and on that which starts there.
@@ -81,7 +79,6 @@ impl StolenMeasures<3, 4> for Euclidean {
     /// side, which turns counter-clockwise around each edge of the facet, seen along the edge. The edge from *a* to *b* is
     /// dual to the Voronoi polygon between the cells of *a* and *b*; its triangles with a corner in the middle of *a* and
     /// *b* are the bases of pyramids with their apex at the query.
-    #[expect(private_interfaces, private_bounds)]
     fn measure<T: Real>(Cavity { vertices, facets, magnitude }: &mut Cavity<T, 3>) {
         let six_volumes = |o: [T; 3], p: [T; 3], q: [T; 3]| dot(o, cross(&p, &q));
         let reach = vertices.iter().map(|vertex| length(vertex.position)).fold(0.0, f64::max);

@@ -29,7 +29,7 @@ pub(super) const MAX_ERROR: f64 = 5e-11;
 
 /// A cavity as its vertices, facets and circumcentres, relative to the point.
 #[derive(Debug)]
-pub(super) struct Cavity<T, const D: usize> {
+pub struct Cavity<T, const D: usize> {
     pub(super) vertices: Vec<Vertex<T, D>>,
     /// Those between two simplices once, and those around the cavity.
     pub(super) facets: Vec<CavityFacet<T, D>>,
@@ -38,7 +38,7 @@ pub(super) struct Cavity<T, const D: usize> {
 }
 
 #[derive(Debug)]
-pub(super) struct Vertex<T, const D: usize> {
+pub struct Vertex<T, const D: usize> {
     pub(super) index: u32,
     pub(super) position: [T; D],
     /// What the point's cell takes from that of the vertex.
@@ -58,7 +58,7 @@ impl<T: Real, const D: usize> Vertex<T, D> {
 
 /// A facet of a cavity's simplex, and its dual Voronoi edge.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct CavityFacet<T, const D: usize> {
+pub struct CavityFacet<T, const D: usize> {
     /// Places in `vertices`: in the direction that has the simplex inside on the left in 2D, counter-clockwise as seen from
     /// the other side in 3D.
     pub(super) corners: [u32; D],
