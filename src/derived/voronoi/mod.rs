@@ -198,10 +198,10 @@ where
     /// ```
     /// use gdel::{Clip, Voronoi};
     ///
-    /// let points = [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [2.0, 2.0], [1.0, 1.0f64]];
+    /// let points = [[0.0, 0.0], [3.0, 0.0], [0.0, 3.0], [3.0, 3.0], [1.0, 2.0f64]];
     /// let mesh = gdel::delaunay2d(&points)?;
-    /// let sides = Voronoi::new(&mesh, &points, Clip::Hull)?.map_cells(|_, cell| cell.facets.len());
-    /// assert_eq!(sides, [3, 3, 3, 3, 4]);
+    /// let perimeters = Voronoi::new(&mesh, &points, Clip::Hull)?.map_cells(|_, cell| cell.areas.iter().sum::<f64>());
+    /// assert!((perimeters[2] - (2.0 + 2f64.sqrt())).abs() < 1e-14);
     /// # Ok::<(), gdel::Error>(())
     /// ```
     pub fn map_cells<R: Send>(&self, f: impl Fn(u32, &Cell<D>) -> R + Sync) -> Vec<R> {
@@ -281,8 +281,9 @@ where
     /// let facets = diagram.cells[4]..diagram.cells[5];
     /// assert_eq!(facets.len(), 4);
     /// assert!(facets.clone().all(|f| diagram.neighbors[f] < 4 && diagram.areas[f] == 0.5f64.sqrt()));
-    /// // Unbounded edges have one vertex.
-    /// assert_eq!(diagram.facets.of(diagram.cells[0] as u32).len(), 1);
+    /// // Unbounded edges have one vertex, that where they start.
+    /// let facets = diagram.cells[0]..diagram.cells[1];
+    /// assert!(facets.into_iter().all(|f| diagram.areas[f].is_infinite() == (diagram.facets.of(f as u32).len() == 1)));
     /// # Ok::<(), gdel::Error>(())
     /// ```
     pub fn diagram(&self) -> Diagram<D> {
@@ -412,7 +413,7 @@ where
     /// Makes the cell of vertex `v` from the box, or that around the hull, by clipping it with the bisectors of the cell's facets,
     /// which it replaces, and with the facets of the hull.
     fn clip_cell(&self, v: u32, worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
-        let Worker { cell, is_open, polytope, .. } = worker;
+        let Worker { cell, is_open, corners: facet_corners, polytope, .. } = worker;
         let complex = &self.locator.complex;
         let site = complex.point(v);
         let bounds = match self.clip {
@@ -435,11 +436,17 @@ where
         }
         cell.clear();
         is_open.clear();
+        let vertices = polytope.vertices();
         polytope.for_facets(|corners, name| {
-            cell.push(corners.iter().copied(), name);
-            is_open.push(false);
+            facet_corners.clear();
+            facet_corners.extend(corners.iter().map(|&v| vertices[v as usize]));
+            // Where a bisector only touches the rest of the cell, nothing is left of the facet.
+            if Euclidean::facet_measures(facet_corners).area > 0.0 {
+                cell.push(corners.iter().copied(), name);
+                is_open.push(false);
+            }
         });
-        cell.vertices.extend(polytope.vertices());
+        cell.vertices.extend(vertices);
         cell.simplices.resize(cell.vertices.len(), NONE);
     }
 }
