@@ -21,7 +21,7 @@ use crate::{
         order::missing_points,
         points::Points,
     },
-    mesh::Mesh,
+    mesh::MeshInfo,
     options::Options,
     parallel::Threads,
     stats::{Fallback, Phase, Stats, Stopwatch},
