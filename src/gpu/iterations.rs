@@ -44,7 +44,8 @@ impl Iterations {
             _ if used >= recorded => 2 * used,
             _ if is_late => used / 2 + MARGIN,
             _ if is_middle => used / 4 * 3 + MARGIN,
-            _ => used + MARGIN,
+            // The next rounds insert several times as many points, and take more iterations.
+            _ => (used + MARGIN).max(FIRST_PLANNED),
         };
         self.planned = wanted.clamp(MIN_PLANNED, MAX_PLANNED);
     }
