@@ -26,7 +26,7 @@ fn main() -> Result<(), gdel::Error> {
     // The corners of a Voronoi cell are the circumcentres of the triangles around its point, which
     // turn counter-clockwise.
     let stars = mesh.stars();
-    let cell: Vec<[f64; 2]> = stars.of(100).map(|t| mesh.circumcenter(&points, t)).collect();
+    let cell: Vec<[f64; 2]> = stars.of(100).iter().map(|&t| mesh.circumcenter(&points, t as usize)).collect();
     let twice_area: f64 = (0..cell.len())
         .map(|i| {
             let [[ax, ay], [bx, by]] = [cell[i], cell[(i + 1) % cell.len()]];

@@ -28,5 +28,5 @@ if $online; then
   step cargo deny --all-features check
   step cargo semver-checks
 else
-  step cargo deny --offline --all-features check bans licenses sources
+  step cargo deny --all-features check bans licenses sources
 fi

@@ -26,10 +26,14 @@ on_lavapipe() {
   fi
 }
 
-targets=(--all-features --lib --bins --tests --examples)
-build_crate() { cargo test --locked --no-run "${targets[@]}"; }
+targets=(--all-features --lib --bins --tests)
+build_crate() {
+  cargo test --locked --no-run "${targets[@]}" &&
+    cargo build --locked --all-features --examples
+}
 test_crate() {
-  on_lavapipe cargo test --locked "${targets[@]}" &&
+  build_crate &&
+    on_lavapipe cargo test --locked "${targets[@]}" &&
     on_lavapipe cargo test --locked --all-features --doc &&
     for example in examples/*.rs; do
       on_lavapipe "${CARGO_TARGET_DIR:-target}/debug/examples/$(basename "$example" .rs)" || return

@@ -14,7 +14,7 @@ use crate::{
         order::{Curve, Distinct, Order, insertion_order},
         points::Points,
     },
-    mesh::Mesh,
+    mesh::MeshInfo,
     options::Options,
     predicates::filter::PredicateContext,
     stats::{Phase, Stats, Stopwatch},
@@ -26,7 +26,7 @@ pub type MeshOf<const D: usize> = <Dimension<D> as Incremental<D>>::Mesh;
 /// What the CPU engine of a dimension has of its own.
 pub trait Incremental<const D: usize> {
     /// The result.
-    type Mesh: Mesh;
+    type Mesh: MeshInfo;
     /// The triangulation under construction.
     type Triangulation: Insert<D>;
 

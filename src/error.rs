@@ -126,6 +126,34 @@ pub enum Error {
         /// The number of tetrahedra, or triangles in 2D, that room was requested for.
         simplices: usize,
     },
+    /// A mesh was given with other points than its own.
+    #[error("the mesh has {expected} points, not {points}")]
+    PointCount {
+        /// The number of points that were given.
+        points: usize,
+        /// The number of points of the mesh.
+        expected: usize,
+    },
+    /// There is not one value per point.
+    #[error("there are {values} values for {points} points")]
+    ValueCount {
+        /// The number of values.
+        values: usize,
+        /// The number of points.
+        points: usize,
+    },
+    /// The box that a Voronoi diagram is to be clipped to has no inside, or is not finite.
+    #[error("the box has no inside: along the {axis} axis, its lower end must be below its upper end, and both finite")]
+    EmptyBox {
+        /// `'x'`, `'y'` or `'z'`.
+        axis: char,
+    },
+    /// A mesh is not the Delaunay triangulation of the points that were given with it, and cannot be used.
+    #[error("the mesh is not the Delaunay triangulation of the points: {what}")]
+    BrokenMesh {
+        /// How that was noticed.
+        what: &'static str,
+    },
     /// The progress callback requested to stop.
     #[error("the triangulation was cancelled")]
     Cancelled,
@@ -151,6 +179,7 @@ impl Error {
             TooManyPoints { .. } | TooManySimplices { .. } => true,
             NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
             OutOfMemory { .. } | Cancelled => false,
+            PointCount { .. } | ValueCount { .. } | EmptyBox { .. } | BrokenMesh { .. } => false,
         }
     }
 }

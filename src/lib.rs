@@ -46,8 +46,12 @@ mod cpu;
 mod d2;
 mod d3;
 mod dimension;
+mod geometry;
 #[cfg(feature = "gpu")]
 mod gpu;
+
+// What is derived from a mesh.
+mod derived;
 
 // What a run says about itself, and what is checked afterwards.
 mod backend;
@@ -77,6 +81,9 @@ pub use d3::{
     Mesh3,
     verify::{MeshView3, verify3d},
 };
+pub use derived::{
+    Cell, Clip, Diagram, Interpolation, Interpolator, Interpolator2, Location, Locator, Locator2, Voronoi, Voronoi2,
+};
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use gpu::{AdapterChoice, AdapterSummary};
@@ -84,7 +91,7 @@ pub use index::NONE;
 pub use input::points::{Points, Points2, Points3};
 #[cfg(feature = "mint")]
 pub use input::points::{from_mint2, from_mint3};
-pub use mesh::Stars;
+pub use mesh::{Csr, Mesh};
 pub use options::Progress;
 pub use predicates::{Sign, incircle, insphere, orient2d, orient3d};
 pub use triangulator::Triangulator;
@@ -168,9 +175,11 @@ pub mod internals {
         d2,
         d3,
         dimension,
+        derived,
         fields,
         #[cfg(feature = "gpu")]
         gpu,
+        geometry,
         index,
         input,
         #[cfg(feature = "io")]

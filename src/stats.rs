@@ -300,7 +300,8 @@ with_fields! {
         pub flips: u32,
         /// The number of flip iterations that had something to do.
         pub iterations: u32,
-        /// The time from the end of the previous round, by the host's clock.
+        /// The time by the host's clock: an equal share of that of the rounds which were submitted
+        /// together.
         #[cfg_attr(feature = "serde", serde(rename = "seconds", serialize_with = "serialize::seconds"))]
         pub time: Duration,
     }

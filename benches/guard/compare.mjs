@@ -50,10 +50,8 @@ const SECTIONS = {
   sizes() {
     const dist = join(root, 'web/dist');
     if (!existsSync(dist)) throw new Error('web/dist is missing: run `npm run build` first');
-    // inline.js holds the others.
-    const files = readdirSync(dist).filter(
-      (file) => /\.(wasm|js)$/.test(file) && file !== 'inline.js',
-    );
+    // The others are copies of these in another form.
+    const files = readdirSync(dist).filter((file) => /^(?!inline).*\.(wasm|js)$/.test(file));
     return files.flatMap((file) => {
       const content = readFileSync(join(dist, file));
       return [

@@ -16,7 +16,7 @@ import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import Delaunator from 'delaunator';
 import { loadQhull } from 'qhull-wasm';
-import { createTriangulator, generate, Delaunator as Ours } from '../../web/dist/node.js';
+import { createTriangulator, generate, Delaunator as Ours } from '../../web/dist/index.js';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
 const { values } = parseArgs({

@@ -28,7 +28,7 @@ const { values } = parseArgs({
   },
 });
 const load = (folder, file) => import(pathToFileURL(join(resolve(folder), file)));
-const { createTriangulator, generate } = await load(values.package, 'node.js');
+const { createTriangulator, generate } = await load(values.package, 'index.js');
 const { create } = await load(values.webgpu, 'index.js');
 
 const folder = mkdtempSync(join(tmpdir(), 'gdel-bench-'));

@@ -22,6 +22,9 @@ struct UncertainTest {
 const COUNTER_CLOCKWISE: u32 = 0xffffffff;
 const FLAT: u32 = 0xfffffffe;
 
+// A flip in the history.
+alias HistoryNode = EdgeFlip;
+
 // A triangle by its vertices.
 alias Simplex = vec3u;
 const CORNERS: u32 = 3;

@@ -10,12 +10,18 @@ const FLIP_23: u32 = 1;
 const FLIP_32: u32 = 2;
 const SLOT_SHIFT: u32 = 2;
 
+// Its parts take 16 bytes each, so that they are written and read as a whole.
 struct FlipNode {
-    vertices: array<u32, 5>,
+    ring: vec3u,
+    d: u32,
+    tets: vec3u,
+    e: u32,
+    next: vec3u,
     kind: u32,
-    tets: array<u32, 3>,
-    next: array<u32, 3>,
 }
+
+// A flip in the history.
+alias HistoryNode = FlipNode;
 
 // A tetrahedron by its vertices.
 alias Simplex = vec4u;
@@ -34,6 +40,11 @@ fn unpacked(words: vec4u) -> Simplex {
 // Returns the corners of the facet opposite vertex k, counter-clockwise as seen from outside.
 fn facet(k: u32) -> vec3u {
     return select(select(select(vec3u(0, 2, 1), vec3u(0, 1, 3), k == 2), vec3u(0, 3, 2), k == 1), vec3u(1, 2, 3), k == 0);
+}
+
+// Returns a facet's corners from corner `turn` on.
+fn turned(f: vec3u, turn: u32) -> vec3u {
+    return select(select(f, f.yzx, turn == 1), f.zxy, turn == 2);
 }
 
 // Returns the place of a vertex in a tetrahedron that has it.

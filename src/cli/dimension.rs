@@ -26,7 +26,7 @@ pub(super) enum Dimension {
 }
 
 /// A mesh that the commands make and verify.
-pub(super) trait Triangulation<const D: usize, const N: usize>: io::Mesh<D, N> + mesh::Mesh + Sized {
+pub(super) trait Triangulation<const D: usize, const N: usize>: io::Mesh<D, N> + mesh::MeshInfo + Sized {
     fn triangulate(points: Points<'_, D>, triangulator: &Triangulator) -> Result<Self, Error>;
     fn verify(points: Points<'_, D>, mesh: &Self) -> Result<Proof, Error>;
     fn verify_data(points: Points<'_, D>, mesh: &MeshData<D, N>) -> Result<Proof, Error>;

@@ -1,11 +1,13 @@
 //! The result: triangles, their half-edges, and the hull.
 
 use crate::{
+    geometry,
     index::NONE,
     input::points::Points2,
-    mesh::{self, Stars, common_methods},
+    mesh::{self, Csr, common_methods},
     stats::Stats,
 };
+use std::borrow::Cow;
 
 /// A 2D Delaunay triangulation.
 ///
@@ -86,15 +88,44 @@ impl Mesh2 {
         (0..count).map(move |i| [self.hull[i], self.hull[(i + 1) % count]])
     }
 
-    /// Returns the triangles around every vertex.
-    pub fn stars(&self) -> Stars {
-        let mut stars = Stars::new(&self.triangles, self.duplicate_of.len());
+    /// Returns the triangles around every vertex, counter-clockwise; the first one lies behind the hull edge that starts at
+    /// the vertex if there is one. A duplicate has none.
+    pub fn stars(&self) -> Csr {
+        let mut stars = Csr::stars(&self.triangles, self.duplicate_of.len());
         stars.arrange(|v, star| self.turn(v, star));
         stars
     }
 
-    /// Orders the triangles around a vertex counter-clockwise, from the one behind the hull edge
-    /// that starts there, if any.
+    /// Returns the vertices that every vertex has an edge to, in ascending order; none for duplicates.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.5f64]];
+    /// let neighbors = gdel::delaunay2d(&points)?.vertex_neighbors();
+    /// assert_eq!(neighbors.of(0), [1, 2, 3]);
+    /// assert_eq!(neighbors.of(1), [0, 2]);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn vertex_neighbors(&self) -> Csr {
+        Csr::vertex_neighbors(&self.triangles, self.duplicate_of.len())
+    }
+
+    /// Returns for every point the lowest triangle that has it as a vertex; [`NONE`](crate::NONE) for duplicates, and for
+    /// all points if there are no triangles.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0f64]];
+    /// assert_eq!(gdel::delaunay2d(&points)?.vertex_triangle(), [0, 0, 0, gdel::NONE]);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn vertex_triangle(&self) -> Vec<i32> {
+        mesh::vertex_simplex(&self.triangles, self.duplicate_of.len())
+    }
+
+    /// Orders the triangles around a vertex counter-clockwise, from the one behind the hull edge that starts there, if any.
     fn turn(&self, v: u32, star: &mut [u32]) {
         let corner = |t: u32| self.triangles[t as usize].iter().position(|&w| w == v).unwrap_or(0);
         let behind_the_hull = |&t: &u32| self.halfedges[t as usize][corner(t)] == NONE;
@@ -113,24 +144,106 @@ impl Mesh2 {
     /// Returns the centre of the circle through the vertices of triangle `t`, where `points` are
     /// those of the mesh.
     ///
-    /// It is computed in `f64`, so it is exact for no mesh, and far off or not finite for triangles
-    /// that are nearly flat.
+    /// The error is at most 2⁻³⁷ times the radius, however flat the triangle is, plus the rounding of the result.
     ///
     /// # Panics
     ///
     /// Panics if there is no triangle `t`, or if its vertices are not among the points.
     pub fn circumcenter<'a>(&self, points: impl Into<Points2<'a>>, t: usize) -> [f64; 2] {
         let points = points.into();
-        let [[ax, ay], b, c] = self.triangles[t].map(|v| points.get(v as usize));
-        let [[bx, by], [cx, cy]] = [b, c].map(|[x, y]| [x - ax, y - ay]);
-        let (bb, cc) = (bx * bx + by * by, cx * cx + cy * cy);
-        let twice_det = 2.0 * (bx * cy - by * cx);
-        [ax + (cy * bb - by * cc) / twice_det, ay + (bx * cc - cx * bb) / twice_det]
+        geometry::circumcenter(&self.triangles[t].map(|v| points.get(v as usize)))
+    }
+
+    /// Returns the centres of the circles through the vertices of all triangles: the vertices of the Voronoi diagram.
+    ///
+    /// `points` are those of the mesh. The errors are those of [`circumcenter`](Self::circumcenter).
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0], [8.0, 0.0], [0.0, 6.0f64]];
+    /// let mesh = gdel::delaunay2d(&points)?;
+    /// assert_eq!(mesh.circumcenters(&points).next(), Some([4.0, 3.0]));
+    /// assert_eq!(mesh.circumradii(&points).next(), Some(5.0));
+    /// assert_eq!(mesh.areas(&points).next(), Some(24.0));
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn circumcenters<'a>(&'a self, points: impl Into<Points2<'a>>) -> impl ExactSizeIterator<Item = [f64; 2]> + 'a {
+        geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::circumcenter(&t))
+    }
+
+    /// Returns the radii of the circles through the vertices of all triangles, with relative errors below 2⁻³⁶.
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    pub fn circumradii<'a>(&'a self, points: impl Into<Points2<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
+        geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::circumradius(&t))
+    }
+
+    /// Returns the areas of all triangles. The errors are at most 2⁻⁵⁰ times the product of the edges at a vertex.
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    pub fn areas<'a>(&'a self, points: impl Into<Points2<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
+        geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::measure(&t))
+    }
+
+    /// Returns twice the radius of the inscribed circle by that of the circumscribed circle for all triangles: 1 for
+    /// equilateral triangles, near 0 for flat ones.
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0f64]];
+    /// let mesh = gdel::delaunay2d(&points)?;
+    /// // The radii are 1 and 2.5.
+    /// let quality = mesh.radius_ratios(&points).next().unwrap();
+    /// assert!((quality - 0.8).abs() < 1e-15);
+    /// let angles = mesh.angles(&points).next().unwrap();
+    /// assert!((angles.iter().sum::<f64>().to_degrees() - 180.0).abs() < 1e-12);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn radius_ratios<'a>(&'a self, points: impl Into<Points2<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
+        geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::radius_ratio(&t))
+    }
+
+    /// Returns the angles of all triangles at their vertices, in radians.
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    pub fn angles<'a>(&'a self, points: impl Into<Points2<'a>>) -> impl ExactSizeIterator<Item = [f64; 3]> + 'a {
+        geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::angles(&t))
     }
 
     /// Returns the triangles in a form that is equal for equal meshes: the vertices ascend within
     /// each triangle, and the triangles ascend.
     pub fn canonical(&self) -> Vec<[u32; 3]> {
         mesh::canonical(&self.triangles)
+    }
+}
+
+impl mesh::Mesh<2, 3> for Mesh2 {
+    fn simplices(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    fn opposites(&self) -> Cow<'_, [[i32; 3]]> {
+        let triangle = |halfedge: i32| if halfedge == NONE { NONE } else { halfedge / 3 };
+        self.halfedges.iter().map(move |&[ab, bc, ca]| [bc, ca, ab].map(triangle)).collect()
+    }
+
+    fn duplicate_of(&self) -> &[i32] {
+        &self.duplicate_of
     }
 }

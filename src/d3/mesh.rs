@@ -1,18 +1,20 @@
 //! The result: tetrahedra, their neighbours, and the hull.
 
 use crate::{
+    geometry,
     index::NONE,
     input::points::Points3,
-    mesh::{self, Stars, common_methods},
+    mesh::{self, Csr, common_methods},
     stats::Stats,
 };
+use std::borrow::Cow;
 
 /// The corners of the facet opposite vertex *k* of a positively oriented tetrahedron,
 /// counter-clockwise as seen from outside the tetrahedron.
 pub const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// The vertices of the edges of a tetrahedron.
-const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+pub(crate) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
 /// A 3D Delaunay triangulation.
 ///
@@ -138,37 +140,146 @@ impl Mesh3 {
         vertices
     }
 
-    /// Returns the tetrahedra around every vertex.
-    pub fn stars(&self) -> Stars {
-        Stars::new(&self.tetrahedra, self.duplicate_of.len())
+    /// Returns the tetrahedra around every vertex, in ascending order; none around duplicates.
+    pub fn stars(&self) -> Csr {
+        Csr::stars(&self.tetrahedra, self.duplicate_of.len())
+    }
+
+    /// Returns the vertices that every vertex has an edge to, in ascending order; none for duplicates.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0f64]];
+    /// let neighbors = gdel::delaunay3d(&points)?.vertex_neighbors();
+    /// assert_eq!(neighbors.of(0), [1, 2, 3]);
+    /// assert_eq!(neighbors.of(1), [0, 2, 3, 4]);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn vertex_neighbors(&self) -> Csr {
+        Csr::vertex_neighbors(&self.tetrahedra, self.duplicate_of.len())
+    }
+
+    /// Returns for every point the lowest tetrahedron that has it as a vertex; [`NONE`] for duplicates, and for all points
+    /// if there are no tetrahedra.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0f64]];
+    /// assert_eq!(gdel::delaunay3d(&points)?.vertex_tetrahedron(), [0, 0, 0, 0, gdel::NONE]);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn vertex_tetrahedron(&self) -> Vec<i32> {
+        mesh::vertex_simplex(&self.tetrahedra, self.duplicate_of.len())
     }
 
     /// Returns the centre of the sphere through the vertices of tetrahedron `t`, where `points` are
     /// those of the mesh.
     ///
-    /// It is computed in `f64`, so it is exact for no mesh, and far off or not finite for
-    /// tetrahedra that are nearly flat.
+    /// The error is at most 2⁻³⁷ times the radius, however flat the tetrahedron is, plus the rounding of the result.
     ///
     /// # Panics
     ///
     /// Panics if there is no tetrahedron `t`, or if its vertices are not among the points.
     pub fn circumcenter<'a>(&self, points: impl Into<Points3<'a>>, t: usize) -> [f64; 3] {
         let points = points.into();
-        let [a, b, c, d] = self.tetrahedra[t].map(|v| points.get(v as usize));
-        let minus = |p: [f64; 3]| [0, 1, 2].map(|i| p[i] - a[i]);
-        let cross =
-            |[ux, uy, uz]: [f64; 3], [vx, vy, vz]: [f64; 3]| [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
-        let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-        let [b, c, d] = [b, c, d].map(minus);
-        let (cd, db, bc) = (cross(c, d), cross(d, b), cross(b, c));
-        let [bb, cc, dd] = [b, c, d].map(|u| dot(u, u));
-        let twice_det = 2.0 * dot(b, cd);
-        [0, 1, 2].map(|i| a[i] + (bb * cd[i] + cc * db[i] + dd * bc[i]) / twice_det)
+        geometry::circumcenter(&self.tetrahedra[t].map(|v| points.get(v as usize)))
+    }
+
+    /// Returns the centres of the spheres through the vertices of all tetrahedra: the vertices of the Voronoi diagram.
+    ///
+    /// `points` are those of the mesh. The errors are those of [`circumcenter`](Self::circumcenter).
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0f64]];
+    /// let mesh = gdel::delaunay3d(&points)?;
+    /// assert_eq!(mesh.circumcenters(&points).next(), Some([1.0, 1.0, 1.0]));
+    /// assert_eq!(mesh.circumradii(&points).next(), Some(3f64.sqrt()));
+    /// assert_eq!(mesh.volumes(&points).sum::<f64>(), 4.0 / 3.0);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn circumcenters<'a>(&'a self, points: impl Into<Points3<'a>>) -> impl ExactSizeIterator<Item = [f64; 3]> + 'a {
+        geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::circumcenter(&t))
+    }
+
+    /// Returns the radii of the spheres through the vertices of all tetrahedra, with relative errors below 2⁻³⁶.
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    pub fn circumradii<'a>(&'a self, points: impl Into<Points3<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
+        geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::circumradius(&t))
+    }
+
+    /// Returns the volumes of all tetrahedra. The errors are at most 2⁻⁵⁰ times the product of the edges at a vertex.
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    pub fn volumes<'a>(&'a self, points: impl Into<Points3<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
+        geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::measure(&t))
+    }
+
+    /// Returns three times the radius of the inscribed sphere by that of the circumscribed sphere for all tetrahedra: 1 for
+    /// regular tetrahedra, near 0 for flat ones.
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[1.0, 1.0, 1.0], [-1.0, -1.0, 1.0], [-1.0, 1.0, -1.0], [1.0, -1.0, -1.0f64]];
+    /// let mesh = gdel::delaunay3d(&points)?;
+    /// let quality = mesh.radius_ratios(&points).next().unwrap();
+    /// assert!((quality - 1.0).abs() < 1e-15);
+    /// // All six dihedral angles are arccos(1/3).
+    /// let angles = mesh.dihedral_angles(&points).next().unwrap();
+    /// assert!(angles.iter().all(|angle| (angle.to_degrees() - 70.528779).abs() < 1e-6));
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn radius_ratios<'a>(&'a self, points: impl Into<Points3<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
+        geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::radius_ratio(&t))
+    }
+
+    /// Returns the dihedral angles of all tetrahedra in radians, at the edges between vertices 0 and 1, 0 and 2, 0 and 3,
+    /// 1 and 2, 1 and 3, 2 and 3.
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    pub fn dihedral_angles<'a>(
+        &'a self,
+        points: impl Into<Points3<'a>>,
+    ) -> impl ExactSizeIterator<Item = [f64; 6]> + 'a {
+        geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::dihedral_angles(&t))
     }
 
     /// Returns the tetrahedra in a form that is equal for equal meshes: the vertices ascend within
     /// each tetrahedron, and the tetrahedra ascend.
     pub fn canonical(&self) -> Vec<[u32; 4]> {
         mesh::canonical(&self.tetrahedra)
+    }
+}
+
+impl mesh::Mesh<3, 4> for Mesh3 {
+    fn simplices(&self) -> &[[u32; 4]] {
+        &self.tetrahedra
+    }
+
+    fn opposites(&self) -> Cow<'_, [[i32; 4]]> {
+        Cow::Borrowed(&self.neighbors)
+    }
+
+    fn duplicate_of(&self) -> &[i32] {
+        &self.duplicate_of
     }
 }

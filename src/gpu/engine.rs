@@ -21,7 +21,7 @@ use crate::{
         order::missing_points,
         points::Points,
     },
-    mesh::Mesh,
+    mesh::MeshInfo,
     options::Options,
     parallel::Threads,
     stats::{Fallback, Phase, Stats, Stopwatch},
@@ -159,11 +159,15 @@ where
         stats.phases.push((Phase::Lattice, stopwatch.lap()));
 
         options.report(Phase::Phase1, progress::PHASE_1)?;
-        let settings = Settings { winding: options.winding, ..self.settings };
+        let mut settings = Settings { winding: options.winding, ..self.settings };
+        if options.trace {
+            // What is traced is the triangulation after each round.
+            (settings.rounds, settings.batches) = (1, 1);
+        }
         let (gpu, phase1) = self.kernels(lattice.width()).await?;
         let mut run = Run::new(phase1, gpu, Input { points, lattice: &lattice, start }, settings, None).await?;
         loop {
-            let more = run.round().await?;
+            let more = run.advance().await?;
             Dimension::<D>::trace_round(&mut tracer, gpu, &run).await?;
             let inserted = 1.0 - f64::from(run.waiting()) / points.len() as f64;
             options.report(Phase::Phase1, progress::PHASE_1 + Dimension::<D>::ROUNDS_SHARE * inserted)?;

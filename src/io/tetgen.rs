@@ -48,8 +48,9 @@ pub fn write_ele<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl Wri
 ///
 /// When `to` cannot be written.
 pub fn write_neigh<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl Write, mesh: &M) -> io::Result<()> {
-    writeln!(to, "{} {N}", mesh.opposites().len())?;
-    write_rows(to, mesh.opposites())
+    let opposites = mesh.opposites();
+    writeln!(to, "{} {N}", opposites.len())?;
+    write_rows(to, opposites.iter().copied())
 }
 
 /// Writes the rows, numbered from 0, and a comment where TetGen and Triangle have theirs.

@@ -20,7 +20,8 @@ where
         return;
     }
     let half = (iteration & 1) as usize;
-    let mark = state.changed_mark(iteration);
+    let bids = state.link_bids();
+    let mark = bids.changed_mark();
     for i in 0..state.counters.active_len[half] as usize {
         let Active { tet: t, outcome } = state.active[half][i];
         if outcome & DONE == 0 {
@@ -45,6 +46,7 @@ where
         }
     }
     state.counters.iteration = iteration + 1;
+    state.counters.bid_base = bids.next_base();
     if state.compacts(iteration) {
         state.counters.active_len[1 - half] = 0;
     }

@@ -21,7 +21,7 @@ use crate::{
     cpu::{self, Incremental, MeshOf},
     dimension::Dimension,
     input::points::Points,
-    mesh::Mesh,
+    mesh::MeshInfo,
     stats::Fallback,
 };
 #[cfg(feature = "gpu")]

@@ -14,7 +14,7 @@ use crate::{
         phase1::Finish,
     },
     input::points::{Points, Points2, Points3},
-    mesh::Mesh,
+    mesh::MeshInfo,
     options::Options,
     stats::Fallback,
 };

@@ -39,8 +39,11 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<2>; 2], name: &str, points:
     let mut run = block_on(Run::new(kernels, gpu, input, settings, None)).unwrap();
     let mut more = true;
     while more {
-        more = block_on(run.round()).unwrap();
-        state_of(gpu, width, &run).validate();
+        more = block_on(run.advance()).unwrap();
+        // Where batches overlap, the device is ahead of what was read.
+        if settings.batches == 1 || !more {
+            state_of(gpu, width, &run).validate();
+        }
     }
     let state = state_of(gpu, width, &run);
     state.validate_end();
@@ -73,7 +76,7 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<2>; 2], name: &str, points:
 fn every_round_is_valid() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let mut kernels = [Width::Narrow, Width::Wide].map(|width| block_on(Phase1::new(&gpu, width)).unwrap());
-    let settings = Settings::default();
+    let settings = Settings { rounds: 1, batches: 1, ..Settings::default() };
     for (name, points) in crate::d2_inputs::all() {
         // The factor makes too many bits for a narrow lattice, but not for `f64`.
         for factor in [1, 0x4000_0003] {

@@ -33,11 +33,10 @@ fn essence(state: &State) -> (BTreeSet<Vec<u32>>, BTreeSet<Vec<u32>>) {
     });
     let nodes = (state.counters.next_node - state.counters.first_node) as usize;
     let flips = state.history[..nodes].iter().map(|node| {
-        let mut record = node.vertices.to_vec();
-        record.push(node.kind);
+        let mut record = [&node.ring[..], &[node.d, node.e, node.kind]].concat();
         record.extend(node.next.map(|next| match next {
             NONE => NONE,
-            next => state.history[(next - state.counters.first_node) as usize].vertices[0],
+            next => state.history[(next - state.counters.first_node) as usize].ring[0],
         }));
         record
     });
@@ -79,8 +78,9 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
         reference::start(s, first);
         reference::locate(s);
     });
-    while !state.waiting.is_empty() {
+    while state.waiting.iter().any(|entry| entry.tet != NONE) {
         state.messages.fill([0; 4]);
+        device.begin_round(&mut state);
         device.equal("pick_score", &mut state, reference::pick_score);
         device.equal("pick_point", &mut state, reference::pick_point);
 
@@ -111,8 +111,6 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
             state.validate_mesh();
         }
         device.equal("relocate", &mut state, reference::relocate);
-        state.waiting.retain(|w| w.tet != NONE);
-        state.params.entries = state.waiting.len() as u32;
     }
     // Every facet is suspect, so that there is something to look at.
     state.status.iter_mut().for_each(|s| s.flags |= CHECK << 4);

@@ -13,7 +13,7 @@ use gdel::{
             shader::Shader,
         },
         input::lattice::Width,
-        reference::State,
+        reference::{self, State},
     },
     wgpu,
 };
@@ -56,6 +56,8 @@ where
 {
     pub kernels: Kernels,
     pub buffers: Buffers<D>,
+    scan: Storage<u32>,
+    offsets: Storage<u32>,
     /// What only some kernels are bound to.
     more: Vec<(&'static str, wgpu::Buffer)>,
 }
@@ -83,7 +85,10 @@ where
             counts: Storage::with_contents(gpu, "counts", &[counts]).unwrap(),
         };
         let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
-        Device { kernels, buffers, more: Vec::new() }
+        let scan = Storage::new(gpu, "scan parameters", 1).unwrap();
+        let offsets = Storage::new(gpu, "offsets", count).unwrap();
+        let more = vec![("scan", scan.buffer().clone()), ("offsets", offsets.buffer().clone())];
+        Device { kernels, buffers, scan, offsets, more }
     }
 
     /// Binds kernels to these buffers, too.
@@ -119,6 +124,21 @@ where
         let device = self.download(state);
         assert_eq!(device.counters, state.counters, "{name}");
         device
+    }
+
+    /// Begins a round: one function of the reference; three kernels, and a scan.
+    pub fn begin_round(&self, state: &mut State<D>) {
+        self.upload(state);
+        self.run("begin_round");
+        reference::begin_round(state);
+        let entries = state.counters.entries_before;
+        assert_eq!(self.read(&self.scan), [entries], "begin_round");
+        self.run("waiting_mark");
+        let marks = &self.read(&self.buffers.marks)[..entries as usize];
+        let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
+        self.offsets.write(&self.kernels.gpu, 0, &offsets);
+        self.run("waiting_compact");
+        states::assert_equal(&self.download(state), state, "begin_round");
     }
 
     /// Runs a kernel and its reference, whose results are the same to the last bit.

@@ -5,7 +5,7 @@ use gdel::internals::{
     dimension::Dimension,
     gpu::{
         Gpu, Readback, Storage,
-        layout::{Counters, PARAM_WORDS, Params},
+        layout::{Counters, FREE_START, PARAM_WORDS, Params},
         phase1::Buffers,
     },
     reference::{State, d3, dim::ReferenceDim},
@@ -28,12 +28,12 @@ impl Own<2> for Dimension<2> {
 
 impl Own<3> for Dimension<3> {
     fn write(gpu: &Gpu, b: &Buffers<3>, own: &d3::OwnState) {
-        b.own.free.write(gpu, 0, &own.free);
+        b.control.write(gpu, FREE_START, &own.free);
         b.own.failed.write(gpu, 0, &own.failed);
     }
 
     fn read(gpu: &Gpu, b: &Buffers<3>) -> d3::OwnState {
-        d3::OwnState { free: read(gpu, &b.own.free), failed: read(gpu, &b.own.failed) }
+        d3::OwnState { free: read(gpu, &b.control)[FREE_START..].to_vec(), failed: read(gpu, &b.own.failed) }
     }
 }
 
@@ -48,7 +48,15 @@ fn write_control(gpu: &Gpu, control: &Storage<u32>, params: &Params, counters: &
 }
 
 pub fn read_counters(gpu: &Gpu, control: &Storage<u32>) -> Counters {
-    *bytemuck::from_bytes(bytemuck::cast_slice(&read(gpu, control)[PARAM_WORDS..]))
+    *bytemuck::from_bytes(bytemuck::cast_slice(&read(gpu, control)[PARAM_WORDS..FREE_START]))
+}
+
+/// Returns where the half of the list of waiting points starts that is in use.
+fn waiting_start<const D: usize>(state: &State<D>) -> usize
+where
+    Dimension<D>: Own<D>,
+{
+    (state.counters.waiting_half * state.params.infinite) as usize
 }
 
 /// Writes all buffers but those of the points.
@@ -63,7 +71,7 @@ where
     b.active.write(gpu, 0, &state.active.concat());
     b.messages.write(gpu, 0, &state.messages);
     b.history.write(gpu, 0, &state.history);
-    b.waiting.write(gpu, 0, &state.waiting);
+    b.waiting.write(gpu, waiting_start(state), &state.waiting);
     b.scores.write(gpu, 0, &state.scores);
     Dimension::<D>::write(gpu, b, &state.own);
 }
@@ -77,7 +85,8 @@ where
     let active = read(gpu, &b.active);
     let (even, odd) = active.split_at(active.len() / 2);
     let mut waiting = read(gpu, &b.waiting);
-    waiting.truncate(like.params.entries as usize);
+    waiting.drain(..waiting_start(like));
+    waiting.truncate(like.counters.entries as usize);
     let Counters { exact, failed, .. } = like.counters;
     State {
         simplices: read(gpu, &b.simplices),

@@ -6,7 +6,7 @@ use crate::{
     gpu::{
         Binding, Gpu, Recorder, Storage,
         dim::{Dim, Flip, OwnBuffers},
-        layout::{Active, BLOCK, COUNTER_WORDS, PARAM_WORDS, Status, Waiting},
+        layout::{Active, BLOCK, FREE_START, PARAM_WORDS, Status, Waiting},
         points::DevicePoints,
     },
 };
@@ -24,7 +24,7 @@ pub struct Buffers<const D: usize>
 where
     Dimension<D>: Dim<D>,
 {
-    /// Parameters and counters.
+    /// Parameters and counters, and in 3D the free slots of each block.
     pub control: Storage<u32>,
     /// The vertices, and the interior point; the order; what is merged into what.
     pub points: DevicePoints,
@@ -40,7 +40,7 @@ where
     pub messages: Storage<Slot>,
     /// The flips of a round.
     pub history: Storage<Flip<D>>,
-    /// The list of waiting points.
+    /// Both halves of the list of waiting points.
     pub waiting: Storage<Waiting>,
     /// Scores of the waiting points.
     pub scores: Storage<u32>,
@@ -76,14 +76,14 @@ where
         let count = points.pairs.len();
         let slots = slots(blocks);
         Ok(Buffers {
-            control: Storage::new(gpu, "control", PARAM_WORDS + COUNTER_WORDS)?,
+            control: Storage::new(gpu, "control", FREE_START + blocks as usize)?,
             simplices: Storage::new(gpu, Dimension::<D>::SIMPLICES, slots)?,
             neighbors: Storage::new(gpu, "neighbours", slots)?,
             status: Storage::new(gpu, "status", slots)?,
             active: Storage::new(gpu, "active list", 2 * slots)?,
             messages: Storage::new(gpu, "messages", slots)?,
             history: Storage::new(gpu, "history", history as usize)?,
-            waiting: Storage::new(gpu, "waiting points", count)?,
+            waiting: Storage::new(gpu, "waiting points", 2 * count)?,
             scores: Storage::new(gpu, "scores", count)?,
             marks: Storage::new(gpu, "marks", slots)?,
             numbers: Storage::new(gpu, "numbers of simplices", slots)?,
@@ -102,6 +102,7 @@ where
         let slots = slots(blocks);
         let old_half = self.active.bytes() / 2;
         let mut larger = self.clone();
+        larger.control = Storage::new(gpu, "control", FREE_START + blocks as usize)?;
         larger.messages = Storage::new(gpu, "messages", slots)?;
         larger.simplices = Storage::new(gpu, Dimension::<D>::SIMPLICES, slots)?;
         larger.neighbors = Storage::new(gpu, "neighbours", slots)?;
@@ -113,6 +114,9 @@ where
         let mut copy = |from: &wgpu::Buffer, at: u64, to: &wgpu::Buffer, start: u64, bytes: u64| {
             encoder.copy_buffer_to_buffer(from, at, to, start, bytes);
         };
+        // All but the parameters, which the host writes anew.
+        let counters = (PARAM_WORDS * size_of::<u32>()) as u64;
+        copy(self.control.buffer(), counters, larger.control.buffer(), counters, self.control.bytes() - counters);
         copy(self.simplices.buffer(), 0, larger.simplices.buffer(), 0, self.simplices.bytes());
         copy(self.neighbors.buffer(), 0, larger.neighbors.buffer(), 0, self.neighbors.bytes());
         copy(self.status.buffer(), 0, larger.status.buffer(), 0, self.status.bytes());
@@ -146,10 +150,9 @@ where
             ("actives", self.active.buffer()),
             // Scores and points are picked before there are messages, and messages pass between
             // commit and link, after the list of entries that the check leaves undecided. Each has
-            // an element per slot, or an entry of one word.
+            // an element per slot.
             ("messages", self.messages.buffer()),
             ("picks", self.messages.buffer()),
-            ("undecided_entries", self.messages.buffer()),
             ("history", self.history.buffer()),
             ("waiting", self.waiting.buffer()),
             ("scores", self.scores.buffer()),

@@ -61,9 +61,9 @@ impl Stages {
         Dimension<D>: Finish<D>,
     {
         Ok(BoundStages {
-            insert: self.insert.bind(gpu, b),
+            insert: self.insert.bind(gpu, b)?,
             flip: self.flip.bind(gpu, b),
-            relocate: self.relocate.bind(gpu, b)?,
+            relocate: self.relocate.bind(gpu, b),
             finish: self.finish.bind(gpu, b)?,
         })
     }
@@ -75,6 +75,6 @@ where
 {
     /// Returns the bytes that they take on the device beside the buffers that they share.
     pub(crate) fn bytes(&self) -> u64 {
-        self.relocate.bytes()
+        self.insert.bytes()
     }
 }

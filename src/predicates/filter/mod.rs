@@ -265,6 +265,15 @@ fn orientation_bound<const D: usize>(extents: [f64; D]) -> f64 {
     ERROR_BOUNDS[D].orientation * greatest_permanent(extents) * (1.0 + 64.0 * EPSILON) + UNDERFLOW
 }
 
+/// Returns the same bound for coordinates that are not scaled; infinite where these are so large
+/// that underflow, an error of 2⁻¹⁰⁷⁵ in six products with one later factor, could exceed
+/// [`UNDERFLOW`].
+#[inline]
+pub(crate) fn unscaled_orientation_bound<const D: usize>(extents: [f64; D]) -> f64 {
+    const LARGEST: f64 = f64::from_bits((1023 + 150) << 52);
+    if extents.iter().all(|&extent| extent < LARGEST) { orientation_bound(extents) } else { f64::INFINITY }
+}
+
 /// Returns a bound of the error of an in-sphere determinant's floating-point value if no difference
 /// of coordinates exceeds the `extents`: its permanent has D + 1 orientations, each times a squared
 /// length.

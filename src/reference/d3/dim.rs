@@ -43,7 +43,7 @@ impl ReferenceDim<3> for Dimension<3> {
 
     /// Takes one or two orientations.
     fn descend(flip: &FlipNode, p: u32, orient: impl Fn([u32; 4]) -> Sign) -> (u32, u32) {
-        let [x0, x1, x2, d, e] = flip.vertices;
+        let FlipNode { ring: [x0, x1, x2], d, e, .. } = *flip;
         let beyond = |x: u32| orient([x, p, d, e]) > 0;
         let k = if flip.kind == FLIP_23 {
             match beyond(x0) {
