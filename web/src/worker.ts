@@ -59,7 +59,6 @@ interface Scope {
 }
 
 const scope = globalThis as unknown as Scope;
-// Bun has this port in every worker, and in some it is the only one.
 const port = builtin('node:worker_threads')?.parentPort;
 if (port) {
   serve({
