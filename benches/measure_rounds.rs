@@ -7,11 +7,11 @@
 use gdel::{
     Points,
     internals::{
+        dimension::Dimension,
         d2::generate::{Distribution2, generate2d},
         d3::generate::{Distribution, generate},
         gpu::{
             AdapterChoice, Gpu,
-            dim::Dimension,
             layout::Counters,
             phase1::{Finish, Input, Phase1, Run, Settings},
             start::first_simplex,
@@ -58,19 +58,10 @@ where
         let mut rounds = Vec::new();
         let mut before = Counters::default();
         let mut stopped = false;
-        let mut waiting_before = std::collections::BTreeSet::new();
-        while !stopped && block_on(run.round())? {
+        while !stopped && block_on(run.advance())? {
             let now = run.control().1;
             rounds.push((now.inserted - before.inserted, now.iterations - before.iterations, now.flips() - before.flips()));
             before = now;
-            if std::env::var_os("WHO").is_some() {
-                let w: Vec<gdel::internals::gpu::layout::Waiting> = block_on(gdel::internals::gpu::Readback::default().read(gpu, &run.buffers().waiting, 0, run.control().0.entries as usize))?;
-                let pairs = block_on(gdel::internals::gpu::Readback::default().read(gpu, &run.buffers().points.pairs, 0, points.len()))?;
-                let now: std::collections::BTreeSet<u32> = w.iter().filter(|w| w.tet != u32::MAX).map(|w| w.point).collect();
-                let gone: Vec<String> = waiting_before.difference(&now).map(|&p| format!("{:?}", points.get(pairs[p as usize][1] as usize))).collect();
-                println!("round {} inserted {}: {:?}", rounds.len(), gone.len(), &gone[..gone.len().min(60)]);
-                waiting_before = now;
-            }
             stopped = now.iterations > most;
         }
         let counters = run.control().1;
@@ -167,15 +158,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     let mut kernels = Kernels::default();
     for (name, cloud) in spatial().into_iter().filter(|(name, _)| wanted(name)) {
-        if std::env::var_os("DUMP").is_some() {
-            let points = cloud();
-            kernels.count(&gpu, name, (&points).into(), |near| {
-                for &v in &near.failed { println!("F {:?}", points[v as usize]); }
-                for &[t, w] in &near.uncertain { if w & 16 != 0 { println!("T {:?}", near.tets[t as usize].map(|v| points[v as usize])); } }
-                0
-            })?;
-            continue;
-        }
         kernels.count(&gpu, name, (&cloud()).into(), |near| near.uncertain.iter().filter(|[_, what]| what & 16 != 0).count())?;
     }
     let mut kernels = Kernels::default();

@@ -1,15 +1,22 @@
-// Scores in the order in which points are wanted: as unsigned numbers, at least 1.
+// Scores: numbers of at least 1, the higher the more a point is wanted.
 
-// The share of the sum of a determinant's terms, taken as positive, below which it may be nothing but
-// rounding.
+// The share of the sum of a determinant's terms, all taken as positive, up to which its value may be
+// nothing but rounding.
 const ROUNDING: f32 = 0x1p-20;
 
-// Returns a score by how far a point is from what bounds a simplex, a determinant whose terms sum up
-// to `permanent` if none is negative. A point in the plane of a facet or of a flat tetrahedron, or on
-// the line of an edge, is at no distance: it gets a lower score, by the square of its distance from
-// the nearest vertex. So such points are taken from the middle of the largest gaps, and not in an
-// order in which each is next to the last one.
-fn score(distance: f32, permanent: f32, from_nearest: f32) -> u32 {
-    let beyond = abs(distance) > ROUNDING * permanent;
-    return select(bitcast<u32>(from_nearest) + 1, bitcast<u32>(abs(distance)) | 0x80000000, beyond);
+// Returns whether a determinant is distinct from 0. `permanent` is that sum.
+fn is_distinct(value: f32, permanent: f32) -> bool {
+    return abs(value) > ROUNDING * permanent;
+}
+
+// Returns a score by the size of a determinant. It is above the others.
+fn score_by_volume(value: f32) -> u32 {
+    return bitcast<u32>(abs(value)) | 0x80000000;
+}
+
+// Returns a score by the square of the distance from the nearest vertex. It is below the others:
+// where nothing else tells points apart, because they lie on the line of an edge, the gaps between
+// the vertices are halved, and points do not follow each other along the line.
+fn score_by_distance(square: f32) -> u32 {
+    return (bitcast<u32>(square) >> 1) | 1;
 }

@@ -30,8 +30,11 @@ fn score_of(tri: vec3u, p: u32) -> u32 {
         let scale = scale_of(from_to(a, b), vec2f(0));
         let u = from_to(a, b) * scale;
         let v = from_to(a, p) * scale;
-        let permanent = abs(u.x * v.y) + abs(u.y * v.x);
-        return score(cross_of(u, v), permanent, min(dot(v, v), dot(v - u, v - u)));
+        let area = cross_of(u, v);
+        if is_distinct(area, abs(u.x * v.y) + abs(u.y * v.x)) {
+            return score_by_volume(area);
+        }
+        return score_by_distance(min(dot(v, v), dot(v - u, v - u)));
     }
     let scale = scale_of(from_to(tri.x, tri.y), from_to(tri.x, tri.z));
     let a = from_to(p, tri.x) * scale;
@@ -42,7 +45,10 @@ fn score_of(tri: vec3u, p: u32) -> u32 {
         return 0x7f800000 - bitcast<u32>(dot(off, off));
     }
     // The in-circle determinant: for one triangle it grows as the distance from the circumcentre
-    // falls.
+    // falls. In a flat one it is 0.
     let inside = dot(a, a) * cross_of(b, c) + dot(b, b) * cross_of(c, a) + dot(c, c) * cross_of(a, b);
-    return score(inside, 0, min(min(dot(a, a), dot(b, b)), dot(c, c)));
+    if inside != 0 {
+        return score_by_volume(inside);
+    }
+    return score_by_distance(min(min(dot(a, a), dot(b, b)), dot(c, c)));
 }

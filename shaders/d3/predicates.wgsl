@@ -33,6 +33,7 @@
 // is never zero: it leaves the row of the point with the highest index alone. This holds also for
 // points that share all coordinates. The interior point's index is above every other.
 //!include d3/exact_{width}
+//!include common/ties
 
 const PERTURBATIONS = array<u32, 15>(0, 1, 2, 4, 8, 10, 12, 16, 20, 32, 64, 66, 68, 80, 84);
 
@@ -50,16 +51,6 @@ fn determinant(a: Row, b: Row, c: Row) -> Determinant {
 // Returns the sign of det(b − a, c − a, d − a), 0 when the points are coplanar.
 fn orient3d_exact(a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> i32 {
     return sign_of_determinant(determinant(difference(b, a), difference(c, a), difference(d, a)));
-}
-
-// Exchanges two vertices if they are not in the order of their indices.
-fn put_in_order(a: ptr<function, Vertex>, b: ptr<function, Vertex>, parity: ptr<function, i32>) {
-    if (*b).index < (*a).index {
-        let c = *a;
-        *a = *b;
-        *b = c;
-        *parity = -*parity;
-    }
 }
 
 // Returns the sign that five vertices give to an in-sphere test or an orientation, never 0 where
@@ -109,16 +100,12 @@ fn perturbed_sign(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex, e_: Vertex, of
         let kd = minus(minus(expand(q, pr), expand(p, qr)), expand(r, pq));
         let ke = minus(zero_determinant(), plus(plus(ka, kb), plus(kc, kd)));
         let volume = accumulate(accumulate(accumulate(accumulate(zero_volume(), la, ka), lb, kb), lc, kc), ld, kd);
-        let sa = sign_of_determinant(ka);
-        let sb = sign_of_determinant(kb);
-        let sc = sign_of_determinant(kc);
-        let sd = sign_of_determinant(kd);
-        let se = sign_of_determinant(ke);
-        let by_height = select(select(select(select(se, sd, sd != 0), sc, sc != 0), sb, sb != 0), sa, sa != 0);
+        let by_height = sign_or(ka, sign_or(kb, sign_or(kc, sign_or(kd, sign_of_determinant(ke)))));
         let by_volume = sign_of_volume(volume);
         sign = select(by_height, by_volume, by_volume != 0);
         // Raising the last point moves it out of the sphere of four that are positively oriented.
-        sign = select(sign, -se, of_four && se != 0);
+        let by_orientation = -sign_of_determinant(ke);
+        sign = select(sign, by_orientation, of_four && by_orientation != 0);
     }
     return sign * parity;
 }

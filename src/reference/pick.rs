@@ -1,6 +1,6 @@
 //! Which point each simplex inserts (§3.1).
 
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 use crate::gpu::layout::{NONE, Pick, Waiting};
 
 use crate::reference::State;
@@ -8,14 +8,10 @@ use crate::reference::dim::{Kernels, ReferenceDim};
 
 /// Scores each waiting point and finds the best score of each simplex. One invocation per waiting
 /// point.
-///
-/// It also begins the insertion round.
 pub fn pick_score<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: Kernels<D>,
 {
-    state.counters.round += 1;
-    state.counters.first_node = state.counters.next_node;
     for i in 0..state.waiting.len() {
         let Waiting { point: p, tet: t } = state.waiting[i];
         if t == NONE {
@@ -62,19 +58,20 @@ pub(super) fn scale_of<const D: usize>(vectors: &[[f32; D]]) -> f32 {
     f32::from_bits(0x7f00_0000 - (largest.to_bits() & 0x7f80_0000))
 }
 
-/// Returns a score by how far a point is from what bounds a simplex, a determinant whose terms sum
-/// up to `permanent` if none is negative; where that is nothing but rounding, a lower one, by the
-/// square of the distance from the nearest vertex.
-pub(super) fn score(distance: f32, permanent: f32, from_nearest: f32) -> u32 {
+/// Returns whether a determinant is distinct from 0, beyond rounding. `permanent` is the sum of its
+/// terms, all taken as positive.
+pub(super) fn is_distinct(value: f32, permanent: f32) -> bool {
     const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
-    if distance.abs() > ROUNDING * permanent {
-        distance.abs().to_bits() | 1 << 31
-    } else {
-        from_nearest.to_bits() + 1
-    }
+    value.abs() > ROUNDING * permanent
 }
 
-/// Returns the smallest of some distances.
-pub(super) fn nearest<const N: usize>(squares: [f32; N]) -> f32 {
-    squares.into_iter().fold(f32::INFINITY, f32::min)
+/// Returns a score by the size of a determinant. It is above the others.
+pub(super) fn score_by_volume(value: f32) -> u32 {
+    value.abs().to_bits() | 1 << 31
+}
+
+/// Returns a score by the square of the distance from the nearest vertex, given the squares of the
+/// distances from all. It is below the others.
+pub(super) fn score_by_distance<const N: usize>(squares: [f32; N]) -> u32 {
+    squares.into_iter().fold(f32::INFINITY, f32::min).to_bits() >> 1 | 1
 }

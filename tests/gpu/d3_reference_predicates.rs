@@ -89,7 +89,8 @@ fn exchanging_two_arguments_changes_the_sign() {
     }
 }
 
-/// Where the points are not all coplanar, the heights decide, as they do in the definition of the triangulation.
+/// Where the points are not all coplanar, the heights decide, as they do in the definition of the
+/// triangulation.
 #[test]
 fn heights_come_before_lowered_coordinates() {
     let mut rng = Pcg64Mcg::seed_from_u64(3);
@@ -112,8 +113,9 @@ fn fours(n: usize) -> impl Iterator<Item = [usize; 4]> {
     })
 }
 
-/// The perturbed points have a triangulation with no ties at all: the one that the crate promises. Infinity, which leans
-/// away from a point inside, is outside of all its spheres, and so none of its tetrahedra is flat.
+/// The perturbed points have a triangulation with no ties at all: the one that the crate promises.
+/// Infinity, which leans away from a point inside, is outside of all its spheres, and so none of its
+/// tetrahedra is flat.
 #[test]
 fn the_perturbed_triangulation_is_the_answer() {
     let mut rng = Pcg64Mcg::seed_from_u64(4);

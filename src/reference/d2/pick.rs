@@ -3,8 +3,7 @@
 use crate::gpu::layout::Pick;
 
 use crate::reference::State;
-use crate::reference::pick::{difference, nearest, scale_of};
-use crate::reference::pick;
+use crate::reference::pick::{difference, is_distinct, scale_of, score_by_distance, score_by_volume};
 
 /// Returns how much a triangle wants a point, at least 1. Scores of different triangles do not
 /// compare.
@@ -18,8 +17,11 @@ pub(super) fn score(state: &State<2>, t: u32, p: u32) -> u32 {
         let [a, b] = [1, 2].map(|i| vertices[(k + i) % 3]);
         let scale = scale_of(&[difference(b, a)]);
         let [u, v] = [difference(b, a), difference(p, a)].map(|d| scaled(d, scale));
-        let from_nearest = nearest([v, [v[0] - u[0], v[1] - u[1]]].map(square));
-        return pick::score(cross(u, v), (u[0] * v[1]).abs() + (u[1] * v[0]).abs(), from_nearest);
+        let area = cross(u, v);
+        if is_distinct(area, (u[0] * v[1]).abs() + (u[1] * v[0]).abs()) {
+            return score_by_volume(area);
+        }
+        return score_by_distance([v, [v[0] - u[0], v[1] - u[1]]].map(square));
     }
     let scale = scale_of(&[1, 2].map(|i| difference(vertices[i], vertices[0])));
     let [a, b, c] = vertices.map(|v| scaled(difference(v, p), scale));
@@ -27,9 +29,9 @@ pub(super) fn score(state: &State<2>, t: u32, p: u32) -> u32 {
         return 0x7f80_0000 - square([a[0] + b[0] + c[0], a[1] + b[1] + c[1]]).to_bits();
     }
     // The in-circle determinant: for one triangle it grows as the distance from the circumcentre
-    // falls.
+    // falls. In a flat one it is 0.
     let inside = square(a) * cross(b, c) + square(b) * cross(c, a) + square(c) * cross(a, b);
-    pick::score(inside, 0.0, nearest([a, b, c].map(square)))
+    if inside == 0.0 { score_by_distance([a, b, c].map(square)) } else { score_by_volume(inside) }
 }
 
 fn square(a: [f32; 2]) -> f32 {

@@ -8,6 +8,7 @@ use num_bigint::BigInt;
 use crate::{
     input::lattice::Width,
     predicates::{Sign, integer, symbolic},
+    reference::ties::{by_index, sign_of},
 };
 
 /// A lattice point with its input index.
@@ -48,8 +49,7 @@ pub fn insphere(width: Width, vertices: [Vertex; 5]) -> Sign {
 /// the in-sphere determinant, and of the heights in it.
 fn perturbed(width: Width, vertices: [Vertex; 5], first: impl Fn([[i64; 3]; 5]) -> Sign) -> Sign {
     let positions = vertices.map(|v| v.position);
-    let mut order = [0, 1, 2, 3, 4];
-    order.sort_by_key(|&i: &usize| vertices[i].index);
+    let order = by_index(&vertices);
     let sign_at = |set: u32| {
         let mut lower = positions;
         for (rank, &i) in order.iter().enumerate() {
@@ -84,9 +84,5 @@ fn lifted(positions: [[i64; 3]; 5], lowered: [[i64; 3]; 5]) -> Sign {
     };
     let value = &heights[0] * det(&b, &c, &d) - &heights[1] * det(&a, &c, &d) + &heights[2] * det(&a, &b, &d)
         - &heights[3] * det(&a, &b, &c);
-    match value.sign() {
-        num_bigint::Sign::Minus => -1,
-        num_bigint::Sign::NoSign => 0,
-        num_bigint::Sign::Plus => 1,
-    }
+    sign_of(&value)
 }
