@@ -5,7 +5,7 @@ use gdel::internals::input::lattice::Width;
 use gdel::internals::predicates::integer::orient3d_narrow;
 use gdel::internals::reference::d3::predicates::{Vertex, insphere, orient3d};
 use gdel::internals::reference::run::{Settings, run};
-use rand::{RngExt, SeedableRng};
+use rand::{RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;
 
 type State = gdel::internals::reference::State<3>;
@@ -23,8 +23,11 @@ fn sites(mut points: Vec<Point>) -> Vec<Vertex> {
     for i in (1..order.len()).rev() {
         order.swap(i, rng.random_range(0..=i));
     }
-    let mut sites: Vec<Vertex> =
-        points.into_iter().zip(order).map(|(q, index)| Vertex { position: q, index }).collect();
+    along_a_curve(points.into_iter().zip(order).map(|(position, index)| Vertex { position, index }).collect())
+}
+
+/// Sorts sites by the interleaved bits of their coordinates.
+fn along_a_curve(mut sites: Vec<Vertex>) -> Vec<Vertex> {
     let bits = sites.iter().flat_map(|s| s.position).max().map_or(0, |m| 64 - m.leading_zeros());
     let morton =
         |q: Point| (0..bits).rev().fold(0u128, |key, b| q.iter().fold(key, |k, x| k << 1 | (x >> b & 1) as u128));
@@ -82,6 +85,47 @@ fn degenerate() {
         valid(points.clone(), Settings { insert_all: true, ..Settings::default() });
         // Flips wait for slots and for room in the history, and nothing is lost.
         valid(points, Settings { min_active: 30, tail: 1, history: 20, ..Settings::default() });
+    }
+}
+
+/// Points in the planes and on the edges of the hull are inserted in rounds that grow as the
+/// logarithm of their number, whatever the order of the input.
+#[test]
+fn rounds_on_rasters_grids_and_lines() {
+    let grid = |[a, b, c]: [i64; 3]| -> Vec<Point> {
+        (0..a * b * c).map(|i| [i % a, i / a % b, i / (a * b)].map(|x| 4 * x)).collect()
+    };
+    let tilted =
+        |[x, y, z]: Point| [2 * x - y + 2 * z + 48, 2 * x + 2 * y - z + 48, 2 * y - x + 2 * z + 48];
+    let heights = random(48 * 48, 12, 40);
+    let raster = (0..48 * 48).map(|i| [4 * (i % 48), 4 * (i / 48), heights[i as usize][0]]).collect();
+    let slope = (0..48 * 48).map(|i| [4 * (i % 48), 4 * (i / 48), (i % 48) * (i % 48) + (i / 48) * 7]).collect();
+    let line = (0..800).map(|i| [4 * i, 0, 0]).chain([[1200, 2000, 0], [1300, 0, 2000]]).collect();
+    let shapes: Vec<(&str, Vec<Point>)> = vec![
+        ("raster", raster),
+        ("slope", slope),
+        ("full grid", grid([12, 12, 12])),
+        ("full grid, tilted", grid([12, 12, 12]).into_iter().map(tilted).collect()),
+        ("plate", grid([30, 30, 2])),
+        ("line and two points", line),
+    ];
+    for (name, points) in shapes {
+        let n = points.len();
+        // In order, in reverse, and in no order.
+        for order in 0..3 {
+            let mut indices: Vec<u32> = (0..n as u32).collect();
+            match order {
+                0 => {}
+                1 => indices.reverse(),
+                _ => indices.shuffle(&mut Pcg32::seed_from_u64(1)),
+            }
+            let sites = points.iter().zip(indices).map(|(&position, index)| Vertex { position, index }).collect();
+            let state = run(Width::Narrow, along_a_curve(sites), &Settings::default()).expect("not flat");
+            state.validate_end();
+            let rounds = state.counters.round;
+            println!("{name}, order {order}: {rounds} rounds, {} flip iterations", state.counters.iterations);
+            assert!(f64::from(rounds) <= 1.5 * (n as f64).log2() + 2.0, "{name}, order {order}: {rounds} rounds");
+        }
     }
 }
 
