@@ -9,7 +9,7 @@ use gdel::{
     internals::{
         dimension::Dimension,
         d2::generate::{Distribution2, generate2d},
-        d3::generate::{Distribution, generate},
+        d3::generate::{Distribution3, generate3d},
         gpu::{
             AdapterChoice, Gpu,
             layout::Counters,
@@ -92,17 +92,17 @@ where
 type Cloud<const D: usize> = (&'static str, Box<dyn Fn() -> Vec<[f64; D]>>);
 
 fn spatial() -> Vec<Cloud<3>> {
-    let random = |distribution, n| move || generate(distribution, n, 1);
+    let random = |distribution, n| move || generate3d(distribution, n, 1);
     let rotated = |points: Vec<[f64; 3]>| -> Vec<[f64; 3]> {
         // The rows of an integer matrix of determinant 27, whose images are no multiples of each other.
         points.into_iter().map(|[x, y, z]| [2.0 * x - y + 2.0 * z, 2.0 * x + 2.0 * y - z, -x + 2.0 * y + 2.0 * z]).collect()
     };
     vec![
-        ("uniform", Box::new(random(Distribution::Uniform, 10_000))),
-        ("Gaussian", Box::new(random(Distribution::Gaussian, 10_000))),
-        ("thin sphere", Box::new(random(Distribution::ThinSphere, 10_000))),
-        ("sphere", Box::new(random(Distribution::Sphere, 10_000))),
-        ("lattice 512³", Box::new(random(Distribution::Grid, 10_000))),
+        ("uniform", Box::new(random(Distribution3::Uniform, 10_000))),
+        ("Gaussian", Box::new(random(Distribution3::Gaussian, 10_000))),
+        ("thin sphere", Box::new(random(Distribution3::ThinSphere, 10_000))),
+        ("sphere", Box::new(random(Distribution3::Sphere, 10_000))),
+        ("lattice 512³", Box::new(random(Distribution3::Grid, 10_000))),
         ("survey", Box::new(|| clouds::survey(10_000))),
         ("clusters", Box::new(|| clouds::clusters_at_1e_9_spacing(5_000))),
         ("bunny", Box::new(|| Points::from(&read_points(Path::new("tests/data/bunny.ply")).expect("it is there").points).iter().collect())),

@@ -32,7 +32,7 @@ pub fn two_skew_lines(n: u32) -> Vec<[f64; 3]> {
 /// Returns a raster of `side` × `side` heights, as terrain is most often stored, in steps of `step`;
 /// with 0, heights are as fine as `f64` has them.
 pub fn raster(side: u32, step: f64) -> Vec<[f64; 3]> {
-    let noise = generate(Distribution::Uniform, (side * side) as usize, 1);
+    let noise = generate3d(Distribution3::Uniform, (side * side) as usize, 1);
     let height = |i: u32| {
         let [x, y] = [i % side, i / side].map(f64::from);
         let z = 9.0 * libm::sin(0.11 * x) * libm::cos(0.07 * y) + 4.0 * noise[i as usize][0];
