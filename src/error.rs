@@ -2,7 +2,8 @@
 
 /// Why there is no triangulation.
 ///
-/// Coplanar, collinear, coincident or no points at all are no error: see [`Mesh3::dimension`](crate::Mesh3::dimension).
+/// Coplanar, collinear or coincident points, or none at all, are not an error: see
+/// [`Mesh3::dimension`](crate::Mesh3::dimension).
 ///
 /// # Examples
 ///
@@ -61,7 +62,8 @@ pub enum Error {
         /// The largest number of points that the backend can take.
         limit: usize,
     },
-    /// The GPU was requested where it cannot be used: the crate was built without it, or may not wait for it.
+    /// The GPU was requested where it cannot be used: the crate was built without it, or may not
+    /// wait for it.
     #[error("the GPU cannot be used: {reason}")]
     GpuUnavailable {
         /// What makes it unavailable.
@@ -111,7 +113,8 @@ pub enum Error {
         /// The message of the GPU's driver or of wgpu.
         message: String,
     },
-    /// The triangulation has more tetrahedra, or triangles in 2D, than can be numbered, as only contrived inputs have.
+    /// The triangulation has more tetrahedra, or triangles in 2D, than can be numbered, as only
+    /// contrived inputs have.
     #[error("the triangulation has more than {limit} simplices, the largest number that can be stored")]
     TooManySimplices {
         /// The largest number that can be stored.
@@ -123,12 +126,40 @@ pub enum Error {
         /// The number of tetrahedra, or triangles in 2D, that room was requested for.
         simplices: usize,
     },
+    /// A mesh was given with other points than its own.
+    #[error("the mesh has {expected} points, not {points}")]
+    PointCount {
+        /// The number of points that were given.
+        points: usize,
+        /// The number of points of the mesh.
+        expected: usize,
+    },
+    /// There is not one value per point.
+    #[error("there are {values} values for {points} points")]
+    ValueCount {
+        /// The number of values.
+        values: usize,
+        /// The number of points.
+        points: usize,
+    },
+    /// The box that a Voronoi diagram is to be clipped to has no inside, or is not finite.
+    #[error("the box has no inside: along the {axis} axis, its lower end must be below its upper end, and both finite")]
+    EmptyBox {
+        /// `'x'`, `'y'` or `'z'`.
+        axis: char,
+    },
+    /// A mesh is not the Delaunay triangulation of the points that were given with it, and cannot be used.
+    #[error("the mesh is not the Delaunay triangulation of the points: {what}")]
+    BrokenMesh {
+        /// How that was noticed.
+        what: &'static str,
+    },
     /// The progress callback requested to stop.
     #[error("the triangulation was cancelled")]
     Cancelled,
 }
 
-/// Names what would fit.
+/// Returns the part of a message that names what would fit.
 fn fitting(points: &Option<usize>) -> String {
     points.map_or_else(String::new, |points| format!(", enough for about {points} points"))
 }
@@ -139,7 +170,7 @@ fn listed(available: &[String]) -> String {
 
 #[cfg(feature = "gpu")]
 impl Error {
-    /// Whether the error is the GPU's, so that the CPU may still succeed.
+    /// Returns whether the error is one of the GPU, so that the CPU may still succeed.
     pub(crate) fn is_of_the_gpu(&self) -> bool {
         use Error::*;
         match self {
@@ -148,6 +179,7 @@ impl Error {
             TooManyPoints { .. } | TooManySimplices { .. } => true,
             NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
             OutOfMemory { .. } | Cancelled => false,
+            PointCount { .. } | ValueCount { .. } | EmptyBox { .. } | BrokenMesh { .. } => false,
         }
     }
 }

@@ -1,69 +1,177 @@
 //! What meshes of both dimensions have in common.
 
-use crate::index::NONE;
+use crate::{
+    index::{NO_INDEX, NONE},
+    stats::Stats,
+};
+use std::borrow::Cow;
 
-/// The simplices around each vertex of a mesh: tetrahedra in 3D, triangles in 2D.
+/// Lists of indices, one after the other in one array: compressed sparse rows.
 ///
-/// [`Mesh3::stars`](crate::Mesh3::stars) and [`Mesh2::stars`](crate::Mesh2::stars) create it in one pass over the mesh. Build
-/// it once for many vertices.
+/// List *i* is `indices[offsets[i]..offsets[i + 1]]`. The simplices around each vertex
+/// ([`Mesh3::stars`](crate::Mesh3::stars), [`Mesh2::stars`](crate::Mesh2::stars)) and the neighbours of each vertex
+/// ([`Mesh3::vertex_neighbors`](crate::Mesh3::vertex_neighbors),
+/// [`Mesh2::vertex_neighbors`](crate::Mesh2::vertex_neighbors)) have this form. Build them once for many vertices.
 ///
 /// # Examples
 ///
 /// ```
-/// // A square around its centre: the star of the centre has four triangles.
+/// // A square around its centre.
 /// let points = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [1.0, 1.0f64]];
-/// let mesh = gdel::delaunay2d(&points)?;
-/// let stars = mesh.stars();
-/// assert_eq!(stars.of(4).len(), 4);
-/// assert_eq!(stars.of(0).len(), 2);
+/// let neighbors = gdel::delaunay2d(&points)?.vertex_neighbors();
+/// assert_eq!(neighbors.len(), 5);
+/// assert_eq!(neighbors.of(4), [0, 1, 2, 3]);
+/// assert_eq!(neighbors.of(0), [1, 3, 4]);
+/// assert_eq!((neighbors.offsets[1], neighbors.indices.len()), (3, 16));
 /// # Ok::<(), gdel::Error>(())
 /// ```
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Stars {
-    /// Where the star of each vertex starts in `simplices`; one more entry says where the last one ends.
-    starts: Vec<usize>,
-    simplices: Vec<u32>,
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Csr {
+    /// Where each list starts in `indices`; one more entry says where the last one ends.
+    pub offsets: Vec<usize>,
+    /// The lists.
+    pub indices: Vec<u32>,
 }
 
-impl Stars {
-    /// Sorts simplices by their vertices, which are below `points`. Within a star they ascend.
-    pub(crate) fn new<const N: usize>(simplices: &[[u32; N]], points: usize) -> Self {
+/// Returns no lists.
+impl Default for Csr {
+    fn default() -> Self {
+        Csr { offsets: vec![0], indices: Vec::new() }
+    }
+}
+
+impl Csr {
+    /// Sorts simplices by their vertices, which are below `points`: list *v* has the simplices around *v*, in ascending
+    /// order.
+    pub(crate) fn stars<const N: usize>(simplices: &[[u32; N]], points: usize) -> Self {
         // Entry v + 1 counts the simplices of v, then says where the next of them goes, and at last where they end.
-        let mut starts = vec![0; points + 1];
+        let mut offsets = vec![0; points + 1];
         for &v in simplices.as_flattened() {
-            starts[v as usize + 1] += 1;
+            offsets[v as usize + 1] += 1;
         }
         let mut before = 0;
-        for start in &mut starts[1..] {
-            before += std::mem::replace(start, before);
+        for offset in &mut offsets[1..] {
+            before += std::mem::replace(offset, before);
         }
-        let mut sorted = vec![0; simplices.as_flattened().len()];
+        let mut indices = vec![0; simplices.as_flattened().len()];
         for (t, simplex) in (0..).zip(simplices) {
             for &v in simplex {
-                let next = &mut starts[v as usize + 1];
-                sorted[*next] = t;
+                let next = &mut offsets[v as usize + 1];
+                indices[*next] = t;
                 *next += 1;
             }
         }
-        Stars { starts, simplices: sorted }
+        Csr { offsets, indices }
     }
 
-    /// Gives each star to `arrange`, which may change the order within it.
+    /// Lists the vertices that share a simplex with each vertex, in ascending order. The vertices are below `points`.
+    pub(crate) fn vertex_neighbors<const N: usize>(simplices: &[[u32; N]], points: usize) -> Self {
+        let stars = Csr::stars(simplices, points);
+        let mut neighbors = Csr { offsets: Vec::with_capacity(points + 1), indices: Vec::new() };
+        neighbors.offsets.push(0);
+        // The last vertex whose list each vertex was put into.
+        let mut listed_by = vec![NO_INDEX; points];
+        for v in 0..points as u32 {
+            let start = neighbors.indices.len();
+            listed_by[v as usize] = v;
+            for &t in stars.of(v) {
+                for &w in &simplices[t as usize] {
+                    if listed_by[w as usize] != v {
+                        listed_by[w as usize] = v;
+                        neighbors.indices.push(w);
+                    }
+                }
+            }
+            neighbors.indices[start..].sort_unstable();
+            neighbors.offsets.push(neighbors.indices.len());
+        }
+        neighbors
+    }
+
+    /// Appends a list.
+    pub(crate) fn push(&mut self, list: impl IntoIterator<Item = u32>) {
+        self.indices.extend(list);
+        self.offsets.push(self.indices.len());
+    }
+
+    /// Removes all lists.
+    pub(crate) fn clear(&mut self) {
+        self.offsets.truncate(1);
+        self.indices.clear();
+    }
+
+    /// Gives each list to `arrange`, which may change the order within it.
     pub(crate) fn arrange(&mut self, mut arrange: impl FnMut(u32, &mut [u32])) {
-        for (v, ends) in (0..).zip(self.starts.windows(2)) {
-            arrange(v, &mut self.simplices[ends[0]..ends[1]]);
+        for (i, ends) in (0..).zip(self.offsets.windows(2)) {
+            arrange(i, &mut self.indices[ends[0]..ends[1]]);
         }
     }
 
-    /// Returns the indices of the simplices that have vertex `v`. In 2D they turn counter-clockwise around it, and the first
-    /// one lies behind the hull edge that starts at `v` if there is one. A duplicate has none.
+    /// Returns the number of lists.
+    pub fn len(&self) -> usize {
+        self.offsets.len().saturating_sub(1)
+    }
+
+    /// Returns whether there are no lists.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Returns list `i`.
     ///
     /// # Panics
     ///
-    /// Panics if there is no point `v`.
-    pub fn of(&self, v: u32) -> impl ExactSizeIterator<Item = usize> + Clone + '_ {
-        self.simplices[self.starts[v as usize]..self.starts[v as usize + 1]].iter().map(|&t| t as usize)
+    /// Panics if there is no list `i`.
+    #[inline]
+    pub fn of(&self, i: u32) -> &[u32] {
+        &self.indices[self.offsets[i as usize]..self.offsets[i as usize + 1]]
     }
+}
+
+/// A mesh of either dimension: [`Mesh3`](crate::Mesh3) with `D` = 3 coordinates per point and `N` = 4 vertices per
+/// tetrahedron, or [`Mesh2`](crate::Mesh2) with 2 and 3.
+///
+/// It is what functions and types that take both ask for, and cannot be implemented for others.
+///
+/// # Examples
+///
+/// ```
+/// fn simplices<const D: usize, const N: usize>(mesh: &impl gdel::Mesh<D, N>) -> usize {
+///     mesh.simplices().len()
+/// }
+///
+/// let mesh = gdel::delaunay2d(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]])?;
+/// assert_eq!(simplices(&mesh), 1);
+/// # Ok::<(), gdel::Error>(())
+/// ```
+pub trait Mesh<const D: usize, const N: usize>: sealed::Sealed {
+    /// Returns the vertices of the tetrahedra or triangles.
+    fn simplices(&self) -> &[[u32; N]];
+
+    /// Returns for each simplex the simplices opposite its vertices, or [`NONE`](crate::NONE) outside the hull.
+    fn opposites(&self) -> Cow<'_, [[i32; N]]>;
+
+    /// Returns for each point the one that stands for it, or [`NONE`](crate::NONE) if it is a vertex itself.
+    fn duplicate_of(&self) -> &[i32];
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for crate::Mesh2 {}
+    impl Sealed for crate::Mesh3 {}
+}
+
+/// Returns for each vertex a simplex that has it, that with the lowest index; [`NONE`] for duplicates and vertices without
+/// simplices.
+pub(crate) fn vertex_simplex<const N: usize>(simplices: &[[u32; N]], points: usize) -> Vec<i32> {
+    let mut simplex = vec![NONE; points];
+    for (t, vertices) in simplices.iter().enumerate().rev() {
+        for &v in vertices {
+            simplex[v as usize] = t as i32;
+        }
+    }
+    simplex
 }
 
 /// Returns the index behind an entry of `neighbors` or `duplicate_of`.
@@ -81,16 +189,58 @@ pub fn canonical<const N: usize>(simplices: &[[u32; N]]) -> Vec<[u32; N]> {
     simplices
 }
 
-/// Methods on `duplicate_of`, which both meshes have.
-macro_rules! point_methods {
+/// What meshes of both dimensions say of their points and of their run.
+pub trait MeshInfo {
+    /// Sets what the mesh says of its points.
+    fn set_input(&mut self, duplicate_of: Vec<i32>, dimension: u8);
+
+    /// Returns the number of points that are duplicates.
+    fn duplicates(&self) -> usize;
+
+    /// Returns the affine dimension of the points.
+    fn dimension(&self) -> u8;
+
+    /// Returns the statistics.
+    fn stats(&self) -> &Stats;
+
+    /// Returns the statistics, to be changed.
+    fn stats_mut(&mut self) -> &mut Stats;
+}
+
+/// Implements [`MeshInfo`], and methods on `duplicate_of`, which both meshes have.
+macro_rules! common_methods {
     ($mesh:ident) => {
+        impl $crate::mesh::MeshInfo for $mesh {
+            fn set_input(&mut self, duplicate_of: Vec<i32>, dimension: u8) {
+                (self.duplicate_of, self.dimension) = (duplicate_of, dimension);
+            }
+
+            fn duplicates(&self) -> usize {
+                self.duplicate_count()
+            }
+
+            fn dimension(&self) -> u8 {
+                self.dimension
+            }
+
+            fn stats(&self) -> &$crate::stats::Stats {
+                &self.stats
+            }
+
+            fn stats_mut(&mut self) -> &mut $crate::stats::Stats {
+                &mut self.stats
+            }
+        }
+
         impl $mesh {
-            /// Returns the vertices: the distinct points in ascending order, each by the lowest index of its coordinates.
+            /// Returns the vertices: the distinct points in ascending order, each by the lowest
+            /// index of its coordinates.
             pub fn vertices(&self) -> impl Iterator<Item = u32> + Clone + '_ {
                 (0..).zip(&self.duplicate_of).filter(|&(_, &d)| d == $crate::index::NONE).map(|(i, _)| i)
             }
 
-            /// Returns whether an earlier point has the same coordinates as point `i`, which therefore is no vertex.
+            /// Returns whether an earlier point has the same coordinates as point `i`, which
+            /// therefore is not a vertex.
             ///
             /// # Panics
             ///
@@ -115,4 +265,4 @@ macro_rules! point_methods {
         }
     };
 }
-pub(crate) use point_methods;
+pub(crate) use common_methods;

@@ -1,5 +1,5 @@
-// Builds the package into web/dist: WebAssembly by wasm-pack, JavaScript by esbuild, declarations by
-// tsc.
+// Builds the package into web/dist: WebAssembly by wasm-pack, JavaScript by esbuild, declarations
+// by tsc.
 
 import { execFileSync } from 'node:child_process';
 import {

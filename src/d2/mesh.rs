@@ -1,15 +1,19 @@
 //! The result: triangles, their half-edges, and the hull.
 
 use crate::{
-    Points2,
-    mesh::{self, Stars, point_methods},
+    geometry,
+    index::NONE,
+    input::points::Points2,
+    mesh::{self, Csr, common_methods},
     stats::Stats,
 };
+use std::borrow::Cow;
 
 /// A 2D Delaunay triangulation.
 ///
-/// All vertices are indices of input points. Triangles and hull are counter-clockwise with *y* up. Half-edge 3·*t* + *k* goes
-/// from vertex *k* of triangle *t* to its next vertex; edge *k* of a triangle is the one that this half-edge lies on.
+/// All vertices are indices of input points. Triangles and hull are counter-clockwise with *y* up.
+/// Half-edge 3·*t* + *k* goes from vertex *k* of triangle *t* to its next vertex; edge *k* of a
+/// triangle is the one that this half-edge lies on.
 ///
 /// # Examples
 ///
@@ -28,26 +32,28 @@ use crate::{
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Mesh2 {
-    /// Three vertices per triangle, counter-clockwise with *y* up: det(b − a, c − a) > 0. None is flat.
+    /// Three vertices per triangle, counter-clockwise with *y* up: det(b − a, c − a) > 0. None is
+    /// flat.
     pub triangles: Vec<[u32; 3]>,
-    /// Entry *k* of each triangle is the half-edge opposite to the one from its vertex *k* to the next, as 3·(triangle) +
-    /// (vertex), or [`NONE`](crate::NONE) outside the hull.
+    /// Entry *k* of each triangle is the half-edge opposite to the one from its vertex *k* to the
+    /// next, as 3·(triangle) + (vertex), or [`NONE`](crate::NONE) outside the hull.
     pub halfedges: Vec<[i32; 3]>,
-    /// The vertices of the convex hull, including those in the middle of its sides, counter-clockwise with *y* up from the
-    /// lowest index. If all points are collinear: the distinct points in ascending order of x, or of y where all x are equal.
+    /// The vertices of the convex hull, including those in the middle of its sides,
+    /// counter-clockwise with *y* up from the lowest index. If all points are collinear: the
+    /// distinct points in ascending order of x, or of y where all x are equal.
     pub hull: Vec<u32>,
-    /// One entry per point: the lowest index of a point with the same coordinates, which stands for this one in the mesh;
-    /// [`NONE`](crate::NONE) for points that are vertices themselves.
+    /// One entry per point: the lowest index of a point with the same coordinates, which stands for
+    /// this one in the mesh; [`NONE`](crate::NONE) for points that are vertices themselves.
     pub duplicate_of: Vec<i32>,
-    /// The affine dimension of the input: 2; or 1 or 0 if all points are collinear or equal, in which case there are no
-    /// triangles. No points at all have dimension 0.
+    /// The affine dimension of the input: 2; or 1 or 0 if all points are collinear or equal, in
+    /// which case there are no triangles. No points at all have dimension 0.
     pub dimension: u8,
     /// How the mesh was computed.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub stats: Stats,
 }
 
-point_methods!(Mesh2);
+common_methods!(Mesh2);
 
 impl Mesh2 {
     /// Returns the triangle across edge `k` of triangle `t`; `None` outside the hull.
@@ -68,7 +74,8 @@ impl Mesh2 {
         [self.triangles[t][k], self.triangles[t][(k + 1) % 3]]
     }
 
-    /// Returns every edge of the triangles once, the hull's included, as it runs in the triangle with the lower index.
+    /// Returns every edge of the triangles once, the hull's included, as it runs in the triangle
+    /// with the lower index.
     pub fn edges(&self) -> impl Iterator<Item = [u32; 2]> + Clone + '_ {
         self.halfedges.iter().enumerate().flat_map(move |(t, across)| {
             (0..3).filter(move |&k| mesh::index(across[k]).is_none_or(|e| t < e / 3)).map(move |k| self.edge(t, k))
@@ -81,17 +88,47 @@ impl Mesh2 {
         (0..count).map(move |i| [self.hull[i], self.hull[(i + 1) % count]])
     }
 
-    /// Returns the triangles around every vertex.
-    pub fn stars(&self) -> Stars {
-        let mut stars = Stars::new(&self.triangles, self.duplicate_of.len());
+    /// Returns the triangles around every vertex, counter-clockwise; the first one lies behind the hull edge that starts at
+    /// the vertex if there is one. A duplicate has none.
+    pub fn stars(&self) -> Csr {
+        let mut stars = Csr::stars(&self.triangles, self.duplicate_of.len());
         stars.arrange(|v, star| self.turn(v, star));
         stars
+    }
+
+    /// Returns the vertices that every vertex has an edge to, in ascending order; none for duplicates.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.5f64]];
+    /// let neighbors = gdel::delaunay2d(&points)?.vertex_neighbors();
+    /// assert_eq!(neighbors.of(0), [1, 2, 3]);
+    /// assert_eq!(neighbors.of(1), [0, 2]);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn vertex_neighbors(&self) -> Csr {
+        Csr::vertex_neighbors(&self.triangles, self.duplicate_of.len())
+    }
+
+    /// Returns for every point the lowest triangle that has it as a vertex; [`NONE`](crate::NONE) for duplicates, and for
+    /// all points if there are no triangles.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0f64]];
+    /// assert_eq!(gdel::delaunay2d(&points)?.vertex_triangle(), [0, 0, 0, gdel::NONE]);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn vertex_triangle(&self) -> Vec<i32> {
+        mesh::vertex_simplex(&self.triangles, self.duplicate_of.len())
     }
 
     /// Orders the triangles around a vertex counter-clockwise, from the one behind the hull edge that starts there, if any.
     fn turn(&self, v: u32, star: &mut [u32]) {
         let corner = |t: u32| self.triangles[t as usize].iter().position(|&w| w == v).unwrap_or(0);
-        let behind_the_hull = |&t: &u32| self.halfedges[t as usize][corner(t)] == crate::NONE;
+        let behind_the_hull = |&t: &u32| self.halfedges[t as usize][corner(t)] == NONE;
         let Some(&first) = star.iter().find(|t| behind_the_hull(t)).or(star.first()) else { return };
         let mut t = first;
         for place in star {
@@ -104,25 +141,109 @@ impl Mesh2 {
         }
     }
 
-    /// Returns the centre of the circle through the vertices of triangle `t`, where `points` are those of the mesh.
+    /// Returns the centre of the circle through the vertices of triangle `t`, where `points` are
+    /// those of the mesh.
     ///
-    /// It is computed in `f64`, so it is exact for no mesh, and far off or not finite for triangles that are nearly flat.
+    /// The error is at most 2⁻³⁷ times the radius, however flat the triangle is, plus the rounding of the result.
     ///
     /// # Panics
     ///
     /// Panics if there is no triangle `t`, or if its vertices are not among the points.
     pub fn circumcenter<'a>(&self, points: impl Into<Points2<'a>>, t: usize) -> [f64; 2] {
         let points = points.into();
-        let [[ax, ay], b, c] = self.triangles[t].map(|v| points.get(v as usize));
-        let [[bx, by], [cx, cy]] = [b, c].map(|[x, y]| [x - ax, y - ay]);
-        let (bb, cc) = (bx * bx + by * by, cx * cx + cy * cy);
-        let twice_det = 2.0 * (bx * cy - by * cx);
-        [ax + (cy * bb - by * cc) / twice_det, ay + (bx * cc - cx * bb) / twice_det]
+        geometry::circumcenter(&self.triangles[t].map(|v| points.get(v as usize)))
     }
 
-    /// Returns the triangles in a form that is equal for equal meshes: the vertices ascend within each triangle, and the
-    /// triangles ascend.
+    /// Returns the centres of the circles through the vertices of all triangles: the vertices of the Voronoi diagram.
+    ///
+    /// `points` are those of the mesh. The errors are those of [`circumcenter`](Self::circumcenter).
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0], [8.0, 0.0], [0.0, 6.0f64]];
+    /// let mesh = gdel::delaunay2d(&points)?;
+    /// assert_eq!(mesh.circumcenters(&points).next(), Some([4.0, 3.0]));
+    /// assert_eq!(mesh.circumradii(&points).next(), Some(5.0));
+    /// assert_eq!(mesh.areas(&points).next(), Some(24.0));
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn circumcenters<'a>(&'a self, points: impl Into<Points2<'a>>) -> impl ExactSizeIterator<Item = [f64; 2]> + 'a {
+        geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::circumcenter(&t))
+    }
+
+    /// Returns the radii of the circles through the vertices of all triangles, with relative errors below 2⁻³⁶.
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    pub fn circumradii<'a>(&'a self, points: impl Into<Points2<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
+        geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::circumradius(&t))
+    }
+
+    /// Returns the areas of all triangles. The errors are at most 2⁻⁵⁰ times the product of the edges at a vertex.
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    pub fn areas<'a>(&'a self, points: impl Into<Points2<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
+        geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::measure(&t))
+    }
+
+    /// Returns twice the radius of the inscribed circle by that of the circumscribed circle for all triangles: 1 for
+    /// equilateral triangles, near 0 for flat ones.
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0f64]];
+    /// let mesh = gdel::delaunay2d(&points)?;
+    /// // The radii are 1 and 2.5.
+    /// let quality = mesh.radius_ratios(&points).next().unwrap();
+    /// assert!((quality - 0.8).abs() < 1e-15);
+    /// let angles = mesh.angles(&points).next().unwrap();
+    /// assert!((angles.iter().sum::<f64>().to_degrees() - 180.0).abs() < 1e-12);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn radius_ratios<'a>(&'a self, points: impl Into<Points2<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
+        geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::radius_ratio(&t))
+    }
+
+    /// Returns the angles of all triangles at their vertices, in radians.
+    ///
+    /// # Panics
+    ///
+    /// The iterator panics if vertices are not among the points.
+    pub fn angles<'a>(&'a self, points: impl Into<Points2<'a>>) -> impl ExactSizeIterator<Item = [f64; 3]> + 'a {
+        geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::angles(&t))
+    }
+
+    /// Returns the triangles in a form that is equal for equal meshes: the vertices ascend within
+    /// each triangle, and the triangles ascend.
     pub fn canonical(&self) -> Vec<[u32; 3]> {
         mesh::canonical(&self.triangles)
+    }
+}
+
+impl mesh::Mesh<2, 3> for Mesh2 {
+    fn simplices(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    fn opposites(&self) -> Cow<'_, [[i32; 3]]> {
+        let triangle = |halfedge: i32| if halfedge == NONE { NONE } else { halfedge / 3 };
+        self.halfedges.iter().map(move |&[ab, bc, ca]| [bc, ca, ab].map(triangle)).collect()
+    }
+
+    fn duplicate_of(&self) -> &[i32] {
+        &self.duplicate_of
     }
 }

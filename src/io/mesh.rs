@@ -1,13 +1,11 @@
 //! What the formats ask of a mesh, in 3D and in 2D.
 
-use crate::{Mesh2, Mesh3, d2::verify::MeshView2, d3::verify::MeshView, index::NONE, io::PointBuf};
+use crate::{
+    d2::{Mesh2, verify::MeshView2},
+    d3::{Mesh3, verify::MeshView3},
+    io::PointBuf,
+};
 use std::borrow::Cow;
-
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for crate::Mesh2 {}
-    impl Sealed for crate::Mesh3 {}
-}
 
 /// What files and messages call the parts of a mesh.
 #[doc(hidden)]
@@ -24,23 +22,14 @@ pub struct Names {
     pub(super) vtk: u8,
 }
 
-/// A mesh that files can hold: [`Mesh3`] with `D` = 3 coordinates per point and `N` = 4 vertices
-/// per tetrahedron, or [`Mesh2`] with 2 and 3. It cannot be implemented for others.
-pub trait Mesh<const D: usize, const N: usize>: sealed::Sealed {
+/// A mesh that files can hold.
+pub trait Mesh<const D: usize, const N: usize>: crate::Mesh<D, N> {
     #[doc(hidden)]
     const NAMES: Names;
-
-    /// Returns the vertices of the tetrahedra or triangles.
-    #[doc(hidden)]
-    fn simplices(&self) -> &[[u32; N]];
 
     /// Returns the rows of the second array in NumPy's files: neighbours, or half-edges.
     #[doc(hidden)]
     fn adjacency(&self) -> &[[i32; N]];
-
-    /// Returns entry *k* of each row: the simplex opposite vertex *k*, or -1.
-    #[doc(hidden)]
-    fn opposites(&self) -> impl ExactSizeIterator<Item = [i32; N]>;
 
     /// Returns the triangles of the hull, or all triangles of a 2D mesh, in the sense that files
     /// have.
@@ -61,16 +50,8 @@ impl Mesh<3, 4> for Mesh3 {
         vtk: 10,
     };
 
-    fn simplices(&self) -> &[[u32; 4]] {
-        &self.tetrahedra
-    }
-
     fn adjacency(&self) -> &[[i32; 4]] {
         &self.neighbors
-    }
-
-    fn opposites(&self) -> impl ExactSizeIterator<Item = [i32; 4]> {
-        self.neighbors.iter().copied()
     }
 
     fn surface(&self) -> Cow<'_, [[u32; 3]]> {
@@ -86,17 +67,8 @@ impl Mesh<2, 3> for Mesh2 {
     const NAMES: Names =
         Names { simplex: "triangle", simplices: "triangles", adjacency: "halfedges", surface: "triangulation", vtk: 5 };
 
-    fn simplices(&self) -> &[[u32; 3]] {
-        &self.triangles
-    }
-
     fn adjacency(&self) -> &[[i32; 3]] {
         &self.halfedges
-    }
-
-    fn opposites(&self) -> impl ExactSizeIterator<Item = [i32; 3]> {
-        let triangle = |halfedge: i32| if halfedge == NONE { NONE } else { halfedge / 3 };
-        self.halfedges.iter().map(move |&[ab, bc, ca]| [bc, ca, ab].map(triangle))
     }
 
     fn surface(&self) -> Cow<'_, [[u32; 3]]> {
@@ -130,9 +102,9 @@ pub type MeshData3 = MeshData<3, 4>;
 /// A 2D mesh as a file gives it.
 pub type MeshData2 = MeshData<2, 3>;
 
-impl<'a> From<&'a MeshData3> for MeshView<'a> {
+impl<'a> From<&'a MeshData3> for MeshView3<'a> {
     fn from(mesh: &'a MeshData3) -> Self {
-        MeshView { neighbors: mesh.neighbors.as_deref(), ..MeshView::of_tetrahedra(&mesh.simplices) }
+        MeshView3 { neighbors: mesh.neighbors.as_deref(), ..MeshView3::of_tetrahedra(&mesh.simplices) }
     }
 }
 

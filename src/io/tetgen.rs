@@ -6,7 +6,7 @@ use crate::io::{
     surface::MARK,
     text::{fields, lines, number},
 };
-use crate::{Points, index::NONE};
+use crate::{index::NONE, input::points::Points};
 use std::{
     fmt::{self, Display},
     io::{self, Write},
@@ -48,8 +48,9 @@ pub fn write_ele<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl Wri
 ///
 /// When `to` cannot be written.
 pub fn write_neigh<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl Write, mesh: &M) -> io::Result<()> {
-    writeln!(to, "{} {N}", mesh.opposites().len())?;
-    write_rows(to, mesh.opposites())
+    let opposites = mesh.opposites();
+    writeln!(to, "{} {N}", opposites.len())?;
+    write_rows(to, opposites.iter().copied())
 }
 
 /// Writes the rows, numbered from 0, and a comment where TetGen and Triangle have theirs.
@@ -137,7 +138,7 @@ fn content(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
         .filter(|(_, content)| !content.is_empty())
 }
 
-/// Reads the rows under a line with their count: a number, `N` entries, and whatever else.
+/// Reads the rows under a line with their count: a number, `N` entries, and anything after them.
 fn read_rows<T: Copy + Default, const N: usize>(
     bytes: &[u8],
     what: &str,

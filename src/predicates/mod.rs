@@ -13,11 +13,13 @@
 //!
 //! [`exact`](mod@exact) evaluates predicates for `f64` coordinates of any size, [`integer`] for
 //! lattice coordinates. [`symbolic`] breaks ties. [`filter`] puts floating-point filters in front
-//! of them, for a whole point set.
+//! of them, for a whole point set. [`polynomial`] evaluates the rarer predicates of what is derived
+//! from a triangulation.
 
 pub mod exact;
 pub mod filter;
 pub mod integer;
+pub(crate) mod polynomial;
 pub mod symbolic;
 
 pub use exact::{collinear, incircle, insphere, orient2d, orient3d};

@@ -271,7 +271,16 @@ test('TypeScript, strict, with both resolutions, whatever else is switched on', 
 });
 
 test('every file that the package names is in it', () => {
-  const files = readdirSync(dist(project()));
+  const folder = dist(project());
+  assert.deepEqual(readdirSync(join(folder, '..')).sort(), [
+    'LICENSE-APACHE',
+    'LICENSE-MIT',
+    'README.md',
+    'dist',
+    'docs',
+    'package.json',
+  ]);
+  const files = readdirSync(folder);
   for (const file of [
     'index.js',
     'index.cjs',

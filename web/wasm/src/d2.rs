@@ -2,7 +2,7 @@
 
 use gdel::{
     Backend, Mesh2, Triangulator,
-    internals::{Winding, triangulator::MIN_POINTS_2},
+    internals::{Winding, triangulator::MIN_POINTS_2D},
 };
 use js_sys::{Function, Int32Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
@@ -16,7 +16,7 @@ use crate::{
 /// Returns the number of points from which on the backend `auto` considers the GPU in 2D.
 #[wasm_bindgen]
 pub fn min_gpu_points_2d() -> u32 {
-    MIN_POINTS_2 as u32
+    MIN_POINTS_2D as u32
 }
 
 #[wasm_bindgen]

@@ -1,6 +1,6 @@
 //! 3D triangulation.
 
-use gdel::{Backend, Mesh3, Triangulator, internals::triangulator::MIN_POINTS, stats::Trace};
+use gdel::{Backend, Mesh3, Triangulator, internals::triangulator::MIN_POINTS_3D, stats::Trace};
 use js_sys::{Array, Function, Int32Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
@@ -31,7 +31,7 @@ impl Outputs {
 /// Returns the number of points from which on the backend `auto` considers the GPU in 3D.
 #[wasm_bindgen]
 pub fn min_gpu_points_3d() -> u32 {
-    MIN_POINTS as u32
+    MIN_POINTS_3D as u32
 }
 
 #[wasm_bindgen]

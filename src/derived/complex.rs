@@ -1,0 +1,94 @@
+//! A mesh with its points.
+
+use crate::{
+    error::Error,
+    index::NONE,
+    input::points::Points,
+    mesh::Mesh,
+    parallel::{self, Threads},
+};
+use std::borrow::Cow;
+
+/// A mesh and its points, checked as far as indices need it: no index leads out of an array. That the mesh is the
+/// Delaunay triangulation of the points is not checked; what walks over the mesh limits its steps.
+#[derive(Debug, Clone)]
+pub struct Complex<'a, const D: usize, const N: usize> {
+    pub(crate) points: Points<'a, D>,
+    pub(crate) simplices: &'a [[u32; N]],
+    /// Entry *k* is opposite vertex *k*, in 2D too.
+    pub(crate) neighbors: Cow<'a, [[i32; N]]>,
+    pub(crate) duplicate_of: &'a [i32],
+}
+
+impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
+    /// Checks and borrows a mesh and its points.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`].
+    pub(crate) fn new(mesh: &'a impl Mesh<D, N>, points: Points<'a, D>) -> Result<Self, Error> {
+        let (simplices, neighbors, duplicate_of) = (mesh.simplices(), mesh.opposites(), mesh.duplicate_of());
+        if points.len() != duplicate_of.len() {
+            return Err(Error::PointCount { points: points.len(), expected: duplicate_of.len() });
+        }
+        points.validate_by(Threads::All)?;
+        let broken = |what| Err(Error::BrokenMesh { what });
+        if neighbors.len() != simplices.len() || simplices.len() > i32::MAX as usize {
+            return broken("there are not as many neighbours as simplices");
+        }
+        // As `u32`, other negative numbers exceed every count.
+        let is_index = |entry: i32, count: usize| entry == NONE || (entry as u32 as usize) < count;
+        let are_valid = parallel::map_ranges(Threads::All, simplices.len(), |range| {
+            let vertices = simplices[range.clone()].as_flattened().iter();
+            let neighbors = neighbors[range].as_flattened().iter();
+            vertices.fold(true, |valid, &v| valid & ((v as usize) < points.len()))
+                & neighbors.fold(true, |valid, &t| valid & is_index(t, simplices.len()))
+        });
+        if !are_valid.into_iter().all(|valid| valid) {
+            return broken("a vertex or neighbour does not exist");
+        }
+        if !duplicate_of.iter().all(|&i| is_index(i, points.len())) {
+            return broken("a duplicate is that of a point that does not exist");
+        }
+        Ok(Complex { points, simplices, neighbors, duplicate_of })
+    }
+
+    /// Returns the coordinates of vertex `v`.
+    #[inline(always)]
+    pub(crate) fn point(&self, v: u32) -> [f64; D] {
+        self.points.get(v as usize)
+    }
+
+    /// Returns the coordinates of the vertices of simplex `t`.
+    #[inline(always)]
+    pub(crate) fn corners(&self, t: usize) -> [[f64; D]; N] {
+        self.simplices[t].map(|v| self.point(v))
+    }
+
+    /// Returns the simplex opposite vertex `k` of simplex `t`; `None` outside the hull.
+    #[inline(always)]
+    pub(crate) fn across(&self, t: usize, k: usize) -> Option<usize> {
+        let neighbor = self.neighbors[t][k];
+        (neighbor != NONE).then_some(neighbor as usize)
+    }
+
+    /// Returns the index of the facet that simplices `t` and `u` share, as numbered in `u`; `N` if there is none.
+    #[inline(always)]
+    pub(crate) fn facet_towards(&self, u: usize, t: usize) -> usize {
+        let mut facet = N;
+        for (k, &neighbor) in self.neighbors[u].iter().enumerate() {
+            if neighbor == t as i32 {
+                facet = k;
+            }
+        }
+        facet
+    }
+
+    /// Returns the vertex that stands for point `i`.
+    pub(crate) fn representative(&self, i: u32) -> u32 {
+        match self.duplicate_of[i as usize] {
+            NONE => i,
+            vertex => vertex as u32,
+        }
+    }
+}

@@ -1,0 +1,347 @@
+//! Point location by a remembering visibility walk (Devillers, Pion and Teillaud, *Walking in a
+//! triangulation*, 2002).
+
+use super::{
+    complex::Complex,
+    queries::{CurveKey, map_along_curve},
+};
+use crate::{
+    error::Error,
+    geometry::{Euclidean, Geometry, facet, vector},
+    input::points::Points,
+    mesh::Csr,
+    mesh::Mesh,
+    predicates::{Sign, filter::unscaled_orientation_bound},
+};
+use rustc_hash::FxHashSet;
+use std::sync::OnceLock;
+
+/// Where a point lies in a mesh.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Location, Locator};
+///
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
+/// let mesh = gdel::delaunay2d(&points)?;
+/// let locator = Locator::new(&mesh, &points)?;
+/// assert_eq!(locator.locate([0.25, 0.25])?, Location::Inside(0));
+/// match locator.locate([0.25, -1.0])? {
+///     Location::Outside { simplex, facet } => assert_eq!(mesh.edge(simplex, facet), [0, 1]),
+///     location => panic!("{location:?}"),
+/// }
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Location {
+    /// The simplex with this index contains the point. If the point lies on a facet, an edge or a vertex, several simplices
+    /// do; it is then the one whose vertices come first if they are sorted.
+    Inside(usize),
+    /// The point lies outside the convex hull, and beyond this facet of it, from where the point can be seen. Which
+    /// facet it is if there are several depends on the order of the mesh's simplices.
+    Outside {
+        /// The simplex that has the facet.
+        simplex: usize,
+        /// The number of the facet or, in 2D, the edge: [`Mesh3::facet`](crate::Mesh3::facet) and
+        /// [`Mesh2::edge`](crate::Mesh2::edge) return its vertices.
+        facet: usize,
+    },
+    /// The mesh has no simplices, because its points are flat, and so no inside.
+    Nowhere,
+}
+
+impl Location {
+    /// Returns the simplex that contains the point, if any.
+    pub fn simplex(self) -> Option<usize> {
+        match self {
+            Location::Inside(simplex) => Some(simplex),
+            _ => None,
+        }
+    }
+}
+
+/// Locates points in a mesh, and finds the vertices nearest to them.
+///
+/// Create one for a mesh with its points and use it for many queries: it holds a few places to start from, and after the
+/// first search for nearest vertices also the neighbours of each vertex. All answers are exact for all finite `f64`
+/// queries, `f32` included. Those for many queries are found by all threads, and are the same as for the queries one by one.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::Locator;
+///
+/// let points: Vec<[f64; 3]> = (0..1000).map(|i| [i % 10, i / 10 % 10, i / 100].map(f64::from)).collect();
+/// let mesh = gdel::delaunay3d(&points)?;
+/// let locator = Locator::new(&mesh, &points)?;
+///
+/// let queries = [[4.5, 2.25, 7.75], [0.5, 0.5, -1.0f32]];
+/// let [inside, outside] = locator.locate_many(&queries)?[..] else { unreachable!("one location per query") };
+/// assert!(mesh.tetrahedra[inside.simplex().unwrap()].iter().all(|&v| points[v as usize][0] >= 4.0));
+/// assert_eq!(outside.simplex(), None);
+///
+/// assert_eq!(locator.nearest([4.4, 2.25, 7.75])?, Some(824));
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Locator<'a, const D: usize = 3, const N: usize = 4> {
+    pub(super) complex: Complex<'a, D, N>,
+    /// The minimum and the maximum of each axis.
+    pub(super) bounds: [[f64; D]; 2],
+    /// A bound of the error of orientations with a query within `bounds`.
+    orientation_bound: f64,
+    /// A power of two that makes the extent of the points neither large nor small.
+    pub(super) scale: f64,
+    pub(super) key: CurveKey<D>,
+    /// Some simplices, in the lower half, by the places of their first vertices along the curve, in the upper half.
+    starts: Vec<u64>,
+    /// The neighbours of each vertex, once they have been asked for.
+    pub(super) neighbors: OnceLock<Csr>,
+}
+
+/// Locates points in a 2D mesh.
+///
+/// # Examples
+///
+/// ```
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f32]];
+/// let mesh = gdel::delaunay2d(&points)?;
+/// let locator: gdel::Locator2 = gdel::Locator::new(&mesh, &points)?;
+/// assert_eq!(locator.nearest([3.0, 1.0])?, Some(1));
+/// # Ok::<(), gdel::Error>(())
+/// ```
+pub type Locator2<'a> = Locator<'a, 2, 3>;
+
+/// One simplex out of this many is a place to start from.
+const START_STRIDE: usize = 64;
+
+impl<'a, const D: usize, const N: usize> Locator<'a, D, N>
+where
+    Euclidean: Geometry<D, N>,
+{
+    /// Creates a locator for a mesh and its points.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::PointCount`] if these are not the points of the mesh, [`Error::NotFinite`] if one of them is not finite, and
+    /// [`Error::BrokenMesh`] if the mesh's arrays contradict each other.
+    pub fn new(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>) -> Result<Self, Error> {
+        Complex::new(mesh, points.into()).map(Locator::of)
+    }
+
+    pub(super) fn of(complex: Complex<'a, D, N>) -> Self {
+        let mut bounds = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+        for p in complex.points.iter() {
+            for axis in 0..D {
+                bounds[0][axis] = bounds[0][axis].min(p[axis]);
+                bounds[1][axis] = bounds[1][axis].max(p[axis]);
+            }
+        }
+        let key = CurveKey::new(bounds);
+        let start = |(t, simplex): (usize, &[u32; N])| {
+            let place = key.of::<N>(complex.point(simplex[0]));
+            u64::from(place) << 32 | t as u64
+        };
+        let mut starts: Vec<u64> = complex.simplices.iter().enumerate().step_by(START_STRIDE).map(start).collect();
+        starts.sort_unstable();
+        let orientation_bound = orientation_bound(bounds);
+        let scale = vector::scale_of(bounds);
+        Locator { complex, bounds, orientation_bound, scale, key, starts, neighbors: OnceLock::new() }
+    }
+
+    /// Returns where a point lies.
+    ///
+    /// The walk from the nearest place to start from takes some ten steps on average. For many queries
+    /// [`locate_many`](Self::locate_many) is faster.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotFinite`], or [`Error::BrokenMesh`] if the walk does not end because the mesh is not the Delaunay triangulation
+    /// of the points.
+    pub fn locate(&self, query: [f64; D]) -> Result<Location, Error> {
+        Points::F64(&[query]).validate()?;
+        let Some(start) = self.start(query) else { return Ok(Location::Nowhere) };
+        Ok(self.name(self.walk(query, start)?))
+    }
+
+    /// Returns where each of many points lies.
+    ///
+    /// # Errors
+    ///
+    /// The same as for [`locate`](Self::locate).
+    pub fn locate_many<'q>(&self, queries: impl Into<Points<'q, D>>) -> Result<Vec<Location>, Error> {
+        let locate = |last: &mut Option<usize>, query: [f64; D]| match self.place(query, last)? {
+            Some(place) => Ok(self.name(place)),
+            None => Ok(Location::Nowhere),
+        };
+        map_along_curve(queries.into(), self.key, || None, locate)
+    }
+
+    /// Finds the place of a query near the last one's simplex, which it updates; `None` if there are no simplices.
+    pub(super) fn place(&self, query: [f64; D], last: &mut Option<usize>) -> Result<Option<Place>, Error> {
+        let start = match *last {
+            Some(last) => last,
+            None => match self.start(query) {
+                Some(start) => start,
+                None => return Ok(None),
+            },
+        };
+        let mut place = self.walk(query, start)?;
+        *last = Some(place.simplex);
+        // What facet is seen depends on where the walk started, which must not depend on other queries.
+        if place.beyond.is_some()
+            && let Some(start) = self.start(query)
+        {
+            place = self.walk(query, start)?;
+        }
+        Ok(Some(place))
+    }
+
+    /// Returns the public form of a place.
+    fn name(&self, place: Place) -> Location {
+        match place.beyond {
+            None => Location::Inside(place.simplex),
+            Some(k) => {
+                Location::Outside { simplex: place.simplex, facet: <Euclidean as Geometry<D, N>>::FACET_NUMBERS[k] }
+            }
+        }
+    }
+
+    /// Returns a simplex that is probably near a point.
+    pub(super) fn start(&self, query: [f64; D]) -> Option<usize> {
+        let place = u64::from(self.key.of::<N>(query)) << 32;
+        let after = self.starts.partition_point(|&start| start < place);
+        let start = self.starts.get(after).or(self.starts.last())?;
+        Some(*start as u32 as usize)
+    }
+
+    /// Returns a bound of the error of orientations with this query.
+    #[inline(always)]
+    fn bound_with(&self, query: [f64; D]) -> f64 {
+        let [low, high] = self.bounds;
+        let mut is_within = true;
+        for axis in 0..D {
+            is_within &= low[axis] <= query[axis] && query[axis] <= high[axis];
+        }
+        if is_within {
+            return self.orientation_bound;
+        }
+        let extended = |corner: [f64; D], f: fn(f64, f64) -> f64| std::array::from_fn(|a| f(corner[a], query[a]));
+        orientation_bound::<D>([extended(low, f64::min), extended(high, f64::max)])
+    }
+
+    /// Walks from a simplex to the place of a query.
+    ///
+    /// The walk crosses any facet that separates the current simplex from the query. With every step the power distance of
+    /// the query to the circumsphere decreases, perturbed as the triangulation's ties are, so it ends.
+    pub(super) fn walk(&self, query: [f64; D], start: usize) -> Result<Place, Error> {
+        let bound = self.bound_with(query);
+        let mut t = start;
+        let mut came_through = N;
+        for _ in 0..=self.complex.simplices.len() {
+            let corners = self.complex.corners(t);
+            let rows = corners.map(|p| vector::minus(p, query));
+            let mut on_facet = false;
+            let mut leave = N;
+            for k in 0..N {
+                if k == came_through {
+                    continue;
+                }
+                match side(bound, &corners, &rows, k, query) {
+                    1 => {}
+                    0 => on_facet = true,
+                    _ => {
+                        leave = k;
+                        break;
+                    }
+                }
+            }
+            if leave == N {
+                let simplex = if on_facet { self.first_around(query, t) } else { t };
+                return Ok(Place { simplex, beyond: None, on_facet });
+            }
+            let Some(next) = self.complex.across(t, leave) else {
+                return Ok(Place { simplex: t, beyond: Some(leave), on_facet: false });
+            };
+            came_through = self.complex.facet_towards(next, t);
+            t = next;
+        }
+        Err(Error::BrokenMesh { what: "a walk over it does not end" })
+    }
+
+    /// Returns the facets that contain a query, which simplex `t` contains, as (simplex, opposite vertex): all facets of the
+    /// hull, and those between simplices from both sides.
+    fn facets_at(&self, query: [f64; D], t: usize) -> Vec<(usize, usize)> {
+        let bound = self.bound_with(query);
+        let mut facets = Vec::new();
+        let mut around = vec![t];
+        let mut seen = FxHashSet::from_iter([t]);
+        while let Some(t) = around.pop() {
+            let corners = self.complex.corners(t);
+            let rows = corners.map(|p| vector::minus(p, query));
+            for k in 0..N {
+                if side(bound, &corners, &rows, k, query) == 0 {
+                    facets.push((t, k));
+                    around.extend(self.complex.across(t, k).filter(|&across| seen.insert(across)));
+                }
+            }
+        }
+        facets
+    }
+
+    /// Returns the facets of the hull that contain a query, which simplex `t` contains, as (simplex, opposite vertex).
+    pub(super) fn hull_facets_at(&self, query: [f64; D], t: usize) -> Vec<(usize, usize)> {
+        let mut facets = self.facets_at(query, t);
+        facets.retain(|&(t, k)| self.complex.across(t, k).is_none());
+        facets
+    }
+
+    /// Returns the simplex with the first vertices, if they are sorted, of those that contain a query that lies on the boundary
+    /// of `t`.
+    #[inline(never)]
+    fn first_around(&self, query: [f64; D], t: usize) -> usize {
+        let sorted = |t: usize| {
+            let mut vertices = self.complex.simplices[t];
+            vertices.sort_unstable();
+            vertices
+        };
+        let around = self.facets_at(query, t).into_iter().map(|(t, _)| t);
+        around.min_by_key(|&t| sorted(t)).unwrap_or(t)
+    }
+}
+
+/// A simplex that contains a point, or one of whose facets sees it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub(super) simplex: usize,
+    /// The facet, opposite vertex *k*, that sees a point outside the hull.
+    pub(super) beyond: Option<usize>,
+    /// Whether a point that is inside lies on a facet of the simplex.
+    pub(super) on_facet: bool,
+}
+
+/// Returns a bound of the error of orientations of points within a box.
+fn orientation_bound<const D: usize>([low, high]: [[f64; D]; 2]) -> f64 {
+    // Rounding is monotone, so no rounded difference of coordinates exceeds the rounded extent.
+    unscaled_orientation_bound::<D>(std::array::from_fn(|axis| high[axis] - low[axis]))
+}
+
+/// Returns on which side of facet `k` a query is: see [`Geometry::side`]. `rows` are the corners minus the query.
+#[inline(always)]
+fn side<const D: usize, const N: usize>(
+    bound: f64,
+    corners: &[[f64; D]; N],
+    rows: &[[f64; D]; N],
+    k: usize,
+    query: [f64; D],
+) -> Sign
+where
+    Euclidean: Geometry<D, N>,
+{
+    let det = Euclidean::determinant(&facet(rows, k));
+    if det.abs() > bound {
+        return if det > 0.0 { 1 } else { -1 };
+    }
+    Euclidean::side(&facet(corners, k), query)
+}

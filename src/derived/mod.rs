@@ -1,0 +1,17 @@
+//! What is derived from a triangulation: point location, nearest vertices, interpolation, Voronoi diagrams, alpha shapes
+//! and minimum spanning trees, written once for 2D and 3D.
+//!
+//! Signs are exact: which simplex contains a point, which vertex is nearest, which simplices belong to an alpha shape.
+//! Lengths, areas, volumes and weights are `f64` with a stated error. Results are a function of the mesh and the query,
+//! whatever the number of threads.
+
+mod complex;
+mod interpolate;
+mod locate;
+mod nearest;
+mod queries;
+mod voronoi;
+
+pub use interpolate::{Interpolation, Interpolator, Interpolator2, StolenMeasures};
+pub use locate::{Location, Locator, Locator2};
+pub use voronoi::{Cell, Clip, Diagram, Voronoi, Voronoi2, VoronoiShapes};

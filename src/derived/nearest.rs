@@ -1,0 +1,184 @@
+//! Nearest vertices, by walking along the edges of the triangulation.
+//!
+//! In every Delaunay triangulation, for every point inside the hull or outside: the vertices nearest
+//! to it are connected, and every other vertex has a neighbour that is nearer. (Shrink the ball
+//! around the point that has the vertex on its boundary towards the vertex until its inside is empty:
+//! all other vertices on the boundary of what is left are nearer, and the vertex has an edge to one
+//! of them.) So no location is needed first.
+
+use super::{Locator, queries::map_along_curve};
+use crate::{
+    error::Error,
+    geometry::{Euclidean, Geometry, certain_difference, compare_distances, vector},
+    input::points::Points,
+    mesh::Csr,
+    predicates::Sign,
+};
+use rustc_hash::FxHashSet;
+use std::{cmp::Ordering, collections::BinaryHeap};
+
+impl<const D: usize, const N: usize> Locator<'_, D, N>
+where
+    Euclidean: Geometry<D, N>,
+{
+    /// Returns the vertex that is nearest to a point, inside the hull or outside; `None` if the mesh has no simplices. Of
+    /// several vertices at the same distance it is the one with the lowest index.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotFinite`].
+    pub fn nearest(&self, query: [f64; D]) -> Result<Option<u32>, Error> {
+        Points::F64(&[query]).validate()?;
+        let Some(start) = self.start(query) else { return Ok(None) };
+        Ok(Some(self.nearest_from(self.vertex_neighbors(), query, self.complex.simplices[start][0])))
+    }
+
+    /// Returns the vertex that is nearest to each of many points: see [`nearest`](Self::nearest).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotFinite`].
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [2.0, 2.0f64]];
+    /// let mesh = gdel::delaunay2d(&points)?;
+    /// let locator = gdel::Locator::new(&mesh, &points)?;
+    /// // The second one is at the same distance from all.
+    /// assert_eq!(locator.nearest_many(&[[1.5, 9.0], [1.0, 1.0]])?, [Some(3), Some(0)]);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn nearest_many<'q>(&self, queries: impl Into<Points<'q, D>>) -> Result<Vec<Option<u32>>, Error> {
+        let neighbors = self.vertex_neighbors();
+        let nearest = |last: &mut Option<u32>, query: [f64; D]| {
+            let start = || self.start(query).map(|start| self.complex.simplices[start][0]);
+            *last = last.or_else(start).map(|start| self.nearest_from(neighbors, query, start));
+            Ok(*last)
+        };
+        map_along_curve(queries.into(), self.key, || None, nearest)
+    }
+
+    /// Returns the `k` vertices that are nearest to a point, in order of their distances, those at the same distance in order
+    /// of their indices; all vertices if there are no more than `k`, and none if the mesh has no simplices.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotFinite`].
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [2.0, 2.0], [0.0, 0.0f64]];
+    /// let mesh = gdel::delaunay2d(&points)?;
+    /// let locator = gdel::Locator::new(&mesh, &points)?;
+    /// assert_eq!(locator.nearest_k([2.0, 2.5], 3)?, [3, 2, 1]);
+    /// // The last point is a duplicate, and so no vertex.
+    /// assert_eq!(locator.nearest_k([1.0, 1.0], 9)?, [0, 1, 2, 3]);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn nearest_k(&self, query: [f64; D], k: usize) -> Result<Vec<u32>, Error> {
+        let mut found = Vec::new();
+        let Some(first) = self.nearest(query)?.filter(|_| k > 0) else { return Ok(found) };
+        let neighbors = self.vertex_neighbors();
+        let candidate = |vertex: u32| {
+            let point = self.complex.point(vertex);
+            Candidate { query, point, squared: vector::squared_norm(vector::minus(query, point)), vertex }
+        };
+        let nearest = self.all_nearest(neighbors, query, first);
+        let mut candidates: BinaryHeap<_> = nearest.iter().map(|&v| candidate(v)).collect();
+        let mut seen = FxHashSet::from_iter(nearest);
+        while found.len() < k
+            && let Some(nearest) = candidates.pop()
+        {
+            found.push(nearest.vertex);
+            let new = neighbors.of(nearest.vertex).iter().filter(|&&v| seen.insert(v));
+            candidates.extend(new.map(|&v| candidate(v)));
+        }
+        Ok(found)
+    }
+
+    /// Returns the neighbours of each vertex.
+    pub(super) fn vertex_neighbors(&self) -> &Csr {
+        self.neighbors.get_or_init(|| Csr::vertex_neighbors(self.complex.simplices, self.complex.points.len()))
+    }
+
+    /// Walks from a vertex to the one nearest to a query.
+    fn nearest_from(&self, neighbors: &Csr, query: [f64; D], start: u32) -> u32 {
+        let squared = |p: [f64; D]| vector::squared_norm(vector::minus(query, p));
+        let mut best = start;
+        let mut best_point = self.complex.point(start);
+        let mut best_squared = squared(best_point);
+        loop {
+            let at = best;
+            let mut is_tied = false;
+            for &v in neighbors.of(at) {
+                let point = self.complex.point(v);
+                let distance = squared(point);
+                let order = match certain_difference(distance, best_squared) {
+                    0 => compare_distances(query, point, best_point),
+                    order => order,
+                };
+                is_tied |= order == 0;
+                if order < 0 {
+                    (best, best_point, best_squared) = (v, point, distance);
+                    is_tied = false;
+                }
+            }
+            if best == at {
+                let all = || self.all_nearest(neighbors, query, best).into_iter().min();
+                return if is_tied { all().unwrap_or(best) } else { best };
+            }
+        }
+    }
+
+    /// Returns all vertices that are as near to a query as `v`, which is nearest.
+    #[inline(never)]
+    fn all_nearest(&self, neighbors: &Csr, query: [f64; D], v: u32) -> Vec<u32> {
+        let point = self.complex.point(v);
+        let mut tied = vec![v];
+        let mut seen = FxHashSet::from_iter([v]);
+        let mut next = 0;
+        while let Some(&v) = tied.get(next) {
+            next += 1;
+            for &w in neighbors.of(v) {
+                if compare_distances(query, self.complex.point(w), point) == 0 && seen.insert(w) {
+                    tied.push(w);
+                }
+            }
+        }
+        tied
+    }
+}
+
+/// A vertex on the way to the nearest ones: the greatest is the nearest, with the lowest index.
+struct Candidate<const D: usize> {
+    query: [f64; D],
+    point: [f64; D],
+    squared: f64,
+    vertex: u32,
+}
+
+impl<const D: usize> Ord for Candidate<D> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let difference: Sign = match certain_difference(self.squared, other.squared) {
+            0 => compare_distances(self.query, self.point, other.point),
+            difference => difference,
+        };
+        difference.cmp(&0).reverse().then(other.vertex.cmp(&self.vertex))
+    }
+}
+
+impl<const D: usize> PartialOrd for Candidate<D> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl<const D: usize> PartialEq for Candidate<D> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl<const D: usize> Eq for Candidate<D> {}

@@ -1,0 +1,506 @@
+//! Voronoi diagrams, the duals of Delaunay triangulations.
+
+mod cell;
+mod hull;
+mod polytope;
+mod shapes;
+
+pub use cell::Cell;
+pub use shapes::VoronoiShapes;
+
+use super::Locator;
+use crate::{
+    error::Error,
+    geometry::{Euclidean, Geometry, circumcenter, facet, vector},
+    index::NONE,
+    input::points::Points,
+    mesh::Csr,
+    mesh::Mesh,
+    parallel::{self, Threads},
+};
+use polytope::Polytope;
+use rustc_hash::FxHashSet;
+
+/// The number of cells that is worth handing to another thread.
+const GRAIN: usize = 1 << 8;
+
+/// What a Voronoi diagram is clipped to.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Clip, Voronoi};
+///
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
+/// let mesh = gdel::delaunay2d(&points)?;
+/// let total = |clip| Ok::<f64, gdel::Error>(Voronoi::new(&mesh, &points, clip)?.volumes().iter().sum());
+/// assert!(total(Clip::None)?.is_infinite());
+/// assert!((total(Clip::Box([[-1.0, -1.0], [2.0, 2.0]]))? - 9.0).abs() < 1e-14);
+/// assert!((total(Clip::Hull)? - 0.5).abs() < 1e-15);
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Clip<const D: usize = 3> {
+    /// Nothing: cells of vertices on the convex hull are unbounded.
+    #[default]
+    None,
+    /// The box with this lowest and this highest corner.
+    Box([[f64; D]; 2]),
+    /// The convex hull of the points.
+    Hull,
+}
+
+/// The Voronoi diagram of the vertices of a mesh: for each vertex, the places that are nearer to it than to any other.
+///
+/// Cells are computed when they are asked for; [`diagram`](Self::diagram) has all of them as arrays. Their vertices are the
+/// circumcentres of the simplices, with the errors of [`Mesh3::circumcenters`](crate::Mesh3::circumcenters). Cells whose vertices
+/// are not all within what the diagram is clipped to are made from it by clipping with bisectors, so that
+/// no circumcentre, however far away, makes them wrong. Facets that are empty because of a tie are left out, exactly.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Clip, Voronoi};
+///
+/// let points: Vec<[f64; 3]> = (0..1000).map(|i| [i % 10, i / 10 % 10, i / 100].map(f64::from)).collect();
+/// let mesh = gdel::delaunay3d(&points)?;
+/// let voronoi = Voronoi::new(&mesh, &points, Clip::Box([[-0.5; 3], [9.5; 3]]))?;
+/// // All cells of a grid are cubes.
+/// assert!(voronoi.volumes().iter().all(|volume| (volume - 1.0).abs() < 1e-12));
+/// assert_eq!(voronoi.neighbors().of(555), [455, 545, 554, 556, 565, 655]);
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Voronoi<'a, const D: usize = 3, const N: usize = 4> {
+    locator: Locator<'a, D, N>,
+    clip: Clip<D>,
+    /// The simplices around each vertex.
+    stars: Csr,
+    /// The circumcentre of each simplex.
+    vertices: Vec<[f64; D]>,
+    /// Whether each vertex of the mesh is on the hull.
+    on_hull: Vec<bool>,
+    /// If the diagram is clipped to the hull, the facets that each vertex's cell meets, as places in the next list.
+    hull_facets_of_cells: Csr,
+    /// The facets of the hull as (simplex, opposite vertex).
+    hull_facets: Vec<(usize, usize)>,
+}
+
+/// The Voronoi diagram of the vertices of a 2D mesh.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Clip, Voronoi, Voronoi2};
+///
+/// let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 4.0], [2.0, 2.0f64]];
+/// let mesh = gdel::delaunay2d(&points)?;
+/// let voronoi: Voronoi2 = Voronoi::new(&mesh, &points, Clip::None)?;
+/// // The cell in the middle is a square that stands on a corner; the others are unbounded.
+/// assert_eq!(voronoi.volumes()[4], 8.0);
+/// assert_eq!(voronoi.volumes()[0], f64::INFINITY);
+/// # Ok::<(), gdel::Error>(())
+/// ```
+pub type Voronoi2<'a> = Voronoi<'a, 2, 3>;
+
+/// All cells of a Voronoi diagram as arrays, which [`Voronoi::diagram`] returns.
+///
+/// The facets between two cells are listed with each of both.
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Diagram<const D: usize = 3> {
+    /// The vertices: first the circumcentre of each simplex of the mesh, then those that clipping made. Of the circumcentres not
+    /// all are vertices of cells, if the diagram was clipped.
+    pub vertices: Vec<[f64; D]>,
+    /// The vertices of each facet, as in [`Cell::facets`].
+    pub facets: Csr,
+    /// For each facet the point on the other side; [`NONE`](crate::NONE) where the cell was clipped.
+    pub neighbors: Vec<i32>,
+    /// The area of each facet, its length in 2D; infinite for unbounded facets.
+    pub areas: Vec<f64>,
+    /// Where the facets of each point's cell start, and one more entry that says where the last ones end. A duplicate has none.
+    pub cells: Vec<usize>,
+    /// The volume of each point's cell, its area in 2D: infinite for unbounded cells, 0 for empty ones.
+    pub volumes: Vec<f64>,
+    /// The centre of mass of each point's cell; NaN for unbounded and empty ones.
+    pub centroids: Vec<[f64; D]>,
+}
+
+impl<'a, const D: usize, const N: usize> Voronoi<'a, D, N>
+where
+    Euclidean: VoronoiShapes<D, N>,
+{
+    /// Creates the Voronoi diagram of a mesh with its points, clipped to a box or the hull if wanted.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for [`Locator::new`](crate::Locator::new);
+    /// [`Error::EmptyBox`] if the lowest corner of the box is not below the highest, or not finite.
+    pub fn new(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>, clip: Clip<D>) -> Result<Self, Error> {
+        if let Clip::Box([low, high]) = clip {
+            let is_wrong = |&axis: &usize| !(low[axis] < high[axis] && (high[axis] - low[axis]).is_finite());
+            if let Some(axis) = (0..D).find(is_wrong) {
+                return Err(Error::EmptyBox { axis: ['x', 'y', 'z'][axis] });
+            }
+        }
+        let locator = Locator::new(mesh, points)?;
+        let complex = &locator.complex;
+        let stars = Csr::stars(complex.simplices, complex.points.len());
+        let mut vertices = vec![[0.0; D]; complex.simplices.len()];
+        parallel::for_chunks(Threads::All, &mut vertices, |start, chunk| {
+            for (vertex, t) in chunk.iter_mut().zip(start..) {
+                *vertex = circumcenter(&complex.corners(t));
+            }
+        });
+        let mut on_hull = vec![false; complex.points.len()];
+        for (simplex, neighbors) in complex.simplices.iter().zip(&*complex.neighbors) {
+            for k in (0..N).filter(|&k| neighbors[k] == NONE) {
+                facet(simplex, k).into_iter().for_each(|v| on_hull[v as usize] = true);
+            }
+        }
+        let (hull_facets_of_cells, hull_facets) =
+            if clip == Clip::Hull { hull::hull_facets_of_cells(&locator) } else { Default::default() };
+        Ok(Voronoi { locator, clip, stars, vertices, on_hull, hull_facets_of_cells, hull_facets })
+    }
+
+    /// Returns the vertices of the diagram before it is clipped: the circumcentre of each simplex of the mesh.
+    pub fn vertices(&self) -> &[[f64; D]] {
+        &self.vertices
+    }
+
+    /// Returns the cell of point `i`; an empty one for duplicates, and for all points if the mesh has no simplices.
+    ///
+    /// # Panics
+    ///
+    /// Panics if there is no point `i`.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Clip, Voronoi};
+    ///
+    /// let points = [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [2.0, 2.0f64]];
+    /// let mesh = gdel::delaunay2d(&points)?;
+    /// let voronoi = Voronoi::new(&mesh, &points, Clip::Box([[-1.0, -1.0], [4.0, 4.0]]))?;
+    /// let cell = voronoi.cell(3);
+    /// assert_eq!((cell.volume, cell.centroid), (9.0, [2.5, 2.5]));
+    /// // Not point 0, from whose cell only a corner separates it.
+    /// assert_eq!(cell.neighbors(), [1, 2]);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn cell(&self, i: u32) -> Cell<D> {
+        let mut worker = Worker::default();
+        self.find_cell(i, &mut worker);
+        worker.cell
+    }
+
+    /// Calls `f` with every point and its cell, and returns the results. Threads share the cells.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Clip, Voronoi};
+    ///
+    /// let points = [[0.0, 0.0], [3.0, 0.0], [0.0, 3.0], [3.0, 3.0], [1.0, 2.0f64]];
+    /// let mesh = gdel::delaunay2d(&points)?;
+    /// let perimeters = Voronoi::new(&mesh, &points, Clip::Hull)?.map_cells(|_, cell| cell.areas.iter().sum::<f64>());
+    /// assert!((perimeters[2] - (2.0 + 2f64.sqrt())).abs() < 1e-14);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn map_cells<R: Send>(&self, f: impl Fn(u32, &Cell<D>) -> R + Sync) -> Vec<R> {
+        let points = self.locator.complex.points.len();
+        let results = parallel::map_grains(Threads::All, points, GRAIN, |range| {
+            let mut worker = Worker::default();
+            let results = range.map(|i| {
+                self.find_cell(i as u32, &mut worker);
+                f(i as u32, &worker.cell)
+            });
+            results.collect::<Vec<_>>()
+        });
+        results.into_iter().flatten().collect()
+    }
+
+    /// Returns the volume of each point's cell, its area in 2D: infinite for unbounded cells, 0 for empty ones.
+    ///
+    /// The sum of all is the volume of the box or the hull, as far as that contains all points, within 10⁻⁹ of it.
+    pub fn volumes(&self) -> Vec<f64> {
+        self.map_cells(|_, cell| cell.volume)
+    }
+
+    /// Returns the centre of mass of each point's cell; NaN for unbounded and empty cells.
+    pub fn centroids(&self) -> Vec<[f64; D]> {
+        self.map_cells(|_, cell| cell.centroid)
+    }
+
+    /// Returns the points that each point's cell shares a facet with, in ascending order.
+    pub fn neighbors(&self) -> Csr {
+        let mut neighbors = Csr::default();
+        for of_cell in self.map_cells(|_, cell| cell.neighbors()) {
+            neighbors.push(of_cell);
+        }
+        neighbors
+    }
+
+    /// Returns the points after one step of Lloyd's relaxation: each in the centre of mass of its cell, duplicates in that
+    /// of their vertex. Points with unbounded or empty cells stay.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Clip, Voronoi};
+    ///
+    /// let mut points = vec![[0.1, 0.2], [0.9, 0.1], [0.3, 0.7], [0.8, 0.6], [0.5, 0.4f64]];
+    /// for _ in 0..100 {
+    ///     let mesh = gdel::delaunay2d(&points)?;
+    ///     points = Voronoi::new(&mesh, &points, Clip::Box([[0.0, 0.0], [1.0, 1.0]]))?.relaxed();
+    /// }
+    /// // The areas have become more equal.
+    /// let mesh = gdel::delaunay2d(&points)?;
+    /// let areas = Voronoi::new(&mesh, &points, Clip::Box([[0.0, 0.0], [1.0, 1.0]]))?.volumes();
+    /// assert!(areas.iter().all(|area| (0.15..0.25).contains(area)));
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn relaxed(&self) -> Vec<[f64; D]> {
+        let complex = &self.locator.complex;
+        let centroids = self.centroids();
+        let relaxed = |i: usize| {
+            let centroid = centroids[complex.representative(i as u32) as usize];
+            if centroid.iter().all(|x| x.is_finite()) { centroid } else { complex.points.get(i) }
+        };
+        (0..centroids.len()).map(relaxed).collect()
+    }
+
+    /// Returns all cells as arrays.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Clip, Voronoi};
+    ///
+    /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [0.5, 0.5f64]];
+    /// let mesh = gdel::delaunay2d(&points)?;
+    /// let diagram = Voronoi::new(&mesh, &points, Clip::None)?.diagram();
+    /// // The four edges of the cell in the middle.
+    /// let facets = diagram.cells[4]..diagram.cells[5];
+    /// assert_eq!(facets.len(), 4);
+    /// assert!(facets.clone().all(|f| diagram.neighbors[f] < 4 && diagram.areas[f] == 0.5f64.sqrt()));
+    /// // Unbounded edges have one vertex, that where they start.
+    /// let facets = diagram.cells[0]..diagram.cells[1];
+    /// assert!(facets.into_iter().all(|f| diagram.areas[f].is_infinite() == (diagram.facets.of(f as u32).len() == 1)));
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn diagram(&self) -> Diagram<D> {
+        let mut diagram = Diagram { vertices: self.vertices.clone(), cells: vec![0], ..Diagram::default() };
+        for cell in self.map_cells(|_, cell| cell.clone()) {
+            let mut index = cell.simplices.clone();
+            for (index, vertex) in index.iter_mut().zip(&cell.vertices) {
+                if *index == NONE {
+                    *index = diagram.vertices.len() as i32;
+                    diagram.vertices.push(*vertex);
+                }
+            }
+            for f in 0..cell.facets.len() as u32 {
+                diagram.facets.push(cell.facets.of(f).iter().map(|&v| index[v as usize] as u32));
+            }
+            diagram.neighbors.extend(&cell.neighbors);
+            diagram.areas.extend(&cell.areas);
+            diagram.cells.push(diagram.neighbors.len());
+            diagram.volumes.push(cell.volume);
+            diagram.centroids.push(cell.centroid);
+        }
+        diagram
+    }
+
+    /// Finds the cell of point `i`.
+    fn find_cell(&self, i: u32, worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
+        worker.cell.clear();
+        let star = self.stars.of(i);
+        if star.is_empty() {
+            return;
+        }
+        self.find_facets(i, star, worker);
+        let site = self.locator.complex.point(i);
+        if self.is_whole(i) {
+            let cell = &mut worker.cell;
+            cell.vertices.extend(star.iter().map(|&t| vector::minus(self.vertices[t as usize], site)));
+            cell.simplices.extend(star.iter().map(|&t| t as i32));
+            cell.is_bounded = !self.on_hull[i as usize];
+        } else {
+            self.clip_cell(i, worker);
+        }
+        measure::<D, N>(worker, site);
+        // No longer relative to the site.
+        let Cell { vertices, simplices, .. } = &mut worker.cell;
+        for (vertex, &t) in vertices.iter_mut().zip(&*simplices) {
+            *vertex = if t == NONE { vector::plus(*vertex, site) } else { self.vertices[t as usize] };
+        }
+    }
+
+    /// Returns whether clipping leaves the cell of vertex `v` as it is.
+    fn is_whole(&self, v: u32) -> bool {
+        match self.clip {
+            Clip::None => true,
+            Clip::Hull => self.hull_facets_of_cells.of(v).is_empty(),
+            Clip::Box([low, high]) => {
+                let is_within = |p: [f64; D]| (0..D).all(|axis| low[axis] <= p[axis] && p[axis] <= high[axis]);
+                !self.on_hull[v as usize] && self.stars.of(v).iter().all(|&t| is_within(self.vertices[t as usize]))
+            }
+        }
+    }
+
+    /// Finds the facets of the cell of vertex `v` before it is clipped, as places in its star.
+    fn find_facets(&self, v: u32, star: &[u32], worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
+        let Worker { cell, is_open, ring, seen, .. } = worker;
+        let complex = &self.locator.complex;
+        is_open.clear();
+        seen.clear();
+        for &t in star {
+            for a in complex.simplices[t as usize] {
+                if a == v || !seen.insert(a) {
+                    continue;
+                }
+                let is_closed = <Euclidean as VoronoiShapes<D, N>>::ring(complex, v, a, t as usize, ring);
+                if !self.is_facet(ring, is_closed, [v, a]) {
+                    continue;
+                }
+                // A star is in ascending order. Only a broken mesh has simplices in a ring that are not in the star.
+                let places = ring.iter().map(|t| star.binary_search(t).unwrap_or(0) as u32);
+                cell.push(places, a as i32);
+                is_open.push(!is_closed);
+            }
+        }
+    }
+
+    /// Returns whether the facet that is dual to an edge has an area, in 2D a length. It has none if ties make so many of its
+    /// vertices coincide that at most two are left, in 2D one.
+    fn is_facet(&self, ring: &[u32], is_closed: bool, [v, a]: [u32; 2]) -> bool {
+        let complex = &self.locator.complex;
+        let are_distinct = |&[t, u]: &[u32; 2]| {
+            let [p, q] = [t, u].map(|t| self.vertices[t as usize]);
+            let radius = vector::squared_norm(vector::minus(p, complex.point(v)));
+            // Far more than the errors of both.
+            if vector::squared_norm(vector::minus(p, q)) > radius * (1.0 / (1u64 << 60) as f64) {
+                return true;
+            }
+            let (t, u) = (t as usize, u as usize);
+            let apex = complex.simplices[u].into_iter().find(|w| !complex.simplices[t].contains(w));
+            apex.is_some_and(|w| Euclidean::in_sphere(&complex.corners(t), complex.point(w)) != 0)
+        };
+        let edges = ring.windows(2).map(|pair| [pair[0], pair[1]]);
+        let last = ring.last().zip(ring.first()).filter(|_| is_closed && ring.len() > 2).map(|(&t, &u)| [t, u]);
+        let distinct = edges.chain(last).filter(are_distinct).take(3).count();
+        if is_closed {
+            return distinct >= <Euclidean as VoronoiShapes<D, N>>::FACET_EDGES;
+        }
+        // Without an edge, an unbounded facet has two rays from one vertex, which coincide if the facets of the hull share a plane.
+        distinct > 0 || !self.hull_is_flat_at(ring, [v, a])
+    }
+
+    /// Returns whether the two facets of the hull at an edge, around which these simplices are, share a plane.
+    fn hull_is_flat_at(&self, ring: &[u32], edge: [u32; 2]) -> bool {
+        let complex = &self.locator.complex;
+        // In 2D, the edge is all of the hull's facet.
+        if D == 2 {
+            return false;
+        }
+        let mut hull_facets = ring.iter().flat_map(|&t| {
+            let simplex = &complex.simplices[t as usize];
+            let is_outer = move |&k: &usize| !edge.contains(&simplex[k]) && complex.neighbors[t as usize][k] == NONE;
+            (0..N).filter(is_outer).map(move |k| facet(simplex, k))
+        });
+        let (Some(one), Some(other)) = (hull_facets.next(), hull_facets.next()) else { return false };
+        let one = one.map(|v| complex.point(v));
+        other.into_iter().all(|v| Euclidean::side(&one, complex.point(v)) == 0)
+    }
+
+    /// Makes the cell of vertex `v` from the box, or that around the hull, by clipping it with the bisectors of the cell's facets,
+    /// which it replaces, and with the facets of the hull.
+    fn clip_cell(&self, v: u32, worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
+        let Worker { cell, is_open, corners: facet_corners, polytope, .. } = worker;
+        let complex = &self.locator.complex;
+        let site = complex.point(v);
+        let bounds = match self.clip {
+            Clip::Box(bounds) => bounds,
+            _ => self.locator.bounds,
+        };
+        // Relative to the site.
+        polytope.reset(bounds.map(|corner| vector::minus(corner, site)), NONE);
+        for &neighbor in &cell.neighbors {
+            let to = vector::minus(complex.point(neighbor as u32), site);
+            polytope.clip(to, 0.5 * vector::squared_norm(to), neighbor);
+        }
+        if self.clip == Clip::Hull {
+            for &f in self.hull_facets_of_cells.of(v) {
+                let (t, k) = self.hull_facets[f as usize];
+                let corners = facet(&complex.simplices[t], k).map(|w| vector::minus(complex.point(w), site));
+                let (normal, offset) = Euclidean::plane(&corners);
+                polytope.clip(normal, offset, NONE);
+            }
+        }
+        cell.clear();
+        is_open.clear();
+        let vertices = polytope.vertices();
+        polytope.for_facets(|corners, name| {
+            facet_corners.clear();
+            facet_corners.extend(corners.iter().map(|&v| vertices[v as usize]));
+            // Where a bisector only touches the rest of the cell, nothing is left of the facet.
+            if Euclidean::facet_measures(facet_corners).area > 0.0 {
+                cell.push(corners.iter().copied(), name);
+                is_open.push(false);
+            }
+        });
+        cell.vertices.extend(vertices);
+        cell.simplices.resize(cell.vertices.len(), NONE);
+    }
+}
+
+/// Lists that one cell leaves to the next.
+#[derive(Debug)]
+struct Worker<const D: usize, P> {
+    cell: Cell<D>,
+    /// Whether each facet of the cell is unbounded.
+    is_open: Vec<bool>,
+    /// The simplices around an edge.
+    ring: Vec<u32>,
+    /// The neighbours that have been visited.
+    seen: FxHashSet<u32>,
+    /// The corners of a facet.
+    corners: Vec<[f64; D]>,
+    polytope: P,
+}
+
+impl<const D: usize, P: Default> Default for Worker<D, P> {
+    fn default() -> Self {
+        Worker {
+            cell: Cell::default(),
+            is_open: Vec::new(),
+            ring: Vec::new(),
+            seen: FxHashSet::default(),
+            corners: Vec::new(),
+            polytope: P::default(),
+        }
+    }
+}
+
+/// Fills in the measures of a cell, whose vertices are relative to its site.
+fn measure<const D: usize, const N: usize>(
+    Worker { cell, is_open, corners, .. }: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>,
+    site: [f64; D],
+) where
+    Euclidean: VoronoiShapes<D, N>,
+{
+    let mut moment = [0.0; D];
+    for (f, &is_open) in (0..).zip(&*is_open) {
+        corners.clear();
+        corners.extend(cell.facets.of(f).iter().map(|&v| cell.vertices[v as usize]));
+        let measures = Euclidean::facet_measures(corners);
+        cell.areas.push(if is_open { f64::INFINITY } else { measures.area });
+        cell.volume += measures.volume;
+        moment = vector::plus(moment, measures.moment);
+    }
+    if !cell.is_bounded {
+        cell.volume = f64::INFINITY;
+    } else if cell.volume > 0.0 {
+        cell.centroid = vector::plus(site, vector::times(1.0 / cell.volume, moment));
+    }
+}

@@ -1,0 +1,253 @@
+//! Points, facets and simplices of both dimensions as coordinates, without a mesh.
+//!
+//! [`Geometry`] supplies what differs between the dimensions to what is written once for both:
+//! `impl<const D: usize, const N: usize> … where Euclidean: Geometry<D, N>`, where `N` is `D` + 1.
+
+mod d2;
+mod d3;
+pub(crate) mod real;
+pub(crate) mod vector;
+
+pub(crate) use d2::angles;
+pub(crate) use d3::{dihedral_angles, precise_triangle_circumcenter_offset};
+
+use crate::{
+    input::order::Curve,
+    input::points::Points,
+    predicates::{
+        Sign,
+        polynomial::{Big, Polynomial, Ring, big_sign, common_exponent, dot, minus, quotient, sign},
+    },
+};
+
+/// The marker that [`Geometry`] is implemented for, in 2D and 3D.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Euclidean;
+
+/// What the geometry of simplices with `N` = `D` + 1 vertices depends on the dimension for.
+#[doc(hidden)]
+pub trait Geometry<const D: usize, const N: usize>: Copy + Send + Sync + 'static {
+    /// The corners of the facet opposite vertex *k* of a positively oriented simplex: counter-clockwise as seen from
+    /// outside in 3D, in the direction that has the triangle on its left in 2D.
+    const FACETS: [[usize; D]; N];
+
+    /// How a mesh numbers the facet opposite vertex *k*.
+    const FACET_NUMBERS: [usize; N];
+
+    /// The Hilbert curve.
+    const CURVE: Curve<D>;
+
+    /// Returns the determinant of the rows, rounded. If they are differences of points, its error is below
+    /// [`unscaled_orientation_bound`](crate::predicates::filter::unscaled_orientation_bound) of the largest absolute entry
+    /// of each column.
+    fn determinant(rows: &[[f64; D]; D]) -> f64;
+
+    /// Returns which side of a facet a point is on, exactly: 1 on the side that the facet is clockwise from, which is the
+    /// inner side of the facets in [`FACETS`](Self::FACETS), −1 on the other, 0 on the facet's plane.
+    fn side(facet: &[[f64; D]; D], p: [f64; D]) -> Sign;
+
+    /// Returns 1 if a point is inside the circumsphere of a positively oriented simplex, −1 outside, 0 on it; exactly.
+    fn in_sphere(simplex: &[[f64; D]; N], p: [f64; D]) -> Sign;
+
+    /// Returns the determinant of the rows, exactly if the ring is exact.
+    fn determinant_in<T: Ring>(rows: &[[T; D]; D]) -> T;
+
+    /// Returns the circumcentre relative to the origin, which is a vertex of the simplex, times the second result. The
+    /// edges lead to the other vertices.
+    fn circumcenter_fraction<T: Ring>(edges: &[[T; D]; D]) -> ([T; D], T);
+
+    /// Returns the circumcentre relative to the first vertex, from the edges that lead to the others, if rounding
+    /// surely did not move it by more than 2⁻³⁷ times the circumradius.
+    fn circumcenter_estimate(edges: &[[f64; D]; D]) -> Option<[f64; D]>;
+
+    /// Returns the sum of the measures of a simplex's facets.
+    fn boundary_measure(simplex: &[[f64; D]; N]) -> f64;
+}
+
+/// Returns the coordinates of the vertices of each simplex.
+///
+/// # Panics
+///
+/// The iterator panics at a vertex that is not among the points.
+pub(crate) fn coordinates<'a, const D: usize, const N: usize>(
+    points: Points<'a, D>,
+    simplices: &'a [[u32; N]],
+) -> impl ExactSizeIterator<Item = [[f64; D]; N]> + Clone + 'a {
+    simplices.iter().map(move |simplex| simplex.map(|v| points.get(v as usize)))
+}
+
+/// Returns the vertices of the facet opposite vertex `k`.
+#[inline]
+pub(crate) fn facet<T: Copy, const D: usize, const N: usize>(simplex: &[T; N], k: usize) -> [T; D]
+where
+    Euclidean: Geometry<D, N>,
+{
+    <Euclidean as Geometry<D, N>>::FACETS[k].map(|corner| simplex[corner])
+}
+
+/// Returns the edges from the first vertex to the others.
+fn edges<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> [[f64; D]; D] {
+    std::array::from_fn(|i| vector::minus(simplex[i + 1], simplex[0]))
+}
+
+/// Returns the circumcentre relative to the first vertex.
+///
+/// The error is at most 2⁻³⁷ times the circumradius, however flat the simplex is. Coordinates beyond
+/// the range of `f64` are infinite.
+pub(crate) fn circumcenter_offset<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> [f64; D]
+where
+    Euclidean: Geometry<D, N>,
+{
+    match Euclidean::circumcenter_estimate(&edges(simplex)) {
+        Some(offset) => offset,
+        None => exact_circumcenter_offset(simplex),
+    }
+}
+
+/// Returns the circumcentre relative to the first vertex, correctly rounded unless a coordinate is
+/// subnormal.
+#[inline(never)]
+fn exact_circumcenter_offset<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> [f64; D]
+where
+    Euclidean: Geometry<D, N>,
+{
+    rounded(exact_offset::<D, N, D>(simplex, Euclidean::circumcenter_fraction))
+}
+
+/// A point as numerators, a positive denominator, and the exponent of a power of two.
+type Fraction<const D: usize> = ([Big; D], Big, i32);
+
+/// Returns a point relative to the first of the given points, exactly; `fraction` finds it from the differences of the others to
+/// the first. There is none if the denominator is 0.
+#[inline(never)]
+fn exact_offset<const D: usize, const K: usize, const E: usize>(
+    points: &[[f64; D]; K],
+    fraction: impl Fn(&[[Big; D]; E]) -> ([Big; D], Big),
+) -> Option<Fraction<D>> {
+    let exponent = common_exponent(points.as_flattened());
+    let integers = points.map(|p| p.map(|x| Big::new(x, exponent)));
+    let (numerator, denominator) = fraction(&std::array::from_fn(|i| minus(&integers[i + 1], &integers[0])));
+    match big_sign(&denominator) {
+        1 => Some((numerator, denominator, exponent)),
+        -1 => Some((numerator.map(|x| Big::from(0) - x), Big::from(0) - denominator, exponent)),
+        _ => None,
+    }
+}
+
+/// Returns the coordinates of a point, correctly rounded unless they are subnormal; infinite ones if there is no point.
+fn rounded<const D: usize>(fraction: Option<Fraction<D>>) -> [f64; D] {
+    fraction.map_or([f64::INFINITY; D], |(numerator, denominator, exponent)| {
+        numerator.map(|x| quotient(&x, &denominator, exponent))
+    })
+}
+
+/// Returns the barycentric coordinates of a point that a simplex contains. Their errors are below 2⁻³⁷, however flat the simplex
+/// is, and their sum is 1 up to rounding.
+pub(crate) fn barycentric<const D: usize, const N: usize>(simplex: &[[f64; D]; N], p: [f64; D]) -> [f64; N]
+where
+    Euclidean: Geometry<D, N>,
+{
+    let rows = simplex.map(|corner| vector::minus(corner, p));
+    // None is negative for a point inside.
+    let shares: [f64; N] = std::array::from_fn(|k| Euclidean::determinant(&facet(&rows, k)).max(0.0));
+    let sum: f64 = shares.iter().sum();
+    // The errors are at most 10·D!·2⁻⁵³·extentᴰ.
+    let extent = rows.as_flattened().iter().fold(0.0f64, |extent, x| extent.max(x.abs()));
+    if (1e-90..1e90).contains(&extent) && sum * 1024.0 > extent.powi(D as i32) {
+        return shares.map(|share| share / sum);
+    }
+    exact_barycentric(simplex, p)
+}
+
+#[inline(never)]
+fn exact_barycentric<const D: usize, const N: usize>(simplex: &[[f64; D]; N], p: [f64; D]) -> [f64; N]
+where
+    Euclidean: Geometry<D, N>,
+{
+    let exponent = common_exponent(simplex.as_flattened()).min(common_exponent(&p));
+    let integer = |p: [f64; D]| p.map(|x| Big::new(x, exponent));
+    let origin = integer(p);
+    let rows = simplex.map(|corner| minus(&integer(corner), &origin));
+    let shares: [Big; N] = std::array::from_fn(|k| {
+        Euclidean::determinant_in(&<Euclidean as Geometry<D, N>>::FACETS[k].map(|corner| rows[corner].clone()))
+    });
+    let sum = shares.iter().cloned().fold(Big::from(0), |sum, share| sum + share);
+    if big_sign(&sum) <= 0 {
+        return [f64::NAN; N];
+    }
+    shares.map(|share| quotient(&share, &sum, 0))
+}
+
+/// Returns the centre of the sphere through the vertices of a simplex: see [`circumcenter_offset`].
+pub(crate) fn circumcenter<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> [f64; D]
+where
+    Euclidean: Geometry<D, N>,
+{
+    vector::plus(simplex[0], circumcenter_offset(simplex))
+}
+
+/// Returns the radius of the sphere through the vertices of a simplex, with a relative error below
+/// 2⁻³⁶.
+pub(crate) fn circumradius<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> f64
+where
+    Euclidean: Geometry<D, N>,
+{
+    vector::norm(circumcenter_offset(simplex))
+}
+
+/// Returns the volume of a positively oriented tetrahedron or the area of a counter-clockwise triangle.
+pub(crate) fn measure<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> f64
+where
+    Euclidean: Geometry<D, N>,
+{
+    Euclidean::determinant(&edges(simplex)) / factorial(D)
+}
+
+/// Returns the ratio of the inradius to the circumradius, times `D`: 1 for the regular simplex, near 0 for flat ones.
+pub(crate) fn radius_ratio<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> f64
+where
+    Euclidean: Geometry<D, N>,
+{
+    let d = D as f64;
+    // A simplex is D pyramids' worth: measure = inradius · boundary / D.
+    d * d * measure(simplex) / Euclidean::boundary_measure(simplex) / circumradius(simplex)
+}
+
+pub(crate) fn factorial(n: usize) -> f64 {
+    (1..=n).map(|i| i as f64).product()
+}
+
+/// |q − a|² − |q − b|².
+struct DistanceDifference;
+
+impl<const D: usize> Polynomial<3, D> for DistanceDifference {
+    fn value<T: Ring>([q, a, b]: &[[T; D]; 3]) -> T {
+        let squared = |p: &[T; D]| {
+            let u = minus(q, p);
+            dot(&u, &u)
+        };
+        squared(a) - squared(b)
+    }
+}
+
+/// Returns the sign of |q − a| − |q − b|, exactly.
+#[inline]
+pub(crate) fn compare_distances<const D: usize>(q: [f64; D], a: [f64; D], b: [f64; D]) -> Sign {
+    let [to_a, to_b] = [a, b].map(|p| vector::squared_norm(vector::minus(q, p)));
+    match certain_difference(to_a, to_b) {
+        0 => sign::<DistanceDifference, 3, D>(&[q, a, b]),
+        sign => sign,
+    }
+}
+
+/// Returns the sign of the difference of two rounded squared distances, or 0 if rounding may have changed it.
+///
+/// Three roundings for each of at most three squares and two for their sum leave a relative error
+/// below 6·2⁻⁵³, and underflow an absolute one below 2⁻¹⁰⁷⁰.
+#[inline]
+pub(crate) fn certain_difference(a: f64, b: f64) -> Sign {
+    const RELATIVE: f64 = 16.0 * f64::EPSILON;
+    const ABSOLUTE: f64 = f64::from_bits((1023 - 1000) << 52);
+    let margin = RELATIVE * (a + b) + ABSOLUTE;
+    (a - b > margin) as Sign - (b - a > margin) as Sign
+}

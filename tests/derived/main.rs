@@ -1,0 +1,10 @@
+//! What is derived from meshes, against brute force.
+
+#[path = "../clouds.rs"]
+mod clouds;
+mod geometry;
+mod inputs;
+mod interpolate;
+mod locate;
+mod nearest;
+mod voronoi;
