@@ -375,7 +375,7 @@ fn broken_vtu_files() {
     fails("10 10", "10 10 10", "3 tetrahedra");
     fails("1 2 3 4\n", "1 2 3\n", "7 vertices");
     fails("1 2 3 4\n", "1 2 3 x\n", "not all of its values are integers");
-    fails("1 2 3 4\n", "1 2 3 -4\n", "no index");
+    fails("1 2 3 4\n", "1 2 3 -4\n", "-4 is not the index of a point");
     fails("\"connectivity\"", "\"other\"", "`connectivity`");
     fails("format=\"ascii\">10", "format=\"appended\" offset=\"99\">10", "appended");
     fails("format=\"ascii\">10", "format=\"binary\">10", "broken");

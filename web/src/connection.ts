@@ -89,7 +89,7 @@ export function workerConnection({ value: thread, whyInlined }: Loaded<WorkerThr
           },
         };
         thread.keepAlive(true);
-        thread.post({ type: 'run', id, module, task, args }, transfer);
+        thread.post({ type: 'run', id, module, task, args, isWatched: stop.isWatched }, transfer);
       }).finally(() => {
         pending = undefined;
         clearTimeout(timer);

@@ -85,6 +85,8 @@ export type ToWorker =
       module: ModuleName;
       task: TaskName;
       args: Tasks[TaskName]['args'];
+      /** Whether to send messages before the last one: for small inputs, they are what takes long. */
+      isWatched: boolean;
     }
   | { type: 'abort'; id: number };
 

@@ -132,24 +132,21 @@ export async function startWorker({
   file,
   copy,
 }: WorkerAsset): Promise<Loaded<WorkerThread>> {
-  // The build for `require` knows files of a disk only.
-  if (typeof Worker === 'function' && (start || copy)) {
-    return fileOrCopy(start && (() => whenReady(webWorker(start()))), copy, (source) =>
-      whenReady(blobWorker(source)),
-    );
-  }
-  if (builtin('node:worker_threads')) {
+  const threads = builtin('node:worker_threads');
+  const isPage = typeof document !== 'undefined' && typeof Worker === 'function';
+  // Deno and Bun have both: the process does not wait for idle threads, but for idle workers.
+  if (threads && !isPage) {
     return fileOrCopy(file && (() => whenReady(nodeWorker(file().href))), copy, (source) =>
       whenReady(nodeWorker(`data:text/javascript,${encodeURIComponent(source)}`)),
     );
   }
-  throw new Error('there are no workers here');
+  if (typeof Worker !== 'function') throw new Error('there are no workers here');
+  return fileOrCopy(start && (() => whenReady(webWorker(start()))), copy, (source) =>
+    whenReady(blobWorker(source)),
+  );
 }
 
-/**
- * Waits until a worker has loaded its code. To be called in the turn that started it: in Deno, a
- * message that was sent before the first listener is there can be lost.
- */
+/** Waits until a worker has loaded its code. To be called in the turn that started it. */
 function whenReady(thread: WorkerThread): Promise<WorkerThread> {
   return new Promise<WorkerThread>((resolve, reject) => {
     const timer = setTimeout(() => {
@@ -173,7 +170,6 @@ function whenReady(thread: WorkerThread): Promise<WorkerThread> {
 
 /** A worker of the web's interface. */
 function webWorker(worker: Worker): WorkerThread {
-  const bun = worker as { ref?(): void; unref?(): void };
   return {
     post: (message, transfer) => worker.postMessage(message, transfer),
     onMessage: (handler) => worker.addEventListener('message', (event) => handler(event.data)),
@@ -187,8 +183,7 @@ function webWorker(worker: Worker): WorkerThread {
       );
     },
     terminate: () => worker.terminate(),
-    // Browsers do not have these, Bun does.
-    keepAlive: (busy) => (busy ? bun.ref?.() : bun.unref?.()),
+    keepAlive() {},
   };
 }
 

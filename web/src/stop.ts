@@ -37,6 +37,11 @@ export class Stop {
     if (this.#error) throw this.#error.reason;
   }
 
+  /** Whether somebody wants to hear of the run before it ends. */
+  get isWatched(): boolean {
+    return this.isExpected || this.#options.onProgress !== undefined;
+  }
+
   /** Calls a handler when the run is to end: at once if it already is. */
   onStop(handler: (reason: unknown) => void): void {
     if (this.#error) handler(this.#error.reason);

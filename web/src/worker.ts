@@ -4,7 +4,7 @@ import { buffersOf } from './arrays.js';
 import { builtin } from './builtin.js';
 import { type Core, makeCore } from './core.js';
 import type { PlainError } from './errors.js';
-import type { FromWorker, ModuleName, TaskName, Tasks, ToWorker } from './protocol.js';
+import type { FromWorker, ModuleName, ToWorker } from './protocol.js';
 
 /** The port to whoever started this worker. */
 interface Port {
@@ -17,18 +17,22 @@ function serve(port: Port): void {
   const cores = new Map<ModuleName, Core>();
   const aborted = new Set<number>();
 
-  async function run(id: number, name: ModuleName, task: TaskName, args: Tasks[TaskName]['args']) {
+  async function run({ id, module, task, args, isWatched }: ToWorker & { type: 'run' }) {
     try {
-      const core = cores.get(name);
+      const core = cores.get(module);
       if (!core)
         throw {
           code: 'INTERNAL',
-          message: `the module ${name} for ${task} was not loaded`,
+          message: `the module ${module} for ${task} was not loaded`,
           fatal: true,
         } satisfies PlainError;
       const result = await core.run(task, args, {
-        onProgress: (progress) => port.post({ type: 'progress', id, progress }, []),
-        onBlocking: () => port.post({ type: 'blocking', id }, []),
+        onProgress(progress) {
+          if (isWatched) port.post({ type: 'progress', id, progress }, []);
+        },
+        onBlocking() {
+          if (isWatched) port.post({ type: 'blocking', id }, []);
+        },
         isAborted: () => aborted.has(id),
       });
       port.post({ type: 'done', id, result }, buffersOf(result));
@@ -44,7 +48,7 @@ function serve(port: Port): void {
     if (message.type === 'load') {
       cores.set(message.name, makeCore(message.name, message.module));
     } else if (message.type === 'run') {
-      void run(message.id, message.module, message.task, message.args);
+      void run(message);
     } else {
       aborted.add(message.id);
     }
@@ -59,7 +63,6 @@ interface Scope {
 }
 
 const scope = globalThis as unknown as Scope;
-// Bun has this port in every worker, and in some it is the only one.
 const port = builtin('node:worker_threads')?.parentPort;
 if (port) {
   serve({
