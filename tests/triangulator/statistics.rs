@@ -19,11 +19,11 @@ use std::collections::{HashMap, HashSet};
 
 /// Triangulates points of a thin sphere, all of them inserted before the first flip. Flips then
 /// leave hundreds of facets that are not locally Delaunay, whatever the order in which a device
-/// flips.
+/// flips. Each round is a submission of its own.
 fn triangulate_thin_sphere(options: &Options) -> (Vec<[f64; 3]>, Mesh3) {
     let points = generate3d(Distribution3::ThinSphere, 8_000, 5);
     let mut engine = engine();
-    engine.set_settings(Settings { insert_all: true, ..Settings::default() });
+    engine.set_settings(Settings { insert_all: true, rounds: 1, batches: 1, ..Settings::default() });
     let mesh = block_on(engine.triangulate((&points).into(), options));
     engine.set_settings(Settings::default());
     (points, mesh.expect("triangulates"))

@@ -277,6 +277,7 @@ test('every file that the package names is in it', () => {
     'LICENSE-MIT',
     'README.md',
     'dist',
+    'docs',
     'package.json',
   ]);
   const files = readdirSync(folder);
