@@ -3,10 +3,7 @@
 use crate::inputs::{inputs2, inputs3, mesh2, mesh3, queries};
 use gdel::{
     Error, Interpolation, Interpolator, Locator, Mesh, Points,
-    internals::{
-        derived::StolenMeasures,
-        geometry::{Euclidean, Geometry},
-    },
+    internals::{derived::StolenMeasures, geometry::Euclidean},
 };
 
 const METHODS: [Interpolation; 3] = [Interpolation::Linear, Interpolation::Laplace, Interpolation::Sibson];

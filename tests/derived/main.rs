@@ -1,5 +1,6 @@
 //! What is derived from meshes, against brute force.
 
+mod alpha;
 #[path = "../clouds.rs"]
 mod clouds;
 mod geometry;
