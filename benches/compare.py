@@ -32,7 +32,8 @@ DRAGON = ROOT / ".cache" / "dragon.ply"
 
 def build():
     subprocess.run(["cargo", "build", "--release", "--features", "cli", "--locked", "--quiet"], cwd=ROOT, check=True)
-    # Both sides for the baseline of the architecture, no -march=native on either; CGAL asks for -frounding-math.
+    # Both sides for the baseline of the architecture, no -march=native on either; CGAL asks for
+    # -frounding-math.
     flags = ["-std=c++17", "-O3", "-DNDEBUG", "-frounding-math"]
     subprocess.run(["g++", *flags, ROOT / "benches/peers/cgal.cpp", "-o", CGAL, "-lgmp", "-lmpfr"], check=True)
 
@@ -85,7 +86,8 @@ def dragon(path):
     ply(DRAGON, path)
 
 
-# What is generic, no five points cospherical, has one Delaunay triangulation: the tetrahedra can be compared too.
+# What is generic, no five points cospherical, has one Delaunay triangulation: the tetrahedra can be
+# compared too.
 GENERIC = {"uniform", "sphere"}
 MAKERS = {f.__name__: f for f in (uniform, sphere, sphere_rounded, grid, bunny, dragon)}
 
@@ -103,7 +105,8 @@ def run(command):
 
 def compare(name, runs):
     path = INPUTS / f"{name}.f64"
-    # In a process of its own: Linux counts the peak memory of the starting process into that of the started one.
+    # In a process of its own: Linux counts the peak memory of the starting process into that of the
+    # started one.
     maker = multiprocessing.Process(target=MAKERS[name], args=(path,))
     maker.start()
     maker.join()

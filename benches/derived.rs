@@ -5,7 +5,7 @@
 
 use gdel::{
     Backend, Interpolation, Interpolator, Locator, Triangulator,
-    internals::d3::generate::{Distribution, generate},
+    internals::d3::generate::{Distribution3, generate3d},
 };
 use std::time::Instant;
 
@@ -47,8 +47,8 @@ fn run(arguments: &Arguments) {
     };
     let wanted = |name: &str| arguments.only.as_deref().is_none_or(|only| only == name);
 
-    let points = generate(Distribution::Uniform, arguments.points, 1);
-    let queries = generate(Distribution::Uniform, arguments.queries, 2);
+    let points = generate3d(Distribution3::Uniform, arguments.points, 1);
+    let queries = generate3d(Distribution3::Uniform, arguments.queries, 2);
     let done = timed("triangulate");
     let mesh = Triangulator::new().backend(Backend::Cpu).delaunay3d(&points).expect("finite points");
     done();

@@ -1,7 +1,7 @@
 //! The stages before Phase 1 and the predicates on the GPU, by the device's own clock.
 //!
-//! `cargo bench --bench gpu_stages -- [points…]`; 100,000 and 1,000,000 points by default. Medians of five runs after one
-//! to warm up.
+//! `cargo bench --bench gpu_stages -- [points…]`; 100,000 and 1,000,000 points by default. Medians
+//! of five runs after one to warm up.
 
 use std::time::Instant;
 
@@ -10,7 +10,7 @@ mod assemble;
 
 use assemble::assemble;
 use gdel::{
-    Points,
+    Points, Points3,
     internals::{
         d3::gpu::vertex,
         gpu::{
@@ -37,8 +37,8 @@ fn random_points(n: usize) -> Vec<[f64; 3]> {
     (0..n).map(|_| std::array::from_fn(|_| rng.random())).collect()
 }
 
-/// Milliseconds per stage, and for all with the host's part.
-fn points(gpu: &Gpu, stage: &PointStage<3>, points: Points<'_>) {
+/// Returns milliseconds per stage, and for all with the host's part.
+fn points(gpu: &Gpu, stage: &PointStage<3>, points: Points3<'_>) {
     let mut stages: Vec<(&str, Vec<f64>)> = Vec::new();
     let mut note = |name, ms| match stages.iter_mut().find(|(stage, _)| *stage == name) {
         Some((_, times)) => times.push(ms),
@@ -73,7 +73,7 @@ fn points(gpu: &Gpu, stage: &PointStage<3>, points: Points<'_>) {
     println!("{:>9} points {form}: ms: {}", points.len(), columns.join(", "));
 }
 
-/// Nanoseconds of device time per test.
+/// Returns nanoseconds of device time per test.
 fn predicate(gpu: &Gpu, width: Width, name: &str, arguments: &str) {
     const VERTICES: usize = 1 << 16;
     const TESTS: usize = 1 << 22;

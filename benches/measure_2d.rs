@@ -1,17 +1,18 @@
-//! Times the GPU backend in 2D: `cargo bench --bench measure_2d -- [DISTRIBUTION] [POINTS] [ADAPTER] [REPEATS]`.
+//! Times the GPU backend in 2D:
+//! `cargo bench --bench measure_2d -- [DISTRIBUTION] [POINTS] [ADAPTER] [REPEATS]`.
 //!
-//! The distributions are those of `gdel generate --dim 2`, and `full-grid`, all points of a square grid.
+//! The distributions are those of `gdel generate --dim 2`, and `full-grid`, all points of a square
+//! grid.
 //!
-//! The variables SINGLE (1: coordinates rounded to `f32`), PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE,
-//! WORKGROUPS and SEED change input and settings (the paper's Figure 12). Prints a line of JSON: medians over the repeats,
-//! after one run to warm up, of the whole run and its phases, points in host memory to mesh in host memory; then the same
-//! for the CPU engine (once; CPU=0 leaves it out) and whether both agree; and the stages of one more run on the device,
-//! which is slower because each dispatch is timed.
+//! The variables SINGLE (1: coordinates rounded to `f32`), PICK (0–2), INSERT_ALL (0, 1), SORT (0,
+//! 1), MIN_ACTIVE, WORKGROUPS and SEED change input and settings (the paper's Figure 12). Prints a
+//! line of JSON: medians over the repeats, after one run to warm up, of the whole run and its
+//! phases, points in host memory to mesh in host memory; then the same for the CPU engine (once;
+//! CPU=0 leaves it out) and whether both agree; and the stages of one more run on the device, which
+//! is slower because each dispatch is timed.
 
-use gdel::internals::d2::{
-    cpu::delaunay2d_in_order,
-    generate::{Distribution2, generate2d},
-};
+use gdel::internals::cpu::delaunay_in_order;
+use gdel::internals::d2::generate::{Distribution2, generate2d};
 use gdel::internals::gpu::{AdapterChoice, Gpu, Profiler};
 use gdel::internals::gpu::{
     engine::GpuEngine,
@@ -25,7 +26,8 @@ use gdel::{Points2, internals::Options};
 use pollster::block_on;
 use std::time::Instant;
 
-/// The points of a distribution by its name, and all points of a square grid as `full-grid`.
+/// Returns the points of a distribution by its name, and all points of a square grid as
+/// `full-grid`.
 fn points(kind: &str, count: usize, seed: u64) -> Result<Vec<[f64; 2]>, String> {
     if kind == "full-grid" {
         let side = (count as f64).sqrt().ceil() as usize;
@@ -81,7 +83,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         meshes.push(mesh.stats.clone());
         if meshes.len() == repeats + 1 && option("CPU", 1) != 0 {
             let clock = Instant::now();
-            let expected = delaunay2d_in_order(input, &options, Order::default())?;
+            let expected = delaunay_in_order::<2>(input, &options, Order::default())?;
             eprintln!(
                 "{{\"cpu_ms\":{:.1},\"same\":{}}}",
                 clock.elapsed().as_secs_f64() * 1e3,

@@ -1,13 +1,14 @@
-//! Times the GPU backend in 3D: `cargo bench --features cli --bench measure_3d -- [uniform|gaussian|ball|thin-sphere|sphere|grid|FILE] [POINTS] [ADAPTER] [REPEATS]`.
+//! Times the GPU backend in 3D:
+//! `cargo bench --features cli --bench measure_3d -- [KIND|FILE] [POINTS] [ADAPTER] [REPEATS]`.
 //!
-//! The variable SINGLE (1) rounds the coordinates to `f32`, SEED chooses others. Prints a line of JSON: medians over the
-//! repeats of the whole run and its phases, points in host memory to mesh in host memory. Before, it runs for a second to warm up:
-//! a device raises its clock slowly.
+//! The variable SINGLE (1) rounds the coordinates to `f32`, SEED chooses others. Prints a line of
+//! JSON: medians over the repeats of the whole run and its phases, points in host memory to mesh in
+//! host memory. Before, it runs for a second to warm up: a device raises its clock slowly.
 
-use gdel::internals::d3::generate::{Distribution, generate};
+use gdel::internals::d3::generate::{Distribution3, generate3d};
 use gdel::internals::gpu::{AdapterChoice, Gpu, engine::GpuEngine};
 use gdel::internals::io::files::read_points;
-use gdel::{Points, internals::Options};
+use gdel::{Points, Points3, internals::Options};
 use pollster::block_on;
 use std::{path::Path, time::Instant};
 
@@ -21,12 +22,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(default)
     };
     let single = option("SINGLE", 0) != 0;
-    let doubles: Vec<[f64; 3]> = match Distribution::ALL.into_iter().find(|d| d.name() == kind) {
-        Some(distribution) => generate(distribution, count, option("SEED", 1)),
+    let doubles: Vec<[f64; 3]> = match Distribution3::ALL.into_iter().find(|d| d.name() == kind) {
+        Some(distribution) => generate3d(distribution, count, option("SEED", 1)),
         None => Points::from(&read_points(Path::new(&kind))?.points).iter().collect(),
     };
     let singles: Vec<[f32; 3]> = doubles.iter().map(|p| p.map(|x| x as f32)).collect();
-    let points: Points<'_> = if single { (&singles).into() } else { (&doubles).into() };
+    let points: Points3<'_> = if single { (&singles).into() } else { (&doubles).into() };
 
     let choice = if adapter.is_empty() { AdapterChoice::Default } else { AdapterChoice::Name(adapter) };
     let gpu = block_on(Gpu::open(&choice))?;

@@ -1,12 +1,13 @@
-//! Times Phase 1 in 3D: `cargo bench --features cli --bench measure_phase1 -- [uniform|gaussian|ball|thin-sphere|sphere|grid|FILE] [POINTS] [ADAPTER] [REPEATS]`, on
-//! coordinates rounded to `f32`.
+//! Times Phase 1 in 3D:
+//! `cargo bench --features cli --bench measure_phase1 -- [KIND|FILE] [POINTS] [ADAPTER] [REPEATS]`,
+//! on coordinates rounded to `f32`.
 //!
-//! The variables PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE, SLOTS_PER_ACTIVE, WORKGROUPS and SEED change the
+//! The variables PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE, SLOTS_PER_ACTIVE, WORKGROUPS, FEW, ROUNDS, BATCHES and SEED change the
 //! settings. Prints a line of JSON: medians over the repeats, after a second of runs to warm up, since a device raises its
 //! clock slowly; and the stages of one more run, which is slower because each dispatch is timed.
 
 use gdel::Points;
-use gdel::internals::d3::generate::{Distribution, generate};
+use gdel::internals::d3::generate::{Distribution3, generate3d};
 use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::gpu::{AdapterChoice, Gpu, Profiler};
 use gdel::internals::input::lattice::Lattice;
@@ -41,13 +42,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         slots_per_active: option("SLOTS_PER_ACTIVE", defaults.slots_per_active),
         workgroups: option("WORKGROUPS", defaults.workgroups),
         sort: option("SORT", 1) != 0,
+        few: option("FEW", defaults.few),
+        rounds: option("ROUNDS", defaults.rounds),
+        batches: option("BATCHES", defaults.batches),
         ..defaults
     };
 
     let choice = if adapter.is_empty() { AdapterChoice::Default } else { AdapterChoice::Name(adapter) };
     let gpu = block_on(Gpu::open(&choice))?;
-    let doubles: Vec<[f64; 3]> = match Distribution::ALL.into_iter().find(|d| d.name() == kind) {
-        Some(distribution) => generate(distribution, count, option("SEED", 1).into()),
+    let doubles: Vec<[f64; 3]> = match Distribution3::ALL.into_iter().find(|d| d.name() == kind) {
+        Some(distribution) => generate3d(distribution, count, option("SEED", 1).into()),
         None => Points::from(&read_points(Path::new(&kind))?.points).iter().collect(),
     };
     let points: Vec<[f32; 3]> = doubles.into_iter().map(|p| p.map(|x| x as f32)).collect();
@@ -80,11 +84,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let all: Vec<String> = runs.iter().map(|r| format!("{:.2}", milliseconds(r.stats.time))).collect();
     let Phase1Output { stats, result, merged } = &runs[runs.len() / 2];
     let counters = &stats.counters;
+    let each_round: Vec<String> =
+        stats.rounds.iter().map(|r| format!("[{},{},{},{}]", r.inserted, r.active, r.flips, r.iterations)).collect();
     let stages: Vec<String> = stages.iter().map(|(name, ms)| format!("\"{name}\":{ms:.3}")).collect();
     println!(
         "{{\"input\":\"{kind}\",\"points\":{},\"adapter\":\"{}\",\"width\":\"{:?}\",\"ms\":{:.2},\"all_ms\":[{}],\
          \"mesh_readback_ms\":{:.2},\"lattice_ms\":{lattice_ms:.1},\"pipelines_ms\":{pipelines_ms:.0},\"rounds\":{},\
-         \"flip_iterations\":{},\"visits\":{},\"flips_23\":{},\"flips_32\":{},\"exact\":{},\"tets\":{},\"failed\":{},\
+         \"each_round\":[{}],\"flip_iterations\":{},\"few_done\":{},\"visits\":{},\"flips_23\":{},\"flips_32\":{},\"exact\":{},\"tets\":{},\"failed\":{},\
          \"merged\":{},\"uncertain\":{},\"readbacks\":{},\"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
         points.len(),
         gpu.adapter().name,
@@ -93,7 +99,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         all.join(","),
         milliseconds(stats.readback_time),
         stats.rounds.iter().filter(|round| round.inserted > 0).count(),
+        each_round.join(","),
         counters.iterations,
+        counters.few_done,
         counters.visits,
         counters.flips_23,
         counters.flips_32,

@@ -1,7 +1,8 @@
 //! `orient3d` and `insphere` on 1,024 argument lists at a time: this crate's, and those of the
 //! crates `robust` and `geometry-predicates`.
 //!
-//! * `vertices`: what the engine calls: [`PredicateContext`], with its filters, lattice integers and symbolic ties;
+//! * `vertices`: what the engine calls: [`PredicateContext`], with its filters, lattice integers
+//!   and symbolic ties;
 //! * `exact`: [`gdel::internals::predicates`] for coordinates on their own;
 //! * `robust`, `geometry-predicates`: Shewchuk's adaptive predicates as those crates have them.
 //!
@@ -10,7 +11,10 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gdel::internals::{
     input::lattice::Lattice,
-    predicates::{self, Sign, filter::PredicateContext},
+    predicates::{
+        self, Sign,
+        filter::{PredicateContext, PredicateContext3},
+    },
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -67,12 +71,13 @@ fn compare<const N: usize>(
     c: &mut Criterion,
     predicate: &str,
     cases: [(&str, Vec<[Point; N]>); 3],
-    filtered: impl Fn(&PredicateContext<'_>, [u32; N]) -> Sign,
+    filtered: impl Fn(&PredicateContext3<'_>, [u32; N]) -> Sign,
     exact: impl Fn([Point; N]) -> Sign,
     robust: impl Fn([Coord3D<f64>; N]) -> f64,
     geometry_predicates: impl Fn([Point; N]) -> f64,
 ) {
-    // Those crates count an orientation as positive that is negative here; see `gdel::internals::predicates`.
+    // Those crates count an orientation as positive that is negative here; see
+    // `gdel::internals::predicates`.
     let sign = |value: f64| (value < 0.0) as Sign - (value > 0.0) as Sign;
     let robust = |list: [Point; N]| sign(robust(list.map(|[x, y, z]| Coord3D { x, y, z })));
     let geometry_predicates = |list| sign(geometry_predicates(list));

@@ -9,9 +9,9 @@ use gdel::{
     Points,
     internals::{
         d3::{
-            generate::{Distribution, generate},
-            splay::{NearDelaunay, SplayOutcome, splay},
-            triangulation::Triangulation,
+            generate::{Distribution3, generate3d},
+            splay::{NearDelaunay3, SplayOutcome, splay},
+            triangulation::Triangulation3,
         },
         gpu::{
             AdapterChoice, Gpu,
@@ -38,8 +38,8 @@ fn median(mut times: Vec<f64>) -> f64 {
 
 fn read(input: &str) -> Result<Vec<[f32; 3]>, Box<dyn Error>> {
     let distribution = input.split_once(':').and_then(|(name, count)| {
-        let distribution = Distribution::ALL.into_iter().find(|distribution| distribution.name() == name)?;
-        Some(generate(distribution, count.parse().ok()?, 1))
+        let distribution = Distribution3::ALL.into_iter().find(|distribution| distribution.name() == name)?;
+        Some(generate3d(distribution, count.parse().ok()?, 1))
     });
     let points = match distribution {
         Some(points) => points,
@@ -58,12 +58,12 @@ fn copied(tetrahedra: &[[u32; 4]]) -> Vec<[u32; 4]> {
 /// Returns the milliseconds of splaying and of the end, and what splaying did.
 fn run(
     points: &[[f32; 3]],
-    lattice: &Lattice,
+    lattice: &Lattice<3>,
     phase1: &Phase1Output<3>,
     threads: Threads,
 ) -> Result<(f64, f64, SplayStats), Box<dyn Error>> {
-    let near = NearDelaunay {
-        triangulation: Triangulation::new(
+    let near = NearDelaunay3 {
+        triangulation: Triangulation3::new(
             copied(&phase1.result.tets),
             copied(&phase1.result.neighbors),
             points.len() as u32,

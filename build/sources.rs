@@ -42,12 +42,12 @@ impl Sources {
         Ok(Sources(files))
     }
 
-    /// All files, by name.
+    /// Returns all files, by name.
     pub fn files(&self) -> impl Iterator<Item = &File> {
         self.0.values()
     }
 
-    /// The files that `file` consists of: what it includes, each with these values for
+    /// Returns the files that `file` consists of: what it includes, each with these values for
     /// placeholders, and itself.
     ///
     /// # Errors
@@ -74,7 +74,7 @@ impl Sources {
 }
 
 impl File {
-    /// A file of this name with these contents.
+    /// Creates a file of this name with these contents.
     ///
     /// # Panics
     ///
@@ -96,27 +96,27 @@ impl File {
         File { name, lines, includes }
     }
 
-    /// Where the file is.
+    /// Returns the path of the file.
     pub fn path(&self) -> String {
         format!("shaders/{}.wgsl", self.name)
     }
 
-    /// The code without comments and most spaces.
+    /// Returns the code without comments and most spaces.
     pub fn code(&self) -> String {
         self.lines.iter().map(|(_, code)| format!("{code}\n")).collect()
     }
 
-    /// The numbers in the file of the lines of [`File::code`].
+    /// Returns the numbers in the file of the lines of [`File::code`].
     pub fn line_numbers(&self) -> impl Iterator<Item = usize> {
         self.lines.iter().map(|&(number, _)| number)
     }
 
-    /// Whether the file has an entry point, which makes it a kernel.
+    /// Returns whether the file has an entry point, which makes it a kernel.
     pub fn is_kernel(&self) -> bool {
         self.lines.iter().any(|(_, code)| code.starts_with("@compute"))
     }
 
-    /// Whether the file declares this constant or structure.
+    /// Returns whether the file declares this constant or structure.
     pub fn declares(&self, kind: &str, name: &str) -> bool {
         let start = format!("{kind} {name}");
         self.lines
@@ -125,7 +125,8 @@ impl File {
     }
 }
 
-/// A line without spaces at its ends and beside punctuation that can be part of no longer token.
+/// Returns a line without spaces at its ends and beside punctuation that can be part of no longer
+/// token.
 fn compact(line: &str) -> String {
     let mut code = String::new();
     for word in line.split_whitespace() {

@@ -17,8 +17,9 @@ use crate::{
 const DIMENSIONS: [&str; 2] = ["d2", "d3"];
 /// The values of `{width}`.
 const WIDTHS: [&str; 2] = ["narrow", "wide"];
-/// The structure of `control` is two on the host: the second begins with this member.
-const CONTROL: (&str, &str) = ("Control", "iteration");
+/// The structure of `control` is two on the host: the second begins with the first of these members,
+/// and ends before the second one, an array as long as there is room.
+const CONTROL: (&str, &str, &str) = ("Control", "iteration", "free");
 
 /// A shader in all its forms.
 struct Shader<'a> {
@@ -123,7 +124,7 @@ fn kernel(parts: &[&File]) -> String {
     parts.last().expect("a shader has files").path()
 }
 
-/// The text of the generated module.
+/// Returns the text of the generated module.
 fn module(
     sources: &Sources,
     tables: &[Vec<Shader<'_>>; 3],
@@ -154,7 +155,7 @@ fn module(
     Ok(text)
 }
 
-/// The name of the constant that holds a file's text.
+/// Returns the name of the constant that holds a file's text.
 fn constant(file: &File) -> String {
     file.name.replace('/', "_").to_uppercase()
 }
@@ -173,18 +174,19 @@ fn write_constants(text: &mut String, declarations: &Declarations) -> std::fmt::
     writeln!(text, "}}\n}}")
 }
 
-/// A macro that takes the name of a structure of the host and asserts that it has the layout that
-/// the shaders' one of this name has.
+/// Writes a macro that takes the name of a structure of the host and asserts that it has the layout
+/// that the shaders' one of this name has.
 fn write_layouts(text: &mut String, declarations: &Declarations) -> std::fmt::Result {
     writeln!(text, "macro_rules! assert_layout {{")?;
     for (name, structure) in &declarations.structures {
         let Structure { size, members } = structure;
         if name == CONTROL.0 {
-            let start = members.iter().position(|(member, _)| member == CONTROL.1).expect("it has this member");
-            let (params, counters) = members.split_at(start);
-            let before = counters[0].1;
+            let at = |name| members.iter().position(|(member, _)| member == name).expect("it has this member");
+            let (start, end) = (at(CONTROL.1), at(CONTROL.2));
+            let (params, counters) = (&members[..start], &members[start..end]);
+            let (before, behind) = (members[start].1, members[end].1);
             write_layout(text, "Params", before, params, 0)?;
-            write_layout(text, "Counters", size - before, counters, before)?;
+            write_layout(text, "Counters", behind - before, counters, before)?;
         } else {
             write_layout(text, name, *size, members, 0)?;
         }

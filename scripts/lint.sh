@@ -17,8 +17,10 @@ step cargo fmt --all --check
 step cargo clippy --locked --workspace --all-targets --all-features -- -D warnings
 # The library must build wherever Rust does, with any single feature and with none.
 step cargo hack check --locked --lib --each-feature -p gdel
-step cargo check --locked --lib --no-default-features --target wasm32-unknown-unknown
-step cargo check --locked --package gdel-web --all-features --target wasm32-unknown-unknown
+wasm=(--target wasm32-unknown-unknown)
+step cargo check --locked --lib --no-default-features "${wasm[@]}"
+step cargo clippy --locked --lib --package gdel --features gdel/gpu \
+  --package gdel-web --features gdel-web/d2,gdel-web/d3,gdel-web/tools "${wasm[@]}" -- -D warnings
 RUSTDOCFLAGS="-D warnings" step cargo doc --locked --no-deps --all-features
 step typos
 step npm run lint --silent
@@ -26,5 +28,5 @@ if $online; then
   step cargo deny --all-features check
   step cargo semver-checks
 else
-  step cargo deny --offline --all-features check bans licenses sources
+  step cargo deny --all-features check bans licenses sources
 fi

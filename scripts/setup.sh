@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Installs what building and testing gdel needs, starting from a Debian 12 with rustup, Node 20 and git. It says what it
-# does and skips what is there: a second run starts at once.
+# Installs what building and testing gdel needs, starting from a Debian 12 with rustup, Node 20 and
+# git. It says what it does and skips what is there: a second run starts at once.
 #
-# `scripts/setup.sh guard` also installs what scripts/guard.sh counts instructions with: valgrind and gungraun's runner;
-# `scripts/setup.sh lints` what scripts/lint.sh runs; `scripts/setup.sh web` what the npm package needs: wasm-pack,
-# wasm-bindgen and the npm packages; `scripts/setup.sh web-tests` what checks and tests it on top: the browsers, Deno and the linter.
+# `scripts/setup.sh guard` also installs what scripts/guard.sh counts instructions with: valgrind
+# and gungraun's runner; `scripts/setup.sh lints` what scripts/lint.sh runs; `scripts/setup.sh web`
+# what the npm package needs: wasm-pack, wasm-bindgen and the npm packages;
+# `scripts/setup.sh web-tests` what checks and tests it on top: the browsers, Deno and the linter.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -20,8 +21,8 @@ case $what in
   *) fail "usage: scripts/setup.sh [guard | lints | web | web-tests]" ;;
 esac
 
-# System packages: the linker that rustc calls, and a software Vulkan driver (lavapipe) for the tests of the GPU code;
-# two browsers for those of the npm package.
+# System packages: the linker that rustc calls, and a software Vulkan driver (lavapipe) for the
+# tests of the GPU code; two browsers for those of the npm package.
 packages=(gcc libc6-dev libvulkan1 mesa-vulkan-drivers)
 [[ $what != web-tests ]] || packages+=(chromium firefox-esr)
 [[ $what != guard ]] || packages+=(valgrind)
@@ -78,8 +79,9 @@ install_rust_parts() {
 # The version of a crate in the lock file.
 locked() { sed -n "/^name = \"$1\"$/{n;s/^version = \"\(.*\)\"$/\1/p}" Cargo.lock; }
 
-# Installs a tool from crates.io into .cache/tools, unless it is there or on the PATH in this version. The tools do not have to
-# be fast, but to compile fast: with the optimisation that their work needs.
+# Installs a tool from crates.io into .cache/tools, unless it is there or on the PATH in this
+# version. The tools do not have to be fast, but to compile fast: with the optimisation that their
+# work needs.
 install_tool() {
   local optimisation=$1 command=$2 crate=$3 version=$4
   shift 4
@@ -113,8 +115,8 @@ install_npm_packages() {
   fi
 }
 
-# The linter and formatter. This and Deno are not among the npm packages: a lock file would have to name their binaries for all
-# systems, and not every registry has them.
+# The linter and formatter. This and Deno are not among the npm packages: a lock file would have to
+# name their binaries for all systems, and not every registry has them.
 install_biome() {
   local version=2.6.8
   [[ $(.cache/biome/node_modules/.bin/biome --version 2>/dev/null) != "Version: $version" ]] || return 0

@@ -6,8 +6,9 @@
 #   scripts/test.sh js [FILE…]     the package and the page, or these test files of theirs
 #   scripts/test.sh ARGUMENT…      what `cargo test` makes of these arguments
 #
-# The tests of the GPU code run on lavapipe, Mesa's software Vulkan driver, where it is installed: the same device
-# everywhere, so that a failure here is a failure elsewhere. Set VK_DRIVER_FILES to choose another driver.
+# The tests of the GPU code run on lavapipe, Mesa's software Vulkan driver, where it is installed:
+# the same device everywhere, so that a failure here is a failure elsewhere. Set VK_DRIVER_FILES to
+# choose another driver.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -25,10 +26,14 @@ on_lavapipe() {
   fi
 }
 
-targets=(--all-features --lib --bins --tests --examples)
-build_crate() { cargo test --locked --no-run "${targets[@]}"; }
+targets=(--all-features --lib --bins --tests)
+build_crate() {
+  cargo test --locked --no-run "${targets[@]}" &&
+    cargo build --locked --all-features --examples
+}
 test_crate() {
-  on_lavapipe cargo test --locked "${targets[@]}" &&
+  build_crate &&
+    on_lavapipe cargo test --locked "${targets[@]}" &&
     on_lavapipe cargo test --locked --all-features --doc &&
     for example in examples/*.rs; do
       on_lavapipe "${CARGO_TARGET_DIR:-target}/debug/examples/$(basename "$example" .rs)" || return
@@ -38,9 +43,9 @@ test_crate() {
 build_js() { node web/build.mjs && npm run build --silent --workspace www; }
 test_js() { node --no-concurrent-recompilation scripts/test-js.mjs "$@"; }
 
-# Runs a step of the crate and one of the package and the page at the same time, since neither keeps all processors busy.
-# What the second one says comes after the first one; it is left out where only the first one failed, so that the
-# failure is the last thing that is said.
+# Runs a step of the crate and one of the package and the page at the same time, since neither keeps
+# all processors busy. What the second one says comes after the first one; it is left out where only
+# the first one failed, so that the failure is the last thing that is said.
 both() {
   local log=$scratch/$2 first=passed second=passed
   "$2" >"$log" 2>&1 &

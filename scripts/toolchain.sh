@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Chooses the Rust toolchain for this checkout: `scripts/toolchain.sh stable`, or `msrv` for the oldest
-# version that Cargo.toml promises.
+# Chooses the Rust toolchain for this checkout: `scripts/toolchain.sh stable`, or `msrv` for the
+# oldest version that Cargo.toml promises.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -3,7 +3,8 @@
 use crate::fields::{Field, Value};
 use std::fmt;
 
-/// What computes the triangulation. All backends give the same mesh, up to the order of its simplices.
+/// What computes the triangulation. All backends give the same mesh, up to the order of its
+/// simplices.
 ///
 /// # Examples
 ///
@@ -19,20 +20,23 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Backend {
-    /// The GPU where there is a hardware GPU and the input is large enough to be worth it, else the CPU; also the CPU
-    /// when the GPU fails. [`Stats::fallback`](crate::stats::Stats::fallback) then gives the reason.
+    /// The GPU where there is a hardware GPU and the input is large enough to be worth it, else the
+    /// CPU; also the CPU when the GPU fails. [`Stats::fallback`](crate::stats::Stats::fallback)
+    /// then gives the reason.
     ///
-    /// A GPU is worth it from 24,000 points on in 3D and from 30,000 on in 2D. It is opened once the inputs of that size
-    /// would have made up for the time that opening takes: 100,000 points in 3D, 560,000 in 2D.
+    /// A GPU is worth it from 24,000 points on in 3D and from 30,000 on in 2D. It is opened once
+    /// the inputs of that size would have made up for the time that opening takes: 100,000 points
+    /// in 3D, 560,000 in 2D.
     #[default]
     Auto,
     /// Incremental insertion on one core.
     Cpu,
     /// Insertion and flipping on the GPU, then star splaying (3D) or flips (2D) on the CPU.
     ///
-    /// If you request the GPU explicitly, GPU failures are returned as errors, and so is a build without the feature
-    /// `gpu`. Only inputs that the GPU cannot triangulate, such as coplanar points in 3D, are left to the CPU;
-    /// [`Stats::fallback`](crate::stats::Stats::fallback) then gives the reason.
+    /// If you request the GPU explicitly, GPU failures are returned as errors, and so is a build
+    /// without the feature `gpu`. Only inputs that the GPU cannot triangulate, such as coplanar
+    /// points in 3D, are left to the CPU; [`Stats::fallback`](crate::stats::Stats::fallback) then
+    /// gives the reason.
     Gpu,
 }
 
@@ -66,7 +70,7 @@ impl Field for Backend {
         Value::Text(self.name().into())
     }
 
-    /// Never `auto`, which is only a request.
+    /// Returns the backends that compute: `auto` is only a request.
     fn typescript() -> Option<String> {
         Some("'gpu' | 'cpu'".to_owned())
     }

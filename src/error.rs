@@ -2,7 +2,8 @@
 
 /// Why there is no triangulation.
 ///
-/// Coplanar, collinear, coincident or no points at all are no error: see [`Mesh3::dimension`](crate::Mesh3::dimension).
+/// Coplanar, collinear or coincident points, or none at all, are not an error: see
+/// [`Mesh3::dimension`](crate::Mesh3::dimension).
 ///
 /// # Examples
 ///
@@ -61,7 +62,8 @@ pub enum Error {
         /// The largest number of points that the backend can take.
         limit: usize,
     },
-    /// The GPU was requested where it cannot be used: the crate was built without it, or may not wait for it.
+    /// The GPU was requested where it cannot be used: the crate was built without it, or may not
+    /// wait for it.
     #[error("the GPU cannot be used: {reason}")]
     GpuUnavailable {
         /// What makes it unavailable.
@@ -111,7 +113,8 @@ pub enum Error {
         /// The message of the GPU's driver or of wgpu.
         message: String,
     },
-    /// The triangulation has more tetrahedra, or triangles in 2D, than can be numbered, as only contrived inputs have.
+    /// The triangulation has more tetrahedra, or triangles in 2D, than can be numbered, as only
+    /// contrived inputs have.
     #[error("the triangulation has more than {limit} simplices, the largest number that can be stored")]
     TooManySimplices {
         /// The largest number that can be stored.
@@ -159,7 +162,7 @@ pub enum Error {
     Cancelled,
 }
 
-/// Names what would fit.
+/// Returns the part of a message that names what would fit.
 fn fitting(points: &Option<usize>) -> String {
     points.map_or_else(String::new, |points| format!(", enough for about {points} points"))
 }
@@ -170,7 +173,7 @@ fn listed(available: &[String]) -> String {
 
 #[cfg(feature = "gpu")]
 impl Error {
-    /// Whether the error is the GPU's, so that the CPU may still succeed.
+    /// Returns whether the error is one of the GPU, so that the CPU may still succeed.
     pub(crate) fn is_of_the_gpu(&self) -> bool {
         use Error::*;
         match self {

@@ -1,7 +1,8 @@
 //! Indices, and the mark for the absence of one.
 
-/// Marks the absence of a simplex or point in the arrays of a mesh: [`Mesh3::neighbors`](crate::Mesh3::neighbors) and
-/// [`Mesh2::halfedges`](crate::Mesh2::halfedges) outside the hull, `duplicate_of` for points that are not duplicates.
+/// Marks the absence of a simplex or point in the arrays of a mesh:
+/// [`Mesh3::neighbors`](crate::Mesh3::neighbors) and [`Mesh2::halfedges`](crate::Mesh2::halfedges)
+/// outside the hull, `duplicate_of` for points that are not duplicates.
 ///
 /// # Examples
 ///

@@ -12,23 +12,26 @@
 //! # Ok::<(), gdel::Error>(())
 //! ```
 //!
-//! The mesh is a function of the input alone: the Delaunay triangulation of the exact coordinates, where ties are broken as if
-//! point *i* (input index) had the lifted height |pᵢ|² + δᵢ with δ₀ ≫ δ₁ ≫ … > 0 infinitesimal. It is unique, has no flat
-//! tetrahedron or triangle, and every distinct point is a vertex of it.
+//! The mesh is a function of the input alone: the Delaunay triangulation of the exact coordinates,
+//! where ties are broken as if point *i* (input index) had the lifted height |pᵢ|² + δᵢ with δ₀ ≫
+//! δ₁ ≫ … > 0 infinitesimal. It is unique, has no flat tetrahedron or triangle, and every distinct
+//! point is a vertex of it.
 //!
-//! [`Triangulator`] offers options: the backend, progress and cancellation, the GPU to use, and methods that do not block.
-//! [`verify`] proves that a mesh is the Delaunay triangulation of its points, whoever computed it.
+//! [`Triangulator`] offers options: the backend, progress and cancellation, the GPU to use, and
+//! methods that do not block. [`verify`] proves that a mesh is the Delaunay triangulation of its
+//! points, whoever computed it.
 //!
 //! # Features
 //!
 //! | feature | what it adds |
 //! | --- | --- |
-//! | `gpu` (default) | the GPU backend, through [wgpu](https://docs.rs/wgpu); without it [`Backend::Auto`] is the CPU |
+//! | `gpu` (default) | the GPU backend, by [wgpu](https://docs.rs/wgpu); else [`Backend::Auto`] is the CPU |
 //! | `serde` | `Serialize` and `Deserialize` for meshes, `Serialize` for statistics |
 //! | `glam`, `mint`, `nalgebra`, `ndarray` | conversions of these crates' points into [`Points`], without a copy |
 //! | `cli` | the program `gdel` |
 //!
-//! The feature `io` serves the program and the npm package; it adds nothing to the public interface.
+//! The feature `io` serves the program and the npm package; it adds nothing to the public
+//! interface.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
@@ -37,9 +40,12 @@ mod input;
 mod predicates;
 mod triangulator;
 
-// The wings: 2D and 3D, file by file the same.
+// The wings, 2D and 3D, file by file the same; and the engines, as far as the dimensions share
+// them.
+mod cpu;
 mod d2;
 mod d3;
+mod dimension;
 mod geometry;
 #[cfg(feature = "gpu")]
 mod gpu;
@@ -64,6 +70,7 @@ mod parallel;
 mod random;
 #[cfg(feature = "gpu")]
 mod reference;
+mod slots;
 
 pub use backend::Backend;
 pub use d2::{
@@ -72,7 +79,7 @@ pub use d2::{
 };
 pub use d3::{
     Mesh3,
-    verify::{MeshView, verify3d},
+    verify::{MeshView3, verify3d},
 };
 pub use derived::{
     AlphaComplex, AlphaShape, AlphaShape2, Cell, Clip, Diagram, FaceClass, Interpolation, Interpolator, Interpolator2,
@@ -82,11 +89,10 @@ pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use gpu::{AdapterChoice, AdapterSummary};
 pub use index::NONE;
-pub use input::points::{Points, Points2};
+pub use input::points::{Points, Points2, Points3};
 #[cfg(feature = "mint")]
 pub use input::points::{from_mint2, from_mint3};
 pub use mesh::{Csr, Mesh};
-pub(crate) use options::Options;
 pub use options::Progress;
 pub use predicates::{Sign, incircle, insphere, orient2d, orient3d};
 pub use triangulator::Triangulator;
@@ -97,16 +103,18 @@ pub use wgpu;
 
 /// Returns the 3D Delaunay triangulation of `points`.
 ///
-/// `points` may be slices, arrays or vectors of `[f32; 3]` or `[f64; 3]`, or [`Points`] of another form. The backend is
-/// [`Backend::Auto`]: the first large input opens a GPU, which is kept for the process. [`Triangulator`] gives the choice.
+/// `points` may be slices, arrays or vectors of `[f32; 3]` or `[f64; 3]`, or [`Points`] of another
+/// form. The backend is [`Backend::Auto`]: the first large input opens a GPU, which is kept for the
+/// process. [`Triangulator`] gives the choice.
 ///
-/// Coplanar, collinear, coincident and empty input is no error: the mesh then has no tetrahedra, and its
-/// [`dimension`](Mesh3::dimension) tells why.
+/// Coplanar, collinear, coincident and empty input is not an error: the mesh then has no
+/// tetrahedra, and its [`dimension`](Mesh3::dimension) says why.
 ///
 /// # Examples
 ///
 /// ```
-/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0f64]];
+/// let mut points = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
+/// points.push([1.0, 1.0, 1.0]);
 /// let mesh = gdel::delaunay3d(&points)?;
 /// assert_eq!((mesh.tetrahedra.len(), mesh.hull.len()), (2, 6));
 /// # Ok::<(), gdel::Error>(())
@@ -114,19 +122,21 @@ pub use wgpu;
 ///
 /// # Errors
 ///
-/// [`Error::NotFinite`] gives the first coordinate that is NaN or infinite, [`Error::TooManyPoints`] what would fit.
-/// [`Error::TooManySimplices`] and [`Error::OutOfMemory`] concern inputs of extreme size.
-pub fn delaunay3d<'a>(points: impl Into<Points<'a>>) -> Result<Mesh3, Error> {
+/// Returns [`Error::NotFinite`] gives the first coordinate that is NaN or infinite,
+/// [`Error::TooManyPoints`] what would fit. [`Error::TooManySimplices`] and [`Error::OutOfMemory`]
+/// concern inputs of extreme size.
+pub fn delaunay3d<'a>(points: impl Into<Points3<'a>>) -> Result<Mesh3, Error> {
     Triangulator::of_process().delaunay3d(points)
 }
 
 /// Returns the 2D Delaunay triangulation of `points`.
 ///
-/// `points` may be slices, arrays or vectors of `[f32; 2]` or `[f64; 2]`, or [`Points`] of another form. The backend is
-/// [`Backend::Auto`]: the first large input opens a GPU, which is kept for the process. [`Triangulator`] gives the choice.
+/// `points` may be slices, arrays or vectors of `[f32; 2]` or `[f64; 2]`, or [`Points`] of another
+/// form. The backend is [`Backend::Auto`]: the first large input opens a GPU, which is kept for the
+/// process. [`Triangulator`] gives the choice.
 ///
-/// Collinear, coincident and empty input is no error: the mesh then has no triangles, and its
-/// [`dimension`](Mesh2::dimension) tells why.
+/// Collinear, coincident and empty input is not an error: the mesh then has no triangles, and its
+/// [`dimension`](Mesh2::dimension) says why.
 ///
 /// # Examples
 ///
@@ -141,7 +151,7 @@ pub fn delaunay3d<'a>(points: impl Into<Points<'a>>) -> Result<Mesh3, Error> {
 ///
 /// # Errors
 ///
-/// The same as for [`delaunay3d`].
+/// Returns the errors of [`delaunay3d`].
 pub fn delaunay2d<'a>(points: impl Into<Points2<'a>>) -> Result<Mesh2, Error> {
     Triangulator::of_process().delaunay2d(points)
 }
@@ -162,8 +172,10 @@ pub mod internals {
         )*};
     }
     open!(
+        cpu,
         d2,
         d3,
+        dimension,
         derived,
         fields,
         #[cfg(feature = "gpu")]

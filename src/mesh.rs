@@ -1,6 +1,9 @@
 //! What meshes of both dimensions have in common.
 
-use crate::index::{NO_INDEX, NONE};
+use crate::{
+    index::{NO_INDEX, NONE},
+    stats::Stats,
+};
 use std::borrow::Cow;
 
 /// Lists of indices, one after the other in one array: compressed sparse rows.
@@ -186,16 +189,58 @@ pub fn canonical<const N: usize>(simplices: &[[u32; N]]) -> Vec<[u32; N]> {
     simplices
 }
 
-/// Methods on `duplicate_of`, which both meshes have.
-macro_rules! point_methods {
+/// What meshes of both dimensions say of their points and of their run.
+pub trait MeshInfo {
+    /// Sets what the mesh says of its points.
+    fn set_input(&mut self, duplicate_of: Vec<i32>, dimension: u8);
+
+    /// Returns the number of points that are duplicates.
+    fn duplicates(&self) -> usize;
+
+    /// Returns the affine dimension of the points.
+    fn dimension(&self) -> u8;
+
+    /// Returns the statistics.
+    fn stats(&self) -> &Stats;
+
+    /// Returns the statistics, to be changed.
+    fn stats_mut(&mut self) -> &mut Stats;
+}
+
+/// Implements [`MeshInfo`], and methods on `duplicate_of`, which both meshes have.
+macro_rules! common_methods {
     ($mesh:ident) => {
+        impl $crate::mesh::MeshInfo for $mesh {
+            fn set_input(&mut self, duplicate_of: Vec<i32>, dimension: u8) {
+                (self.duplicate_of, self.dimension) = (duplicate_of, dimension);
+            }
+
+            fn duplicates(&self) -> usize {
+                self.duplicate_count()
+            }
+
+            fn dimension(&self) -> u8 {
+                self.dimension
+            }
+
+            fn stats(&self) -> &$crate::stats::Stats {
+                &self.stats
+            }
+
+            fn stats_mut(&mut self) -> &mut $crate::stats::Stats {
+                &mut self.stats
+            }
+        }
+
         impl $mesh {
-            /// Returns the vertices: the distinct points in ascending order, each by the lowest index of its coordinates.
+            /// Returns the vertices: the distinct points in ascending order, each by the lowest
+            /// index of its coordinates.
             pub fn vertices(&self) -> impl Iterator<Item = u32> + Clone + '_ {
                 (0..).zip(&self.duplicate_of).filter(|&(_, &d)| d == $crate::index::NONE).map(|(i, _)| i)
             }
 
-            /// Returns whether an earlier point has the same coordinates as point `i`, which therefore is no vertex.
+            /// Returns whether an earlier point has the same coordinates as point `i`, which
+            /// therefore is not a vertex.
             ///
             /// # Panics
             ///
@@ -220,4 +265,4 @@ macro_rules! point_methods {
         }
     };
 }
-pub(crate) use point_methods;
+pub(crate) use common_methods;

@@ -1,9 +1,10 @@
 //! Options for a triangulation, as [`Triangulator`](crate::Triangulator) collects them.
 
-use crate::{Backend, Error, stats::Phase};
+use crate::{backend::Backend, error::Error, stats::Phase};
 use std::{fmt, ops::ControlFlow, sync::Arc};
 
-/// How far a run has come, as [`Triangulator::on_progress`](crate::Triangulator::on_progress) reports it.
+/// How far a run has come, as [`Triangulator::on_progress`](crate::Triangulator::on_progress)
+/// reports it.
 ///
 /// # Examples
 ///
@@ -49,7 +50,8 @@ pub struct Options {
     pub on_progress: Option<OnProgress>,
     /// Whether the GPU keeps [`Stats::trace`](crate::stats::Stats::trace).
     pub trace: bool,
-    /// The orientation of 2D meshes: the JavaScript package's is not that of [`Mesh2`](crate::Mesh2).
+    /// The orientation of 2D meshes: the JavaScript package's is not that of
+    /// [`Mesh2`](crate::Mesh2).
     pub winding: Winding,
 }
 
@@ -65,7 +67,8 @@ impl fmt::Debug for Options {
 }
 
 impl Options {
-    /// Returns options for a run that may have to begin again: its progress continues from where it was.
+    /// Returns options for a run that may have to begin again: its progress continues from where it
+    /// was.
     #[cfg(feature = "gpu")]
     pub(crate) fn monotone(&self) -> Options {
         let on_progress = self.on_progress.clone().map(|callback| {
@@ -86,7 +89,7 @@ impl Options {
         Options { on_progress, ..self.clone() }
     }
 
-    /// Reports progress; an error when the caller wants to stop.
+    /// Reports progress. Returns [`Error::Cancelled`] if the caller wants to stop.
     pub(crate) fn report(&self, phase: Phase, fraction: f64) -> Result<(), Error> {
         match &self.on_progress {
             Some(callback) if callback(Progress { phase, fraction }).is_break() => Err(Error::Cancelled),

@@ -11,6 +11,36 @@ pub const GRID_SIDE: u64 = 512;
 /// The inner and the outer radius of thin spheres and thin circles.
 pub const THIN_SPHERE_RADII: [f64; 2] = [1.0, 1.01];
 
+/// Declares the distributions of the synthetic points of one dimension, with their names.
+macro_rules! distributions {
+    (
+        $(#[$attribute:meta])*
+        pub enum $distribution:ident {
+            $($(#[$variant_attribute:meta])* $variant:ident = $name:literal,)*
+        }
+    ) => {
+        $(#[$attribute])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        #[non_exhaustive]
+        pub enum $distribution {
+            $($(#[$variant_attribute])* $variant,)*
+        }
+
+        impl $distribution {
+            /// Every distribution.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$variant),*];
+
+            /// Returns the name on the command line.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)*
+                }
+            }
+        }
+    };
+}
+pub(crate) use distributions;
+
 /// A generator of random numbers, and of points of `D` coordinates.
 pub(crate) struct Random(Pcg64Mcg);
 

@@ -1,7 +1,8 @@
 //! Statistics of a run: what it did, and how long each part took.
 
 use crate::{
-    Backend, Error,
+    backend::Backend,
+    error::Error,
     fields::{Field, Value, with_fields},
 };
 use std::{fmt, time::Duration};
@@ -9,8 +10,9 @@ use std::{fmt, time::Duration};
 with_fields! {
     /// Statistics of the run that computed a mesh.
     ///
-    /// With the feature `serde`, all statistics can be serialised; times become seconds, and names such as those of
-    /// [`Phase`] become strings. On WebAssembly without the feature `gpu` there is no clock, and all times are zero.
+    /// With the feature `serde`, all statistics can be serialised; times become seconds, and names
+    /// such as those of [`Phase`] become strings. On WebAssembly without the feature `gpu` there is
+    /// no clock, and all times are zero.
     ///
     /// # Examples
     ///
@@ -31,17 +33,19 @@ with_fields! {
         pub backend: Backend,
         /// Why the CPU computed the mesh, if it was not requested explicitly.
         pub fallback: Option<Fallback>,
-        /// The phases in the order in which they ran, with the time that each took. Phases of an attempt that failed
-        /// are not included.
+        /// The phases in the order in which they ran, with the time that each took. Phases of an
+        /// attempt that failed are not included.
         #[cfg_attr(feature = "serde", serde(rename = "seconds", serialize_with = "serialize::phases"))]
         pub phases: Vec<(Phase, Duration)>,
-        /// Predicate evaluations on the CPU that the floating-point filter left open, by what decided them.
+        /// Predicate evaluations on the CPU that the floating-point filter left open, by what
+        /// decided them.
         pub exact: ExactCounts,
         /// What the GPU did, including an attempt after which the CPU had to take over.
         pub gpu: Option<GpuStats>,
         /// What star splaying did after that; 3D only.
         pub splay: Option<SplayStats>,
-        /// The intermediate triangulations, if [`Triangulator::trace`](crate::Triangulator::trace) requested them.
+        /// The intermediate triangulations, if [`Triangulator::trace`](crate::Triangulator::trace)
+        /// requested them.
         #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
         pub trace: Option<Trace>,
     }
@@ -81,9 +85,10 @@ impl Default for Stats {
 
 /// A phase of a run.
 ///
-/// On the CPU the phases are [`Sort`](Phase::Sort), [`Insert`](Phase::Insert) and [`Finish`](Phase::Finish). On the GPU they
-/// are [`Lattice`](Phase::Lattice), [`Phase1`](Phase::Phase1), [`Readback`](Phase::Readback), then [`Splay`](Phase::Splay)
-/// in 3D or [`Check`](Phase::Check) and [`Flip`](Phase::Flip) in 2D, and [`Finish`](Phase::Finish).
+/// On the CPU the phases are [`Sort`](Phase::Sort), [`Insert`](Phase::Insert) and
+/// [`Finish`](Phase::Finish). On the GPU they are [`Lattice`](Phase::Lattice),
+/// [`Phase1`](Phase::Phase1), [`Readback`](Phase::Readback), then [`Splay`](Phase::Splay) in 3D or
+/// [`Check`](Phase::Check) and [`Flip`](Phase::Flip) in 2D, and [`Finish`](Phase::Finish).
 ///
 /// # Examples
 ///
@@ -186,7 +191,8 @@ pub enum Fallback {
     /// In 2D, rounding had folded the triangulation over itself in a way that flips do not undo.
     #[error("rounding had folded the triangulation over itself")]
     Folded,
-    /// Star splaying took more predicate evaluations than the CPU backend needs for the whole input.
+    /// Star splaying took more predicate evaluations than the CPU backend needs for the whole
+    /// input.
     #[error("star splaying took too much work")]
     Splaying,
     /// Star splaying found that Phase 1 had not produced a triangulation of the exact coordinates.
@@ -247,13 +253,13 @@ with_fields! {
         pub flip_iterations: u64,
         /// The number of predicate evaluations that took exact arithmetic.
         pub exact_tests: u64,
-        /// The number of facets that were not locally Delaunay and could not be flipped, including those with the vertex at
-        /// infinity.
+        /// The number of facets that were not locally Delaunay and could not be flipped, including
+        /// those with the vertex at infinity.
         pub not_locally_delaunay: u64,
         /// The number of vertices of such facets, without the vertex at infinity.
         pub failed_vertices: u64,
-        /// The number of points that were merged with another one at the same lattice position: duplicates, and points that
-        /// were rounded there.
+        /// The number of points that were merged with another one at the same lattice position:
+        /// duplicates, and points that were rounded there.
         pub merged: u64,
         /// The number of results that were read back.
         pub readbacks: u64,
@@ -287,13 +293,15 @@ with_fields! {
     pub struct Round {
         /// The number of points that were inserted.
         pub inserted: u32,
-        /// The number of tetrahedra, or triangles in 2D, whose facets were still to be checked at the end.
+        /// The number of tetrahedra, or triangles in 2D, whose facets were still to be checked at
+        /// the end.
         pub active: u32,
         /// The number of flips.
         pub flips: u32,
         /// The number of flip iterations that had something to do.
         pub iterations: u32,
-        /// The time from the end of the previous round, by the host's clock.
+        /// The time by the host's clock: an equal share of that of the rounds which were submitted
+        /// together.
         #[cfg_attr(feature = "serde", serde(rename = "seconds", serialize_with = "serialize::seconds"))]
         pub time: Duration,
     }
@@ -318,10 +326,11 @@ with_fields! {
         pub peeled: usize,
         /// The number of failed vertices.
         pub failed: usize,
-        /// The number of stars that were made convex: those of failed vertices, and some that had flat or inverted
-        /// tetrahedra.
+        /// The number of stars that were made convex: those of failed vertices, and some that had
+        /// flat or inverted tetrahedra.
         pub built: usize,
-        /// How many of these were built from their points because Flip-Flop could not start or was stuck.
+        /// How many of these were built from their points because Flip-Flop could not start or was
+        /// stuck.
         pub from_points: usize,
         /// The number of stars that were taken from the triangulation unchanged.
         pub pulled: usize,
@@ -351,7 +360,8 @@ with_fields! {
 /// ```
 /// use gdel::{Backend, Triangulator};
 ///
-/// let points: Vec<[f32; 3]> = (0..100).map(|i| [(i * 7 % 11) as f32, (i * i % 13) as f32, i as f32]).collect();
+/// let points: Vec<[f32; 3]> =
+///     (0..100).map(|i| [(i * 7 % 11) as f32, (i * i % 13) as f32, i as f32]).collect();
 /// let traced = Triangulator::new().backend(Backend::Gpu).trace(true).delaunay3d(&points);
 /// if let Some(trace) = traced.ok().and_then(|mesh| mesh.stats.trace) {
 ///     for (i, tetrahedra) in trace.rounds.iter().enumerate() {
@@ -363,16 +373,19 @@ with_fields! {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Trace {
-    /// The finite tetrahedra after each of [`GpuStats::rounds`], as input indices. Star splaying begins with the last.
+    /// The finite tetrahedra after each of [`GpuStats::rounds`], as input indices. Star splaying
+    /// begins with the last.
     pub rounds: Vec<Vec<[u32; 4]>>,
-    /// The facets between finite tetrahedra that were not locally Delaunay after Phase 1, as input indices.
+    /// The facets between finite tetrahedra that were not locally Delaunay after Phase 1, as input
+    /// indices.
     pub not_locally_delaunay: Vec<[u32; 3]>,
     /// For each tetrahedron of the mesh, whether star splaying created it rather than Phase 1.
     pub splayed: Vec<bool>,
 }
 
 with_fields! {
-    /// The number of predicate evaluations that each exact stage decided after the floating-point filter.
+    /// The number of predicate evaluations that each exact stage decided after the floating-point
+    /// filter.
     ///
     /// # Examples
     ///
@@ -380,7 +393,8 @@ with_fields! {
     /// use gdel::{Backend, Triangulator};
     ///
     /// // All eight corners of a cube lie on one sphere, so ties are broken symbolically.
-    /// let cube: Vec<[f32; 3]> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|x| x as f32)).collect();
+    /// let cube: Vec<[f32; 3]> =
+    ///     (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|x| x as f32)).collect();
     /// let exact = Triangulator::new().backend(Backend::Cpu).delaunay3d(&cube)?.stats.exact;
     /// assert!(exact.symbolic > 0);
     /// # Ok::<(), gdel::Error>(())
@@ -391,7 +405,8 @@ with_fields! {
     pub struct ExactCounts {
         /// Decided by fixed-width integers on the lattice.
         pub integer: u64,
-        /// Decided by floating-point expansions or big integers, where a point does not fit the lattice.
+        /// Decided by floating-point expansions or big integers, where a point does not fit the
+        /// lattice.
         pub expansion: u64,
         /// Cospherical or cocircular points: decided by the symbolic perturbation.
         pub symbolic: u64,
@@ -483,7 +498,8 @@ mod serialize {
     }
 }
 
-/// Times consecutive phases. Reads no clock on wasm without the feature `gpu`, which has none; with it, the browser's.
+/// Times consecutive phases. Reads no clock on wasm without the feature `gpu`, which has none; with
+/// it, the browser's.
 pub(crate) struct Stopwatch {
     #[cfg(any(feature = "gpu", not(target_arch = "wasm32")))]
     started: Instant,

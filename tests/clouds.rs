@@ -1,7 +1,7 @@
 //! Point clouds that make other codes crash or return wrong meshes.
 #![allow(dead_code)]
 
-use gdel::internals::d3::generate::{Distribution, generate};
+use gdel::internals::d3::generate::{Distribution3, generate3d};
 use std::f64::consts::TAU;
 
 /// Returns the integer grid with `side` points along each axis, x first.
@@ -11,7 +11,7 @@ pub fn grid(side: u32) -> Vec<[f64; 3]> {
 
 /// Returns the same points under other indices.
 pub fn shuffled(points: &[[f64; 3]], seed: u64) -> Vec<[f64; 3]> {
-    let keys = generate(Distribution::Uniform, points.len(), seed);
+    let keys = generate3d(Distribution3::Uniform, points.len(), seed);
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&i, &j| keys[i][0].total_cmp(&keys[j][0]));
     order.into_iter().map(|i| points[i]).collect()
@@ -19,7 +19,7 @@ pub fn shuffled(points: &[[f64; 3]], seed: u64) -> Vec<[f64; 3]> {
 
 /// Returns `n` random points of a 64³ grid, many of them several times.
 pub fn grid_64_with_duplicates(n: usize) -> Vec<[f64; 3]> {
-    generate(Distribution::Grid, n, 1).iter().map(|p| p.map(|x| x % 64.0)).collect()
+    generate3d(Distribution3::Grid, n, 1).iter().map(|p| p.map(|x| x % 64.0)).collect()
 }
 
 /// Returns `n` points on each of two skew lines: every segment of one line makes a tetrahedron with
@@ -49,8 +49,8 @@ pub fn circle_of_integers_and_its_axis() -> Vec<[f64; 3]> {
 
 /// Returns `n` points around 40 places, about 1e-9 apart.
 pub fn clusters_at_1e_9_spacing(n: usize) -> Vec<[f64; 3]> {
-    let centers = generate(Distribution::Uniform, 40, 1);
-    let within = generate(Distribution::Gaussian, n, 2);
+    let centers = generate3d(Distribution3::Uniform, 40, 1);
+    let within = generate3d(Distribution3::Gaussian, n, 2);
     let near =
         |(i, p): (usize, &[f64; 3])| std::array::from_fn(|axis| centers[i % centers.len()][axis] + 1e-9 * p[axis]);
     within.iter().enumerate().map(near).collect()
@@ -68,7 +68,7 @@ pub fn grids_at_1e_9_spacing(side: u32) -> Vec<[f64; 3]> {
 pub fn survey(n: usize) -> Vec<[f64; 3]> {
     let millimetres = |x: f64| libm::rint(x * 1000.0) / 1000.0;
     let at = |[x, y, z]: [f64; 3]| [1e7 + 400.0 * x, 1e7 + 400.0 * y, 300.0 + 5.0 * z].map(millimetres);
-    generate(Distribution::Uniform, n, 3).into_iter().map(at).collect()
+    generate3d(Distribution3::Uniform, n, 3).into_iter().map(at).collect()
 }
 
 /// Returns `n` points of a plane at 1e7, and one post.
@@ -80,7 +80,7 @@ pub fn flat_ground(n: usize) -> Vec<[f64; 3]> {
 
 /// Returns `10 n` points, of which `3 n` are duplicates.
 pub fn thirty_percent_duplicates(n: usize) -> Vec<[f64; 3]> {
-    let distinct = generate(Distribution::Uniform, 7 * n, 1);
+    let distinct = generate3d(Distribution3::Uniform, 7 * n, 1);
     let points: Vec<_> = distinct.iter().chain(&distinct[..3 * n]).copied().collect();
     shuffled(&points, 1)
 }

@@ -1,11 +1,12 @@
-// Builds the package into web/dist: WebAssembly by wasm-pack, JavaScript by esbuild, declarations by
-// tsc.
+// Builds the package into web/dist: WebAssembly by wasm-pack, JavaScript by esbuild, declarations
+// by tsc.
 
 import { execFileSync } from 'node:child_process';
 import {
   cpSync,
   existsSync,
   mkdirSync,
+  readdirSync,
   readFileSync,
   rmSync,
   statSync,
@@ -84,28 +85,41 @@ const glue = {
         (name) =>
           `const ${name} = { [Symbol.hasInstance]: (e) => e?.constructor?.name === '${name}' };`,
       );
-      const contents = `export default function (globalThis) { const module = { exports: {} }; ${classes.join(' ')}\n${text}\nreturn module.exports; }`;
+      // jsdom does not have these, but Node below it does.
+      const coders =
+        "const { TextDecoder, TextEncoder } = globalThis.TextDecoder ? globalThis : globalThis.process.getBuiltinModule('node:util');";
+      const contents = `export default function (globalThis) { const module = { exports: {} }; ${classes.join(' ')} ${coders}\n${text}\nreturn module.exports; }`;
       return { contents, loader: 'js' };
     });
   },
 };
 
-/** Imports files as text: the compressed wasm modules in base64, and the bundled worker. */
-const inlined = {
-  name: 'inlined',
+/** The module that holds a copy of a wasm module, or of the worker. */
+const COPIES = { d3: 'inline-3d', d2: 'inline-2d', tools: 'inline-tools', worker: 'inline-worker' };
+
+/** Leaves the modules that hold copies files of their own, which are loaded when they are needed. */
+const copies = {
+  name: 'copies',
   setup(build) {
-    build.onResolve({ filter: /^(base64|text):/ }, ({ path }) => ({ path, namespace: 'inlined' }));
-    build.onLoad({ filter: /.*/, namespace: 'inlined' }, ({ path }) => {
-      const name = path.slice(path.indexOf(':') + 1);
-      if (name === 'worker')
-        return { contents: readFileSync(join(dist, 'worker.js'), 'utf8'), loader: 'text' };
-      const compressed = gzipSync(readFileSync(join(dist, MODULES[name])), { level: 9 });
-      return { contents: compressed.toString('base64'), loader: 'text' };
-    });
+    build.onResolve({ filter: /^(base64|text):/ }, ({ path }) => ({
+      path: `./${COPIES[path.slice(path.indexOf(':') + 1)]}.js`,
+      external: true,
+    }));
   },
 };
 
-async function bundle(entry, outfile, options = {}) {
+/** The modules with copies: compressed and in base64, or the text of the bundled worker. */
+function writeCopies() {
+  for (const [name, copy] of Object.entries(COPIES)) {
+    const content =
+      name === 'worker'
+        ? readFileSync(join(dist, 'worker.js'), 'utf8')
+        : gzipSync(readFileSync(join(dist, MODULES[name])), { level: 9 }).toString('base64');
+    writeFileSync(join(dist, `${copy}.js`), `export default ${JSON.stringify(content)};\n`);
+  }
+}
+
+async function bundle(entry, outfile, { plugins = [], ...options } = {}) {
   await esbuild.build({
     entryPoints: [join(web, 'src', entry)],
     outfile: join(dist, outfile),
@@ -116,9 +130,7 @@ async function bundle(entry, outfile, options = {}) {
     // Names stay: those of classes are visible in consoles and debuggers.
     minifySyntax: true,
     minifyWhitespace: true,
-    plugins: [glue, inlined],
-    // These stay files of their own.
-    external: ['./worker.js', 'node:*'],
+    plugins: [glue, copies, ...plugins],
     ...options,
   });
   // On a line of its own, where tools that recognise ES modules by patterns find it.
@@ -126,37 +138,71 @@ async function bundle(entry, outfile, options = {}) {
   writeFileSync(file, readFileSync(file, 'utf8').replace(/export\{[^{}]*\};\s*$/, '\n$&'));
 }
 
+/** An entry, whose assets are those of `src/assets*.ts`. */
+const withAssets = (name, ...others) => ({
+  alias: { '#assets': join(web, `src/${name}.ts`) },
+  plugins: others,
+});
+
+/** Leaves the worker's tasks a file of their own, for the calling thread. */
+const taskCode = (file) => ({
+  name: 'task-code',
+  setup(build) {
+    build.onResolve({ filter: /^\.\/core\.js$/ }, ({ kind }) =>
+      kind === 'dynamic-import' ? { path: `./${file}`, external: true } : undefined,
+    );
+  },
+});
+
+/** For `require`: dynamic imports become calls of it, and the URL of the file is known. */
+const COMMON_JS = {
+  format: 'cjs',
+  supported: { 'dynamic-import': false },
+  define: { 'import.meta.url': 'FILE_URL' },
+  banner: { js: "const FILE_URL = require('node:url').pathToFileURL(__filename).href;" },
+};
+
 async function buildJs() {
   rmSync(dist, { recursive: true, force: true });
   mkdirSync(dist);
   for (const [name, file] of Object.entries(MODULES))
     cpSync(join(pkg(name), 'gdel_bg.wasm'), join(dist, file));
   say('JavaScript: esbuild');
-  const runtime = (name) => ({ alias: { '#runtime': join(web, 'src', `runtime-${name}.ts`) } });
   await bundle('worker.ts', 'worker.js');
-  await bundle('worker-node.ts', 'worker-node.js');
-  await bundle('index.ts', 'index.js', runtime('web'));
-  await bundle('index.ts', 'node.js', runtime('node'));
-  await bundle('index.ts', 'inline.js', { ...runtime('inline'), external: [] });
+  writeCopies();
+  await bundle('core.ts', 'core.js');
+  await bundle('core.ts', 'core.cjs', { format: 'cjs' });
+  await bundle('index.ts', 'index.js', withAssets('assets', taskCode('core.js')));
+  await bundle('index.ts', 'inline.js', withAssets('assets-inline', taskCode('core.js')));
+  const require = { ...withAssets('assets-cjs', taskCode('core.cjs')), ...COMMON_JS };
+  await bundle('index.ts', 'index.cjs', require);
   // The class is that of the main entry, so that both can be imported side by side.
-  for (const [name, main] of [
-    ['delaunator', 'index'],
-    ['delaunator-node', 'node'],
-  ]) {
-    const entry = `export { Delaunator, Delaunator as default, GdelError } from './${main}.js';\n`;
-    writeFileSync(join(dist, `${name}.js`), entry);
-  }
+  const names = 'Delaunator, Delaunator as default, GdelError';
+  writeFileSync(join(dist, 'delaunator.js'), `export { ${names} } from './index.js';\n`);
+  writeFileSync(join(dist, 'delaunator.cjs'), DELAUNATOR_CJS);
   say('declarations: tsc');
   run(process.execPath, [join(root, 'node_modules/typescript/bin/tsc'), '--project', web]);
-  // The three builds have one interface.
+  // The builds have one interface.
   cpSync(join(dist, 'index.d.ts'), join(dist, 'inline.d.ts'));
+  for (const file of readdirSync(dist).filter((name) => name.endsWith('.d.ts'))) {
+    const text = readFileSync(join(dist, file), 'utf8').replace(/(from '\.\/\w+)\.js'/g, "$1.cjs'");
+    writeFileSync(join(dist, file.replace(/ts$/, 'cts')), text);
+  }
   for (const file of ['LICENSE-MIT', 'LICENSE-APACHE']) cpSync(join(root, file), join(web, file));
 }
+
+/** As compilers to CommonJS expect a module with a default export. */
+const DELAUNATOR_CJS = `'use strict';
+const { Delaunator, GdelError } = require('./index.cjs');
+Object.defineProperty(exports, '__esModule', { value: true });
+exports.default = exports.Delaunator = Delaunator;
+exports.GdelError = GdelError;
+`;
 
 function reportSizes() {
   const kilobytes = (file) =>
     (gzipSync(readFileSync(join(dist, file)), { level: 9 }).length / 1e3).toFixed(1);
-  for (const file of [...Object.values(MODULES), 'index.js', 'worker.js', 'node.js', 'inline.js']) {
+  for (const file of readdirSync(dist).filter((name) => /\.(wasm|js|cjs)$/.test(name))) {
     say(`${file}: ${statSync(join(dist, file)).size} bytes, ${kilobytes(file)} kB gzipped`);
   }
 }

@@ -41,7 +41,7 @@ pub struct Bars {
 const SIZE: (u32, u32) = (900, 540);
 
 impl Chart {
-    /// Its name among the experiment's.
+    /// Returns its name among those of the experiment.
     pub fn name(&self) -> &'static str {
         match self {
             Chart::Lines(lines) => lines.name,

@@ -1,13 +1,10 @@
 //! What the experiments share: the device, the inputs, and how time is taken.
 
 use gdel::{
-    Mesh3, Points,
+    Mesh3, Points3,
     internals::{
-        Options,
-        d3::{
-            cpu,
-            generate::{Distribution, generate},
-        },
+        Options, cpu,
+        d3::generate::{Distribution3, generate3d},
         gpu::{AdapterChoice, Gpu, engine::GpuEngine, phase1::Settings},
         io::{PointCloud, files},
     },
@@ -70,7 +67,7 @@ impl Context {
         Ok(Context { sizes, models, repeat: repeat.max(1), seed, cgal, gpu, opening })
     }
 
-    /// One line on what the figures were measured with.
+    /// Returns one line on what the figures were measured with.
     pub fn setting(&self) -> String {
         let cgal = if self.cgal.is_some() { "with" } else { "without" };
         format!(
@@ -81,45 +78,45 @@ impl Context {
         )
     }
 
-    /// The sizes of the command line, or these.
+    /// Returns the sizes of the command line, or these.
     pub fn sizes(&self, default: &[usize]) -> Vec<usize> {
         self.sizes.clone().unwrap_or_else(|| default.to_vec())
     }
 
-    pub fn points(&self, distribution: Distribution, size: usize) -> Vec<[f64; 3]> {
-        generate(distribution, size, self.seed)
+    pub fn points(&self, distribution: Distribution3, size: usize) -> Vec<[f64; 3]> {
+        generate3d(distribution, size, self.seed)
     }
 
-    /// The GPU engine; other settings than the default ones are for experiments about them.
+    /// Returns the GPU engine; other settings than the default ones are for experiments about them.
     pub fn engine(&self, settings: Settings<3>) -> Result<GpuEngine<3>, Box<dyn Error>> {
         let mut engine = block_on(GpuEngine::new(self.gpu.clone()))?;
         engine.set_settings(settings);
         Ok(engine)
     }
 
-    /// The GPU engine's run with the median time.
+    /// Returns the GPU engine's run with the median time.
     pub fn on_gpu<'a>(
         &self,
         engine: &mut GpuEngine<3>,
-        points: impl Into<Points<'a>>,
+        points: impl Into<Points3<'a>>,
     ) -> Result<Timed, Box<dyn Error>> {
         let points = points.into();
         self.median(|| block_on(engine.triangulate(points, &Options::default())))
     }
 
-    /// What the GPU engine says about a run that is not timed.
-    pub fn once_on_gpu(&self, engine: &mut GpuEngine<3>, points: Points<'_>) -> Result<Stats, Box<dyn Error>> {
+    /// Returns the statistics of a run of the GPU engine that is not timed.
+    pub fn once_on_gpu(&self, engine: &mut GpuEngine<3>, points: Points3<'_>) -> Result<Stats, Box<dyn Error>> {
         Ok(block_on(engine.triangulate(points, &Options::default()))?.stats)
     }
 
-    /// The CPU engine's.
-    pub fn on_cpu<'a>(&self, points: impl Into<Points<'a>>) -> Result<Timed, Box<dyn Error>> {
+    /// Returns the CPU engine's run with the median time.
+    pub fn on_cpu<'a>(&self, points: impl Into<Points3<'a>>) -> Result<Timed, Box<dyn Error>> {
         let points = points.into();
-        self.median(|| cpu::delaunay3d(points, &Options::default()))
+        self.median(|| cpu::delaunay::<3>(points, &Options::default()))
     }
 
-    /// CGAL's milliseconds, where its program is there.
-    pub fn on_cgal<'a>(&self, points: impl Into<Points<'a>>) -> Result<Option<f64>, Box<dyn Error>> {
+    /// Returns CGAL's milliseconds, if its program is installed.
+    pub fn on_cgal<'a>(&self, points: impl Into<Points3<'a>>) -> Result<Option<f64>, Box<dyn Error>> {
         let Some(program) = &self.cgal else { return Ok(None) };
         let points = points.into();
         let file = tempfile::Builder::new().suffix(".f64").tempfile()?;

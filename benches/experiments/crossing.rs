@@ -1,12 +1,12 @@
-//! Not in the paper: from which size on the GPU pays, and what opening it costs. [`gdel::internals::triangulator`] has the constants that
-//! follow from it.
+//! Not in the paper: from which size on the GPU pays, and what opening it costs.
+//! [`gdel::internals::triangulator`] has the constants that follow from it.
 
 use crate::{
     charts::{Chart, Lines},
     context::Context,
     outcome::{Outcome, Table},
 };
-use gdel::internals::{d3::generate::Distribution, gpu::phase1::Settings};
+use gdel::internals::{d3::generate::Distribution3, gpu::phase1::Settings};
 use serde_json::json;
 use std::{error::Error, time::Instant};
 
@@ -19,7 +19,7 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
     let mut engines = [("gpu".to_owned(), Vec::new()), ("cpu".to_owned(), Vec::new())];
     let mut table = Table::new(["points", "gpu, ms", "cpu, ms", "cpu / gpu"]);
     for size in context.sizes(&SIZES) {
-        let points = context.points(Distribution::Uniform, size);
+        let points = context.points(Distribution3::Uniform, size);
         let (gpu, cpu) = (context.on_gpu(&mut engine, &points)?.milliseconds, context.on_cpu(&points)?.milliseconds);
         table.push([json!(size), json!(gpu), json!(cpu), json!(cpu / gpu)]);
         engines[0].1.push((size as f64, gpu));

@@ -6,9 +6,9 @@ use crate::{
     outcome::{Outcome, Table},
 };
 use gdel::{
-    Points,
+    Points3,
     internals::{
-        d3::generate::Distribution,
+        d3::generate::Distribution3,
         gpu::{engine::GpuEngine, phase1::Settings},
     },
 };
@@ -17,8 +17,13 @@ use std::error::Error;
 
 const SIZES: [usize; 6] = [100_000, 300_000, 500_000, 1_000_000, 1_250_000, 1_500_000];
 /// Those of the paper.
-pub const DISTRIBUTIONS: [Distribution; 5] =
-    [Distribution::Uniform, Distribution::Gaussian, Distribution::Grid, Distribution::ThinSphere, Distribution::Sphere];
+pub const DISTRIBUTIONS: [Distribution3; 5] = [
+    Distribution3::Uniform,
+    Distribution3::Gaussian,
+    Distribution3::Grid,
+    Distribution3::ThinSphere,
+    Distribution3::Sphere,
+];
 
 /// Milliseconds of the engines.
 struct Times {
@@ -32,7 +37,7 @@ impl Times {
     fn take<'a>(
         context: &Context,
         engine: &mut GpuEngine<3>,
-        points: impl Into<Points<'a>>,
+        points: impl Into<Points3<'a>>,
     ) -> Result<Self, Box<dyn Error>> {
         let points = points.into();
         let gpu = context.on_gpu(engine, points)?;

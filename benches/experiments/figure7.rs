@@ -1,7 +1,8 @@
 //! Figure 7: where the time goes, by distribution.
 //!
-//! The kernels are timed in a run of their own, with a compute pass for each dispatch; what they do not account for of the
-//! wall time of Phase 1 is the host's: buffers, recording, waiting, and the readback of the mesh.
+//! The kernels are timed in a run of their own, with a compute pass for each dispatch; what they do
+//! not account for of the wall time of Phase 1 is the host's: buffers, recording, waiting, and the
+//! readback of the mesh.
 
 use crate::{
     charts::{Bars, Chart},
@@ -28,7 +29,7 @@ const SIZE: usize = 1_000_000;
 const TASKS: [&str; 8] =
     ["sort points", "insert", "flip", "relocate", "other kernels", "host and readback", "splay", "finish"];
 
-/// The task that a stage of the profiler belongs to.
+/// Returns the task that a stage of the profiler belongs to.
 fn task(stage: &str) -> &'static str {
     match stage {
         "unite" | "keys" | "sort" | "gather" => "sort points",
@@ -78,7 +79,8 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
         let [a, b, c, d, e, f, g, h] = spent.map(|milliseconds| json!(milliseconds));
         let total = timed.milliseconds;
         table.push([json!(distribution.name()), json!(size), json!(total), a, b, c, d, e, f, g, h]);
-        // Timing each dispatch takes time itself, so that on slow hosts nothing may be left for the rest.
+        // Timing each dispatch takes time itself, so that on slow hosts nothing may be left for the
+        // rest.
         shares.iter_mut().zip(spent).for_each(|((_, share), ms)| share.push(ms.max(0.0) / total * 100.0));
     }
     let chart = Chart::Bars(Bars {
@@ -91,7 +93,7 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
     Ok(Outcome { tables: vec![table], charts: vec![chart] })
 }
 
-/// Milliseconds of each stage on the device; none where it has no timestamps.
+/// Returns milliseconds of each stage on the device; none where it has no timestamps.
 fn kernels(context: &Context, points: &[[f64; 3]]) -> Result<Vec<(&'static str, f64)>, Box<dyn Error>> {
     let gpu = &context.gpu;
     let Some(mut profiler) = Profiler::new(gpu)? else { return Ok(Vec::new()) };

@@ -1,4 +1,5 @@
-//! Figure 8: the stars that splaying builds for failed vertices, and those that it pulls from the triangulation.
+//! Figure 8: the stars that splaying builds for failed vertices, and those that it pulls from the
+//! triangulation.
 
 use crate::{
     charts::{Bars, Chart},
@@ -6,7 +7,7 @@ use crate::{
     figure6::DISTRIBUTIONS,
     outcome::{Outcome, Table},
 };
-use gdel::{Points, internals::gpu::phase1::Settings};
+use gdel::{Points3, internals::gpu::phase1::Settings};
 use serde_json::json;
 use std::error::Error;
 
@@ -18,7 +19,7 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
     let mut table =
         Table::new(["input", "points", "failed", "built", "pulled", "built, %", "pulled, %", "all, %", "fallback"]);
     let (mut groups, mut built, mut pulled) = (Vec::new(), Vec::new(), Vec::new());
-    let mut add = |name: &str, points: Points<'_>| -> Result<(), Box<dyn Error>> {
+    let mut add = |name: &str, points: Points3<'_>| -> Result<(), Box<dyn Error>> {
         let stats = context.once_on_gpu(&mut engine, points)?;
         let splay = stats.splay.unwrap_or_default();
         let [b, p] = [splay.built, splay.pulled].map(|stars| 100.0 * stars as f64 / points.len() as f64);

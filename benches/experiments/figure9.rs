@@ -1,11 +1,12 @@
-//! Figure 9: flipping after every round of insertions (InsFlip) against flipping when all points are in (InsAll).
+//! Figure 9: flipping after every round of insertions (InsFlip) against flipping when all points
+//! are in (InsAll).
 
 use crate::{
     charts::{Chart, Lines},
     context::Context,
     outcome::{Outcome, Table},
 };
-use gdel::internals::{d3::generate::Distribution, gpu::phase1::Settings};
+use gdel::internals::{d3::generate::Distribution3, gpu::phase1::Settings};
 use serde_json::json;
 use std::error::Error;
 
@@ -20,7 +21,7 @@ pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
         let mut engine = context.engine(Settings { insert_all, ..Settings::default() })?;
         let (mut failed_here, mut flips_here) = (Vec::new(), Vec::new());
         for size in context.sizes(&SIZES) {
-            let timed = context.on_gpu(&mut engine, &context.points(Distribution::Uniform, size))?;
+            let timed = context.on_gpu(&mut engine, &context.points(Distribution3::Uniform, size))?;
             let gpu = timed.stats.gpu.unwrap_or_default();
             let all_flips = gpu.flips_23 + gpu.flips_32;
             table.push([

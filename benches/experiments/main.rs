@@ -1,7 +1,8 @@
-//! Repeats the paper's experiments: `cargo bench --features cli --bench experiments -- NAME [OPTIONS]`, `--help` for both.
+//! Repeats the paper's experiments:
+//! `cargo bench --features cli --bench experiments -- NAME [OPTIONS]`, `--help` for both.
 //!
-//! Each prints tables in Markdown, and writes them as JSON and its charts as SVG. To add one: a file with a function from
-//! [`Context`] to [`Outcome`], and a line in [`EXPERIMENTS`].
+//! Each prints tables in Markdown, and writes them as JSON and its charts as SVG. To add one: a
+//! file with a function from [`Context`] to [`Outcome`], and a line in [`EXPERIMENTS`].
 
 mod charts;
 mod context;
@@ -47,7 +48,7 @@ struct Arguments {
     /// Files with the points of models, such as .cache/dragon.ply (scripts/fetch-dragon.sh)
     #[arg(long, value_delimiter = ',', default_value = "tests/data/bunny.ply")]
     models: Vec<PathBuf>,
-    /// The graphics card: its number in `gdel adapters`, or a part of its name
+    /// The GPU: its number in `gdel adapters`, or a part of its name
     #[arg(long)]
     adapter: Option<String>,
     /// Timed runs, of which the median counts, after one that does not

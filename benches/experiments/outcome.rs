@@ -36,7 +36,7 @@ impl Table {
     }
 }
 
-/// A number to three digits, a count with its thousands apart.
+/// Returns a number with three digits, or a count with separated thousands.
 fn text(value: &Value) -> String {
     match value {
         Value::Null => "–".to_owned(),

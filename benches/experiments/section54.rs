@@ -6,9 +6,9 @@ use crate::{
     outcome::{Outcome, Table},
 };
 use gdel::{
-    Points,
+    Points, Points3,
     internals::{
-        d3::generate::Distribution,
+        d3::generate::Distribution3,
         gpu::{layout::Pick, phase1::Settings},
     },
 };
@@ -21,8 +21,8 @@ const PICKS: [(&str, Pick); 3] =
 
 pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
     let size = context.sizes(&[SIZE])[0];
-    let uniform = context.points(Distribution::Uniform, size);
-    let mut inputs: Vec<(&str, Points<'_>)> = vec![("uniform", (&uniform).into())];
+    let uniform = context.points(Distribution3::Uniform, size);
+    let mut inputs: Vec<(&str, Points3<'_>)> = vec![("uniform", (&uniform).into())];
     inputs.extend(context.models.iter().map(|model| (model.name.as_str(), Points::from(&model.cloud))));
     let mut table = Table::new(["pick", "input", "points", "failed vertices", "flips", "total, ms", "fallback"]);
     let mut failed = Vec::new();

@@ -15,12 +15,13 @@ const counted = (file) => readFileSync(join(root, 'target/guard', file), 'utf8')
 /** By how much a count may differ, in per cent. */
 const MARGIN = 3;
 
-/** Wider margins. Which of two flips that exclude each other wins is a race on the device. The pins of
- * guard.sh decide it, so that runs on one machine agree, but another processor, or a changed kernel,
- * may decide otherwise: then these counts differ though nothing got worse. Measured on one core and
- * two, with one thread of lavapipe and two, the counts ranged over 107 to 174 failed vertices on the
- * sphere and 0 to 34 in the cube, 15 % of the few exact tests in the cube, 7 % of the dispatches on
- * sphere and circle, 3 % of all others, and less than 1 % of the flips. */
+/**
+ * Wider margins. Which of two flips that exclude each other wins is a race on the device. The pins
+ * of guard.sh decide it, so that runs on one machine agree, but another processor, or a changed
+ * kernel, may decide otherwise: then these counts differ though nothing got worse. Measured on one
+ * core and two, with one thread of lavapipe and two, the counts ranged over 107 to 174 failed
+ * vertices on the sphere and 0 to 34 in the cube, 15 % of the few exact tests in the cube, 7 % of
+ * the dispatches on sphere and circle, 3 % of all others, and less than 1 % of the flips. */
 const MARGINS = [
   [/^gpu .*, failed vertices$/, 100],
   [/^gpu 3D uniform, exact tests$/, 30],
@@ -49,10 +50,8 @@ const SECTIONS = {
   sizes() {
     const dist = join(root, 'web/dist');
     if (!existsSync(dist)) throw new Error('web/dist is missing: run `npm run build` first');
-    // inline.js holds the others.
-    const files = readdirSync(dist).filter(
-      (file) => /\.(wasm|js)$/.test(file) && file !== 'inline.js',
-    );
+    // The others are copies of these in another form.
+    const files = readdirSync(dist).filter((file) => /^(?!inline).*\.(wasm|js)$/.test(file));
     return files.flatMap((file) => {
       const content = readFileSync(join(dist, file));
       return [

@@ -8,7 +8,7 @@ use gdel::{
     Backend, Triangulator,
     internals::{
         d2::generate::{Distribution2, generate2d},
-        d3::generate::{Distribution, generate},
+        d3::generate::{Distribution3, generate3d},
     },
     stats::Stats,
 };
@@ -41,9 +41,9 @@ fn main() {
         (0..side.pow(3)).map(|i| [i % side, i / side % side, i / side.pow(2)].map(f64::from)).collect()
     };
     let inputs = [
-        ("uniform", generate(Distribution::Uniform, POINTS, 1)),
+        ("uniform", generate3d(Distribution3::Uniform, POINTS, 1)),
         ("grid", grid(22)),
-        ("sphere", generate(Distribution::Sphere, POINTS, 1)),
+        ("sphere", generate3d(Distribution3::Sphere, POINTS, 1)),
     ];
     for (name, points) in inputs {
         let mesh = triangulator.delaunay3d(&points).expect("lavapipe");

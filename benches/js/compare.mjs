@@ -2,7 +2,8 @@
 // delaunator, side by side, and prints ratios.
 //
 //   npm run build && cargo build --release --features cli
-//   node benches/js/compare.mjs [--dim 2] [--points 100000] [--runs 3] [--native GDEL] [--without qhull,native]
+//   node benches/js/compare.mjs [--dim 2] [--points 100000] [--runs 3] \
+//     [--native GDEL] [--without qhull,native]
 //
 // All sides take the same uniform points, in turn, on one core. The native binary's time is that
 // which it states; reading its file is left out.
@@ -15,7 +16,7 @@ import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import Delaunator from 'delaunator';
 import { loadQhull } from 'qhull-wasm';
-import { createTriangulator, generate, Delaunator as Ours } from '../../web/dist/node.js';
+import { createTriangulator, generate, Delaunator as Ours } from '../../web/dist/index.js';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
 const { values } = parseArgs({

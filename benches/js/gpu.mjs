@@ -1,7 +1,8 @@
 // Times the packed package's GPU backend in Node through the npm package `webgpu` (Dawn), and
 // prints JSON.
 //
-//   node benches/js/gpu.mjs [--package FOLDER] [--webgpu FOLDER] [--points 100000,1000000] [--kind uniform] [--runs 5] [--native GDEL]
+//   node benches/js/gpu.mjs [--package FOLDER] [--webgpu FOLDER] \
+//     [--points 100000,1000000] [--kind uniform] [--runs 5] [--native GDEL]
 //
 // To run it on another machine, carry this file, web/dist and node_modules/webgpu there; of the
 // latter, `index.js`, `package.json` and the `.dawn.node` of its platform in `dist` are enough.
@@ -27,7 +28,7 @@ const { values } = parseArgs({
   },
 });
 const load = (folder, file) => import(pathToFileURL(join(resolve(folder), file)));
-const { createTriangulator, generate } = await load(values.package, 'node.js');
+const { createTriangulator, generate } = await load(values.package, 'index.js');
 const { create } = await load(values.webgpu, 'index.js');
 
 const folder = mkdtempSync(join(tmpdir(), 'gdel-bench-'));

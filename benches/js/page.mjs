@@ -165,7 +165,7 @@ async function benchPackage() {
     }
     reportAborts(
       'Node',
-      await times(5, () => abortTimes(pathToFileURL(join(dist(folder), 'node.js')).href)),
+      await times(5, () => abortTimes(pathToFileURL(join(dist(folder), 'index.js')).href)),
     );
   } finally {
     server.close();

@@ -8,11 +8,30 @@ fn add_128(a: vec4u, b: vec4u) -> vec4u {
     return vec4u(x.x, y.x, z.x, a.w + b.w + z.y);
 }
 
+struct Sum {
+    limbs: vec4u,
+    carry: u32,
+}
+
+// a + b, unsigned, and the carry out.
+fn add_carrying(a: vec4u, b: vec4u) -> Sum {
+    let x = add_limb(a.x, b.x, 0);
+    let y = add_limb(a.y, b.y, x.y);
+    let z = add_limb(a.z, b.z, y.y);
+    let w = add_limb(a.w, b.w, z.y);
+    return Sum(vec4u(x.x, y.x, z.x, w.x), w.y);
+}
+
 fn subtract_128(a: vec4u, b: vec4u) -> vec4u {
     let x = subtract_limb(a.x, b.x, 0);
     let y = subtract_limb(a.y, b.y, x.y);
     let z = subtract_limb(a.z, b.z, y.y);
     return vec4u(x.x, y.x, z.x, a.w - b.w - z.y);
+}
+
+// m where the sign bit of s is set, else 0.
+fn if_negative_128(s: u32, m: vec4u) -> vec4u {
+    return vec4u(if_negative(s, m.x), if_negative(s, m.y), if_negative(s, m.z), if_negative(s, m.w));
 }
 
 fn multiply_i64(a: vec2u, b: vec2u) -> vec4u {

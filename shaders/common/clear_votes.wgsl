@@ -1,5 +1,4 @@
-// Forgets all votes, so that flip iterations can be counted from the start again; which half of the
-// active list is read stays the same. One invocation per slot.
+// Forgets all votes, so that bids start from the lowest number again. One invocation per slot.
 //!include common/layout
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read_write> status: array<Status>;
@@ -10,6 +9,6 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         atomicStore(&status[t].vote, 0u);
     }
     if id.x == 0 {
-        control.iteration &= 1;
+        control.bid_base = 1;
     }
 }

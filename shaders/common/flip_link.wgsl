@@ -1,39 +1,14 @@
 // Joins the simplices of the flips to those around them, and lists the simplices to check next. One
 // invocation per entry of the active list.
-//
-// An outer neighbour that did not change gets the new neighbour; one that did has left a message,
-// which is followed. So each facet is written once.
 //!include {dim}/simplex
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read_write> neighbors: array<vec4u>;
-@group(0) @binding(2) var<storage, read_write> status: array<Status>;
+@group(0) @binding(2) var<storage, read_write> status: array<OwnedStatus>;
 @group(0) @binding(3) var<storage, read_write> actives: array<Active>;
 @group(0) @binding(4) var<storage, read> messages: array<vec4u>;
-//!include common/bids
-//!include {dim}/flip_link
+//!include common/link_pass
 
-var<workgroup> wanted: atomic<u32>;
-var<workgroup> given: u32;
 var<workgroup> entries_here: u32;
-// Flips by their kind.
-var<workgroup> flips: array<atomic<u32>, 4>;
-
-// The slots to check next: those of a flip, or one that no flip changed.
-struct Changed {
-    count: u32,
-    slots: vec3u,
-}
-
-fn join(t: u32, face: u32, mark: u32) {
-    let across = neighbors[t][face];
-    let u = across >> 2;
-    let theirs = across & 3;
-    if atomicLoad(&status[u].vote) == mark {
-        neighbors[t][face] = messages[u][theirs];
-    } else {
-        neighbors[u][theirs] = 4 * t + face;
-    }
-}
 
 @compute @workgroup_size(WORKGROUP)
 fn main(
@@ -42,60 +17,10 @@ fn main(
     @builtin(local_invocation_index) local: u32,
 ) {
     let iteration = control.link_iteration;
+    let base = control.link_bid_base;
     if local == 0 {
-        entries_here = entries_of(iteration);
-    }
-    if local < 4 {
-        atomicStore(&flips[local], 0u);
+        entries_here = entries_of(iteration, base, many());
     }
     let entries = workgroupUniformLoad(&entries_here);
-    let list = half_of(iteration);
-    let next = half_of(iteration + 1);
-    let mark = changed_mark(iteration, control.bid_bits);
-    let collects = lists_next(entries);
-    for (var start = group.x * WORKGROUP; start < entries; start += groups.x * WORKGROUP) {
-        if local == 0 {
-            atomicStore(&wanted, 0u);
-        }
-        workgroupBarrier();
-        var changed = Changed(0, vec3u(0));
-        if start + local < entries {
-            let entry = actives[list + start + local];
-            if (entry.outcome & DONE) != 0 {
-                atomicAdd(&flips[entry.outcome & 3], 1u);
-                changed = changed_by(entry);
-            } else if atomicLoad(&status[entry.tet].vote) != mark {
-                // Otherwise the flip that changed this simplex lists it.
-                let flags = atomicLoad(&status[entry.tet].flags);
-                atomicStore(&status[entry.tet].flags, (flags & ~0xffu) | (entry.outcome & 0xff));
-                changed = Changed(select(0u, 1u, (entry.outcome & CHECK) != 0), vec3u(entry.tet, 0, 0));
-            }
-        }
-        if changed.count > 1 {
-            join_outer(changed, mark);
-        }
-        let count = select(0u, changed.count, collects);
-        var at = atomicAdd(&wanted, count);
-        workgroupBarrier();
-        if local == 0 {
-            given = atomicAdd(&control.active_len[(iteration + 1) & 1], atomicLoad(&wanted));
-        }
-        at += workgroupUniformLoad(&given) + next;
-        if count > 0 {
-            actives[at] = Active(changed.slots.x, 0);
-        }
-        if count > 1 {
-            actives[at + 1] = Active(changed.slots.y, 0);
-        }
-        if count > 2 {
-            actives[at + 2] = Active(changed.slots.z, 0);
-        }
-    }
-    workgroupBarrier();
-    if local == 0 && entries != 0 {
-        add_flips();
-        if group.x == 0 {
-            control.iteration = iteration + 1;
-        }
-    }
+    link_pass(group.x, groups.x, local, bids_of(iteration, base, entries), entries, lists_next(entries));
 }

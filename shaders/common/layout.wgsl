@@ -7,6 +7,9 @@ const BLOCK: u32 = 8;
 // The sort key of a point that was merged into another: it goes behind all vertices.
 const MERGED_KEY: u32 = 0xffffffff;
 
+// The rounds of which `log` keeps the state at their ends.
+const LOGGED: u32 = 8;
+
 // How a simplex picks its point; otherwise by the circumcentre.
 const PICK_CENTROID: u32 = 1;
 const PICK_RANDOM: u32 = 2;
@@ -16,17 +19,24 @@ struct Control {
     infinite: u32,
     blocks: u32,
     history: u32,
-    bid_bits: u32,
-    min_active: u32,
+    few: u32,
+    few_limit: u32,
+    few_iterations: u32,
+    max_min_active: u32,
+    insert_all: u32,
     pick: u32,
-    entries: u32,
-    entries_before: u32,
     blocks_before: u32,
     compact_from: u32,
     clockwise: u32,
 
     iteration: u32,
     link_iteration: u32,
+    bid_base: u32,
+    link_bid_base: u32,
+    min_active: u32,
+    entries: u32,
+    entries_before: u32,
+    waiting_half: u32,
     active_len: array<atomic<u32>, 2>,
     round: u32,
     next_node: atomic<u32>,
@@ -46,12 +56,24 @@ struct Control {
     not_locally_delaunay: atomic<u32>,
     flips_22: atomic<u32>,
     hull: atomic<u32>,
+    few_done: u32,
+    log: array<array<u32, 5>, LOGGED>,
+
+    free: array<atomic<u32>>,
 }
 
 struct Status {
     flags: atomic<u32>,
-    vote: atomic<u32>,
     last: u32,
+    vote: atomic<u32>,
+    first: u32,
+}
+
+// The same for kernels in which no two invocations share the flags of a simplex.
+struct OwnedStatus {
+    // The flags, and the last node.
+    made: vec2u,
+    vote: atomic<u32>,
     first: u32,
 }
 

@@ -1,5 +1,4 @@
-// Scores each waiting point and finds the best score of each simplex (§3.1); begins the insertion
-// round. One invocation per entry of the list of waiting points.
+// Scores each waiting point and finds the best score of each simplex (§3.1). One invocation per entry of the list of waiting points.
 //!include {dim}/simplex
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read> vertices: array<VertexWords>;
@@ -8,13 +7,15 @@
 // Entry 0: the best score. Entry 1: the point that has it, plus 1.
 @group(0) @binding(4) var<storage, read_write> picks: array<array<atomic<u32>, 4>>;
 @group(0) @binding(5) var<storage, read_write> scores: array<u32>;
+//!include common/waiting
 //!include {dim}/pick_score
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     let entries = control.entries;
+    let list = waiting_list();
     for (var i = id.x; i < entries; i += groups.x * WORKGROUP) {
-        let entry = waiting[i];
+        let entry = waiting[list + i];
         if entry.tet != NONE {
             var score = 0u;
             if control.pick == PICK_RANDOM {
@@ -29,9 +30,5 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
                 atomicMax(&picks[entry.tet][0], score);
             }
         }
-    }
-    if id.x == 0 {
-        control.round += 1;
-        control.first_node = atomicLoad(&control.next_node);
     }
 }

@@ -5,15 +5,17 @@
 @group(0) @binding(1) var<storage, read> vertices: array<VertexWords>;
 @group(0) @binding(3) var<storage, read_write> status: array<Status>;
 @group(0) @binding(5) var<storage, read_write> waiting: array<Waiting>;
+//!include common/waiting
 //!include {dim}/signs
 //!include {dim}/relocate
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     let entries = control.entries;
+    let list = waiting_list();
     let first_node = control.first_node;
     for (var i = id.x; i < entries; i += groups.x * WORKGROUP) {
-        let entry = waiting[i];
+        let entry = waiting[list + i];
         if entry.tet == NONE {
             continue;
         }
@@ -26,7 +28,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
             next = step.y;
         }
         if t != entry.tet {
-            waiting[i].tet = t;
+            waiting[list + i].tet = t;
         }
     }
     if exact_signs != 0 {

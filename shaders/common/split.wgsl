@@ -14,6 +14,7 @@
 @group(0) @binding(6) var<storage, read> waiting: array<Waiting>;
 //!include {dim}/split
 //!include common/bids
+//!include common/waiting
 
 var<workgroup> wanted: atomic<u32>;
 var<workgroup> splits: atomic<u32>;
@@ -32,6 +33,7 @@ fn main(
     let entries = workgroupUniformLoad(&entries_here);
     let half = control.iteration & 1;
     let list = half_of(control.iteration);
+    let first = waiting_list();
     for (var start = group.x * WORKGROUP; start < entries; start += groups.x * WORKGROUP) {
         if local == 0 {
             atomicStore(&wanted, 0u);
@@ -43,7 +45,7 @@ fn main(
         var listed = 0u;
         var at = 0u;
         if start + local < entries {
-            let entry = waiting[start + local];
+            let entry = waiting[first + start + local];
             p = entry.point;
             if entry.tet != NONE && picks[entry.tet].y == p + 1 {
                 t = entry.tet;

@@ -6,6 +6,7 @@
 //
 // Expects: vertices: array<VertexWords>, for load_position and load_high.
 //!include arithmetic/limbs_128
+//!include arithmetic/rows_wide
 
 // High words of x and y, and low words; the highest bit of the third says that the point was
 // rounded to the lattice.
@@ -21,10 +22,6 @@ struct Position {
 struct Row {
     low: vec2u,
     high: vec2u,
-}
-
-struct Lift {
-    limbs: vec4u,
 }
 
 struct Determinant {
@@ -49,14 +46,6 @@ fn difference(a: Position, b: Position) -> Row {
 // The row with `by` taken off.
 fn lowered(r: Row, by: vec2u) -> Row {
     return Row(r.low - by, r.high - vec2u(r.low < by));
-}
-
-fn x_of(r: Row) -> vec2u {
-    return vec2u(r.low.x, r.high.x);
-}
-
-fn y_of(r: Row) -> vec2u {
-    return vec2u(r.low.y, r.high.y);
 }
 
 fn lift_of(r: Row) -> Lift {
@@ -99,17 +88,9 @@ fn accumulate(s: Volume, l: Lift, m: Determinant) -> Volume {
     let r1 = next_row(r0, m.limbs.y, l.limbs);
     let r2 = next_row(r1, m.limbs.z, l.limbs);
     let r3 = next_row(r2, m.limbs.w, l.limbs);
-    let top = m.limbs.w;
-    let corrected = vec4u(
-        if_negative(top, l.limbs.x), if_negative(top, l.limbs.y), if_negative(top, l.limbs.z), if_negative(top, l.limbs.w)
-    );
-    let upper = subtract_128(vec4u(r3.low.yzw, r3.high), corrected);
-    let s0 = add_limb(s.low.x, r0.low.x, 0);
-    let s1 = add_limb(s.low.y, r1.low.x, s0.y);
-    let s2 = add_limb(s.low.z, r2.low.x, s1.y);
-    let s3 = add_limb(s.low.w, r3.low.x, s2.y);
-    let high = add_128(add_128(s.high, upper), vec4u(s3.y, 0, 0, 0));
-    return Volume(vec4u(s0.x, s1.x, s2.x, s3.x), high);
+    let upper = subtract_128(vec4u(r3.low.yzw, r3.high), if_negative_128(m.limbs.w, l.limbs));
+    let low = add_carrying(s.low, vec4u(r0.low.x, r1.low.x, r2.low.x, r3.low.x));
+    return Volume(low.limbs, add_128(add_128(s.high, upper), vec4u(low.carry, 0, 0, 0)));
 }
 
 fn sign_of_volume(s: Volume) -> i32 {

@@ -1,8 +1,8 @@
 // What a flip of triangles leaves to link.
 //
-// Expects: control, neighbors; Changed, flips and join of common/flip_link.
+// Expects: control, neighbors; Changed and flips of common/link_pass.
 
-// Returns whether this kernel lists the triangles to check next: no other one does.
+// Returns whether flip_link lists the triangles to check next: no other kernel does.
 fn lists_next(entries: u32) -> bool {
     return true;
 }
@@ -12,12 +12,13 @@ fn changed_by(entry: Active) -> Changed {
     return Changed(2, vec3u(entry.tet, neighbors[entry.tet].x >> 2, 0));
 }
 
-// Joins the outer edges.
-fn join_outer(changed: Changed, mark: u32) {
-    join(changed.slots.x, 1, mark);
-    join(changed.slots.x, 2, mark);
-    join(changed.slots.y, 1, mark);
-    join(changed.slots.y, 2, mark);
+// The outer edges of a flip.
+const OUTER_FACETS: u32 = 4;
+
+// Returns which of the slots of a flip has outer edge j, and as which of its edges: edges 1 and 2 of
+// both triangles are outer ones.
+fn outer_facet(j: u32, count: u32) -> vec2u {
+    return vec2u(j / 2, 1 + j % 2);
 }
 
 fn add_flips() {

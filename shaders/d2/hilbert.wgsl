@@ -1,22 +1,16 @@
 // Returns the place along the Hilbert curve through a 32768² grid of the cell of a lattice point,
-// by the high words of its coordinates; d3/hilbert has the source.
+// by the high words of its coordinates.
+//!include common/hilbert
 fn hilbert_key(high: vec3u) -> u32 {
     var x = high.xy >> vec2u(16);
     for (var q = 16384u; q > 1; q >>= 1) {
-        let p = q - 1;
-        x.x ^= select(0u, p, (x.x & q) != 0);
-        let t = (x.x ^ x.y) & p;
-        let invert_y = (x.y & q) != 0;
-        x = vec2u(x.x ^ select(t, p, invert_y), x.y ^ select(t, 0u, invert_y));
+        x.x ^= select(0u, q - 1, (x.x & q) != 0);
+        x = turned(x, q);
     }
+    // Gray code.
     x.y ^= x.x;
     // Every bit of y flips all lower bits.
-    var t = x.y >> 1;
-    t ^= t >> 1;
-    t ^= t >> 2;
-    t ^= t >> 4;
-    t ^= t >> 8;
-    x ^= vec2u(t);
+    x ^= vec2u(parity_above(x.y));
     return (spread(x.x) << 1) | spread(x.y);
 }
 

@@ -7,6 +7,7 @@
 // Ties are broken as d3/predicates explains: heights first, then the lowered coordinates ε(i, j), j
 // = y, x. A set S of lowered coordinates is a bit set, 2·rank + (y: 0, x: 1).
 //!include d2/exact_{width}
+//!include common/ties
 
 // The last one is never zero.
 const PERTURBATIONS = array<u32, 5>(0, 1, 2, 4, 6);
@@ -34,16 +35,6 @@ fn incircle_volume(u: Row, v: Row, w: Row) -> Volume {
     return accumulate(accumulate(first, lift_of(v), determinant(w, u)), lift_of(w), determinant(u, v));
 }
 
-// Exchanges two vertices if they are not in the order of their indices.
-fn put_in_order(a: ptr<function, Vertex>, b: ptr<function, Vertex>, parity: ptr<function, i32>) {
-    if (*b).index < (*a).index {
-        let c = *a;
-        *a = *b;
-        *b = c;
-        *parity = -*parity;
-    }
-}
-
 // Returns orient2d with ties broken by the lowered coordinates: never 0 for vertices with different
 // indices.
 fn orient2d(a_: Vertex, b_: Vertex, c_: Vertex) -> i32 {
@@ -66,20 +57,12 @@ fn orient2d(a_: Vertex, b_: Vertex, c_: Vertex) -> i32 {
 
 // Returns incircle with ties broken by the heights first and the lowered coordinates then: never 0
 // for vertices with different indices.
-fn incircle(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex) -> i32 {
-    var a = a_;
-    var b = b_;
-    var c = c_;
-    var d = d_;
-    var parity = 1;
-    put_in_order(&a, &b, &parity);
-    put_in_order(&c, &d, &parity);
-    put_in_order(&a, &c, &parity);
-    put_in_order(&b, &d, &parity);
-    put_in_order(&b, &c, &parity);
-    let u = difference(a.position, d.position);
-    let v = difference(b.position, d.position);
-    let w = difference(c.position, d.position);
+fn incircle(a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> i32 {
+    let sorted = in_order(a, b, c, d);
+    let origin = sorted.d.position;
+    let u = difference(sorted.a.position, origin);
+    let v = difference(sorted.b.position, origin);
+    let w = difference(sorted.c.position, origin);
     let la = lift_of(u);
     let lb = lift_of(v);
     let lc = lift_of(w);
@@ -95,13 +78,9 @@ fn incircle(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex) -> i32 {
         let kc = determinant(p, q);
         let kd = minus(zero_determinant(), plus(plus(ka, kb), kc));
         let volume = accumulate(accumulate(accumulate(zero_volume(), la, ka), lb, kb), lc, kc);
-        let sa = sign_of_determinant(ka);
-        let sb = sign_of_determinant(kb);
-        let sc = sign_of_determinant(kc);
-        let sd = sign_of_determinant(kd);
-        let by_height = select(select(select(sd, sc, sc != 0), sb, sb != 0), sa, sa != 0);
+        let by_height = sign_or(ka, sign_or(kb, sign_or(kc, sign_of_determinant(kd))));
         let by_volume = sign_of_volume(volume);
         sign = select(by_height, by_volume, by_volume != 0);
     }
-    return sign * parity;
+    return sign * sorted.parity;
 }

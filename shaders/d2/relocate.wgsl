@@ -5,8 +5,7 @@
 
 // Returns the triangle of flip n that holds point p, and the flip that changed that triangle later.
 fn follow(n: u32, p: u32) -> vec2u {
-    let node = history[n];
     // The first of the two triangles lies on the left of the edge.
-    let k = select(1u, 0u, orient(vec3u(node.edge, p)) > 0);
-    return vec2u(node.triangles[k], node.next[k]);
+    let k = select(1u, 0u, orient(vec3u(history[n].edge, p)) > 0);
+    return vec2u(history[n].triangles[k], history[n].next[k]);
 }

@@ -1,6 +1,7 @@
 // Triangles: what the buffers hold of them, and the functions that d3/simplex has for tetrahedra.
 // src/d2/gpu/layout.rs explains the structures.
 //!include common/layout
+//!include common/slots
 
 // Slots 2v and 2v + 1 belong to vertex v.
 const SLOTS_PER_POINT: u32 = 2;
@@ -20,6 +21,9 @@ struct UncertainTest {
 
 const COUNTER_CLOCKWISE: u32 = 0xffffffff;
 const FLAT: u32 = 0xfffffffe;
+
+// A flip in the history.
+alias HistoryNode = EdgeFlip;
 
 // A triangle by its vertices.
 alias Simplex = vec3u;
@@ -43,11 +47,6 @@ fn replaced(tri: vec3u, k: u32, v: u32) -> vec3u {
 // Returns the place of a vertex in a triangle that has it.
 fn place_of(tri: vec3u, v: u32) -> u32 {
     return select(select(2u, 1u, tri.y == v), 0u, tri.x == v);
-}
-
-// Returns the slot of child k of triangle t, split at point p: the one with p in place of vertex k.
-fn child_slot(t: u32, p: u32, k: u32) -> u32 {
-    return select(SLOTS_PER_POINT * p + k - 1, t, k == 0);
 }
 
 // Returns the slots of all children.

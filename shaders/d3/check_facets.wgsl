@@ -4,13 +4,10 @@
 // Where there are so few entries that most of the device would idle, four invocations share one:
 // each looks at one facet, and the first puts together what they found. The outcome is the same.
 //
-// Expects: control; orient and conflict of d3/signs or d3/signs_filtered.
+// Expects: control, simplices, neighbors, status, actives; orient and conflict of d3/signs or
+// d3/signs_filtered.
 //!include d3/simplex
 //!include common/bids
-@group(0) @binding(2) var<storage, read> simplices: array<vec4u>;
-@group(0) @binding(3) var<storage, read> neighbors: array<vec4u>;
-@group(0) @binding(4) var<storage, read_write> status: array<Status>;
-@group(0) @binding(5) var<storage, read_write> actives: array<Active>;
 
 // What was found out about the facets of an entry: those that need no more checking (bits 0–3), and
 // the proposed flip and the facets that cannot be flipped as in Active.outcome. This bit, if a sign
@@ -27,27 +24,32 @@ fn sharing(entries: u32, groups: u32) -> u32 {
 }
 
 // Returns what is found out about facet k of t, which is to be checked.
-fn check_facet(t: u32, tet: vec4u, near: vec4u, k: u32) -> u32 {
-    let u = near[k] >> 2;
-    let face = near[k] & 3;
+//
+// Components with an index that is not known beforehand are loaded one by one: of a vector in
+// registers, they would have to go through memory of the invocation's own.
+fn check_facet(t: u32, tet: vec4u, k: u32) -> u32 {
+    let across = neighbors[t][k];
+    let u = across >> 2;
+    let face = across & 3;
     var found = 1u << k;
     // Where both sides are to check a facet, the lower one does.
-    if u < t && ((atomicLoad(&status[u].flags) >> face) & 1) != 0 {
+    if u < t && ((status[u].made.x >> face) & 1) != 0 {
         return found;
     }
-    let beyond = simplices[u];
-    let e = beyond[face];
+    let e = simplices[u][face];
     let violated = conflict(tet, e);
     if violated == 0 {
         return UNDECIDED;
     }
     if violated > 0 {
         let c = facet(k);
-        let x = vec3u(tet[c.x], tet[c.y], tet[c.z]);
+        let apex = simplices[t][k];
+        var x = vec3u(simplices[t][c.x], simplices[t][c.y], simplices[t][c.z]);
         var negative = 0u;
         var edge = 0u;
         for (var j = 0u; j < 3 && negative < 2; j++) {
-            let sign = orient(vec4u(x[j], x[(j + 1) % 3], tet[k], e));
+            let sign = orient(vec4u(x.x, x.y, apex, e));
+            x = x.yzx;
             if sign == 0 {
                 return UNDECIDED;
             }
@@ -60,9 +62,9 @@ fn check_facet(t: u32, tet: vec4u, near: vec4u, k: u32) -> u32 {
         if negative == 0 {
             kind = FLIP_23;
         } else if negative == 1 {
-            let opposite = (edge + 2) % 3;
-            let there = place_of(beyond, x[opposite]);
-            kind = select(0u, FLIP_32, neighbors[u][there] >> 2 == near[c[opposite]] >> 2);
+            let opposite = turned(c, edge).z;
+            let there = place_of(simplices[u], simplices[t][opposite]);
+            kind = select(0u, FLIP_32, neighbors[u][there] >> 2 == neighbors[t][opposite] >> 2);
         }
         if kind != 0 {
             found = (kind << KIND_SHIFT) | (k << FACET_SHIFT) | (edge << EDGE_SHIFT);
@@ -78,20 +80,18 @@ fn check_facet(t: u32, tet: vec4u, near: vec4u, k: u32) -> u32 {
 // checked. `lanes` invocations in a row share an entry, and the first of them learns this. All of
 // the workgroup must call it, also those that have no entry, and not write found_here again before
 // a barrier.
-fn check_facets(has_entry: bool, i: u32, at: u32, iteration: u32, bits: u32, local: u32, lanes: u32) -> bool {
+fn check_facets(has_entry: bool, i: u32, at: u32, bids: Bids, local: u32, lanes: u32) -> bool {
     let lane = local % lanes;
     var found = 0u;
     var t = NONE;
     var flags = 0u;
-    var near = vec4u(0);
     if has_entry {
         t = actives[at].tet;
         let tet = simplices[t];
-        near = neighbors[t];
-        flags = atomicLoad(&status[t].flags);
+        flags = status[t].made.x;
         for (var k = lane; k < 4 && (found & ENOUGH) == 0; k += lanes) {
             if ((flags >> k) & 1) != 0 {
-                found |= check_facet(t, tet, near, k);
+                found |= check_facet(t, tet, k);
             }
         }
     }
@@ -113,13 +113,13 @@ fn check_facets(has_entry: bool, i: u32, at: u32, iteration: u32, bits: u32, loc
             actives[at].outcome = (found & ~CHECK) | (suspect << SUSPECT_SHIFT) | (check & ~found);
             let kind = (found >> KIND_SHIFT) & 3;
             if kind != 0 {
-                let bid = bid_of(i, iteration, bits);
+                let bid = bid_of(i, bids);
                 let k = (found >> FACET_SHIFT) & 3;
                 atomicMax(&status[t].vote, bid);
-                atomicMax(&status[near[k] >> 2].vote, bid);
+                atomicMax(&status[neighbors[t][k] >> 2].vote, bid);
                 if kind == FLIP_32 {
                     let edge = (found >> EDGE_SHIFT) & 3;
-                    atomicMax(&status[near[facet(k)[(edge + 2) % 3]] >> 2].vote, bid);
+                    atomicMax(&status[neighbors[t][turned(facet(k), edge).z] >> 2].vote, bid);
                 }
             }
         }

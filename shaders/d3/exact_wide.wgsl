@@ -6,6 +6,7 @@
 //
 // Expects: vertices: array<VertexWords>, for load_vertex and load_high.
 //!include arithmetic/limbs_128
+//!include arithmetic/rows_wide
 
 // High words of x, y and z, and the input index; or their low words, and whether the point was
 // rounded to the lattice.
@@ -23,10 +24,6 @@ struct Vertex {
 struct Row {
     low: vec3u,
     high: vec3u,
-}
-
-struct Lift {
-    limbs: vec4u,
 }
 
 struct Determinant {
@@ -59,14 +56,6 @@ fn lowered(r: Row, by: vec3u) -> Row {
     return Row(r.low - by, r.high - vec3u(r.low < by));
 }
 
-fn x_of(r: Row) -> vec2u {
-    return vec2u(r.low.x, r.high.x);
-}
-
-fn y_of(r: Row) -> vec2u {
-    return vec2u(r.low.y, r.high.y);
-}
-
 fn z_of(r: Row) -> vec2u {
     return vec2u(r.low.z, r.high.z);
 }
@@ -94,18 +83,14 @@ fn expand(r: Row, m: vec4u) -> Determinant {
     let z = z_of(r);
     let p0 = multiply_row(z.x, m, vec4u(0));
     let p1 = next_row(p0, z.y, m);
-    let corrected = vec4u(if_negative(z.y, m.x), if_negative(z.y, m.y), if_negative(z.y, m.z), if_negative(z.y, m.w));
-    let upper = subtract_128(vec4u(p1.low.yzw, p1.high), corrected);
+    let upper = subtract_128(vec4u(p1.low.yzw, p1.high), if_negative_128(z.y, m));
     let top = subtract_64(upper.zw, vec2u(if_negative(m.w, z.x), if_negative(m.w, z.y)));
     return Determinant(vec4u(p0.low.x, p1.low.x, upper.xy), top);
 }
 
 fn plus(a: Determinant, b: Determinant) -> Determinant {
-    let x = add_limb(a.low.x, b.low.x, 0);
-    let y = add_limb(a.low.y, b.low.y, x.y);
-    let z = add_limb(a.low.z, b.low.z, y.y);
-    let w = add_limb(a.low.w, b.low.w, z.y);
-    return Determinant(vec4u(x.x, y.x, z.x, w.x), add_64(add_64(a.high, b.high), vec2u(w.y, 0)));
+    let low = add_carrying(a.low, b.low);
+    return Determinant(low.limbs, add_64(add_64(a.high, b.high), vec2u(low.carry, 0)));
 }
 
 fn minus(a: Determinant, b: Determinant) -> Determinant {
@@ -142,23 +127,14 @@ fn accumulate(s: Volume, l: Lift, m: Determinant) -> Volume {
     let r3 = next_row(r2, m.low.w, l.limbs);
     let r4 = next_row(r3, m.high.x, l.limbs);
     let r5 = next_row(r4, m.high.y, l.limbs);
-    let top = m.high.y;
-    let corrected = vec4u(
-        if_negative(top, l.limbs.x), if_negative(top, l.limbs.y), if_negative(top, l.limbs.z), if_negative(top, l.limbs.w)
-    );
-    let upper = subtract_128(vec4u(r5.low.yzw, r5.high), corrected);
-    let s0 = add_limb(s.low.x, r0.low.x, 0);
-    let s1 = add_limb(s.low.y, r1.low.x, s0.y);
-    let s2 = add_limb(s.low.z, r2.low.x, s1.y);
-    let s3 = add_limb(s.low.w, r3.low.x, s2.y);
-    let s4 = add_limb(s.middle.x, r4.low.x, s3.y);
+    let upper = subtract_128(vec4u(r5.low.yzw, r5.high), if_negative_128(m.high.y, l.limbs));
+    let low = add_carrying(s.low, vec4u(r0.low.x, r1.low.x, r2.low.x, r3.low.x));
+    let s4 = add_limb(s.middle.x, r4.low.x, low.carry);
     let s5 = add_limb(s.middle.y, r5.low.x, s4.y);
     let s6 = add_limb(s.middle.z, upper.x, s5.y);
     let s7 = add_limb(s.middle.w, upper.y, s6.y);
     let s8 = add_limb(s.high.x, upper.z, s7.y);
-    return Volume(
-        vec4u(s0.x, s1.x, s2.x, s3.x), vec4u(s4.x, s5.x, s6.x, s7.x), vec2u(s8.x, s.high.y + upper.w + s8.y)
-    );
+    return Volume(low.limbs, vec4u(s4.x, s5.x, s6.x, s7.x), vec2u(s8.x, s.high.y + upper.w + s8.y));
 }
 
 fn sign_of_volume(s: Volume) -> i32 {

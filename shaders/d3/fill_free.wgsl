@@ -1,11 +1,10 @@
 // Frees all slots of new blocks. One invocation per block.
 //!include common/layout
 @group(0) @binding(0) var<storage, read_write> control: Control;
-@group(0) @binding(1) var<storage, read_write> free: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     for (var b = control.blocks_before + id.x; b < control.blocks; b += groups.x * WORKGROUP) {
-        free[b] = 0xff;
+        atomicStore(&control.free[b], 0xffu);
     }
 }

@@ -1,13 +1,17 @@
 // Checks the facets of the active tetrahedra that the filter did not decide (§4.4). One or four
 // invocations per entry of their list.
 @group(0) @binding(0) var<storage, read_write> control: Control;
-@group(0) @binding(1) var<storage, read> vertices: array<vec4i>;
-@group(0) @binding(6) var<storage, read> undecided_entries: array<u32>;
-//!include d3/check_facets
+@group(0) @binding(1) var<storage, read> vertices: array<VertexWords>;
+@group(0) @binding(2) var<storage, read> simplices: array<vec4u>;
+@group(0) @binding(3) var<storage, read> neighbors: array<vec4u>;
+@group(0) @binding(4) var<storage, read_write> status: array<OwnedStatus>;
+@group(0) @binding(5) var<storage, read_write> actives: array<Active>;
+// Its first words name the entries with undecided signs.
+@group(0) @binding(6) var<storage, read> messages: array<vec4u>;
+//!include d3/check_exact_pass
 //!include d3/signs
 
-var<workgroup> undecided_here: u32;
-var<workgroup> exact_here: atomic<u32>;
+var<workgroup> entries_here: u32;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(
@@ -16,30 +20,10 @@ fn main(
     @builtin(local_invocation_index) local: u32,
 ) {
     let iteration = control.iteration;
-    let list = half_of(iteration);
-    let bits = control.bid_bits;
+    let base = control.bid_base;
     if local == 0 {
-        undecided_here = atomicLoad(&control.undecided);
-        atomicStore(&exact_here, 0u);
+        entries_here = entries_of(iteration, base, many());
     }
-    let undecided = workgroupUniformLoad(&undecided_here);
-    let lanes = sharing(undecided, groups.x);
-    let step = groups.x * WORKGROUP / lanes;
-    for (var start = group.x * WORKGROUP / lanes; start < undecided; start += step) {
-        let j = start + local / lanes;
-        var i = 0u;
-        if j < undecided {
-            i = undecided_entries[j];
-        }
-        // No sign is undecided here.
-        _ = check_facets(j < undecided, i, list + i, iteration, bits, local, lanes);
-        workgroupBarrier();
-    }
-    if exact_signs != 0 {
-        atomicAdd(&exact_here, exact_signs);
-    }
-    workgroupBarrier();
-    if local == 0 && atomicLoad(&exact_here) != 0 {
-        atomicAdd(&control.exact, atomicLoad(&exact_here));
-    }
+    let entries = workgroupUniformLoad(&entries_here);
+    check_exact_pass(group.x, groups.x, local, bids_of(iteration, base, entries));
 }

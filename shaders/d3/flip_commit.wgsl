@@ -1,164 +1,191 @@
 // Flips of tetrahedra.
 //
-// Expects: control, simplices, neighbors, status, messages.
-@group(0) @binding(6) var<storage, read_write> free: array<atomic<u32>>;
-@group(0) @binding(7) var<storage, read_write> history: array<FlipNode>;
+// Expects: control, simplices, neighbors, status, messages, history; common/bids, common/history.
 
-// The blocks of the tail in which a flip looks for a free slot.
-const PROBES: u32 = 16;
+// How often a flip looks for a free slot in four blocks of the tail.
+const TAIL_TRIES: u32 = 4;
 
-// Takes a free slot from the block of a vertex of the flip, else from one of a few blocks of the
-// tail. Returns NONE if there is none.
-fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
-    let tail = control.blocks - control.infinite - 1;
-    let seed = scramble(t, iteration, 31);
-    let probes = 5 + select(PROBES, 0u, tail == 0);
+// Takes a slot of a block that had these free places. Returns NONE if other flips were faster.
+fn take_from(block: u32, free: u32) -> u32 {
+    var places = free;
     var slot = NONE;
-    for (var i = 0u; i < probes && slot == NONE; i++) {
-        var block = control.infinite + 1 + (seed + (i - 5) * 0x9e3779b9u) % max(tail, 1u);
-        block = select(block, e, i == 4);
-        block = select(block, d, i == 3);
-        if i < 3 {
-            block = ring[i];
+    while places != 0 && slot == NONE {
+        let place = firstTrailingBit(places);
+        let before = atomicAnd(&control.free[block], ~(1u << place));
+        if ((before >> place) & 1) != 0 {
+            slot = block * BLOCK + place;
         }
-        // Another flip may be faster; then the next place is tried.
-        var places = atomicLoad(&free[block]);
-        while places != 0 && slot == NONE {
-            let place = firstTrailingBit(places);
-            let before = atomicAnd(&free[block], ~(1u << place));
-            if ((before >> place) & 1) != 0 {
-                slot = block * BLOCK + place;
-            }
-            places = before & ~(1u << place);
-        }
+        places = before & ~(1u << place);
     }
     return slot;
 }
 
-// A flip that won all of its tetrahedra.
-struct Flip {
+// Takes a free slot from the block of a vertex of the flip, else from one of a few blocks of the
+// tail. Returns NONE if there is none. Several blocks are looked at together, because each look is a
+// long wait.
+fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
+    let tail = control.blocks - control.infinite - 1;
+    let seed = scramble(t, iteration, 31);
+    var blocks = vec4u(ring, d);
+    var last = e;
+    var slot = NONE;
+    for (var i = 0u; i <= TAIL_TRIES && slot == NONE; i++) {
+        let x = atomicLoad(&control.free[blocks.x]);
+        let y = atomicLoad(&control.free[blocks.y]);
+        let z = atomicLoad(&control.free[blocks.z]);
+        let w = atomicLoad(&control.free[blocks.w]);
+        var block = last;
+        var places = atomicLoad(&control.free[last]);
+        block = select(block, blocks.w, w != 0);
+        places = select(places, w, w != 0);
+        block = select(block, blocks.z, z != 0);
+        places = select(places, z, z != 0);
+        block = select(block, blocks.y, y != 0);
+        places = select(places, y, y != 0);
+        block = select(block, blocks.x, x != 0);
+        places = select(places, x, x != 0);
+        slot = take_from(block, places);
+        if tail == 0 {
+            break;
+        }
+        blocks = control.infinite + 1 + (vec4u(seed) + (4 * i + vec4u(0, 1, 2, 3)) * 0x9e3779b9u) % tail;
+        last = blocks.w;
+    }
+    return slot;
+}
+
+// A proposed flip.
+struct Proposal {
+    // 0 if there is none.
     kind: u32,
-    // The tetrahedra; the third one only in 3-2 flips.
+    // The tetrahedra; the third one only in 3-2 flips, otherwise the second one again.
     t: u32,
     u: u32,
     w: u32,
     // The facet of t, and its corners.
     k: u32,
     c: vec3u,
-    // Whether waiting points may lie in the tetrahedra.
-    held: bool,
 }
 
-// Returns the flip that entry i proposes; kind 0 if it proposes none, or has lost.
-fn winner(i: u32, entry: Active, iteration: u32, bits: u32) -> Flip {
-    var flip = Flip(0, entry.tet, 0, 0, 0, vec3u(0), false);
+// Returns the flip that an entry proposes.
+fn proposal_of(entry: Active) -> Proposal {
     let kind = (entry.outcome >> KIND_SHIFT) & 3;
+    var proposal = Proposal(kind, entry.tet, 0, 0, 0, vec3u(0));
     if kind != 0 {
-        let t = entry.tet;
-        let bid = bid_of(i, iteration, bits);
-        let near = neighbors[t];
         let k = (entry.outcome >> FACET_SHIFT) & 3;
-        let turn = (entry.outcome >> EDGE_SHIFT) & 3;
-        let f = facet(k);
-        let c = vec3u(f[turn], f[(turn + 1) % 3], f[(turn + 2) % 3]);
-        let u = near[k] >> 2;
-        let w = near[c.z] >> 2;
-        var won = atomicLoad(&status[t].vote) == bid && atomicLoad(&status[u].vote) == bid;
+        proposal.k = k;
+        proposal.c = turned(facet(k), (entry.outcome >> EDGE_SHIFT) & 3);
+        proposal.u = neighbors[entry.tet][k] >> 2;
+        proposal.w = proposal.u;
         if kind == FLIP_32 {
-            won = won && atomicLoad(&status[w].vote) == bid;
-        }
-        if won {
-            let round = control.round;
-            var held = atomicLoad(&status[t].flags) >> HELD_SHIFT == round
-                || atomicLoad(&status[u].flags) >> HELD_SHIFT == round;
-            if kind == FLIP_32 {
-                held = held || atomicLoad(&status[w].flags) >> HELD_SHIFT == round;
-            }
-            flip = Flip(kind, t, u, w, k, c, held);
+            proposal.w = neighbors[entry.tet][proposal.c.z] >> 2;
         }
     }
-    return flip;
+    return proposal;
 }
 
-// Carries out a flip. `node` is its number in the history, NONE where no waiting point can lie in
-// its tetrahedra. Returns the entry's outcome; 0 if there is no slot.
-fn carry_out(flip: Flip, node: u32, iteration: u32, mark: u32) -> u32 {
-    let first = control.first_node;
+// Returns whether a proposal has won all of its tetrahedra with this bid.
+fn has_won(p: Proposal, bid: u32) -> bool {
+    return atomicLoad(&status[p.t].vote) == bid && atomicLoad(&status[p.u].vote) == bid
+        && atomicLoad(&status[p.w].vote) == bid;
+}
+
+// Returns whether waiting points may lie in the tetrahedra of a proposal.
+fn is_held(p: Proposal, round: u32) -> bool {
+    return status[p.t].made.x >> HELD_SHIFT == round
+        || status[p.u].made.x >> HELD_SHIFT == round
+        || status[p.w].made.x >> HELD_SHIFT == round;
+}
+
+// Begins a flip: takes the slot of the third tetrahedron, and writes history and status. `node` is
+// its number in the history, NONE where no waiting point can lie in its tetrahedra. Returns the
+// third tetrahedron; NONE if there is no slot.
+fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: Round) -> u32 {
     let kind = flip.kind;
     let t = flip.t;
     let u = flip.u;
-    let w = flip.w;
-    let c = flip.c;
-    let tet_t = simplices[t];
-    let tet_u = simplices[u];
-    let near_t = neighbors[t];
-    let near_u = neighbors[u];
-    let x = vec3u(tet_t[c.x], tet_t[c.y], tet_t[c.z]);
-    let apex = tet_u[near_t[flip.k] & 3];
     // As FlipNode has it: the ring and the ends of the edge.
-    var ring = x;
-    var d = tet_t[flip.k];
-    var e = apex;
-    var third = w;
+    var ring = vec3u(simplices[t][flip.c.x], simplices[t][flip.c.y], simplices[t][flip.c.z]);
+    var d = simplices[t][flip.k];
+    var e = simplices[u][neighbors[t][flip.k] & 3];
+    var third = flip.w;
     if kind == FLIP_23 {
-        third = free_slot(ring, d, e, t, iteration);
+        third = free_slot(ring, d, e, t, bids.iteration);
     } else {
-        ring = vec3u(d, x.z, apex);
+        let x = ring;
+        ring = vec3u(d, x.z, e);
         d = x.x;
         e = x.y;
     }
-    var outcome = 0u;
     if third != NONE {
         if node != NONE {
-            link_node(t, node, first);
-            link_node(u, node, first);
+            link_node(t, node, round);
+            link_node(u, node, round);
             if kind == FLIP_32 {
-                link_node(w, node, first);
+                link_node(third, node, round);
             }
-            history[node - first] = FlipNode(
-                array(ring.x, ring.y, ring.z, d, e), kind, array(t, u, third), array(NONE, NONE, NONE)
-            );
+            history[node - round.first_node] = FlipNode(ring, d, vec3u(t, u, third), e, vec3u(NONE), kind);
         }
-        let flags = select(control.round << HELD_SHIFT, 0u, node == NONE);
+        let mark = changed_mark(bids);
+        let flags = select(round.number << HELD_SHIFT, 0u, node == NONE);
         let last = select(node << 2, 0u, node == NONE);
         let step = select(1u, 0u, node == NONE);
         let check = select(0x7u, 0xcu, kind == FLIP_23);
         renew(t, flags | check, mark, last);
         renew(u, flags | check, mark, last + step);
         renew(third, select(0u, flags | check, kind == FLIP_23), mark, last + 2 * step);
-        var freed = 0u;
-        if kind == FLIP_23 {
-            // (x_i, x_i+1, d, e): face 0 leads to the next of the three, face 1 to the one before,
-            // faces 2 and 3 are the old facets with e and with d.
-            let p = vec3u(place_of(tet_u, x.x), place_of(tet_u, x.y), place_of(tet_u, x.z));
-            simplices[t] = vec4u(x.x, x.y, d, e);
-            simplices[u] = vec4u(x.y, x.z, d, e);
-            simplices[third] = vec4u(x.z, x.x, d, e);
-            neighbors[t] = vec4u(4 * u + 1, 4 * third, near_u[p.z], near_t[c.z]);
-            neighbors[u] = vec4u(4 * third + 1, 4 * t, near_u[p.x], near_t[c.x]);
-            neighbors[third] = vec4u(4 * t + 1, 4 * u, near_u[p.y], near_t[c.y]);
-            messages[t] = replaced(replaced(replaced(vec4u(NONE), c.z, 4 * t + 3), c.x, 4 * u + 3), c.y, 4 * third + 3);
-            messages[u] = replaced(replaced(replaced(vec4u(NONE), p.z, 4 * t + 2), p.x, 4 * u + 2), p.y, 4 * third + 2);
-        } else {
-            // The upper tetrahedron (x_0, x_1, x_2, e) and the lower one (x_0, x_2, x_1, d), joined
-            // by their faces 3. The facets opposite ring vertex j were of the old one with the
-            // other two: w, t and u have 20, 01 and 12.
-            let tet_w = simplices[w];
-            let near_w = neighbors[w];
-            let pt = vec2u(c.x, c.y);
-            let pu = vec2u(place_of(tet_u, d), place_of(tet_u, e));
-            let pw = vec2u(place_of(tet_w, d), place_of(tet_w, e));
-            simplices[t] = vec4u(ring.x, ring.y, ring.z, e);
-            simplices[u] = vec4u(ring.x, ring.z, ring.y, d);
-            simplices[w] = vec4u(0);
-            neighbors[t] = vec4u(near_u[pu.x], near_w[pw.x], near_t[pt.x], 4 * u + 3);
-            neighbors[u] = vec4u(near_u[pu.y], near_t[pt.y], near_w[pw.y], 4 * t + 3);
-            messages[t] = replaced(replaced(vec4u(NONE), pt.x, 4 * t + 2), pt.y, 4 * u + 1);
-            messages[u] = replaced(replaced(vec4u(NONE), pu.x, 4 * t), pu.y, 4 * u);
-            messages[w] = replaced(replaced(vec4u(NONE), pw.x, 4 * t + 1), pw.y, 4 * u + 2);
-            freed = w;
-        }
-        outcome = DONE | (freed << SLOT_SHIFT) | kind;
     }
-    return outcome;
+    return third;
+}
+
+// Ends a flip that has begun: writes the tetrahedra, and the messages. Returns the entry's outcome.
+//
+// Components with an index that is not known beforehand are loaded one by one: of a vector in
+// registers, they would have to go through memory of the invocation's own.
+fn end_flip(flip: Proposal, third: u32) -> u32 {
+    let kind = flip.kind;
+    let t = flip.t;
+    let u = flip.u;
+    let c = flip.c;
+    let tet_u = simplices[u];
+    let x = vec3u(simplices[t][c.x], simplices[t][c.y], simplices[t][c.z]);
+    let d = simplices[t][flip.k];
+    let e = simplices[u][neighbors[t][flip.k] & 3];
+    var freed = 0u;
+    if kind == FLIP_23 {
+        // (x_i, x_i+1, d, e): face 0 leads to the next of the three, face 1 to the one before,
+        // faces 2 and 3 are the old facets with e and with d.
+        let p = vec3u(place_of(tet_u, x.x), place_of(tet_u, x.y), place_of(tet_u, x.z));
+        let near_t = vec3u(neighbors[t][c.x], neighbors[t][c.y], neighbors[t][c.z]);
+        let near_u = vec3u(neighbors[u][p.x], neighbors[u][p.y], neighbors[u][p.z]);
+        simplices[t] = vec4u(x.x, x.y, d, e);
+        simplices[u] = vec4u(x.y, x.z, d, e);
+        simplices[third] = vec4u(x.z, x.x, d, e);
+        neighbors[t] = vec4u(4 * u + 1, 4 * third, near_u.z, near_t.z);
+        neighbors[u] = vec4u(4 * third + 1, 4 * t, near_u.x, near_t.x);
+        neighbors[third] = vec4u(4 * t + 1, 4 * u, near_u.y, near_t.y);
+        messages[t] = replaced(replaced(replaced(vec4u(NONE), c.z, 4 * t + 3), c.x, 4 * u + 3), c.y, 4 * third + 3);
+        messages[u] = replaced(replaced(replaced(vec4u(NONE), p.z, 4 * t + 2), p.x, 4 * u + 2), p.y, 4 * third + 2);
+    } else {
+        // The upper tetrahedron (x_0, x_1, x_2, e) and the lower one (x_0, x_2, x_1, d) of the ring
+        // and the ends of the edge, joined by their faces 3. The facets opposite ring vertex j were
+        // of the old one with the other two: w, t and u have 20, 01 and 12.
+        let tet_w = simplices[third];
+        let pt = vec2u(c.x, c.y);
+        let pu = vec2u(place_of(tet_u, x.x), place_of(tet_u, x.y));
+        let pw = vec2u(place_of(tet_w, x.x), place_of(tet_w, x.y));
+        let near_t = vec2u(neighbors[t][pt.x], neighbors[t][pt.y]);
+        let near_u = vec2u(neighbors[u][pu.x], neighbors[u][pu.y]);
+        let near_w = vec2u(neighbors[third][pw.x], neighbors[third][pw.y]);
+        simplices[t] = vec4u(d, x.z, e, x.y);
+        simplices[u] = vec4u(d, e, x.z, x.x);
+        simplices[third] = vec4u(0);
+        neighbors[t] = vec4u(near_u.x, near_w.x, near_t.x, 4 * u + 3);
+        neighbors[u] = vec4u(near_u.y, near_t.y, near_w.y, 4 * t + 3);
+        messages[t] = replaced(replaced(vec4u(NONE), pt.x, 4 * t + 2), pt.y, 4 * u + 1);
+        messages[u] = replaced(replaced(vec4u(NONE), pu.x, 4 * t), pu.y, 4 * u);
+        messages[third] = replaced(replaced(vec4u(NONE), pw.x, 4 * t + 1), pw.y, 4 * u + 2);
+        freed = third;
+    }
+    return DONE | (freed << SLOT_SHIFT) | kind;
 }

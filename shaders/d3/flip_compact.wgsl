@@ -18,9 +18,10 @@ fn main(
     @builtin(local_invocation_index) local: u32,
 ) {
     let iteration = control.link_iteration;
+    let base = control.link_bid_base;
     if local == 0 {
         // The same condition as in flip_link.
-        slots_here = select(0u, control.blocks * BLOCK, entries_of(iteration) >= control.compact_from);
+        slots_here = select(0u, control.blocks * BLOCK, entries_of(iteration, base, many()) >= control.compact_from);
     }
     let slots = workgroupUniformLoad(&slots_here);
     let next = half_of(iteration + 1);

@@ -1,9 +1,8 @@
 // What a flip of tetrahedra leaves to link.
 //
-// Expects: control, neighbors; Changed, flips and join of common/flip_link.
-@group(0) @binding(5) var<storage, read_write> free: array<atomic<u32>>;
+// Expects: control, neighbors; Changed and flips of common/link_pass.
 
-// Returns whether this kernel lists the tetrahedra to check next; otherwise flip_compact does.
+// Returns whether flip_link lists the tetrahedra to check next; otherwise flip_compact does.
 fn lists_next(entries: u32) -> bool {
     return entries < control.compact_from;
 }
@@ -15,18 +14,17 @@ fn changed_by(entry: Active) -> Changed {
         return Changed(3, vec3u(entry.tet, inner.x >> 2, inner.y >> 2));
     }
     let slot = (entry.outcome & ~DONE) >> SLOT_SHIFT;
-    atomicOr(&free[slot / BLOCK], 1u << (slot % BLOCK));
+    atomicOr(&control.free[slot / BLOCK], 1u << (slot % BLOCK));
     return Changed(2, vec3u(entry.tet, inner.w >> 2, 0));
 }
 
-// Joins the outer facets: 2 and 3 of three tetrahedra, 0, 1 and 2 of two.
-fn join_outer(changed: Changed, mark: u32) {
-    let is_23 = changed.count == 3;
-    for (var k = 0u; k < changed.count; k++) {
-        for (var face = select(0u, 2u, is_23); face < select(3u, 4u, is_23); face++) {
-            join(changed.slots[k], face, mark);
-        }
-    }
+// The outer facets of a flip.
+const OUTER_FACETS: u32 = 6;
+
+// Returns which of the slots of a flip that made so many tetrahedra has outer facet j, and as which
+// of its facets: facets 2 and 3 of three tetrahedra are outer ones, and 0, 1 and 2 of two.
+fn outer_facet(j: u32, count: u32) -> vec2u {
+    return select(vec2u(j / 3, j % 3), vec2u(j / 2, 2 + j % 2), count == 3);
 }
 
 fn add_flips() {

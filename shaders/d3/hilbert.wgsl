@@ -1,29 +1,19 @@
 // Returns the place along the Hilbert curve through a 1024³ grid of the cell of a lattice point, by
-// the high words of its coordinates (Skilling, *Programming the Hilbert curve*, 2004).
+// the high words of its coordinates.
+//!include common/hilbert
 fn hilbert_key(high: vec3u) -> u32 {
     var x = high >> vec3u(21);
     for (var q = 512u; q > 1; q >>= 1) {
-        let p = q - 1;
-        // For each axis: where its bit is set, invert the lower bits of x, else exchange them with
-        // those of the axis.
-        x.x ^= select(0u, p, (x.x & q) != 0);
-        let t = (x.x ^ x.y) & p;
-        let invert_y = (x.y & q) != 0;
-        x = vec3u(x.x ^ select(t, p, invert_y), x.y ^ select(t, 0u, invert_y), x.z);
-        let u = (x.x ^ x.z) & p;
-        let invert_z = (x.z & q) != 0;
-        x = vec3u(x.x ^ select(u, p, invert_z), x.y, x.z ^ select(u, 0u, invert_z));
+        x.x ^= select(0u, q - 1, (x.x & q) != 0);
+        x = vec3u(turned(x.xy, q), x.z);
+        let xz = turned(x.xz, q);
+        x = vec3u(xz.x, x.y, xz.y);
     }
     // Gray code.
     x.y ^= x.x;
     x.z ^= x.y;
     // Every bit of z flips all lower bits.
-    var t = x.z >> 1;
-    t ^= t >> 1;
-    t ^= t >> 2;
-    t ^= t >> 4;
-    t ^= t >> 8;
-    x ^= vec3u(t);
+    x ^= vec3u(parity_above(x.z));
     return (spread(x.x) << 2) | (spread(x.y) << 1) | spread(x.z);
 }
 

@@ -1,7 +1,6 @@
 // The first tetrahedra.
 //
-// Expects: counts, simplices, neighbors.
-@group(0) @binding(7) var<storage, read_write> free: array<u32>;
+// Expects: control, counts, simplices, neighbors.
 
 fn first_simplex() -> vec4u {
     return vec4u(counts[COUNT_FOUND], counts[COUNT_FOUND + 1], counts[COUNT_FOUND + 2], counts[COUNT_FOUND + 3]);
@@ -27,5 +26,5 @@ fn make_first(first: vec4u, infinite: u32) {
         neighbors[base + 1 + k] = near;
     }
     // The slots 0 to 4 of the block are taken.
-    free[infinite] = 0xe0;
+    atomicStore(&control.free[infinite], 0xe0u);
 }

@@ -22,6 +22,7 @@
 // is never zero: it leaves the row of the point with the highest index alone. This holds also for
 // points that share all coordinates.
 //!include d3/exact_{width}
+//!include common/ties
 
 const PERTURBATIONS = array<u32, 15>(0, 1, 2, 4, 8, 10, 12, 16, 20, 32, 64, 66, 68, 80, 84);
 
@@ -45,39 +46,20 @@ fn orient3d_exact(a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> i32 {
     return sign_of_determinant(determinant(difference(b, a), difference(c, a), difference(d, a)));
 }
 
-// Exchanges two vertices if they are not in the order of their indices.
-fn put_in_order(a: ptr<function, Vertex>, b: ptr<function, Vertex>, parity: ptr<function, i32>) {
-    if (*b).index < (*a).index {
-        let c = *a;
-        *a = *b;
-        *b = c;
-        *parity = -*parity;
-    }
-}
-
 // Returns orient3d with ties broken by the lowered coordinates: never 0 for vertices with different
 // indices.
-fn orient3d(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex) -> i32 {
-    var a = a_;
-    var b = b_;
-    var c = c_;
-    var d = d_;
-    var parity = 1;
-    put_in_order(&a, &b, &parity);
-    put_in_order(&c, &d, &parity);
-    put_in_order(&a, &c, &parity);
-    put_in_order(&b, &d, &parity);
-    put_in_order(&b, &c, &parity);
-    let u = difference(a, d);
-    let v = difference(b, d);
-    let w = difference(c, d);
+fn orient3d(a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> i32 {
+    let sorted = in_order(a, b, c, d);
+    let u = difference(sorted.a, sorted.d);
+    let v = difference(sorted.b, sorted.d);
+    let w = difference(sorted.c, sorted.d);
     var sign = 0;
     for (var i = 0; i < 15 && sign == 0; i++) {
         let s = PERTURBATIONS[i];
         sign = sign_of_determinant(determinant(lowered(u, lowering(s, 0)), lowered(v, lowering(s, 1)), lowered(w, lowering(s, 2))));
     }
     // det(b − a, c − a, d − a) = −det(a − d, b − d, c − d).
-    return -sign * parity;
+    return -sign * sorted.parity;
 }
 
 // Returns insphere with ties broken by the heights first and the lowered coordinates then: never 0
@@ -142,12 +124,7 @@ fn insphere(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex, e_: Vertex) -> i32 {
         let kd = minus(minus(expand(q, pr), expand(p, qr)), expand(r, pq));
         let ke = minus(zero_determinant(), plus(plus(ka, kb), plus(kc, kd)));
         let volume = accumulate(accumulate(accumulate(accumulate(zero_volume(), la, ka), lb, kb), lc, kc), ld, kd);
-        let sa = sign_of_determinant(ka);
-        let sb = sign_of_determinant(kb);
-        let sc = sign_of_determinant(kc);
-        let sd = sign_of_determinant(kd);
-        let se = sign_of_determinant(ke);
-        let by_height = select(select(select(select(se, sd, sd != 0), sc, sc != 0), sb, sb != 0), sa, sa != 0);
+        let by_height = sign_or(ka, sign_or(kb, sign_or(kc, sign_or(kd, sign_of_determinant(ke)))));
         let by_volume = sign_of_volume(volume);
         sign = select(select(by_height, 0, infinite), by_volume, by_volume != 0);
     }

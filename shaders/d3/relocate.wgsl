@@ -6,9 +6,9 @@
 // Returns the tetrahedron of flip n that holds point p, and the flip that changed that tetrahedron
 // later.
 fn follow(n: u32, p: u32) -> vec2u {
-    let x = vec3u(history[n].vertices[0], history[n].vertices[1], history[n].vertices[2]);
-    let d = history[n].vertices[3];
-    let e = history[n].vertices[4];
+    let x = history[n].ring;
+    let d = history[n].d;
+    let e = history[n].e;
     let is_23 = history[n].kind == FLIP_23;
     // 3-2: above or below the ring. 2-3: beyond the plane of the edge and x_0; then beyond that of
     // x_1 or x_2.

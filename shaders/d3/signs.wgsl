@@ -1,4 +1,5 @@
-// Signs on vertices that may be at infinity: the filters first, then the exact arithmetic. Never 0.
+// Signs on vertices that may be at infinity: the filters first, then the exact arithmetic. Never 0 where
+// `decides` is set.
 //
 // Expects: vertices: array<VertexWords>; control.
 //!include d3/predicates
@@ -7,12 +8,14 @@
 
 // The number of predicate evaluations of this invocation that the filters did not decide.
 var<private> exact_signs: u32 = 0;
+// Whether what the first filter leaves open is decided; otherwise its sign is 0.
+var<private> decides: bool = true;
 
 // Returns the orientation of four finite vertices. The number of infinity stands for the interior
 // point.
 fn orient_finite(v: vec4u) -> i32 {
     var sign = orient3d_filter(load_high(v.x), load_high(v.y), load_high(v.z), load_high(v.w));
-    if sign == 0 {
+    if sign == 0 && decides {
         let a = load_vertex(v.x);
         let b = load_vertex(v.y);
         let c = load_vertex(v.z);
@@ -28,7 +31,7 @@ fn orient_finite(v: vec4u) -> i32 {
 
 fn insphere_finite(tet: vec4u, e: u32) -> i32 {
     var sign = insphere_filter(load_high(tet.x), load_high(tet.y), load_high(tet.z), load_high(tet.w), load_high(e));
-    if sign == 0 {
+    if sign == 0 && decides {
         let a = load_vertex(tet.x);
         let b = load_vertex(tet.y);
         let c = load_vertex(tet.z);

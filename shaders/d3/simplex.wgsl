@@ -1,5 +1,6 @@
 // Tetrahedra: what the buffers hold of them, and the functions that d2/simplex has for triangles.
 //!include common/layout
+//!include common/slots
 
 // Slots 8v to 8v + 7 belong to vertex v.
 const SLOTS_PER_POINT: u32 = BLOCK;
@@ -9,12 +10,18 @@ const FLIP_23: u32 = 1;
 const FLIP_32: u32 = 2;
 const SLOT_SHIFT: u32 = 2;
 
+// Its parts take 16 bytes each, so that they are written and read as a whole.
 struct FlipNode {
-    vertices: array<u32, 5>,
+    ring: vec3u,
+    d: u32,
+    tets: vec3u,
+    e: u32,
+    next: vec3u,
     kind: u32,
-    tets: array<u32, 3>,
-    next: array<u32, 3>,
 }
+
+// A flip in the history.
+alias HistoryNode = FlipNode;
 
 // A tetrahedron by its vertices.
 alias Simplex = vec4u;
@@ -35,6 +42,11 @@ fn facet(k: u32) -> vec3u {
     return select(select(select(vec3u(0, 2, 1), vec3u(0, 1, 3), k == 2), vec3u(0, 3, 2), k == 1), vec3u(1, 2, 3), k == 0);
 }
 
+// Returns a facet's corners from corner `turn` on.
+fn turned(f: vec3u, turn: u32) -> vec3u {
+    return select(select(f, f.yzx, turn == 1), f.zxy, turn == 2);
+}
+
 // Returns the place of a vertex in a tetrahedron that has it.
 fn place_of(tet: vec4u, v: u32) -> u32 {
     return select(select(select(3u, 2u, tet.z == v), 1u, tet.y == v), 0u, tet.x == v);
@@ -43,12 +55,6 @@ fn place_of(tet: vec4u, v: u32) -> u32 {
 // Returns the tetrahedron with vertex k replaced.
 fn replaced(tet: vec4u, k: u32, v: u32) -> vec4u {
     return select(tet, vec4u(v), vec4u(0, 1, 2, 3) == vec4u(k));
-}
-
-// Returns the slot of child k of tetrahedron t, split at point p: the one with p in place of vertex
-// k.
-fn child_slot(t: u32, p: u32, k: u32) -> u32 {
-    return select(SLOTS_PER_POINT * p + k - 1, t, k == 0);
 }
 
 // Returns the slots of all children.

@@ -1,4 +1,4 @@
-//! `gdel adapters`: the graphics devices of this machine.
+//! `gdel adapters`: the GPUs of this machine.
 
 use super::Failure;
 use std::io::{self, Write};

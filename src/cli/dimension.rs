@@ -3,12 +3,14 @@
 use super::Failure;
 use clap::{ValueEnum, builder::PossibleValuesParser, builder::TypedValueParser};
 use gdel::{
-    Error, Mesh2, Mesh3, Points, Points2, Triangulator,
-    internals::io::{
-        Mesh, MeshData, MeshData2, MeshData3, PointCloud, PointFormat,
-        files::{Input, shown},
+    Error, Mesh2, Mesh3, Points, Points2, Points3, Triangulator,
+    internals::{
+        io::{
+            self, MeshData, MeshData2, MeshData3, PointCloud, PointFormat,
+            files::{Input, shown},
+        },
+        mesh,
     },
-    stats::Stats,
     verify::Report as Proof,
 };
 use serde::Serialize;
@@ -24,14 +26,11 @@ pub(super) enum Dimension {
 }
 
 /// A mesh that the commands make and verify.
-pub(super) trait Triangulation<const D: usize, const N: usize>: Mesh<D, N> + Sized {
+pub(super) trait Triangulation<const D: usize, const N: usize>: io::Mesh<D, N> + mesh::MeshInfo + Sized {
     fn triangulate(points: Points<'_, D>, triangulator: &Triangulator) -> Result<Self, Error>;
     fn verify(points: Points<'_, D>, mesh: &Self) -> Result<Proof, Error>;
     fn verify_data(points: Points<'_, D>, mesh: &MeshData<D, N>) -> Result<Proof, Error>;
     fn counts(&self) -> Counts;
-    fn duplicates(&self) -> usize;
-    fn dimension(&self) -> u8;
-    fn stats(&self) -> &Stats;
 }
 
 /// How many simplices there are.
@@ -43,32 +42,20 @@ pub(super) enum Counts {
 }
 
 impl Triangulation<3, 4> for Mesh3 {
-    fn triangulate(points: Points<'_>, triangulator: &Triangulator) -> Result<Self, Error> {
+    fn triangulate(points: Points3<'_>, triangulator: &Triangulator) -> Result<Self, Error> {
         triangulator.delaunay3d(points)
     }
 
-    fn verify(points: Points<'_>, mesh: &Self) -> Result<Proof, Error> {
+    fn verify(points: Points3<'_>, mesh: &Self) -> Result<Proof, Error> {
         gdel::verify3d(points, mesh)
     }
 
-    fn verify_data(points: Points<'_>, mesh: &MeshData3) -> Result<Proof, Error> {
+    fn verify_data(points: Points3<'_>, mesh: &MeshData3) -> Result<Proof, Error> {
         gdel::verify3d(points, mesh)
     }
 
     fn counts(&self) -> Counts {
         Counts::D3 { tetrahedra: self.tetrahedra.len(), hull_triangles: self.hull.len() }
-    }
-
-    fn duplicates(&self) -> usize {
-        self.duplicate_count()
-    }
-
-    fn dimension(&self) -> u8 {
-        self.dimension
-    }
-
-    fn stats(&self) -> &Stats {
-        &self.stats
     }
 }
 
@@ -86,21 +73,9 @@ impl Triangulation<2, 3> for Mesh2 {
     }
 
     fn counts(&self) -> Counts {
-        // Collinear points have ends and an order, which are no edges.
+        // The hull of collinear points is a sequence, which has no edges.
         let hull_edges = if self.dimension == 2 { self.hull.len() } else { 0 };
         Counts::D2 { triangles: self.triangles.len(), hull_edges }
-    }
-
-    fn duplicates(&self) -> usize {
-        self.duplicate_count()
-    }
-
-    fn dimension(&self) -> u8 {
-        self.dimension
-    }
-
-    fn stats(&self) -> &Stats {
-        &self.stats
     }
 }
 

@@ -4,7 +4,7 @@ use super::{Failure, dimension::Dimension, progress::Progress, usage};
 use clap::{Args, builder::PossibleValuesParser, error::ErrorKind};
 use gdel::{
     internals::d2::generate::{Distribution2, generate2d},
-    internals::d3::generate::{Distribution, generate},
+    internals::d3::generate::{Distribution3, generate3d},
     internals::io::files::PointOutput,
 };
 use std::path::PathBuf;
@@ -36,7 +36,7 @@ pub(super) struct Arguments {
 
 /// Returns the names of the distributions of both dimensions, each once.
 fn names() -> PossibleValuesParser {
-    let mut names = Distribution::ALL.map(Distribution::name).to_vec();
+    let mut names = Distribution3::ALL.map(Distribution3::name).to_vec();
     names.extend(
         Distribution2::ALL
             .map(Distribution2::name)
@@ -54,8 +54,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let _progress = Progress::new("generating");
     let (name, count, seed) = (&arguments.kind, arguments.count as usize, arguments.seed);
     match arguments.dim {
-        Dimension::Three => match Distribution::ALL.into_iter().find(|d| d.name() == name) {
-            Some(distribution) => output.write((&generate(distribution, count, seed)).into())?,
+        Dimension::Three => match Distribution3::ALL.into_iter().find(|d| d.name() == name) {
+            Some(distribution) => output.write((&generate3d(distribution, count, seed)).into())?,
             None => usage(ErrorKind::InvalidValue, &format!("{name} is a distribution in 2D: add --dim 2")),
         },
         Dimension::Two => match Distribution2::ALL.into_iter().find(|d| d.name() == name) {

@@ -41,7 +41,7 @@ enum Command {
     Triangulate(triangulate::Arguments),
     Generate(generate::Arguments),
     Verify(verify::Arguments),
-    /// List the graphics devices of this machine
+    /// List the GPUs of this machine
     #[cfg(feature = "gpu")]
     Adapters,
 }
@@ -84,7 +84,7 @@ pub(crate) fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        // Whoever read our output has seen enough: `gdel … | head -1` is no failure.
+        // The reader of the output has closed it: `gdel … | head -1` is not a failure.
         Err(Failure::StandardOutput(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(failure) => {
             eprintln!("gdel: {failure}");
@@ -115,7 +115,7 @@ fn input(path: &Path, format: Option<PointFormat>) -> Result<Input, FileError> {
     }
 }
 
-/// Exits as on wrong usage.
+/// Exits with an error about the usage.
 fn usage(kind: ErrorKind, what: &str) -> ! {
     Cli::command().error(kind, what).exit()
 }

@@ -25,7 +25,7 @@ struct State {
 }
 
 /// Shows on stderr what is being done, from a second after its creation until it is dropped; shows
-/// nothing where stderr is no terminal.
+/// nothing where stderr is not a terminal.
 pub(super) struct Progress {
     state: Arc<Mutex<State>>,
     stop: Option<Sender<()>>,

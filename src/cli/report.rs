@@ -16,7 +16,7 @@ pub(super) struct Report<'a> {
     points: usize,
     /// Points of the file that hold no measurement.
     no_return: usize,
-    /// Columns of a text file that are no coordinates.
+    /// Columns of a text file that are not coordinates.
     ignored_columns: usize,
     duplicates: usize,
     dimension: u8,

@@ -10,7 +10,7 @@ pub(super) fn watch() {
         iterator::Signals,
         low_level::emulate_default_handler,
     };
-    // Without a handler or a thread, a signal ends the program as ever, which is no reason to fail
+    // Without a handler or a thread, a signal ends the program as usual, which is no reason to fail
     // now.
     if let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) {
         let _ = std::thread::Builder::new().name("signals".into()).spawn(move || {
@@ -27,7 +27,7 @@ pub(super) fn watch() {
 pub(super) fn watch() {
     /// STATUS_CONTROL_C_EXIT, as without a handler.
     const INTERRUPTED: i32 = 0xC000_013A_u32 as i32;
-    // Without a handler, Ctrl-C ends the program as ever, which is no reason to fail now.
+    // Without a handler, Ctrl-C ends the program as usual, which is no reason to fail now.
     let _ = ctrlc::set_handler(|| {
         remove_temporary_files();
         std::process::exit(INTERRUPTED);

@@ -31,11 +31,10 @@ pub(super) struct Arguments {
     /// its hull as .ply, .obj, .stl or .glb; may be given several times
     #[arg(short, long = "output", value_name = "OUTPUT", value_parser = parse_output)]
     outputs: Vec<Output>,
-    /// Replace existing files whatever they are; without this, only earlier outputs of gdel are
-    /// replaced
+    /// Replace any existing file; without this, only earlier outputs of gdel are replaced
     #[arg(short, long)]
     force: bool,
-    /// The dimension of the points; 2D drops z, and all outputs have the triangles
+    /// The dimension of the points; in 2D, z is dropped and all outputs hold triangles
     #[arg(long, value_enum, default_value_t = Dimension::Three)]
     dim: Dimension,
     /// The format of the input, whatever its extension
@@ -57,11 +56,11 @@ pub(super) struct Arguments {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum BackendName {
-    /// The GPU for large inputs where there is a graphics card, else the CPU
+    /// The GPU for large inputs if there is a hardware GPU, else the CPU
     Auto,
     /// Incremental insertion on one core
     Cpu,
-    /// Flipping on the graphics card; an error where there is none
+    /// Insertion and flipping on the GPU; an error if there is none
     Gpu,
 }
 

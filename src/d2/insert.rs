@@ -7,13 +7,10 @@
 //! new triangle is flat.
 
 use crate::d2::triangulation::{MAX_TRIANGLES, Triangulation2};
-use crate::{Error, Options, predicates::filter::PredicateContext2, stats::Phase};
+use crate::{cpu::Insert, error::Error, predicates::filter::PredicateContext2, slots};
 
 /// The maximum number of points: a sphere of *n* + 1 vertices has 2·*n* − 2 triangles.
 pub(crate) const MAX_POINTS: usize = MAX_TRIANGLES / 2;
-/// The number of points between two reports of progress: few enough for a smooth display, and so
-/// many that reports cost little beside the insertions.
-const REPORT: usize = 1 << 13;
 
 /// An edge of a cavity.
 #[derive(Clone, Copy)]
@@ -26,7 +23,7 @@ struct Edge {
 
 /// Lists that insertions reuse.
 #[derive(Default)]
-pub(crate) struct Scratch {
+pub struct Scratch {
     /// The triangles in conflict, whose slots the new triangles take.
     conflict: Vec<u32>,
     /// The edges of the cavity, counter-clockwise.
@@ -35,75 +32,44 @@ pub(crate) struct Scratch {
     pending: Vec<Edge>,
 }
 
-/// Triangulates all vertices, of which the first three must be counter-clockwise.
-pub(crate) fn insert_all(vertices: &PredicateContext2<'_>, options: &Options) -> Result<Triangulation2, Error> {
-    let n = vertices.len();
-    let mut mesh = initial(n as u32);
-    mesh.reserve(2 * n)?;
-    let report = |inserted: usize| options.report(Phase::Insert, (3 + inserted) as f64 / n as f64);
-    insert_points(&mut mesh, vertices, 3..n as u32, 0, report)?;
-    Ok(mesh)
-}
-
-/// Inserts vertices that a Delaunay triangulation lacks.
-///
-/// Insertion is fast if consecutive vertices are near each other, and the first is near triangle
-/// `start`. Calls `report` with the number of vertices inserted so far from time to time; an error
-/// from it ends the insertion.
-pub(crate) fn insert_points(
-    mesh: &mut Triangulation2,
-    vertices: &PredicateContext2<'_>,
-    points: impl IntoIterator<Item = u32>,
-    start: u32,
-    report: impl Fn(usize) -> Result<(), Error>,
-) -> Result<(), Error> {
-    let mut scratch = Scratch::default();
-    let mut last = start;
-    for (inserted, p) in points.into_iter().enumerate() {
-        if inserted % REPORT == 0 {
-            report(inserted)?;
-        }
-        let start = mesh.locate(vertices, p, last);
-        last = mesh.insert(vertices, p, start, &mut scratch)?;
-    }
-    Ok(())
-}
-
-/// Creates the triangulation of vertices 0 to 2: one triangle, and the ghosts on its three edges.
-fn initial(infinite: u32) -> Triangulation2 {
-    let triangles = vec![[0, 1, 2], [infinite, 2, 1], [0, 2, infinite], [1, 0, infinite]];
-    let neighbors = vec![[0; 3]; 4];
-    let mut mesh = Triangulation2 { triangles, neighbors, infinite };
-    for t in 0..4 {
-        for k in 0..3 {
-            // The edge with the opposite direction.
-            let [from, to] = mesh.edge(t, k);
-            let against = (0..12).map(|e| [e / 3, e % 3]).find(|&[u, l]| mesh.edge(u, l) == [to, from]);
-            if let Some([u, l]) = against {
-                mesh.join(4 * t + k, 4 * u + l);
-            }
-        }
-    }
-    mesh
-}
-
 /// The corner after corner *k* of a triangle, counter-clockwise.
 pub(crate) const NEXT: [usize; 3] = [1, 2, 0];
 /// The corner before corner *k* of a triangle, counter-clockwise.
 pub(crate) const PREVIOUS: [usize; 3] = [2, 0, 1];
 
-impl Triangulation2 {
-    /// Returns the ends of the edge of `t` opposite its corner `k`, with `t` on the left.
-    fn edge(&self, t: u32, k: u32) -> [u32; 2] {
-        let v = self.triangles[t as usize];
-        [v[NEXT[k as usize]], v[PREVIOUS[k as usize]]]
+impl Insert<2> for Triangulation2 {
+    type Scratch = Scratch;
+
+    const SIMPLICES_PER_POINT: usize = 2;
+    const REPORT: usize = 1 << 13;
+
+    /// Creates one triangle, and the ghosts on its three edges.
+    fn initial(infinite: u32) -> Self {
+        let triangles = vec![[0, 1, 2], [infinite, 2, 1], [0, 2, infinite], [1, 0, infinite]];
+        let neighbors = vec![[0; 3]; 4];
+        let mut mesh = Triangulation2 { triangles, neighbors, infinite };
+        for t in 0..4 {
+            for k in 0..3 {
+                // The edge with the opposite direction.
+                let [from, to] = mesh.edge(t, k);
+                let against = (0..12).map(|e| [e / 3, e % 3]).find(|&[u, l]| mesh.edge(u, l) == [to, from]);
+                if let Some([u, l]) = against {
+                    mesh.join(4 * t + k, 4 * u + l);
+                }
+            }
+        }
+        mesh
     }
 
-    /// Returns a triangle that contains vertex `p`, or a ghost whose edge sees it.
-    ///
-    /// Walks from triangle `start` across edges that separate the current triangle from `p`. The
-    /// walk ends because the power distance to `p` decreases with every step.
-    pub(crate) fn locate(&self, vertices: &PredicateContext2<'_>, p: u32, start: u32) -> u32 {
+    fn reserve(&mut self, triangles: usize) -> Result<(), Error> {
+        slots::reserve(&mut self.triangles, &mut self.neighbors, triangles)
+    }
+
+    fn scratch(_vertices: usize) -> Scratch {
+        Scratch::default()
+    }
+
+    fn locate(&self, vertices: &PredicateContext2<'_>, p: u32, start: u32) -> u32 {
         let mut t = match self.triangles[start as usize].iter().position(|&v| v == self.infinite) {
             Some(k) => self.neighbors[start as usize][k] >> 2,
             None => start,
@@ -125,6 +91,42 @@ impl Triangulation2 {
         }
     }
 
+    fn insert(
+        &mut self,
+        vertices: &PredicateContext2<'_>,
+        p: u32,
+        start: u32,
+        scratch: &mut Scratch,
+    ) -> Result<u32, Error> {
+        self.find_cavity(vertices, p, start, scratch);
+        let Scratch { conflict, boundary, .. } = scratch;
+        while conflict.len() < boundary.len() {
+            conflict.push(slots::push(&mut self.triangles, &mut self.neighbors, MAX_TRIANGLES)?);
+        }
+        // Around p, each new triangle shares one edge with the previous triangle and one with the
+        // next.
+        let mut before = conflict[boundary.len() - 1];
+        for (i, &Edge { ends: [a, b], beyond }) in boundary.iter().enumerate() {
+            let new = conflict[i];
+            let next = if i + 1 < boundary.len() { conflict[i + 1] } else { conflict[0] };
+            self.triangles[new as usize] = [p, a, b];
+            self.neighbors[new as usize] = [beyond, 4 * next + 2, 4 * before + 1];
+            self.neighbors[beyond as usize / 4][beyond as usize % 4] = 4 * new;
+            before = new;
+        }
+        Ok(before)
+    }
+
+    fn finish(&mut self, _scratch: Scratch) {}
+}
+
+impl Triangulation2 {
+    /// Returns the ends of the edge of `t` opposite its corner `k`, with `t` on the left.
+    fn edge(&self, t: u32, k: u32) -> [u32; 2] {
+        let v = self.triangles[t as usize];
+        [v[NEXT[k as usize]], v[PREVIOUS[k as usize]]]
+    }
+
     /// Returns whether the circumcircle of `t` contains vertex `p`.
     ///
     /// The circumcircle of a ghost is the half-plane beyond its edge and, on the edge's line, the
@@ -143,33 +145,6 @@ impl Triangulation2 {
                 }
             }
         }
-    }
-
-    /// Inserts vertex `p`, which is in conflict with triangle `start`. Returns a triangle at `p`.
-    pub(crate) fn insert(
-        &mut self,
-        vertices: &PredicateContext2<'_>,
-        p: u32,
-        start: u32,
-        scratch: &mut Scratch,
-    ) -> Result<u32, Error> {
-        self.find_cavity(vertices, p, start, scratch);
-        let Scratch { conflict, boundary, .. } = scratch;
-        while conflict.len() < boundary.len() {
-            conflict.push(self.push()?);
-        }
-        // Around p, each new triangle shares one edge with the previous triangle and one with the
-        // next.
-        let mut before = conflict[boundary.len() - 1];
-        for (i, &Edge { ends: [a, b], beyond }) in boundary.iter().enumerate() {
-            let new = conflict[i];
-            let next = if i + 1 < boundary.len() { conflict[i + 1] } else { conflict[0] };
-            self.triangles[new as usize] = [p, a, b];
-            self.neighbors[new as usize] = [beyond, 4 * next + 2, 4 * before + 1];
-            self.neighbors[beyond as usize / 4][beyond as usize % 4] = 4 * new;
-            before = new;
-        }
-        Ok(before)
     }
 
     /// Lists the triangles in conflict with `p`, and the edges around them, counter-clockwise,
@@ -193,16 +168,5 @@ impl Triangulation2 {
                 boundary.push(next);
             }
         }
-    }
-
-    /// Appends an unused slot.
-    fn push(&mut self) -> Result<u32, Error> {
-        let count = self.triangles.len();
-        if count == self.triangles.capacity() {
-            self.reserve((count + count / 2).min(MAX_TRIANGLES))?;
-        }
-        self.triangles.push([0; 3]);
-        self.neighbors.push([0; 3]);
-        Ok(count as u32)
     }
 }

@@ -15,11 +15,12 @@
 //!    flipping aborts.
 
 use crate::d2::{
-    insert::{NEXT, PREVIOUS, insert_points},
+    insert::{NEXT, PREVIOUS},
     triangulation::Triangulation2,
 };
 use crate::{
-    Error,
+    cpu::insert_points,
+    error::Error,
     predicates::{Sign, filter::PredicateContext2},
 };
 
@@ -47,7 +48,8 @@ pub struct NearDelaunay2 {
 pub enum LawsonOutcome {
     /// The Delaunay triangulation, and the number of flips.
     Delaunay(Triangulation2, u64),
-    /// No triangulation, for this reason: the CPU has to triangulate the points from scratch.
+    /// The reason why there is no triangulation: the CPU has to triangulate the points from
+    /// scratch.
     Aborted(Aborted),
 }
 

@@ -1,17 +1,19 @@
 //! The result: triangles, their half-edges, and the hull.
 
 use crate::{
-    Points2, geometry,
+    geometry,
     index::NONE,
-    mesh::{self, Csr, point_methods},
+    input::points::Points2,
+    mesh::{self, Csr, common_methods},
     stats::Stats,
 };
 use std::borrow::Cow;
 
 /// A 2D Delaunay triangulation.
 ///
-/// All vertices are indices of input points. Triangles and hull are counter-clockwise with *y* up. Half-edge 3·*t* + *k* goes
-/// from vertex *k* of triangle *t* to its next vertex; edge *k* of a triangle is the one that this half-edge lies on.
+/// All vertices are indices of input points. Triangles and hull are counter-clockwise with *y* up.
+/// Half-edge 3·*t* + *k* goes from vertex *k* of triangle *t* to its next vertex; edge *k* of a
+/// triangle is the one that this half-edge lies on.
 ///
 /// # Examples
 ///
@@ -30,26 +32,28 @@ use std::borrow::Cow;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Mesh2 {
-    /// Three vertices per triangle, counter-clockwise with *y* up: det(b − a, c − a) > 0. None is flat.
+    /// Three vertices per triangle, counter-clockwise with *y* up: det(b − a, c − a) > 0. None is
+    /// flat.
     pub triangles: Vec<[u32; 3]>,
-    /// Entry *k* of each triangle is the half-edge opposite to the one from its vertex *k* to the next, as 3·(triangle) +
-    /// (vertex), or [`NONE`](crate::NONE) outside the hull.
+    /// Entry *k* of each triangle is the half-edge opposite to the one from its vertex *k* to the
+    /// next, as 3·(triangle) + (vertex), or [`NONE`](crate::NONE) outside the hull.
     pub halfedges: Vec<[i32; 3]>,
-    /// The vertices of the convex hull, including those in the middle of its sides, counter-clockwise with *y* up from the
-    /// lowest index. If all points are collinear: the distinct points in ascending order of x, or of y where all x are equal.
+    /// The vertices of the convex hull, including those in the middle of its sides,
+    /// counter-clockwise with *y* up from the lowest index. If all points are collinear: the
+    /// distinct points in ascending order of x, or of y where all x are equal.
     pub hull: Vec<u32>,
-    /// One entry per point: the lowest index of a point with the same coordinates, which stands for this one in the mesh;
-    /// [`NONE`](crate::NONE) for points that are vertices themselves.
+    /// One entry per point: the lowest index of a point with the same coordinates, which stands for
+    /// this one in the mesh; [`NONE`](crate::NONE) for points that are vertices themselves.
     pub duplicate_of: Vec<i32>,
-    /// The affine dimension of the input: 2; or 1 or 0 if all points are collinear or equal, in which case there are no
-    /// triangles. No points at all have dimension 0.
+    /// The affine dimension of the input: 2; or 1 or 0 if all points are collinear or equal, in
+    /// which case there are no triangles. No points at all have dimension 0.
     pub dimension: u8,
     /// How the mesh was computed.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub stats: Stats,
 }
 
-point_methods!(Mesh2);
+common_methods!(Mesh2);
 
 impl Mesh2 {
     /// Returns the triangle across edge `k` of triangle `t`; `None` outside the hull.
@@ -70,7 +74,8 @@ impl Mesh2 {
         [self.triangles[t][k], self.triangles[t][(k + 1) % 3]]
     }
 
-    /// Returns every edge of the triangles once, the hull's included, as it runs in the triangle with the lower index.
+    /// Returns every edge of the triangles once, the hull's included, as it runs in the triangle
+    /// with the lower index.
     pub fn edges(&self) -> impl Iterator<Item = [u32; 2]> + Clone + '_ {
         self.halfedges.iter().enumerate().flat_map(move |(t, across)| {
             (0..3).filter(move |&k| mesh::index(across[k]).is_none_or(|e| t < e / 3)).map(move |k| self.edge(t, k))
@@ -123,7 +128,7 @@ impl Mesh2 {
     /// Orders the triangles around a vertex counter-clockwise, from the one behind the hull edge that starts there, if any.
     fn turn(&self, v: u32, star: &mut [u32]) {
         let corner = |t: u32| self.triangles[t as usize].iter().position(|&w| w == v).unwrap_or(0);
-        let behind_the_hull = |&t: &u32| self.halfedges[t as usize][corner(t)] == crate::NONE;
+        let behind_the_hull = |&t: &u32| self.halfedges[t as usize][corner(t)] == NONE;
         let Some(&first) = star.iter().find(|t| behind_the_hull(t)).or(star.first()) else { return };
         let mut t = first;
         for place in star {
@@ -136,7 +141,8 @@ impl Mesh2 {
         }
     }
 
-    /// Returns the centre of the circle through the vertices of triangle `t`, where `points` are those of the mesh.
+    /// Returns the centre of the circle through the vertices of triangle `t`, where `points` are
+    /// those of the mesh.
     ///
     /// The error is at most 2⁻³⁷ times the radius, however flat the triangle is, plus the rounding of the result.
     ///
@@ -220,8 +226,8 @@ impl Mesh2 {
         geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::angles(&t))
     }
 
-    /// Returns the triangles in a form that is equal for equal meshes: the vertices ascend within each triangle, and the
-    /// triangles ascend.
+    /// Returns the triangles in a form that is equal for equal meshes: the vertices ascend within
+    /// each triangle, and the triangles ascend.
     pub fn canonical(&self) -> Vec<[u32; 3]> {
         mesh::canonical(&self.triangles)
     }

@@ -1,6 +1,6 @@
 //! 2D Delaunay triangulations. The folder mirrors [`d3`](crate::d3) file by file.
 
-pub mod cpu;
+mod cpu;
 pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;

@@ -1,7 +1,6 @@
 //! Triangles and their neighbours under construction, the outside of the hull included.
 
 use crate::{
-    Error,
     index::{NO_INDEX, NONE},
     options::Winding,
 };
@@ -9,20 +8,18 @@ use crate::{
 /// Half-edges are numbered below 2³¹, because −1 stands for none.
 pub(crate) const MAX_TRIANGLES: usize = i32::MAX as usize / 3;
 
-/// The neighbour of a triangle across an edge of the hull, after the ghosts are dropped.
-const OUTSIDE: u32 = NO_INDEX;
-
-/// Where the vertices of a triangle stand in a mesh of this orientation, and the other way round.
+/// Returns the places of the vertices of a triangle in a mesh of this orientation, and the inverse.
 const fn vertex_order(clockwise: bool) -> [usize; 3] {
     if clockwise { [0, 2, 1] } else { [0, 1, 2] }
 }
 
-/// The half-edge, numbered by the vertex where it begins, that the edge opposite vertex *k* becomes.
+/// Returns the half-edge, numbered by the vertex where it begins, that the edge opposite vertex *k*
+/// becomes.
 const fn halfedge_of_edge(clockwise: bool) -> [usize; 3] {
     if clockwise { [1, 0, 2] } else { [1, 2, 0] }
 }
 
-/// The inverse of [`halfedge_of_edge`].
+/// Returns the inverse of [`halfedge_of_edge`].
 const fn edge_of_halfedge(clockwise: bool) -> [usize; 3] {
     if clockwise { [1, 0, 2] } else { [2, 0, 1] }
 }
@@ -54,9 +51,10 @@ impl Triangulation2 {
         Triangulation2 { triangles, neighbors, infinite }
     }
 
-    /// The triangulation of a mesh, from triangles, half-edges and hull as [`Mesh2`](crate::d2::Mesh2) has them but for the
-    /// orientation: the inverse of [`Triangulation2::into_mesh`] but for the names. They are not checked. `infinite` is the
-    /// number of vertices. The mesh's triangles keep their numbers, and one ghost for each edge of the hull follows.
+    /// Creates the triangulation of a mesh of this orientation from its triangles, half-edges and
+    /// hull, which are not checked: the inverse of [`Triangulation2::into_mesh`] without names.
+    /// `infinite` is the number of vertices. The mesh's triangles keep their numbers, and one ghost
+    /// per edge of the hull follows.
     pub fn from_mesh(
         triangles: Vec<[u32; 3]>,
         halfedges: Vec<[i32; 3]>,
@@ -78,7 +76,8 @@ impl Triangulation2 {
     ) -> Self {
         let count = triangles.len();
         let ghost = |i: usize| (count + i % hull.len()) as u32;
-        // Ghosts go around the infinite vertex clockwise; the half-edge below a ghost begins at its first vertex, or ends there.
+        // Ghosts go around the infinite vertex clockwise; the half-edge below a ghost begins at its
+        // first vertex, or ends there.
         let clockwise_hull = |i: usize| hull[if CLOCKWISE { i % hull.len() } else { hull.len() - 1 - i % hull.len() }];
         let mut ghost_from = vec![0; infinite as usize];
         for i in 0..hull.len() {
@@ -90,7 +89,7 @@ impl Triangulation2 {
             let halfedges = neighbors[t];
             for (k, edge) in edge_of_halfedge(CLOCKWISE).into_iter().enumerate() {
                 neighbors[t][edge] = match halfedges[k] {
-                    OUTSIDE => {
+                    NO_INDEX => {
                         let first = if CLOCKWISE { k } else { (k + 1) % 3 };
                         let ghost = ghost_from[triangles[t][first] as usize];
                         neighbors[ghost as usize][2] = (4 * t + edge) as u32;
@@ -120,15 +119,6 @@ impl Triangulation2 {
         self.triangles[t as usize].contains(&self.infinite)
     }
 
-    /// Reserves memory for this many triangles in all.
-    pub(crate) fn reserve(&mut self, triangles: usize) -> Result<(), Error> {
-        let more = triangles.saturating_sub(self.triangles.len());
-        self.triangles
-            .try_reserve_exact(more)
-            .and_then(|()| self.neighbors.try_reserve_exact(more))
-            .map_err(|_| Error::OutOfMemory { simplices: triangles })
-    }
-
     /// Makes two edges each other's neighbours.
     pub(crate) fn join(&mut self, e: u32, f: u32) {
         self.neighbors[e as usize / 4][e as usize % 4] = f;
@@ -153,8 +143,8 @@ impl Triangulation2 {
         hull
     }
 
-    /// Triangles, half-edges and hull as [`Mesh2`](crate::d2::Mesh2) has them, but of this orientation, in the arrays where they
-    /// lie; vertex *v* becomes `names[v]`.
+    /// Returns triangles, half-edges and hull as in [`Mesh2`](crate::d2::Mesh2), but of this
+    /// orientation, in the arrays where they lie; vertex *v* becomes `names[v]`.
     pub fn into_mesh(self, names: &[u32], winding: Winding) -> (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>) {
         match winding {
             Winding::CounterClockwise => self.write::<false>(names),
@@ -178,8 +168,8 @@ impl Triangulation2 {
                 continue;
             }
             for across in self.neighbors[t] {
-                if across != OUTSIDE {
-                    self.neighbors[across as usize / 4][across as usize % 4] = OUTSIDE;
+                if across != NO_INDEX {
+                    self.neighbors[across as usize / 4][across as usize % 4] = NO_INDEX;
                 }
             }
             count -= 1;
@@ -187,7 +177,7 @@ impl Triangulation2 {
                 self.triangles[t] = self.triangles[count];
                 self.neighbors[t] = self.neighbors[count];
                 for (across, k) in self.neighbors[t].into_iter().zip(0..) {
-                    if across != OUTSIDE {
+                    if across != NO_INDEX {
                         self.neighbors[across as usize / 4][across as usize % 4] = 4 * t as u32 + k;
                     }
                 }
@@ -202,7 +192,7 @@ impl Triangulation2 {
         let mut halfedges: Vec<[i32; 3]> = bytemuck::cast_vec(neighbors);
         for edges in &mut halfedges {
             *edges = edge_of_halfedge(CLOCKWISE).map(|k| match edges[k] as u32 {
-                OUTSIDE => NONE,
+                NO_INDEX => NONE,
                 across => (across as usize / 4 * 3 + halfedge_of_edge(CLOCKWISE)[across as usize % 4]) as i32,
             });
         }

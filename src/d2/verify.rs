@@ -6,8 +6,10 @@ use crate::verify::{
     report::{Check, Defect, Findings, Outcome, Report},
 };
 use crate::{
-    Error, Mesh2, Points2,
+    d2::Mesh2,
+    error::Error,
     index::NONE,
+    input::points::Points2,
     predicates::{
         incircle, orient2d,
         symbolic::{break_tie, without},
@@ -66,7 +68,7 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
     }
 }
 
-/// Checks that `mesh` is the Delaunay triangulation of `points`, of any mesh whatever.
+/// Checks that `mesh`, whoever computed it, is the Delaunay triangulation of `points`.
 ///
 /// ```
 /// use gdel::{MeshView2, verify2d};
@@ -79,19 +81,12 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
 ///
 /// # Errors
 ///
-/// As for [`verify3d`](crate::d3::verify::verify3d).
+/// Returns the errors of [`verify3d`](crate::d3::verify::verify3d).
 pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView2<'m>>) -> Result<Report, Error> {
     let mesh = mesh.into();
     let input = Input::new(points.into(), dimension_2d)?;
-    let mut report = Report { dimension: input.dimension, ..Report::default() };
-    report.counts.points = input.points.len();
-    report.counts.distinct_points = input.distinct;
+    let mut report = input.report(mesh.dimension, mesh.duplicate_of);
     report.counts.facets = mesh.triangles.len();
-
-    report.decide(Check::Dimension, || mesh.dimension.map_or(Outcome::NotStated, |d| input.check_dimension(d).into()));
-    report.decide(Check::Duplicates, || {
-        mesh.duplicate_of.map_or(Outcome::NotStated, |d| input.check_duplicates(d).into())
-    });
     let indices = check_indices(mesh.triangles, input.points.len()).into();
     let (complex, bad_edges) = match indices {
         Outcome::Passed => Complex::new(mesh.triangles),
@@ -102,38 +97,29 @@ pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView
     report.counts.edges = complex.edges;
     report.counts.hull_edges = complex.hull.len();
 
-    report.decide(Check::Vertices, || input.check_vertices(mesh.triangles, "triangle", Defect::at_triangle).into());
-    report.decide(Check::Orientation, || check_orientation(&input.points, mesh.triangles).into());
-    report.decide(Check::Facets, || bad_edges.into());
-    report.decide(Check::Neighbors, || match (mesh.halfedges, mesh.neighbors) {
-        (None, None) => Outcome::NotStated,
-        (halfedges, neighbors) => {
-            let mut findings = Findings::default();
-            halfedges.into_iter().for_each(|stated| complex.check_halfedges(stated, &mut findings));
-            neighbors.into_iter().for_each(|stated| complex.check_neighbors(stated, &mut findings));
-            findings.into()
+    report.decide(Check::Vertices, || input.check_vertices(mesh.triangles, "triangle", Defect::at_triangle));
+    report.decide(Check::Orientation, || check_orientation(&input.points, mesh.triangles));
+    report.decide(Check::Facets, || bad_edges);
+    report.decide(Check::Neighbors, || {
+        let mut findings = (mesh.halfedges.is_some() || mesh.neighbors.is_some()).then(Findings::default);
+        if let Some(findings) = &mut findings {
+            mesh.halfedges.into_iter().for_each(|stated| complex.check_halfedges(stated, findings));
+            mesh.neighbors.into_iter().for_each(|stated| complex.check_neighbors(stated, findings));
         }
+        findings
     });
-    let mut ties = Outcome::Passed;
-    report.decide(Check::Delaunay, || {
-        let (delaunay, canonical) = complex.check_delaunay(&input.points);
-        ties = canonical.into();
-        delaunay.into()
-    });
-    report.decide(Check::CanonicalTies, || ties);
+    report.decide_delaunay(|| complex.check_delaunay(&input.points));
     let mut polygon = Vec::new();
     let closed = complex.check_hull_closed(&mut polygon);
     report.decide(Check::Hull, || {
-        mesh.hull.map_or(Outcome::NotStated, |hull| {
+        mesh.hull.map(|hull| match input.dimension {
+            2 => check_hull(hull, rotated(&polygon, hull.first())),
             // Collinear points have no triangles, but ends and an order.
-            match input.dimension {
-                2 => check_hull(hull, rotated(&polygon, hull.first())).into(),
-                _ => check_hull(hull, input.distinct_in_order()).into(),
-            }
+            _ => check_hull(hull, input.distinct_in_order()),
         })
     });
-    report.decide(Check::HullClosed, || closed.into());
-    report.decide(Check::HullConvex, || check_hull_convex(&input.points, &polygon).into());
+    report.decide(Check::HullClosed, || closed);
+    report.decide(Check::HullConvex, || check_hull_convex(&input.points, &polygon));
     Ok(report)
 }
 
@@ -167,7 +153,8 @@ fn check_orientation(points: &[[f64; 2]], triangles: &[[u32; 3]]) -> Findings {
     findings
 }
 
-/// Needs the closed hull, counter-clockwise, and triangles that are oriented so.
+/// Checks that the hull is convex. Needs the closed hull, counter-clockwise, and triangles that are
+/// counter-clockwise.
 fn check_hull_convex(points: &[[f64; 2]], polygon: &[u32]) -> Findings {
     let mut findings = Findings::default();
     let mut turns = 0;
@@ -188,7 +175,7 @@ fn check_hull_convex(points: &[[f64; 2]], polygon: &[u32]) -> Findings {
     findings
 }
 
-/// The polygon from the vertex `first`, if it has that.
+/// Returns the polygon from the vertex `first` on, if that is one of its vertices.
 fn rotated(polygon: &[u32], first: Option<&u32>) -> Vec<u32> {
     let from = first.and_then(|first| polygon.iter().position(|v| v == first)).unwrap_or(0);
     let (before, after) = polygon.split_at(from);
@@ -218,8 +205,8 @@ struct Complex<'a> {
 }
 
 impl<'a> Complex<'a> {
-    /// Needs vertices that are indices of points, three different ones per triangle. Also says
-    /// which edges are wrong.
+    /// Derives the adjacency, and finds the edges that are wrong. Needs vertices that are indices
+    /// of points, three different ones per triangle.
     fn new(triangles: &'a [[u32; 3]]) -> (Self, Findings) {
         let mut findings = Findings::default();
         let mut complex = Complex { triangles, halfedges: vec![[NONE; 3]; triangles.len()], ..Complex::default() };
@@ -295,7 +282,7 @@ impl<'a> Complex<'a> {
         }
     }
 
-    /// The Delaunay property, and that of the ties. Needs counter-clockwise orientation.
+    /// Checks the Delaunay property and that of the ties. Needs counter-clockwise triangles.
     fn check_delaunay(&self, points: &[[f64; 2]]) -> (Findings, Findings) {
         let (mut delaunay, mut ties) = (Findings::default(), Findings::default());
         let at = |v: u32| points[v as usize];
@@ -324,7 +311,7 @@ impl<'a> Complex<'a> {
         (delaunay, ties)
     }
 
-    /// Also gives the hull as a polygon.
+    /// Checks that the hull is closed, and writes it as a polygon.
     fn check_hull_closed(&self, polygon: &mut Vec<u32>) -> Findings {
         let mut findings = Findings::default();
         let mut edges = self.hull.clone();

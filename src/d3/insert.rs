@@ -7,26 +7,22 @@
 //! flat.
 
 use crate::{
-    Error, Options,
+    cpu::Insert,
     d3::{
         adjacency::{EdgeMap, Facet},
         mesh::FACETS,
-        triangulation::{MAX_TETRAHEDRA, Triangulation, state},
+        triangulation::{MAX_TETRAHEDRA, Triangulation3, state},
     },
-    predicates::filter::PredicateContext,
-    stats::Phase,
+    error::Error,
+    predicates::filter::PredicateContext3,
+    slots,
 };
 
 /// The maximum number of points: none of the usual inputs has 8 tetrahedra per point.
 pub(crate) const MAX_POINTS: usize = MAX_TETRAHEDRA / 8;
-/// The expected number of tetrahedra per point: 6.77 for a uniform distribution, and some ghosts.
-const EXPECTED_TETRAHEDRA: usize = 7;
-/// The number of points between two reports of progress: few enough for a smooth display, and so
-/// many that reports cost little beside the insertions.
-const REPORT: usize = 1 << 12;
 
 /// Lists that insertions reuse.
-struct Scratch {
+pub struct Scratch {
     /// The tetrahedra in conflict.
     conflict: Vec<u32>,
     /// The facets of the cavity.
@@ -38,79 +34,51 @@ struct Scratch {
     edges: EdgeMap,
 }
 
-/// Triangulates all vertices, of which the first four must be positively oriented.
-pub(crate) fn insert_all(vertices: &PredicateContext<'_>, options: &Options) -> Result<Triangulation, Error> {
-    let n = vertices.len();
-    let mut mesh = initial(n as u32);
-    mesh.reserve(n * EXPECTED_TETRAHEDRA)?;
-    let report = |inserted: usize| options.report(Phase::Insert, (4 + inserted) as f64 / n as f64);
-    insert_points(&mut mesh, vertices, 4..n as u32, 0, report)?;
-    Ok(mesh)
-}
+impl Insert<3> for Triangulation3 {
+    type Scratch = Scratch;
 
-/// Inserts vertices that a Delaunay triangulation lacks.
-///
-/// Insertion is fast if consecutive vertices are near each other, and the first is near tetrahedron
-/// `start`. Calls `report` with the number of vertices inserted so far from time to time; an error
-/// from it ends the insertion.
-pub(crate) fn insert_points(
-    mesh: &mut Triangulation,
-    vertices: &PredicateContext<'_>,
-    points: impl IntoIterator<Item = u32>,
-    start: u32,
-    report: impl Fn(usize) -> Result<(), Error>,
-) -> Result<(), Error> {
-    let mut scratch = Scratch {
-        conflict: Vec::new(),
-        boundary: Vec::new(),
-        filled: Vec::new(),
-        free: Vec::new(),
-        edges: EdgeMap::new(vertices.len() + 1),
-    };
-    let mut last = start;
-    for (inserted, p) in points.into_iter().enumerate() {
-        if inserted % REPORT == 0 {
-            report(inserted)?;
+    /// 6.77 for a uniform distribution, and some ghosts.
+    const SIMPLICES_PER_POINT: usize = 7;
+    const REPORT: usize = 1 << 12;
+
+    /// Creates one tetrahedron, and the ghosts on its four facets.
+    fn initial(infinite: u32) -> Self {
+        let mut mesh = Triangulation3 { tetrahedra: vec![[0, 1, 2, 3]], neighbors: vec![[0; 4]], infinite };
+        for (k, facet) in FACETS.iter().enumerate() {
+            let [a, b, c] = facet.map(|v| v as u32);
+            mesh.tetrahedra.push([a, b, c, infinite]);
+            mesh.neighbors.push([0; 4]);
+            mesh.join(k as u32, 4 * (k as u32 + 1) + 3);
         }
-        let start = mesh.locate(vertices, p, last);
-        last = mesh.insert(vertices, p, start, &mut scratch)?;
+        // Ghosts i and j share the facet opposite corner j of ghost i and corner i of ghost j.
+        for i in 0..4u32 {
+            for j in 0..i {
+                let facet = |ghost: u32, corner: u32| {
+                    let place = mesh.tetrahedra[ghost as usize + 1].iter().position(|&v| v == corner);
+                    4 * (ghost + 1) + place.map_or(0, |k| k as u32)
+                };
+                let (f, g) = (facet(i, j), facet(j, i));
+                mesh.join(f, g);
+            }
+        }
+        mesh
     }
-    for slot in scratch.free {
-        mesh.set_state(slot, state::FREE);
-    }
-    Ok(())
-}
 
-/// Creates the triangulation of vertices 0 to 3: one tetrahedron, and the ghosts on its four
-/// facets.
-fn initial(infinite: u32) -> Triangulation {
-    let mut mesh = Triangulation { tetrahedra: vec![[0, 1, 2, 3]], neighbors: vec![[0; 4]], infinite };
-    for (k, facet) in FACETS.iter().enumerate() {
-        let [a, b, c] = facet.map(|v| v as u32);
-        mesh.tetrahedra.push([a, b, c, infinite]);
-        mesh.neighbors.push([0; 4]);
-        mesh.join(k as u32, 4 * (k as u32 + 1) + 3);
+    fn reserve(&mut self, tetrahedra: usize) -> Result<(), Error> {
+        slots::reserve(&mut self.tetrahedra, &mut self.neighbors, tetrahedra)
     }
-    // Ghosts i and j share the facet opposite corner j of ghost i and corner i of ghost j.
-    for i in 0..4u32 {
-        for j in 0..i {
-            let facet = |ghost: u32, corner: u32| {
-                let place = mesh.tetrahedra[ghost as usize + 1].iter().position(|&v| v == corner);
-                4 * (ghost + 1) + place.map_or(0, |k| k as u32)
-            };
-            let (f, g) = (facet(i, j), facet(j, i));
-            mesh.join(f, g);
+
+    fn scratch(vertices: usize) -> Scratch {
+        Scratch {
+            conflict: Vec::new(),
+            boundary: Vec::new(),
+            filled: Vec::new(),
+            free: Vec::new(),
+            edges: EdgeMap::new(vertices + 1),
         }
     }
-    mesh
-}
 
-impl Triangulation {
-    /// Returns a tetrahedron that contains vertex `p`, or a ghost whose facet sees it.
-    ///
-    /// Walks from tetrahedron `start` across facets that separate the current tetrahedron from `p`.
-    /// The walk ends because the power distance to `p` decreases with every step.
-    fn locate(&self, vertices: &PredicateContext<'_>, p: u32, start: u32) -> u32 {
+    fn locate(&self, vertices: &PredicateContext3<'_>, p: u32, start: u32) -> u32 {
         let mut t = if self.is_ghost(start) { self.neighbors[start as usize][3] >> 2 } else { start };
         let mut came_through = 4;
         'walk: loop {
@@ -134,28 +102,9 @@ impl Triangulation {
         }
     }
 
-    /// Returns whether the circumsphere of `t` contains vertex `p`.
-    ///
-    /// The circumsphere of a ghost is the half-space beyond its facet and, in the facet's plane,
-    /// the circumdisc of the facet: the part of the plane inside the circumsphere of the
-    /// tetrahedron on the other side of the facet.
-    #[inline]
-    fn in_conflict(&self, vertices: &PredicateContext<'_>, t: u32, p: u32) -> bool {
-        let v = self.vertices(t);
-        if v[3] != self.infinite {
-            return vertices.insphere(v, p) > 0;
-        }
-        match vertices.orient3d(v[0], v[1], v[2], p) {
-            0 => vertices.insphere(self.vertices(self.neighbors[t as usize][3] >> 2), p) > 0,
-            side => side > 0,
-        }
-    }
-
-    /// Inserts vertex `p`, which is in conflict with tetrahedron `start`. Returns a tetrahedron at
-    /// `p`.
     fn insert(
         &mut self,
-        vertices: &PredicateContext<'_>,
+        vertices: &PredicateContext3<'_>,
         p: u32,
         start: u32,
         scratch: &mut Scratch,
@@ -182,9 +131,35 @@ impl Triangulation {
         Ok(filled[filled.len() - 1])
     }
 
+    /// Marks the slots that are unused.
+    fn finish(&mut self, scratch: Scratch) {
+        for slot in scratch.free {
+            self.set_state(slot, state::FREE);
+        }
+    }
+}
+
+impl Triangulation3 {
+    /// Returns whether the circumsphere of `t` contains vertex `p`.
+    ///
+    /// The circumsphere of a ghost is the half-space beyond its facet and, in the facet's plane,
+    /// the circumdisc of the facet: the part of the plane inside the circumsphere of the
+    /// tetrahedron on the other side of the facet.
+    #[inline]
+    fn in_conflict(&self, vertices: &PredicateContext3<'_>, t: u32, p: u32) -> bool {
+        let v = self.vertices(t);
+        if v[3] != self.infinite {
+            return vertices.insphere(v, p) > 0;
+        }
+        match vertices.orient3d(v[0], v[1], v[2], p) {
+            0 => vertices.insphere(self.vertices(self.neighbors[t as usize][3] >> 2), p) > 0,
+            side => side > 0,
+        }
+    }
+
     /// Marks and lists the tetrahedra in conflict with `p`, and the facets around them,
     /// breadth-first.
-    fn find_cavity(&mut self, vertices: &PredicateContext<'_>, p: u32, start: u32, scratch: &mut Scratch) {
+    fn find_cavity(&mut self, vertices: &PredicateContext3<'_>, p: u32, start: u32, scratch: &mut Scratch) {
         let Scratch { conflict, boundary, .. } = scratch;
         boundary.clear();
         conflict.push(start);

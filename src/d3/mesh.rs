@@ -1,15 +1,16 @@
 //! The result: tetrahedra, their neighbours, and the hull.
 
 use crate::{
-    Points, geometry,
+    geometry,
     index::NONE,
-    mesh::{self, Csr, point_methods},
+    input::points::Points3,
+    mesh::{self, Csr, common_methods},
     stats::Stats,
 };
 use std::borrow::Cow;
 
-/// The corners of the facet opposite vertex *k* of a positively oriented tetrahedron, counter-clockwise as seen from
-/// outside the tetrahedron.
+/// The corners of the facet opposite vertex *k* of a positively oriented tetrahedron,
+/// counter-clockwise as seen from outside the tetrahedron.
 pub const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// The vertices of the edges of a tetrahedron.
@@ -17,12 +18,14 @@ pub(crate) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3
 
 /// A 3D Delaunay triangulation.
 ///
-/// All vertices are indices of input points. Facet *k* of a tetrahedron is the one opposite its vertex *k*.
+/// All vertices are indices of input points. Facet *k* of a tetrahedron is the one opposite its
+/// vertex *k*.
 ///
 /// # Examples
 ///
 /// ```
-/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0f64]];
+/// let mut points = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
+/// points.push([1.0, 1.0, 1.0]);
 /// let mesh = gdel::delaunay3d(&points)?;
 ///
 /// // Two tetrahedra with a facet in common.
@@ -39,24 +42,26 @@ pub(crate) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Mesh3 {
-    /// Four vertices per tetrahedron, positively oriented: det(b − a, c − a, d − a) > 0. None is flat.
+    /// Four vertices per tetrahedron, positively oriented: det(b − a, c − a, d − a) > 0. None is
+    /// flat.
     pub tetrahedra: Vec<[u32; 4]>,
-    /// Entry *k* of each tetrahedron is the tetrahedron across its facet *k*, or [`NONE`] outside the hull.
+    /// Entry *k* of each tetrahedron is the tetrahedron across its facet *k*, or [`NONE`] outside
+    /// the hull.
     pub neighbors: Vec<[i32; 4]>,
     /// The triangles of the convex hull's boundary, counter-clockwise as seen from outside.
     pub hull: Vec<[u32; 3]>,
-    /// One entry per point: the lowest index of a point with the same coordinates, which stands for this one in the mesh;
-    /// [`NONE`] for points that are vertices themselves.
+    /// One entry per point: the lowest index of a point with the same coordinates, which stands for
+    /// this one in the mesh; [`NONE`] for points that are vertices themselves.
     pub duplicate_of: Vec<i32>,
-    /// The affine dimension of the input: 3; or 2, 1 or 0 if all points are coplanar, collinear or equal, in which case there
-    /// are no tetrahedra. No points at all have dimension 0.
+    /// The affine dimension of the input: 3; or 2, 1 or 0 if all points are coplanar, collinear or
+    /// equal, in which case there are no tetrahedra. No points at all have dimension 0.
     pub dimension: u8,
     /// How the mesh was computed.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub stats: Stats,
 }
 
-point_methods!(Mesh3);
+common_methods!(Mesh3);
 
 impl Mesh3 {
     /// Returns the tetrahedron across facet `k` of tetrahedron `t`; `None` outside the hull.
@@ -68,7 +73,8 @@ impl Mesh3 {
         mesh::index(self.neighbors[t][k])
     }
 
-    /// Returns the vertices of facet `k` of tetrahedron `t`, counter-clockwise as seen from outside the tetrahedron.
+    /// Returns the vertices of facet `k` of tetrahedron `t`, counter-clockwise as seen from outside
+    /// the tetrahedron.
     ///
     /// # Panics
     ///
@@ -77,8 +83,8 @@ impl Mesh3 {
         FACETS[k].map(|corner| self.tetrahedra[t][corner])
     }
 
-    /// Returns every facet of the tetrahedra once, the hull's included, counter-clockwise as seen from outside the
-    /// tetrahedron with the lower index.
+    /// Returns every facet of the tetrahedra once, the hull's included, counter-clockwise as seen
+    /// from outside the tetrahedron with the lower index.
     pub fn facets(&self) -> impl Iterator<Item = [u32; 3]> + Clone + '_ {
         self.neighbors.iter().enumerate().flat_map(move |(t, across)| {
             (0..4).filter(move |&k| mesh::index(across[k]).is_none_or(|u| t < u)).map(move |k| self.facet(t, k))
@@ -98,7 +104,8 @@ impl Mesh3 {
     /// Returns whether no tetrahedron around an edge has a lower index than `t`.
     fn is_first_around(&self, t: usize, [i, j]: [usize; 2]) -> bool {
         let ends = [i, j].map(|corner| self.tetrahedra[t][corner]);
-        // Both ways around the edge, each until it leaves the hull; where it does not, the first way comes back.
+        // Both ways around the edge, each until it leaves the hull; where it does not, the first
+        // way comes back.
         for enter in (0..4).filter(|&k| k != i && k != j) {
             let (mut from, mut at) = (t, self.neighbors[t][enter]);
             // No edge has more tetrahedra than there are.
@@ -167,14 +174,15 @@ impl Mesh3 {
         mesh::vertex_simplex(&self.tetrahedra, self.duplicate_of.len())
     }
 
-    /// Returns the centre of the sphere through the vertices of tetrahedron `t`, where `points` are those of the mesh.
+    /// Returns the centre of the sphere through the vertices of tetrahedron `t`, where `points` are
+    /// those of the mesh.
     ///
     /// The error is at most 2⁻³⁷ times the radius, however flat the tetrahedron is, plus the rounding of the result.
     ///
     /// # Panics
     ///
     /// Panics if there is no tetrahedron `t`, or if its vertices are not among the points.
-    pub fn circumcenter<'a>(&self, points: impl Into<Points<'a>>, t: usize) -> [f64; 3] {
+    pub fn circumcenter<'a>(&self, points: impl Into<Points3<'a>>, t: usize) -> [f64; 3] {
         let points = points.into();
         geometry::circumcenter(&self.tetrahedra[t].map(|v| points.get(v as usize)))
     }
@@ -197,7 +205,7 @@ impl Mesh3 {
     /// assert_eq!(mesh.volumes(&points).sum::<f64>(), 4.0 / 3.0);
     /// # Ok::<(), gdel::Error>(())
     /// ```
-    pub fn circumcenters<'a>(&'a self, points: impl Into<Points<'a>>) -> impl ExactSizeIterator<Item = [f64; 3]> + 'a {
+    pub fn circumcenters<'a>(&'a self, points: impl Into<Points3<'a>>) -> impl ExactSizeIterator<Item = [f64; 3]> + 'a {
         geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::circumcenter(&t))
     }
 
@@ -206,7 +214,7 @@ impl Mesh3 {
     /// # Panics
     ///
     /// The iterator panics if vertices are not among the points.
-    pub fn circumradii<'a>(&'a self, points: impl Into<Points<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
+    pub fn circumradii<'a>(&'a self, points: impl Into<Points3<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
         geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::circumradius(&t))
     }
 
@@ -215,7 +223,7 @@ impl Mesh3 {
     /// # Panics
     ///
     /// The iterator panics if vertices are not among the points.
-    pub fn volumes<'a>(&'a self, points: impl Into<Points<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
+    pub fn volumes<'a>(&'a self, points: impl Into<Points3<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
         geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::measure(&t))
     }
 
@@ -238,7 +246,7 @@ impl Mesh3 {
     /// assert!(angles.iter().all(|angle| (angle.to_degrees() - 70.528779).abs() < 1e-6));
     /// # Ok::<(), gdel::Error>(())
     /// ```
-    pub fn radius_ratios<'a>(&'a self, points: impl Into<Points<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
+    pub fn radius_ratios<'a>(&'a self, points: impl Into<Points3<'a>>) -> impl ExactSizeIterator<Item = f64> + 'a {
         geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::radius_ratio(&t))
     }
 
@@ -250,13 +258,13 @@ impl Mesh3 {
     /// The iterator panics if vertices are not among the points.
     pub fn dihedral_angles<'a>(
         &'a self,
-        points: impl Into<Points<'a>>,
+        points: impl Into<Points3<'a>>,
     ) -> impl ExactSizeIterator<Item = [f64; 6]> + 'a {
         geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::dihedral_angles(&t))
     }
 
-    /// Returns the tetrahedra in a form that is equal for equal meshes: the vertices ascend within each tetrahedron, and the
-    /// tetrahedra ascend.
+    /// Returns the tetrahedra in a form that is equal for equal meshes: the vertices ascend within
+    /// each tetrahedron, and the tetrahedra ascend.
     pub fn canonical(&self) -> Vec<[u32; 4]> {
         mesh::canonical(&self.tetrahedra)
     }

@@ -1,7 +1,7 @@
 //! 3D Delaunay triangulations. The folder mirrors [`d2`](crate::d2) file by file.
 
 mod adjacency;
-pub mod cpu;
+mod cpu;
 pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;

@@ -1,16 +1,14 @@
 //! Tetrahedra and their neighbours under construction, the outside of the hull included.
 
 use crate::{
-    Error,
+    error::Error,
     index::{NO_INDEX, NONE},
     parallel::{self, Threads},
+    slots,
 };
 
 /// Tetrahedra are numbered below 2³⁰, because a neighbour is packed with its facet into 32 bits.
 pub(crate) const MAX_TETRAHEDRA: usize = 1 << 30;
-
-/// The neighbour of a tetrahedron across a facet of the hull, after the ghosts are dropped.
-const OUTSIDE: u32 = NO_INDEX;
 
 /// What an algorithm knows about a tetrahedron: the two highest bits of its first vertex, so that
 /// no other cache line needs to be fetched for them.
@@ -31,7 +29,7 @@ pub(crate) mod state {
 /// Every tetrahedron has four neighbours, and facet *k* is the one opposite its vertex *k*. So
 /// topologically it is a 3-sphere.
 #[derive(Debug, Clone)]
-pub struct Triangulation {
+pub struct Triangulation3 {
     /// Four vertices per tetrahedron, positively oriented, with a [`state`] in the first. A ghost
     /// has the infinite vertex last, and is oriented as if that lay outside the hull.
     pub(crate) tetrahedra: Vec<[u32; 4]>,
@@ -42,7 +40,7 @@ pub struct Triangulation {
     pub(crate) infinite: u32,
 }
 
-impl Triangulation {
+impl Triangulation3 {
     /// Creates a triangulation from its arrays, which are not checked.
     ///
     /// Tetrahedra are positively oriented; ghosts have the infinite vertex last, and are oriented
@@ -50,7 +48,7 @@ impl Triangulation {
     /// *k*: 4·(tetrahedron) + (facet as it is numbered there). `infinite` is the number of
     /// vertices.
     pub fn new(tetrahedra: Vec<[u32; 4]>, neighbors: Vec<[u32; 4]>, infinite: u32) -> Self {
-        Triangulation { tetrahedra, neighbors, infinite }
+        Triangulation3 { tetrahedra, neighbors, infinite }
     }
 
     /// Returns the vertices of each tetrahedron; those of unused slots have no meaning.
@@ -63,27 +61,9 @@ impl Triangulation {
         &self.neighbors
     }
 
-    /// Reserves memory for this many tetrahedra in all.
-    pub(crate) fn reserve(&mut self, tetrahedra: usize) -> Result<(), Error> {
-        let more = tetrahedra.saturating_sub(self.tetrahedra.len());
-        self.tetrahedra
-            .try_reserve_exact(more)
-            .and_then(|()| self.neighbors.try_reserve_exact(more))
-            .map_err(|_| Error::OutOfMemory { simplices: tetrahedra })
-    }
-
     /// Appends an unused slot.
     pub(crate) fn push(&mut self) -> Result<u32, Error> {
-        let count = self.tetrahedra.len();
-        if count == MAX_TETRAHEDRA {
-            return Err(Error::TooManySimplices { limit: MAX_TETRAHEDRA });
-        }
-        if count == self.tetrahedra.capacity() {
-            self.reserve((count + count / 2).min(MAX_TETRAHEDRA))?;
-        }
-        self.tetrahedra.push([0; 4]);
-        self.neighbors.push([0; 4]);
-        Ok(count as u32)
+        slots::push(&mut self.tetrahedra, &mut self.neighbors, MAX_TETRAHEDRA)
     }
 
     /// Makes two facets each other's neighbours.
@@ -159,7 +139,7 @@ impl Triangulation {
         // index; those to the other ghosts are marked here.
         for &t in gaps.iter().flat_map(|(ghosts, _)| ghosts).take_while(|&&t| (t as usize) < count) {
             let inside = self.neighbors[t as usize][3];
-            self.neighbors[inside as usize / 4][inside as usize % 4] = OUTSIDE;
+            self.neighbors[inside as usize / 4][inside as usize % 4] = NO_INDEX;
         }
         // The tetrahedra beyond it move into the gaps, and their neighbours are updated.
         let movers = parallel::map_ranges(threads, slots - count, |range| {
@@ -175,12 +155,12 @@ impl Triangulation {
             self.neighbors[gap] = self.neighbors[last];
             for k in 0..4 {
                 let across = self.neighbors[gap][k];
-                if across != OUTSIDE {
+                if across != NO_INDEX {
                     self.neighbors[across as usize / 4][across as usize % 4] = (4 * gap + k) as u32;
                 }
             }
         }
-        let Triangulation { mut tetrahedra, mut neighbors, .. } = self;
+        let Triangulation3 { mut tetrahedra, mut neighbors, .. } = self;
         tetrahedra.truncate(count);
         neighbors.truncate(count);
         if let Some(names) = names {

@@ -1,8 +1,10 @@
 //! A mesh with its points.
 
 use crate::{
-    Error, Mesh, Points,
+    error::Error,
     index::NONE,
+    input::points::Points,
+    mesh::Mesh,
     parallel::{self, Threads},
 };
 use std::borrow::Cow;

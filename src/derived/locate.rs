@@ -6,9 +6,11 @@ use super::{
     queries::{CurveKey, map_along_curve},
 };
 use crate::{
-    Error, Mesh, Points,
+    error::Error,
     geometry::{Euclidean, Geometry, facet, vector},
+    input::points::Points,
     mesh::Csr,
+    mesh::Mesh,
     predicates::{Sign, filter::unscaled_orientation_bound},
 };
 use rustc_hash::FxHashSet;

@@ -8,8 +8,9 @@
 
 use super::{Locator, queries::map_along_curve};
 use crate::{
-    Error, Points,
+    error::Error,
     geometry::{Euclidean, Geometry, certain_difference, compare_distances, vector},
+    input::points::Points,
     mesh::Csr,
     predicates::Sign,
 };

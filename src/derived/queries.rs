@@ -1,8 +1,9 @@
 //! Query points, in an order in which consecutive ones are near each other.
 
 use crate::{
-    Error, Points,
+    error::Error,
     geometry::{Euclidean, Geometry},
+    input::points::Points,
     parallel::{self, Threads},
 };
 

@@ -12,8 +12,8 @@ pub(crate) use d2::angles;
 pub(crate) use d3::{dihedral_angles, precise_triangle_circumcenter_offset};
 
 use crate::{
-    Points,
     input::order::Curve,
+    input::points::Points,
     predicates::{
         Sign,
         polynomial::{Big, Polynomial, Ring, big_sign, common_exponent, dot, exact_sign, minus, quotient, sign},

@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 
 use bytemuck::Pod;
 
-use crate::Error;
+use crate::error::Error;
 use crate::gpu::Gpu;
 
 /// A storage buffer of `T`, which kernels see as `array<T>`.
@@ -27,8 +27,8 @@ impl<T: Pod> Storage<T> {
     ///
     /// # Errors
     ///
-    /// [`Error::BufferTooLarge`] when the device cannot bind that much. That it has not enough
-    /// memory is found by [`Gpu::with_error_scope`].
+    /// Returns [`Error::BufferTooLarge`] if the device cannot bind that much.
+    /// [`Gpu::with_error_scope`] reports a lack of memory.
     pub fn new(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
         Self::create(gpu, label, len, USAGES, false)
     }
@@ -42,7 +42,7 @@ impl<T: Pod> Storage<T> {
     ///
     /// # Errors
     ///
-    /// Those of [`Storage::new`].
+    /// Returns the errors of [`Storage::new`].
     pub fn with_contents(gpu: &Gpu, label: &'static str, contents: &[T]) -> Result<Self, Error> {
         if contents.is_empty() {
             return Self::new(gpu, label, 0);
@@ -82,11 +82,11 @@ impl<T: Pod> Storage<T> {
     /// Makes room for `len` elements: at least half as many again as there are now, if the device
     /// can bind them, so that growing step by step costs no more than a constant number of copies
     /// of each element. The first elements are copied by a command in `encoder`; bind groups of the
-    /// old buffer must be made anew.
+    /// old buffer must be created again.
     ///
     /// # Errors
     ///
-    /// Those of [`Storage::new`]; the buffer is unchanged then.
+    /// Returns the errors of [`Storage::new`]; the buffer is unchanged then.
     pub fn grow(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, len: usize) -> Result<(), Error> {
         if len <= self.len {
             return Ok(());

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use crate::Error;
+use crate::error::Error;
 use crate::gpu::MAX_WORKGROUPS;
 
 /// Which adapter to open.
@@ -22,12 +22,12 @@ use crate::gpu::MAX_WORKGROUPS;
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum AdapterChoice {
-    /// The one that the system recommends for speed.
+    /// The adapter that the system recommends for speed.
     #[default]
     Default,
-    /// By its place in [`adapters`](crate::adapters).
+    /// The adapter at this index of [`adapters`](crate::adapters).
     Index(usize),
-    /// The first whose name contains this, whatever the case of its letters.
+    /// The first adapter whose name contains this, ignoring case.
     Name(String),
 }
 
@@ -50,11 +50,12 @@ pub struct AdapterSummary {
     pub backend: String,
     /// The driver and its version; empty in browsers.
     pub driver: String,
-    /// It computes on the CPU: correct, but slower than the CPU engine.
+    /// Whether it computes on the CPU: its results are correct, but it is slower than the CPU
+    /// backend.
     pub software: bool,
-    /// The largest buffer that a kernel can see, in bytes: what bounds the size of the input.
+    /// The largest buffer that a kernel can use, in bytes, which limits the size of the input.
     pub max_storage_buffer_bytes: u64,
-    /// Stages can be timed on the device.
+    /// Whether stages can be timed on the device.
     pub timestamps: bool,
 }
 
@@ -75,7 +76,7 @@ impl AdapterSummary {
     }
 }
 
-/// The adapters of this machine, in the order that [`AdapterChoice::Index`] counts.
+/// Returns the adapters of this machine, in the order that [`AdapterChoice::Index`] counts.
 pub async fn adapters() -> Vec<AdapterSummary> {
     enumerate(&instance()).await.iter().map(AdapterSummary::of).collect()
 }
@@ -103,8 +104,8 @@ impl Gpu {
     ///
     /// # Errors
     ///
-    /// [`Error::NoAdapter`] when there is none or it gives no device, [`Error::AdapterNotFound`]
-    /// when there is none of that index or name.
+    /// Returns [`Error::NoAdapter`] when there is none or it gives no device,
+    /// [`Error::AdapterNotFound`] when there is none of that index or name.
     pub async fn open(choice: &AdapterChoice) -> Result<Self, Error> {
         let instance = instance();
         let adapter = choose(&instance, choice).await?;
@@ -124,7 +125,7 @@ impl Gpu {
         let gpu = Gpu::from_device(device, queue);
         let lost = Arc::clone(&gpu.lost);
         gpu.device.set_device_lost_callback(move |reason, message| {
-            // A second loss tells nothing new.
+            // A second loss adds nothing.
             let _ = lost.set(if message.is_empty() { format!("{reason:?}") } else { message });
         });
         Ok(gpu)
@@ -153,8 +154,8 @@ impl Gpu {
         &self.adapter
     }
 
-    /// Workgroups of a dispatch, at most, for a kernel that strides. On a CPU each one costs time
-    /// even if it finds nothing to do, and more of them than keep its cores busy gain nothing.
+    /// Returns the maximum number of workgroups for a kernel that strides. On a CPU each one costs
+    /// time even if it finds nothing to do, and more of them than keep its cores busy gain nothing.
     pub(crate) fn max_workgroups(&self) -> u32 {
         match self.adapter.software {
             true => 2 * std::thread::available_parallelism().map_or(2, |n| n.get() as u32),
@@ -168,13 +169,13 @@ impl Gpu {
     }
 
     /// Runs `body`, which creates resources or submits commands, and turns what the device reports
-    /// for it into an error. In browsers the answer takes a trip to the GPU process, so create many
-    /// resources in one `body`.
+    /// for it into an error. In browsers the answer takes a round trip to the GPU process, so
+    /// create many resources in one `body`.
     ///
     /// # Errors
     ///
-    /// [`Error::OutOfDeviceMemory`], [`Error::DeviceLost`], the errors of `body`, and
-    /// [`Error::Gpu`] for what should not happen.
+    /// Returns [`Error::OutOfDeviceMemory`], [`Error::DeviceLost`], the errors of `body`, and
+    /// [`Error::Gpu`] for unexpected failures.
     pub async fn with_error_scope<T>(
         &self,
         what: &'static str,
@@ -204,8 +205,8 @@ impl Gpu {
 
     /// Returns the error for an operation that failed: the loss of the device, if that is why.
     pub(crate) fn failure(&self, message: &str) -> Error {
-        // Natively the loss is told only when the device is polled; that this fails in its turn
-        // tells nothing new.
+        // Native backends report the loss only when the device is polled; that polling fails, too,
+        // adds nothing.
         let _ = self.device.poll(wgpu::PollType::Poll);
         match self.lost.get() {
             Some(reason) => Error::DeviceLost { reason: reason.clone() },

@@ -10,15 +10,12 @@ use std::fmt::Debug;
 use bytemuck::Pod;
 
 use crate::{
-    Error,
+    dimension::Dimension,
+    error::Error,
     gpu::{Binding, Gpu, shader::Shaders},
     input::lattice::Width,
     predicates::Sign,
 };
-
-/// The marker that [`Dim`] is implemented for: triangulations of points with `D` coordinates.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Dimension<const D: usize>;
 
 /// The vertices of a simplex in `D` dimensions: `[u32; D + 1]`.
 pub type Corners<const D: usize> = <Dimension<D> as Dim<D>>::Corners;
@@ -37,6 +34,9 @@ pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
 
     /// What simplices are called in labels and messages.
     const SIMPLICES: &'static str;
+    /// The words that a vertex with narrow coordinates takes on the device; one with wide
+    /// coordinates takes twice as many.
+    const NARROW_WORDS: usize;
     /// The shaders of the kernels.
     const SHADERS: &'static Shaders;
     /// The largest number of points: simplices are numbered in 30 bits.
@@ -51,7 +51,12 @@ pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
     fn blocks(points: u32, tail: u32) -> u32;
 
     /// Returns the words that a vertex takes on the device.
-    fn vertex_words(width: Width) -> usize;
+    fn vertex_words(width: Width) -> usize {
+        match width {
+            Width::Narrow => Self::NARROW_WORDS,
+            Width::Wide => 2 * Self::NARROW_WORDS,
+        }
+    }
 
     /// Appends the words of a vertex at `position`, which the lattice has `rounded` or not. 3D
     /// stores the input index with it; 2D stores it elsewhere and ignores it here.
@@ -69,20 +74,25 @@ pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
     fn spread(chosen: &[[f64; D]], p: [f64; D]) -> f64;
 }
 
+/// Returns the high and the low word, of 31 bits each, of a wide lattice coordinate.
+pub fn words_of(coordinate: i64) -> [i32; 2] {
+    [(coordinate >> 31) as i32, (coordinate & 0x7fff_ffff) as i32]
+}
+
 /// The buffers of Phase 1 that only one dimension has.
 pub trait OwnBuffers: Debug + Clone {
     /// Creates them for `points` points and `blocks` blocks of slots.
     ///
     /// # Errors
     ///
-    /// [`Error::BufferTooLarge`].
+    /// Returns [`Error::BufferTooLarge`].
     fn new(gpu: &Gpu, points: usize, blocks: u32) -> Result<Self, Error>;
 
     /// Returns larger ones with the same contents, for `blocks` blocks.
     ///
     /// # Errors
     ///
-    /// [`Error::BufferTooLarge`].
+    /// Returns [`Error::BufferTooLarge`].
     fn with_blocks(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, blocks: u32) -> Result<Self, Error>;
 
     /// Records that what must be zero in the beginning is.
@@ -93,4 +103,25 @@ pub trait OwnBuffers: Debug + Clone {
 
     /// Returns the bytes that they take on the device.
     fn bytes(&self) -> u64;
+}
+
+/// No buffers.
+impl OwnBuffers for () {
+    fn new(_gpu: &Gpu, _points: usize, _blocks: u32) -> Result<Self, Error> {
+        Ok(())
+    }
+
+    fn with_blocks(&self, _gpu: &Gpu, _encoder: &mut wgpu::CommandEncoder, _blocks: u32) -> Result<Self, Error> {
+        Ok(())
+    }
+
+    fn record_clear(&self, _encoder: &mut wgpu::CommandEncoder) {}
+
+    fn bindings(&self) -> Vec<Binding<'_>> {
+        Vec::new()
+    }
+
+    fn bytes(&self) -> u64 {
+        0
+    }
 }

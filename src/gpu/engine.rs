@@ -6,10 +6,12 @@
 use std::fmt::Debug;
 
 use crate::{
-    Backend, Error, Options, Points,
+    backend::Backend,
+    cpu::{self, Incremental, MeshOf},
+    dimension::Dimension,
+    error::Error,
     gpu::{
         Gpu,
-        dim::Dimension,
         phase1::{Finish, Input, Phase1, Phase1Output, Run, Settings},
         start::first_simplex,
     },
@@ -17,7 +19,10 @@ use crate::{
     input::{
         lattice::{Lattice, Width},
         order::missing_points,
+        points::Points,
     },
+    mesh::MeshInfo,
+    options::Options,
     parallel::Threads,
     stats::{Fallback, Phase, Stats, Stopwatch},
 };
@@ -33,18 +38,12 @@ pub mod progress {
     pub const FINISH: f64 = 0.95;
 }
 
-/// The mesh of `D` dimensions.
-pub type MeshOf<const D: usize> = <Dimension<D> as Complete<D>>::Mesh;
-
-/// How a dimension's engine completes what Phase 1 leaves, and the CPU engine that stands in for
-/// it.
+/// How a dimension's engine completes what Phase 1 leaves.
 #[expect(async_fn_in_trait, reason = "only this crate implements it, and no caller is generic over threads")]
-pub trait Complete<const D: usize>: Finish<D>
+pub trait Complete<const D: usize>: Finish<D> + Incremental<D>
 where
     Dimension<D>: Finish<D>,
 {
-    /// The result.
-    type Mesh;
     /// Collects what [`Options::trace`] asks for.
     type Tracer;
 
@@ -60,7 +59,7 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Readback::read`](crate::gpu::Readback::read).
+    /// Returns the errors of [`Readback::read`](crate::gpu::Readback::read).
     async fn trace_round(tracer: &mut Self::Tracer, gpu: &Gpu, run: &Run<'_, D>) -> Result<(), Error>;
 
     /// Makes the mesh of what Phase 1 left, or says why the CPU engine has to; its statistics are
@@ -68,18 +67,8 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::Cancelled`] and [`Error::OutOfMemory`].
+    /// Returns [`Error::Cancelled`] and [`Error::OutOfMemory`].
     fn complete(near: Near<'_, D>, tracer: Self::Tracer) -> Result<Result<Self::Mesh, Fallback>, Error>;
-
-    /// Triangulates with the CPU engine.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`delaunay3d`](crate::delaunay3d).
-    fn on_cpu(points: Points<'_, D>, options: &Options) -> Result<Self::Mesh, Error>;
-
-    /// Returns the statistics of a mesh.
-    fn stats(mesh: &mut Self::Mesh) -> &mut Stats;
 }
 
 /// What Phase 1 left, and what goes with it.
@@ -93,10 +82,10 @@ where
     pub(crate) lattice: &'a Lattice<D>,
     /// The result of Phase 1.
     pub(crate) result: <Dimension<D> as Finish<D>>::Result,
-    /// The points that Phase 1 did not insert though they are no duplicates, each with the vertex
-    /// at the same place of the lattice.
+    /// The points that Phase 1 did not insert although they are not duplicates, each with the
+    /// vertex at the same place of the lattice.
     pub(crate) missing: Vec<[u32; 2]>,
-    /// The mesh's entry of the same name.
+    /// The field of the mesh of the same name.
     pub(crate) duplicate_of: Vec<i32>,
     /// The options of the run.
     pub(crate) options: &'a Options,
@@ -106,7 +95,7 @@ where
     pub(crate) stopwatch: &'a mut Stopwatch,
 }
 
-/// A device with the kernels of `D` dimensions compiled for it: make one and use it for many
+/// A device with the kernels of `D` dimensions compiled for it: create one and use it for many
 /// inputs.
 #[derive(Debug)]
 pub struct GpuEngine<const D: usize>
@@ -115,7 +104,8 @@ where
 {
     gpu: Gpu,
     wide: Phase1<D>,
-    /// For points that the narrow lattice holds, once there were some: compiling takes long.
+    /// The kernels for points on the narrow lattice, compiled when such points first come, because
+    /// compiling takes long.
     narrow: Option<Phase1<D>>,
     settings: Settings<D>,
 }
@@ -128,7 +118,7 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Gpu::with_error_scope`].
+    /// Returns the errors of [`Gpu::with_error_scope`].
     pub async fn new(gpu: Gpu) -> Result<Self, Error> {
         let wide = Phase1::new(&gpu, Width::Wide).await?;
         Ok(GpuEngine { gpu, wide, narrow: None, settings: Settings::default() })
@@ -145,15 +135,15 @@ where
         &self.gpu
     }
 
-    /// Triangulates `points`: the result is the same set of simplices as every engine's.
+    /// Triangulates `points`: every engine returns the same set of simplices.
     ///
-    /// Input that is no work for a device, because its points lie in a line (2D) or plane (3D) or
-    /// nearly so, and input of which completing Phase 1 takes too much work, is left to the CPU
+    /// Input that does not suit a device, because its points lie on a line (2D) or in a plane (3D)
+    /// or nearly so, and input for which completing Phase 1 takes too much work, is left to the CPU
     /// engine; [`Stats::fallback`] then says why.
     ///
     /// # Errors
     ///
-    /// Those of [`delaunay3d`](crate::delaunay3d), and those of the device.
+    /// Returns the errors of [`delaunay3d`](crate::delaunay3d), and those of the device.
     pub async fn triangulate(&mut self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error> {
         let options = &options.monotone();
         let mut stopwatch = Stopwatch::start();
@@ -169,11 +159,15 @@ where
         stats.phases.push((Phase::Lattice, stopwatch.lap()));
 
         options.report(Phase::Phase1, progress::PHASE_1)?;
-        let settings = Settings { winding: options.winding, ..self.settings };
+        let mut settings = Settings { winding: options.winding, ..self.settings };
+        if options.trace {
+            // What is traced is the triangulation after each round.
+            (settings.rounds, settings.batches) = (1, 1);
+        }
         let (gpu, phase1) = self.kernels(lattice.width()).await?;
         let mut run = Run::new(phase1, gpu, Input { points, lattice: &lattice, start }, settings, None).await?;
         loop {
-            let more = run.round().await?;
+            let more = run.advance().await?;
             Dimension::<D>::trace_round(&mut tracer, gpu, &run).await?;
             let inserted = 1.0 - f64::from(run.waiting()) / points.len() as f64;
             options.report(Phase::Phase1, progress::PHASE_1 + Dimension::<D>::ROUNDS_SHARE * inserted)?;
@@ -207,13 +201,13 @@ where
             Err(why) => return fall_back(points, options, why, stats),
         };
         options.report(Phase::Finish, 1.0)?;
-        *Dimension::<D>::stats(&mut mesh) = stats;
+        *mesh.stats_mut() = stats;
         Ok(mesh)
     }
 
     /// Returns the device with the kernels for points of this width, compiled if they are not, and
-    /// gives the buffers of the other ones back: points of the other width are likely to come never
-    /// again, or not soon.
+    /// gives the buffers of the other ones back, because points of the other width are unlikely to
+    /// come soon.
     async fn kernels(&mut self, width: Width) -> Result<(&Gpu, &mut Phase1<D>), Error> {
         let phase1 = match width {
             Width::Narrow => {
@@ -244,8 +238,8 @@ fn fall_back<const D: usize>(
 where
     Dimension<D>: Complete<D>,
 {
-    let mut mesh = Dimension::<D>::on_cpu(points, options)?;
-    let stats = Dimension::<D>::stats(&mut mesh);
+    let mut mesh = cpu::delaunay(points, options)?;
+    let stats = mesh.stats_mut();
     (stats.fallback, stats.gpu) = (Some(why), before.gpu);
     Ok(mesh)
 }

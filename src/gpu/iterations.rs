@@ -1,25 +1,14 @@
-//! How many flip iterations the host records ahead for a round, and when votes have to be cleared
-//! between them.
+//! How many flip iterations the host records ahead for a round, a dispatch per pass.
 
-use crate::gpu::{
-    Recorder,
-    layout::{BLOCK, Counters},
-};
-
-/// Returns the bits of a bidder's number: twice as many as there are slots in `blocks`, because the
-/// upper half is for marks.
-pub(crate) fn bid_bits(blocks: u32) -> u32 {
-    33 - (blocks * BLOCK).leading_zeros()
-}
-
+/// The iterations to record for a round of which nothing is known: enough for those of uniform
+/// points while each round inserts several times as many points as the one before.
+const FIRST_PLANNED: u32 = 28;
 /// The smallest number of iterations to record for a round.
-const MIN_PLANNED: u32 = 8;
+const MIN_PLANNED: u32 = 6;
 /// The largest number: what more there is to do waits for the next round.
 const MAX_PLANNED: u32 = 64;
-/// How many more to record than the last round took.
+/// How many more to record than an earlier round took.
 const MARGIN: u32 = 3;
-/// The same while few points are in, when each round takes longer than the last one.
-const EARLY_MARGIN: u32 = 10;
 
 /// Where few signs are left open, exact checks wait for each other: one alone takes longer than all
 /// filters of an iteration. Where they are many, there would be no progress. So they follow the
@@ -33,8 +22,6 @@ const EXACT_EVERY: [(u32, u64); 2] = [(4, 16), (2, 3)];
 pub(crate) struct Iterations {
     /// To record for a round.
     planned: u32,
-    /// An upper bound of the iteration that the kernels count.
-    counted: u32,
     /// Exact checks follow the filter in every so many iterations of a round.
     exact_every: u32,
 }
@@ -42,54 +29,42 @@ pub(crate) struct Iterations {
 impl Iterations {
     /// Creates the plan of a run's first round.
     pub(crate) fn new() -> Self {
-        Iterations { planned: MIN_PLANNED, counted: 0, exact_every: EXACT_EVERY[0].0 }
+        Iterations { planned: FIRST_PLANNED, exact_every: EXACT_EVERY[0].0 }
     }
 
-    /// Plans the next round by the counters before and after the last one, of which it returns the
-    /// iterations. `waiting` points are left.
-    pub(crate) fn plan(&mut self, before: &Counters, after: &Counters, waiting: u32) -> u32 {
-        self.counted = after.iteration;
-        let used = after.iterations - before.iterations;
-        let more = if waiting / 4 > after.inserted { EARLY_MARGIN } else { MARGIN };
-        let wanted = if used >= self.planned { 2 * used } else { used + more };
+    /// Plans a round by the one before the last one, which took `used` of `recorded` iterations and after which
+    /// `inserted` points are inserted and others wait.
+    pub(crate) fn plan(&mut self, used: u32, recorded: u32, inserted: u32, waiting: u32) {
+        if recorded == 0 {
+            return;
+        }
+        // Most points are in, will be after the round that is planned, or will not.
+        let (is_late, is_middle) = (waiting / 4 <= inserted, waiting / 24 <= inserted);
+        let wanted = match used {
+            _ if used >= recorded => 2 * used,
+            _ if is_late => used / 2 + MARGIN,
+            _ if is_middle => used / 4 * 3 + MARGIN,
+            // The next rounds insert several times as many points, and take more iterations.
+            _ => (used + MARGIN).max(FIRST_PLANNED),
+        };
         self.planned = wanted.clamp(MIN_PLANNED, MAX_PLANNED);
-        let exact = u64::from(after.exact.wrapping_sub(before.exact));
-        let visits = u64::from(after.visits.wrapping_sub(before.visits));
+    }
+
+    /// Plans how often exact checks follow the filter, which left `exact` signs of `visits` visited
+    /// simplices open.
+    pub(crate) fn plan_exact(&mut self, exact: u32, visits: u32) {
+        let (exact, visits) = (u64::from(exact), u64::from(visits));
         self.exact_every =
             EXACT_EVERY.iter().find(|(_, for_one)| exact * for_one <= visits).map_or(1, |&(every, _)| every);
-        used
+    }
+
+    /// Returns how many iterations to record for a round.
+    pub(crate) fn planned(&self) -> u32 {
+        self.planned
     }
 
     /// Returns in every how many iterations exact checks follow the filter; only 3D has them apart.
     pub(crate) fn exact_every(&self) -> u32 {
         self.exact_every
-    }
-
-    /// Counts from the start again: votes are clear.
-    pub(crate) fn restart(&mut self) {
-        self.counted = 1;
-    }
-
-    /// Records the iterations of a round: some `flips`, and `clear` wherever a bid has no room for
-    /// the number of the next iteration.
-    pub(crate) fn record(
-        &mut self,
-        recorder: &mut Recorder<'_>,
-        bid_bits: u32,
-        flips: impl Fn(&mut Recorder<'_>, u32),
-        clear: impl Fn(&mut Recorder<'_>),
-    ) {
-        let last = (1u32 << (32 - bid_bits)) - 2;
-        let mut left = self.planned;
-        while left > 0 {
-            if self.counted >= last {
-                clear(recorder);
-                self.restart();
-            }
-            let now = left.min(last - self.counted);
-            flips(recorder, now);
-            self.counted += now;
-            left -= now;
-        }
     }
 }

@@ -4,7 +4,7 @@ use crate::gpu::{Gpu, shader::Shader};
 use crate::input::lattice::Width;
 
 /// A buffer under the name that it has in shaders.
-pub type Binding<'a> = (&'a str, &'a wgpu::Buffer);
+pub type Binding<'a> = (&'static str, &'a wgpu::Buffer);
 
 /// A compute pipeline with one bind group.
 #[derive(Debug, Clone)]

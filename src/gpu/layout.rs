@@ -11,8 +11,8 @@
 //! **Tetrahedra** live in slots. Slots 8v … 8v + 7 are the *block* of vertex *v*, so that a
 //! tetrahedron is near its vertices in memory without any sorting; the block of infinity starts the
 //! initial tetrahedra, and the blocks after it are the *tail*, which serves when the blocks of all
-//! vertices of a flip are full. `free` has one word per block whose low bits tell which of its
-//! slots are free.
+//! vertices of a flip are full. At the end of the buffer `control` there is one word per block whose
+//! low bits tell which of its slots are free.
 //!
 //! **Neighbours** are packed as 4·tetrahedron + face: entry *k* of a tetrahedron is the facet
 //! opposite its vertex *k*, as the tetrahedron on the other side numbers it.
@@ -24,13 +24,13 @@ use crate::gpu::shader::{
     constants::{common, d3},
 };
 
-/// Nothing: no tetrahedron, no node, no vertex.
+/// Marks the absence of a tetrahedron, a node or a vertex.
 pub const NONE: u32 = common::NONE;
 
 /// Slots in a block.
 pub const BLOCK: u32 = common::BLOCK;
 
-/// What a tetrahedron is doing.
+/// The status of a tetrahedron.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Status {
@@ -38,11 +38,12 @@ pub struct Status {
     /// some. Facets that were found not locally Delaunay but not flippable (bits 4–7). The
     /// insertion round in which waiting points may lie inside (bits 16–31).
     pub flags: u32,
-    /// The highest bid for this tetrahedron: the flip iteration above, the bidder's number below.
-    pub vote: u32,
     /// The node of the history that made this tetrahedron, times 4, plus which of its tetrahedra it
     /// is.
     pub last: u32,
+    /// The highest bid for this tetrahedron. The bids of a flip iteration are above all those of
+    /// the ones before it.
+    pub vote: u32,
     /// The first node of the round that changed the tetrahedron in this slot as it was when the
     /// round began.
     pub first: u32,
@@ -89,19 +90,23 @@ pub const SLOT_SHIFT: u32 = d3::SLOT_SHIFT;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct FlipNode {
-    /// The ring around the edge, x₀, x₁, x₂, then the ends of the edge, d and e: the tetrahedra
+    /// The ring around the edge, x₀, x₁, x₂: with the ends of the edge, the tetrahedra
     /// (xᵢ, xᵢ₊₁, d, e) are positively oriented.
-    pub vertices: [u32; 5],
-    /// [`FLIP_23`] or [`FLIP_32`].
-    pub kind: u32,
+    pub ring: [u32; 3],
+    /// One end of the edge.
+    pub d: u32,
     /// The tetrahedra that it made: 2-3, (xᵢ, xᵢ₊₁, d, e); 3-2, that with e and that with d.
     pub tets: [u32; 3],
+    /// The other end of the edge.
+    pub e: u32,
     /// The nodes that changed these later, or [`NONE`].
     pub next: [u32; 3],
+    /// [`FLIP_23`] or [`FLIP_32`].
+    pub kind: u32,
 }
 assert_layout!(FlipNode);
 
-/// The counters that the kernels share.
+/// The counters that the kernels share, and the parameters that they set themselves.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Counters {
@@ -109,6 +114,18 @@ pub struct Counters {
     pub iteration: u32,
     /// The flip iteration, as linking sees it: no kernel writes the one that it reads.
     pub link_iteration: u32,
+    /// The lowest bid of the flip iteration, as checking and committing see it.
+    pub bid_base: u32,
+    /// The same, as linking sees it.
+    pub link_bid_base: u32,
+    /// With fewer active tetrahedra than this a flip iteration does nothing.
+    pub min_active: u32,
+    /// Entries of the list of waiting points.
+    pub entries: u32,
+    /// Entries of the list before it was compacted in this round; 0 if it was not.
+    pub entries_before: u32,
+    /// The half of the list that is in use: 0 or 1.
+    pub waiting_half: u32,
     /// Entries in the two halves of the active list; iteration *i* uses half *i* mod 2.
     pub active_len: [u32; 2],
     /// The insertion round, from 1.
@@ -148,6 +165,11 @@ pub struct Counters {
     pub flips_22: u32,
     /// In 2D: edges of the hull.
     pub hull: u32,
+    /// Flip iterations that were done in one workgroup.
+    pub few_done: u32,
+    /// What the rounds have done: entry *r* modulo [`LOGGED`] is the state after round *r*, as
+    /// [`Counters::progress`] returns it.
+    pub log: [[u32; 5]; LOGGED],
 }
 assert_layout!(Counters);
 
@@ -156,6 +178,17 @@ impl Counters {
     pub(crate) fn flips(&self) -> u32 {
         self.flips_23 + self.flips_32 + self.flips_22
     }
+
+    /// Returns the number of active simplices.
+    pub(crate) fn active(&self) -> u32 {
+        self.active_len[(self.iteration & 1) as usize]
+    }
+
+    /// Returns what was done so far: points inserted, active simplices, flips, flip iterations, and
+    /// those of them that were done in one workgroup.
+    pub fn progress(&self) -> [u32; 5] {
+        [self.inserted, self.active(), self.flips(), self.iterations, self.few_done]
+    }
 }
 
 /// A flip was put off because no slot was found for its third tetrahedron.
@@ -163,7 +196,7 @@ pub const SLOTS_FULL: u32 = common::SLOTS_FULL;
 /// A flip was put off because the history was full.
 pub const HISTORY_FULL: u32 = common::HISTORY_FULL;
 
-/// What the kernels are told. In the buffer `control` it stands before the [`Counters`].
+/// The parameters of the kernels. In the buffer `control` it stands before the [`Counters`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Params {
@@ -173,16 +206,19 @@ pub struct Params {
     pub blocks: u32,
     /// Nodes that the history can hold.
     pub history: u32,
-    /// Bits of a bidder's number in [`Status::vote`].
-    pub bid_bits: u32,
-    /// With fewer active tetrahedra than this a flip iteration does nothing.
-    pub min_active: u32,
+    /// With at most so many active tetrahedra, flip iterations are done in one workgroup; 0 for
+    /// never.
+    pub few: u32,
+    /// With more than so many active tetrahedra they are not done in one workgroup any longer.
+    pub few_limit: u32,
+    /// The most flip iterations that one workgroup does in a dispatch.
+    pub few_iterations: u32,
+    /// The largest [`Counters::min_active`].
+    pub max_min_active: u32,
+    /// 1 if there are no flips while points wait.
+    pub insert_all: u32,
     /// How a tetrahedron picks its point: a [`Pick`](crate::gpu::layout::Pick).
     pub pick: u32,
-    /// Entries of the list of waiting points.
-    pub entries: u32,
-    /// Entries that the list had before it was compacted.
-    pub entries_before: u32,
     /// Blocks that there were before there were more.
     pub blocks_before: u32,
     /// In 3D: after a flip iteration with at least this many active tetrahedra, the next ones
@@ -193,10 +229,15 @@ pub struct Params {
 }
 assert_layout!(Params);
 
+/// The rounds that [`Counters::log`] keeps.
+pub const LOGGED: usize = common::LOGGED as usize;
+
 /// Words of [`Params`], after which the [`Counters`] stand in the buffer `control`.
 pub const PARAM_WORDS: usize = size_of::<Params>() / 4;
 /// Words of [`Counters`].
 pub const COUNTER_WORDS: usize = size_of::<Counters>() / 4;
+/// Words of the buffer `control` before the free slots of the blocks, which end it.
+pub const FREE_START: usize = PARAM_WORDS + COUNTER_WORDS;
 
 /// Which of its waiting points a tetrahedron inserts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

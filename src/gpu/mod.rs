@@ -2,9 +2,9 @@
 //!
 //! Everything here works natively (Vulkan, Metal, DirectX 12) and in browsers (WebGPU) alike,
 //! within the limits that every WebGPU device has: 8 storage buffers per stage, 256 invocations and
-//! 16 KiB of workgroup memory, 65,535 workgroups per dimension. Only larger buffers are asked for.
+//! 16 KiB of workgroup memory, 65,535 workgroups per dimension. Only larger buffers are requested.
 //!
-//! * [`Gpu`] is a device with its queue, the caller's or one made on demand.
+//! * [`Gpu`] is a device with its queue, the caller's or one opened on demand.
 //! * [`shader`] has the WGSL of `shaders/`; [`Kernel`] is one compute pipeline made of it.
 //! * [`Recorder`] encodes many dispatches in one compute pass, and [`Profiler`] times its stages.
 //! * [`Storage`] is a typed storage buffer; [`Readback`] brings results to the host through reused

@@ -16,14 +16,18 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::gpu::primitives::sort::{BoundSort, Sort};
 use crate::{
-    Error, Points,
+    dimension::Dimension,
+    error::Error,
     gpu::{
         Gpu, Kernel, Recorder, Storage,
-        dim::{Dim, Dimension},
+        dim::Dim,
         shader::{assert_layout, constants::common as constants},
         workgroups,
     },
-    input::lattice::{Lattice, Width},
+    input::{
+        lattice::{Lattice, Width},
+        points::Points,
+    },
 };
 
 /// The parameters of the kernels.
@@ -109,8 +113,8 @@ pub struct PointInput<'a, const D: usize = 3> {
 /// The points on the device. Valid when the recorded commands have run.
 #[derive(Debug, Clone)]
 pub struct DevicePoints {
-    /// The vertices, as [`Dim::append_vertex`] lays them out, in the order of `pairs`. There is room
-    /// for one more, the vertex at infinity.
+    /// The vertices, as [`Dim::append_vertex`] lays them out, in the order of `pairs`. There is
+    /// room for one more, the vertex at infinity.
     pub vertices: Storage<i32>,
     /// Sort key and point of each vertex.
     pub pairs: Storage<[u32; 2]>,
@@ -156,7 +160,7 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::TooManyPoints`] beyond 2³⁰, and those of [`Storage::new`].
+    /// Returns [`Error::TooManyPoints`] beyond 2³⁰, and those of [`Storage::new`].
     pub fn record(
         &self,
         gpu: &Gpu,

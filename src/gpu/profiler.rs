@@ -1,6 +1,6 @@
 //! Milliseconds per stage, from timestamp queries.
 
-use crate::Error;
+use crate::error::Error;
 use crate::gpu::{Gpu, Pending, Readback, Storage};
 
 /// The stages that one submission can time; WebGPU allows no more queries in a set than twice this.
@@ -27,7 +27,7 @@ impl Profiler {
     ///
     /// # Errors
     ///
-    /// [`Error::BufferTooLarge`], on no real device.
+    /// Returns [`Error::BufferTooLarge`], on no real device.
     pub fn new(gpu: &Gpu) -> Result<Option<Self>, Error> {
         if !gpu.device().features().contains(wgpu::Features::TIMESTAMP_QUERY) {
             return Ok(None);
@@ -79,7 +79,7 @@ impl Profiler {
     ///
     /// # Errors
     ///
-    /// Those of [`Readback::receive`].
+    /// Returns the errors of [`Readback::receive`].
     pub async fn milliseconds(
         &mut self,
         gpu: &Gpu,

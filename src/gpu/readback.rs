@@ -1,9 +1,9 @@
-//! Reading results back, through staging buffers that are used again.
+//! Reading results back, through staging buffers that are reused.
 
 use bytemuck::Pod;
 use futures_channel::oneshot;
 
-use crate::Error;
+use crate::error::Error;
 use crate::gpu::{Gpu, Storage};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::parallel::{Threads, for_chunks};
@@ -64,7 +64,7 @@ impl Readback {
     ///
     /// # Errors
     ///
-    /// [`Error::DeviceLost`], or [`Error::Gpu`] when the device reports something else.
+    /// Returns [`Error::DeviceLost`], or [`Error::Gpu`] when the device reports something else.
     pub async fn receive<T: Pod>(
         &mut self,
         gpu: &Gpu,
@@ -95,7 +95,7 @@ impl Readback {
     ///
     /// # Errors
     ///
-    /// Those of [`Readback::receive`].
+    /// Returns the errors of [`Readback::receive`].
     pub async fn read<T: Pod>(
         &mut self,
         gpu: &Gpu,
@@ -144,8 +144,8 @@ fn with_room(len: usize) -> usize {
     len + len / 64
 }
 
-/// Copies `len` elements from the bytes of a mapped buffer. Pages of fresh memory are what takes
-/// long here, so threads share them.
+/// Copies `len` elements from the bytes of a mapped buffer. Most of the time goes into page faults
+/// of fresh memory, so threads share the work.
 #[cfg(not(target_arch = "wasm32"))]
 fn copied<T: Pod>(view: &wgpu::BufferView, len: usize) -> Vec<T> {
     let mut result = bytemuck::zeroed_vec(with_room(len));

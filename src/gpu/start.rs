@@ -2,7 +2,8 @@
 
 use bytemuck::Zeroable;
 
-use crate::gpu::dim::{Corners, Dim, Dimension};
+use crate::dimension::Dimension;
+use crate::gpu::dim::{Corners, Dim};
 use crate::input::lattice::Width;
 
 /// The first simplex, and a point inside it.

@@ -2,7 +2,7 @@
 
 use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
 use crate::{
-    Error,
+    error::Error,
     gpu::{Gpu, Kernel, Recorder, Storage, layout::Waiting, shader},
     input::lattice::Width,
 };
@@ -18,16 +18,20 @@ pub struct WaitingList {
 /// The bind groups for a certain list, and what its compaction needs.
 #[derive(Debug)]
 pub struct BoundWaitingList {
-    list: Storage<Waiting>,
     mark: wgpu::BindGroup,
     compact: wgpu::BindGroup,
     scan: BoundScan,
     params: Storage<ScanParams>,
-    compacted: Storage<Waiting>,
     bytes: u64,
 }
 
 impl BoundWaitingList {
+    /// Returns the parameters of the scan: the number of entries of the list that is compacted, or
+    /// 0, as the kernel says that begins a round.
+    pub fn params(&self) -> &Storage<ScanParams> {
+        &self.params
+    }
+
     /// Returns the bytes that it takes on the device beside the buffers that it shares.
     pub fn bytes(&self) -> u64 {
         self.bytes
@@ -46,7 +50,7 @@ impl WaitingList {
     ///
     /// # Errors
     ///
-    /// Those of [`Storage::new`].
+    /// Returns the errors of [`Storage::new`].
     pub fn bind(
         &self,
         gpu: &Gpu,
@@ -55,42 +59,28 @@ impl WaitingList {
         marks: &Storage<u32>,
     ) -> Result<BoundWaitingList, Error> {
         let params = Storage::new(gpu, "scan parameters", 1)?;
-        let compacted = Storage::new(gpu, "compacted list", list.len())?;
-        let offsets = Storage::new(gpu, "offsets", list.len())?;
+        let offsets = Storage::new(gpu, "offsets", marks.len())?;
         let buffers = [
             ("control", control.buffer()),
             ("waiting", list.buffer()),
             ("marks", marks.buffer()),
             ("offsets", offsets.buffer()),
-            ("compacted", compacted.buffer()),
         ];
         Ok(BoundWaitingList {
-            list: list.clone(),
             mark: self.mark.bind(gpu, &buffers),
             compact: self.compact.bind(gpu, &buffers),
             scan: self.scan.bind(gpu, &params, marks, &offsets)?,
-            bytes: compacted.bytes() + offsets.bytes(),
+            bytes: offsets.bytes(),
             params,
-            compacted,
         })
     }
 
-    /// Records the compaction of the list, which has `entries` entries, those that do not wait
-    /// included.
-    pub fn record(
-        &self,
-        gpu: &Gpu,
-        recorder: &mut Recorder<'_>,
-        bound: &BoundWaitingList,
-        entries: u32,
-        workgroups: u32,
-    ) {
-        bound.params.write(gpu, 0, &[ScanParams { count: entries }]);
+    /// Records the compaction of the list from one of its halves into the other, which the device
+    /// carries out where it pays.
+    pub fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundWaitingList, workgroups: u32) {
         recorder.stage("compact");
         recorder.dispatch(&self.mark, &bound.mark, workgroups);
         self.scan.record(recorder, &bound.scan);
         recorder.dispatch(&self.compact, &bound.compact, workgroups);
-        let bytes = u64::from(entries) * size_of::<Waiting>() as u64;
-        recorder.encoder().copy_buffer_to_buffer(bound.compacted.buffer(), 0, bound.list.buffer(), 0, bytes);
     }
 }

@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn consecutive_cells_of_the_plane_are_neighbours() {
+    fn consecutive_cells_of_the_2d_curve_are_neighbours() {
         for bits in 1..=6 {
             let side = 1u32 << bits;
             let mut cells = vec![None; (side * side) as usize];

@@ -7,7 +7,7 @@
 //! exactly.
 
 use crate::{
-    Points,
+    input::points::Points,
     parallel::{self, Threads},
 };
 
@@ -32,7 +32,7 @@ impl Width {
 
 /// The lattice of one input of dimension `D`.
 #[derive(Debug, Clone)]
-pub struct Lattice<const D: usize = 3> {
+pub struct Lattice<const D: usize> {
     width: Width,
     /// *k*: coordinates are multiplied by 2ᵏ.
     exponent: i32,
@@ -214,7 +214,7 @@ fn largest_exponent(low: f64, high: f64, bits: u32) -> i32 {
 mod tests {
     use super::*;
 
-    fn check(points: &[[f64; 3]]) -> Lattice {
+    fn check(points: &[[f64; 3]]) -> Lattice<3> {
         let lattice = Lattice::fit(points.into());
         let bits = lattice.width().bits();
         let mut highest = 0;

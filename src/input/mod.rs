@@ -6,4 +6,4 @@ pub mod order;
 pub mod points;
 
 pub use order::Order;
-pub use points::{Points, Points2};
+pub use points::{Points, Points2, Points3};

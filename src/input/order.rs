@@ -2,7 +2,10 @@
 //! (biased randomised insertion order, BRIO: Amenta, Choi and Rote 2003), each along the Hilbert
 //! curve.
 
-use crate::{Points, index::NONE, input::lattice::Lattice};
+use crate::{
+    index::NONE,
+    input::{lattice::Lattice, points::Points},
+};
 use std::cmp::Ordering;
 
 /// An insertion order. The mesh does not depend on it.
@@ -186,8 +189,8 @@ fn rounds(order: Vec<u32>) -> Vec<u32> {
     sorted
 }
 
-/// The finaliser of SplitMix64: a hash, so that the same input gives the same order on every
-/// machine.
+/// Returns a hash, by the finaliser of SplitMix64, so that the same input gives the same order on
+/// every machine.
 fn mix(mut x: u64) -> u64 {
     x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
     x = (x ^ x >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);

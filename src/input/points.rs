@@ -1,16 +1,17 @@
 //! Input points: the forms in which they come, and their validation.
 
 use crate::{
-    Error,
+    error::Error,
     parallel::{self, Threads},
 };
 
 /// Borrowed input points of `D` coordinates each: `[x, y, z]` in 3D, `[x, y]` in 2D.
 ///
-/// Every finite `f32` and `f64` is taken at its exact value. Slices, vectors and arrays of `[f32; D]` and `[f64; D]` convert
-/// into it, so functions that take `impl Into<Points>` accept them directly. The features `glam` and `nalgebra` add these
-/// crates' points and vectors, and `ndarray` adds `TryFrom` for arrays with one point per row; none of them copies. For points
-/// of type [`mint`](https://docs.rs/mint) see [`from_mint3`](crate::from_mint3).
+/// Every finite `f32` and `f64` is taken at its exact value. Slices, vectors and arrays of
+/// `[f32; D]` and `[f64; D]` convert into it, so functions that take `impl Into<Points>` accept
+/// them directly. The features `glam` and `nalgebra` add these crates' points and vectors, and
+/// `ndarray` adds `TryFrom` for arrays with one point per row; none of them copies. For points of
+/// type [`mint`](https://docs.rs/mint) see [`from_mint3`](crate::from_mint3).
 ///
 /// # Examples
 ///
@@ -22,7 +23,7 @@ use crate::{
 /// ```
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
-pub enum Points<'a, const D: usize = 3> {
+pub enum Points<'a, const D: usize> {
     /// Single precision.
     F32(&'a [[f32; D]]),
     /// Double precision.
@@ -41,6 +42,20 @@ pub enum Points<'a, const D: usize = 3> {
 /// # Ok::<(), gdel::Error>(())
 /// ```
 pub type Points2<'a> = Points<'a, 2>;
+
+/// Borrowed input points in 3D.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::Points3;
+///
+/// let coordinates = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+/// let points = Points3::from_interleaved_f64(&coordinates)?;
+/// assert_eq!(gdel::delaunay3d(points)?.tetrahedra.len(), 1);
+/// # Ok::<(), gdel::Error>(())
+/// ```
+pub type Points3<'a> = Points<'a, 3>;
 
 impl<'a, const D: usize> Points<'a, D> {
     /// Borrows points from x, y, z, x, y, z, …, or from x, y, x, y, … in 2D.
@@ -99,7 +114,7 @@ impl<'a, const D: usize> Points<'a, D> {
         }
     }
 
-    /// Iterates over all points in order.
+    /// Returns an iterator over all points in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = [f64; D]> + '_ {
         let points = *self;
         (0..self.len()).map(move |i| points.get(i))
@@ -116,10 +131,13 @@ impl<'a, const D: usize> Points<'a, D> {
 
     /// Checks that every coordinate is a finite number, by `threads`.
     pub(crate) fn validate_by(&self, threads: Threads) -> Result<(), Error> {
-        let is_finite = |p: &[f64; D]| p.iter().all(|x| x.is_finite());
         let bad = parallel::map_ranges(threads, self.len(), |range| {
             let start = range.start;
-            self.range(range).iter().position(|p| !is_finite(&p)).map(|i| start + i)
+            let at = match self.range(range) {
+                Points::F32(p) => p.iter().position(|p| !p.iter().all(|x| x.is_finite())),
+                Points::F64(p) => p.iter().position(|p| !p.iter().all(|x| x.is_finite())),
+            };
+            at.map(|i| start + i)
         });
         let Some(index) = bad.into_iter().flatten().next() else { return Ok(()) };
         let p = self.get(index);
@@ -171,10 +189,10 @@ from_slices!(
 #[cfg(feature = "ndarray")]
 mod arrays {
     use super::{Points, whole_points};
-    use crate::Error;
+    use crate::error::Error;
     use ndarray::{ArrayBase, ArrayView2, Data, Ix2};
 
-    /// The rows of an array that lie in memory one after the other.
+    /// Returns the rows of an array that lie in memory one after the other.
     fn rows<'a, T, const D: usize>(array: ArrayView2<'a, T>) -> Result<&'a [[T; D]], Error> {
         let (rows, columns) = array.dim();
         if columns != D {
@@ -202,7 +220,8 @@ mod arrays {
 
     /// Takes one point per row, without a copy.
     ///
-    /// Fails with [`Error::ArrayShape`] or [`Error::ArrayLayout`] if the rows are not contiguous points.
+    /// Fails with [`Error::ArrayShape`] or [`Error::ArrayLayout`] if the rows are not contiguous
+    /// points.
     impl<'a, T: Coordinate, const D: usize> TryFrom<ArrayView2<'a, T>> for Points<'a, D> {
         type Error = Error;
 
@@ -213,7 +232,8 @@ mod arrays {
 
     /// Takes one point per row, without a copy.
     ///
-    /// Fails with [`Error::ArrayShape`] or [`Error::ArrayLayout`] if the rows are not contiguous points.
+    /// Fails with [`Error::ArrayShape`] or [`Error::ArrayLayout`] if the rows are not contiguous
+    /// points.
     impl<'a, T: Coordinate, S: Data<Elem = T>, const D: usize> TryFrom<&'a ArrayBase<S, Ix2>> for Points<'a, D> {
         type Error = Error;
 
@@ -223,13 +243,14 @@ mod arrays {
     }
 }
 
-/// Copies 3D points of any type that converts into [`mint::Point3`], the type through which mathematics libraries exchange
-/// points.
+/// Copies 3D points of any type that converts into [`mint::Point3`], the type through which
+/// mathematics libraries exchange points.
 ///
 /// # Examples
 ///
 /// ```
-/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]].map(mint::Point3::from);
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
+/// let points = points.map(mint::Point3::from);
 /// let mesh = gdel::delaunay3d(&gdel::from_mint3(points))?;
 /// assert_eq!(mesh.tetrahedra.len(), 1);
 /// # Ok::<(), gdel::Error>(())
@@ -239,8 +260,8 @@ pub fn from_mint3<T>(points: impl IntoIterator<Item = impl Into<mint::Point3<T>>
     points.into_iter().map(|point| point.into().into()).collect()
 }
 
-/// Copies 2D points of any type that converts into [`mint::Point2`], the type through which mathematics libraries exchange
-/// points.
+/// Copies 2D points of any type that converts into [`mint::Point2`], the type through which
+/// mathematics libraries exchange points.
 ///
 /// # Examples
 ///

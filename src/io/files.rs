@@ -1,6 +1,6 @@
 //! Files by path: formats by extension, and outputs that are written atomically.
 
-use crate::Points;
+use crate::input::points::Points;
 use crate::io::{FormatError, Mesh, MeshData, MeshFormat, PointCloud, PointFormat, printable, tetgen};
 use std::{
     fs,
@@ -120,7 +120,7 @@ impl Input {
         let format = match format {
             Some(format) => format,
             None if path == Path::new("-") => return Err(FileError::NoFormat),
-            // "Is a directory" is better to know than that `.` is no known extension.
+            // "Is a directory" says more than that `.` is not a known extension.
             None if path.is_dir() => PointFormat::Text,
             None => {
                 let known = PointFormat::ALL.iter().flat_map(|f| f.extensions()).copied();
@@ -164,7 +164,7 @@ pub fn read_points(path: &Path) -> Result<PointCloud, FileError> {
 }
 
 /// Reads a mesh; the extension says in which format. For any of the three files of TetGen or
-/// Triangle the `.ele` is read, and the `.neigh` and `.node` beside it where there are such.
+/// Triangle the `.ele` is read, and the `.neigh` and `.node` beside it if there are any.
 ///
 /// # Errors
 ///

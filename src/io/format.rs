@@ -1,6 +1,6 @@
 //! The formats by file extension.
 
-use crate::Points;
+use crate::input::points::Points;
 use crate::io::{
     FormatError, Mesh, MeshData, PointCloud, glb, las, npy, npz, obj, off, pcd, ply, raw, stl, surface::Surface,
     tetgen, text, vtu,

@@ -1,6 +1,10 @@
 //! What the formats ask of a mesh, in 3D and in 2D.
 
-use crate::{Mesh2, Mesh3, d2::verify::MeshView2, d3::verify::MeshView, io::PointBuf};
+use crate::{
+    d2::{Mesh2, verify::MeshView2},
+    d3::{Mesh3, verify::MeshView3},
+    io::PointBuf,
+};
 use std::borrow::Cow;
 
 /// What files and messages call the parts of a mesh.
@@ -98,9 +102,9 @@ pub type MeshData3 = MeshData<3, 4>;
 /// A 2D mesh as a file gives it.
 pub type MeshData2 = MeshData<2, 3>;
 
-impl<'a> From<&'a MeshData3> for MeshView<'a> {
+impl<'a> From<&'a MeshData3> for MeshView3<'a> {
     fn from(mesh: &'a MeshData3) -> Self {
-        MeshView { neighbors: mesh.neighbors.as_deref(), ..MeshView::of_tetrahedra(&mesh.simplices) }
+        MeshView3 { neighbors: mesh.neighbors.as_deref(), ..MeshView3::of_tetrahedra(&mesh.simplices) }
     }
 }
 

@@ -4,7 +4,7 @@
 //! parses the header with a recursion that a file can make as deep as it likes. The header is one
 //! line that NumPy writes in one form.
 
-use crate::Points;
+use crate::input::points::Points;
 use crate::io::{FormatError, PointBuf, PointCloud, error::quote};
 use std::io::{self, Write};
 
@@ -126,7 +126,7 @@ impl<'a> Array<'a> {
     /// Returns the rows as indices.
     pub(super) fn indices<const N: usize>(&self) -> Result<Vec<[i64; N]>, FormatError> {
         match (self.kind, self.size) {
-            // A u64 that is no i64 becomes negative, which no index is.
+            // A u64 beyond i64 becomes negative, as no index is.
             (b'i' | b'u', 8) => self.rows(i64::from_le_bytes),
             (b'i', 4) => self.rows(|b| i32::from_le_bytes(b).into()),
             (b'u', 4) => self.rows(|b| u32::from_le_bytes(b).into()),

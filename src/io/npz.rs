@@ -6,7 +6,7 @@ use crate::io::{
     npy::{self, Array},
     surface::MARK,
 };
-use crate::{Points, index::NONE};
+use crate::{index::NONE, input::points::Points};
 use std::{
     io::{self, Cursor, Read, Write},
     ops::RangeInclusive,
@@ -46,7 +46,7 @@ fn read_indices<const N: usize>(
 ) -> Result<Option<Vec<[i64; N]>>, FormatError> {
     let rows: Option<Vec<[i64; N]>> = read_array(archive, name, |array| array.indices())?;
     match rows.iter().flatten().flatten().find(|index| !range.contains(index)) {
-        Some(index) => Err(FormatError::byte(0, format!("array `{name}`: {index} is no index"))),
+        Some(index) => Err(FormatError::byte(0, format!("array `{name}`: {index} is not an index"))),
         None => Ok(rows),
     }
 }

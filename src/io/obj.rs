@@ -3,7 +3,7 @@
 //! Read here because the crates do not do what is needed: `tobj` returns no vertices but those of
 //! faces, and so nothing for a point cloud; `obj` reads single precision only.
 
-use crate::Points;
+use crate::input::points::Points;
 use crate::io::{
     FormatError, PointBuf, PointCloud,
     surface::{MARK, Surface, padded},

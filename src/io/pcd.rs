@@ -112,7 +112,7 @@ impl Header {
                 b"VERSION" | b"VIEWPOINT" => {}
                 comment if comment.starts_with(b"#") => {}
                 other => {
-                    return Err(FormatError::line(line, format!("{} is no keyword of a PCD header", quote(other))));
+                    return Err(FormatError::line(line, format!("{} is not a keyword of a PCD header", quote(other))));
                 }
             }
         }

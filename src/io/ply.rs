@@ -3,7 +3,7 @@
 //! Read here because the errors of `serde-ply` name Rust's types where a user needs the place and
 //! the cause, and because it takes no lines that end in `\r`.
 
-use crate::Points;
+use crate::input::points::Points;
 use crate::io::{
     FormatError, PointCloud,
     error::quote,
@@ -150,7 +150,7 @@ impl Header {
                     let offset = if ends_in_cr { end } else { bytes.len() - next.len() };
                     return Ok(Header { encoding, elements, offset: offset.min(bytes.len()) });
                 }
-                _ => return wrong(format!("{} is no line of a PLY header", quote(content))),
+                _ => return wrong(format!("{} is not a line of a PLY header", quote(content))),
             }
             if next.is_empty() {
                 return wrong("the file ends before its header does, which is at a line `end_header`".into());
@@ -234,7 +234,7 @@ impl<'a> Data<'a> {
         Ok(Some(number))
     }
 
-    /// Goes behind a list; `None` where the file ends in it.
+    /// Skips a list; returns `None` if the file ends in it.
     fn skip_list(&mut self, count: Scalar, item: Scalar) -> Result<Option<()>, FormatError> {
         let Some(length) = self.number(count)? else { return Ok(None) };
         if length < 0.0 || length.fract() != 0.0 {

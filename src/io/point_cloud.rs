@@ -1,7 +1,7 @@
 //! Points as a file gives them.
 
 use crate::io::FormatError;
-use crate::{Error, Points};
+use crate::{error::Error, input::points::Points};
 
 /// Owned points in the precision of their file.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! Bare little-endian coordinates: x, y, z, x, y, z, …
 
-use crate::Points;
+use crate::input::points::Points;
 use crate::io::{FormatError, PointBuf, PointCloud, surface::padded};
 use std::io::{self, Write};
 
@@ -24,7 +24,7 @@ fn triples<const N: usize, T>(bytes: &[u8], decode: fn([u8; N]) -> T) -> Result<
     Ok(points.iter().map(|p| p.map(decode)).collect())
 }
 
-/// Rounds double precision to the nearest single.
+/// Writes single precision, to which double precision is rounded.
 pub(super) fn write_f32<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {
     points.iter().flat_map(padded).try_for_each(|x| to.write_all(&(x as f32).to_le_bytes()))
 }

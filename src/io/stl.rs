@@ -96,7 +96,7 @@ fn read_ascii(bytes: &[u8]) -> Result<PointCloud, FormatError> {
                 return Err(FormatError::line(line, format!("a facet has three vertices, this one has {corners}")));
             }
             b"facet" | b"endloop" | b"endfacet" => {}
-            _ => return Err(FormatError::line(line, format!("{} is no keyword of STL", quote(keyword)))),
+            _ => return Err(FormatError::line(line, format!("{} is not a keyword of STL", quote(keyword)))),
         }
     }
     match open {

@@ -1,6 +1,6 @@
 //! The formats of triangles: for the hull of a 3D mesh, or all of a 2D mesh.
 
-use crate::Points;
+use crate::input::points::Points;
 use crate::io::Mesh;
 use std::borrow::Cow;
 

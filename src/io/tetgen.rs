@@ -6,7 +6,7 @@ use crate::io::{
     surface::MARK,
     text::{fields, lines, number},
 };
-use crate::{Points, index::NONE};
+use crate::{index::NONE, input::points::Points};
 use std::{
     fmt::{self, Display},
     io::{self, Write},
@@ -138,7 +138,7 @@ fn content(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
         .filter(|(_, content)| !content.is_empty())
 }
 
-/// Reads the rows under a line with their count: a number, `N` entries, and whatever else.
+/// Reads the rows under a line with their count: a number, `N` entries, and anything after them.
 fn read_rows<T: Copy + Default, const N: usize>(
     bytes: &[u8],
     what: &str,

@@ -1,6 +1,6 @@
 //! Points as text: XYZ, PTS and CSV, and what all readers of text share.
 
-use crate::Points;
+use crate::input::points::Points;
 use crate::io::{FormatError, PointBuf, PointCloud, error::quote};
 use std::io::{self, Write};
 
@@ -191,7 +191,7 @@ fn leading_numbers(row: &[&[u8]]) -> usize {
     row.iter().take_while(|field| parse(field).is_some()).count()
 }
 
-/// Refuses text in UTF-16, which Windows calls Unicode: its numbers have a zero byte after each
+/// Rejects text in UTF-16, which Windows calls Unicode: its numbers have a zero byte after each
 /// digit.
 fn check_encoding(bytes: &[u8]) -> Result<(), FormatError> {
     if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {

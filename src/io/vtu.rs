@@ -3,7 +3,7 @@
 //! Written and read here, with `quick-xml` for the XML: the newest `vtkio` (0.7) is a
 //! release candidate.
 
-use crate::Points;
+use crate::input::points::Points;
 use crate::io::{
     FormatError, Mesh, MeshData, PointBuf,
     error::quote,
@@ -95,7 +95,7 @@ pub fn read_vtu<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> 
     let file = File::parse(bytes)?;
     let types = file.integers("types")?;
     if let Some(cell) = types.iter().position(|&t| t != i64::from(names.vtk)) {
-        let what = format!("cell {cell} is no {}, but of VTK's type {}", names.simplex, types[cell]);
+        let what = format!("cell {cell} is not a {}, but of VTK's type {}", names.simplex, types[cell]);
         return Err(FormatError::byte(0, what));
     }
     let connectivity = file.integers("connectivity")?;
@@ -106,7 +106,7 @@ pub fn read_vtu<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> 
         return Err(FormatError::byte(0, what));
     }
     if let Some(v) = connectivity.iter().find(|&&v| u32::try_from(v).is_err()) {
-        return Err(FormatError::byte(0, format!("{v} is no index of a point")));
+        return Err(FormatError::byte(0, format!("{v} is not the index of a point")));
     }
     let simplices = cells.iter().map(|cell| cell.map(|v| v as u32)).collect();
     let points = file.points()?.map(|points| {
@@ -199,7 +199,7 @@ impl<'a> File<'a> {
                         });
                     }
                     "AppendedData" => {
-                        // What follows may be raw bytes, which are no XML.
+                        // What follows may be raw bytes, which are not XML.
                         let data = &bytes[position(&xml)..];
                         let start = data.iter().position(|&b| b == b'_').map_or(data.len(), |at| at + 1);
                         file.appended = Some((&data[start..], attribute(&tag, "encoding") == "base64"));

@@ -73,8 +73,8 @@ fn determinant(rows: &[&[BigInt]]) -> BigInt {
     only[0].clone()
 }
 
-/// Returns the sign of det(b − a, c − a), exactly, for all finite coordinates: positive if a, b, c turn counter-clockwise with
-/// *y* up, zero if they lie on a line.
+/// Returns the sign of det(b − a, c − a), exactly, for all finite coordinates: positive if a, b, c
+/// turn counter-clockwise with *y* up, zero if they lie on a line.
 ///
 /// # Examples
 ///
@@ -91,8 +91,9 @@ pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     big_sign(&[&b, &c, &a], false)
 }
 
-/// Returns 1 if d is inside the circle through the counter-clockwise a, b, c, 0 if it is on it, −1 if it is outside; exactly,
-/// for all finite coordinates. The sign changes with the orientation of a, b, c.
+/// Returns 1 if d is inside the circle through the counter-clockwise a, b, c, 0 if it is on it, −1
+/// if it is outside; exactly, for all finite coordinates. The sign changes with the orientation of
+/// a, b, c.
 ///
 /// # Examples
 ///
@@ -110,8 +111,9 @@ pub fn incircle(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Sign {
     big_sign(&[&a, &b, &c, &d], true)
 }
 
-/// Returns the sign of det(b − a, c − a, d − a), exactly, for all finite coordinates: positive if a, b, c turn
-/// counter-clockwise as seen from d, zero if all lie on a plane. (Shewchuk's `orient3d` has the opposite sign.)
+/// Returns the sign of det(b − a, c − a, d − a), exactly, for all finite coordinates: positive if
+/// a, b, c turn counter-clockwise as seen from d, zero if all lie on a plane. (Shewchuk's
+/// `orient3d` has the opposite sign.)
 ///
 /// # Examples
 ///
@@ -129,8 +131,9 @@ pub fn orient3d(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> Sign {
     big_sign(&[&b, &c, &d, &a], false)
 }
 
-/// Returns 1 if e is inside the sphere through the positively oriented a, b, c, d, 0 if it is on it, −1 if it is outside;
-/// exactly, for all finite coordinates. The sign changes with the orientation of a, b, c, d: see [`orient3d`].
+/// Returns 1 if e is inside the sphere through the positively oriented a, b, c, d, 0 if it is on
+/// it, −1 if it is outside; exactly, for all finite coordinates. The sign changes with the
+/// orientation of a, b, c, d: see [`orient3d`].
 ///
 /// # Examples
 ///

@@ -159,7 +159,8 @@ pub fn insphere_wide(a: Point, b: Point, c: Point, d: Point, e: Point) -> Sign {
     let bcd = I192::sum([(cd, b[2]), (bd, -c[2]), (bc, d[2])]);
     let cda = I192::sum([(da, c[2]), (ac, d[2]), (cd, a[2])]);
     let dab = I192::sum([(ab, d[2]), (bd, a[2]), (da, b[2])]);
-    // Straight text: with the lifts inside a loop, the compiler keeps the loops, which takes a fifth more instructions.
+    // Straight text: with the lifts inside a loop, the compiler keeps the loops, which takes a
+    // fifth more instructions.
     let [a, b, c, d] = [(bcd, a), (cda, b), (dab, c), (abc, d)].map(|(m, p)| column_product(m, lift_wide(p)));
     sign_of_columns(std::array::from_fn(|i| a[i] - b[i] + c[i] - d[i]))
 }

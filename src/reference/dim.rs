@@ -2,7 +2,8 @@
 
 use std::{fmt::Debug, ops::Range};
 
-use crate::gpu::dim::{Dim, Dimension};
+use crate::dimension::Dimension;
+use crate::gpu::dim::Dim;
 use crate::gpu::layout::Counters;
 use crate::input::lattice::Width;
 use crate::predicates::Sign;
@@ -52,7 +53,7 @@ pub trait ReferenceDim<const D: usize>: Dim<D> {
 }
 
 /// The buffers that only one dimension has, in host memory.
-pub trait OwnState: Debug + Clone {
+pub trait OwnState: Debug + Clone + PartialEq {
     /// Creates them for `points` points and `blocks` blocks of slots.
     fn new(points: usize, blocks: u32) -> Self;
 
@@ -61,6 +62,15 @@ pub trait OwnState: Debug + Clone {
 
     /// Notes that the first `slots` slots of a vertex are used.
     fn occupy(&mut self, vertex: u32, slots: u32);
+}
+
+/// No buffers.
+impl OwnState for () {
+    fn new(_points: usize, _blocks: u32) {}
+
+    fn grow(&mut self, _blocks: u32) {}
+
+    fn occupy(&mut self, _vertex: u32, _slots: u32) {}
 }
 
 /// The parts of the references that are mathematics of one dimension.

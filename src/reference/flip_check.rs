@@ -1,6 +1,6 @@
 //! Which flip each active simplex proposes (§3.1, §4.2).
 
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 
 use crate::reference::State;
 use crate::reference::dim::Kernels;
@@ -18,11 +18,12 @@ where
     let entries = state.counters.active_len[half] as usize;
     state.counters.visits += entries as u32;
     state.counters.iterations += 1;
+    let bids = state.bids();
     for i in 0..entries {
         let t = state.active[half][i].tet;
         let (outcome, changes) = Dimension::<D>::proposal(state, t);
         state.active[half][i].outcome = outcome;
-        let bid = state.bid(i);
+        let bid = bids.bid(i);
         for changed in changes {
             let vote = &mut state.status[changed as usize].vote;
             *vote = bid.max(*vote);

@@ -1,6 +1,7 @@
 //! Carrying out the flips that won all of their simplices.
 
-use crate::gpu::dim::{Dimension, Flip};
+use crate::dimension::Dimension;
+use crate::gpu::dim::Flip;
 use crate::gpu::layout::{HELD_SHIFT, HISTORY_FULL, NONE, Status};
 
 use crate::reference::State;
@@ -18,6 +19,7 @@ where
 {
     let iteration = state.counters.iteration;
     state.counters.link_iteration = iteration;
+    state.counters.link_bid_base = state.counters.bid_base;
     if state.is_idle(iteration) {
         return;
     }
@@ -33,7 +35,7 @@ where
 {
     /// Returns whether entry `i` of the active list won these simplices.
     pub(super) fn has_won(&self, i: usize, simplices: &[u32]) -> bool {
-        let bid = self.bid(i);
+        let bid = self.bids().bid(i);
         simplices.iter().all(|&t| self.status[t as usize].vote == bid)
     }
 
@@ -80,7 +82,7 @@ where
     pub(super) fn mark_changed(&mut self, t: u32, check: u32, node: u32, place: usize) {
         let held = if node == NONE { 0 } else { self.counters.round << HELD_SHIFT };
         let last = if node == NONE { 0 } else { node << 2 | place as u32 };
-        let vote = self.changed_mark(self.counters.iteration);
+        let vote = self.bids().changed_mark();
         let first = self.status[t as usize].first;
         self.status[t as usize] = Status { flags: held | check, vote, last, first };
     }

@@ -1,6 +1,6 @@
 //! Neighbours after simultaneous flips, and the next active list.
 
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 use crate::gpu::layout::{Active, CHECK, DONE};
 
 use crate::reference::State;
@@ -9,8 +9,8 @@ use crate::reference::dim::ReferenceDim;
 /// Joins the new simplices to those around them, and lists the simplices to check next, unless
 /// compaction finds them. One invocation per entry of the active list.
 ///
-/// An outer neighbour that did not change is told; one that did left a message, which is followed.
-/// So each facet is written once.
+/// An outer neighbour that did not change is updated; one that did left a message, which is
+/// followed. So each facet is written once.
 pub fn flip_link<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: ReferenceDim<D>,
@@ -20,7 +20,8 @@ where
         return;
     }
     let half = (iteration & 1) as usize;
-    let mark = state.changed_mark(iteration);
+    let bids = state.link_bids();
+    let mark = bids.changed_mark();
     for i in 0..state.counters.active_len[half] as usize {
         let Active { tet: t, outcome } = state.active[half][i];
         if outcome & DONE == 0 {
@@ -45,6 +46,7 @@ where
         }
     }
     state.counters.iteration = iteration + 1;
+    state.counters.bid_base = bids.next_base();
     if state.compacts(iteration) {
         state.counters.active_len[1 - half] = 0;
     }

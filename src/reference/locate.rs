@@ -1,6 +1,7 @@
 //! The first simplices, and which of them each point lies in.
 
-use crate::gpu::dim::{Corners, Dimension};
+use crate::dimension::Dimension;
+use crate::gpu::dim::Corners;
 use crate::gpu::layout::{NONE, Waiting};
 
 use crate::reference::State;
@@ -52,6 +53,7 @@ where
 {
     let first = state.first;
     let infinite = state.params.infinite;
+    state.counters.merged = state.merged.iter().filter(|&&merged| merged).count() as u32;
     let base = Dimension::<D>::SLOTS_PER_POINT * infinite;
     for point in 0..infinite {
         let tet = if first.as_ref().contains(&point) || state.merged[point as usize] {

@@ -9,6 +9,7 @@
 //! What is the same in both dimensions is generic over the number `D` of coordinates. [`dim`] has
 //! the traits that supply the rest, and [`d2`] and [`d3`] implement them.
 
+mod begin_round;
 pub mod d2;
 pub mod d3;
 pub mod dim;
@@ -22,8 +23,10 @@ mod relocate;
 pub mod run;
 mod split;
 mod state;
+mod ties;
 mod validate;
 
+pub use begin_round::begin_round;
 pub use flip_check::flip_check;
 pub use flip_commit::flip_commit;
 pub use flip_link::flip_link;

@@ -1,6 +1,6 @@
 //! Which point each simplex inserts (§3.1).
 
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 use crate::gpu::layout::{NONE, Pick, Waiting};
 
 use crate::reference::State;
@@ -8,14 +8,10 @@ use crate::reference::dim::{Kernels, ReferenceDim};
 
 /// Scores each waiting point and finds the best score of each simplex. One invocation per waiting
 /// point.
-///
-/// It also begins the insertion round.
 pub fn pick_score<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: Kernels<D>,
 {
-    state.counters.round += 1;
-    state.counters.first_node = state.counters.next_node;
     for i in 0..state.waiting.len() {
         let Waiting { point: p, tet: t } = state.waiting[i];
         if t == NONE {

@@ -1,6 +1,6 @@
 //! Waiting points follow the history of the round's flips (§4.1).
 
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 use crate::gpu::layout::{NONE, Waiting};
 
 use crate::reference::State;

@@ -1,14 +1,14 @@
 //! Phase 1 on the references.
 
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 use crate::gpu::layout::{NONE, Pick, SLOTS_FULL};
 use crate::gpu::start::first_simplex;
 use crate::input::lattice::Width;
 
 use crate::reference::dim::{Kernels, ReferenceDim};
 use crate::reference::{
-    State, Vertex, flip_check, flip_commit, flip_link, locate, pick_point, pick_score, relocate, relocate_split, split,
-    start,
+    State, Vertex, begin_round, flip_check, flip_commit, flip_link, locate, pick_point, pick_score, relocate,
+    relocate_split, split, start,
 };
 
 /// How to run.
@@ -51,7 +51,6 @@ where
     sites.push(Vertex { position: begin.interior_point, index: sites.iter().map(|s| s.index).max()? + 1 });
     let mut state = State::new(width, sites, settings.tail, settings.history);
     state.params.pick = settings.pick as u32;
-    state.params.min_active = settings.min_active;
     let check = |state: &State<D>| {
         if settings.validate {
             state.validate();
@@ -60,9 +59,11 @@ where
     start(&mut state, begin.first);
     locate(&mut state);
     check(&state);
-    state.waiting.retain(|w| w.tet != NONE);
-    while !state.waiting.is_empty() {
+    while state.waiting.iter().any(|entry| entry.tet != NONE) {
         state.messages.fill([0; 4]);
+        begin_round(&mut state);
+        // However few points are inserted.
+        state.counters.min_active = settings.min_active;
         pick_score(&mut state);
         pick_point(&mut state);
         split(&mut state);
@@ -73,12 +74,10 @@ where
             relocate(&mut state);
             check(&state);
         }
-        state.waiting.retain(|w| w.tet != NONE);
         grow(&mut state);
     }
-    state.params.min_active = 0;
     // A round in which nothing waits: its flips need no history.
-    pick_score(&mut state);
+    begin_round(&mut state);
     while !state.is_idle(state.counters.iteration) {
         flip(&mut state);
         grow(&mut state);
@@ -97,20 +96,19 @@ where
         flip_check(state);
         flip_commit(state);
         flip_link(state);
-        if (state.counters.iteration + 2) >= 1 << (32 - state.params.bid_bits) {
+        if state.counters.bid_base > u32::MAX / 2 {
             clear_votes(state);
         }
     }
 }
 
-/// Forgets all votes, so that flip iterations can be counted from the start again; which half of
-/// the active list is read stays the same.
+/// Forgets all votes, so that bids start from the lowest number again.
 pub fn clear_votes<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: ReferenceDim<D>,
 {
     state.status.iter_mut().for_each(|s| s.vote = 0);
-    state.counters.iteration &= 1;
+    state.counters.bid_base = 1;
 }
 
 /// Adds slots where they ran out.
@@ -122,6 +120,4 @@ where
         return;
     }
     state.grow(state.params.blocks + state.params.blocks / 2);
-    // Bids have another form now.
-    clear_votes(state);
 }

@@ -1,6 +1,6 @@
 //! Inserting the picked points (§3.1), and relocating those in the split simplices.
 
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 use crate::gpu::layout::{CHECK, HELD_SHIFT, NONE, Status, Waiting};
 
 use crate::reference::State;

@@ -2,7 +2,8 @@
 
 use bytemuck::Zeroable;
 
-use crate::gpu::dim::{Corners, Dim, Dimension, Flip};
+use crate::dimension::Dimension;
+use crate::gpu::dim::{Corners, Dim, Flip};
 use crate::gpu::layout::{Active, BLOCK, Counters, HELD_SHIFT, NONE, Params, Status, Waiting};
 use crate::input::lattice::Width;
 use crate::predicates::Sign;
@@ -27,7 +28,7 @@ where
 {
     /// The width of the lattice.
     pub width: Width,
-    /// What the kernels are told.
+    /// The parameters of the kernels.
     pub params: Params,
     /// The vertices, and the interior point.
     pub points: Vec<Vertex<D>>,
@@ -71,15 +72,7 @@ where
         let slots = (blocks * BLOCK) as usize;
         State {
             width,
-            params: Params {
-                infinite,
-                blocks,
-                history,
-                entries: infinite,
-                bid_bits: 33 - (slots as u32).leading_zeros(),
-                compact_from: u32::MAX,
-                ..Params::default()
-            },
+            params: Params { infinite, blocks, history, compact_from: u32::MAX, ..Params::default() },
             first: Zeroable::zeroed(),
             merged: vec![false; infinite as usize],
             simplices: vec![[0; 4]; slots],
@@ -90,7 +83,7 @@ where
             history: vec![Flip::<D>::default(); history as usize],
             waiting: vec![Waiting { point: NONE, tet: NONE }; infinite as usize],
             scores: vec![0; infinite as usize],
-            counters: Counters { first_node: 1, next_node: 1, ..Counters::default() },
+            counters: Counters { first_node: 1, next_node: 1, bid_base: 1, entries: infinite, ..Counters::default() },
             own: OwnState::new(infinite as usize, blocks),
             points,
         }
@@ -100,7 +93,6 @@ where
     pub fn grow(&mut self, blocks: u32) {
         let slots = (blocks * BLOCK) as usize;
         self.params.blocks = blocks;
-        self.params.bid_bits = 33 - (slots as u32).leading_zeros();
         self.simplices.resize(slots, [0; 4]);
         self.neighbors.resize(slots, [NONE; 4]);
         self.status.resize(slots, Status::default());
@@ -164,7 +156,7 @@ where
 
     /// Returns whether a flip iteration does nothing, for want of active simplices.
     pub fn is_idle(&self, iteration: u32) -> bool {
-        self.counters.active_len[(iteration & 1) as usize] < self.params.min_active.max(1)
+        self.counters.active_len[(iteration & 1) as usize] < self.counters.min_active.max(1)
     }
 
     /// Lists a simplex in this half of the active list.
@@ -174,18 +166,47 @@ where
         *at += 1;
     }
 
-    /// Returns the number that entry `i` of the active list bids in this flip iteration.
-    pub fn bid(&self, i: usize) -> u32 {
-        let bits = self.params.bid_bits;
-        let it = self.counters.iteration;
-        (it + 1) << bits | scramble(i as u32, it, bits - 1)
+    /// Returns the bids of this flip iteration, as checking and committing see it.
+    pub fn bids(&self) -> Bids {
+        self.bids_of(self.counters.iteration, self.counters.bid_base)
     }
 
-    /// Returns the vote that marks a simplex as changed in flip iteration `iteration`: above every
-    /// bid of it.
-    pub fn changed_mark(&self, iteration: u32) -> u32 {
-        let bits = self.params.bid_bits;
-        (iteration + 1) << bits | ((1 << bits) - 1)
+    /// Returns the bids of this flip iteration, as linking sees it.
+    pub fn link_bids(&self) -> Bids {
+        self.bids_of(self.counters.link_iteration, self.counters.link_bid_base)
+    }
+
+    fn bids_of(&self, iteration: u32, base: u32) -> Bids {
+        let entries = self.counters.active_len[(iteration & 1) as usize];
+        Bids { iteration, base, bits: (32 - entries.leading_zeros()).max(2) }
+    }
+}
+
+/// The bids of a flip iteration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Bids {
+    /// The iteration, which decides on the order of the bids.
+    pub iteration: u32,
+    /// The lowest bid: above all votes of earlier iterations.
+    pub base: u32,
+    /// The bits of a bidder's number.
+    pub bits: u32,
+}
+
+impl Bids {
+    /// Returns the number that entry `i` of the active list bids.
+    pub fn bid(&self, i: usize) -> u32 {
+        self.base + scramble(i as u32, self.iteration, self.bits)
+    }
+
+    /// Returns the vote that marks a simplex as changed: above every bid.
+    pub fn changed_mark(&self) -> u32 {
+        self.base + (1 << self.bits)
+    }
+
+    /// Returns the lowest bid of the next iteration.
+    pub fn next_base(&self) -> u32 {
+        self.changed_mark() + 1
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 use crate::gpu::layout::{CHECK, NONE, Waiting};
 
 use crate::reference::State;

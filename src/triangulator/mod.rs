@@ -4,25 +4,37 @@
 mod shared_device;
 
 #[cfg(feature = "gpu")]
-pub use shared_device::{MIN_POINTS, MIN_POINTS_2, OPENING_POINTS, OPENING_POINTS_2};
+pub use shared_device::{MIN_POINTS_2D, MIN_POINTS_3D, OPENING_POINTS_2D, OPENING_POINTS_3D};
 
-#[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
-use crate::stats::{Fallback, Stats};
 #[cfg(feature = "gpu")]
-use crate::{AdapterChoice, gpu::Gpu};
+use crate::gpu::{AdapterChoice, Gpu};
 use crate::{
-    Backend, Error, Mesh2, Mesh3, Points, Points2, Progress,
-    options::{Options, Winding},
+    backend::Backend,
+    d2::Mesh2,
+    d3::Mesh3,
+    error::Error,
+    input::points::{Points2, Points3},
+    options::{Options, Progress, Winding},
+};
+#[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
+use crate::{
+    cpu::{self, Incremental, MeshOf},
+    dimension::Dimension,
+    input::points::Points,
+    mesh::MeshInfo,
+    stats::Fallback,
 };
 #[cfg(feature = "gpu")]
 use shared_device::SharedDevice;
 use std::{ops::ControlFlow, sync::Arc};
 
-/// Triangulates with options: which backend computes, what learns of the progress, which device is used.
+/// Triangulates with options: which backend computes, what learns of the progress, which device is
+/// used.
 ///
-/// A triangulator opens the GPU when it is first needed, and keeps it, with the kernels compiled for it, until the last clone
-/// of the triangulator is dropped. So create one and use it for many inputs. Clones are cheap and share the device, which does
-/// one run at a time; options set on a clone do not change the original.
+/// A triangulator opens the GPU when it is first needed, and keeps it, with the kernels compiled
+/// for it, until the last clone of the triangulator is dropped. So create one and use it for many
+/// inputs. Clones are cheap and share the device, which does one run at a time; options set on a
+/// clone do not change the original.
 ///
 /// # Examples
 ///
@@ -36,8 +48,8 @@ use std::{ops::ControlFlow, sync::Arc};
 /// # Ok::<(), gdel::Error>(())
 /// ```
 ///
-/// Methods that end in `_async` wait for the GPU without blocking the thread: for browsers, where nothing may block, and for
-/// executors. What the CPU has to do they do in the calling thread.
+/// Methods that end in `_async` wait for the GPU without blocking the thread: for browsers, where
+/// nothing may block, and for executors. What the CPU has to do they do in the calling thread.
 #[derive(Debug, Clone, Default)]
 pub struct Triangulator {
     options: Options,
@@ -51,8 +63,8 @@ impl Triangulator {
         Triangulator::default()
     }
 
-    /// Returns the triangulator of the functions [`delaunay3d`](crate::delaunay3d) and [`delaunay2d`](crate::delaunay2d), whose
-    /// device serves the whole process.
+    /// Returns the triangulator of the functions [`delaunay3d`](crate::delaunay3d) and
+    /// [`delaunay2d`](crate::delaunay2d), whose device serves the whole process.
     pub(crate) fn of_process() -> Self {
         #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
         {
@@ -65,16 +77,16 @@ impl Triangulator {
 
     /// Creates a triangulator that uses an existing device, for example that of a renderer.
     ///
-    /// The limits of the device are taken as they are: WebGPU's defaults suffice, larger buffers allow larger inputs.
-    /// [`Backend::Auto`] uses the device even if it is software. Its handlers for errors and loss remain the caller's, so that
-    /// losing it is reported as [`Error::Gpu`].
+    /// The limits of the device are taken as they are: WebGPU's defaults suffice, larger buffers
+    /// allow larger inputs. [`Backend::Auto`] uses the device even if it is software. Its handlers
+    /// for errors and loss remain the caller's, so that losing it is reported as [`Error::Gpu`].
     ///
     /// # Examples
     ///
     /// ```
-    /// # fn triangulate(device: gdel::wgpu::Device, queue: gdel::wgpu::Queue) -> Result<(), gdel::Error> {
-    /// use gdel::{Backend, Triangulator};
+    /// use gdel::{Backend, Error, Triangulator, wgpu};
     ///
+    /// # fn triangulate(device: wgpu::Device, queue: wgpu::Queue) -> Result<(), Error> {
     /// let triangulator = Triangulator::from_device(device, queue).backend(Backend::Gpu);
     /// let mesh = triangulator.delaunay2d(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f32]])?;
     /// assert_eq!(mesh.triangles.len(), 1);
@@ -89,7 +101,7 @@ impl Triangulator {
     #[doc(hidden)]
     #[cfg(feature = "gpu")]
     pub fn from_gpu(gpu: Gpu) -> Self {
-        Triangulator { device: Arc::new(SharedDevice::from_gpu(gpu)), ..Triangulator::default() }
+        Triangulator { device: shared(SharedDevice::from_gpu(gpu)), ..Triangulator::default() }
     }
 
     /// Sets which backend computes. The default is [`Backend::Auto`].
@@ -99,7 +111,8 @@ impl Triangulator {
         self
     }
 
-    /// Sets which adapter to open. The triangulator no longer shares its device with those that it was cloned from.
+    /// Sets which adapter to open. The triangulator no longer shares its device with those that it
+    /// was cloned from.
     ///
     /// # Examples
     ///
@@ -112,7 +125,7 @@ impl Triangulator {
     #[cfg(feature = "gpu")]
     #[must_use]
     pub fn adapter(mut self, adapter: AdapterChoice) -> Self {
-        self.device = Arc::new(SharedDevice::new(adapter));
+        self.device = shared(SharedDevice::new(adapter));
         self
     }
 
@@ -141,8 +154,8 @@ impl Triangulator {
 
     /// Sets whether a 3D run on the GPU keeps [`Stats::trace`](crate::stats::Stats::trace).
     ///
-    /// All tetrahedra are then read back after every round and their facets tested once more, so a run takes several times as
-    /// long. Meant for small inputs.
+    /// All tetrahedra are then read back after every round and their facets tested once more, so a
+    /// run takes several times as long. Meant for small inputs.
     #[must_use]
     pub fn trace(mut self, trace: bool) -> Self {
         self.options.trace = trace;
@@ -156,28 +169,31 @@ impl Triangulator {
         self
     }
 
-    /// Returns the 3D Delaunay triangulation of `points`. Blocks the thread; in browsers it therefore uses the CPU only.
+    /// Returns the 3D Delaunay triangulation of `points`. Blocks the thread; in browsers it
+    /// therefore uses the CPU only.
     ///
     /// # Errors
     ///
-    /// The errors of [`delaunay3d`](crate::delaunay3d). If the backend is [`Backend::Gpu`], also those of the GPU:
-    /// [`Error::GpuUnavailable`], [`Error::NoAdapter`], [`Error::AdapterNotFound`], [`Error::DeviceLost`],
-    /// [`Error::OutOfDeviceMemory`], [`Error::BufferTooLarge`] and [`Error::Gpu`].
-    pub fn delaunay3d<'a>(&self, points: impl Into<Points<'a>>) -> Result<Mesh3, Error> {
+    /// Returns the errors of [`delaunay3d`](crate::delaunay3d). If the backend is [`Backend::Gpu`],
+    /// also those of the GPU: [`Error::GpuUnavailable`], [`Error::NoAdapter`],
+    /// [`Error::AdapterNotFound`], [`Error::DeviceLost`], [`Error::OutOfDeviceMemory`],
+    /// [`Error::BufferTooLarge`] and [`Error::Gpu`].
+    pub fn delaunay3d<'a>(&self, points: impl Into<Points3<'a>>) -> Result<Mesh3, Error> {
         let points = points.into();
         #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
         {
             pollster::block_on(self.device.delaunay3d(points, &self.options))
         }
         #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
-        without_gpu(&self.options, |options| crate::d3::cpu::delaunay3d(points, options), |mesh| &mut mesh.stats)
+        without_gpu(points, &self.options)
     }
 
-    /// Returns the 2D Delaunay triangulation of `points`. Blocks the thread; in browsers it therefore uses the CPU only.
+    /// Returns the 2D Delaunay triangulation of `points`. Blocks the thread; in browsers it
+    /// therefore uses the CPU only.
     ///
     /// # Errors
     ///
-    /// The same as for [`Triangulator::delaunay3d`].
+    /// Returns the errors of [`Triangulator::delaunay3d`].
     pub fn delaunay2d<'a>(&self, points: impl Into<Points2<'a>>) -> Result<Mesh2, Error> {
         let points = points.into();
         #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
@@ -185,10 +201,11 @@ impl Triangulator {
             pollster::block_on(self.device.delaunay2d(points, &self.options))
         }
         #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
-        without_gpu(&self.options, |options| crate::d2::cpu::delaunay2d(points, options), |mesh| &mut mesh.stats)
+        without_gpu(points, &self.options)
     }
 
-    /// Returns the 3D Delaunay triangulation of `points`, and waits for the GPU without blocking the thread.
+    /// Returns the 3D Delaunay triangulation of `points`, and waits for the GPU without blocking
+    /// the thread.
     ///
     /// # Examples
     ///
@@ -202,8 +219,8 @@ impl Triangulator {
     ///
     /// # Errors
     ///
-    /// The same as for [`Triangulator::delaunay3d`].
-    pub async fn delaunay3d_async<'a>(&self, points: impl Into<Points<'a>>) -> Result<Mesh3, Error> {
+    /// Returns the errors of [`Triangulator::delaunay3d`].
+    pub async fn delaunay3d_async<'a>(&self, points: impl Into<Points3<'a>>) -> Result<Mesh3, Error> {
         #[cfg(feature = "gpu")]
         {
             self.device.delaunay3d(points.into(), &self.options).await
@@ -212,11 +229,12 @@ impl Triangulator {
         self.delaunay3d(points)
     }
 
-    /// Returns the 2D Delaunay triangulation of `points`, and waits for the GPU without blocking the thread.
+    /// Returns the 2D Delaunay triangulation of `points`, and waits for the GPU without blocking
+    /// the thread.
     ///
     /// # Errors
     ///
-    /// The same as for [`Triangulator::delaunay3d`].
+    /// Returns the errors of [`Triangulator::delaunay3d`].
     pub async fn delaunay2d_async<'a>(&self, points: impl Into<Points2<'a>>) -> Result<Mesh2, Error> {
         #[cfg(feature = "gpu")]
         {
@@ -241,24 +259,34 @@ impl Triangulator {
     }
 }
 
-/// Triangulates where no GPU can be used: because it is not compiled in, or because a browser's cannot be waited for.
+/// Shares a device among clones.
+#[cfg(feature = "gpu")]
+#[cfg_attr(
+    target_arch = "wasm32",
+    expect(clippy::arc_with_non_send_sync, reason = "only in browsers do wgpu's types belong to one thread")
+)]
+fn shared(device: SharedDevice) -> Arc<SharedDevice> {
+    Arc::new(device)
+}
+
+/// Triangulates where no GPU can be used: because it is not compiled in, or because a browser's
+/// cannot be waited for.
 #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
-fn without_gpu<M>(
-    options: &Options,
-    triangulate: impl FnOnce(&Options) -> Result<M, Error>,
-    stats: impl FnOnce(&mut M) -> &mut Stats,
-) -> Result<M, Error> {
+fn without_gpu<const D: usize>(points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>
+where
+    Dimension<D>: Incremental<D>,
+{
     #[cfg(feature = "gpu")]
     let reason = "a browser's GPU cannot be waited for; use the methods that end in `_async`";
     #[cfg(not(feature = "gpu"))]
     let reason = "gdel was built without the feature `gpu`";
     let unavailable = Error::GpuUnavailable { reason };
     match options.backend {
-        Backend::Cpu => triangulate(options),
+        Backend::Cpu => cpu::delaunay(points, options),
         Backend::Gpu => Err(unavailable),
         Backend::Auto => {
-            let mut mesh = triangulate(options)?;
-            stats(&mut mesh).fallback = Some(Fallback::NoGpu(unavailable));
+            let mut mesh = cpu::delaunay(points, options)?;
+            mesh.stats_mut().fallback = Some(Fallback::NoGpu(unavailable));
             Ok(mesh)
         }
     }
@@ -274,6 +302,6 @@ fn without_gpu<M>(
 /// }
 /// ```
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-pub fn adapters() -> Vec<crate::AdapterSummary> {
+pub fn adapters() -> Vec<crate::gpu::AdapterSummary> {
     pollster::block_on(crate::gpu::adapters())
 }

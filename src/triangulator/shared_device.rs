@@ -1,41 +1,51 @@
-//! One device behind both dimensions: it is opened when it is first needed, and kept for later inputs with what was compiled
-//! for it.
+//! One device behind both dimensions: it is opened when it is first needed, and kept for later
+//! inputs with what was compiled for it.
 
 use crate::{
-    Backend, Error, Mesh2, Mesh3, Options, Points,
+    backend::Backend,
+    cpu::{self, MeshOf},
+    d2::Mesh2,
+    d3::Mesh3,
+    dimension::Dimension,
+    error::Error,
     gpu::{
         AdapterChoice, Gpu,
-        dim::Dimension,
-        engine::{Complete, GpuEngine, MeshOf},
+        engine::{Complete, GpuEngine},
         phase1::Finish,
     },
-    input::points::Points2,
+    input::points::{Points, Points2, Points3},
+    mesh::MeshInfo,
+    options::Options,
     stats::Fallback,
 };
 use async_lock::Mutex;
 
 /// The number of points in 3D from which on [`Backend::Auto`] takes the GPU engine if it is open.
 ///
-/// A bound, from `cargo bench --features cli --bench experiments -- crossing` on one NVIDIA H200 and one core of the Xeon beside
-/// it, 2026-11-21: the GPU engine takes 27 ms for 100,000 uniform points, and never more for fewer; the CPU engine takes at
-/// least 2.0 µs per point, so it is no faster from 14,000 points on. The rest is for devices that take longer to start.
-pub const MIN_POINTS: usize = 24_000;
+/// A bound, from `cargo bench --features cli --bench experiments -- crossing` on one NVIDIA H200
+/// and one core of the Xeon beside it, 2026-11-21: the GPU engine takes 27 ms for 100,000 uniform
+/// points, and never more for fewer; the CPU engine takes at least 2.0 µs per point, so it is no
+/// faster from 14,000 points on. The rest is for devices that take longer to start.
+pub const MIN_POINTS_3D: usize = 24_000;
 
-/// The number of points in 3D that the CPU engine triangulates in the time that it takes to open the GPU and compile its
-/// kernels: 188 and 74 ms on the same machine, against 245 ms for 100,000 points. [`Backend::Auto`] opens it when it has
-/// seen so many in all that the GPU would have taken, so opening never costs more than was lost by not having done so.
-pub const OPENING_POINTS: usize = 100_000;
+/// The number of points in 3D that the CPU engine triangulates in the time that it takes to open
+/// the GPU and compile its kernels: 188 and 74 ms on the same machine, against 245 ms for 100,000
+/// points. [`Backend::Auto`] opens it when it has seen so many in all that the GPU would have
+/// taken, so opening never costs more than was lost by not having done so.
+pub const OPENING_POINTS_3D: usize = 100_000;
 
-/// The number of points in 2D from which on [`Backend::Auto`] takes the GPU engine if it is open: on the same machine (`cargo
-/// bench --bench measure_2d`, 2026-11-22), the GPU engine takes 8 ms for 50,000 points, and the CPU engine 0.43 µs per
-/// point, so it is no faster from 19,000 points on.
-pub const MIN_POINTS_2: usize = 30_000;
+/// The number of points in 2D from which on [`Backend::Auto`] takes the GPU engine if it is open:
+/// on the same machine (`cargo bench --bench measure_2d`, 2026-11-22), the GPU engine takes 8 ms
+/// for 50,000 points, and the CPU engine 0.43 µs per point, so it is no faster from 19,000 points
+/// on.
+pub const MIN_POINTS_2D: usize = 30_000;
 
-/// The number of points in 2D that the CPU engine triangulates while the GPU is opened and its kernels compiled: 188 and
-/// 52 ms, at 0.43 µs per point.
-pub const OPENING_POINTS_2: usize = 560_000;
+/// The number of points in 2D that the CPU engine triangulates while the GPU is opened and its
+/// kernels compiled: 188 and 52 ms, at 0.43 µs per point.
+pub const OPENING_POINTS_2D: usize = 560_000;
 
-/// What clones of a [`Triangulator`](crate::Triangulator) share. The device does one run at a time; others wait for it.
+/// What clones of a [`Triangulator`](crate::Triangulator) share. The device does one run at a time;
+/// others wait for it.
 #[derive(Debug, Default)]
 pub(super) struct SharedDevice {
     adapter: AdapterChoice,
@@ -47,7 +57,8 @@ struct State {
     d3: Slot<3>,
     /// On the same device.
     d2: Slot<2>,
-    /// The caller's device, which [`Backend::Auto`] may take though it is software, and which is not destroyed here.
+    /// The caller's device, which [`Backend::Auto`] may take though it is software, and which is
+    /// not destroyed here.
     caller_supplied: Option<Gpu>,
     /// Why [`Backend::Auto`] does not try to open a device again.
     unusable: Option<Fallback>,
@@ -85,8 +96,8 @@ where
 }
 
 impl Choice<3> for Dimension<3> {
-    const MIN_POINTS: usize = MIN_POINTS;
-    const OPENING_POINTS: usize = OPENING_POINTS;
+    const MIN_POINTS: usize = MIN_POINTS_3D;
+    const OPENING_POINTS: usize = OPENING_POINTS_3D;
 
     fn slot(state: &mut State) -> &mut Slot<3> {
         &mut state.d3
@@ -94,8 +105,8 @@ impl Choice<3> for Dimension<3> {
 }
 
 impl Choice<2> for Dimension<2> {
-    const MIN_POINTS: usize = MIN_POINTS_2;
-    const OPENING_POINTS: usize = OPENING_POINTS_2;
+    const MIN_POINTS: usize = MIN_POINTS_2D;
+    const OPENING_POINTS: usize = OPENING_POINTS_2D;
 
     fn slot(state: &mut State) -> &mut Slot<2> {
         &mut state.d2
@@ -108,7 +119,8 @@ impl SharedDevice {
         SharedDevice { adapter, ..SharedDevice::default() }
     }
 
-    /// Creates the state for the caller's device. When that is lost, the default adapter replaces it.
+    /// Creates the state for the caller's device. When that is lost, the default adapter replaces
+    /// it.
     pub(super) fn from_gpu(gpu: Gpu) -> Self {
         let state = State { caller_supplied: Some(gpu), ..State::default() };
         SharedDevice { state: Mutex::new(state), ..SharedDevice::default() }
@@ -120,7 +132,8 @@ impl SharedDevice {
         Ok(state.open::<3>(&self.adapter).await?.gpu().clone())
     }
 
-    /// Gives the device back now rather than with the last reference to it. The next run reopens it.
+    /// Gives the device back now rather than with the last reference to it. The next run reopens
+    /// it.
     pub(super) async fn close(&self) {
         let mut state = self.state.lock().await;
         if let (None, Some(gpu)) = (&state.caller_supplied, state.open_device()) {
@@ -130,7 +143,7 @@ impl SharedDevice {
     }
 
     /// Triangulates `points` in 3D.
-    pub(super) async fn delaunay3d(&self, points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
+    pub(super) async fn delaunay3d(&self, points: Points3<'_>, options: &Options) -> Result<Mesh3, Error> {
         self.run::<3>(points, options).await
     }
 
@@ -144,7 +157,7 @@ impl SharedDevice {
         Dimension<D>: Choice<D>,
     {
         match options.backend {
-            Backend::Cpu => Dimension::<D>::on_cpu(points, options),
+            Backend::Cpu => cpu::delaunay(points, options),
             Backend::Gpu => {
                 let mut state = self.state.lock().await;
                 state.open::<D>(&self.adapter).await?;
@@ -156,8 +169,8 @@ impl SharedDevice {
                     Ok(result) => return result,
                     Err(why) => why,
                 };
-                let mut mesh = Dimension::<D>::on_cpu(points, options)?;
-                Dimension::<D>::stats(&mut mesh).fallback = Some(why);
+                let mut mesh = cpu::delaunay(points, options)?;
+                mesh.stats_mut().fallback = Some(why);
                 Ok(mesh)
             }
         }
@@ -218,7 +231,8 @@ impl State {
         self.d2.engine = None;
     }
 
-    /// Opens the GPU engine for an input of `points` points if it is not open, or says why not to take it.
+    /// Opens the GPU engine for an input of `points` points if it is not open, or says why not to
+    /// take it.
     async fn open_if_it_pays<const D: usize>(&mut self, adapter: &AdapterChoice, points: usize) -> Result<(), Fallback>
     where
         Dimension<D>: Choice<D>,
@@ -253,7 +267,8 @@ impl State {
         }
     }
 
-    /// Runs the GPU engine, which is open. If its device gets lost, the next run has to open another.
+    /// Runs the GPU engine, which is open. If its device gets lost, the next run has to open
+    /// another.
     async fn run<const D: usize>(&mut self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>
     where
         Dimension<D>: Choice<D>,
@@ -269,8 +284,8 @@ impl State {
         result
     }
 
-    /// Says why [`Backend::Auto`] cannot use this device: an adapter that is software is no use to it, unless the caller
-    /// supplied it.
+    /// Says why [`Backend::Auto`] cannot use this device: an adapter that is software is of no use
+    /// to it, unless the caller supplied it.
     fn check_usable(&self, gpu: &Gpu) -> Result<(), Fallback> {
         match gpu.adapter().software && self.caller_supplied.is_none() {
             true => Err(Fallback::SoftwareGpu(gpu.adapter().name.clone())),

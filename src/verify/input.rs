@@ -1,9 +1,10 @@
 //! What is true of the points alone: duplicates and dimension.
 
-use crate::verify::report::{Defect, Findings};
+use crate::verify::report::{Check, Defect, Findings, Report};
 use crate::{
-    Error, Points,
+    error::Error,
     index::NONE,
+    input::points::Points,
     predicates::{orient2d, orient3d},
 };
 use std::cmp::Ordering;
@@ -36,7 +37,17 @@ impl<const D: usize> Input<D> {
         Ok(Input { points, representative, distinct, dimension })
     }
 
-    pub(crate) fn check_dimension(&self, stated: u8) -> Findings {
+    /// Begins the report on a mesh that states this dimension and these duplicates.
+    pub(crate) fn report(&self, dimension: Option<u8>, duplicate_of: Option<&[i32]>) -> Report {
+        let mut report = Report { dimension: self.dimension, ..Report::default() };
+        report.counts.points = self.points.len();
+        report.counts.distinct_points = self.distinct;
+        report.decide(Check::Dimension, || dimension.map(|d| self.check_dimension(d)));
+        report.decide(Check::Duplicates, || duplicate_of.map(|d| self.check_duplicates(d)));
+        report
+    }
+
+    fn check_dimension(&self, stated: u8) -> Findings {
         let mut findings = Findings::default();
         if stated != self.dimension {
             findings.add(|| {
@@ -46,7 +57,7 @@ impl<const D: usize> Input<D> {
         findings
     }
 
-    pub(crate) fn check_duplicates(&self, stated: &[i32]) -> Findings {
+    fn check_duplicates(&self, stated: &[i32]) -> Findings {
         let mut findings = Findings::default();
         if stated.len() != self.points.len() {
             findings.add(|| Defect::in_mesh(format!("{} entries for {} points", stated.len(), self.points.len())));

@@ -228,6 +228,13 @@ impl From<Findings> for Outcome {
     }
 }
 
+/// `None` are the findings about what the mesh does not state.
+impl From<Option<Findings>> for Outcome {
+    fn from(findings: Option<Findings>) -> Self {
+        findings.map_or(Outcome::NotStated, Outcome::from)
+    }
+}
+
 /// The numbers of points, edges, facets and so on.
 ///
 /// # Examples
@@ -303,13 +310,25 @@ impl Report {
     }
 
     /// Decides the next check, unless one that it requires was not passed.
-    pub(crate) fn decide(&mut self, check: Check, outcome: impl FnOnce() -> Outcome) {
+    pub(crate) fn decide<O: Into<Outcome>>(&mut self, check: Check, outcome: impl FnOnce() -> O) {
         let passed = |required: &&Check| matches!(self.outcome(**required), Some(Outcome::Passed));
         let outcome = match check.requires().iter().find(|required| !passed(required)) {
             Some(&required) => Outcome::Blocked(required),
-            None => outcome(),
+            None => outcome().into(),
         };
         self.outcomes.push((check, outcome));
+    }
+
+    /// Decides the Delaunay property and that of the ties, in this order, by one pass over the
+    /// mesh.
+    pub(crate) fn decide_delaunay(&mut self, check: impl FnOnce() -> (Findings, Findings)) {
+        let mut ties = Findings::default();
+        self.decide(Check::Delaunay, || {
+            let delaunay;
+            (delaunay, ties) = check();
+            delaunay
+        });
+        self.decide(Check::CanonicalTies, || ties);
     }
 }
 

@@ -84,7 +84,8 @@ fn futures_and_meshes_can_be_sent() {
     assert_sync::<Error>();
 }
 
-/// Without the feature, the GPU is an error that says what to do, and no choice of the automatic backend.
+/// Without the feature, the GPU is an error that says what to do, and no choice of the automatic
+/// backend.
 #[cfg(not(feature = "gpu"))]
 #[test]
 fn a_gpu_that_is_not_compiled_in() {

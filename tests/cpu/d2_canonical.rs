@@ -6,9 +6,9 @@ use gdel::{
     Mesh2,
     internals::{
         Options, Winding,
+        cpu::delaunay_in_order,
         d2::{
             Triangulation2,
-            cpu::delaunay2d_in_order,
             lawson::{Aborted, LawsonOutcome, NearDelaunay2, lawson},
         },
         index::NONE,
@@ -33,7 +33,7 @@ fn found(mesh: Mesh2) -> Definition2 {
 fn check(points: &[[f64; 2]]) -> Result<(), TestCaseError> {
     let expected = definition2(points);
     for order in [Order::default(), Order::Shuffled(1), Order::Shuffled(2)] {
-        let mesh = delaunay2d_in_order(points.into(), &Options::default(), order)?;
+        let mesh = delaunay_in_order::<2>(points.into(), &Options::default(), order)?;
         check_layout(points, &mesh)?;
         let report = verify2d(points, &mesh)?;
         prop_assert!(report.passed(), "{order:?}:\n{report}");
@@ -153,7 +153,7 @@ fn from_mesh_and_back() {
     let inputs = [line_and_point, grid, vec![[0.0, 0.0], [2.0, 1.0], [1.0, 3.0]]];
     for (points, winding) in inputs.iter().flat_map(|points| windings.map(|winding| (points, winding))) {
         let options = Options { winding, ..Options::default() };
-        let mesh = delaunay2d_in_order(points.into(), &options, Order::default()).unwrap();
+        let mesh = delaunay_in_order::<2>(points.into(), &options, Order::default()).unwrap();
         let n = points.len() as u32;
         let (triangles, halfedges) = (mesh.triangles.clone(), mesh.halfedges.clone());
         let triangulation = Triangulation2::from_mesh(triangles, halfedges, &mesh.hull, n, winding);
@@ -177,9 +177,9 @@ fn from_mesh_and_back() {
 /// inverted in the exact coordinates, and which lacks points that share a place. Checks that flips
 /// lead to the correct triangulation, or abort. Returns whether they led to it.
 fn check_flips_after_rounding(points: &[[f64; 2]]) -> Result<bool, TestCaseError> {
-    let expected = delaunay2d_in_order(points.into(), &Options::default(), Order::default())?;
+    let expected = delaunay_in_order::<2>(points.into(), &Options::default(), Order::default())?;
     let rounded: Vec<_> = points.iter().map(|p| p.map(f64::round)).collect();
-    let coarse = delaunay2d_in_order((&rounded).into(), &Options::default(), Order::default())?;
+    let coarse = delaunay_in_order::<2>((&rounded).into(), &Options::default(), Order::default())?;
     if coarse.dimension < 2 {
         return Ok(false);
     }

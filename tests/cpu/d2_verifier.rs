@@ -158,7 +158,8 @@ fn triangles(broken: &mut BrokenMeshes) {
 
     // The long diagonal of the kite.
     broken.bare(Check::Delaunay, "flipped edge", &KITE, &[[3, 2, 1], [3, 0, 2]], Triangle(0));
-    // Inside by one unit in the last place of one coordinate, which rounded arithmetic does not see.
+    // Inside by one unit in the last place of one coordinate, which rounded arithmetic does not
+    // see.
     let mut nearly = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     nearly[2][0] = 1.0f64.next_up();
     let wrong =
@@ -270,7 +271,8 @@ fn a_point_that_is_not_finite_is_an_error() {
     assert_eq!(error, Error::NotFinite { index: 1, axis: 'y', value: "NaN" });
 }
 
-/// Of all sets of counter-clockwise triangles of these five points, the right one passes and no other.
+/// Of all sets of counter-clockwise triangles of these five points, the right one passes and no
+/// other.
 fn only_the_definition_passes(points: &[[f64; 2]; 5]) {
     let mut oriented = Vec::new();
     for a in 0..5u32 {

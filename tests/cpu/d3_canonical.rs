@@ -3,7 +3,7 @@
 use crate::oracle::{Definition, definition};
 use gdel::{
     delaunay3d,
-    internals::{Options, d3::cpu::delaunay3d_in_order, input::order::Order},
+    internals::{Options, cpu::delaunay_in_order, input::order::Order},
     verify3d,
 };
 use proptest::prelude::*;
@@ -14,7 +14,7 @@ fn check(points: &[[f64; 3]]) -> Result<(), TestCaseError> {
     let expected = definition(points);
     let orders = [Order::default(), Order::Shuffled(1), Order::Shuffled(2)];
     for order in orders {
-        let mesh = delaunay3d_in_order(points.into(), &Options::default(), order)?;
+        let mesh = delaunay_in_order::<3>(points.into(), &Options::default(), order)?;
         let tetrahedra = mesh.canonical();
         let report = verify3d(points, &mesh)?;
         let found = Definition { tetrahedra, duplicate_of: mesh.duplicate_of, dimension: mesh.dimension };

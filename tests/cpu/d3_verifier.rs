@@ -7,9 +7,9 @@ use crate::broken::{
 };
 use crate::oracle::{self, definition};
 use gdel::{
-    Error, Mesh3, MeshView, delaunay3d,
+    Error, Mesh3, MeshView3, delaunay3d,
     internals::{
-        d3::generate::{Distribution, generate},
+        d3::generate::{Distribution3, generate3d},
         mesh,
     },
     verify::{Check, Outcome},
@@ -40,7 +40,7 @@ fn broken_meshes() -> Vec<Broken> {
     let mut broken = BrokenMeshes {
         right,
         verify: |points, mesh| verify3d(points, mesh).unwrap(),
-        verify_bare: |points, tetrahedra| verify3d(points, MeshView::of_tetrahedra(tetrahedra)).unwrap(),
+        verify_bare: |points, tetrahedra| verify3d(points, MeshView3::of_tetrahedra(tetrahedra)).unwrap(),
         all: Vec::new(),
     };
     other_arrays(&mut broken);
@@ -236,9 +236,9 @@ fn every_check_has_an_outcome_in_order_and_a_name_of_its_own() {
 
 #[test]
 fn a_mesh_of_tetrahedra_only_passes_with_the_rest_not_stated() {
-    let points = generate(Distribution::Uniform, 500, 1);
+    let points = generate3d(Distribution3::Uniform, 500, 1);
     let mesh = right(&points);
-    let report = verify3d(&points, MeshView::of_tetrahedra(&mesh.tetrahedra)).unwrap();
+    let report = verify3d(&points, MeshView3::of_tetrahedra(&mesh.tetrahedra)).unwrap();
     assert!(report.passed(), "{report}");
     for check in [Check::Dimension, Check::Duplicates, Check::Neighbors, Check::Hull] {
         assert_eq!(report.outcome(check), Some(&Outcome::NotStated));
@@ -258,7 +258,7 @@ fn the_order_of_tetrahedra_and_vertices_is_free() {
     for (i, triangle) in mesh.hull.iter_mut().rev().enumerate() {
         triangle.rotate_left(i % 3);
     }
-    let mut statement = MeshView::of_tetrahedra(&mesh.tetrahedra);
+    let mut statement = MeshView3::of_tetrahedra(&mesh.tetrahedra);
     statement.hull = Some(&mesh.hull);
     let report = verify3d(&points, statement).unwrap();
     assert!(report.passed(), "{report}");
@@ -276,7 +276,7 @@ fn counts_of_a_cube() {
 #[test]
 fn a_point_that_is_not_finite_is_an_error() {
     let points = [[0.0; 3], [0.0, f64::NAN, 0.0]];
-    let error = verify3d(&points, MeshView::default()).unwrap_err();
+    let error = verify3d(&points, MeshView3::default()).unwrap_err();
     assert_eq!(error, Error::NotFinite { index: 1, axis: 'y', value: "NaN" });
 }
 
@@ -287,7 +287,7 @@ fn flat_tetrahedra_on_the_hull_of_a_cube_are_caught() {
     let points = cube();
     let mut tetrahedra = right(&points).tetrahedra;
     tetrahedra.push([0, 1, 2, 3]);
-    let report = verify3d(&points, MeshView::of_tetrahedra(&tetrahedra)).unwrap();
+    let report = verify3d(&points, MeshView3::of_tetrahedra(&tetrahedra)).unwrap();
     assert!(failures(&report).contains(&Check::Orientation), "{report}");
     assert_eq!(report.failures().next().unwrap().1.tetrahedron, Some(tetrahedra.len() - 1));
 }
@@ -316,7 +316,7 @@ fn only_the_definition_passes(points: &[[f64; 3]; 6]) {
     for set in 0u32..1 << oriented.len() {
         chosen.clear();
         chosen.extend(oriented.iter().enumerate().filter(|(i, _)| set >> i & 1 == 1).map(|(_, t)| *t));
-        if verify3d(points, MeshView::of_tetrahedra(&chosen)).unwrap().passed() {
+        if verify3d(points, MeshView3::of_tetrahedra(&chosen)).unwrap().passed() {
             passed.push(mesh::canonical(&chosen));
         }
     }
@@ -326,7 +326,7 @@ fn only_the_definition_passes(points: &[[f64; 3]; 6]) {
 #[test]
 fn of_all_meshes_of_six_points_only_the_right_one_passes() {
     for seed in 0..4 {
-        only_the_definition_passes(generate(Distribution::Uniform, 6, seed).first_chunk().unwrap());
+        only_the_definition_passes(generate3d(Distribution3::Uniform, 6, seed).first_chunk().unwrap());
     }
 }
 
@@ -358,7 +358,7 @@ proptest! {
         let integers = oracle::integers(&points);
         let oriented = |t: &[u32; 4]| oracle::sign(&oracle::orientation(&t.map(|v| &integers[v as usize]))) > 0;
         let still_right = mesh.canonical() == expected && mesh.tetrahedra.iter().all(oriented);
-        let report = verify3d(&points, MeshView::of_tetrahedra(&mesh.tetrahedra)).unwrap();
+        let report = verify3d(&points, MeshView3::of_tetrahedra(&mesh.tetrahedra)).unwrap();
         prop_assert_eq!(report.passed(), still_right, "{}", report);
     }
 
@@ -371,7 +371,7 @@ proptest! {
         duplicate_of in prop::option::of(prop::collection::vec(any::<i32>(), 0..9)),
         dimension in any::<Option<u8>>(),
     ) {
-        let mut statement = MeshView::of_tetrahedra(&tetrahedra);
+        let mut statement = MeshView3::of_tetrahedra(&tetrahedra);
         statement.neighbors = neighbors.as_deref();
         statement.hull = hull.as_deref();
         statement.duplicate_of = duplicate_of.as_deref();

@@ -3,7 +3,7 @@
 
 use gdel::{
     Backend, Triangulator,
-    internals::d3::generate::{Distribution, generate},
+    internals::d3::generate::{Distribution3, generate3d},
 };
 
 /// FNV-1a, 64 bits, over the indices of the canonical tetrahedra as little-endian words.
@@ -22,8 +22,8 @@ fn meshes_have_their_fingerprints() {
             found += line;
         } else {
             let &[name, count, seed, ..] = &fields[..] else { panic!("{line}") };
-            let distribution = Distribution::ALL.into_iter().find(|d| d.name() == name).unwrap();
-            let points = generate(distribution, count.parse().unwrap(), seed.parse().unwrap());
+            let distribution = Distribution3::ALL.into_iter().find(|d| d.name() == name).unwrap();
+            let points = generate3d(distribution, count.parse().unwrap(), seed.parse().unwrap());
             let mesh = Triangulator::new().backend(Backend::Cpu).delaunay3d(&points).unwrap();
             let canonical = mesh.canonical();
             found += &format!("{name} {count} {seed} {} {:016x}", canonical.len(), fingerprint(&canonical));

@@ -3,13 +3,11 @@
 
 use crate::clouds::{self, grid, shuffled, survey};
 use gdel::{
-    Mesh3, Points,
+    Mesh3, Points3,
     internals::{
         Options,
-        d3::{
-            cpu::delaunay3d_in_order,
-            generate::{Distribution, generate},
-        },
+        cpu::delaunay_in_order,
+        d3::generate::{Distribution3, generate3d},
         input::order::Order,
     },
     verify3d,
@@ -17,9 +15,9 @@ use gdel::{
 
 /// Verifies the mesh of the points, and checks that `shuffles` random insertion orders give the
 /// same tetrahedra.
-fn check<'a>(points: impl Into<Points<'a>>, shuffles: u64) -> Mesh3 {
+fn check<'a>(points: impl Into<Points3<'a>>, shuffles: u64) -> Mesh3 {
     let points = points.into();
-    let triangulate = |order| delaunay3d_in_order(points, &Options::default(), order).unwrap();
+    let triangulate = |order| delaunay_in_order::<3>(points, &Options::default(), order).unwrap();
     let mesh = triangulate(Order::default());
     let report = verify3d(points, &mesh).unwrap();
     assert!(report.passed(), "{report}");
@@ -43,34 +41,35 @@ fn check_flat(points: &[[f64; 3]], dimension: u8) {
 
 #[test]
 fn uniform() {
-    check(&generate(Distribution::Uniform, 20_000, 1), 3);
+    check(&generate3d(Distribution3::Uniform, 20_000, 1), 3);
 }
 
 #[test]
 fn gaussian() {
-    check(&generate(Distribution::Gaussian, 20_000, 1), 3);
+    check(&generate3d(Distribution3::Gaussian, 20_000, 1), 3);
 }
 
 #[test]
 fn ball() {
-    check(&generate(Distribution::Ball, 20_000, 1), 3);
+    check(&generate3d(Distribution3::Ball, 20_000, 1), 3);
 }
 
 #[test]
 fn sphere() {
-    let mesh = check(&generate(Distribution::Sphere, 10_000, 1), 3);
+    let mesh = check(&generate3d(Distribution3::Sphere, 10_000, 1), 3);
     assert_eq!(mesh.hull.len(), 2 * 10_000 - 4);
 }
 
 #[test]
 fn sphere_rounded_to_f32() {
-    let points: Vec<[f32; 3]> = generate(Distribution::Sphere, 20_000, 1).iter().map(|p| p.map(|x| x as f32)).collect();
+    let points: Vec<[f32; 3]> =
+        generate3d(Distribution3::Sphere, 20_000, 1).iter().map(|p| p.map(|x| x as f32)).collect();
     check(&points, 3);
 }
 
 #[test]
 fn thin_sphere() {
-    check(&generate(Distribution::ThinSphere, 20_000, 1), 3);
+    check(&generate3d(Distribution3::ThinSphere, 20_000, 1), 3);
 }
 
 #[test]
@@ -98,7 +97,7 @@ fn grid_64() {
 
 #[test]
 fn random_subset_of_a_512_grid() {
-    check(&generate(Distribution::Grid, 50_000, 1), 2);
+    check(&generate3d(Distribution3::Grid, 50_000, 1), 2);
 }
 
 #[test]
@@ -182,7 +181,7 @@ fn dragon() {
 
 #[test]
 fn extreme_scales() {
-    let cloud = generate(Distribution::Uniform, 400, 1);
+    let cloud = generate3d(Distribution3::Uniform, 400, 1);
     let scaled = |factor: f64| cloud.iter().map(|p| p.map(|x| (x - 0.5) * factor)).collect::<Vec<_>>();
     for factor in [f64::MIN_POSITIVE, 1e-300, 1e-160, 1e160, 1e300, f64::MAX] {
         check(&scaled(factor), 2);
@@ -239,7 +238,7 @@ fn collinear_points_and_one_off_the_line() {
 #[test]
 fn coplanar_points() {
     let plane = |z: fn(f64, f64) -> f64| {
-        let cloud = generate(Distribution::Grid, 2000, 1);
+        let cloud = generate3d(Distribution3::Grid, 2000, 1);
         cloud.iter().map(|&[x, y, _]| [x, y, z(x, y)]).collect::<Vec<_>>()
     };
     check_flat(&plane(|_, _| 0.1), 2);

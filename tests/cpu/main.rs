@@ -11,6 +11,7 @@ mod d2_verifier;
 mod d3_canonical;
 mod d3_verifier;
 mod fingerprints;
+mod generate;
 mod inputs;
 mod meshes;
 mod predicates;

@@ -5,7 +5,7 @@ use gdel::{
     Backend, Csr, Mesh2, Mesh3, Triangulator,
     internals::{
         d2::generate::{Distribution2, generate2d},
-        d3::generate::{Distribution, generate},
+        d3::generate::{Distribution3, generate3d},
     },
 };
 use std::collections::BTreeSet;
@@ -19,7 +19,7 @@ fn mesh2(points: &[[f64; 2]]) -> Mesh2 {
 }
 
 fn inputs3() -> Vec<Vec<[f64; 3]>> {
-    let mut inputs: Vec<_> = Distribution::ALL.map(|distribution| generate(distribution, 200, 1)).into();
+    let mut inputs: Vec<_> = Distribution3::ALL.map(|distribution| generate3d(distribution, 200, 1)).into();
     let doubled = clouds::grid(3).iter().chain(&clouds::grid(2)).copied().collect();
     let flat = clouds::grid(3).iter().map(|&[x, y, _]| [x, y, 1.0]).collect();
     inputs.extend([clouds::grid(4), clouds::two_skew_lines(8), doubled, flat, vec![], vec![[1.0; 3]; 2]]);
@@ -176,7 +176,7 @@ fn circumcenters() {
         let [a, b, c] = mesh.triangles[t].map(|v| (points[v as usize][0] - x).hypot(points[v as usize][1] - y));
         assert!((a - b).abs() < 1e-9 * a && (b - c).abs() < 1e-9 * a, "{a} {b} {c}");
     }
-    let points = generate(Distribution::Uniform, 100, 1);
+    let points = generate3d(Distribution3::Uniform, 100, 1);
     let mesh = mesh3(&points);
     for t in 0..mesh.tetrahedra.len() {
         let center = mesh.circumcenter(&points, t);

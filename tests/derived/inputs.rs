@@ -5,7 +5,7 @@ use gdel::{
     Backend, Mesh2, Mesh3, Triangulator,
     internals::{
         d2::generate::{Distribution2, generate2d},
-        d3::generate::{Distribution, generate},
+        d3::generate::{Distribution3, generate3d},
     },
 };
 
@@ -19,10 +19,11 @@ pub fn mesh2(points: &[[f64; 2]]) -> Mesh2 {
 
 /// Returns point sets of some hundred points in 3D, with names.
 pub fn inputs3() -> Vec<(&'static str, Vec<[f64; 3]>)> {
-    let mut inputs: Vec<_> = Distribution::ALL.map(|d| (d.name(), generate(d, 300, 1))).into();
+    let mut inputs: Vec<_> = Distribution3::ALL.map(|d| (d.name(), generate3d(d, 300, 1))).into();
     let doubled = clouds::grid(3).iter().chain(&clouds::grid(2)).copied().collect();
     let flat = clouds::grid(3).iter().map(|&[x, y, _]| [x, y, 1.0]).collect();
-    let scaled = |factor: f64| generate(Distribution::Uniform, 60, 4).iter().map(|p| p.map(|x| x * factor)).collect();
+    let scaled =
+        |factor: f64| generate3d(Distribution3::Uniform, 60, 4).iter().map(|p| p.map(|x| x * factor)).collect();
     inputs.extend([
         ("grid of 5³", clouds::grid(5)),
         ("shuffled grid", clouds::shuffled(&clouds::grid(4), 1)),
@@ -75,7 +76,7 @@ pub fn inputs2() -> Vec<(&'static str, Vec<[f64; 2]>)> {
 /// Returns queries around and between the points: random ones inside the bounding box and around it, the points, the
 /// middles of some pairs, and all of these moved by one unit in the last place.
 pub fn queries<const D: usize>(points: &[[f64; D]]) -> Vec<[f64; D]> {
-    let random = generate(Distribution::Uniform, 100, 77);
+    let random = generate3d(Distribution3::Uniform, 100, 77);
     let mut queries = vec![[0.0; D], [0.5; D], [-1.0; D]];
     let Some(&first) = points.first() else { return queries };
     let bounds: [[f64; 2]; D] = std::array::from_fn(|axis| {

@@ -1,4 +1,5 @@
-//! Assembly of a kernel that is not one of the crate's, but includes its shaders; for tests and benchmarks.
+//! Assembly of a kernel that is not one of the crate's, but includes its shaders; for tests and
+//! benchmarks.
 
 use gdel::internals::input::lattice::Width;
 use std::path::Path;

@@ -14,7 +14,8 @@ fn grid(columns: i64, rows: i64) -> Vec<Point> {
     (0..columns * rows).map(|i| [4 * (i % columns), 4 * (i / columns)]).collect()
 }
 
-/// Points of integer coordinates, in input order, which is random. Some share their place with others.
+/// Points of integer coordinates, in input order, which is random. Some share their place with
+/// others.
 pub fn all() -> Vec<(&'static str, Vec<Point>)> {
     let mut circle: Vec<Point> = Vec::new();
     for x in -1105i64..=1105 {

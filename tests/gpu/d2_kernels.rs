@@ -1,109 +1,24 @@
 //! Every 2D kernel against its reference, on the same buffers.
 //!
-//! The points have coordinates, or high words of them, below 16, so that the scores are exact in `f32` and ties of every
-//! kind abound. After each kernel the device gets the reference's buffers again, so that each is compared on its own.
+//! The points have coordinates, or high words of them, below 16, so that the scores are exact in
+//! `f32` and ties of every kind abound. After each kernel the device gets the reference's buffers
+//! again, so that each is compared on its own.
 
+use crate::kernels::{Device, listed, shuffled};
+use crate::states::read_counters;
+use gdel::internals::{
+    d2::gpu::aliases::Aliases,
+    gpu::{
+        layout::{DONE, NONE, Pick},
+        phase1::Aliases as _,
+        start::first_simplex,
+    },
+    input::lattice::Width,
+    reference::{self, d2, d2::predicates::Vertex},
+};
 use std::collections::BTreeSet;
 
-use crate::kernels::{Kernels, shuffled};
-use gdel::internals::d2::gpu::{aliases::Aliases, vertex};
-use gdel::internals::gpu::Storage;
-use gdel::internals::gpu::layout::Pick;
-use gdel::internals::gpu::layout::{Counters, DONE, NONE};
-use gdel::internals::gpu::points::{DevicePoints, InputCounts};
-use gdel::internals::gpu::shader;
-use gdel::internals::gpu::{phase1::Buffers, start::first_simplex};
-use gdel::internals::input::lattice::Width;
-use gdel::internals::reference::{self, d2, d2::predicates::Vertex};
-
 type State = reference::State<2>;
-
-struct Device {
-    kernels: Kernels,
-    buffers: Buffers<2>,
-}
-
-impl Device {
-    fn new(width: Width, state: &State) -> Self {
-        let kernels = Kernels::new(width);
-        let gpu = &kernels.gpu;
-        let count = state.params.infinite as usize;
-        let [a, b, c] = state.first;
-        let counts = InputCounts { found: [a, b, c, c], ..Default::default() };
-        let pairs: Vec<[u32; 2]> = state.points[..count].iter().map(|v| [0, v.index]).collect();
-        let mut words = Vec::new();
-        state.points.iter().for_each(|v| vertex::append_words(&mut words, width, v.position, false));
-        let points = DevicePoints {
-            vertices: Storage::with_contents(gpu, "vertices", &words).unwrap(),
-            pairs: Storage::with_contents(gpu, "pairs", &pairs).unwrap(),
-            merged_into: Storage::new(gpu, "merged", count).unwrap(),
-            counts: Storage::with_contents(gpu, "counts", &[counts]).unwrap(),
-        };
-        let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
-        Device { kernels, buffers }
-    }
-
-    fn upload(&self, state: &State) {
-        let (gpu, b) = (&self.kernels.gpu, &self.buffers);
-        self.kernels.write_control(&b.control, &state.params, &state.counters);
-        b.simplices.write(gpu, 0, &state.simplices);
-        b.neighbors.write(gpu, 0, &state.neighbors);
-        b.status.write(gpu, 0, &state.status);
-        b.active.write(gpu, 0, &state.active.concat());
-        b.messages.write(gpu, 0, &state.messages);
-        b.history.write(gpu, 0, &state.history);
-        b.waiting.write(gpu, 0, &state.waiting);
-        b.scores.write(gpu, 0, &state.scores);
-    }
-
-    fn download(&self, like: &State) -> State {
-        let (kernels, b) = (&self.kernels, &self.buffers);
-        let active = kernels.read(&b.active);
-        let (even, odd) = active.split_at(active.len() / 2);
-        State {
-            simplices: kernels.read(&b.simplices),
-            neighbors: kernels.read(&b.neighbors),
-            status: kernels.read(&b.status),
-            messages: kernels.read(&b.messages),
-            active: [even.to_vec(), odd.to_vec()],
-            history: kernels.read(&b.history),
-            waiting: kernels.read(&b.waiting)[..like.waiting.len()].to_vec(),
-            scores: kernels.read(&b.scores),
-            // The references do not count these.
-            counters: Counters { exact: like.counters.exact, ..kernels.read_counters(&b.control) },
-            ..like.clone()
-        }
-    }
-
-    fn run(&self, name: &str) {
-        let aliases = Aliases::new(&self.buffers);
-        let buffers = [self.buffers.bindings(), aliases.bindings()].concat();
-        self.kernels.run(shader::D2.get(name), &buffers);
-    }
-
-    /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.
-    fn both(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) -> State {
-        self.upload(state);
-        self.run(name);
-        reference(state);
-        let device = self.download(state);
-        assert_eq!(device.counters, state.counters, "{name}");
-        device
-    }
-
-    /// The same for a kernel whose results are the same to the last bit.
-    fn equal(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) {
-        let device = self.both(name, state, reference);
-        assert_eq!(device.simplices, state.simplices, "{name}");
-        assert_eq!(device.neighbors, state.neighbors, "{name}");
-        assert_eq!(device.status, state.status, "{name}");
-        assert_eq!(device.messages, state.messages, "{name}");
-        assert_eq!(device.active, state.active, "{name}");
-        assert_eq!(device.history, state.history, "{name}");
-        assert_eq!(device.waiting, state.waiting, "{name}");
-        assert_eq!(device.scores, state.scores, "{name}");
-    }
-}
 
 /// What the choice of numbers in the history leaves the same: the flips by their edges.
 fn flips(state: &State) -> BTreeSet<Vec<u32>> {
@@ -116,10 +31,6 @@ fn flips(state: &State) -> BTreeSet<Vec<u32>> {
         [node.edge, node.triangles, next[0], next[1]].concat()
     });
     flips.collect()
-}
-
-fn listed(state: &State, half: usize) -> BTreeSet<u32> {
-    state.active[half][..state.counters.active_len[half] as usize].iter().map(|a| a.tet).collect()
 }
 
 /// The statuses but for the numbers in the history.
@@ -136,14 +47,17 @@ fn compare(width: Width, pick: Pick) {
     let mut state = State::new(width, points, 0, 4096);
     state.params.pick = pick as u32;
     state.first = start.first;
-    let device = Device::new(width, &state);
+    let device = Device::<2>::new(width, &state);
+    let aliases = Aliases::new(&device.buffers);
+    let device = device.with(&aliases.bindings());
     device.equal("locate", &mut state, |s| {
         let first = s.first;
         reference::start(s, first);
         reference::locate(s);
     });
-    while !state.waiting.is_empty() {
+    while state.waiting.iter().any(|entry| entry.tet != NONE) {
         state.messages.fill([0; 4]);
+        device.begin_round(&mut state);
         device.equal("pick_score", &mut state, reference::pick_score);
         device.equal("pick_point", &mut state, reference::pick_point);
 
@@ -173,26 +87,22 @@ fn compare(width: Width, pick: Pick) {
             state.validate_mesh();
         }
         device.equal("relocate", &mut state, reference::relocate);
-        state.waiting.retain(|w| w.tet != NONE);
-        state.params.entries = state.waiting.len() as u32;
     }
     device.equal("clear_votes", &mut state, reference::run::clear_votes);
 
-    let kernels = &device.kernels;
     device.upload(&state);
     device.run("mesh_mark");
     let marks = d2::mesh_mark(&state);
-    assert_eq!(kernels.read(&device.buffers.own.marks), marks);
-    let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
-    device.buffers.own.offsets.write(&kernels.gpu, 0, &offsets);
+    assert_eq!(device.read(&device.buffers.marks), marks);
+    let numbers: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
+    device.buffers.numbers.write(&device.kernels.gpu, 0, &numbers);
     device.run("mesh_compact");
-    let mesh = d2::mesh_compact(&state, &offsets);
+    let mesh = d2::mesh_compact(&state, &numbers);
     let count = mesh.triangles.len();
-    let aliases = Aliases::new(&device.buffers);
-    assert_eq!(kernels.read(&aliases.triangles)[..count], mesh.triangles);
-    assert_eq!(kernels.read(&aliases.halfedges)[..count], mesh.halfedges);
-    let hull: Vec<[u32; 2]> = kernels.read(&aliases.hull);
-    let counters = kernels.read_counters(&device.buffers.control);
+    assert_eq!(device.read(&aliases.triangles)[..count], mesh.triangles);
+    assert_eq!(device.read(&aliases.halfedges)[..count], mesh.halfedges);
+    let hull: Vec<[u32; 2]> = device.read(&aliases.hull);
+    let counters = read_counters(&device.kernels.gpu, &device.buffers.control);
     let hull: BTreeSet<[u32; 2]> = hull[..counters.hull as usize].iter().copied().collect();
     assert_eq!(hull, mesh.hull.into_iter().collect());
 }

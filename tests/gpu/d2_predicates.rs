@@ -1,4 +1,5 @@
-//! The 2D predicates in WGSL and their reference, against big integers and a perturbation that is carried out.
+//! The 2D predicates in WGSL and their reference, against big integers and a perturbation that is
+//! carried out.
 
 use crate::d2_cases::{Case, FAMILIES, cases};
 use crate::perturbation::{perturbed_rows, sign_of_columns};
@@ -66,8 +67,8 @@ fn wide_signs_are_exact() {
     check(Width::Wide);
 }
 
-/// Points on grids so small that they are often collinear, cocircular or equal: the ties are those of a perturbation that
-/// is carried out.
+/// Points on grids so small that they are often collinear, cocircular or equal: the ties are those
+/// of a perturbation that is carried out.
 #[test]
 fn ties_are_those_of_the_perturbation() {
     let mut rng = Pcg64Mcg::seed_from_u64(1);

@@ -1,4 +1,4 @@
-//! The plane's algorithm on the kernels' references: proven without a GPU.
+//! The 2D algorithm on the kernels' references: proven without a GPU.
 
 use std::collections::HashSet;
 
@@ -29,8 +29,8 @@ fn valid(points: &[[i64; 2]], settings: Settings) -> State {
     assert_eq!(state.counters.inserted as usize, count);
     state.validate_end();
     let marks = mesh_mark(&state);
-    let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
-    let mesh = mesh_compact(&state, &offsets);
+    let numbers: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
+    let mesh = mesh_compact(&state, &numbers);
     // Euler: a triangulation of a polygon.
     assert_eq!(mesh.triangles.len() + mesh.hull.len() + 2, 2 * count);
     let (halfedges, from) = (mesh.halfedges.as_flattened(), mesh.triangles.as_flattened());
@@ -54,8 +54,9 @@ fn every_phase_is_valid() {
     }
 }
 
-/// Collinear points on the hull are inserted in rounds that grow as the logarithm of their number, whatever the perturbation
-/// of their coordinates makes of them: inside of the hull, outside of it, or within flat triangles.
+/// Collinear points on the hull are inserted in rounds that grow as the logarithm of their number,
+/// whatever the perturbation of their coordinates makes of them: inside of the hull, outside of it,
+/// or within flat triangles.
 #[test]
 fn rounds_on_grids_and_lines() {
     let grid = |side: i64| -> Vec<[i64; 2]> { (0..side * side).map(|i| [i % side, i / side]).collect() };
@@ -69,7 +70,8 @@ fn rounds_on_grids_and_lines() {
     ];
     for (name, points) in shapes {
         let n = points.len();
-        // In order, in reverse, from both ends, in ten sweeps that take turns, and in two random orders.
+        // In order, in reverse, from both ends, in ten sweeps that take turns, and in two random
+        // orders.
         let mut orders: Vec<Vec<usize>> = vec![(0..n).collect(); 6];
         orders[1].reverse();
         orders[2].iter_mut().for_each(|i| *i = if *i % 2 == 0 { *i / 2 } else { n - 1 - *i / 2 });

@@ -42,8 +42,9 @@ pub const FAMILIES: &[Family] = &[
 ];
 
 impl Family {
-    /// Asserts that the numbers of zeros and of signs that the filter decided, for orientation and in-sphere, are about
-    /// what the family promises, so that a generator that misses its aim is noticed.
+    /// Asserts that the numbers of zeros and of signs that the filter decided, for orientation and
+    /// in-sphere, are about what the family promises, so that a generator that misses its aim is
+    /// noticed.
     pub fn check_that_it_is_what_it_says(self, zeros: [usize; 2], decided: [usize; 2], cases: usize) {
         let share = |part: usize| part as f64 / cases as f64;
         match self {

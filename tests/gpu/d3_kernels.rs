@@ -1,135 +1,26 @@
 //! Every 3D kernel against its reference, on the same buffers.
 //!
-//! The points have coordinates, or high words of them, below 8, so that the scores are exact in `f32` and ties of every kind abound. After each
-//! kernel the device gets the reference's buffers again, so that each is compared on its own.
+//! The points have coordinates, or high words of them, below 8, so that the scores are exact in
+//! `f32` and ties of every kind abound. After each kernel the device gets the reference's buffers
+//! again, so that each is compared on its own.
 
+use crate::kernels::{Device, listed, shuffled};
+use gdel::internals::{
+    gpu::{
+        Storage,
+        layout::{CHECK, Counters, DONE, NONE, Pick},
+        start::first_simplex,
+    },
+    input::lattice::Width,
+    reference::{self, d3, d3::predicates::Vertex},
+};
 use std::collections::BTreeSet;
-
-use crate::kernels::{Kernels, shuffled};
-use gdel::internals::d3::gpu::vertex;
-use gdel::internals::gpu::layout::{CHECK, Counters, DONE, NONE};
-use gdel::internals::gpu::points::{DevicePoints, InputCounts};
-use gdel::internals::gpu::shader;
-use gdel::internals::gpu::start::first_simplex;
-use gdel::internals::gpu::{Storage, layout::Pick, phase1::Buffers};
-use gdel::internals::input::lattice::Width;
-use gdel::internals::reference::{self, d3, d3::predicates::Vertex};
 
 type State = reference::State<3>;
 
-struct Device {
-    kernels: Kernels,
-    buffers: Buffers<3>,
-    failed_points: Storage<u32>,
-}
-
-impl Device {
-    fn new(width: Width, state: &State) -> Self {
-        let kernels = Kernels::new(width);
-        let gpu = &kernels.gpu;
-        let count = state.params.infinite as usize;
-        let points = DevicePoints {
-            vertices: Storage::new(gpu, "vertices", (count + 1) * vertex::words_per_vertex(width)).unwrap(),
-            pairs: Storage::with_contents(gpu, "pairs", &vec![[0; 2]; count]).unwrap(),
-            merged_into: Storage::new(gpu, "merged", count).unwrap(),
-            counts: Storage::with_contents(gpu, "counts", &[InputCounts { found: state.first, ..Default::default() }])
-                .unwrap(),
-        };
-        let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
-        let failed_points = Storage::new(gpu, "failed points", count).unwrap();
-        Device { kernels, buffers, failed_points }
-    }
-
-    fn upload(&self, state: &State) {
-        let (gpu, b) = (&self.kernels.gpu, &self.buffers);
-        let mut words = Vec::new();
-        for v in &state.points {
-            vertex::append_words(&mut words, self.kernels.width, v.position, v.index, false);
-        }
-        self.kernels.write_control(&b.control, &state.params, &state.counters);
-        b.points.vertices.write(gpu, 0, &words);
-        b.simplices.write(gpu, 0, &state.simplices);
-        b.neighbors.write(gpu, 0, &state.neighbors);
-        b.status.write(gpu, 0, &state.status);
-        b.active.write(gpu, 0, &state.active.concat());
-        b.own.free.write(gpu, 0, &state.own.free);
-        b.messages.write(gpu, 0, &state.messages);
-        b.history.write(gpu, 0, &state.history);
-        b.waiting.write(gpu, 0, &state.waiting);
-        b.scores.write(gpu, 0, &state.scores);
-        b.own.failed.write(gpu, 0, &state.own.failed);
-    }
-
-    fn download(&self, like: &State) -> State {
-        let (kernels, b) = (&self.kernels, &self.buffers);
-        let active = kernels.read(&b.active);
-        let (even, odd) = active.split_at(active.len() / 2);
-        State {
-            simplices: kernels.read(&b.simplices),
-            neighbors: kernels.read(&b.neighbors),
-            status: kernels.read(&b.status),
-            messages: kernels.read(&b.messages),
-            active: [even.to_vec(), odd.to_vec()],
-            history: kernels.read(&b.history),
-            waiting: kernels.read(&b.waiting)[..like.waiting.len()].to_vec(),
-            scores: kernels.read(&b.scores),
-            own: d3::OwnState { free: kernels.read(&b.own.free), failed: kernels.read(&b.own.failed) },
-            // The references do not count these.
-            counters: Counters {
-                exact: like.counters.exact,
-                failed: like.counters.failed,
-                ..kernels.read_counters(&b.control)
-            },
-            ..like.clone()
-        }
-    }
-
-    fn run(&self, name: &str) {
-        let mut buffers = self.buffers.bindings();
-        buffers.push(("failed_points", self.failed_points.buffer()));
-        self.kernels.run(shader::D3.get(name), &buffers);
-    }
-
-    /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's buffers.
-    fn both(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) -> State {
-        self.upload(state);
-        self.run(name);
-        reference(state);
-        let device = self.download(state);
-        assert_eq!(device.counters, state.counters, "{name}");
-        device
-    }
-
-    /// Checking is one function for the reference, and two kernels.
-    fn check(&self, state: &mut State) {
-        self.upload(state);
-        self.run("flip_check");
-        self.run("flip_check_exact");
-        reference::flip_check(state);
-        let device = self.download(state);
-        assert_eq!(device.status, state.status, "check");
-        assert_eq!(device.active, state.active, "check");
-        assert_eq!(Counters { undecided: 0, ..device.counters }, state.counters, "check");
-    }
-
-    /// The same for a kernel whose results are the same to the last bit.
-    fn equal(&self, name: &str, state: &mut State, reference: impl Fn(&mut State)) {
-        let device = self.both(name, state, reference);
-        assert_eq!(device.simplices, state.simplices, "{name}");
-        assert_eq!(device.neighbors, state.neighbors, "{name}");
-        assert_eq!(device.status, state.status, "{name}");
-        assert_eq!(device.own.free, state.own.free, "{name}");
-        assert_eq!(device.messages, state.messages, "{name}");
-        assert_eq!(device.active, state.active, "{name}");
-        assert_eq!(device.history, state.history, "{name}");
-        assert_eq!(device.waiting, state.waiting, "{name}");
-        assert_eq!(device.scores, state.scores, "{name}");
-        assert_eq!(device.own.failed, state.own.failed, "{name}");
-    }
-}
-
-/// What the choice of slots and numbers in the history leaves the same: the tetrahedra by their vertices, with the
-/// facets to check and the neighbours across each facet, and the flips of the history.
+/// What the choice of slots and numbers in the history leaves the same: the tetrahedra by their
+/// vertices, with the facets to check and the neighbours across each facet, and the flips of the
+/// history.
 fn essence(state: &State) -> (BTreeSet<Vec<u32>>, BTreeSet<Vec<u32>>) {
     let tets = (0..state.simplices.len()).filter(|&t| state.is_used(t)).map(|t| {
         let mut record = state.simplices[t].to_vec();
@@ -142,24 +33,31 @@ fn essence(state: &State) -> (BTreeSet<Vec<u32>>, BTreeSet<Vec<u32>>) {
     });
     let nodes = (state.counters.next_node - state.counters.first_node) as usize;
     let flips = state.history[..nodes].iter().map(|node| {
-        let mut record = node.vertices.to_vec();
-        record.push(node.kind);
+        let mut record = [&node.ring[..], &[node.d, node.e, node.kind]].concat();
         record.extend(node.next.map(|next| match next {
             NONE => NONE,
-            next => state.history[(next - state.counters.first_node) as usize].vertices[0],
+            next => state.history[(next - state.counters.first_node) as usize].ring[0],
         }));
         record
     });
     (tets.collect(), flips.collect())
 }
 
-fn listed(state: &State, half: usize) -> BTreeSet<u32> {
-    state.active[half][..state.counters.active_len[half] as usize].iter().map(|a| a.tet).collect()
-}
-
 /// The tetrahedra with facets to check.
 fn to_check(state: &State) -> BTreeSet<u32> {
     (0..).zip(&state.status).filter(|(_, s)| s.flags & CHECK != 0).map(|(t, _)| t).collect()
+}
+
+/// Checks: one function of the reference, and two kernels.
+fn check(device: &Device<3>, state: &mut State) {
+    device.upload(state);
+    device.run("flip_check");
+    device.run("flip_check_exact");
+    reference::flip_check(state);
+    let after = device.download(state);
+    assert_eq!(after.status, state.status, "check");
+    assert_eq!(after.active, state.active, "check");
+    assert_eq!(Counters { undecided: 0, ..after.counters }, state.counters, "check");
 }
 
 fn compare(width: Width, pick: Pick, compact_from: u32) {
@@ -172,14 +70,17 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
     state.params.pick = pick as u32;
     state.params.compact_from = compact_from;
     state.first = start.first;
-    let device = Device::new(width, &state);
+    let device = Device::<3>::new(width, &state);
+    let failed_points = Storage::new(&device.kernels.gpu, "failed points", 250).unwrap();
+    let device = device.with(&[("failed_points", failed_points.buffer())]);
     device.equal("locate", &mut state, |s| {
         let first = s.first;
         reference::start(s, first);
         reference::locate(s);
     });
-    while !state.waiting.is_empty() {
+    while state.waiting.iter().any(|entry| entry.tet != NONE) {
         state.messages.fill([0; 4]);
+        device.begin_round(&mut state);
         device.equal("pick_score", &mut state, reference::pick_score);
         device.equal("pick_point", &mut state, reference::pick_point);
 
@@ -191,7 +92,7 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
 
         device.equal("relocate_split", &mut state, reference::relocate_split);
         while !state.is_idle(state.counters.iteration) {
-            device.check(&mut state);
+            check(&device, &mut state);
             device.upload(&state);
             device.run("flip_commit");
             device.run("flip_link");
@@ -210,8 +111,6 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
             state.validate_mesh();
         }
         device.equal("relocate", &mut state, reference::relocate);
-        state.waiting.retain(|w| w.tet != NONE);
-        state.params.entries = state.waiting.len() as u32;
     }
     // Every facet is suspect, so that there is something to look at.
     state.status.iter_mut().for_each(|s| s.flags |= CHECK << 4);
@@ -221,7 +120,7 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
         .filter(|&(_, &f)| f != 0)
         .map(|(v, _): (usize, _)| state.points[v].index)
         .collect();
-    let mut points = device.kernels.read(&device.failed_points);
+    let mut points = device.read::<u32>(&failed_points);
     points.truncate(failed.len());
     failed.sort_unstable();
     points.sort_unstable();

@@ -9,6 +9,7 @@ use gdel::internals::{
     predicates::Sign,
     reference::d3::{predicates as reference, predicates::Vertex},
 };
+use gdel::internals::{dimension::Dimension, gpu::dim::Dim};
 
 const KERNEL: &str = include_str!("../shaders/d3_predicates.wgsl");
 
@@ -17,7 +18,7 @@ fn on_the_gpu(kernel: &SignKernel, width: Width, cases: &[Case]) -> Vec<[i32; 7]
     for v in cases.iter().flatten() {
         vertex::append_words(&mut words, width, v.position, v.index, false);
     }
-    assert_eq!(words.len(), 5 * cases.len() * vertex::words_per_vertex(width));
+    assert_eq!(words.len(), 5 * cases.len() * Dimension::<3>::vertex_words(width));
     let vertices = Storage::with_contents(&kernel.gpu, "vertices", &words).unwrap();
     kernel.signs(&[("vertices", vertices.buffer())], cases.len())
 }

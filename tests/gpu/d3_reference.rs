@@ -11,7 +11,8 @@ type State = gdel::internals::reference::State<3>;
 
 type Point = [i64; 3];
 
-/// Distinct points in a scrambled input order, sorted along a coarse curve: by the interleaved bits of their coordinates.
+/// Distinct points in a scrambled input order, sorted along a coarse curve: by the interleaved bits
+/// of their coordinates.
 fn sites(mut points: Vec<Point>) -> Vec<Vertex> {
     points.sort_unstable();
     points.dedup();

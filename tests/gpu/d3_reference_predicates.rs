@@ -94,7 +94,8 @@ fn exchanging_two_arguments_changes_the_sign() {
     }
 }
 
-/// Where the points are not all coplanar, the heights decide, as they do in the definition of the triangulation.
+/// Where the points are not all coplanar, the heights decide, as they do in the definition of the
+/// triangulation.
 #[test]
 fn heights_come_before_lowered_coordinates() {
     let mut rng = Pcg64Mcg::seed_from_u64(3);
@@ -117,8 +118,8 @@ fn fours(n: usize) -> impl Iterator<Item = [usize; 4]> {
     })
 }
 
-/// The perturbed points have a triangulation with no ties at all. Without its flat tetrahedra it is the triangulation
-/// that the crate promises.
+/// The perturbed points have a triangulation with no ties at all. Without its flat tetrahedra it is
+/// the triangulation that the crate promises.
 #[test]
 fn the_perturbed_triangulation_without_flat_tetrahedra_is_the_answer() {
     let mut rng = Pcg64Mcg::seed_from_u64(4);

@@ -1,16 +1,29 @@
 //! What the tests that run kernel by kernel share, in 2D and 3D.
 
-use std::cell::RefCell;
-use std::collections::HashMap;
-
+use crate::states::{self, Own};
 use bytemuck::Pod;
-use gdel::internals::gpu::layout::PARAM_WORDS;
-use gdel::internals::gpu::layout::{Counters, Params};
-use gdel::internals::gpu::{AdapterChoice, Binding, Gpu, Kernel, Readback, Recorder, Storage, shader::Shader};
-use gdel::internals::input::lattice::Width;
+use gdel::{
+    internals::{
+        dimension::Dimension,
+        gpu::{
+            AdapterChoice, Binding, Gpu, Kernel, Recorder, Storage,
+            dim::Dim,
+            phase1::Buffers,
+            points::{DevicePoints, InputCounts},
+            shader::Shader,
+        },
+        input::lattice::Width,
+        reference::{self, State},
+    },
+    wgpu,
+};
 use pollster::block_on;
 use rand::{SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;
+use std::{
+    cell::RefCell,
+    collections::{BTreeSet, HashMap},
+};
 
 /// The GPU and the kernels that were run on it.
 pub struct Kernels {
@@ -34,22 +47,117 @@ impl Kernels {
         recorder.dispatch(kernel, &bindings, 3);
         recorder.submit(&self.gpu);
     }
+}
+
+/// The buffers of a dimension on the device, where its kernels run one by one.
+pub struct Device<const D: usize>
+where
+    Dimension<D>: Own<D>,
+{
+    pub kernels: Kernels,
+    pub buffers: Buffers<D>,
+    scan: Storage<u32>,
+    offsets: Storage<u32>,
+    /// What only some kernels are bound to.
+    more: Vec<(&'static str, wgpu::Buffer)>,
+}
+
+impl<const D: usize> Device<D>
+where
+    Dimension<D>: Own<D>,
+{
+    /// Creates the buffers for the points of `state`.
+    pub fn new(width: Width, state: &State<D>) -> Self {
+        let kernels = Kernels::new(width);
+        let gpu = &kernels.gpu;
+        let count = state.params.infinite as usize;
+        let first = state.first.as_ref();
+        let counts = InputCounts { found: std::array::from_fn(|k| first[k.min(D)]), ..Default::default() };
+        let pairs: Vec<[u32; 2]> = state.points[..count].iter().map(|v| [0, v.index]).collect();
+        let mut words = Vec::new();
+        for v in &state.points {
+            Dimension::<D>::append_vertex(&mut words, width, v.position, v.index, false);
+        }
+        let points = DevicePoints {
+            vertices: Storage::with_contents(gpu, "vertices", &words).unwrap(),
+            pairs: Storage::with_contents(gpu, "pairs", &pairs).unwrap(),
+            merged_into: Storage::new(gpu, "merged", count).unwrap(),
+            counts: Storage::with_contents(gpu, "counts", &[counts]).unwrap(),
+        };
+        let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
+        let scan = Storage::new(gpu, "scan parameters", 1).unwrap();
+        let offsets = Storage::new(gpu, "offsets", count).unwrap();
+        let more = vec![("scan", scan.buffer().clone()), ("offsets", offsets.buffer().clone())];
+        Device { kernels, buffers, scan, offsets, more }
+    }
+
+    /// Binds kernels to these buffers, too.
+    pub fn with(mut self, more: &[(&'static str, &wgpu::Buffer)]) -> Self {
+        self.more.extend(more.iter().map(|&(name, buffer)| (name, buffer.clone())));
+        self
+    }
+
+    pub fn upload(&self, state: &State<D>) {
+        states::upload(&self.kernels.gpu, &self.buffers, state);
+    }
+
+    pub fn download(&self, like: &State<D>) -> State<D> {
+        states::download(&self.kernels.gpu, &self.buffers, like)
+    }
 
     pub fn read<T: Pod>(&self, storage: &Storage<T>) -> Vec<T> {
-        block_on(Readback::default().read(&self.gpu, storage, 0, storage.len())).unwrap()
+        states::read(&self.kernels.gpu, storage)
     }
 
-    pub fn write_control(&self, control: &Storage<u32>, params: &Params, counters: &Counters) {
-        control.write(&self.gpu, 0, bytemuck::cast_slice(&[*params]));
-        control.write(&self.gpu, PARAM_WORDS, bytemuck::cast_slice(&[*counters]));
+    pub fn run(&self, name: &str) {
+        let mut buffers = self.buffers.bindings();
+        buffers.extend(self.more.iter().map(|(name, buffer)| (*name, buffer)));
+        self.kernels.run(Dimension::<D>::SHADERS.get(name), &buffers);
     }
 
-    pub fn read_counters(&self, control: &Storage<u32>) -> Counters {
-        *bytemuck::from_bytes(bytemuck::cast_slice(&self.read(control)[PARAM_WORDS..]))
+    /// Runs a kernel on `state`'s buffers, and its reference on `state`. Returns the device's
+    /// buffers.
+    pub fn both(&self, name: &str, state: &mut State<D>, reference: impl Fn(&mut State<D>)) -> State<D> {
+        self.upload(state);
+        self.run(name);
+        reference(state);
+        let device = self.download(state);
+        assert_eq!(device.counters, state.counters, "{name}");
+        device
+    }
+
+    /// Begins a round: one function of the reference; three kernels, and a scan.
+    pub fn begin_round(&self, state: &mut State<D>) {
+        self.upload(state);
+        self.run("begin_round");
+        reference::begin_round(state);
+        let entries = state.counters.entries_before;
+        assert_eq!(self.read(&self.scan), [entries], "begin_round");
+        self.run("waiting_mark");
+        let marks = &self.read(&self.buffers.marks)[..entries as usize];
+        let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
+        self.offsets.write(&self.kernels.gpu, 0, &offsets);
+        self.run("waiting_compact");
+        states::assert_equal(&self.download(state), state, "begin_round");
+    }
+
+    /// Runs a kernel and its reference, whose results are the same to the last bit.
+    pub fn equal(&self, name: &str, state: &mut State<D>, reference: impl Fn(&mut State<D>)) {
+        let device = self.both(name, state, reference);
+        states::assert_equal(&device, state, name);
     }
 }
 
-/// So many of these positions, in no order; on a wide lattice they become the high words of coordinates.
+/// Returns the simplices in a half of the active list.
+pub fn listed<const D: usize>(state: &State<D>, half: usize) -> BTreeSet<u32>
+where
+    Dimension<D>: Own<D>,
+{
+    state.active[half][..state.counters.active_len[half] as usize].iter().map(|a| a.tet).collect()
+}
+
+/// Returns so many of these positions, in no order; on a wide lattice they become the high words of
+/// coordinates.
 pub fn shuffled<const D: usize>(width: Width, mut positions: Vec<[i64; D]>, count: usize) -> Vec<[i64; D]> {
     positions.shuffle(&mut Pcg32::seed_from_u64(4));
     positions.truncate(count);

@@ -1,4 +1,5 @@
-//! The host of the GPU, its kernels and stages, and Phase 1: against their references on the CPU, and the references on their own.
+//! The host of the GPU, its kernels and stages, and Phase 1: against their references on the CPU,
+//! and the references on their own.
 #![cfg(feature = "gpu")]
 
 mod assemble;
@@ -12,6 +13,7 @@ mod oracle;
 mod perturbation;
 mod positions;
 mod signs;
+mod states;
 
 mod certify;
 mod d2_kernels;

@@ -4,13 +4,15 @@ use crate::oracle;
 use gdel::internals::predicates::Sign;
 use num_bigint::BigInt;
 
-/// Exponents of two, for coordinates below 16: δᵢ = 2^(−16 (i + 1)) is small enough to leave every determinant's sign
-/// alone, and the ε's, 2^(−256·2^bit), are small enough for every product of the δ's and the ε's before them.
+/// Exponents of two, for coordinates below 16: δᵢ = 2^(−16 (i + 1)) is small enough to leave every
+/// determinant's sign alone, and the ε's, 2^(−256·2^bit), are small enough for every product of the
+/// δ's and the ε's before them.
 const DELTA: usize = 16;
 const EPSILON: usize = 256;
 
-/// A row for each index and position: the coordinates, the height and 1, perturbed, and all times the power of two that
-/// makes the smallest ε an integer. Only the coordinates of the `D` lowest ranks are perturbed.
+/// A row for each index and position: the coordinates, the height and 1, perturbed, and all times
+/// the power of two that makes the smallest ε an integer. Only the coordinates of the `D` lowest
+/// ranks are perturbed.
 pub fn perturbed_rows<const D: usize>(vertices: &[(u32, [i64; D])]) -> Vec<Vec<BigInt>> {
     let one = EPSILON << (D * D - 1);
     let row = |&(index, position): &(u32, [i64; D])| {

@@ -5,9 +5,10 @@ use std::collections::HashMap;
 use gdel::{
     Points,
     internals::{
+        dimension::Dimension,
         gpu::{
             AdapterChoice, Gpu, Readback, Recorder,
-            dim::{Dim, Dimension},
+            dim::Dim,
             points::{InputCounts, PointInput, PointStage},
         },
         input::lattice::{Lattice, Width},
@@ -181,9 +182,10 @@ fn halves_are_rounded_up() {
     assert!(counts.rounded > 0);
 }
 
-/// Generic, on a grid with duplicates, and with so many exponents that points are rounded and fall together.
+/// Generic, on a grid with duplicates, and with so many exponents that points are rounded and fall
+/// together.
 #[test]
-fn points_of_the_plane() {
+fn points_in_2d() {
     let bench = Bench::<2>::new();
     let mut rng = Pcg64Mcg::seed_from_u64(4);
     for n in [0, 1, 257, 20_000] {

@@ -36,8 +36,8 @@ pub fn direction<const D: usize>(max: i64, rng: &mut impl Rng) -> [i64; D] {
     from_fn(|_| rng.random_range(-max / 32..max / 32) * i64::from(rng.random_bool(0.7)))
 }
 
-/// Points around the middle whose coordinates are those of vectors of one length, permuted and mirrored; one of them may
-/// be off by one. The vectors are scaled by up to `most`.
+/// Points around the middle whose coordinates are those of vectors of one length, permuted and
+/// mirrored; one of them may be off by one. The vectors are scaled by up to `most`.
 pub fn cospherical<const D: usize, const N: usize>(
     vectors: &[[i64; D]],
     most: i64,

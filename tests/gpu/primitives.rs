@@ -18,10 +18,12 @@ fn sizes<const N: usize>(steps: [usize; N]) -> impl Iterator<Item = usize> {
     [0, 1].into_iter().chain(around).chain([3_000_000])
 }
 
-/// The sizes at which a scan takes another step: an invocation's, a workgroup's, and that of all workgroups.
+/// The sizes at which a scan takes another step: an invocation's, a workgroup's, and that of all
+/// workgroups.
 const SCAN_STEPS: [usize; 4] = [4, 256, 1024, 1024 * scan::GROUPS];
 
-/// The sizes at which a sort takes another step: a mask's word, a row, a tile, few tiles, and a row of tiles.
+/// The sizes at which a sort takes another step: a mask's word, a row, a tile, few tiles, and a row
+/// of tiles.
 const SORT_STEPS: [usize; 5] = [32, 256, sort::TILE, sort::FEW as usize * sort::TILE, 256 * sort::TILE];
 
 fn open() -> Gpu {

@@ -45,7 +45,8 @@ pub fn exact_orientation<const D: usize>(positions: &[[i64; D]]) -> Sign {
     oracle::sign(&oracle::orientation(&points.iter().collect::<Vec<_>>()))
 }
 
-/// Whether the last of D + 2 positions is inside the circumsphere of the others, or the circumcircle.
+/// Whether the last of D + 2 positions is inside the circumsphere of the others, or the
+/// circumcircle.
 pub fn exact_in_circumsphere<const D: usize>(positions: &[[i64; D]]) -> Sign {
     let points: Vec<_> = positions.iter().map(|p| p.map(BigInt::from)).collect();
     oracle::sign(&oracle::in_circumsphere(&points.iter().collect::<Vec<_>>()))

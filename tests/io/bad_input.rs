@@ -371,11 +371,11 @@ fn broken_vtu_files() {
         let error = read_vtu(file.replace(from, to).as_bytes()).expect_err("an error");
         assert!(error.what.contains(what), "{error}");
     };
-    fails("10 10", "10 12", "cell 1 is no tetrahedron");
+    fails("10 10", "10 12", "cell 1 is not a tetrahedron");
     fails("10 10", "10 10 10", "3 tetrahedra");
     fails("1 2 3 4\n", "1 2 3\n", "7 vertices");
     fails("1 2 3 4\n", "1 2 3 x\n", "not all of its values are integers");
-    fails("1 2 3 4\n", "1 2 3 -4\n", "no index");
+    fails("1 2 3 4\n", "1 2 3 -4\n", "-4 is not the index of a point");
     fails("\"connectivity\"", "\"other\"", "`connectivity`");
     fails("format=\"ascii\">10", "format=\"appended\" offset=\"99\">10", "appended");
     fails("format=\"ascii\">10", "format=\"binary\">10", "broken");
@@ -452,7 +452,11 @@ fn ply_with_every_other_fault() {
     fails(PLY.replace("ascii 1.0", "ascii 2.0") + "end_header\n", 2, "`format NAME 1.0` expected");
     fails(PLY.replace("ascii", "text") + "end_header\n", 2, "the format `text` is not known");
     fails(PLY.replace("format ascii 1.0\n", "") + "end_header\n1 2 3\n4 5 6\n", 6, "without a line `format`");
-    fails(PLY.replace("property float x", "propertie float x") + "end_header\n", 4, "`propertie float x` is no line");
+    fails(
+        PLY.replace("property float x", "propertie float x") + "end_header\n",
+        4,
+        "`propertie float x` is not a line",
+    );
     fails(PLY.replace("property float x", "property x") + "end_header\n", 4, "`property TYPE NAME`");
     fails(PLY.replace("element vertex 2\n", "") + "end_header\n", 3, "before the first element");
     fails(PLY.replace("float y", "float x") + "end_header\n1 2 3\n4 5 6\n", 3, "more than one property `x`");

@@ -2,7 +2,7 @@
 //! read and proven.
 
 use gdel::{
-    Mesh2, Mesh3, Points,
+    Mesh2, Mesh3, Points, Points3,
     internals::io::{
         Mesh, MeshData, MeshFormat, PointBuf, PointCloud, PointFormat, read_neigh, write_ele, write_neigh,
     },
@@ -54,15 +54,15 @@ trait Triangulation<const D: usize, const N: usize>: Mesh<D, N> + Sized {
 }
 
 impl Triangulation<3, 4> for Mesh3 {
-    fn triangulate(points: Points<'_>) -> Self {
+    fn triangulate(points: Points3<'_>) -> Self {
         gdel::delaunay3d(points).expect("finite points")
     }
 
-    fn verify(points: Points<'_>, mesh: &Self) -> Report {
+    fn verify(points: Points3<'_>, mesh: &Self) -> Report {
         gdel::verify3d(points, mesh).expect("finite points")
     }
 
-    fn verify_data(points: Points<'_>, mesh: &MeshData<3, 4>) -> Report {
+    fn verify_data(points: Points3<'_>, mesh: &MeshData<3, 4>) -> Report {
         gdel::verify3d(points, mesh).expect("finite points")
     }
 }

@@ -104,7 +104,7 @@ fn no_hull_is_an_empty_scene() {
 }
 
 #[test]
-fn triangles_of_the_plane_lie_at_z_0_and_turn_counter_clockwise() {
+fn triangles_in_2d_lie_at_z_0_and_turn_counter_clockwise() {
     let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.5f64]];
     let mesh: Mesh2 = gdel::delaunay2d(&points).expect("finite points");
     let mut file = Vec::new();

@@ -1,15 +1,15 @@
 //! A triangulation that can be spoilt: splits and flips of tetrahedra found by their facets.
 
 use gdel::internals::{
-    d3::{mesh::FACETS, splay::NearDelaunay, triangulation::Triangulation},
+    d3::{mesh::FACETS, splay::NearDelaunay3, triangulation::Triangulation3},
     index::NO_INDEX,
-    predicates::filter::PredicateContext,
+    predicates::filter::PredicateContext3,
 };
 use std::collections::HashMap;
 
 /// Tetrahedra without ghosts, positively oriented, and the tetrahedra at each facet.
 pub struct Soup<'a> {
-    vertices: &'a PredicateContext<'a>,
+    vertices: &'a PredicateContext3<'a>,
     pub tetrahedra: Vec<[u32; 4]>,
     facets: HashMap<[u32; 3], Vec<usize>>,
 }
@@ -21,7 +21,7 @@ fn facet(t: [u32; 4], k: usize) -> [u32; 3] {
 }
 
 impl<'a> Soup<'a> {
-    pub fn new(vertices: &'a PredicateContext<'a>, tetrahedra: &[[u32; 4]]) -> Self {
+    pub fn new(vertices: &'a PredicateContext3<'a>, tetrahedra: &[[u32; 4]]) -> Self {
         let mut soup = Soup { vertices, tetrahedra: Vec::new(), facets: HashMap::new() };
         tetrahedra.iter().for_each(|&t| soup.add(t));
         soup
@@ -130,14 +130,14 @@ impl<'a> Soup<'a> {
     }
 
     /// Returns the triangulation with ghosts; all tetrahedra are uncertain.
-    pub fn finish(&self) -> NearDelaunay {
+    pub fn finish(&self) -> NearDelaunay3 {
         near(self.vertices.len() as u32, &self.tetrahedra)
     }
 }
 
 /// Returns a triangulation of the hull of the vertices below `infinite`, with ghosts. All
 /// tetrahedra are uncertain, and nothing is known to have failed.
-pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay {
+pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay3 {
     let mut all = tetrahedra.to_vec();
     let mut neighbors = vec![[NO_INDEX; 4]; all.len()];
     let mut open = HashMap::new();
@@ -173,8 +173,8 @@ pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay {
     }
     let missing = (0..infinite).filter(|&v| incident[v as usize] == NO_INDEX).collect();
     let uncertain = (0..all.len() as u32).collect();
-    NearDelaunay {
-        triangulation: Triangulation::new(all, neighbors, infinite),
+    NearDelaunay3 {
+        triangulation: Triangulation3::new(all, neighbors, infinite),
         incident,
         failed: Vec::new(),
         uncertain,
@@ -183,7 +183,7 @@ pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay {
 }
 
 /// Returns the finite tetrahedra that are flat or inverted.
-pub fn flat_or_inverted(mesh: &Triangulation, vertices: &PredicateContext<'_>) -> Vec<u32> {
+pub fn flat_or_inverted(mesh: &Triangulation3, vertices: &PredicateContext3<'_>) -> Vec<u32> {
     let finite = |t: &[u32; 4]| t[3] != vertices.len() as u32;
     let bad = |&[a, b, c, d]: &[u32; 4]| vertices.orient3d(a, b, c, d) <= 0;
     (0..).zip(mesh.tetrahedra()).filter(|(_, t)| finite(t) && bad(t)).map(|(slot, _)| slot).collect()
@@ -191,7 +191,7 @@ pub fn flat_or_inverted(mesh: &Triangulation, vertices: &PredicateContext<'_>) -
 
 /// Returns what a GPU would report about `near`: the vertices that have a facet that is not locally
 /// Delaunay, and the tetrahedra that are flat or inverted. The others are certain.
-pub fn found_out(vertices: &PredicateContext<'_>, near: &NearDelaunay) -> NearDelaunay {
+pub fn found_out(vertices: &PredicateContext3<'_>, near: &NearDelaunay3) -> NearDelaunay3 {
     let (tetrahedra, neighbors) = (near.triangulation.tetrahedra(), near.triangulation.neighbors());
     let infinite = vertices.len() as u32;
     let mut bad = vec![false; tetrahedra.len()];
@@ -221,5 +221,5 @@ pub fn found_out(vertices: &PredicateContext<'_>, near: &NearDelaunay) -> NearDe
             }
         }
     }
-    NearDelaunay { uncertain, failed, ..near.clone() }
+    NearDelaunay3 { uncertain, failed, ..near.clone() }
 }

@@ -8,18 +8,17 @@ mod phase1;
 
 use flips::{Soup, found_out, near};
 use gdel::{
-    MeshView, Points,
+    MeshView3, Points,
     internals::{
-        Options,
+        Options, cpu,
         d3::{
-            cpu,
-            splay::{Aborted, NearDelaunay, SplayOutcome, splay},
+            splay::{Aborted, NearDelaunay3, SplayOutcome, splay},
             triangulation::FiniteMesh,
         },
         index::NO_INDEX,
         input::lattice::Lattice,
         parallel::Threads,
-        predicates::filter::PredicateContext,
+        predicates::filter::{PredicateContext, PredicateContext3},
     },
     stats::SplayStats,
     verify3d,
@@ -29,7 +28,7 @@ use rand::{RngExt, seq::SliceRandom};
 
 /// Returns the exact result, as vertex numbers of the order `indices` of the points.
 fn exact(points: &Cloud, indices: &[u32]) -> Vec<[u32; 4]> {
-    let mesh = cpu::delaunay3d(points.into(), &Options::default()).unwrap();
+    let mesh = cpu::delaunay::<3>(points.into(), &Options::default()).unwrap();
     let mut vertex = vec![0; points.len()];
     indices.iter().enumerate().for_each(|(v, &i)| vertex[i as usize] = v as u32);
     mesh.tetrahedra.iter().map(|t| t.map(|i| vertex[i as usize])).collect()
@@ -43,7 +42,7 @@ fn canonical(mut tetrahedra: Vec<[u32; 4]>) -> Vec<[u32; 4]> {
 
 /// Splays twice, once with everything uncertain, and once with only what is really wrong; checks
 /// that the result is exact.
-fn check(name: &str, vertices: &PredicateContext<'_>, near: NearDelaunay, answer: &[[u32; 4]]) -> SplayStats {
+fn check(name: &str, vertices: &PredicateContext3<'_>, near: NearDelaunay3, answer: &[[u32; 4]]) -> SplayStats {
     let known = found_out(vertices, &near);
     let (doubting, _) = splayed(name, vertices, near);
     let (tetrahedra, stats) = splayed(name, vertices, known);
@@ -54,7 +53,7 @@ fn check(name: &str, vertices: &PredicateContext<'_>, near: NearDelaunay, answer
 }
 
 /// Returns the tetrahedra that splaying gives, which the verifier must accept.
-fn splayed(name: &str, vertices: &PredicateContext<'_>, near: NearDelaunay) -> (Vec<[u32; 4]>, SplayStats) {
+fn splayed(name: &str, vertices: &PredicateContext3<'_>, near: NearDelaunay3) -> (Vec<[u32; 4]>, SplayStats) {
     let started = std::time::Instant::now();
     let (mesh, stats) = match splay(vertices, near, u64::MAX, Threads::All, &|_| Ok(())).unwrap() {
         SplayOutcome::Delaunay(mesh, stats) => (mesh, stats),
@@ -65,7 +64,7 @@ fn splayed(name: &str, vertices: &PredicateContext<'_>, near: NearDelaunay) -> (
     let FiniteMesh { tetrahedra, neighbors, hull } = mesh.into_mesh(Some(&names), Threads::All);
     let mut points = vec![[0.0; 3]; names.len()];
     names.iter().zip(0..).for_each(|(&i, v)| points[i as usize] = vertices.point(v));
-    let mut statement = MeshView::of_tetrahedra(&tetrahedra);
+    let mut statement = MeshView3::of_tetrahedra(&tetrahedra);
     statement.neighbors = Some(&neighbors);
     statement.hull = Some(&hull);
     let report = verify3d(&points, statement).unwrap();
@@ -114,14 +113,14 @@ fn from_displaced(name: &str, points: &Cloud, by: f64, seed: u64) -> SplayStats 
 /// flips as far as they can go; then splays.
 fn from_split_and_flip(name: &str, points: &Cloud, batch: usize, seed: u64) -> SplayStats {
     let indices = shuffled(points.len(), seed);
-    let mesh = cpu::delaunay3d(points.into(), &Options::default()).unwrap();
+    let mesh = cpu::delaunay::<3>(points.into(), &Options::default()).unwrap();
     let mut vertex = vec![0; points.len()];
     indices.iter().enumerate().for_each(|(v, &i)| vertex[i as usize] = v as u32);
     let mut on_hull: Vec<u32> = mesh.hull.as_flattened().to_vec();
     on_hull.sort_unstable();
     on_hull.dedup();
     let hull_points: Cloud = on_hull.iter().map(|&i| points[i as usize]).collect();
-    let first = cpu::delaunay3d((&hull_points).into(), &Options::default()).unwrap();
+    let first = cpu::delaunay::<3>((&hull_points).into(), &Options::default()).unwrap();
     let first: Vec<[u32; 4]> =
         first.tetrahedra.iter().map(|t| t.map(|i| vertex[on_hull[i as usize] as usize])).collect();
 
@@ -156,7 +155,7 @@ fn clouds(n: usize, seed: u64) -> Vec<(&'static str, Cloud)> {
 
 fn is_spatial(points: &Cloud) -> bool {
     points.len() >= 4 && Points::from(points).len() == points.len() && {
-        cpu::delaunay3d(points.into(), &Options::default()).unwrap().dimension == 3
+        cpu::delaunay::<3>(points.into(), &Options::default()).unwrap().dimension == 3
     }
 }
 
@@ -236,7 +235,7 @@ fn small_inputs_of_all_kinds() {
 }
 
 /// Returns a triangulation whose splaying takes work.
-fn spoilt(points: &Cloud) -> NearDelaunay {
+fn spoilt(points: &Cloud) -> NearDelaunay3 {
     let mut rng = inputs::random(20);
     let displaced: Cloud = points.iter().map(|p| p.map(|x| x + 0.1 * (rng.random::<f64>() - 0.5))).collect();
     near(points.len() as u32, &exact(&displaced, &shuffled(points.len(), 21)))
@@ -287,8 +286,8 @@ fn what_is_not_a_triangulation_aborts() {
     let lattice = Lattice::fit((&points).into());
     let vertices = PredicateContext::new((&points).into(), &lattice, shuffled(points.len(), 21));
     let near = spoilt(&points);
-    let no_tetrahedra = NearDelaunay { incident: vec![NO_INDEX; points.len() + 1], ..near.clone() };
-    let wrong_tetrahedra = NearDelaunay { incident: near.incident.iter().rev().copied().collect(), ..near };
+    let no_tetrahedra = NearDelaunay3 { incident: vec![NO_INDEX; points.len() + 1], ..near.clone() };
+    let wrong_tetrahedra = NearDelaunay3 { incident: near.incident.iter().rev().copied().collect(), ..near };
     for near in [no_tetrahedra, wrong_tetrahedra] {
         let outcome = splay(&vertices, near, u64::MAX, Threads::All, &|_| Ok(())).unwrap();
         assert!(matches!(outcome, SplayOutcome::Aborted(Aborted::Inconsistent(_))), "{outcome:?}");
@@ -313,7 +312,7 @@ fn missing_points_are_inserted() {
         let part = points.len() * 9 / 10;
         indices[..part].sort_unstable();
         let some: Cloud = indices[..part].iter().map(|&i| points[i as usize]).collect();
-        let mesh = cpu::delaunay3d((&some).into(), &Options::default()).unwrap();
+        let mesh = cpu::delaunay::<3>((&some).into(), &Options::default()).unwrap();
         let answer = exact(&points, &indices);
         let lattice = Lattice::fit((&points).into());
         let vertices = PredicateContext::new((&points).into(), &lattice, indices);

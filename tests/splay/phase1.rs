@@ -4,10 +4,10 @@
 use crate::{check, exact, flips::flat_or_inverted, inputs, inputs::Cloud};
 use gdel::{
     internals::{
-        d3::{splay::NearDelaunay, triangulation::Triangulation},
+        d3::{splay::NearDelaunay3, triangulation::Triangulation3},
         index::NO_INDEX,
         input::lattice::{Lattice, Width},
-        predicates::filter::PredicateContext,
+        predicates::filter::{PredicateContext, PredicateContext3},
         reference::{
             self,
             d3::predicates::Vertex,
@@ -19,7 +19,7 @@ use gdel::{
 
 /// Returns the triangulation without the gaps between tetrahedra, and what has failed; flat
 /// tetrahedra are uncertain.
-fn near(state: &reference::State<3>, vertices: &PredicateContext<'_>) -> NearDelaunay {
+fn near(state: &reference::State<3>, vertices: &PredicateContext3<'_>) -> NearDelaunay3 {
     let used: Vec<usize> = (0..state.simplices.len()).filter(|&t| state.is_used(t)).collect();
     let mut number = vec![NO_INDEX; state.simplices.len()];
     used.iter().zip(0..).for_each(|(&t, n)| number[t] = n);
@@ -44,10 +44,10 @@ fn near(state: &reference::State<3>, vertices: &PredicateContext<'_>) -> NearDel
         let some = (0..).zip(&tetrahedra).filter(|(_, t)| (t[3] == infinite) == ghosts);
         some.for_each(|(n, t)| t.iter().for_each(|&v| incident[v as usize] = n));
     }
-    let triangulation = Triangulation::new(tetrahedra, neighbors, infinite);
+    let triangulation = Triangulation3::new(tetrahedra, neighbors, infinite);
     let uncertain = flat_or_inverted(&triangulation, vertices);
     let failed = (0..vertices.len() as u32).filter(|&v| state.own.failed[v as usize] != 0).collect();
-    NearDelaunay { triangulation, incident, failed, uncertain, missing: Vec::new() }
+    NearDelaunay3 { triangulation, incident, failed, uncertain, missing: Vec::new() }
 }
 
 fn both_phases(name: &str, points: &Cloud, settings: &Settings) -> SplayStats {

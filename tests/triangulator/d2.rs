@@ -1,13 +1,11 @@
-//! In the plane, the engine `gpu` gives the same set of triangles as the engine `cpu`.
+//! In 2D, the backend `gpu` gives the same set of triangles as the backend `cpu`.
 
 use gdel::{
     Backend, Mesh2, Points2,
     internals::{
         Options,
-        d2::{
-            cpu::delaunay2d_in_order,
-            generate::{Distribution2, generate2d},
-        },
+        cpu::delaunay_in_order,
+        d2::generate::{Distribution2, generate2d},
         gpu::{AdapterChoice, Gpu, engine::GpuEngine, layout::Pick, phase1::Settings},
         input::order::Order,
     },
@@ -32,7 +30,7 @@ fn triangulate(points: Points2<'_>, settings: &Settings<2>) -> Mesh2 {
 }
 
 fn same(points: Points2<'_>, mesh: &Mesh2) {
-    let expected = delaunay2d_in_order(points, &Options::default(), Order::default()).expect("triangulates");
+    let expected = delaunay_in_order::<2>(points, &Options::default(), Order::default()).expect("triangulates");
     assert_eq!(mesh.dimension, expected.dimension);
     assert_eq!(mesh.duplicate_of, expected.duplicate_of);
     assert_eq!(mesh.canonical(), expected.canonical());
@@ -139,8 +137,8 @@ fn fewer_than_two_dimensions_are_left_to_the_cpu() {
     }
 }
 
-/// Points a few units in the last place apart share a place of the lattice when others lie far away; those a little
-/// farther apart are rounded, and the exact flips decide.
+/// Points a few units in the last place apart share a place of the lattice when others lie far
+/// away; those a little farther apart are rounded, and the exact flips decide.
 #[test]
 fn points_that_the_lattice_does_not_tell_apart() {
     let mut points = uniform(300, 3);
@@ -154,8 +152,8 @@ fn points_that_the_lattice_does_not_tell_apart() {
     agree("few steps of the lattice", (&points).into());
 }
 
-/// Some coordinates of Gaussian points and of points on a circle are rounded to the lattice. What that leaves open is looked at
-/// by itself, and none of it changes the triangulation.
+/// Some coordinates of Gaussian points and of points on a circle are rounded to the lattice. What
+/// that leaves open is looked at by itself, and none of it changes the triangulation.
 #[test]
 fn few_signs_are_open_where_few_points_are_rounded() {
     for (name, points) in [
@@ -174,8 +172,8 @@ fn few_signs_are_open_where_few_points_are_rounded() {
     }
 }
 
-/// Points some steps of the lattice apart, all of them rounded, with others far away: the lattice's triangulation is wrong in
-/// many places, and flips and insertions mend it.
+/// Points some steps of the lattice apart, all of them rounded, with others far away: the lattice's
+/// triangulation is wrong in many places, and flips and insertions mend it.
 #[test]
 fn what_rounding_made_wrong_is_mended() {
     let mut rng = Pcg64Mcg::seed_from_u64(16);
@@ -192,8 +190,8 @@ fn what_rounding_made_wrong_is_mended() {
     }
 }
 
-/// Two lines make fans of flat triangles, which flips turn over one triangle after the other: with many points, the device gives
-/// up in time.
+/// Two lines make fans of flat triangles, which flips turn over one triangle after the other: with
+/// many points, the device gives up in time.
 #[test]
 fn flips_that_wait_for_each_other_are_left_to_the_cpu() {
     agree("few points on two lines", (&generate2d(Distribution2::TwoLines, 4_000, 1)).into());
@@ -211,6 +209,18 @@ fn a_grid_takes_few_rounds() {
     same((&points).into(), &mesh);
     let rounds = mesh.stats.gpu.map_or(0, |gpu| gpu.rounds.len());
     assert!((1..=32).contains(&rounds), "{rounds} rounds");
+}
+
+#[test]
+fn every_submission_is_counted() {
+    let points = generate2d(Distribution2::Uniform, 1_000, 1);
+    let one_by_one = Settings { rounds: 1, batches: 1, ..Settings::default() };
+    let gpu = triangulate((&points).into(), &one_by_one).stats.gpu.expect("the GPU worked");
+    // One for the points, one per round, one for the end, and two to read the mesh.
+    assert_eq!(gpu.submits, 1 + gpu.rounds.len() as u64 + 1 + 2);
+    // The round that is submitted ahead of the last one's counters has nothing to do.
+    let gpu = triangulate((&points).into(), &Settings::default()).stats.gpu.expect("the GPU worked");
+    assert_eq!(gpu.submits, 1 + gpu.rounds.len() as u64 + 1 + 1 + 2);
 }
 
 proptest! {

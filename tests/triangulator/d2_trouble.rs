@@ -1,11 +1,11 @@
-//! Inputs of the kinds that have broken 2D triangulators: those of the issues that delaunator's users have reported, and of
-//! the literature on robustness, made anew. On each the CPU engine, in several insertion orders, and the GPU engine agree, and
-//! the exact verifier proves the mesh.
+//! Inputs of the kinds that have broken 2D triangulators: those of the issues that delaunator's
+//! users have reported, and of the literature on robustness, made anew. On each the CPU engine, in
+//! several insertion orders, and the GPU engine agree, and the exact verifier proves the mesh.
 
 use crate::d2::ENGINE;
 use gdel::{
     Mesh2,
-    internals::{Options, d2::cpu::delaunay2d_in_order, input::order::Order},
+    internals::{Options, cpu::delaunay_in_order, input::order::Order},
     verify2d,
 };
 use pollster::block_on;
@@ -22,7 +22,7 @@ fn agreed(points: &[[f64; 2]]) -> Mesh2 {
     let report = verify2d(points, &mesh).expect("finite points");
     assert!(report.passed(), "gpu:\n{report}");
     for order in [Order::default(), Order::Shuffled(1), Order::Shuffled(2)] {
-        let other = delaunay2d_in_order(points.into(), &Options::default(), order).expect("triangulates");
+        let other = delaunay_in_order::<2>(points.into(), &Options::default(), order).expect("triangulates");
         let report = verify2d(points, &other).expect("finite points");
         assert!(report.passed(), "cpu, {order:?}:\n{report}");
         assert_eq!(mesh.canonical(), other.canonical(), "{order:?}");
@@ -169,7 +169,8 @@ fn points_one_rounding_step_from_others() {
     assert_eq!(used.len(), points.len() - mesh.duplicate_count());
 }
 
-/// The test `robustness`: outlines with nearly equal points, at sizes for which absolute tolerances fail.
+/// The test `robustness`: outlines with nearly equal points, at sizes for which absolute tolerances
+/// fail.
 #[test]
 fn an_outline_at_many_scales() {
     let mut rng = rng(1);
@@ -203,8 +204,9 @@ fn points_beside_an_axis() {
     agreed_by_the_gpu(&points);
 }
 
-/// Kettner, Mehlhorn, Pion, Schirra and Yap, *Classroom examples of robustness problems in geometric computations* (2008):
-/// every point that is some steps of `f64` from (0.5, 0.5), and two points of the diagonal.
+/// Kettner, Mehlhorn, Pion, Schirra and Yap, *Classroom examples of robustness problems in
+/// geometric computations* (2008): every point that is some steps of `f64` from (0.5, 0.5), and two
+/// points of the diagonal.
 #[test]
 fn all_points_next_to_one_half_and_two_of_the_diagonal() {
     for (on_line, side) in [([12.0, 24.0], 16), ([17.3, 24.000_000_000_000_05], 12), ([8.8, 12.1], 12)] {
@@ -218,7 +220,8 @@ fn all_points_next_to_one_half_and_two_of_the_diagonal() {
     }
 }
 
-/// The convex hull of the same paper begins with three points that are nearly collinear; here they come in crowds.
+/// The convex hull of the same paper begins with three points that are nearly collinear; here they
+/// come in crowds.
 #[test]
 fn points_some_steps_off_a_line() {
     for seed in 0..4 {
@@ -235,7 +238,8 @@ fn points_some_steps_off_a_line() {
     }
 }
 
-/// As in the pictures of Shewchuk's lecture notes: in-circle tests that rounding decides either way.
+/// As in the pictures of Shewchuk's lecture notes: in-circle tests that rounding decides either
+/// way.
 #[test]
 fn points_some_steps_off_a_circle() {
     for seed in 0..3 {
@@ -249,7 +253,8 @@ fn points_some_steps_off_a_circle() {
     }
 }
 
-/// On a line but for what rounding the coordinates made of it: not collinear, and as thin as can be.
+/// On a line but for what rounding the coordinates made of it: not collinear, and as thin as can
+/// be.
 #[test]
 fn multiples_of_decimal_fractions() {
     for [x, y] in [[0.1, 0.3], [1.1, 2.2], [0.7, -0.1], [1e-3, 1e3]] {

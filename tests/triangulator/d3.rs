@@ -2,7 +2,7 @@
 
 use crate::{agree, clouds, same, triangulate};
 use gdel::{
-    internals::d3::generate::{Distribution, generate},
+    internals::d3::generate::{Distribution3, generate3d},
     stats::Fallback,
 };
 use proptest::prelude::*;
@@ -11,22 +11,22 @@ use rand_pcg::Pcg64Mcg;
 
 #[test]
 fn the_papers_distributions() {
-    for distribution in Distribution::ALL {
+    for distribution in Distribution3::ALL {
         for n in [5, 30, 500, 3000] {
             println!("{} {n}", distribution.name());
-            agree(&generate(distribution, n, 7));
+            agree(&generate3d(distribution, n, 7));
         }
     }
 }
 
 #[test]
 fn twenty_thousand_uniform_points() {
-    agree(&generate(Distribution::Uniform, 20_000, 1));
+    agree(&generate3d(Distribution3::Uniform, 20_000, 1));
 }
 
 #[test]
 fn five_thousand_points_on_a_sphere_in_single_precision() {
-    let points = generate(Distribution::Sphere, 5_000, 1);
+    let points = generate3d(Distribution3::Sphere, 5_000, 1);
     agree(&points.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>());
 }
 
@@ -44,10 +44,11 @@ fn fewer_than_three_dimensions_are_left_to_the_cpu() {
     }
 }
 
-/// Points a few units in the last place apart share a place of the lattice when others lie far away.
+/// Points a few units in the last place apart share a place of the lattice when others lie far
+/// away.
 #[test]
 fn points_that_share_a_place_of_the_lattice() {
-    let mut points = generate(Distribution::Uniform, 300, 3);
+    let mut points = generate3d(Distribution3::Uniform, 300, 3);
     for k in 0..40 {
         let scale = 2f64.powi(-70 - k % 3);
         points.push([f64::from(k % 7) * scale, f64::from(k % 5) * scale, f64::from(k % 3) * scale]);
@@ -136,7 +137,7 @@ fn two_hundred_small_inputs() {
 #[test]
 #[ignore = "takes minutes on a software adapter"]
 fn five_hundred_thousand_points_on_a_sphere() {
-    let points = generate(Distribution::Sphere, 500_000, 1);
+    let points = generate3d(Distribution3::Sphere, 500_000, 1);
     agree(&points);
     agree(&points.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>());
 }

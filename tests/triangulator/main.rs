@@ -10,10 +10,9 @@ mod outcomes;
 mod statistics;
 
 use gdel::{
-    Backend, Mesh3, Points,
+    Backend, Mesh3, Points3,
     internals::{
-        Options,
-        d3::cpu,
+        Options, cpu,
         gpu::{AdapterChoice, Gpu, engine::GpuEngine},
     },
     verify3d,
@@ -33,12 +32,12 @@ fn engine() -> MutexGuard<'static, GpuEngine<3>> {
     ENGINE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn triangulate<'a>(points: impl Into<Points<'a>>) -> Mesh3 {
+fn triangulate<'a>(points: impl Into<Points3<'a>>) -> Mesh3 {
     block_on(engine().triangulate(points.into(), &Options::default())).expect("triangulates")
 }
 
 /// Both engines agree, and the GPU's did the work.
-fn agree<'a>(points: impl Into<Points<'a>>) {
+fn agree<'a>(points: impl Into<Points3<'a>>) {
     let points = points.into();
     let mesh = triangulate(points);
     assert_eq!(mesh.stats.fallback, None);
@@ -47,9 +46,9 @@ fn agree<'a>(points: impl Into<Points<'a>>) {
 }
 
 /// The mesh is the CPU engine's, and the verifier passes.
-fn same<'a>(points: impl Into<Points<'a>>, mesh: &Mesh3) {
+fn same<'a>(points: impl Into<Points3<'a>>, mesh: &Mesh3) {
     let points = points.into();
-    let expected = cpu::delaunay3d(points, &Options::default()).expect("triangulates");
+    let expected = cpu::delaunay::<3>(points, &Options::default()).expect("triangulates");
     assert_eq!(mesh.dimension, expected.dimension);
     assert_eq!(mesh.duplicate_of, expected.duplicate_of);
     // Not by assert_eq, which would print them all.

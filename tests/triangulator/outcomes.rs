@@ -6,9 +6,9 @@ use gdel::{
     internals::{
         Options,
         d2::generate::{Distribution2, generate2d},
-        d3::generate::{Distribution, generate},
+        d3::generate::{Distribution3, generate3d},
         gpu::{AdapterChoice, Gpu, engine::GpuEngine, phase1::Settings},
-        triangulator::{MIN_POINTS, MIN_POINTS_2},
+        triangulator::{MIN_POINTS_2D, MIN_POINTS_3D},
     },
     stats::{Fallback, Phase},
 };
@@ -19,7 +19,7 @@ use std::{
 };
 
 fn points() -> Vec<[f64; 3]> {
-    generate(Distribution::ThinSphere, 3_000, 9)
+    generate3d(Distribution3::ThinSphere, 3_000, 9)
 }
 
 fn watched(on_progress: impl Fn(Progress) -> ControlFlow<()> + Send + Sync + 'static) -> Options {
@@ -126,7 +126,7 @@ fn a_device_lost_in_the_middle_is_an_error_and_the_next_run_opens_another() {
 #[test]
 fn auto_goes_on_without_the_device_that_it_lost() {
     let engines = Triangulator::from_gpu(device());
-    let points = generate(Distribution::Uniform, MIN_POINTS, 3);
+    let points = generate3d(Distribution3::Uniform, MIN_POINTS_3D, 3);
     let result = lose_the_device(&engines, Backend::Auto, &points, Phase::Phase1, 2).expect("the CPU engine goes on");
     assert!(
         matches!(result.stats.fallback, Some(Fallback::GpuFailed(Error::DeviceLost { .. }))),
@@ -139,19 +139,19 @@ fn auto_goes_on_without_the_device_that_it_lost() {
 #[test]
 fn auto_takes_the_gpu_where_it_pays() {
     let engines = Triangulator::from_gpu(device());
-    let points = generate(Distribution::Uniform, MIN_POINTS, 4);
+    let points = generate3d(Distribution3::Uniform, MIN_POINTS_3D, 4);
     let mesh = engines.delaunay3d(&points).expect("triangulates");
     assert_eq!((mesh.stats.backend, mesh.stats.fallback), (Backend::Gpu, None));
-    let few = &points[..MIN_POINTS - 1];
+    let few = &points[..MIN_POINTS_3D - 1];
     let mesh = engines.delaunay3d(few).expect("triangulates");
-    let why = Fallback::FewPoints { points: few.len(), least: MIN_POINTS };
+    let why = Fallback::FewPoints { points: few.len(), least: MIN_POINTS_3D };
     assert_eq!((mesh.stats.backend, mesh.stats.fallback), (Backend::Cpu, Some(why)));
 }
 
 #[test]
-fn auto_takes_the_gpu_in_the_plane_where_it_pays() {
+fn auto_takes_the_gpu_in_2d_where_it_pays() {
     let engines = Triangulator::from_gpu(device());
-    let points = generate2d(Distribution2::Uniform, MIN_POINTS_2, 4);
+    let points = generate2d(Distribution2::Uniform, MIN_POINTS_2D, 4);
     let auto = |points: &[[f64; 2]]| {
         let mesh = engines.delaunay2d(points).expect("triangulates");
         let expected = engines.clone().backend(Backend::Cpu).delaunay2d(points).expect("triangulates");
@@ -160,19 +160,19 @@ fn auto_takes_the_gpu_in_the_plane_where_it_pays() {
         (mesh.stats.backend, mesh.stats.fallback)
     };
     assert_eq!(auto(&points), (Backend::Gpu, None));
-    let few = &points[..MIN_POINTS_2 - 1];
-    assert_eq!(auto(few), (Backend::Cpu, Some(Fallback::FewPoints { points: few.len(), least: MIN_POINTS_2 })));
-    // The engine of space, on the same device, is still there.
-    let points = generate(Distribution::Uniform, MIN_POINTS, 4);
+    let few = &points[..MIN_POINTS_2D - 1];
+    assert_eq!(auto(few), (Backend::Cpu, Some(Fallback::FewPoints { points: few.len(), least: MIN_POINTS_2D })));
+    // The 3D engine, on the same device, is still there.
+    let points = generate3d(Distribution3::Uniform, MIN_POINTS_3D, 4);
     let mesh = engines.delaunay3d(&points).expect("triangulates");
     assert_eq!((mesh.stats.backend, mesh.stats.fallback), (Backend::Gpu, None));
 }
 
 #[test]
-fn auto_goes_on_in_the_plane_without_the_device_that_it_lost() {
+fn auto_goes_on_in_2d_without_the_device_that_it_lost() {
     let engines = Triangulator::from_gpu(device());
     let device = block_on(engines.gpu()).expect("opens").device().clone();
-    let points = generate2d(Distribution2::Uniform, MIN_POINTS_2, 5);
+    let points = generate2d(Distribution2::Uniform, MIN_POINTS_2D, 5);
     let rounds = Mutex::new(0);
     let watched = engines.clone().on_progress(move |progress| {
         let mut rounds = rounds.lock().expect("no panic");
@@ -190,7 +190,7 @@ fn auto_goes_on_in_the_plane_without_the_device_that_it_lost() {
     assert!(matches!(mesh.stats.fallback, Some(Fallback::FewPoints { .. })), "{:?}", mesh.stats.fallback);
 }
 
-/// On machines with a graphics card there is nothing to see here.
+/// On machines with a hardware GPU this test shows nothing.
 #[test]
 fn auto_does_not_take_a_software_adapter() {
     let engines = Triangulator::new();
@@ -198,7 +198,7 @@ fn auto_does_not_take_a_software_adapter() {
     // Grids of 8,000 points: too few at first, and never enough for software.
     let many: Vec<_> =
         (0..4).flat_map(|k| points.iter().map(move |&[x, y, z]| [x, y, z + 20.0 * f64::from(k)])).collect();
-    assert!(many.len() >= MIN_POINTS);
+    assert!(many.len() >= MIN_POINTS_3D);
     let mut why = Vec::new();
     for _ in 0..5 {
         let mesh = engines.delaunay3d(&many).expect("triangulates");
@@ -217,7 +217,7 @@ fn a_gpu_that_is_not_there() {
     let points = points();
     let error = engines.clone().backend(Backend::Gpu).delaunay3d(&points).expect_err("there is none");
     assert!(matches!(error, Error::AdapterNotFound { .. }), "{error:?}");
-    let many = generate(Distribution::Uniform, 110_000, 3);
+    let many = generate3d(Distribution3::Uniform, 110_000, 3);
     let mesh = engines.delaunay3d(&many).expect("triangulates");
     assert!(matches!(mesh.stats.fallback, Some(Fallback::NoGpu(_))), "{:?}", mesh.stats.fallback);
 }
@@ -251,7 +251,7 @@ fn with_small_buffers(bytes: u64) -> GpuEngine<3> {
 #[test]
 fn an_input_that_is_too_large_is_an_error_that_says_what_would_fit() {
     let mut engine = with_small_buffers(1 << 20);
-    let points = generate(Distribution::Uniform, 20_000, 3);
+    let points = generate3d(Distribution3::Uniform, 20_000, 3);
     let error = block_on(engine.triangulate((&points).into(), &Options::default())).expect_err("1 MiB is not enough");
     let Error::BufferTooLarge { bytes, limit, points: Some(fitting), .. } = error else { panic!("{error:?}") };
     assert!(bytes > limit.into() && limit == 1 << 20);
@@ -266,7 +266,8 @@ fn an_input_that_is_too_large_is_an_error_that_says_what_would_fit() {
     assert!(matches!(one_more, Err(Error::BufferTooLarge { .. })));
 }
 
-/// Two skew lines have a quadratic number of tetrahedra, so the buffers have to grow past what there may be.
+/// Two skew lines have a quadratic number of tetrahedra, so the buffers have to grow past what
+/// there may be.
 #[test]
 fn a_triangulation_that_outgrows_the_device_is_an_error() {
     let mut engine = with_small_buffers(1 << 20);
@@ -283,7 +284,7 @@ fn a_triangulation_that_outgrows_the_device_is_an_error() {
 fn a_run_of_too_many_flip_iterations_is_left_to_the_cpu() {
     let mut engine = open();
     engine.set_settings(Settings { max_iterations: 8, ..Settings::default() });
-    let points = generate(Distribution::Uniform, 3_000, 1);
+    let points = generate3d(Distribution3::Uniform, 3_000, 1);
     let mesh = block_on(engine.triangulate((&points).into(), &Options::default())).expect("the CPU engine goes on");
     assert_eq!((mesh.stats.backend, &mesh.stats.fallback), (Backend::Cpu, &Some(Fallback::Flips)));
     same(&points, &mesh);
@@ -292,13 +293,13 @@ fn a_run_of_too_many_flip_iterations_is_left_to_the_cpu() {
 #[test]
 fn auto_goes_on_without_a_gpu_that_is_too_small() {
     let engines = Triangulator::from_gpu(device_with_small_buffers(1 << 20));
-    let points = generate(Distribution::Uniform, MIN_POINTS, 3);
+    let points = generate3d(Distribution3::Uniform, MIN_POINTS_3D, 3);
     let mesh = engines.delaunay3d(&points).expect("the CPU engine goes on");
     assert!(matches!(mesh.stats.fallback, Some(Fallback::GpuFailed(Error::BufferTooLarge { .. }))));
     same(&points, &mesh);
 }
 
-/// The plane's engine shares the device with that for space: neither is left with one that is gone.
+/// The 2D engine shares the device with the 3D engine: neither is left with one that is gone.
 #[test]
 fn a_device_that_was_given_back_is_opened_anew_for_both_engines() {
     let engines = Triangulator::new().backend(Backend::Gpu);
@@ -307,12 +308,12 @@ fn a_device_that_was_given_back_is_opened_anew_for_both_engines() {
     for _ in 0..2 {
         let mesh = engines.delaunay3d(&cube).expect("opens a device");
         assert_eq!(mesh.stats.backend, Backend::Gpu);
-        let plane = engines.delaunay2d(&square).expect("has the device of the other");
-        assert_eq!(plane.stats.backend, Backend::Gpu);
+        let mesh = engines.delaunay2d(&square).expect("has the device of the other");
+        assert_eq!(mesh.stats.backend, Backend::Gpu);
         block_on(engines.close());
-        let plane = engines.delaunay2d(&square).expect("opens a device");
-        assert_eq!(plane.triangles.len(), 8);
-        // Only the plane's engine is open now.
+        let mesh = engines.delaunay2d(&square).expect("opens a device");
+        assert_eq!(mesh.triangles.len(), 8);
+        // Only the 2D engine is open now.
         block_on(engines.close());
     }
 }
@@ -333,7 +334,7 @@ fn a_device_whose_memory_is_exhausted_is_an_error_and_goes_on() {
     let descriptor = wgpu::DeviceDescriptor { required_limits: limits, ..Default::default() };
     let (device, queue) = block_on(adapter.request_device(&descriptor)).expect("a device");
     let mut engine = block_on(GpuEngine::new(Gpu::from_device(device, queue))).expect("compiles");
-    let (few, many) = (points(), generate(Distribution::Uniform, 3_000_000, 9));
+    let (few, many) = (points(), generate3d(Distribution3::Uniform, 3_000_000, 9));
     for _ in 0..2 {
         let result = block_on(engine.triangulate((&many).into(), &Options::default()));
         assert!(matches!(result, Err(Error::OutOfDeviceMemory { .. })), "{:?}", result.map(|mesh| mesh.stats));

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launchChromium, WEBGPU } from './browsers.mjs';
 import { dist, pinned, project, root } from './package.mjs';
+import { testPages } from './pages.mjs';
 import { serve } from './server.mjs';
 
 const folder = project();
@@ -213,25 +214,42 @@ test('from another origin, the worker comes through a blob', async () => {
     { url: other.url, points: TETRAHEDRON },
   );
   assert.equal(stats.thread, 'worker');
+  assert.match(stats.whyInlined, /Worker/);
   await page.close();
 });
 
-test('the inlined build works from one file', async () => {
+/** The files that a page asks for, and what it finds. */
+async function requestsOf(source) {
   const page = await open();
   const requests = [];
   page.on('request', (request) => requests.push(new URL(request.url()).pathname));
-  const found = await page.evaluate(async (points) => {
-    const { delaunay3d } = await import('/gdel/inline.js');
-    const mesh = await delaunay3d(points);
-    return { thread: mesh.stats.thread, ply: (await mesh.toPLY()).length };
-  }, TETRAHEDRON);
-  assert.equal(found.thread, 'worker');
-  assert.ok(found.ply > 0);
-  assert.deepEqual(
-    requests.filter((path) => path.startsWith('/gdel/')),
-    ['/gdel/inline.js'],
+  const found = await page.evaluate(
+    async ({ source, points }) => {
+      const { delaunay3d } = await import(source);
+      const { stats } = await delaunay3d(points);
+      return { thread: stats.thread, whyInlined: stats.whyInlined };
+    },
+    { source, points: TETRAHEDRON },
   );
+  const files = requests.filter((path) => path.startsWith('/gdel/')).sort();
   await page.close();
+  return { files, ...found };
+}
+
+test('a page downloads what it uses, and no copies', async () => {
+  assert.deepEqual(await requestsOf('/gdel/index.js'), {
+    files: ['/gdel/gdel-3d.wasm', '/gdel/index.js', '/gdel/worker.js'],
+    thread: 'worker',
+    whyInlined: null,
+  });
+});
+
+test('with the inlined build, a page downloads what it uses, and only JavaScript', async () => {
+  assert.deepEqual(await requestsOf('/gdel/inline.js'), {
+    files: ['/gdel/inline-3d.js', '/gdel/inline-worker.js', '/gdel/inline.js'],
+    thread: 'worker',
+    whyInlined: 'gdel-wasm/inline was imported',
+  });
 });
 
 test('an abort takes effect at once, and the triangulator keeps working', async () => {
@@ -262,3 +280,5 @@ test('50 runs need no more memory than a few', async () => {
   assert.equal(bytes.at(-1), bytes[2]);
   await page.close();
 });
+
+testPages(() => browser, folders);

@@ -17,6 +17,7 @@ const { default: Delaunator, ...named } = await import(pathToFileURL(subpath));
 test('gdel-wasm/delaunator and the main entry export the same classes', () => {
   assert.equal(Delaunator, main.Delaunator);
   assert.equal(named.Delaunator, main.Delaunator);
+  assert.equal(Delaunator.name, 'Delaunator');
   assert.equal(named.GdelError, main.GdelError);
 });
 
@@ -24,7 +25,9 @@ test('before it is loaded, the error says what to do', async () => {
   assert.throws(
     () => new Delaunator([0, 0]),
     (error) =>
-      error instanceof GdelError && error.code === 'NOT_LOADED' && /load\(\)/.test(error.message),
+      error instanceof GdelError &&
+      error.code === 'NOT_LOADED' &&
+      /await Delaunator\.load\(\)/.test(error.message),
   );
   await Promise.all([Delaunator.load(), Delaunator.load()]);
 });
@@ -259,7 +262,6 @@ test('bad input is a typed error that leaves the class usable', () => {
     );
   throws(undefined, 'BAD_INPUT');
   throws([0, '1'], 'BAD_INPUT');
-  throws([0, 1, 2], 'BAD_INPUT');
   throws([0, 1, NaN, 3], 'NOT_FINITE');
   throws({ length: 2 ** 40 }, 'TOO_MANY_POINTS');
   assert.equal(new Delaunator([0, 0, 1, 0, 0, 1]).triangles.length, 3);

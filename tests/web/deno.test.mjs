@@ -1,9 +1,8 @@
 // The installed package in Deno: the web's build, with a worker, from files.
 
 import assert from 'node:assert/strict';
-import { spawn, spawnSync } from 'node:child_process';
+import { execFileSync, spawnSync } from 'node:child_process';
 import { join } from 'node:path';
-import { createInterface } from 'node:readline';
 import { test } from 'node:test';
 import { pinned, project, root } from './package.mjs';
 
@@ -28,12 +27,12 @@ const SCRIPT = `
     resolved: import.meta.resolve('gdel-wasm'),
     fingerprint: fingerprint(mesh.tetrahedra),
     thread: mesh.stats.thread,
+    whyInlined: mesh.stats.whyInlined,
     passed,
     info: triangulator.info,
     triangles: [(await delaunay2d(square)).triangles.length, Delaunator.from(square).triangles.length],
     failed: await delaunay3d([[0, NaN, 0]]).catch(({ code }) => code),
   }));
-  triangulator.dispose();
 `;
 
 // No driver: what Deno's own WebGPU makes of those that a machine has, software ones first of all,
@@ -49,50 +48,31 @@ const env = {
 /** No machine needs nearly as long. */
 const HANG = 300_000;
 
-/**
- * The first line that a program prints. It is stopped then, with all that it started: Deno waits
- * for workers, even idle ones.
- */
-async function firstLine(command, args, options) {
-  const child = spawn(command, args, {
-    ...options,
-    stdio: ['ignore', 'pipe', 'inherit'],
-    detached: true,
-  });
-  const stop = () => {
-    try {
-      process.kill(-child.pid, 'SIGKILL');
-    } catch (error) {
-      if (error.code !== 'ESRCH') throw error;
-    }
-  };
-  const timer = setTimeout(stop, HANG);
-  try {
-    for await (const line of createInterface({ input: child.stdout })) return line;
-    throw new Error('it printed nothing, or hung');
-  } finally {
-    clearTimeout(timer);
-    stop();
-  }
+/** What a program prints until it ends, which it does by itself. */
+function outputOf(...args) {
+  const options = { cwd: folder, env, encoding: 'utf8', timeout: HANG };
+  const stdio = ['ignore', 'pipe', 'inherit'];
+  const flags = ['run', '--no-prompt', '--node-modules-dir=manual'];
+  return JSON.parse(execFileSync(deno, [...flags, ...args], { ...options, stdio }));
 }
 
-test('in Deno, the mesh is the native one, from a worker', { skip }, async () => {
-  const folder = project({ 'script.mjs': SCRIPT });
-  const args = [
-    'run',
-    '--no-prompt',
-    '--allow-read',
-    '--node-modules-dir=manual',
-    'script.mjs',
-    JSON.stringify(pinned),
-  ];
-  const found = JSON.parse(await firstLine(deno, args, { cwd: folder, env }));
+const folder = project({ 'script.mjs': SCRIPT });
+
+test('in Deno, the mesh is the native one, from a worker, and the process ends', { skip }, () => {
+  const found = outputOf('--allow-read', 'script.mjs', JSON.stringify(pinned));
   assert.match(found.resolved, /\/dist\/index\.js$/);
   assert.equal(found.fingerprint, pinned[0].fingerprint);
-  assert.equal(found.thread, 'worker');
+  assert.deepEqual([found.thread, found.whyInlined], ['worker', null]);
   assert.equal(found.passed, true);
   assert.deepEqual(found.triangles, [6, 6]);
   assert.equal(found.failed, 'NOT_FINITE');
   assert.equal(found.info.backend, 'cpu');
   assert.ok(found.info.fallback, JSON.stringify(found.info));
+});
+
+test('in Deno without any permission, the copies are imported', { skip }, () => {
+  const found = outputOf('script.mjs', JSON.stringify(pinned));
+  assert.equal(found.fingerprint, pinned[0].fingerprint);
+  assert.equal(found.thread, 'worker');
+  assert.match(found.whyInlined, /--allow-read/);
 });

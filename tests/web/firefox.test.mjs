@@ -5,11 +5,14 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launchFirefox } from './browsers.mjs';
 import { dist, pinned, project, root } from './package.mjs';
+import { testPages } from './pages.mjs';
 import { serve } from './server.mjs';
+
+const folders = { '/gdel/': dist(project()), '/tests/': `${root}/tests/web` };
 
 let browser, server;
 before(async () => {
-  server = await serve({ '/gdel/': dist(project()), '/tests/': `${root}/tests/web` });
+  server = await serve(folders);
   browser = await launchFirefox();
 });
 after(async () => {
@@ -57,3 +60,5 @@ test('an abort takes effect at once, and the triangulator keeps working', async 
   assert.deepEqual(found, { code: 'ABORTED', atOnce: true, next: 4 });
   await page.close();
 });
+
+testPages(() => browser, folders);

@@ -20,10 +20,15 @@ export const root = dirname(dirname(dirname(fileURLToPath(import.meta.url))));
 /** The meshes that the native library gives, too. */
 export const pinned = parse(readFileSync(join(root, 'tests/data/fingerprints.txt'), 'utf8'));
 
+const folders = [];
+process.once('exit', () => {
+  for (const folder of folders) rmSync(folder, { recursive: true, force: true, maxRetries: 5 });
+});
+
 /** An empty folder that goes when the tests are done. */
 export function scratch() {
   const folder = mkdtempSync(join(tmpdir(), 'gdel-wasm-'));
-  process.on('exit', () => rmSync(folder, { recursive: true, force: true, maxRetries: 5 }));
+  folders.push(folder);
   return folder;
 }
 
@@ -74,5 +79,5 @@ export function project(files = {}) {
 export const dist = (folder) => join(folder, 'node_modules/gdel-wasm/dist');
 
 /** Imports the installed package, as Node does. */
-export const importFrom = (folder, file = 'node.js') =>
+export const importFrom = (folder, file = 'index.js') =>
   import(pathToFileURL(join(dist(folder), file)));

@@ -9,7 +9,7 @@ import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import { publint } from 'publint';
 import { formatMessage } from 'publint/utils';
-import { root, tarball } from './package.mjs';
+import { project, root, tarball } from './package.mjs';
 
 const kilobytes = (file) =>
   gzipSync(readFileSync(join(root, 'web/dist', file)), { level: 9 }).length / 1e3;
@@ -30,12 +30,22 @@ test('the types are not wrong', () => {
       join(root, 'node_modules/@arethetypeswrong/cli/dist/index.js'),
       tarball(),
       '--profile',
-      'esm-only',
+      'node16',
     ],
     {
       stdio: 'inherit',
     },
   );
+});
+
+test('the package has its licences and its documents, and says where it comes from', () => {
+  const installed = join(project(), 'node_modules/gdel-wasm');
+  const read = (name) => readFileSync(join(installed, name), 'utf8');
+  for (const name of ['LICENSE-MIT', 'LICENSE-APACHE'])
+    assert.equal(read(name), readFileSync(join(root, name), 'utf8'));
+  for (const [, path] of read('README.md').matchAll(/\]\((?!https?:)([^)#]+)/g)) read(path);
+  const { repository } = JSON.parse(read('package.json'));
+  assert.equal(repository.directory, 'web');
 });
 
 test('no file says where it was built', () => {

@@ -90,7 +90,7 @@ for (const dimension of [3, 2]) {
         const zeros = { orientation: 0, inSphere: 0 };
         const open = { orientation: 0, inSphere: 0 };
         for (const [i, vertices] of all.entries()) {
-          // In the plane there is one filter.
+          // In 2D there is one filter.
           const [
             orientExact,
             orient,

@@ -14,13 +14,14 @@ let made;
 let ended;
 /** Resolves when a worker is ended. */
 let whenEnded;
+/** Whether workers say that they are ready. */
+let areReady;
 
 globalThis.Worker = class extends EventTarget {
   constructor() {
     super();
     made.push(this);
-    // Deno can deliver a message as soon as the microtask after the one that made the worker.
-    queueMicrotask(() => this.#answer({ type: 'ready' }));
+    if (areReady) queueMicrotask(() => this.#answer({ type: 'ready' }));
   }
 
   #answer(data) {
@@ -30,6 +31,7 @@ globalThis.Worker = class extends EventTarget {
   postMessage(message) {
     if (message.type !== 'run') return;
     const { id } = message;
+    this.runs = (this.runs ?? 0) + 1;
     onRun((answer) => queueMicrotask(() => this.#answer({ ...answer, id })));
   }
 
@@ -37,15 +39,21 @@ globalThis.Worker = class extends EventTarget {
     ended.push(this);
     whenEnded?.();
   }
+
+  die() {
+    this.dispatchEvent(
+      Object.assign(new Event('error', { cancelable: true }), { message: 'dead' }),
+    );
+  }
 };
-// The web's build, with a module that has nothing in it: nobody asks it for anything.
-globalThis.fetch = async () => new Response(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0));
+// As in a page.
+globalThis.document = {};
 
 const url = pathToFileURL(join(dist(project()), 'index.js'));
 let delaunay3d;
 let copies = 0;
 beforeEach(async () => {
-  [made, ended] = [[], []];
+  [made, ended, areReady] = [[], [], true];
   // A module of its own, with a worker of its own.
   ({ delaunay3d } = await import(`${url}?${copies++}`));
 });
@@ -94,7 +102,94 @@ test('a worker that stops when it should stays', async () => {
   await assert.rejects(run, { code: 'ABORTED' });
   onRun = heard;
   assert.equal(await messageOf(delaunay3d([[0, 0, 0]])), 'heard');
-  assert.deepEqual([made.length, ended.length], [1, 0]);
+  // The second one is the one that is kept ready.
+  assert.deepEqual([made.length, ended.length], [2, 0]);
+});
+
+/** Aborts a run of which the worker said this before its first report of progress. */
+async function aborted(...before) {
+  const controller = new AbortController();
+  onRun = (answer) => {
+    for (const message of before) answer(message);
+    answer({ type: 'progress', progress: { phase: 'insert', fraction: 0.5 } });
+  };
+  const run = delaunay3d([[0, 0, 0]], {
+    signal: controller.signal,
+    onProgress: () => controller.abort(),
+  });
+  await assert.rejects(run, { code: 'ABORTED' });
+}
+
+test('a worker that cannot hear is ended at once, and the one that was kept ready goes on', async () => {
+  for (const count of [1, 2, 3]) {
+    await aborted({ type: 'blocking' });
+    onRun = heard;
+    assert.equal(await messageOf(delaunay3d([[0, 0, 0]])), 'heard');
+    assert.equal(ended.length, count);
+    assert.deepEqual(
+      made.map(({ runs }) => runs),
+      [1, ...Array(count - 1).fill(2), 1],
+    );
+  }
+});
+
+test('a run that can be aborted and takes long has a second worker started beside it', async (t) => {
+  t.mock.timers.enable({ apis: ['setTimeout'] });
+  for (const [options, count] of [
+    [{}, 1],
+    [{ signal: new AbortController().signal }, 2],
+  ]) {
+    let answer;
+    const running = new Promise((resolve) => {
+      onRun = (answerOfRun) => resolve((answer = answerOfRun));
+    });
+    const run = messageOf(delaunay3d([[0, 0, 0]], options));
+    await running;
+    t.mock.timers.tick(100);
+    assert.equal(made.length, count);
+    heard(answer);
+    assert.equal(await run, 'heard');
+  }
+});
+
+test('a worker that dies while it has nothing to do is replaced', async () => {
+  onRun = heard;
+  assert.equal(await messageOf(delaunay3d([[0, 0, 0]])), 'heard');
+  made[0].die();
+  assert.equal(await messageOf(delaunay3d([[0, 0, 0]])), 'heard');
+  assert.equal(made.length, 2);
+});
+
+test('a worker that dies in a run is an error, and replaced', async () => {
+  onRun = () => made[0].die();
+  assert.match(await messageOf(delaunay3d([[0, 0, 0]])), /worker failed: dead/);
+  onRun = heard;
+  assert.equal(await messageOf(delaunay3d([[0, 0, 0]])), 'heard');
+});
+
+test('a worker that never answers is an error that says what to do', async (t) => {
+  areReady = false;
+  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const run = delaunay3d([[0, 0, 0]]).catch((error) => error);
+  while (made.length === 0) await null;
+  t.mock.timers.tick(60_000);
+  const { name, code, message } = await run;
+  assert.deepEqual([name, code], ['GdelError', 'LOAD_FAILED']);
+  assert.match(message, /worker: false/);
+  assert.deepEqual(ended, made);
+  // The next run tries again.
+  areReady = true;
+  onRun = heard;
+  assert.equal(await messageOf(delaunay3d([[0, 0, 0]])), 'heard');
+});
+
+test('a triangulator that is disposed of while its worker starts fails its run', async () => {
+  const { createTriangulator } = await import(`${url}?${copies++}`);
+  onRun = (answer) => answer({ type: 'done', result: { points: new Float64Array(0), stats: {} } });
+  const triangulator = await createTriangulator({ backend: 'cpu' });
+  const run = triangulator.delaunay2d([[0, 0]]).catch(({ code }) => code);
+  triangulator.dispose();
+  assert.equal(await run, 'DISPOSED');
 });
 
 for (const [name, points] of [

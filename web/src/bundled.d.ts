@@ -9,13 +9,13 @@ declare module 'glue:*' {
   export default makeGlue;
 }
 
-/** A compressed wasm module. */
+/** A compressed wasm module, which becomes a file of its own. */
 declare module 'base64:*' {
   const base64: string;
   export default base64;
 }
 
-/** The text of the bundled worker. */
+/** The text of the bundled worker, which becomes a file of its own. */
 declare module 'text:worker' {
   const source: string;
   export default source;

@@ -3,16 +3,9 @@
 import makeGlue2d from 'glue:d2';
 import makeGlue3d from 'glue:d3';
 import makeToolsGlue from 'glue:tools';
+import type { Coordinates } from './arrays.js';
 import { type PlainError, toPlainError } from './errors.js';
-import type {
-  Control,
-  Coordinates,
-  CoreInfo,
-  CoreStats,
-  ModuleName,
-  TaskName,
-  Tasks,
-} from './protocol.js';
+import type { Control, CoreInfo, CoreStats, ModuleName, TaskName, Tasks } from './protocol.js';
 import type { AdapterInfo, Backend, Output } from './types.js';
 
 /** The shortest time between two progress reports, since each is a message to the page. */
@@ -65,7 +58,9 @@ export function makeCore(name: ModuleName, module: WebAssembly.Module, gpu?: obj
         if (!handler) throw new TypeError(`${name} has no task ${task}`);
         return await handler(args, throttled);
       } catch (thrown) {
-        throw toPlainError(thrown, memory.buffer.byteLength);
+        const error = toPlainError(thrown, memory.buffer.byteLength);
+        // They go back, since the caller may have given them away.
+        throw 'points' in args ? { ...error, points: args.points } : error;
       }
     },
     dispose,
@@ -111,9 +106,13 @@ function instance(
     const none = (message: string): PlainError => ({ code: 'NO_ADAPTER', message, fatal: false });
     const api = (gpu ?? globalThis.navigator?.gpu) as Gpu | undefined;
     if (!api) throw none('WebGPU is not available here (there is no navigator.gpu)');
-    const adapter = await api.requestAdapter({ powerPreference: 'high-performance' });
-    if (!adapter) throw none('WebGPU has no adapter here');
-    return describe(adapter);
+    try {
+      const adapter = await api.requestAdapter({ powerPreference: 'high-performance' });
+      if (adapter) return describe(adapter);
+    } catch (error) {
+      throw none(`WebGPU failed to look for an adapter: ${String(error)}`);
+    }
+    throw none('WebGPU has no adapter here');
   }
 
   /**
@@ -157,6 +156,7 @@ function instance(
     const isDecided =
       backend === 'cpu' || (backend === 'auto' && points.length < minGpuCoordinates);
     const info = isDecided ? null : await choose(backend);
+    if (isDecided || info?.backend === 'cpu') control.onBlocking();
     const mesh = await triangulate(info?.backend === 'cpu' ? 'cpu' : backend, (phase, fraction) => {
       control.onProgress({ phase, fraction });
       return control.isAborted();
@@ -192,26 +192,27 @@ function tasks3d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
     },
 
     async delaunay3d(args, control) {
-      const has = (output: Output) => args.outputs.includes(output);
-      const outputs = new glue.Outputs(
-        has('neighbors'),
-        has('hull'),
-        has('duplicateOf'),
-        has('trace'),
-      );
       const minGpuCoordinates = 3 * glue.min_gpu_points_3d();
       const mesh = await run(args, minGpuCoordinates, control, (backend, report) =>
-        triangulator.delaunay3d(args.points, backend, outputs, report),
+        triangulator.delaunay3d(args.points, backend, outputsOf(glue, args.outputs), report),
       );
-      const {
-        neighbors = new Int32Array(0),
-        hull = new Uint32Array(0),
-        duplicateOf = new Int32Array(0),
-      } = mesh;
-      return { ...mesh, neighbors, hull, duplicateOf };
+      return withEmpty(mesh);
     },
   };
   return { handlers, memory, dispose };
+}
+
+function outputsOf(glue: any, outputs: readonly Output[]): any {
+  const has = (output: Output) => outputs.includes(output);
+  return new glue.Outputs(has('neighbors'), has('hull'), has('duplicateOf'), has('trace'));
+}
+
+/** Adds empty arrays for those that were not requested. */
+function withEmpty(mesh: any): any {
+  mesh.neighbors ??= new Int32Array(0);
+  mesh.hull ??= new Uint32Array(0);
+  mesh.duplicateOf ??= new Int32Array(0);
+  return mesh;
 }
 
 function tasks2d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
@@ -228,31 +229,55 @@ function tasks2d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
   return { handlers, memory, dispose };
 }
 
-/** The arrays of a 2D triangulation. */
-export type Triangles = Pick<
-  Tasks['delaunay2d']['result'],
-  'triangles' | 'halfedges' | 'hull' | 'duplicateOf' | 'dimension'
->;
+/** The arrays and the statistics of a triangulation. */
+type Blocking<T extends 'delaunay3d' | 'delaunay2d'> = Omit<Tasks[T]['result'], 'points'>;
 
 /**
- * Returns a function that triangulates in 2D with the CPU backend before it returns. It throws a
+ * Returns a function that triangulates in 3D with the CPU backend before it returns. It throws a
  * {@link PlainError}, and replaces an instance that broke.
  */
-export function createBlockingTriangulator(
+export function createBlocking3d(
   module: WebAssembly.Module,
-): (points: Coordinates) => Triangles {
-  let glue: any;
-  let memory: WebAssembly.Memory | undefined;
-  return (points) => {
+): (points: Coordinates, outputs: readonly Output[]) => Blocking<'delaunay3d'> {
+  const instance = blockingInstance(makeGlue3d, module);
+  return (points, outputs) =>
+    instance((glue) => withEmpty(glue.delaunay3d_blocking(points, outputsOf(glue, outputs))));
+}
+
+/**
+ * Does in 2D what {@link createBlocking3d} does in 3D, for callers that need the statistics and for
+ * those that do not.
+ */
+export function createBlocking2d(module: WebAssembly.Module) {
+  const instance = blockingInstance(makeGlue2d, module);
+  return {
+    mesh: (points: Coordinates): Blocking<'delaunay2d'> =>
+      instance((glue) => glue.delaunay2d_blocking(points, true)),
+    arrays: (points: Coordinates): Omit<Blocking<'delaunay2d'>, 'stats'> =>
+      instance((glue) => glue.delaunay2d_blocking(points, false)),
+  };
+}
+
+function blockingInstance(makeGlue: (globalThis: object) => any, module: WebAssembly.Module) {
+  const open = () => {
+    const glue = makeGlue(globalThis);
+    return { glue, ...(glue.initSync({ module }) as { memory: WebAssembly.Memory }) };
+  };
+  let instance: ReturnType<typeof open> | undefined = open();
+  return (triangulate: (glue: any) => any) => {
+    const started = performance.now();
+    const { glue, memory } = (instance ??= open());
     try {
-      if (!glue) {
-        glue = makeGlue2d(globalThis);
-        ({ memory } = glue.initSync({ module }));
+      const mesh = triangulate(glue);
+      if (mesh.stats) {
+        mesh.stats.adapter = null;
+        mesh.stats.milliseconds = performance.now() - started;
+        mesh.stats.wasmBytes = memory.buffer.byteLength;
       }
-      return glue.delaunay2d_blocking(points);
+      return mesh;
     } catch (thrown) {
-      const error = toPlainError(thrown, memory?.buffer.byteLength ?? 0);
-      if (error.fatal) glue = undefined;
+      const error = toPlainError(thrown, memory.buffer.byteLength);
+      if (error.fatal) instance = undefined;
       throw error;
     }
   };
@@ -281,28 +306,21 @@ function toolsTasks(module: WebAssembly.Module): ModuleTasks {
   const glue = makeToolsGlue(globalThis);
   const { memory } = glue.initSync({ module });
 
-  const handlers: Handlers = {
-    readPoints: async ({ bytes, extension }) => glue.read_points(bytes, extension),
-    generate: async ({ kind, count, seed }) => glue.generate3d(kind, count, seed),
-    write: async ({ points, mesh, format }) => glue.write3d(points, mesh, format),
-    verify: async ({ points, mesh }) => glue.verify3d(points, mesh),
-    generate2d: async ({ kind, count, seed }) => glue.generate2d(kind, count, seed),
-    write2d: async ({ points, mesh, format }) => glue.write2d(points, mesh, format),
-    verify2d: async ({ points, mesh }) => glue.verify2d(points, mesh),
+  const tasks: { [T in TaskName]?: (args: Tasks[T]['args']) => Tasks[T]['result'] } = {
+    readPoints: ({ bytes, extension }) => glue.read_points(bytes, extension),
+    generate: ({ kind, count, seed }) => glue.generate3d(kind, count, seed),
+    write: ({ points, mesh, format }) => glue.write3d(points, mesh, format),
+    verify: ({ points, mesh }) => glue.verify3d(points, mesh),
+    generate2d: ({ kind, count, seed }) => glue.generate2d(kind, count, seed),
+    write2d: ({ points, mesh, format }) => glue.write2d(points, mesh, format),
+    verify2d: ({ points, mesh }) => glue.verify2d(points, mesh),
   };
-  return { handlers, memory, dispose() {} };
-}
-
-/** Returns the buffers of a result, to be transferred. */
-export function buffersOf(value: unknown): ArrayBuffer[] {
-  const found = new Set<ArrayBuffer>();
-  const visit = (value: unknown) => {
-    if (ArrayBuffer.isView(value)) {
-      if (value.buffer instanceof ArrayBuffer) found.add(value.buffer);
-    } else if (typeof value === 'object' && value) {
-      Object.values(value).forEach(visit);
-    }
-  };
-  visit(value);
-  return [...found];
+  const handlers = Object.entries(tasks).map(([name, task]) => [
+    name,
+    async (args: never, control: Control) => {
+      control.onBlocking();
+      return task(args);
+    },
+  ]);
+  return { handlers: Object.fromEntries(handlers), memory, dispose() {} };
 }

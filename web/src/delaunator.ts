@@ -1,13 +1,11 @@
 // The interface of the npm package delaunator, on the CPU backend in the calling thread.
 
-import { runtime } from '#runtime';
-import type { Triangles } from './core.js';
-import { GdelError, type PlainError, toGdelError } from './errors.js';
-import { compiled } from './host.js';
-import { checkCount, nameOf } from './points.js';
-
-let triangulate: ((points: Float32Array | Float64Array) => Triangles) | undefined;
-let loading: Promise<void> | undefined;
+import { type Coordinates, inThisRealm, isDetached, kindOf } from './arrays.js';
+import { GdelError } from './errors.js';
+import { nameOf, objectOf } from './options.js';
+import { checkCount } from './points.js';
+import { startOf } from './start.js';
+import { load2d, triangulate2dNow } from './sync.js';
 
 /**
  * A 2D Delaunay triangulation with the interface of the npm package `delaunator`: synchronous, in
@@ -37,7 +35,8 @@ export class Delaunator<T extends ArrayLike<number> = Float64Array> {
   halfedges!: Int32Array;
   /**
    * The vertices on the convex hull, including those in the middle of its edges, in the orientation
-   * of the triangles. If all points are collinear: the distinct points, sorted by x and then by y.
+   * of the triangles, beginning where delaunator does. If all points are collinear: the distinct
+   * points, sorted by x and then by y.
    */
   hull!: Uint32Array;
   /**
@@ -53,16 +52,7 @@ export class Delaunator<T extends ArrayLike<number> = Float64Array> {
 
   /** Loads the WebAssembly module that the constructor needs. Later calls do nothing. */
   static load(): Promise<void> {
-    loading ??= Promise.all([compiled('d2'), runtime.code()]).then(
-      ([module, { createBlockingTriangulator }]) => {
-        triangulate = createBlockingTriangulator(module);
-      },
-      (error: unknown) => {
-        loading = undefined;
-        throw error;
-      },
-    );
-    return loading;
+    return load2d();
   }
 
   /** Triangulates points of any form, `[x, y]` by default. */
@@ -71,13 +61,14 @@ export class Delaunator<T extends ArrayLike<number> = Float64Array> {
     getX: (point: P) => number = (point) => (point as ArrayLike<number>)[0]!,
     getY: (point: P) => number = (point) => (point as ArrayLike<number>)[1]!,
   ): Delaunator<Float64Array> {
-    checkCount(points.length);
-    const coords = new Float64Array(2 * points.length);
-    for (let i = 0; i < points.length; i++) {
+    const length = lengthOf('points', points);
+    checkCount(length);
+    const coords = new Float64Array(2 * length);
+    for (let i = 0; i < length; i++) {
       coords[2 * i] = getX(points[i]!);
       coords[2 * i + 1] = getY(points[i]!);
     }
-    return new Delaunator(coords);
+    return triangulated(coords);
   }
 
   /**
@@ -93,16 +84,17 @@ export class Delaunator<T extends ArrayLike<number> = Float64Array> {
 
   /** Triangulates again after the values in {@link coords} were changed. */
   update(): void {
-    if (!triangulate)
-      throw new GdelError(
-        'NOT_LOADED',
-        'the WebAssembly module is not loaded yet: await Delaunator.load() first',
-      );
-    try {
-      Object.assign(this, arraysOf(triangulate(numbers(this.coords))));
-    } catch (error) {
-      throw error instanceof GdelError ? error : toGdelError(error as PlainError);
+    const coordinates = numbers(this.coords);
+    const { triangles, halfedges, hull, duplicateOf, dimension } = triangulate2dNow(coordinates);
+    const start = dimension < 2 ? undefined : startOf(coordinates, duplicateOf);
+    if (start) {
+      const { seed, last } = start;
+      // delaunator begins with the vertex before its last one. A triangle alone is the seed.
+      const second = last < 0 ? seed[1] : last;
+      startAt(hull, hull.indexOf(second) - 1);
+      if (triangles.length === 3) startAt(triangles, triangles.indexOf(seed[0]));
     }
+    Object.assign(this, { triangles, halfedges, hull, duplicateOf, dimension });
   }
 
   /** The length of {@link triangles}. */
@@ -112,30 +104,52 @@ export class Delaunator<T extends ArrayLike<number> = Float64Array> {
 }
 
 export default Delaunator;
+
+/** Not in the class: a class that names itself is renamed when it is bundled. */
+function triangulated(coords: Float64Array): Delaunator<Float64Array> {
+  return new Delaunator(coords);
+}
+
 export { GdelError, type GdelErrorCode } from './errors.js';
 
-function arraysOf({ triangles, halfedges, hull, duplicateOf, dimension }: Triangles): Triangles {
-  return { triangles, halfedges, hull, duplicateOf, dimension };
+/** Lets a cyclic array start at an index, which may be −1 for the last one; −2 changes nothing. */
+function startAt(array: Uint32Array, index: number): void {
+  if (index < -1) return;
+  const start = (index + array.length) % array.length;
+  const before = array.slice(0, start);
+  array.copyWithin(0, start);
+  array.set(before, array.length - start);
+}
+
+function lengthOf(what: string, array: ArrayLike<unknown>): number {
+  const { length } = objectOf(what, array);
+  // The words of what delaunator throws here.
+  if (!Number.isInteger(length) || length < 0)
+    throw new GdelError('BAD_INPUT', `${what}: Invalid typed array length: ${nameOf(length)}`);
+  return length;
 }
 
 /**
  * Returns the coordinates as WebAssembly takes them. Unlike `Float64Array.from`, converts nothing
- * to a number.
+ * to a number. A last x without a y does not count.
  */
-function numbers(coords: ArrayLike<number>): Float32Array | Float64Array {
-  if (coords instanceof Float32Array || coords instanceof Float64Array) return coords;
-  if (typeof coords !== 'object' || coords === null || !Number.isInteger(coords.length)) {
-    throw new GdelError(
-      'BAD_INPUT',
-      `coordinates must be an array of numbers, not ${nameOf(coords)}`,
-    );
+function numbers(coords: ArrayLike<number>): Coordinates {
+  const length = 2 * Math.floor(lengthOf('coords', coords) / 2);
+  checkCount(length / 2);
+  const kind = kindOf(coords);
+  if (kind === 'Float64Array' || kind === 'Float32Array') {
+    const own = inThisRealm(coords as Coordinates);
+    if (isDetached(own))
+      throw new GdelError('BAD_INPUT', 'the buffer of coords is detached: it was transferred');
+    return own.length === length ? own : own.subarray(0, length);
   }
-  checkCount(coords.length / 2);
-  const copy = new Float64Array(coords.length);
-  for (let i = 0; i < copy.length; i++) {
+  const copy = new Float64Array(length);
+  for (let i = 0; i < length; i++) {
     const value: unknown = coords[i];
-    if (typeof value !== 'number')
-      throw new GdelError('BAD_INPUT', `coordinate ${i} is ${nameOf(value)}, not a number`);
+    if (typeof value !== 'number') {
+      const what = `coordinate ${i} is ${nameOf(value)}`;
+      throw new GdelError('BAD_INPUT', `Expected coords to contain numbers: ${what}`);
+    }
     copy[i] = value;
   }
   return copy;

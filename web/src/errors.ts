@@ -1,3 +1,5 @@
+import type { Coordinates } from './arrays.js';
+
 /** What kind of failure a {@link GdelError} is. */
 export type GdelErrorCode =
   /** A coordinate is NaN or infinite; `index` is the first such point. */
@@ -29,11 +31,15 @@ export type GdelErrorCode =
   /** There is no reader or writer for this file name or format. */
   | 'UNKNOWN_FORMAT'
   /**
-   * WebAssembly cannot be loaded: the file is missing, or a Content-Security-Policy lacks
-   * `'wasm-unsafe-eval'`.
+   * WebAssembly cannot be loaded: the file and its copy are missing, or a Content-Security-Policy
+   * lacks `'wasm-unsafe-eval'`. Or the worker was started, but never answered. The message says
+   * what to do.
    */
   | 'LOAD_FAILED'
-  /** A `Delaunator` was created before the promise of `Delaunator.load()` was fulfilled. */
+  /**
+   * A synchronous function was called before the module was loaded: `load3d()`, `load2d()` or
+   * `Delaunator.load()`.
+   */
   | 'NOT_LOADED'
   /** The triangulator was disposed of. */
   | 'DISPOSED'
@@ -41,8 +47,8 @@ export type GdelErrorCode =
   | 'INTERNAL';
 
 /**
- * The error of every failure in this package. Only a run aborted by a signal with a reason of its
- * own is rejected with that reason instead.
+ * The error of every failure in this package. Only errors of your own stay what they are: what
+ * `point` or `onProgress` throws, and the reason that you give to `AbortController.abort`.
  */
 export class GdelError extends Error {
   override readonly name = 'GdelError';
@@ -50,6 +56,8 @@ export class GdelError extends Error {
   readonly code: GdelErrorCode;
   /** The index of the point that caused the failure, if a point did. */
   declare readonly index?: number;
+  /** The coordinates that were given away by `transfer: true`, given back. */
+  declare readonly points?: Coordinates;
 
   constructor(
     code: GdelErrorCode,
@@ -69,10 +77,17 @@ export interface PlainError {
   index?: number;
   /** The WebAssembly instance is broken and must not be used again. */
   fatal: boolean;
+  /** The points that the run was given. */
+  points?: Coordinates;
 }
 
 export function toGdelError({ code, message, index }: PlainError): GdelError {
   return new GdelError(code, message, index === undefined ? {} : { index });
+}
+
+/** Gives coordinates back, in a property that consoles do not print: there can be millions. */
+export function giveBack(error: GdelError, points: Coordinates): void {
+  Object.defineProperty(error, 'points', { value: points });
 }
 
 /**

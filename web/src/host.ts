@@ -1,119 +1,125 @@
 // Where tasks run: in one worker, which is started when it is needed, or in the calling thread. One
-// task runs at a time; others wait.
+// task runs at a time; others wait. A second worker is kept ready where runs are aborted, since that
+// can end the first.
 
-import { runtime } from '#runtime';
-import { GdelError, type PlainError, toGdelError } from './errors.js';
-import {
-  type FromWorker,
-  MODULE_OF,
-  type ModuleName,
-  type TaskName,
-  type Tasks,
-} from './protocol.js';
-import type { WorkerThread } from './runtime.js';
-import type { Progress, TaskOptions } from './types.js';
+import { taskCode, workerCode } from '#assets';
+import { type Coordinates, isDetached } from './arrays.js';
+import { type Connection, callerConnection, workerConnection } from './connection.js';
+import { GdelError, giveBack, type PlainError, toGdelError } from './errors.js';
+import { compiled } from './modules.js';
+import type { TaskName, Tasks } from './protocol.js';
+import { messageOf, startWorker, type WasmAsset } from './runtime.js';
+import { Stop } from './stop.js';
+import type { Place, TaskOptions } from './types.js';
 
-/**
- * The time after which an aborted task that has not stopped by itself is stopped by ending its
- * thread.
- */
-const GRACE_MILLISECONDS = 50;
-
-/** A place where tasks run. */
-interface Connection {
-  thread: 'worker' | 'caller';
-  whyThread: string | null;
-  /** Accepts a module for later tasks. */
-  load(name: ModuleName, module: WebAssembly.Module): void;
-  /** Rejects with a {@link PlainError}. */
-  run<T extends TaskName>(
-    task: T,
-    args: Tasks[T]['args'],
-    transfer: ArrayBuffer[],
-    onProgress: (progress: Progress) => void,
-    signal: AbortSignal | undefined,
-  ): Promise<Tasks[T]['result']>;
-  close(): void;
-}
-
-const modules = new Map<ModuleName, Promise<WebAssembly.Module>>();
-
-/** Returns a module, compiled once for all workers. */
-export function compiled(name: ModuleName): Promise<WebAssembly.Module> {
-  let module = modules.get(name);
-  if (!module) {
-    module = runtime.compile(name).catch((cause: unknown) => {
-      modules.delete(name);
-      const why = cause instanceof Error ? cause.message : String(cause);
-      throw new GdelError('LOAD_FAILED', `the WebAssembly module cannot be loaded: ${why}`, {
-        cause,
-      });
-    });
-    modules.set(name, module);
-  }
-  return module;
-}
+/** A run that can be aborted and takes longer than this has a second worker started beside it. */
+const WARM_MILLISECONDS = 100;
 
 export interface HostOptions {
   gpu?: object | undefined;
   worker?: boolean | undefined;
 }
 
+/** The result of a task, and where it was computed. */
+export interface Done<T extends TaskName> {
+  result: Tasks[T]['result'];
+  place: Place;
+}
+
+/** What the arguments of a task were made of. */
+export interface Sending {
+  transfer: ArrayBuffer[];
+  /** Whether errors give the points back, because the caller gave them away. */
+  isGiven?: boolean;
+}
+
 export class Host {
-  readonly #options: HostOptions;
+  readonly #gpu: object | undefined;
   #connection: Promise<Connection> | undefined;
+  /** A worker that waits for the first one to be ended. */
+  #spare: Promise<Connection> | undefined;
   /** The modules that each connection has. */
-  readonly #loaded = new WeakMap<Connection, Set<ModuleName>>();
+  readonly #loaded = new WeakMap<Connection, Set<WasmAsset>>();
   /** Why no worker can be used here, if that is known. */
   #noWorker: string | null = null;
   #last: Promise<unknown> = Promise.resolve();
   #disposed = false;
 
-  constructor(options: HostOptions = {}) {
-    this.#options = options;
-    if (options.gpu) this.#noWorker = 'a GPU object cannot be sent to another thread';
-    else if (options.worker === false) this.#noWorker = 'the option worker is false';
+  constructor({ gpu, worker }: HostOptions = {}) {
+    this.#gpu = gpu;
+    if (gpu) this.#noWorker = 'a GPU object cannot be sent to another thread';
+    else if (worker === false) this.#noWorker = 'the option worker is false';
   }
 
   /** Runs a task after all earlier ones. */
-  async run<T extends TaskName>(
+  run<T extends TaskName>(
+    asset: WasmAsset,
     task: T,
     args: Tasks[T]['args'],
-    transfer: ArrayBuffer[],
-    { signal, onProgress }: TaskOptions,
-  ): Promise<Tasks[T]['result'] & Pick<Connection, 'thread' | 'whyThread'>> {
-    throwIfAborted(signal);
+    { transfer, isGiven = false }: Sending,
+    options: TaskOptions,
+  ): Promise<Done<T>> {
+    const stop = new Stop(options);
     const work = this.#last.then(async () => {
-      throwIfAborted(signal);
-      if (this.#disposed) throw new GdelError('DISPOSED', 'the triangulator was disposed of');
-      const connection = await this.#connect();
-      await this.#load(connection, MODULE_OF[task]);
-      throwIfAborted(signal);
-      // After an abort, what still arrives is no longer of interest.
-      const report = (progress: Progress) => signal?.aborted || onProgress?.(progress);
       try {
-        const { thread, whyThread } = connection;
-        return Object.assign(await connection.run(task, args, transfer, report, signal), {
-          thread,
-          whyThread,
-        });
+        return await this.#perform(asset, task, args, transfer, stop);
       } catch (thrown) {
-        const error = thrown as PlainError;
-        if (error.fatal) this.#drop(connection);
-        throw error.code === 'ABORTED' && signal ? abortReason(signal) : toGdelError(error);
+        stop.throwIfStopped();
+        const { error, points } = failureOf(thrown, args as { points?: Coordinates });
+        if (isGiven && points && !isDetached(points)) giveBack(error, points);
+        throw error;
       }
     });
     this.#last = work.catch(() => {});
-    return untilAborted(work, signal);
+    return new Promise<Done<T>>((resolve, reject) => {
+      stop.onStop(reject);
+      work.then(resolve, reject).finally(() => stop.release());
+    });
+  }
+
+  async #perform<T extends TaskName>(
+    asset: WasmAsset,
+    task: T,
+    args: Tasks[T]['args'],
+    transfer: ArrayBuffer[],
+    stop: Stop,
+  ): Promise<Done<T>> {
+    this.#throwIfEnded(stop);
+    const connection = await this.#connect();
+    const whyInlined = (await this.#load(connection, asset)) ?? connection.whyInlined;
+    this.#throwIfEnded(stop);
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    if (connection.thread === 'worker' && stop.isExpected) {
+      const warm = () => this.#warm(asset);
+      timer = setTimeout(warm, WARM_MILLISECONDS);
+      stop.onStop(warm);
+    }
+    try {
+      const result = await connection.run(asset.name, task, args, transfer, stop);
+      const { thread, whyThread } = connection;
+      return { result, place: { thread, whyThread, whyInlined } };
+    } catch (thrown) {
+      if ((thrown as PlainError).fatal) this.#drop(connection);
+      throw thrown;
+    } finally {
+      clearTimeout(timer);
+    }
+  }
+
+  #throwIfEnded(stop: Stop): void {
+    stop.throwIfStopped();
+    if (this.#disposed) throw new GdelError('DISPOSED', 'the triangulator was disposed of');
   }
 
   dispose(): void {
     this.#disposed = true;
-    void this.#connection?.then(
-      (connection) => connection.close(),
-      () => {},
-    );
-    this.#connection = undefined;
+    for (const connection of [this.#connection, this.#spare]) {
+      void connection?.then(
+        (connection) => connection.close(),
+        () => {},
+      );
+    }
+    this.#connection = this.#spare = undefined;
   }
 
   #drop(connection: Connection): void {
@@ -121,144 +127,58 @@ export class Host {
     this.#connection = undefined;
   }
 
-  /** Sends the connection a module, unless it has it. */
-  async #load(connection: Connection, name: ModuleName): Promise<void> {
+  /** Sends the connection a module, unless it has it. Returns why the module is the copy. */
+  async #load(connection: Connection, asset: WasmAsset): Promise<string | null> {
+    const { value, whyInlined } = await compiled(asset);
     const loaded = this.#loaded.get(connection) ?? new Set();
     this.#loaded.set(connection, loaded);
-    if (loaded.has(name)) return;
-    connection.load(name, await compiled(name));
-    loaded.add(name);
+    if (!loaded.has(asset)) connection.load(asset.name, value);
+    loaded.add(asset);
+    return whyInlined;
   }
 
-  #connect(): Promise<Connection> {
-    this.#connection ??= this.#open().catch((error: unknown) => {
-      this.#connection = undefined;
-      throw error;
-    });
+  async #connect(): Promise<Connection> {
+    const current = await this.#connection?.catch(() => undefined);
+    if (current?.isAlive) return current;
+    const spare = this.#spare;
+    this.#spare = undefined;
+    const ready = await spare?.catch(() => undefined);
+    this.#connection = ready?.isAlive ? Promise.resolve(ready) : this.#open();
     return this.#connection;
+  }
+
+  /** Starts the second worker, and hands it the module that is in use. */
+  #warm(asset: WasmAsset): void {
+    if (this.#disposed || this.#spare) return;
+    this.#spare = startWorker(workerCode).then(async (thread) => {
+      const connection = workerConnection(thread);
+      await this.#load(connection, asset);
+      return connection;
+    });
+    // If it fails, the run that needs it starts another one, and tells why that fails.
+    this.#spare.catch(() => {});
   }
 
   async #open(): Promise<Connection> {
     if (this.#noWorker === null) {
-      const reasons: string[] = [];
-      for (const start of runtime.workers) {
-        try {
-          return workerConnection(await start(), () => (this.#connection = undefined));
-        } catch (error) {
-          reasons.push(error instanceof Error ? error.message : String(error));
-        }
+      try {
+        return workerConnection(await startWorker(workerCode));
+      } catch (error) {
+        if (error instanceof GdelError) throw error;
+        this.#noWorker = messageOf(error);
       }
-      this.#noWorker = [...new Set(reasons)].join('; ');
     }
-    return callerConnection(this.#options.gpu, this.#noWorker);
+    return callerConnection(await taskCode(), this.#gpu, this.#noWorker);
   }
 }
 
-function workerConnection(thread: WorkerThread, onDeath: () => void): Connection {
-  let next = 0;
-  let pending:
-    | { id: number; handle: (message: FromWorker) => void; fail: (error: PlainError) => void }
-    | undefined;
-  thread.keepAlive(false);
-  thread.onMessage((message) => {
-    if (message.type !== 'ready' && message.id === pending?.id) pending.handle(message);
-  });
-  thread.onError((error) => {
-    onDeath();
-    pending?.fail({
-      code: 'INTERNAL',
-      message: `the worker failed: ${error.message}`,
-      fatal: true,
-    });
-  });
-
-  return {
-    thread: 'worker',
-    whyThread: null,
-    load: (name, module) => thread.post({ type: 'load', name, module }, []),
-    close() {
-      thread.terminate();
-      pending?.fail({
-        code: 'DISPOSED',
-        message: 'the triangulator was disposed of',
-        fatal: false,
-      });
-    },
-    run(task, args, transfer, onProgress, signal) {
-      const id = next++;
-      let timer: ReturnType<typeof setTimeout> | undefined;
-      // A worker receives messages only in its event loop, to which running WebAssembly does not
-      // return. So a worker that does not answer is ended, and the next run starts a new one.
-      const abort = () => {
-        thread.post({ type: 'abort', id }, []);
-        timer = setTimeout(
-          () => pending?.fail({ code: 'ABORTED', message: 'aborted', fatal: true }),
-          GRACE_MILLISECONDS,
-        );
-      };
-      return new Promise<any>((resolve, reject) => {
-        pending = {
-          id,
-          fail: reject,
-          handle(message) {
-            if (message.type === 'progress') onProgress(message.progress);
-            else if (message.type === 'done') resolve(message.result);
-            else if (message.type === 'failed') reject(message.error);
-          },
-        };
-        thread.keepAlive(true);
-        thread.post({ type: 'run', id, task, args }, transfer);
-        signal?.addEventListener('abort', abort);
-      }).finally(() => {
-        pending = undefined;
-        clearTimeout(timer);
-        signal?.removeEventListener('abort', abort);
-        thread.keepAlive(false);
-      });
-    },
-  };
-}
-
-/**
- * Runs tasks in the calling thread. A run stops at its next progress report after an abort, which
- * can come from its own callback or, while the GPU works, from anywhere.
- */
-async function callerConnection(gpu: object | undefined, whyThread: string): Promise<Connection> {
-  const { makeCore } = await runtime.code();
-  const cores = new Map<ModuleName, ReturnType<typeof makeCore>>();
-  return {
-    thread: 'caller',
-    whyThread,
-    load(name, module) {
-      cores.set(name, makeCore(name, module, gpu));
-    },
-    run: (task, args, _transfer, onProgress, signal) =>
-      cores
-        .get(MODULE_OF[task])!
-        .run(task, args, { onProgress, isAborted: () => signal?.aborted ?? false }),
-    close() {
-      for (const core of cores.values()) core.dispose();
-    },
-  };
-}
-
-/** Returns the signal's reason, or a {@link GdelError} in place of the usual `AbortError`. */
-function abortReason(signal: AbortSignal): unknown {
-  const reason: unknown = signal.reason;
-  const isUsual = reason === undefined || (reason instanceof Error && reason.name === 'AbortError');
-  return isUsual ? new GdelError('ABORTED', 'the run was aborted', { cause: reason }) : reason;
-}
-
-export function throwIfAborted(signal: AbortSignal | undefined): void {
-  if (signal?.aborted) throw abortReason(signal);
-}
-
-/** Returns the result, unless the signal is aborted first. */
-function untilAborted<R>(work: Promise<R>, signal: AbortSignal | undefined): Promise<R> {
-  if (!signal) return work;
-  return new Promise((resolve, reject) => {
-    const abort = () => reject(abortReason(signal));
-    signal.addEventListener('abort', abort);
-    work.then(resolve, reject).finally(() => signal.removeEventListener('abort', abort));
-  });
+/** Returns what a run is rejected with, and where its points are. */
+function failureOf(
+  thrown: unknown,
+  args: { points?: Coordinates },
+): { error: GdelError; points: Coordinates | undefined } {
+  // Not sent yet, or sent and back again.
+  if (thrown instanceof GdelError) return { error: thrown, points: args.points };
+  const error = thrown as PlainError;
+  return { error: toGdelError(error), points: error.points };
 }

@@ -1,16 +1,18 @@
 /**
- * Exact 3D and 2D Delaunay triangulation in browsers, Node and Deno: with WebGPU if there is a GPU,
- * with WebAssembly everywhere.
+ * Exact 3D and 2D Delaunay triangulation in browsers, Node, Deno and Bun: with WebGPU if there is a
+ * GPU, with WebAssembly everywhere.
  *
  * @packageDocumentation
  */
 /// <reference lib="esnext.disposable" preserve="true" />
 
+export type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
 export { Delaunator } from './delaunator.js';
 export { GdelError, type GdelErrorCode } from './errors.js';
 export { Mesh3 } from './mesh.js';
 export { Mesh2 } from './mesh2.js';
 export type { ExactCounts, GpuStats, Round, SplayStats } from './stats.js';
+export { delaunay2dSync, delaunay3dSync, load2d, load3d } from './sync.js';
 export {
   type GenerateOptions,
   generate,
@@ -31,6 +33,7 @@ export type {
   MeshView,
   MeshView2,
   Output,
+  Place,
   PointCloud,
   Points,
   Progress,
@@ -39,6 +42,7 @@ export type {
   RunOptions,
   RunOptions2,
   Stats,
+  SyncOptions,
   TaskOptions,
   Trace,
   TriangulatorInfo,

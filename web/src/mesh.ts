@@ -1,6 +1,8 @@
+import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
 import { GdelError } from './errors.js';
+import type { Tasks } from './protocol.js';
 import { write } from './tools.js';
-import type { Output, Stats, TaskOptions, Trace } from './types.js';
+import type { Output, Place, Stats, TaskOptions, Trace } from './types.js';
 
 /**
  * A 3D Delaunay triangulation in typed arrays. All vertices are indices of the input points.
@@ -10,19 +12,19 @@ export class Mesh3 {
    * Four vertices per tetrahedron, positively oriented: det(b − a, c − a, d − a) > 0. No
    * tetrahedron is flat.
    */
-  readonly tetrahedra: Uint32Array;
+  readonly tetrahedra: Indices;
   /**
    * Four per tetrahedron: entry *k* is the tetrahedron across the facet opposite vertex *k*, or −1
    * on the hull.
    */
-  readonly neighbors: Int32Array;
+  readonly neighbors: SignedIndices;
   /** Three vertices per triangle of the convex hull, counter-clockwise as seen from outside. */
-  readonly hull: Uint32Array;
+  readonly hull: Indices;
   /**
    * One per point: −1, or the lowest index of a point with the same coordinates, which represents
    * this one in the mesh.
    */
-  readonly duplicateOf: Int32Array;
+  readonly duplicateOf: SignedIndices;
   /**
    * The affine dimension of the points: 3, or 2, 1, 0 if they are coplanar, collinear, coincident;
    * 0 if there are none. Below 3 there are no tetrahedra.
@@ -32,7 +34,7 @@ export class Mesh3 {
    * The coordinates x, y, z, x, y, z, …: a copy of the input, or its buffer if that was
    * transferred.
    */
-  readonly points: Float32Array | Float64Array;
+  readonly points: Coordinates;
   /** Statistics of the run. */
   readonly stats: Stats;
   /** The intermediate triangulations, if `outputs` has `'trace'` and the GPU computed the mesh. */
@@ -40,14 +42,14 @@ export class Mesh3 {
   readonly #outputs: readonly Output[];
 
   /** @internal */
-  constructor(arrays: Omit<Mesh3, `to${string}`>, outputs: readonly Output[]) {
+  constructor(arrays: Tasks['delaunay3d']['result'], place: Place, outputs: readonly Output[]) {
     this.tetrahedra = arrays.tetrahedra;
     this.neighbors = arrays.neighbors;
     this.hull = arrays.hull;
     this.duplicateOf = arrays.duplicateOf;
     this.dimension = arrays.dimension;
     this.points = arrays.points;
-    this.stats = arrays.stats;
+    this.stats = { ...arrays.stats, ...place };
     if (arrays.trace) this.trace = arrays.trace;
     this.#outputs = outputs;
   }
@@ -56,22 +58,22 @@ export class Mesh3 {
    * Returns the tetrahedra as VTK's XML unstructured grid (`.vtu`), which ParaView and PyVista
    * read.
    */
-  async toVTU(options: TaskOptions = {}): Promise<Uint8Array> {
+  async toVTU(options?: TaskOptions): Promise<Bytes> {
     return (await this.#write('vtu', [], options)).vtu!;
   }
 
   /** Returns the hull as Stanford PLY (`.ply`), binary. */
-  async toPLY(options: TaskOptions = {}): Promise<Uint8Array> {
+  async toPLY(options?: TaskOptions): Promise<Bytes> {
     return (await this.#write('ply', ['hull'], options)).ply!;
   }
 
   /** Returns the hull as Wavefront OBJ (`.obj`). */
-  async toOBJ(options: TaskOptions = {}): Promise<Uint8Array> {
+  async toOBJ(options?: TaskOptions): Promise<Bytes> {
     return (await this.#write('obj', ['hull'], options)).obj!;
   }
 
   /** Returns the hull as binary STL (`.stl`), which has single precision. */
-  async toSTL(options: TaskOptions = {}): Promise<Uint8Array> {
+  async toSTL(options?: TaskOptions): Promise<Bytes> {
     return (await this.#write('stl', ['hull'], options)).stl!;
   }
 
@@ -80,20 +82,18 @@ export class Mesh3 {
    * something, coordinates are relative to the node's translation. Axes stay as they are, though
    * glTF has *y* up.
    */
-  async toGLB(options: TaskOptions = {}): Promise<Uint8Array> {
+  async toGLB(options?: TaskOptions): Promise<Bytes> {
     return (await this.#write('glb', ['hull'], options)).glb!;
   }
 
   /** Returns TetGen's three files: points, tetrahedra and neighbors, counted from 0. */
-  async toTetGen(
-    options: TaskOptions = {},
-  ): Promise<{ node: Uint8Array; ele: Uint8Array; neigh: Uint8Array }> {
+  async toTetGen(options?: TaskOptions): Promise<{ node: Bytes; ele: Bytes; neigh: Bytes }> {
     const { node, ele, neigh } = await this.#write('tetgen', ['neighbors'], options);
     return { node: node!, ele: ele!, neigh: neigh! };
   }
 
   /** Returns NumPy's `.npz` with the arrays `points`, `tetrahedra` and `neighbors`. */
-  async toNPZ(options: TaskOptions = {}): Promise<Uint8Array> {
+  async toNPZ(options?: TaskOptions): Promise<Bytes> {
     return (await this.#write('npz', ['neighbors'], options)).npz!;
   }
 
@@ -101,8 +101,8 @@ export class Mesh3 {
   #write(
     format: string,
     needs: readonly Output[],
-    options: TaskOptions,
-  ): Promise<Record<string, Uint8Array>> {
+    options: TaskOptions | undefined,
+  ): Promise<Record<string, Bytes>> {
     const missing = needs.find((output) => !this.#outputs.includes(output));
     if (missing)
       throw new GdelError(

@@ -1,8 +1,8 @@
 // Converts points of any form to one typed array that nobody else uses.
 
+import { type Coordinates, inThisRealm, isArrayBuffer, isDetached, kindOf } from './arrays.js';
 import { GdelError } from './errors.js';
-import { throwIfAborted } from './host.js';
-import type { Coordinates } from './protocol.js';
+import { bad, nameOf } from './options.js';
 
 /** The largest number of points that can be triangulated. */
 const MAX_POINTS = 2 ** 27;
@@ -10,89 +10,153 @@ const MAX_POINTS = 2 ** 27;
 /** How long a conversion or a copy may block the thread before it yields. */
 const SLICE_MILLISECONDS = 8;
 
-/** Longer arrays are copied in slices of this length. */
+/** The number of coordinates after which a conversion or a copy can yield. */
 const SLICE_LENGTH = 2 ** 18;
 
-export interface Own {
-  coordinates: Coordinates;
-  transfer: ArrayBuffer[];
-}
+/** The same for rows and plain arrays, which take longer. */
+const SLICE_ROWS = 2 ** 12;
 
 interface Conversion {
   dimension: number;
+  /** Whether to take the buffer of the caller's array. */
   transfer: boolean;
   point: ((item: any, index: number) => ArrayLike<number>) | undefined;
-  signal: AbortSignal | undefined;
 }
 
-/** Returns the coordinates as an array that nobody else uses. */
-export function ownCoordinates(points: unknown, conversion: Conversion): Own | Promise<Own> {
-  const { dimension, transfer, point } = conversion;
-  if ((points instanceof Float32Array || points instanceof Float64Array) && !point) {
-    checkTyped(points, dimension);
-    if (transfer && points.buffer instanceof ArrayBuffer) return own(moved(points));
-    return points.length <= SLICE_LENGTH ? own(points.slice()) : copied(points, conversion.signal);
+/** Returns the coordinates, without giving way to other events. */
+export function coordinatesNow(points: unknown, conversion: Conversion): Coordinates {
+  const steps = conversionOf(points, conversion);
+  for (;;) {
+    const { done, value } = steps.next();
+    if (done) return value;
   }
-  if (ArrayBuffer.isView(points) && !point) {
-    throw new GdelError(
-      'BAD_INPUT',
-      `points in one typed array must be a Float32Array or a Float64Array, not ${nameOf(points)}`,
-    );
+}
+
+/**
+ * Returns the coordinates, giving way to other events after each slice of 8 ms. What is small is
+ * copied before this returns.
+ */
+export async function coordinatesInSlices(
+  points: unknown,
+  conversion: Conversion,
+  throwIfAborted: () => void,
+): Promise<Coordinates> {
+  const steps = conversionOf(points, conversion);
+  let since = performance.now();
+  for (;;) {
+    const { done, value } = steps.next();
+    if (done) return value;
+    if (performance.now() - since <= SLICE_MILLISECONDS) continue;
+    await yieldToEvents();
+    throwIfAborted();
+    since = performance.now();
   }
-  if (!isArrayLike(points)) {
-    throw new GdelError(
-      'BAD_INPUT',
-      `points must be a typed array or an array of rows, not ${nameOf(points)}`,
-    );
+}
+
+/** Yields to waiting events. Continues sooner than a timer, which browsers delay. */
+function yieldToEvents(): Promise<void> {
+  return new Promise((resolve) => {
+    if (typeof MessageChannel !== 'function') return setTimeout(resolve);
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => {
+      port1.close();
+      resolve();
+    };
+    port2.postMessage(null);
+  });
+}
+
+/** Converts in steps, between which other events can be handled. */
+type Steps = Generator<void, Coordinates, void>;
+
+/** Returns the conversion for this form of points. */
+function conversionOf(points: unknown, { dimension, transfer, point }: Conversion): Steps {
+  if (!point) {
+    const kind = kindOf(points);
+    if (kind !== undefined) {
+      const array = inThisRealm(points as Coordinates);
+      checkTyped(array, dimension);
+      const canMove =
+        transfer &&
+        isFloat(array) &&
+        isArrayBuffer(array.buffer) &&
+        typeof structuredClone === 'function';
+      return canMove ? moved(array) : copied(array, kind);
+    }
+    if (ArrayBuffer.isView(points)) throw bad('points', 'an array', points);
+  }
+  if (!isArrayLike(points))
+    throw bad('points', 'a typed array, or an array of rows or numbers', points);
+  if (!point && points.length > 0 && typeof points[0] === 'number') {
+    checkWhole(points.length, dimension);
+    checkCount(points.length / dimension);
+    return fromNumbers(points, dimension);
   }
   checkCount(points.length);
-  return fromRows(points, conversion);
+  return fromRows(points, dimension, point);
 }
 
-function own(coordinates: Coordinates): Own {
-  return { coordinates, transfer: [coordinates.buffer as ArrayBuffer] };
-}
+const isFloat = (array: unknown): array is Coordinates =>
+  array instanceof Float32Array || array instanceof Float64Array;
 
 /** Takes the array's buffer from the caller. */
-function moved(points: Coordinates): Coordinates {
-  return structuredClone(points, { transfer: [points.buffer as ArrayBuffer] });
+// biome-ignore lint/correctness/useYield: this takes one step.
+function* moved(points: Coordinates): Steps {
+  try {
+    return inThisRealm(structuredClone(points, { transfer: [points.buffer] }));
+  } catch (cause) {
+    throw new GdelError('BAD_INPUT', 'the buffer of the points cannot be transferred', { cause });
+  }
 }
 
-/** Copies in slices, yielding in between: fresh memory alone takes 10 ms for a million points. */
-async function copied(points: Coordinates, signal: AbortSignal | undefined): Promise<Own> {
+/** The classes to which others are converted without loss. Those that are missing have none. */
+const CONVERTED: Readonly<Record<string, new (length: number) => Coordinates>> = {
+  Float32Array,
+  Float64Array,
+  Float16Array: Float32Array,
+  Int8Array: Float32Array,
+  Uint8Array: Float32Array,
+  Uint8ClampedArray: Float32Array,
+  Int16Array: Float32Array,
+  Uint16Array: Float32Array,
+  Int32Array: Float64Array,
+  Uint32Array: Float64Array,
+};
+
+/** Copies in slices: fresh memory alone takes 10 ms for a million points. */
+function* copied(points: Coordinates, kind: string): Steps {
+  const Class = CONVERTED[kind];
+  if (!Class) throw bad('points in a typed array', 'numbers', points);
   const { length } = points;
-  const copy = points instanceof Float32Array ? new Float32Array(length) : new Float64Array(length);
-  let since = performance.now();
+  const copy = allocate(Class, length);
   for (let at = 0; at < length; at += SLICE_LENGTH) {
-    if (performance.now() - since > SLICE_MILLISECONDS) {
-      await yieldToEvents();
-      throwIfAborted(signal);
-      since = performance.now();
-    }
+    if (at > 0) yield;
     if (points.length !== length)
       throw new GdelError('BAD_INPUT', 'the buffer of the points was detached while it was copied');
     copy.set(points.subarray(at, at + SLICE_LENGTH), at);
   }
-  return own(copy);
+  return copy;
 }
 
 function checkTyped(points: Coordinates, dimension: number): void {
-  try {
-    // Throws if the buffer is detached. Its length would be 0, as of no points.
-    new Uint8Array(points.buffer);
-  } catch {
+  // Its length would be 0, as of no points.
+  if (isDetached(points)) {
     throw new GdelError(
       'BAD_INPUT',
       'the buffer of the points is detached, because it was transferred',
     );
   }
-  if (points.length % dimension !== 0) {
+  checkWhole(points.length, dimension);
+  checkCount(points.length / dimension);
+}
+
+function checkWhole(length: number, dimension: number): void {
+  if (length % dimension !== 0) {
     throw new GdelError(
       'BAD_INPUT',
-      `${points.length} coordinates are not a whole number of points: the length must be a multiple of ${dimension}`,
+      `${length} coordinates are not a whole number of points: the length must be a multiple of ${dimension}`,
     );
   }
-  checkCount(points.length / dimension);
 }
 
 export function checkCount(count: number): void {
@@ -104,26 +168,42 @@ export function checkCount(count: number): void {
   }
 }
 
-async function fromRows(
-  rows: ArrayLike<unknown>,
-  { dimension, point, signal }: Conversion,
-): Promise<Own> {
-  let coordinates: Float64Array;
+/** Returns an array of zeros, or throws that memory does not suffice. */
+function allocate<T>(Class: new (length: number) => T, length: number): T {
   try {
-    coordinates = new Float64Array(dimension * rows.length);
+    return new Class(length);
   } catch (cause) {
-    throw new GdelError('OUT_OF_MEMORY', `there is not enough memory for ${rows.length} points`, {
+    throw new GdelError('OUT_OF_MEMORY', `there is not enough memory for ${length} coordinates`, {
       cause,
     });
   }
-  let since = performance.now();
-  for (let i = 0; i < rows.length; i++) {
-    if (i % 4096 === 4095 && performance.now() - since > SLICE_MILLISECONDS) {
-      await yieldToEvents();
-      throwIfAborted(signal);
-      since = performance.now();
+}
+
+function* fromNumbers(numbers: ArrayLike<unknown>, dimension: number): Steps {
+  const { length } = numbers;
+  const coordinates = allocate(Float64Array, length);
+  for (let i = 0; i < length; i++) {
+    if (i % SLICE_ROWS === SLICE_ROWS - 1) yield;
+    const value = numbers[i];
+    if (typeof value !== 'number') {
+      const index = Math.floor(i / dimension);
+      throw new GdelError(
+        'BAD_INPUT',
+        `coordinate ${i}, of point ${index}, is ${nameOf(value)}, not a number`,
+        { index },
+      );
     }
-    const row = point ? point(rows[i], i) : rows[i];
+    coordinates[i] = value;
+  }
+  return coordinates;
+}
+
+function* fromRows(rows: ArrayLike<unknown>, dimension: number, point: Conversion['point']): Steps {
+  const { length } = rows;
+  const coordinates = allocate(Float64Array, dimension * length);
+  for (let i = 0; i < length; i++) {
+    if (i % SLICE_ROWS === SLICE_ROWS - 1) yield;
+    const row: unknown = point ? point(rows[i], i) : rows[i];
     if (!isArrayLike(row) || row.length < dimension) {
       throw new GdelError(
         'BAD_INPUT',
@@ -143,31 +223,11 @@ async function fromRows(
       coordinates[dimension * i + axis] = value;
     }
   }
-  return own(coordinates);
-}
-
-/** Yields to waiting events. Continues sooner than a timer, which browsers delay. */
-function yieldToEvents(): Promise<void> {
-  return new Promise((resolve) => {
-    const { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => {
-      port1.close();
-      resolve();
-    };
-    port2.postMessage(null);
-  });
+  return coordinates;
 }
 
 function isArrayLike(value: unknown): value is ArrayLike<unknown> {
   if (typeof value !== 'object' || value === null) return false;
   const { length } = value as { length?: unknown };
   return typeof length === 'number' && Number.isInteger(length) && length >= 0;
-}
-
-export function nameOf(value: unknown): string {
-  if (typeof value === 'object' && value !== null) {
-    const length = isArrayLike(value) ? ` of length ${value.length}` : '';
-    return `${value.constructor?.name ?? 'an object'}${length}`;
-  }
-  return typeof value === 'string' ? JSON.stringify(value.slice(0, 40)) : String(value);
 }

@@ -1,11 +1,13 @@
 // The messages between the page and the worker.
 
+import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
 import type { PlainError } from './errors.js';
 import type {
   Backend,
   MeshView,
   MeshView2,
   Output,
+  Place,
   PointCloud,
   Progress,
   Report,
@@ -18,11 +20,9 @@ import type {
 /** The wasm modules. */
 export type ModuleName = 'd3' | 'd2' | 'tools';
 
-export type Coordinates = Float32Array | Float64Array;
+export type CoreInfo = Omit<TriangulatorInfo, keyof Place>;
 
-export type CoreInfo = Omit<TriangulatorInfo, 'thread' | 'whyThread'>;
-
-export type CoreStats = Omit<Stats, 'thread' | 'whyThread'>;
+export type CoreStats = Omit<Stats, keyof Place>;
 
 /** The arguments and the result of each task. */
 export interface Tasks {
@@ -31,10 +31,10 @@ export interface Tasks {
     args: { points: Coordinates; backend: Backend; outputs: readonly Output[] };
     result: {
       points: Coordinates;
-      tetrahedra: Uint32Array;
-      neighbors: Int32Array;
-      hull: Uint32Array;
-      duplicateOf: Int32Array;
+      tetrahedra: Indices;
+      neighbors: SignedIndices;
+      hull: Indices;
+      duplicateOf: SignedIndices;
       dimension: 0 | 1 | 2 | 3;
       trace?: Trace;
       stats: CoreStats;
@@ -44,58 +44,55 @@ export interface Tasks {
     args: { points: Coordinates; backend: Backend };
     result: {
       points: Coordinates;
-      triangles: Uint32Array;
-      halfedges: Int32Array;
-      hull: Uint32Array;
-      duplicateOf: Int32Array;
+      triangles: Indices;
+      halfedges: SignedIndices;
+      hull: Indices;
+      duplicateOf: SignedIndices;
       dimension: 0 | 1 | 2;
       stats: CoreStats;
     };
   };
-  generate: { args: { kind: string; count: number; seed: bigint }; result: Float64Array };
+  generate: { args: { kind: string; count: number; seed: bigint }; result: Doubles };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };
   write: {
     args: { points: Coordinates; mesh: MeshView; format: string };
-    result: Record<string, Uint8Array>;
+    result: Record<string, Bytes>;
   };
   verify: { args: { points: Coordinates; mesh: MeshView }; result: Report };
-  generate2d: { args: { kind: string; count: number; seed: bigint }; result: Float64Array };
+  generate2d: { args: { kind: string; count: number; seed: bigint }; result: Doubles };
   write2d: {
     args: { points: Coordinates; mesh: MeshView2; format: string };
-    result: Record<string, Uint8Array>;
+    result: Record<string, Bytes>;
   };
   verify2d: { args: { points: Coordinates; mesh: MeshView2 }; result: Report2 };
 }
 
 export type TaskName = keyof Tasks;
 
-/** The module that runs each task. */
-export const MODULE_OF: Readonly<Record<TaskName, ModuleName>> = {
-  open: 'd3',
-  delaunay3d: 'd3',
-  delaunay2d: 'd2',
-  generate: 'tools',
-  readPoints: 'tools',
-  write: 'tools',
-  verify: 'tools',
-  generate2d: 'tools',
-  write2d: 'tools',
-  verify2d: 'tools',
-};
-
 /** The connection of a task to its caller. */
 export interface Control {
   onProgress(progress: Progress): void;
+  /** Says that from now on the thread will hear nothing until the task is done. */
+  onBlocking(): void;
   isAborted(): boolean;
 }
 
 export type ToWorker =
   | { type: 'load'; name: ModuleName; module: WebAssembly.Module }
-  | { type: 'run'; id: number; task: TaskName; args: Tasks[TaskName]['args'] }
+  | {
+      type: 'run';
+      id: number;
+      module: ModuleName;
+      task: TaskName;
+      args: Tasks[TaskName]['args'];
+      /** Whether to send messages before the last one: for small inputs, they are what takes long. */
+      isWatched: boolean;
+    }
   | { type: 'abort'; id: number };
 
 export type FromWorker =
   | { type: 'ready' }
   | { type: 'progress'; id: number; progress: Progress }
+  | { type: 'blocking'; id: number }
   | { type: 'done'; id: number; result: Tasks[TaskName]['result'] }
   | { type: 'failed'; id: number; error: PlainError };

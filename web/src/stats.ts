@@ -87,7 +87,10 @@ export interface Round {
   flips: number;
   /** The number of flip iterations that had something to do. */
   iterations: number;
-  /** The time from the end of the previous round, by the host's clock. */
+  /**
+   * The time by the host's clock: an equal share of that of the rounds which were submitted
+   * together.
+   */
   milliseconds: number;
 }
 

@@ -1,9 +1,21 @@
 // Files, verification and synthetic points, in a WebAssembly module with a worker of its own.
 
+import { wasmTools } from '#assets';
+import {
+  type Bytes,
+  type Coordinates,
+  type Doubles,
+  inThisRealm,
+  isArrayBuffer,
+  isDetached,
+  kindOf,
+} from './arrays.js';
 import { GdelError } from './errors.js';
 import { Host } from './host.js';
-import { ownCoordinates } from './points.js';
-import type { Coordinates } from './protocol.js';
+import { bad, objectOf, optionsOf, taskOptions } from './options.js';
+import { coordinatesInSlices } from './points.js';
+import type { TaskName, Tasks } from './protocol.js';
+import { throwIfAborted } from './stop.js';
 import type {
   Distribution,
   Distribution2,
@@ -18,8 +30,16 @@ import type {
 
 let shared: Host | undefined;
 
-function host(): Host {
-  return (shared ??= new Host());
+/** Runs a task with options that are checked. */
+async function run<T extends TaskName>(
+  task: T,
+  args: Tasks[T]['args'],
+  options: TaskOptions,
+  transfer: ArrayBuffer[] = [],
+): Promise<Tasks[T]['result']> {
+  throwIfAborted(options.signal);
+  shared ??= new Host();
+  return (await shared.run(wasmTools, task, args, { transfer }, options)).result;
 }
 
 /** Options for synthetic points. */
@@ -37,9 +57,9 @@ export interface GenerateOptions extends TaskOptions {
 export async function generate(
   kind: Distribution,
   count: number,
-  options: GenerateOptions = {},
-): Promise<Float64Array> {
-  return host().run('generate', { kind, ...cloud(count, options) }, [], options);
+  options?: GenerateOptions,
+): Promise<Doubles> {
+  return run('generate', cloud(kind, count, options), taskOptions(optionsOf(options)));
 }
 
 /**
@@ -50,23 +70,22 @@ export async function generate(
 export async function generate2d(
   kind: Distribution2,
   count: number,
-  options: GenerateOptions = {},
-): Promise<Float64Array> {
-  return host().run('generate2d', { kind, ...cloud(count, options) }, [], options);
+  options?: GenerateOptions,
+): Promise<Doubles> {
+  return run('generate2d', cloud(kind, count, options), taskOptions(optionsOf(options)));
 }
 
-/** Returns the number of points and the seed, checked. */
-function cloud(count: number, { seed = 1 }: GenerateOptions): { count: number; seed: bigint } {
+/** Returns the checked arguments of the generators. */
+function cloud(kind: string, count: number, options: GenerateOptions | undefined) {
+  const { seed = 1 } = optionsOf(options);
   const isCount = (n: unknown, max: number) =>
     Number.isInteger(n) && (n as number) >= 0 && (n as number) <= max;
+  if (typeof kind !== 'string') throw bad('the distribution', 'a name', kind);
   if (!isCount(count, 2 ** 27))
-    throw new GdelError(
-      'BAD_INPUT',
-      `the number of points must be an integer from 0 to 2²⁷, not ${count}`,
-    );
+    throw bad('the number of points', 'an integer from 0 to 2²⁷', count);
   if (!isCount(seed, Number.MAX_SAFE_INTEGER))
-    throw new GdelError('BAD_INPUT', `the seed must be an integer from 0 to 2⁵³ − 1, not ${seed}`);
-  return { count, seed: BigInt(seed) };
+    throw bad('the seed', 'an integer from 0 to 2⁵³ − 1', seed);
+  return { kind, count, seed: BigInt(seed) };
 }
 
 /** Options for reading a file. */
@@ -85,29 +104,39 @@ export interface ReadOptions extends TaskOptions {
  */
 export async function readPoints(
   data: Blob | ArrayBuffer | Uint8Array,
-  options: ReadOptions = {},
+  options?: ReadOptions,
 ): Promise<PointCloud> {
-  const name =
-    options.name ?? (data instanceof Blob && 'name' in data ? String(data.name) : undefined);
-  const extension = options.format ?? name?.match(/\.([^./\\]+)$/)?.[1];
+  const { name, format } = optionsOf(options);
+  for (const [option, value] of Object.entries({ name, format }))
+    if (value !== undefined && typeof value !== 'string')
+      throw bad(`the option ${option}`, 'a string', value);
+  const task = taskOptions(optionsOf(options));
+  const ownName = (data as Partial<File> | null)?.name;
+  const from = name ?? (typeof ownName === 'string' ? ownName : undefined);
+  const extension = format ?? from?.match(/\.([^./\\]+)$/)?.[1];
   if (extension === undefined) {
     throw new GdelError(
       'UNKNOWN_FORMAT',
       'the format of the file is unknown: pass the option name or format',
     );
   }
-  let bytes: Uint8Array;
-  if (data instanceof Blob) bytes = new Uint8Array(await data.arrayBuffer());
-  else if (data instanceof ArrayBuffer || data instanceof Uint8Array)
-    bytes = new Uint8Array(data).slice();
-  else throw new GdelError('BAD_INPUT', 'a file must be a Blob, an ArrayBuffer or a Uint8Array');
-  const { points, noReturn } = await host().run(
-    'readPoints',
-    { bytes, extension: extension.replace(/^\./, '') },
-    [bytes.buffer as ArrayBuffer],
-    options,
-  );
-  return { points, noReturn };
+  const bytes = await bytesOf(data);
+  const args = { bytes, extension: extension.replace(/^\./, '') };
+  return run('readPoints', args, task, [bytes.buffer]);
+}
+
+/** Returns the content of a file as an array that nobody else uses. */
+async function bytesOf(data: unknown): Promise<Bytes> {
+  const isBytes = kindOf(data) === 'Uint8Array';
+  if (isBytes || isArrayBuffer(data)) {
+    const view = isBytes ? (data as Uint8Array) : undefined;
+    if (isDetached(view ?? { buffer: data as ArrayBuffer, byteLength: 0, byteOffset: 0 }))
+      throw new GdelError('BAD_INPUT', 'the buffer of the file is detached');
+    return new Uint8Array(view ?? (data as ArrayBuffer)).slice();
+  }
+  if (typeof (data as Partial<Blob> | null)?.arrayBuffer !== 'function')
+    throw bad('a file', 'a Blob, an ArrayBuffer or a Uint8Array', data);
+  return new Uint8Array(await (data as Blob).arrayBuffer());
 }
 
 /**
@@ -117,39 +146,76 @@ export async function readPoints(
 export async function verify(
   points: Points,
   mesh: MeshView,
-  options: TaskOptions = {},
+  options?: TaskOptions,
 ): Promise<Report> {
-  const { tetrahedra, neighbors, hull, duplicateOf, dimension } = mesh;
-  if (!(tetrahedra instanceof Uint32Array))
-    throw new GdelError('BAD_INPUT', 'tetrahedra must be a Uint32Array');
-  const view = { tetrahedra, neighbors, hull, duplicateOf, dimension };
-  const args = { points: await coordinatesOf(points, 3, options), mesh: view };
-  const { thread: _, whyThread: __, ...report } = await host().run('verify', args, [], options);
-  return report;
+  objectOf('the mesh', mesh);
+  const view = {
+    tetrahedra: required(mesh, 'tetrahedra', 'Uint32Array'),
+    neighbors: optional(mesh, 'neighbors', 'Int32Array'),
+    hull: optional(mesh, 'hull', 'Uint32Array'),
+    duplicateOf: optional(mesh, 'duplicateOf', 'Int32Array'),
+    dimension: dimensionOf(mesh.dimension),
+  };
+  const task = taskOptions(optionsOf(options));
+  return run('verify', { points: await coordinatesOf(points, 3, task), mesh: view }, task);
 }
 
 /** Does for a 2D mesh what {@link verify} does in 3D. */
 export async function verify2d(
   points: Points,
   mesh: MeshView2,
-  options: TaskOptions = {},
+  options?: TaskOptions,
 ): Promise<Report2> {
-  const { triangles, halfedges, hull, duplicateOf, dimension } = mesh;
-  if (!(triangles instanceof Uint32Array))
-    throw new GdelError('BAD_INPUT', 'triangles must be a Uint32Array');
-  const view = { triangles, halfedges, hull, duplicateOf, dimension };
-  const args = { points: await coordinatesOf(points, 2, options), mesh: view };
-  const { thread: _, whyThread: __, ...report } = await host().run('verify2d', args, [], options);
-  return report;
+  objectOf('the mesh', mesh);
+  const view = {
+    triangles: required(mesh, 'triangles', 'Uint32Array'),
+    halfedges: optional(mesh, 'halfedges', 'Int32Array'),
+    hull: optional(mesh, 'hull', 'Uint32Array'),
+    duplicateOf: optional(mesh, 'duplicateOf', 'Int32Array'),
+    dimension: dimensionOf(mesh.dimension),
+  };
+  const task = taskOptions(optionsOf(options));
+  return run('verify2d', { points: await coordinatesOf(points, 2, task), mesh: view }, task);
 }
 
-async function coordinatesOf(
+interface Kinds {
+  Uint32Array: Uint32Array;
+  Int32Array: Int32Array;
+}
+
+/** Returns an array of a mesh, checked. */
+function required<K extends keyof Kinds>(mesh: object, name: string, kind: K): Kinds[K] {
+  const array = (mesh as Record<string, unknown>)[name];
+  if (kindOf(array) !== kind) throw bad(name, `a ${kind}`, array);
+  const own = inThisRealm(array as Kinds[K]);
+  if (isDetached(own))
+    throw new GdelError('BAD_INPUT', `${name} is detached: its buffer was transferred`);
+  return own;
+}
+
+/** Returns an array of a mesh, checked, or undefined if the mesh does not state it. */
+function optional<K extends keyof Kinds>(
+  mesh: object,
+  name: string,
+  kind: K,
+): Kinds[K] | undefined {
+  const array = (mesh as Record<string, unknown>)[name];
+  return array === undefined ? undefined : required(mesh, name, kind);
+}
+
+function dimensionOf(dimension: unknown): number | undefined {
+  if (dimension !== undefined && ![0, 1, 2, 3].includes(dimension as number))
+    throw bad('dimension', '0, 1, 2 or 3', dimension);
+  return dimension as number | undefined;
+}
+
+function coordinatesOf(
   points: Points,
   dimension: number,
   { signal }: TaskOptions,
 ): Promise<Coordinates> {
-  return (await ownCoordinates(points, { dimension, transfer: false, point: undefined, signal }))
-    .coordinates;
+  const conversion = { dimension, transfer: false, point: undefined };
+  return coordinatesInSlices(points, conversion, () => throwIfAborted(signal));
 }
 
 /** Returns a 3D mesh as files of a format, by extension. */
@@ -157,9 +223,10 @@ export async function write(
   points: Coordinates,
   mesh: MeshView,
   format: string,
-  options: TaskOptions,
-): Promise<Record<string, Uint8Array>> {
-  return host().run('write', { points, mesh, format }, [], options);
+  options: TaskOptions | undefined,
+): Promise<Record<string, Bytes>> {
+  checkOwned({ points, ...mesh });
+  return run('write', { points, mesh, format }, taskOptions(optionsOf(options)));
 }
 
 /** Returns a 2D mesh as files of a format, by extension. */
@@ -167,7 +234,16 @@ export async function write2d(
   points: Coordinates,
   mesh: MeshView2,
   format: string,
-  options: TaskOptions,
-): Promise<Record<string, Uint8Array>> {
-  return host().run('write2d', { points, mesh, format }, [], options);
+  options: TaskOptions | undefined,
+): Promise<Record<string, Bytes>> {
+  checkOwned({ points, ...mesh });
+  return run('write2d', { points, mesh, format }, taskOptions(optionsOf(options)));
+}
+
+/** Checks that the arrays of a mesh were not given to somebody else. */
+function checkOwned(arrays: object): void {
+  for (const [name, array] of Object.entries(arrays)) {
+    if (ArrayBuffer.isView(array) && isDetached(array))
+      throw new GdelError('BAD_INPUT', `the mesh’s ${name} are detached: they were transferred`);
+  }
 }

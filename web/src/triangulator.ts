@@ -1,12 +1,21 @@
-import { GdelError } from './errors.js';
-import { Host, throwIfAborted } from './host.js';
+import { wasm2d, wasm3d } from '#assets';
+import { Host, type Sending } from './host.js';
 import { Mesh3 } from './mesh.js';
 import { Mesh2 } from './mesh2.js';
-import { ownCoordinates } from './points.js';
+import {
+  bad,
+  checkBoolean,
+  checkFunction,
+  checkOneOf,
+  optionsOf,
+  outputsOf,
+  taskOptions,
+} from './options.js';
+import { coordinatesInSlices } from './points.js';
+import { throwIfAborted } from './stop.js';
 import type {
   AccessorOptions,
   Backend,
-  Output,
   Points,
   RunOptions,
   RunOptions2,
@@ -14,8 +23,6 @@ import type {
   TriangulatorOptions,
 } from './types.js';
 
-const ALL_OUTPUTS: readonly Output[] = ['neighbors', 'hull', 'duplicateOf', 'trace'];
-const DEFAULT_OUTPUTS = ALL_OUTPUTS.filter((output) => output !== 'trace');
 const BACKENDS: readonly Backend[] = ['auto', 'gpu', 'cpu'];
 
 /**
@@ -33,13 +40,16 @@ export class Triangulator {
     this.#host = host;
     this.#backend = backend;
     this.info = info;
+    // Not a method, since older environments lack the symbol, and bundlers keep what computes names.
+    if (Symbol.dispose)
+      Object.defineProperty(this, Symbol.dispose, { value: () => this.dispose() });
   }
 
   /** Does the same as the function {@link delaunay3d}. */
   delaunay3d(points: Points, options?: RunOptions): Promise<Mesh3>;
   delaunay3d<T>(points: ArrayLike<T>, options: AccessorOptions<T>): Promise<Mesh3>;
-  delaunay3d(points: unknown, options: RunOptions = {}): Promise<Mesh3> {
-    return triangulate(this.#host, points, { backend: this.#backend, ...options });
+  delaunay3d(points: unknown, options?: RunOptions): Promise<Mesh3> {
+    return triangulate(this.#host, this.#backend, points, options);
   }
 
   /** Does the same as the function {@link delaunay2d}. */
@@ -48,8 +58,8 @@ export class Triangulator {
     points: ArrayLike<T>,
     options: RunOptions2 & Pick<AccessorOptions<T>, 'point'>,
   ): Promise<Mesh2>;
-  delaunay2d(points: unknown, options: RunOptions2 = {}): Promise<Mesh2> {
-    return triangulate2d(this.#host, points, { backend: this.#backend, ...options });
+  delaunay2d(points: unknown, options?: RunOptions2): Promise<Mesh2> {
+    return triangulate2d(this.#host, this.#backend, points, options);
   }
 
   /** Ends the worker and releases the device. Unfinished runs fail with code `DISPOSED`. */
@@ -61,30 +71,27 @@ export class Triangulator {
   declare [Symbol.dispose]: () => void;
 }
 
-// Not in the class, since older environments lack the symbol.
-if (Symbol.dispose) Triangulator.prototype[Symbol.dispose] = Triangulator.prototype.dispose;
-
 /**
  * Creates a triangulator: loads the WebAssembly module, starts the worker, and opens the GPU unless
  * `backend` is `'cpu'`.
  */
-export async function createTriangulator(options: TriangulatorOptions = {}): Promise<Triangulator> {
-  const { backend = 'auto', gpu, worker } = options;
-  checkBackend(backend);
+export async function createTriangulator(options?: TriangulatorOptions): Promise<Triangulator> {
+  const { backend = 'auto', gpu, worker } = optionsOf(options);
+  checkOneOf('backend', backend, BACKENDS);
+  checkBoolean('worker', worker);
+  const { requestAdapter } = (gpu ?? {}) as { requestAdapter?: unknown };
+  if (gpu !== undefined && typeof requestAdapter !== 'function')
+    throw bad('the option gpu', 'a GPU object, with the function requestAdapter', gpu);
   const host = new Host({ gpu, worker });
   try {
-    if (backend !== 'cpu')
-      return new Triangulator(host, backend, await host.run('open', { backend }, [], {}));
+    if (backend !== 'cpu') {
+      const { result, place } = await host.run(wasm3d, 'open', { backend }, { transfer: [] }, {});
+      return new Triangulator(host, backend, { ...result, ...place });
+    }
     // A run on no points shows that the worker starts, or why it does not.
     const args = { points: new Float64Array(0), backend, outputs: [] };
-    const { thread, whyThread } = await host.run('delaunay3d', args, [], {});
-    return new Triangulator(host, backend, {
-      backend,
-      fallback: null,
-      adapter: null,
-      thread,
-      whyThread,
-    });
+    const { place } = await host.run(wasm3d, 'delaunay3d', args, { transfer: [] }, {});
+    return new Triangulator(host, backend, { backend, fallback: null, adapter: null, ...place });
   } catch (error) {
     host.dispose();
     throw error;
@@ -109,8 +116,8 @@ let shared: Host | undefined;
  */
 export function delaunay3d(points: Points, options?: RunOptions): Promise<Mesh3>;
 export function delaunay3d<T>(points: ArrayLike<T>, options: AccessorOptions<T>): Promise<Mesh3>;
-export function delaunay3d(points: unknown, options: RunOptions = {}): Promise<Mesh3> {
-  return triangulate((shared ??= new Host()), points, options);
+export function delaunay3d(points: unknown, options?: RunOptions): Promise<Mesh3> {
+  return triangulate((shared ??= new Host()), 'auto', points, options);
 }
 
 /**
@@ -124,68 +131,53 @@ export function delaunay2d<T>(
   points: ArrayLike<T>,
   options: RunOptions2 & Pick<AccessorOptions<T>, 'point'>,
 ): Promise<Mesh2>;
-export function delaunay2d(points: unknown, options: RunOptions2 = {}): Promise<Mesh2> {
-  return triangulate2d((shared ??= new Host()), points, options);
+export function delaunay2d(points: unknown, options?: RunOptions2): Promise<Mesh2> {
+  return triangulate2d((shared ??= new Host()), 'auto', points, options);
 }
 
 type AnyOptions = RunOptions & { point?: unknown };
 
-async function triangulate(host: Host, points: unknown, options: AnyOptions): Promise<Mesh3> {
-  const { signal, onProgress } = options;
-  throwIfAborted(signal);
-  const outputs = options.outputs ?? DEFAULT_OUTPUTS;
-  const unknown = Array.isArray(outputs)
-    ? outputs.find((output) => !ALL_OUTPUTS.includes(output))
-    : outputs;
-  if (unknown !== undefined) {
-    throw new GdelError(
-      'BAD_INPUT',
-      `outputs must be an array of any of ${ALL_OUTPUTS.join(', ')}, not ${String(unknown)}`,
-    );
-  }
-  const { args, transfer } = await prepare(points, 3, options);
-  const result = await host.run('delaunay3d', { ...args, outputs }, transfer, {
-    signal,
-    onProgress,
-  });
-  const { stats, thread, whyThread, ...arrays } = result;
-  return new Mesh3({ ...arrays, stats: { ...stats, thread, whyThread } }, outputs);
+async function triangulate(
+  host: Host,
+  backend: Backend,
+  points: unknown,
+  options: AnyOptions | undefined,
+): Promise<Mesh3> {
+  const outputs = outputsOf(optionsOf(options));
+  const { args, sending, task } = await prepare(points, 3, backend, options);
+  const done = await host.run(wasm3d, 'delaunay3d', { ...args, outputs }, sending, task);
+  return new Mesh3(done.result, done.place, outputs);
 }
 
-async function triangulate2d(host: Host, points: unknown, options: AnyOptions): Promise<Mesh2> {
-  const { signal, onProgress } = options;
-  throwIfAborted(signal);
-  const { args, transfer } = await prepare(points, 2, options);
-  const result = await host.run('delaunay2d', args, transfer, { signal, onProgress });
-  const { stats, thread, whyThread, points: coords, ...arrays } = result;
-  return new Mesh2({ ...arrays, coords, stats: { ...stats, thread, whyThread } });
+async function triangulate2d(
+  host: Host,
+  backend: Backend,
+  points: unknown,
+  options: AnyOptions | undefined,
+): Promise<Mesh2> {
+  const { args, sending, task } = await prepare(points, 2, backend, options);
+  const done = await host.run(wasm2d, 'delaunay2d', args, sending, task);
+  return new Mesh2(done.result, done.place);
 }
 
-/** Returns the checked arguments of a run. Typed arrays are copied before this returns. */
+/** Returns the checked arguments of a run. What is small is copied before this returns. */
 async function prepare(
   points: unknown,
   dimension: number,
-  { backend = 'auto', transfer = false, signal, point }: AnyOptions,
+  defaultBackend: Backend,
+  options: AnyOptions | undefined,
 ) {
-  checkBackend(backend);
-  if (point !== undefined && typeof point !== 'function') {
-    throw new GdelError('BAD_INPUT', 'the option point must be a function');
-  }
-  const conversion = {
-    dimension,
-    transfer,
-    point: point as AccessorOptions<unknown>['point'] | undefined,
-    signal,
-  };
-  const own = await ownCoordinates(points, conversion);
-  return { args: { points: own.coordinates, backend }, transfer: own.transfer };
-}
-
-function checkBackend(backend: unknown): void {
-  if (!BACKENDS.includes(backend as Backend)) {
-    throw new GdelError(
-      'BAD_INPUT',
-      `backend must be one of ${BACKENDS.join(', ')}, not ${String(backend)}`,
-    );
-  }
+  const checked = optionsOf(options);
+  const { backend = defaultBackend, transfer = false } = checked;
+  const task = taskOptions(checked);
+  throwIfAborted(task.signal);
+  checkOneOf('backend', backend, BACKENDS);
+  checkBoolean('transfer', transfer);
+  checkFunction('point', checked.point);
+  const point = checked.point as AccessorOptions<unknown>['point'] | undefined;
+  const coordinates = await coordinatesInSlices(points, { dimension, transfer, point }, () =>
+    throwIfAborted(task.signal),
+  );
+  const sending: Sending = { transfer: [coordinates.buffer], isGiven: transfer };
+  return { args: { points: coordinates, backend }, sending, task };
 }

@@ -1,14 +1,15 @@
+import type { Bytes, Coordinates, Indices } from './arrays.js';
 import type { Stats as RunStats } from './stats.js';
 
 /**
- * Points: x, y, z, x, y, z, … in one typed array, or one row per point. Every finite number counts
- * with its exact value.
+ * Points: x, y, z, x, y, z, … in one array, typed or not, or one row per point. Every finite number
+ * counts with its exact value.
  *
- * A `Float32Array` or `Float64Array` is fastest; anything else is converted to a `Float64Array`.
- * More than 2 MB are copied or converted in slices, so that the page stays responsive: do not
- * change them before the result is there.
+ * A `Float32Array` or `Float64Array` is fastest. Anything else is converted: integers of at most 16
+ * bits to a `Float32Array`, the rest to a `Float64Array`. More than 2 MB are copied or converted in
+ * slices, so that the page stays responsive: do not change them before the result is there.
  */
-export type Points = Float32Array | Float64Array | ArrayLike<ArrayLike<number>>;
+export type Points = ArrayLike<number> | ArrayLike<ArrayLike<number>>;
 
 /**
  * What computes a mesh. `'auto'` is the GPU for large inputs if it is hardware, and otherwise the
@@ -40,7 +41,10 @@ export interface TaskOptions {
    * with a {@link GdelError} of code `ABORTED` in place of the usual `AbortError`.
    */
   signal?: AbortSignal | undefined;
-  /** Called at most about 50 times per second, the last time with fraction 1. */
+  /**
+   * Called at most about 50 times per second, the last time with fraction 1. If it throws, or
+   * returns a promise that is rejected, the work ends with that error.
+   */
   onProgress?: ((progress: Progress) => void) | undefined;
 }
 
@@ -53,14 +57,19 @@ export interface RunOptions extends TaskOptions {
   /** The arrays to return besides `tetrahedra`; others are empty. Default: all but `'trace'`. */
   outputs?: readonly Output[] | undefined;
   /**
-   * Whether to transfer the input's buffer instead of copying it. The array, and every other view
-   * of its buffer, is then empty; the mesh has the coordinates. Default: false.
+   * Whether to transfer the buffer of a `Float32Array` or `Float64Array` instead of copying it. The
+   * array, and every other view of its buffer, is then empty. The mesh has the coordinates; if the
+   * run fails, {@link GdelError.points} has them. An abort can lose them, since it may end the
+   * worker that has them. Default: false.
    */
   transfer?: boolean | undefined;
 }
 
 /** Options for a 2D triangulation. */
 export type RunOptions2 = Omit<RunOptions, 'outputs'>;
+
+/** Options for a 3D triangulation in the calling thread. */
+export type SyncOptions = Pick<RunOptions, 'outputs'>;
 
 /** Options for points that are objects. */
 export interface AccessorOptions<T> extends RunOptions {
@@ -97,28 +106,33 @@ export interface AdapterInfo {
   maxStorageBufferBindingSize: number;
 }
 
+/** Where the work is done. */
+export interface Place {
+  /** A worker, or the calling thread. */
+  thread: 'worker' | 'caller';
+  /** Why it is the calling thread; null if it is a worker. */
+  whyThread: string | null;
+  /**
+   * Why the WebAssembly module or the worker was not loaded from its file but from the copy that
+   * the package has in JavaScript; null if the files were loaded. The result is the same.
+   */
+  whyInlined: string | null;
+}
+
 /** What a triangulator uses. */
-export interface TriangulatorInfo {
+export interface TriangulatorInfo extends Place {
   /** The backend for large inputs. */
   backend: 'gpu' | 'cpu';
   /** Why that is the CPU, if it was not requested explicitly; otherwise null. */
   fallback: string | null;
   /** The adapter that was found, whether it is used or not. */
   adapter: AdapterInfo | null;
-  /** Where the work is done. */
-  thread: 'worker' | 'caller';
-  /** Why it is done in the calling thread; null if there is a worker. */
-  whyThread: string | null;
 }
 
 /** Statistics of the run that computed a mesh. */
-export interface Stats extends RunStats {
+export interface Stats extends RunStats, Place {
   /** The adapter, if the GPU computed the mesh. */
   adapter: AdapterInfo | null;
-  /** Where the work was done. */
-  thread: 'worker' | 'caller';
-  /** Why it was done in the calling thread; null if it was done in a worker. */
-  whyThread: string | null;
   /** Milliseconds of the whole run, including copies to and from WebAssembly. */
   milliseconds: number;
   /** The size of the WebAssembly memory in bytes: the maximum so far, since it never shrinks. */
@@ -128,14 +142,14 @@ export interface Stats extends RunStats {
 /** The intermediate triangulations of a run on the GPU. */
 export interface Trace {
   /** The finite tetrahedra after each round of Phase 1. Star splaying begins with the last. */
-  rounds: { tetrahedra: Uint32Array }[];
+  rounds: { tetrahedra: Indices }[];
   /**
    * Three vertices per facet: the facets between finite tetrahedra that were not locally Delaunay
    * after Phase 1.
    */
-  nonDelaunayFacets: Uint32Array;
+  nonDelaunayFacets: Indices;
   /** One per tetrahedron of the mesh: 0 if Phase 1 created it, 1 if star splaying did. */
-  created: Uint8Array;
+  created: Bytes;
 }
 
 /** The distributions of {@link generate}. */
@@ -155,7 +169,7 @@ export type Distribution2 =
 /** The points of a file. */
 export interface PointCloud {
   /** x, y, z, x, y, z, … in the precision of the file. */
-  points: Float32Array | Float64Array;
+  points: Coordinates;
   /**
    * The number of points that are left out because they hold no measurement (NaN in a PCD file).
    */

@@ -1,46 +1,44 @@
-// The worker: one task at a time, each in the core of its wasm module. Also loaded by the page
-// itself where it may have no worker.
+// The worker: one task at a time, each in the core of its wasm module.
 
-import { buffersOf, type Core, makeCore } from './core.js';
+import { buffersOf } from './arrays.js';
+import { builtin } from './builtin.js';
+import { type Core, makeCore } from './core.js';
 import type { PlainError } from './errors.js';
-import {
-  type FromWorker,
-  MODULE_OF,
-  type ModuleName,
-  type TaskName,
-  type Tasks,
-  type ToWorker,
-} from './protocol.js';
+import type { FromWorker, ModuleName, ToWorker } from './protocol.js';
 
-export { createBlockingTriangulator, makeCore } from './core.js';
-
-/** The port to whoever made this worker. */
-export interface Port {
+/** The port to whoever started this worker. */
+interface Port {
   post(message: FromWorker, transfer: ArrayBuffer[]): void;
   listen(handler: (message: ToWorker) => void): void;
 }
 
 /** Serves the tasks that come through `port`. */
-export function serve(port: Port): void {
+function serve(port: Port): void {
   const cores = new Map<ModuleName, Core>();
   const aborted = new Set<number>();
 
-  async function run(id: number, task: TaskName, args: Tasks[TaskName]['args']) {
+  async function run({ id, module, task, args, isWatched }: ToWorker & { type: 'run' }) {
     try {
-      const core = cores.get(MODULE_OF[task]);
+      const core = cores.get(module);
       if (!core)
         throw {
           code: 'INTERNAL',
-          message: `no module for ${task} was loaded`,
+          message: `the module ${module} for ${task} was not loaded`,
           fatal: true,
         } satisfies PlainError;
       const result = await core.run(task, args, {
-        onProgress: (progress) => port.post({ type: 'progress', id, progress }, []),
+        onProgress(progress) {
+          if (isWatched) port.post({ type: 'progress', id, progress }, []);
+        },
+        onBlocking() {
+          if (isWatched) port.post({ type: 'blocking', id }, []);
+        },
         isAborted: () => aborted.has(id),
       });
       port.post({ type: 'done', id, result }, buffersOf(result));
     } catch (thrown) {
-      port.post({ type: 'failed', id, error: thrown as PlainError }, []);
+      const error = thrown as PlainError;
+      port.post({ type: 'failed', id, error }, buffersOf(error.points));
     } finally {
       aborted.delete(id);
     }
@@ -50,7 +48,7 @@ export function serve(port: Port): void {
     if (message.type === 'load') {
       cores.set(message.name, makeCore(message.name, message.module));
     } else if (message.type === 'run') {
-      void run(message.id, message.task, message.args);
+      void run(message);
     } else {
       aborted.add(message.id);
     }
@@ -58,20 +56,22 @@ export function serve(port: Port): void {
   port.post({ type: 'ready' }, []);
 }
 
-/**
- * The name of our workers: a page's own worker may load this file too, and its messages are not for
- * us.
- */
-const WORKER_NAME = 'gdel-wasm';
+/** The part of a worker's global object that is used here. */
+interface Scope {
+  postMessage(message: unknown, transfer: ArrayBuffer[]): void;
+  addEventListener(type: 'message', listener: (event: MessageEvent) => void): void;
+}
 
-declare const DedicatedWorkerGlobalScope: { new (): Worker & { name: string } } | undefined;
-
-if (typeof DedicatedWorkerGlobalScope !== 'undefined') {
-  const scope: unknown = globalThis;
-  if (scope instanceof DedicatedWorkerGlobalScope && scope.name === WORKER_NAME) {
-    serve({
-      post: (message, transfer) => scope.postMessage(message, transfer),
-      listen: (handler) => scope.addEventListener('message', (event) => handler(event.data)),
-    });
-  }
+const scope = globalThis as unknown as Scope;
+const port = builtin('node:worker_threads')?.parentPort;
+if (port) {
+  serve({
+    post: (message, transfer) => port.postMessage(message, transfer),
+    listen: (handler) => port.on('message', handler),
+  });
+} else {
+  serve({
+    post: (message, transfer) => scope.postMessage(message, transfer),
+    listen: (handler) => scope.addEventListener('message', ({ data }) => handler(data)),
+  });
 }

@@ -1,5 +1,5 @@
-// Puts the sample scans where the page finds them, www/samples: only their points, as 32-bit floats, x y z x y z …,
-// compressed. The page needs no reader for them.
+// Puts the sample scans where the page finds them, www/samples: only their points, as 32-bit
+// floats, x y z x y z …, compressed. The page needs no reader for them.
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';

@@ -234,11 +234,7 @@ export class App implements Page {
   }
 
   private get canRecord(): boolean {
-    return (
-      this.summary!.dimension === 3 &&
-      this.summary!.dimension === 3 &&
-      this.summary!.points <= MAX_POINTS_TO_RECORD
-    );
+    return this.summary!.dimension === 3 && this.summary!.points <= MAX_POINTS_TO_RECORD;
   }
 
   showRound(round: number | null): void {

@@ -63,14 +63,14 @@ describe('2D', () => {
     assert.match(await text(page, 'count'), /^200 points → \d+ triangles$/);
     const { shown: all, total } = await shown(page);
     assert.ok(all === total && total > 350 && total < 400, `${total} triangles`);
-    await pictureOf(page, 'plane');
+    await pictureOf(page, '2d-first-view');
   });
 
   test('tells about the triangle under the pointer', async () => {
     await page.mouse.move(...(await at(page, 0.5, 0.5)));
     await page.locator('#tip').waitFor();
     assert.match(await text(page, 'tip'), /triangle.*vertices.*area.*circumradius/);
-    await pictureOf(page, 'plane-tip');
+    await pictureOf(page, '2d-tip');
   });
 
   test('points are added, moved, removed and taken back with the mouse', async () => {
@@ -82,7 +82,7 @@ describe('2D', () => {
     assert.match(await text(page, 'count'), /^One point/);
     await click(page, 0.7, 0.7);
     assert.match(await text(page, 'count'), /on one line/);
-    await pictureOf(page, 'plane-two-points');
+    await pictureOf(page, '2d-two-points');
     for (const [n, x, y] of [
       [3, 0.7, 0.3],
       [4, 0.3, 0.7],
@@ -102,7 +102,7 @@ describe('2D', () => {
     await page.mouse.up();
     await settled(page);
     assert.equal(await text(page, 'count'), '5 points → 3 triangles');
-    await pictureOf(page, 'plane-drawn');
+    await pictureOf(page, '2d-drawn');
     await until(
       page,
       (before) => location.href !== before && location.hash.includes('move_4_'),
@@ -123,7 +123,7 @@ describe('2D', () => {
     await page.focus('#canvas');
     await press(page, 'Enter');
     assert.equal(await text(page, 'count'), '5 points → 4 triangles');
-    await pictureOf(page, 'plane-cross');
+    await pictureOf(page, '2d-cross');
     await press(page, 'Space');
     assert.equal(await text(page, 'edited'), 'Point held');
     const before = page.url();
@@ -154,7 +154,7 @@ describe('2D', () => {
     await page.mouse.up();
     await until(page, (zoomed) => location.href !== zoomed, zoomed);
     assert.equal(await text(page, 'count'), count);
-    await pictureOf(page, 'plane-zoomed');
+    await pictureOf(page, '2d-zoomed');
     await page.click('#reset');
   });
 
@@ -184,14 +184,14 @@ describe('2D', () => {
     await choose(page, 'filter', 'alpha');
     await slide(page, 'alpha', 0.5);
     assert.ok((await shown(page)).shown < total);
-    await pictureOf(page, 'plane-alpha');
+    await pictureOf(page, '2d-alpha');
     await choose(page, 'filter', 'all');
   });
 
   test('hard input is drawn and proven: circle, grid with duplicates, two lines, clusters', async () => {
     for (const distribution of ['circle', 'grid', 'two-lines', 'clusters']) {
       await generate(page, distribution, 600);
-      await pictureOf(page, `plane-${distribution}`);
+      await pictureOf(page, `2d-${distribution}`);
       const { note, passed, failed } = await prove(page);
       assert.match(note, /^Proven/, distribution);
       assert.ok(passed >= 8 && failed === 0, distribution);
@@ -205,7 +205,7 @@ describe('2D', () => {
       note,
       /CPU backend: ([\d,]+) triangles, as many\. delaunator: \1 triangles, as many\. delaunator took/,
     );
-    await pictureOf(page, 'plane-compare');
+    await pictureOf(page, '2d-compare');
   });
 
   test('triangulates moving points live, and stops', async () => {
@@ -216,7 +216,7 @@ describe('2D', () => {
     await until(page, () =>
       /moving points → [\d,]+ triangles/.test(document.querySelector('#count').textContent),
     );
-    await pictureOf(page, 'plane-live');
+    await pictureOf(page, '2d-live');
     await page.click('#live');
     await settled(page);
     assert.equal(await text(page, 'count'), before);
@@ -226,7 +226,7 @@ describe('2D', () => {
     await drop(page, 'scan.ply', readFileSync(join(root, 'tests/data/bunny.ply')));
     assert.match(await text(page, 'count'), /^35,947 points → [\d,]+ triangles$/);
     const flat = await text(page, 'count');
-    await pictureOf(page, 'plane-scan');
+    await pictureOf(page, '2d-scan');
     await choose(page, 'dimension', '3');
     assert.equal(await text(page, 'count'), '35,947 points → 246,218 tetrahedra');
     await choose(page, 'dimension', '2');
@@ -236,7 +236,7 @@ describe('2D', () => {
   test('says that points on a line have no triangles, and goes on', async () => {
     await drop(page, 'line.xyz', '0 0 0\n1 1 0\n3 3 0\n4 4 7\n');
     assert.match(await text(page, 'count'), /on one line/);
-    await pictureOf(page, 'plane-line');
+    await pictureOf(page, '2d-line');
   });
 
   test('downloads what the command line proves', async () => {
@@ -294,7 +294,7 @@ describe('2D', () => {
     const page = await openOnPhone(browser, `${server.url}#dim=2&points=uniform_60_1`);
     await page.touchscreen.tap(...(await at(page, 0.5, 0.6)));
     await page.locator('#tip').waitFor();
-    await pictureOf(page, 'plane-phone');
+    await pictureOf(page, '2d-phone');
     for (const [tool, count] of [
       ['add', 61],
       ['remove', 60],

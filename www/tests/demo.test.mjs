@@ -53,13 +53,13 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     const counts = await shown(page);
     assert.equal(counts.total, 246_218);
     assert.ok(counts.shown > 60_000 && counts.shown < 120_000, `${counts.shown} shown`);
-    await pictureOf(page, 'first-view');
+    await pictureOf(page, '3d-first-view');
   });
 
   test('says that coplanar points have no tetrahedra, and goes on', async () => {
     await drop(page, 'flat.xyz', '0 0 0\n1 0 0\n0 1 0\n1 1 0\n');
     assert.match(await text(page, 'count'), /in one plane/);
-    await pictureOf(page, 'flat');
+    await pictureOf(page, '3d-flat');
   });
 
   test('cuts, colours and pulls apart', async () => {
@@ -77,16 +77,16 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     ]) {
       await colorBy(page, color);
       assert.ok((await text(page, 'legend-title')).startsWith(title));
-      await pictureOf(page, `colour-${color}`);
+      await pictureOf(page, `3d-colour-${color}`);
     }
     await slide(page, 'apart', 0.4);
-    await pictureOf(page, 'apart');
+    await pictureOf(page, '3d-apart');
     await slide(page, 'apart', 0);
 
     await choose(page, 'filter', 'alpha');
     await slide(page, 'alpha', 0.3);
     assert.notEqual((await shown(page)).shown, half.shown);
-    await pictureOf(page, 'alpha');
+    await pictureOf(page, '3d-alpha');
   });
 
   test('tells about the tetrahedron under the pointer', async () => {
@@ -94,7 +94,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await page.mouse.move(520, 450);
     await page.locator('#tip').waitFor();
     assert.match(await text(page, 'tip'), /tetrahedron.*vertices.*circumradius/);
-    await pictureOf(page, 'tip');
+    await pictureOf(page, '3d-tip');
   });
 
   test('turns by the arrow keys', async () => {
@@ -117,7 +117,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await drop(page, 'broken.ply', bunny.subarray(0, 5000));
     assert.ok(await page.locator('#message').isVisible());
     assert.match(await text(page, 'message-text'), /^broken\.ply: .{10,}/);
-    await pictureOf(page, 'broken-file');
+    await pictureOf(page, '3d-broken-file');
     await drop(page, 'picture.jpg', Buffer.from([255, 216, 255]));
     assert.match(await text(page, 'message-text'), /^picture\.jpg/);
     await page.click('#message-close');
@@ -160,7 +160,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     const { note: verdict, passed, failed } = await prove(page);
     assert.match(verdict, /^Proven/);
     assert.ok(passed >= 4 && failed === 0);
-    await pictureOf(page, 'compare');
+    await pictureOf(page, '3d-compare');
   });
 
   test('triangulates moving points live, and stops', async () => {
@@ -172,7 +172,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
       document.querySelector('#took').textContent.includes('frames per second'),
     );
     await page.locator('#live-times svg').waitFor();
-    await pictureOf(page, 'live');
+    await pictureOf(page, '3d-live');
     await page.click('#live');
     await settled(page);
     assert.equal(await text(page, 'count'), before);
@@ -214,7 +214,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await tab(page, 'use');
     const code = await copied(page, '#copy');
     assert.match(code, /import \{ delaunay3d, readPoints \}\s+from 'gdel-wasm'/);
-    await pictureOf(page, 'use');
+    await pictureOf(page, '3d-use');
   });
 
   test('has done all this without an error in the console', () => {
@@ -225,19 +225,19 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
   for (const colorScheme of ['light', 'dark']) {
     test(`has no accessibility faults, ${colorScheme}`, async () => {
       const page = await open(browser, server.url, { colorScheme, reducedMotion: 'reduce' });
-      await expectAccessiblePanels(page, colorScheme);
+      await expectAccessiblePanels(page, `3d-${colorScheme}`);
       await page.context().close();
     });
   }
 
   test('fits a phone', async () => {
     const page = await openOnPhone(browser, server.url);
-    await pictureOf(page, 'phone');
+    await pictureOf(page, '3d-phone');
     await page.touchscreen.tap(190, 300);
     await page.locator('#tip').waitFor();
     await tab(page, 'view');
     await expectAccessible(page);
-    await pictureOf(page, 'phone-view');
+    await pictureOf(page, '3d-phone-view');
     await page.context().close();
   });
 });
@@ -253,7 +253,7 @@ describe('without WebGPU', () => {
     assert.equal((await shown(page)).total, 246_218);
     await tab(page, 'use');
     await until(page, () => document.querySelector('#machine').textContent.includes('WebGL 2'));
-    await pictureOf(page, 'no-webgpu');
+    await pictureOf(page, '3d-no-webgpu');
     await tab(page, 'points');
     await choose(page, 'backend', 'gpu');
     assert.ok(await page.locator('#message').isVisible());

@@ -61,19 +61,19 @@ test('shows a recorded run round by round', async () => {
   assert.match(await text(page, 'step-label'), /^After round 1 of/);
   assert.ok((await shown(page)).total < result);
   await slide(page, 'step', 3);
-  await pictureOf(page, 'round');
+  await pictureOf(page, '3d-round');
   await slide(page, 'step', 99);
   assert.equal(await text(page, 'step-label'), 'The result');
-  await pictureOf(page, 'run');
+  await pictureOf(page, '3d-run');
   const canvas = page.locator('#canvas');
   const before = await canvas.screenshot();
   await page.check('#shade');
   await settled(page);
-  await pictureOf(page, 'shaded');
+  await pictureOf(page, '3d-shaded');
   assert.equal(before.equals(await canvas.screenshot()), isDelaunay);
   await colorBy(page, 'phase');
   assert.equal(await text(page, 'legend-high'), '2: splayed');
-  await pictureOf(page, 'phase');
+  await pictureOf(page, '3d-phase');
 });
 
 test('shows what happened in 2D', async () => {
@@ -83,7 +83,7 @@ test('shows what happened in 2D', async () => {
   const onGpu = await countOn(page, 'GPU');
   await tab(page, 'run');
   await page.locator('#rounds-chart svg').first().waitFor();
-  await pictureOf(page, 'plane-run');
+  await pictureOf(page, '2d-run');
   await tab(page, 'points');
   await choose(page, 'backend', 'cpu');
   assert.equal(await countOn(page, 'CPU'), onGpu);

@@ -107,7 +107,7 @@ fn pcd_header(data: &str) -> String {
     )
 }
 
-/// A kilometre of terrain in millimetres.
+/// Returns a kilometre of terrain in millimetres.
 fn las(is_compressed: bool) -> Vec<u8> {
     let mut builder = Builder::from((1, 4));
     builder.point_format = las::point::Format::new(0).expect("a format");

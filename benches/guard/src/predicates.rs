@@ -5,7 +5,7 @@ use gdel::{
     Points,
     internals::{
         d2::generate::{Distribution2, generate2d},
-        d3::generate::{Distribution, generate},
+        d3::generate::{Distribution3, generate3d},
         input::lattice::{Lattice, Width},
         predicates::filter::PredicateContext,
     },
@@ -39,8 +39,8 @@ impl<const D: usize, const N: usize> Lists<D, N>
 where
     Points<'static, D>: From<&'static [[f64; D]]>,
 {
-    /// Every `N` of `points` are a list. `sign` is the predicate; most of its signs must be decided
-    /// by `stage`.
+    /// Creates lists of every `N` of `points`. `sign` is the predicate; most of its signs must be
+    /// decided by `stage`.
     fn new(mut points: Vec<[f64; D]>, stage: Stage, sign: impl Fn(&PredicateContext<'_, D>, [u32; N]) -> i8) -> Self {
         points.truncate(N * LISTS);
         let lists: Vec<[u32; N]> = (0..points.len() as u32).collect::<Vec<_>>().as_chunks().0.to_vec();
@@ -75,7 +75,7 @@ where
 
 impl Lists<3, 4> {
     pub fn orient3d(stage: Stage) -> Self {
-        let points = generate(Distribution::Uniform, 4 * LISTS, 1).into_iter();
+        let points = generate3d(Distribution3::Uniform, 4 * LISTS, 1).into_iter();
         let points = match stage {
             Stage::Filter => points.collect(),
             Stage::Narrow => points.map(|[x, y, _]| coplanar(integers([x, y], 29))).collect(),
@@ -95,9 +95,9 @@ impl Lists<3, 4> {
 
 impl Lists<3, 5> {
     pub fn insphere(stage: Stage) -> Self {
-        let near_sphere = || generate(Distribution::Sphere, 5 * LISTS, 1).into_iter();
+        let near_sphere = || generate3d(Distribution3::Sphere, 5 * LISTS, 1).into_iter();
         let points = match stage {
-            Stage::Filter => generate(Distribution::Uniform, 5 * LISTS, 1),
+            Stage::Filter => generate3d(Distribution3::Uniform, 5 * LISTS, 1),
             Stage::Narrow => nearly_cocircular(),
             Stage::Wide => near_sphere().map(|p| integers(p, 52)).collect(),
             Stage::Expansion => near_sphere().collect(),
@@ -151,24 +151,24 @@ impl Lists<2, 4> {
     }
 }
 
-/// The nearest integers to `p` times 2^`bits`.
+/// Returns the nearest integers to `p` times 2^`bits`.
 fn integers<const D: usize>(p: [f64; D], bits: i32) -> [f64; D] {
     p.map(|x| (x * 2f64.powi(bits)).round())
 }
 
-/// A point of the plane x + y + z = 0.
+/// Returns a point of the plane x + y + z = 0.
 fn coplanar([x, y]: [f64; 2]) -> [f64; 3] {
     [x, y, -x - y]
 }
 
-/// A point of the line 3y = x.
+/// Returns a point of the line 3y = x.
 fn collinear([y]: [f64; 1]) -> [f64; 2] {
     [3.0 * y, y]
 }
 
-/// Integers near a circle in the plane x + y + z = 0, of which every fifth lies beside the plane.
-/// So small a determinant is not zero for two reasons, which takes it below what the filter can
-/// tell from zero.
+/// Returns integers near a circle in the plane x + y + z = 0, of which every fifth lies beside the
+/// plane. So small a determinant is not zero for two reasons, which takes it below what the filter
+/// can tell from zero.
 fn nearly_cocircular() -> Vec<[f64; 3]> {
     let points = generate2d(Distribution2::Circle, 5 * LISTS, 1).into_iter().enumerate();
     let near = |(i, [x, y]): (usize, [f64; 2])| {
@@ -178,8 +178,8 @@ fn nearly_cocircular() -> Vec<[f64; 3]> {
     points.map(near).collect()
 }
 
-/// Integers on the line 3y = x, of which every fourth lies beside it, and two of four side by side;
-/// likewise.
+/// Returns integers on the line 3y = x, of which every fourth lies beside it, and two of four side
+/// by side; likewise.
 fn nearly_collinear() -> Vec<[f64; 2]> {
     let lists = generate2d(Distribution2::Uniform, 2 * LISTS, 1);
     let near = |&[[a, c], [_, d]]: &[[f64; 2]; 2]| {
@@ -189,7 +189,7 @@ fn nearly_collinear() -> Vec<[f64; 2]> {
     lists.as_chunks().0.iter().flat_map(near).collect()
 }
 
-/// Integers on the sphere of radius 9, five different ones at a time.
+/// Returns integers on the sphere of radius 9, five different ones at a time.
 fn on_sphere() -> Vec<[f64; 3]> {
     let mut all = Vec::new();
     for [x, y, z] in [[0.0, 0.0, 9.0], [1.0, 4.0, 8.0], [4.0, 4.0, 7.0], [3.0, 6.0, 6.0]] {
@@ -205,7 +205,7 @@ fn on_sphere() -> Vec<[f64; 3]> {
     drawn::<_, 5>(&all)
 }
 
-/// Integers on the circle of radius 65, four different ones at a time.
+/// Returns integers on the circle of radius 65, four different ones at a time.
 fn on_circle() -> Vec<[f64; 2]> {
     let mut all = Vec::new();
     for [x, y] in [[0.0, 65.0], [16.0, 63.0], [25.0, 60.0], [33.0, 56.0], [39.0, 52.0]] {

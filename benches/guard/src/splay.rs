@@ -6,12 +6,12 @@ use gdel::{
     Backend, Triangulator,
     internals::{
         d3::{
-            generate::{Distribution, generate},
-            splay::{NearDelaunay, SplayOutcome, splay},
+            generate::{Distribution3, generate3d},
+            splay::{NearDelaunay3, SplayOutcome, splay},
         },
         input::lattice::Lattice,
         parallel::Threads,
-        predicates::filter::PredicateContext,
+        predicates::filter::{PredicateContext, PredicateContext3},
     },
 };
 
@@ -21,14 +21,14 @@ mod flips;
 
 /// A triangulation that is nearly that of the vertices.
 pub struct Spoilt {
-    vertices: PredicateContext<'static>,
-    near: NearDelaunay,
+    vertices: PredicateContext3<'static>,
+    near: NearDelaunay3,
 }
 
 impl Spoilt {
-    /// The triangulation of `points`, each coordinate of which is off by at most `by`.
+    /// Returns the triangulation of `points`, each coordinate of which is off by at most `by`.
     pub fn new(points: Vec<[f64; 3]>, by: f64) -> Self {
-        let offsets = generate(Distribution::Uniform, points.len(), 4);
+        let offsets = generate3d(Distribution3::Uniform, points.len(), 4);
         let displaced =
             points.iter().zip(offsets).map(|(p, q)| std::array::from_fn(|i| p[i] + by * (2.0 * q[i] - 1.0)));
         let displaced: Vec<[f64; 3]> = displaced.collect();
@@ -47,7 +47,7 @@ impl Spoilt {
     }
 }
 
-/// Stops where splaying has given up.
+/// Panics if splaying aborted.
 pub fn expect_delaunay(outcome: SplayOutcome) {
     match outcome {
         SplayOutcome::Delaunay(_, stats) => println!("{stats:?}"),

@@ -13,7 +13,7 @@ use crate::{
     gpu::{
         Binding, Storage,
         layout::{Active, Status, Waiting},
-        phase1::{Buffers, Slot},
+        phase1::{self, Buffers, Slot},
     },
 };
 
@@ -38,9 +38,8 @@ const _: () = assert!(size_of::<Waiting>() >= size_of::<[u32; 2]>());
 // The active list has two entries per slot: there is room for one test per slot.
 const _: () = assert!(2 * size_of::<Active>() >= size_of::<UncertainTest>());
 
-impl Aliases {
-    /// Returns the second lives of these buffers.
-    pub fn new(b: &Buffers<2>) -> Self {
+impl phase1::Aliases<2> for Aliases {
+    fn new(b: &Buffers<2>) -> Self {
         Aliases {
             triangles: b.messages.cast(),
             halfedges: b.status.cast(),
@@ -49,8 +48,11 @@ impl Aliases {
         }
     }
 
-    /// Returns the buffers under the names that they have in shaders.
-    pub fn bindings(&self) -> Vec<Binding<'_>> {
+    fn simplices(&self) -> &Storage<[u32; 3]> {
+        &self.triangles
+    }
+
+    fn bindings(&self) -> Vec<Binding<'_>> {
         vec![
             ("mesh_triangles", self.triangles.buffer()),
             ("halfedges", self.halfedges.buffer()),

@@ -3,9 +3,8 @@
 
 use crate::d2::{lawson::NearDelaunay2, triangulation::Triangulation2};
 use crate::{
-    Points2,
     d2::gpu::layout::{COUNTER_CLOCKWISE, FLAT, UncertainTest},
-    input::lattice::Lattice,
+    input::{lattice::Lattice, points::Points2},
     parallel::{self, Threads},
     predicates::filter::PredicateContext2,
     stats::ExactCounts,
@@ -14,8 +13,8 @@ use crate::{
 /// The number of tests that are worth handing to another thread.
 const GRAIN: usize = 1 << 10;
 
-/// Returns those of these tests of which the true answer is not what the triangulation needs, and
-/// what it took to know.
+/// Returns those tests whose true answer is not what the triangulation needs, and how many
+/// evaluations took which exact stage.
 pub(crate) fn failed_tests(
     points: Points2<'_>,
     lattice: &Lattice<2>,
@@ -47,9 +46,9 @@ fn is_right(vertices: &PredicateContext2<'_>, test: &UncertainTest) -> bool {
     }
 }
 
-/// Returns what flipping and insertion take: `triangulation`, which is Delaunay but for the `wrong` signs
-/// (`None`: none of its signs is known), and the points that it lacks, each with the vertex at the
-/// same place of the lattice.
+/// Returns the input of flipping and insertion: `triangulation`, which is Delaunay except for the
+/// `wrong` signs (`None`: none of its signs is known), and the points that it lacks, each with the
+/// vertex at the same place of the lattice.
 pub(crate) fn near_delaunay(
     triangulation: Triangulation2,
     wrong: Option<&[UncertainTest]>,

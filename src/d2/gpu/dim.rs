@@ -2,12 +2,12 @@
 
 use crate::{
     d2::gpu::{
-        buffers::OwnBuffers,
         layout::{EdgeFlip, blocks},
         vertex,
     },
+    dimension::Dimension,
     gpu::{
-        dim::{Dim, Dimension},
+        dim::Dim,
         shader::{self, Shaders},
     },
     input::lattice::Width,
@@ -17,9 +17,10 @@ use crate::{
 impl Dim<2> for Dimension<2> {
     type Corners = [u32; 3];
     type Flip = EdgeFlip;
-    type OwnBuffers = OwnBuffers;
+    type OwnBuffers = ();
 
     const SIMPLICES: &'static str = "triangles";
+    const NARROW_WORDS: usize = 2;
     const SHADERS: &'static Shaders = &shader::D2;
     /// There are two slots per point, and some.
     const MAX_POINTS: usize = 500_000_000;
@@ -29,10 +30,6 @@ impl Dim<2> for Dimension<2> {
 
     fn blocks(points: u32, _tail: u32) -> u32 {
         blocks(points)
-    }
-
-    fn vertex_words(width: Width) -> usize {
-        vertex::words_per_vertex(width)
     }
 
     fn append_vertex(words: &mut Vec<i32>, width: Width, position: [i64; 2], _index: u32, rounded: bool) {

@@ -5,27 +5,27 @@
 //! `result of Phase 1 → uncertain tests → flips → missing points → mesh`
 
 use crate::{
-    Error, Options, Points2,
     d2::{
-        Mesh2, Triangulation2, cpu,
+        Mesh2, Triangulation2,
         gpu::{
             certify::{failed_tests, near_delaunay},
             finish::{Mesh, NearMesh},
         },
         lawson::{self, Aborted, LawsonOutcome},
     },
+    dimension::Dimension,
+    error::Error,
     gpu::{
         Gpu,
-        dim::Dimension,
         engine::{Complete, Near, progress},
         phase1::Run,
     },
+    options::Options,
     predicates::filter::PredicateContext2,
     stats::{Fallback, Phase, Stats},
 };
 
 impl Complete<2> for Dimension<2> {
-    type Mesh = Mesh2;
     /// 2D keeps no trace.
     type Tracer = ();
 
@@ -69,17 +69,9 @@ impl Complete<2> for Dimension<2> {
         stats.phases.push((Phase::Finish, stopwatch.lap()));
         Ok(Ok(Mesh2 { triangles, halfedges, hull, duplicate_of, dimension: 2, stats: Stats::default() }))
     }
-
-    fn on_cpu(points: Points2<'_>, options: &Options) -> Result<Mesh2, Error> {
-        cpu::delaunay2d(points, options)
-    }
-
-    fn stats(mesh: &mut Mesh2) -> &mut Stats {
-        &mut mesh.stats
-    }
 }
 
-/// The flips per point after which the CPU engine is sooner done: about as many as it takes from
+/// The flips per point after which the CPU engine finishes sooner: about as many as it takes from
 /// nothing.
 const FLIPS_PER_POINT: u64 = 3;
 

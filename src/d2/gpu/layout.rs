@@ -19,14 +19,14 @@ use crate::gpu::{
 };
 
 /// Slots of a vertex.
-pub const PLANE_BLOCK: u32 = d2::SLOTS_PER_POINT;
+pub const SLOTS_PER_POINT: u32 = d2::SLOTS_PER_POINT;
 
 /// A flip of two triangles into two, where the layout of tetrahedra has the kind of a flip.
 pub const FLIP_22: u32 = d2::FLIP_22;
 
-/// Blocks of eight slots for `points` points.
+/// Returns the blocks of eight slots for `points` points.
 pub fn blocks(points: u32) -> u32 {
-    (PLANE_BLOCK * points + 5).div_ceil(BLOCK)
+    (SLOTS_PER_POINT * points + 5).div_ceil(BLOCK)
 }
 
 /// A flip in the history.

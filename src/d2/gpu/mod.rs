@@ -1,7 +1,6 @@
 //! The GPU engine of 2D: what differs from that of 3D.
 
 pub mod aliases;
-pub mod buffers;
 pub(crate) mod certify;
 mod dim;
 mod engine;

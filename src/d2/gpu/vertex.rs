@@ -7,15 +7,8 @@
 //!
 //! Only ties ask for a vertex's input index: that is in the buffer of sorted pairs, beside its key.
 
+use crate::gpu::dim::words_of;
 use crate::input::lattice::Width;
-
-/// Returns the words that one vertex takes.
-pub const fn words_per_vertex(width: Width) -> usize {
-    match width {
-        Width::Narrow => 2,
-        Width::Wide => 4,
-    }
-}
 
 /// The bit of a wide vertex's third word that says that the point was rounded.
 pub const ROUNDED: u32 = 1 << 31;
@@ -23,14 +16,12 @@ pub const ROUNDED: u32 = 1 << 31;
 /// Appends the words of a vertex with lattice coordinates `position`. `rounded` says that they are
 /// not the true ones; only the wide form keeps that, because the narrow lattice rounds nothing.
 pub fn append_words(words: &mut Vec<i32>, width: Width, position: [i64; 2], rounded: bool) {
-    let [x, y] = position;
     match width {
-        Width::Narrow => words.extend([x as i32, y as i32]),
+        Width::Narrow => words.extend(position.map(|q| q as i32)),
         Width::Wide => {
-            let high = |q: i64| (q >> 31) as i32;
-            let low = |q: i64| (q & 0x7fff_ffff) as i32;
+            let [[high_x, low_x], [high_y, low_y]] = position.map(words_of);
             let mark = if rounded { ROUNDED as i32 } else { 0 };
-            words.extend([high(x), high(y), low(x) | mark, low(y)]);
+            words.extend([high_x, high_y, low_x | mark, low_y]);
         }
     }
 }

@@ -10,7 +10,7 @@
 use crate::gpu::{
     Binding, Storage,
     layout::{Active, Status},
-    phase1::{Buffers, Slot},
+    phase1::{self, Buffers, Slot},
 };
 
 /// What is written over buffers of the rounds at the end of Phase 1.
@@ -34,9 +34,8 @@ const _: () = assert!(2 * size_of::<Active>() >= size_of::<Slot>());
 // A slot's tetrahedron is listed at most once.
 const _: () = assert!(size_of::<Status>() >= size_of::<Active>());
 
-impl Aliases {
-    /// Returns the second lives of these buffers.
-    pub fn new(b: &Buffers<3>) -> Self {
+impl phase1::Aliases<3> for Aliases {
+    fn new(b: &Buffers<3>) -> Self {
         Aliases {
             tets: b.messages.clone(),
             neighbors: b.active.cast(),
@@ -46,8 +45,11 @@ impl Aliases {
         }
     }
 
-    /// Returns the buffers under the names that they have in shaders.
-    pub fn bindings(&self) -> Vec<Binding<'_>> {
+    fn simplices(&self) -> &Storage<[u32; 4]> {
+        &self.tets
+    }
+
+    fn bindings(&self) -> Vec<Binding<'_>> {
         vec![
             ("mesh_tetrahedra", self.tets.buffer()),
             ("mesh_neighbors", self.neighbors.buffer()),

@@ -1,43 +1,43 @@
 //! The buffers of Phase 1 that only 3D has.
 
 use crate::{
-    Error,
+    error::Error,
     gpu::{Binding, Gpu, Storage, dim},
 };
 
 /// The buffers of Phase 1 that only 3D has.
 #[derive(Debug, Clone)]
 pub struct OwnBuffers {
-    /// The free slots of each block.
-    pub free: Storage<u32>,
     /// Whether each vertex failed.
     pub failed: Storage<u32>,
+    /// One tetrahedron of the mesh at each point, plus 1; 0 for points that are merged into others.
+    /// Infinity comes last.
+    pub tet_of: Storage<u32>,
 }
 
 impl dim::OwnBuffers for OwnBuffers {
-    fn new(gpu: &Gpu, points: usize, blocks: u32) -> Result<Self, Error> {
+    fn new(gpu: &Gpu, points: usize, _blocks: u32) -> Result<Self, Error> {
         Ok(OwnBuffers {
-            free: Storage::new(gpu, "free slots", blocks as usize)?,
             failed: Storage::new(gpu, "failed vertices", points)?,
+            tet_of: Storage::new(gpu, "tetrahedra of points", points + 1)?,
         })
     }
 
-    fn with_blocks(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, blocks: u32) -> Result<Self, Error> {
-        let free = Storage::new(gpu, "free slots", blocks as usize)?;
-        encoder.copy_buffer_to_buffer(self.free.buffer(), 0, free.buffer(), 0, self.free.bytes());
-        Ok(OwnBuffers { free, failed: self.failed.clone() })
+    fn with_blocks(&self, _gpu: &Gpu, _encoder: &mut wgpu::CommandEncoder, _blocks: u32) -> Result<Self, Error> {
+        Ok(self.clone())
     }
 
-    /// Records that no vertex failed.
+    /// Records that no vertex failed, and that no point has a tetrahedron.
     fn record_clear(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.clear_buffer(self.failed.buffer(), 0, None);
+        encoder.clear_buffer(self.tet_of.buffer(), 0, None);
     }
 
     fn bindings(&self) -> Vec<Binding<'_>> {
-        vec![("free", self.free.buffer()), ("failed", self.failed.buffer())]
+        vec![("failed", self.failed.buffer()), ("tet_of", self.tet_of.buffer())]
     }
 
     fn bytes(&self) -> u64 {
-        self.free.bytes() + self.failed.bytes()
+        self.failed.bytes() + self.tet_of.bytes()
     }
 }

@@ -2,8 +2,9 @@
 
 use crate::{
     d3::gpu::{buffers::OwnBuffers, vertex},
+    dimension::Dimension,
     gpu::{
-        dim::{Dim, Dimension},
+        dim::Dim,
         layout::FlipNode,
         shader::{self, Shaders},
     },
@@ -17,6 +18,7 @@ impl Dim<3> for Dimension<3> {
     type OwnBuffers = OwnBuffers;
 
     const SIMPLICES: &'static str = "tetrahedra";
+    const NARROW_WORDS: usize = 4;
     const SHADERS: &'static Shaders = &shader::D3;
     /// There are eight slots per point, and some.
     const MAX_POINTS: usize = 120_000_000;
@@ -27,10 +29,6 @@ impl Dim<3> for Dimension<3> {
     /// Returns the blocks of the points, that of infinity, and the tail.
     fn blocks(points: u32, tail: u32) -> u32 {
         points + 1 + tail
-    }
-
-    fn vertex_words(width: Width) -> usize {
-        vertex::words_per_vertex(width)
     }
 
     fn append_vertex(words: &mut Vec<i32>, width: Width, position: [i64; 3], index: u32, rounded: bool) {

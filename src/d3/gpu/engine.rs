@@ -4,26 +4,26 @@
 //! `result of Phase 1 → splay → drop the ghosts → input indices → mesh`
 
 use crate::{
-    Error, Mesh3, Options, Points,
     d3::{
-        cpu,
+        Mesh3,
         gpu::{finish::NearMesh, trace::Tracer},
-        splay::{self, Aborted, NearDelaunay, SplayOutcome},
-        triangulation::{FiniteMesh, Triangulation},
+        splay::{self, Aborted, NearDelaunay3, SplayOutcome},
+        triangulation::{FiniteMesh, Triangulation3},
     },
+    dimension::Dimension,
+    error::Error,
     gpu::{
         Gpu,
-        dim::Dimension,
         engine::{Complete, Near, progress},
         phase1::Run,
     },
+    options::Options,
     parallel::Threads,
     predicates::filter::PredicateContext,
     stats::{Fallback, Phase, Stats},
 };
 
 impl Complete<3> for Dimension<3> {
-    type Mesh = Mesh3;
     type Tracer = Option<Tracer>;
 
     const DEGENERATE: Fallback = Fallback::Coplanar;
@@ -68,22 +68,14 @@ impl Complete<3> for Dimension<3> {
         stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
         Ok(Ok(Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats: Stats::default() }))
     }
-
-    fn on_cpu(points: Points<'_>, options: &Options) -> Result<Mesh3, Error> {
-        cpu::delaunay3d(points, options)
-    }
-
-    fn stats(mesh: &mut Mesh3) -> &mut Stats {
-        &mut mesh.stats
-    }
 }
 
 /// Returns the result of Phase 1 in the form that splaying takes.
-fn near_delaunay(points: usize, result: NearMesh, missing: &[[u32; 2]]) -> NearDelaunay {
+fn near_delaunay(points: usize, result: NearMesh, missing: &[[u32; 2]]) -> NearDelaunay3 {
     let NearMesh { tets, neighbors, failed, tet_of: mut incident, uncertain, .. } = result;
     let missing = missing.iter().map(|&[i, _]| i).collect();
     incident.truncate(points);
-    let triangulation = Triangulation::new(tets, neighbors, points as u32);
+    let triangulation = Triangulation3::new(tets, neighbors, points as u32);
     let uncertain = uncertain.into_iter().map(|[t, _]| t).collect();
-    NearDelaunay { triangulation, incident, failed, uncertain, missing }
+    NearDelaunay3 { triangulation, incident, failed, uncertain, missing }
 }

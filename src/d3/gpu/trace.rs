@@ -1,13 +1,13 @@
-//! How a mesh came about, step by step: to look at, with small inputs.
+//! The steps in which a mesh came about, for looking at small inputs.
 
 use crate::{
-    Error,
     d3::{
         mesh::FACETS,
-        triangulation::{Triangulation, state},
+        triangulation::{Triangulation3, state},
     },
+    error::Error,
     gpu::{Gpu, Readback, phase1::Run},
-    predicates::filter::PredicateContext,
+    predicates::filter::PredicateContext3,
     stats::Trace,
 };
 use rustc_hash::FxHashSet;
@@ -35,7 +35,7 @@ impl Tracer {
     }
 
     /// Finds the facets that are not locally Delaunay, before splaying.
-    pub(crate) fn facets(&mut self, mesh: &Triangulation, vertices: &PredicateContext<'_>) {
+    pub(crate) fn facets(&mut self, mesh: &Triangulation3, vertices: &PredicateContext3<'_>) {
         let finite = |t: u32| mesh.state(t) != state::FREE && !mesh.is_ghost(t);
         let is_oriented = |t: u32| {
             let [a, b, c, d] = mesh.vertices(t);

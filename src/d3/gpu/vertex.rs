@@ -11,32 +11,25 @@
 //! One buffer and not two, because a kernel can bind only eight; the words of a wide vertex share a
 //! 32-byte sector.
 
+use crate::gpu::dim::words_of;
 use crate::gpu::shader::constants::d3;
 use crate::input::lattice::Width;
 
 /// The vertex at infinity: above every vertex, and above every input index.
 pub const INFINITE: u32 = d3::INFINITE;
 
-/// Returns the words that one vertex takes.
-pub const fn words_per_vertex(width: Width) -> usize {
-    match width {
-        Width::Narrow => 4,
-        Width::Wide => 8,
-    }
-}
-
 /// Appends the words of a vertex with lattice coordinates `position`. `rounded` says that they are
 /// not the true ones; only the wide form keeps that, because the narrow lattice rounds nothing.
 pub fn append_words(words: &mut Vec<i32>, width: Width, position: [i64; 3], index: u32, rounded: bool) {
-    let [x, y, z] = position;
     let index = index as i32;
     match width {
-        Width::Narrow => words.extend([x as i32, y as i32, z as i32, index]),
+        Width::Narrow => {
+            words.extend(position.map(|q| q as i32));
+            words.push(index);
+        }
         Width::Wide => {
-            let high = |q: i64| (q >> 31) as i32;
-            let low = |q: i64| (q & 0x7fff_ffff) as i32;
-            words.extend([high(x), high(y), high(z), index]);
-            words.extend([low(x), low(y), low(z), i32::from(rounded)]);
+            let [[high_x, low_x], [high_y, low_y], [high_z, low_z]] = position.map(words_of);
+            words.extend([high_x, high_y, high_z, index, low_x, low_y, low_z, i32::from(rounded)]);
         }
     }
 }

@@ -7,13 +7,13 @@ use crate::d3::splay::{
     predicates::StarPredicates,
     star::{Changes, LinkFinder, Star, Triangle},
 };
-use crate::d3::triangulation::Triangulation;
+use crate::d3::triangulation::Triangulation3;
 use crate::index::NO_INDEX;
 use rustc_hash::FxHashSet;
 
 /// The triangulation, and what is known about it.
 pub(super) struct Known<'a> {
-    pub(super) mesh: &'a Triangulation,
+    pub(super) mesh: &'a Triangulation3,
     /// A tetrahedron at each vertex.
     pub(super) incident: &'a [u32],
     /// For each vertex, whether it belongs to a tetrahedron or facet that has failed.

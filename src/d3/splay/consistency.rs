@@ -18,10 +18,6 @@
 //! soon, hence the budget.
 
 use crate::{
-    Error,
-    parallel::{self, Threads},
-};
-use crate::{
     d3::splay::{
         Aborted, Stop,
         build::{Known, Origin},
@@ -31,6 +27,10 @@ use crate::{
     },
     index::NO_INDEX,
     stats::SplayStats,
+};
+use crate::{
+    error::Error,
+    parallel::{self, Threads},
 };
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -204,7 +204,7 @@ impl<'a> Splaying<'a> {
         Ok(())
     }
 
-    /// Lets the stars do what these requests ask of them, one list per star.
+    /// Carries out these requests, one list per star.
     fn widen_stars(
         &self,
         predicates: &StarPredicates<'_>,
@@ -232,7 +232,7 @@ impl<'a> Splaying<'a> {
         results.into_iter().collect()
     }
 
-    /// Does what the requests ask of a star. Returns the number of points that were inserted.
+    /// Carries out the requests to a star. Returns the number of points that were inserted.
     fn widen(
         &self,
         predicates: &StarPredicates<'_>,

@@ -193,12 +193,13 @@ impl Flipping<'_> {
 mod tests {
     use super::*;
     use crate::{
-        Options,
+        cpu::insert_all,
         d3::{
-            insert::insert_all,
             splay::star::{Changes, LinkFinder},
+            triangulation::Triangulation3,
         },
         input::lattice::Lattice,
+        options::Options,
         predicates::filter::PredicateContext,
     };
 
@@ -216,9 +217,9 @@ mod tests {
     /// Returns how often Flip-Flop was stuck.
     fn spoil_and_mend(points: &[[f64; 3]]) -> usize {
         let lattice = Lattice::fit(points.into());
-        let vertices = PredicateContext::new(points.into(), &lattice, (0..points.len() as u32).collect());
+        let vertices = PredicateContext::<3>::new(points.into(), &lattice, (0..points.len() as u32).collect());
         assert!(vertices.orient3d(0, 1, 2, 3) > 0);
-        let mesh = insert_all(&vertices, &Options::default()).unwrap();
+        let mesh: Triangulation3 = insert_all(&vertices, &Options::default()).unwrap();
         let predicates = StarPredicates::new(&vertices, mesh.infinite, [0, 1, 2, 3]);
         let mut stuck = 0;
         let mut flips = 0;

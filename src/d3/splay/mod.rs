@@ -19,14 +19,12 @@ mod predicates;
 mod star;
 
 use crate::{
-    Error,
-    d3::{
-        insert,
-        triangulation::{Triangulation, state},
-    },
+    cpu::insert_points,
+    d3::triangulation::{Triangulation3, state},
+    error::Error,
     index::NO_INDEX,
     parallel::{self, Threads},
-    predicates::filter::PredicateContext,
+    predicates::filter::PredicateContext3,
     stats::SplayStats,
 };
 use build::Known;
@@ -38,10 +36,10 @@ use rustc_hash::FxHashSet;
 /// A tetrahedron that is not `uncertain` is taken to be positively oriented, and its facets to be
 /// locally Delaunay unless all three vertices have `failed`.
 #[derive(Debug, Clone)]
-pub struct NearDelaunay {
+pub struct NearDelaunay3 {
     /// All tetrahedra, ghosts included. Inverted and flat ones are allowed if they are among the
     /// uncertain ones.
-    pub triangulation: Triangulation,
+    pub triangulation: Triangulation3,
     /// A tetrahedron at each vertex, a ghost if there is one; [`NO_INDEX`] for the vertices that
     /// are missing.
     pub incident: Vec<u32>,
@@ -60,7 +58,7 @@ pub struct NearDelaunay {
 #[derive(Debug)]
 pub enum SplayOutcome {
     /// The Delaunay triangulation, and what splaying did.
-    Delaunay(Box<Triangulation>, SplayStats),
+    Delaunay(Box<Triangulation3>, SplayStats),
     /// No triangulation, for this reason: the CPU has to triangulate the points from scratch.
     Aborted(Aborted),
 }
@@ -95,7 +93,7 @@ impl From<Error> for Stop {
     }
 }
 
-impl NearDelaunay {
+impl NearDelaunay3 {
     /// Returns the approximate number of predicate evaluations that the CPU needs to triangulate
     /// the points from scratch: 16 per tetrahedron.
     pub fn evaluations_from_scratch(&self) -> u64 {
@@ -106,7 +104,7 @@ impl NearDelaunay {
 /// Returns the Delaunay triangulation of `vertices`, given `near`, which is nearly one.
 ///
 /// Splaying aborts if it needs more than `max_evaluations` predicate evaluations, the measure of
-/// its work; see [`NearDelaunay::evaluations_from_scratch`]. `threads` share the work, unless
+/// its work; see [`NearDelaunay3::evaluations_from_scratch`]. `threads` share the work, unless
 /// `vertices` stores coordinates. Calls `report` with the share of the work that is done from time
 /// to time; an error from it ends the work.
 ///
@@ -114,8 +112,8 @@ impl NearDelaunay {
 ///
 /// What `report` returns, [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
 pub fn splay(
-    vertices: &PredicateContext<'_>,
-    near: NearDelaunay,
+    vertices: &PredicateContext3<'_>,
+    near: NearDelaunay3,
     max_evaluations: u64,
     threads: Threads,
     report: &dyn Fn(f64) -> Result<(), Error>,
@@ -128,13 +126,13 @@ pub fn splay(
 }
 
 fn try_splay(
-    vertices: &PredicateContext<'_>,
-    near: NearDelaunay,
+    vertices: &PredicateContext3<'_>,
+    near: NearDelaunay3,
     max_evaluations: u64,
     threads: Threads,
     report: &dyn Fn(f64) -> Result<(), Error>,
-) -> Result<(Triangulation, SplayStats), Stop> {
-    let NearDelaunay { triangulation: mut mesh, mut incident, mut failed, uncertain, missing } = near;
+) -> Result<(Triangulation3, SplayStats), Stop> {
+    let NearDelaunay3 { triangulation: mut mesh, mut incident, mut failed, uncertain, missing } = near;
     let spanning = spanning_tetrahedron(&mesh, vertices).ok_or(Aborted::Inconsistent("all tetrahedra are flat"))?;
     let predicates = StarPredicates::new(vertices, mesh.infinite, spanning);
     let mut free = Vec::new();
@@ -182,7 +180,7 @@ fn try_splay(
     stats.signs = predicates.evaluations();
     stats.inserted = missing.len();
     if !missing.is_empty() {
-        insert::insert_points(&mut mesh, vertices, missing, start, |_| report(1.0))?;
+        insert_points(&mut mesh, vertices, missing, start, |_| report(1.0))?;
     }
     stats.peeled = peeled;
     stats.failed = failed.len();
@@ -191,7 +189,7 @@ fn try_splay(
 }
 
 /// Returns the first tetrahedron that is positively oriented.
-fn spanning_tetrahedron(mesh: &Triangulation, vertices: &PredicateContext<'_>) -> Option<[u32; 4]> {
+fn spanning_tetrahedron(mesh: &Triangulation3, vertices: &PredicateContext3<'_>) -> Option<[u32; 4]> {
     let mut finite = (0..mesh.tetrahedra.len() as u32).filter(|&t| mesh.state(t) != state::FREE && !mesh.is_ghost(t));
     finite.find_map(|t| {
         let [a, b, c, d] = mesh.vertices(t);
@@ -201,7 +199,7 @@ fn spanning_tetrahedron(mesh: &Triangulation, vertices: &PredicateContext<'_>) -
 
 /// Adds to `failed` the vertices of a tetrahedron that is not positively oriented, or else those of
 /// its facets that are not locally Delaunay. Returns whether it is not positively oriented.
-fn add_failed(mesh: &Triangulation, predicates: &StarPredicates<'_>, t: u32, failed: &mut Vec<u32>) -> bool {
+fn add_failed(mesh: &Triangulation3, predicates: &StarPredicates<'_>, t: u32, failed: &mut Vec<u32>) -> bool {
     let v = mesh.vertices(t);
     let mut add = |vertices: &[usize]| failed.extend(vertices.iter().map(|&i| v[i]).filter(|&v| v != mesh.infinite));
     if predicates.orient(v) <= 0 {

@@ -10,7 +10,7 @@ use crate::d3::splay::{Aborted, Stop, TETRAHEDRON_GRAIN, ledger::Key, predicates
 use crate::{
     d3::{
         mesh::FACETS,
-        triangulation::{Triangulation, state},
+        triangulation::{Triangulation3, state},
     },
     parallel::{self, Threads},
 };
@@ -20,7 +20,7 @@ const UNMATCHED: Aborted = Aborted::Inconsistent("a facet of the patch has not o
 /// Replaces the tetrahedra in the slots `remove` by `add`. `free` lists the unused slots, before
 /// and after. Returns the slots of the new tetrahedra.
 pub(super) fn patch(
-    mesh: &mut Triangulation,
+    mesh: &mut Triangulation3,
     predicates: &StarPredicates<'_>,
     threads: Threads,
     remove: &[u32],
@@ -72,7 +72,7 @@ pub(super) fn patch(
 }
 
 /// Returns whether the vertex across facet `k` lies outside the circumsphere of tetrahedron `t`.
-pub(super) fn is_locally_delaunay(mesh: &Triangulation, predicates: &StarPredicates<'_>, t: u32, k: usize) -> bool {
+pub(super) fn is_locally_delaunay(mesh: &Triangulation3, predicates: &StarPredicates<'_>, t: u32, k: usize) -> bool {
     let across = mesh.neighbors[t as usize][k];
     let apex = mesh.vertices(across >> 2)[across as usize & 3];
     predicates.conflict(mesh.vertices(t), apex) < 0

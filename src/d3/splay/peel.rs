@@ -13,8 +13,8 @@ use crate::d3::splay::{
     predicates::{StarPredicates, replaced},
 };
 use crate::{
-    Error,
-    d3::triangulation::{Triangulation, state},
+    d3::triangulation::{Triangulation3, state},
+    error::Error,
     parallel::Threads,
 };
 use rustc_hash::FxHashMap;
@@ -25,7 +25,7 @@ use rustc_hash::FxHashMap;
 /// `incident` has a tetrahedron of each vertex, before and after, and a ghost of each vertex on the
 /// hull. All threads evaluate predicates, one thread flips.
 pub(super) fn peel(
-    mesh: &mut Triangulation,
+    mesh: &mut Triangulation3,
     predicates: &StarPredicates<'_>,
     threads: Threads,
     flat: &mut Vec<u32>,
@@ -67,7 +67,7 @@ pub(super) fn peel(
 type Sides = [bool; 4];
 
 /// Returns the sides of flat tetrahedron `t`.
-fn sides(mesh: &Triangulation, predicates: &StarPredicates<'_>, t: u32) -> Sides {
+fn sides(mesh: &Triangulation3, predicates: &StarPredicates<'_>, t: u32) -> Sides {
     let v = mesh.vertices(t);
     std::array::from_fn(|k| predicates.orient(replaced(v, k, mesh.infinite)) >= 0)
 }
@@ -75,7 +75,7 @@ fn sides(mesh: &Triangulation, predicates: &StarPredicates<'_>, t: u32) -> Sides
 /// Peels one flat tetrahedron, and lists the new ghosts, if it lies under one or two facets of the
 /// hull and the new ghosts fit.
 fn peel_one(
-    mesh: &mut Triangulation,
+    mesh: &mut Triangulation3,
     t: u32,
     sides: Sides,
     incident: &mut [u32],
@@ -150,7 +150,7 @@ fn peel_one(
 
 /// Returns whether the edge from corner `x` to corner `y` of tetrahedron `t` is an edge of the
 /// hull.
-fn is_hull_edge(mesh: &Triangulation, t: u32, x: usize, y: usize) -> bool {
+fn is_hull_edge(mesh: &Triangulation3, t: u32, x: usize, y: usize) -> bool {
     let (vx, vy) = (mesh.vertices(t)[x], mesh.vertices(t)[y]);
     let mut at = t;
     let mut through = (0..4).find(|&k| k != x && k != y).unwrap_or(0);
@@ -171,6 +171,6 @@ fn is_hull_edge(mesh: &Triangulation, t: u32, x: usize, y: usize) -> bool {
 }
 
 /// Returns an unused slot.
-fn take(mesh: &mut Triangulation, free: &mut Vec<u32>) -> Result<u32, Error> {
+fn take(mesh: &mut Triangulation3, free: &mut Vec<u32>) -> Result<u32, Error> {
     free.pop().map_or_else(|| mesh.push(), Ok)
 }

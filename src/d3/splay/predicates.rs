@@ -15,13 +15,16 @@
 
 use crate::{
     parallel::{self, Threads},
-    predicates::{Sign, filter::PredicateContext},
+    predicates::{
+        Sign,
+        filter::{PredicateContext, PredicateContext3},
+    },
 };
 use std::{cell::Cell, ops::Range};
 
 /// A point set and infinity.
 pub(super) struct StarPredicates<'a> {
-    context: &'a PredicateContext<'a>,
+    context: &'a PredicateContext3<'a>,
     infinite: u32,
     /// The vertices of the spanning tetrahedron.
     spanning: [u32; 4],
@@ -30,7 +33,7 @@ pub(super) struct StarPredicates<'a> {
 
 impl<'a> StarPredicates<'a> {
     /// Creates the predicates. The four vertices `spanning` must not be coplanar.
-    pub(super) fn new(context: &'a PredicateContext<'a>, infinite: u32, spanning: [u32; 4]) -> Self {
+    pub(super) fn new(context: &'a PredicateContext3<'a>, infinite: u32, spanning: [u32; 4]) -> Self {
         StarPredicates { context, infinite, spanning, evaluations: Cell::new(0) }
     }
 

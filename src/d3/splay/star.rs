@@ -8,7 +8,7 @@
 //! vertex.
 
 use crate::d3::splay::{Aborted, predicates::StarPredicates};
-use crate::d3::{mesh::FACETS, triangulation::Triangulation};
+use crate::d3::{mesh::FACETS, triangulation::Triangulation3};
 use crate::index::NO_INDEX;
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
@@ -76,7 +76,7 @@ impl LinkFinder {
     const MAX_TO_CLEAR: usize = 1 << 10;
 
     /// Adds tetrahedron `t` to `around`, if it is new.
-    fn visit(&mut self, mesh: &Triangulation, t: u32, vertex: u32) -> Result<(), Aborted> {
+    fn visit(&mut self, mesh: &Triangulation3, t: u32, vertex: u32) -> Result<(), Aborted> {
         if let Entry::Vacant(entry) = self.place.entry(t) {
             let corner = mesh.vertices(t).iter().position(|&v| v == vertex);
             let corner = corner.ok_or(Aborted::Inconsistent("a link leads to a tetrahedron without its vertex"))?;
@@ -87,7 +87,7 @@ impl LinkFinder {
     }
 
     /// Returns the star of `vertex` in the triangulation, given one of its tetrahedra, `start`.
-    pub(super) fn star(&mut self, mesh: &Triangulation, vertex: u32, start: u32) -> Result<Star, Aborted> {
+    pub(super) fn star(&mut self, mesh: &Triangulation3, vertex: u32, start: u32) -> Result<Star, Aborted> {
         if start as usize >= mesh.tetrahedra.len() {
             return Err(Aborted::Inconsistent("a vertex has no tetrahedron"));
         }
@@ -168,7 +168,7 @@ impl Star {
         [self.vertex, a, b, c]
     }
 
-    /// Iterates over the triangles in use.
+    /// Returns an iterator over the triangles in use.
     pub(super) fn used(&self) -> impl Iterator<Item = &Triangle> {
         self.triangles.iter().filter(|t| t.is_used())
     }
@@ -335,7 +335,7 @@ impl Star {
         self.free.push(t);
     }
 
-    /// Lets walks start at triangle `t`.
+    /// Sets the triangle at which walks start.
     pub(super) fn set_recent(&mut self, t: u32) {
         self.recent = t;
     }

@@ -60,12 +60,13 @@ pub(crate) fn check_indices(tetrahedra: &[[u32; 4]], points: usize) -> Findings 
 }
 
 impl<'a> Complex<'a> {
-    /// Needs vertices that are indices of points, four different ones per tetrahedron.
+    /// Derives the adjacency. Needs vertices that are indices of points, four different ones per
+    /// tetrahedron.
     pub(crate) fn new(tetrahedra: &'a [[u32; 4]], points: usize) -> Self {
         let across = vec![[OUTSIDE; 4]; tetrahedra.len()];
         let mut complex = Complex { tetrahedra, across, ..Complex::default() };
         let stars = LowerStars::new(tetrahedra, points);
-        // Every edge and every facet is met in the star of its lowest vertex. PredicateContext in
+        // Every edge and every facet is met in the star of its lowest vertex. Vertices in
         // the order in which they appear are near each other, and so are their tetrahedra in
         // memory.
         let order = first_appearances(tetrahedra, points);
@@ -114,18 +115,18 @@ impl<'a> Complex<'a> {
         }
     }
 
-    /// The corners of a facet, counter-clockwise as seen from outside a positively oriented
+    /// Returns the corners of a facet, counter-clockwise as seen from outside a positively oriented
     /// tetrahedron.
     pub(crate) fn corners(&self, side: Side) -> [u32; 3] {
         FACETS[side.k].map(|i| self.tetrahedra[side.tetrahedron][i])
     }
 
-    /// The vertex of a facet's tetrahedron that is not on the facet.
+    /// Returns the vertex of a facet's tetrahedron that is not on the facet.
     pub(crate) fn apex(&self, side: Side) -> u32 {
         self.tetrahedra[side.tetrahedron][side.k]
     }
 
-    /// The facets between two tetrahedra, each once, with the vertex beyond.
+    /// Returns the facets between two tetrahedra, each once, with the vertex beyond.
     pub(crate) fn inner_facets(&self) -> impl Iterator<Item = (Side, u32)> {
         let sides = (0..self.tetrahedra.len()).flat_map(|tetrahedron| (0..4).map(move |k| Side { tetrahedron, k }));
         sides.filter_map(|side| {
@@ -187,8 +188,8 @@ impl<'a> Complex<'a> {
         findings
     }
 
-    /// Also finds the two hull triangles at each edge of a closed hull, from either of which the
-    /// edge is `k` of the triangle's corners *k* and *k* + 1.
+    /// Checks that the hull is closed, and finds the two hull triangles at each edge of a closed
+    /// hull, from either of which the edge is `k` of the triangle's corners *k* and *k* + 1.
     pub(crate) fn check_hull_closed(&self, ridges: &mut Vec<[(Side, usize); 2]>) -> Findings {
         let mut findings = Findings::default();
         let mut edges = Vec::with_capacity(3 * self.hull.len());
@@ -216,7 +217,8 @@ impl<'a> Complex<'a> {
     pub(crate) fn check_euler_characteristic(&self) -> Findings {
         let mut findings = Findings::default();
         let [vertices, edges, facets, tetrahedra] = [self.vertices, self.edges, self.facets, self.tetrahedra.len()];
-        // No tetrahedra are no ball, but right where the points are coplanar; the vertices tell.
+        // No tetrahedra do not form a ball, but are right for coplanar points; the check of the
+        // vertices decides.
         if tetrahedra > 0 && vertices + facets != edges + tetrahedra + 1 {
             findings.add(|| {
                 Defect::in_mesh(format!(

@@ -33,7 +33,7 @@ pub(crate) fn check_orientation(points: &[[f64; 3]], tetrahedra: &[[u32; 4]]) ->
     findings
 }
 
-/// The Delaunay property, and that of the ties. Needs positive orientation.
+/// Checks the Delaunay property and that of the ties. Needs positive orientation.
 pub(crate) fn check_delaunay(points: &[[f64; 3]], complex: &Complex<'_>) -> (Findings, Findings) {
     let (mut delaunay, mut ties) = (Findings::default(), Findings::default());
     for (Side { tetrahedron, k }, beyond) in complex.inner_facets() {
@@ -52,7 +52,8 @@ pub(crate) fn check_delaunay(points: &[[f64; 3]], complex: &Complex<'_>) -> (Fin
     (delaunay, ties)
 }
 
-/// Needs positive orientation, and the two hull triangles at each edge of a closed hull.
+/// Checks that the hull is convex. Needs positive orientation, and the two hull triangles at each
+/// edge of a closed hull.
 pub(crate) fn check_hull_convex(points: &[[f64; 3]], complex: &Complex<'_>, ridges: &[[(Side, usize); 2]]) -> Findings {
     let mut findings = Findings::default();
     for &[(side, k), (other, other_k)] in ridges {
@@ -79,7 +80,7 @@ pub(crate) fn check_hull_convex(points: &[[f64; 3]], complex: &Complex<'_>, ridg
     findings
 }
 
-/// Needs positive orientation.
+/// Checks that the tetrahedra cover the hull's inside once. Needs positive orientation.
 pub(crate) fn check_covering(points: &[[f64; 3]], complex: &Complex<'_>) -> Findings {
     let mut findings = Findings::default();
     let Some(&[a, b, c, d]) = complex.tetrahedra.first() else { return findings };

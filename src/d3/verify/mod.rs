@@ -5,7 +5,9 @@ mod complex;
 mod geometry;
 
 use crate::{
-    Error, Mesh3, Points,
+    d3::Mesh3,
+    error::Error,
+    input::points::Points3,
     verify::{
         Check, Defect, Outcome, Report,
         input::{Input, dimension_3d},
@@ -18,18 +20,18 @@ use complex::Complex;
 /// # Examples
 ///
 /// ```
-/// use gdel::{MeshView, verify3d};
+/// use gdel::{MeshView3, verify3d};
 ///
 /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
 /// // A mesh of another program, with its own arrays.
-/// let mut mesh = MeshView::of_tetrahedra(&[[0, 1, 2, 3]]);
+/// let mut mesh = MeshView3::of_tetrahedra(&[[0, 1, 2, 3]]);
 /// mesh.neighbors = Some(&[[-1; 4]]);
 /// assert!(verify3d(&points, mesh)?.passed());
 /// # Ok::<(), gdel::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, Default)]
 #[non_exhaustive]
-pub struct MeshView<'a> {
+pub struct MeshView3<'a> {
     /// The vertices of each tetrahedron: see [`Mesh3::tetrahedra`].
     pub tetrahedra: &'a [[u32; 4]],
     /// The tetrahedra across the facets: see [`Mesh3::neighbors`].
@@ -43,16 +45,16 @@ pub struct MeshView<'a> {
     pub dimension: Option<u8>,
 }
 
-impl<'a> MeshView<'a> {
+impl<'a> MeshView3<'a> {
     /// Creates the view of a mesh of which only the tetrahedra are known.
     pub fn of_tetrahedra(tetrahedra: &'a [[u32; 4]]) -> Self {
-        MeshView { tetrahedra, ..MeshView::default() }
+        MeshView3 { tetrahedra, ..MeshView3::default() }
     }
 }
 
-impl<'a> From<&'a Mesh3> for MeshView<'a> {
+impl<'a> From<&'a Mesh3> for MeshView3<'a> {
     fn from(mesh: &'a Mesh3) -> Self {
-        MeshView {
+        MeshView3 {
             tetrahedra: &mesh.tetrahedra,
             neighbors: Some(&mesh.neighbors),
             hull: Some(&mesh.hull),
@@ -62,34 +64,27 @@ impl<'a> From<&'a Mesh3> for MeshView<'a> {
     }
 }
 
-/// Checks that `mesh` is the Delaunay triangulation of `points`, of any mesh whatever.
+/// Checks that `mesh`, whoever computed it, is the Delaunay triangulation of `points`.
 ///
 /// ```
-/// use gdel::{MeshView, verify3d};
+/// use gdel::{MeshView3, verify3d};
 /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
-/// assert!(verify3d(&points, MeshView::of_tetrahedra(&[[0, 1, 2, 3]]))?.passed());
-/// let inside_out = verify3d(&points, MeshView::of_tetrahedra(&[[1, 0, 2, 3]]))?;
+/// assert!(verify3d(&points, MeshView3::of_tetrahedra(&[[0, 1, 2, 3]]))?.passed());
+/// let inside_out = verify3d(&points, MeshView3::of_tetrahedra(&[[1, 0, 2, 3]]))?;
 /// assert_eq!(inside_out.failures().next().unwrap().0.name(), "orientation");
 /// # Ok::<(), gdel::Error>(())
 /// ```
 ///
 /// # Errors
 ///
-/// [`Error::NotFinite`] when a coordinate is NaN or infinite, and [`Error::TooManyPoints`] when an
-/// index cannot name every point. A defect of the mesh is no error, but a failed check in the
-/// [`Report`].
-pub fn verify3d<'p, 'm>(points: impl Into<Points<'p>>, mesh: impl Into<MeshView<'m>>) -> Result<Report, Error> {
+/// Returns [`Error::NotFinite`] when a coordinate is NaN or infinite, and [`Error::TooManyPoints`]
+/// when an index cannot name every point. A defect of the mesh is not an error but a failed check
+/// in the [`Report`].
+pub fn verify3d<'p, 'm>(points: impl Into<Points3<'p>>, mesh: impl Into<MeshView3<'m>>) -> Result<Report, Error> {
     let mesh = mesh.into();
     let input = Input::new(points.into(), dimension_3d)?;
-    let mut report = Report { dimension: input.dimension, ..Report::default() };
-    report.counts.points = input.points.len();
-    report.counts.distinct_points = input.distinct;
+    let mut report = input.report(mesh.dimension, mesh.duplicate_of);
     report.counts.tetrahedra = mesh.tetrahedra.len();
-
-    report.decide(Check::Dimension, || mesh.dimension.map_or(Outcome::NotStated, |d| input.check_dimension(d).into()));
-    report.decide(Check::Duplicates, || {
-        mesh.duplicate_of.map_or(Outcome::NotStated, |d| input.check_duplicates(d).into())
-    });
     let indices = complex::check_indices(mesh.tetrahedra, input.points.len()).into();
     let mut complex = match indices {
         Outcome::Passed => Complex::new(mesh.tetrahedra, input.points.len()),
@@ -101,25 +96,16 @@ pub fn verify3d<'p, 'm>(points: impl Into<Points<'p>>, mesh: impl Into<MeshView<
     report.counts.facets = complex.facets;
     report.counts.hull_triangles = complex.hull.len();
 
-    report.decide(Check::Vertices, || {
-        input.check_vertices(mesh.tetrahedra, "tetrahedron", Defect::at_tetrahedron).into()
-    });
-    report.decide(Check::Orientation, || geometry::check_orientation(&input.points, mesh.tetrahedra).into());
-    report.decide(Check::Facets, || complex.check_facets().into());
-    report
-        .decide(Check::Neighbors, || mesh.neighbors.map_or(Outcome::NotStated, |n| complex.check_neighbors(n).into()));
-    let mut ties = Outcome::Passed;
-    report.decide(Check::Delaunay, || {
-        let (delaunay, canonical) = geometry::check_delaunay(&input.points, &complex);
-        ties = canonical.into();
-        delaunay.into()
-    });
-    report.decide(Check::CanonicalTies, || ties);
-    report.decide(Check::Hull, || mesh.hull.map_or(Outcome::NotStated, |hull| complex.check_hull(hull).into()));
+    report.decide(Check::Vertices, || input.check_vertices(mesh.tetrahedra, "tetrahedron", Defect::at_tetrahedron));
+    report.decide(Check::Orientation, || geometry::check_orientation(&input.points, mesh.tetrahedra));
+    report.decide(Check::Facets, || complex.check_facets());
+    report.decide(Check::Neighbors, || mesh.neighbors.map(|stated| complex.check_neighbors(stated)));
+    report.decide_delaunay(|| geometry::check_delaunay(&input.points, &complex));
+    report.decide(Check::Hull, || mesh.hull.map(|stated| complex.check_hull(stated)));
     let mut ridges = Vec::new();
-    report.decide(Check::HullClosed, || complex.check_hull_closed(&mut ridges).into());
-    report.decide(Check::HullConvex, || geometry::check_hull_convex(&input.points, &complex, &ridges).into());
-    report.decide(Check::EulerCharacteristic, || complex.check_euler_characteristic().into());
-    report.decide(Check::Covering, || geometry::check_covering(&input.points, &complex).into());
+    report.decide(Check::HullClosed, || complex.check_hull_closed(&mut ridges));
+    report.decide(Check::HullConvex, || geometry::check_hull_convex(&input.points, &complex, &ridges));
+    report.decide(Check::EulerCharacteristic, || complex.check_euler_characteristic());
+    report.decide(Check::Covering, || geometry::check_covering(&input.points, &complex));
     Ok(report)
 }

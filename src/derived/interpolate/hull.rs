@@ -173,7 +173,7 @@ impl Cavity {
                         // The nearer one of two, as the other one may be far away.
                         for corner in corners {
                             let origin = &mut cavity.vertices[corner as usize].origin;
-                            if !(length(*origin) <= length(beyond)) {
+                            if length(*origin).is_nan() || length(beyond) < length(*origin) {
                                 *origin = beyond;
                             }
                         }

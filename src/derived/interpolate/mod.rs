@@ -8,8 +8,9 @@ pub use measures::StolenMeasures;
 
 use super::{Locator, locate::Place, queries::map_along_curve};
 use crate::{
-    Error, Points,
+    error::Error,
     geometry::{Euclidean, barycentric},
+    input::points::Points,
 };
 use natural::Scratch;
 

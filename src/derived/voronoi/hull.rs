@@ -6,9 +6,9 @@
 
 use super::{super::Locator, polytope::Polygon};
 use crate::{
-    Csr,
     geometry::{Euclidean, Geometry, facet, vector},
     index::NONE,
+    mesh::Csr,
     parallel::{self, Threads},
 };
 use rustc_hash::FxHashSet;

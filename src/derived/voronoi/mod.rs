@@ -11,9 +11,12 @@ pub use shapes::VoronoiShapes;
 
 use super::Locator;
 use crate::{
-    Csr, Error, Mesh, Points,
+    error::Error,
     geometry::{Euclidean, Geometry, circumcenter, facet, vector},
     index::NONE,
+    input::points::Points,
+    mesh::Csr,
+    mesh::Mesh,
     parallel::{self, Threads},
 };
 use polytope::Polytope;

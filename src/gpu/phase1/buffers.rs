@@ -1,11 +1,12 @@
 //! The buffers of Phase 1 on the device.
 
 use crate::{
-    Error,
+    dimension::Dimension,
+    error::Error,
     gpu::{
         Binding, Gpu, Recorder, Storage,
-        dim::{Dim, Dimension, Flip, OwnBuffers},
-        layout::{Active, BLOCK, COUNTER_WORDS, PARAM_WORDS, Status, Waiting},
+        dim::{Dim, Flip, OwnBuffers},
+        layout::{Active, BLOCK, FREE_START, PARAM_WORDS, Status, Waiting},
         points::DevicePoints,
     },
 };
@@ -15,15 +16,15 @@ pub type Slot = [u32; 4];
 
 /// The buffers that the stages share; [`layout`](crate::gpu::layout) explains them.
 ///
-/// In 3D a point takes about 950 bytes: 8.5 slots of 80 bytes each, 4 nodes of the history of 48,
-/// and some words. In 2D it takes about 280 bytes beside those of its coordinates and their
-/// sorting: 2 slots of 96 bytes each, 2 nodes of the history of 24, and some words.
+/// Besides its coordinates and their sorting, a point takes about 980 bytes in 3D: 8.5 slots of 88
+/// bytes each, 4 nodes of the history of 48, and some words. In 2D it takes about 250 bytes: 2
+/// slots of 88 bytes each, 2 nodes of the history of 24, and some words.
 #[derive(Debug, Clone)]
 pub struct Buffers<const D: usize>
 where
     Dimension<D>: Dim<D>,
 {
-    /// Parameters and counters.
+    /// Parameters and counters, and in 3D the free slots of each block.
     pub control: Storage<u32>,
     /// The vertices, and the interior point; the order; what is merged into what.
     pub points: DevicePoints,
@@ -39,10 +40,14 @@ where
     pub messages: Storage<Slot>,
     /// The flips of a round.
     pub history: Storage<Flip<D>>,
-    /// The list of waiting points.
+    /// Both halves of the list of waiting points.
     pub waiting: Storage<Waiting>,
     /// Scores of the waiting points.
     pub scores: Storage<u32>,
+    /// Whether each slot has a simplex of the mesh, at the end.
+    pub marks: Storage<u32>,
+    /// The number of each slot's simplex in the mesh, at the end.
+    pub numbers: Storage<u32>,
     /// The buffers that only this dimension has.
     pub own: <Dimension<D> as Dim<D>>::OwnBuffers,
 }
@@ -66,20 +71,22 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::BufferTooLarge`].
+    /// Returns [`Error::BufferTooLarge`].
     pub fn new(gpu: &Gpu, points: DevicePoints, blocks: u32, history: u32) -> Result<Self, Error> {
         let count = points.pairs.len();
         let slots = slots(blocks);
         Ok(Buffers {
-            control: Storage::new(gpu, "control", PARAM_WORDS + COUNTER_WORDS)?,
+            control: Storage::new(gpu, "control", FREE_START + blocks as usize)?,
             simplices: Storage::new(gpu, Dimension::<D>::SIMPLICES, slots)?,
             neighbors: Storage::new(gpu, "neighbours", slots)?,
             status: Storage::new(gpu, "status", slots)?,
             active: Storage::new(gpu, "active list", 2 * slots)?,
             messages: Storage::new(gpu, "messages", slots)?,
             history: Storage::new(gpu, "history", history as usize)?,
-            waiting: Storage::new(gpu, "waiting points", count)?,
+            waiting: Storage::new(gpu, "waiting points", 2 * count)?,
             scores: Storage::new(gpu, "scores", count)?,
+            marks: Storage::new(gpu, "marks", slots)?,
+            numbers: Storage::new(gpu, "numbers of simplices", slots)?,
             own: OwnBuffers::new(gpu, count, blocks)?,
             points,
         })
@@ -90,20 +97,26 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::BufferTooLarge`].
+    /// Returns [`Error::BufferTooLarge`].
     pub fn with_blocks(&self, gpu: &Gpu, recorder: &mut Recorder<'_>, blocks: u32) -> Result<Self, Error> {
         let slots = slots(blocks);
         let old_half = self.active.bytes() / 2;
         let mut larger = self.clone();
+        larger.control = Storage::new(gpu, "control", FREE_START + blocks as usize)?;
         larger.messages = Storage::new(gpu, "messages", slots)?;
         larger.simplices = Storage::new(gpu, Dimension::<D>::SIMPLICES, slots)?;
         larger.neighbors = Storage::new(gpu, "neighbours", slots)?;
         larger.status = Storage::new(gpu, "status", slots)?;
         larger.active = Storage::new(gpu, "active list", 2 * slots)?;
+        larger.marks = Storage::new(gpu, "marks", slots)?;
+        larger.numbers = Storage::new(gpu, "numbers of simplices", slots)?;
         let encoder = recorder.encoder();
         let mut copy = |from: &wgpu::Buffer, at: u64, to: &wgpu::Buffer, start: u64, bytes: u64| {
             encoder.copy_buffer_to_buffer(from, at, to, start, bytes);
         };
+        // All but the parameters, which the host writes anew.
+        let counters = (PARAM_WORDS * size_of::<u32>()) as u64;
+        copy(self.control.buffer(), counters, larger.control.buffer(), counters, self.control.bytes() - counters);
         copy(self.simplices.buffer(), 0, larger.simplices.buffer(), 0, self.simplices.bytes());
         copy(self.neighbors.buffer(), 0, larger.neighbors.buffer(), 0, self.neighbors.bytes());
         copy(self.status.buffer(), 0, larger.status.buffer(), 0, self.status.bytes());
@@ -137,13 +150,14 @@ where
             ("actives", self.active.buffer()),
             // Scores and points are picked before there are messages, and messages pass between
             // commit and link, after the list of entries that the check leaves undecided. Each has
-            // an element per slot, or an entry of one word.
+            // an element per slot.
             ("messages", self.messages.buffer()),
             ("picks", self.messages.buffer()),
-            ("undecided_entries", self.messages.buffer()),
             ("history", self.history.buffer()),
             ("waiting", self.waiting.buffer()),
             ("scores", self.scores.buffer()),
+            ("marks", self.marks.buffer()),
+            ("numbers", self.numbers.buffer()),
         ]);
         bindings
     }
@@ -153,7 +167,7 @@ where
         self.simplices.len() as u32 / BLOCK
     }
 
-    /// Returns the bytes that they take, but for the points.
+    /// Returns the bytes that they take, without the points.
     pub fn bytes(&self) -> u64 {
         let Buffers {
             control,
@@ -166,10 +180,13 @@ where
             history,
             waiting,
             scores,
+            marks,
+            numbers,
             own,
         } = self;
         let words = control.bytes() + waiting.bytes() + scores.bytes();
         let slots = simplices.bytes() + neighbors.bytes() + status.bytes() + active.bytes() + messages.bytes();
-        words + slots + history.bytes() + own.bytes()
+        let mesh = marks.bytes() + numbers.bytes();
+        words + slots + mesh + history.bytes() + own.bytes()
     }
 }

@@ -1,72 +1,240 @@
-//! The end of Phase 1, in which the dimensions differ.
+//! The end of Phase 1: the mesh without gaps, what is open about it, and the one large readback.
 
 use std::fmt::Debug;
 
+use bytemuck::Pod;
+
 use crate::{
-    Error,
+    dimension::Dimension,
+    error::Error,
     gpu::{
-        Gpu, Readback, Recorder, Storage,
-        dim::{Dim, Dimension},
+        Binding, Gpu, Kernel, Pending, Readback, Recorder, Storage,
+        dim::{Corners, Dim},
         layout::Counters,
         phase1::buffers::Buffers,
+        primitives::scan::{BoundScan, Scan, ScanParams},
     },
     input::lattice::Width,
 };
 
-/// How Phase 1 ends in `D` dimensions: the mesh without gaps, and what is open about it.
+/// A step of the end of Phase 1, with its kernel in the form `K`.
+#[derive(Debug, Clone, Copy)]
+pub enum Step<K> {
+    /// Times the steps from here on under this name.
+    Stage(&'static str),
+    /// Runs a kernel.
+    Kernel(K),
+    /// Numbers the simplices of the mesh by a scan of [`Buffers::marks`].
+    Scan,
+}
+
+impl<K> Step<K> {
+    fn map<L>(&self, kernel: impl FnOnce(&K) -> L) -> Step<L> {
+        match self {
+            Step::Stage(name) => Step::Stage(name),
+            Step::Kernel(k) => Step::Kernel(kernel(k)),
+            Step::Scan => Step::Scan,
+        }
+    }
+}
+
+/// How Phase 1 ends in `D` dimensions.
 #[expect(async_fn_in_trait, reason = "only this crate implements it, and no caller is generic over threads")]
 pub trait Finish<const D: usize>: Dim<D>
 where
     Dimension<D>: Dim<D>,
 {
-    /// The kernels.
-    type Kernels: Debug;
-    /// Their bind groups, and the buffers that only they need.
-    type Bound: Debug;
-    /// What Phase 1 leaves: the mesh, and what is to be repaired or checked of it.
+    /// The names of the buffers of the rounds that the end writes over.
+    type Aliases: Aliases<D>;
+    /// The readbacks that follow that of the simplices.
+    type Reading;
+    /// The mesh, and what is to be repaired or checked of it.
     type Result: Debug + Clone + PartialEq;
 
+    /// The steps, with the names of the kernels.
+    const STEPS: &'static [Step<&'static str>];
+
+    /// Returns the number of simplices that the mesh has, of which `finite` are finite.
+    fn mesh_len(finite: usize, counters: &Counters) -> usize;
+
+    /// Records the readbacks of all but the simplices, of which there are `len`.
+    fn copy(
+        copies: &mut Copies<'_>,
+        b: &Buffers<D>,
+        aliases: &Self::Aliases,
+        len: usize,
+        counters: &Counters,
+    ) -> Self::Reading;
+
+    /// Receives these readbacks and returns the result with the `simplices`, of which `finite` are
+    /// finite.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Readback::receive`].
+    async fn receive(
+        copied: &mut Copied<'_>,
+        reading: Self::Reading,
+        simplices: Vec<Corners<D>>,
+        finite: usize,
+    ) -> Result<Self::Result, Error>;
+}
+
+/// Buffers of the rounds under the names that they have at the end.
+pub trait Aliases<const D: usize>: Debug
+where
+    Dimension<D>: Dim<D>,
+{
+    /// Returns the second lives of these buffers.
+    fn new(b: &Buffers<D>) -> Self;
+
+    /// Returns the simplices of the mesh.
+    fn simplices(&self) -> &Storage<Corners<D>>;
+
+    /// Returns the buffers under the names that they have in shaders.
+    fn bindings(&self) -> Vec<Binding<'_>>;
+}
+
+/// Records readbacks in one submission.
+pub struct Copies<'a> {
+    readback: &'a mut Readback,
+    gpu: &'a Gpu,
+    recorder: Recorder<'static>,
+}
+
+impl Copies<'_> {
+    /// Records the readback of the first `len` elements of `source`.
+    pub fn copy<T: Pod>(&mut self, source: &Storage<T>, len: usize) -> Pending<T> {
+        self.readback.copy(self.gpu, self.recorder.encoder(), source, 0, len)
+    }
+}
+
+/// Receives the readbacks of one submission.
+pub struct Copied<'a> {
+    readback: &'a mut Readback,
+    gpu: &'a Gpu,
+    submission: wgpu::SubmissionIndex,
+}
+
+impl Copied<'_> {
+    /// Waits for a readback.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Readback::receive`].
+    pub async fn receive<T: Pod>(&mut self, pending: Pending<T>) -> Result<Vec<T>, Error> {
+        self.readback.receive(self.gpu, &self.submission, pending).await
+    }
+}
+
+/// The kernels of the end of Phase 1.
+#[derive(Debug)]
+pub(crate) struct FinishStage {
+    steps: Vec<Step<Kernel>>,
+    scan: Scan,
+}
+
+/// The kernels with their bind groups.
+#[derive(Debug)]
+pub(crate) struct BoundFinish<const D: usize>
+where
+    Dimension<D>: Finish<D>,
+{
+    steps: Vec<Step<(Kernel, wgpu::BindGroup)>>,
+    scan: BoundScan,
+    aliases: <Dimension<D> as Finish<D>>::Aliases,
+}
+
+impl FinishStage {
     /// Compiles the kernels.
-    fn compile(gpu: &Gpu, width: Width) -> Self::Kernels;
+    pub(crate) fn new<const D: usize>(gpu: &Gpu, width: Width) -> Self
+    where
+        Dimension<D>: Finish<D>,
+    {
+        let kernel = |name: &&str| Kernel::new(gpu, Dimension::<D>::SHADERS.get(name), width);
+        FinishStage { steps: Dimension::<D>::STEPS.iter().map(|step| step.map(kernel)).collect(), scan: Scan::new(gpu) }
+    }
 
     /// Binds the kernels to these buffers.
     ///
     /// # Errors
     ///
-    /// Those of [`Storage::new`].
-    fn bind(kernels: &Self::Kernels, gpu: &Gpu, b: &Buffers<D>) -> Result<Self::Bound, Error>;
+    /// Returns the errors of [`Storage::new`].
+    pub(crate) fn bind<const D: usize>(&self, gpu: &Gpu, b: &Buffers<D>) -> Result<BoundFinish<D>, Error>
+    where
+        Dimension<D>: Finish<D>,
+    {
+        let count = ScanParams { count: b.simplices.len() as u32 };
+        let params = Storage::with_contents(gpu, "scan parameters", &[count])?;
+        let scan = self.scan.bind(gpu, &params, &b.marks, &b.numbers)?;
+        let aliases = <Dimension<D> as Finish<D>>::Aliases::new(b);
+        let mut buffers = b.bindings();
+        buffers.extend(aliases.bindings());
+        buffers.push(("sums", scan.sums().buffer()));
+        let bind = |kernel: &Kernel| (kernel.clone(), kernel.bind(gpu, &buffers));
+        let steps = self.steps.iter().map(|step| step.map(bind)).collect();
+        Ok(BoundFinish { steps, scan, aliases })
+    }
 
-    /// Returns the bytes that `bound` takes on the device beside the buffers that the stages share.
-    fn bound_bytes(bound: &Self::Bound) -> u64;
+    /// Records the end of Phase 1.
+    pub(crate) fn record<const D: usize>(&self, recorder: &mut Recorder<'_>, bound: &BoundFinish<D>, workgroups: u32)
+    where
+        Dimension<D>: Finish<D>,
+    {
+        for step in &bound.steps {
+            match step {
+                Step::Stage(name) => recorder.stage(name),
+                Step::Kernel((kernel, bindings)) => recorder.dispatch(kernel, bindings, workgroups),
+                Step::Scan => self.scan.record(recorder, &bound.scan),
+            }
+        }
+    }
+}
 
-    /// Records the end of Phase 1, of `blocks` blocks.
-    fn record(
-        kernels: &Self::Kernels,
-        gpu: &Gpu,
-        recorder: &mut Recorder<'_>,
-        bound: &Self::Bound,
-        blocks: u32,
-        workgroups: u32,
-    );
+impl<const D: usize> BoundFinish<D>
+where
+    Dimension<D>: Finish<D>,
+{
+    /// The submissions that [`BoundFinish::read`] takes.
+    pub(crate) const SUBMITS: usize = 2;
 
-    /// Returns the sums of a scan; their entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS) is
-    /// the number of finite simplices.
-    fn sums(bound: &Self::Bound) -> &Storage<u32>;
+    /// Returns the sums of the scan; their entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS)
+    /// is the number of finite simplices.
+    pub(crate) fn sums(&self) -> &Storage<u32> {
+        self.scan.sums()
+    }
 
     /// Reads the mesh back, of which `finite` simplices are finite, and, if any point was merged,
     /// which one stands for each
-    /// ([`DevicePoints::merged_into`](crate::gpu::points::DevicePoints::merged_into)). Takes two
-    /// submissions, so that the host can take the first part while the device sends the second.
+    /// ([`DevicePoints::merged_into`](crate::gpu::points::DevicePoints::merged_into)).
     ///
     /// # Errors
     ///
-    /// Those of [`Gpu::with_error_scope`] and [`Readback::receive`].
-    async fn read_result(
+    /// Returns the errors of [`Gpu::with_error_scope`] and [`Readback::receive`].
+    pub(crate) async fn read(
+        &self,
         gpu: &Gpu,
         readback: &mut Readback,
         b: &Buffers<D>,
-        bound: &Self::Bound,
         finite: usize,
         counters: &Counters,
-    ) -> Result<(Self::Result, Vec<u32>), Error>;
+    ) -> Result<(<Dimension<D> as Finish<D>>::Result, Vec<u32>), Error> {
+        let len = Dimension::<D>::mesh_len(finite, counters);
+        let merged_len = if counters.merged > 0 { b.points.merged_into.len() } else { 0 };
+        let (first, simplices, second, reading, merged) = gpu
+            .with_error_scope("the result of Phase 1", || {
+                // The host takes the simplices while the device sends the rest.
+                let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, None) };
+                let simplices = copies.copy(self.aliases.simplices(), len);
+                let first = std::mem::replace(&mut copies.recorder, Recorder::new(gpu, None)).submit(gpu);
+                let reading = Dimension::<D>::copy(&mut copies, b, &self.aliases, len, counters);
+                let merged = copies.copy(&b.points.merged_into, merged_len);
+                Ok((first, simplices, copies.recorder.submit(gpu), reading, merged))
+            })
+            .await?;
+        let simplices = readback.receive(gpu, &first, simplices).await?;
+        let mut copied = Copied { readback, gpu, submission: second };
+        let result = Dimension::<D>::receive(&mut copied, reading, simplices, finite).await?;
+        Ok((result, copied.receive(merged).await?))
+    }
 }

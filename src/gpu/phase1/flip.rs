@@ -1,11 +1,8 @@
 //! Flipping: check, commit, link (§3.1, §4.2).
 
 use crate::{
-    gpu::{
-        Gpu, Kernel, Recorder,
-        dim::{Dim, Dimension},
-        phase1::buffers::Buffers,
-    },
+    dimension::Dimension,
+    gpu::{Gpu, Kernel, Recorder, dim::Dim, phase1::buffers::Buffers},
     input::lattice::Width,
 };
 
@@ -20,6 +17,8 @@ pub(crate) struct Flip {
     /// In a dimension that can find the active simplices by looking at all slots (§4.2).
     compact: Option<Kernel>,
     clear_votes: Kernel,
+    /// In a dimension that takes iterations of few simplices in one workgroup.
+    few: Option<Kernel>,
 }
 
 /// The bind groups of flipping.
@@ -31,6 +30,7 @@ pub(crate) struct BoundFlip {
     link: wgpu::BindGroup,
     compact: Option<wgpu::BindGroup>,
     clear_votes: wgpu::BindGroup,
+    few: Option<wgpu::BindGroup>,
 }
 
 /// The flip iterations to record.
@@ -60,6 +60,7 @@ impl Flip {
             link: kernel("flip_link"),
             compact: optional("flip_compact"),
             clear_votes: kernel("clear_votes"),
+            few: optional("flip_few"),
         }
     }
 
@@ -76,10 +77,17 @@ impl Flip {
             link: self.link.bind(gpu, &buffers),
             compact: self.compact.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
             clear_votes: self.clear_votes.bind(gpu, &buffers),
+            few: self.few.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
         }
     }
 
-    /// Records flip iterations. Those that find too few active simplices do nothing.
+    /// Returns whether iterations of few simplices are done in one workgroup.
+    pub(crate) fn takes_few(&self) -> bool {
+        self.few.is_some()
+    }
+
+    /// Records flip iterations, a dispatch per pass, then those of few simplices in one dispatch.
+    /// Those that find too few active simplices do nothing.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundFlip, plan: FlipPlan, workgroups: u32) {
         let check_exact = self.check_exact.as_ref().zip(bound.check_exact.as_ref());
         let compact = self.compact.as_ref().zip(bound.compact.as_ref()).filter(|_| plan.compacts);
@@ -100,9 +108,13 @@ impl Flip {
                 recorder.dispatch(kernel, bindings, workgroups);
             }
         }
+        if let Some((kernel, bindings)) = self.few.as_ref().zip(bound.few.as_ref()) {
+            recorder.stage("flip: few");
+            recorder.dispatch(kernel, bindings, 1);
+        }
     }
 
-    /// Records that flip iterations are counted from the start again.
+    /// Records that bids start from the lowest number again.
     pub(crate) fn record_clear_votes(&self, recorder: &mut Recorder<'_>, bound: &BoundFlip, workgroups: u32) {
         recorder.stage("clear votes");
         recorder.dispatch(&self.clear_votes, &bound.clear_votes, workgroups);

@@ -1,10 +1,14 @@
-//! Insertion: the first simplices, picking, splitting, and the points inside (§3.1).
+//! Insertion: the first simplices, the list of waiting points, picking, splitting, and the points
+//! inside (§3.1).
 
 use crate::{
+    dimension::Dimension,
+    error::Error,
     gpu::{
         Gpu, Kernel, Recorder,
-        dim::{Dim, Dimension},
+        dim::Dim,
         phase1::buffers::Buffers,
+        waiting::{BoundWaitingList, WaitingList},
     },
     input::lattice::Width,
 };
@@ -15,6 +19,8 @@ pub(crate) struct Insert {
     /// In a dimension with lists of free slots.
     fill_free: Option<Kernel>,
     locate: Kernel,
+    begin_round: Kernel,
+    list: WaitingList,
     pick_score: Kernel,
     pick_point: Kernel,
     split: Kernel,
@@ -26,10 +32,19 @@ pub(crate) struct Insert {
 pub(crate) struct BoundInsert {
     fill_free: Option<wgpu::BindGroup>,
     locate: wgpu::BindGroup,
+    begin_round: wgpu::BindGroup,
+    list: BoundWaitingList,
     pick_score: wgpu::BindGroup,
     pick_point: wgpu::BindGroup,
     split: wgpu::BindGroup,
     relocate_split: wgpu::BindGroup,
+}
+
+impl BoundInsert {
+    /// Returns the bytes that it takes on the device beside the buffers that it shares.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.list.bytes()
+    }
 }
 
 impl Insert {
@@ -42,6 +57,8 @@ impl Insert {
         Insert {
             fill_free: Dimension::<D>::SHADERS.find("fill_free").map(|shader| Kernel::new(gpu, shader, width)),
             locate: kernel("locate"),
+            begin_round: kernel("begin_round"),
+            list: WaitingList::new(gpu),
             pick_score: kernel("pick_score"),
             pick_point: kernel("pick_point"),
             split: kernel("split"),
@@ -50,19 +67,28 @@ impl Insert {
     }
 
     /// Binds the kernels to these buffers.
-    pub(crate) fn bind<const D: usize>(&self, gpu: &Gpu, b: &Buffers<D>) -> BoundInsert
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Storage::new`](crate::gpu::Storage::new).
+    pub(crate) fn bind<const D: usize>(&self, gpu: &Gpu, b: &Buffers<D>) -> Result<BoundInsert, Error>
     where
         Dimension<D>: Dim<D>,
     {
-        let buffers = b.bindings();
-        BoundInsert {
+        // The scores are of no use any more when the list is compacted.
+        let list = self.list.bind(gpu, &b.control, &b.waiting, &b.scores)?;
+        let mut buffers = b.bindings();
+        buffers.push(("scan", list.params().buffer()));
+        Ok(BoundInsert {
             fill_free: self.fill_free.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
             locate: self.locate.bind(gpu, &buffers),
+            begin_round: self.begin_round.bind(gpu, &buffers),
             pick_score: self.pick_score.bind(gpu, &buffers),
             pick_point: self.pick_point.bind(gpu, &buffers),
             split: self.split.bind(gpu, &buffers),
             relocate_split: self.relocate_split.bind(gpu, &buffers),
-        }
+            list,
+        })
     }
 
     /// Records that the slots of new blocks are free.
@@ -97,6 +123,9 @@ impl Insert {
         Dimension<D>: Dim<D>,
     {
         recorder.encoder().clear_buffer(b.messages.buffer(), 0, None);
+        recorder.stage("begin round");
+        recorder.dispatch(&self.begin_round, &bound.begin_round, 1);
+        self.list.record(recorder, &bound.list, workgroups);
         recorder.stage("pick");
         recorder.dispatch(&self.pick_score, &bound.pick_score, workgroups);
         recorder.dispatch(&self.pick_point, &bound.pick_point, workgroups);

@@ -1,10 +1,10 @@
 //! The kernels of Phase 1 for points of one width, and what is kept from run to run.
 
 use crate::{
-    Error,
+    dimension::Dimension,
+    error::Error,
     gpu::{
         Gpu, Readback,
-        dim::Dimension,
         phase1::{finish::Finish, memory::Kept, stages::Stages},
         points::PointStage,
     },
@@ -19,7 +19,7 @@ where
     Dimension<D>: Finish<D>,
 {
     pub(crate) points: PointStage<D>,
-    pub(crate) stages: Stages<D>,
+    pub(crate) stages: Stages,
     pub(crate) readback: Readback,
     pub(crate) kept: Kept<D>,
 }
@@ -32,12 +32,12 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Gpu::with_error_scope`].
+    /// Returns the errors of [`Gpu::with_error_scope`].
     pub async fn new(gpu: &Gpu, width: Width) -> Result<Self, Error> {
         gpu.with_error_scope("pipelines", || {
             Ok(Phase1 {
                 points: PointStage::new(gpu),
-                stages: Stages::new(gpu, width),
+                stages: Stages::new::<D>(gpu, width),
                 readback: Readback::default(),
                 kept: Kept::default(),
             })

@@ -1,10 +1,10 @@
 //! What a run holds on the device, and leaves to the next run of its form.
 
 use crate::{
-    Error,
+    dimension::Dimension,
+    error::Error,
     gpu::{
         Gpu, Recorder,
-        dim::Dimension,
         phase1::{
             buffers::Buffers,
             finish::Finish,
@@ -47,14 +47,14 @@ impl<const D: usize> Memory<D>
 where
     Dimension<D>: Finish<D>,
 {
-    fn bind(stages: &Stages<D>, gpu: &Gpu, buffers: Buffers<D>) -> Result<Self, Error> {
+    fn bind(stages: &Stages, gpu: &Gpu, buffers: Buffers<D>) -> Result<Self, Error> {
         Ok(Memory { bound: stages.bind(gpu, &buffers)?, buffers })
     }
 
     /// Returns what is kept, if it is for these points and large enough, and creates all of it
     /// otherwise.
     pub(crate) fn new(
-        stages: &Stages<D>,
+        stages: &Stages,
         gpu: &Gpu,
         kept: Option<Memory<D>>,
         points: DevicePoints,
@@ -75,7 +75,7 @@ where
     /// Returns the same with more blocks.
     pub(crate) fn with_blocks(
         &self,
-        stages: &Stages<D>,
+        stages: &Stages,
         gpu: &Gpu,
         recorder: &mut Recorder<'_>,
         blocks: u32,
@@ -83,7 +83,7 @@ where
         Memory::bind(stages, gpu, self.buffers.with_blocks(gpu, recorder, blocks)?)
     }
 
-    /// Returns the bytes that it takes, but for the points.
+    /// Returns the bytes that it takes, without the points.
     pub(crate) fn bytes(&self) -> u64 {
         self.buffers.bytes() + self.bound.bytes()
     }

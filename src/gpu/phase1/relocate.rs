@@ -1,80 +1,39 @@
-//! Waiting points: along the history after the flips (§4.1), and their list without those that were
-//! inserted.
+//! Waiting points along the history after the flips (§4.1).
 
 use crate::{
-    Error,
-    gpu::{
-        Gpu, Kernel, Recorder,
-        dim::{Dim, Dimension},
-        phase1::buffers::Buffers,
-        waiting::{BoundWaitingList, WaitingList},
-    },
+    dimension::Dimension,
+    gpu::{Gpu, Kernel, Recorder, dim::Dim, phase1::buffers::Buffers},
     input::lattice::Width,
 };
 
-/// The kernels of relocation.
+/// The kernel of relocation.
 #[derive(Debug)]
-pub(crate) struct Relocate {
-    relocate: Kernel,
-    list: WaitingList,
-}
+pub(crate) struct Relocate(Kernel);
 
-/// The bind groups of relocation.
+/// Its bind group.
 #[derive(Debug)]
-pub(crate) struct BoundRelocate {
-    relocate: wgpu::BindGroup,
-    list: BoundWaitingList,
-}
-
-impl BoundRelocate {
-    /// Returns the bytes that it takes on the device beside the buffers that it shares.
-    pub(crate) fn bytes(&self) -> u64 {
-        self.list.bytes()
-    }
-}
+pub(crate) struct BoundRelocate(wgpu::BindGroup);
 
 impl Relocate {
-    /// Compiles the kernels of `D` dimensions.
+    /// Compiles the kernel of `D` dimensions.
     pub(crate) fn new<const D: usize>(gpu: &Gpu, width: Width) -> Self
     where
         Dimension<D>: Dim<D>,
     {
-        let relocate = Kernel::new(gpu, Dimension::<D>::SHADERS.get("relocate"), width);
-        Relocate { relocate, list: WaitingList::new(gpu) }
+        Relocate(Kernel::new(gpu, Dimension::<D>::SHADERS.get("relocate"), width))
     }
 
-    /// Binds the kernels to these buffers.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Storage::new`](crate::gpu::Storage::new).
-    pub(crate) fn bind<const D: usize>(&self, gpu: &Gpu, b: &Buffers<D>) -> Result<BoundRelocate, Error>
+    /// Binds the kernel to these buffers.
+    pub(crate) fn bind<const D: usize>(&self, gpu: &Gpu, b: &Buffers<D>) -> BoundRelocate
     where
         Dimension<D>: Dim<D>,
     {
-        Ok(BoundRelocate {
-            relocate: self.relocate.bind(gpu, &b.bindings()),
-            // The scores are of no use any more when the list is compacted.
-            list: self.list.bind(gpu, &b.control, &b.waiting, &b.scores)?,
-        })
+        BoundRelocate(self.0.bind(gpu, &b.bindings()))
     }
 
     /// Records the walk along the history.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundRelocate, workgroups: u32) {
         recorder.stage("relocate");
-        recorder.dispatch(&self.relocate, &bound.relocate, workgroups);
-    }
-
-    /// Records the compaction of the list, which has `entries` entries, those that do not wait
-    /// included.
-    pub(crate) fn record_compaction(
-        &self,
-        gpu: &Gpu,
-        recorder: &mut Recorder<'_>,
-        bound: &BoundRelocate,
-        entries: u32,
-        workgroups: u32,
-    ) {
-        self.list.record(gpu, recorder, &bound.list, entries, workgroups);
+        recorder.dispatch(&self.0, &bound.0, workgroups);
     }
 }

@@ -1,15 +1,16 @@
-//! A run of Phase 1: what the host records, and what it reads back.
+//! A run of Phase 1: what the host records ahead, and what it reads back.
 
 use crate::{
-    Error, Points,
+    dimension::Dimension,
+    error::Error,
     gpu::{
         Gpu, Pending, Profiler, Recorder,
-        dim::{Dim, Dimension, Flip},
-        iterations::{Iterations, bid_bits},
-        layout::{BLOCK, COUNTER_WORDS, Counters, NONE, PARAM_WORDS, Params, SLOTS_FULL},
+        dim::{Dim, Flip},
+        iterations::Iterations,
+        layout::{BLOCK, COUNTER_WORDS, Counters, LOGGED, NONE, PARAM_WORDS, Params, SLOTS_FULL},
         phase1::{
             buffers::{Buffers, largest_bytes},
-            finish::Finish,
+            finish::{BoundFinish, Finish},
             flip::FlipPlan,
             kernels::Phase1,
             memory::{Kept, Memory},
@@ -21,10 +22,11 @@ use crate::{
         start::Start,
         workgroups,
     },
-    input::lattice::Lattice,
+    input::{lattice::Lattice, points::Points},
     options::Winding,
     stats::{Round, Stopwatch},
 };
+use std::collections::VecDeque;
 
 /// The points of a run.
 #[derive(Debug, Clone, Copy)]
@@ -40,7 +42,7 @@ where
     pub start: Start<D>,
 }
 
-/// What a run gives.
+/// The output of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase1Output<const D: usize>
 where
@@ -56,7 +58,7 @@ where
     pub stats: Phase1Stats,
 }
 
-/// A run that is under way.
+/// A run in progress.
 pub struct Run<'a, const D: usize>
 where
     Dimension<D>: Finish<D>,
@@ -71,13 +73,44 @@ where
     memory: Memory<D>,
     /// Readbacks before this run.
     read_before: usize,
-    /// Whether nothing is located yet.
-    first: bool,
+    /// Batches of rounds whose counters are not read yet, oldest first.
+    submitted: VecDeque<Batch>,
+    /// About the most points that can be inserted after the rounds that were submitted.
+    inserted_at_most: u32,
+    /// The rounds that were submitted.
+    rounds_submitted: u32,
+    /// Those of them that were submitted before slots were added.
+    rounds_before_growth: u32,
     iterations: Iterations,
     stats: Phase1Stats,
     clock: Stopwatch,
     round_clock: Stopwatch,
 }
+
+/// Rounds that were submitted together.
+struct Batch {
+    submission: wgpu::SubmissionIndex,
+    counters: Pending<u32>,
+    rounds: u32,
+    /// The flip iterations that were recorded for the last round, a dispatch per pass.
+    recorded: u32,
+}
+
+/// How many points a round inserts per point that is inserted, as a rule at most: hardly more of its
+/// simplices have points to pick from.
+const GROWTH: u32 = 5;
+
+/// Flip iterations are done in one workgroup until this many times as many simplices are active as
+/// when it begins with that.
+const FEW_LIMIT: u32 = 4;
+
+/// The most flip iterations that one workgroup does in a dispatch: some milliseconds, after which
+/// the round goes on.
+const FEW_ITERATIONS: u32 = 512;
+
+/// Votes are cleared when the lowest bid is so high: a quarter of the numbers that are left by then
+/// suffices for all rounds that may be submitted before.
+const CLEAR_VOTES_FROM: u32 = 1 << 30;
 
 /// Simplices are numbered in 30 bits.
 const MAX_SIMPLICES: u32 = 1 << 30;
@@ -99,6 +132,11 @@ where
     Dimension<D>: Dim<D>,
 {
     Dimension::<D>::blocks(points, tail_blocks(points, settings))
+}
+
+/// Returns from how many active simplices on the next ones are found by looking at all slots.
+fn compact_from<const D: usize>(blocks: u32, settings: &Settings<D>) -> u32 {
+    (blocks * BLOCK).checked_div(settings.slots_per_active).map_or(u32::MAX, |slots| slots.max(1))
 }
 
 /// Returns the largest number of points whose buffers a device can bind.
@@ -131,8 +169,8 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::TooManyPoints`]; [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when
-    /// the device cannot hold the buffers.
+    /// Returns [`Error::TooManyPoints`]; [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`]
+    /// when the device cannot hold the buffers.
     pub async fn new(
         kernels: &'a mut Phase1<D>,
         gpu: &'a Gpu,
@@ -176,6 +214,7 @@ where
             })
             .await?;
         let blocks = memory.buffers.blocks();
+        let few = if kernels.stages.flip.takes_few() { settings.few } else { 0 };
         Ok(Run {
             gpu,
             settings,
@@ -184,19 +223,25 @@ where
                 infinite: points,
                 blocks,
                 history,
-                bid_bits: bid_bits(blocks),
-                min_active: settings.min_active,
+                few,
+                few_limit: few.saturating_mul(FEW_LIMIT),
+                few_iterations: FEW_ITERATIONS,
+                max_min_active: settings.min_active,
+                insert_all: u32::from(settings.insert_all),
+                compact_from: compact_from(blocks, &settings),
                 pick: settings.pick as u32,
-                entries: points,
                 clockwise: u32::from(settings.winding == Winding::Clockwise),
                 ..Params::default()
             },
-            counters: Counters { first_node: 1, next_node: 1, ..Counters::default() },
+            counters: Counters { first_node: 1, next_node: 1, bid_base: 1, entries: points, ..Counters::default() },
             points: point_buffers,
             memory,
             read_before: kernels.readback.count(),
             kernels,
-            first: true,
+            submitted: VecDeque::new(),
+            inserted_at_most: D as u32 + 1,
+            rounds_submitted: 0,
+            rounds_before_growth: 0,
             iterations: Iterations::new(),
             stats: Phase1Stats { dispatches, submits: 1, ..Phase1Stats::default() },
             clock,
@@ -209,7 +254,7 @@ where
         &self.memory.buffers
     }
 
-    /// Returns the parameters and the counters as of the last round.
+    /// Returns the parameters, and the counters as they were last read.
     pub fn control(&self) -> (Params, Counters) {
         (self.params, self.counters)
     }
@@ -221,82 +266,105 @@ where
 
     /// Returns the number of active simplices.
     pub fn active(&self) -> u32 {
-        self.counters.active_len[(self.counters.iteration & 1) as usize]
+        self.counters.active()
     }
 
-    /// Runs an insertion round, or, when all points are inserted, flip iterations. Returns whether
-    /// there is more to do.
+    /// Runs rounds of insertion and flips, and, when all points are inserted, flip iterations, until
+    /// it knows of the next batch what was done. Returns whether there is more to do.
+    ///
+    /// While the device works on a batch, the next one is submitted, so that it never waits.
     ///
     /// # Errors
     ///
     /// [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when there are more tetrahedra
     /// than the device can hold; [`Error::DeviceLost`] and [`Error::Gpu`].
-    pub async fn round(&mut self) -> Result<bool, Error> {
+    pub async fn advance(&mut self) -> Result<bool, Error> {
         let gpu = self.gpu;
-        let before = self.counters;
-        let inserts = self.first || self.waiting() > 0;
-        let (submission, pending) = gpu.with_error_scope("Phase 1", || self.submit_round(inserts)).await?;
-        let words = self.kernels.readback.receive(gpu, &submission, pending).await?;
-        let read = counters_in(&words);
-        self.counters = read;
-        let used = self.iterations.plan(&before, &read, self.waiting());
-        self.stats.submits += 1;
-        self.stats.rounds.push(Round {
-            inserted: read.inserted - before.inserted,
-            active: self.active(),
-            flips: read.flips() - before.flips(),
-            iterations: used,
-            time: self.round_clock.lap(),
-        });
-        if inserts && read.inserted == before.inserted && self.waiting() > 0 {
-            return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
+        while self.submitted.len() < self.settings.batches.max(1) as usize {
+            let batch = gpu.with_error_scope("Phase 1", || self.submit_batch()).await?;
+            self.submitted.push_back(batch);
+            self.stats.submits += 1;
         }
+        let Some(Batch { submission, counters, recorded, rounds }) = self.submitted.pop_front() else {
+            return Ok(false);
+        };
+        let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
+        let before = std::mem::replace(&mut self.counters, counters_in(&words));
+        let read = self.counters;
+        let time = self.round_clock.lap() / rounds;
+        let mut last = before.progress();
+        for round in before.round + 1..=read.round {
+            // The state after the last round of a batch is that which was read.
+            let is_last = round == read.round;
+            let now = if is_last { read.progress() } else { read.log[round as usize % LOGGED] };
+            let [inserted, active, flips, iterations, few] = now;
+            let [inserted_before, _, flips_before, iterations_before, few_before] = last;
+            let used = iterations - iterations_before;
+            self.stats.rounds.push(Round {
+                inserted: inserted - inserted_before,
+                active,
+                flips: flips - flips_before,
+                iterations: used,
+                time,
+            });
+            if is_last {
+                self.iterations.plan(used - (few - few_before), recorded, inserted, self.waiting());
+            }
+            if inserted == inserted_before && inserted + read.merged < self.params.infinite {
+                return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
+            }
+            last = now;
+        }
+        self.iterations.plan_exact(read.exact.wrapping_sub(before.exact), read.visits.wrapping_sub(before.visits));
         Ok(self.waiting() > 0 || self.active() > 0)
     }
 
-    fn submit_round(&mut self, inserts: bool) -> Result<(wgpu::SubmissionIndex, Pending<u32>), Error> {
+    fn submit_batch(&mut self) -> Result<Batch, Error> {
         let gpu = self.gpu;
-        let workgroups = self.workgroups();
         let mut profiler = self.profiler.take();
         let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
-        // In a small triangulation every flip that waits costs failed vertices in the end.
-        let few = self.settings.min_active.min(self.counters.inserted >> 10);
-        self.params.min_active = if inserts { few } else { 0 };
-        let slots = self.params.blocks * BLOCK;
-        self.params.compact_from = slots.checked_div(self.settings.slots_per_active).map_or(u32::MAX, |n| n.max(1));
-        if self.counters.overflow & SLOTS_FULL != 0 {
-            self.grow(&mut recorder)?;
-        }
-        let stages = &self.kernels.stages;
-        if std::mem::take(&mut self.first) {
-            self.write_control();
+        if self.rounds_submitted == 0 {
+            self.memory.buffers.control.write(gpu, 0, bytemuck::cast_slice(&[self.params]));
+            self.memory.buffers.control.write(gpu, PARAM_WORDS, bytemuck::cast_slice(&[self.counters]));
             self.memory.buffers.record_clear(&mut recorder);
-            stages.insert.record_first(&mut recorder, &self.memory.bound.insert, workgroups);
+            let workgroups = self.workgroups();
+            self.kernels.stages.insert.record_first(&mut recorder, &self.memory.bound.insert, workgroups);
         } else {
-            let waiting = self.waiting();
-            self.params.entries_before = self.params.entries;
-            // Compacting the list costs about as much as walking it a few times.
-            if waiting < self.params.entries / 4 * 3 {
-                let (entries, bound) = (self.params.entries, &self.memory.bound.relocate);
-                stages.relocate.record_compaction(gpu, &mut recorder, bound, entries, workgroups);
-                self.params.entries = waiting;
+            // Rounds that were submitted before the slots were added can say that there were too few.
+            if self.counters.overflow & SLOTS_FULL != 0 && self.counters.round > self.rounds_before_growth {
+                self.grow(&mut recorder)?;
             }
-            self.counters.overflow = 0;
-            self.write_control();
+            if self.counters.bid_base > CLEAR_VOTES_FROM {
+                let (flip, bound) = (&self.kernels.stages.flip, &self.memory.bound.flip);
+                flip.record_clear_votes(&mut recorder, bound, self.workgroups());
+            }
         }
-        let Memory { buffers, bound } = &self.memory;
-        stages.insert.record(&mut recorder, &bound.insert, buffers, workgroups);
-        if !(self.settings.insert_all && inserts) {
-            self.record_flips(&mut recorder);
+        let (mut rounds, mut recorded) = (0, 0);
+        let limit = self.settings.rounds.clamp(1, LOGGED as u32);
+        while rounds < limit || (self.settings.batches > 1 && recorded == 0 && rounds < LOGGED as u32) {
+            // All flips of the first rounds are few.
+            let active = self.inserted_at_most.saturating_mul(GROWTH * (D as u32 + 1));
+            recorded = if active <= self.params.few_limit { 0 } else { self.iterations.planned() };
+            self.inserted_at_most = self.inserted_at_most.saturating_mul(1 + GROWTH);
+            self.record_round(&mut recorder, recorded);
+            rounds += 1;
         }
-        if inserts {
-            self.kernels.stages.relocate.record(&mut recorder, &self.memory.bound.relocate, workgroups);
-        }
+        self.rounds_submitted += rounds;
         self.stats.dispatches += recorder.dispatches();
-        let pending = self.read_counters(recorder.encoder());
+        let counters = self.read_counters(recorder.encoder());
         let submission = recorder.submit(gpu);
         self.profiler = profiler;
-        Ok((submission, pending))
+        Ok(Batch { submission, counters, recorded, rounds })
+    }
+
+    fn record_round(&self, recorder: &mut Recorder<'_>, iterations: u32) {
+        let workgroups = self.workgroups();
+        let (stages, Memory { buffers, bound }) = (&self.kernels.stages, &self.memory);
+        stages.insert.record(recorder, &bound.insert, buffers, workgroups);
+        let compacts = self.settings.slots_per_active > 0;
+        let plan = FlipPlan { iterations, exact_every: self.iterations.exact_every(), compacts };
+        stages.flip.record(recorder, &bound.flip, plan, workgroups);
+        stages.relocate.record(recorder, &bound.relocate, workgroups);
     }
 
     fn read_counters(&mut self, encoder: &mut wgpu::CommandEncoder) -> Pending<u32> {
@@ -304,32 +372,9 @@ where
         self.kernels.readback.copy(self.gpu, encoder, control, PARAM_WORDS, COUNTER_WORDS)
     }
 
-    /// Writes the parameters as the host knows them, and the counters as they were last read: no
-    /// kernel runs between.
-    fn write_control(&self) {
-        self.memory.buffers.control.write(self.gpu, 0, bytemuck::cast_slice(&[self.params]));
-        self.memory.buffers.control.write(self.gpu, PARAM_WORDS, bytemuck::cast_slice(&[self.counters]));
-    }
-
     fn workgroups(&self) -> u32 {
         let max = self.settings.workgroups.min(self.gpu.max_workgroups());
         workgroups(self.params.blocks.saturating_mul(BLOCK)).min(max)
-    }
-
-    fn record_flips(&mut self, recorder: &mut Recorder<'_>) {
-        let workgroups = self.workgroups();
-        let (flip, bound) = (&self.kernels.stages.flip, &self.memory.bound.flip);
-        let exact_every = self.iterations.exact_every();
-        let compacts = self.settings.slots_per_active > 0;
-        self.iterations.record(
-            recorder,
-            self.params.bid_bits,
-            |recorder, iterations| {
-                let plan = FlipPlan { iterations, exact_every, compacts };
-                flip.record(recorder, bound, plan, workgroups);
-            },
-            |recorder| flip.record_clear_votes(recorder, bound, workgroups),
-        );
     }
 
     /// Adds slots to the tail.
@@ -350,12 +395,11 @@ where
         let stages = &self.kernels.stages;
         self.memory = self.memory.with_blocks(stages, self.gpu, recorder, blocks)?;
         (self.params.blocks_before, self.params.blocks) = (before, blocks);
-        self.params.bid_bits = bid_bits(blocks);
+        self.params.compact_from = compact_from(blocks, &self.settings);
+        self.rounds_before_growth = self.rounds_submitted;
+        self.memory.buffers.control.write(self.gpu, 0, bytemuck::cast_slice(&[self.params]));
         let (bound, workgroups) = (&self.memory.bound, self.workgroups());
         stages.insert.record_fill_free(recorder, &bound.insert, "grow", workgroups);
-        // Bids have another form now.
-        stages.flip.record_clear_votes(recorder, &bound.flip, workgroups);
-        self.iterations.restart();
         Ok(())
     }
 
@@ -363,23 +407,28 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Run::round`].
+    /// Those of [`Run::advance`].
     pub async fn finish(mut self) -> Result<Phase1Output<D>, Error> {
         let gpu = self.gpu;
-        let (blocks, workgroups) = (self.params.blocks, self.workgroups());
+        let workgroups = self.workgroups();
         let profiler = self.profiler.take();
         let (submission, counters, finite) = gpu
             .with_error_scope("the end of Phase 1", || {
                 let mut recorder = Recorder::new(gpu, profiler);
                 let (finish, bound) = (&self.kernels.stages.finish, &self.memory.bound.finish);
-                Dimension::<D>::record(finish, gpu, &mut recorder, bound, blocks, workgroups);
+                finish.record(&mut recorder, bound, workgroups);
                 self.stats.dispatches += recorder.dispatches();
+                self.stats.submits += 1;
                 let encoder = recorder.encoder();
-                let finite = self.kernels.readback.copy(gpu, encoder, Dimension::<D>::sums(bound), GROUPS, 1);
+                let finite = self.kernels.readback.copy(gpu, encoder, bound.sums(), GROUPS, 1);
                 let counters = self.read_counters(encoder);
                 Ok((recorder.submit(gpu), counters, finite))
             })
             .await?;
+        // What was submitted beyond the end had nothing to do, and came before.
+        for Batch { submission, counters, .. } in std::mem::take(&mut self.submitted) {
+            self.kernels.readback.receive(gpu, &submission, counters).await?;
+        }
         let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
         let finite = self.kernels.readback.receive(gpu, &submission, finite).await?[0] as usize;
         let counters = counters_in(&words);
@@ -387,12 +436,10 @@ where
 
         let Run { kernels, points, memory, read_before, mut stats, mut clock, .. } = self;
         let readback = &mut kernels.readback;
-        let (result, merged_into) =
-            Dimension::<D>::read_result(gpu, readback, &memory.buffers, &memory.bound.finish, finite, &counters)
-                .await?;
+        let (result, merged_into) = memory.bound.finish.read(gpu, readback, &memory.buffers, finite, &counters).await?;
         stats.readback_time = clock.lap();
         stats.counters = counters;
-        stats.submits += 2;
+        stats.submits += BoundFinish::<D>::SUBMITS;
         stats.readbacks = readback.count() - read_before;
         stats.bytes = memory.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
         kernels.kept = Kept { points, memory: Some(memory) };
@@ -409,7 +456,7 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Run::new`], [`Run::round`] and [`Run::finish`].
+    /// Those of [`Run::new`], [`Run::advance`] and [`Run::finish`].
     pub async fn run(
         &mut self,
         gpu: &Gpu,
@@ -418,7 +465,7 @@ where
         profiler: Option<&mut Profiler>,
     ) -> Result<Phase1Output<D>, Error> {
         let mut run = Run::new(self, gpu, input, *settings, profiler).await?;
-        while run.round().await? {}
+        while run.advance().await? {}
         run.finish().await
     }
 }

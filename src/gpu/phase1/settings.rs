@@ -1,10 +1,8 @@
-//! How Phase 1 works.
+//! Settings for Phase 1.
 
 use crate::{
-    gpu::{
-        dim::{Dim, Dimension},
-        layout::Pick,
-    },
+    dimension::Dimension,
+    gpu::{dim::Dim, layout::Pick},
     options::Winding,
 };
 
@@ -32,9 +30,18 @@ pub struct Settings<const D: usize> {
     /// them, the next ones are found by looking at all slots; otherwise the flips list them (§4.2).
     /// With 0, they always do.
     pub slots_per_active: u32,
+    /// 3D only: with at most so many active tetrahedra, flip iterations are done in one workgroup,
+    /// without a dispatch per pass.
+    pub few: u32,
+    /// The rounds of insertion and flips that are submitted together, at most
+    /// [`LOGGED`](crate::gpu::layout::LOGGED); the first ones, which take hardly any time, in one
+    /// batch if there are several.
+    pub rounds: u32,
+    /// The batches of rounds that are submitted before the counters of the first one are read.
+    pub batches: u32,
     /// The flip iterations of a run after which the GPU engine leaves it to the CPU engine. Most
-    /// inputs take some hundred, a million points or not. More are a sign that the flips wait for
-    /// each other; then the CPU engine is sooner done.
+    /// inputs take a few hundred, whatever their size. More are a sign that the flips wait for each
+    /// other; then the CPU engine finishes sooner.
     pub max_iterations: u32,
     /// Whether points are ordered along the Hilbert curve, and so are the slots of their simplices
     /// in memory (§4.3, Figure 12).
@@ -52,10 +59,13 @@ where
             pick: Pick::Circumcenter,
             insert_all: false,
             min_active: 1024,
-            workgroups: 1024,
+            workgroups: 512,
             points_per_tail_block: 16,
             history: Dimension::<D>::HISTORY,
             slots_per_active: 0,
+            few: 96,
+            rounds: 1,
+            batches: 2,
             max_iterations: Dimension::<D>::MAX_ITERATIONS,
             sort: true,
             winding: Winding::CounterClockwise,

@@ -1,13 +1,13 @@
 //! The stages of Phase 1.
 
 use crate::{
-    Error,
+    dimension::Dimension,
+    error::Error,
     gpu::{
         Gpu,
-        dim::Dimension,
         phase1::{
             buffers::Buffers,
-            finish::Finish,
+            finish::{BoundFinish, Finish, FinishStage},
             flip::{BoundFlip, Flip},
             insert::{BoundInsert, Insert},
             relocate::{BoundRelocate, Relocate},
@@ -18,14 +18,11 @@ use crate::{
 
 /// The kernels of all stages.
 #[derive(Debug)]
-pub(crate) struct Stages<const D: usize>
-where
-    Dimension<D>: Finish<D>,
-{
+pub(crate) struct Stages {
     pub(crate) insert: Insert,
     pub(crate) flip: Flip,
     pub(crate) relocate: Relocate,
-    pub(crate) finish: <Dimension<D> as Finish<D>>::Kernels,
+    pub(crate) finish: FinishStage,
 }
 
 /// Their bind groups.
@@ -37,20 +34,20 @@ where
     pub(crate) insert: BoundInsert,
     pub(crate) flip: BoundFlip,
     pub(crate) relocate: BoundRelocate,
-    pub(crate) finish: <Dimension<D> as Finish<D>>::Bound,
+    pub(crate) finish: BoundFinish<D>,
 }
 
-impl<const D: usize> Stages<D>
-where
-    Dimension<D>: Finish<D>,
-{
-    /// Compiles the kernels.
-    pub(crate) fn new(gpu: &Gpu, width: Width) -> Self {
+impl Stages {
+    /// Compiles the kernels of `D` dimensions.
+    pub(crate) fn new<const D: usize>(gpu: &Gpu, width: Width) -> Self
+    where
+        Dimension<D>: Finish<D>,
+    {
         Stages {
             insert: Insert::new::<D>(gpu, width),
             flip: Flip::new::<D>(gpu, width),
             relocate: Relocate::new::<D>(gpu, width),
-            finish: Dimension::<D>::compile(gpu, width),
+            finish: FinishStage::new::<D>(gpu, width),
         }
     }
 
@@ -58,13 +55,16 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Storage::new`](crate::gpu::Storage::new).
-    pub(crate) fn bind(&self, gpu: &Gpu, b: &Buffers<D>) -> Result<BoundStages<D>, Error> {
+    /// Returns the errors of [`Storage::new`](crate::gpu::Storage::new).
+    pub(crate) fn bind<const D: usize>(&self, gpu: &Gpu, b: &Buffers<D>) -> Result<BoundStages<D>, Error>
+    where
+        Dimension<D>: Finish<D>,
+    {
         Ok(BoundStages {
-            insert: self.insert.bind(gpu, b),
+            insert: self.insert.bind(gpu, b)?,
             flip: self.flip.bind(gpu, b),
-            relocate: self.relocate.bind(gpu, b)?,
-            finish: Dimension::<D>::bind(&self.finish, gpu, b)?,
+            relocate: self.relocate.bind(gpu, b),
+            finish: self.finish.bind(gpu, b)?,
         })
     }
 }
@@ -75,6 +75,6 @@ where
 {
     /// Returns the bytes that they take on the device beside the buffers that they share.
     pub(crate) fn bytes(&self) -> u64 {
-        self.relocate.bytes() + Dimension::<D>::bound_bytes(&self.finish)
+        self.insert.bytes()
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
 use crate::{
-    Error,
+    error::Error,
     gpu::{Gpu, Kernel, Recorder, Storage, shader, workgroups},
     input::lattice::Width,
 };
@@ -33,7 +33,7 @@ impl Compact {
     ///
     /// # Errors
     ///
-    /// Those of [`Storage::new`].
+    /// Returns the errors of [`Storage::new`].
     pub fn bind(
         &self,
         gpu: &Gpu,
@@ -61,8 +61,8 @@ impl Compact {
 }
 
 impl BoundCompact {
-    /// The scan's sums; entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS) is the number of
-    /// entries kept.
+    /// Returns the scan's sums; entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS) is the
+    /// number of entries kept.
     pub fn sums(&self) -> &Storage<u32> {
         self.scan.sums()
     }

@@ -4,7 +4,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use crate::{
-    Error,
+    error::Error,
     gpu::{
         Gpu, Kernel, Recorder, Storage,
         shader::{self, assert_layout, constants::primitives as constants},
@@ -57,7 +57,7 @@ impl Scan {
     ///
     /// # Errors
     ///
-    /// Those of [`Storage::new`].
+    /// Returns the errors of [`Storage::new`].
     pub fn bind(
         &self,
         gpu: &Gpu,

@@ -7,7 +7,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use crate::{
-    Error,
+    error::Error,
     gpu::{
         Gpu, Kernel, MAX_WORKGROUPS, Recorder, Storage,
         shader::{self, assert_layout, constants::primitives as constants},
@@ -63,7 +63,7 @@ impl Sort {
     ///
     /// # Errors
     ///
-    /// Those of [`Storage::new`].
+    /// Returns the errors of [`Storage::new`].
     pub fn bind(
         &self,
         gpu: &Gpu,

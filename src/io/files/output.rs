@@ -1,10 +1,10 @@
-//! Outputs: what they would replace is looked at first, and they are written atomically.
+//! Outputs: what they would replace is checked first, and they are written atomically.
 
 use super::{
     FileError, by_extension,
     temporary::{self, Prepared, prepare, publish},
 };
-use crate::Points;
+use crate::input::points::Points;
 use crate::io::{
     Mesh, MeshFormat, PointFormat, SurfaceFormat,
     surface::MARK,
@@ -150,7 +150,7 @@ impl PointOutput {
     }
 }
 
-/// Checks that a file can be written at `path`, and is none of `inputs` by whatever name.
+/// Checks that a file can be written at `path`, and that it is none of `inputs` under another name.
 fn check(path: &Path, inputs: &[&Path]) -> Result<(), FileError> {
     let in_file = |source| FileError::Write { path: path.into(), source };
     if path.is_dir() {

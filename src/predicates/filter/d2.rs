@@ -23,7 +23,7 @@ impl PredicateContext2<'_> {
         self.orient2d_of(vertices, minus(pa, pc), minus(pb, pc))
     }
 
-    /// From the differences to the last vertex.
+    /// Returns the sign, from the differences to the last vertex.
     #[inline(always)]
     fn orient2d_of(&self, vertices: [u32; 3], u: [f64; 2], v: [f64; 2]) -> Sign {
         let det = u[0] * v[1] - u[1] * v[0];
@@ -83,7 +83,7 @@ impl PredicateContext2<'_> {
         self.incircle_of(vertices, [pa, pb, pc].map(|p| minus(p, pd)))
     }
 
-    /// From the differences to the last vertex.
+    /// Returns the sign, from the differences to the last vertex.
     #[inline(always)]
     fn incircle_of(&self, vertices: [u32; 4], [a, b, c]: [[f64; 2]; 3]) -> Sign {
         let minor = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];

@@ -1,9 +1,9 @@
 //! The 3D predicates.
 
-use crate::predicates::filter::{ERROR_BOUNDS, ExactStage, PredicateContext, UNDERFLOW, in_sphere_bound, minus};
+use crate::predicates::filter::{ERROR_BOUNDS, ExactStage, PredicateContext3, UNDERFLOW, in_sphere_bound, minus};
 use crate::predicates::{Sign, exact, integer, symbolic};
 
-impl PredicateContext<'_> {
+impl PredicateContext3<'_> {
     /// Returns the sign of det(b − a, c − a, d − a).
     #[inline]
     pub fn orient3d(&self, a: u32, b: u32, c: u32, d: u32) -> Sign {
@@ -22,7 +22,7 @@ impl PredicateContext<'_> {
         self.orient3d_of(vertices, minus(pa, pd), minus(pb, pd), minus(pc, pd))
     }
 
-    /// From the differences to the last vertex.
+    /// Returns the sign, from the differences to the last vertex.
     #[inline(always)]
     fn orient3d_of(&self, vertices: [u32; 4], u: [f64; 3], v: [f64; 3], w: [f64; 3]) -> Sign {
         // det(b − a, c − a, d − a) = −det(a − d, b − d, c − d).
@@ -85,7 +85,7 @@ impl PredicateContext<'_> {
         self.insphere_of(vertices, [pa, pb, pc, pd].map(|p| minus(p, pe)))
     }
 
-    /// From the differences to the last vertex.
+    /// Returns the sign, from the differences to the last vertex.
     #[inline(always)]
     fn insphere_of(&self, vertices: [u32; 5], [a, b, c, d]: [[f64; 3]; 4]) -> Sign {
         let det = insphere_determinant(a, b, c, d);
@@ -171,7 +171,7 @@ mod tests {
         let lattice = Lattice::fit(points.into());
         // An order that differs from the input's, for the ties.
         let indices: Vec<u32> = (0..points.len() as u32).rev().collect();
-        let vertices = PredicateContext::new(points.into(), &lattice, indices);
+        let vertices = PredicateContext3::new(points.into(), &lattice, indices);
         let p = |v: u32| points[vertices.input_index(v) as usize];
         let sign = exact::orient3d(p(0), p(1), p(2), p(3));
         prop_assert_eq!(vertices.orient3d(0, 1, 2, 3), sign);

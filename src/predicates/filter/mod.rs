@@ -5,8 +5,10 @@ mod d2;
 mod d3;
 
 use crate::{
-    Points,
-    input::lattice::{Lattice, Width},
+    input::{
+        lattice::{Lattice, Width},
+        points::Points,
+    },
     stats::ExactCounts,
 };
 use std::cell::Cell;
@@ -38,12 +40,14 @@ const UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
 
 /// Points in an order of the caller's choosing (*vertices*), with the predicates on them.
 ///
-/// The signs are those of the exact input coordinates; the symbolic ties are those of the input indices.
+/// The signs are those of the exact input coordinates; the symbolic ties are those of the input
+/// indices.
 ///
-/// Each predicate checks once whether coordinates are stored and then reads them itself, in text that the four predicates
-/// have in common but do not share: one function for all, which took the determinant as a closure, passed the coordinates
-/// through memory and made the insertion take 1.5 times as long.
-pub struct PredicateContext<'a, const D: usize = 3> {
+/// Each predicate checks once whether coordinates are stored and then reads them itself, in text
+/// that the four predicates have in common but do not share: one function for all, which took the
+/// determinant as a closure, passed the coordinates through memory and made the insertion take 1.5
+/// times as long.
+pub struct PredicateContext<'a, const D: usize> {
     input: Points<'a, D>,
     lattice: Lattice<D>,
     /// The input index of each vertex; empty if the vertices are the input points in their order.
@@ -61,6 +65,9 @@ pub struct PredicateContext<'a, const D: usize = 3> {
 
 /// 2D points in an order of the caller's choosing (*vertices*), with the predicates on them.
 pub type PredicateContext2<'a> = PredicateContext<'a, 2>;
+
+/// 3D points in an order of the caller's choosing (*vertices*), with the predicates on them.
+pub type PredicateContext3<'a> = PredicateContext<'a, 3>;
 
 /// The exact stage, which evaluates the predicates that the filters leave open.
 enum ExactStage<const D: usize> {
@@ -194,7 +201,7 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
         self.counts.get()
     }
 
-    /// The coordinates of vertex `v`, stored or not.
+    /// Returns the coordinates of vertex `v`, stored or not.
     fn coordinate(&self, v: u32) -> [f64; D] {
         self.coordinates.get(v as usize).copied().unwrap_or_else(|| self.computed(v))
     }
@@ -214,7 +221,7 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
         }
     }
 
-    /// The lattice coordinates of these vertices, if none of them is rounded.
+    /// Returns the lattice coordinates of these vertices, if none of them is rounded.
     fn wide<const N: usize>(
         &self,
         positions: &[[i64; D]],

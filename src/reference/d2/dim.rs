@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use crate::d2::gpu::layout::{EdgeFlip, FLIP_22, PLANE_BLOCK};
-use crate::gpu::dim::Dimension;
+use crate::d2::gpu::layout::{EdgeFlip, FLIP_22, SLOTS_PER_POINT};
+use crate::dimension::Dimension;
 use crate::gpu::layout::Counters;
 use crate::input::lattice::Width;
 use crate::predicates::Sign;
@@ -11,12 +11,12 @@ use crate::predicates::Sign;
 use crate::reference::State;
 use crate::reference::d2::predicates::{self, Vertex};
 use crate::reference::d2::{flip_check, flip_commit, pick};
-use crate::reference::dim::{Kernels, OwnState, ReferenceDim};
+use crate::reference::dim::{Kernels, ReferenceDim};
 
 impl ReferenceDim<2> for Dimension<2> {
-    type OwnState = NoOwnState;
+    type OwnState = ();
 
-    const SLOTS_PER_POINT: u32 = PLANE_BLOCK;
+    const SLOTS_PER_POINT: u32 = SLOTS_PER_POINT;
     const EULER_CHARACTERISTIC: usize = 2;
 
     fn facet(k: usize) -> &'static [usize] {
@@ -60,7 +60,7 @@ impl ReferenceDim<2> for Dimension<2> {
         (&[0], 1..3)
     }
 
-    fn count_flip(_own: &mut NoOwnState, counters: &mut Counters, _outcome: u32) {
+    fn count_flip(_own: &mut (), counters: &mut Counters, _outcome: u32) {
         counters.flips_22 += 1;
     }
 }
@@ -81,18 +81,4 @@ impl Kernels<2> for Dimension<2> {
     fn finish(_state: &mut State<2>) {}
 
     fn validate_own(_state: &State<2>) {}
-}
-
-/// The buffers that only 2D has: none that the references share between kernels.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct NoOwnState;
-
-impl OwnState for NoOwnState {
-    fn new(_points: usize, _blocks: u32) -> Self {
-        NoOwnState
-    }
-
-    fn grow(&mut self, _blocks: u32) {}
-
-    fn occupy(&mut self, _vertex: u32, _slots: u32) {}
 }

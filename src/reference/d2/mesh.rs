@@ -18,12 +18,12 @@ pub fn mesh_mark(state: &State<2>) -> Vec<u32> {
     (0..state.simplices.len() as u32).map(|t| u32::from(kept(t))).collect()
 }
 
-/// Writes the mesh. `offsets` is the exclusive scan of the marks. One invocation per slot but the
-/// last.
-pub fn mesh_compact(state: &State<2>, offsets: &[u32]) -> Mesh {
+/// Writes the mesh. `numbers` are the exclusive prefix sums of the marks. One invocation per slot
+/// but the last.
+pub fn mesh_compact(state: &State<2>, numbers: &[u32]) -> Mesh {
     let mut mesh = Mesh::default();
-    let is_kept = |t: u32| offsets[t as usize + 1] != offsets[t as usize];
-    for t in (0..offsets.len() as u32 - 1).filter(|&t| is_kept(t)) {
+    let is_kept = |t: u32| numbers[t as usize + 1] != numbers[t as usize];
+    for t in (0..numbers.len() as u32 - 1).filter(|&t| is_kept(t)) {
         let [a, b, c] = state.corners(t).map(|v| state.points[v as usize].index);
         // Edges are numbered by the vertex opposite, half-edges by the vertex where they begin.
         let (triangle, edge_of_halfedge, halfedge_of_edge) = match state.params.clockwise {
@@ -34,7 +34,7 @@ pub fn mesh_compact(state: &State<2>, offsets: &[u32]) -> Mesh {
         mesh.halfedges.push([0, 1, 2].map(|k| {
             let (u, edge) = state.across(t, edge_of_halfedge[k]);
             if is_kept(u) {
-                return (3 * offsets[u as usize]) as i32 + halfedge_of_edge[edge];
+                return (3 * numbers[u as usize]) as i32 + halfedge_of_edge[edge];
             }
             mesh.hull.push([triangle[k], triangle[(k + 1) % 3]]);
             NONE

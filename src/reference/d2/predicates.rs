@@ -3,6 +3,7 @@
 use num_bigint::BigInt;
 
 use crate::predicates::Sign;
+use crate::reference::ties::{by_index, sign_of};
 
 /// A lattice point with its input index.
 pub type Vertex = crate::reference::Vertex<2>;
@@ -10,17 +11,10 @@ pub type Vertex = crate::reference::Vertex<2>;
 /// The sets of coordinates to lower: 2·rank + (y: 0, x: 1) is the bit of one coordinate.
 const PERTURBATIONS: [u32; 5] = [0, 1, 2, 4, 6];
 
-/// Returns the places of the vertices in the order of their indices.
-fn by_index<const N: usize>(vertices: [Vertex; N]) -> [usize; N] {
-    let mut order: [usize; N] = std::array::from_fn(|i| i);
-    order.sort_unstable_by_key(|&i| vertices[i].index);
-    order
-}
-
 /// Returns the positions with the coordinates in `set` lowered.
 fn lowered<const N: usize>(vertices: [Vertex; N], set: u32) -> [[i64; 2]; N] {
     let mut positions = vertices.map(|v| v.position);
-    for (rank, i) in by_index(vertices).into_iter().enumerate() {
+    for (rank, i) in by_index(&vertices).into_iter().enumerate() {
         let bits = set >> (2 * rank);
         positions[i][0] -= i64::from(bits >> 1 & 1);
         positions[i][1] -= i64::from(bits & 1);
@@ -56,17 +50,13 @@ pub fn incircle(vertices: [Vertex; 4]) -> Sign {
         let [x, y] = minus(p, positions[3]);
         i128::from(x) * i128::from(x) + i128::from(y) * i128::from(y)
     });
-    let order = by_index(vertices);
+    let order = by_index(&vertices);
     let sign_in = |set: u32| {
         let [a, b, c, d] = lowered(vertices, set);
         let [p, q, r] = [minus(a, d), minus(b, d), minus(c, d)];
         let minors = [cross(q, r), cross(r, p), cross(p, q)];
         let volume: BigInt = (0..3).map(|k| BigInt::from(heights[k]) * BigInt::from(minors[k])).sum();
-        let by_volume = match volume.sign() {
-            num_bigint::Sign::Minus => -1,
-            num_bigint::Sign::NoSign => 0,
-            num_bigint::Sign::Plus => 1,
-        };
+        let by_volume = sign_of(&volume);
         let coefficients = [minors[0], minors[1], minors[2], -minors.iter().sum::<i128>()];
         let by_height = order.into_iter().map(|k| coefficients[k].signum() as Sign);
         [by_volume].into_iter().chain(by_height).find(|&sign| sign != 0)

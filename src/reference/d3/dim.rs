@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::d3::mesh::FACETS;
-use crate::gpu::dim::Dimension;
+use crate::dimension::Dimension;
 use crate::gpu::layout::{BLOCK, Counters, DONE, FLIP_23, FlipNode, SLOT_SHIFT};
 use crate::input::lattice::Width;
 use crate::predicates::Sign;
@@ -43,7 +43,7 @@ impl ReferenceDim<3> for Dimension<3> {
 
     /// Takes one or two orientations.
     fn descend(flip: &FlipNode, p: u32, orient: impl Fn([u32; 4]) -> Sign) -> (u32, u32) {
-        let [x0, x1, x2, d, e] = flip.vertices;
+        let FlipNode { ring: [x0, x1, x2], d, e, .. } = *flip;
         let beyond = |x: u32| orient([x, p, d, e]) > 0;
         let k = if flip.kind == FLIP_23 {
             match beyond(x0) {
@@ -107,7 +107,7 @@ impl Kernels<3> for Dimension<3> {
 }
 
 /// The buffers that only 3D has, in host memory.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct OwnState {
     /// The free slots of each block.
     pub free: Vec<u32>,

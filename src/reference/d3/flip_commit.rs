@@ -8,7 +8,7 @@ use crate::gpu::layout::{
 use crate::reference::State;
 use crate::reference::state::scramble;
 
-/// A flip, with what it changes. See [`FlipNode::vertices`] for the ring and the edge.
+/// A flip, with what it changes. See [`FlipNode`] for the ring and the edge.
 struct Flip {
     kind: u32,
     ring: [u32; 3],
@@ -36,8 +36,8 @@ pub(super) fn commit(state: &mut State<3>, i: usize) {
     };
     let tets = [flip.old[0], flip.old[1], third];
     let [x0, x1, x2] = flip.ring;
-    let vertices = [x0, x1, x2, flip.d, flip.e];
-    state.record(node, FlipNode { vertices, kind: flip.kind, tets, next: [NONE; 3] }, old);
+    let (ring, d, e) = ([x0, x1, x2], flip.d, flip.e);
+    state.record(node, FlipNode { ring, d, e, kind: flip.kind, tets, next: [NONE; 3] }, old);
     for (place, &t) in tets.iter().enumerate() {
         let check = match (flip.kind, place) {
             (FLIP_23, _) => 0b1100,

@@ -9,6 +9,7 @@ use crate::{
     d3::gpu::vertex::INFINITE,
     input::lattice::Width,
     predicates::{Sign, integer, symbolic},
+    reference::ties::{by_index, sign_of},
 };
 
 /// A lattice point with its input index, or the vertex at infinity.
@@ -31,8 +32,7 @@ fn lowered(position: [i64; 3], set: u32, rank: usize) -> [i64; 3] {
 /// Returns the places of the vertices in the order of their indices, and the sign of that
 /// permutation.
 fn ranks<const N: usize>(vertices: [Vertex; N]) -> ([usize; N], Sign) {
-    let mut order: [usize; N] = std::array::from_fn(|i| i);
-    order.sort_unstable_by_key(|&i| vertices[i].index);
+    let order = by_index(&vertices);
     let inversions = (0..N).flat_map(|i| (0..i).map(move |j| (i, j))).filter(|&(i, j)| order[j] > order[i]).count();
     (order, if inversions % 2 == 0 { 1 } else { -1 })
 }
@@ -105,9 +105,5 @@ fn lifted(positions: [[i64; 3]; 5], lowered: [[i64; 3]; 5]) -> Sign {
     };
     let value = &heights[0] * det(&b, &c, &d) - &heights[1] * det(&a, &c, &d) + &heights[2] * det(&a, &b, &d)
         - &heights[3] * det(&a, &b, &c);
-    match value.sign() {
-        num_bigint::Sign::Minus => -1,
-        num_bigint::Sign::NoSign => 0,
-        num_bigint::Sign::Plus => 1,
-    }
+    sign_of(&value)
 }

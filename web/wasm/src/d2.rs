@@ -2,7 +2,7 @@
 
 use gdel::{
     Backend, Mesh2, Triangulator,
-    internals::{Winding, triangulator::MIN_POINTS_2},
+    internals::{Winding, triangulator::MIN_POINTS_2D},
 };
 use js_sys::{Function, Int32Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
@@ -16,7 +16,7 @@ use crate::{
 /// Returns the number of points from which on the backend `auto` considers the GPU in 2D.
 #[wasm_bindgen]
 pub fn min_gpu_points_2d() -> u32 {
-    MIN_POINTS_2 as u32
+    MIN_POINTS_2D as u32
 }
 
 #[wasm_bindgen]
@@ -26,23 +26,24 @@ impl WasmTriangulator {
         let coordinates = Coordinates::new(&points)?;
         drop(points);
         let triangulator = self.for_run(backend, report).winding(Winding::Clockwise);
-        Ok(mesh2(triangulator.delaunay2d_async(coordinates.points()?).await?))
+        Ok(mesh2(triangulator.delaunay2d_async(coordinates.points()?).await?, true))
     }
 }
 
-/// Triangulates in 2D with the CPU backend, without returning to the event loop.
+/// Triangulates in 2D with the CPU backend, without returning to the event loop. Statistics are left
+/// out on request: for few points they take longer than the triangulation.
 #[wasm_bindgen]
-pub fn delaunay2d_blocking(points: JsValue) -> Result<JsValue, Thrown> {
+pub fn delaunay2d_blocking(points: JsValue, with_statistics: bool) -> Result<JsValue, Thrown> {
     let coordinates = Coordinates::new(&points)?;
     drop(points);
     let triangulator = Triangulator::new().backend(Backend::Cpu).winding(Winding::Clockwise);
-    Ok(mesh2(triangulator.delaunay2d(coordinates.points()?)?))
+    Ok(mesh2(triangulator.delaunay2d(coordinates.points()?)?, with_statistics))
 }
 
-fn mesh2(mesh: Mesh2) -> JsValue {
+fn mesh2(mesh: Mesh2, with_statistics: bool) -> JsValue {
     object([
         ("dimension", mesh.dimension.into()),
-        ("stats", statistics(&mesh.stats)),
+        ("stats", if with_statistics { statistics(&mesh.stats) } else { JsValue::NULL }),
         ("triangles", Uint32Array::new_from_slice(mesh.triangles.as_flattened()).into()),
         ("halfedges", Int32Array::new_from_slice(mesh.halfedges.as_flattened()).into()),
         ("hull", Uint32Array::new_from_slice(&mesh.hull).into()),

@@ -1,6 +1,6 @@
 //! 3D triangulation.
 
-use gdel::{Mesh3, internals::triangulator::MIN_POINTS, stats::Trace};
+use gdel::{Backend, Mesh3, Triangulator, internals::triangulator::MIN_POINTS_3D, stats::Trace};
 use js_sys::{Array, Function, Int32Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
@@ -31,7 +31,7 @@ impl Outputs {
 /// Returns the number of points from which on the backend `auto` considers the GPU in 3D.
 #[wasm_bindgen]
 pub fn min_gpu_points_3d() -> u32 {
-    MIN_POINTS as u32
+    MIN_POINTS_3D as u32
 }
 
 #[wasm_bindgen]
@@ -56,6 +56,15 @@ impl WasmTriangulator {
         let triangulator = self.for_run(backend, report).trace(outputs.trace);
         Ok(mesh3(triangulator.delaunay3d_async(coordinates.points()?).await?, outputs))
     }
+}
+
+/// Triangulates in 3D with the CPU backend, without returning to the event loop.
+#[wasm_bindgen]
+pub fn delaunay3d_blocking(points: JsValue, outputs: Outputs) -> Result<JsValue, Thrown> {
+    let coordinates = Coordinates::new(&points)?;
+    drop(points);
+    let triangulator = Triangulator::new().backend(Backend::Cpu);
+    Ok(mesh3(triangulator.delaunay3d(coordinates.points()?)?, outputs))
 }
 
 /// Copies a mesh. Each array is freed as soon as it is copied: a mesh is large, and WebAssembly's

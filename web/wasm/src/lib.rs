@@ -22,7 +22,8 @@ use wasm_bindgen::prelude::wasm_bindgen;
 #[wasm_bindgen(start)]
 fn start() {
     std::panic::set_hook(Box::new(|panic| {
-        // The decoder of LAZ panics on broken data: the file is at fault, so the console stays empty.
+        // The decoder of LAZ panics on broken data: the file is at fault, so the console stays
+        // empty.
         #[cfg(feature = "tools")]
         if gdel::internals::io::panics_are_caught() {
             let broken = objects::error("BAD_FILE", "the compressed data is broken");

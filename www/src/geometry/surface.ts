@@ -10,7 +10,7 @@ export interface Boundary {
   shown: number;
 }
 
-/** Triangles ready for the graphics card: no two share vertices. */
+/** Triangles ready for the GPU: no two share vertices. */
 export interface Surface {
   /** Nine coordinates a triangle, counter-clockwise as seen from outside. */
   positions: Float32Array;

@@ -45,7 +45,7 @@ export function measureTriangles(points: ArrayLike<number>, triangles: Uint32Arr
   return { volume, circumradius, radiusRatio };
 }
 
-/** The given triangles as the graphics card wants them, counter-clockwise with y up. */
+/** The given triangles as the GPU needs them, counter-clockwise with y up. */
 export function flatSurface(
   { positions, triangles }: Triangulation,
   owners: Uint32Array,

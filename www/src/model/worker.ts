@@ -11,10 +11,11 @@ import { frameOf } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
 import { applyEdits, type Edit } from './edits';
 import { Live, type LiveFrame } from './live';
-import type { Drawing, DrawRequest, Model, Picked, Summary } from './model';
+import type { Drawing, DrawRequest, Picked, Summary } from './model';
 import { Model2d } from './model2d';
 import { Model3d } from './model3d';
 import { type Format, type SavedFile, save } from './save';
+import { Shown } from './shown';
 import { type Dimension, load, type Source } from './source';
 
 export type Progress = (progress: { phase: string; fraction: number }) => void;
@@ -34,8 +35,7 @@ class ModelWorker {
   /** The 2D points before any change by hand. */
   private start: Float32Array | Float64Array = new Float64Array();
   private live: Live | null = null;
-  /** What the page shows: the mesh, or the last frame of the live mode. */
-  private shown: Model | null = null;
+  private readonly shown = new Shown();
   private abort = new AbortController();
 
   /** Loads the points and triangulates them. The old mesh stays until the new one is ready. */
@@ -75,7 +75,8 @@ class ModelWorker {
         options,
         this.current.frame,
       );
-      this.model = this.shown = model;
+      this.model = model;
+      this.shown.mesh(model);
       return {
         summary: model.summary(),
         drawing: model.draw(request),
@@ -130,12 +131,12 @@ class ModelWorker {
   }
 
   draw(request: DrawRequest): Drawing {
-    this.shown = this.current;
+    this.shown.mesh(this.current);
     return this.current.draw(request);
   }
 
   pick(ray: Ray, apart: number): Picked | null {
-    return this.shown?.pick(ray, apart) ?? null;
+    return this.shown.model?.pick(ray, apart) ?? null;
   }
 
   /** The points as drawn. */
@@ -172,23 +173,19 @@ class ModelWorker {
   }
 
   /** Moves the points of the live mode to a time in seconds, and triangulates them. */
-  async liveFrame(
+  liveFrame(
     dimension: Dimension,
     count: number,
     backend: Backend,
     seconds: number,
     request: DrawRequest,
   ): Promise<LiveFrame> {
-    if (this.live?.dimension !== dimension || this.live.count !== count)
-      this.live = await Live.make(dimension, count);
-    const { model, frame } = await this.live.frame(
-      await this.triangulator,
-      backend,
-      seconds,
-      request,
-    );
-    this.shown = model;
-    return frame;
+    const makeFrame = async () => {
+      if (this.live?.dimension !== dimension || this.live.count !== count)
+        this.live = await Live.make(dimension, count);
+      return this.live.frame(await this.triangulator, backend, seconds, request);
+    };
+    return this.shown.frame(makeFrame());
   }
 
   private begin(): AbortSignal {

@@ -58,8 +58,8 @@ pub fn verify2d(points: &JsValue, mesh: &JsValue) -> Result<JsValue, Thrown> {
     view.hull = mesh.hull.as_ref().map(|hull| hull.as_flattened());
     view.duplicate_of = mesh.duplicate_of.as_deref();
     view.dimension = mesh.dimension;
-    // Delaunator's triangles are counter-clockwise where y points down. Without triangles, `hull` is
-    // the collinear points in order, which has no orientation.
+    // Delaunator's triangles are counter-clockwise where y points down. Without triangles, `hull`
+    // is the collinear points in order, which has no orientation.
     if !mesh.simplices.is_empty() {
         coordinates.flip_y();
     }

@@ -1,8 +1,8 @@
 //! Files, verification and synthetic points in 3D.
 
 use gdel::{
-    Mesh3, MeshView,
-    internals::d3::generate::{Distribution, generate},
+    Mesh3, MeshView3,
+    internals::d3::generate::{Distribution3, generate3d as generate},
     verify3d as verify,
 };
 use js_sys::Float64Array;
@@ -20,7 +20,7 @@ use crate::{
 /// Returns `count` points of a distribution, interleaved.
 #[wasm_bindgen]
 pub fn generate3d(kind: &str, count: u32, seed: u64) -> Result<Float64Array, Thrown> {
-    generated(&Distribution::ALL, Distribution::name, generate, kind, count, seed)
+    generated(&Distribution3::ALL, Distribution3::name, generate, kind, count, seed)
 }
 
 fn caller_mesh(mesh: &JsValue) -> Result<CallerMesh<4, 3>, Thrown> {
@@ -48,7 +48,7 @@ pub fn write3d(points: &JsValue, mesh: &JsValue, format: &str) -> Result<JsValue
 pub fn verify3d(points: &JsValue, mesh: &JsValue) -> Result<JsValue, Thrown> {
     let coordinates = points_of_mesh::<3>(points)?;
     let mesh = caller_mesh(mesh)?;
-    let mut view = MeshView::of_tetrahedra(&mesh.simplices);
+    let mut view = MeshView3::of_tetrahedra(&mesh.simplices);
     view.neighbors = mesh.neighbors.as_deref();
     view.hull = mesh.hull.as_deref();
     view.duplicate_of = mesh.duplicate_of.as_deref();

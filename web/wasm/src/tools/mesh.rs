@@ -43,7 +43,7 @@ impl<const N: usize, const H: usize> CallerMesh<N, H> {
         })
     }
 
-    /// Fails unless all vertices are among the points, which the writers rely on.
+    /// Checks that all vertices are among the points, which the writers rely on.
     pub(super) fn check_vertices<const D: usize>(&self, points: Points<'_, D>) -> Result<(), Thrown> {
         let mut vertices = self.simplices.as_flattened().iter().chain(self.hull.iter().flatten().flatten());
         match vertices.find(|&&v| v as usize >= points.len()) {

@@ -97,8 +97,8 @@ fn file(
     Ok((extension, Uint8Array::new_from_slice(&bytes).into()))
 }
 
-/// Returns a mesh as files of a format: `{ extension: bytes }`. The format `triple` is the three text
-/// files of TetGen or Triangle.
+/// Returns a mesh as files of a format: `{ extension: bytes }`. The format `triple` is the three
+/// text files of TetGen or Triangle.
 fn files<M: Mesh<D, N>, const D: usize, const N: usize>(
     points: Points<'_, D>,
     mesh: &M,

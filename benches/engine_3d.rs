@@ -3,13 +3,8 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gdel::{
-    internals::{
-        Options,
-        d3::{
-            cpu,
-            generate::{Distribution, generate},
-        },
-    },
+    Backend, Triangulator,
+    internals::d3::generate::{Distribution3, generate3d},
     verify3d,
 };
 
@@ -18,18 +13,19 @@ fn full_grid(side: u32) -> Vec<[f64; 3]> {
 }
 
 fn engine(c: &mut Criterion) {
-    let mut group = c.benchmark_group("cpu");
+    let mut group = c.benchmark_group("cpu, 3D");
     group.sample_size(10);
+    let triangulator = Triangulator::new().backend(Backend::Cpu);
     let inputs = [
-        ("uniform", generate(Distribution::Uniform, 10_000, 1)),
-        ("uniform", generate(Distribution::Uniform, 100_000, 1)),
-        ("sphere", generate(Distribution::Sphere, 100_000, 1)),
+        ("uniform", generate3d(Distribution3::Uniform, 10_000, 1)),
+        ("uniform", generate3d(Distribution3::Uniform, 100_000, 1)),
+        ("sphere", generate3d(Distribution3::Sphere, 100_000, 1)),
         ("grid", full_grid(46)),
     ];
     for (name, points) in inputs {
-        let triangulate = || cpu::delaunay3d((&points).into(), &Options::default()).expect("finite points");
+        let triangulate = || triangulator.delaunay3d(&points).expect("finite points");
         let report = verify3d(&points, &triangulate()).expect("finite points");
-        assert!(report.passed(), "{name}: {report:?}");
+        assert!(report.passed(), "{name}: {report}");
         group.throughput(Throughput::Elements(points.len() as u64));
         group.bench_function(BenchmarkId::new(name, points.len()), |b| {
             b.iter_with_large_drop(triangulate);

@@ -8,8 +8,8 @@ use gdel::{
     verify2d,
 };
 
-fn plane(c: &mut Criterion) {
-    let mut group = c.benchmark_group("plane");
+fn engine(c: &mut Criterion) {
+    let mut group = c.benchmark_group("cpu, 2D");
     group.sample_size(10);
     let triangulator = Triangulator::new().backend(Backend::Cpu);
     for distribution in Distribution2::ALL {
@@ -24,5 +24,5 @@ fn plane(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, plane);
+criterion_group!(benches, engine);
 criterion_main!(benches);

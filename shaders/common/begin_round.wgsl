@@ -1,0 +1,35 @@
+// Begins an insertion round: what the kernels of the round have to know of what the last one left.
+// One invocation.
+//!include common/layout
+//!include primitives/scan
+@group(0) @binding(0) var<storage, read_write> control: Control;
+// Of the scan that compacts the list of waiting points.
+@group(0) @binding(1) var<storage, read_write> scan: ScanParams;
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(global_invocation_id) id: vec3u) {
+    if id.x != 0 {
+        return;
+    }
+    let inserted = atomicLoad(&control.inserted);
+    let waiting = control.infinite - inserted - control.merged;
+    let unchecked = atomicLoad(&control.active_len[control.iteration & 1]);
+    let flips = atomicLoad(&control.flips_23) + atomicLoad(&control.flips_32) + atomicLoad(&control.flips_22);
+    control.log[control.round % LOGGED] = array(inserted, unchecked, flips, control.iterations, control.few_done);
+    control.round += 1;
+    control.first_node = atomicLoad(&control.next_node);
+    // In a small triangulation every flip that waits costs failed vertices in the end.
+    control.min_active = select(min(control.max_min_active, inserted >> 10), NONE, control.insert_all != 0);
+    if waiting == 0 {
+        control.min_active = 0;
+    }
+    atomicStore(&control.overflow, 0u);
+    // Compacting the list costs about as much as walking it a few times.
+    control.entries_before = 0;
+    if waiting < control.entries / 4 * 3 {
+        control.entries_before = control.entries;
+        control.entries = waiting;
+        control.waiting_half ^= 1;
+    }
+    scan.count = control.entries_before;
+}

@@ -1,0 +1,103 @@
+// The third pass of a flip iteration: joins the simplices of the flips to those around them, and
+// lists the simplices to check next.
+//
+// An outer neighbour that did not change gets the new neighbour; one that did has left a message,
+// which is followed. So each facet is written once.
+//
+// A workgroup first collects the flips among its entries and then shares out their outer facets:
+// each is a chain of loads that depend on each other, and one invocation per flip would do them one
+// after the other.
+//
+// Expects: control, neighbors, status, actives, messages.
+//!include common/bids
+//!include {dim}/flip_link
+
+var<workgroup> wanted: atomic<u32>;
+var<workgroup> given: u32;
+// The flips of the entries at hand, by the simplices that they made.
+var<workgroup> done: array<Changed, WORKGROUP>;
+var<workgroup> done_len: atomic<u32>;
+var<workgroup> done_here: u32;
+// Flips by their kind.
+var<workgroup> flips: array<atomic<u32>, 4>;
+
+// The slots to check next: those of a flip, or one that no flip changed.
+struct Changed {
+    count: u32,
+    slots: vec3u,
+}
+
+fn join(t: u32, face: u32, mark: u32) {
+    let across = neighbors[t][face];
+    let u = across >> 2;
+    let theirs = across & 3;
+    if atomicLoad(&status[u].vote) == mark {
+        neighbors[t][face] = messages[u][theirs];
+    } else {
+        neighbors[u][theirs] = 4 * t + face;
+    }
+}
+
+// Links the flips of `entries` entries, of which workgroup `group` of `groups` takes its share, and
+// lists the simplices to check next if it is to.
+fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, lists: bool) {
+    if local < 4 {
+        atomicStore(&flips[local], 0u);
+    }
+    let list = half_of(bids.iteration);
+    let next = half_of(bids.iteration + 1);
+    let mark = changed_mark(bids);
+    for (var start = group * WORKGROUP; start < entries; start += groups * WORKGROUP) {
+        if local == 0 {
+            atomicStore(&wanted, 0u);
+            atomicStore(&done_len, 0u);
+        }
+        workgroupBarrier();
+        var changed = Changed(0, vec3u(0));
+        if start + local < entries {
+            let entry = actives[list + start + local];
+            if (entry.outcome & DONE) != 0 {
+                atomicAdd(&flips[entry.outcome & 3], 1u);
+                changed = changed_by(entry);
+                done[atomicAdd(&done_len, 1u)] = changed;
+            } else if atomicLoad(&status[entry.tet].vote) != mark {
+                // Otherwise the flip that changed this simplex lists it.
+                let flags = status[entry.tet].made.x;
+                status[entry.tet].made.x = (flags & ~0xffu) | (entry.outcome & 0xff);
+                changed = Changed(select(0u, 1u, (entry.outcome & CHECK) != 0), vec3u(entry.tet, 0, 0));
+            }
+        }
+        let count = select(0u, changed.count, lists);
+        var at = atomicAdd(&wanted, count);
+        workgroupBarrier();
+        if local == 0 {
+            given = atomicAdd(&control.active_len[(bids.iteration + 1) & 1], atomicLoad(&wanted));
+            done_here = atomicLoad(&done_len);
+        }
+        at += workgroupUniformLoad(&given) + next;
+        if count > 0 {
+            actives[at] = Active(changed.slots.x, 0);
+        }
+        if count > 1 {
+            actives[at + 1] = Active(changed.slots.y, 0);
+        }
+        if count > 2 {
+            actives[at + 2] = Active(changed.slots.z, 0);
+        }
+        let facets = OUTER_FACETS * workgroupUniformLoad(&done_here);
+        for (var j = local; j < facets; j += WORKGROUP) {
+            let flip = j / OUTER_FACETS;
+            let outer = outer_facet(j % OUTER_FACETS, done[flip].count);
+            join(done[flip].slots[outer.x], outer.y, mark);
+        }
+        workgroupBarrier();
+    }
+    workgroupBarrier();
+    if local == 0 && entries != 0 {
+        add_flips();
+        if group == 0 {
+            control.iteration = bids.iteration + 1;
+            control.bid_base = next_bid_base(bids);
+        }
+    }
+}

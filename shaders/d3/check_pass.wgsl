@@ -1,0 +1,40 @@
+// The first pass of a flip iteration: checks the facets of each active tetrahedron as far as the
+// filter decides, and lists the undecided entries. Where they are not decided then, they stay
+// active.
+//
+// Expects: control, simplices, neighbors, status, actives, messages; orient and conflict.
+//!include d3/check_facets
+
+var<workgroup> undecided_here: atomic<u32>;
+var<workgroup> first_undecided: u32;
+
+// Checks `entries` entries, of which workgroup `group` of `groups` takes its share.
+fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
+    let list = half_of(bids.iteration);
+    let lanes = sharing(entries, groups);
+    let step = groups * WORKGROUP / lanes;
+    for (var start = group * WORKGROUP / lanes; start < entries; start += step) {
+        if local == 0 {
+            atomicStore(&undecided_here, 0u);
+        }
+        workgroupBarrier();
+        let i = start + local / lanes;
+        var place = NONE;
+        let decided = check_facets(i < entries, i, list + i, bids, local, lanes);
+        if !decided && local % lanes == 0 {
+            place = atomicAdd(&undecided_here, 1u);
+        }
+        workgroupBarrier();
+        if local == 0 && atomicLoad(&undecided_here) != 0 {
+            first_undecided = atomicAdd(&control.undecided, atomicLoad(&undecided_here));
+        }
+        workgroupBarrier();
+        if place != NONE {
+            messages[first_undecided + place].x = i;
+        }
+    }
+    if local == 0 && group == 0 && entries != 0 {
+        control.iterations += 1;
+        control.visits += entries;
+    }
+}

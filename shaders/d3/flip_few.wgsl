@@ -1,0 +1,78 @@
+// Carries out flip iterations in one workgroup while few tetrahedra are active, without a dispatch
+// per pass: no other workgroup touches the mesh, so that the barriers of a workgroup suffice.
+//
+// It ends when fewer are active than an iteration needs, when more are than one workgroup should
+// take, when slots or the history run out, or after `few_iterations`, because a dispatch must not
+// take long.
+//!include d3/simplex
+@group(0) @binding(0) var<storage, read_write> control: Control;
+@group(0) @binding(1) var<storage, read> vertices: array<VertexWords>;
+@group(0) @binding(2) var<storage, read_write> simplices: array<vec4u>;
+@group(0) @binding(3) var<storage, read_write> neighbors: array<vec4u>;
+@group(0) @binding(4) var<storage, read_write> status: array<OwnedStatus>;
+@group(0) @binding(5) var<storage, read_write> actives: array<Active>;
+@group(0) @binding(6) var<storage, read_write> messages: array<vec4u>;
+@group(0) @binding(7) var<storage, read_write> history: array<HistoryNode>;
+//!include d3/signs
+//!include d3/check_pass
+//!include d3/check_exact_pass
+//!include common/commit_pass
+//!include common/link_pass
+
+// What the filter leaves open is decided in every so many iterations, or when it leaves so large a
+// share of the entries open: an exact sign takes longer than all filters of an iteration.
+const EXACT_EVERY: u32 = 4;
+const EXACT_SHARE: u32 = 4;
+
+var<workgroup> entries_here: u32;
+var<workgroup> iteration_here: u32;
+var<workgroup> base_here: u32;
+var<workgroup> exact_due: bool;
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(local_invocation_index) local: u32) {
+    var turn = 0u;
+    loop {
+        turn += 1;
+        if local == 0 {
+            iteration_here = control.iteration;
+            base_here = control.bid_base;
+            let entries = entries_of(iteration_here, base_here, max(control.min_active, 1));
+            let ends = entries > control.few_limit || turn > control.few_iterations || atomicLoad(&control.overflow) != 0;
+            entries_here = select(entries, 0u, ends);
+        }
+        let entries = workgroupUniformLoad(&entries_here);
+        if entries == 0 {
+            break;
+        }
+        let iteration = workgroupUniformLoad(&iteration_here);
+        let base = workgroupUniformLoad(&base_here);
+        let bids = bids_of(iteration, base, entries);
+
+        decides = false;
+        check_pass(0, 1, local, bids, entries);
+        passed();
+        if local == 0 {
+            let undecided = atomicLoad(&control.undecided);
+            exact_due = undecided != 0 && (turn % EXACT_EVERY == 0 || undecided * EXACT_SHARE >= entries);
+        }
+        if workgroupUniformLoad(&exact_due) {
+            decides = true;
+            check_exact_pass(0, 1, local, bids);
+        }
+        passed();
+        commit_pass(0, 1, local, bids, entries);
+        passed();
+        link_pass(0, 1, local, bids, entries, true);
+        passed();
+        if local == 0 {
+            control.few_done += 1;
+        }
+    }
+}
+
+// Waits until all invocations have ended a pass, and sees what they have written.
+fn passed() {
+    storageBarrier();
+    workgroupBarrier();
+}

@@ -1,0 +1,34 @@
+//! What the kernels of a round have to know of what the last one left.
+
+use crate::dimension::Dimension;
+use crate::gpu::layout::{LOGGED, NONE};
+
+use crate::reference::State;
+use crate::reference::dim::ReferenceDim;
+
+/// Begins an insertion round, and compacts the list of waiting points where that pays. One
+/// invocation, and those of the compaction.
+pub fn begin_round<const D: usize>(state: &mut State<D>)
+where
+    Dimension<D>: ReferenceDim<D>,
+{
+    let waiting = state.params.infinite - state.counters.inserted - state.counters.merged;
+    let progress = state.counters.progress();
+    let counters = &mut state.counters;
+    counters.log[counters.round as usize % LOGGED] = progress;
+    counters.round += 1;
+    counters.first_node = counters.next_node;
+    let few = state.params.max_min_active.min(counters.inserted >> 10);
+    counters.min_active = match (waiting, state.params.insert_all) {
+        (0, _) => 0,
+        (_, 0) => few,
+        _ => NONE,
+    };
+    counters.overflow = 0;
+    counters.entries_before = 0;
+    if waiting < counters.entries / 4 * 3 {
+        counters.entries_before = std::mem::replace(&mut counters.entries, waiting);
+        counters.waiting_half ^= 1;
+        state.waiting.retain(|entry| entry.tet != NONE);
+    }
+}

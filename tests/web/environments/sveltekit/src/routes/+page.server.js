@@ -1,0 +1,3 @@
+import { triangulated } from '../../triangulated.mjs';
+
+export const load = async () => ({ server: await triangulated() });

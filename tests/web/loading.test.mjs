@@ -1,0 +1,74 @@
+// How the package finds its files, and what it says where they are missing.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { rmSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { dist, project } from './package.mjs';
+
+const SCRIPT = (source) => `
+  import { delaunay2dSync, delaunay3d, generate, load2d } from '${source}';
+  const { stats } = await delaunay3d([[0, 0, 0]]).catch(({ code, message }) => ({ stats: { code, message } }));
+  const { thread, whyThread, whyInlined, code, message } = stats;
+  await load2d();
+  const sync = delaunay2dSync([[0, 0]]).stats.whyInlined;
+  const points = await generate('ball', 3);
+  console.log(JSON.stringify({ thread, whyThread, whyInlined, code, message, sync, points: points.length }));
+`;
+
+/** What the script says in a project whose package was changed. */
+function run(change, source = 'gdel-wasm') {
+  const folder = project({ 'main.mjs': SCRIPT(source) });
+  change(dist(folder));
+  const args = [...process.execArgv, 'main.mjs'];
+  return JSON.parse(execFileSync(process.execPath, args, { cwd: folder, encoding: 'utf8' }));
+}
+
+const EXPECTED = { thread: 'worker', whyThread: null, whyInlined: null, sync: null, points: 9 };
+
+test('where all files are, no copy is loaded', () => {
+  const withoutCopies = (folder) => {
+    for (const name of ['3d', '2d', 'tools', 'worker']) rmSync(join(folder, `inline-${name}.js`));
+  };
+  assert.deepEqual(run(withoutCopies), EXPECTED);
+});
+
+test('a wasm file that is missing is replaced by its copy, and the statistics say so', () => {
+  const found = run((folder) => rmSync(join(folder, 'gdel-3d.wasm')));
+  assert.match(found.whyInlined, /gdel-3d\.wasm/);
+  assert.deepEqual({ ...found, whyInlined: null }, EXPECTED);
+});
+
+test('a page of HTML in place of a wasm file is told apart', () => {
+  const found = run((folder) => writeFileSync(join(folder, 'gdel-3d.wasm'), '<!doctype html>'));
+  assert.match(found.whyInlined, /magic/);
+  assert.deepEqual({ ...found, whyInlined: null }, EXPECTED);
+});
+
+test('a worker that is missing is replaced by its copy, and the statistics say so', () => {
+  const found = run((folder) => rmSync(join(folder, 'worker.js')));
+  assert.match(found.whyInlined, /worker\.js/);
+  assert.deepEqual({ ...found, whyInlined: null }, EXPECTED);
+});
+
+test('gdel-wasm/inline needs no files', () => {
+  const found = run((folder) => {
+    for (const name of ['gdel-3d.wasm', 'gdel-2d.wasm', 'gdel-tools.wasm', 'worker.js'])
+      rmSync(join(folder, name));
+  }, 'gdel-wasm/inline');
+  const why = 'gdel-wasm/inline was imported';
+  assert.deepEqual(found, { ...EXPECTED, whyInlined: why, sync: why });
+});
+
+test('where file and copy are missing, the error names both and the remedy', () => {
+  const found = run((folder) => {
+    rmSync(join(folder, 'gdel-3d.wasm'));
+    rmSync(join(folder, 'inline-3d.js'));
+  });
+  assert.equal(found.code, 'LOAD_FAILED');
+  assert.match(
+    found.message,
+    /gdel-3d\.wasm.*inline-3d\.js.*Deploy the \.wasm files and the chunks/s,
+  );
+});

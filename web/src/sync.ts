@@ -1,0 +1,142 @@
+// Triangulations in the calling thread, done when the function returns.
+
+import { taskCode, wasm2d, wasm3d } from '#assets';
+import type { Coordinates } from './arrays.js';
+import { GdelError, type PlainError, toGdelError } from './errors.js';
+import { Mesh3 } from './mesh.js';
+import { Mesh2 } from './mesh2.js';
+import { compiled } from './modules.js';
+import { checkFunction, optionsOf, outputsOf } from './options.js';
+import { coordinatesNow } from './points.js';
+import type { Tasks } from './protocol.js';
+import type { AccessorOptions, Place, Points, SyncOptions } from './types.js';
+
+type Code = typeof import('./core.js');
+
+/** Something that is loaded once, for functions that cannot wait for it. */
+interface Loadable<T> {
+  readonly start: () => Promise<T>;
+  loading?: Promise<void>;
+  value?: T;
+}
+
+/** Loads something, unless it is or is being loaded. */
+function load<T>(it: Loadable<T>): Promise<void> {
+  it.loading ??= it.start().then(
+    (value) => {
+      it.value = value;
+    },
+    (error: unknown) => {
+      delete it.loading;
+      throw error;
+    },
+  );
+  return it.loading;
+}
+
+function loaded<T>({ value }: Loadable<T>, loader: string): T {
+  if (value) return value;
+  const message = `the WebAssembly module is not loaded yet: await ${loader}() first`;
+  throw new GdelError('NOT_LOADED', message);
+}
+
+/** What runs in the calling thread, and where that came from. */
+interface Blocking<F> {
+  triangulate: F;
+  place: Place;
+}
+
+async function blocking<F>(
+  asset: typeof wasm3d,
+  create: (code: Code, module: WebAssembly.Module) => F,
+): Promise<Blocking<F>> {
+  const [{ value, whyInlined }, code] = await Promise.all([compiled(asset), taskCode()]);
+  const whyThread = 'the function is synchronous';
+  return { triangulate: create(code, value), place: { thread: 'caller', whyThread, whyInlined } };
+}
+
+// Plain objects: bundlers leave them out where they are not used, unlike what a call returns.
+const loadable3d: Loadable<Blocking<ReturnType<Code['createBlocking3d']>>> = {
+  start: () => blocking(wasm3d, (code, module) => code.createBlocking3d(module)),
+};
+const loadable2d: Loadable<Blocking<ReturnType<Code['createBlocking2d']>>> = {
+  start: () => blocking(wasm2d, (code, module) => code.createBlocking2d(module)),
+};
+
+/** Loads what {@link delaunay3dSync} needs. Later calls do nothing. */
+export function load3d(): Promise<void> {
+  return load(loadable3d);
+}
+
+/** Loads what {@link delaunay2dSync} and `Delaunator` need. Later calls do nothing. */
+export function load2d(): Promise<void> {
+  return load(loadable2d);
+}
+
+/**
+ * Returns the same as `delaunay3d`, computed in the calling thread by the CPU backend. For small
+ * inputs, of which it saves the way to the worker and back, and for code that is in a worker anyway.
+ *
+ * ```ts
+ * await load3d(); // once
+ * const mesh = delaunay3dSync([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]);
+ * ```
+ *
+ * @throws {@link GdelError} `NOT_LOADED` before the promise of {@link load3d} is fulfilled, and what
+ * `delaunay3d` is rejected with.
+ */
+export function delaunay3dSync(points: Points, options?: SyncOptions): Mesh3;
+export function delaunay3dSync<T>(
+  points: ArrayLike<T>,
+  options: SyncOptions & Pick<AccessorOptions<T>, 'point'>,
+): Mesh3;
+export function delaunay3dSync(points: unknown, options?: SyncOptions): Mesh3 {
+  const { triangulate, place } = loaded(loadable3d, 'load3d');
+  const outputs = outputsOf(optionsOf(options));
+  const coordinates = coordinatesOf(points, 3, options);
+  const arrays = thrown(() => triangulate(coordinates, outputs));
+  return new Mesh3({ ...arrays, points: coordinates }, place, outputs);
+}
+
+/** Returns the same as `delaunay2d`; see {@link delaunay3dSync}. Needs {@link load2d}. */
+export function delaunay2dSync(points: Points): Mesh2;
+export function delaunay2dSync<T>(
+  points: ArrayLike<T>,
+  options: Pick<AccessorOptions<T>, 'point'>,
+): Mesh2;
+export function delaunay2dSync(points: unknown, options?: object): Mesh2 {
+  const { triangulate, place } = loaded(loadable2d, 'load2d');
+  const coordinates = coordinatesOf(points, 2, options);
+  const arrays = thrown(() => triangulate.mesh(coordinates));
+  return new Mesh2({ ...arrays, points: coordinates }, place);
+}
+
+/** Returns the arrays alone, for coordinates that are not copied. */
+export function triangulate2dNow(
+  coordinates: Coordinates,
+): Omit<Tasks['delaunay2d']['result'], 'points' | 'stats'> {
+  const { triangulate } = loaded(loadable2d, 'Delaunator.load');
+  return thrown(() => triangulate.arrays(coordinates));
+}
+
+/** Returns the coordinates of points of any form. */
+function coordinatesOf(points: unknown, dimension: number, options: object | undefined) {
+  const { point, outputs: _, ...others } = optionsOf(options) as Record<string, unknown>;
+  checkFunction('point', point);
+  const [option] = Object.keys(others).filter((key) => others[key] !== undefined);
+  if (option)
+    throw new GdelError('BAD_INPUT', `synchronous functions do not have the option ${option}`);
+  return coordinatesNow(points, {
+    dimension,
+    transfer: false,
+    point: point as AccessorOptions<unknown>['point'] | undefined,
+  });
+}
+
+function thrown<R>(run: () => R): R {
+  try {
+    return run();
+  } catch (error) {
+    throw toGdelError(error as PlainError);
+  }
+}
