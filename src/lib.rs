@@ -83,7 +83,7 @@ pub use d3::{
 };
 pub use derived::{
     AlphaComplex, AlphaShape, AlphaShape2, Cell, Clip, Diagram, FaceClass, Interpolation, Interpolator, Interpolator2,
-    Interval, Location, Locator, Locator2, Voronoi, Voronoi2,
+    Interval, Location, Locator, Locator2, SpanningTree, Voronoi, Voronoi2,
 };
 pub use error::Error;
 #[cfg(feature = "gpu")]

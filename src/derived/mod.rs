@@ -11,10 +11,12 @@ mod interpolate;
 mod locate;
 mod nearest;
 mod queries;
+mod sets;
+mod tree;
 mod voronoi;
 
 pub use alpha::{AlphaComplex, AlphaEdges, AlphaShape, AlphaShape2, FaceClass, Interval};
-use complex::Complex;
 pub use interpolate::{Interpolation, Interpolator, Interpolator2, StolenMeasures};
 pub use locate::{Location, Locator, Locator2};
+pub use tree::SpanningTree;
 pub use voronoi::{Cell, Clip, Diagram, Voronoi, Voronoi2, VoronoiShapes};

@@ -99,6 +99,22 @@ impl Geometry<3, 4> for Euclidean {
     }
 }
 
+/// Returns the centre of the circle through three points in 3D relative to the first one, with an
+/// error of at most 2⁻³⁷ times the radius.
+fn triangle_circumcenter_offset(&[a, b, c]: &[[f64; 3]; 3]) -> [f64; 3] {
+    let (u, v) = (vector::minus(b, a), vector::minus(c, a));
+    let normal = vector::cross(u, v);
+    let [uu, vv, nn] = [u, v, normal].map(vector::squared_norm);
+    let is_safe = [uu, vv].iter().all(|x| (SMALL..LARGE).contains(x));
+    // The error is below 60·2⁻⁵³·|u|²·|v|²/|n|² times the radius, by the same count as for tetrahedra.
+    if is_safe && nn * 512.0 > uu * vv {
+        let (to_v, to_u) = (vector::cross(normal, u), vector::cross(v, normal));
+        let half = 0.5 / nn;
+        return std::array::from_fn(|axis| (vv * to_v[axis] + uu * to_u[axis]) * half);
+    }
+    super::rounded(super::exact_offset(&[a, b, c], triangle_circumcenter_fraction))
+}
+
 /// Returns the same in twice the precision.
 pub(crate) fn precise_triangle_circumcenter_offset(triangle: &[[f64; 3]; 3]) -> Option<[Double; 3]> {
     let (numerator, denominator, exponent) = super::exact_offset(triangle, triangle_circumcenter_fraction)?;

@@ -358,3 +358,62 @@ pub(crate) fn certain_difference(a: f64, b: f64) -> Sign {
     let margin = RELATIVE * (a + b) + ABSOLUTE;
     (a - b > margin) as Sign - (b - a > margin) as Sign
 }
+
+/// A squared distance, rounded, and whether nothing was rounded.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct SquaredLength {
+    value: f64,
+    is_exact: bool,
+}
+
+impl SquaredLength {
+    /// Returns the squared distance of two points. On grids nothing is rounded, and that is noticed.
+    #[inline]
+    pub(crate) fn new<const D: usize>(a: [f64; D], b: [f64; D]) -> Self {
+        let (mut value, mut is_exact) = (0.0, true);
+        for axis in 0..D {
+            let difference = a[axis] - b[axis];
+            let square = difference * difference;
+            let sum = value + square;
+            // A difference is exact if both numbers can be had back from it, a square if the number has few digits and is not
+            // tiny, and a sum if both terms can be had back from it.
+            is_exact &= difference + b[axis] == a[axis] && a[axis] - difference == b[axis];
+            let is_short = f64::from(difference as f32) == difference;
+            is_exact &= difference == 0.0 || (is_short && square >= f64::from(f32::MIN_POSITIVE));
+            is_exact &= sum - value == square && sum - square == value;
+            value = sum;
+        }
+        SquaredLength { value, is_exact }
+    }
+
+    /// Returns the sign of the difference of two squared distances, or 0 if rounding may have changed it.
+    #[inline]
+    pub(crate) fn certain_difference(self, other: Self) -> Sign {
+        if self.is_exact && other.is_exact {
+            return (self.value > other.value) as Sign - (self.value < other.value) as Sign;
+        }
+        certain_difference(self.value, other.value)
+    }
+}
+
+/// |a − b|² − |c − d|².
+struct LengthDifference;
+
+impl<const D: usize> Polynomial<4, D> for LengthDifference {
+    fn value<T: Ring>(&self, [a, b, c, d]: &[[T; D]; 4]) -> T {
+        let (u, v) = (minus(a, b), minus(c, d));
+        dot(&u, &u) - dot(&v, &v)
+    }
+}
+
+/// Returns the sign of the difference of the lengths of two edges, exactly.
+#[inline]
+pub(crate) fn compare_lengths<const D: usize>(
+    ([a, b], first): ([[f64; D]; 2], SquaredLength),
+    ([c, d], second): ([[f64; D]; 2], SquaredLength),
+) -> Sign {
+    match first.certain_difference(second) {
+        0 if !(first.is_exact && second.is_exact) => exact_sign(&LengthDifference, &[a, b, c, d]),
+        sign => sign,
+    }
+}

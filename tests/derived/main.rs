@@ -8,4 +8,5 @@ mod inputs;
 mod interpolate;
 mod locate;
 mod nearest;
+mod tree;
 mod voronoi;

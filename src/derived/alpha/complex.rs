@@ -1,9 +1,8 @@
 //! The alpha complex for one radius.
 
 use super::{
-    super::voronoi::VoronoiShapes,
+    super::{sets::DisjointSets, voronoi::VoronoiShapes},
     AlphaEdges, AlphaShape,
-    groups::DisjointSets,
     values::{Alpha, certain},
 };
 use crate::{

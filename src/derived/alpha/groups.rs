@@ -1,7 +1,13 @@
 //! Faces in the order of their radii, those with exactly the same radius together.
 
-use super::{super::complex::Complex, values::certain};
-use crate::parallel::{self, Threads};
+use super::{
+    super::{complex::Complex, sets::DisjointSets},
+    values::certain,
+};
+use crate::{
+    index::NONE,
+    parallel::{self, Threads},
+};
 use std::cmp::Ordering;
 
 /// Faces, by number, in the order of their radii.
@@ -62,7 +68,7 @@ impl Groups {
         let mut sets = DisjointSets::new(complex.simplices.len());
         let mut is_present = vec![false; complex.simplices.len()];
         let mut is_covered = vec![false; complex.points.len()];
-        let mut uncovered = complex.duplicate_of.iter().filter(|&&d| d == crate::NONE).count();
+        let mut uncovered = complex.duplicate_of.iter().filter(|&&d| d == NONE).count();
         let mut count = 0;
         for ends in self.starts.windows(2) {
             let group = &self.faces[ends[0]..ends[1]];
@@ -86,36 +92,5 @@ impl Groups {
             }
         }
         None
-    }
-}
-
-/// Disjoint sets of numbers.
-#[derive(Debug)]
-pub(crate) struct DisjointSets {
-    parent: Vec<u32>,
-}
-
-impl DisjointSets {
-    pub(crate) fn new(count: usize) -> Self {
-        DisjointSets { parent: (0..count as u32).collect() }
-    }
-
-    /// Returns the number that stands for the set of `i`.
-    pub(crate) fn find(&mut self, mut i: u32) -> u32 {
-        while self.parent[i as usize] != i {
-            // Halves the path.
-            let above = self.parent[self.parent[i as usize] as usize];
-            self.parent[i as usize] = above;
-            i = above;
-        }
-        i
-    }
-
-    /// Unites the sets of two numbers, and returns whether they were two.
-    pub(crate) fn unite(&mut self, i: u32, j: u32) -> bool {
-        let (i, j) = (self.find(i), self.find(j));
-        // The lower number stands for both, so that the result does not depend on the order.
-        self.parent[i.max(j) as usize] = i.min(j);
-        i != j
     }
 }

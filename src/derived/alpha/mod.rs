@@ -8,11 +8,13 @@ mod values;
 pub use complex::{AlphaComplex, FaceClass};
 pub use edges::AlphaEdges;
 
-use super::Complex;
+use super::complex::Complex;
 use crate::{
-    Error, Mesh, Points,
+    error::Error,
     geometry::{Euclidean, facet, radius_rounded_up, vector},
     index::NONE,
+    input::points::Points,
+    mesh::Mesh,
     parallel::{self, Threads},
 };
 use edges::{Edges, is_listed, largest, smallest};
