@@ -26,8 +26,8 @@ pub(crate) fn plus<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {
 #[inline(always)]
 pub(crate) fn times<const D: usize>(s: f64, a: [f64; D]) -> [f64; D] {
     let mut product = a;
-    for axis in 0..D {
-        product[axis] *= s;
+    for coordinate in &mut product {
+        *coordinate *= s;
     }
     product
 }

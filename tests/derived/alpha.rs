@@ -79,7 +79,7 @@ impl<'a, const D: usize> Sphere<'a, D> {
                 .iter()
                 .map(|row| row.iter().enumerate().filter(|&(k, _)| k != j).map(|(_, x)| x.clone()).collect())
                 .collect();
-            if j % 2 == 0 { determinant(&minor) } else { -determinant(&minor) }
+            if j.is_multiple_of(2) { determinant(&minor) } else { -determinant(&minor) }
         };
         let cofactors: Vec<BigInt> = (0..n).map(cofactor).collect();
         Sphere { points, determinant: determinant(&rows), cofactors }
