@@ -148,6 +148,9 @@ pub enum Error {
         /// `'x'`, `'y'` or `'z'`.
         axis: char,
     },
+    /// The radius of an alpha complex is negative or NaN.
+    #[error("alpha must be a number that is not negative")]
+    BadAlpha,
     /// A mesh is not the Delaunay triangulation of the points that were given with it, and cannot be used.
     #[error("the mesh is not the Delaunay triangulation of the points: {what}")]
     BrokenMesh {
@@ -179,7 +182,7 @@ impl Error {
             TooManyPoints { .. } | TooManySimplices { .. } => true,
             NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
             OutOfMemory { .. } | Cancelled => false,
-            PointCount { .. } | ValueCount { .. } | EmptyBox { .. } | BrokenMesh { .. } => false,
+            PointCount { .. } | ValueCount { .. } | EmptyBox { .. } | BadAlpha | BrokenMesh { .. } => false,
         }
     }
 }

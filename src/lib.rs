@@ -82,7 +82,8 @@ pub use d3::{
     verify::{MeshView3, verify3d},
 };
 pub use derived::{
-    Cell, Clip, Diagram, Interpolation, Interpolator, Interpolator2, Location, Locator, Locator2, Voronoi, Voronoi2,
+    AlphaComplex, AlphaShape, AlphaShape2, Cell, Clip, Diagram, FaceClass, Interpolation, Interpolator, Interpolator2,
+    Interval, Location, Locator, Locator2, SpanningTree, Voronoi, Voronoi2,
 };
 pub use error::Error;
 #[cfg(feature = "gpu")]

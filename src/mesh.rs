@@ -156,10 +156,9 @@ pub trait Mesh<const D: usize, const N: usize>: sealed::Sealed {
     fn duplicate_of(&self) -> &[i32];
 }
 
-mod sealed {
+pub(crate) mod sealed {
+    /// Only this crate's meshes implement [`Mesh`](super::Mesh).
     pub trait Sealed {}
-    impl Sealed for crate::Mesh2 {}
-    impl Sealed for crate::Mesh3 {}
 }
 
 /// Returns for each vertex a simplex that has it, that with the lowest index; [`NONE`] for duplicates and vertices without
@@ -207,9 +206,26 @@ pub trait MeshInfo {
     fn stats_mut(&mut self) -> &mut Stats;
 }
 
-/// Implements [`MeshInfo`], and methods on `duplicate_of`, which both meshes have.
+/// Implements [`Mesh`], [`MeshInfo`], and methods on `duplicate_of`, which both meshes have, for
+/// `$mesh<$D, $N>` with the simplices in `$simplices`. Its method `opposites` is that of [`Mesh`].
 macro_rules! common_methods {
-    ($mesh:ident) => {
+    ($mesh:ident<$D:literal, $N:literal>, $simplices:ident) => {
+        impl $crate::mesh::sealed::Sealed for $mesh {}
+
+        impl $crate::mesh::Mesh<$D, $N> for $mesh {
+            fn simplices(&self) -> &[[u32; $N]] {
+                &self.$simplices
+            }
+
+            fn opposites(&self) -> std::borrow::Cow<'_, [[i32; $N]]> {
+                self.opposites()
+            }
+
+            fn duplicate_of(&self) -> &[i32] {
+                &self.duplicate_of
+            }
+        }
+
         impl $crate::mesh::MeshInfo for $mesh {
             fn set_input(&mut self, duplicate_of: Vec<i32>, dimension: u8) {
                 (self.duplicate_of, self.dimension) = (duplicate_of, dimension);

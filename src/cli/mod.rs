@@ -2,13 +2,19 @@
 
 #[cfg(feature = "gpu")]
 mod adapters;
+mod alpha;
+mod derive;
 mod dimension;
 mod generate;
+mod interpolate;
+mod locate;
 mod progress;
 mod report;
 mod signals;
+mod tree;
 mod triangulate;
 mod verify;
+mod voronoi;
 
 use clap::{CommandFactory, Parser, Subcommand, error::ErrorKind};
 use gdel::internals::io::{
@@ -41,6 +47,11 @@ enum Command {
     Triangulate(triangulate::Arguments),
     Generate(generate::Arguments),
     Verify(verify::Arguments),
+    Locate(locate::Arguments),
+    Interpolate(interpolate::Arguments),
+    Voronoi(voronoi::Arguments),
+    Alpha(alpha::Arguments),
+    Tree(tree::Arguments),
     /// List the GPUs of this machine
     #[cfg(feature = "gpu")]
     Adapters,
@@ -79,6 +90,11 @@ pub(crate) fn main() -> ExitCode {
         Command::Triangulate(arguments) => triangulate::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Locate(arguments) => locate::run(&arguments),
+        Command::Interpolate(arguments) => interpolate::run(&arguments),
+        Command::Voronoi(arguments) => voronoi::run(&arguments),
+        Command::Alpha(arguments) => alpha::run(&arguments),
+        Command::Tree(arguments) => tree::run(&arguments),
         #[cfg(feature = "gpu")]
         Command::Adapters => adapters::run(),
     };

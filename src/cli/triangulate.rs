@@ -55,7 +55,7 @@ pub(super) struct Arguments {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
-enum BackendName {
+pub(super) enum BackendName {
     /// The GPU for large inputs if there is a hardware GPU, else the CPU
     Auto,
     /// Incremental insertion on one core
@@ -75,7 +75,7 @@ impl From<BackendName> for Backend {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
-enum StatsForm {
+pub(super) enum StatsForm {
     /// One JSON object
     Json,
 }
@@ -120,7 +120,7 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
 }
 
 /// Triangulates, and measures how long that takes.
-fn triangulate<M: Triangulation<D, N>, const D: usize, const N: usize>(
+pub(super) fn triangulate<M: Triangulation<D, N>, const D: usize, const N: usize>(
     points: Points<'_, D>,
     triangulator: &Triangulator,
 ) -> Result<(M, Duration), gdel::Error> {

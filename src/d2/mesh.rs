@@ -53,7 +53,7 @@ pub struct Mesh2 {
     pub stats: Stats,
 }
 
-common_methods!(Mesh2);
+common_methods!(Mesh2<2, 3>, triangles);
 
 impl Mesh2 {
     /// Returns the triangle across edge `k` of triangle `t`; `None` outside the hull.
@@ -233,17 +233,10 @@ impl Mesh2 {
     }
 }
 
-impl mesh::Mesh<2, 3> for Mesh2 {
-    fn simplices(&self) -> &[[u32; 3]] {
-        &self.triangles
-    }
-
+impl Mesh2 {
+    /// Returns for each simplex the simplices opposite its vertices.
     fn opposites(&self) -> Cow<'_, [[i32; 3]]> {
         let triangle = |halfedge: i32| if halfedge == NONE { NONE } else { halfedge / 3 };
         self.halfedges.iter().map(move |&[ab, bc, ca]| [bc, ca, ab].map(triangle)).collect()
-    }
-
-    fn duplicate_of(&self) -> &[i32] {
-        &self.duplicate_of
     }
 }

@@ -61,7 +61,7 @@ pub struct Mesh3 {
     pub stats: Stats,
 }
 
-common_methods!(Mesh3);
+common_methods!(Mesh3<3, 4>, tetrahedra);
 
 impl Mesh3 {
     /// Returns the tetrahedron across facet `k` of tetrahedron `t`; `None` outside the hull.
@@ -270,16 +270,9 @@ impl Mesh3 {
     }
 }
 
-impl mesh::Mesh<3, 4> for Mesh3 {
-    fn simplices(&self) -> &[[u32; 4]] {
-        &self.tetrahedra
-    }
-
+impl Mesh3 {
+    /// Returns for each simplex the simplices opposite its vertices.
     fn opposites(&self) -> Cow<'_, [[i32; 4]]> {
         Cow::Borrowed(&self.neighbors)
-    }
-
-    fn duplicate_of(&self) -> &[i32] {
-        &self.duplicate_of
     }
 }

@@ -53,6 +53,18 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
         Ok(Complex { points, simplices, neighbors, duplicate_of })
     }
 
+    /// Returns the minimum and the maximum of each axis.
+    pub(crate) fn bounds(&self) -> [[f64; D]; 2] {
+        let mut bounds = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+        for p in self.points.iter() {
+            for axis in 0..D {
+                bounds[0][axis] = bounds[0][axis].min(p[axis]);
+                bounds[1][axis] = bounds[1][axis].max(p[axis]);
+            }
+        }
+        bounds
+    }
+
     /// Returns the coordinates of vertex `v`.
     #[inline(always)]
     pub(crate) fn point(&self, v: u32) -> [f64; D] {
@@ -62,7 +74,22 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
     /// Returns the coordinates of the vertices of simplex `t`.
     #[inline(always)]
     pub(crate) fn corners(&self, t: usize) -> [[f64; D]; N] {
-        self.simplices[t].map(|v| self.point(v))
+        let simplex = &self.simplices[t];
+        let mut corners = [[0.0; D]; N];
+        // The kind of coordinates is looked at once.
+        match self.points {
+            Points::F64(points) => {
+                for (corner, &v) in corners.iter_mut().zip(simplex) {
+                    *corner = points[v as usize];
+                }
+            }
+            Points::F32(points) => {
+                for (corner, &v) in corners.iter_mut().zip(simplex) {
+                    *corner = points[v as usize].map(f64::from);
+                }
+            }
+        }
+        corners
     }
 
     /// Returns the simplex opposite vertex `k` of simplex `t`; `None` outside the hull.

@@ -131,13 +131,7 @@ where
     }
 
     pub(super) fn of(complex: Complex<'a, D, N>) -> Self {
-        let mut bounds = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-        for p in complex.points.iter() {
-            for axis in 0..D {
-                bounds[0][axis] = bounds[0][axis].min(p[axis]);
-                bounds[1][axis] = bounds[1][axis].max(p[axis]);
-            }
-        }
+        let bounds = complex.bounds();
         let key = CurveKey::new(bounds);
         let start = |(t, simplex): (usize, &[u32; N])| {
             let place = key.of::<N>(complex.point(simplex[0]));
@@ -241,7 +235,7 @@ where
         let mut came_through = N;
         for _ in 0..=self.complex.simplices.len() {
             let corners = self.complex.corners(t);
-            let rows = corners.map(|p| vector::minus(p, query));
+            let rows = vector::relative(&corners, query);
             let mut on_facet = false;
             let mut leave = N;
             for k in 0..N {
@@ -279,7 +273,7 @@ where
         let mut seen = FxHashSet::from_iter([t]);
         while let Some(t) = around.pop() {
             let corners = self.complex.corners(t);
-            let rows = corners.map(|p| vector::minus(p, query));
+            let rows = vector::relative(&corners, query);
             for k in 0..N {
                 if side(bound, &corners, &rows, k, query) == 0 {
                     facets.push((t, k));

@@ -5,13 +5,18 @@
 //! Lengths, areas, volumes and weights are `f64` with a stated error. Results are a function of the mesh and the query,
 //! whatever the number of threads.
 
+mod alpha;
 mod complex;
 mod interpolate;
 mod locate;
 mod nearest;
 mod queries;
+mod sets;
+mod tree;
 mod voronoi;
 
+pub use alpha::{AlphaComplex, AlphaEdges, AlphaShape, AlphaShape2, FaceClass, Interval};
 pub use interpolate::{Interpolation, Interpolator, Interpolator2, StolenMeasures};
 pub use locate::{Location, Locator, Locator2};
+pub use tree::SpanningTree;
 pub use voronoi::{Cell, Clip, Diagram, Voronoi, Voronoi2, VoronoiShapes};

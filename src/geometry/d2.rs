@@ -54,6 +54,28 @@ impl Geometry<2, 3> for Euclidean {
         Some([(c[1] * bb - b[1] * cc) / (2.0 * det), (b[0] * cc - c[0] * bb) / (2.0 * det)])
     }
 
+    #[inline]
+    fn facet_squared_radius(&[a, b]: &[[f64; 2]; 2]) -> f64 {
+        0.25 * vector::squared_norm(vector::minus(a, b))
+    }
+
+    fn squared_radius_fraction<T: Ring>(points: &[[T; 2]]) -> (T, T) {
+        match points {
+            [a, b] => super::edge_squared_radius(a, b),
+            [a, b, c] => {
+                let edges = [polynomial::minus(b, a), polynomial::minus(c, a)];
+                let (numerator, denominator) = Self::circumcenter_fraction(&edges);
+                (polynomial::dot(&numerator, &numerator), denominator.clone() * denominator)
+            }
+            _ => (T::from(0), T::from(1)),
+        }
+    }
+
+    #[inline]
+    fn in_smallest_sphere(&[a, b]: &[[f64; 2]; 2], p: [f64; 2]) -> bool {
+        super::is_obtuse(p, a, b)
+    }
+
     fn boundary_measure(&[a, b, c]: &[[f64; 2]; 3]) -> f64 {
         [[a, b], [b, c], [c, a]].iter().map(|&[p, q]| vector::norm(vector::minus(p, q))).sum()
     }

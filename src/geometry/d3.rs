@@ -3,7 +3,10 @@
 use super::{Euclidean, Geometry, real::Double, vector};
 use crate::{
     input::{hilbert, order::Curve},
-    predicates::{Sign, exact, polynomial, polynomial::Ring},
+    predicates::{
+        Sign, exact, polynomial,
+        polynomial::{Polynomial, Ring},
+    },
 };
 
 impl Geometry<3, 4> for Euclidean {
@@ -60,6 +63,33 @@ impl Geometry<3, 4> for Euclidean {
         Some(std::array::from_fn(|axis| (bb * cd[axis] + cc * db[axis] + dd * bc[axis]) * half))
     }
 
+    #[inline]
+    fn facet_squared_radius(facet: &[[f64; 3]; 3]) -> f64 {
+        vector::squared_norm(triangle_circumcenter_offset(facet))
+    }
+
+    fn squared_radius_fraction<T: Ring>(points: &[[T; 3]]) -> (T, T) {
+        match points {
+            [a, b] => super::edge_squared_radius(a, b),
+            [a, b, c] => {
+                let (u, v) = (polynomial::minus(b, a), polynomial::minus(c, a));
+                let w = polynomial::minus(&u, &v);
+                let normal = polynomial::cross(&u, &v);
+                let [uu, vv, ww, nn] = [&u, &v, &w, &normal].map(|u| polynomial::dot(u, u));
+                (uu * vv * ww, T::from(4) * nn)
+            }
+            [a, b, c, d] => {
+                let (numerator, denominator) = Self::circumcenter_fraction(&[b, c, d].map(|p| polynomial::minus(p, a)));
+                (polynomial::dot(&numerator, &numerator), denominator.clone() * denominator)
+            }
+            _ => (T::from(0), T::from(1)),
+        }
+    }
+
+    fn in_smallest_sphere(&[a, b, c]: &[[f64; 3]; 3], p: [f64; 3]) -> bool {
+        polynomial::sign(&InSmallestSphere, &[a, b, c, p]) < 0
+    }
+
     fn boundary_measure(simplex: &[[f64; 3]; 4]) -> f64 {
         let area = |facet: [usize; 3]| {
             let [a, b, c] = facet.map(|corner| simplex[corner]);
@@ -67,6 +97,22 @@ impl Geometry<3, 4> for Euclidean {
         };
         Self::FACETS.into_iter().map(area).sum()
     }
+}
+
+/// Returns the centre of the circle through three points in 3D relative to the first one, with an
+/// error of at most 2⁻³⁷ times the radius.
+fn triangle_circumcenter_offset(&[a, b, c]: &[[f64; 3]; 3]) -> [f64; 3] {
+    let (u, v) = (vector::minus(b, a), vector::minus(c, a));
+    let normal = vector::cross(u, v);
+    let [uu, vv, nn] = [u, v, normal].map(vector::squared_norm);
+    let is_safe = [uu, vv].iter().all(|x| (SMALL..LARGE).contains(x));
+    // The error is below 60·2⁻⁵³·|u|²·|v|²/|n|² times the radius, by the same count as for tetrahedra.
+    if is_safe && nn * 512.0 > uu * vv {
+        let (to_v, to_u) = (vector::cross(normal, u), vector::cross(v, normal));
+        let half = 0.5 / nn;
+        return std::array::from_fn(|axis| (vv * to_v[axis] + uu * to_u[axis]) * half);
+    }
+    super::rounded(super::exact_offset(&[a, b, c], triangle_circumcenter_fraction))
 }
 
 /// Returns the same in twice the precision.
@@ -94,6 +140,17 @@ pub(crate) fn dihedral_angles(simplex: &[[f64; 3]; 4]) -> [f64; 6] {
         // Accurate for small angles too, unlike the arc cosine.
         libm::atan2(vector::norm(vector::cross(u, v)), vector::dot(u, v))
     })
+}
+
+/// For the points a, b, c and p: positive if p is outside the smallest sphere through a, b and c.
+struct InSmallestSphere;
+
+impl Polynomial<4, 3> for InSmallestSphere {
+    fn value<T: Ring>(&self, [a, b, c, p]: &[[T; 3]; 4]) -> T {
+        let (center, denominator) = triangle_circumcenter_fraction(&[polynomial::minus(b, a), polynomial::minus(c, a)]);
+        let w = polynomial::minus(p, a);
+        denominator * polynomial::dot(&w, &w) - T::from(2) * polynomial::dot(&w, &center)
+    }
 }
 
 /// Between these squared lengths, no product of six lengths comes near the limits of `f64`.

@@ -16,7 +16,7 @@ use crate::{
     input::points::Points,
     predicates::{
         Sign,
-        polynomial::{Big, Polynomial, Ring, big_sign, common_exponent, dot, minus, quotient, sign},
+        polynomial::{Big, Polynomial, Ring, big_sign, common_exponent, dot, exact_sign, minus, quotient, sign},
     },
 };
 
@@ -60,6 +60,16 @@ pub trait Geometry<const D: usize, const N: usize>: Copy + Send + Sync + 'static
     /// surely did not move it by more than 2⁻³⁷ times the circumradius.
     fn circumcenter_estimate(edges: &[[f64; D]; D]) -> Option<[f64; D]>;
 
+    /// Returns the squared radius of the smallest sphere through the vertices of a face with `D` vertices, up to rounding.
+    fn facet_squared_radius(facet: &[[f64; D]; D]) -> f64;
+
+    /// Returns the squared radius of the smallest sphere through the vertices of a simplex or a face of it, as a fraction with a
+    /// denominator that is not negative.
+    fn squared_radius_fraction<T: Ring>(points: &[[T; D]]) -> (T, T);
+
+    /// Returns whether a point is inside the smallest sphere through the vertices of a facet, exactly.
+    fn in_smallest_sphere(facet: &[[f64; D]; D], p: [f64; D]) -> bool;
+
     /// Returns the sum of the measures of a simplex's facets.
     fn boundary_measure(simplex: &[[f64; D]; N]) -> f64;
 }
@@ -82,12 +92,27 @@ pub(crate) fn facet<T: Copy, const D: usize, const N: usize>(simplex: &[T; N], k
 where
     Euclidean: Geometry<D, N>,
 {
-    <Euclidean as Geometry<D, N>>::FACETS[k].map(|corner| simplex[corner])
+    let facet = &<Euclidean as Geometry<D, N>>::FACETS[k];
+    let mut corners = [simplex[0]; D];
+    for (to, &corner) in corners.iter_mut().zip(facet) {
+        *to = simplex[corner];
+    }
+    corners
 }
 
 /// Returns the edges from the first vertex to the others.
 fn edges<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> [[f64; D]; D] {
-    std::array::from_fn(|i| vector::minus(simplex[i + 1], simplex[0]))
+    let mut edges = [[0.0; D]; D];
+    for (edge, &corner) in edges.iter_mut().zip(&simplex[1..]) {
+        *edge = vector::minus(corner, simplex[0]);
+    }
+    edges
+}
+
+/// Returns the squared radius of the smallest sphere through two points, as a fraction.
+fn edge_squared_radius<T: Ring, const D: usize>(a: &[T; D], b: &[T; D]) -> (T, T) {
+    let u = minus(a, b);
+    (dot(&u, &u), T::from(4))
 }
 
 /// Returns the circumcentre relative to the first vertex.
@@ -147,7 +172,7 @@ pub(crate) fn barycentric<const D: usize, const N: usize>(simplex: &[[f64; D]; N
 where
     Euclidean: Geometry<D, N>,
 {
-    let rows = simplex.map(|corner| vector::minus(corner, p));
+    let rows = vector::relative(simplex, p);
     // None is negative for a point inside.
     let shares: [f64; N] = std::array::from_fn(|k| Euclidean::determinant(&facet(&rows, k)).max(0.0));
     let sum: f64 = shares.iter().sum();
@@ -217,11 +242,93 @@ pub(crate) fn factorial(n: usize) -> f64 {
     (1..=n).map(|i| i as f64).product()
 }
 
+/// (a − p)·(b − p).
+pub(crate) struct Angle;
+
+impl<const D: usize> Polynomial<3, D> for Angle {
+    fn value<T: Ring>(&self, [p, a, b]: &[[T; D]; 3]) -> T {
+        dot(&minus(a, p), &minus(b, p))
+    }
+}
+
+/// Returns whether p is inside the smallest sphere through a and b, exactly: whether it sees them at an obtuse angle.
+#[inline]
+pub(crate) fn is_obtuse<const D: usize>(p: [f64; D], a: [f64; D], b: [f64; D]) -> bool {
+    sign(&Angle, &[p, a, b]) < 0
+}
+
+/// The difference of two squared radii times their denominators: those of two faces, or of a face and a number, which is
+/// the first coordinate of the fifth point if the second face has no vertices.
+struct RadiusDifference<const N: usize> {
+    /// The numbers of vertices.
+    first: usize,
+    second: usize,
+}
+
+impl<const D: usize, const N: usize> Polynomial<8, D> for RadiusDifference<N>
+where
+    Euclidean: Geometry<D, N>,
+{
+    fn value<T: Ring>(&self, points: &[[T; D]; 8]) -> T {
+        let (first, second) = points.split_at(4);
+        let (numerator, denominator) = Euclidean::squared_radius_fraction(&first[..self.first]);
+        let (other, other_denominator) = match self.second {
+            0 => (second[0][0].clone() * second[0][0].clone(), T::from(1)),
+            count => Euclidean::squared_radius_fraction(&second[..count]),
+        };
+        numerator * other_denominator - other * denominator
+    }
+}
+
+/// Returns the sign of the difference of the radii of two faces, exactly.
+#[inline(never)]
+pub(crate) fn compare_radii<const D: usize, const N: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> Sign
+where
+    Euclidean: Geometry<D, N>,
+{
+    let mut points = [[0.0; D]; 8];
+    points[..a.len()].copy_from_slice(a);
+    points[4..4 + b.len()].copy_from_slice(b);
+    exact_sign(&RadiusDifference::<N> { first: a.len(), second: b.len() }, &points)
+}
+
+/// Returns the sign of the difference of the radius of a face and a number that is not negative, exactly.
+#[inline(never)]
+pub(crate) fn compare_radius<const D: usize, const N: usize>(face: &[[f64; D]], radius: f64) -> Sign
+where
+    Euclidean: Geometry<D, N>,
+{
+    let mut points = [[0.0; D]; 8];
+    points[..face.len()].copy_from_slice(face);
+    points[4][0] = radius;
+    exact_sign(&RadiusDifference::<N> { first: face.len(), second: 0 }, &points)
+}
+
+/// Returns the smallest `f64` that is not less than the radius of a face.
+pub(crate) fn radius_rounded_up<const D: usize, const N: usize>(face: &[[f64; D]]) -> f64
+where
+    Euclidean: Geometry<D, N>,
+{
+    let exponent = common_exponent(face.as_flattened());
+    let integers: Vec<[Big; D]> = face.iter().map(|p| p.map(|x| Big::new(x, exponent))).collect();
+    let (numerator, denominator) = Euclidean::squared_radius_fraction(&integers);
+    // The root of a number between 1/4 and 4, times a power of two: right up to a few units in the last place.
+    let half = ((numerator.0.bits() as i64 - denominator.0.bits() as i64) / 2) as i32;
+    let mut radius = libm::ldexp(quotient(&numerator, &denominator, -2 * half).sqrt(), half + exponent);
+    while compare_radius::<D, N>(face, radius) <= 0 && radius > 0.0 {
+        radius = radius.next_down();
+    }
+    while compare_radius::<D, N>(face, radius) > 0 {
+        radius = radius.next_up();
+    }
+    radius
+}
+
 /// |q − a|² − |q − b|².
 struct DistanceDifference;
 
 impl<const D: usize> Polynomial<3, D> for DistanceDifference {
-    fn value<T: Ring>([q, a, b]: &[[T; D]; 3]) -> T {
+    fn value<T: Ring>(&self, [q, a, b]: &[[T; D]; 3]) -> T {
         let squared = |p: &[T; D]| {
             let u = minus(q, p);
             dot(&u, &u)
@@ -235,7 +342,7 @@ impl<const D: usize> Polynomial<3, D> for DistanceDifference {
 pub(crate) fn compare_distances<const D: usize>(q: [f64; D], a: [f64; D], b: [f64; D]) -> Sign {
     let [to_a, to_b] = [a, b].map(|p| vector::squared_norm(vector::minus(q, p)));
     match certain_difference(to_a, to_b) {
-        0 => sign::<DistanceDifference, 3, D>(&[q, a, b]),
+        0 => exact_sign(&DistanceDifference, &[q, a, b]),
         sign => sign,
     }
 }
@@ -250,4 +357,63 @@ pub(crate) fn certain_difference(a: f64, b: f64) -> Sign {
     const ABSOLUTE: f64 = f64::from_bits((1023 - 1000) << 52);
     let margin = RELATIVE * (a + b) + ABSOLUTE;
     (a - b > margin) as Sign - (b - a > margin) as Sign
+}
+
+/// A squared distance, rounded, and whether nothing was rounded.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct SquaredLength {
+    value: f64,
+    is_exact: bool,
+}
+
+impl SquaredLength {
+    /// Returns the squared distance of two points. On grids nothing is rounded, and that is noticed.
+    #[inline]
+    pub(crate) fn new<const D: usize>(a: [f64; D], b: [f64; D]) -> Self {
+        let (mut value, mut is_exact) = (0.0, true);
+        for axis in 0..D {
+            let difference = a[axis] - b[axis];
+            let square = difference * difference;
+            let sum = value + square;
+            // A difference is exact if both numbers can be had back from it, a square if the number has few digits and is not
+            // tiny, and a sum if both terms can be had back from it.
+            is_exact &= difference + b[axis] == a[axis] && a[axis] - difference == b[axis];
+            let is_short = f64::from(difference as f32) == difference;
+            is_exact &= difference == 0.0 || (is_short && square >= f64::from(f32::MIN_POSITIVE));
+            is_exact &= sum - value == square && sum - square == value;
+            value = sum;
+        }
+        SquaredLength { value, is_exact }
+    }
+
+    /// Returns the sign of the difference of two squared distances, or 0 if rounding may have changed it.
+    #[inline]
+    pub(crate) fn certain_difference(self, other: Self) -> Sign {
+        if self.is_exact && other.is_exact {
+            return (self.value > other.value) as Sign - (self.value < other.value) as Sign;
+        }
+        certain_difference(self.value, other.value)
+    }
+}
+
+/// |a − b|² − |c − d|².
+struct LengthDifference;
+
+impl<const D: usize> Polynomial<4, D> for LengthDifference {
+    fn value<T: Ring>(&self, [a, b, c, d]: &[[T; D]; 4]) -> T {
+        let (u, v) = (minus(a, b), minus(c, d));
+        dot(&u, &u) - dot(&v, &v)
+    }
+}
+
+/// Returns the sign of the difference of the lengths of two edges, exactly.
+#[inline]
+pub(crate) fn compare_lengths<const D: usize>(
+    ([a, b], first): ([[f64; D]; 2], SquaredLength),
+    ([c, d], second): ([[f64; D]; 2], SquaredLength),
+) -> Sign {
+    match first.certain_difference(second) {
+        0 if !(first.is_exact && second.is_exact) => exact_sign(&LengthDifference, &[a, b, c, d]),
+        sign => sign,
+    }
 }

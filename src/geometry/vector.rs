@@ -1,21 +1,45 @@
 //! Arithmetic with vectors of `f64`.
+//!
+//! Loops instead of `map` and `from_fn`, which are not always inlined.
 
 /// Returns a − b.
 #[inline(always)]
 pub(crate) fn minus<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {
-    std::array::from_fn(|axis| a[axis] - b[axis])
+    let mut difference = a;
+    for axis in 0..D {
+        difference[axis] -= b[axis];
+    }
+    difference
 }
 
 /// Returns a + b.
 #[inline(always)]
 pub(crate) fn plus<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {
-    std::array::from_fn(|axis| a[axis] + b[axis])
+    let mut sum = a;
+    for axis in 0..D {
+        sum[axis] += b[axis];
+    }
+    sum
 }
 
 /// Returns s·a.
 #[inline(always)]
 pub(crate) fn times<const D: usize>(s: f64, a: [f64; D]) -> [f64; D] {
-    a.map(|x| s * x)
+    let mut product = a;
+    for coordinate in &mut product {
+        *coordinate *= s;
+    }
+    product
+}
+
+/// Returns the points relative to an origin.
+#[inline(always)]
+pub(crate) fn relative<const D: usize, const N: usize>(points: &[[f64; D]; N], origin: [f64; D]) -> [[f64; D]; N] {
+    let mut rows = *points;
+    for row in &mut rows {
+        *row = minus(*row, origin);
+    }
+    rows
 }
 
 /// Returns the dot product.

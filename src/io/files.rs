@@ -11,7 +11,7 @@ use std::{
 mod output;
 mod temporary;
 
-pub use output::{Output, PointOutput};
+pub use output::{Output, PointOutput, ResultOutput};
 pub use temporary::remove_temporary_files;
 
 /// Why a file was not read or written. Its text is one line of printable characters that starts
@@ -141,16 +141,29 @@ impl Input {
     ///
     /// [`FileError::Read`] or [`FileError::Format`].
     pub fn read<const D: usize>(&self) -> Result<PointCloud<D>, FileError> {
+        self.format.read(self.bytes()?).map_err(|source| FileError::Format { path: self.path.clone(), source })
+    }
+
+    /// Reads all points, and the values in a column of the file: see
+    /// [`PointFormat::read_with_values`].
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::Read`] or [`FileError::Format`].
+    pub fn read_with_values<const D: usize>(&self, column: &str) -> Result<(PointCloud<D>, Vec<f64>), FileError> {
+        let values = self.format.read_with_values(&self.bytes()?, column);
+        values.map_err(|source| FileError::Format { path: self.path.clone(), source })
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, FileError> {
         let path = &self.path;
-        let bytes = if path == Path::new("-") {
-            let mut bytes = Vec::new();
-            let read = io::stdin().lock().read_to_end(&mut bytes);
-            read.map_err(|source| FileError::Read { path: path.clone(), source })?;
-            bytes
-        } else {
-            read(path)?
-        };
-        self.format.read(bytes).map_err(|source| FileError::Format { path: path.clone(), source })
+        if path != Path::new("-") {
+            return read(path);
+        }
+        let mut bytes = Vec::new();
+        let read = io::stdin().lock().read_to_end(&mut bytes);
+        read.map_err(|source| FileError::Read { path: path.clone(), source })?;
+        Ok(bytes)
     }
 }
 

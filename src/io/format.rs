@@ -83,6 +83,16 @@ formats! {
 }
 
 formats! {
+    /// A format of tables.
+    TableFormat {
+        /// Comma-separated values with the names of the columns in the first line.
+        Csv: "csv",
+        /// One NumPy array per column.
+        Npz: "npz",
+    }
+}
+
+formats! {
     /// A format of the hull's triangles, or of all triangles of a 2D mesh.
     SurfaceFormat {
         /// Stanford PLY, binary little-endian.
@@ -122,6 +132,24 @@ impl PointFormat {
             PointFormat::Npy => npy::read(&bytes),
             PointFormat::Node => tetgen::read_node(&bytes),
             _ => self.read_3d(bytes).map(PointCloud::resize),
+        }
+    }
+
+    /// Reads a whole text or CSV file, and the values in its column with a name or a number, counted
+    /// from 1: one per point.
+    ///
+    /// # Errors
+    ///
+    /// Where the file is broken, and how; for other formats, that they have no values.
+    pub fn read_with_values<const D: usize>(
+        self,
+        bytes: &[u8],
+        column: &str,
+    ) -> Result<(PointCloud<D>, Vec<f64>), FormatError> {
+        match self {
+            PointFormat::Text => text::read_with_values(bytes, Some(column)),
+            PointFormat::Csv => text::read_csv_with_values(bytes, Some(column)),
+            _ => Err(FormatError::byte(0, "values are read from text and CSV files only")),
         }
     }
 
@@ -207,7 +235,26 @@ impl SurfaceFormat {
         points: Points<'_, D>,
         mesh: &M,
     ) -> io::Result<()> {
-        let surface = &Surface::new(points, mesh);
+        self.write_surface(to, &Surface::new(points, mesh.surface(), M::NAMES.surface))
+    }
+
+    /// Writes triangles, as [`write`](Self::write) does; `name` says what they are, in printable
+    /// ASCII without quotation marks or backslashes.
+    ///
+    /// # Errors
+    ///
+    /// The same as for [`write`](Self::write).
+    pub fn write_triangles<const D: usize>(
+        self,
+        to: impl Write,
+        points: Points<'_, D>,
+        triangles: &[[u32; 3]],
+        name: &'static str,
+    ) -> io::Result<()> {
+        self.write_surface(to, &Surface::new(points, triangles.into(), name))
+    }
+
+    fn write_surface<const D: usize>(self, to: impl Write, surface: &Surface<'_, D>) -> io::Result<()> {
         match self {
             SurfaceFormat::Ply => ply::write_surface(to, surface),
             SurfaceFormat::Obj => obj::write_surface(to, surface),

@@ -4,6 +4,7 @@ use crate::{
     d2::{Mesh2, verify::MeshView2},
     d3::{Mesh3, verify::MeshView3},
     io::PointBuf,
+    mesh,
 };
 use std::borrow::Cow;
 
@@ -23,7 +24,7 @@ pub struct Names {
 }
 
 /// A mesh that files can hold.
-pub trait Mesh<const D: usize, const N: usize>: crate::Mesh<D, N> {
+pub trait Mesh<const D: usize, const N: usize>: mesh::Mesh<D, N> {
     #[doc(hidden)]
     const NAMES: Names;
 

@@ -26,15 +26,17 @@ mod raw;
 mod scalar;
 mod stl;
 mod surface;
+mod table;
 mod tetgen;
 mod text;
 mod vtu;
 
 pub use error::{FormatError, Position, printable};
-pub use format::{MeshFormat, PointFormat, SurfaceFormat};
+pub use format::{MeshFormat, PointFormat, SurfaceFormat, TableFormat};
 pub use las::panics_are_caught;
 pub use mesh::{Mesh, MeshData, MeshData2, MeshData3};
 pub use npz::{read_npz, write_npz};
 pub use point_cloud::{PointBuf, PointCloud};
+pub use table::{CellShape, Column, Grid, Table};
 pub use tetgen::{read_ele, read_neigh, write_ele, write_neigh, write_node};
 pub use vtu::{read_vtu, write_vtu};

@@ -209,11 +209,26 @@ pub(super) fn write_array<T: Copy, const N: usize, const SIZE: usize>(
     rows: &[[T; N]],
     encode: fn(T) -> [u8; SIZE],
 ) -> io::Result<()> {
-    let dictionary = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({}, {N}), }}", rows.len());
+    write_header(&mut to, descr, &format!("({}, {N})", rows.len()))?;
+    rows.as_flattened().iter().try_for_each(|&x| to.write_all(&encode(x)))
+}
+
+/// Writes an array of shape (n,), version 1.0 of the format.
+pub(super) fn write_vector<T: Copy, const SIZE: usize>(
+    mut to: impl Write,
+    descr: &str,
+    elements: &[T],
+    encode: impl Fn(T) -> [u8; SIZE],
+) -> io::Result<()> {
+    write_header(&mut to, descr, &format!("({},)", elements.len()))?;
+    elements.iter().try_for_each(|&x| to.write_all(&encode(x)))
+}
+
+fn write_header(to: &mut impl Write, descr: &str, shape: &str) -> io::Result<()> {
+    let dictionary = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
     // With the ten bytes before it and the line end, the header fills a multiple of 64 bytes.
     let padded = (dictionary.len() + 11).next_multiple_of(64) - 11;
     to.write_all(b"\x93NUMPY\x01\x00")?;
     to.write_all(&(padded as u16 + 1).to_le_bytes())?;
-    writeln!(to, "{dictionary:padded$}")?;
-    rows.as_flattened().iter().try_for_each(|&x| to.write_all(&encode(x)))
+    writeln!(to, "{dictionary:padded$}")
 }

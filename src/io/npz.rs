@@ -82,15 +82,17 @@ pub fn write_npz<const D: usize, const N: usize, M: Mesh<D, N>>(
     points: Points<'_, D>,
     mesh: &M,
 ) -> io::Result<()> {
+    self::write(to, |archive| {
+        archive.array("points", |to| npy::write(to, points))?;
+        archive.array(M::NAMES.simplices, |to| npy::write_array(to, "<u4", mesh.simplices(), u32::to_le_bytes))?;
+        archive.array(M::NAMES.adjacency, |to| npy::write_array(to, "<i4", mesh.adjacency(), i32::to_le_bytes))
+    })
+}
+
+/// Writes an archive of arrays.
+pub(super) fn write(to: impl Write, arrays: impl FnOnce(&mut Archive<'_>) -> io::Result<()>) -> io::Result<()> {
     let mut failure = None;
-    let result = write_arrays(Latch { to, failure: &mut failure }, |archive| {
-        archive.array("points")?;
-        npy::write(&mut archive.0, points)?;
-        archive.array(M::NAMES.simplices)?;
-        npy::write_array(&mut archive.0, "<u4", mesh.simplices(), u32::to_le_bytes)?;
-        archive.array(M::NAMES.adjacency)?;
-        npy::write_array(&mut archive.0, "<i4", mesh.adjacency(), i32::to_le_bytes)
-    });
+    let result = write_arrays(&mut Latch { to, failure: &mut failure }, arrays);
     failure.map_or(result, Err)
 }
 
@@ -131,24 +133,29 @@ impl<W: Write> Write for Latch<'_, W> {
 }
 
 /// An archive that is being written.
-struct Archive<W: Write>(ZipWriter<StreamWriter<W>>);
+pub(super) struct Archive<'w>(ZipWriter<StreamWriter<&'w mut dyn Write>>);
 
-impl<W: Write> Archive<W> {
-    /// Starts the array of that name.
-    fn array(&mut self, name: &str) -> io::Result<()> {
+impl<'w> Archive<'w> {
+    /// Writes the array of that name.
+    pub(super) fn array(
+        &mut self,
+        name: &str,
+        write: impl FnOnce(&mut ZipWriter<StreamWriter<&'w mut dyn Write>>) -> io::Result<()>,
+    ) -> io::Result<()> {
         // 64-bit sizes, so that no mesh is too large, and no date, so that equal meshes make equal
         // files.
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Stored)
             .large_file(true)
             .last_modified_time(zip::DateTime::default());
-        self.0.start_file(format!("{name}.npy"), options).map_err(Into::into)
+        self.0.start_file(format!("{name}.npy"), options)?;
+        write(&mut self.0)
     }
 }
 
-fn write_arrays<W: Write>(to: W, write: impl FnOnce(&mut Archive<W>) -> io::Result<()>) -> io::Result<()> {
+fn write_arrays(to: &mut dyn Write, arrays: impl FnOnce(&mut Archive<'_>) -> io::Result<()>) -> io::Result<()> {
     let mut archive = Archive(ZipWriter::new_stream(to));
-    write(&mut archive)?;
+    arrays(&mut archive)?;
     archive.0.set_comment(MARK).map_err(io::Error::from)?;
     archive.0.finish()?.into_inner().flush()
 }

@@ -1,7 +1,6 @@
-//! The formats of triangles: for the hull of a 3D mesh, or all of a 2D mesh.
+//! The formats of triangles: for the hull of a 3D mesh, all of a 2D mesh, or another surface.
 
 use crate::input::points::Points;
-use crate::io::Mesh;
 use std::borrow::Cow;
 
 /// What every file of a mesh that is written here contains at its begin or end, by which it is
@@ -19,12 +18,11 @@ pub(super) struct Surface<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Surface<'a, D> {
-    pub(super) fn new<const N: usize, M: Mesh<D, N>>(points: Points<'a, D>, mesh: &'a M) -> Self {
-        let triangles = mesh.surface();
+    pub(super) fn new(points: Points<'a, D>, triangles: Cow<'a, [[u32; 3]]>, name: &'static str) -> Self {
         let mut used = triangles.as_flattened().to_vec();
         used.sort_unstable();
         used.dedup();
-        Surface { points, triangles, used, name: M::NAMES.surface }
+        Surface { points, triangles, used, name }
     }
 
     /// Returns the coordinates of the vertices.

@@ -72,7 +72,7 @@ pub(super) fn axes<const D: usize>() -> &'static str {
 }
 
 /// The rows of a text file become points.
-struct Table<const D: usize> {
+struct Table<'w, const D: usize> {
     /// Which fields of a row are the coordinates; `None` before the first row.
     columns: Option<[usize; D]>,
     /// Which field is the *z* that 2D points do without.
@@ -86,11 +86,16 @@ struct Table<const D: usize> {
     is_named: bool,
     /// Whether the file says how many points it has.
     is_counted: bool,
+    /// The column of values that is wanted, and which field of a row it is, once that is known.
+    wanted: Option<(&'w str, Option<usize>)>,
+    values: Vec<f64>,
 }
 
-impl<const D: usize> Table<D> {
-    fn new() -> Self {
+impl<'w, const D: usize> Table<'w, D> {
+    fn new(wanted: Option<&'w str>) -> Self {
         Table {
+            wanted: wanted.map(|name| (name, None)),
+            values: Vec::new(),
             columns: None,
             dropped: None,
             points: Vec::new(),
@@ -120,6 +125,18 @@ impl<const D: usize> Table<D> {
                 FormatError::line(line, what)
             })?;
             *x = number(field, line)?;
+        }
+        if let Some((name, column)) = &mut self.wanted {
+            let column = match column {
+                Some(column) => *column,
+                None => *column.insert(by_number(name, line)?),
+            };
+            let field = row
+                .get(column)
+                .ok_or_else(|| FormatError::line(line, format!("there is no column {} for the values", column + 1)))?;
+            let value = parse(field);
+            self.values
+                .push(value.ok_or_else(|| FormatError::line(line, format!("{} is not a number", quote(field))))?);
         }
         if let Some(column) = self.dropped
             && !self.dropped_z
@@ -160,13 +177,16 @@ impl<const D: usize> Table<D> {
             );
             return Err(FormatError::line(line, what));
         }
+        if let Some((name, place)) = &mut self.wanted {
+            *place = column(name);
+        }
         self.columns = Some(std::array::from_fn(|axis| found[axis].unwrap_or(axis)));
         self.dropped = if D == 2 { found[2] } else { None };
         self.is_named = true;
         Ok(())
     }
 
-    fn finish(self) -> Result<PointCloud<D>, FormatError> {
+    fn finish(self) -> Result<(PointCloud<D>, Vec<f64>), FormatError> {
         let is_bare = !self.is_named && !self.is_counted;
         let (line, fields, numbers) = self.first.unwrap_or_default();
         if is_bare && self.points.len() == 1 && numbers >= 2 * D {
@@ -176,8 +196,17 @@ impl<const D: usize> Table<D> {
         let known = self.dropped.map_or(D, |column| column + 1);
         let ignored_columns = if self.is_named { 0 } else { fields.saturating_sub(known) };
         let cloud = PointCloud::new(PointBuf::F64(self.points))?;
-        Ok(PointCloud { dropped_z: self.dropped_z, ignored_columns, ..cloud })
+        Ok((PointCloud { dropped_z: self.dropped_z, ignored_columns, ..cloud }, self.values))
     }
+}
+
+/// Returns the place of the column with a number, counted from 1.
+fn by_number(name: &str, line: usize) -> Result<usize, FormatError> {
+    let number: Option<usize> = name.parse().ok();
+    number.and_then(|number| number.checked_sub(1)).ok_or_else(|| {
+        let what = "name the column of the values as the first line does, or by its number, counted from 1";
+        FormatError::line(line, format!("there is no column {}: {what}", quote(name.as_bytes())))
+    })
 }
 
 /// Returns a column's name without the mark of a comment that CloudCompare and others put before
@@ -202,8 +231,16 @@ fn check_encoding(bytes: &[u8]) -> Result<(), FormatError> {
 
 /// Reads XYZ, and PTS, where a line with nothing but a count goes before the points of each scan.
 pub(super) fn read<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
+    read_with_values(bytes, None).map(|(cloud, _)| cloud)
+}
+
+/// Reads the same, and the column of values with a name or a number, if one is wanted.
+pub(super) fn read_with_values<const D: usize>(
+    bytes: &[u8],
+    wanted: Option<&str>,
+) -> Result<(PointCloud<D>, Vec<f64>), FormatError> {
     check_encoding(bytes)?;
-    let mut table = Table::new();
+    let mut table = Table::new(wanted);
     // The line of the count before the points of the current scan, and what the number of points
     // will be after them.
     let mut scan: Option<(usize, usize)> = None;
@@ -241,10 +278,18 @@ fn whole_number(field: &[u8]) -> Option<usize> {
 /// Reads comma-, semicolon- or tab-separated values with quoted fields; text with white space
 /// between is taken too.
 pub(super) fn read_csv<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
+    read_csv_with_values(bytes, None).map(|(cloud, _)| cloud)
+}
+
+/// Reads the same, and the column of values with a name or a number, if one is wanted.
+pub(super) fn read_csv_with_values<const D: usize>(
+    bytes: &[u8],
+    wanted: Option<&str>,
+) -> Result<(PointCloud<D>, Vec<f64>), FormatError> {
     check_encoding(bytes)?;
     let first = lines(bytes).map(|(_, line)| line).find(|line| !line.is_empty()).unwrap_or_default();
     let Some(delimiter) = [b';', b',', b'\t'].into_iter().find(|d| first.contains(d)) else {
-        return read(bytes);
+        return read_with_values(bytes, wanted);
     };
     let text = without_mark(bytes);
     let mut reader = csv::ReaderBuilder::new()
@@ -254,7 +299,7 @@ pub(super) fn read_csv<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, Fo
         .delimiter(delimiter)
         .trim(csv::Trim::All)
         .from_reader(text);
-    let mut table = Table::new();
+    let mut table = Table::new(wanted);
     let mut record = csv::ByteRecord::new();
     // The crate counts no lines that end in `\r` alone; rows will do there.
     let counts_lines = text.contains(&b'\n');

@@ -29,7 +29,7 @@ use std::io::{self, Read, Write};
 ///
 /// When `to` cannot be written.
 pub fn write_vtu<const D: usize, const N: usize, M: Mesh<D, N>>(
-    mut to: impl Write,
+    to: impl Write,
     points: Points<'_, D>,
     mesh: &M,
 ) -> io::Result<()> {
@@ -38,48 +38,98 @@ pub fn write_vtu<const D: usize, const N: usize, M: Mesh<D, N>>(
         Points::F64(_) => ("Float64", 8),
     };
     let cells = mesh.simplices().len() as u64;
-    let lengths = [points.len() as u64 * 3 * size, cells * N as u64 * 8, cells * 8, cells];
-    // Each array has its length in eight bytes before it.
-    let mut end = 0;
-    let [coordinates, connectivity, offsets, types] = lengths.map(|length| {
-        let start = end;
-        end += 8 + length;
-        start
-    });
+    let coordinates = |to: &mut dyn Write| {
+        points.iter().flat_map(padded).try_for_each(|x| match points {
+            Points::F32(_) => to.write_all(&(x as f32).to_le_bytes()),
+            Points::F64(_) => to.write_all(&x.to_le_bytes()),
+        })
+    };
+    let connectivity = |to: &mut dyn Write| {
+        let mut vertices = mesh.simplices().as_flattened().iter();
+        vertices.try_for_each(|&v| to.write_all(&u64::from(v).to_le_bytes()))
+    };
+    let offsets = |to: &mut dyn Write| (1..=cells).try_for_each(|cell| to.write_all(&(N as u64 * cell).to_le_bytes()));
+    let types = |to: &mut dyn Write| (0..cells).try_for_each(|_| to.write_all(&[M::NAMES.vtk]));
+    let array = |element, name, kind, components, length, content| Array {
+        element,
+        name,
+        kind,
+        components,
+        length,
+        content: Content::Written(content),
+    };
+    let arrays: [Array<'_>; 4] = [
+        array("Points", "Points", number, 3, points.len() as u64 * 3 * size, &coordinates),
+        array("Cells", "connectivity", "Int64", 1, cells * N as u64 * 8, &connectivity),
+        array("Cells", "offsets", "Int64", 1, cells * 8, &offsets),
+        array("Cells", "types", "UInt8", 1, cells, &types),
+    ];
+    write_arrays(to, points.len(), mesh.simplices().len(), &arrays)
+}
+
+/// An array of a grid.
+pub(super) struct Array<'a> {
+    /// The XML element that it belongs to; those of one element come one after the other.
+    element: &'a str,
+    name: &'a str,
+    /// The type of its numbers.
+    kind: &'a str,
+    components: u32,
+    /// In bytes.
+    length: u64,
+    content: Content<'a>,
+}
+
+/// The bytes of an array: kept, or written when they are needed.
+enum Content<'a> {
+    Bytes(Vec<u8>),
+    Written(&'a dyn Fn(&mut dyn Write) -> io::Result<()>),
+}
+
+impl<'a> Array<'a> {
+    pub(super) fn new(element: &'a str, name: &'a str, kind: &'a str, components: u32, bytes: Vec<u8>) -> Self {
+        Array { element, name, kind, components, length: bytes.len() as u64, content: Content::Bytes(bytes) }
+    }
+}
+
+/// Writes a grid whose arrays are appended to the XML, each after its length in eight bytes.
+pub(super) fn write_arrays(mut to: impl Write, points: usize, cells: usize, arrays: &[Array<'_>]) -> io::Result<()> {
     write!(
         to,
         r#"<?xml version="1.0"?>
 <VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">
   <!-- {MARK} -->
   <UnstructuredGrid>
-    <Piece NumberOfPoints="{}" NumberOfCells="{cells}">
-      <Points>
-        <DataArray type="{number}" Name="Points" NumberOfComponents="3" format="appended" offset="{coordinates}"/>
-      </Points>
-      <Cells>
-        <DataArray type="Int64" Name="connectivity" format="appended" offset="{connectivity}"/>
-        <DataArray type="Int64" Name="offsets" format="appended" offset="{offsets}"/>
-        <DataArray type="UInt8" Name="types" format="appended" offset="{types}"/>
-      </Cells>
-    </Piece>
+    <Piece NumberOfPoints="{points}" NumberOfCells="{cells}">
+"#
+    )?;
+    let mut offset = 0;
+    for of_element in arrays.chunk_by(|a, b| a.element == b.element) {
+        writeln!(to, "      <{}>", of_element[0].element)?;
+        for Array { name, kind, components, length, .. } in of_element {
+            write!(to, r#"        <DataArray type="{kind}" Name="{name}""#)?;
+            if *components > 1 {
+                write!(to, r#" NumberOfComponents="{components}""#)?;
+            }
+            writeln!(to, r#" format="appended" offset="{offset}"/>"#)?;
+            offset += 8 + length;
+        }
+        writeln!(to, "      </{}>", of_element[0].element)?;
+    }
+    write!(
+        to,
+        r#"    </Piece>
   </UnstructuredGrid>
   <AppendedData encoding="raw">
-_"#,
-        points.len()
+_"#
     )?;
-    let [coordinates, connectivity, offsets, types] = lengths.map(u64::to_le_bytes);
-    to.write_all(&coordinates)?;
-    points.iter().flat_map(padded).try_for_each(|x| match points {
-        Points::F32(_) => to.write_all(&(x as f32).to_le_bytes()),
-        Points::F64(_) => to.write_all(&x.to_le_bytes()),
-    })?;
-    to.write_all(&connectivity)?;
-    let vertices = mesh.simplices().iter().flatten().copied();
-    vertices.into_iter().try_for_each(|v| to.write_all(&u64::from(v).to_le_bytes()))?;
-    to.write_all(&offsets)?;
-    (1..=cells).try_for_each(|cell| to.write_all(&(N as u64 * cell).to_le_bytes()))?;
-    to.write_all(&types)?;
-    (0..cells).try_for_each(|_| to.write_all(&[M::NAMES.vtk]))?;
+    for Array { length, content, .. } in arrays {
+        to.write_all(&length.to_le_bytes())?;
+        match content {
+            Content::Bytes(bytes) => to.write_all(bytes)?,
+            Content::Written(write) => write(&mut to)?,
+        }
+    }
     to.write_all(b"\n  </AppendedData>\n</VTKFile>\n")
 }
 

@@ -15,23 +15,28 @@ pub trait Ring: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = S
 pub(crate) trait Polynomial<const K: usize, const D: usize> {
     /// Evaluates the polynomial. It must be homogeneous, since the coordinates may all have been
     /// multiplied by the same power of two.
-    fn value<T: Ring>(points: &[[T; D]; K]) -> T;
+    fn value<T: Ring>(&self, points: &[[T; D]; K]) -> T;
 }
 
 /// Returns the sign of a polynomial, exactly, for all finite coordinates.
 #[inline]
-pub(crate) fn sign<P: Polynomial<K, D>, const K: usize, const D: usize>(points: &[[f64; D]; K]) -> Sign {
-    match P::value(&points.map(|p| p.map(Approximate::exact))).sign() {
+pub(crate) fn sign<const K: usize, const D: usize>(polynomial: &impl Polynomial<K, D>, points: &[[f64; D]; K]) -> Sign {
+    match polynomial.value(&points.map(|p| p.map(Approximate::exact))).sign() {
         Some(sign) => sign,
-        None => exact_sign::<P, K, D>(points),
+        None => exact_sign(polynomial, points),
     }
 }
 
+/// Returns the sign of a polynomial, exactly, for all finite coordinates, of which floating point is known not to be
+/// certain.
 #[inline(never)]
-fn exact_sign<P: Polynomial<K, D>, const K: usize, const D: usize>(points: &[[f64; D]; K]) -> Sign {
+pub(crate) fn exact_sign<const K: usize, const D: usize>(
+    polynomial: &impl Polynomial<K, D>,
+    points: &[[f64; D]; K],
+) -> Sign {
     let exponent = common_exponent(points.as_flattened());
-    let small = || Some(P::value(&try_map(points, |x| Checked::new(x, exponent))?).0?.signum() as Sign);
-    small().unwrap_or_else(|| big_sign(&P::value(&points.map(|p| p.map(|x| Big::new(x, exponent))))))
+    let small = || Some(polynomial.value(&try_map(points, |x| Checked::new(x, exponent))?).0?.signum() as Sign);
+    small().unwrap_or_else(|| big_sign(&polynomial.value(&points.map(|p| p.map(|x| Big::new(x, exponent))))))
 }
 
 /// Returns the sign of a big integer.
@@ -273,7 +278,7 @@ mod tests {
     struct Orientation;
 
     impl Polynomial<4, 3> for Orientation {
-        fn value<T: Ring>([a, b, c, d]: &[[T; 3]; 4]) -> T {
+        fn value<T: Ring>(&self, [a, b, c, d]: &[[T; 3]; 4]) -> T {
             dot(&minus(b, a), &cross(&minus(c, a), &minus(d, a)))
         }
     }
@@ -281,8 +286,8 @@ mod tests {
     fn agree(points: [[f64; 3]; 4]) -> Result<(), TestCaseError> {
         let [a, b, c, d] = points;
         let expected = exact::orient3d(a, b, c, d);
-        prop_assert_eq!(sign::<Orientation, 4, 3>(&points), expected);
-        prop_assert_eq!(exact_sign::<Orientation, 4, 3>(&points), expected);
+        prop_assert_eq!(sign(&Orientation, &points), expected);
+        prop_assert_eq!(exact_sign(&Orientation, &points), expected);
         Ok(())
     }
 

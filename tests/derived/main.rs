@@ -1,5 +1,6 @@
 //! What is derived from meshes, against brute force.
 
+mod alpha;
 #[path = "../clouds.rs"]
 mod clouds;
 mod geometry;
@@ -7,4 +8,5 @@ mod inputs;
 mod interpolate;
 mod locate;
 mod nearest;
+mod tree;
 mod voronoi;

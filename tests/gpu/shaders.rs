@@ -51,9 +51,17 @@ fn every_name_of_a_buffer_is_one_of_a_variable() {
 /// The dimensions share names, so that either's kernels can be chosen by them.
 #[test]
 fn shared_kernels_are_kernels_of_both_dimensions() {
-    for name in
-        ["split", "relocate", "relocate_split", "locate", "points_gather", "pick_score", "flip_link", "flip_commit"]
-    {
+    for name in [
+        "split",
+        "relocate",
+        "relocate_split",
+        "locate",
+        "points_gather",
+        "pick_score",
+        "flip_check",
+        "flip_link",
+        "flip_commit",
+    ] {
         assert_eq!(shader::D2.get(name).name(), format!("d2/{name}"));
         assert_eq!(shader::D3.get(name).name(), format!("d3/{name}"));
     }

@@ -5,7 +5,7 @@ import { execFileSync } from 'node:child_process';
 import { rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { dist, project } from './package.mjs';
+import { dist, importFrom, project } from './package.mjs';
 
 const SCRIPT = (source) => `
   import { delaunay2dSync, delaunay3d, generate, load2d } from '${source}';
@@ -44,6 +44,40 @@ test('a page of HTML in place of a wasm file is told apart', () => {
   const found = run((folder) => writeFileSync(join(folder, 'gdel-3d.wasm'), '<!doctype html>'));
   assert.match(found.whyInlined, /magic/);
   assert.deepEqual({ ...found, whyInlined: null }, EXPECTED);
+});
+
+test('a wasm file of another version is an error that says so, everywhere', async () => {
+  const folder = project();
+  writeFileSync(join(dist(folder), 'gdel-3d.wasm'), Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0));
+  const { createTriangulator, delaunay3d, GdelError, load3d } = await importFrom(folder);
+  for (const call of [
+    () => delaunay3d([0, 0, 0]),
+    () => load3d(),
+    () => createTriangulator({ worker: false, backend: 'cpu' }),
+    () => createTriangulator(),
+  ]) {
+    await assert.rejects(call, (error) => {
+      assert.ok(error instanceof GdelError, String(error));
+      assert.equal(error.code, 'LOAD_FAILED');
+      assert.match(error.message, /one version/);
+      return true;
+    });
+  }
+});
+
+test('code that is missing is an error that says what to do', async () => {
+  const folder = project();
+  rmSync(join(dist(folder), 'core.js'));
+  const { createTriangulator, delaunay3d, GdelError, load2d } = await importFrom(folder);
+  for (const call of [() => load2d(), () => createTriangulator({ worker: false })]) {
+    await assert.rejects(call, (error) => {
+      assert.ok(error instanceof GdelError, String(error));
+      assert.equal(error.code, 'LOAD_FAILED');
+      assert.match(error.message, /core\.js.*Deploy/s);
+      return true;
+    });
+  }
+  assert.equal((await delaunay3d([0, 0, 0])).dimension, 0);
 });
 
 test('a worker that is missing is replaced by its copy, and the statistics say so', () => {

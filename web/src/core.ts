@@ -90,14 +90,30 @@ function scopeWith(gpu: object): object {
   return scope;
 }
 
+/** Returns an instance of a module with its own state, or throws a {@link PlainError}. */
+function instantiate(
+  makeGlue: (globalThis: object) => any,
+  module: WebAssembly.Module,
+  scope: object = globalThis,
+): { glue: any; memory: WebAssembly.Memory } {
+  try {
+    const glue = makeGlue(scope);
+    return { glue, memory: glue.initSync({ module }).memory };
+  } catch (error) {
+    const why = `WebAssembly cannot be started: ${String(error)}`;
+    if (error instanceof RangeError) throw { code: 'OUT_OF_MEMORY', message: why, fatal: true };
+    const message = `${why}. Deploy all files of one version of gdel-wasm together`;
+    throw { code: 'LOAD_FAILED', message, fatal: true } satisfies PlainError;
+  }
+}
+
 /** What 3D and 2D tasks share: an instance, its triangulator, and the choice of the backend. */
 function instance(
   makeGlue: (globalThis: object) => any,
   module: WebAssembly.Module,
   gpu: object | undefined,
 ) {
-  const glue = makeGlue(gpu ? scopeWith(gpu) : globalThis);
-  const { memory }: { memory: WebAssembly.Memory } = glue.initSync({ module });
+  const { glue, memory } = instantiate(makeGlue, module, gpu ? scopeWith(gpu) : globalThis);
   const triangulator = new glue.WasmTriangulator();
   let looking: Promise<AdapterInfo> | undefined;
 
@@ -259,10 +275,7 @@ export function createBlocking2d(module: WebAssembly.Module) {
 }
 
 function blockingInstance(makeGlue: (globalThis: object) => any, module: WebAssembly.Module) {
-  const open = () => {
-    const glue = makeGlue(globalThis);
-    return { glue, ...(glue.initSync({ module }) as { memory: WebAssembly.Memory }) };
-  };
+  const open = () => instantiate(makeGlue, module);
   let instance: ReturnType<typeof open> | undefined = open();
   return (triangulate: (glue: any) => any) => {
     const started = performance.now();
@@ -303,8 +316,7 @@ function describe({ info, limits }: Adapter): AdapterInfo {
 }
 
 function toolsTasks(module: WebAssembly.Module): ModuleTasks {
-  const glue = makeToolsGlue(globalThis);
-  const { memory } = glue.initSync({ module });
+  const { glue, memory } = instantiate(makeToolsGlue, module);
 
   const tasks: { [T in TaskName]?: (args: Tasks[T]['args']) => Tasks[T]['result'] } = {
     readPoints: ({ bytes, extension }) => glue.read_points(bytes, extension),

@@ -8,7 +8,7 @@ import { type Connection, callerConnection, workerConnection } from './connectio
 import { GdelError, giveBack, type PlainError, toGdelError } from './errors.js';
 import { compiled } from './modules.js';
 import type { TaskName, Tasks } from './protocol.js';
-import { messageOf, startWorker, type WasmAsset } from './runtime.js';
+import { loadCode, messageOf, startWorker, type WasmAsset } from './runtime.js';
 import { Stop } from './stop.js';
 import type { Place, TaskOptions } from './types.js';
 
@@ -84,12 +84,13 @@ export class Host {
     transfer: ArrayBuffer[],
     stop: Stop,
   ): Promise<Done<T>> {
-    this.#throwIfEnded(stop);
+    stop.throwIfStopped();
     const connection = await this.#connect();
     const whyInlined = (await this.#load(connection, asset)) ?? connection.whyInlined;
-    this.#throwIfEnded(stop);
+    stop.throwIfStopped();
+    this.#throwIfDisposed();
     let timer: ReturnType<typeof setTimeout> | undefined;
-    if (connection.thread === 'worker' && stop.isExpected) {
+    if (connection.thread === 'worker' && stop.canBeAborted) {
       const warm = () => this.#warm(asset);
       timer = setTimeout(warm, WARM_MILLISECONDS);
       stop.onStop(warm);
@@ -106,8 +107,7 @@ export class Host {
     }
   }
 
-  #throwIfEnded(stop: Stop): void {
-    stop.throwIfStopped();
+  #throwIfDisposed(): void {
     if (this.#disposed) throw new GdelError('DISPOSED', 'the triangulator was disposed of');
   }
 
@@ -140,10 +140,13 @@ export class Host {
   async #connect(): Promise<Connection> {
     const current = await this.#connection?.catch(() => undefined);
     if (current?.isAlive) return current;
+    this.#throwIfDisposed();
     const spare = this.#spare;
     this.#spare = undefined;
-    const ready = await spare?.catch(() => undefined);
-    this.#connection = ready?.isAlive ? Promise.resolve(ready) : this.#open();
+    const open = () => this.#open();
+    this.#connection = spare
+      ? spare.then((ready) => (ready.isAlive ? ready : open()), open)
+      : open();
     return this.#connection;
   }
 
@@ -168,7 +171,7 @@ export class Host {
         this.#noWorker = messageOf(error);
       }
     }
-    return callerConnection(await taskCode(), this.#gpu, this.#noWorker);
+    return callerConnection(await loadCode(taskCode), this.#gpu, this.#noWorker);
   }
 }
 

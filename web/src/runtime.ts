@@ -72,20 +72,27 @@ export async function compile({ file, copy }: WasmAsset): Promise<Loaded<WebAsse
       WebAssembly.compile(await decompressed(base64)),
     );
   } catch (cause) {
-    const why = messageOf(cause);
-    throw new GdelError('LOAD_FAILED', `WebAssembly cannot be loaded: ${why}. ${remedyFor(why)}`, {
-      cause,
-    });
+    throw loadError('WebAssembly cannot be loaded', cause);
   }
 }
 
-/** Returns what to do about a module that cannot be loaded. */
-function remedyFor(message: string): string {
-  return /content security policy|wasm-unsafe-eval|unsafe-eval|disallowed by embedder/i.test(
-    message,
-  )
+/** Imports code of the package. */
+export async function loadCode<T>(code: () => Promise<T>): Promise<T> {
+  try {
+    return await code();
+  } catch (cause) {
+    throw loadError('a part of gdel-wasm cannot be loaded', cause);
+  }
+}
+
+/** Returns an error that says what to do. */
+function loadError(what: string, cause: unknown): GdelError {
+  const why = messageOf(cause);
+  const isForbidden = /content security policy|unsafe-eval|disallowed by embedder/i.test(why);
+  const remedy = isForbidden
     ? "Add 'wasm-unsafe-eval' to script-src in the page's Content-Security-Policy"
     : 'Deploy the .wasm files and the chunks of gdel-wasm beside the code that imports it';
+  return new GdelError('LOAD_FAILED', `${what}: ${why}. ${remedy}`, { cause });
 }
 
 async function compileFile(url: URL): Promise<WebAssembly.Module> {

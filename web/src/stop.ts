@@ -28,8 +28,8 @@ export class Stop {
     return this.#error !== undefined;
   }
 
-  /** Whether the run can be stopped from outside. */
-  get isExpected(): boolean {
+  /** Whether the caller has a signal. */
+  get canBeAborted(): boolean {
     return this.#options.signal !== undefined;
   }
 
@@ -39,7 +39,7 @@ export class Stop {
 
   /** Whether somebody wants to hear of the run before it ends. */
   get isWatched(): boolean {
-    return this.isExpected || this.#options.onProgress !== undefined;
+    return this.canBeAborted || this.#options.onProgress !== undefined;
   }
 
   /** Calls a handler when the run is to end: at once if it already is. */

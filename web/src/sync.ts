@@ -9,6 +9,7 @@ import { compiled } from './modules.js';
 import { checkFunction, optionsOf, outputsOf } from './options.js';
 import { coordinatesNow } from './points.js';
 import type { Tasks } from './protocol.js';
+import { loadCode, type WasmAsset } from './runtime.js';
 import type { AccessorOptions, Place, Points, SyncOptions } from './types.js';
 
 type Code = typeof import('./core.js');
@@ -47,12 +48,13 @@ interface Blocking<F> {
 }
 
 async function blocking<F>(
-  asset: typeof wasm3d,
+  asset: WasmAsset,
   create: (code: Code, module: WebAssembly.Module) => F,
 ): Promise<Blocking<F>> {
-  const [{ value, whyInlined }, code] = await Promise.all([compiled(asset), taskCode()]);
+  const [{ value, whyInlined }, code] = await Promise.all([compiled(asset), loadCode(taskCode)]);
+  const triangulate = thrown(() => create(code, value));
   const whyThread = 'the function is synchronous';
-  return { triangulate: create(code, value), place: { thread: 'caller', whyThread, whyInlined } };
+  return { triangulate, place: { thread: 'caller', whyThread, whyInlined } };
 }
 
 // Plain objects: bundlers leave them out where they are not used, unlike what a call returns.

@@ -12,20 +12,25 @@ interface Port {
   listen(handler: (message: ToWorker) => void): void;
 }
 
+/** Returns the core of a module, or why there is none. */
+function coreOf({ name, module }: ToWorker & { type: 'load' }): Core | PlainError {
+  try {
+    return makeCore(name, module);
+  } catch (error) {
+    return error as PlainError;
+  }
+}
+
 /** Serves the tasks that come through `port`. */
 function serve(port: Port): void {
-  const cores = new Map<ModuleName, Core>();
+  /** The modules that were sent, instantiated or not. */
+  const cores = new Map<ModuleName, Core | PlainError>();
   const aborted = new Set<number>();
 
   async function run({ id, module, task, args, isWatched }: ToWorker & { type: 'run' }) {
     try {
-      const core = cores.get(module);
-      if (!core)
-        throw {
-          code: 'INTERNAL',
-          message: `the module ${module} for ${task} was not loaded`,
-          fatal: true,
-        } satisfies PlainError;
+      const core = cores.get(module)!;
+      if ('code' in core) throw core;
       const result = await core.run(task, args, {
         onProgress(progress) {
           if (isWatched) port.post({ type: 'progress', id, progress }, []);
@@ -46,7 +51,7 @@ function serve(port: Port): void {
 
   port.listen((message) => {
     if (message.type === 'load') {
-      cores.set(message.name, makeCore(message.name, message.module));
+      cores.set(message.name, coreOf(message));
     } else if (message.type === 'run') {
       void run(message);
     } else {

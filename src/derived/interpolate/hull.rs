@@ -12,7 +12,7 @@
 
 use super::{
     super::{Interpolation, Locator, complex::Complex},
-    natural::{MAX_ERROR, dot, length},
+    numeric::{MAX_ERROR, difference, dot, length},
 };
 use crate::{
     geometry::{
@@ -23,11 +23,6 @@ use crate::{
     predicates::{Sign, exact},
 };
 use rustc_hash::FxHashMap;
-
-/// Returns a − b.
-pub(super) fn difference<T: Real, const D: usize>(a: [f64; D], b: [f64; D]) -> [T; D] {
-    std::array::from_fn(|axis| T::difference(a[axis], b[axis]))
-}
 
 /// Appends the weights of the ends of an edge that contains a query.
 pub(super) fn linear_on_edge<const D: usize, const N: usize>(

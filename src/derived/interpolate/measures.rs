@@ -4,7 +4,8 @@
 use super::{
     super::{Interpolation, Locator},
     hull,
-    natural::{Cavity, CavityFacet, dot, length},
+    natural::{Cavity, CavityFacet},
+    numeric::{dot, length},
 };
 use crate::{
     geometry::{Euclidean, Geometry, real::Real},

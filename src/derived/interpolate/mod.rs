@@ -3,6 +3,7 @@
 mod hull;
 mod measures;
 mod natural;
+mod numeric;
 
 pub use measures::StolenMeasures;
 

@@ -12,20 +12,15 @@
 
 use super::{
     super::{Interpolation, Locator},
-    StolenMeasures, hull,
+    StolenMeasures,
+    numeric::{MAX_ERROR, difference},
 };
-use crate::{
-    geometry::{
-        Euclidean, Geometry, facet,
-        real::{Double, Real},
-        vector,
-    },
-    predicates::polynomial,
+use crate::geometry::{
+    Euclidean, Geometry, facet,
+    real::{Double, Real},
+    vector,
 };
 use rustc_hash::FxHashMap;
-
-/// No weight may have a larger error.
-pub(super) const MAX_ERROR: f64 = 5e-11;
 
 /// A cavity as its vertices, facets and circumcentres, relative to the point.
 #[derive(Debug)]
@@ -204,7 +199,7 @@ fn measure<T: Real, const D: usize, const N: usize>(
     // Scaled so that no measure overflows, and relative to the query.
     let scaled = |p: [f64; D]| vector::times(locator.scale, p);
     let query = scaled(query);
-    let relative = |p: [f64; D]| hull::difference(p, query);
+    let relative = |p: [f64; D]| difference(p, query);
     let centers: Vec<[T; D]> = conflict
         .iter()
         .map(|&t| {
@@ -244,14 +239,4 @@ fn measure<T: Real, const D: usize, const N: usize>(
         }
     }
     Euclidean::measure(cavity);
-}
-
-/// Returns the length of a vector, rounded.
-pub(super) fn length<T: Real, const D: usize>(u: [T; D]) -> f64 {
-    vector::norm(u.map(T::to_f64))
-}
-
-/// Returns the dot product.
-pub(super) fn dot<T: Real, const D: usize>(u: [T; D], v: [T; D]) -> T {
-    polynomial::dot(&u, &v)
 }

@@ -1,6 +1,6 @@
 //! One Voronoi cell.
 
-use crate::{Csr, index::NONE};
+use crate::{index::NONE, mesh::Csr};
 
 /// A cell of a Voronoi diagram: a convex polyhedron, or a polygon in 2D.
 ///

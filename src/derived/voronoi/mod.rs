@@ -6,6 +6,7 @@ mod polytope;
 mod shapes;
 
 pub use cell::Cell;
+pub(super) use shapes::THIRD;
 pub use shapes::VoronoiShapes;
 
 use super::Locator;

@@ -72,7 +72,7 @@ impl VoronoiShapes<2, 3> for Euclidean {
 }
 
 /// For corners *i* and *j* of a tetrahedron, the corner *k* such that (i, j, k, l) is an even permutation.
-const THIRD: [[usize; 4]; 4] = [[4, 2, 3, 1], [3, 4, 0, 2], [1, 3, 4, 0], [2, 0, 1, 4]];
+pub(crate) const THIRD: [[usize; 4]; 4] = [[4, 2, 3, 1], [3, 4, 0, 2], [1, 3, 4, 0], [2, 0, 1, 4]];
 
 impl VoronoiShapes<3, 4> for Euclidean {
     type Polytope = Polyhedron;

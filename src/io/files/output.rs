@@ -150,6 +150,62 @@ impl PointOutput {
     }
 }
 
+/// A file for results of another kind: tables, grids and surfaces.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ResultOutput<F> {
+    path: PathBuf,
+    format: F,
+}
+
+impl<F: Copy> ResultOutput<F> {
+    /// Creates the output at `path`, with the format that `format_of` has for its extension; `known`
+    /// has all of these, and `what` says what is written.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::Extension`].
+    pub fn new(
+        path: &Path,
+        what: &'static str,
+        format_of: impl Fn(&str) -> Option<F>,
+        known: &[&'static str],
+    ) -> Result<Self, FileError> {
+        let format = by_extension(path, what, format_of, known.iter().copied())?;
+        Ok(ResultOutput { path: path.into(), format })
+    }
+
+    /// Returns the format.
+    pub fn format(&self) -> F {
+        self.format
+    }
+
+    /// Finds out early whether the output can be written, before the work whose result goes there.
+    ///
+    /// The files `inputs` are never replaced, and others only if they are marked as an output of
+    /// gdel, or with `force`.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::Write`], [`FileError::IsInput`] or [`FileError::Exists`].
+    pub fn check(&self, inputs: &[&Path], force: bool) -> Result<(), FileError> {
+        check(&self.path, inputs)?;
+        if !force && self.path.symlink_metadata().is_ok() && !is_generated(&self.path) {
+            return Err(FileError::Exists { path: self.path.clone(), what: "marked as an output of gdel".into() });
+        }
+        Ok(())
+    }
+
+    /// Writes what `write` writes. A file of the same name is replaced once all is written; on
+    /// failure it stays as it is.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::Write`].
+    pub fn write(&self, write: impl Fn(&mut dyn io::Write) -> io::Result<()>) -> Result<(), FileError> {
+        publish(vec![prepare(&self.path, write)?])
+    }
+}
+
 /// Checks that a file can be written at `path`, and that it is none of `inputs` under another name.
 fn check(path: &Path, inputs: &[&Path]) -> Result<(), FileError> {
     let in_file = |source| FileError::Write { path: path.into(), source };

@@ -1,0 +1,87 @@
+//! `gdel interpolate`: values at the points in, values at queries out.
+
+use super::{
+    Failure,
+    derive::{Common, Found},
+    dimension::{Dimension, Triangulation, read},
+    input,
+    locate::{parse_table, write_table},
+};
+use clap::{Args, ValueEnum};
+use gdel::{
+    Interpolation, Interpolator, Locator, Mesh2, Mesh3, Points,
+    internals::{
+        derived::StolenMeasures,
+        geometry::Euclidean,
+        io::{Column, Table, TableFormat, files::ResultOutput},
+    },
+};
+use std::{collections::BTreeMap, path::PathBuf};
+
+/// Interpolate values that are given at points.
+#[derive(Args)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// The query points, in any format that `triangulate` reads
+    queries: PathBuf,
+    /// The column of the points' file with the values: its name in the first line, or its number,
+    /// counted from 1. The file must be text or CSV
+    #[arg(long, value_name = "COLUMN")]
+    values: String,
+    /// How to interpolate
+    #[arg(long, value_enum, default_value_t = Method::Linear)]
+    method: Method,
+    /// Where to write, one row per query with its coordinates and the value, NaN outside the hull:
+    /// .csv or .npz
+    #[arg(short, long = "output", value_name = "FILE", value_parser = parse_table)]
+    output: ResultOutput<TableFormat>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Method {
+    /// Within each simplex
+    Linear,
+    /// Natural neighbours, weighted by areas and distances
+    Laplace,
+    /// Natural neighbours, weighted by volumes
+    Sibson,
+}
+
+impl From<Method> for Interpolation {
+    fn from(method: Method) -> Self {
+        match method {
+            Method::Linear => Interpolation::Linear,
+            Method::Laplace => Interpolation::Laplace,
+            Method::Sibson => Interpolation::Sibson,
+        }
+    }
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match arguments.common.dim {
+        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
+        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
+    }
+}
+
+fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure>
+where
+    Euclidean: StolenMeasures<D, N>,
+{
+    let Arguments { common, queries, values, method, output } = arguments;
+    let (points, queries) = (common.input()?, input(queries, None)?);
+    common.check(output, &[points.path(), queries.path()])?;
+    let (points, values) = points.read_with_values::<D>(values)?;
+    let queries = read::<D>(&queries)?;
+    let (points, queries) = (Points::from(&points), Points::from(&queries));
+    let (_, found) = common.run::<M, D, N, _>(points, "interpolate", |mesh| {
+        let locator = Locator::new(mesh, points)?;
+        let result = Interpolator::new(&locator, &values)?.interpolate_many((*method).into(), queries)?;
+        let inside = locator.locate_many(queries)?.iter().filter(|location| location.simplex().is_some()).count();
+        let numbers = BTreeMap::from([("queries", queries.len() as f64), ("inside", inside as f64)]);
+        Ok(Found { result, numbers })
+    })?;
+    let coordinates: Vec<[f64; D]> = queries.iter().collect();
+    write_table(output, &Table::default().with_points("", &coordinates).with("value", Column::Numbers(found)))
+}

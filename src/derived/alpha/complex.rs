@@ -1,0 +1,246 @@
+//! The alpha complex for one radius.
+
+use super::{
+    super::{sets::DisjointSets, voronoi::VoronoiShapes},
+    AlphaEdges, AlphaShape,
+    values::{Alpha, certain},
+};
+use crate::{
+    geometry::{Euclidean, facet},
+    index::NONE,
+};
+
+/// What a face is in an alpha complex.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::FaceClass;
+///
+/// let points = [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [9.0, 9.0f64]];
+/// let mesh = gdel::delaunay2d(&points)?;
+/// let shape = gdel::AlphaShape::new(&mesh, &points)?;
+/// let complex = shape.at(1.5)?;
+/// let class = |v: u32| complex.vertices().find(|&(w, _)| w == v).unwrap().1;
+/// assert_eq!((class(0), class(3)), (FaceClass::Regular, FaceClass::Singular));
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum FaceClass {
+    /// Not part of the complex.
+    Exterior,
+    /// Part of the complex, but no face of a larger one that is.
+    Singular,
+    /// On the boundary of the complex, and a face of a larger one.
+    Regular,
+    /// Within the complex: all simplices around it are part of it.
+    Interior,
+}
+
+/// The alpha complex for one radius, which [`AlphaShape::at`] returns.
+///
+/// # Examples
+///
+/// ```
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0f64]];
+/// let mesh = gdel::delaunay3d(&points)?;
+/// let shape = gdel::AlphaShape::new(&mesh, &points)?;
+/// let complex = shape.at(10.0)?;
+/// assert_eq!((complex.solid().count(), complex.surface().count()), (2, 6));
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct AlphaComplex<'s, const D: usize = 3, const N: usize = 4> {
+    shape: &'s AlphaShape<'s, D, N>,
+    alpha: Alpha,
+    /// Whether each simplex is part of the complex.
+    is_solid: Vec<bool>,
+}
+
+impl<'s, const D: usize, const N: usize> AlphaComplex<'s, D, N>
+where
+    Euclidean: AlphaEdges<D, N>,
+{
+    pub(super) fn new(shape: &'s AlphaShape<'s, D, N>, alpha: f64) -> Self {
+        let alpha = shape.radii.alpha(alpha);
+        let is_solid = |(simplex, &squared): (&[u32; N], &f64)| shape.radii.compare_with(simplex, squared, alpha) <= 0;
+        let is_solid = shape.radii.complex.simplices.iter().zip(&shape.simplices).map(is_solid).collect();
+        AlphaComplex { shape, alpha, is_solid }
+    }
+
+    /// Returns the simplices that are part of the complex, in ascending order.
+    pub fn solid(&self) -> impl Iterator<Item = usize> + '_ {
+        self.is_solid.iter().enumerate().filter(|&(_, &is_solid)| is_solid).map(|(t, _)| t)
+    }
+
+    /// Returns the boundary of the simplices that are part of the complex: triangles that are counter-clockwise as seen from
+    /// outside, in 2D edges that have the inside on their left.
+    ///
+    /// The surface is closed: every edge belongs to as many triangles in one direction as in the other, in 2D every vertex to as
+    /// many edges that end there as start there. Where solids touch in an edge or a vertex only, these are more than one.
+    pub fn surface(&self) -> impl Iterator<Item = [u32; D]> + '_ {
+        let complex = &self.shape.radii.complex;
+        self.solid().flat_map(move |t| {
+            let is_outer = move |&k: &usize| complex.across(t, k).is_none_or(|across| !self.is_solid[across]);
+            (0..N).filter(is_outer).map(move |k| facet(&complex.simplices[t], k))
+        })
+    }
+
+    /// Returns for each simplex the number of its component, and the number of components. Components are simplices that hang
+    /// together across facets, counted in the order of their first simplices; those that are no part of the complex have
+    /// [`NONE`](crate::NONE).
+    pub fn components(&self) -> (Vec<i32>, usize) {
+        let complex = &self.shape.radii.complex;
+        let mut sets = DisjointSets::new(self.is_solid.len());
+        for t in self.solid() {
+            for across in (0..N).filter_map(|k| complex.across(t, k)).filter(|&across| self.is_solid[across]) {
+                sets.unite(t as u32, across as u32);
+            }
+        }
+        let mut labels = vec![NONE; self.is_solid.len()];
+        let mut count = 0;
+        for t in self.solid() {
+            // The lowest simplex stands for all of a component, and so comes first.
+            let first = sets.find(t as u32) as usize;
+            if first == t {
+                labels[t] = count;
+                count += 1;
+            } else {
+                labels[t] = labels[first];
+            }
+        }
+        (labels, count as usize)
+    }
+
+    /// Returns all facets and what they are: in the order of [`AlphaShape::facets`].
+    pub fn facets(&self) -> impl Iterator<Item = ([u32; D], FaceClass)> + '_ {
+        let complex = &self.shape.radii.complex;
+        self.shape.listed_facets().zip(&self.shape.facets).map(move |((t, k), &own)| {
+            let vertices = facet(&complex.simplices[t], k);
+            let other = complex.across(t, k).map(|across| self.is_solid[across]);
+            let class = match (self.is_solid[t], other) {
+                (true, Some(true)) => FaceClass::Interior,
+                (true, _) | (_, Some(true)) => FaceClass::Regular,
+                _ if self.is_own(&vertices, own) => FaceClass::Singular,
+                _ => FaceClass::Exterior,
+            };
+            (vertices, class)
+        })
+    }
+
+    /// Returns all vertices and what they are: in ascending order.
+    pub fn vertices(&self) -> impl Iterator<Item = (u32, FaceClass)> + '_ {
+        let is_vertex = |&(v, _): &(usize, &[f64; 2])| self.shape.radii.complex.duplicate_of[v] == NONE;
+        // What is left open by rounded values depends on the faces around the vertex.
+        let mut exactly = None;
+        self.shape.vertices.iter().enumerate().filter(is_vertex).map(move |(v, &[regular, interior])| {
+            let class = match (self.certainly(regular), self.certainly(interior)) {
+                (Some(_), Some(true)) => FaceClass::Interior,
+                (Some(true), Some(false)) => FaceClass::Regular,
+                (Some(false), Some(false)) => FaceClass::Singular,
+                _ => exactly.get_or_insert_with(|| self.classify_vertices())[v],
+            };
+            (v as u32, class)
+        })
+    }
+
+    /// Classifies all vertices by the faces around them.
+    fn classify_vertices(&self) -> Vec<FaceClass> {
+        let complex = &self.shape.radii.complex;
+        let start = if complex.simplices.is_empty() { FaceClass::Singular } else { FaceClass::Interior };
+        let mut classes = vec![start; complex.points.len()];
+        let mut is_face = vec![false; classes.len()];
+        for (t, simplex) in complex.simplices.iter().enumerate() {
+            for &v in simplex {
+                is_face[v as usize] |= self.is_solid[t];
+                if !self.is_solid[t] {
+                    classes[v as usize] = FaceClass::Regular;
+                }
+            }
+        }
+        for ((t, k), (vertices, class)) in self.shape.listed_facets().zip(self.facets()) {
+            for v in vertices {
+                is_face[v as usize] |= class != FaceClass::Exterior;
+                if complex.across(t, k).is_none() {
+                    classes[v as usize] = FaceClass::Regular;
+                }
+            }
+        }
+        for (edge, &own) in self.shape.edges.edges.iter().zip(&self.shape.edges.own) {
+            if self.is_own(edge, own) {
+                edge.iter().for_each(|&v| is_face[v as usize] = true);
+            }
+        }
+        for (class, is_face) in classes.iter_mut().zip(is_face) {
+            if *class == FaceClass::Regular && !is_face {
+                *class = FaceClass::Singular;
+            }
+        }
+        classes
+    }
+
+    /// Returns whether a face is part of the complex by its own smallest sphere.
+    fn is_own(&self, face: &[u32], own: f64) -> bool {
+        own != f64::INFINITY && self.shape.radii.compare_with(face, own, self.alpha) <= 0
+    }
+
+    /// Returns whether a squared radius is at most alpha's, or `None` if rounding leaves that open.
+    fn certainly(&self, squared: f64) -> Option<bool> {
+        if squared == f64::INFINITY {
+            return Some(false);
+        }
+        certain(squared, self.alpha.squared()).map(|sign| sign < 0)
+    }
+}
+
+impl AlphaComplex<'_, 3, 4> {
+    /// Returns all edges of a 3D mesh and what they are: in the order of [`AlphaShape::edges`].
+    pub fn edges(&self) -> impl ExactSizeIterator<Item = ([u32; 2], FaceClass)> + '_ {
+        let edges = &self.shape.edges;
+        edges.edges.iter().enumerate().map(move |(e, &edge)| {
+            let class = match (self.certainly(edges.regular[e]), self.certainly(edges.interior[e])) {
+                (_, Some(true)) => FaceClass::Interior,
+                (Some(true), Some(false)) => FaceClass::Regular,
+                (Some(false), Some(false)) if self.is_own(&edge, edges.own[e]) => FaceClass::Singular,
+                (Some(false), Some(false)) => FaceClass::Exterior,
+                _ => self.classify_edge(e),
+            };
+            (edge, class)
+        })
+    }
+
+    /// Classifies an edge by the faces around it.
+    fn classify_edge(&self, e: usize) -> FaceClass {
+        let complex = &self.shape.radii.complex;
+        let (edge, t) = (self.shape.edges.edges[e], self.shape.edges.simplex[e] as usize);
+        let mut ring = Vec::new();
+        let is_closed = <Euclidean as VoronoiShapes<3, 4>>::ring(complex, edge[0], edge[1], t, &mut ring);
+        if is_closed && ring.iter().all(|&t| self.is_solid[t as usize]) {
+            return FaceClass::Interior;
+        }
+        let has_solid = ring.iter().any(|&t| self.is_solid[t as usize]);
+        // The facets around the edge, those inside the ring twice.
+        let mut facets = ring.iter().flat_map(|&t| {
+            let t = t as usize;
+            let is_at_edge = move |&k: &usize| !edge.contains(&complex.simplices[t][k]);
+            (0..4).filter(is_at_edge).map(move |k| (t, k))
+        });
+        let is_own = |(t, k): (usize, usize)| {
+            let vertices = facet(&complex.simplices[t], k);
+            let corners = vertices.map(|v| complex.point(v));
+            let apexes = [Some((t, k)), complex.across(t, k).map(|u| (u, complex.facet_towards(u, t)))];
+            let mut apexes = apexes.into_iter().flatten().filter_map(|(t, k)| complex.simplices[t].get(k));
+            let is_attached = apexes.any(|&v| {
+                <Euclidean as crate::geometry::Geometry<3, 4>>::in_smallest_sphere(&corners, complex.point(v))
+            });
+            !is_attached && self.shape.radii.compare_with(&vertices, f64::NAN, self.alpha) <= 0
+        };
+        if has_solid || facets.any(is_own) {
+            FaceClass::Regular
+        } else if self.is_own(&edge, self.shape.edges.own[e]) {
+            FaceClass::Singular
+        } else {
+            FaceClass::Exterior
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! The Euclidean minimum spanning tree, a subgraph of every Delaunay triangulation.
+
+use super::{complex::Complex, sets::DisjointSets};
+use crate::{
+    error::Error,
+    geometry::{Euclidean, Geometry, SquaredLength, compare_lengths, vector},
+    index::NONE,
+    input::points::Points,
+    mesh::Mesh,
+    parallel::{self, Threads},
+};
+use std::cmp::Ordering;
+
+/// The Euclidean minimum spanning tree of the vertices of a mesh: the shortest connection of all of them.
+///
+/// Of several edges of exactly the same length the one with the lower vertices comes first, so the tree is unique.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::SpanningTree;
+///
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 2.0], [9.0, 0.0], [9.0, 4.0f64]];
+/// let mesh = gdel::delaunay2d(&points)?;
+/// let tree = SpanningTree::new(&mesh, &points)?;
+/// assert_eq!(tree.edges, [[0, 1], [0, 2], [3, 4], [1, 3]]);
+/// assert_eq!(tree.lengths, [1.0, 2.0, 4.0, 8.0]);
+/// // Single-linkage clusters.
+/// assert_eq!(tree.clusters(2), [0, 0, 0, 1, 1]);
+/// assert_eq!(tree.clusters_within(1.5), [0, 0, 1, 2, 3]);
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct SpanningTree {
+    /// The edges, the lower vertex first, in the order of their lengths. There is one less than vertices, and none at all if the
+    /// mesh has no simplices.
+    pub edges: Vec<[u32; 2]>,
+    /// The length of each edge, with a relative error below 2⁻⁵⁰.
+    pub lengths: Vec<f64>,
+    /// For each point, the one that stands for it, or [`NONE`](crate::NONE) if it is a vertex itself.
+    duplicate_of: Vec<i32>,
+}
+
+/// An edge that may be one of the tree.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    length: SquaredLength,
+    edge: [u32; 2],
+}
+
+/// Fewer candidates than this are sorted rather than split.
+const SORTED: usize = 1 << 14;
+
+impl SpanningTree {
+    /// Computes the minimum spanning tree of the vertices of a mesh.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for [`Locator::new`](crate::Locator::new).
+    pub fn new<'a, const D: usize, const N: usize>(
+        mesh: &'a impl Mesh<D, N>,
+        points: impl Into<Points<'a, D>>,
+    ) -> Result<Self, Error>
+    where
+        Euclidean: Geometry<D, N>,
+    {
+        let complex = Complex::new(mesh, points.into())?;
+        let compare = |a: &Candidate, b: &Candidate| {
+            let points = |edge: [u32; 2]| edge.map(|v| complex.point(v));
+            let lengths = compare_lengths((points(a.edge), a.length), (points(b.edge), b.length));
+            lengths.cmp(&0).then(a.edge.cmp(&b.edge))
+        };
+        let edges = kruskal(complex.points.len(), candidates(&complex), compare);
+        let edges: Vec<[u32; 2]> = edges.iter().map(|candidate| candidate.edge).collect();
+        let length = |&[v, w]: &[u32; 2]| vector::norm(vector::minus(complex.point(v), complex.point(w)));
+        let lengths = edges.iter().map(length).collect();
+        Ok(SpanningTree { edges, lengths, duplicate_of: complex.duplicate_of.to_vec() })
+    }
+
+    /// Returns the sum of all lengths.
+    pub fn total_length(&self) -> f64 {
+        self.lengths.iter().sum()
+    }
+
+    /// Returns the single-linkage clusters that are left without the longest edges, as many as wanted if there are enough
+    /// vertices: for each point the number of its cluster. Clusters are counted in the order of their first points.
+    pub fn clusters(&self, count: usize) -> Vec<u32> {
+        self.label(self.edges.len().saturating_sub(count.saturating_sub(1)))
+    }
+
+    /// Returns the single-linkage clusters that are left without the edges longer than `distance`: for each point the number of its
+    /// cluster. Clusters are counted in the order of their first points.
+    pub fn clusters_within(&self, distance: f64) -> Vec<u32> {
+        self.label(self.lengths.partition_point(|&length| length <= distance))
+    }
+
+    /// Numbers the components of the first edges.
+    fn label(&self, edges: usize) -> Vec<u32> {
+        let mut sets = DisjointSets::new(self.duplicate_of.len());
+        for &[a, b] in &self.edges[..edges] {
+            sets.unite(a, b);
+        }
+        let mut labels = vec![0; self.duplicate_of.len()];
+        let mut count = 0;
+        for (i, &duplicate_of) in (0..).zip(&self.duplicate_of) {
+            let first = sets.find(if duplicate_of == NONE { i } else { duplicate_of as u32 });
+            if first == i {
+                labels[i as usize] = count;
+                count += 1;
+            } else {
+                // The lowest vertex stands for all of a cluster, and a vertex is lower than its duplicates.
+                labels[i as usize] = labels[first as usize];
+            }
+        }
+        labels
+    }
+}
+
+/// Returns the edges of a mesh, some of them several times, without most of those that are the longest side of a triangle, which no
+/// minimum spanning tree has.
+fn candidates<const D: usize, const N: usize>(complex: &Complex<'_, D, N>) -> Vec<Candidate>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let ranges = parallel::map_ranges(Threads::All, complex.simplices.len(), |range| {
+        let mut candidates = Vec::new();
+        for t in range {
+            let simplex = complex.simplices[t];
+            let corners = complex.corners(t);
+            let mut lengths = [[SquaredLength::default(); N]; N];
+            for i in 0..N {
+                for j in 0..i {
+                    lengths[i][j] = SquaredLength::new(corners[i], corners[j]);
+                    lengths[j][i] = lengths[i][j];
+                }
+            }
+            // Of the simplices around an edge, those whose neighbours there have higher numbers.
+            let is_lowest = |k: usize| complex.across(t, k).is_none_or(|across| t < across);
+            for i in 0..N {
+                for j in 0..i {
+                    let mut others = (0..N).filter(|&k| k != i && k != j);
+                    let is_longest = |k: usize| {
+                        let is_longer = |other: SquaredLength| lengths[i][j].certain_difference(other) > 0;
+                        is_longer(lengths[i][k]) && is_longer(lengths[j][k])
+                    };
+                    if others.all(|k| is_lowest(k) && !is_longest(k)) {
+                        let [v, w] = [simplex[i], simplex[j]];
+                        candidates.push(Candidate { length: lengths[i][j], edge: [v.min(w), v.max(w)] });
+                    }
+                }
+            }
+        }
+        candidates
+    });
+    ranges.concat()
+}
+
+/// Returns the edges that connect what shorter ones do not, in their order (Osipov, Sanders and Singler, *The
+/// filter-Kruskal minimum spanning tree algorithm*, 2009): the longer half is looked at after the shorter one, and
+/// what that has connected is dropped before it is sorted.
+fn kruskal(
+    vertices: usize,
+    candidates: Vec<Candidate>,
+    compare: impl Fn(&Candidate, &Candidate) -> Ordering,
+) -> Vec<Candidate> {
+    let mut sets = DisjointSets::new(vertices);
+    let mut tree = Vec::new();
+    // The longest edges first.
+    let mut pending = vec![candidates];
+    while let Some(mut edges) = pending.pop() {
+        edges.retain(|&Candidate { edge: [a, b], .. }| sets.find(a) != sets.find(b));
+        if edges.len() > SORTED {
+            let middle = edges.len() / 2;
+            edges.select_nth_unstable_by(middle, &compare);
+            let longer = edges.split_off(middle);
+            pending.extend([longer, edges]);
+            continue;
+        }
+        edges.sort_unstable_by(&compare);
+        tree.extend(edges.into_iter().filter(|&Candidate { edge: [a, b], .. }| sets.unite(a, b)));
+    }
+    tree
+}
