@@ -1,5 +1,6 @@
 //! In 2D, the backend `gpu` gives the same set of triangles as the backend `cpu`.
 
+use crate::degenerate;
 use gdel::{
     Backend, Mesh2, Points2,
     internals::{
@@ -221,6 +222,16 @@ fn every_submission_is_counted() {
     // The round that is submitted ahead of the last one's counters has nothing to do.
     let gpu = triangulate((&points).into(), &Settings::default()).stats.gpu.expect("the GPU worked");
     assert_eq!(gpu.submits, 1 + gpu.rounds.len() as u64 + 1 + 1 + 2);
+}
+
+#[test]
+fn random_degenerate_points() {
+    for seed in degenerate::cases(40) {
+        let random = &mut Pcg64Mcg::seed_from_u64(seed);
+        let points = degenerate::points(random, 300);
+        println!("seed {seed}: {} points", points.len());
+        same((&points).into(), &triangulate((&points).into(), &Settings::default()));
+    }
 }
 
 proptest! {
