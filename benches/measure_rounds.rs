@@ -7,9 +7,9 @@
 use gdel::{
     Points,
     internals::{
-        dimension::Dimension,
         d2::generate::{Distribution2, generate2d},
         d3::generate::{Distribution3, generate3d},
+        dimension::Dimension,
         gpu::{
             AdapterChoice, Gpu,
             layout::Counters,
@@ -23,7 +23,7 @@ use gdel::{
 use pollster::block_on;
 use std::{error::Error, path::Path};
 
-#[path = "../tests/clouds.rs"]
+#[path = "../tests/shared/clouds.rs"]
 mod clouds;
 
 /// The kernels for points of either width, once they were needed.
@@ -60,7 +60,11 @@ where
         let mut stopped = false;
         while !stopped && block_on(run.advance())? {
             let now = run.control().1;
-            rounds.push((now.inserted - before.inserted, now.iterations - before.iterations, now.flips() - before.flips()));
+            rounds.push((
+                now.inserted - before.inserted,
+                now.iterations - before.iterations,
+                now.flips() - before.flips(),
+            ));
             before = now;
             stopped = now.iterations > most;
         }
@@ -95,7 +99,10 @@ fn spatial() -> Vec<Cloud<3>> {
     let random = |distribution, n| move || generate3d(distribution, n, 1);
     let rotated = |points: Vec<[f64; 3]>| -> Vec<[f64; 3]> {
         // The rows of an integer matrix of determinant 27, whose images are no multiples of each other.
-        points.into_iter().map(|[x, y, z]| [2.0 * x - y + 2.0 * z, 2.0 * x + 2.0 * y - z, -x + 2.0 * y + 2.0 * z]).collect()
+        points
+            .into_iter()
+            .map(|[x, y, z]| [2.0 * x - y + 2.0 * z, 2.0 * x + 2.0 * y - z, -x + 2.0 * y + 2.0 * z])
+            .collect()
     };
     vec![
         ("uniform", Box::new(random(Distribution3::Uniform, 10_000))),
@@ -105,7 +112,14 @@ fn spatial() -> Vec<Cloud<3>> {
         ("lattice 512³", Box::new(random(Distribution3::Grid, 10_000))),
         ("survey", Box::new(|| clouds::survey(10_000))),
         ("clusters", Box::new(|| clouds::clusters_at_1e_9_spacing(5_000))),
-        ("bunny", Box::new(|| Points::from(&read_points(Path::new("tests/data/bunny.ply")).expect("it is there").points).iter().collect())),
+        (
+            "bunny",
+            Box::new(|| {
+                Points::from(&read_points(Path::new("tests/data/bunny.ply")).expect("it is there").points)
+                    .iter()
+                    .collect()
+            }),
+        ),
         ("raster, whole heights", Box::new(|| clouds::raster(120, 1.0))),
         ("raster, heights in 1/8", Box::new(|| clouds::raster(120, 0.125))),
         ("raster, unrounded", Box::new(|| clouds::raster(120, 0.0))),
@@ -144,7 +158,10 @@ fn plane() -> Vec<Cloud<2>> {
         ("2D grid 100², slanted", Box::new(move || slanted(grid(100)))),
         ("2D ribbon", Box::new(|| (0..10_000).map(|i| [i % 5000, i / 5000].map(f64::from)).collect())),
         ("2D two lines, random", Box::new(random(Distribution2::TwoLines, 16_000))),
-        ("2D line and a point", Box::new(|| (0..10_000).map(|i| [f64::from(i), 0.0]).chain([[3000.0, 5000.0]]).collect())),
+        (
+            "2D line and a point",
+            Box::new(|| (0..10_000).map(|i| [f64::from(i), 0.0]).chain([[3000.0, 5000.0]]).collect()),
+        ),
         ("2D saw", Box::new(|| (0..10_000).map(|i| [f64::from(i), f64::from(5 * (i % 2) * (i % 10))]).collect())),
     ]
 }
@@ -154,11 +171,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let parts: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
     let wanted = |name: &str| parts.is_empty() || parts.iter().any(|part| name.contains(&**part));
     let gpu = block_on(Gpu::open(&AdapterChoice::Default))?;
-    println!("| input | points | rounds | flip iterations | flips | flips per iteration | dispatches | exact signs | failed vertices | flat |");
+    println!(
+        "| input | points | rounds | flip iterations | flips | flips per iteration | dispatches | exact signs | failed vertices | flat |"
+    );
     println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     let mut kernels = Kernels::default();
     for (name, cloud) in spatial().into_iter().filter(|(name, _)| wanted(name)) {
-        kernels.count(&gpu, name, (&cloud()).into(), |near| near.uncertain.iter().filter(|[_, what]| what & 16 != 0).count())?;
+        kernels.count(&gpu, name, (&cloud()).into(), |near| {
+            near.uncertain.iter().filter(|[_, what]| what & 16 != 0).count()
+        })?;
     }
     let mut kernels = Kernels::default();
     for (name, cloud) in plane().into_iter().filter(|(name, _)| wanted(name)) {

@@ -95,8 +95,7 @@ fn rounds_on_rasters_grids_and_lines() {
     let grid = |[a, b, c]: [i64; 3]| -> Vec<Point> {
         (0..a * b * c).map(|i| [i % a, i / a % b, i / (a * b)].map(|x| 4 * x)).collect()
     };
-    let tilted =
-        |[x, y, z]: Point| [2 * x - y + 2 * z + 48, 2 * x + 2 * y - z + 48, 2 * y - x + 2 * z + 48];
+    let tilted = |[x, y, z]: Point| [2 * x - y + 2 * z + 48, 2 * x + 2 * y - z + 48, 2 * y - x + 2 * z + 48];
     let heights = random(48 * 48, 12, 40);
     let raster = (0..48 * 48).map(|i| [4 * (i % 48), 4 * (i / 48), heights[i as usize][0]]).collect();
     let slope = (0..48 * 48).map(|i| [4 * (i % 48), 4 * (i / 48), (i % 48) * (i % 48) + (i / 48) * 7]).collect();

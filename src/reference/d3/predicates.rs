@@ -56,9 +56,8 @@ fn perturbed(width: Width, vertices: [Vertex; 5], first: impl Fn([[i64; 3]; 5]) 
             lower[i] = lowered(positions[i], set, rank);
         }
         let in_sphere = || if set == 0 { insphere_at(width, positions) } else { lifted(positions, lower) };
-        let by_heights = || {
-            symbolic::break_tie(vertices.map(|v| v.index), |k| orient3d_at(width, symbolic::without(lower, k)))
-        };
+        let by_heights =
+            || symbolic::break_tie(vertices.map(|v| v.index), |k| orient3d_at(width, symbolic::without(lower, k)));
         let nonzero = |sign: Sign| (sign != 0).then_some(sign);
         nonzero(first(lower)).or_else(|| nonzero(in_sphere())).or_else(|| nonzero(by_heights()))
     };
