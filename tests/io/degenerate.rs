@@ -12,7 +12,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 #[path = "../shared/degenerate.rs"]
-mod degenerate;
+mod clouds;
 
 /// What the test does in either dimension.
 trait Triangulation<const D: usize, const N: usize>: Mesh<D, N> + Sized {
@@ -51,9 +51,9 @@ impl Triangulation<2, 3> for Mesh2 {
 
 fn check<M: Triangulation<D, N>, const D: usize, const N: usize>() {
     let point_formats = [PointFormat::Text, PointFormat::Csv, PointFormat::Npy, PointFormat::Node, PointFormat::RawF64];
-    for case in degenerate::cases(100) {
+    for case in clouds::cases(100) {
         let random = &mut Pcg64Mcg::seed_from_u64(case);
-        let points = degenerate::points::<D>(random, 60);
+        let points = clouds::points::<D>(random, 60);
         let stored = PointBuf::F64(points.clone());
         let points = Points::F64(&points);
         let format = point_formats[case as usize % point_formats.len()];
