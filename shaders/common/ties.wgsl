@@ -1,7 +1,7 @@
 // What breaks ties in both dimensions: the order of the vertices' indices, and the signs of
 // coefficients in turn.
 //
-// Expects: Vertex, with an index; Determinant, with sign_of_determinant.
+// Expects: Vertex, with an index; Determinant, with sign_of_determinant; vertices.
 
 // Exchanges two vertices if they are not in the order of their indices.
 fn put_in_order(a: ptr<function, Vertex>, b: ptr<function, Vertex>, parity: ptr<function, i32>) {
@@ -34,6 +34,13 @@ fn in_order(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex) -> InOrder {
     put_in_order(&b, &d, &parity);
     put_in_order(&b, &c, &parity);
     return InOrder(a, b, c, d, parity);
+}
+
+// Returns `count`, the number of perturbations, in a form that compilers do not see through.
+// Otherwise they unroll the loop over them, and spend seconds on what hardly ever runs more than
+// once.
+fn not_unrolled(count: u32) -> u32 {
+    return min(count, arrayLength(&vertices) + count - 1);
 }
 
 // Returns the sign of a, or `otherwise` if that is 0.

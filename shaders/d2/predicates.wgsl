@@ -50,7 +50,8 @@ fn perturbed_sign(a: Vertex, b: Vertex, c: Vertex, d: Vertex, of_three: bool) ->
     let lb = lift_of(v);
     let lc = lift_of(w);
     var sign = 0;
-    for (var i = 0; i < 5 && sign == 0; i++) {
+    let count = not_unrolled(5);
+    for (var i = 0u; i < count && sign == 0; i++) {
         let s = PERTURBATIONS[i];
         let p = lowered(u, lowering(s, 0));
         let q = lowered(v, lowering(s, 1));

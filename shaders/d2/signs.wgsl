@@ -18,19 +18,35 @@ fn vertex(v: u32) -> Vertex {
     return Vertex(load_position(v), index);
 }
 
-// Returns the orientation of three finite vertices. The number of infinity stands for the interior
-// point.
-fn orient_finite(v: vec3u) -> i32 {
-    var sign = orient2d_filter(load_high(v.x), load_high(v.y), load_high(v.z));
+// Returns the orientation of three finite vertices if `of_three`, where e is the interior point;
+// otherwise whether e is inside the circumcircle of three that are positively oriented. Both in one
+// function, so that the exact arithmetic is compiled once.
+fn finite_sign(v: vec3u, e: u32, of_three: bool) -> i32 {
+    let a = load_high(v.x);
+    let b = load_high(v.y);
+    let c = load_high(v.z);
+    var sign = 0;
+    if of_three {
+        sign = orient2d_filter(a, b, c);
+    } else {
+        sign = incircle_filter(a, b, c, load_high(e));
+    }
     if sign == 0 {
         exact_signs += 1;
-        sign = orient2d_exact(load_position(v.x), load_position(v.y), load_position(v.z));
+        if of_three {
+            sign = orient2d_exact(load_position(v.x), load_position(v.y), load_position(v.z));
+        }
         if sign == 0 {
-            let infinite = control.infinite;
-            sign = perturbed_sign(vertex(v.x), vertex(v.y), vertex(v.z), vertex(infinite), true);
+            sign = perturbed_sign(vertex(v.x), vertex(v.y), vertex(v.z), vertex(e), of_three);
         }
     }
     return sign;
+}
+
+// Returns the orientation of three finite vertices. The number of infinity stands for the interior
+// point.
+fn orient_finite(v: vec3u) -> i32 {
+    return finite_sign(v, control.infinite, true);
 }
 
 // Returns the orientation of three vertices. Infinity lies opposite to the interior point.
@@ -43,15 +59,9 @@ fn orient(v: vec3u) -> i32 {
 // one that is the half-plane beyond its hull edge; infinity is inside none.
 fn inside(tri: vec3u, e: u32) -> bool {
     let at_infinity = tri == vec3u(control.infinite);
-    var sign = -1;
-    if any(at_infinity) {
-        sign = orient_finite(select(tri, vec3u(e), at_infinity));
-    } else if e != control.infinite {
-        sign = incircle_filter(load_high(tri.x), load_high(tri.y), load_high(tri.z), load_high(e));
-        if sign == 0 {
-            exact_signs += 1;
-            sign = perturbed_sign(vertex(tri.x), vertex(tri.y), vertex(tri.z), vertex(e), false);
-        }
+    let of_three = any(at_infinity);
+    if e == control.infinite && !of_three {
+        return false;
     }
-    return sign > 0;
+    return finite_sign(select(tri, vec3u(e), at_infinity), select(e, control.infinite, of_three), of_three) > 0;
 }

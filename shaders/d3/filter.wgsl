@@ -36,6 +36,19 @@ fn insphere_filter(a: vec3i, b: vec3i, c: vec3i, d: vec3i, e: vec3i) -> i32 {
     return insphere_certain(p, q, r, s, k, INSPHERE_ROUNDING + low_word_error(k), 0);
 }
 
+// Returns the orientation of four vertices if `of_four`, otherwise whether e is inside the
+// circumsphere of four that are positively oriented; 0 where that is not certain.
+fn filtered_sign(v: vec4u, e: u32, of_four: bool) -> i32 {
+    let a = load_high(v.x);
+    let b = load_high(v.y);
+    let c = load_high(v.z);
+    let d = load_high(v.w);
+    if of_four {
+        return orient3d_filter(a, b, c, d);
+    }
+    return insphere_filter(a, b, c, d, load_high(e));
+}
+
 // det(u, v, w), if it is certain: `error` times the permanent of what is larger by k, and
 // `underflow`, are what it may be off by.
 fn orient3d_certain(u: vec3f, v: vec3f, w: vec3f, k: f32, error: f32, underflow: f32) -> i32 {

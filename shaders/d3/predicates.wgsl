@@ -81,7 +81,8 @@ fn perturbed_sign(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex, e_: Vertex, of
     let lc = lift_of(w);
     let ld = lift_of(t);
     var sign = 0;
-    for (var i = 0; i < 15 && sign == 0; i++) {
+    let count = not_unrolled(15);
+    for (var i = 0u; i < count && sign == 0; i++) {
         let s = PERTURBATIONS[i];
         let p = lowered(u, lowering(s, 0));
         let q = lowered(v, lowering(s, 1));

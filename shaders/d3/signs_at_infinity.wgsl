@@ -1,6 +1,12 @@
 // Signs on vertices that may be at infinity.
 //
-// Expects: orient_finite, insphere_finite, control.
+// Expects: finite_sign, control.
+
+// Returns the orientation of four finite vertices. The number of infinity stands for the interior
+// point.
+fn orient_finite(v: vec4u) -> i32 {
+    return finite_sign(v, control.infinite, true);
+}
 
 // Returns the orientation of four vertices. Infinity lies opposite to the interior point.
 fn orient(v: vec4u) -> i32 {
@@ -12,11 +18,9 @@ fn orient(v: vec4u) -> i32 {
 // an infinite one that is the half-space beyond its hull facet; infinity is inside none.
 fn conflict(tet: vec4u, e: u32) -> i32 {
     let at_infinity = tet == vec4u(control.infinite);
-    var sign = -1;
-    if any(at_infinity) {
-        sign = orient_finite(select(tet, vec4u(e), at_infinity));
-    } else if e != control.infinite {
-        sign = insphere_finite(tet, e);
+    let of_four = any(at_infinity);
+    if e == control.infinite && !of_four {
+        return -1;
     }
-    return sign;
+    return finite_sign(select(tet, vec4u(e), at_infinity), select(e, control.infinite, of_four), of_four);
 }
