@@ -1,7 +1,6 @@
-// What breaks ties in both dimensions: the order of the vertices' indices, and the signs of
-// coefficients in turn.
+// What breaks ties in both dimensions: the order of the vertices' indices.
 //
-// Expects: Vertex, with an index; Determinant, with sign_of_determinant; vertices.
+// Expects: Vertex, with an index; vertices.
 
 // Exchanges two vertices if they are not in the order of their indices.
 fn put_in_order(a: ptr<function, Vertex>, b: ptr<function, Vertex>, parity: ptr<function, i32>) {
@@ -36,15 +35,8 @@ fn in_order(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex) -> InOrder {
     return InOrder(a, b, c, d, parity);
 }
 
-// Returns `count`, the number of perturbations, in a form that compilers do not see through.
-// Otherwise they unroll the loop over them, and spend seconds on what hardly ever runs more than
-// once.
+// Returns `count` in a form that compilers do not see through. Otherwise they unroll loops of so many
+// steps, and spend seconds on exact arithmetic that hardly ever runs.
 fn not_unrolled(count: u32) -> u32 {
     return min(count, arrayLength(&vertices) + count - 1);
-}
-
-// Returns the sign of a, or `otherwise` if that is 0.
-fn sign_or(a: Determinant, otherwise: i32) -> i32 {
-    let sign = sign_of_determinant(a);
-    return select(otherwise, sign, sign != 0);
 }

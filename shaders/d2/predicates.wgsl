@@ -37,36 +37,48 @@ fn incircle_volume(u: Row, v: Row, w: Row) -> Volume {
     return accumulate(accumulate(first, lift_of(v), determinant(w, u)), lift_of(w), determinant(u, v));
 }
 
+// The differences of three points to the last one.
+struct Rows {
+    a: Row,
+    b: Row,
+    c: Row,
+}
+
 // Returns the sign that four vertices give to an in-circle test or an orientation, never 0 where
 // these are not: incircle(a, b, c, d); or, if `of_three`, the orientation of a, b, c, where d is the
 // interior point.
 fn perturbed_sign(a: Vertex, b: Vertex, c: Vertex, d: Vertex, of_three: bool) -> i32 {
     let sorted = in_order(a, b, c, d);
     let origin = sorted.d.position;
-    let u = difference(sorted.a.position, origin);
-    let v = difference(sorted.b.position, origin);
-    let w = difference(sorted.c.position, origin);
-    let la = lift_of(u);
-    let lb = lift_of(v);
-    let lc = lift_of(w);
+    var rows = Rows(
+        difference(sorted.a.position, origin),
+        difference(sorted.b.position, origin),
+        difference(sorted.c.position, origin)
+    );
+    let perturbations = not_unrolled(5);
+    let points = not_unrolled(3);
     var sign = 0;
-    let count = not_unrolled(5);
-    for (var i = 0u; i < count && sign == 0; i++) {
+    for (var i = 0u; i < perturbations && sign == 0; i++) {
         let s = PERTURBATIONS[i];
-        let p = lowered(u, lowering(s, 0));
-        let q = lowered(v, lowering(s, 1));
+        var volume = zero_volume();
+        var by_height = 0;
+        var sum = zero_determinant();
         // The coefficients of the heights: +[bc], −[ac], +[ab], and for the last point what makes
-        // their sum 0.
-        let ka = determinant(q, w);
-        let kb = determinant(w, p);
-        let kc = determinant(p, q);
-        let kd = minus(zero_determinant(), plus(plus(ka, kb), kc));
-        let volume = accumulate(accumulate(accumulate(zero_volume(), la, ka), lb, kb), lc, kc);
-        let by_height = sign_or(ka, sign_or(kb, sign_or(kc, sign_of_determinant(kd))));
-        let by_volume = sign_of_volume(volume);
-        sign = select(by_height, by_volume, by_volume != 0);
+        // their sum 0. A step's point has the first row; then the rows move up, and are where they
+        // were after the last step.
+        for (var k = 0u; k < points; k++) {
+            let coefficient = determinant(
+                lowered(rows.b, lowering(s, (k + 1) % 3)), lowered(rows.c, lowering(s, (k + 2) % 3))
+            );
+            volume = accumulate(volume, lift_of(rows.a), coefficient);
+            by_height = select(by_height, sign_of_determinant(coefficient), by_height == 0);
+            sum = plus(sum, coefficient);
+            rows = Rows(rows.b, rows.c, rows.a);
+        }
         // Raising the last point moves it out of the circle of three that are positively oriented.
-        let by_orientation = -sign_of_determinant(kd);
+        let by_orientation = sign_of_determinant(sum);
+        let by_volume = sign_of_volume(volume);
+        sign = select(select(by_height, -by_orientation, by_height == 0), by_volume, by_volume != 0);
         sign = select(sign, by_orientation, of_three && by_orientation != 0);
     }
     return sign * sorted.parity;

@@ -53,6 +53,14 @@ fn orient3d_exact(a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> i32 {
     return sign_of_determinant(determinant(difference(b, a), difference(c, a), difference(d, a)));
 }
 
+// The differences of four points to the last one.
+struct Rows {
+    a: Row,
+    b: Row,
+    c: Row,
+    d: Row,
+}
+
 // Returns the sign that five vertices give to an in-sphere test or an orientation, never 0 where
 // these are not: insphere(a, b, c, d, e); or, if `of_four`, the orientation of a, b, c, d, where e is
 // the interior point.
@@ -72,40 +80,36 @@ fn perturbed_sign(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex, e_: Vertex, of
     put_in_order(&a, &c, &parity);
     put_in_order(&b, &d, &parity);
     put_in_order(&b, &c, &parity);
-    let u = difference(a, e);
-    let v = difference(b, e);
-    let w = difference(c, e);
-    let t = difference(d, e);
-    let la = lift_of(u);
-    let lb = lift_of(v);
-    let lc = lift_of(w);
-    let ld = lift_of(t);
+    var rows = Rows(difference(a, e), difference(b, e), difference(c, e), difference(d, e));
+    let perturbations = not_unrolled(15);
+    let points = not_unrolled(4);
     var sign = 0;
-    let count = not_unrolled(15);
-    for (var i = 0u; i < count && sign == 0; i++) {
+    for (var i = 0u; i < perturbations && sign == 0; i++) {
         let s = PERTURBATIONS[i];
-        let p = lowered(u, lowering(s, 0));
-        let q = lowered(v, lowering(s, 1));
-        let r = lowered(w, lowering(s, 2));
-        let pq = minor(p, q);
-        let pr = minor(p, r);
-        let ps = minor(p, t);
-        let qr = minor(q, r);
-        let qs = minor(q, t);
-        let rs = minor(r, t);
+        var volume = zero_volume();
+        var by_height = 0;
+        var sum = zero_determinant();
         // The coefficients of the heights: by the convention for the sign, +[bcd], −[acd], +[abd]
-        // and −[abc], and for the last point what makes their sum 0.
-        let ka = plus(minus(expand(q, rs), expand(r, qs)), expand(t, qr));
-        let kb = minus(minus(expand(r, ps), expand(p, rs)), expand(t, pr));
-        let kc = plus(minus(expand(p, qs), expand(q, ps)), expand(t, pq));
-        let kd = minus(minus(expand(q, pr), expand(p, qr)), expand(r, pq));
-        let ke = minus(zero_determinant(), plus(plus(ka, kb), plus(kc, kd)));
-        let volume = accumulate(accumulate(accumulate(accumulate(zero_volume(), la, ka), lb, kb), lc, kc), ld, kd);
-        let by_height = sign_or(ka, sign_or(kb, sign_or(kc, sign_or(kd, sign_of_determinant(ke)))));
-        let by_volume = sign_of_volume(volume);
-        sign = select(by_height, by_volume, by_volume != 0);
+        // and −[abc], and for the last point what makes their sum 0. A step's point has the first
+        // row; then the rows move up, and are where they were after the last step.
+        for (var k = 0u; k < points; k++) {
+            var coefficient = determinant(
+                lowered(rows.b, lowering(s, (k + 1) % 4)),
+                lowered(rows.c, lowering(s, (k + 2) % 4)),
+                lowered(rows.d, lowering(s, (k + 3) % 4))
+            );
+            if k % 2 == 1 {
+                coefficient = minus(zero_determinant(), coefficient);
+            }
+            volume = accumulate(volume, lift_of(rows.a), coefficient);
+            by_height = select(by_height, sign_of_determinant(coefficient), by_height == 0);
+            sum = plus(sum, coefficient);
+            rows = Rows(rows.b, rows.c, rows.d, rows.a);
+        }
         // Raising the last point moves it out of the sphere of four that are positively oriented.
-        let by_orientation = -sign_of_determinant(ke);
+        let by_orientation = sign_of_determinant(sum);
+        let by_volume = sign_of_volume(volume);
+        sign = select(select(by_height, -by_orientation, by_height == 0), by_volume, by_volume != 0);
         sign = select(sign, by_orientation, of_four && by_orientation != 0);
     }
     return sign * parity;
