@@ -4,7 +4,7 @@ use crate::{
     error::Error,
     index::{NO_INDEX, NONE},
     parallel::{self, Threads},
-    slots,
+    slots::{self, MarkedSlots, Slots},
 };
 
 /// Tetrahedra are numbered below 2³⁰, because a neighbour is packed with its facet into 32 bits.
@@ -178,6 +178,78 @@ impl Triangulation3 {
             }
         });
         FiniteMesh { tetrahedra, neighbors, hull }
+    }
+}
+
+impl Slots<4> for Triangulation3 {
+    const SHARED: bool = false;
+
+    #[inline]
+    fn infinite(&self) -> u32 {
+        self.infinite
+    }
+
+    #[inline]
+    fn simplex(&self, t: u32) -> [u32; 4] {
+        self.tetrahedra[t as usize]
+    }
+
+    #[inline]
+    fn set_simplex(&mut self, t: u32, vertices: [u32; 4]) {
+        self.tetrahedra[t as usize] = vertices;
+    }
+
+    #[inline]
+    fn neighbors(&self, t: u32) -> [u32; 4] {
+        self.neighbors[t as usize]
+    }
+
+    #[inline]
+    fn set_neighbors(&mut self, t: u32, neighbors: [u32; 4]) {
+        self.neighbors[t as usize] = neighbors;
+    }
+
+    #[inline]
+    fn set_neighbor(&mut self, facet: u32, across: u32) {
+        self.neighbors[facet as usize / 4][facet as usize % 4] = across;
+    }
+
+    #[inline]
+    fn push(&mut self) -> Result<u32, Error> {
+        self.push()
+    }
+
+    #[inline]
+    fn has_room(&mut self, _slots: usize) -> bool {
+        true
+    }
+
+    #[inline]
+    fn claim(&mut self, _v: u32) -> bool {
+        true
+    }
+}
+
+impl MarkedSlots<4> for Triangulation3 {
+    type Places = Vec<u32>;
+
+    #[inline]
+    fn first(&self, t: u32) -> u32 {
+        self.tetrahedra[t as usize][0]
+    }
+
+    #[inline]
+    fn set_first(&mut self, t: u32, first: u32) {
+        self.tetrahedra[t as usize][0] = first;
+    }
+
+    /// Marks the slot.
+    fn discard(&mut self, t: u32) {
+        self.set_state(t, state::FREE);
+    }
+
+    fn places(&self) -> Vec<u32> {
+        vec![0; self.infinite as usize + 1]
     }
 }
 

@@ -5,8 +5,9 @@
 use crate::{
     index::NONE,
     input::{lattice::Lattice, points::Points},
+    parallel::{self, Threads},
 };
-use std::cmp::Ordering;
+use std::{cmp::Ordering, ops::Range};
 
 /// An insertion order. The mesh does not depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -22,6 +23,8 @@ pub enum Order {
 pub(crate) struct Distinct {
     /// The input index of each distinct point.
     pub(crate) order: Vec<u32>,
+    /// The parts of `order`, each of which goes along the curve.
+    pub(crate) rounds: Vec<Range<u32>>,
     /// One entry per point, as in [`Mesh3::duplicate_of`](crate::Mesh3::duplicate_of).
     pub(crate) duplicate_of: Vec<i32>,
 }
@@ -36,25 +39,30 @@ const ROUND_BITS: u32 = 3;
 /// which takes quadratic time where fans grow, for example on two lines.
 const MIN_ROUND: usize = 100;
 
-/// Removes duplicates, and brings the points into insertion order.
+/// Removes duplicates, and brings the points into insertion order, by `threads`.
 pub(crate) fn insertion_order<const D: usize>(
+    threads: Threads,
     points: Points<'_, D>,
     lattice: &Lattice<D>,
     curve: Curve<D>,
     order: Order,
 ) -> Distinct {
     let mut duplicate_of = vec![NONE; points.len()];
-    let distinct = along_curve(points, lattice, curve, &mut duplicate_of);
-    let order = match order {
-        Order::Brio => rounds(distinct),
-        Order::Shuffled(seed) => shuffled(distinct, seed),
+    let distinct = along_curve(threads, points, lattice, curve, &mut duplicate_of);
+    let (order, rounds) = match order {
+        Order::Brio => rounds(threads, distinct),
+        Order::Shuffled(seed) => {
+            let all = 0..distinct.len() as u32;
+            (shuffled(distinct, seed), vec![all])
+        }
     };
-    Distinct { order, duplicate_of }
+    Distinct { order, rounds, duplicate_of }
 }
 
 /// Returns the distinct points in the order of the curve, or of their coordinates if their lattice
 /// cells coincide.
 fn along_curve<const D: usize>(
+    threads: Threads,
     points: Points<'_, D>,
     lattice: &Lattice<D>,
     curve: Curve<D>,
@@ -72,8 +80,11 @@ fn along_curve<const D: usize>(
             .map(|c| ((c.value as u64 & ((1 << left) - 1)) >> left.saturating_sub(key_bits)) as u32);
         curve(cell, key_bits.min(left)) << 32 | u64::from(i)
     };
-    let mut keyed: Vec<u64> = (0..points.len() as u32).map(|i| key(i, 0)).collect();
-    keyed.sort_unstable();
+    let mut keyed: Vec<u64> = bytemuck::zeroed_vec(points.len());
+    parallel::for_chunks(threads, &mut keyed, |start, chunk| {
+        chunk.iter_mut().zip(start as u32..).for_each(|(entry, i)| *entry = key(i, 0));
+    });
+    parallel::sort(threads, &mut keyed);
     // Runs of equal keys are sorted by the bits that the keys did not cover. A run is its start,
     // its end and the number of bits covered.
     let mut runs = Vec::new();
@@ -167,26 +178,28 @@ fn shuffled(order: Vec<u32>, seed: u64) -> Vec<u32> {
 }
 
 /// Splits an order into rounds at random, and keeps the order within each; small rounds come first.
-fn rounds(order: Vec<u32>) -> Vec<u32> {
+/// Returns the parts, too.
+fn rounds(threads: Threads, order: Vec<u32>) -> (Vec<u32>, Vec<Range<u32>>) {
     let mut last = 0;
     while order.len() >> (ROUND_BITS * (last + 1)) >= MIN_ROUND {
         last += 1;
     }
-    let round = |i: u32| last - last.min(mix(u64::from(i)).trailing_zeros() / ROUND_BITS);
-    let mut starts = vec![0; last as usize + 2];
-    for &i in &order {
-        starts[round(i) as usize + 1] += 1;
+    let count = last as usize + 1;
+    let round = |i: u32| (last - last.min(mix(u64::from(i)).trailing_zeros() / ROUND_BITS)) as usize;
+    // The points of each round, chunk by chunk.
+    let parts = parallel::map_ranges(threads, order.len(), |range| {
+        let mut part = vec![Vec::new(); count];
+        order[range].iter().for_each(|&i| part[round(i)].push(i));
+        part
+    });
+    let mut sorted = Vec::with_capacity(order.len());
+    let mut starts = Vec::new();
+    for r in 0..count {
+        starts.push(sorted.len() as u32);
+        parts.iter().for_each(|part| sorted.extend_from_slice(&part[r]));
     }
-    for r in 1..starts.len() {
-        starts[r] += starts[r - 1];
-    }
-    let mut sorted = vec![0; order.len()];
-    for &i in &order {
-        let start: &mut usize = &mut starts[round(i) as usize];
-        sorted[*start] = i;
-        *start += 1;
-    }
-    sorted
+    starts.push(sorted.len() as u32);
+    (sorted, starts.windows(2).map(|ends| ends[0]..ends[1]).collect())
 }
 
 /// Returns a hash, by the finaliser of SplitMix64, so that the same input gives the same order on
