@@ -200,7 +200,7 @@ where
 /// # Errors
 ///
 /// Returns [`Error::Cancelled`], [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
-fn insert_all<const D: usize, T: Grow<D>>(
+pub(crate) fn insert_all<const D: usize, T: Grow<D>>(
     threads: Threads,
     vertices: &PredicateContext<'_, D>,
     rounds: &[Range<u32>],

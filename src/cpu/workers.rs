@@ -27,6 +27,9 @@ const MAX_PORTION: usize = 256;
 /// There are at least so many vertices per worker, lest all are in each other's way, unless a test
 /// wants just that.
 const VERTICES_PER_WORKER: usize = if cfg!(test) { 1 } else { 64 };
+/// A worker gives its claims back after so many insertions: the next points are near, so that it
+/// needs most of them again, and claiming takes longer than finding a vertex claimed.
+const INSERTIONS_PER_CLAIM: usize = 8;
 /// How many times a worker goes through what it has put off, when nothing else is left.
 const RETRIES: usize = 3;
 
@@ -155,7 +158,7 @@ where
 {
     let scratch = slots.scratch();
     let start = slots.any_slot(number * 7919);
-    let mut inserter = Inserter { slots, vertices, scratch, last: start, misses: 0 };
+    let mut inserter = Inserter { slots, vertices, scratch, last: start, misses: 0, held: 0 };
     let mut put_off = Vec::new();
     let mut tried = 0;
     for portion in round.portions(number) {
@@ -169,33 +172,22 @@ where
                 return Err(error);
             }
             tried += 1;
-            if round.is_stopped.load(Relaxed) || inserter.slots.is_full() || !inserter.insert(p)? {
+            if inserter.has_to_stop(round) || !inserter.insert(p)? {
                 missed.push(p);
             }
         }
+        round.inserted.fetch_add(length - missed.len(), Relaxed);
         // By now the others have gone on.
-        let before = put_off.len();
-        for p in std::mem::take(&mut put_off) {
-            if !inserter.insert(p)? {
-                put_off.push(p);
-            }
-        }
-        round.inserted.fetch_add(length - missed.len() + before - put_off.len(), Relaxed);
+        inserter.insert_again(round, &mut put_off)?;
         // One worker alone is faster than several that only disturb each other.
-        let is_useless = missed.len() > length / 2 && number > 0;
+        let is_useless = missed.len() > length / 2 && number > 0 && !inserter.has_to_stop(round);
         put_off.append(&mut missed);
         if is_useless {
             break;
         }
     }
     for _ in 0..RETRIES {
-        let before = put_off.len();
-        for p in std::mem::take(&mut put_off) {
-            if !inserter.insert(p)? {
-                put_off.push(p);
-            }
-        }
-        round.inserted.fetch_add(before - put_off.len(), Relaxed);
+        inserter.insert_again(round, &mut put_off)?;
     }
     let Inserter { mut slots, scratch, .. } = inserter;
     slots.finish(scratch);
@@ -214,17 +206,40 @@ where
     last: u32,
     /// How many insertions have failed since the last that succeeded.
     misses: usize,
+    /// How many insertions the claims have served.
+    held: usize,
 }
 
 impl<'w, const D: usize, const N: usize> Inserter<'_, 'w, D, N>
 where
     Worker<'w, N>: Insert<D>,
 {
+    /// Returns whether the run is cancelled or there is no slot left.
+    fn has_to_stop(&self, round: &Round) -> bool {
+        round.is_stopped.load(Relaxed) || self.slots.is_full()
+    }
+
+    /// Inserts the points that were put off, as far as no other thread is in the way again.
+    fn insert_again(&mut self, round: &Round, put_off: &mut Vec<u32>) -> Result<(), Error> {
+        let before = put_off.len();
+        for p in std::mem::take(put_off) {
+            if self.has_to_stop(round) || !self.insert(p)? {
+                put_off.push(p);
+            }
+        }
+        round.inserted.fetch_add(before - put_off.len(), Relaxed);
+        Ok(())
+    }
+
     /// Inserts a point. Returns whether no other thread was in the way.
     fn insert(&mut self, p: u32) -> Result<bool, Error> {
         let start = self.slots.locate(self.vertices, p, self.last);
         let inserted = self.slots.insert(self.vertices, p, start, &mut self.scratch)?;
-        self.slots.release();
+        self.held += 1;
+        if inserted.is_none() || self.held == INSERTIONS_PER_CLAIM {
+            self.slots.release();
+            self.held = 0;
+        }
         match inserted {
             Some(simplex) => (self.last, self.misses) = (simplex, 0),
             None => {
