@@ -1,7 +1,7 @@
 //! Work on slices, shared among the machine's threads if it has several.
 
 use crate::error::Error;
-use std::{num::NonZeroUsize, ops::Range};
+use std::{cmp::Ordering, num::NonZeroUsize, ops::Range};
 
 #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
 use rayon::prelude::*;
@@ -77,6 +77,16 @@ pub(crate) fn sort<T: Ord + Send>(threads: Threads, items: &mut [T]) {
     }
     let _ = threads;
     items.sort_unstable();
+}
+
+/// Sorts items by a total order.
+pub(crate) fn sort_by<T: Send>(threads: Threads, items: &mut [T], compare: impl Fn(&T, &T) -> Ordering + Sync) {
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
+    if threads == Threads::All {
+        return items.par_sort_unstable_by(compare);
+    }
+    let _ = threads;
+    items.sort_unstable_by(compare);
 }
 
 /// Returns the results of `work` for each item and its index, in order. For items that are each

@@ -37,8 +37,8 @@ impl Incremental<2> for Dimension<2> {
         2
     }
 
-    fn mesh(triangulation: Triangulation2, names: &[u32], _threads: Threads, options: &Options) -> Mesh2 {
-        let (triangles, halfedges, hull) = triangulation.into_mesh(names, options.winding);
+    fn mesh(triangulation: Triangulation2, names: &[u32], threads: Threads, options: &Options) -> Mesh2 {
+        let (triangles, halfedges, hull) = triangulation.into_mesh(names, options.winding, threads);
         Mesh2 { triangles, halfedges, hull, ..Mesh2::default() }
     }
 

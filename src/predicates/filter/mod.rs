@@ -10,6 +10,7 @@ use crate::{
         points::Points,
     },
     parallel::{self, Threads},
+    predicates::integer,
     stats::ExactCounts,
 };
 use std::{cell::Cell, iter::repeat_n, sync::Arc};
@@ -76,8 +77,8 @@ enum ExactStage<const D: usize> {
     /// 31-bit integers, which are the `coordinates`.
     Narrow,
     /// 62-bit integers where no coordinate of the vertices is rounded, expansions elsewhere. Both
-    /// lists are empty if they are computed each time.
-    Wide { positions: Arc<[[i64; D]]>, rounded: Arc<[bool]> },
+    /// lists are empty if they are computed each time. The shifts are those of the lattice.
+    Wide { positions: Arc<[[i64; D]]>, rounded: Arc<[bool]>, shifts: [u32; D] },
 }
 
 /// How coordinates are computed from the input.
@@ -141,17 +142,18 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
             }
         });
         context.coordinates = coordinates;
-        if let ExactStage::Wide { positions, rounded } = &mut context.exact {
-            *positions = repeat_n([0; D], indices.len()).collect();
-            *rounded = repeat_n(false, indices.len()).collect();
-            let lists = (Arc::make_mut(positions), Arc::make_mut(rounded));
-            parallel::for_chunk_pairs(threads, lists, |start, (positions, rounded)| {
-                for ((position, rounded), &i) in positions.iter_mut().zip(rounded).zip(&indices[start..]) {
-                    let q = lattice.coordinates(input.get(i as usize));
-                    *position = q.map(|c| c.value);
-                    *rounded = q.iter().any(|c| !c.exact);
+        if let ExactStage::Wide { .. } = context.exact {
+            let (mut exact, number) = exact_stage(threads, input, lattice, &indices);
+            // Few inputs have points that are rounded, and few of these have axes that differ.
+            if number > 0
+                && let Some(stretched) = lattice.stretched(integer::MAX_SHIFT)
+            {
+                let (other, fewer) = exact_stage(threads, input, &stretched, &indices);
+                if fewer < number / 2 {
+                    exact = other;
                 }
-            });
+            }
+            context.exact = exact;
         }
         context.indices = indices.into();
         context
@@ -182,7 +184,8 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
             Width::Narrow => (Scaling::Lattice, ExactStage::Narrow),
             Width::Wide => {
                 let exponent = lattice.exponent() - (Width::Wide.bits() - Width::Narrow.bits()) as i32;
-                let exact = ExactStage::Wide { positions: Arc::new([]), rounded: Arc::new([]) };
+                let exact =
+                    ExactStage::Wide { positions: Arc::new([]), rounded: Arc::new([]), shifts: [0; D] };
                 (Scaling::By(Scale::new(exponent), lattice.varies()), exact)
             }
         };
@@ -295,6 +298,28 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
         *field(&mut counts) += 1;
         self.counts.set(counts);
     }
+}
+
+/// Returns the exact stage of vertices whose positions on a wide lattice are stored, and how many of
+/// them are rounded.
+fn exact_stage<const D: usize>(
+    threads: Threads,
+    input: Points<'_, D>,
+    lattice: &Lattice<D>,
+    indices: &[u32],
+) -> (ExactStage<D>, usize) {
+    let mut positions: Arc<[[i64; D]]> = repeat_n([0; D], indices.len()).collect();
+    let mut rounded: Arc<[bool]> = repeat_n(false, indices.len()).collect();
+    let lists = (Arc::make_mut(&mut positions), Arc::make_mut(&mut rounded));
+    parallel::for_chunk_pairs(threads, lists, |start, (positions, rounded)| {
+        for ((position, rounded), &i) in positions.iter_mut().zip(rounded).zip(&indices[start..]) {
+            let q = lattice.coordinates(input.get(i as usize));
+            *position = q.map(|c| c.value);
+            *rounded = q.iter().any(|c| !c.exact);
+        }
+    });
+    let number = rounded.iter().filter(|&&rounded| rounded).count();
+    (ExactStage::Wide { positions, rounded, shifts: lattice.shifts() }, number)
 }
 
 /// Returns a bound of the error of an orientation's floating-point value if no difference of
