@@ -2,7 +2,7 @@
 
 mod shared;
 
-pub(crate) use shared::{MAX_WORKERS, SharedSlots, Worker};
+pub(crate) use shared::{MAX_WORKERS, SharedSlots, Worker, share, unshare};
 
 use crate::error::Error;
 

@@ -158,7 +158,7 @@ where
 {
     let scratch = slots.scratch();
     let start = slots.any_slot(number * 7919);
-    let mut inserter = Inserter { slots, vertices, scratch, last: start, misses: 0, held: 0 };
+    let mut inserter = Inserter { slots, vertices, scratch, last: start, misses: 0, held: 0, is_done: false };
     let mut put_off = Vec::new();
     let mut tried = 0;
     for portion in round.portions(number) {
@@ -208,15 +208,17 @@ where
     misses: usize,
     /// How many insertions the claims have served.
     held: usize,
+    /// Whether there was no slot left.
+    is_done: bool,
 }
 
 impl<'w, const D: usize, const N: usize> Inserter<'_, 'w, D, N>
 where
     Worker<'w, N>: Insert<D>,
 {
-    /// Returns whether the run is cancelled or there is no slot left.
+    /// Returns whether the run is cancelled or there was no slot left.
     fn has_to_stop(&self, round: &Round) -> bool {
-        round.is_stopped.load(Relaxed) || self.slots.is_full()
+        self.is_done || round.is_stopped.load(Relaxed)
     }
 
     /// Inserts the points that were put off, as far as no other thread is in the way again.
@@ -243,6 +245,7 @@ where
         match inserted {
             Some(simplex) => (self.last, self.misses) = (simplex, 0),
             None => {
+                self.is_done = self.slots.is_full();
                 self.misses += 1;
                 // The slot may have been given up, so that no walk leads away from it.
                 if self.misses > 1 {

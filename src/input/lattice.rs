@@ -282,9 +282,8 @@ mod tests {
         let at = |i: u32, step: f64| f64::from(i) * step;
         let points: Vec<[f64; 3]> = (0..40).map(|i| [at(i, 1.0), at(i, 1e-3), at(i, 1e6)]).collect();
         let lattice = check(&points);
-        let rounded = |lattice: &Lattice<3>| {
-            points.iter().filter(|&&p| lattice.coordinates(p).iter().any(|c| !c.exact)).count()
-        };
+        let rounded =
+            |lattice: &Lattice<3>| points.iter().filter(|&&p| lattice.coordinates(p).iter().any(|c| !c.exact)).count();
         assert!(rounded(&lattice) > 30);
         let stretched = lattice.stretched(64).unwrap();
         assert_eq!(rounded(&stretched), 0);

@@ -85,8 +85,50 @@ fn along_curve<const D: usize>(
         chunk.iter_mut().zip(start as u32..).for_each(|(entry, i)| *entry = key(i, 0));
     });
     parallel::sort(threads, &mut keyed);
-    // Runs of equal keys are sorted by the bits that the keys did not cover. A run is its start,
-    // its end and the number of bits covered.
+    let mut parts = parts(threads, &mut keyed);
+    let duplicates = parallel::map_mut(threads, &mut parts, |_, part| sort_runs(points, part, bits, key_bits, key));
+    for &[duplicate, first] in duplicates.iter().flatten() {
+        duplicate_of[duplicate as usize] = first as i32;
+    }
+    let order = keyed.into_iter().map(|entry| entry as u32);
+    if duplicates.iter().all(Vec::is_empty) {
+        order.collect()
+    } else {
+        order.filter(|&i| duplicate_of[i as usize] == NONE).collect()
+    }
+}
+
+/// Splits sorted entries into parts for threads to share, none of which begins among entries of
+/// equal keys.
+fn parts(threads: Threads, keyed: &mut [u64]) -> Vec<&mut [u64]> {
+    let size = match parallel::count(threads) {
+        1 => keyed.len(),
+        count => keyed.len().div_ceil(8 * count),
+    };
+    let mut parts = Vec::new();
+    let mut rest = keyed;
+    while rest.len() > size {
+        let last = rest[size - 1] >> 32;
+        let end = size + rest[size..].partition_point(|entry| entry >> 32 == last);
+        let (part, others) = rest.split_at_mut(end);
+        parts.push(part);
+        rest = others;
+    }
+    parts.push(rest);
+    parts
+}
+
+/// Sorts runs of entries with equal keys by the bits that the keys did not cover, `key_bits` of
+/// `bits` at a time, then by their coordinates. Returns the duplicates, each with the first of its
+/// point.
+fn sort_runs<const D: usize>(
+    points: Points<'_, D>,
+    keyed: &mut [u64],
+    bits: u32,
+    key_bits: u32,
+    key: impl Fn(u32, u32) -> u64,
+) -> Vec<[u32; 2]> {
+    // A run is its start, its end and the number of bits covered.
     let mut runs = Vec::new();
     let push_runs = |keyed: &[u64], start: usize, done: u32, runs: &mut Vec<_>| {
         let mut at = start;
@@ -97,8 +139,8 @@ fn along_curve<const D: usize>(
             at += run.len();
         }
     };
-    push_runs(&keyed, 0, key_bits, &mut runs);
-    let mut duplicates = 0;
+    push_runs(keyed, 0, key_bits, &mut runs);
+    let mut duplicates = Vec::new();
     while let Some((start, end, done)) = runs.pop() {
         let run = &mut keyed[start..end];
         if done < bits {
@@ -112,14 +154,10 @@ fn along_curve<const D: usize>(
         sort_by_place(points, run);
         let point = |entry: u64| points.get(entry as u32 as usize);
         for equal in run.chunk_by(|&i, &j| point(i) == point(j)) {
-            for &duplicate in &equal[1..] {
-                duplicate_of[duplicate as u32 as usize] = equal[0] as u32 as i32;
-            }
-            duplicates += equal.len() - 1;
+            duplicates.extend(equal[1..].iter().map(|&duplicate| [duplicate as u32, equal[0] as u32]));
         }
     }
-    let order = keyed.into_iter().map(|entry| entry as u32);
-    if duplicates == 0 { order.collect() } else { order.filter(|&i| duplicate_of[i as usize] == NONE).collect() }
+    duplicates
 }
 
 /// Sorts entries, each an index with a key in the upper 32 bits: by key, then by the point's

@@ -215,7 +215,7 @@ fn sign_of_stretched<const D: usize, const N: usize>(terms: [(I192, [i64; D]); N
     }
     match total[7] as i64 {
         0 => total.iter().any(|&limb| limb != 0) as Sign,
-        top => if top < 0 { -1 } else { 1 },
+        top => top.signum() as Sign,
     }
 }
 

@@ -61,13 +61,13 @@ fn zeros(words: usize, slots: usize) -> Result<Vec<AtomicU32>, Error> {
     bytemuck::try_zeroed_vec(words).map(share).map_err(|()| Error::OutOfMemory { simplices: slots })
 }
 
-/// Returns the same words, where they are: both loops compile to nothing.
-fn share(words: Vec<u32>) -> Vec<AtomicU32> {
+/// Returns the same words, where they are, for threads to share. The loop compiles to nothing.
+pub(crate) fn share(words: Vec<u32>) -> Vec<AtomicU32> {
     words.into_iter().map(AtomicU32::new).collect()
 }
 
-/// Returns the same words, where they are.
-fn unshare(words: Vec<AtomicU32>) -> Vec<u32> {
+/// Returns the same words, where they are, when no thread shares them any more.
+pub(crate) fn unshare(words: Vec<AtomicU32>) -> Vec<u32> {
     words.into_iter().map(AtomicU32::into_inner).collect()
 }
 

@@ -184,8 +184,7 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
             Width::Narrow => (Scaling::Lattice, ExactStage::Narrow),
             Width::Wide => {
                 let exponent = lattice.exponent() - (Width::Wide.bits() - Width::Narrow.bits()) as i32;
-                let exact =
-                    ExactStage::Wide { positions: Arc::new([]), rounded: Arc::new([]), shifts: [0; D] };
+                let exact = ExactStage::Wide { positions: Arc::new([]), rounded: Arc::new([]), shifts: [0; D] };
                 (Scaling::By(Scale::new(exponent), lattice.varies()), exact)
             }
         };
