@@ -115,7 +115,7 @@ def compare(name, runs):
 
     ours, theirs, our_peak, their_peak = [], [], 0, 0
     for _ in range(runs):
-        mesh, peak = run([GDEL, "triangulate", path, "--backend", "cpu", "--stats", "json"])
+        mesh, peak = run([GDEL, "triangulate", path, "--backend", "cpu", "--threads", "1", "--stats", "json"])
         ours.append(mesh["seconds"]["total"])
         our_peak = max(our_peak, peak)
         cgal, peak = run([CGAL, path])

@@ -5,6 +5,10 @@
 //! All of it is generic over the number `D` of coordinates; [`Incremental`] and [`Insert`] are what
 //! the dimensions supply.
 
+mod workers;
+
+pub(crate) use workers::{Run, insert_by_workers};
+
 use crate::{
     backend::Backend,
     dimension::Dimension,
@@ -16,9 +20,17 @@ use crate::{
     },
     mesh::MeshInfo,
     options::Options,
+    parallel::{self, Threads},
     predicates::filter::PredicateContext,
     stats::{Phase, Stats, Stopwatch},
 };
+use std::{num::NonZeroUsize, ops::Range};
+
+/// With fewer points than this, one thread is as fast as several. Tests let many threads meet on few
+/// points.
+const MIN_SHARED: usize = if cfg!(test) { 8 } else { 1 << 13 };
+/// So many points one thread inserts before the others join in, as long as they are few of all.
+const FEW: usize = 1 << 10;
 
 /// The mesh of `D` dimensions.
 pub type MeshOf<const D: usize> = <Dimension<D> as Incremental<D>>::Mesh;
@@ -26,9 +38,9 @@ pub type MeshOf<const D: usize> = <Dimension<D> as Incremental<D>>::Mesh;
 /// What the CPU engine of a dimension has of its own.
 pub trait Incremental<const D: usize> {
     /// The result.
-    type Mesh: MeshInfo;
+    type Mesh: MeshInfo + Send;
     /// The triangulation under construction.
-    type Triangulation: Insert<D>;
+    type Triangulation: Grow<D>;
 
     /// The maximum number of points.
     const MAX_POINTS: usize;
@@ -39,23 +51,18 @@ pub trait Incremental<const D: usize> {
     /// are then positively oriented. Returns the affine dimension of all points.
     fn spanning_first(points: Points<'_, D>, order: &mut [u32]) -> u8;
 
-    /// Returns the mesh of a triangulation, in which vertex *v* becomes `names[v]`.
-    fn mesh(triangulation: Self::Triangulation, names: &[u32], options: &Options) -> Self::Mesh;
+    /// Returns the mesh of a triangulation, in which vertex *v* becomes `names[v]`, made by
+    /// `threads`.
+    fn mesh(triangulation: Self::Triangulation, names: &[u32], threads: Threads, options: &Options) -> Self::Mesh;
 
     /// Returns the mesh of distinct points that span fewer dimensions.
     fn degenerate_mesh(points: Points<'_, D>, distinct: Vec<u32>) -> Self::Mesh;
 }
 
-/// A triangulation into which vertices are inserted.
-pub trait Insert<const D: usize>: Sized {
-    /// Lists that insertions reuse.
-    type Scratch;
-
+/// A triangulation that starts with one simplex, and grows.
+pub trait Grow<const D: usize>: Insert<D> + Sized {
     /// The expected number of simplices per point, ghosts included.
     const SIMPLICES_PER_POINT: usize;
-    /// The number of points between two reports of progress: few enough for a smooth display, and
-    /// so many that reports cost little beside the insertions.
-    const REPORT: usize;
 
     /// Creates the triangulation of the first `D + 1` vertices, which are positively oriented.
     /// `infinite` is the number of vertices.
@@ -68,16 +75,38 @@ pub trait Insert<const D: usize>: Sized {
     /// Returns [`Error::OutOfMemory`].
     fn reserve(&mut self, simplices: usize) -> Result<(), Error>;
 
-    /// Creates the lists for so many vertices.
-    fn scratch(vertices: usize) -> Self::Scratch;
+    /// Inserts the vertices of a run by several threads. Returns those that the threads could not
+    /// insert because they disturbed each other.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of the run's reports, [`Error::TooManySimplices`] and
+    /// [`Error::OutOfMemory`].
+    fn insert_by_threads(self, run: &Run<'_, D>) -> Result<(Self, Vec<u32>), Error>;
+}
 
-    /// Returns a simplex that contains vertex `p`, or a ghost whose facet sees it.
+/// Simplices among which vertices are inserted: a whole triangulation, or what a thread sees of
+/// one that several change.
+pub trait Insert<const D: usize> {
+    /// Lists that insertions reuse.
+    type Scratch;
+
+    /// The number of points between two reports of progress: few enough for a smooth display, and
+    /// so many that reports cost little beside the insertions.
+    const REPORT: usize;
+
+    /// Creates the lists.
+    fn scratch(&self) -> Self::Scratch;
+
+    /// Returns a simplex that contains vertex `p`, or a ghost whose facet sees it; any simplex if
+    /// other threads disturb the walk.
     ///
     /// Walks from simplex `start` across facets that separate the current simplex from `p`. The
     /// walk ends because the power distance to `p` decreases with every step.
     fn locate(&self, vertices: &PredicateContext<'_, D>, p: u32, start: u32) -> u32;
 
-    /// Inserts vertex `p`, which is in conflict with simplex `start`. Returns a simplex at `p`.
+    /// Inserts vertex `p`, which is in conflict with simplex `start`. Returns a simplex at `p`;
+    /// `None`, without having changed anything, if another thread disturbs the insertion.
     ///
     /// # Errors
     ///
@@ -88,9 +117,9 @@ pub trait Insert<const D: usize>: Sized {
         p: u32,
         start: u32,
         scratch: &mut Self::Scratch,
-    ) -> Result<u32, Error>;
+    ) -> Result<Option<u32>, Error>;
 
-    /// Takes over what the lists know of the triangulation, after the last insertion.
+    /// Takes over what the lists know of the simplices, after the last insertion.
     fn finish(&mut self, scratch: Self::Scratch);
 }
 
@@ -124,20 +153,36 @@ where
     if points.len() > limit {
         return Err(Error::TooManyPoints { points: points.len(), limit });
     }
+    // Threads that have nothing to do would cost more than they bring.
+    let threads = if points.len() < MIN_SHARED { Some(NonZeroUsize::MIN) } else { options.threads };
+    parallel::with_threads(threads, |threads| delaunay_by(threads, points, options, order))
+}
+
+/// Triangulates `points` by incremental insertion by `threads`.
+fn delaunay_by<const D: usize>(
+    threads: Threads,
+    points: Points<'_, D>,
+    options: &Options,
+    order: Order,
+) -> Result<MeshOf<D>, Error>
+where
+    Dimension<D>: Incremental<D>,
+{
     let mut stopwatch = Stopwatch::start();
     let mut stats = Stats::new(Backend::Cpu);
     options.report(Phase::Sort, 0.0)?;
-    points.validate()?;
-    let lattice = Lattice::fit(points);
-    let Distinct { mut order, duplicate_of } = insertion_order(points, &lattice, Dimension::<D>::CURVE, order);
+    points.validate_by(threads)?;
+    let lattice = Lattice::fit_by(threads, points);
+    let Distinct { mut order, rounds, duplicate_of } =
+        insertion_order(threads, points, &lattice, Dimension::<D>::CURVE, order);
     let dimension = Dimension::<D>::spanning_first(points, &mut order);
     stats.phases.push((Phase::Sort, stopwatch.lap()));
     let mut mesh = if usize::from(dimension) == D {
-        let vertices = PredicateContext::new(points, &lattice, order);
-        let triangulation = insert_all(&vertices, options)?;
+        let vertices = PredicateContext::new_by(threads, points, &lattice, order);
+        let triangulation = insert_all(threads, &vertices, &rounds, options)?;
         stats.phases.push((Phase::Insert, stopwatch.lap()));
         stats.exact = vertices.exact_counts();
-        let mesh = Dimension::<D>::mesh(triangulation, &vertices.into_input_indices(), options);
+        let mesh = Dimension::<D>::mesh(triangulation, &vertices.into_input_indices(), threads, options);
         stats.phases.push((Phase::Finish, stopwatch.lap()));
         mesh
     } else {
@@ -149,20 +194,40 @@ where
     Ok(mesh)
 }
 
-/// Triangulates all vertices, of which the first `D + 1` must be positively oriented.
+/// Triangulates all vertices, of which the first `D + 1` must be positively oriented. Each of the
+/// `rounds` goes along the curve.
 ///
 /// # Errors
 ///
 /// Returns [`Error::Cancelled`], [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
-pub(crate) fn insert_all<const D: usize, T: Insert<D>>(
+pub(crate) fn insert_all<const D: usize, T: Grow<D>>(
+    threads: Threads,
     vertices: &PredicateContext<'_, D>,
+    rounds: &[Range<u32>],
     options: &Options,
 ) -> Result<T, Error> {
-    let (first, n) = (D + 1, vertices.len());
+    let (first, n) = (D as u32 + 1, vertices.len());
     let mut triangulation = T::initial(n as u32);
-    triangulation.reserve(n * T::SIMPLICES_PER_POINT)?;
-    let report = |inserted: usize| options.report(Phase::Insert, (first + inserted) as f64 / n as f64);
-    insert_points(&mut triangulation, vertices, first as u32..n as u32, 0, report)?;
+    let report = |inserted: usize| options.report(Phase::Insert, inserted as f64 / n as f64);
+    let alone = |triangulation: &mut T, points: &mut dyn Iterator<Item = u32>, before: usize| {
+        insert_points(triangulation, vertices, points, 0, |inserted| report(before + inserted))
+    };
+    if parallel::count(threads) == 1 || n < MIN_SHARED {
+        triangulation.reserve(n * T::SIMPLICES_PER_POINT)?;
+        alone(&mut triangulation, &mut (first..n as u32), first as usize)?;
+        return Ok(triangulation);
+    }
+    // Threads need a triangulation in which they are far apart.
+    let few = rounds.iter().map(|round| round.end).find(|&end| end as usize >= FEW).unwrap_or(0).min(n as u32 / 8);
+    let few = few.max(first);
+    triangulation.reserve(few as usize * T::SIMPLICES_PER_POINT)?;
+    alone(&mut triangulation, &mut (first..few), first as usize)?;
+    let rest = rounds.iter().map(|round| round.start.max(few)..round.end).filter(|round| !round.is_empty());
+    let run = Run { threads, vertices, rounds: rest.collect(), report: &report };
+    let (mut triangulation, mut left) = triangulation.insert_by_threads(&run)?;
+    left.sort_unstable();
+    let before = n - left.len();
+    alone(&mut triangulation, &mut left.into_iter(), before)?;
     Ok(triangulation)
 }
 
@@ -182,15 +247,91 @@ pub(crate) fn insert_points<const D: usize, T: Insert<D>>(
     start: u32,
     report: impl Fn(usize) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let mut scratch = T::scratch(vertices.len());
+    let mut scratch = triangulation.scratch();
     let mut last = start;
     for (inserted, p) in points.into_iter().enumerate() {
         if inserted % T::REPORT == 0 {
             report(inserted)?;
         }
         let start = triangulation.locate(vertices, p, last);
-        last = triangulation.insert(vertices, p, start, &mut scratch)?;
+        // Nobody disturbs the only thread.
+        last = triangulation.insert(vertices, p, start, &mut scratch)?.unwrap_or(last);
     }
     triangulation.finish(scratch);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Mesh2, Mesh3, random::Random};
+    use proptest::prelude::*;
+
+    fn options(threads: usize) -> Options {
+        Options { threads: NonZeroUsize::new(threads), ..Options::default() }
+    }
+
+    /// Checks that any number of threads makes the mesh of one thread.
+    fn check3(points: &[[f64; 3]]) -> Result<(), TestCaseError> {
+        let expected: Mesh3 = delaunay::<3>(points.into(), &options(1))?;
+        for threads in [2, 3, 8, 16] {
+            for order in [Order::Brio, Order::Shuffled(1)] {
+                let mesh: Mesh3 = delaunay_in_order::<3>(points.into(), &options(threads), order)?;
+                prop_assert!(mesh.canonical() == expected.canonical(), "{} threads, {:?}", threads, order);
+                prop_assert_eq!(&mesh.duplicate_of, &expected.duplicate_of);
+                let report = crate::verify3d(points, &mesh)?;
+                prop_assert!(report.passed(), "{} threads, {:?}:\n{}", threads, order, report);
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that any number of threads makes the mesh of one thread.
+    fn check2(points: &[[f64; 2]]) -> Result<(), TestCaseError> {
+        let expected: Mesh2 = delaunay::<2>(points.into(), &options(1))?;
+        for threads in [2, 3, 8, 16] {
+            for order in [Order::Brio, Order::Shuffled(1)] {
+                let mesh: Mesh2 = delaunay_in_order::<2>(points.into(), &options(threads), order)?;
+                prop_assert!(mesh.canonical() == expected.canonical(), "{} threads, {:?}", threads, order);
+                prop_assert_eq!(&mesh.duplicate_of, &expected.duplicate_of);
+                let report = crate::verify2d(points, &mesh)?;
+                prop_assert!(report.passed(), "{} threads, {:?}:\n{}", threads, order, report);
+            }
+        }
+        Ok(())
+    }
+
+    /// At most `max` points of an integer grid with few points along some axes.
+    fn grid<const D: usize>(max: usize) -> impl Strategy<Value = Vec<[f64; D]>> {
+        let sides = prop::array::uniform::<_, D>(prop::sample::select(vec![1u32, 2, 3, 7, 40]));
+        (sides, 0..=max, any::<u64>()).prop_map(|(sides, count, seed)| {
+            let mut random = Random::new(seed);
+            (0..count).map(|_| sides.map(|side| (random.unit() * f64::from(side)).floor())).collect()
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn threads_agree_on_grids(points in grid::<3>(600)) { check3(&points)?; }
+
+        #[test]
+        fn threads_agree_on_2d_grids(points in grid::<2>(900)) { check2(&points)?; }
+    }
+
+    /// Every cavity meets nearly every other, and there are more slots than were reserved.
+    #[test]
+    fn threads_agree_on_skew_lines() {
+        let points: Vec<_> = (0..80u32).map(f64::from).flat_map(|i| [[i, 0.0, 0.0], [40.0, i - 40.5, 40.0]]).collect();
+        check3(&points).unwrap();
+    }
+
+    /// Every triangle has the hub as a vertex, so that only one thread at a time gets on.
+    #[test]
+    fn threads_agree_on_a_wheel() {
+        let angle = |i: u32| f64::from(i) * 0.01;
+        let rim = (0..600).map(angle).map(|a| [100.0 * libm::cos(a), 100.0 * libm::sin(a)]);
+        check2(&rim.chain([[0.0; 2]]).collect::<Vec<_>>()).unwrap();
+    }
 }

@@ -113,6 +113,14 @@ pub enum Error {
         /// The message of the GPU's driver or of wgpu.
         message: String,
     },
+    /// The system does not start as many threads as were requested.
+    #[error("{threads} threads cannot be started: {reason}")]
+    Threads {
+        /// The requested number of threads.
+        threads: usize,
+        /// The system's message.
+        reason: String,
+    },
     /// The triangulation has more tetrahedra, or triangles in 2D, than can be numbered, as only
     /// contrived inputs have.
     #[error("the triangulation has more than {limit} simplices, the largest number that can be stored")]
@@ -181,7 +189,7 @@ impl Error {
             OutOfDeviceMemory { .. } | BufferTooLarge { .. } | Gpu { .. } => true,
             TooManyPoints { .. } | TooManySimplices { .. } => true,
             NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
-            OutOfMemory { .. } | Cancelled => false,
+            OutOfMemory { .. } | Threads { .. } | Cancelled => false,
             PointCount { .. } | ValueCount { .. } | EmptyBox { .. } | BadAlpha | BrokenMesh { .. } => false,
         }
     }

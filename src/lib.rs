@@ -26,6 +26,7 @@
 //! | feature | what it adds |
 //! | --- | --- |
 //! | `gpu` (default) | the GPU backend, by [wgpu](https://docs.rs/wgpu); else [`Backend::Auto`] is the CPU |
+//! | `threads` (implied by `gpu` and `cli`) | the CPU backend on several threads |
 //! | `serde` | `Serialize` and `Deserialize` for meshes, `Serialize` for statistics |
 //! | `glam`, `mint`, `nalgebra`, `ndarray` | conversions of these crates' points into [`Points`], without a copy |
 //! | `cli` | the program `gdel` |

@@ -1,7 +1,7 @@
 //! Options for a triangulation, as [`Triangulator`](crate::Triangulator) collects them.
 
 use crate::{backend::Backend, error::Error, stats::Phase};
-use std::{fmt, ops::ControlFlow, sync::Arc};
+use std::{fmt, num::NonZeroUsize, ops::ControlFlow, sync::Arc};
 
 /// How far a run has come, as [`Triangulator::on_progress`](crate::Triangulator::on_progress)
 /// reports it.
@@ -46,7 +46,10 @@ pub enum Winding {
 pub struct Options {
     /// What computes the triangulation.
     pub backend: Backend,
-    /// Called a few hundred times per run, in the calling thread.
+    /// The number of threads of the CPU backend; by default that of rayon's pool.
+    pub threads: Option<NonZeroUsize>,
+    /// Called a few hundred times per run, in the calling thread or, if the number of threads is
+    /// set, in one of these.
     pub on_progress: Option<OnProgress>,
     /// Whether the GPU keeps [`Stats::trace`](crate::stats::Stats::trace).
     pub trace: bool,
@@ -59,6 +62,7 @@ impl fmt::Debug for Options {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Options")
             .field("backend", &self.backend)
+            .field("threads", &self.threads)
             .field("on_progress", &self.on_progress.as_ref().map(|_| "…"))
             .field("trace", &self.trace)
             .field("winding", &self.winding)

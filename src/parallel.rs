@@ -1,8 +1,9 @@
 //! Work on slices, shared among the machine's threads if it has several.
 
-use std::ops::Range;
+use crate::error::Error;
+use std::{cmp::Ordering, num::NonZeroUsize, ops::Range};
 
-#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+#[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
 use rayon::prelude::*;
 
 /// Which threads share a piece of work.
@@ -21,12 +22,28 @@ const CHUNK: usize = 1 << 13;
 
 /// Calls `work` with every chunk of `items` and the index of its first element.
 pub(crate) fn for_chunks<T: Send>(threads: Threads, items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
-    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
     if threads == Threads::All && items.len() > CHUNK {
         return items.par_chunks_mut(CHUNK).enumerate().for_each(|(i, chunk)| work(i * CHUNK, chunk));
     }
     let _ = threads;
     work(0, items);
+}
+
+/// Calls `work` with corresponding chunks of two lists of equal length, and the index of their first
+/// elements.
+pub(crate) fn for_chunk_pairs<T: Send, U: Send>(
+    threads: Threads,
+    (items, others): (&mut [T], &mut [U]),
+    work: impl Fn(usize, (&mut [T], &mut [U])) + Sync,
+) {
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
+    if threads == Threads::All && items.len() > CHUNK {
+        let chunks = items.par_chunks_mut(CHUNK).zip(others.par_chunks_mut(CHUNK));
+        return chunks.enumerate().for_each(|(i, pair)| work(i * CHUNK, pair));
+    }
+    let _ = threads;
+    work(0, (items, others));
 }
 
 /// Splits 0 … `len` into ranges of [`CHUNK`] elements and returns the results of `work` for each,
@@ -43,7 +60,7 @@ pub(crate) fn map_grains<R: Send>(
     grain: usize,
     work: impl Fn(Range<usize>) -> R + Sync,
 ) -> Vec<R> {
-    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
     if threads == Threads::All && len > grain {
         let range = |i: usize| i * grain..((i + 1) * grain).min(len);
         return (0..len.div_ceil(grain)).into_par_iter().with_max_len(1).map(|i| work(range(i))).collect();
@@ -54,12 +71,22 @@ pub(crate) fn map_grains<R: Send>(
 
 /// Sorts items of which equal ones are indistinguishable.
 pub(crate) fn sort<T: Ord + Send>(threads: Threads, items: &mut [T]) {
-    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
     if threads == Threads::All {
         return items.par_sort_unstable();
     }
     let _ = threads;
     items.sort_unstable();
+}
+
+/// Sorts items by a total order.
+pub(crate) fn sort_by<T: Send>(threads: Threads, items: &mut [T], compare: impl Fn(&T, &T) -> Ordering + Sync) {
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
+    if threads == Threads::All {
+        return items.par_sort_unstable_by(compare);
+    }
+    let _ = threads;
+    items.sort_unstable_by(compare);
 }
 
 /// Returns the results of `work` for each item and its index, in order. For items that are each
@@ -69,12 +96,69 @@ pub(crate) fn map_mut<T: Send, R: Send>(
     items: &mut [T],
     work: impl Fn(usize, &mut T) -> R + Sync,
 ) -> Vec<R> {
-    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
     if threads == Threads::All {
         return items.par_iter_mut().enumerate().with_max_len(1).map(|(i, item)| work(i, item)).collect();
     }
     let _ = threads;
     items.iter_mut().enumerate().map(|(i, item)| work(i, item)).collect()
+}
+
+/// Returns how many threads can work at the same time.
+pub(crate) fn count(threads: Threads) -> usize {
+    match threads {
+        Threads::One => 1,
+        #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
+        Threads::All => rayon::current_num_threads(),
+        #[cfg(not(all(feature = "threads", not(target_arch = "wasm32"))))]
+        Threads::All => 1,
+    }
+}
+
+/// Calls `work` with what stands for `limit` threads, or for all if there is no limit.
+///
+/// # Errors
+///
+/// Returns [`Error::Threads`] if the system does not start so many threads.
+pub(crate) fn with_threads<R: Send>(
+    limit: Option<NonZeroUsize>,
+    work: impl FnOnce(Threads) -> Result<R, Error> + Send,
+) -> Result<R, Error> {
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
+    {
+        let all = count(Threads::All);
+        let number = limit.map_or(all, NonZeroUsize::get);
+        if number > 1 && number != all {
+            // Rayon's functions use the pool in which they are called.
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(number).build();
+            let pool = pool.map_err(|error| Error::Threads { threads: number, reason: error.to_string() })?;
+            return pool.install(|| work(Threads::All));
+        }
+        work(if number > 1 { Threads::All } else { Threads::One })
+    }
+    #[cfg(not(all(feature = "threads", not(target_arch = "wasm32"))))]
+    {
+        let _ = limit;
+        work(Threads::One)
+    }
+}
+
+/// Runs `own` in the calling thread and the `others` in threads of the pool, at the same time as
+/// far as these are free, and returns the results.
+pub(crate) fn beside<S, R: Send>(own: impl FnOnce() -> S, others: Vec<impl FnOnce() -> R + Send>) -> (S, Vec<R>) {
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
+    {
+        let mut results: Vec<Option<R>> = others.iter().map(|_| None).collect();
+        let result = rayon::in_place_scope(|scope| {
+            for (other, result) in others.into_iter().zip(&mut results) {
+                scope.spawn(move |_| *result = Some(other()));
+            }
+            own()
+        });
+        (result, results.into_iter().flatten().collect())
+    }
+    #[cfg(not(all(feature = "threads", not(target_arch = "wasm32"))))]
+    (own(), others.into_iter().map(|other| other()).collect())
 }
 
 #[cfg(test)]

@@ -1,6 +1,95 @@
-//! The arrays of a triangulation under construction: the vertices and the neighbours of each slot.
+//! The slots of a triangulation under construction: the vertices and the neighbours of each simplex.
+
+mod shared;
+
+pub(crate) use shared::{MAX_WORKERS, SharedSlots, Worker, share, unshare};
 
 use crate::error::Error;
+
+/// The slots of simplices of `N` vertices, as the insertion of a vertex sees them: its own, or
+/// shared with other threads.
+///
+/// A neighbour is 4·(simplex) + (facet as it is numbered there), and so is a facet.
+pub trait Slots<const N: usize> {
+    /// Whether other threads change the slots at the same time. Then only a simplex of which the
+    /// caller has claimed a vertex is sure to stay what it is, and only one of which it has claimed
+    /// all vertices may be replaced.
+    const SHARED: bool;
+
+    /// Returns the infinite vertex: the number of vertices.
+    fn infinite(&self) -> u32;
+
+    /// Returns what stands for the vertices of simplex `t`.
+    fn simplex(&self, t: u32) -> [u32; N];
+
+    /// Sets what stands for the vertices of simplex `t`.
+    fn set_simplex(&mut self, t: u32, vertices: [u32; N]);
+
+    /// Returns the neighbours of simplex `t`.
+    fn neighbors(&self, t: u32) -> [u32; N];
+
+    /// Sets the neighbours of simplex `t`.
+    fn set_neighbors(&mut self, t: u32, neighbors: [u32; N]);
+
+    /// Sets what is across a facet.
+    fn set_neighbor(&mut self, facet: u32, across: u32);
+
+    /// Returns an unused slot.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::TooManySimplices`] and [`Error::OutOfMemory`], unless
+    /// [`has_room`](Slots::has_room).
+    fn push(&mut self) -> Result<u32, Error>;
+
+    /// Returns whether so many slots can be pushed without an error, where that has to be known
+    /// before anything is changed, because other threads go on.
+    fn has_room(&mut self, slots: usize) -> bool;
+
+    /// Claims a vertex for the caller. Returns whether no other thread has it.
+    fn claim(&mut self, v: u32) -> bool;
+}
+
+/// What cavities of more than two dimensions need in addition: their simplices are marked, their
+/// vertices numbered, and not all their slots filled again.
+pub trait MarkedSlots<const N: usize>: Slots<N> {
+    /// A table of numbers below 64, one per vertex.
+    type Places: Places;
+
+    /// Returns what stands for the first vertex of simplex `t`.
+    fn first(&self, t: u32) -> u32;
+
+    /// Sets what stands for the first vertex of simplex `t`.
+    fn set_first(&mut self, t: u32, first: u32);
+
+    /// Takes a slot back that is not used any more.
+    fn discard(&mut self, t: u32);
+
+    /// Creates a table for the vertices, the infinite one included. The places of vertices that
+    /// others have claimed must not be used.
+    fn places(&self) -> Self::Places;
+}
+
+/// A table of numbers below 64, one per vertex, which has arbitrary contents at first.
+pub trait Places {
+    /// Returns the number of vertex `v`.
+    fn place(&self, v: u32) -> u32;
+
+    /// Sets the number of vertex `v`.
+    fn set_place(&mut self, v: u32, place: u32);
+}
+
+impl Places for Vec<u32> {
+    #[inline]
+    fn place(&self, v: u32) -> u32 {
+        self[v as usize]
+    }
+
+    #[inline]
+    fn set_place(&mut self, v: u32, place: u32) {
+        self[v as usize] = place;
+    }
+}
 
 /// Reserves memory for this many slots in all.
 ///

@@ -43,6 +43,9 @@ pub(super) struct Arguments {
     /// Where to compute; the mesh is the same everywhere
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
+    /// How many threads the CPU backend uses [default: all]
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
     /// Print statistics instead of a summary: one line per run
     #[arg(long, value_enum)]
     stats: Option<StatsForm>,
@@ -58,7 +61,7 @@ pub(super) struct Arguments {
 pub(super) enum BackendName {
     /// The GPU for large inputs if there is a hardware GPU, else the CPU
     Auto,
-    /// Incremental insertion on one core
+    /// Incremental insertion
     Cpu,
     /// Insertion and flipping on the GPU; an error if there is none
     Gpu,
@@ -102,7 +105,10 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
     let failure = |source| Failure::Points { path: input.path().into(), source };
     let report = |mesh: &M, total, verified| print(arguments.stats, &Report::new(&cloud, mesh, total, verified));
     // One device for all runs.
-    let triangulator = Triangulator::new().backend(arguments.backend.into());
+    let mut triangulator = Triangulator::new().backend(arguments.backend.into());
+    if let Some(threads) = arguments.threads {
+        triangulator = triangulator.threads(threads);
+    }
     // Each run gives its memory back before the next.
     for _ in 1..arguments.repeat.get() {
         let (mesh, total) = triangulate::<M, D, N>(points, &triangulator).map_err(failure)?;

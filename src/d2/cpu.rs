@@ -1,12 +1,19 @@
 //! What the CPU engine of 2D has of its own.
 
 use crate::{
-    cpu::Incremental,
-    d2::{Mesh2, Triangulation2, insert},
+    cpu::{Grow, Incremental, Run, insert_by_workers},
+    d2::{
+        Mesh2, Triangulation2,
+        insert::{self, edge_of},
+        triangulation::MAX_TRIANGLES,
+    },
     dimension::Dimension,
+    error::Error,
     input::{hilbert, order::Curve, points::Points2},
     options::Options,
+    parallel::Threads,
     predicates::orient2d,
+    slots::{self, SharedSlots},
 };
 
 impl Incremental<2> for Dimension<2> {
@@ -30,8 +37,8 @@ impl Incremental<2> for Dimension<2> {
         2
     }
 
-    fn mesh(triangulation: Triangulation2, names: &[u32], options: &Options) -> Mesh2 {
-        let (triangles, halfedges, hull) = triangulation.into_mesh(names, options.winding);
+    fn mesh(triangulation: Triangulation2, names: &[u32], threads: Threads, options: &Options) -> Mesh2 {
+        let (triangles, halfedges, hull) = triangulation.into_mesh(names, options.winding, threads);
         Mesh2 { triangles, halfedges, hull, ..Mesh2::default() }
     }
 
@@ -42,5 +49,42 @@ impl Incremental<2> for Dimension<2> {
             p.partial_cmp(&q).unwrap_or(std::cmp::Ordering::Equal)
         });
         Mesh2 { hull: distinct, ..Mesh2::default() }
+    }
+}
+
+impl Grow<2> for Triangulation2 {
+    const SIMPLICES_PER_POINT: usize = 2;
+
+    /// Creates one triangle, and the ghosts on its three edges.
+    fn initial(infinite: u32) -> Self {
+        let triangles = vec![[0, 1, 2], [infinite, 2, 1], [0, 2, infinite], [1, 0, infinite]];
+        let neighbors = vec![[0; 3]; 4];
+        let mut mesh = Triangulation2 { triangles, neighbors, infinite };
+        let edge = |mesh: &Triangulation2, t: u32, k: u32| edge_of(mesh.triangles[t as usize], k as usize);
+        for t in 0..4 {
+            for k in 0..3 {
+                // The edge with the opposite direction.
+                let [from, to] = edge(&mesh, t, k);
+                let against = (0..12).map(|e| [e / 3, e % 3]).find(|&[u, l]| edge(&mesh, u, l) == [to, from]);
+                if let Some([u, l]) = against {
+                    mesh.join(4 * t + k, 4 * u + l);
+                }
+            }
+        }
+        mesh
+    }
+
+    fn reserve(&mut self, triangles: usize) -> Result<(), Error> {
+        slots::reserve(&mut self.triangles, &mut self.neighbors, triangles)
+    }
+
+    fn insert_by_threads(self, run: &Run<'_, 2>) -> Result<(Self, Vec<u32>), Error> {
+        let Triangulation2 { triangles, neighbors, infinite } = self;
+        let room = infinite as usize * Self::SIMPLICES_PER_POINT;
+        let mut slots = SharedSlots::new(&triangles, &neighbors, Vec::new(), infinite, room, MAX_TRIANGLES)?;
+        drop((triangles, neighbors));
+        let left = insert_by_workers(&mut slots, run)?;
+        let (triangles, neighbors) = slots.into_arrays();
+        Ok((Triangulation2 { triangles, neighbors, infinite }, left))
     }
 }

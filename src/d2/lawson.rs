@@ -20,6 +20,7 @@ use crate::d2::{
 };
 use crate::{
     cpu::insert_points,
+    d2::insert::in_conflict,
     error::Error,
     predicates::{Sign, filter::PredicateContext2},
 };
@@ -140,9 +141,9 @@ impl Triangulation2 {
             // Everything on either side of the edge has been peeled off.
             false
         } else if q == self.infinite {
-            !self.in_conflict(vertices, across >> 2, p)
+            !in_conflict(self, vertices, across >> 2, p)
         } else {
-            !self.in_conflict(vertices, edge >> 2, q)
+            !in_conflict(self, vertices, edge >> 2, q)
         }
     }
 

@@ -1,8 +1,11 @@
 //! Triangles and their neighbours under construction, the outside of the hull included.
 
 use crate::{
+    error::Error,
     index::{NO_INDEX, NONE},
     options::Winding,
+    parallel::{self, Threads},
+    slots::{self, Slots},
 };
 
 /// Half-edges are numbered below 2³¹, because −1 stands for none.
@@ -126,11 +129,10 @@ impl Triangulation2 {
     }
 
     /// Returns the vertices of the hull, clockwise with the *y* axis up: those around the infinite
-    /// vertex.
-    pub(crate) fn hull_vertices(&self) -> Vec<u32> {
+    /// vertex, beginning at a ghost.
+    fn hull_from(&self, first: u32) -> Vec<u32> {
         let place_of_infinite = |t: u32| self.triangles[t as usize].iter().position(|&v| v == self.infinite);
         let mut hull = Vec::new();
-        let Some(first) = (0..self.triangles.len() as u32).find(|&t| self.is_ghost(t)) else { return hull };
         let mut t = first;
         while let Some(k) = place_of_infinite(t) {
             let next = (k + 1) % 3;
@@ -143,59 +145,131 @@ impl Triangulation2 {
         hull
     }
 
+    /// Returns the vertices of the hull, clockwise with the *y* axis up.
+    pub(crate) fn hull_vertices(&self) -> Vec<u32> {
+        let first = (0..self.triangles.len() as u32).find(|&t| self.is_ghost(t));
+        first.map_or_else(Vec::new, |first| self.hull_from(first))
+    }
+
     /// Returns triangles, half-edges and hull as in [`Mesh2`](crate::d2::Mesh2), but of this
-    /// orientation, in the arrays where they lie; vertex *v* becomes `names[v]`.
-    pub fn into_mesh(self, names: &[u32], winding: Winding) -> (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>) {
+    /// orientation, in the arrays where they lie; vertex *v* becomes `names[v]`. `threads` share the
+    /// work.
+    pub fn into_mesh(
+        self,
+        names: &[u32],
+        winding: Winding,
+        threads: Threads,
+    ) -> (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>) {
         match winding {
-            Winding::CounterClockwise => self.write::<false>(names),
-            Winding::Clockwise => self.write::<true>(names),
+            Winding::CounterClockwise => self.write::<false>(names, threads),
+            Winding::Clockwise => self.write::<true>(names, threads),
         }
     }
 
-    fn write<const CLOCKWISE: bool>(mut self, names: &[u32]) -> (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>) {
-        let mut hull: Vec<u32> = self.hull_vertices().into_iter().map(|v| names[v as usize]).collect();
+    fn write<const CLOCKWISE: bool>(
+        mut self,
+        names: &[u32],
+        threads: Threads,
+    ) -> (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>) {
+        let slots = self.triangles.len();
+        let ghosts = parallel::map_ranges(threads, slots, |range| {
+            (range.start as u32..range.end as u32).filter(|&t| self.is_ghost(t)).collect::<Vec<_>>()
+        });
+        let ghosts = ghosts.concat();
+        let mut hull = ghosts.first().map_or_else(Vec::new, |&first| self.hull_from(first));
+        hull.iter_mut().for_each(|v| *v = names[*v as usize]);
         if !CLOCKWISE {
             hull.reverse();
         }
         let lowest = hull.iter().enumerate().min_by_key(|&(_, v)| v).map_or(0, |(at, _)| at);
         hull.rotate_left(lowest);
-        // The last triangles move into the slots of ghosts, and their neighbours are updated.
-        let mut count = self.triangles.len();
-        let mut t = 0;
-        while t < count {
-            if !self.is_ghost(t as u32) {
-                t += 1;
-                continue;
-            }
-            for across in self.neighbors[t] {
+        for &t in &ghosts {
+            for across in self.neighbors[t as usize] {
                 if across != NO_INDEX {
                     self.neighbors[across as usize / 4][across as usize % 4] = NO_INDEX;
                 }
             }
-            count -= 1;
-            if count > t {
-                self.triangles[t] = self.triangles[count];
-                self.neighbors[t] = self.neighbors[count];
-                for (across, k) in self.neighbors[t].into_iter().zip(0..) {
-                    if across != NO_INDEX {
-                        self.neighbors[across as usize / 4][across as usize % 4] = 4 * t as u32 + k;
-                    }
+        }
+        // The last triangles move into the slots of ghosts, and their neighbours are updated.
+        let count = slots - ghosts.len();
+        let (gaps, behind) = ghosts.split_at(ghosts.partition_point(|&t| (t as usize) < count));
+        let mut behind = behind.iter().rev().copied().peekable();
+        let movers = (count..slots).rev().filter(|&t| behind.next_if_eq(&(t as u32)).is_none());
+        for (gap, last) in gaps.iter().map(|&t| t as usize).zip(movers) {
+            self.triangles[gap] = self.triangles[last];
+            self.neighbors[gap] = self.neighbors[last];
+            for (across, k) in self.neighbors[gap].into_iter().zip(0..) {
+                if across != NO_INDEX {
+                    self.neighbors[across as usize / 4][across as usize % 4] = 4 * gap as u32 + k;
                 }
             }
         }
         let Triangulation2 { mut triangles, mut neighbors, .. } = self;
         triangles.truncate(count);
         neighbors.truncate(count);
-        for t in &mut triangles {
-            *t = vertex_order(CLOCKWISE).map(|k| names[t[k] as usize]);
-        }
+        parallel::for_chunks(threads, &mut triangles, |_, chunk| {
+            for t in chunk {
+                *t = vertex_order(CLOCKWISE).map(|k| names[t[k] as usize]);
+            }
+        });
         let mut halfedges: Vec<[i32; 3]> = bytemuck::cast_vec(neighbors);
-        for edges in &mut halfedges {
-            *edges = edge_of_halfedge(CLOCKWISE).map(|k| match edges[k] as u32 {
-                NO_INDEX => NONE,
-                across => (across as usize / 4 * 3 + halfedge_of_edge(CLOCKWISE)[across as usize % 4]) as i32,
-            });
-        }
+        parallel::for_chunks(threads, &mut halfedges, |_, chunk| {
+            for edges in chunk {
+                *edges = edge_of_halfedge(CLOCKWISE).map(|k| match edges[k] as u32 {
+                    NO_INDEX => NONE,
+                    across => (across as usize / 4 * 3 + halfedge_of_edge(CLOCKWISE)[across as usize % 4]) as i32,
+                });
+            }
+        });
         (triangles, halfedges, hull)
+    }
+}
+
+impl Slots<3> for Triangulation2 {
+    const SHARED: bool = false;
+
+    #[inline]
+    fn infinite(&self) -> u32 {
+        self.infinite
+    }
+
+    #[inline]
+    fn simplex(&self, t: u32) -> [u32; 3] {
+        self.triangles[t as usize]
+    }
+
+    #[inline]
+    fn set_simplex(&mut self, t: u32, vertices: [u32; 3]) {
+        self.triangles[t as usize] = vertices;
+    }
+
+    #[inline]
+    fn neighbors(&self, t: u32) -> [u32; 3] {
+        self.neighbors[t as usize]
+    }
+
+    #[inline]
+    fn set_neighbors(&mut self, t: u32, neighbors: [u32; 3]) {
+        self.neighbors[t as usize] = neighbors;
+    }
+
+    #[inline]
+    fn set_neighbor(&mut self, facet: u32, across: u32) {
+        self.neighbors[facet as usize / 4][facet as usize % 4] = across;
+    }
+
+    #[inline]
+    fn push(&mut self) -> Result<u32, Error> {
+        slots::push(&mut self.triangles, &mut self.neighbors, MAX_TRIANGLES)
+    }
+
+    #[inline]
+    fn has_room(&mut self, _slots: usize) -> bool {
+        true
+    }
+
+    #[inline]
+    fn claim(&mut self, _v: u32) -> bool {
+        true
     }
 }

@@ -1,6 +1,7 @@
 //! Adjacencies among new tetrahedra: each directed edge of a cavity's boundary belongs to one
 //! facet, and its reverse to the adjacent facet.
 
+use crate::slots::Places;
 use std::collections::HashMap;
 
 /// Boundaries of more vertices than this use a hash table instead of the matrix, which has 64²
@@ -17,10 +18,10 @@ pub(crate) struct Facet {
 }
 
 /// Finds the facets on both sides of every edge of a closed surface.
-pub(crate) struct EdgeMap {
-    /// The place of each mesh vertex in `vertices`, valid only if `vertices[place[v]] == v`. So
+pub(crate) struct EdgeMap<P> {
+    /// The place of each mesh vertex in `vertices`, valid only if the vertex there is the same. So
     /// nothing needs clearing.
-    place: Vec<u32>,
+    place: P,
     /// The vertices of the boundary.
     vertices: Vec<u32>,
     /// The places of each facet's corners.
@@ -55,11 +56,11 @@ fn cell(from: u32, to: u32) -> usize {
     (from as usize * MATRIX + to as usize) & (MATRIX * MATRIX - 1)
 }
 
-impl EdgeMap {
-    /// Creates a map for meshes of `vertices` vertices, the infinite one included.
-    pub(crate) fn new(vertices: usize) -> Self {
+impl<P: Places> EdgeMap<P> {
+    /// Creates a map with a table of the mesh's vertices, the infinite one included.
+    pub(crate) fn new(place: P) -> Self {
         EdgeMap {
-            place: vec![0; vertices],
+            place,
             vertices: Vec::with_capacity(MATRIX),
             places: Vec::new(),
             matrix: Box::new([0; MATRIX * MATRIX]),
@@ -69,12 +70,12 @@ impl EdgeMap {
 
     /// Returns the place of `v` in `vertices`, where it is appended if it is new.
     fn place_of(&mut self, v: u32) -> u32 {
-        let place = self.place[v as usize];
+        let place = self.place.place(v);
         if self.vertices.get(place as usize) == Some(&v) {
             return place;
         }
         let place = self.vertices.len() as u32;
-        self.place[v as usize] = place;
+        self.place.set_place(v, place);
         self.vertices.push(v);
         place
     }

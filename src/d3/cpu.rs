@@ -1,16 +1,19 @@
 //! What the CPU engine of 3D has of its own.
 
 use crate::{
-    cpu::Incremental,
+    cpu::{Grow, Incremental, Run, insert_by_workers},
     d3::{
         Mesh3, insert,
-        triangulation::{FiniteMesh, Triangulation3},
+        mesh::FACETS,
+        triangulation::{FiniteMesh, MAX_TETRAHEDRA, Triangulation3, state},
     },
     dimension::Dimension,
+    error::Error,
     input::{hilbert, order::Curve, points::Points3},
     options::Options,
     parallel::Threads,
     predicates::{collinear, orient3d},
+    slots::{self, SharedSlots},
 };
 
 impl Incremental<3> for Dimension<3> {
@@ -38,12 +41,56 @@ impl Incremental<3> for Dimension<3> {
         3
     }
 
-    fn mesh(triangulation: Triangulation3, names: &[u32], _options: &Options) -> Mesh3 {
-        let FiniteMesh { tetrahedra, neighbors, hull } = triangulation.into_mesh(Some(names), Threads::One);
+    fn mesh(triangulation: Triangulation3, names: &[u32], threads: Threads, _options: &Options) -> Mesh3 {
+        let FiniteMesh { tetrahedra, neighbors, hull } = triangulation.into_mesh(Some(names), threads);
         Mesh3 { tetrahedra, neighbors, hull, ..Mesh3::default() }
     }
 
     fn degenerate_mesh(_points: Points3<'_>, _distinct: Vec<u32>) -> Mesh3 {
         Mesh3::default()
+    }
+}
+
+impl Grow<3> for Triangulation3 {
+    /// 6.77 for a uniform distribution, and some ghosts.
+    const SIMPLICES_PER_POINT: usize = 7;
+
+    /// Creates one tetrahedron, and the ghosts on its four facets.
+    fn initial(infinite: u32) -> Self {
+        let mut mesh = Triangulation3 { tetrahedra: vec![[0, 1, 2, 3]], neighbors: vec![[0; 4]], infinite };
+        for (k, facet) in FACETS.iter().enumerate() {
+            let [a, b, c] = facet.map(|v| v as u32);
+            mesh.tetrahedra.push([a, b, c, infinite]);
+            mesh.neighbors.push([0; 4]);
+            mesh.join(k as u32, 4 * (k as u32 + 1) + 3);
+        }
+        // Ghosts i and j share the facet opposite corner j of ghost i and corner i of ghost j.
+        for i in 0..4u32 {
+            for j in 0..i {
+                let facet = |ghost: u32, corner: u32| {
+                    let place = mesh.tetrahedra[ghost as usize + 1].iter().position(|&v| v == corner);
+                    4 * (ghost + 1) + place.map_or(0, |k| k as u32)
+                };
+                let (f, g) = (facet(i, j), facet(j, i));
+                mesh.join(f, g);
+            }
+        }
+        mesh
+    }
+
+    fn reserve(&mut self, tetrahedra: usize) -> Result<(), Error> {
+        slots::reserve(&mut self.tetrahedra, &mut self.neighbors, tetrahedra)
+    }
+
+    fn insert_by_threads(self, run: &Run<'_, 3>) -> Result<(Self, Vec<u32>), Error> {
+        let is_unused = |&t: &u32| self.state(t) == state::FREE;
+        let unused = (0..self.tetrahedra.len() as u32).filter(is_unused).collect();
+        let Triangulation3 { tetrahedra, neighbors, infinite } = self;
+        let room = infinite as usize * Self::SIMPLICES_PER_POINT;
+        let mut slots = SharedSlots::new(&tetrahedra, &neighbors, unused, infinite, room, MAX_TETRAHEDRA)?;
+        drop((tetrahedra, neighbors));
+        let left = insert_by_workers(&mut slots, run)?;
+        let (tetrahedra, neighbors) = slots.into_arrays();
+        Ok((Triangulation3 { tetrahedra, neighbors, infinite }, left))
     }
 }

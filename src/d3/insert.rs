@@ -11,18 +11,18 @@ use crate::{
     d3::{
         adjacency::{EdgeMap, Facet},
         mesh::FACETS,
-        triangulation::{MAX_TETRAHEDRA, Triangulation3, state},
+        triangulation::{MAX_TETRAHEDRA, state},
     },
     error::Error,
     predicates::filter::PredicateContext3,
-    slots,
+    slots::MarkedSlots,
 };
 
 /// The maximum number of points: none of the usual inputs has 8 tetrahedra per point.
 pub(crate) const MAX_POINTS: usize = MAX_TETRAHEDRA / 8;
 
 /// Lists that insertions reuse.
-pub struct Scratch {
+pub struct Scratch<P> {
     /// The tetrahedra in conflict.
     conflict: Vec<u32>,
     /// The facets of the cavity.
@@ -31,70 +31,47 @@ pub struct Scratch {
     filled: Vec<u32>,
     /// Unused slots.
     free: Vec<u32>,
-    edges: EdgeMap,
+    edges: EdgeMap<P>,
 }
 
-impl Insert<3> for Triangulation3 {
-    type Scratch = Scratch;
+/// A walk among tetrahedra that other threads change ends after this many: it may go in circles.
+const MAX_STEPS: usize = 1 << 14;
 
-    /// 6.77 for a uniform distribution, and some ghosts.
-    const SIMPLICES_PER_POINT: usize = 7;
+impl<S: MarkedSlots<4>> Insert<3> for S {
+    type Scratch = Scratch<S::Places>;
+
     const REPORT: usize = 1 << 12;
 
-    /// Creates one tetrahedron, and the ghosts on its four facets.
-    fn initial(infinite: u32) -> Self {
-        let mut mesh = Triangulation3 { tetrahedra: vec![[0, 1, 2, 3]], neighbors: vec![[0; 4]], infinite };
-        for (k, facet) in FACETS.iter().enumerate() {
-            let [a, b, c] = facet.map(|v| v as u32);
-            mesh.tetrahedra.push([a, b, c, infinite]);
-            mesh.neighbors.push([0; 4]);
-            mesh.join(k as u32, 4 * (k as u32 + 1) + 3);
-        }
-        // Ghosts i and j share the facet opposite corner j of ghost i and corner i of ghost j.
-        for i in 0..4u32 {
-            for j in 0..i {
-                let facet = |ghost: u32, corner: u32| {
-                    let place = mesh.tetrahedra[ghost as usize + 1].iter().position(|&v| v == corner);
-                    4 * (ghost + 1) + place.map_or(0, |k| k as u32)
-                };
-                let (f, g) = (facet(i, j), facet(j, i));
-                mesh.join(f, g);
-            }
-        }
-        mesh
-    }
-
-    fn reserve(&mut self, tetrahedra: usize) -> Result<(), Error> {
-        slots::reserve(&mut self.tetrahedra, &mut self.neighbors, tetrahedra)
-    }
-
-    fn scratch(vertices: usize) -> Scratch {
+    fn scratch(&self) -> Self::Scratch {
         Scratch {
             conflict: Vec::new(),
             boundary: Vec::new(),
             filled: Vec::new(),
             free: Vec::new(),
-            edges: EdgeMap::new(vertices + 1),
+            edges: EdgeMap::new(self.places()),
         }
     }
 
     fn locate(&self, vertices: &PredicateContext3<'_>, p: u32, start: u32) -> u32 {
-        let mut t = if self.is_ghost(start) { self.neighbors[start as usize][3] >> 2 } else { start };
+        let is_ghost = corners(self, start)[3] == self.infinite();
+        let mut t = if is_ghost { self.neighbors(start)[3] >> 2 } else { start };
         let mut came_through = 4;
+        let mut steps = 0;
         'walk: loop {
-            let v = self.vertices(t);
+            let v = corners(self, t);
+            if v[3] == self.infinite() || (S::SHARED && steps == MAX_STEPS) {
+                return t;
+            }
+            steps += 1;
             for (k, facet) in FACETS.iter().enumerate() {
                 if k == came_through {
                     continue;
                 }
                 let [a, b, c] = facet.map(|i| v[i]);
                 if vertices.orient3d(a, b, c, p) > 0 {
-                    let across = self.neighbors[t as usize][k];
+                    let across = self.neighbors(t)[k];
                     t = across >> 2;
                     came_through = across as usize & 3;
-                    if self.is_ghost(t) {
-                        return t;
-                    }
                     continue 'walk;
                 }
             }
@@ -107,9 +84,15 @@ impl Insert<3> for Triangulation3 {
         vertices: &PredicateContext3<'_>,
         p: u32,
         start: u32,
-        scratch: &mut Scratch,
-    ) -> Result<u32, Error> {
-        self.find_cavity(vertices, p, start, scratch);
+        scratch: &mut Self::Scratch,
+    ) -> Result<Option<u32>, Error> {
+        if S::SHARED && !can_begin(self, vertices, p, start) {
+            return Ok(None);
+        }
+        if !find_cavity(self, vertices, p, start, scratch) || !self.has_room(scratch.boundary.len()) {
+            undo_marks(self, scratch);
+            return Ok(None);
+        }
         let Scratch { conflict, boundary, filled, free, edges } = scratch;
         free.append(conflict);
         filled.clear();
@@ -119,75 +102,121 @@ impl Insert<3> for Triangulation3 {
                 None => self.push()?,
             };
             filled.push(new);
-            self.tetrahedra[new as usize] = [p, a, b, c];
-            self.set_state(beyond >> 2, state::UNKNOWN);
-            self.neighbors[beyond as usize / 4][beyond as usize % 4] = 4 * new;
+            self.set_simplex(new, [p, a, b, c]);
+            mark(self, beyond >> 2, state::UNKNOWN);
+            self.set_neighbor(beyond, 4 * new);
         }
         edges.link_all(
             boundary,
             |f, corner| 4 * filled[f] + 1 + corner as u32,
-            |f, [a, b, c]| self.neighbors[filled[f] as usize] = [boundary[f].beyond, a, b, c],
+            |f, [a, b, c]| self.set_neighbors(filled[f], [boundary[f].beyond, a, b, c]),
         );
-        Ok(filled[filled.len() - 1])
+        Ok(Some(filled[filled.len() - 1]))
     }
 
-    /// Marks the slots that are unused.
-    fn finish(&mut self, scratch: Scratch) {
+    fn finish(&mut self, scratch: Self::Scratch) {
         for slot in scratch.free {
-            self.set_state(slot, state::FREE);
+            self.discard(slot);
         }
     }
 }
 
-impl Triangulation3 {
-    /// Returns whether the circumsphere of `t` contains vertex `p`.
-    ///
-    /// The circumsphere of a ghost is the half-space beyond its facet and, in the facet's plane,
-    /// the circumdisc of the facet: the part of the plane inside the circumsphere of the
-    /// tetrahedron on the other side of the facet.
-    #[inline]
-    fn in_conflict(&self, vertices: &PredicateContext3<'_>, t: u32, p: u32) -> bool {
-        let v = self.vertices(t);
-        if v[3] != self.infinite {
-            return vertices.insphere(v, p) > 0;
-        }
-        match vertices.orient3d(v[0], v[1], v[2], p) {
-            0 => vertices.insphere(self.vertices(self.neighbors[t as usize][3] >> 2), p) > 0,
-            side => side > 0,
+/// Returns the vertices of tetrahedron `t`.
+fn corners(slots: &impl MarkedSlots<4>, t: u32) -> [u32; 4] {
+    let [a, b, c, d] = slots.simplex(t);
+    [a & !state::MASK, b, c, d]
+}
+
+/// Returns the state of tetrahedron `t`.
+fn state_of(slots: &impl MarkedSlots<4>, t: u32) -> u32 {
+    slots.first(t) & state::MASK
+}
+
+/// Sets the state of tetrahedron `t`.
+fn mark(slots: &mut impl MarkedSlots<4>, t: u32, state: u32) {
+    slots.set_first(t, slots.first(t) & !state::MASK | state);
+}
+
+/// Returns whether the circumsphere of `t` contains vertex `p`.
+///
+/// The circumsphere of a ghost is the half-space beyond its facet and, in the facet's plane, the
+/// circumdisc of the facet: the part of the plane inside the circumsphere of the tetrahedron on the
+/// other side of the facet.
+#[inline]
+fn in_conflict(slots: &impl MarkedSlots<4>, vertices: &PredicateContext3<'_>, t: u32, p: u32) -> bool {
+    let v = corners(slots, t);
+    if v[3] != slots.infinite() {
+        return vertices.insphere(v, p) > 0;
+    }
+    match vertices.orient3d(v[0], v[1], v[2], p) {
+        0 => vertices.insphere(corners(slots, slots.neighbors(t)[3] >> 2), p) > 0,
+        side => side > 0,
+    }
+}
+
+/// Claims `p` and the vertices of `start`, to which a walk among tetrahedra that other threads
+/// change has led. Returns whether `start` exists and is in conflict with `p`.
+fn can_begin(slots: &mut impl MarkedSlots<4>, vertices: &PredicateContext3<'_>, p: u32, start: u32) -> bool {
+    let seen = slots.simplex(start);
+    seen[0] & state::MASK == state::UNKNOWN
+        && seen[0] != seen[1]
+        && slots.claim(p)
+        && seen.iter().all(|&v| slots.claim(v))
+        && slots.simplex(start) == seen
+        && in_conflict(slots, vertices, start, p)
+}
+
+/// Marks and lists the tetrahedra in conflict with `p`, and the facets around them, breadth-first.
+/// Returns whether all their vertices could be claimed.
+fn find_cavity<S: MarkedSlots<4>>(
+    slots: &mut S,
+    vertices: &PredicateContext3<'_>,
+    p: u32,
+    start: u32,
+    scratch: &mut Scratch<S::Places>,
+) -> bool {
+    let Scratch { conflict, boundary, .. } = scratch;
+    boundary.clear();
+    conflict.push(start);
+    mark(slots, start, state::CONFLICT);
+    let mut next = 0;
+    while let Some(&t) = conflict.get(next) {
+        next += 1;
+        let corners_of_t = corners(slots, t);
+        for (facet, beyond) in FACETS.iter().zip(slots.neighbors(t)) {
+            let other = beyond >> 2;
+            match state_of(slots, other) {
+                state::CONFLICT => continue,
+                state::UNKNOWN if in_conflict(slots, vertices, other, p) => {
+                    if S::SHARED && !slots.claim(corners(slots, other)[beyond as usize & 3]) {
+                        return false;
+                    }
+                    mark(slots, other, state::CONFLICT);
+                    conflict.push(other);
+                    continue;
+                }
+                state::UNKNOWN => mark(slots, other, state::BEYOND),
+                _ => {}
+            }
+            let [a, b, c] = facet.map(|i| corners_of_t[i]);
+            let corners = match slots.infinite() {
+                i if i == a => [b, c, a],
+                i if i == b => [c, a, b],
+                _ => [a, b, c],
+            };
+            boundary.push(Facet { corners, beyond });
         }
     }
+    true
+}
 
-    /// Marks and lists the tetrahedra in conflict with `p`, and the facets around them,
-    /// breadth-first.
-    fn find_cavity(&mut self, vertices: &PredicateContext3<'_>, p: u32, start: u32, scratch: &mut Scratch) {
-        let Scratch { conflict, boundary, .. } = scratch;
-        boundary.clear();
-        conflict.push(start);
-        self.set_state(start, state::CONFLICT);
-        let mut next = 0;
-        while let Some(&t) = conflict.get(next) {
-            next += 1;
-            let corners = self.vertices(t);
-            for (facet, beyond) in FACETS.iter().zip(self.neighbors[t as usize]) {
-                let other = beyond >> 2;
-                match self.state(other) {
-                    state::CONFLICT => continue,
-                    state::UNKNOWN if self.in_conflict(vertices, other, p) => {
-                        self.set_state(other, state::CONFLICT);
-                        conflict.push(other);
-                        continue;
-                    }
-                    state::UNKNOWN => self.set_state(other, state::BEYOND),
-                    _ => {}
-                }
-                let [a, b, c] = facet.map(|i| corners[i]);
-                let corners = match self.infinite {
-                    i if i == a => [b, c, a],
-                    i if i == b => [c, a, b],
-                    _ => [a, b, c],
-                };
-                boundary.push(Facet { corners, beyond });
-            }
-        }
+/// Removes the marks of a cavity that is not filled.
+#[cold]
+fn undo_marks<S: MarkedSlots<4>>(slots: &mut S, scratch: &mut Scratch<S::Places>) {
+    for t in scratch.conflict.drain(..) {
+        mark(slots, t, state::UNKNOWN);
+    }
+    for facet in &scratch.boundary {
+        mark(slots, facet.beyond >> 2, state::UNKNOWN);
     }
 }

@@ -4,8 +4,9 @@ use crate::{
     error::Error,
     index::{NO_INDEX, NONE},
     parallel::{self, Threads},
-    slots,
+    slots::{self, MarkedSlots, Slots},
 };
+use std::sync::atomic::Ordering::Relaxed;
 
 /// Tetrahedra are numbered below 2³⁰, because a neighbour is packed with its facet into 32 bits.
 pub(crate) const MAX_TETRAHEDRA: usize = 1 << 30;
@@ -97,7 +98,7 @@ impl Triangulation3 {
     /// Returns tetrahedra, neighbours and hull as in [`Mesh3`](crate::Mesh3), without ghosts and
     /// unused slots, reusing the arrays. With `names`, vertex *v* becomes `names[v]`. `threads`
     /// share the work.
-    pub fn into_mesh(mut self, names: Option<&[u32]>, threads: Threads) -> FiniteMesh {
+    pub fn into_mesh(self, names: Option<&[u32]>, threads: Threads) -> FiniteMesh {
         const FEW: usize = 64;
         let slots = self.tetrahedra.len();
         // Ghosts and unused slots, chunk by chunk.
@@ -135,38 +136,58 @@ impl Triangulation3 {
                 *facet = [a, b, c];
             }
         });
-        // References to ghosts beyond the last tetrahedron of the mesh are recognised by their
-        // index; those to the other ghosts are marked here.
-        for &t in gaps.iter().flat_map(|(ghosts, _)| ghosts).take_while(|&&t| (t as usize) < count) {
-            let inside = self.neighbors[t as usize][3];
-            self.neighbors[inside as usize / 4][inside as usize % 4] = NO_INDEX;
-        }
-        // The tetrahedra beyond it move into the gaps, and their neighbours are updated.
+        // The tetrahedra beyond the last one of the mesh move into the gaps before it.
         let movers = parallel::map_ranges(threads, slots - count, |range| {
             let is_used = |&t: &u32| self.state(t) != state::FREE && !self.is_ghost(t);
             ((count + range.start) as u32..(count + range.end) as u32).filter(is_used).collect::<Vec<_>>()
         });
         let in_front = |&&t: &&u32| (t as usize) < count;
         let unused = gaps.iter().flat_map(|(_, unused)| unused).take_while(in_front);
-        let ghosts = gaps.iter().flat_map(|(ghosts, _)| ghosts).take_while(in_front);
-        for (&gap, last) in unused.chain(ghosts).zip(movers.into_iter().flatten()) {
-            let (gap, last) = (gap as usize, last as usize);
-            self.tetrahedra[gap] = self.tetrahedra[last];
-            self.neighbors[gap] = self.neighbors[last];
-            for k in 0..4 {
-                let across = self.neighbors[gap][k];
-                if across != NO_INDEX {
-                    self.neighbors[across as usize / 4][across as usize % 4] = (4 * gap + k) as u32;
+        let ghosts: Vec<u32> = gaps.iter().flat_map(|(ghosts, _)| ghosts).take_while(in_front).copied().collect();
+        let moves: Vec<[u32; 2]> =
+            unused.chain(&ghosts).copied().zip(movers.into_iter().flatten()).map(Into::into).collect();
+        let mut moved_to = vec![NO_INDEX; slots - count];
+        for &[gap, last] in &moves {
+            moved_to[last as usize - count] = gap;
+        }
+        let tetrahedra = slots::share(self.tetrahedra.into_flattened());
+        let neighbors = slots::share(self.neighbors.into_flattened());
+        // References to ghosts beyond the last tetrahedron of the mesh are recognised by their
+        // index; those to the other ghosts are marked here.
+        parallel::map_ranges(threads, ghosts.len(), |range| {
+            for &t in &ghosts[range] {
+                let inside = neighbors[4 * t as usize + 3].load(Relaxed);
+                neighbors[inside as usize].store(NO_INDEX, Relaxed);
+            }
+        });
+        // Nobody else writes into the gap, or into the references to what moves there.
+        parallel::map_ranges(threads, moves.len(), |range| {
+            for &[gap, last] in &moves[range] {
+                for k in 0..4 {
+                    let [from, to] = [last, gap].map(|t| 4 * t as usize + k);
+                    tetrahedra[to].store(tetrahedra[from].load(Relaxed), Relaxed);
+                    let across = neighbors[from].load(Relaxed);
+                    let beside = (across as usize / 4).checked_sub(count);
+                    let across = match beside.map(|beside| moved_to.get(beside)) {
+                        Some(Some(&NO_INDEX) | None) => across,
+                        Some(Some(&gap)) => 4 * gap + across % 4,
+                        None => {
+                            neighbors[across as usize].store(to as u32, Relaxed);
+                            across
+                        }
+                    };
+                    neighbors[to].store(across, Relaxed);
                 }
             }
-        }
-        let Triangulation3 { mut tetrahedra, mut neighbors, .. } = self;
+        });
+        let [mut tetrahedra, mut neighbors]: [Vec<[u32; 4]>; 2] =
+            [tetrahedra, neighbors].map(|words| bytemuck::cast_vec(slots::unshare(words)));
         tetrahedra.truncate(count);
         neighbors.truncate(count);
         if let Some(names) = names {
             let rename = |v: &mut u32| *v = names[*v as usize];
             parallel::for_chunks(threads, &mut tetrahedra, |_, chunk| chunk.iter_mut().flatten().for_each(rename));
-            hull.iter_mut().flatten().for_each(rename);
+            parallel::for_chunks(threads, &mut hull, |_, chunk| chunk.iter_mut().flatten().for_each(rename));
         }
         let mut neighbors: Vec<[i32; 4]> = bytemuck::cast_vec(neighbors);
         // Below 2³⁰, like all indices of tetrahedra.
@@ -178,6 +199,78 @@ impl Triangulation3 {
             }
         });
         FiniteMesh { tetrahedra, neighbors, hull }
+    }
+}
+
+impl Slots<4> for Triangulation3 {
+    const SHARED: bool = false;
+
+    #[inline]
+    fn infinite(&self) -> u32 {
+        self.infinite
+    }
+
+    #[inline]
+    fn simplex(&self, t: u32) -> [u32; 4] {
+        self.tetrahedra[t as usize]
+    }
+
+    #[inline]
+    fn set_simplex(&mut self, t: u32, vertices: [u32; 4]) {
+        self.tetrahedra[t as usize] = vertices;
+    }
+
+    #[inline]
+    fn neighbors(&self, t: u32) -> [u32; 4] {
+        self.neighbors[t as usize]
+    }
+
+    #[inline]
+    fn set_neighbors(&mut self, t: u32, neighbors: [u32; 4]) {
+        self.neighbors[t as usize] = neighbors;
+    }
+
+    #[inline]
+    fn set_neighbor(&mut self, facet: u32, across: u32) {
+        self.neighbors[facet as usize / 4][facet as usize % 4] = across;
+    }
+
+    #[inline]
+    fn push(&mut self) -> Result<u32, Error> {
+        self.push()
+    }
+
+    #[inline]
+    fn has_room(&mut self, _slots: usize) -> bool {
+        true
+    }
+
+    #[inline]
+    fn claim(&mut self, _v: u32) -> bool {
+        true
+    }
+}
+
+impl MarkedSlots<4> for Triangulation3 {
+    type Places = Vec<u32>;
+
+    #[inline]
+    fn first(&self, t: u32) -> u32 {
+        self.tetrahedra[t as usize][0]
+    }
+
+    #[inline]
+    fn set_first(&mut self, t: u32, first: u32) {
+        self.tetrahedra[t as usize][0] = first;
+    }
+
+    /// Marks the slot.
+    fn discard(&mut self, t: u32) {
+        self.set_state(t, state::FREE);
+    }
+
+    fn places(&self) -> Vec<u32> {
+        vec![0; self.infinite as usize + 1]
     }
 }
 

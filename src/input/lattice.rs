@@ -5,6 +5,9 @@
 //! rounding drops, and whether it dropped anything is known for each point. 31 bits represent
 //! grids, voxels and LAS files exactly; 62 bits represent nearly all `f32` and most `f64` data
 //! exactly.
+//!
+//! Where the axes have very different ranges, a *stretched* lattice with a *k* of its own for each
+//! axis rounds fewer points. The CPU's predicates use it in that case.
 
 use crate::{
     input::points::Points,
@@ -34,10 +37,11 @@ impl Width {
 #[derive(Debug, Clone)]
 pub struct Lattice<const D: usize> {
     width: Width,
-    /// *k*: coordinates are multiplied by 2ᵏ.
-    exponent: i32,
+    /// *k* of each axis: coordinates are multiplied by 2ᵏ. All are equal, unless the lattice is
+    /// stretched.
+    exponents: [i32; D],
     /// 2ᵏ if `f64` can represent it, else NaN.
-    factor: f64,
+    factors: [f64; D],
     /// The scaled and rounded minimum of each axis, which is subtracted from the coordinates;
     /// `None` for an axis on which all points agree (its lattice coordinates are all 0).
     origin: [Option<i128>; D],
@@ -114,17 +118,42 @@ impl<const D: usize> Lattice<D> {
         };
         let lattice = |width: Width| {
             let exponent = fitting(width).unwrap_or(0);
-            let origin = std::array::from_fn(|axis| varies[axis].then(|| scale(low[axis], exponent).0));
-            let factor = match exponent {
-                -1000..=1000 => f64::from_bits(((1023 + exponent) as u64) << 52),
-                _ => f64::NAN,
-            };
-            Lattice { width, exponent, factor, origin, bounds: [low, high] }
+            Lattice::with_exponents(width, [exponent; D], varies, [low, high])
         };
         let narrow = lattice(Width::Narrow);
         let is_exact = |p| narrow.coordinates(p).iter().all(|c| c.exact);
         let exact = parallel::map_ranges(threads, points.len(), |range| points.range(range).iter().all(is_exact));
         if exact.into_iter().all(|exact| exact) { narrow } else { lattice(Width::Wide) }
+    }
+
+    fn with_exponents(width: Width, exponents: [i32; D], varies: [bool; D], bounds: [[f64; D]; 2]) -> Self {
+        let origin = std::array::from_fn(|axis| varies[axis].then(|| scale(bounds[0][axis], exponents[axis]).0));
+        let factors = exponents.map(|exponent| match exponent {
+            -1000..=1000 => f64::from_bits(((1023 + exponent) as u64) << 52),
+            _ => f64::NAN,
+        });
+        Lattice { width, exponents, factors, origin, bounds }
+    }
+
+    /// Returns the wide lattice on which each axis has the largest *k* for which its coordinates
+    /// fit, but at most `max_shift` more than the smallest; `None` if all axes have the same.
+    pub(crate) fn stretched(&self, max_shift: u32) -> Option<Self> {
+        let varies = self.varies();
+        let [low, high] = self.bounds;
+        let own = |axis: usize| varies[axis].then(|| largest_exponent(low[axis], high[axis], Width::Wide.bits()));
+        let own: [Option<i32>; D] = std::array::from_fn(own);
+        let min = own.iter().flatten().copied().min()?;
+        // On an axis on which all points agree, all coordinates are 0.
+        let exponents = own.map(|k| k.unwrap_or(min).min(min + max_shift as i32));
+        let is_stretched = exponents.iter().any(|&k| k != min);
+        is_stretched.then(|| Lattice::with_exponents(Width::Wide, exponents, varies, self.bounds))
+    }
+
+    /// Returns how many bits each axis' coordinates would have to be shifted to the left to have
+    /// the same scale.
+    pub(crate) fn shifts(&self) -> [u32; D] {
+        let max = self.exponents.iter().copied().max().unwrap_or(0);
+        self.exponents.map(|k| (max - k) as u32)
     }
 
     /// Returns the minimum and the maximum of each axis of the input.
@@ -139,7 +168,7 @@ impl<const D: usize> Lattice<D> {
 
     /// Returns *k*: one lattice step is 2⁻ᵏ.
     pub fn exponent(&self) -> i32 {
-        self.exponent
+        self.exponents[0]
     }
 
     /// Returns, for each axis, whether the points differ on it.
@@ -160,12 +189,12 @@ impl<const D: usize> Lattice<D> {
     /// two, which fits into 31 bits: no operation rounds.
     #[inline]
     pub(crate) fn narrow(&self, p: [f64; D]) -> [f64; D] {
-        if self.factor.is_nan() {
+        if self.factors[0].is_nan() {
             return self.coordinates(p).map(|c| c.value as f64);
         }
         std::array::from_fn(|axis| match self.origin[axis] {
             None => 0.0,
-            Some(_) => p[axis] * self.factor - self.bounds[0][axis] * self.factor,
+            Some(_) => p[axis] * self.factors[0] - self.bounds[0][axis] * self.factors[0],
         })
     }
 
@@ -177,13 +206,13 @@ impl<const D: usize> Lattice<D> {
             Some(origin) => {
                 // Most coordinates become integers that need no rounding. A NaN factor fails the
                 // comparison below.
-                let scaled = p[axis] * self.factor;
+                let scaled = p[axis] * self.factors[axis];
                 let integer = scaled as i64;
                 let underflow = integer == 0 && p[axis] != 0.0;
                 let (scaled, exact) = if integer as f64 == scaled && integer.unsigned_abs() < 1 << 62 && !underflow {
                     (i128::from(integer), true)
                 } else {
-                    scale(p[axis], self.exponent)
+                    scale(p[axis], self.exponents[axis])
                 };
                 Coordinate { value: (scaled - origin) as i64, exact }
             }
@@ -246,6 +275,24 @@ mod tests {
         assert_eq!(check(&[[0.0, 0.0, 0.0], [512.0, 3.0, 5.0]]).width(), Width::Narrow);
         assert_eq!(check(&[[1e7, 5e6, 0.125], [1e7 + 1000.5, 5e6, 17.0]]).width(), Width::Narrow);
         assert_eq!(check(&[[0.1, 0.2, 0.3], [1.0, 1.0, 1.0]]).width(), Width::Wide);
+    }
+
+    #[test]
+    fn axes_of_different_ranges_are_exact_on_the_stretched_lattice() {
+        let at = |i: u32, step: f64| f64::from(i) * step;
+        let points: Vec<[f64; 3]> = (0..40).map(|i| [at(i, 1.0), at(i, 1e-3), at(i, 1e6)]).collect();
+        let lattice = check(&points);
+        let rounded =
+            |lattice: &Lattice<3>| points.iter().filter(|&&p| lattice.coordinates(p).iter().any(|c| !c.exact)).count();
+        assert!(rounded(&lattice) > 30);
+        let stretched = lattice.stretched(64).unwrap();
+        assert_eq!(rounded(&stretched), 0);
+        for &p in &points {
+            assert!(stretched.coordinates(p).iter().all(|c| c.value >= 0 && c.value >> 62 == 0));
+        }
+        let [x, y, z] = stretched.shifts();
+        assert!((z - x, x - y) == (20, 10), "{x} {y} {z}");
+        assert!(check(&[[0.0; 3], [1.0; 3]]).stretched(64).is_none());
     }
 
     #[test]

@@ -5,8 +5,9 @@
 use crate::{
     index::NONE,
     input::{lattice::Lattice, points::Points},
+    parallel::{self, Threads},
 };
-use std::cmp::Ordering;
+use std::{cmp::Ordering, ops::Range};
 
 /// An insertion order. The mesh does not depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -22,6 +23,8 @@ pub enum Order {
 pub(crate) struct Distinct {
     /// The input index of each distinct point.
     pub(crate) order: Vec<u32>,
+    /// The parts of `order`, each of which goes along the curve.
+    pub(crate) rounds: Vec<Range<u32>>,
     /// One entry per point, as in [`Mesh3::duplicate_of`](crate::Mesh3::duplicate_of).
     pub(crate) duplicate_of: Vec<i32>,
 }
@@ -36,25 +39,30 @@ const ROUND_BITS: u32 = 3;
 /// which takes quadratic time where fans grow, for example on two lines.
 const MIN_ROUND: usize = 100;
 
-/// Removes duplicates, and brings the points into insertion order.
+/// Removes duplicates, and brings the points into insertion order, by `threads`.
 pub(crate) fn insertion_order<const D: usize>(
+    threads: Threads,
     points: Points<'_, D>,
     lattice: &Lattice<D>,
     curve: Curve<D>,
     order: Order,
 ) -> Distinct {
     let mut duplicate_of = vec![NONE; points.len()];
-    let distinct = along_curve(points, lattice, curve, &mut duplicate_of);
-    let order = match order {
-        Order::Brio => rounds(distinct),
-        Order::Shuffled(seed) => shuffled(distinct, seed),
+    let distinct = along_curve(threads, points, lattice, curve, &mut duplicate_of);
+    let (order, rounds) = match order {
+        Order::Brio => rounds(threads, distinct),
+        Order::Shuffled(seed) => {
+            let all = 0..distinct.len() as u32;
+            (shuffled(distinct, seed), vec![all])
+        }
     };
-    Distinct { order, duplicate_of }
+    Distinct { order, rounds, duplicate_of }
 }
 
 /// Returns the distinct points in the order of the curve, or of their coordinates if their lattice
 /// cells coincide.
 fn along_curve<const D: usize>(
+    threads: Threads,
     points: Points<'_, D>,
     lattice: &Lattice<D>,
     curve: Curve<D>,
@@ -72,10 +80,55 @@ fn along_curve<const D: usize>(
             .map(|c| ((c.value as u64 & ((1 << left) - 1)) >> left.saturating_sub(key_bits)) as u32);
         curve(cell, key_bits.min(left)) << 32 | u64::from(i)
     };
-    let mut keyed: Vec<u64> = (0..points.len() as u32).map(|i| key(i, 0)).collect();
-    keyed.sort_unstable();
-    // Runs of equal keys are sorted by the bits that the keys did not cover. A run is its start,
-    // its end and the number of bits covered.
+    let mut keyed: Vec<u64> = bytemuck::zeroed_vec(points.len());
+    parallel::for_chunks(threads, &mut keyed, |start, chunk| {
+        chunk.iter_mut().zip(start as u32..).for_each(|(entry, i)| *entry = key(i, 0));
+    });
+    parallel::sort(threads, &mut keyed);
+    let mut parts = parts(threads, &mut keyed);
+    let duplicates = parallel::map_mut(threads, &mut parts, |_, part| sort_runs(points, part, bits, key_bits, key));
+    for &[duplicate, first] in duplicates.iter().flatten() {
+        duplicate_of[duplicate as usize] = first as i32;
+    }
+    let order = keyed.into_iter().map(|entry| entry as u32);
+    if duplicates.iter().all(Vec::is_empty) {
+        order.collect()
+    } else {
+        order.filter(|&i| duplicate_of[i as usize] == NONE).collect()
+    }
+}
+
+/// Splits sorted entries into parts for threads to share, none of which begins among entries of
+/// equal keys.
+fn parts(threads: Threads, keyed: &mut [u64]) -> Vec<&mut [u64]> {
+    let size = match parallel::count(threads) {
+        1 => keyed.len(),
+        count => keyed.len().div_ceil(8 * count),
+    };
+    let mut parts = Vec::new();
+    let mut rest = keyed;
+    while rest.len() > size {
+        let last = rest[size - 1] >> 32;
+        let end = size + rest[size..].partition_point(|entry| entry >> 32 == last);
+        let (part, others) = rest.split_at_mut(end);
+        parts.push(part);
+        rest = others;
+    }
+    parts.push(rest);
+    parts
+}
+
+/// Sorts runs of entries with equal keys by the bits that the keys did not cover, `key_bits` of
+/// `bits` at a time, then by their coordinates. Returns the duplicates, each with the first of its
+/// point.
+fn sort_runs<const D: usize>(
+    points: Points<'_, D>,
+    keyed: &mut [u64],
+    bits: u32,
+    key_bits: u32,
+    key: impl Fn(u32, u32) -> u64,
+) -> Vec<[u32; 2]> {
+    // A run is its start, its end and the number of bits covered.
     let mut runs = Vec::new();
     let push_runs = |keyed: &[u64], start: usize, done: u32, runs: &mut Vec<_>| {
         let mut at = start;
@@ -86,8 +139,8 @@ fn along_curve<const D: usize>(
             at += run.len();
         }
     };
-    push_runs(&keyed, 0, key_bits, &mut runs);
-    let mut duplicates = 0;
+    push_runs(keyed, 0, key_bits, &mut runs);
+    let mut duplicates = Vec::new();
     while let Some((start, end, done)) = runs.pop() {
         let run = &mut keyed[start..end];
         if done < bits {
@@ -101,14 +154,10 @@ fn along_curve<const D: usize>(
         sort_by_place(points, run);
         let point = |entry: u64| points.get(entry as u32 as usize);
         for equal in run.chunk_by(|&i, &j| point(i) == point(j)) {
-            for &duplicate in &equal[1..] {
-                duplicate_of[duplicate as u32 as usize] = equal[0] as u32 as i32;
-            }
-            duplicates += equal.len() - 1;
+            duplicates.extend(equal[1..].iter().map(|&duplicate| [duplicate as u32, equal[0] as u32]));
         }
     }
-    let order = keyed.into_iter().map(|entry| entry as u32);
-    if duplicates == 0 { order.collect() } else { order.filter(|&i| duplicate_of[i as usize] == NONE).collect() }
+    duplicates
 }
 
 /// Sorts entries, each an index with a key in the upper 32 bits: by key, then by the point's
@@ -167,26 +216,28 @@ fn shuffled(order: Vec<u32>, seed: u64) -> Vec<u32> {
 }
 
 /// Splits an order into rounds at random, and keeps the order within each; small rounds come first.
-fn rounds(order: Vec<u32>) -> Vec<u32> {
+/// Returns the parts, too.
+fn rounds(threads: Threads, order: Vec<u32>) -> (Vec<u32>, Vec<Range<u32>>) {
     let mut last = 0;
     while order.len() >> (ROUND_BITS * (last + 1)) >= MIN_ROUND {
         last += 1;
     }
-    let round = |i: u32| last - last.min(mix(u64::from(i)).trailing_zeros() / ROUND_BITS);
-    let mut starts = vec![0; last as usize + 2];
-    for &i in &order {
-        starts[round(i) as usize + 1] += 1;
+    let count = last as usize + 1;
+    let round = |i: u32| (last - last.min(mix(u64::from(i)).trailing_zeros() / ROUND_BITS)) as usize;
+    // The points of each round, chunk by chunk.
+    let parts = parallel::map_ranges(threads, order.len(), |range| {
+        let mut part = vec![Vec::new(); count];
+        order[range].iter().for_each(|&i| part[round(i)].push(i));
+        part
+    });
+    let mut sorted = Vec::with_capacity(order.len());
+    let mut starts = Vec::new();
+    for r in 0..count {
+        starts.push(sorted.len() as u32);
+        parts.iter().for_each(|part| sorted.extend_from_slice(&part[r]));
     }
-    for r in 1..starts.len() {
-        starts[r] += starts[r - 1];
-    }
-    let mut sorted = vec![0; order.len()];
-    for &i in &order {
-        let start: &mut usize = &mut starts[round(i) as usize];
-        sorted[*start] = i;
-        *start += 1;
-    }
-    sorted
+    starts.push(sorted.len() as u32);
+    (sorted, starts.windows(2).map(|ends| ends[0]..ends[1]).collect())
 }
 
 /// Returns a hash, by the finaliser of SplitMix64, so that the same input gives the same order on

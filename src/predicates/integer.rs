@@ -165,6 +165,79 @@ pub fn insphere_wide(a: Point, b: Point, c: Point, d: Point, e: Point) -> Sign {
     sign_of_columns(std::array::from_fn(|i| a[i] - b[i] + c[i] - d[i]))
 }
 
+/// Returns the sign of the in-circle determinant of points whose coordinates on axis *k* have been
+/// divided by 2^`shifts[k]`: positive if d lies inside the circle through the counter-clockwise a, b,
+/// c, for coordinates 0 ≤ q < 2⁶² and shifts up to [`MAX_SHIFT`].
+pub fn incircle_stretched(a: [i64; 2], b: [i64; 2], c: [i64; 2], d: [i64; 2], shifts: [u32; 2]) -> Sign {
+    let (a, b, c) = (minus(a, d), minus(b, d), minus(c, d));
+    let minor = |p: [i64; 2], q: [i64; 2]| {
+        let value = minor_wide(p, q, 0, 1);
+        I192 { high: value >> 64, low: value as u64 }
+    };
+    sign_of_stretched([(minor(b, c), a), (minor(c, a), b), (minor(a, b), c)], shifts)
+}
+
+/// Returns the sign of the in-sphere determinant of points whose coordinates on axis *k* have been
+/// divided by 2^`shifts[k]`: positive if e lies inside the sphere through the positively oriented a,
+/// b, c, d, for coordinates 0 ≤ q < 2⁶² and shifts up to [`MAX_SHIFT`].
+pub fn insphere_stretched(a: Point, b: Point, c: Point, d: Point, e: Point, shifts: [u32; 3]) -> Sign {
+    let (a, b, c, d) = (minus(a, e), minus(b, e), minus(c, e), minus(d, e));
+    let minor = |p: Point, q: Point| minor_wide(p, q, 0, 1);
+    let (ab, bc, cd, da) = (minor(a, b), minor(b, c), minor(c, d), minor(d, a));
+    let (ac, bd) = (minor(a, c), minor(b, d));
+    // Every other minor has the opposite sign, so that all terms are added.
+    let cba = I192::sum([(bc, -a[2]), (ac, b[2]), (ab, -c[2])]);
+    let bcd = I192::sum([(cd, b[2]), (bd, -c[2]), (bc, d[2])]);
+    let adc = I192::sum([(da, -c[2]), (ac, -d[2]), (cd, -a[2])]);
+    let dab = I192::sum([(ab, d[2]), (bd, a[2]), (da, b[2])]);
+    sign_of_stretched([(bcd, a), (adc, b), (dab, c), (cba, d)], shifts)
+}
+
+/// The largest difference of the powers of two that the axes of a stretched lattice are multiplied
+/// by. A sum of four minors, below 2¹⁸⁹, times squares, below 2¹²⁴, shifted by twice as much, for
+/// three axes, stays below 2⁴⁴⁸.
+pub const MAX_SHIFT: u32 = 64;
+
+/// Returns the sign of Σ mᵢ·Σ (pᵢₖ·2^`shifts[k]`)².
+///
+/// The minors of a stretched lattice have a common factor that is a power of two, so only the
+/// squared lengths depend on the shifts. The sum for each axis is shifted as a whole.
+fn sign_of_stretched<const D: usize, const N: usize>(terms: [(I192, [i64; D]); N], shifts: [u32; D]) -> Sign {
+    let mut total = [0; 8];
+    for (axis, &shift) in shifts.iter().enumerate() {
+        let mut columns = [0; 5];
+        // Points of grids agree on many coordinates.
+        for (m, p) in terms.iter().filter(|(_, p)| p[axis] != 0) {
+            let square = i128::from(p[axis]) * i128::from(p[axis]);
+            let product = column_product(*m, square as u128);
+            columns.iter_mut().zip(product).for_each(|(column, c)| *column += c);
+        }
+        add_shifted(&mut total, columns, 2 * shift);
+    }
+    match total[7] as i64 {
+        0 => total.iter().any(|&limb| limb != 0) as Sign,
+        top => top.signum() as Sign,
+    }
+}
+
+/// Adds Σ cᵢ·2^(64·i + `shift`) to a number of 512 bits in two's complement.
+fn add_shifted(total: &mut [u64; 8], columns: [i128; 5], shift: u32) {
+    let mut limbs = [0; 8];
+    let mut carry = 0;
+    for (limb, column) in limbs.iter_mut().zip(columns.into_iter().chain([0; 3])) {
+        let sum = column + carry;
+        (*limb, carry) = (sum as u64, sum >> 64);
+    }
+    let (words, bits) = ((shift / 64) as usize, shift % 64);
+    let mut carry = false;
+    for i in words..8 {
+        let low = if bits == 0 || i == words { 0 } else { limbs[i - words - 1] >> (64 - bits) };
+        let (sum, first) = total[i].overflowing_add(limbs[i - words] << bits | low);
+        let (sum, second) = sum.overflowing_add(carry.into());
+        (total[i], carry) = (sum, first | second);
+    }
+}
+
 /// Returns the squared length, below D·2¹²⁴.
 #[inline]
 fn lift_wide<const D: usize>(p: [i64; D]) -> u128 {

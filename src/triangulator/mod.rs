@@ -26,7 +26,7 @@ use crate::{
 };
 #[cfg(feature = "gpu")]
 use shared_device::SharedDevice;
-use std::{ops::ControlFlow, sync::Arc};
+use std::{num::NonZeroUsize, ops::ControlFlow, sync::Arc};
 
 /// Triangulates with options: which backend computes, what learns of the progress, which device is
 /// used.
@@ -111,6 +111,31 @@ impl Triangulator {
         self
     }
 
+    /// Sets how many threads the CPU backend uses, for which it then has a pool of its own; one
+    /// thread is the calling one. The default is all threads of
+    /// [rayon](https://docs.rs/rayon)'s pool, and so what the environment variable
+    /// `RAYON_NUM_THREADS` says. In WebAssembly, and without the feature `threads`, there is always
+    /// one. What remains to the CPU of a run on the GPU uses rayon's pool.
+    ///
+    /// The mesh does not depend on the number, except for the order of its simplices, which with
+    /// several threads may differ from run to run.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Backend, Triangulator};
+    /// use std::num::NonZeroUsize;
+    ///
+    /// let alone = Triangulator::new().backend(Backend::Cpu).threads(NonZeroUsize::MIN);
+    /// assert_eq!(alone.delaunay2d(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]])?.triangles.len(), 1);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    #[must_use]
+    pub fn threads(mut self, threads: NonZeroUsize) -> Self {
+        self.options.threads = Some(threads);
+        self
+    }
+
     /// Sets which adapter to open. The triangulator no longer shares its device with those that it
     /// was cloned from.
     ///
@@ -129,7 +154,8 @@ impl Triangulator {
         self
     }
 
-    /// Sets a function that is called a few hundred times per run, in the thread that triangulates.
+    /// Sets a function that is called a few hundred times per run: in the calling thread, or in one
+    /// of the [`threads`](Triangulator::threads) if their number was set.
     /// [`ControlFlow::Break`] cancels the run, which then returns [`Error::Cancelled`].
     ///
     /// # Examples

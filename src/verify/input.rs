@@ -5,6 +5,7 @@ use crate::{
     error::Error,
     index::NONE,
     input::points::Points,
+    parallel::{self, Threads},
     predicates::{orient2d, orient3d},
 };
 use std::cmp::Ordering;
@@ -24,7 +25,7 @@ pub(crate) struct Input<const D: usize> {
 impl<const D: usize> Input<D> {
     /// Derives what follows from the points; `affine_dimension` computes their dimension.
     pub(crate) fn new(points: Points<'_, D>, affine_dimension: fn(&[[f64; D]]) -> u8) -> Result<Self, Error> {
-        points.validate()?;
+        points.validate_by(Threads::All)?;
         let limit = i32::MAX as usize;
         if points.len() > limit {
             return Err(Error::TooManyPoints { points: points.len(), limit });
@@ -125,7 +126,8 @@ fn compare<const D: usize>(a: &[f64; D], b: &[f64; D]) -> Ordering {
 fn representatives<const D: usize>(points: &[[f64; D]]) -> Vec<u32> {
     let coordinates = |i: u32| points[i as usize];
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
-    order.sort_unstable_by(|&i, &j| compare(&coordinates(i), &coordinates(j)).then(i.cmp(&j)));
+    let by_place = |&i: &u32, &j: &u32| compare(&coordinates(i), &coordinates(j)).then(i.cmp(&j));
+    parallel::sort_by(Threads::All, &mut order, by_place);
     let mut representative = vec![0; points.len()];
     for equal in order.chunk_by(|&i, &j| coordinates(i) == coordinates(j)) {
         for &i in equal {

@@ -222,6 +222,24 @@ impl Findings {
     }
 }
 
+/// Joins the findings of one check on consecutive parts of a mesh.
+impl Extend<Findings> for Findings {
+    fn extend<T: IntoIterator<Item = Findings>>(&mut self, parts: T) {
+        for Findings { first, count } in parts {
+            self.first = self.first.take().or(first);
+            self.count += count;
+        }
+    }
+}
+
+impl FromIterator<Findings> for Findings {
+    fn from_iter<T: IntoIterator<Item = Findings>>(parts: T) -> Self {
+        let mut all = Findings::default();
+        all.extend(parts);
+        all
+    }
+}
+
 impl From<Findings> for Outcome {
     fn from(Findings { first, count }: Findings) -> Self {
         first.map_or(Outcome::Passed, |first| Outcome::Failed { first, count })

@@ -14,6 +14,7 @@ use gdel::{
         index::NONE,
         input::{lattice::Lattice, order::Order},
         mesh,
+        parallel::Threads,
         predicates::filter::PredicateContext2,
     },
     verify2d,
@@ -136,7 +137,7 @@ fn check_flips(points: &[[f64; 2]], expected: &Definition2) -> Result<(), TestCa
     match lawson(&vertices, near, 10_000, &|_| Ok(()))? {
         LawsonOutcome::Delaunay(triangulation, _) => {
             let names: Vec<u32> = (0..vertices.len() as u32).map(|v| vertices.input_index(v)).collect();
-            let (triangles, ..) = triangulation.into_mesh(&names, Winding::default());
+            let (triangles, ..) = triangulation.into_mesh(&names, Winding::default(), Threads::One);
             prop_assert_eq!(mesh::canonical(&triangles), expected.triangles.clone());
             Ok(())
         }
@@ -169,7 +170,7 @@ fn from_mesh_and_back() {
             }
         }
         let names: Vec<u32> = (0..n).collect();
-        assert_eq!(triangulation.into_mesh(&names, winding), (mesh.triangles, mesh.halfedges, mesh.hull));
+        assert_eq!(triangulation.into_mesh(&names, winding, Threads::One), (mesh.triangles, mesh.halfedges, mesh.hull));
     }
 }
 
@@ -200,7 +201,7 @@ fn check_flips_after_rounding(points: &[[f64; 2]]) -> Result<bool, TestCaseError
         return Ok(false);
     };
     let names: Vec<u32> = (0..infinite).collect();
-    let (triangles, ..) = triangulation.into_mesh(&names, Winding::default());
+    let (triangles, ..) = triangulation.into_mesh(&names, Winding::default(), Threads::One);
     prop_assert_eq!(mesh::canonical(&triangles), expected.canonical());
     Ok(true)
 }
@@ -313,7 +314,7 @@ fn flat_triangles_on_the_hull() {
     let LawsonOutcome::Delaunay(triangulation, flips) = lawson(&vertices, near, 100, &|_| Ok(())).unwrap() else {
         panic!("aborted");
     };
-    let (triangles, _, hull) = triangulation.into_mesh(&[0, 1, 2, 3, 4], Winding::default());
+    let (triangles, _, hull) = triangulation.into_mesh(&[0, 1, 2, 3, 4], Winding::default(), Threads::One);
     assert_eq!(mesh::canonical(&triangles), definition2(&points).triangles);
     assert_eq!((hull, flips), (vec![0, 1, 2, 3, 4], 2));
 }

@@ -15,4 +15,5 @@ mod generate;
 mod inputs;
 mod meshes;
 mod predicates;
+mod threads;
 mod typescript;

@@ -21,6 +21,7 @@ use crate::{
         phase1::Run,
     },
     options::Options,
+    parallel::Threads,
     predicates::filter::PredicateContext2,
     stats::{Fallback, Phase, Stats},
 };
@@ -63,7 +64,7 @@ impl Complete<2> for Dimension<2> {
             };
             stats.exact = stats.exact + vertices.exact_counts();
             (triangles, halfedges, hull) =
-                triangulation.into_mesh(&(0..points.len() as u32).collect::<Vec<_>>(), options.winding);
+                triangulation.into_mesh(&(0..points.len() as u32).collect::<Vec<_>>(), options.winding, Threads::All);
             stats.phases.push((Phase::Flip, stopwatch.lap()));
         }
         stats.phases.push((Phase::Finish, stopwatch.lap()));

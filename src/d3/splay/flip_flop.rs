@@ -200,6 +200,7 @@ mod tests {
         },
         input::lattice::Lattice,
         options::Options,
+        parallel::Threads,
         predicates::filter::PredicateContext,
     };
 
@@ -219,7 +220,7 @@ mod tests {
         let lattice = Lattice::fit(points.into());
         let vertices = PredicateContext::<3>::new(points.into(), &lattice, (0..points.len() as u32).collect());
         assert!(vertices.orient3d(0, 1, 2, 3) > 0);
-        let mesh: Triangulation3 = insert_all(&vertices, &Options::default()).unwrap();
+        let mesh: Triangulation3 = insert_all(Threads::One, &vertices, &[], &Options::default()).unwrap();
         let predicates = StarPredicates::new(&vertices, mesh.infinite, [0, 1, 2, 3]);
         let mut stuck = 0;
         let mut flips = 0;

@@ -3,6 +3,7 @@
 
 use crate::verify::report::{Defect, Findings};
 use crate::{d3::mesh::FACETS, index::NONE};
+use std::ops::Range;
 
 /// The mark for "no tetrahedron" in [`Complex::across`].
 const OUTSIDE: u32 = u32::MAX;
@@ -126,9 +127,9 @@ impl<'a> Complex<'a> {
         self.tetrahedra[side.tetrahedron][side.k]
     }
 
-    /// Returns the facets between two tetrahedra, each once, with the vertex beyond.
-    pub(crate) fn inner_facets(&self) -> impl Iterator<Item = (Side, u32)> {
-        let sides = (0..self.tetrahedra.len()).flat_map(|tetrahedron| (0..4).map(move |k| Side { tetrahedron, k }));
+    /// Returns the facets between one of these tetrahedra and a later one, with the vertex beyond.
+    pub(crate) fn inner_facets(&self, tetrahedra: Range<usize>) -> impl Iterator<Item = (Side, u32)> {
+        let sides = tetrahedra.flat_map(|tetrahedron| (0..4).map(move |k| Side { tetrahedron, k }));
         sides.filter_map(|side| {
             let beyond = self.across[side.tetrahedron][side.k];
             if beyond == OUTSIDE || (beyond as usize) < side.tetrahedron {

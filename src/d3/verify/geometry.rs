@@ -2,6 +2,7 @@
 
 use crate::{
     d3::mesh::FACETS,
+    parallel::{self, Threads},
     predicates::{
         Sign, insphere, orient3d,
         symbolic::{break_tie, without},
@@ -22,34 +23,40 @@ fn orientation(points: &[[f64; 3]], tetrahedron: [u32; 4]) -> Sign {
 }
 
 pub(crate) fn check_orientation(points: &[[f64; 3]], tetrahedra: &[[u32; 4]]) -> Findings {
-    let mut findings = Findings::default();
-    for (t, &vertices) in tetrahedra.iter().enumerate() {
-        let sign = orientation(points, vertices);
-        if sign <= 0 {
-            let what = if sign == 0 { "flat" } else { "negatively oriented" };
-            findings.add(|| Defect::at_tetrahedron(t, format!("{what}: {vertices:?}")));
+    let parts = parallel::map_ranges(Threads::All, tetrahedra.len(), |range| {
+        let mut findings = Findings::default();
+        for (t, &vertices) in range.clone().zip(&tetrahedra[range]) {
+            let sign = orientation(points, vertices);
+            if sign <= 0 {
+                let what = if sign == 0 { "flat" } else { "negatively oriented" };
+                findings.add(|| Defect::at_tetrahedron(t, format!("{what}: {vertices:?}")));
+            }
         }
-    }
-    findings
+        findings
+    });
+    parts.into_iter().collect()
 }
 
 /// Checks the Delaunay property and that of the ties. Needs positive orientation.
 pub(crate) fn check_delaunay(points: &[[f64; 3]], complex: &Complex<'_>) -> (Findings, Findings) {
-    let (mut delaunay, mut ties) = (Findings::default(), Findings::default());
-    for (Side { tetrahedron, k }, beyond) in complex.inner_facets() {
-        let [a, b, c, d] = complex.tetrahedra[tetrahedron];
-        let five = [a, b, c, d, beyond];
-        let [pa, pb, pc, pd, pe] = at(points, five);
-        let (findings, kind) = match insphere(pa, pb, pc, pd, pe) {
-            1 => (&mut delaunay, "is inside the circumsphere"),
-            0 if break_tie(five, |left_out| orientation(points, without(five, left_out))) > 0 => {
-                (&mut ties, "is on the circumsphere, and inside by the order of the indices")
-            }
-            _ => continue,
-        };
-        findings.add(|| Defect::at_tetrahedron(tetrahedron, format!("point {beyond}, beyond facet {k}, {kind}")));
-    }
-    (delaunay, ties)
+    let parts = parallel::map_ranges(Threads::All, complex.tetrahedra.len(), |range| {
+        let (mut delaunay, mut ties) = (Findings::default(), Findings::default());
+        for (Side { tetrahedron, k }, beyond) in complex.inner_facets(range) {
+            let [a, b, c, d] = complex.tetrahedra[tetrahedron];
+            let five = [a, b, c, d, beyond];
+            let [pa, pb, pc, pd, pe] = at(points, five);
+            let (findings, kind) = match insphere(pa, pb, pc, pd, pe) {
+                1 => (&mut delaunay, "is inside the circumsphere"),
+                0 if break_tie(five, |left_out| orientation(points, without(five, left_out))) > 0 => {
+                    (&mut ties, "is on the circumsphere, and inside by the order of the indices")
+                }
+                _ => continue,
+            };
+            findings.add(|| Defect::at_tetrahedron(tetrahedron, format!("point {beyond}, beyond facet {k}, {kind}")));
+        }
+        (delaunay, ties)
+    });
+    parts.into_iter().unzip()
 }
 
 /// Checks that the hull is convex. Needs positive orientation, and the two hull triangles at each
@@ -101,10 +108,14 @@ pub(crate) fn check_covering(points: &[[f64; 3]], complex: &Complex<'_>) -> Find
             });
         }
     }
-    for (t, vertices) in complex.tetrahedra.iter().enumerate().skip(1) {
-        if FACETS.iter().all(|facet| within(facet.map(|i| vertices[i]))) {
-            findings.add(|| Defect::at_tetrahedron(t, "overlaps tetrahedron 0".to_owned()));
+    let parts = parallel::map_ranges(Threads::All, complex.tetrahedra.len(), |range| {
+        let mut findings = Findings::default();
+        for (t, vertices) in range.clone().zip(&complex.tetrahedra[range]) {
+            if t > 0 && FACETS.iter().all(|facet| within(facet.map(|i| vertices[i]))) {
+                findings.add(|| Defect::at_tetrahedron(t, "overlaps tetrahedron 0".to_owned()));
+            }
         }
-    }
-    findings
+        findings
+    });
+    std::iter::once(findings).chain(parts).collect()
 }

@@ -50,7 +50,7 @@ impl PredicateContext2<'_> {
                 let [a, b, c] = vertices.map(|v| self.narrow(v));
                 integer::orient2d_narrow(a, b, c)
             }
-            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+            ExactStage::Wide { positions, rounded, .. } => match self.wide(positions, rounded, vertices) {
                 Some([a, b, c]) => {
                     self.count(|c| &mut c.integer);
                     integer::orient2d_wide(a, b, c)
@@ -111,10 +111,14 @@ impl PredicateContext2<'_> {
                 let [a, b, c, d] = vertices.map(|v| self.narrow(v));
                 integer::incircle_narrow(a, b, c, d)
             }
-            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+            ExactStage::Wide { positions, rounded, shifts } => match self.wide(positions, rounded, vertices) {
                 Some([a, b, c, d]) => {
                     self.count(|c| &mut c.integer);
-                    integer::incircle_wide(a, b, c, d)
+                    if *shifts == [0; 2] {
+                        integer::incircle_wide(a, b, c, d)
+                    } else {
+                        integer::incircle_stretched(a, b, c, d, *shifts)
+                    }
                 }
                 None => {
                     self.count(|c| &mut c.expansion);
@@ -203,6 +207,14 @@ mod tests {
 
         #[test]
         fn nudged(points in four(near(0..=0))) { agree(&points)?; }
+
+        #[test]
+        fn axes_of_different_ranges(
+            points in prop::array::uniform4(prop::array::uniform2(-4i32..5)),
+            scales in prop::array::uniform2(prop::sample::select(vec![1.0, 1e-3, 1e-5, 1e6, 1e12, 1e40])),
+        ) {
+            agree(&points.map(|p| std::array::from_fn::<f64, 2, _>(|axis| f64::from(p[axis]) * scales[axis])))?;
+        }
 
         #[test]
         fn mixed_exponents(points in four(near(-40..=4))) { agree(&points)?; }

@@ -52,7 +52,7 @@ impl PredicateContext3<'_> {
                 let [a, b, c, d] = vertices.map(|v| self.narrow(v));
                 integer::orient3d_narrow(a, b, c, d)
             }
-            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+            ExactStage::Wide { positions, rounded, .. } => match self.wide(positions, rounded, vertices) {
                 Some([a, b, c, d]) => {
                     self.count(|c| &mut c.integer);
                     integer::orient3d_wide(a, b, c, d)
@@ -110,10 +110,14 @@ impl PredicateContext3<'_> {
                 let [a, b, c, d, e] = vertices.map(|v| self.narrow(v));
                 integer::insphere_narrow(a, b, c, d, e)
             }
-            ExactStage::Wide { positions, rounded } => match self.wide(positions, rounded, vertices) {
+            ExactStage::Wide { positions, rounded, shifts } => match self.wide(positions, rounded, vertices) {
                 Some([a, b, c, d, e]) => {
                     self.count(|c| &mut c.integer);
-                    integer::insphere_wide(a, b, c, d, e)
+                    if *shifts == [0; 3] {
+                        integer::insphere_wide(a, b, c, d, e)
+                    } else {
+                        integer::insphere_stretched(a, b, c, d, e, *shifts)
+                    }
                 }
                 None => {
                     self.count(|c| &mut c.expansion);
@@ -208,6 +212,14 @@ mod tests {
         }
 
         #[test]
+        fn axes_of_different_ranges(
+            points in prop::array::uniform5(prop::array::uniform3(-4i32..5)),
+            scales in prop::array::uniform3(prop::sample::select(vec![1.0, 1e-3, 1e-5, 1e6, 1e12, 1e40])),
+        ) {
+            agree(&points.map(|p| std::array::from_fn::<f64, 3, _>(|axis| f64::from(p[axis]) * scales[axis])))?;
+        }
+
+        #[test]
         fn mixed_exponents(points in prop::array::uniform5(prop::array::uniform3(near(-40..=4)))) {
             agree(&points)?;
         }
@@ -232,6 +244,25 @@ mod tests {
             let mut points = points.map(|p| p.map(|x| Scale::new(scale).apply(x)));
             if nudge { points[2][0] = points[2][0].next_up(); }
             agree(&points)?;
+        }
+    }
+
+    #[test]
+    fn grids_with_axes_of_different_ranges_need_no_expansions() {
+        let at = |i: u32, scales: [f64; 3]| [i % 4, i / 4 % 4, i / 16].map(f64::from).into_iter().zip(scales);
+        for scales in [[1.0, 1e-3, 1e6], [1e-5, 1e-5, 1.0]] {
+            let point = |i: u32| -> [f64; 3] {
+                let mut p = at(i, scales).map(|(x, scale)| x * scale);
+                [(); 3].map(|()| p.next().expect("three coordinates"))
+            };
+            let points: Vec<[f64; 3]> = (0..64).map(point).collect();
+            let lattice = Lattice::fit((&points).into());
+            let vertices = PredicateContext3::new((&points).into(), &lattice, (0..64).collect());
+            for e in 5..64 {
+                assert_ne!(vertices.insphere([0, 1, 4, 16], e), 0);
+            }
+            let counts = vertices.exact_counts();
+            assert!(counts.integer > 0 && counts.expansion == 0, "{counts:?}");
         }
     }
 }

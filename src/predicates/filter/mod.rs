@@ -9,9 +9,11 @@ use crate::{
         lattice::{Lattice, Width},
         points::Points,
     },
+    parallel::{self, Threads},
+    predicates::integer,
     stats::ExactCounts,
 };
-use std::cell::Cell;
+use std::{cell::Cell, iter::repeat_n, sync::Arc};
 
 /// The maximum roundoff of Shewchuk's determinants, as multiples of their permanents.
 #[derive(Clone, Copy)]
@@ -51,10 +53,10 @@ pub struct PredicateContext<'a, const D: usize> {
     input: Points<'a, D>,
     lattice: Lattice<D>,
     /// The input index of each vertex; empty if the vertices are the input points in their order.
-    indices: Vec<u32>,
+    indices: Arc<[u32]>,
     /// Input coordinates times a power of two that brings the range of every axis below 2³¹; for a
     /// narrow lattice, the lattice coordinates. Empty if they are computed each time.
-    coordinates: Vec<[f64; D]>,
+    coordinates: Arc<[[f64; D]]>,
     scaling: Scaling<D>,
     exact: ExactStage<D>,
     /// Bounds, valid for all arguments, of the error of the determinants' floating-point values.
@@ -70,15 +72,17 @@ pub type PredicateContext2<'a> = PredicateContext<'a, 2>;
 pub type PredicateContext3<'a> = PredicateContext<'a, 3>;
 
 /// The exact stage, which evaluates the predicates that the filters leave open.
+#[derive(Clone)]
 enum ExactStage<const D: usize> {
     /// 31-bit integers, which are the `coordinates`.
     Narrow,
     /// 62-bit integers where no coordinate of the vertices is rounded, expansions elsewhere. Both
-    /// lists are empty if they are computed each time.
-    Wide { positions: Vec<[i64; D]>, rounded: Vec<bool> },
+    /// lists are empty if they are computed each time. The shifts are those of the lattice.
+    Wide { positions: Arc<[[i64; D]]>, rounded: Arc<[bool]>, shifts: [u32; D] },
 }
 
 /// How coordinates are computed from the input.
+#[derive(Clone)]
 enum Scaling<const D: usize> {
     /// They are the lattice coordinates.
     Lattice,
@@ -89,6 +93,7 @@ enum Scaling<const D: usize> {
 
 /// A multiplication by a power of two that `f64` need not be able to represent, as two
 /// multiplications by powers of two that it represents.
+#[derive(Clone)]
 struct Scale([f64; 2]);
 
 impl Scale {
@@ -105,27 +110,69 @@ impl Scale {
     }
 }
 
+impl<const D: usize> Scaling<D> {
+    /// Computes the coordinates of a point of the input that `lattice` was fitted to.
+    fn apply(&self, lattice: &Lattice<D>, p: [f64; D]) -> [f64; D] {
+        match self {
+            Scaling::Lattice => lattice.narrow(p),
+            Scaling::By(scale, varies) => {
+                std::array::from_fn(|axis| if varies[axis] { scale.apply(p[axis]) } else { 0.0 })
+            }
+        }
+    }
+}
+
 impl<'a, const D: usize> PredicateContext<'a, D> {
     /// Creates a context in which vertex *v* is point `indices[v]` of the input. The points must be
     /// finite, and `lattice` fitted to them.
     ///
     /// The coordinates of the vertices are stored, which is best for many predicate evaluations.
     pub fn new(input: Points<'a, D>, lattice: &Lattice<D>, indices: Vec<u32>) -> Self {
+        PredicateContext::new_by(Threads::One, input, lattice, indices)
+    }
+
+    /// Creates the context of [`PredicateContext::new`] by `threads`.
+    pub(crate) fn new_by(threads: Threads, input: Points<'a, D>, lattice: &Lattice<D>, indices: Vec<u32>) -> Self {
         let mut context = PredicateContext::of_input(input, lattice);
-        context.coordinates.reserve_exact(indices.len());
-        let coordinates = indices.iter().map(|&i| context.computed(i));
-        context.coordinates = coordinates.collect();
-        if let ExactStage::Wide { positions, rounded } = &mut context.exact {
-            positions.reserve_exact(indices.len());
-            rounded.reserve_exact(indices.len());
-            for &i in &indices {
-                let q = lattice.coordinates(input.get(i as usize));
-                positions.push(q.map(|c| c.value));
-                rounded.push(q.iter().any(|c| !c.exact));
+        let scaling = &context.scaling;
+        let mut coordinates: Arc<[[f64; D]]> = repeat_n([0.0; D], indices.len()).collect();
+        parallel::for_chunks(threads, Arc::make_mut(&mut coordinates), |start, chunk| {
+            for (p, &i) in chunk.iter_mut().zip(&indices[start..]) {
+                *p = scaling.apply(lattice, input.get(i as usize));
             }
+        });
+        context.coordinates = coordinates;
+        if let ExactStage::Wide { .. } = context.exact {
+            let (mut exact, number) = exact_stage(threads, input, lattice, &indices);
+            // Few inputs have points that are rounded, and few of these have axes that differ.
+            if number > 0
+                && let Some(stretched) = lattice.stretched(integer::MAX_SHIFT)
+            {
+                let (other, fewer) = exact_stage(threads, input, &stretched, &indices);
+                if fewer < number / 2 {
+                    exact = other;
+                }
+            }
+            context.exact = exact;
         }
-        context.indices = indices;
+        context.indices = indices.into();
         context
+    }
+
+    /// Returns a context of the same vertices for another thread, which shares what is stored and
+    /// counts for itself.
+    pub(crate) fn fork(&self) -> Self {
+        PredicateContext {
+            input: self.input,
+            lattice: self.lattice.clone(),
+            indices: Arc::clone(&self.indices),
+            coordinates: Arc::clone(&self.coordinates),
+            scaling: self.scaling.clone(),
+            exact: self.exact.clone(),
+            orientation_bound: self.orientation_bound,
+            in_sphere_bound: self.in_sphere_bound,
+            counts: Cell::default(),
+        }
     }
 
     /// Creates a context whose vertices are the points of the input in their order. The points must
@@ -137,15 +184,15 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
             Width::Narrow => (Scaling::Lattice, ExactStage::Narrow),
             Width::Wide => {
                 let exponent = lattice.exponent() - (Width::Wide.bits() - Width::Narrow.bits()) as i32;
-                let exact = ExactStage::Wide { positions: Vec::new(), rounded: Vec::new() };
+                let exact = ExactStage::Wide { positions: Arc::new([]), rounded: Arc::new([]), shifts: [0; D] };
                 (Scaling::By(Scale::new(exponent), lattice.varies()), exact)
             }
         };
         let mut context = PredicateContext {
             input,
             lattice: lattice.clone(),
-            indices: Vec::new(),
-            coordinates: Vec::new(),
+            indices: Arc::new([]),
+            coordinates: Arc::new([]),
             scaling,
             exact,
             orientation_bound: 0.0,
@@ -192,7 +239,7 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
     }
 
     /// Returns the input index of every vertex.
-    pub fn into_input_indices(self) -> Vec<u32> {
+    pub fn into_input_indices(self) -> Arc<[u32]> {
         self.indices
     }
 
@@ -213,12 +260,7 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
 
     /// Computes the coordinates of a point of the input.
     fn scaled(&self, p: [f64; D]) -> [f64; D] {
-        match &self.scaling {
-            Scaling::Lattice => self.lattice.narrow(p),
-            Scaling::By(scale, varies) => {
-                std::array::from_fn(|axis| if varies[axis] { scale.apply(p[axis]) } else { 0.0 })
-            }
-        }
+        self.scaling.apply(&self.lattice, p)
     }
 
     /// Returns the lattice coordinates of these vertices, if none of them is rounded.
@@ -255,6 +297,28 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
         *field(&mut counts) += 1;
         self.counts.set(counts);
     }
+}
+
+/// Returns the exact stage of vertices whose positions on a wide lattice are stored, and how many of
+/// them are rounded.
+fn exact_stage<const D: usize>(
+    threads: Threads,
+    input: Points<'_, D>,
+    lattice: &Lattice<D>,
+    indices: &[u32],
+) -> (ExactStage<D>, usize) {
+    let mut positions: Arc<[[i64; D]]> = repeat_n([0; D], indices.len()).collect();
+    let mut rounded: Arc<[bool]> = repeat_n(false, indices.len()).collect();
+    let lists = (Arc::make_mut(&mut positions), Arc::make_mut(&mut rounded));
+    parallel::for_chunk_pairs(threads, lists, |start, (positions, rounded)| {
+        for ((position, rounded), &i) in positions.iter_mut().zip(rounded).zip(&indices[start..]) {
+            let q = lattice.coordinates(input.get(i as usize));
+            *position = q.map(|c| c.value);
+            *rounded = q.iter().any(|c| !c.exact);
+        }
+    });
+    let number = rounded.iter().filter(|&&rounded| rounded).count();
+    (ExactStage::Wide { positions, rounded, shifts: lattice.shifts() }, number)
 }
 
 /// Returns a bound of the error of an orientation's floating-point value if no difference of
