@@ -351,12 +351,16 @@ where
 
     /// Finds the facets of the cell of vertex `v` before it is clipped, as places in its star.
     fn find_facets(&self, v: u32, star: &[u32], worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
-        let Worker { cell, is_open, ring, seen, .. } = worker;
+        let Worker { cell, is_open, ring, arranged, seen, .. } = worker;
         let complex = &self.locator.complex;
         is_open.clear();
         seen.clear();
-        for &t in star {
-            for a in complex.simplices[t as usize] {
+        <Euclidean as VoronoiShapes<D, N>>::arrange_star(complex, v, star, arranged);
+        for &t in &*arranged {
+            let simplex = &complex.simplices[t as usize];
+            // From v on, so that in 2D the edges of a triangle come counter-clockwise, too.
+            let after = simplex.iter().position(|&w| w == v).map_or(0, |place| place + 1);
+            for &a in simplex[after..].iter().chain(&simplex[..after]) {
                 if a == v || !seen.insert(a) {
                     continue;
                 }
@@ -463,6 +467,8 @@ struct Worker<const D: usize, P> {
     is_open: Vec<bool>,
     /// The simplices around an edge.
     ring: Vec<u32>,
+    /// The star in the order in which it is visited.
+    arranged: Vec<u32>,
     /// The neighbours that have been visited.
     seen: FxHashSet<u32>,
     /// The corners of a facet.
@@ -476,6 +482,7 @@ impl<const D: usize, P: Default> Default for Worker<D, P> {
             cell: Cell::default(),
             is_open: Vec::new(),
             ring: Vec::new(),
+            arranged: Vec::new(),
             seen: FxHashSet::default(),
             corners: Vec::new(),
             polytope: P::default(),

@@ -28,6 +28,10 @@ pub trait VoronoiShapes<const D: usize, const N: usize>: Geometry<D, N> {
     /// are two.
     fn ring(complex: &Complex<'_, D, N>, v: u32, a: u32, t: usize, ring: &mut Vec<u32>) -> bool;
 
+    /// Puts the star of vertex *v* into `arranged`, in the order in which its simplices are visited: in 2D counter-clockwise,
+    /// on the hull from the first one.
+    fn arrange_star(complex: &Complex<'_, D, N>, v: u32, star: &[u32], arranged: &mut Vec<u32>);
+
     /// The number of Voronoi edges, or vertices in 2D, that a bounded facet has at least.
     const FACET_EDGES: usize;
 
@@ -53,6 +57,29 @@ impl VoronoiShapes<2, 3> for Euclidean {
             None => ring.push(t as u32),
         }
         ring.len() == 2
+    }
+
+    fn arrange_star(complex: &Complex<'_, 2, 3>, v: u32, star: &[u32], arranged: &mut Vec<u32>) {
+        arranged.clear();
+        // Of a counter-clockwise triangle (v, a, b), the next one is across (v, b), opposite a, and the one before opposite b.
+        let across = |t: u32, corner: usize| {
+            let place = complex.simplices[t as usize].iter().position(|&w| w == v)?;
+            complex.across(t as usize, (place + corner) % 3).map(|t| t as u32)
+        };
+        let start = star[0];
+        let mut first = start;
+        // Only a broken mesh needs the limit.
+        for _ in 0..star.len() {
+            match across(first, 2) {
+                Some(before) if before != start => first = before,
+                _ => break,
+            }
+        }
+        let mut at = Some(first);
+        while let Some(t) = at.filter(|&t| arranged.len() < star.len() && arranged.first() != Some(&t)) {
+            arranged.push(t);
+            at = across(t, 1);
+        }
     }
 
     const FACET_EDGES: usize = 1;
@@ -105,6 +132,11 @@ impl VoronoiShapes<3, 4> for Euclidean {
         ring[forward..].reverse();
         ring.rotate_left(forward);
         false
+    }
+
+    fn arrange_star(_: &Complex<'_, 3, 4>, _: u32, star: &[u32], arranged: &mut Vec<u32>) {
+        arranged.clear();
+        arranged.extend(star);
     }
 
     const FACET_EDGES: usize = 3;

@@ -28,7 +28,7 @@ impl Coordinates {
     }
 
     /// Negates the *y* coordinates of 2D points.
-    #[cfg(feature = "tools")]
+    #[cfg(any(feature = "tools", feature = "derived"))]
     pub(crate) fn flip_y(&mut self) {
         match self {
             Coordinates::F32(values) => values.iter_mut().skip(1).step_by(2).for_each(|y| *y = -*y),
