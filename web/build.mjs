@@ -218,6 +218,7 @@ function reportSizes() {
   }
 }
 
-if (!process.argv.includes('--js') || !Object.keys(MODULES).every((name) => existsSync(pkg(name)))) buildWasm();
+if (!process.argv.includes('--js') || !Object.keys(MODULES).every((name) => existsSync(pkg(name))))
+  buildWasm();
 await buildJs();
 reportSizes();

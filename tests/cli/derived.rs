@@ -131,7 +131,8 @@ fn voronoi() {
             }
         }
         let middle = rows(&path.join("v.csv")).pop().unwrap();
-        assert_eq!(middle, ["8", "0.5", "0.5", "0.5", "0.5", "0 1 2 3 4 5 6 7"], "{clip}");
+        let volume = if clip == "none" { "0.5625" } else { "0.5" };
+        assert_eq!(middle, ["8", volume, "0.5", "0.5", "0.5", "0 1 2 3 4 5 6 7"], "{clip}");
     }
     // The box is the default.
     succeeds(path, &["voronoi", "square.csv", "--dim", "2", "-o", "v.npz"]);

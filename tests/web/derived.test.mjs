@@ -99,7 +99,8 @@ for (const [D, triangulate, generated] of [
     const points = await generated('uniform', 500, { seed: 3 });
     const mesh = await triangulate(points);
     const queries = await generated('uniform', 100, { seed: 4 });
-    const linear = (all, i) => 1 + sum(Array.from({ length: D }, (_, k) => (k + 2) * all[D * i + k]));
+    const linear = (all, i) =>
+      1 + sum(Array.from({ length: D }, (_, k) => (k + 2) * all[D * i + k]));
     const values = Float64Array.from({ length: 500 }, (_, i) => linear(points, i));
     for (const method of ['linear', 'laplace', 'sibson', undefined]) {
       const found = await mesh.interpolate(values, queries, { method });
@@ -233,7 +234,12 @@ test('ties and duplicates', async () => {
   assert.equal(voronoi.volumes[5], 0);
   assert.equal(voronoi.cellPolygon(5), null);
   const locations = await cube.locate([[0.5, 0.5, 0.5]]);
-  assert.ok(cube.tetrahedra.slice(4 * locations.tetrahedra[0]).slice(0, 4).includes(8));
+  assert.ok(
+    cube.tetrahedra
+      .slice(4 * locations.tetrahedra[0])
+      .slice(0, 4)
+      .includes(8),
+  );
 });
 
 /** Distances that floating point rounds to the same number, or in the wrong order. */
@@ -260,7 +266,16 @@ test('find compares distances exactly', async () => {
 });
 
 test('flat points have empty answers', async () => {
-  for (const points of [[], [[1, 2, 3]], [[0, 0, 0], [1, 1, 1], [2, 2, 2]], CUBE.slice(0, 4)]) {
+  for (const points of [
+    [],
+    [[1, 2, 3]],
+    [
+      [0, 0, 0],
+      [1, 1, 1],
+      [2, 2, 2],
+    ],
+    CUBE.slice(0, 4),
+  ]) {
     const mesh = await delaunay3d(points);
     const located = await mesh.locate([[0, 0, 0]]);
     assert.deepEqual([located.tetrahedra[0], located.facets[0]], [-1, -1]);
@@ -288,7 +303,11 @@ test('bad input is a typed error that says what is wrong', async () => {
   await rejects(cube.locate([[0, 0]]), 'BAD_INPUT', /3 numbers/);
   await rejects(square.locate(new Float64Array(3)), 'BAD_INPUT', /multiple of 2/);
   await rejects(cube.interpolate([1, 2], [[0, 0, 0]]), 'BAD_INPUT', /9 numbers, one per point/);
-  await rejects(square.interpolate([1, 2, '3', 4, 5], [[0, 0]]), 'BAD_INPUT', /number 2 of the values/);
+  await rejects(
+    square.interpolate([1, 2, '3', 4, 5], [[0, 0]]),
+    'BAD_INPUT',
+    /number 2 of the values/,
+  );
   await rejects(
     cube.interpolate(new Float64Array(9), [[0, 0, 0]], { method: 'cubic' }),
     'BAD_INPUT',
@@ -370,10 +389,7 @@ test('cells are closed convex polygons within the bounds', async () => {
   const middle = polygons[4];
   assert.equal(middle.length, 5);
   assert.deepEqual(middle[0], middle[4]);
-  assert.deepEqual(
-    middle.slice(1).map(String).sort(),
-    ['0,1', '1,0', '1,2', '2,1'],
-  );
+  assert.deepEqual(middle.slice(1).map(String).sort(), ['0,1', '1,0', '1,2', '2,1']);
   for (const polygon of polygons) {
     // All turn in the same direction as the triangles.
     for (let k = 0; k + 2 < polygon.length; k++) {
@@ -426,4 +442,40 @@ test('without bounds, cells on the hull are unbounded and have no polygon', asyn
   assert.equal(voronoi.cellPolygon(4).length, 5);
   assert.deepEqual(sorted(voronoi.neighborsOf(4)), [0, 1, 2, 3]);
   assert.throws(() => voronoi.cellPolygon(5), { code: 'BAD_INPUT' });
+});
+
+test('collinear points have stripes as cells, and one point has the box', async () => {
+  const clip = [-1, -1, 5, 3];
+  const one = await (await delaunay2d([[0, 0]])).voronoi({ clip });
+  assert.deepEqual(one.cellPolygon(0), [
+    [-1, -1],
+    [-1, 3],
+    [5, 3],
+    [5, -1],
+    [-1, -1],
+  ]);
+  assert.deepEqual([...one.centroids], [2, 1]);
+  const points = [
+    [3, 0],
+    [0, 0],
+    [1, 0],
+    [1, 0],
+  ];
+  const voronoi = await (await delaunay2d(points)).voronoi({ clip });
+  assert.deepEqual([...voronoi.volumes], [12, 6, 6, 0]);
+  assert.deepEqual(voronoi.cellPolygon(3), null);
+  assert.deepEqual(sorted(voronoi.neighborsOf(2)), [0, 1]);
+  assert.deepEqual([...voronoi.neighborsOf(1)], [2]);
+  assert.deepEqual(voronoi.cellPolygon(2).slice(1).map(String).sort(), [
+    '0.5,-1',
+    '0.5,3',
+    '2,-1',
+    '2,3',
+  ]);
+  assert.ok(voronoi.contains(0, 2.5, 99));
+  // Far from the box, a stripe can be empty.
+  const far = await (await delaunay2d([...points, [100, 0]])).voronoi({ clip });
+  assert.equal(far.volumes[4], 0);
+  assert.equal(far.cellPolygon(4), null);
+  near(sum(far.volumes), 24);
 });

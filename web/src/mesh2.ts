@@ -7,14 +7,14 @@ import {
   interpolate,
   locate,
   nearest,
-  type SpanningTree,
   type Source,
+  type SpanningTree,
   spanningTree,
   type VoronoiOptions,
   voronoi,
 } from './derived.js';
-import { bad } from './options.js';
-import { findNearest, Rings } from './plane.js';
+import { bad, optionsOf } from './options.js';
+import { findNearest, Rings, stripes } from './plane.js';
 import type { Tasks } from './protocol.js';
 import { write2d } from './tools.js';
 import type { Place, Points, Stats, TaskOptions } from './types.js';
@@ -116,9 +116,15 @@ export class Mesh2 {
     return interpolate(this.#source(), values, queries, options);
   }
 
-  /** Returns the Voronoi diagram of the vertices. */
+  /**
+   * Returns the Voronoi diagram of the vertices. Collinear points have cells if these are clipped to
+   * a box that is given.
+   */
   async voronoi(options?: VoronoiOptions): Promise<Voronoi2> {
-    const arrays = await voronoi(this.#source(), options);
+    let arrays = await voronoi(this.#source(), options);
+    const { clip } = optionsOf(options);
+    if (this.triangles.length === 0 && clip !== undefined && typeof clip !== 'string')
+      arrays = stripes(this, [clip[0]!, clip[1]!, clip[2]!, clip[3]!]);
     const find = (x: number, y: number, start: number) => this.find(x, y, start);
     return new Voronoi2(arrays, this.triangles.length / 3, this.duplicateOf, find);
   }

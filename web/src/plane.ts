@@ -1,6 +1,7 @@
 // Questions about a 2D mesh that are answered at once, in the calling thread.
 
 import type { Coordinates, SignedIndices } from './arrays.js';
+import type { VoronoiArrays } from './derived.js';
 
 /** What the questions are about. */
 interface Triangles {
@@ -66,9 +67,18 @@ export class Rings {
  * Every vertex that is not has a neighbour that is nearer, and those that are equally near hang
  * together: so a walk from `start` ends at the right one.
  */
-export function findNearest({ coords }: Triangles, rings: Rings, query: Point, start: number): number {
+export function findNearest(
+  { coords }: Triangles,
+  rings: Rings,
+  query: Point,
+  start: number,
+): number {
   const nearer = (a: number, b: number) =>
-    compareDistances(query, [coords[2 * a]!, coords[2 * a + 1]!], [coords[2 * b]!, coords[2 * b + 1]!]);
+    compareDistances(
+      query,
+      [coords[2 * a]!, coords[2 * a + 1]!],
+      [coords[2 * b]!, coords[2 * b + 1]!],
+    );
   let best = start;
   for (;;) {
     let following = best;
@@ -117,4 +127,95 @@ function integers(numbers: number[]): bigint[] {
   return parts.map(({ mantissa, exponent }) =>
     mantissa === 0n ? 0n : mantissa << BigInt(exponent - lowest),
   );
+}
+
+/**
+ * Returns the Voronoi cells of collinear points within a box: it is cut in the middle between each
+ * point and the next.
+ */
+export function stripes(
+  { coords, hull, duplicateOf }: Triangles,
+  [xmin, ymin, xmax, ymax]: readonly [number, number, number, number],
+): VoronoiArrays {
+  const count = duplicateOf.length;
+  const vertices: number[] = [];
+  const facets: number[] = [];
+  const neighbors: number[] = [];
+  const areas: number[] = [];
+  const polygons = new Map<number, Corner[]>();
+  for (let place = 0; place < hull.length; place++) {
+    const i = hull[place]!;
+    // Counter-clockwise where y points down, as the triangles are.
+    let polygon: Corner[] = [
+      { x: xmin, y: ymin, beyond: -1 },
+      { x: xmin, y: ymax, beyond: -1 },
+      { x: xmax, y: ymax, beyond: -1 },
+      { x: xmax, y: ymin, beyond: -1 },
+    ];
+    for (const j of [hull[place - 1], hull[place + 1]])
+      if (j !== undefined) polygon = nearerHalf(polygon, coords, i, j);
+    polygons.set(i, polygon);
+  }
+  const cells = new Uint32Array(count + 1);
+  const volumes = new Float64Array(count);
+  const centroids = new Float64Array(2 * count).fill(Number.NaN);
+  for (let i = 0; i < count; i++) {
+    const polygon = polygons.get(i) ?? [];
+    const first = vertices.length / 2;
+    const [ox, oy] = [coords[2 * i]!, coords[2 * i + 1]!];
+    let [twice, mx, my] = [0, 0, 0];
+    polygon.forEach(({ x, y, beyond }, k) => {
+      const to = polygon[(k + 1) % polygon.length]!;
+      vertices.push(x, y);
+      facets.push(first + k, first + ((k + 1) % polygon.length));
+      neighbors.push(beyond);
+      areas.push(Math.hypot(to.x - x, to.y - y));
+      // The triangle with the point itself.
+      const cross = (to.x - ox) * (y - oy) - (to.y - oy) * (x - ox);
+      twice += cross;
+      mx += cross * (x + to.x - 2 * ox);
+      my += cross * (y + to.y - 2 * oy);
+    });
+    cells[i + 1] = neighbors.length;
+    volumes[i] = twice / 2;
+    if (twice > 0) {
+      centroids[2 * i] = ox + mx / (3 * twice);
+      centroids[2 * i + 1] = oy + my / (3 * twice);
+    }
+  }
+  return {
+    vertices: Float64Array.from(vertices),
+    facetOffsets: Uint32Array.from({ length: neighbors.length + 1 }, (_, f) => 2 * f),
+    facets: Uint32Array.from(facets),
+    neighbors: Int32Array.from(neighbors),
+    areas: Float64Array.from(areas),
+    cells,
+    volumes,
+    centroids,
+  };
+}
+
+/** A corner of a polygon, and what is beyond the edge that starts there: a point, or −1. */
+interface Corner {
+  x: number;
+  y: number;
+  beyond: number;
+}
+
+/** Returns the part of a polygon that is nearer to point `i` than to point `j`. */
+function nearerHalf(polygon: Corner[], coords: Coordinates, i: number, j: number): Corner[] {
+  const [px, py, qx, qy] = [coords[2 * i]!, coords[2 * i + 1]!, coords[2 * j]!, coords[2 * j + 1]!];
+  const side = ({ x, y }: Corner) =>
+    (x - px - (qx - px) / 2) * (qx - px) + (y - py - (qy - py) / 2) * (qy - py);
+  const kept: Corner[] = [];
+  polygon.forEach((from, k) => {
+    const to = polygon[(k + 1) % polygon.length]!;
+    const [s, t] = [side(from), side(to)];
+    if (s < 0) kept.push(from);
+    if (s < 0 === t < 0) return;
+    const part = s / (s - t);
+    const at = { x: from.x + part * (to.x - from.x), y: from.y + part * (to.y - from.y) };
+    kept.push({ ...at, beyond: s < 0 ? j : from.beyond });
+  });
+  return kept;
 }

@@ -18,8 +18,9 @@ use crate::{
     points::{Coordinates, room, zeros},
 };
 
-/// Reports are that far apart for queries, or as many as there are at least.
+/// The largest number of reports while queries are answered.
 const PARTS: usize = 16;
+/// The smallest number of queries between two reports: where few are answered at a time, they are far from each other.
 const MIN_PART: usize = 1 << 16;
 
 /// A mesh of the package.
@@ -95,18 +96,16 @@ impl<M> Task<M> {
     /// Calls `answer` with one part of the queries after the other.
     fn in_parts<const D: usize, R>(
         &self,
-        queries: Points<'_, D>,
+        queries: &Coordinates,
         answer: impl Fn(Points<'_, D>) -> Result<Vec<R>, Error>,
     ) -> Result<Vec<R>, Thrown> {
-        let mut answers = room(queries.len())?;
-        let part = queries.len().div_ceil(PARTS).max(MIN_PART);
-        for start in (0..queries.len()).step_by(part) {
-            let end = (start + part).min(queries.len());
-            answers.extend(answer(match queries {
-                Points::F32(queries) => Points::F32(&queries[start..end]),
-                Points::F64(queries) => Points::F64(&queries[start..end]),
-            })?);
-            self.report(0.1 + 0.8 * end as f64 / queries.len() as f64)?;
+        let count = queries.points::<D>()?.len();
+        let mut answers = room(count)?;
+        let part = count.div_ceil(PARTS).max(MIN_PART);
+        for start in (0..count).step_by(part) {
+            let end = (start + part).min(count);
+            answers.extend(answer(queries.part(start..end)?)?);
+            self.report(0.1 + 0.8 * end as f64 / count as f64)?;
         }
         Ok(answers)
     }
@@ -179,7 +178,7 @@ where
     let task = Task::<M>::new::<D, N>(points, mesh, report, "locate")?;
     let queries = queries_of::<D>(queries)?;
     let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
-    let located = task.in_parts(queries.points()?, |part| locator.locate_many(part))?;
+    let located = task.in_parts(&queries, |part| locator.locate_many(part))?;
     let [mut simplices, mut facets] = [room(located.len())?, room(located.len())?];
     for location in located {
         let (simplex, facet) = match location {
@@ -223,7 +222,7 @@ where
     let task = Task::<M>::new::<D, N>(points, mesh, report, "nearest")?;
     let queries = queries_of::<D>(queries)?;
     let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
-    let nearest = task.in_parts(queries.points()?, |part| {
+    let nearest = task.in_parts(&queries, |part| {
         let nearest = locator.nearest_many(part)?;
         Ok(nearest.into_iter().map(|vertex| vertex.map_or(-1, |v| v as i32)).collect())
     })?;
@@ -268,7 +267,7 @@ where
     };
     let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
     let interpolator = Interpolator::new(&locator, &values)?;
-    let found = task.in_parts(queries.points()?, |part| interpolator.interpolate_many(method, part))?;
+    let found = task.in_parts(&queries, |part| interpolator.interpolate_many(method, part))?;
     Ok(Float64Array::new_from_slice(&found))
 }
 

@@ -36,6 +36,16 @@ impl Coordinates {
         }
     }
 
+    /// Returns some of the coordinates as points, counted in points.
+    #[cfg(feature = "derived")]
+    pub(crate) fn part<const D: usize>(&self, range: std::ops::Range<usize>) -> Result<Points<'_, D>, Error> {
+        let range = D * range.start..D * range.end;
+        match self {
+            Coordinates::F32(values) => Points::from_interleaved_f32(&values[range]),
+            Coordinates::F64(values) => Points::from_interleaved_f64(&values[range]),
+        }
+    }
+
     /// Returns the coordinates as points.
     pub(crate) fn points<const D: usize>(&self) -> Result<Points<'_, D>, Error> {
         match self {
