@@ -200,6 +200,8 @@ async function buildJs() {
     writeFileSync(join(dist, file.replace(/ts$/, 'cts')), text);
   }
   for (const file of ['LICENSE-MIT', 'LICENSE-APACHE']) cpSync(join(root, file), join(web, file));
+  for (const name of ['answers.md', 'answers'])
+    cpSync(join(root, 'docs', name), join(web, 'docs', name), { recursive: true });
 }
 
 /** As compilers to CommonJS expect a module with a default export. */

@@ -2,12 +2,25 @@
 // Voronoi cells, alpha shapes, spanning trees.
 
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { test } from 'node:test';
 import { abortOf } from './abort.mjs';
 import { importFrom, project } from './package.mjs';
 
+const folder = project();
 const { delaunay2d, delaunay3d, GdelError, generate, generate2d, SpanningTree, Voronoi2 } =
-  await importFrom(project());
+  await importFrom(folder);
+
+test('the examples of the documentation run', () => {
+  const installed = join(folder, 'node_modules/gdel-wasm/docs/answers.md');
+  const blocks = [...readFileSync(installed, 'utf8').matchAll(/^```js\n([^`]*)^```$/gm)];
+  assert.ok(blocks.length >= 6);
+  const check = "import assert from 'node:assert';\nconsole.assert = assert.ok;\n";
+  writeFileSync(join(folder, 'answers.mjs'), check + blocks.map(([, code]) => code).join(''));
+  execFileSync(process.execPath, [...process.execArgv, 'answers.mjs'], { cwd: folder });
+});
 
 /** A cube with its middle. */
 const CUBE = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [i & 1, (i >> 1) & 1, i >> 2]);

@@ -1,5 +1,6 @@
 //! Meshes from JavaScript.
 
+#[cfg(feature = "tools")]
 use gdel::Points;
 use js_sys::{Int32Array, Reflect, Uint32Array};
 use wasm_bindgen::{JsCast, JsValue};
@@ -11,6 +12,7 @@ use crate::{
 
 /// A mesh copied into this module's memory: `N` vertices per simplex, `H` per hull facet in `hull`.
 /// `None` stands for what the caller did not state.
+#[cfg_attr(not(feature = "tools"), expect(dead_code, reason = "the hull and the dimension are for files and proofs"))]
 pub(crate) struct CallerMesh<const N: usize, const H: usize> {
     pub(crate) simplices: Vec<[u32; N]>,
     pub(crate) neighbors: Option<Vec<[i32; N]>>,
@@ -44,6 +46,7 @@ impl<const N: usize, const H: usize> CallerMesh<N, H> {
     }
 
     /// Checks that all vertices are among the points, which the writers rely on.
+    #[cfg(feature = "tools")]
     pub(crate) fn check_vertices<const D: usize>(&self, points: Points<'_, D>) -> Result<(), Thrown> {
         let mut vertices = self.simplices.as_flattened().iter().chain(self.hull.iter().flatten().flatten());
         match vertices.find(|&&v| v as usize >= points.len()) {
