@@ -76,7 +76,7 @@ ROWS = [
     ("nearest vertex", ["nearest"], "kiddo", ["nearest"], 1.5),
     ("Voronoi cells, with the triangulation", ["triangulate, 100,000 points", "voronoi, 100,000 points"],
      "voro++", ["voronoi"], 0.5),
-    ("alpha filtration", ["alpha"], "gdel", ["triangulate"], 1.5),
+    ("alpha filtration", ["alpha", "alpha, edges"], "gdel", ["triangulate"], 1.5),
     ("spanning tree", ["tree"], "gdel", ["triangulate"], 0.5),
 ]
 

@@ -102,6 +102,9 @@ fn run(arguments: &Arguments) {
         let done = timed("alpha");
         let shape = AlphaShape::new(&mesh, &points).expect("a mesh with its points");
         done();
+        let done = timed("alpha, edges");
+        assert!(shape.edges().len() > 0);
+        done();
         let done = timed("alpha, one component");
         shape.find_alpha(1).expect("a mesh with tetrahedra");
         done();

@@ -59,7 +59,7 @@ where
         let place = |i: usize| u64::from(key.of::<N>(queries.get(i))) << 32 | i as u64;
         range.map(place).collect::<Vec<_>>()
     });
-    let mut order = ranges.concat();
+    let mut order = parallel::joined(ranges);
     parallel::sort(Threads::All, &mut order);
     let results = parallel::map_grains(Threads::All, order.len(), GRAIN, |range| {
         let mut state = state();

@@ -6,8 +6,9 @@ mod polytope;
 mod shapes;
 
 pub use cell::Cell;
-pub(super) use shapes::THIRD;
+use shapes::Star;
 pub use shapes::VoronoiShapes;
+pub(super) use shapes::{THIRD, place, ring};
 
 use super::Locator;
 use crate::{
@@ -20,7 +21,6 @@ use crate::{
     parallel::{self, Threads},
 };
 use polytope::Polytope;
-use rustc_hash::FxHashSet;
 
 /// The number of cells that is worth handing to another thread.
 const GRAIN: usize = 1 << 8;
@@ -351,36 +351,23 @@ where
 
     /// Finds the facets of the cell of vertex `v` before it is clipped, as places in its star.
     fn find_facets(&self, v: u32, star: &[u32], worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
-        let Worker { cell, is_open, ring, arranged, seen, .. } = worker;
+        let Worker { cell, is_open, star: scratch, .. } = worker;
         let complex = &self.locator.complex;
         is_open.clear();
-        seen.clear();
-        <Euclidean as VoronoiShapes<D, N>>::arrange_star(complex, v, star, arranged);
-        for &t in &*arranged {
-            let simplex = &complex.simplices[t as usize];
-            // From v on, so that in 2D the edges of a triangle come counter-clockwise, too.
-            let after = simplex.iter().position(|&w| w == v).map_or(0, |place| place + 1);
-            for &a in simplex[after..].iter().chain(&simplex[..after]) {
-                if a == v || !seen.insert(a) {
-                    continue;
-                }
-                let is_closed = <Euclidean as VoronoiShapes<D, N>>::ring(complex, v, a, t as usize, ring);
-                if !self.is_facet(ring, is_closed, [v, a]) {
-                    continue;
-                }
-                // A star is in ascending order. Only a broken mesh has simplices in a ring that are not in the star.
-                let places = ring.iter().map(|t| star.binary_search(t).unwrap_or(0) as u32);
-                cell.push(places, a as i32);
+        <Euclidean as VoronoiShapes<D, N>>::for_rings(complex, v, star, scratch, |a, ring, is_closed| {
+            if self.is_facet(star, ring, is_closed, [v, a]) {
+                cell.push(ring.iter().copied(), a as i32);
                 is_open.push(!is_closed);
             }
-        }
+        });
     }
 
     /// Returns whether the facet that is dual to an edge has an area, in 2D a length. It has none if ties make so many of its
     /// vertices coincide that at most two are left, in 2D one.
-    fn is_facet(&self, ring: &[u32], is_closed: bool, [v, a]: [u32; 2]) -> bool {
+    fn is_facet(&self, star: &[u32], ring: &[u32], is_closed: bool, [v, a]: [u32; 2]) -> bool {
         let complex = &self.locator.complex;
         let are_distinct = |&[t, u]: &[u32; 2]| {
+            let [t, u] = [t, u].map(|place| star[place as usize]);
             let [p, q] = [t, u].map(|t| self.vertices[t as usize]);
             let radius = vector::squared_norm(vector::minus(p, complex.point(v)));
             // Far more than the errors of both.
@@ -398,17 +385,18 @@ where
             return distinct >= <Euclidean as VoronoiShapes<D, N>>::FACET_EDGES;
         }
         // Without an edge, an unbounded facet has two rays from one vertex, which coincide if the facets of the hull share a plane.
-        distinct > 0 || !self.hull_is_flat_at(ring, [v, a])
+        distinct > 0 || !self.hull_is_flat_at(star, ring, [v, a])
     }
 
-    /// Returns whether the two facets of the hull at an edge, around which these simplices are, share a plane.
-    fn hull_is_flat_at(&self, ring: &[u32], edge: [u32; 2]) -> bool {
+    /// Returns whether the two facets of the hull at an edge, around which these simplices of a star are, share a plane.
+    fn hull_is_flat_at(&self, star: &[u32], ring: &[u32], edge: [u32; 2]) -> bool {
         let complex = &self.locator.complex;
         // In 2D, the edge is all of the hull's facet.
         if D == 2 {
             return false;
         }
-        let mut hull_facets = ring.iter().flat_map(|&t| {
+        let mut hull_facets = ring.iter().flat_map(|&place| {
+            let t = star[place as usize];
             let simplex = &complex.simplices[t as usize];
             let is_outer = move |&k: &usize| !edge.contains(&simplex[k]) && complex.neighbors[t as usize][k] == NONE;
             (0..N).filter(is_outer).map(move |k| facet(simplex, k))
@@ -465,12 +453,7 @@ struct Worker<const D: usize, P> {
     cell: Cell<D>,
     /// Whether each facet of the cell is unbounded.
     is_open: Vec<bool>,
-    /// The simplices around an edge.
-    ring: Vec<u32>,
-    /// The star in the order in which it is visited.
-    arranged: Vec<u32>,
-    /// The neighbours that have been visited.
-    seen: FxHashSet<u32>,
+    star: Star,
     /// The corners of a facet.
     corners: Vec<[f64; D]>,
     polytope: P,
@@ -481,9 +464,7 @@ impl<const D: usize, P: Default> Default for Worker<D, P> {
         Worker {
             cell: Cell::default(),
             is_open: Vec::new(),
-            ring: Vec::new(),
-            arranged: Vec::new(),
-            seen: FxHashSet::default(),
+            star: Star::default(),
             corners: Vec::new(),
             polytope: P::default(),
         }
