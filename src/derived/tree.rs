@@ -135,6 +135,11 @@ where
     let ranges = parallel::map_ranges(Threads::All, complex.simplices.len(), |range| {
         let mut candidates = Vec::new();
         for t in range {
+            // Of the simplices around an edge, those whose neighbours there have higher numbers.
+            let is_lowest = neighbors[t].map(|across| across == NONE || t < across as usize);
+            if is_lowest.iter().filter(|&&is_lowest| is_lowest).count() < N - 2 {
+                continue;
+            }
             let simplex = complex.simplices[t];
             let corners = complex.corners(t);
             let mut squared = [[0.0; N]; N];
@@ -144,8 +149,6 @@ where
                     squared[j][i] = squared[i][j];
                 }
             }
-            // Of the simplices around an edge, those whose neighbours there have higher numbers.
-            let is_lowest = neighbors[t].map(|across| across == NONE || t < across as usize);
             for i in 0..N {
                 for j in 0..i {
                     let mut is_candidate = true;
