@@ -14,7 +14,7 @@ use gdel::{
     internals::{
         d3::gpu::vertex,
         gpu::{
-            AdapterChoice, Gpu, Kernel, Profiler, Readback, Recorder, Storage,
+            AdapterChoice, Compiler, Gpu, Kernel, Profiler, Readback, Recorder, Storage,
             points::{PointInput, PointStage},
             workgroups,
         },
@@ -120,7 +120,7 @@ fn main() {
     let sizes: Vec<usize> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the bench needs a GPU");
     println!("{:?}", gpu.adapter());
-    let stage = PointStage::new(&gpu);
+    let stage = PointStage::new(&Compiler::new(&gpu));
     for &n in if sizes.is_empty() { &[100_000, 1_000_000][..] } else { &sizes } {
         let doubles = random_points(n);
         let singles: Vec<[f32; 3]> = doubles.iter().map(|p| p.map(|x| x as f32)).collect();

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use naga::{
-    AddressSpace, Expression, Handle, Literal, Module, Type, TypeInner,
+    AddressSpace, Expression, Handle, Literal, Module, StorageAccess, Type, TypeInner,
     valid::{Capabilities, ValidationFlags, Validator},
 };
 
@@ -19,8 +19,8 @@ const WORKGROUP: &str = "WORKGROUP";
 /// What the host has to know of a shader.
 #[derive(Default)]
 pub struct Reflection {
-    /// The storage buffers, with their bindings.
-    pub variables: Vec<(String, u32)>,
+    /// The storage buffers, with their bindings and whether they are only read.
+    pub variables: Vec<(String, u32, bool)>,
     /// The constants of type `u32`.
     pub constants: BTreeMap<String, u32>,
     /// The structures in storage buffers.
@@ -79,17 +79,20 @@ pub fn check(parts: &[&File]) -> Result<Reflection, String> {
     for (handle, variable) in module.global_variables.iter() {
         let name = variable.name.clone().unwrap_or_default();
         let Some(binding) = variable.binding else { continue };
-        if binding.group != 0 || !matches!(variable.space, AddressSpace::Storage { .. }) {
-            return reject(format!("`{name}` is not a storage buffer of group 0"));
+        let AddressSpace::Storage { access } = variable.space else {
+            return reject(format!("`{name}` is not a storage buffer"));
+        };
+        if binding.group != 0 {
+            return reject(format!("`{name}` is not in group 0"));
         }
         // The layouts of pipelines have what their shader uses, and no more.
         if info.get_entry_point(0)[handle].is_empty() {
             return reject(format!("`{name}` is not used"));
         }
-        reflection.variables.push((name, binding.binding));
+        reflection.variables.push((name, binding.binding, !access.contains(StorageAccess::STORE)));
         add_structures(&module, variable.ty, &mut reflection.structures);
     }
-    reflection.variables.sort_by_key(|&(_, binding)| binding);
+    reflection.variables.sort_by_key(|&(_, binding, _)| binding);
     if reflection.variables.len() > MAX_STORAGE_BUFFERS {
         return reject(format!("{} storage buffers are too many", reflection.variables.len()));
     }

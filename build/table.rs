@@ -26,7 +26,7 @@ struct Shader<'a> {
     name: String,
     /// The files for each width.
     parts: [Vec<&'a File>; 2],
-    variables: Vec<(String, u32)>,
+    variables: Vec<(String, u32, bool)>,
 }
 
 /// What the shaders declare for the host, with the folder of the file that declares it.

@@ -3,7 +3,7 @@
 //! exponents.
 #![no_main]
 
-use gdel::{Options, delaunay2d, verify2d};
+use gdel::{delaunay2d, verify2d};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|data: &[u8]| {

@@ -18,14 +18,7 @@ fn scale_of(a: vec2f, b: vec2f) -> f32 {
     return bitcast<f32>(0x7f000000 - (bitcast<u32>(largest) & 0x7f800000));
 }
 
-// Returns a score by distance; where that is 0 because the point lies on the line of the edge or of
-// the flat triangle, a score by how much it lies in the middle between two neighbouring vertices,
-// below all scores by distance. So collinear points halve the gaps between them, instead of taking
-// a round for each point. The smallest distances are about 2^-63, and betweenness is at most about
-// 1.
-fn score_or_betweenness(distance: f32, betweenness: f32) -> u32 {
-    return bitcast<u32>(abs(select(distance, betweenness * 0x1p-70, distance == 0))) + 1;
-}
+//!include common/scores
 
 fn score_of(tri: vec3u, p: u32) -> u32 {
     let infinite = control.infinite;
@@ -37,7 +30,11 @@ fn score_of(tri: vec3u, p: u32) -> u32 {
         let scale = scale_of(from_to(a, b), vec2f(0));
         let u = from_to(a, b) * scale;
         let v = from_to(a, p) * scale;
-        return score_or_betweenness(cross_of(u, v), dot(v, u - v));
+        let area = cross_of(u, v);
+        if is_distinct(area, abs(u.x * v.y) + abs(u.y * v.x)) {
+            return score_by_volume(area);
+        }
+        return score_by_distance(min(dot(v, v), dot(v - u, v - u)));
     }
     let scale = scale_of(from_to(tri.x, tri.y), from_to(tri.x, tri.z));
     let a = from_to(p, tri.x) * scale;
@@ -48,11 +45,10 @@ fn score_of(tri: vec3u, p: u32) -> u32 {
         return 0x7f800000 - bitcast<u32>(dot(off, off));
     }
     // The in-circle determinant: for one triangle it grows as the distance from the circumcentre
-    // falls.
+    // falls. In a flat one it is 0.
     let inside = dot(a, a) * cross_of(b, c) + dot(b, b) * cross_of(c, a) + dot(c, c) * cross_of(a, b);
-    // On the line of a flat triangle the product of the ways to the outer vertices is the lowest,
-    // then comes that of the neighbours, and the third is positive.
-    let products = vec3f(dot(a, b), dot(b, c), dot(c, a));
-    let median = max(min(products.x, products.y), min(max(products.x, products.y), products.z));
-    return score_or_betweenness(inside, -median);
+    if inside != 0 {
+        return score_by_volume(inside);
+    }
+    return score_by_distance(min(min(dot(a, a), dot(b, b)), dot(c, c)));
 }

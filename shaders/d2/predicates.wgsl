@@ -4,8 +4,10 @@
 // the left; incircle(a, b, c, d) is positive when d is inside the circle through the positively
 // oriented a, b, c, and changes sign with every exchange of two arguments.
 //
-// Ties are broken as d3/predicates explains: heights first, then the lowered coordinates ε(i, j), j
-// = y, x. A set S of lowered coordinates is a bit set, 2·rank + (y: 0, x: 1).
+// Ties are broken as d3/predicates explains: by the heights of the points, by infinity that leans
+// away from the interior point, then by the lowered coordinates ε(i, j), j = y, x. So a point of the
+// hull between two others on a line is beyond their edge, and no flat triangles lie along the hull.
+// A set S of lowered coordinates is a bit set, 2·rank + (y: 0, x: 1).
 //!include d2/exact_{width}
 //!include common/ties
 
@@ -35,29 +37,10 @@ fn incircle_volume(u: Row, v: Row, w: Row) -> Volume {
     return accumulate(accumulate(first, lift_of(v), determinant(w, u)), lift_of(w), determinant(u, v));
 }
 
-// Returns orient2d with ties broken by the lowered coordinates: never 0 for vertices with different
-// indices.
-fn orient2d(a_: Vertex, b_: Vertex, c_: Vertex) -> i32 {
-    var a = a_;
-    var b = b_;
-    var c = c_;
-    var parity = 1;
-    put_in_order(&a, &b, &parity);
-    put_in_order(&b, &c, &parity);
-    put_in_order(&a, &b, &parity);
-    let u = difference(a.position, c.position);
-    let v = difference(b.position, c.position);
-    var sign = 0;
-    for (var i = 0; i < 5 && sign == 0; i++) {
-        let s = PERTURBATIONS[i];
-        sign = sign_of_determinant(determinant(lowered(u, lowering(s, 0)), lowered(v, lowering(s, 1))));
-    }
-    return sign * parity;
-}
-
-// Returns incircle with ties broken by the heights first and the lowered coordinates then: never 0
-// for vertices with different indices.
-fn incircle(a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> i32 {
+// Returns the sign that four vertices give to an in-circle test or an orientation, never 0 where
+// these are not: incircle(a, b, c, d); or, if `of_three`, the orientation of a, b, c, where d is the
+// interior point.
+fn perturbed_sign(a: Vertex, b: Vertex, c: Vertex, d: Vertex, of_three: bool) -> i32 {
     let sorted = in_order(a, b, c, d);
     let origin = sorted.d.position;
     let u = difference(sorted.a.position, origin);
@@ -81,6 +64,9 @@ fn incircle(a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> i32 {
         let by_height = sign_or(ka, sign_or(kb, sign_or(kc, sign_of_determinant(kd))));
         let by_volume = sign_of_volume(volume);
         sign = select(by_height, by_volume, by_volume != 0);
+        // Raising the last point moves it out of the circle of three that are positively oriented.
+        let by_orientation = -sign_of_determinant(kd);
+        sign = select(sign, by_orientation, of_three && by_orientation != 0);
     }
     return sign * sorted.parity;
 }

@@ -24,7 +24,11 @@ fn orient_finite(v: vec3u) -> i32 {
     var sign = orient2d_filter(load_high(v.x), load_high(v.y), load_high(v.z));
     if sign == 0 {
         exact_signs += 1;
-        sign = orient2d(vertex(v.x), vertex(v.y), vertex(v.z));
+        sign = orient2d_exact(load_position(v.x), load_position(v.y), load_position(v.z));
+        if sign == 0 {
+            let infinite = control.infinite;
+            sign = perturbed_sign(vertex(v.x), vertex(v.y), vertex(v.z), vertex(infinite), true);
+        }
     }
     return sign;
 }
@@ -46,7 +50,7 @@ fn inside(tri: vec3u, e: u32) -> bool {
         sign = incircle_filter(load_high(tri.x), load_high(tri.y), load_high(tri.z), load_high(e));
         if sign == 0 {
             exact_signs += 1;
-            sign = incircle(vertex(tri.x), vertex(tri.y), vertex(tri.z), vertex(e));
+            sign = perturbed_sign(vertex(tri.x), vertex(tri.y), vertex(tri.z), vertex(e), false);
         }
     }
     return sign > 0;

@@ -61,14 +61,6 @@ fn lift_of(r: Row) -> Lift {
     return Lift(add_64(xy, multiply_i32(r.d.z, r.d.z)));
 }
 
-fn zero_lift() -> Lift {
-    return Lift(vec2u(0));
-}
-
-fn unit_lift() -> Lift {
-    return Lift(vec2u(1, 0));
-}
-
 // x and y only.
 fn minor(p: Row, q: Row) -> vec2u {
     return subtract_64(multiply_i32(p.d.x, q.d.y), multiply_i32(q.d.x, p.d.y));

@@ -65,14 +65,6 @@ fn lift_of(r: Row) -> Lift {
     return Lift(add_128(xy, multiply_i64(z_of(r), z_of(r))));
 }
 
-fn zero_lift() -> Lift {
-    return Lift(vec4u(0));
-}
-
-fn unit_lift() -> Lift {
-    return Lift(vec4u(1, 0, 0, 0));
-}
-
 // x and y only.
 fn minor(p: Row, q: Row) -> vec4u {
     return subtract_128(multiply_i64(x_of(p), y_of(q)), multiply_i64(x_of(q), y_of(p)));

@@ -1,14 +1,25 @@
-// Orientation and in-sphere: exact, with all ties broken, and with the vertex at infinity.
+// Orientation and in-sphere: exact, with all ties broken.
 //
 // Conventions as in src/predicates: orient3d(a, b, c, d) is the sign of det(b − a, c − a, d − a);
 // insphere(a, b, c, d, e) is positive when e is inside the sphere through the positively oriented
 // a, b, c, d, and changes sign with every exchange of two arguments.
 //
-// Ties. Point i has the height |p_i|² + δ_i, δ_0 ≫ δ_1 ≫ …, and its coordinates are lowered by ε(i,
-// j), j = z, y, x, infinitely smaller than all δ, with ε(0, z) ≫ ε(0, y) ≫ ε(0, x) ≫ ε(1, z) ≫ …,
-// each infinitely smaller than every product of those before it (Edelsbrunner and Mücke 1990). The
-// heights are those of the coordinates that are not lowered. A determinant is then a polynomial in
-// δ and ε, and its sign is that of the first coefficient that is not 0.
+// Ties. Point i has the height h_i = |p_i|² + δ_i, δ_0 ≫ δ_1 ≫ …, and its coordinates are lowered by
+// ε(i, j), j = z, y, x, infinitely smaller than all δ, with ε(0, z) ≫ ε(0, y) ≫ ε(0, x) ≫ ε(1, z) ≫
+// …, each infinitely smaller than every product of those before it (Edelsbrunner and Mücke 1990).
+// The heights are those of the coordinates that are not lowered.
+//
+// Infinity leans. Lifted to these heights, the triangulation is a convex hull, and infinity would be
+// the direction straight up, which four coplanar points leave undecided. So it leans, by an η that
+// is smaller than all δ and larger than all ε, away from the interior point: with that point as the
+// origin, an orientation is the determinant of the rows (x, y, z, 1 + η·h), as if each point had
+// been moved towards the origin by an infinitely small share η·h of the way. Planes become
+// paraboloids, so coplanar points of the hull are triangulated as their circles in the plane say,
+// as the CPU engine and splaying (src/d3/splay/predicates.rs) do it, and no flat tetrahedra lie
+// under the hull. The rows of an in-sphere determinant, (x, y, z, h, 1 + η·h), lose η to a column
+// operation: it knows nothing of the lean. So the coefficient of η in an orientation is the in-sphere
+// determinant with the interior point for the fifth: only where four points are in a plane with the
+// interior point, or in a line, is anything left to the lowered coordinates.
 //
 // The coefficients, in order. A product of ε's is a set S of (point, coordinate). The determinant
 // is linear in each row and column, so only sets with at most one entry in each row and column
@@ -16,19 +27,15 @@
 // taken off the coordinates in S: that determinant is the sum of the coefficients of all subsets.
 // The subsets come before S in the order. So they are all 0 when S is evaluated, and the
 // determinant that is lowered by S is the coefficient of S. The same holds for the coefficients of
-// δ_i within each S, which are orientations of the other four points.
+// η and of δ_i within each S; the latter are orientations of the other four points.
 //
 // S is a bit set, 3·rank + (z: 0, y: 1, x: 2), and the order is that of the numbers. The last one
 // is never zero: it leaves the row of the point with the highest index alone. This holds also for
-// points that share all coordinates.
+// points that share all coordinates. The interior point's index is above every other.
 //!include d3/exact_{width}
 //!include common/ties
 
 const PERTURBATIONS = array<u32, 15>(0, 1, 2, 4, 8, 10, 12, 16, 20, 32, 64, 66, 68, 80, 84);
-
-// The vertex at infinity: the point (0, 0, 0) with an infinite height, in homogeneous coordinates.
-// No finite vertex has this index.
-const INFINITE: u32 = 0xffffffff;
 
 // Returns the coordinates of the point of this rank that S lowers.
 fn lowering(s: u32, rank: u32) -> vec3u {
@@ -46,26 +53,10 @@ fn orient3d_exact(a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> i32 {
     return sign_of_determinant(determinant(difference(b, a), difference(c, a), difference(d, a)));
 }
 
-// Returns orient3d with ties broken by the lowered coordinates: never 0 for vertices with different
-// indices.
-fn orient3d(a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> i32 {
-    let sorted = in_order(a, b, c, d);
-    let u = difference(sorted.a, sorted.d);
-    let v = difference(sorted.b, sorted.d);
-    let w = difference(sorted.c, sorted.d);
-    var sign = 0;
-    for (var i = 0; i < 15 && sign == 0; i++) {
-        let s = PERTURBATIONS[i];
-        sign = sign_of_determinant(determinant(lowered(u, lowering(s, 0)), lowered(v, lowering(s, 1)), lowered(w, lowering(s, 2))));
-    }
-    // det(b − a, c − a, d − a) = −det(a − d, b − d, c − d).
-    return -sign * sorted.parity;
-}
-
-// Returns insphere with ties broken by the heights first and the lowered coordinates then: never 0
-// for vertices with different indices. One of them may be the vertex at infinity: then it is the
-// orientation of the other four.
-fn insphere(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex, e_: Vertex) -> i32 {
+// Returns the sign that five vertices give to an in-sphere test or an orientation, never 0 where
+// these are not: insphere(a, b, c, d, e); or, if `of_four`, the orientation of a, b, c, d, where e is
+// the interior point.
+fn perturbed_sign(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex, e_: Vertex, of_four: bool) -> i32 {
     var a = a_;
     var b = b_;
     var c = c_;
@@ -81,29 +72,14 @@ fn insphere(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex, e_: Vertex) -> i32 {
     put_in_order(&a, &c, &parity);
     put_in_order(&b, &d, &parity);
     put_in_order(&b, &c, &parity);
-    // The other rows are differences to the last point, so the vertex at infinity goes before it.
-    let infinite = e.index == INFINITE;
-    if infinite {
-        let last = d;
-        d = e;
-        e = last;
-        parity = -parity;
-    }
     let u = difference(a, e);
     let v = difference(b, e);
     let w = difference(c, e);
-    var t = difference(d, e);
-    var la = lift_of(u);
-    var lb = lift_of(v);
-    var lc = lift_of(w);
-    var ld = lift_of(t);
-    if infinite {
-        t = difference(e, e);
-        la = zero_lift();
-        lb = zero_lift();
-        lc = zero_lift();
-        ld = unit_lift();
-    }
+    let t = difference(d, e);
+    let la = lift_of(u);
+    let lb = lift_of(v);
+    let lc = lift_of(w);
+    let ld = lift_of(t);
     var sign = 0;
     for (var i = 0; i < 15 && sign == 0; i++) {
         let s = PERTURBATIONS[i];
@@ -126,7 +102,10 @@ fn insphere(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex, e_: Vertex) -> i32 {
         let volume = accumulate(accumulate(accumulate(accumulate(zero_volume(), la, ka), lb, kb), lc, kc), ld, kd);
         let by_height = sign_or(ka, sign_or(kb, sign_or(kc, sign_or(kd, sign_of_determinant(ke)))));
         let by_volume = sign_of_volume(volume);
-        sign = select(select(by_height, 0, infinite), by_volume, by_volume != 0);
+        sign = select(by_height, by_volume, by_volume != 0);
+        // Raising the last point moves it out of the sphere of four that are positively oriented.
+        let by_orientation = -sign_of_determinant(ke);
+        sign = select(sign, by_orientation, of_four && by_orientation != 0);
     }
     return sign * parity;
 }

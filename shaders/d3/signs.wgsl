@@ -1,5 +1,5 @@
-// Signs on vertices that may be at infinity: the filters first, then the exact arithmetic. Never 0 where
-// `decides` is set.
+// Signs on vertices that may be at infinity: the filters first, then the exact arithmetic. Never 0
+// where `decides` is set.
 //
 // Expects: vertices: array<VertexWords>; control.
 //!include d3/predicates
@@ -23,14 +23,24 @@ fn orient_finite(v: vec4u) -> i32 {
         sign = orient3d_refined(a, b, c, d);
         if sign == 0 {
             exact_signs += 1;
-            sign = orient3d(a, b, c, d);
+            sign = orient3d_exact(a, b, c, d);
+            if sign == 0 {
+                sign = insphere_filtered(v, control.infinite);
+            }
+            if sign == 0 {
+                sign = perturbed_sign(a, b, c, d, load_vertex(control.infinite), true);
+            }
         }
     }
     return sign;
 }
 
+fn insphere_filtered(tet: vec4u, e: u32) -> i32 {
+    return insphere_filter(load_high(tet.x), load_high(tet.y), load_high(tet.z), load_high(tet.w), load_high(e));
+}
+
 fn insphere_finite(tet: vec4u, e: u32) -> i32 {
-    var sign = insphere_filter(load_high(tet.x), load_high(tet.y), load_high(tet.z), load_high(tet.w), load_high(e));
+    var sign = insphere_filtered(tet, e);
     if sign == 0 && decides {
         let a = load_vertex(tet.x);
         let b = load_vertex(tet.y);
@@ -40,7 +50,7 @@ fn insphere_finite(tet: vec4u, e: u32) -> i32 {
         sign = insphere_refined(a, b, c, d, f);
         if sign == 0 {
             exact_signs += 1;
-            sign = insphere(a, b, c, d, f);
+            sign = perturbed_sign(a, b, c, d, f, false);
         }
     }
     return sign;

@@ -43,8 +43,6 @@ pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
     const MAX_POINTS: usize;
     /// The default of [`Settings::history`](crate::gpu::phase1::Settings::history).
     const HISTORY: u32;
-    /// The default of [`Settings::max_iterations`](crate::gpu::phase1::Settings::max_iterations).
-    const MAX_ITERATIONS: u32;
 
     /// Returns the blocks, of [`BLOCK`](crate::gpu::layout::BLOCK) slots each, for `points` points.
     /// `tail` of them belong to no vertex; 2D needs none and ignores it.

@@ -174,7 +174,8 @@ where
             if !more {
                 break;
             }
-            if run.control().1.iterations > settings.max_iterations {
+            if settings.is_slow(&run.control().1) {
+                stats.gpu = Some(run.abandon().summary(&self.gpu.adapter().name));
                 return fall_back(points, options, Fallback::Flips, stats);
             }
         }

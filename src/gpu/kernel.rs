@@ -1,7 +1,17 @@
 //! Compute pipelines.
 
-use crate::gpu::{Gpu, shader::Shader};
-use crate::input::lattice::Width;
+use crate::{
+    error::Error,
+    gpu::{
+        Gpu,
+        shader::{Shader, Variable},
+    },
+    input::lattice::Width,
+};
+use std::{
+    cell::RefCell,
+    sync::{Arc, OnceLock},
+};
 
 /// A buffer under the name that it has in shaders.
 pub type Binding<'a> = (&'static str, &'a wgpu::Buffer);
@@ -9,17 +19,40 @@ pub type Binding<'a> = (&'static str, &'a wgpu::Buffer);
 /// A compute pipeline with one bind group.
 #[derive(Debug, Clone)]
 pub struct Kernel {
-    pipeline: wgpu::ComputePipeline,
-    layout: wgpu::BindGroupLayout,
     label: String,
     /// The storage buffers and their bindings.
     variables: Vec<(&'static str, u32)>,
+    layout: wgpu::BindGroupLayout,
+    device: wgpu::Device,
+    /// What the pipeline is compiled from, if it was not compiled at once.
+    shader: Option<(&'static Shader, Width)>,
+    pipeline: Arc<OnceLock<wgpu::ComputePipeline>>,
 }
 
 impl Kernel {
-    /// Compiles a shader.
-    pub fn new(gpu: &Gpu, shader: &Shader, width: Width) -> Self {
-        Kernel::create(gpu, shader.name(), &shader.wgsl(width), shader.variables().to_vec(), &[])
+    fn new(gpu: &Gpu, shader: &'static Shader, width: Width) -> Self {
+        let entry = |&(_, binding, read_only): &Variable| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        };
+        let layout = gpu.device().create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(shader.name()),
+            entries: &shader.variables().iter().map(entry).collect::<Vec<_>>(),
+        });
+        Kernel {
+            label: shader.name().to_owned(),
+            variables: shader.variables().iter().map(|&(name, binding, _)| (name, binding)).collect(),
+            layout,
+            device: gpu.device().clone(),
+            shader: Some((shader, width)),
+            pipeline: Arc::default(),
+        }
     }
 
     /// Compiles WGSL that is not one of this crate's shaders, and whose entry point is `main`.
@@ -32,34 +65,15 @@ impl Kernel {
         variables: &[&'static str],
         constants: &[(&str, f64)],
     ) -> Self {
-        Kernel::create(gpu, label, wgsl, variables.iter().copied().zip(0..).collect(), constants)
-    }
-
-    fn create(
-        gpu: &Gpu,
-        label: &str,
-        wgsl: &str,
-        variables: Vec<(&'static str, u32)>,
-        constants: &[(&str, f64)],
-    ) -> Self {
-        let module = gpu.device().create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(label),
-            source: wgpu::ShaderSource::Wgsl(wgsl.into()),
-        });
-        let pipeline = gpu.device().create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(label),
-            layout: None,
-            module: &module,
-            entry_point: Some("main"),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants,
-                // No kernel reads workgroup memory that it has not written.
-                zero_initialize_workgroup_memory: false,
-            },
-            cache: None,
-        });
-        let layout = pipeline.get_bind_group_layout(0);
-        Kernel { pipeline, layout, label: label.to_owned(), variables }
+        let pipeline = compile(gpu.device(), label, wgsl, None, constants);
+        Kernel {
+            label: label.to_owned(),
+            variables: variables.iter().copied().zip(0..).collect(),
+            layout: pipeline.get_bind_group_layout(0),
+            device: gpu.device().clone(),
+            shader: None,
+            pipeline: Arc::new(OnceLock::from(pipeline)),
+        }
     }
 
     /// Binds each variable of the shader to the buffer of the same name. There may be buffers that
@@ -83,8 +97,100 @@ impl Kernel {
         })
     }
 
-    /// Returns the pipeline.
+    /// Returns the pipeline, and compiles it if that was not done yet.
     pub fn pipeline(&self) -> &wgpu::ComputePipeline {
-        &self.pipeline
+        self.pipeline.get_or_init(|| {
+            let (shader, width) = self.shader.expect("what is not a shader was compiled at once");
+            compile(&self.device, &self.label, &shader.wgsl(width), Some(&self.layout), &[])
+        })
+    }
+}
+
+/// Compiles a pipeline, with the layout of its WGSL if none is given.
+fn compile(
+    device: &wgpu::Device,
+    label: &str,
+    wgsl: &str,
+    layout: Option<&wgpu::BindGroupLayout>,
+    constants: &[(&str, f64)],
+) -> wgpu::ComputePipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+    });
+    let layout = layout.map(|layout| {
+        device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(label),
+            bind_group_layouts: &[Some(layout)],
+            ..Default::default()
+        })
+    });
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(label),
+        layout: layout.as_ref(),
+        module: &module,
+        entry_point: Some("main"),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            constants,
+            // No kernel reads workgroup memory that it has not written.
+            zero_initialize_workgroup_memory: false,
+        },
+        cache: None,
+    })
+}
+
+/// Creates kernels and compiles them together.
+#[derive(Debug)]
+pub struct Compiler<'a> {
+    gpu: &'a Gpu,
+    /// Those to be compiled.
+    kernels: RefCell<Vec<Kernel>>,
+}
+
+impl<'a> Compiler<'a> {
+    /// Starts without any kernels.
+    pub fn new(gpu: &'a Gpu) -> Self {
+        Compiler { gpu, kernels: RefCell::default() }
+    }
+
+    /// Creates the kernel of a shader. It is compiled by [`Compiler::finish`], or when it is used
+    /// before.
+    pub fn kernel(&self, shader: &'static Shader, width: Width) -> Kernel {
+        let kernel = self.on_demand(shader, width);
+        self.kernels.borrow_mut().push(kernel.clone());
+        kernel
+    }
+
+    /// Creates the kernel of a shader that few runs need. It is compiled when it is used.
+    pub fn on_demand(&self, shader: &'static Shader, width: Width) -> Kernel {
+        Kernel::new(self.gpu, shader, width)
+    }
+
+    /// Compiles the kernels, where there are threads on all of them.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Gpu::with_error_scope`].
+    pub async fn finish(self) -> Result<(), Error> {
+        let Compiler { gpu, kernels } = self;
+        let kernels = kernels.into_inner();
+        #[cfg(not(target_arch = "wasm32"))]
+        {
+            use rayon::prelude::*;
+            // Scopes of errors belong to threads, and are answered at once.
+            let compile = |kernel: Kernel| {
+                pollster::block_on(gpu.with_error_scope("pipelines", || {
+                    kernel.pipeline();
+                    Ok(())
+                }))
+            };
+            kernels.into_par_iter().with_max_len(1).try_for_each(compile)
+        }
+        #[cfg(target_arch = "wasm32")]
+        gpu.with_error_scope("pipelines", || {
+            kernels.iter().for_each(|kernel| _ = kernel.pipeline());
+            Ok(())
+        })
+        .await
     }
 }

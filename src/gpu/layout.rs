@@ -175,7 +175,7 @@ assert_layout!(Counters);
 
 impl Counters {
     /// Returns the flips of all kinds so far.
-    pub(crate) fn flips(&self) -> u32 {
+    pub fn flips(&self) -> u32 {
         self.flips_23 + self.flips_32 + self.flips_22
     }
 

@@ -31,7 +31,7 @@ pub mod waiting;
 
 pub use buffers::Storage;
 pub use device::{AdapterChoice, AdapterSummary, Gpu, adapters};
-pub use kernel::{Binding, Kernel};
+pub use kernel::{Binding, Compiler, Kernel};
 pub use profiler::Profiler;
 pub use readback::{Pending, Readback};
 pub use recorder::Recorder;

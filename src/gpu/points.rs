@@ -19,7 +19,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Gpu, Kernel, Recorder, Storage,
+        Compiler, Gpu, Kernel, Recorder, Storage,
         dim::Dim,
         shader::{assert_layout, constants::common as constants},
         workgroups,
@@ -144,14 +144,14 @@ impl<const D: usize> PointStage<D>
 where
     Dimension<D>: Dim<D>,
 {
-    /// Compiles the kernels.
-    pub fn new(gpu: &Gpu) -> Self {
-        let kernel = |name| Kernel::new(gpu, Dimension::<D>::SHADERS.get(name), Width::Narrow);
+    /// Creates the kernels.
+    pub fn new(compiler: &Compiler<'_>) -> Self {
+        let kernel = |name| compiler.kernel(Dimension::<D>::SHADERS.get(name), Width::Narrow);
         PointStage {
             merge: kernel("points_merge"),
             keys: kernel("points_keys"),
             gather: kernel("points_gather"),
-            sort: Sort::new(gpu),
+            sort: Sort::new(compiler),
         }
     }
 

@@ -23,8 +23,11 @@ pub struct Shader {
     name: &'static str,
     narrow: &'static [&'static str],
     wide: &'static [&'static str],
-    variables: &'static [(&'static str, u32)],
+    variables: &'static [Variable],
 }
+
+/// The name of a storage buffer, its binding in group 0, and whether it is only read.
+pub type Variable = (&'static str, u32, bool);
 
 impl Shaders {
     /// Returns the kernel of this name, which is that of its file.
@@ -53,8 +56,8 @@ impl Shader {
         self.name
     }
 
-    /// Returns the names of the storage buffers, with their bindings in group 0.
-    pub fn variables(&self) -> &'static [(&'static str, u32)] {
+    /// Returns the storage buffers.
+    pub fn variables(&self) -> &'static [Variable] {
         self.variables
     }
 

@@ -3,7 +3,7 @@
 use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
 use crate::{
     error::Error,
-    gpu::{Gpu, Kernel, Recorder, Storage, layout::Waiting, shader},
+    gpu::{Compiler, Gpu, Kernel, Recorder, Storage, layout::Waiting, shader},
     input::lattice::Width,
 };
 
@@ -39,11 +39,11 @@ impl BoundWaitingList {
 }
 
 impl WaitingList {
-    /// Compiles the kernels.
-    pub fn new(gpu: &Gpu) -> Self {
+    /// Creates the kernels.
+    pub fn new(compiler: &Compiler<'_>) -> Self {
         let [mark, compact] =
-            ["waiting_mark", "waiting_compact"].map(|name| Kernel::new(gpu, shader::COMMON.get(name), Width::Narrow));
-        WaitingList { mark, compact, scan: Scan::new(gpu) }
+            ["waiting_mark", "waiting_compact"].map(|name| compiler.kernel(shader::COMMON.get(name), Width::Narrow));
+        WaitingList { mark, compact, scan: Scan::new(compiler) }
     }
 
     /// Binds the kernels to these buffers. What `marks` holds is lost when the list is compacted.

@@ -57,3 +57,21 @@ pub(super) fn scale_of<const D: usize>(vectors: &[[f32; D]]) -> f32 {
     let largest = vectors.iter().flatten().fold(1.0f32, |m, x| m.max(x.abs()));
     f32::from_bits(0x7f00_0000 - (largest.to_bits() & 0x7f80_0000))
 }
+
+/// Returns whether a determinant is distinct from 0, beyond rounding. `permanent` is the sum of its
+/// terms, all taken as positive.
+pub(super) fn is_distinct(value: f32, permanent: f32) -> bool {
+    const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
+    value.abs() > ROUNDING * permanent
+}
+
+/// Returns a score by the size of a determinant. It is above the others.
+pub(super) fn score_by_volume(value: f32) -> u32 {
+    value.abs().to_bits() | 1 << 31
+}
+
+/// Returns a score by the square of the distance from the nearest vertex, given the squares of the
+/// distances from all. It is below the others.
+pub(super) fn score_by_distance<const N: usize>(squares: [f32; N]) -> u32 {
+    squares.into_iter().fold(f32::INFINITY, f32::min).to_bits() >> 1 | 1
+}

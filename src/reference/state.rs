@@ -10,13 +10,12 @@ use crate::predicates::Sign;
 
 use crate::reference::dim::{OwnState, ReferenceDim};
 
-/// A lattice point with its input index. In 3D it may also be the vertex at infinity.
+/// A lattice point with its input index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Vertex<const D: usize> {
-    /// Lattice coordinates, 0 ≤ q < 2^bits; of no meaning for the vertex at infinity.
+    /// Lattice coordinates, 0 ≤ q < 2^bits.
     pub position: [i64; D],
-    /// The input index, which breaks ties; that of the vertex at infinity is
-    /// [`INFINITE`](crate::d3::gpu::vertex::INFINITE).
+    /// The input index, which breaks ties; that of the interior point is above all others.
     pub index: u32,
 }
 

@@ -1,7 +1,7 @@
 //! The triangulation on the CPU, the predicates and the verifier.
 
 mod broken;
-#[path = "../clouds.rs"]
+#[path = "../shared/clouds.rs"]
 mod clouds;
 mod oracle;
 

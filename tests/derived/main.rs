@@ -1,7 +1,7 @@
 //! What is derived from meshes, against brute force.
 
 mod alpha;
-#[path = "../clouds.rs"]
+#[path = "../shared/clouds.rs"]
 mod clouds;
 mod geometry;
 mod inputs;

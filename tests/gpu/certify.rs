@@ -40,7 +40,9 @@ fn signs_that_are_not_listed_are_those_of_the_true_coordinates() {
         let [a, b, c, d] = tet.map(truth);
         if !is_open(t, 4) {
             proven += 1;
-            assert_eq!(predicates::orient3d(a, b, c, d), reference::orient3d(Width::Wide, tet.map(on_lattice)));
+            let interior = Vertex { position: start.interior_point, index: infinite };
+            let on_lattice = reference::orient3d(Width::Wide, tet.map(on_lattice), interior);
+            assert_eq!(predicates::orient3d(a, b, c, d), on_lattice);
         } else if predicates::orient3d(a, b, c, d) < 0 {
             wrong += 1;
         }

@@ -2,7 +2,7 @@
 //! carried out.
 
 use crate::d2_cases::{Case, FAMILIES, cases};
-use crate::perturbation::{perturbed_rows, sign_of_columns};
+use crate::perturbation::{leaning, perturbed_rows, sign_of_columns};
 use crate::signs::{SignKernel, exact_in_circumsphere, exact_orientation};
 use gdel::internals::{
     d2::gpu::vertex,
@@ -40,10 +40,11 @@ fn check(width: Width) {
             let [expected_orient, expected_circle] = [exact_orientation(&positions), exact_in_circumsphere(&positions)];
             assert_eq!(exact_orient, expected_orient, "orient2d_exact, {family:?}: {case:?}");
             assert_eq!(reference::orient2d_exact([0, 1, 2].map(|i| case[i].position)), expected_orient);
-            assert_eq!(orient, reference::orient2d([case[0], case[1], case[2]]), "orient2d, {family:?}: {case:?}");
-            assert!(expected_orient == 0 || orient == expected_orient, "orient2d, {family:?}: {case:?}");
-            assert_eq!(circle, reference::incircle(*case), "incircle, {family:?}: {case:?}");
-            assert!(expected_circle == 0 || circle == expected_circle, "incircle, {family:?}: {case:?}");
+            let (three, interior) = ([case[0], case[1], case[2]], Vertex { index: u32::MAX, ..case[3] });
+            assert_eq!(orient, reference::orient2d(three, interior), "orientation, {family:?}: {case:?}");
+            assert!(expected_orient == 0 || orient == expected_orient, "orientation, {family:?}: {case:?}");
+            assert_eq!(circle, reference::incircle(*case), "in-circle, {family:?}: {case:?}");
+            assert!(expected_circle == 0 || circle == expected_circle, "in-circle, {family:?}: {case:?}");
             assert!(orient != 0 && circle != 0);
             assert!(orient_filter == 0 || orient_filter == expected_orient, "orient2d_filter, {family:?}: {case:?}");
             assert!(circle_filter == 0 || circle_filter == expected_circle, "incircle_filter, {family:?}: {case:?}");
@@ -82,9 +83,11 @@ fn ties_are_those_of_the_perturbation() {
             index: indices[i] * 1000,
         });
         let three = [four[0], four[1], four[2]];
-        let expected = sign_of_columns(&perturbed_rows(&three.map(|v| (v.index, v.position))), &[0, 1, 3]);
+        let interior = Vertex { position: std::array::from_fn(|_| rng.random_range(0..side)), index: u32::MAX };
+        let rows = leaning(perturbed_rows(&three.map(|v| (v.index, v.position))), interior.position);
+        let expected = sign_of_columns(&rows, &[0, 1, 3]);
         assert_ne!(expected, 0);
-        assert_eq!(reference::orient2d(three), expected, "{three:?}");
+        assert_eq!(reference::orient2d(three, interior), expected, "{three:?}, {interior:?}");
         let expected = sign_of_columns(&perturbed_rows(&four.map(|v| (v.index, v.position))), &[0, 1, 2, 3]);
         assert_ne!(expected, 0);
         assert_eq!(reference::incircle(four), expected, "{four:?}");

@@ -5,7 +5,7 @@ use gdel::internals::{input::lattice::Width, reference::d3::predicates::Vertex};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// The arguments of an in-sphere test; the first four are those of an orientation.
+/// The arguments of an in-sphere test; the first four are those of an orientation, with the last for the interior point.
 pub type Case = [Vertex; 5];
 
 /// How the points of a case lie.
@@ -23,8 +23,6 @@ pub enum Family {
     Cospherical,
     /// All on a line.
     Collinear,
-    /// One of a small grid's points is the vertex at infinity.
-    Infinite,
     /// As near to each other as a millionth of the range.
     Clustered,
 }
@@ -37,7 +35,6 @@ pub const FAMILIES: &[Family] = &[
     Family::Coplanar,
     Family::Cospherical,
     Family::Collinear,
-    Family::Infinite,
     Family::Clustered,
 ];
 
@@ -54,7 +51,6 @@ impl Family {
             Family::Coplanar => assert!((0.3..0.9).contains(&share(zeros[0]))),
             Family::Cospherical => assert!((0.3..0.9).contains(&share(zeros[1]))),
             Family::Collinear => assert!(zeros == [cases, cases]),
-            Family::Infinite => assert!((0.02..0.2).contains(&share(zeros[0]))),
         }
     }
 }
@@ -66,11 +62,7 @@ pub fn cases(family: Family, width: Width, count: usize) -> Vec<Case> {
         .map(|_| {
             let positions = positions(family, width, &mut rng);
             let indices = indices(&mut rng);
-            let mut case: Case = std::array::from_fn(|i| Vertex { position: positions[i], index: indices[i] });
-            if family == Family::Infinite {
-                case[rng.random_range(0..5)] = Vertex::AT_INFINITY;
-            }
-            case
+            std::array::from_fn(|i| Vertex { position: positions[i], index: indices[i] })
         })
         .collect()
 }
@@ -80,7 +72,7 @@ fn positions(family: Family, width: Width, rng: &mut impl Rng) -> [[i64; 3]; 5] 
     match family {
         Family::Uniform => uniform(max, rng),
         Family::Corners => corners(max, rng),
-        Family::SmallGrid | Family::Infinite => grid(max, rng),
+        Family::SmallGrid => grid(max, rng),
         Family::Coplanar => {
             let limit = max / 4;
             let [u, v]: [[i64; 3]; 2] =

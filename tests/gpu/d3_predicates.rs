@@ -30,33 +30,29 @@ fn check(width: Width) {
         let mut zeros = [0, 0];
         let mut decided = [0, 0];
         let mut refined = [0, 0];
-        let finite = |case: &Case| case.iter().all(|v| *v != Vertex::AT_INFINITY);
         for (case, signs) in cases.iter().zip(on_the_gpu(&kernel, width, &cases)) {
             let signs = signs.map(|s| s as Sign);
             let four = [case[0], case[1], case[2], case[3]];
-            if four.iter().all(|v| *v != Vertex::AT_INFINITY) {
-                let exact = exact_orientation(&case.map(|v| v.position));
-                assert_eq!(signs[0], exact, "orient3d_exact, {family:?}: {case:?}");
-                assert!(signs[3] == 0 || signs[3] == exact, "orient3d_filter, {family:?}: {case:?}");
-                assert!(signs[5] == 0 || signs[5] == exact, "orient3d_refined, {family:?}: {case:?}");
-                assert_eq!(signs[1], reference::orient3d(width, four), "orient3d, {family:?}: {case:?}");
-                assert!(exact == 0 || signs[1] == exact, "orient3d, {family:?}: {case:?}");
-                assert_ne!(signs[1], 0);
-                zeros[0] += usize::from(exact == 0);
-                decided[0] += usize::from(signs[3] != 0);
-                refined[0] += usize::from(signs[5] != 0);
-            }
-            assert_eq!(signs[2], reference::insphere(width, *case), "insphere, {family:?}: {case:?}");
+            let interior = Vertex { index: u32::MAX, ..case[4] };
+            let exact = exact_orientation(&case.map(|v| v.position));
+            assert_eq!(signs[0], exact, "orient3d_exact, {family:?}: {case:?}");
+            assert!(signs[3] == 0 || signs[3] == exact, "orient3d_filter, {family:?}: {case:?}");
+            assert!(signs[5] == 0 || signs[5] == exact, "orient3d_refined, {family:?}: {case:?}");
+            assert_eq!(signs[1], reference::orient3d(width, four, interior), "orientation, {family:?}: {case:?}");
+            assert!(exact == 0 || signs[1] == exact, "orientation, {family:?}: {case:?}");
+            assert_ne!(signs[1], 0);
+            zeros[0] += usize::from(exact == 0);
+            decided[0] += usize::from(signs[3] != 0);
+            refined[0] += usize::from(signs[5] != 0);
+            let exact = exact_in_circumsphere(&case.map(|v| v.position));
+            assert_eq!(signs[2], reference::insphere(width, *case), "in-sphere, {family:?}: {case:?}");
+            assert!(exact == 0 || signs[2] == exact, "in-sphere, {family:?}: {case:?}");
             assert_ne!(signs[2], 0);
-            if finite(case) {
-                let exact = exact_in_circumsphere(&case.map(|v| v.position));
-                assert!(exact == 0 || signs[2] == exact, "insphere, {family:?}: {case:?}");
-                assert!(signs[4] == 0 || signs[4] == exact, "insphere_filter, {family:?}: {case:?}");
-                assert!(signs[6] == 0 || signs[6] == exact, "insphere_refined, {family:?}: {case:?}");
-                zeros[1] += usize::from(exact == 0);
-                decided[1] += usize::from(signs[4] != 0);
-                refined[1] += usize::from(signs[6] != 0);
-            }
+            assert!(signs[4] == 0 || signs[4] == exact, "insphere_filter, {family:?}: {case:?}");
+            assert!(signs[6] == 0 || signs[6] == exact, "insphere_refined, {family:?}: {case:?}");
+            zeros[1] += usize::from(exact == 0);
+            decided[1] += usize::from(signs[4] != 0);
+            refined[1] += usize::from(signs[6] != 0);
         }
         println!(
             "{width:?} {family:?}: zeros {zeros:?}, decided by the filter {decided:?}, by the refined one {refined:?} of {}",

@@ -2,9 +2,10 @@
 
 use gdel::internals::gpu::layout::Pick;
 use gdel::internals::input::lattice::Width;
+use gdel::internals::predicates::integer::orient3d_narrow;
 use gdel::internals::reference::d3::predicates::{Vertex, insphere, orient3d};
 use gdel::internals::reference::run::{Settings, run};
-use rand::{RngExt, SeedableRng};
+use rand::{RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;
 
 type State = gdel::internals::reference::State<3>;
@@ -22,8 +23,11 @@ fn sites(mut points: Vec<Point>) -> Vec<Vertex> {
     for i in (1..order.len()).rev() {
         order.swap(i, rng.random_range(0..=i));
     }
-    let mut sites: Vec<Vertex> =
-        points.into_iter().zip(order).map(|(q, index)| Vertex { position: q, index }).collect();
+    along_a_curve(points.into_iter().zip(order).map(|(position, index)| Vertex { position, index }).collect())
+}
+
+/// Sorts sites by the interleaved bits of their coordinates.
+fn along_a_curve(mut sites: Vec<Vertex>) -> Vec<Vertex> {
     let bits = sites.iter().flat_map(|s| s.position).max().map_or(0, |m| 64 - m.leading_zeros());
     let morton =
         |q: Point| (0..bits).rev().fold(0u128, |key, b| q.iter().fold(key, |k, x| k << 1 | (x >> b & 1) as u128));
@@ -84,6 +88,46 @@ fn degenerate() {
     }
 }
 
+/// Points in the planes and on the edges of the hull are inserted in rounds that grow as the
+/// logarithm of their number, whatever the order of the input.
+#[test]
+fn rounds_on_rasters_grids_and_lines() {
+    let grid = |[a, b, c]: [i64; 3]| -> Vec<Point> {
+        (0..a * b * c).map(|i| [i % a, i / a % b, i / (a * b)].map(|x| 4 * x)).collect()
+    };
+    let tilted = |[x, y, z]: Point| [2 * x - y + 2 * z + 48, 2 * x + 2 * y - z + 48, 2 * y - x + 2 * z + 48];
+    let heights = random(48 * 48, 12, 40);
+    let raster = (0..48 * 48).map(|i| [4 * (i % 48), 4 * (i / 48), heights[i as usize][0]]).collect();
+    let slope = (0..48 * 48).map(|i| [4 * (i % 48), 4 * (i / 48), (i % 48) * (i % 48) + (i / 48) * 7]).collect();
+    let line = (0..800).map(|i| [4 * i, 0, 0]).chain([[1200, 2000, 0], [1300, 0, 2000]]).collect();
+    let shapes: Vec<(&str, Vec<Point>)> = vec![
+        ("raster", raster),
+        ("slope", slope),
+        ("full grid", grid([12, 12, 12])),
+        ("full grid, tilted", grid([12, 12, 12]).into_iter().map(tilted).collect()),
+        ("plate", grid([30, 30, 2])),
+        ("line and two points", line),
+    ];
+    for (name, points) in shapes {
+        let n = points.len();
+        // In order, in reverse, and in no order.
+        for order in 0..3 {
+            let mut indices: Vec<u32> = (0..n as u32).collect();
+            match order {
+                0 => {}
+                1 => indices.reverse(),
+                _ => indices.shuffle(&mut Pcg32::seed_from_u64(1)),
+            }
+            let sites = points.iter().zip(indices).map(|(&position, index)| Vertex { position, index }).collect();
+            let state = run(Width::Narrow, along_a_curve(sites), &Settings::default()).expect("not flat");
+            state.validate_end();
+            let rounds = state.counters.round;
+            println!("{name}, order {order}: {rounds} rounds, {} flip iterations", state.counters.iterations);
+            assert!(f64::from(rounds) <= 1.5 * (n as f64).log2() + 2.0, "{name}, order {order}: {rounds} rounds");
+        }
+    }
+}
+
 #[test]
 fn failed_vertices_are_few() {
     let sites = sites(random(100_000, 11, 1 << 24));
@@ -111,7 +155,8 @@ fn five(rng: &mut Pcg32, size: i64) -> [Vertex; 5] {
     }
 }
 
-/// A point inside a tetrahedron is inside its circumsphere, in every kind of degenerate position.
+/// A point inside a tetrahedron is inside its circumsphere, in every kind of degenerate position, and never inside a flat
+/// one whose plane does not hold the interior point.
 #[test]
 fn inside_is_inside_the_sphere() {
     let mut rng = Pcg32::seed_from_u64(3);
@@ -124,15 +169,22 @@ fn inside_is_inside_the_sphere() {
         if (0..5).any(|i| (0..i).any(|j| s[i].position == s[j].position)) {
             continue;
         }
+        let interior = Vertex { position: std::array::from_fn(|_| rng.random_range(0..3)), index: 100 };
+        let orient = |four| orient3d(Width::Narrow, four, interior);
         let replaced = |k: usize| {
             let mut four = [s[0], s[1], s[2], s[3]];
             four[k] = s[4];
             four
         };
-        let positive = orient3d(Width::Narrow, [s[0], s[1], s[2], s[3]]) > 0;
-        if positive && (0..4).all(|k| orient3d(Width::Narrow, replaced(k)) > 0) {
+        if orient([s[0], s[1], s[2], s[3]]) > 0 && (0..4).all(|k| orient(replaced(k)) > 0) {
             found += 1;
             assert_eq!(insphere(Width::Narrow, s), 1, "{s:?}");
+            let is_flat = |four: [Vertex; 4]| {
+                let [a, b, c, d] = four.map(|v| v.position);
+                orient3d_narrow(a, b, c, d) == 0
+            };
+            let four = [s[0], s[1], s[2], s[3]];
+            assert!(!is_flat(four) || is_flat([s[0], s[1], s[2], interior]), "{s:?}");
         }
     }
     assert!(found > 20);

@@ -6,7 +6,7 @@ use gdel::{
     internals::{
         dimension::Dimension,
         gpu::{
-            AdapterChoice, Binding, Gpu, Kernel, Recorder, Storage,
+            AdapterChoice, Binding, Compiler, Gpu, Kernel, Recorder, Storage,
             dim::Dim,
             phase1::Buffers,
             points::{DevicePoints, InputCounts},
@@ -41,7 +41,8 @@ impl Kernels {
     /// Runs a kernel on these buffers.
     pub fn run(&self, shader: &'static Shader, buffers: &[Binding<'_>]) {
         let mut compiled = self.compiled.borrow_mut();
-        let kernel = compiled.entry(shader.name()).or_insert_with(|| Kernel::new(&self.gpu, shader, self.width));
+        let kernel =
+            compiled.entry(shader.name()).or_insert_with(|| Compiler::new(&self.gpu).kernel(shader, self.width));
         let bindings = kernel.bind(&self.gpu, buffers);
         let mut recorder = Recorder::new(&self.gpu, None);
         recorder.dispatch(kernel, &bindings, 3);

@@ -5,9 +5,10 @@ use gdel::internals::predicates::Sign;
 use num_bigint::BigInt;
 
 /// Exponents of two, for coordinates below 16: δᵢ = 2^(−16 (i + 1)) is small enough to leave every
-/// determinant's sign alone, and the ε's, 2^(−256·2^bit), are small enough for every product of the
-/// δ's and the ε's before them.
+/// determinant's sign alone; η = 2^−128 for every product of a determinant and a δ; and the ε's,
+/// 2^(−256·2^bit), for every product of those before them.
 const DELTA: usize = 16;
+const ETA: usize = 128;
 const EPSILON: usize = 256;
 
 /// A row for each index and position: the coordinates, the height and 1, perturbed, and all times
@@ -27,6 +28,22 @@ pub fn perturbed_rows<const D: usize>(vertices: &[(u32, [i64; D])]) -> Vec<Vec<B
         coordinates.chain([(BigInt::from(height) << one) + delta, BigInt::from(1) << one]).collect()
     };
     vertices.iter().map(row).collect()
+}
+
+/// The rows of an orientation, where infinity leans away from the interior point: with that point as
+/// the origin, 1 + η·height in the place of 1.
+pub fn leaning<const D: usize>(mut rows: Vec<Vec<BigInt>>, interior: [i64; D]) -> Vec<Vec<BigInt>> {
+    let one = EPSILON << (D * D - 1);
+    for row in &mut rows {
+        // |p − i|² = |p|² − 2 p·i + |i|², of the coordinates before they are lowered by less than a
+        // half.
+        let before = |x: &BigInt| (x + (BigInt::from(1) << (one - 1))) >> one;
+        let shift: BigInt = (0..D).map(|axis| interior[axis] * (interior[axis] - 2 * before(&row[axis]))).sum();
+        let height = &row[D] + (shift << one);
+        row[D + 1] += height >> ETA;
+        (0..D).for_each(|axis| row[axis] -= BigInt::from(interior[axis]) << one);
+    }
+    rows
 }
 
 /// The sign of the determinant of these columns.

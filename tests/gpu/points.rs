@@ -7,7 +7,7 @@ use gdel::{
     internals::{
         dimension::Dimension,
         gpu::{
-            AdapterChoice, Gpu, Readback, Recorder,
+            AdapterChoice, Compiler, Gpu, Readback, Recorder,
             dim::Dim,
             points::{InputCounts, PointInput, PointStage},
         },
@@ -30,7 +30,7 @@ where
 {
     fn new() -> Self {
         let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a GPU or lavapipe");
-        Bench { stage: PointStage::new(&gpu), gpu }
+        Bench { stage: PointStage::new(&Compiler::new(&gpu)), gpu }
     }
 
     /// Runs the stage and compares everything with the CPU; returns the width and the counts.

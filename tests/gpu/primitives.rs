@@ -1,7 +1,7 @@
 //! Sort, scan and compaction on the GPU, against the CPU, for sizes around those of every block.
 
 use gdel::internals::gpu::{
-    AdapterChoice, Gpu, Readback, Recorder, Storage,
+    AdapterChoice, Compiler, Gpu, Readback, Recorder, Storage,
     primitives::{
         compact::Compact,
         scan::{self, Scan, ScanParams},
@@ -44,7 +44,7 @@ fn run<T: bytemuck::Pod>(gpu: &Gpu, result: &Storage<T>, body: impl FnOnce(&mut 
 #[test]
 fn scan_is_the_exclusive_prefix_sum() {
     let gpu = open();
-    let scan = Scan::new(&gpu);
+    let scan = Scan::new(&Compiler::new(&gpu));
     let mut rng = Pcg64Mcg::seed_from_u64(1);
     for n in sizes(SCAN_STEPS) {
         let values: Vec<u32> = (0..n).map(|_| rng.random_range(0..1000)).collect();
@@ -69,7 +69,7 @@ fn scan_is_the_exclusive_prefix_sum() {
 #[test]
 fn scan_goes_as_far_as_it_is_told() {
     let gpu = open();
-    let scan = Scan::new(&gpu);
+    let scan = Scan::new(&Compiler::new(&gpu));
     let params = Storage::with_contents(&gpu, "params", &[ScanParams { count: 3000 }]).unwrap();
     let values = Storage::with_contents(&gpu, "values", &[1; 3000]).unwrap();
     let offsets = Storage::new(&gpu, "offsets", 3000).unwrap();
@@ -86,7 +86,7 @@ fn scan_goes_as_far_as_it_is_told() {
 #[test]
 fn compaction_keeps_the_marked_in_order() {
     let gpu = open();
-    let compact = Compact::new(&gpu);
+    let compact = Compact::new(&Compiler::new(&gpu));
     let mut rng = Pcg64Mcg::seed_from_u64(2);
     for (i, n) in sizes(SCAN_STEPS).enumerate() {
         let share = [0.5, 0.01, 1.0, 0.0][i % 4];
@@ -119,7 +119,7 @@ fn check_sort(gpu: &Gpu, sort: &Sort, keys: Vec<u32>, bits: u32) {
 #[test]
 fn sort_is_stable_and_by_key() {
     let gpu = open();
-    let sort = Sort::new(&gpu);
+    let sort = Sort::new(&Compiler::new(&gpu));
     let mut rng = Pcg64Mcg::seed_from_u64(3);
     for n in sizes(SORT_STEPS) {
         check_sort(&gpu, &sort, (0..n).map(|_| rng.random()).collect(), 32);

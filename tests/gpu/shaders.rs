@@ -5,12 +5,13 @@ use std::collections::BTreeSet;
 use gdel::internals::{
     d2, d3,
     gpu::{
-        AdapterChoice, Gpu, Storage,
+        AdapterChoice, Compiler, Gpu, Storage,
         dim::OwnBuffers,
         phase1::{Aliases, Buffers},
         points::DevicePoints,
         shader::{self, Shaders},
     },
+    input::lattice::Width,
 };
 use pollster::block_on;
 
@@ -25,7 +26,7 @@ fn points(gpu: &Gpu) -> DevicePoints {
 
 /// The names of all variables of some kernels.
 fn variables(shaders: &Shaders) -> BTreeSet<&'static str> {
-    shaders.iter().flat_map(gdel::internals::gpu::shader::Shader::variables).map(|&(name, _)| name).collect()
+    shaders.iter().flat_map(gdel::internals::gpu::shader::Shader::variables).map(|&(name, ..)| name).collect()
 }
 
 /// Every kernel is bound in every run, which finds a name that is missing; this finds those that
@@ -72,10 +73,6 @@ fn shared_kernels_are_kernels_of_both_dimensions() {
 fn a_missing_buffer_is_named() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let control = Storage::<u32>::new(&gpu, "control", 64).unwrap();
-    let kernel = gdel::internals::gpu::Kernel::new(
-        &gpu,
-        shader::D3.get("flip_link"),
-        gdel::internals::input::lattice::Width::Narrow,
-    );
+    let kernel = Compiler::new(&gpu).on_demand(shader::D3.get("flip_link"), Width::Narrow);
     kernel.bind(&gpu, &[("control", control.buffer())]);
 }

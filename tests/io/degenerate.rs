@@ -11,40 +11,8 @@ use gdel::{
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// Point clouds per dimension; 2,000 are run by hand: `GDEL_DEGENERATE=2000 cargo test --test io`.
-const CASES: u64 = 100;
-
-/// Creates few points of a random kind that is degenerate: with ties, duplicates, and less than `D`
-/// dimensions.
-fn degenerate<const D: usize>(random: &mut Pcg64Mcg) -> Vec<[f64; D]> {
-    let count = random.random_range(0..60);
-    let side = random.random_range(1..7);
-    let scale = 2f64.powi(random.random_range(-40..40));
-    let flat = random.random_range(0..=D);
-    let kind = random.random_range(0..5);
-    let point = |random: &mut Pcg64Mcg| {
-        let mut p: [f64; D] = std::array::from_fn(|_| f64::from(random.random_range(0..side)));
-        match kind {
-            // A grid, of fewer dimensions where `flat` says so.
-            0 => p.iter_mut().skip(flat).for_each(|x| *x = 1.0),
-            // Points on a line through no corner.
-            1 => p = std::array::from_fn(|axis| p[0] * (axis + 1) as f64 + 0.5),
-            // Signs and order of 3, 4 and 12 from the origin: all on a sphere.
-            2 => {
-                let numbers = [3.0, 4.0, 12.0];
-                let turn = random.random_range(0..D);
-                p = std::array::from_fn(|axis| numbers[(axis + turn) % D]);
-                p.iter_mut().for_each(|x| *x *= if random.random() { 1.0 } else { -1.0 });
-            }
-            // Nearly a grid.
-            3 => p.iter_mut().for_each(|x| *x += f64::from(random.random_range(-1..2)) * f64::EPSILON),
-            // Of all sizes.
-            _ => p.iter_mut().for_each(|x| *x *= 2f64.powi(random.random_range(-300..300))),
-        }
-        p.map(|x| x * scale)
-    };
-    (0..count).map(|_| point(random)).collect()
-}
+#[path = "../shared/degenerate.rs"]
+mod clouds;
 
 /// What the test does in either dimension.
 trait Triangulation<const D: usize, const N: usize>: Mesh<D, N> + Sized {
@@ -82,11 +50,10 @@ impl Triangulation<2, 3> for Mesh2 {
 }
 
 fn check<M: Triangulation<D, N>, const D: usize, const N: usize>() {
-    let cases = std::env::var("GDEL_DEGENERATE").map_or(CASES, |count| count.parse().expect("a number"));
     let point_formats = [PointFormat::Text, PointFormat::Csv, PointFormat::Npy, PointFormat::Node, PointFormat::RawF64];
-    for case in 0..cases {
+    for case in clouds::cases(100) {
         let random = &mut Pcg64Mcg::seed_from_u64(case);
-        let points = degenerate::<D>(random);
+        let points = clouds::points::<D>(random, 60);
         let stored = PointBuf::F64(points.clone());
         let points = Points::F64(&points);
         let format = point_formats[case as usize % point_formats.len()];

@@ -14,8 +14,11 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         let d = load_vertex(5 * i + 3);
         let e = load_vertex(5 * i + 4);
         signs[7 * i] = orient3d_exact(a, b, c, d);
-        signs[7 * i + 1] = orient3d(a, b, c, d);
-        signs[7 * i + 2] = insphere(a, b, c, d, e);
+        // The last vertex stands for the interior point, too.
+        var interior = e;
+        interior.index = 0xffffffff;
+        signs[7 * i + 1] = perturbed_sign(a, b, c, d, interior, true);
+        signs[7 * i + 2] = perturbed_sign(a, b, c, d, e, false);
         signs[7 * i + 3] = orient3d_filter(load_high(5 * i), load_high(5 * i + 1), load_high(5 * i + 2), load_high(5 * i + 3));
         signs[7 * i + 4] = insphere_filter(
             load_high(5 * i), load_high(5 * i + 1), load_high(5 * i + 2), load_high(5 * i + 3), load_high(5 * i + 4)

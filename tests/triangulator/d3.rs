@@ -1,6 +1,6 @@
 //! The GPU engine on the inputs that make other codes fail.
 
-use crate::{agree, clouds, same, triangulate};
+use crate::{agree, clouds, degenerate, same, triangulate};
 use gdel::{
     internals::d3::generate::{Distribution3, generate3d},
     stats::Fallback,
@@ -150,6 +150,16 @@ fn the_dragon() {
     let cloud =
         gdel::internals::io::files::read_points(std::path::Path::new(path)).expect("run scripts/fetch-dragon.sh");
     agree(&cloud);
+}
+
+#[test]
+fn random_degenerate_points() {
+    for seed in degenerate::cases(40) {
+        let random = &mut Pcg64Mcg::seed_from_u64(seed);
+        let points = degenerate::points(random, 300);
+        println!("seed {seed}: {} points", points.len());
+        same(&points, &triangulate(&points));
+    }
 }
 
 proptest! {

@@ -1,11 +1,13 @@
 //! The engine `gpu` gives the same set of tetrahedra as the engine `cpu`.
 #![cfg(feature = "gpu")]
 
-#[path = "../clouds.rs"]
+#[path = "../shared/clouds.rs"]
 mod clouds;
 mod d2;
 mod d2_trouble;
 mod d3;
+#[path = "../shared/degenerate.rs"]
+mod degenerate;
 mod outcomes;
 mod statistics;
 

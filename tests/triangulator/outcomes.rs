@@ -1,6 +1,6 @@
 //! Every way in which a run can end, and that the next one works.
 
-use crate::{clouds, engine, open, same, triangulate};
+use crate::{clouds, engine, same, triangulate};
 use gdel::{
     Backend, Error, Mesh3, Progress, Triangulator,
     internals::{
@@ -271,6 +271,8 @@ fn an_input_that_is_too_large_is_an_error_that_says_what_would_fit() {
 #[test]
 fn a_triangulation_that_outgrows_the_device_is_an_error() {
     let mut engine = with_small_buffers(1 << 20);
+    // Flips wait for each other here, and the CPU engine would take over.
+    engine.set_settings(Settings { spare_iterations: u32::MAX, ..Settings::default() });
     let lines = clouds::two_skew_lines(400);
     let error = block_on(engine.triangulate((&lines).into(), &Options::default())).expect_err("1 MiB is not enough");
     let Error::BufferTooLarge { points: Some(fitting), .. } = error else { panic!("{error:?}") };
@@ -279,15 +281,53 @@ fn a_triangulation_that_outgrows_the_device_is_an_error() {
     same(&fewer, &block_on(engine.triangulate((&fewer).into(), &Options::default())).expect("fits"));
 }
 
-/// What flips that wait for each other would come to.
+/// Every segment of one line makes a tetrahedron with every segment of the other, and every two
+/// points of a moment curve are neighbours: many flips have to come before others can.
 #[test]
-fn a_run_of_too_many_flip_iterations_is_left_to_the_cpu() {
-    let mut engine = open();
-    engine.set_settings(Settings { max_iterations: 8, ..Settings::default() });
-    let points = generate3d(Distribution3::Uniform, 3_000, 1);
-    let mesh = block_on(engine.triangulate((&points).into(), &Options::default())).expect("the CPU engine goes on");
-    assert_eq!((mesh.stats.backend, &mesh.stats.fallback), (Backend::Cpu, &Some(Fallback::Flips)));
-    same(&points, &mesh);
+fn flips_that_wait_for_each_other_are_left_to_the_cpu_early() {
+    let inputs = [
+        ("two skew lines", clouds::two_skew_lines(300)),
+        ("moment curve", clouds::moment_curve(600)),
+        ("circle and axis", clouds::circle_and_its_axis(300)),
+    ];
+    for (name, points) in inputs {
+        let mesh = triangulate(&points);
+        assert_eq!((mesh.stats.backend, &mesh.stats.fallback), (Backend::Cpu, &Some(Fallback::Flips)), "{name}");
+        let gpu = mesh.stats.gpu.as_ref().expect("it tried");
+        println!("{name}: {} iterations, {} flips", gpu.flip_iterations, gpu.flips_23 + gpu.flips_32);
+        // Those that are spare, those that flips have earned, and those of a round.
+        assert!(gpu.flip_iterations < 600, "{name}: {}", gpu.flip_iterations);
+        assert!(gpu.rounds.len() > 2 && gpu.readbacks > 0 && gpu.dispatches > 0 && gpu.bytes > 0);
+        same(&points, &mesh);
+    }
+    // The engine can still be used.
+    let cylinder = clouds::cylinder(600);
+    let mesh = triangulate(&cylinder);
+    assert_eq!((mesh.stats.backend, &mesh.stats.fallback), (Backend::Gpu, &None));
+    same(&cylinder, &mesh);
+}
+
+/// Points in the planes of the hull keep no flips waiting.
+#[test]
+fn rasters_and_full_grids_take_few_flip_iterations() {
+    let inputs = [
+        ("raster", clouds::raster(60, 1.0), 260),
+        ("raster, unrounded", clouds::raster(60, 0.0), 260),
+        ("terrain", clouds::terrain(60, 0.7, 0.0), 500),
+        ("terrain, whole heights", clouds::terrain(60, 0.7, 1.0), 400),
+        ("full grid", clouds::grid(16), 230),
+        ("full grid, shuffled", clouds::shuffled(&clouds::grid(16), 1), 230),
+        ("flat ground", clouds::flat_ground(2_000), 150),
+    ];
+    for (name, points, most) in inputs {
+        let mesh = triangulate(&points);
+        assert_eq!(mesh.stats.fallback, None, "{name}");
+        let gpu = mesh.stats.gpu.as_ref().expect("it did the work");
+        let rounds = gpu.rounds.iter().filter(|round| round.inserted > 0).count();
+        println!("{name}: {rounds} rounds, {} flip iterations", gpu.flip_iterations);
+        assert!(rounds <= 16 && gpu.flip_iterations <= most, "{name}: {rounds} rounds, {}", gpu.flip_iterations);
+        same(&points, &mesh);
+    }
 }
 
 #[test]

@@ -24,9 +24,6 @@ export function assemble(path, values, included = new Set()) {
   return resolved.join('\n');
 }
 
-/** The vertex at infinity in 3D. */
-const INFINITE = 0xffff_ffff;
-
 const BITS = { narrow: 31n, wide: 62n };
 
 /** SplitMix64: the same cases in every run. */
@@ -60,7 +57,6 @@ const FAMILIES = {
   uniform: (d, max, { between }) => list(d + 2, () => list(d, () => between(0n, max))),
   corners: (d, max, { small }) => list(d + 2, () => list(d, () => (small(0, 1) ? max : 0n))),
   smallGrid: grid,
-  infinite: grid,
   /** In a plane, or on a line in 2D, exactly or off by one. */
   flat(d, max, { between, small }) {
     const limit = max / 64n;
@@ -132,9 +128,8 @@ function grid(d, max, { between, small }) {
   return list(d + 2, () => origin.map((x) => x + step * between(0n, side)));
 }
 
-/** The names of the families in `dimension`. */
-export const families = (dimension) =>
-  Object.keys(FAMILIES).filter((name) => dimension === 3 || name !== 'infinite');
+/** The names of the families. */
+export const families = Object.keys(FAMILIES);
 
 /** `count` cases of a family: of each vertex its position and index. */
 export function cases(family, dimension, width, count) {
@@ -143,12 +138,9 @@ export function cases(family, dimension, width, count) {
   return list(count, () => {
     const positions = FAMILIES[family](dimension, max, random);
     // Indices in no order, and large ones too.
-    const base = random.small(0, 1) ? 0 : INFINITE - 16;
+    const base = random.small(0, 1) ? 0 : 0xffff_ffff - 16;
     const indices = random.shuffle(list(16, (i) => base + i));
-    const vertices = positions.map((position, i) => ({ position, index: indices[i] }));
-    if (family === 'infinite')
-      vertices[random.small(0, dimension + 1)] = { position: [0n, 0n, 0n], index: INFINITE };
-    return vertices;
+    return positions.map((position, i) => ({ position, index: indices[i] }));
   });
 }
 
@@ -166,33 +158,22 @@ const sign = (value) => (value > 0n ? 1 : value < 0n ? -1 : 0);
 
 /**
  * The exact signs of a case: the orientation of all vertices but the last, as det(b − a, c − a, …);
- * the determinant of the in-sphere test; and that with ties broken by the heights of the points,
- * the lowest index first. The last is 0 only where all points are coplanar, or collinear in 2D.
- * Null if there is none.
+ * the determinant of the in-sphere test; that with ties broken by the heights of the points, the
+ * lowest index first, which is 0 only where all points are coplanar, or collinear in 2D; and the
+ * orientation with ties broken by the last vertex for the interior point, as far as heights decide.
  */
 export function exactSigns(vertices) {
-  const isInfinite = vertices.map(({ index }) => index === INFINITE);
   const flat = vertices.map(({ position }) => [...position, 1n]);
   const minus = (p, q) => p.map((x, axis) => x - q[axis]);
   const [first, ...others] = vertices.slice(0, -1).map(({ position }) => position);
-  const orientation = isInfinite.slice(0, -1).includes(true)
-    ? null
-    : sign(determinant(others.map((p) => minus(p, first))));
-  // The point at infinity is (0, …, 0) with nothing but a height.
-  const lifted = vertices.map(({ position }, i) =>
-    isInfinite[i]
-      ? [1n, ...position, 0n]
-      : [position.reduce((sum, x) => sum + x * x, 0n), ...flat[i]],
-  );
+  const orientation = sign(determinant(others.map((p) => minus(p, first))));
+  const lifted = flat.map((row) => [row.slice(0, -1).reduce((sum, x) => sum + x * x, 0n), ...row]);
   const inSphere = sign(determinant(lifted));
-  let broken = inSphere;
-  if (inSphere === 0 && isInfinite.includes(true)) broken = null;
-  else if (inSphere === 0) {
-    const byIndex = [...vertices.keys()].sort((i, j) => vertices[i].index - vertices[j].index);
-    const cofactor = (i) => (i % 2 ? -1 : 1) * sign(determinant(flat.filter((_, j) => j !== i)));
-    broken = byIndex.map(cofactor).find((s) => s !== 0) ?? 0;
-  }
-  return { orientation, inSphere, broken };
+  // Of a set of points that is flat, the last vertex's cofactor is 0.
+  const byIndex = [...vertices.keys()].sort((i, j) => vertices[i].index - vertices[j].index);
+  const cofactor = (i) => (i % 2 ? -1 : 1) * sign(determinant(flat.filter((_, j) => j !== i)));
+  const broken = inSphere || (byIndex.map(cofactor).find((s) => s !== 0) ?? 0);
+  return { orientation, inSphere, broken, leaning: orientation || broken };
 }
 
 /** The contents of the kernel's input buffers: words of 32 bits. */

@@ -25,8 +25,6 @@ impl Dim<2> for Dimension<2> {
     /// There are two slots per point, and some.
     const MAX_POINTS: usize = 500_000_000;
     const HISTORY: u32 = 2;
-    /// Among the inputs that need more are those in which a fan of flat triangles is turned over.
-    const MAX_ITERATIONS: u32 = 1 << 12;
 
     fn blocks(points: u32, _tail: u32) -> u32 {
         blocks(points)

@@ -24,7 +24,6 @@ impl Dim<3> for Dimension<3> {
     const MAX_POINTS: usize = 120_000_000;
     /// Uniform points take 3.1 nodes per point in the round that takes most.
     const HISTORY: u32 = 4;
-    const MAX_ITERATIONS: u32 = 1 << 14;
 
     /// Returns the blocks of the points, that of infinity, and the tail.
     fn blocks(points: u32, tail: u32) -> u32 {

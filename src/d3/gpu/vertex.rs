@@ -12,11 +12,7 @@
 //! 32-byte sector.
 
 use crate::gpu::dim::words_of;
-use crate::gpu::shader::constants::d3;
 use crate::input::lattice::Width;
-
-/// The vertex at infinity: above every vertex, and above every input index.
-pub const INFINITE: u32 = d3::INFINITE;
 
 /// Appends the words of a vertex with lattice coordinates `position`. `rounded` says that they are
 /// not the true ones; only the wide form keeps that, because the narrow lattice rounds nothing.

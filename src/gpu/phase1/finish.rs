@@ -8,7 +8,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Binding, Gpu, Kernel, Pending, Readback, Recorder, Storage,
+        Binding, Compiler, Gpu, Kernel, Pending, Readback, Recorder, Storage,
         dim::{Corners, Dim},
         layout::Counters,
         phase1::buffers::Buffers,
@@ -146,13 +146,16 @@ where
 }
 
 impl FinishStage {
-    /// Compiles the kernels.
-    pub(crate) fn new<const D: usize>(gpu: &Gpu, width: Width) -> Self
+    /// Creates the kernels.
+    pub(crate) fn new<const D: usize>(compiler: &Compiler<'_>, width: Width) -> Self
     where
         Dimension<D>: Finish<D>,
     {
-        let kernel = |name: &&str| Kernel::new(gpu, Dimension::<D>::SHADERS.get(name), width);
-        FinishStage { steps: Dimension::<D>::STEPS.iter().map(|step| step.map(kernel)).collect(), scan: Scan::new(gpu) }
+        let kernel = |name: &&str| compiler.kernel(Dimension::<D>::SHADERS.get(name), width);
+        FinishStage {
+            steps: Dimension::<D>::STEPS.iter().map(|step| step.map(kernel)).collect(),
+            scan: Scan::new(compiler),
+        }
     }
 
     /// Binds the kernels to these buffers.

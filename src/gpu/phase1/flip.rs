@@ -2,7 +2,7 @@
 
 use crate::{
     dimension::Dimension,
-    gpu::{Gpu, Kernel, Recorder, dim::Dim, phase1::buffers::Buffers},
+    gpu::{Compiler, Gpu, Kernel, Recorder, dim::Dim, phase1::buffers::Buffers},
     input::lattice::Width,
 };
 
@@ -46,20 +46,21 @@ pub(crate) struct FlipPlan {
 }
 
 impl Flip {
-    /// Compiles the kernels of `D` dimensions.
-    pub(crate) fn new<const D: usize>(gpu: &Gpu, width: Width) -> Self
+    /// Creates the kernels of `D` dimensions.
+    pub(crate) fn new<const D: usize>(compiler: &Compiler<'_>, width: Width) -> Self
     where
         Dimension<D>: Dim<D>,
     {
-        let kernel = |name| Kernel::new(gpu, Dimension::<D>::SHADERS.get(name), width);
-        let optional = |name| Dimension::<D>::SHADERS.find(name).map(|shader| Kernel::new(gpu, shader, width));
+        let kernel = |name| compiler.kernel(Dimension::<D>::SHADERS.get(name), width);
+        let optional = |name| Dimension::<D>::SHADERS.find(name).map(|shader| compiler.kernel(shader, width));
+        let compact = Dimension::<D>::SHADERS.find("flip_compact");
         Flip {
             check: kernel("flip_check"),
             check_exact: optional("flip_check_exact"),
             commit: kernel("flip_commit"),
             link: kernel("flip_link"),
-            compact: optional("flip_compact"),
-            clear_votes: kernel("clear_votes"),
+            compact: compact.map(|shader| compiler.on_demand(shader, width)),
+            clear_votes: compiler.on_demand(Dimension::<D>::SHADERS.get("clear_votes"), width),
             few: optional("flip_few"),
         }
     }

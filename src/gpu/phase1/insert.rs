@@ -5,7 +5,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Gpu, Kernel, Recorder,
+        Compiler, Gpu, Kernel, Recorder,
         dim::Dim,
         phase1::buffers::Buffers,
         waiting::{BoundWaitingList, WaitingList},
@@ -48,17 +48,17 @@ impl BoundInsert {
 }
 
 impl Insert {
-    /// Compiles the kernels of `D` dimensions.
-    pub(crate) fn new<const D: usize>(gpu: &Gpu, width: Width) -> Self
+    /// Creates the kernels of `D` dimensions.
+    pub(crate) fn new<const D: usize>(compiler: &Compiler<'_>, width: Width) -> Self
     where
         Dimension<D>: Dim<D>,
     {
-        let kernel = |name| Kernel::new(gpu, Dimension::<D>::SHADERS.get(name), width);
+        let kernel = |name| compiler.kernel(Dimension::<D>::SHADERS.get(name), width);
         Insert {
-            fill_free: Dimension::<D>::SHADERS.find("fill_free").map(|shader| Kernel::new(gpu, shader, width)),
+            fill_free: Dimension::<D>::SHADERS.find("fill_free").map(|shader| compiler.kernel(shader, width)),
             locate: kernel("locate"),
             begin_round: kernel("begin_round"),
-            list: WaitingList::new(gpu),
+            list: WaitingList::new(compiler),
             pick_score: kernel("pick_score"),
             pick_point: kernel("pick_point"),
             split: kernel("split"),

@@ -4,7 +4,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Gpu, Readback,
+        Compiler, Gpu, Readback,
         phase1::{finish::Finish, memory::Kept, stages::Stages},
         points::PointStage,
     },
@@ -32,17 +32,17 @@ where
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`Gpu::with_error_scope`].
+    /// Returns the errors of [`Compiler::finish`].
     pub async fn new(gpu: &Gpu, width: Width) -> Result<Self, Error> {
-        gpu.with_error_scope("pipelines", || {
-            Ok(Phase1 {
-                points: PointStage::new(gpu),
-                stages: Stages::new::<D>(gpu, width),
-                readback: Readback::default(),
-                kept: Kept::default(),
-            })
-        })
-        .await
+        let compiler = Compiler::new(gpu);
+        let phase1 = Phase1 {
+            points: PointStage::new(&compiler),
+            stages: Stages::new::<D>(&compiler, width),
+            readback: Readback::default(),
+            kept: Kept::default(),
+        };
+        compiler.finish().await?;
+        Ok(phase1)
     }
 
     /// Gives the buffers of the last run back.

@@ -2,7 +2,7 @@
 
 use crate::{
     dimension::Dimension,
-    gpu::{Gpu, Kernel, Recorder, dim::Dim, phase1::buffers::Buffers},
+    gpu::{Compiler, Gpu, Kernel, Recorder, dim::Dim, phase1::buffers::Buffers},
     input::lattice::Width,
 };
 
@@ -15,12 +15,12 @@ pub(crate) struct Relocate(Kernel);
 pub(crate) struct BoundRelocate(wgpu::BindGroup);
 
 impl Relocate {
-    /// Compiles the kernel of `D` dimensions.
-    pub(crate) fn new<const D: usize>(gpu: &Gpu, width: Width) -> Self
+    /// Creates the kernel of `D` dimensions.
+    pub(crate) fn new<const D: usize>(compiler: &Compiler<'_>, width: Width) -> Self
     where
         Dimension<D>: Dim<D>,
     {
-        Relocate(Kernel::new(gpu, Dimension::<D>::SHADERS.get("relocate"), width))
+        Relocate(compiler.kernel(Dimension::<D>::SHADERS.get("relocate"), width))
     }
 
     /// Binds the kernel to these buffers.

@@ -104,9 +104,9 @@ const GROWTH: u32 = 5;
 /// when it begins with that.
 const FEW_LIMIT: u32 = 4;
 
-/// The most flip iterations that one workgroup does in a dispatch: some milliseconds, after which
-/// the round goes on.
-const FEW_ITERATIONS: u32 = 512;
+/// The most flip iterations that one workgroup does in a dispatch: more than a round of an ordinary
+/// input takes, and so few that a run is not far beyond them when it is found to be slow.
+const FEW_ITERATIONS: u32 = 128;
 
 /// Votes are cleared when the lowest bid is so high: a quarter of the numbers that are left by then
 /// suffices for all rounds that may be submitted before.
@@ -401,6 +401,18 @@ where
         let (bound, workgroups) = (&self.memory.bound, self.workgroups());
         stages.insert.record_fill_free(recorder, &bound.insert, "grow", workgroups);
         Ok(())
+    }
+
+    /// Ends the run without a mesh, and keeps its buffers for the next one. Returns what it did as
+    /// far as that is known.
+    pub fn abandon(self) -> Phase1Stats {
+        let Run { kernels, points, memory, read_before, counters, mut stats, mut clock, .. } = self;
+        stats.time = clock.lap();
+        stats.counters = counters;
+        stats.readbacks = kernels.readback.count() - read_before;
+        stats.bytes = memory.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
+        kernels.kept = Kept { points, memory: Some(memory) };
+        stats
     }
 
     /// Makes the mesh and reads it back.

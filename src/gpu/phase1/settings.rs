@@ -2,7 +2,10 @@
 
 use crate::{
     dimension::Dimension,
-    gpu::{dim::Dim, layout::Pick},
+    gpu::{
+        dim::Dim,
+        layout::{Counters, Pick},
+    },
     options::Winding,
 };
 
@@ -39,10 +42,10 @@ pub struct Settings<const D: usize> {
     pub rounds: u32,
     /// The batches of rounds that are submitted before the counters of the first one are read.
     pub batches: u32,
-    /// The flip iterations of a run after which the GPU engine leaves it to the CPU engine. Most
-    /// inputs take a few hundred, whatever their size. More are a sign that the flips wait for each
-    /// other; then the CPU engine finishes sooner.
-    pub max_iterations: u32,
+    /// The flip iterations that a run may take whatever comes of them; see [`Settings::is_slow`].
+    pub spare_iterations: u32,
+    /// The flips that earn a run one more flip iteration.
+    pub flips_per_iteration: u32,
     /// Whether points are ordered along the Hilbert curve, and so are the slots of their simplices
     /// in memory (§4.3, Figure 12).
     pub sort: bool,
@@ -66,9 +69,23 @@ where
             few: 96,
             rounds: 1,
             batches: 2,
-            max_iterations: Dimension::<D>::MAX_ITERATIONS,
+            spare_iterations: 256,
+            flips_per_iteration: 256,
             sort: true,
             winding: Winding::CounterClockwise,
         }
+    }
+}
+
+impl<const D: usize> Settings<D> {
+    /// Returns whether the flips of a run wait for each other, so that the CPU engine finishes
+    /// sooner.
+    ///
+    /// An iteration takes a device some 60 µs if few simplices are active, in which the CPU engine
+    /// does what takes Phase 1 some 400 flips. Ordinary inputs of 10,000 points have 300 to 1,000
+    /// flips per iteration; on the moment curve or two skew lines there are 10 to 30, however many
+    /// the points are. What few points take is within the spare iterations.
+    pub fn is_slow(&self, counters: &Counters) -> bool {
+        counters.iterations > self.spare_iterations.saturating_add(counters.flips() / self.flips_per_iteration.max(1))
     }
 }

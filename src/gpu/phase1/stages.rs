@@ -4,7 +4,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Gpu,
+        Compiler, Gpu,
         phase1::{
             buffers::Buffers,
             finish::{BoundFinish, Finish, FinishStage},
@@ -39,15 +39,15 @@ where
 
 impl Stages {
     /// Compiles the kernels of `D` dimensions.
-    pub(crate) fn new<const D: usize>(gpu: &Gpu, width: Width) -> Self
+    pub(crate) fn new<const D: usize>(compiler: &Compiler<'_>, width: Width) -> Self
     where
         Dimension<D>: Finish<D>,
     {
         Stages {
-            insert: Insert::new::<D>(gpu, width),
-            flip: Flip::new::<D>(gpu, width),
-            relocate: Relocate::new::<D>(gpu, width),
-            finish: FinishStage::new::<D>(gpu, width),
+            insert: Insert::new::<D>(compiler, width),
+            flip: Flip::new::<D>(compiler, width),
+            relocate: Relocate::new::<D>(compiler, width),
+            finish: FinishStage::new::<D>(compiler, width),
         }
     }
 

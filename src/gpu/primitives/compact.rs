@@ -3,7 +3,7 @@
 use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
 use crate::{
     error::Error,
-    gpu::{Gpu, Kernel, Recorder, Storage, shader, workgroups},
+    gpu::{Compiler, Gpu, Kernel, Recorder, Storage, shader, workgroups},
     input::lattice::Width,
 };
 
@@ -23,9 +23,9 @@ pub struct BoundCompact {
 }
 
 impl Compact {
-    /// Compiles the kernels.
-    pub fn new(gpu: &Gpu) -> Self {
-        Compact { scan: Scan::new(gpu), scatter: Kernel::new(gpu, shader::COMMON.get("compact"), Width::Narrow) }
+    /// Creates the kernels.
+    pub fn new(compiler: &Compiler<'_>) -> Self {
+        Compact { scan: Scan::new(compiler), scatter: compiler.kernel(shader::COMMON.get("compact"), Width::Narrow) }
     }
 
     /// Prepares a compaction: `kept` becomes the numbers, ascending, of the entries of `marks` that

@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use crate::{
     error::Error,
     gpu::{
-        Gpu, Kernel, Recorder, Storage,
+        Compiler, Gpu, Kernel, Recorder, Storage,
         shader::{self, assert_layout, constants::primitives as constants},
     },
     input::lattice::Width,
@@ -45,9 +45,9 @@ pub struct BoundScan {
 }
 
 impl Scan {
-    /// Compiles the kernels.
-    pub fn new(gpu: &Gpu) -> Self {
-        let kernel = |name| Kernel::new(gpu, shader::COMMON.get(name), Width::Narrow);
+    /// Creates the kernels.
+    pub fn new(compiler: &Compiler<'_>) -> Self {
+        let kernel = |name| compiler.kernel(shader::COMMON.get(name), Width::Narrow);
         let [reduce, sums, parts] = ["scan_reduce", "scan_sums", "scan_parts"].map(kernel);
         Scan { reduce, sums, parts }
     }

@@ -9,7 +9,7 @@ use bytemuck::{Pod, Zeroable};
 use crate::{
     error::Error,
     gpu::{
-        Gpu, Kernel, MAX_WORKGROUPS, Recorder, Storage,
+        Compiler, Gpu, Kernel, MAX_WORKGROUPS, Recorder, Storage,
         shader::{self, assert_layout, constants::primitives as constants},
     },
     input::lattice::Width,
@@ -50,9 +50,9 @@ pub struct BoundSort {
 }
 
 impl Sort {
-    /// Compiles the kernels.
-    pub fn new(gpu: &Gpu) -> Self {
-        let kernel = |name| Kernel::new(gpu, shader::COMMON.get(name), Width::Narrow);
+    /// Creates the kernels.
+    pub fn new(compiler: &Compiler<'_>) -> Self {
+        let kernel = |name| compiler.kernel(shader::COMMON.get(name), Width::Narrow);
         let [count, scan, scatter] = ["sort_count", "sort_scan", "sort_scatter"].map(kernel);
         Sort { count, scan, scatter }
     }

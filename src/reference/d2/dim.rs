@@ -25,7 +25,7 @@ impl ReferenceDim<2> for Dimension<2> {
     }
 
     fn orient_perturbed(_width: Width, points: &[Vertex], corners: [u32; 3]) -> Sign {
-        predicates::orient2d(corners.map(|v| points[v as usize]))
+        predicates::orient2d(corners.map(|v| points[v as usize]), points[points.len() - 1])
     }
 
     fn in_sphere(_width: Width, points: &[Vertex], [a, b, c]: [u32; 3], e: u32) -> Sign {

@@ -3,7 +3,7 @@
 use crate::gpu::layout::Pick;
 
 use crate::reference::State;
-use crate::reference::pick::{difference, scale_of};
+use crate::reference::pick::{difference, is_distinct, scale_of, score_by_distance, score_by_volume};
 
 /// Returns how much a triangle wants a point, at least 1. Scores of different triangles do not
 /// compare.
@@ -17,39 +17,26 @@ pub(super) fn score(state: &State<2>, t: u32, p: u32) -> u32 {
         let [a, b] = [1, 2].map(|i| vertices[(k + i) % 3]);
         let scale = scale_of(&[difference(b, a)]);
         let [u, v] = [difference(b, a), difference(p, a)].map(|d| scaled(d, scale));
-        let to_b = [u[0] - v[0], u[1] - v[1]];
-        return score_or_betweenness(cross(u, v), dot(v, to_b));
+        let area = cross(u, v);
+        if is_distinct(area, (u[0] * v[1]).abs() + (u[1] * v[0]).abs()) {
+            return score_by_volume(area);
+        }
+        return score_by_distance([v, [v[0] - u[0], v[1] - u[1]]].map(square));
     }
     let scale = scale_of(&[1, 2].map(|i| difference(vertices[i], vertices[0])));
     let [a, b, c] = vertices.map(|v| scaled(difference(v, p), scale));
-    let square = |d| dot(d, d);
     if state.params.pick == Pick::Centroid as u32 {
         return 0x7f80_0000 - square([a[0] + b[0] + c[0], a[1] + b[1] + c[1]]).to_bits();
     }
     // The in-circle determinant: for one triangle it grows as the distance from the circumcentre
-    // falls.
+    // falls. In a flat one it is 0.
     let inside = square(a) * cross(b, c) + square(b) * cross(c, a) + square(c) * cross(a, b);
-    score_or_betweenness(inside, -median([dot(a, b), dot(b, c), dot(c, a)]))
+    if inside == 0.0 { score_by_distance([a, b, c].map(square)) } else { score_by_volume(inside) }
 }
 
-/// Returns the score of a point by its distance; where that is 0 because the point lies on the line
-/// of the edge or of the flat triangle, by how much it lies in the middle between two neighbouring
-/// vertices, below all scores by distance. So collinear points halve what is between them, and it
-/// does not take a round for each.
-fn score_or_betweenness(distance: f32, betweenness: f32) -> u32 {
-    let score = if distance == 0.0 { betweenness * BELOW_DISTANCES } else { distance };
-    score.abs().to_bits() + 1
+fn square(a: [f32; 2]) -> f32 {
+    dot(a, a)
 }
-
-/// Returns, for a point of the line of a flat triangle, of the three products of the ways to its
-/// vertices that of the neighbours. The product of the outer vertices is lower, the third is
-/// positive.
-fn median([x, y, z]: [f32; 3]) -> f32 {
-    x.min(y).max(x.max(y).min(z))
-}
-
-/// 2⁻⁷⁰: distances that are not 0 are at least about 2⁻⁶³, and betweenness is at most about 1.
-const BELOW_DISTANCES: f32 = f32::from_bits((127 - 70) << 23);
 
 fn dot(a: [f32; 2], b: [f32; 2]) -> f32 {
     a[0] * b[0] + a[1] * b[1]

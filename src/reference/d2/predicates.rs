@@ -36,15 +36,21 @@ pub fn orient2d_exact([a, b, c]: [[i64; 2]; 3]) -> Sign {
 }
 
 /// Returns the sign of det(b − a, c − a), with ties broken: never 0 for vertices with different
-/// indices.
-pub fn orient2d(vertices: [Vertex; 3]) -> Sign {
-    let signs = PERTURBATIONS.into_iter().map(|set| orient2d_exact(lowered(vertices, set)));
-    signs.into_iter().find(|&sign| sign != 0).unwrap_or(0)
+/// indices. Infinity leans away from `interior`, a point with an index above theirs, which may also
+/// be one of them.
+pub fn orient2d([a, b, c]: [Vertex; 3], interior: Vertex) -> Sign {
+    perturbed([a, b, c, interior], |[a, b, c, _]| orient2d_exact([a, b, c]))
 }
 
 /// Returns the sign of d against the circle through the positively oriented a, b, c, positive
 /// inside, with ties broken: never 0 for vertices with different indices.
 pub fn incircle(vertices: [Vertex; 4]) -> Sign {
+    perturbed(vertices, |_| 0)
+}
+
+/// Returns the first sign that is not 0, over all sets of coordinates to lower: that of `first`, of
+/// the in-circle determinant, and of the heights in it.
+fn perturbed(vertices: [Vertex; 4], first: impl Fn([[i64; 2]; 4]) -> Sign) -> Sign {
     let positions = vertices.map(|v| v.position);
     let heights = positions.map(|p| {
         let [x, y] = minus(p, positions[3]);
@@ -52,14 +58,14 @@ pub fn incircle(vertices: [Vertex; 4]) -> Sign {
     });
     let order = by_index(&vertices);
     let sign_in = |set: u32| {
-        let [a, b, c, d] = lowered(vertices, set);
+        let lower @ [a, b, c, d] = lowered(vertices, set);
         let [p, q, r] = [minus(a, d), minus(b, d), minus(c, d)];
         let minors = [cross(q, r), cross(r, p), cross(p, q)];
         let volume: BigInt = (0..3).map(|k| BigInt::from(heights[k]) * BigInt::from(minors[k])).sum();
         let by_volume = sign_of(&volume);
         let coefficients = [minors[0], minors[1], minors[2], -minors.iter().sum::<i128>()];
         let by_height = order.into_iter().map(|k| coefficients[k].signum() as Sign);
-        [by_volume].into_iter().chain(by_height).find(|&sign| sign != 0)
+        [first(lower), by_volume].into_iter().chain(by_height).find(|&sign| sign != 0)
     };
     PERTURBATIONS.into_iter().find_map(sign_in).unwrap_or(0)
 }

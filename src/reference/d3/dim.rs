@@ -25,7 +25,7 @@ impl ReferenceDim<3> for Dimension<3> {
     }
 
     fn orient_perturbed(width: Width, points: &[Vertex], corners: [u32; 4]) -> Sign {
-        predicates::orient3d(width, corners.map(|v| points[v as usize]))
+        predicates::orient3d(width, corners.map(|v| points[v as usize]), points[points.len() - 1])
     }
 
     fn in_sphere(width: Width, points: &[Vertex], [a, b, c, d]: [u32; 4], e: u32) -> Sign {

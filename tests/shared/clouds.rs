@@ -29,6 +29,42 @@ pub fn two_skew_lines(n: u32) -> Vec<[f64; 3]> {
     (0..n).flat_map(|i| [[f64::from(i), 0.0, 0.0], [middle, f64::from(i) - middle - 0.5, 40.0]]).collect()
 }
 
+/// Returns a raster of `side` × `side` heights, as terrain is most often stored, in steps of `step`;
+/// with 0, heights are as fine as `f64` has them.
+pub fn raster(side: u32, step: f64) -> Vec<[f64; 3]> {
+    let noise = generate3d(Distribution3::Uniform, (side * side) as usize, 1);
+    let height = |i: u32| {
+        let [x, y] = [i % side, i / side].map(f64::from);
+        let z = 9.0 * libm::sin(0.11 * x) * libm::cos(0.07 * y) + 4.0 * noise[i as usize][0];
+        [x, y, if step > 0.0 { libm::rint(z / step) * step } else { z }]
+    };
+    (0..side * side).map(height).collect()
+}
+
+/// Returns a raster like [`raster`], of smooth and steep terrain.
+pub fn terrain(side: u32, phase: f64, step: f64) -> Vec<[f64; 3]> {
+    let height = |i: u32| {
+        let [x, y] = [i % side, i / side].map(f64::from);
+        let z = 40.0 * libm::sin(0.05 * x + phase) * libm::cos(0.04 * y) + 0.1 * x;
+        [x, y, if step > 0.0 { libm::rint(z / step) * step } else { z }]
+    };
+    (0..side * side).map(height).collect()
+}
+
+/// Returns `n` points of the moment curve (t, t², t³), every two of which are neighbours.
+pub fn moment_curve(n: u32) -> Vec<[f64; 3]> {
+    (0..n).map(|i| f64::from(i) / f64::from(n)).map(|t| [t, t * t, t * t * t]).collect()
+}
+
+/// Returns `n` points on a cylinder, in rings of 25.
+pub fn cylinder(n: u32) -> Vec<[f64; 3]> {
+    let at = |i: u32| {
+        let angle = TAU * f64::from(i % 25) / 25.0;
+        [libm::cos(angle), libm::sin(angle), f64::from(i / 25) / 8.0]
+    };
+    (0..n).map(at).collect()
+}
+
 /// Returns `n` points on a circle, and as many on its axis.
 pub fn circle_and_its_axis(n: u32) -> Vec<[f64; 3]> {
     let circle = (0..n).map(|i| {
