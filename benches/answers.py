@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares what gdel derives from a mesh with CGAL, SciPy, kiddo and voro++, in one run, on one core.
 
-    benches/answers.py [--runs N] [--points N] [--queries N]
+    benches/answers.py [--runs N] [--points N] [--queries N] [--peers CGAL,SciPy,kiddo,voro++]
 
 Runs all sides in turn, a fresh process each time, and prints a table in Markdown: medians of the seconds of processor
 time without file access, and their ratio with the range over the runs. Fails when two sides disagree: about the number
@@ -26,7 +26,7 @@ POINTS, QUERIES = FOLDER / "points.f64", FOLDER / "queries.f64"
 VORONOI_POINTS = "100000"
 
 
-def build():
+def build(peers):
     """Returns the command of each side that can be built."""
     cargo = ["cargo", "bench", "--locked", "--no-default-features", "--bench", "derived", "--no-run"]
     messages = subprocess.run(
@@ -46,7 +46,7 @@ def build():
         "kiddo": (kiddo, [FOLDER / "kiddo" / "release" / "kiddo-nearest", POINTS, QUERIES]),
         "SciPy": ([sys.executable, "-c", "import scipy"], [sys.executable, PEERS / "find_simplex.py", POINTS, QUERIES]),
     }
-    for name, (attempt, command) in attempts.items():
+    for name, (attempt, command) in ((name, attempts[name]) for name in peers):
         if subprocess.run(attempt, stderr=subprocess.PIPE).returncode == 0:
             commands[name] = command
         else:
@@ -86,9 +86,10 @@ def main():
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--points", type=int, default=1_000_000)
     parser.add_argument("--queries", type=int, default=1_000_000)
+    parser.add_argument("--peers", type=lambda names: names.split(","), default=["CGAL", "SciPy", "kiddo", "voro++"])
     arguments = parser.parse_args()
     FOLDER.mkdir(parents=True, exist_ok=True)
-    commands = build()
+    commands = build(arguments.peers)
     commands["gdel"] += ["--points", str(arguments.points), "--queries", str(arguments.queries)]
     subprocess.run([*commands["gdel"], "--write", FOLDER], check=True)
     runs = {name: [] for name in commands}

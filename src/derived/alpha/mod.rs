@@ -122,8 +122,9 @@ impl<'a, const D: usize, const N: usize> AlphaShape<'a, D, N>
 where
     Euclidean: AlphaEdges<D, N>,
 {
-    /// Computes the filtration of a mesh with its points: from which radius on each simplex and each face is part of the alpha
-    /// complex.
+    /// Computes the filtration of a mesh with its points: from which radius on each simplex and each facet is part of the alpha
+    /// complex. The values of the edges of a 3D mesh and of vertices, which take longer, are computed when they are first asked
+    /// for.
     ///
     /// # Errors
     ///
