@@ -209,7 +209,8 @@ pub(in super::super) fn ring(complex: &Complex<'_, 3, 4>, v: u32, a: u32, t: usi
 /// Returns the place of a vertex in a tetrahedron, without branches; 0 if it is not there, as happens in broken meshes only.
 #[inline(always)]
 pub(in super::super) fn place(simplex: &[u32; 4], v: u32) -> usize {
-    usize::from(simplex[1] == v) | usize::from(simplex[2] == v) << 1 | usize::from(simplex[3] == v) * 3
+    // Not a sum: a broken mesh may have a vertex twice in a tetrahedron.
+    usize::from(simplex[1] == v) | (usize::from(simplex[2] == v) << 1) | (usize::from(simplex[3] == v) * 3)
 }
 
 /// For corners *i* and *j* of a tetrahedron, the corner *k* such that (i, j, k, l) is an even permutation.
