@@ -21,6 +21,16 @@
 //! methods that do not block. [`verify`] proves that a mesh is the Delaunay triangulation of its
 //! points, whoever computed it.
 //!
+//! # Which answer for which question
+//!
+//! | question | answer |
+//! | --- | --- |
+//! | Which simplex contains a point? Which vertices are nearest to it? | [`Locator`] |
+//! | What is the value at a point, given values at the vertices? | [`Interpolator`] |
+//! | Which region belongs to each point, how large is it, who are its neighbours? | [`Voronoi`] |
+//! | Which solid, or which surface, do the points describe? | [`AlphaShape`] |
+//! | What connects all points at the least length? Which clusters are there? | [`SpanningTree`] |
+//!
 //! # Features
 //!
 //! | feature | what it adds |
@@ -200,3 +210,8 @@ pub mod internals {
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// Compiles and runs the examples of what is derived from meshes.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/answers.md")]
+struct Answers;

@@ -69,6 +69,14 @@ pub(crate) fn map_grains<R: Send>(
     vec![work(0..len)]
 }
 
+/// Returns the items of all parts, in order; a single part as it is.
+pub(crate) fn joined<T: Clone>(mut parts: Vec<Vec<T>>) -> Vec<T> {
+    match parts.len() {
+        1 => parts.remove(0),
+        _ => parts.concat(),
+    }
+}
+
 /// Sorts items of which equal ones are indistinguishable.
 pub(crate) fn sort<T: Ord + Send>(threads: Threads, items: &mut [T]) {
     #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]

@@ -24,7 +24,12 @@ const dist = join(web, 'dist');
 const pkg = (name) => join(web, 'pkg', name);
 
 /** The wasm modules, each a feature of the crate in `wasm`, and their files in the package. */
-const MODULES = { d3: 'gdel-3d.wasm', d2: 'gdel-2d.wasm', tools: 'gdel-tools.wasm' };
+const MODULES = {
+  d3: 'gdel-3d.wasm',
+  d2: 'gdel-2d.wasm',
+  tools: 'gdel-tools.wasm',
+  derived: 'gdel-derived.wasm',
+};
 
 const say = (text) => console.log(`build: ${text}`);
 // wasm-bindgen is there; wasm-opt is that of the npm package binaryen, since Debian's is too old
@@ -95,7 +100,13 @@ const glue = {
 };
 
 /** The module that holds a copy of a wasm module, or of the worker. */
-const COPIES = { d3: 'inline-3d', d2: 'inline-2d', tools: 'inline-tools', worker: 'inline-worker' };
+const COPIES = {
+  d3: 'inline-3d',
+  d2: 'inline-2d',
+  tools: 'inline-tools',
+  derived: 'inline-derived',
+  worker: 'inline-worker',
+};
 
 /** Leaves the modules that hold copies files of their own, which are loaded when they are needed. */
 const copies = {
@@ -189,6 +200,8 @@ async function buildJs() {
     writeFileSync(join(dist, file.replace(/ts$/, 'cts')), text);
   }
   for (const file of ['LICENSE-MIT', 'LICENSE-APACHE']) cpSync(join(root, file), join(web, file));
+  for (const name of ['answers.md', 'answers'])
+    cpSync(join(root, 'docs', name), join(web, 'docs', name), { recursive: true });
 }
 
 /** As compilers to CommonJS expect a module with a default export. */
@@ -207,6 +220,7 @@ function reportSizes() {
   }
 }
 
-if (!process.argv.includes('--js') || !existsSync(pkg('tools'))) buildWasm();
+if (!process.argv.includes('--js') || !Object.keys(MODULES).every((name) => existsSync(pkg(name))))
+  buildWasm();
 await buildJs();
 reportSizes();

@@ -2,10 +2,11 @@
 
 use super::{
     Failure,
-    derive::{Common, Found, write},
+    derive::{Common, Found, Number, write},
     dimension::{Dimension, Triangulation},
+    usage,
 };
-use clap::{Args, builder::TypedValueParser};
+use clap::{Args, builder::TypedValueParser, error::ErrorKind};
 use gdel::{
     AlphaShape, Error, Mesh2, Mesh3, Points,
     internals::{
@@ -14,7 +15,7 @@ use gdel::{
         io::{CellShape, Grid, SurfaceFormat, files::ResultOutput},
     },
 };
-use std::{collections::BTreeMap, path::Path};
+use std::{num::NonZeroUsize, path::Path};
 
 /// Compute the alpha shape of points: a solid for a radius alpha, and its surface.
 #[derive(Args)]
@@ -25,9 +26,9 @@ pub(super) struct Arguments {
     /// more components than wanted
     #[arg(long, default_value = "auto", value_parser = clap::builder::StringValueParser::new().try_map(|text| parse_alpha(&text)))]
     alpha: Alpha,
-    /// The largest number of components with `--alpha auto`
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    components: usize,
+    /// With `--alpha auto`: the largest number of components, 1 if not given
+    #[arg(long, value_name = "N")]
+    components: Option<NonZeroUsize>,
     /// Where to write: the surface as .ply, .obj, .stl or .glb, the tetrahedra of the solid as
     /// .vtu; in 2D, all have the triangles of the solid
     #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
@@ -82,11 +83,15 @@ where
     Euclidean: AlphaEdges<D, N>,
 {
     let Arguments { common, alpha, components, output } = arguments;
+    if let (Alpha::Radius(_), Some(_)) = (alpha, components) {
+        usage(ErrorKind::ArgumentConflict, "--components needs --alpha auto");
+    }
+    let components = components.map_or(1, NonZeroUsize::get);
     let input = common.input()?;
     common.check(output, &[input.path()])?;
     let cloud = common.read::<D>(&input)?;
     let points = Points::from(&cloud);
-    let (_, parts) = common.run::<M, D, N, _>(points, "alpha", |mesh| find(mesh, points, *alpha, *components))?;
+    let (_, parts) = common.run::<M, D, N, _>(points, "alpha", |mesh| find(mesh, points, *alpha, components))?;
     let Parts { solid, surface } = parts;
     match output.format() {
         Format::Vtu => {
@@ -125,11 +130,11 @@ where
     let complex = shape.at(radius)?;
     let parts =
         Parts { solid: complex.solid().map(|t| mesh.simplices()[t]).collect(), surface: complex.surface().collect() };
-    let numbers = BTreeMap::from([
-        ("alpha", radius),
-        ("solid", parts.solid.len() as f64),
-        ("surface", parts.surface.len() as f64),
-        ("components", complex.components().1 as f64),
-    ]);
+    let numbers = vec![
+        ("alpha", Number::Real(radius)),
+        ("solid", Number::Count(parts.solid.len())),
+        ("surface", Number::Count(parts.surface.len())),
+        ("components", Number::Count(complex.components().1)),
+    ];
     Ok(Found { result: parts, numbers })
 }

@@ -6,18 +6,22 @@ use super::{
     input,
     progress::Progress,
     triangulate::{BackendName, StatsForm, triangulate},
+    usage,
 };
-use clap::Args;
+use clap::{
+    Args,
+    error::ErrorKind::{ArgumentConflict, MissingRequiredArgument},
+};
 use gdel::{
-    Points, Triangulator,
+    Backend, Error, Points, Triangulator,
     internals::io::{
         Mesh, PointCloud, PointFormat,
         files::{Input, ResultOutput},
     },
+    stats::Fallback,
 };
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::{
-    collections::BTreeMap,
     fmt,
     io::{self, Write},
     num::NonZeroUsize,
@@ -52,6 +56,41 @@ pub(super) struct Common {
     repeat: NonZeroUsize,
 }
 
+/// Arguments of the commands that take query points.
+#[derive(Args)]
+pub(super) struct Queries {
+    /// The query points, in any format that `triangulate` reads, or `-` for standard input, with
+    /// `--queries-format`
+    queries: PathBuf,
+    /// The format of the queries, whatever the extension of their file
+    #[arg(long, value_name = "FORMAT", value_parser = format_parser())]
+    queries_format: Option<PointFormat>,
+}
+
+impl Queries {
+    /// Creates the input of the queries, beside that of the points.
+    pub(super) fn input(&self, points: &Input) -> Result<Input, Failure> {
+        let standard_input = Path::new("-");
+        if self.queries == standard_input {
+            if self.queries_format.is_none() {
+                usage(MissingRequiredArgument, "give the format of the queries with `--queries-format`");
+            }
+            if points.path() == standard_input {
+                usage(ArgumentConflict, "only one of the points and the queries can be standard input");
+            }
+        }
+        Ok(input(&self.queries, self.queries_format)?)
+    }
+
+    /// Reads the queries, and checks that all are finite.
+    pub(super) fn read<const D: usize>(input: &Input) -> Result<PointCloud<D>, Failure> {
+        let queries = read::<D>(input)?;
+        let are_valid = Points::from(&queries).validate();
+        are_valid.map_err(|source| Failure::Points { path: input.path().into(), source })?;
+        Ok(queries)
+    }
+}
+
 /// What a run says about itself: as JSON by `serde`, for people by `Display`.
 #[derive(Serialize)]
 struct Report<'a> {
@@ -59,9 +98,19 @@ struct Report<'a> {
     dimension: u8,
     #[serde(flatten)]
     counts: Counts,
-    #[serde(flatten)]
-    results: &'a BTreeMap<&'static str, f64>,
-    seconds: BTreeMap<&'static str, f64>,
+    #[serde(flatten, serialize_with = "as_map")]
+    numbers: &'a [(&'static str, Number)],
+    backend: Backend,
+    /// Why the CPU computed the mesh, where it was not requested explicitly.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fallback: Option<&'a Fallback>,
+    /// Without reading and writing files.
+    #[serde(serialize_with = "as_map")]
+    seconds: &'a [(&'static str, f64)],
+}
+
+fn as_map<T: Serialize, S: Serializer>(entries: &&[(&'static str, T)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(entries.iter().map(|(name, value)| (name, value)))
 }
 
 impl fmt::Display for Report<'_> {
@@ -71,18 +120,30 @@ impl fmt::Display for Report<'_> {
             Counts::D3 { tetrahedra, .. } => writeln!(f, "{:<16}{tetrahedra}", "tetrahedra")?,
             Counts::D2 { triangles, .. } => writeln!(f, "{:<16}{triangles}", "triangles")?,
         }
-        for (name, value) in self.results {
-            writeln!(f, "{:<16}{value}", name.replace('_', " "))?;
+        for (name, number) in self.numbers {
+            let name = name.replace('_', " ");
+            match number {
+                Number::Count(count) => writeln!(f, "{name:<16}{count}")?,
+                Number::Real(real) => writeln!(f, "{name:<16}{real}")?,
+            }
         }
         let seconds: Vec<String> = self.seconds.iter().map(|(name, time)| format!("{name} {time:.3}")).collect();
         write!(f, "{:<16}{}", "seconds", seconds.join(", "))
     }
 }
 
+/// A number that a command prints.
+#[derive(Clone, Copy, Serialize)]
+#[serde(untagged)]
+pub(super) enum Number {
+    Count(usize),
+    Real(f64),
+}
+
 /// What a command found, and the numbers about it that are printed.
 pub(super) struct Found<T> {
     pub(super) result: T,
-    pub(super) numbers: BTreeMap<&'static str, f64>,
+    pub(super) numbers: Vec<(&'static str, Number)>,
 }
 
 impl Common {
@@ -102,41 +163,63 @@ impl Common {
         read::<D>(input)
     }
 
-    /// Triangulates and calls `derive` with the mesh, as often as wanted, and prints what is to be said. Returns the last result.
+    /// Reads the points, and the values in a column of their file.
+    pub(super) fn read_with_values<const D: usize>(
+        &self,
+        input: &Input,
+        column: &str,
+    ) -> Result<(PointCloud<D>, Vec<f64>), Failure> {
+        let _progress = Progress::new("reading");
+        Ok(input.read_with_values::<D>(column)?)
+    }
+
+    /// Triangulates, calls `derive` with the mesh and prints what is to be said, as often as wanted. Returns the last
+    /// mesh and what was derived from it.
     pub(super) fn run<M: Triangulation<D, N> + Mesh<D, N>, const D: usize, const N: usize, T>(
         &self,
         points: Points<'_, D>,
         what: &'static str,
-        derive: impl Fn(&M) -> Result<Found<T>, gdel::Error>,
+        derive: impl Fn(&M) -> Result<Found<T>, Error>,
     ) -> Result<(M, T), Failure> {
         let failure = |source| Failure::Points { path: self.points.clone(), source };
+        // One device for all runs.
         let triangulator = Triangulator::new().backend(self.backend.into());
-        let mut last = None;
-        for _ in 0..self.repeat.get() {
-            // Each run gives its memory back before the next.
-            drop(last.take());
+        let run = || {
             let (mesh, triangulating) = triangulate::<M, D, N>(points, &triangulator).map_err(failure)?;
             let progress = Progress::new(what);
             let start = Instant::now();
             let Found { result, numbers } = derive(&mesh).map_err(failure)?;
-            let times = [("triangulate", triangulating), (what, start.elapsed())];
+            let deriving = start.elapsed();
             drop(progress);
-            self.print(&mesh, points.len(), &numbers, &times)?;
-            last = Some((mesh, result));
+            self.print(&mesh, points.len(), &numbers, &[("triangulate", triangulating), (what, deriving)])?;
+            Ok((mesh, result))
+        };
+        // Each run gives its memory back before the next.
+        for _ in 1..self.repeat.get() {
+            run()?;
         }
-        // There is at least one run.
-        last.ok_or(Failure::StandardOutput(io::ErrorKind::Other.into()))
+        run()
     }
 
     fn print<M: Triangulation<D, N>, const D: usize, const N: usize>(
         &self,
         mesh: &M,
         points: usize,
-        results: &BTreeMap<&'static str, f64>,
+        numbers: &[(&'static str, Number)],
         times: &[(&'static str, Duration)],
     ) -> Result<(), io::Error> {
-        let seconds = times.iter().map(|&(name, time)| (name, time.as_secs_f64())).collect();
-        let report = Report { points, dimension: mesh.dimension(), counts: mesh.counts(), results, seconds };
+        let total = ("total", times.iter().map(|(_, time)| time).sum());
+        let seconds: Vec<_> = [total].iter().chain(times).map(|&(name, time)| (name, time.as_secs_f64())).collect();
+        let stats = mesh.stats();
+        let report = Report {
+            points,
+            dimension: mesh.dimension(),
+            counts: mesh.counts(),
+            numbers,
+            backend: stats.backend,
+            fallback: stats.fallback.as_ref(),
+            seconds: &seconds,
+        };
         let mut stdout = io::stdout().lock();
         match self.stats {
             Some(StatsForm::Json) => {

@@ -2,9 +2,8 @@
 
 use super::{
     Failure,
-    derive::{Common, Found},
-    dimension::{Dimension, Triangulation, read},
-    input,
+    derive::{Common, Found, Number, Queries},
+    dimension::{Dimension, Triangulation},
     locate::{parse_table, write_table},
 };
 use clap::{Args, ValueEnum};
@@ -16,15 +15,14 @@ use gdel::{
         io::{Column, Table, TableFormat, files::ResultOutput},
     },
 };
-use std::{collections::BTreeMap, path::PathBuf};
 
 /// Interpolate values that are given at points.
 #[derive(Args)]
 pub(super) struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// The query points, in any format that `triangulate` reads
-    queries: PathBuf,
+    #[command(flatten)]
+    queries: Queries,
     /// The column of the points' file with the values: its name in the first line, or its number,
     /// counted from 1. The file must be text or CSV
     #[arg(long, value_name = "COLUMN")]
@@ -70,16 +68,17 @@ where
     Euclidean: StolenMeasures<D, N>,
 {
     let Arguments { common, queries, values, method, output } = arguments;
-    let (points, queries) = (common.input()?, input(queries, None)?);
-    common.check(output, &[points.path(), queries.path()])?;
-    let (points, values) = points.read_with_values::<D>(values)?;
-    let queries = read::<D>(&queries)?;
+    let input = common.input()?;
+    let query_input = queries.input(&input)?;
+    common.check(output, &[input.path(), query_input.path()])?;
+    let (points, values) = common.read_with_values::<D>(&input, values)?;
+    let queries = Queries::read::<D>(&query_input)?;
     let (points, queries) = (Points::from(&points), Points::from(&queries));
     let (_, found) = common.run::<M, D, N, _>(points, "interpolate", |mesh| {
         let locator = Locator::new(mesh, points)?;
         let result = Interpolator::new(&locator, &values)?.interpolate_many((*method).into(), queries)?;
-        let inside = locator.locate_many(queries)?.iter().filter(|location| location.simplex().is_some()).count();
-        let numbers = BTreeMap::from([("queries", queries.len() as f64), ("inside", inside as f64)]);
+        let with_value = result.iter().filter(|value| !value.is_nan()).count();
+        let numbers = vec![("queries", Number::Count(queries.len())), ("with_value", Number::Count(with_value))];
         Ok(Found { result, numbers })
     })?;
     let coordinates: Vec<[f64; D]> = queries.iter().collect();

@@ -2,9 +2,8 @@
 
 use super::{
     Failure,
-    derive::{Common, Found, write},
-    dimension::{Dimension, Triangulation, read},
-    input,
+    derive::{Common, Found, Number, Queries, write},
+    dimension::{Dimension, Triangulation},
 };
 use clap::Args;
 use gdel::{
@@ -14,18 +13,15 @@ use gdel::{
         io::{Column, Table, TableFormat, files::ResultOutput},
     },
 };
-use std::{
-    collections::BTreeMap,
-    path::{Path, PathBuf},
-};
+use std::path::Path;
 
 /// Find the simplex that contains each query point, and the nearest vertex.
 #[derive(Args)]
 pub(super) struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// The query points, in any format that `triangulate` reads
-    queries: PathBuf,
+    #[command(flatten)]
+    queries: Queries,
     /// Where to write, one row per query: .csv or .npz. `simplex` is the number of the simplex in
     /// the mesh that `triangulate` writes, −1 outside the hull; `v0`, `v1`, … are its vertices, or
     /// outside those of a facet of the hull that sees the query, and −1; `nearest` is the nearest
@@ -61,17 +57,18 @@ where
     Euclidean: Geometry<D, N>,
 {
     let Arguments { common, queries, output } = arguments;
-    let (points, queries) = (common.input()?, input(queries, None)?);
-    common.check(output, &[points.path(), queries.path()])?;
-    let points = common.read::<D>(&points)?;
-    let queries = read::<D>(&queries)?;
+    let input = common.input()?;
+    let query_input = queries.input(&input)?;
+    common.check(output, &[input.path(), query_input.path()])?;
+    let points = common.read::<D>(&input)?;
+    let queries = Queries::read::<D>(&query_input)?;
     let (points, queries) = (Points::from(&points), Points::from(&queries));
     let (mesh, (located, nearest)) = common.run::<M, D, N, _>(points, "locate", |mesh| {
         let locator = Locator::new(mesh, points)?;
         let located = locator.locate_many(queries)?;
         let nearest = locator.nearest_many(queries)?;
         let inside = located.iter().filter(|location| location.simplex().is_some()).count();
-        let numbers = BTreeMap::from([("queries", queries.len() as f64), ("inside", inside as f64)]);
+        let numbers = vec![("queries", Number::Count(queries.len())), ("inside", Number::Count(inside))];
         Ok(Found { result: (located, nearest), numbers })
     })?;
     let simplex = |location: &Location| location.simplex().map_or(-1, |t| t as i64);

@@ -2,7 +2,7 @@
 
 use super::{
     Failure,
-    derive::{Common, Found, write},
+    derive::{Common, Found, Number, write},
     dimension::{Dimension, Triangulation},
 };
 use clap::Args;
@@ -13,7 +13,7 @@ use gdel::{
         io::{CellShape, Column, Grid, Table, files::ResultOutput},
     },
 };
-use std::{collections::BTreeMap, path::Path};
+use std::path::Path;
 
 /// Compute the Euclidean minimum spanning tree of points.
 #[derive(Args)]
@@ -62,7 +62,8 @@ where
     let points = Points::from(&cloud);
     let (_, tree) = common.run::<M, D, N, _>(points, "tree", |mesh| {
         let tree = SpanningTree::new(mesh, points)?;
-        let numbers = BTreeMap::from([("edges", tree.edges.len() as f64), ("total_length", tree.total_length())]);
+        let numbers =
+            vec![("edges", Number::Count(tree.edges.len())), ("total_length", Number::Real(tree.total_length()))];
         Ok(Found { result: tree, numbers })
     })?;
     let ends = |end: usize| Column::Indices(tree.edges.iter().map(|edge| edge[end].into()).collect());

@@ -2,19 +2,19 @@
 
 use super::{
     Failure,
-    derive::{Common, Found, write},
+    derive::{Common, Found, Number, write},
     dimension::{Dimension, Triangulation},
 };
 use clap::{Args, ValueEnum};
 use gdel::{
-    Cell, Clip, Mesh2, Mesh3, Points, Voronoi,
+    Clip, Csr, Mesh2, Mesh3, Points, Voronoi,
     internals::{
         derived::VoronoiShapes,
         geometry::Euclidean,
         io::{CellShape, Column, Grid, Table, files::ResultOutput},
     },
 };
-use std::{collections::BTreeMap, path::Path};
+use std::path::Path;
 
 /// Compute the Voronoi cells of points.
 #[derive(Args)]
@@ -75,20 +75,21 @@ where
     let cloud = common.read::<D>(&input)?;
     let points = Points::from(&cloud);
     let (_, result) = common.run::<M, D, N, _>(points, "voronoi", |mesh| {
-        let clip = match clip {
-            ClipName::None => Clip::None,
-            ClipName::Hull => Clip::Hull,
+        let clip = match (clip, points.bounds()) {
+            (ClipName::Hull, _) => Clip::Hull,
             // Flat points, whose box may have no inside, have no cells.
-            ClipName::Box if mesh.simplices().is_empty() => Clip::None,
-            ClipName::Box => Clip::Box(bounds(points)),
+            (ClipName::Box, Some(bounds)) if !mesh.simplices().is_empty() => Clip::Box(bounds),
+            _ => Clip::None,
         };
         let voronoi = Voronoi::new(mesh, points, clip)?;
-        let result = match output.format() {
-            Format::Npz => Derived::Arrays(arrays(&voronoi)),
-            Format::Csv => Derived::Rows(rows(&voronoi)),
-            Format::Vtu => Derived::Cells(cells(&voronoi)),
+        let (result, volumes) = match output.format() {
+            Format::Npz => arrays(&voronoi),
+            Format::Csv => rows(&voronoi),
+            Format::Vtu => cells(&voronoi),
         };
-        Ok(Found { result, numbers: BTreeMap::new() })
+        let cells = volumes.iter().filter(|&&volume| volume > 0.0).count();
+        let numbers = vec![("cells", Number::Count(cells)), (measure::<D>(), Number::Real(volumes.iter().sum()))];
+        Ok(Found { result, numbers })
     })?;
     write(output, |to| match &result {
         Derived::Arrays(table) => table.write_npz(to),
@@ -104,82 +105,81 @@ enum Derived {
     Cells(Grid),
 }
 
-/// Returns the smallest box that contains all points.
-fn bounds<const D: usize>(points: Points<'_, D>) -> [[f64; D]; 2] {
-    let corner = |pick: fn(f64, f64) -> f64| {
-        points.iter().reduce(|p, q| std::array::from_fn(|axis| pick(p[axis], q[axis]))).unwrap_or([0.0; D])
-    };
-    [corner(f64::min), corner(f64::max)]
+/// Returns what the size of a cell is called.
+fn measure<const D: usize>() -> &'static str {
+    if D == 2 { "area" } else { "volume" }
 }
 
-fn rows<const D: usize, const N: usize>(voronoi: &Voronoi<'_, D, N>) -> Table
+/// Returns a row for each point's cell, and the volumes.
+fn rows<const D: usize, const N: usize>(voronoi: &Voronoi<'_, D, N>) -> (Derived, Vec<f64>)
 where
     Euclidean: VoronoiShapes<D, N>,
 {
-    let cells = voronoi.map_cells(|_, cell| (cell.volume, cell.centroid));
-    let (volumes, centroids): (Vec<f64>, Vec<[f64; D]>) = cells.into_iter().unzip();
-    Table::default()
+    let mut neighbors = Csr::default();
+    let (mut volumes, mut centroids) = (Vec::new(), Vec::new());
+    for (volume, centroid, of_cell) in voronoi.map_cells(|_, cell| (cell.volume, cell.centroid, cell.neighbors())) {
+        volumes.push(volume);
+        centroids.push(centroid);
+        neighbors.indices.extend(of_cell);
+        neighbors.offsets.push(neighbors.indices.len());
+    }
+    let table = Table::default()
         .with("point", Column::Indices((0..volumes.len() as i64).collect()))
-        .with(if D == 2 { "area" } else { "volume" }, Column::Numbers(volumes))
+        .with(measure::<D>(), Column::Numbers(volumes.clone()))
         .with_points("centroid_", &centroids)
-        .with("neighbors", Column::Lists(voronoi.neighbors()))
+        .with("neighbors", Column::Lists(neighbors));
+    (Derived::Rows(table), volumes)
 }
 
-fn arrays<const D: usize, const N: usize>(voronoi: &Voronoi<'_, D, N>) -> Table
+/// Returns the diagram as arrays, and the volumes.
+fn arrays<const D: usize, const N: usize>(voronoi: &Voronoi<'_, D, N>) -> (Derived, Vec<f64>)
 where
     Euclidean: VoronoiShapes<D, N>,
 {
     let diagram = voronoi.diagram();
     let neighbors = diagram.neighbors.iter().map(|&v| v.into()).collect();
-    Table::default()
+    let table = Table::default()
         .with_points("vertex_", &diagram.vertices)
         .with("facets", Column::Lists(diagram.facets))
         .with("facet_neighbors", Column::Indices(neighbors))
         .with("facet_areas", Column::Numbers(diagram.areas))
         .with("cells", Column::Indices(diagram.cells.iter().map(|&start| start as i64).collect()))
-        .with("volumes", Column::Numbers(diagram.volumes))
-        .with_points("centroid_", &diagram.centroids)
+        .with("volumes", Column::Numbers(diagram.volumes.clone()))
+        .with_points("centroid_", &diagram.centroids);
+    (Derived::Arrays(table), diagram.volumes)
 }
 
-fn cells<const D: usize, const N: usize>(voronoi: &Voronoi<'_, D, N>) -> Grid
+/// Returns the bounded cells, and the volumes of all.
+fn cells<const D: usize, const N: usize>(voronoi: &Voronoi<'_, D, N>) -> (Derived, Vec<f64>)
 where
     Euclidean: VoronoiShapes<D, N>,
 {
     let shape = if D == 2 { CellShape::Polygon } else { CellShape::Polyhedron };
     let mut grid = Grid::new::<D>(Points::F64(&[]), shape);
-    let (mut points, mut volumes) = (Vec::new(), Vec::new());
+    let (mut points, mut volumes, mut all) = (Vec::new(), Vec::new(), Vec::new());
     for (point, cell) in voronoi.map_cells(|point, cell| (point, cell.clone())) {
+        all.push(cell.volume);
         if cell.is_empty() || !cell.is_bounded {
             continue;
         }
         let first = grid.points.len() as u32;
         let padded = |p: &[f64; D]| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0));
         grid.points.extend(cell.vertices.iter().map(padded));
+        let corners: Vec<u32> = cell.facets.indices.iter().map(|v| first + v).collect();
+        let facets = cell.facets.offsets.windows(2).map(|ends| &corners[ends[0]..ends[1]]);
         if D == 2 {
-            grid.push(polygon(&cell).into_iter().map(|v| first + v));
+            // The edges are in order, and each begins with a vertex.
+            grid.push(facets.map(|ends| ends[0]));
         } else {
-            let corners: Vec<u32> = cell.facets.indices.iter().map(|v| first + v).collect();
-            let faces = cell.facets.offsets.windows(2).map(|ends| &corners[ends[0]..ends[1]]);
             let mut vertices = corners.clone();
             vertices.sort_unstable();
             vertices.dedup();
-            grid.push_polyhedron(vertices, faces);
+            grid.push_polyhedron(vertices, facets);
         }
         points.push(point.into());
         volumes.push(cell.volume);
     }
-    let name = if D == 2 { "area" } else { "volume" };
-    grid.values = Table::default().with("point", Column::Indices(points)).with(name, Column::Numbers(volumes));
-    grid
-}
-
-/// Returns the vertices of a polygon, counter-clockwise around its centre of mass.
-fn polygon<const D: usize>(cell: &Cell<D>) -> Vec<u32> {
-    let mut starts: Vec<u32> = (0..cell.facets.len() as u32).map(|f| cell.facets.of(f)[0]).collect();
-    let angle = |v: u32| {
-        let [x, y] = [0, 1].map(|axis| cell.vertices[v as usize][axis] - cell.centroid[axis]);
-        libm::atan2(y, x)
-    };
-    starts.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
-    starts
+    grid.values =
+        Table::default().with("point", Column::Indices(points)).with(measure::<D>(), Column::Numbers(volumes));
+    (Derived::Cells(grid), all)
 }

@@ -53,16 +53,9 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
         Ok(Complex { points, simplices, neighbors, duplicate_of })
     }
 
-    /// Returns the minimum and the maximum of each axis.
+    /// Returns the minimum and the maximum of each axis; infinities if there are no points.
     pub(crate) fn bounds(&self) -> [[f64; D]; 2] {
-        let mut bounds = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-        for p in self.points.iter() {
-            for axis in 0..D {
-                bounds[0][axis] = bounds[0][axis].min(p[axis]);
-                bounds[1][axis] = bounds[1][axis].max(p[axis]);
-            }
-        }
-        bounds
+        self.points.bounds().unwrap_or([[f64::INFINITY; D], [f64::NEG_INFINITY; D]])
     }
 
     /// Returns the coordinates of vertex `v`.

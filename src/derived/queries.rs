@@ -55,24 +55,30 @@ where
     if queries.len() > u32::MAX as usize {
         return Err(Error::TooManyPoints { points: queries.len(), limit: u32::MAX as usize });
     }
-    let ranges = parallel::map_ranges(Threads::All, queries.len(), |range| {
-        let place = |i: usize| u64::from(key.of::<N>(queries.get(i))) << 32 | i as u64;
-        range.map(place).collect::<Vec<_>>()
-    });
-    let mut order = ranges.concat();
-    parallel::sort(Threads::All, &mut order);
+    let order = order_along_curve(queries, key);
     let results = parallel::map_grains(Threads::All, order.len(), GRAIN, |range| {
         let mut state = state();
-        order[range]
-            .iter()
-            .map(|&entry| work(&mut state, queries.get(entry as u32 as usize)))
-            .collect::<Result<Vec<_>, _>>()
+        order[range].iter().map(|&query| work(&mut state, queries.get(query as usize))).collect::<Result<Vec<_>, _>>()
     });
     let mut results = results.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten();
     let Some(first) = results.next() else { return Ok(Vec::new()) };
     let mut sorted = vec![first; queries.len()];
-    for (entry, result) in order[1..].iter().zip(results) {
-        sorted[*entry as u32 as usize] = result;
+    for (&query, result) in order[1..].iter().zip(results) {
+        sorted[query as usize] = result;
     }
     Ok(sorted)
+}
+
+/// Returns the indices of points in their order along the curve. There are at most 2³² points.
+pub(crate) fn order_along_curve<const D: usize, const N: usize>(points: Points<'_, D>, key: CurveKey<D>) -> Vec<u32>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let ranges = parallel::map_ranges(Threads::All, points.len(), |range| {
+        let place = |i: usize| u64::from(key.of::<N>(points.get(i))) << 32 | i as u64;
+        range.map(place).collect::<Vec<_>>()
+    });
+    let mut keyed = parallel::joined(ranges);
+    parallel::sort(Threads::All, &mut keyed);
+    keyed.into_iter().map(|entry| entry as u32).collect()
 }

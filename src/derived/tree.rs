@@ -3,7 +3,7 @@
 use super::{complex::Complex, sets::DisjointSets};
 use crate::{
     error::Error,
-    geometry::{Euclidean, Geometry, SquaredLength, compare_lengths, vector},
+    geometry::{Euclidean, Geometry, SquaredLength, certain_difference, compare_lengths, vector},
     index::NONE,
     input::points::Points,
     mesh::Mesh,
@@ -67,8 +67,16 @@ impl SpanningTree {
     {
         let complex = Complex::new(mesh, points.into())?;
         let compare = |a: &Candidate, b: &Candidate| {
-            let points = |edge: [u32; 2]| edge.map(|v| complex.point(v));
-            let lengths = compare_lengths((points(a.edge), a.length), (points(b.edge), b.length));
+            // Points are looked at in the rare case that rounding leaves the answer open.
+            let lengths = match a.length.certain_difference(b.length) {
+                // Many edges are there several times.
+                0 if a.edge == b.edge => 0,
+                0 => {
+                    let points = |edge: [u32; 2]| edge.map(|v| complex.point(v));
+                    compare_lengths((points(a.edge), a.length), (points(b.edge), b.length))
+                }
+                sign => sign,
+            };
             lengths.cmp(&0).then(a.edge.cmp(&b.edge))
         };
         let edges = kruskal(complex.points.len(), candidates(&complex), compare);
@@ -123,37 +131,42 @@ fn candidates<const D: usize, const N: usize>(complex: &Complex<'_, D, N>) -> Ve
 where
     Euclidean: Geometry<D, N>,
 {
+    let neighbors = &*complex.neighbors;
     let ranges = parallel::map_ranges(Threads::All, complex.simplices.len(), |range| {
         let mut candidates = Vec::new();
         for t in range {
+            // Of the simplices around an edge, those whose neighbours there have higher numbers.
+            let is_lowest = neighbors[t].map(|across| across == NONE || t < across as usize);
+            if is_lowest.iter().filter(|&&is_lowest| is_lowest).count() < N - 2 {
+                continue;
+            }
             let simplex = complex.simplices[t];
             let corners = complex.corners(t);
-            let mut lengths = [[SquaredLength::default(); N]; N];
+            let mut squared = [[0.0; N]; N];
             for i in 0..N {
                 for j in 0..i {
-                    lengths[i][j] = SquaredLength::new(corners[i], corners[j]);
-                    lengths[j][i] = lengths[i][j];
+                    squared[i][j] = vector::squared_norm(vector::minus(corners[i], corners[j]));
+                    squared[j][i] = squared[i][j];
                 }
             }
-            // Of the simplices around an edge, those whose neighbours there have higher numbers.
-            let is_lowest = |k: usize| complex.across(t, k).is_none_or(|across| t < across);
             for i in 0..N {
                 for j in 0..i {
-                    let mut others = (0..N).filter(|&k| k != i && k != j);
-                    let is_longest = |k: usize| {
-                        let is_longer = |other: SquaredLength| lengths[i][j].certain_difference(other) > 0;
-                        is_longer(lengths[i][k]) && is_longer(lengths[j][k])
-                    };
-                    if others.all(|k| is_lowest(k) && !is_longest(k)) {
+                    let mut is_candidate = true;
+                    for k in (0..N).filter(|&k| k != i && k != j) {
+                        let is_longer = |other: f64| certain_difference(squared[i][j], other) > 0;
+                        is_candidate &= is_lowest[k] & !(is_longer(squared[i][k]) & is_longer(squared[j][k]));
+                    }
+                    if is_candidate {
                         let [v, w] = [simplex[i], simplex[j]];
-                        candidates.push(Candidate { length: lengths[i][j], edge: [v.min(w), v.max(w)] });
+                        let length = SquaredLength::new(corners[i], corners[j]);
+                        candidates.push(Candidate { length, edge: [v.min(w), v.max(w)] });
                     }
                 }
             }
         }
         candidates
     });
-    ranges.concat()
+    parallel::joined(ranges)
 }
 
 /// Returns the edges that connect what shorter ones do not, in their order (Osipov, Sanders and Singler, *The
@@ -169,7 +182,9 @@ fn kruskal(
     // The longest edges first.
     let mut pending = vec![candidates];
     while let Some(mut edges) = pending.pop() {
-        edges.retain(|&Candidate { edge: [a, b], .. }| sets.find(a) != sets.find(b));
+        if !tree.is_empty() {
+            edges.retain(|&Candidate { edge: [a, b], .. }| sets.find(a) != sets.find(b));
+        }
         if edges.len() > SORTED {
             let middle = edges.len() / 2;
             edges.select_nth_unstable_by(middle, &compare);

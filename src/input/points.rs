@@ -120,6 +120,25 @@ impl<'a, const D: usize> Points<'a, D> {
         (0..self.len()).map(move |i| points.get(i))
     }
 
+    /// Returns the lowest and the highest corner of the smallest box that contains all points; `None` if there are none.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = gdel::Points::F64(&[[0.0, 5.0], [2.0, 1.0]]);
+    /// assert_eq!(points.bounds(), Some([[0.0, 1.0], [2.0, 5.0]]));
+    /// ```
+    pub fn bounds(&self) -> Option<[[f64; D]; 2]> {
+        self.iter().fold(None, |bounds, p| {
+            let [mut low, mut high] = bounds.unwrap_or([p, p]);
+            for axis in 0..D {
+                low[axis] = low[axis].min(p[axis]);
+                high[axis] = high[axis].max(p[axis]);
+            }
+            Some([low, high])
+        })
+    }
+
     /// Checks that every coordinate is a finite number.
     ///
     /// # Errors

@@ -1,6 +1,7 @@
 //! The command `gdel` as its users meet it.
 #![cfg(feature = "cli")]
 
+mod derived;
 mod inputs;
 mod outputs;
 mod verify;

@@ -3,7 +3,11 @@
 use crate::inputs::{inputs2, inputs3, mesh2, mesh3};
 use gdel::{
     AlphaShape, Error, FaceClass, Interval, Mesh, Points,
-    internals::{derived::AlphaEdges, geometry::Euclidean},
+    internals::{
+        d3::generate::{Distribution3, generate3d},
+        derived::AlphaEdges,
+        geometry::Euclidean,
+    },
 };
 use num_bigint::BigInt;
 use std::{
@@ -392,4 +396,40 @@ fn negative_radii_are_errors() {
     assert_eq!(shape.at(f64::NAN).unwrap_err(), Error::BadAlpha);
     assert_eq!(shape.at(-0.5).unwrap_err(), Error::BadAlpha);
     assert_eq!(shape.at(-0.0).unwrap().solid().count(), 0);
+}
+
+/// `benches/peers/alpha.cpp` has made the files: the smallest alpha with one component, and for some radii how many vertices,
+/// edges, facets and simplices are exterior, singular, regular and interior.
+#[test]
+fn alpha_complexes_equal_those_of_cgal() {
+    for (distribution, file) in [
+        (Distribution3::Uniform, include_str!("../data/derived/alpha_uniform.txt")),
+        (Distribution3::Sphere, include_str!("../data/derived/alpha_sphere.txt")),
+        (Distribution3::Grid, include_str!("../data/derived/alpha_grid.txt")),
+    ] {
+        let name = distribution.name();
+        let points = generate3d(distribution, 1000, 1);
+        let mesh = gdel::delaunay3d(&points).unwrap();
+        let shape = AlphaShape::new(&mesh, &points).unwrap();
+        let mut lines = file.lines();
+        let optimal: f64 = lines.next().unwrap().strip_prefix("optimal ").unwrap().parse().unwrap();
+        let alpha = shape.find_alpha(1).unwrap();
+        assert!((alpha - optimal).abs() <= 1e-12 * optimal, "{name}: {alpha} {optimal}");
+        for line in lines {
+            let (radius, counts) = line.split_once(' ').unwrap();
+            let expected: Vec<usize> = counts.split(' ').map(|count| count.parse().unwrap()).collect();
+            let complex = shape.at(radius.parse().unwrap()).unwrap();
+            let mut found = [0; 16];
+            let mut add = |kind: usize, class: FaceClass| found[4 * kind + class as usize] += 1;
+            complex.vertices().for_each(|(_, class)| add(0, class));
+            complex.edges().for_each(|(_, class)| add(1, class));
+            complex.facets().for_each(|(_, class)| add(2, class));
+            let solid = complex.solid().count();
+            (0..solid).for_each(|_| add(3, FaceClass::Interior));
+            (solid..mesh.tetrahedra.len()).for_each(|_| add(3, FaceClass::Exterior));
+            // On a grid, edges, facets and simplices depend on how ties are broken.
+            let kinds = if name == "grid" { 4 } else { 16 };
+            assert_eq!(found[..kinds], expected[..kinds], "{name} {radius}");
+        }
+    }
 }

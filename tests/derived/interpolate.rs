@@ -3,7 +3,11 @@
 use crate::inputs::{inputs2, inputs3, mesh2, mesh3, queries};
 use gdel::{
     Error, Interpolation, Interpolator, Locator, Mesh, Points,
-    internals::{derived::StolenMeasures, geometry::Euclidean},
+    internals::{
+        d3::generate::{Distribution3, generate3d},
+        derived::StolenMeasures,
+        geometry::Euclidean,
+    },
 };
 
 const METHODS: [Interpolation; 3] = [Interpolation::Linear, Interpolation::Laplace, Interpolation::Sibson];
@@ -264,4 +268,22 @@ fn values_of_the_wrong_number_are_an_error() {
     // NaN stays where it has a weight.
     assert!(interpolator.interpolate(Interpolation::Sibson, [0.2, 0.2]).unwrap().is_nan());
     assert_eq!(interpolator.interpolate(Interpolation::Sibson, [0.5, 0.5]), Ok(1.5));
+}
+
+/// `benches/peers/linear.py` has made the file.
+#[test]
+fn linear_interpolation_equals_that_of_scipy() {
+    let points = generate3d(Distribution3::Uniform, 2000, 1);
+    let queries = generate3d(Distribution3::Uniform, 1000, 2);
+    let mesh = gdel::delaunay3d(&points).unwrap();
+    let locator = Locator::new(&mesh, &points).unwrap();
+    let values: Vec<f64> = points.iter().map(|[x, y, z]| x * y + z).collect();
+    let interpolator = Interpolator::new(&locator, &values).unwrap();
+    let found = interpolator.interpolate_many(Interpolation::Linear, &queries).unwrap();
+    let expected = include_str!("../data/derived/linear.txt").lines().map(|line| line.parse::<f64>().unwrap());
+    assert_eq!(expected.clone().count(), found.len());
+    for (query, (found, expected)) in queries.iter().zip(found.into_iter().zip(expected)) {
+        assert_eq!(found.is_nan(), expected.is_nan(), "{query:?}");
+        assert!(found.is_nan() || (found - expected).abs() <= 1e-12 * expected.abs(), "{query:?}: {found} {expected}");
+    }
 }

@@ -45,6 +45,17 @@ fn check_cells<const D: usize, const N: usize>(
         }
         assert!(cell.volume >= 0.0, "{}: {}", at(), cell.volume);
         let distance = |p: [f64; D], q: [f64; D]| (0..D).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
+        if D == 2 {
+            // Each edge begins where the one before ends; of an unbounded cell, the first one comes from infinity.
+            let ends = |f: usize| {
+                let ends = cell.facets.of((f % cell.facets.len()) as u32);
+                [ends[0], ends[ends.len() - 1]].map(|v| cell.vertices[v as usize])
+            };
+            for f in 0..cell.facets.len().saturating_sub(usize::from(!cell.is_bounded)) {
+                let ([_, end], [start, _]) = (ends(f), ends(f + 1));
+                assert!(distance(end, start) <= 1e-9 * distance(points[i], end).max(size), "{} {f}", at());
+            }
+        }
         for (f, &neighbor) in cell.neighbors.iter().enumerate() {
             let corners = cell.facets.of(f as u32).iter().map(|&v| cell.vertices[v as usize]);
             if neighbor == gdel::NONE {

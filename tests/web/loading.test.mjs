@@ -29,7 +29,8 @@ const EXPECTED = { thread: 'worker', whyThread: null, whyInlined: null, sync: nu
 
 test('where all files are, no copy is loaded', () => {
   const withoutCopies = (folder) => {
-    for (const name of ['3d', '2d', 'tools', 'worker']) rmSync(join(folder, `inline-${name}.js`));
+    for (const name of ['3d', '2d', 'tools', 'derived', 'worker'])
+      rmSync(join(folder, `inline-${name}.js`));
   };
   assert.deepEqual(run(withoutCopies), EXPECTED);
 });
@@ -88,8 +89,9 @@ test('a worker that is missing is replaced by its copy, and the statistics say s
 
 test('gdel-wasm/inline needs no files', () => {
   const found = run((folder) => {
-    for (const name of ['gdel-3d.wasm', 'gdel-2d.wasm', 'gdel-tools.wasm', 'worker.js'])
-      rmSync(join(folder, name));
+    for (const module of ['3d', '2d', 'tools', 'derived'])
+      rmSync(join(folder, `gdel-${module}.wasm`));
+    rmSync(join(folder, 'worker.js'));
   }, 'gdel-wasm/inline');
   const why = 'gdel-wasm/inline was imported';
   assert.deepEqual(found, { ...EXPECTED, whyInlined: why, sync: why });

@@ -18,5 +18,10 @@ export const wasmTools: WasmAsset = {
   file: () => new URL('./gdel-tools.wasm', import.meta.url),
 };
 
+export const wasmDerived: WasmAsset = {
+  name: 'derived',
+  file: () => new URL('./gdel-derived.wasm', import.meta.url),
+};
+
 export const workerCode: WorkerAsset = { file: () => new URL('./worker.js', import.meta.url) };
 export const taskCode = () => import('./core.js');

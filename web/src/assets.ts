@@ -22,6 +22,12 @@ export const wasmTools: WasmAsset = {
   copy: () => import('base64:tools'),
 };
 
+export const wasmDerived: WasmAsset = {
+  name: 'derived',
+  file: () => new URL('./gdel-derived.wasm', import.meta.url),
+  copy: () => import('base64:derived'),
+};
+
 /** Hides a URL from bundlers. */
 const here = () => import.meta.url;
 

@@ -2,6 +2,7 @@
 
 import makeGlue2d from 'glue:d2';
 import makeGlue3d from 'glue:d3';
+import makeDerivedGlue from 'glue:derived';
 import makeToolsGlue from 'glue:tools';
 import type { Coordinates } from './arrays.js';
 import { type PlainError, toPlainError } from './errors.js';
@@ -22,6 +23,7 @@ const TASKS: Record<ModuleName, (module: WebAssembly.Module, gpu?: object) => Mo
   d3: tasks3d,
   d2: tasks2d,
   tools: toolsTasks,
+  derived: derivedTasks,
 };
 
 type Handlers = {
@@ -332,6 +334,43 @@ function toolsTasks(module: WebAssembly.Module): ModuleTasks {
     async (args: never, control: Control) => {
       control.onBlocking();
       return task(args);
+    },
+  ]);
+  return { handlers: Object.fromEntries(handlers), memory, dispose() {} };
+}
+
+function derivedTasks(module: WebAssembly.Module): ModuleTasks {
+  const { glue, memory } = instantiate(makeDerivedGlue, module);
+  type Report = (phase: string, fraction: number) => boolean;
+
+  const tasks: {
+    [T in TaskName]?: (args: Tasks[T]['args'], report: Report) => Tasks[T]['result'];
+  } = {
+    locate: ({ dimension, points, mesh, queries }, report) =>
+      glue.locate(dimension, points, mesh, queries, report),
+    nearest: ({ dimension, points, mesh, queries }, report) =>
+      glue.nearest(dimension, points, mesh, queries, report),
+    interpolate: ({ dimension, points, mesh, values, queries, method }, report) =>
+      glue.interpolate(dimension, points, mesh, values, queries, method, report),
+    voronoi: ({ dimension, points, mesh, clip, bounds }, report) =>
+      glue.voronoi(dimension, points, mesh, clip, bounds, report),
+    alphaShape: ({ dimension, points, mesh, alpha, components, criticalValues }, report) =>
+      glue.alpha_shape(dimension, points, mesh, alpha, components, criticalValues, report),
+    spanningTree: ({ dimension, points, mesh }, report) =>
+      glue.spanning_tree(dimension, points, mesh, report),
+  };
+  const handlers = Object.entries(tasks).map(([name, task]) => [
+    name,
+    async (args: never, control: Control) => {
+      control.onBlocking();
+      let last = '';
+      const result = task(args, (phase, fraction) => {
+        last = phase;
+        control.onProgress({ phase, fraction });
+        return control.isAborted();
+      });
+      control.onProgress({ phase: last, fraction: 1 });
+      return result;
     },
   ]);
   return { handlers: Object.fromEntries(handlers), memory, dispose() {} };

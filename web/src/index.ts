@@ -8,9 +8,19 @@
 
 export type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
 export { Delaunator } from './delaunator.js';
+export {
+  type AlphaOptions,
+  type AlphaShape,
+  type Bounds,
+  type InterpolateOptions,
+  type InterpolationMethod,
+  SpanningTree,
+  type VoronoiArrays,
+  type VoronoiOptions,
+} from './derived.js';
 export { GdelError, type GdelErrorCode } from './errors.js';
-export { Mesh3 } from './mesh.js';
-export { Mesh2 } from './mesh2.js';
+export { type Locations3, Mesh3 } from './mesh.js';
+export { type Locations2, Mesh2 } from './mesh2.js';
 export type { ExactCounts, GpuStats, Round, SplayStats } from './stats.js';
 export { delaunay2dSync, delaunay3dSync, load2d, load3d } from './sync.js';
 export {
@@ -48,3 +58,4 @@ export type {
   TriangulatorInfo,
   TriangulatorOptions,
 } from './types.js';
+export { type Polygon, Voronoi2 } from './voronoi2.js';

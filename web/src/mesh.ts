@@ -1,8 +1,37 @@
-import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
+import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
+import {
+  type AlphaOptions,
+  type AlphaShape,
+  alphaShape,
+  type InterpolateOptions,
+  interpolate,
+  locate,
+  nearest,
+  type Source,
+  type SpanningTree,
+  spanningTree,
+  type VoronoiArrays,
+  type VoronoiOptions,
+  voronoi,
+} from './derived.js';
 import { GdelError } from './errors.js';
 import type { Tasks } from './protocol.js';
 import { write } from './tools.js';
-import type { Output, Place, Stats, TaskOptions, Trace } from './types.js';
+import type { Output, Place, Points, Stats, TaskOptions, Trace } from './types.js';
+
+/** Where points are in a 3D mesh. */
+export interface Locations3 {
+  /**
+   * For each query the tetrahedron that contains it, −1 outside the hull. If several do, it is the
+   * one whose vertices come first when they are sorted.
+   */
+  tetrahedra: SignedIndices;
+  /**
+   * For each query outside, 4 × *tetrahedron* + *k*, where the facet opposite vertex *k* is on the
+   * hull and sees the query; −1 inside, and everywhere if the points are flat.
+   */
+  facets: SignedIndices;
+}
 
 /**
  * A 3D Delaunay triangulation in typed arrays. All vertices are indices of the input points.
@@ -55,6 +84,56 @@ export class Mesh3 {
   }
 
   /**
+   * Returns the tetrahedron that contains each query point, exactly, and for queries outside the hull a
+   * facet of it.
+   *
+   * @throws {@link GdelError} `NOT_FINITE` with the `index` of a query, `BAD_INPUT`.
+   */
+  async locate(queries: Points, options?: TaskOptions): Promise<Locations3> {
+    const { simplices, facets } = await locate(this.#source(), queries, options);
+    return { tetrahedra: simplices, facets };
+  }
+
+  /**
+   * Returns the vertex that is nearest to each query point, exactly: of several at the same distance
+   * the one with the lowest index; −1 if the mesh has no tetrahedra.
+   */
+  async nearest(queries: Points, options?: TaskOptions): Promise<SignedIndices> {
+    return nearest(this.#source(), queries, options);
+  }
+
+  /**
+   * Returns the interpolated value at each query point, NaN outside the hull.
+   *
+   * @param values One number per point of the mesh; those of duplicates are not used.
+   */
+  async interpolate(
+    values: ArrayLike<number>,
+    queries: Points,
+    options?: InterpolateOptions,
+  ): Promise<Doubles> {
+    return interpolate(this.#source(), values, queries, options);
+  }
+
+  /** Returns the Voronoi diagram of the vertices. */
+  async voronoi(options?: VoronoiOptions): Promise<VoronoiArrays> {
+    return voronoi(this.#source(), options);
+  }
+
+  /**
+   * Returns the alpha shape for a radius: the tetrahedra whose circumspheres have this radius or less,
+   * and their boundary.
+   */
+  async alphaShape(options?: AlphaOptions): Promise<AlphaShape> {
+    return alphaShape(this.#source(), options);
+  }
+
+  /** Returns the Euclidean minimum spanning tree of the vertices, with single-linkage clusters. */
+  async spanningTree(options?: TaskOptions): Promise<SpanningTree> {
+    return spanningTree(this.#source(), options);
+  }
+
+  /**
    * Returns the tetrahedra as VTK's XML unstructured grid (`.vtu`), which ParaView and PyVista
    * read.
    */
@@ -95,6 +174,18 @@ export class Mesh3 {
   /** Returns NumPy's `.npz` with the arrays `points`, `tetrahedra` and `neighbors`. */
   async toNPZ(options?: TaskOptions): Promise<Bytes> {
     return (await this.#write('npz', ['neighbors'], options)).npz!;
+  }
+
+  /** Returns what everything is derived from. */
+  #source(): Source {
+    const missing = (['neighbors', 'duplicateOf'] as const).find((o) => !this.#outputs.includes(o));
+    if (missing)
+      throw new GdelError(
+        'BAD_INPUT',
+        `this needs '${missing}', which was not among the outputs of the run`,
+      );
+    const { tetrahedra, neighbors, duplicateOf, points } = this;
+    return { dimension: 3, points, mesh: { tetrahedra, neighbors, duplicateOf } };
   }
 
   /** Copies only what the format needs to the writer. */

@@ -1,7 +1,38 @@
-import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
+import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
+import {
+  type AlphaOptions,
+  type AlphaShape,
+  alphaShape,
+  type InterpolateOptions,
+  interpolate,
+  locate,
+  nearest,
+  type Source,
+  type SpanningTree,
+  spanningTree,
+  type VoronoiOptions,
+  voronoi,
+} from './derived.js';
+import { bad, optionsOf } from './options.js';
+import { findNearest, Rings, stripes } from './plane.js';
 import type { Tasks } from './protocol.js';
 import { write2d } from './tools.js';
-import type { Place, Stats, TaskOptions } from './types.js';
+import type { Place, Points, Stats, TaskOptions } from './types.js';
+import { Voronoi2 } from './voronoi2.js';
+
+/** Where points are in a 2D mesh. */
+export interface Locations2 {
+  /**
+   * For each query the triangle that contains it, −1 outside the hull. If several do, it is the one
+   * whose vertices come first when they are sorted.
+   */
+  triangles: SignedIndices;
+  /**
+   * For each query outside, a half-edge on the hull that sees the query; −1 inside, and everywhere
+   * if the points are collinear.
+   */
+  halfedges: SignedIndices;
+}
 
 /**
  * A 2D Delaunay triangulation in the arrays of the npm package `delaunator`: code for a
@@ -40,6 +71,7 @@ export class Mesh2 {
   readonly coords: Coordinates;
   /** Statistics of the run. */
   readonly stats: Stats;
+  #rings: Rings | undefined;
 
   /** @internal */
   constructor(arrays: Tasks['delaunay2d']['result'], place: Place) {
@@ -50,6 +82,88 @@ export class Mesh2 {
     this.dimension = arrays.dimension;
     this.coords = arrays.points;
     this.stats = { ...arrays.stats, ...place };
+  }
+
+  /**
+   * Returns the triangle that contains each query point, exactly, and for queries outside the hull a
+   * facet of it.
+   *
+   * @throws {@link GdelError} `NOT_FINITE` with the `index` of a query, `BAD_INPUT`.
+   */
+  async locate(queries: Points, options?: TaskOptions): Promise<Locations2> {
+    const { simplices, facets } = await locate(this.#source(), queries, options);
+    return { triangles: simplices, halfedges: facets };
+  }
+
+  /**
+   * Returns the vertex that is nearest to each query point, exactly: of several at the same distance
+   * the one with the lowest index; −1 if the mesh has no triangles.
+   */
+  async nearest(queries: Points, options?: TaskOptions): Promise<SignedIndices> {
+    return nearest(this.#source(), queries, options);
+  }
+
+  /**
+   * Returns the interpolated value at each query point, NaN outside the hull.
+   *
+   * @param values One number per point of the mesh; those of duplicates are not used.
+   */
+  async interpolate(
+    values: ArrayLike<number>,
+    queries: Points,
+    options?: InterpolateOptions,
+  ): Promise<Doubles> {
+    return interpolate(this.#source(), values, queries, options);
+  }
+
+  /**
+   * Returns the Voronoi diagram of the vertices. Collinear points have cells if these are clipped to
+   * a box that is given.
+   */
+  async voronoi(options?: VoronoiOptions): Promise<Voronoi2> {
+    let arrays = await voronoi(this.#source(), options);
+    const { clip } = optionsOf(options);
+    if (this.triangles.length === 0 && clip !== undefined && typeof clip !== 'string')
+      arrays = stripes(this, [clip[0]!, clip[1]!, clip[2]!, clip[3]!]);
+    const find = (x: number, y: number, start: number) => this.find(x, y, start);
+    return new Voronoi2(arrays, this.triangles.length / 3, this.duplicateOf, find);
+  }
+
+  /**
+   * Returns the alpha shape for a radius: the triangles whose circumcircles have this radius or less,
+   * and their boundary.
+   */
+  async alphaShape(options?: AlphaOptions): Promise<AlphaShape> {
+    return alphaShape(this.#source(), options);
+  }
+
+  /** Returns the Euclidean minimum spanning tree of the vertices, with single-linkage clusters. */
+  async spanningTree(options?: TaskOptions): Promise<SpanningTree> {
+    return spanningTree(this.#source(), options);
+  }
+
+  /**
+   * Returns the vertex that is nearest to the point (x, y), exactly, at once and in the calling
+   * thread: of several at the same distance the one with the lowest index, −1 if there are no points
+   * or a coordinate is not finite. Works for collinear points, too.
+   *
+   * @param start A point near it, where the search begins.
+   */
+  find(x: number, y: number, start = 0): number {
+    const { length } = this.duplicateOf;
+    if (!Number.isInteger(start) || start < 0 || (start > 0 && start >= length))
+      throw bad('the start', 'the index of a point', start);
+    if (length === 0 || !Number.isFinite(x) || !Number.isFinite(y)) return -1;
+    const duplicateOf = this.duplicateOf[start]!;
+    const vertex = duplicateOf < 0 ? start : duplicateOf;
+    return findNearest(this, (this.#rings ??= new Rings(this)), [x, y], vertex);
+  }
+
+  /** Returns the points that point `i` has an edge to; none for a duplicate. */
+  neighbors(i: number): number[] {
+    if (!Number.isInteger(i) || i < 0 || i >= this.duplicateOf.length)
+      throw bad('the point', 'the index of a point', i);
+    return (this.#rings ??= new Rings(this)).of(i);
   }
 
   /**
@@ -98,6 +212,12 @@ export class Mesh2 {
   /** Returns NumPy's `.npz` with the arrays `points`, `triangles` and `halfedges`. */
   async toNPZ(options?: TaskOptions): Promise<Bytes> {
     return (await this.#write('npz', options)).npz!;
+  }
+
+  /** Returns what everything is derived from. */
+  #source(): Source {
+    const { triangles, halfedges, duplicateOf, coords: points } = this;
+    return { dimension: 2, points, mesh: { triangles, halfedges, duplicateOf } };
   }
 
   #write(format: string, options: TaskOptions | undefined): Promise<Record<string, Bytes>> {

@@ -1,6 +1,7 @@
 // The messages between the page and the worker.
 
 import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
+import type { AlphaShape, VoronoiArrays } from './derived.js';
 import type { PlainError } from './errors.js';
 import type {
   Backend,
@@ -18,11 +19,26 @@ import type {
 } from './types.js';
 
 /** The wasm modules. */
-export type ModuleName = 'd3' | 'd2' | 'tools';
+export type ModuleName = 'd3' | 'd2' | 'tools' | 'derived';
 
 export type CoreInfo = Omit<TriangulatorInfo, keyof Place>;
 
 export type CoreStats = Omit<Stats, keyof Place>;
+
+/** A mesh to derive something from. */
+export interface DerivedMesh {
+  tetrahedra?: Indices;
+  neighbors?: SignedIndices;
+  triangles?: Indices;
+  halfedges?: SignedIndices;
+  duplicateOf: SignedIndices;
+}
+
+interface DerivedArgs {
+  dimension: 2 | 3;
+  points: Coordinates;
+  mesh: DerivedMesh;
+}
 
 /** The arguments and the result of each task. */
 export interface Tasks {
@@ -65,6 +81,21 @@ export interface Tasks {
     result: Record<string, Bytes>;
   };
   verify2d: { args: { points: Coordinates; mesh: MeshView2 }; result: Report2 };
+  locate: {
+    args: DerivedArgs & { queries: Coordinates };
+    result: { simplices: SignedIndices; facets: SignedIndices };
+  };
+  nearest: { args: DerivedArgs & { queries: Coordinates }; result: SignedIndices };
+  interpolate: {
+    args: DerivedArgs & { queries: Coordinates; values: Doubles; method: string };
+    result: Doubles;
+  };
+  voronoi: { args: DerivedArgs & { clip: string; bounds: Doubles }; result: VoronoiArrays };
+  alphaShape: {
+    args: DerivedArgs & { alpha: number | undefined; components: number; criticalValues: boolean };
+    result: AlphaShape;
+  };
+  spanningTree: { args: DerivedArgs; result: { edges: Indices; lengths: Doubles } };
 }
 
 export type TaskName = keyof Tasks;

@@ -1,4 +1,4 @@
-// Files, verification and synthetic points, in a WebAssembly module with a worker of its own.
+// Files, verification and synthetic points, in a WebAssembly module of their own.
 
 import { wasmTools } from '#assets';
 import {
@@ -11,10 +11,10 @@ import {
   kindOf,
 } from './arrays.js';
 import { GdelError } from './errors.js';
-import { Host } from './host.js';
 import { bad, objectOf, optionsOf, taskOptions } from './options.js';
 import { coordinatesInSlices } from './points.js';
 import type { TaskName, Tasks } from './protocol.js';
+import { runShared } from './shared.js';
 import { throwIfAborted } from './stop.js';
 import type {
   Distribution,
@@ -28,19 +28,13 @@ import type {
   TaskOptions,
 } from './types.js';
 
-let shared: Host | undefined;
-
 /** Runs a task with options that are checked. */
-async function run<T extends TaskName>(
+const run = <T extends TaskName>(
   task: T,
   args: Tasks[T]['args'],
   options: TaskOptions,
   transfer: ArrayBuffer[] = [],
-): Promise<Tasks[T]['result']> {
-  throwIfAborted(options.signal);
-  shared ??= new Host();
-  return (await shared.run(wasmTools, task, args, { transfer }, options)).result;
-}
+) => runShared(wasmTools, task, args, options, transfer);
 
 /** Options for synthetic points. */
 export interface GenerateOptions extends TaskOptions {

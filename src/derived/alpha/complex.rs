@@ -1,8 +1,9 @@
 //! The alpha complex for one radius.
 
 use super::{
-    super::{sets::DisjointSets, voronoi::VoronoiShapes},
+    super::{sets::DisjointSets, voronoi::ring},
     AlphaEdges, AlphaShape,
+    edges::Edges,
     values::{Alpha, certain},
 };
 use crate::{
@@ -133,7 +134,7 @@ where
         let is_vertex = |&(v, _): &(usize, &[f64; 2])| self.shape.radii.complex.duplicate_of[v] == NONE;
         // What is left open by rounded values depends on the faces around the vertex.
         let mut exactly = None;
-        self.shape.vertices.iter().enumerate().filter(is_vertex).map(move |(v, &[regular, interior])| {
+        self.shape.vertex_values().iter().enumerate().filter(is_vertex).map(move |(v, &[regular, interior])| {
             let class = match (self.certainly(regular), self.certainly(interior)) {
                 (Some(_), Some(true)) => FaceClass::Interior,
                 (Some(true), Some(false)) => FaceClass::Regular,
@@ -166,7 +167,8 @@ where
                 }
             }
         }
-        for (edge, &own) in self.shape.edges.edges.iter().zip(&self.shape.edges.own) {
+        let Edges { edges, own, .. } = self.shape.edge_values();
+        for (edge, &own) in edges.iter().zip(own) {
             if self.is_own(edge, own) {
                 edge.iter().for_each(|&v| is_face[v as usize] = true);
             }
@@ -196,7 +198,7 @@ where
 impl AlphaComplex<'_, 3, 4> {
     /// Returns all edges of a 3D mesh and what they are: in the order of [`AlphaShape::edges`].
     pub fn edges(&self) -> impl ExactSizeIterator<Item = ([u32; 2], FaceClass)> + '_ {
-        let edges = &self.shape.edges;
+        let edges = self.shape.edge_values();
         edges.edges.iter().enumerate().map(move |(e, &edge)| {
             let class = match (self.certainly(edges.regular[e]), self.certainly(edges.interior[e])) {
                 (_, Some(true)) => FaceClass::Interior,
@@ -212,15 +214,16 @@ impl AlphaComplex<'_, 3, 4> {
     /// Classifies an edge by the faces around it.
     fn classify_edge(&self, e: usize) -> FaceClass {
         let complex = &self.shape.radii.complex;
-        let (edge, t) = (self.shape.edges.edges[e], self.shape.edges.simplex[e] as usize);
-        let mut ring = Vec::new();
-        let is_closed = <Euclidean as VoronoiShapes<3, 4>>::ring(complex, edge[0], edge[1], t, &mut ring);
-        if is_closed && ring.iter().all(|&t| self.is_solid[t as usize]) {
+        let edges = self.shape.edge_values();
+        let (edge, t) = (edges.edges[e], edges.simplex[e] as usize);
+        let mut around = Vec::new();
+        let is_closed = ring(complex, edge[0], edge[1], t, &mut around);
+        if is_closed && around.iter().all(|&t| self.is_solid[t as usize]) {
             return FaceClass::Interior;
         }
-        let has_solid = ring.iter().any(|&t| self.is_solid[t as usize]);
+        let has_solid = around.iter().any(|&t| self.is_solid[t as usize]);
         // The facets around the edge, those inside the ring twice.
-        let mut facets = ring.iter().flat_map(|&t| {
+        let mut facets = around.iter().flat_map(|&t| {
             let t = t as usize;
             let is_at_edge = move |&k: &usize| !edge.contains(&complex.simplices[t][k]);
             (0..4).filter(is_at_edge).map(move |k| (t, k))
@@ -237,7 +240,7 @@ impl AlphaComplex<'_, 3, 4> {
         };
         if has_solid || facets.any(is_own) {
             FaceClass::Regular
-        } else if self.is_own(&edge, self.shape.edges.own[e]) {
+        } else if self.is_own(&edge, edges.own[e]) {
             FaceClass::Singular
         } else {
             FaceClass::Exterior

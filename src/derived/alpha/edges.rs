@@ -1,7 +1,10 @@
 //! The edges of a 3D mesh in the filtration, which in 2D are the facets.
 
 use super::{
-    super::{complex::Complex, voronoi::VoronoiShapes},
+    super::{
+        complex::Complex,
+        voronoi::{THIRD, VoronoiShapes, place, ring},
+    },
     values::Radii,
 };
 use crate::geometry::{Euclidean, is_obtuse};
@@ -41,7 +44,9 @@ impl AlphaEdges<3, 4> for Euclidean {
         let mut edges = Edges::default();
         // The edges of each tetrahedron that have been found.
         let mut found = vec![0u8; complex.simplices.len()];
-        let mut ring = Vec::new();
+        // Only in a broken mesh a facet is not listed where it should be.
+        let own = |place: usize| facets.get(place).copied().unwrap_or(f64::INFINITY);
+        let mut around = Vec::new();
         for t in 0..complex.simplices.len() {
             for (i, j) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
                 if found[t] >> EDGE[i][j] & 1 == 1 {
@@ -49,22 +54,37 @@ impl AlphaEdges<3, 4> for Euclidean {
                 }
                 let [v, a] = [i, j].map(|corner| complex.simplices[t][corner]);
                 let [p, q] = [complex.point(v), complex.point(a)];
-                let is_closed = <Euclidean as VoronoiShapes<3, 4>>::ring(complex, v, a, t, &mut ring);
+                let is_closed = ring(complex, v, a, t, &mut around);
                 let mut is_attached = false;
                 let mut regular = f64::INFINITY;
                 let mut interior = if is_closed { 0.0 } else { f64::INFINITY };
-                for (place, &u) in ring.iter().enumerate() {
+                // The facet to the next tetrahedron, as that one sees it when it is there.
+                let mut facet_before: Option<(usize, usize)> = None;
+                let corners_of = |u: usize| corners(&complex.simplices[u], v, a);
+                if is_closed && let Some(&last) = around.last() {
+                    let [_, _, k, _] = corners_of(last as usize);
+                    facet_before = Some((last as usize, k));
+                }
+                for &u in &around {
                     let u = u as usize;
-                    let Some([i, j, k, l]) = corners(complex, u, v, a) else { continue };
+                    let [i, j, k, l] = corners_of(u);
                     found[u] |= 1 << EDGE[i][j];
                     interior = largest(interior, simplices[u]);
                     regular = smallest(regular, simplices[u]);
-                    // The facet to the next tetrahedron, and that before the first one of an open ring.
-                    let before = (place == 0 && !is_closed).then_some((l, k));
-                    for (opposite, third) in [Some((k, l)), before].into_iter().flatten() {
-                        is_attached |= is_obtuse(complex.point(complex.simplices[u][third]), p, q);
-                        regular = smallest(regular, facets[index.of(complex, u, opposite)]);
-                    }
+                    // The facet opposite l is that opposite k of the tetrahedron before, and listed with the lower index.
+                    let place = match facet_before {
+                        Some((before, k)) if before < u => index.of(before, k),
+                        _ => index.of(u, l),
+                    };
+                    regular = smallest(regular, own(place));
+                    is_attached |= is_obtuse(complex.point(complex.simplices[u][k]), p, q);
+                    facet_before = Some((u, k));
+                }
+                // The last one of an open ring.
+                if let (false, Some((u, k))) = (is_closed, facet_before) {
+                    let [_, _, _, l] = corners_of(u);
+                    regular = smallest(regular, own(index.of(u, k)));
+                    is_attached |= is_obtuse(complex.point(complex.simplices[u][l]), p, q);
                 }
                 edges.edges.push([v.min(a), v.max(a)]);
                 edges.own.push(if is_attached { f64::INFINITY } else { radii.edge([v, a]) });
@@ -78,11 +98,11 @@ impl AlphaEdges<3, 4> for Euclidean {
 }
 
 /// Returns the places of `v` and `a` in a tetrahedron, and of the others so that all four are an even permutation.
-fn corners(complex: &Complex<'_, 3, 4>, t: usize, v: u32, a: u32) -> Option<[usize; 4]> {
-    let place = |v: u32| complex.simplices[t].iter().position(|&w| w == v);
-    let (i, j) = (place(v)?, place(a)?);
-    let k = *super::super::voronoi::THIRD[i].get(j)?;
-    Some([i, j, k, 6 - i - j - k])
+fn corners(simplex: &[u32; 4], v: u32, a: u32) -> [usize; 4] {
+    let (i, j) = (place(simplex, v), place(simplex, a));
+    // Only in a broken mesh both are the same.
+    let k = THIRD[i][j] & 3;
+    [i, j, k, 6usize.wrapping_sub(i + j + k) & 3]
 }
 
 /// Returns the smaller number, and NaN if one is NaN.
@@ -97,27 +117,28 @@ pub(super) fn largest(a: f64, b: f64) -> f64 {
 
 /// The places of the facets in the list that has each facet with the simplex of the lower index.
 struct FacetIndex {
-    /// The place of the first facet that is listed with each simplex, or would be.
-    first: Vec<u32>,
+    /// For each simplex, the place of the first facet that is listed with it, or would be, times 16, and a bit for each of its
+    /// facets that is.
+    first: Vec<u64>,
 }
 
 impl FacetIndex {
     fn new<const D: usize, const N: usize>(complex: &Complex<'_, D, N>) -> Self {
         let mut count = 0;
         let first = |t: usize| {
-            let first = count;
-            count += (0..N).filter(|&k| is_listed(complex, t, k)).count() as u32;
+            let listed: u64 = (0..N).map(|k| u64::from(is_listed(complex, t, k)) << k).sum();
+            let first = count << 4 | listed;
+            count += u64::from(listed.count_ones());
             first
         };
         FacetIndex { first: (0..complex.simplices.len()).map(first).collect() }
     }
 
-    fn of<const D: usize, const N: usize>(&self, complex: &Complex<'_, D, N>, t: usize, k: usize) -> usize {
-        let (t, k) = match complex.across(t, k) {
-            Some(across) if across < t => (across, complex.facet_towards(across, t)),
-            _ => (t, k),
-        };
-        self.first[t] as usize + (0..k).filter(|&l| is_listed(complex, t, l)).count()
+    /// Returns the place of facet `k` of simplex `t`, which is listed with it.
+    fn of(&self, t: usize, k: usize) -> usize {
+        let first = self.first[t];
+        let before = first & 15 & ((1 << k) - 1);
+        ((first >> 4) + u64::from(before.count_ones())) as usize
     }
 }
 

@@ -66,9 +66,10 @@ pub struct AlphaShape<'a, const D: usize = 3, const N: usize = 4> {
     /// Of each facet, listed with the simplex of the lower index, that of its smallest sphere; infinite if that contains another
     /// vertex.
     facets: Vec<f64>,
-    edges: Edges,
-    /// Those from which on each vertex is regular, and interior.
-    vertices: Vec<[f64; 2]>,
+    /// Once they have been asked for.
+    edges: OnceLock<Edges>,
+    /// Those from which on each vertex is regular, and interior, once they have been asked for.
+    vertices: OnceLock<Vec<[f64; 2]>>,
     /// The simplices in groups of exactly the same circumradius, in ascending order.
     groups: OnceLock<Groups>,
 }
@@ -121,8 +122,9 @@ impl<'a, const D: usize, const N: usize> AlphaShape<'a, D, N>
 where
     Euclidean: AlphaEdges<D, N>,
 {
-    /// Computes the filtration of a mesh with its points: from which radius on each simplex and each face is part of the alpha
-    /// complex.
+    /// Computes the filtration of a mesh with its points: from which radius on each simplex and each facet is part of the alpha
+    /// complex. The values of the edges of a 3D mesh and of vertices, which take longer, are computed when they are first asked
+    /// for.
     ///
     /// # Errors
     ///
@@ -150,12 +152,10 @@ where
             });
             own.collect::<Vec<_>>()
         });
-        let facets = facets.concat();
+        let facets = parallel::joined(facets);
         let simplices: Vec<f64> = simplices.into_iter().map(|(squared, _)| squared).collect();
-        let edges = Euclidean::edges(&radii, &simplices, &facets);
-        let mut shape = AlphaShape { radii, simplices, facets, edges, vertices: Vec::new(), groups: OnceLock::new() };
-        shape.vertices = shape.vertex_values();
-        Ok(shape)
+        let (edges, vertices, groups) = Default::default();
+        Ok(AlphaShape { radii, simplices, facets, edges, vertices, groups })
     }
 
     /// Returns the simplices and faces that are part of the complex for a radius.
@@ -210,7 +210,8 @@ where
         let simplices = self.simplices.iter().zip(complex.simplices).map(|(&r, vertices)| (face(vertices), r));
         let facets =
             self.listed_facets().zip(&self.facets).map(|((t, k), &r)| (face(&facet(&complex.simplices[t], k)), r));
-        let edges = self.edges.edges.iter().zip(&self.edges.own).map(|(edge, &r)| (face(edge), r));
+        let Edges { edges, own, .. } = self.edge_values();
+        let edges = edges.iter().zip(own).map(|(edge, &r)| (face(edge), r));
         let own: Vec<([u32; 4], f64)> =
             simplices.chain(facets).chain(edges).filter(|&(_, r)| r < f64::INFINITY || r.is_nan()).collect();
         let vertices = |i: u32| {
@@ -254,7 +255,7 @@ where
     /// Returns all vertices, with the radii from which on they are part of the complex: always, as singular ones.
     pub fn vertices(&self) -> impl Iterator<Item = (u32, Interval)> + '_ {
         let is_vertex = |&(v, _): &(usize, &[f64; 2])| self.radii.complex.duplicate_of[v] == NONE;
-        self.vertices.iter().enumerate().filter(is_vertex).map(|(v, &[regular, interior])| {
+        self.vertex_values().iter().enumerate().filter(is_vertex).map(|(v, &[regular, interior])| {
             (v as u32, Interval { singular: 0.0, regular: self.radius(regular), interior: self.radius(interior) })
         })
     }
@@ -284,8 +285,17 @@ where
         })
     }
 
+    /// Returns the edges with their squared radii, which take longer than all others.
+    fn edge_values(&self) -> &Edges {
+        self.edges.get_or_init(|| Euclidean::edges(&self.radii, &self.simplices, &self.facets))
+    }
+
     /// Returns the squared radii from which on each vertex is regular, and interior.
-    fn vertex_values(&self) -> Vec<[f64; 2]> {
+    fn vertex_values(&self) -> &[[f64; 2]] {
+        self.vertices.get_or_init(|| self.find_vertex_values())
+    }
+
+    fn find_vertex_values(&self) -> Vec<[f64; 2]> {
         let complex = &self.radii.complex;
         // A vertex without simplices is never within any.
         let interior = if complex.simplices.is_empty() { f64::INFINITY } else { 0.0 };
@@ -306,7 +316,8 @@ where
                 }
             }
         }
-        for (edge, &own) in self.edges.edges.iter().zip(&self.edges.own) {
+        let Edges { edges, own, .. } = self.edge_values();
+        for (edge, &own) in edges.iter().zip(own) {
             for &v in edge {
                 values[v as usize][0] = smallest(values[v as usize][0], own);
             }
@@ -329,10 +340,10 @@ impl AlphaShape<'_, 3, 4> {
     /// # Ok::<(), gdel::Error>(())
     /// ```
     pub fn edges(&self) -> impl ExactSizeIterator<Item = ([u32; 2], Interval)> + '_ {
-        self.edges.edges.iter().enumerate().map(|(e, &edge)| {
-            let [regular, interior] =
-                [self.edges.regular[e], self.edges.interior[e]].map(|squared| self.radius(squared));
-            let own = self.edges.own[e];
+        let edges = self.edge_values();
+        edges.edges.iter().enumerate().map(|(e, &edge)| {
+            let [regular, interior] = [edges.regular[e], edges.interior[e]].map(|squared| self.radius(squared));
+            let own = edges.own[e];
             let own = if own == f64::INFINITY { own } else { self.radius_of(&edge, own) };
             (edge, Interval { singular: own.min(regular), regular, interior })
         })

@@ -13,7 +13,7 @@ pub struct Cell<const D: usize = 3> {
     /// For each vertex the simplex of the mesh whose circumcentre it is; [`NONE`](crate::NONE) if clipping made it.
     pub simplices: Vec<i32>,
     /// The vertices of each facet: counter-clockwise as seen from outside in 3D, both ends counter-clockwise around the cell in
-    /// 2D. The chain of an unbounded facet's vertices is open: in 3D it comes from infinity before its first vertex and
+    /// 2D, where the facets are in this order, too, and those of an unbounded cell begin and end with its rays. The chain of an unbounded facet's vertices is open: in 3D it comes from infinity before its first vertex and
     /// returns there after its last one.
     pub facets: Csr,
     /// For each facet the point on the other side; [`NONE`](crate::NONE) where the cell was clipped.

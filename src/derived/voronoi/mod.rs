@@ -6,10 +6,11 @@ mod polytope;
 mod shapes;
 
 pub use cell::Cell;
-pub(super) use shapes::THIRD;
+use shapes::Star;
 pub use shapes::VoronoiShapes;
+pub(super) use shapes::{THIRD, place, ring};
 
-use super::Locator;
+use super::{Locator, queries::order_along_curve};
 use crate::{
     error::Error,
     geometry::{Euclidean, Geometry, circumcenter, facet, vector},
@@ -20,7 +21,6 @@ use crate::{
     parallel::{self, Threads},
 };
 use polytope::Polytope;
-use rustc_hash::FxHashSet;
 
 /// The number of cells that is worth handing to another thread.
 const GRAIN: usize = 1 << 8;
@@ -209,16 +209,22 @@ where
     /// # Ok::<(), gdel::Error>(())
     /// ```
     pub fn map_cells<R: Send>(&self, f: impl Fn(u32, &Cell<D>) -> R + Sync) -> Vec<R> {
-        let points = self.locator.complex.points.len();
-        let results = parallel::map_grains(Threads::All, points, GRAIN, |range| {
+        // Cells that come one after the other share simplices, which are then at hand.
+        let order = order_along_curve(self.locator.complex.points, self.locator.key);
+        let results = parallel::map_grains(Threads::All, order.len(), GRAIN, |range| {
             let mut worker = Worker::default();
-            let results = range.map(|i| {
-                self.find_cell(i as u32, &mut worker);
-                f(i as u32, &worker.cell)
+            let results = order[range].iter().map(|&i| {
+                self.find_cell(i, &mut worker);
+                f(i, &worker.cell)
             });
             results.collect::<Vec<_>>()
         });
-        results.into_iter().flatten().collect()
+        let mut sorted: Vec<Option<R>> = order.iter().map(|_| None).collect();
+        for (&i, result) in order.iter().zip(results.into_iter().flatten()) {
+            sorted[i as usize] = Some(result);
+        }
+        // There is one for each point.
+        sorted.into_iter().flatten().collect()
     }
 
     /// Returns the volume of each point's cell, its area in 2D: infinite for unbounded cells, 0 for empty ones.
@@ -319,11 +325,13 @@ where
         if star.is_empty() {
             return;
         }
-        self.find_facets(i, star, worker);
         let site = self.locator.complex.point(i);
+        worker.relative.clear();
+        worker.relative.extend(star.iter().map(|&t| vector::minus(self.vertices[t as usize], site)));
+        self.find_facets(i, star, worker);
         if self.is_whole(i) {
-            let cell = &mut worker.cell;
-            cell.vertices.extend(star.iter().map(|&t| vector::minus(self.vertices[t as usize], site)));
+            let Worker { cell, relative, .. } = worker;
+            cell.vertices.extend_from_slice(relative);
             cell.simplices.extend(star.iter().map(|&t| t as i32));
             cell.is_bounded = !self.on_hull[i as usize];
         } else {
@@ -351,39 +359,28 @@ where
 
     /// Finds the facets of the cell of vertex `v` before it is clipped, as places in its star.
     fn find_facets(&self, v: u32, star: &[u32], worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
-        let Worker { cell, is_open, ring, seen, .. } = worker;
+        let Worker { cell, is_open, relative, star: scratch, .. } = worker;
         let complex = &self.locator.complex;
         is_open.clear();
-        seen.clear();
-        for &t in star {
-            for a in complex.simplices[t as usize] {
-                if a == v || !seen.insert(a) {
-                    continue;
-                }
-                let is_closed = <Euclidean as VoronoiShapes<D, N>>::ring(complex, v, a, t as usize, ring);
-                if !self.is_facet(ring, is_closed, [v, a]) {
-                    continue;
-                }
-                // A star is in ascending order. Only a broken mesh has simplices in a ring that are not in the star.
-                let places = ring.iter().map(|t| star.binary_search(t).unwrap_or(0) as u32);
-                cell.push(places, a as i32);
+        <Euclidean as VoronoiShapes<D, N>>::for_rings(complex, v, star, scratch, |a, ring, is_closed| {
+            if self.is_facet(star, relative, ring, is_closed, [v, a]) {
+                cell.push(ring.iter().copied(), a as i32);
                 is_open.push(!is_closed);
             }
-        }
+        });
     }
 
     /// Returns whether the facet that is dual to an edge has an area, in 2D a length. It has none if ties make so many of its
-    /// vertices coincide that at most two are left, in 2D one.
-    fn is_facet(&self, ring: &[u32], is_closed: bool, [v, a]: [u32; 2]) -> bool {
+    /// vertices coincide that at most two are left, in 2D one. `relative` has the circumcentres of the star, relative to *v*.
+    fn is_facet(&self, star: &[u32], relative: &[[f64; D]], ring: &[u32], is_closed: bool, [v, a]: [u32; 2]) -> bool {
         let complex = &self.locator.complex;
         let are_distinct = |&[t, u]: &[u32; 2]| {
-            let [p, q] = [t, u].map(|t| self.vertices[t as usize]);
-            let radius = vector::squared_norm(vector::minus(p, complex.point(v)));
+            let [p, q] = [t, u].map(|place| relative[place as usize]);
             // Far more than the errors of both.
-            if vector::squared_norm(vector::minus(p, q)) > radius * (1.0 / (1u64 << 60) as f64) {
+            if vector::squared_norm(vector::minus(p, q)) > vector::squared_norm(p) * (1.0 / (1u64 << 60) as f64) {
                 return true;
             }
-            let (t, u) = (t as usize, u as usize);
+            let [t, u] = [t, u].map(|place| star[place as usize] as usize);
             let apex = complex.simplices[u].into_iter().find(|w| !complex.simplices[t].contains(w));
             apex.is_some_and(|w| Euclidean::in_sphere(&complex.corners(t), complex.point(w)) != 0)
         };
@@ -394,17 +391,18 @@ where
             return distinct >= <Euclidean as VoronoiShapes<D, N>>::FACET_EDGES;
         }
         // Without an edge, an unbounded facet has two rays from one vertex, which coincide if the facets of the hull share a plane.
-        distinct > 0 || !self.hull_is_flat_at(ring, [v, a])
+        distinct > 0 || !self.hull_is_flat_at(star, ring, [v, a])
     }
 
-    /// Returns whether the two facets of the hull at an edge, around which these simplices are, share a plane.
-    fn hull_is_flat_at(&self, ring: &[u32], edge: [u32; 2]) -> bool {
+    /// Returns whether the two facets of the hull at an edge, around which these simplices of a star are, share a plane.
+    fn hull_is_flat_at(&self, star: &[u32], ring: &[u32], edge: [u32; 2]) -> bool {
         let complex = &self.locator.complex;
         // In 2D, the edge is all of the hull's facet.
         if D == 2 {
             return false;
         }
-        let mut hull_facets = ring.iter().flat_map(|&t| {
+        let mut hull_facets = ring.iter().flat_map(|&place| {
+            let t = star[place as usize];
             let simplex = &complex.simplices[t as usize];
             let is_outer = move |&k: &usize| !edge.contains(&simplex[k]) && complex.neighbors[t as usize][k] == NONE;
             (0..N).filter(is_outer).map(move |k| facet(simplex, k))
@@ -461,10 +459,9 @@ struct Worker<const D: usize, P> {
     cell: Cell<D>,
     /// Whether each facet of the cell is unbounded.
     is_open: Vec<bool>,
-    /// The simplices around an edge.
-    ring: Vec<u32>,
-    /// The neighbours that have been visited.
-    seen: FxHashSet<u32>,
+    /// The circumcentres of the star, relative to its vertex.
+    relative: Vec<[f64; D]>,
+    star: Star,
     /// The corners of a facet.
     corners: Vec<[f64; D]>,
     polytope: P,
@@ -475,8 +472,8 @@ impl<const D: usize, P: Default> Default for Worker<D, P> {
         Worker {
             cell: Cell::default(),
             is_open: Vec::new(),
-            ring: Vec::new(),
-            seen: FxHashSet::default(),
+            relative: Vec::new(),
+            star: Star::default(),
             corners: Vec::new(),
             polytope: P::default(),
         }

@@ -1,13 +1,17 @@
 //! The WebAssembly bindings of the npm package: typed arrays in, typed arrays out, errors as
 //! `Error` objects with a `code`. The TypeScript in `web/src` is their only caller.
 //!
-//! The features `d3`, `d2` and `tools` are the three modules of the package.
+//! The features `d3`, `d2`, `tools` and `derived` are the modules of the package.
 #![cfg(target_arch = "wasm32")]
 
 #[cfg(feature = "d2")]
 mod d2;
 #[cfg(feature = "d3")]
 mod d3;
+#[cfg(feature = "derived")]
+mod derived;
+#[cfg(any(feature = "tools", feature = "derived"))]
+mod mesh;
 mod objects;
 mod points;
 #[cfg(feature = "tools")]

@@ -28,11 +28,21 @@ impl Coordinates {
     }
 
     /// Negates the *y* coordinates of 2D points.
-    #[cfg(feature = "tools")]
+    #[cfg(any(feature = "tools", feature = "derived"))]
     pub(crate) fn flip_y(&mut self) {
         match self {
             Coordinates::F32(values) => values.iter_mut().skip(1).step_by(2).for_each(|y| *y = -*y),
             Coordinates::F64(values) => values.iter_mut().skip(1).step_by(2).for_each(|y| *y = -*y),
+        }
+    }
+
+    /// Returns some of the coordinates as points, counted in points.
+    #[cfg(feature = "derived")]
+    pub(crate) fn part<const D: usize>(&self, range: std::ops::Range<usize>) -> Result<Points<'_, D>, Error> {
+        let range = D * range.start..D * range.end;
+        match self {
+            Coordinates::F32(values) => Points::from_interleaved_f32(&values[range]),
+            Coordinates::F64(values) => Points::from_interleaved_f64(&values[range]),
         }
     }
 

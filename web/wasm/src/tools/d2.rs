@@ -9,12 +9,9 @@ use js_sys::Float64Array;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
+    mesh::{CallerMesh, points_of_mesh},
     objects::Thrown,
-    tools::{
-        files, generated,
-        mesh::{CallerMesh, points_of_mesh},
-        report_object,
-    },
+    tools::{files, generated, report_object},
 };
 
 /// Returns `count` points of a distribution, interleaved.

@@ -2,7 +2,6 @@
 
 mod d2;
 mod d3;
-mod mesh;
 
 use gdel::{
     Points,

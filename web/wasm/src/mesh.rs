@@ -1,5 +1,6 @@
 //! Meshes from JavaScript.
 
+#[cfg(feature = "tools")]
 use gdel::Points;
 use js_sys::{Int32Array, Reflect, Uint32Array};
 use wasm_bindgen::{JsCast, JsValue};
@@ -11,17 +12,18 @@ use crate::{
 
 /// A mesh copied into this module's memory: `N` vertices per simplex, `H` per hull facet in `hull`.
 /// `None` stands for what the caller did not state.
-pub(super) struct CallerMesh<const N: usize, const H: usize> {
-    pub(super) simplices: Vec<[u32; N]>,
-    pub(super) neighbors: Option<Vec<[i32; N]>>,
-    pub(super) hull: Option<Vec<[u32; H]>>,
-    pub(super) duplicate_of: Option<Vec<i32>>,
-    pub(super) dimension: Option<u8>,
+#[cfg_attr(not(feature = "tools"), expect(dead_code, reason = "the hull and the dimension are for files and proofs"))]
+pub(crate) struct CallerMesh<const N: usize, const H: usize> {
+    pub(crate) simplices: Vec<[u32; N]>,
+    pub(crate) neighbors: Option<Vec<[i32; N]>>,
+    pub(crate) hull: Option<Vec<[u32; H]>>,
+    pub(crate) duplicate_of: Option<Vec<i32>>,
+    pub(crate) dimension: Option<u8>,
 }
 
 impl<const N: usize, const H: usize> CallerMesh<N, H> {
     /// Copies the arrays of `mesh`, of which those of simplices and neighbors have these names.
-    pub(super) fn new(mesh: &JsValue, simplices: &str, neighbors: &str) -> Result<Self, Thrown> {
+    pub(crate) fn new(mesh: &JsValue, simplices: &str, neighbors: &str) -> Result<Self, Thrown> {
         let all = property::<Uint32Array>(mesh, simplices)?;
         let all = all.ok_or_else(|| error("BAD_INPUT", &format!("the mesh has no {simplices}")))?;
         Ok(CallerMesh {
@@ -44,7 +46,8 @@ impl<const N: usize, const H: usize> CallerMesh<N, H> {
     }
 
     /// Checks that all vertices are among the points, which the writers rely on.
-    pub(super) fn check_vertices<const D: usize>(&self, points: Points<'_, D>) -> Result<(), Thrown> {
+    #[cfg(feature = "tools")]
+    pub(crate) fn check_vertices<const D: usize>(&self, points: Points<'_, D>) -> Result<(), Thrown> {
         let mut vertices = self.simplices.as_flattened().iter().chain(self.hull.iter().flatten().flatten());
         match vertices.find(|&&v| v as usize >= points.len()) {
             Some(v) => {
@@ -57,7 +60,7 @@ impl<const N: usize, const H: usize> CallerMesh<N, H> {
 }
 
 /// Copies the points of a mesh, and checks them.
-pub(super) fn points_of_mesh<const D: usize>(points: &JsValue) -> Result<Coordinates, Thrown> {
+pub(crate) fn points_of_mesh<const D: usize>(points: &JsValue) -> Result<Coordinates, Thrown> {
     let coordinates = Coordinates::new(points)?;
     coordinates.points::<D>()?.validate()?;
     Ok(coordinates)

@@ -1,0 +1,413 @@
+//! What is derived from a triangulation: `locate`, `interpolate`, `voronoi`, `alpha`, `tree`.
+
+use crate::{BUNNY, command, fails, fails_with, files, folder, gdel, succeeds};
+use std::{
+    fs,
+    io::{Cursor, Read, Write},
+    path::Path,
+    process::Stdio,
+};
+
+/// A cube with its middle, and values 100 x + 10 y + z.
+const CUBE: &str = "x,y,z,value\n0,0,0,0\n1,0,0,100\n0,1,0,10\n1,1,0,110\n0,0,1,1\n1,0,1,101\n0,1,1,11\n1,1,1,111\n\
+                    0.5,0.5,0.5,55.5\n";
+/// A square with its middle, and values 10 x + y.
+const SQUARE: &str = "x,y,value\n0,0,0\n2,0,20\n0,2,2\n2,2,22\n1,1,11\n";
+
+/// The rows of a CSV file, the names first.
+fn rows(path: &Path) -> Vec<Vec<String>> {
+    fs::read_to_string(path).unwrap().lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+/// The numbers of a column of a CSV file.
+#[track_caller]
+fn column(path: &Path, name: &str) -> Vec<f64> {
+    let rows = rows(path);
+    let place = rows[0].iter().position(|other| other == name).unwrap_or_else(|| panic!("{name} in {:?}", rows[0]));
+    rows[1..].iter().map(|row| row[place].parse().unwrap()).collect()
+}
+
+/// An array of a NumPy archive.
+#[track_caller]
+fn array<T: npyz::Deserialize>(path: &Path, name: &str) -> Vec<T> {
+    let mut archive = zip::ZipArchive::new(fs::File::open(path).unwrap()).unwrap();
+    let mut bytes = Vec::new();
+    archive.by_name(&format!("{name}.npy")).unwrap().read_to_end(&mut bytes).unwrap();
+    npyz::NpyFile::new(Cursor::new(bytes)).unwrap().into_vec().unwrap()
+}
+
+/// The object that `--stats json` prints.
+#[track_caller]
+fn stats(folder: &Path, arguments: &[&str]) -> serde_json::Value {
+    serde_json::from_str(&succeeds(folder, &[arguments, &["--stats", "json"]].concat())).expect("one JSON object")
+}
+
+/// A folder with points, values and queries.
+fn samples() -> tempfile::TempDir {
+    let folder = folder();
+    let path = folder.path();
+    fs::write(path.join("cube.csv"), CUBE).unwrap();
+    fs::write(path.join("square.csv"), SQUARE).unwrap();
+    fs::write(path.join("q.xyz"), "0.5 0.25 0.125\n0.9 0.95 0.9\n3 0.5 0.5\n").unwrap();
+    fs::write(path.join("q2.xyz"), "1 0.5\n1.75 1.5\n-1 1\n").unwrap();
+    folder
+}
+
+#[test]
+fn locate() {
+    let folder = samples();
+    let path = folder.path();
+    let run = stats(path, &["locate", "cube.csv", "q.xyz", "-o", "l.csv"]);
+    for (key, value) in [("points", 9), ("dimension", 3), ("queries", 3), ("inside", 2), ("hull_triangles", 12)] {
+        assert_eq!(run[key], value, "{run}");
+    }
+    let rows = rows(&path.join("l.csv"));
+    assert_eq!(rows[0], ["simplex", "v0", "v1", "v2", "v3", "nearest"]);
+    assert_eq!(column(&path.join("l.csv"), "nearest"), [8.0, 7.0, 1.0]);
+    // The simplices are those that `triangulate` writes.
+    succeeds(path, &["triangulate", "cube.csv", "-o", "m.ele"]);
+    let ele = fs::read_to_string(path.join("m.ele")).unwrap();
+    for row in &rows[1..3] {
+        let line = ele.lines().nth(1 + row[0].parse::<usize>().unwrap()).unwrap();
+        assert_eq!(line.split_whitespace().skip(1).collect::<Vec<_>>(), row[1..5]);
+    }
+    // Outside: a facet of the hull on the side x = 1, which sees the query.
+    assert_eq!((&*rows[3][0], &*rows[3][4]), ("-1", "-1"));
+    assert!(rows[3][1..4].iter().all(|v| v.parse::<u32>().unwrap() % 2 == 1), "{:?}", rows[3]);
+
+    succeeds(path, &["locate", "square.csv", "q2.xyz", "--dim", "2", "-o", "l2.npz"]);
+    assert_eq!(array::<i64>(&path.join("l2.npz"), "nearest"), [4, 3, 0]);
+    assert_eq!(array::<i64>(&path.join("l2.npz"), "simplex")[2], -1);
+    let [v0, v1, v2] = ["v0", "v1", "v2"].map(|name| array::<i64>(&path.join("l2.npz"), name)[2]);
+    assert_eq!(([v0.min(v1), v0.max(v1)], v2), ([0, 2], -1));
+}
+
+#[test]
+fn interpolate() {
+    let folder = samples();
+    let path = folder.path();
+    for method in ["linear", "laplace", "sibson"] {
+        let arguments = ["interpolate", "cube.csv", "q.xyz", "--values", "value", "--method", method, "-fo", "i.csv"];
+        let run = stats(path, &arguments);
+        assert_eq!((&run["queries"], &run["with_value"]), (&3.into(), &2.into()));
+        let values = column(&path.join("i.csv"), "value");
+        // A linear function is reproduced.
+        assert!((values[0] - 52.625).abs() < 1e-12 && (values[1] - 100.4).abs() < 1e-12, "{method}: {values:?}");
+        assert!(values[2].is_nan());
+        assert_eq!(rows(&path.join("i.csv"))[0], ["x", "y", "z", "value"]);
+        assert_eq!(column(&path.join("i.csv"), "y"), [0.25, 0.95, 0.5]);
+        // The column by its number.
+        let by_number = ["interpolate", "square.csv", "q2.xyz", "--dim", "2", "--values", "3", "--method", method];
+        succeeds(path, &[&by_number[..], &["-fo", "i.npz"]].concat());
+        let values = array::<f64>(&path.join("i.npz"), "value");
+        assert!((values[0] - 10.5).abs() < 1e-12 && (values[1] - 19.0).abs() < 1e-12, "{method}: {values:?}");
+        assert!(values[2].is_nan());
+    }
+    let bare: String = CUBE.lines().skip(1).map(|line| line.replace(',', " ") + "\n").collect();
+    fs::write(path.join("bare.xyz"), bare).unwrap();
+    succeeds(path, &["interpolate", "bare.xyz", "q.xyz", "--values", "4", "-fo", "i.csv"]);
+    assert_eq!(column(&path.join("i.csv"), "value")[0], 52.625);
+}
+
+#[test]
+fn voronoi() {
+    let folder = samples();
+    let path = folder.path();
+    for (clip, volumes) in [("box", Some([0.0625, 0.5])), ("hull", Some([0.0625, 0.5])), ("none", None)] {
+        let run = stats(path, &["voronoi", "cube.csv", "--clip", clip, "-fo", "v.csv"]);
+        assert_eq!(run["cells"], 9);
+        let found = column(&path.join("v.csv"), "volume");
+        match volumes {
+            Some([corner, middle]) => {
+                assert!((run["volume"].as_f64().unwrap() - 1.0).abs() < 1e-12, "{run}");
+                assert!(found[..8].iter().all(|volume| (volume - corner).abs() < 1e-12), "{found:?}");
+                assert!((found[8] - middle).abs() < 1e-12, "{found:?}");
+            }
+            None => {
+                // JSON has no infinity.
+                assert!(run["volume"].is_null() && found[..8].iter().all(|volume| volume.is_infinite()), "{run}");
+                // An octahedron, whose corners reach out of the cube.
+                assert_eq!(found[8], 0.5625);
+            }
+        }
+        let middle = rows(&path.join("v.csv")).pop().unwrap();
+        let volume = if clip == "none" { "0.5625" } else { "0.5" };
+        assert_eq!(middle, ["8", volume, "0.5", "0.5", "0.5", "0 1 2 3 4 5 6 7"], "{clip}");
+    }
+    // The box is the default.
+    succeeds(path, &["voronoi", "square.csv", "--dim", "2", "-o", "v.npz"]);
+    assert_eq!(array::<f64>(&path.join("v.npz"), "volumes"), [0.5, 0.5, 0.5, 0.5, 2.0]);
+    let cells = array::<i64>(&path.join("v.npz"), "cells");
+    let facets = array::<u64>(&path.join("v.npz"), "facets_offsets");
+    let neighbors = array::<i64>(&path.join("v.npz"), "facet_neighbors");
+    assert_eq!((cells.len(), cells[5] as usize, facets.len()), (6, neighbors.len(), neighbors.len() + 1));
+    let mut of_middle = neighbors[cells[4] as usize..cells[5] as usize].to_vec();
+    of_middle.sort_unstable();
+    assert_eq!(of_middle, [0, 1, 2, 3]);
+    for (points, dim, cells, name) in [("cube.csv", "3", 9, "volume"), ("square.csv", "2", 5, "area")] {
+        for (clip, cells) in [("box", cells), ("none", 1)] {
+            succeeds(path, &["voronoi", points, "--dim", dim, "--clip", clip, "-o", "v.vtu"]);
+            let vtu = fs::read(path.join("v.vtu")).unwrap();
+            let text = String::from_utf8_lossy(&vtu);
+            assert!(text.contains(&format!("NumberOfCells=\"{cells}\"")), "{points} {clip}");
+            assert!(text.contains(&format!("Name=\"{name}\"")) && text.contains("Name=\"point\""));
+            assert_eq!(text.contains("Name=\"faceoffsets\""), dim == "3");
+        }
+    }
+}
+
+#[test]
+fn alpha_of_the_bunny() {
+    let folder = folder();
+    let path = folder.path();
+    let run = stats(path, &["alpha", BUNNY, "-o", "a.obj"]);
+    assert_eq!(run["components"], 1);
+    let solid = run["solid"].as_u64().unwrap();
+    let radius = run["alpha"].as_f64().unwrap();
+    // A closed surface: every edge in both directions equally often.
+    let obj = fs::read_to_string(path.join("a.obj")).unwrap();
+    let mut edges = std::collections::HashMap::<[u32; 2], i32>::new();
+    let mut triangles = 0;
+    for face in obj.lines().filter_map(|line| line.strip_prefix("f ")) {
+        let corners: Vec<u32> = face.split(' ').map(|v| v.split('/').next().unwrap().parse().unwrap()).collect();
+        triangles += 1;
+        for k in 0..3 {
+            let [a, b] = [corners[k], corners[(k + 1) % 3]];
+            *edges.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
+        }
+    }
+    assert!(edges.values().all(|&sum| sum == 0));
+    assert_eq!(run["surface"], triangles);
+    // The same radius by its value, and the smallest: a little less has another solid.
+    let same = stats(path, &["alpha", BUNNY, "--alpha", &radius.to_string(), "-o", "s.vtu"]);
+    assert_eq!((&same["solid"], &same["surface"]), (&run["solid"], &run["surface"]));
+    let less = stats(path, &["alpha", BUNNY, "--alpha", &(radius * (1.0 - 1e-9)).to_string(), "-o", "s.vtu"]);
+    assert!(less["solid"].as_u64().unwrap() < solid);
+}
+
+#[test]
+fn alpha_in_all_formats_and_dimensions() {
+    let folder = samples();
+    let path = folder.path();
+    for dim in ["2", "3"] {
+        let points = if dim == "2" { "square.csv" } else { "cube.csv" };
+        for name in ["a.ply", "a.obj", "a.stl", "a.glb", "a.vtu"] {
+            let run = stats(path, &["alpha", points, "--dim", dim, "-o", name]);
+            let expected = if dim == "2" { (1.0, 4, 4) } else { (0.75, 12, 12) };
+            let counts = (run["alpha"].as_f64().unwrap(), run["solid"].as_u64(), run["surface"].as_u64());
+            assert_eq!((counts.1, counts.2), (Some(expected.1), Some(expected.2)), "{run}");
+            assert!((counts.0 - expected.0).abs() < 1e-12, "{run}");
+            assert!(fs::metadata(path.join(name)).unwrap().len() > 100, "{name}");
+        }
+    }
+    // Two pairs of triangles far from each other.
+    fs::write(path.join("two.xyz"), "0 0\n1 0\n0 1\n1 1\n9 0\n10 0\n9 1\n10 1\n").unwrap();
+    let arguments = ["alpha", "two.xyz", "--dim", "2", "-o", "a.ply"];
+    let [one, two] = ["1", "2"].map(|n| stats(path, &[&arguments[..], &["--components", n]].concat()));
+    assert_eq!((&one["components"], &two["components"]), (&1.into(), &2.into()));
+    assert!(two["alpha"].as_f64() < one["alpha"].as_f64());
+    // No more than the points.
+    assert_eq!(stats(path, &[&arguments[..], &["--alpha", "0"]].concat())["solid"], 0);
+    assert_eq!(stats(path, &[&arguments[..], &["--alpha", "inf"]].concat())["components"], 1);
+}
+
+#[test]
+fn tree() {
+    let folder = folder();
+    let path = folder.path();
+    fs::write(path.join("p.xyz"), "0 0 0\n1 0 0\n0 2 0\n0 0 4\n").unwrap();
+    let run = stats(path, &["tree", "p.xyz", "-o", "t.csv"]);
+    assert_eq!((&run["edges"], &run["total_length"]), (&3.into(), &7.0.into()));
+    assert_eq!(fs::read_to_string(path.join("t.csv")).unwrap(), "v0,v1,length\n0,1,1.0\n0,2,2.0\n0,3,4.0\n");
+    succeeds(path, &["tree", "p.xyz", "--dim", "3", "-o", "t.npz"]);
+    assert_eq!(array::<f64>(&path.join("t.npz"), "length"), [1.0, 2.0, 4.0]);
+    assert_eq!(array::<i64>(&path.join("t.npz"), "v1"), [1, 2, 3]);
+    succeeds(path, &["tree", "p.xyz", "-o", "t.vtu"]);
+    assert!(String::from_utf8_lossy(&fs::read(path.join("t.vtu")).unwrap()).contains("NumberOfCells=\"3\""));
+    // In 2D two of the points coincide.
+    let flat = gdel(path, &["tree", "p.xyz", "--dim", "2", "--stats", "json", "-fo", "t.csv"]);
+    assert_eq!(String::from_utf8_lossy(&flat.stderr), "gdel: p.xyz: the z coordinates are dropped\n");
+    assert_eq!(fs::read_to_string(path.join("t.csv")).unwrap(), "v0,v1,length\n0,1,1.0\n0,2,2.0\n");
+}
+
+const COMMANDS: [&[&str]; 5] = [
+    &["locate", "p.csv", "q.xyz", "-o", "o.npz"],
+    &["interpolate", "p.csv", "q.xyz", "--values", "value", "-o", "o.npz"],
+    &["voronoi", "p.csv", "-o", "o.npz"],
+    &["alpha", "p.csv", "-o", "o.vtu"],
+    &["tree", "p.csv", "-o", "o.npz"],
+];
+
+#[test]
+fn summaries_statistics_and_repetitions() {
+    let folder = samples();
+    let path = folder.path();
+    fs::write(path.join("p.csv"), CUBE).unwrap();
+    for arguments in COMMANDS {
+        let name = arguments[0];
+        let summary = succeeds(path, arguments);
+        assert!(summary.starts_with("points          9\ntetrahedra      12\n"), "{summary}");
+        let times = summary.lines().last().unwrap();
+        assert!(times.starts_with("seconds         total ") && times.contains(&format!(", {name} ")), "{summary}");
+        let lines = succeeds(path, &[arguments, &["--stats", "json", "--repeat", "3", "--backend", "cpu"]].concat());
+        assert_eq!(lines.lines().count(), 3);
+        for line in lines.lines() {
+            let run: serde_json::Value = serde_json::from_str(line).unwrap();
+            assert_eq!((&run["backend"], run.get("fallback")), (&"cpu".into(), None));
+            let seconds = |key: &str| run["seconds"][key].as_f64().unwrap();
+            assert!((seconds("total") - seconds("triangulate") - seconds(name)).abs() < 1e-9, "{run}");
+        }
+    }
+}
+
+#[test]
+fn flat_and_empty_points_have_empty_answers() {
+    let folder = samples();
+    let path = folder.path();
+    for points in ["", "1,2,3,4\n", "0,0,0,1\n1,0,0,2\n0,1,0,3\n1,1,0,4\n", "0,0,0,1\n0,0,0,2\n"] {
+        fs::write(path.join("p.csv"), format!("x,y,z,value\n{points}")).unwrap();
+        for arguments in COMMANDS {
+            let run = stats(path, arguments);
+            assert_eq!(run["tetrahedra"], 0, "{run}");
+            for key in ["inside", "with_value", "cells", "solid", "surface", "edges"] {
+                assert!(run.get(key).is_none_or(|count| count == 0), "{key} in {run}");
+            }
+        }
+    }
+    fs::write(path.join("empty.xyz"), "").unwrap();
+    fs::write(path.join("p.csv"), CUBE).unwrap();
+    for command in ["locate", "interpolate"] {
+        let values = if command == "interpolate" { &["--values", "value"][..] } else { &[] };
+        succeeds(path, &[&[command, "p.csv", "empty.xyz", "-fo", "o.csv"], values].concat());
+        assert_eq!(rows(&path.join("o.csv")).len(), 1);
+    }
+}
+
+#[test]
+fn bad_points_queries_and_values() {
+    let folder = samples();
+    let path = folder.path();
+    fs::write(path.join("nan.xyz"), "0 0 0\n1 nan 0\n").unwrap();
+    // Text is checked by its reader, raw numbers where they are used.
+    let numbers = [0.0, 0.0, 0.0, 1.0, f64::NAN, 0.0].map(f64::to_le_bytes);
+    fs::write(path.join("nan.f64"), numbers.as_flattened()).unwrap();
+    fs::write(path.join("short.csv"), "x,y,z,value\n0,0,0,1\n1,0,0\n").unwrap();
+    fs::write(path.join("word.csv"), "x,y,z,value\n0,0,0,one\n").unwrap();
+    fs::write(path.join("flat.xyz"), "1 2\n3 4\n").unwrap();
+    fs::write(path.join("p.csv"), CUBE).unwrap();
+    let to = ["-o", "o.npz"];
+    let cases: [(&[&str], &str); 10] = [
+        (&["locate", "cube.csv", "nan.xyz"], "nan.xyz: line 2: `nan` is not a finite number"),
+        (&["locate", "cube.csv", "nan.f64"], "nan.f64: point 1: the y coordinate is NaN"),
+        (&["locate", "nan.f64", "q.xyz"], "nan.f64: point 1: the y coordinate is NaN"),
+        (&["tree", "nan.f64"], "nan.f64: point 1: the y coordinate is NaN"),
+        (&["locate", "cube.csv", "flat.xyz"], "flat.xyz: line 1: "),
+        (&["locate", "cube.csv", "none.xyz"], "none.xyz: cannot be read"),
+        (&["interpolate", "cube.csv", "nan.f64", "--values", "value"], "nan.f64: point 1"),
+        (&["interpolate", "cube.csv", "q.xyz", "--values", "heat"], "cube.csv: line 2: there is no column `heat`"),
+        (&["interpolate", "word.csv", "q.xyz", "--values", "value"], "word.csv: line 2: `one` is not a number"),
+        (&["interpolate", BUNNY, "q.xyz", "--values", "1"], "values are read from text and CSV files only"),
+    ];
+    for (arguments, message) in cases {
+        fails(path, &[arguments, &to].concat(), message);
+    }
+    fails(path, &["interpolate", "short.csv", "q.xyz", "--values", "value", "-o", "o.npz"], "short.csv: line 3: ");
+    fails(path, &["locate", "cube.csv", "q.xyz", "-o", "none/o.csv"], "none/o.csv: cannot be written");
+    assert!(!path.join("o.npz").exists());
+}
+
+#[test]
+fn wrong_usage() {
+    let folder = samples();
+    let path = folder.path();
+    for (arguments, message) in [
+        (&["locate", "cube.csv", "-o", "o.csv"][..], "required"),
+        (&["locate", "cube.csv", "q.xyz"], "required"),
+        (&["locate", "cube.csv", "q.xyz", "-o", "o.vtu"], "o.vtu: unknown extension, tables end in .csv, .npz"),
+        (&["locate", "cube.csv", "-", "-o", "o.csv"], "--queries-format"),
+        (&["locate", "-", "q.xyz", "-o", "o.csv"], "--format"),
+        (&["locate", "-", "-", "--format", "xyz", "--queries-format", "xyz", "-o", "o.csv"], "only one"),
+        (&["interpolate", "cube.csv", "q.xyz", "-o", "o.csv"], "--values"),
+        (&["interpolate", "cube.csv", "q.xyz", "--values", "value", "--method", "cubic", "-o", "o.csv"], "sibson"),
+        (&["voronoi", "cube.csv", "--clip", "sphere", "-o", "o.csv"], "hull"),
+        (&["voronoi", "cube.csv", "-o", "o.ply"], "o.ply: unknown extension, Voronoi cells end in .vtu, .csv, .npz"),
+        (&["alpha", "cube.csv", "--alpha=-1", "-o", "o.ply"], "not negative"),
+        (&["alpha", "cube.csv", "--alpha", "nan", "-o", "o.ply"], "not negative"),
+        (&["alpha", "cube.csv", "--components", "0", "-o", "o.ply"], "--components"),
+        (&["alpha", "cube.csv", "--alpha", "1", "--components", "2", "-o", "o.ply"], "--components needs --alpha auto"),
+        (&["alpha", "cube.csv", "-o", "o.csv"], "o.csv: unknown extension, alpha shapes end in .ply"),
+        (&["tree", "cube.csv", "-o", "o.ply"], "o.ply: unknown extension, spanning trees end in .csv, .npz, .vtu"),
+        (&["tree", "cube.csv", "--dim", "4", "-o", "o.csv"], "--dim"),
+    ] {
+        let output = gdel(path, arguments);
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {stderr}");
+        assert!(stderr.contains(message), "{arguments:?}: {stderr}");
+    }
+    assert_eq!(files(path), ["cube.csv", "q.xyz", "q2.xyz", "square.csv"]);
+}
+
+#[test]
+fn queries_from_standard_input() {
+    let folder = samples();
+    let path = folder.path();
+    for arguments in [
+        &["locate", "cube.csv", "-", "--queries-format", "xyz", "-o", "o.npz"][..],
+        &["locate", "-", "cube.csv", "--format", "xyz", "-o", "o.npz"],
+    ] {
+        let mut child = command(path, arguments)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        child.stdin.take().unwrap().write_all(b"0 0 0\n1 0 0\n0 1 0\n0 0 1\n").unwrap();
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    assert_eq!(array::<i64>(&path.join("o.npz"), "nearest").len(), 9);
+}
+
+/// The input is never overwritten, other files only by force or if gdel marked them, and a failure leaves the old file.
+#[test]
+fn outputs_are_replaced_with_care() {
+    let folder = samples();
+    let path = folder.path();
+    fs::write(path.join("p.csv"), CUBE).unwrap();
+    let message = "this is the input q.csv: choose another name for the output";
+    fs::write(path.join("q.csv"), "x,y,z\n0,0,0\n").unwrap();
+    fails(path, &["locate", "p.csv", "q.csv", "-fo", "q.csv"], message);
+    fails(path, &["tree", "p.csv", "-fo", "p.csv"], "this is the input p.csv");
+    for arguments in COMMANDS {
+        let output = arguments.last().unwrap();
+        fs::write(path.join(output), "precious").unwrap();
+        fails(path, arguments, &format!("{output}: this file exists, and is not marked as an output of gdel"));
+        assert_eq!(fs::read_to_string(path.join(output)).unwrap(), "precious");
+        succeeds(path, &[arguments, &["--force"]].concat());
+        succeeds(path, arguments);
+    }
+    // Nothing marks a CSV file.
+    succeeds(path, &["tree", "p.csv", "-o", "t.csv"]);
+    fails(path, &["tree", "p.csv", "-o", "t.csv"], "t.csv: this file exists");
+    succeeds(path, &["tree", "p.csv", "-fo", "t.csv"]);
+}
+
+/// A limit on file sizes stands for the full disk: the system fails writes in the same way.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_leaves_old_files() {
+    for (command, name) in
+        [("locate p.f64 p.f64", "o.csv"), ("voronoi p.f64", "o.vtu"), ("alpha p.f64", "o.ply"), ("tree p.f64", "o.npz")]
+    {
+        let folder = folder();
+        let path = folder.path();
+        succeeds(path, &["generate", "uniform", "5000", "-o", "p.f64"]);
+        fs::write(path.join(name), "the old file").unwrap();
+        let script =
+            format!("ulimit -f 8; trap '' XFSZ; exec '{}' {command} --force -o {name}", env!("CARGO_BIN_EXE_gdel"));
+        let output = std::process::Command::new("sh").args(["-c", &script]).current_dir(path).output().unwrap();
+        fails_with(output, &format!("{name}: cannot be written: File too large"));
+        assert_eq!(files(path), [name, "p.f64"]);
+        assert_eq!(fs::read(path.join(name)).unwrap(), b"the old file");
+    }
+}

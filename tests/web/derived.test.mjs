@@ -1,0 +1,494 @@
+// What is derived from meshes, in the installed package: location, nearest vertices, interpolation,
+// Voronoi cells, alpha shapes, spanning trees.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { abortOf } from './abort.mjs';
+import { importFrom, project } from './package.mjs';
+
+const folder = project();
+const { delaunay2d, delaunay3d, GdelError, generate, generate2d, SpanningTree, Voronoi2 } =
+  await importFrom(folder);
+
+test('the examples of the documentation run', () => {
+  const installed = join(folder, 'node_modules/gdel-wasm/docs/answers.md');
+  const blocks = [...readFileSync(installed, 'utf8').matchAll(/^```js\n([^`]*)^```$/gm)];
+  assert.ok(blocks.length >= 6);
+  const check = "import assert from 'node:assert';\nconsole.assert = assert.ok;\n";
+  writeFileSync(join(folder, 'answers.mjs'), check + blocks.map(([, code]) => code).join(''));
+  execFileSync(process.execPath, [...process.execArgv, 'answers.mjs'], { cwd: folder });
+});
+
+/** A cube with its middle. */
+const CUBE = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [i & 1, (i >> 1) & 1, i >> 2]);
+CUBE.push([0.5, 0.5, 0.5]);
+/** A square with its middle. */
+const SQUARE = [
+  [0, 0],
+  [2, 0],
+  [0, 2],
+  [2, 2],
+  [1, 1],
+];
+
+const cube = await delaunay3d(CUBE);
+const square = await delaunay2d(SQUARE);
+
+/** The promise is rejected with a GdelError of this code, whose message says this. */
+async function rejects(promise, code, message) {
+  await assert.rejects(promise, (error) => {
+    assert.ok(error instanceof GdelError, String(error));
+    assert.equal(error.code, code, error.message);
+    assert.match(error.message, message);
+    return true;
+  });
+}
+
+const sum = (numbers) => numbers.reduce((a, b) => a + b, 0);
+const near = (a, b, error = 1e-12) => assert.ok(Math.abs(a - b) <= error, `${a}, not ${b}`);
+const sorted = (numbers) => [...numbers].sort((a, b) => a - b);
+
+/** For each simplex, whether a point is on the inner side of, or on, every facet; by floating point. */
+function contains(coordinates, simplex, query) {
+  const D = query.length;
+  const corners = Array.from(simplex, (v) => coordinates.slice(D * v, D * v + D));
+  const side = (replaced) => {
+    const [a, ...others] = corners.map((corner, k) => (k === replaced ? query : corner));
+    const [u, v, w] = others.map((p) => p.map((x, axis) => x - a[axis]));
+    if (D === 2) return u[0] * v[1] - u[1] * v[0];
+    return (
+      u[0] * (v[1] * w[2] - v[2] * w[1]) +
+      u[1] * (v[2] * w[0] - v[0] * w[2]) +
+      u[2] * (v[0] * w[1] - v[1] * w[0])
+    );
+  };
+  const whole = Math.sign(side(-1));
+  return corners.every((_, k) => side(k) * whole >= -1e-12);
+}
+
+for (const [D, triangulate, generated] of [
+  [2, delaunay2d, generate2d],
+  [3, delaunay3d, generate],
+]) {
+  test(`${D}D: locations and nearest vertices are those of brute force`, async () => {
+    const points = await generated('uniform', 300, { seed: 1 });
+    const mesh = await triangulate(points);
+    const queries = (await generated('uniform', 200, { seed: 2 })).map((x) => 1.2 * x - 0.1);
+    const located = await mesh.locate(queries);
+    const [simplices, facets] =
+      D === 2 ? [located.triangles, located.halfedges] : [located.tetrahedra, located.facets];
+    assert.ok(simplices instanceof Int32Array && facets instanceof Int32Array);
+    const nearest = await mesh.nearest(queries);
+    const coordinates = Array.from(points);
+    const vertices = D === 2 ? mesh.triangles : mesh.tetrahedra;
+    const across = D === 2 ? mesh.halfedges : mesh.neighbors;
+    let outside = 0;
+    for (let q = 0; q < simplices.length; q++) {
+      const query = Array.from(queries.slice(D * q, D * q + D));
+      const t = simplices[q];
+      if (t >= 0) {
+        const simplex = vertices.slice((D + 1) * t, (D + 1) * (t + 1));
+        assert.ok(contains(coordinates, simplex, query));
+        assert.equal(facets[q], -1);
+      } else {
+        outside++;
+        assert.equal(across[facets[q]], -1, 'the facet is on the hull');
+      }
+      const distance = (v) => sum(query.map((x, axis) => (x - points[D * v + axis]) ** 2));
+      const all = Array.from({ length: 300 }, (_, v) => distance(v));
+      assert.equal(nearest[q], all.indexOf(Math.min(...all)));
+      if (D === 2) {
+        assert.equal(mesh.find(...query), nearest[q]);
+        assert.equal(mesh.find(...query, 299), nearest[q]);
+      }
+    }
+    assert.ok(outside > 5 && outside < 195);
+  });
+
+  test(`${D}D: linear functions are interpolated by all methods`, async () => {
+    const points = await generated('uniform', 500, { seed: 3 });
+    const mesh = await triangulate(points);
+    const queries = await generated('uniform', 100, { seed: 4 });
+    const linear = (all, i) =>
+      1 + sum(Array.from({ length: D }, (_, k) => (k + 2) * all[D * i + k]));
+    const values = Float64Array.from({ length: 500 }, (_, i) => linear(points, i));
+    for (const method of ['linear', 'laplace', 'sibson', undefined]) {
+      const found = await mesh.interpolate(values, queries, { method });
+      assert.ok(found instanceof Float64Array && found.length === 100);
+      const inside = found.filter((value) => !Number.isNaN(value)).length;
+      assert.ok(inside > 50 && inside < 100);
+      found.forEach((value, i) => {
+        if (!Number.isNaN(value)) near(value, linear(queries, i), 1e-10);
+      });
+    }
+  });
+
+  test(`${D}D: clipped Voronoi cells fill the box and the hull`, async () => {
+    const points = await generated('uniform', 400, { seed: 5 });
+    const mesh = await triangulate(points);
+    const box = [...Array(D).fill(-1), ...Array(D).fill(2)];
+    near(sum((await mesh.voronoi({ clip: box })).volumes), 3 ** D, 1e-9);
+    const smallest = Array.from({ length: D }, (_, axis) => {
+      const all = Array.from({ length: 400 }, (_, i) => points[D * i + axis]);
+      return Math.max(...all) - Math.min(...all);
+    });
+    const extent = smallest.reduce((a, b) => a * b);
+    near(sum((await mesh.voronoi({ clip: 'box' })).volumes), extent, 1e-9);
+    assert.ok(sum((await mesh.voronoi({ clip: 'hull' })).volumes) < extent);
+    const { volumes, cells, neighbors, areas, facets, facetOffsets, vertices, centroids } =
+      await mesh.voronoi();
+    const unbounded = volumes.filter((volume) => volume === Infinity).length;
+    assert.ok(unbounded > 5 && unbounded < 200);
+    assert.equal(cells.length, 401);
+    assert.equal(centroids.length, D * 400);
+    assert.equal(cells[400], neighbors.length);
+    assert.equal(areas.length, neighbors.length);
+    assert.equal(facetOffsets.length, neighbors.length + 1);
+    assert.equal(facetOffsets.at(-1), facets.length);
+    // Both points of a facet are at the same distance from its vertices.
+    for (let i = 0; i < 400; i++) {
+      for (let f = cells[i]; f < cells[i + 1]; f++) {
+        const corners = facets.slice(facetOffsets[f], facetOffsets[f + 1]);
+        const distance = (p, v) =>
+          Math.hypot(
+            ...Array.from({ length: D }, (_, k) => points[D * p + k] - vertices[D * v + k]),
+          );
+        for (const v of corners) {
+          const own = distance(i, v);
+          near(own, distance(neighbors[f], v), 1e-9 * Math.max(1, own));
+        }
+      }
+    }
+  });
+
+  test(`${D}D: alpha shapes`, async () => {
+    const points = await generated('uniform', 500, { seed: 6 });
+    const mesh = await triangulate(points);
+    const shape = await mesh.alphaShape({ criticalValues: true });
+    assert.equal(shape.components, 1);
+    assert.equal(new Set(shape.solid).size, shape.solid.length);
+    // All points belong to the solid.
+    const simplices = D === 2 ? mesh.triangles : mesh.tetrahedra;
+    const used = new Set();
+    for (const t of shape.solid) {
+      for (const v of simplices.slice((D + 1) * t, (D + 1) * (t + 1))) used.add(v);
+    }
+    assert.equal(used.size, 500);
+    assert.equal(shape.componentOf.filter((c) => c === 0).length, shape.solid.length);
+    // The solid is a filter of the radii.
+    const same = await mesh.alphaShape({ alpha: shape.alpha });
+    assert.deepEqual(same.solid, shape.solid);
+    assert.equal(same.criticalValues.length, 0);
+    const filtered = shape.radii.filter((radius) => radius <= shape.alpha * (1 + 1e-9)).length;
+    assert.equal(filtered, shape.solid.length);
+    assert.ok(shape.criticalValues.every((value, i, all) => i === 0 || all[i - 1] < value));
+    // Closed: each edge, or in 2D each vertex, as often in one direction as in the other.
+    const balance = new Map();
+    const add = (key, by) => balance.set(key, (balance.get(key) ?? 0) + by);
+    for (let f = 0; f < shape.surface.length; f += D) {
+      const corners = shape.surface.slice(f, f + D);
+      if (D === 2) {
+        add(corners[0], 1);
+        add(corners[1], -1);
+      } else {
+        corners.forEach((a, k) => {
+          const b = corners[(k + 1) % 3];
+          add(`${Math.min(a, b)} ${Math.max(a, b)}`, a < b ? 1 : -1);
+        });
+      }
+    }
+    assert.ok(balance.size > 0 && [...balance.values()].every((value) => value === 0));
+    assert.equal((await mesh.alphaShape({ alpha: 0 })).solid.length, 0);
+    const all = await mesh.alphaShape({ alpha: Infinity });
+    assert.equal(all.solid.length * (D + 1), simplices.length);
+  });
+
+  test(`${D}D: spanning trees are those of Prim's algorithm`, async () => {
+    const points = await generated('uniform', 200, { seed: 7 });
+    const tree = await (await triangulate(points)).spanningTree();
+    assert.ok(tree instanceof SpanningTree);
+    const distance = (p, q) =>
+      Math.hypot(...Array.from({ length: D }, (_, k) => points[D * p + k] - points[D * q + k]));
+    let total = 0;
+    const open = new Map(Array.from({ length: 199 }, (_, i) => [i + 1, distance(0, i + 1)]));
+    while (open.size > 0) {
+      const [next, length] = [...open].reduce((a, b) => (a[1] < b[1] ? a : b));
+      total += length;
+      open.delete(next);
+      for (const [v, old] of open) open.set(v, Math.min(old, distance(next, v)));
+    }
+    near(sum(tree.lengths), total, 1e-9);
+    assert.equal(tree.edges.length, 2 * 199);
+    for (const count of [1, 2, 10, 200, 1000]) {
+      assert.equal(new Set(tree.clusters(count)).size, Math.min(count, 200));
+    }
+    assert.deepEqual(tree.clustersWithin(tree.lengths[180]), tree.clusters(19));
+    assert.throws(() => tree.clusters(0), { code: 'BAD_INPUT' });
+    assert.throws(() => tree.clustersWithin(Number.NaN), { code: 'BAD_INPUT' });
+  });
+}
+
+test('ties and duplicates', async () => {
+  const mesh = await delaunay2d([...SQUARE, [0, 0]]);
+  const tree = await mesh.spanningTree();
+  assert.deepEqual(sorted(tree.edges).filter((v) => v === 5).length, 0);
+  const clusters = tree.clusters(5);
+  assert.equal(clusters[5], clusters[0]);
+  assert.equal(mesh.find(1, 0), 0, 'as near to points 0, 1 and 4');
+  assert.deepEqual([...(await mesh.nearest([[1, 0]]))], [0]);
+  assert.equal(mesh.find(0, 0, 5), 0);
+  assert.deepEqual(sorted(mesh.neighbors(4)), [0, 1, 2, 3]);
+  assert.deepEqual(sorted(mesh.neighbors(0)), [1, 2, 4]);
+  assert.deepEqual(mesh.neighbors(5), []);
+  const voronoi = await mesh.voronoi({ clip: 'box' });
+  assert.equal(voronoi.volumes[5], 0);
+  assert.equal(voronoi.cellPolygon(5), null);
+  const locations = await cube.locate([[0.5, 0.5, 0.5]]);
+  assert.ok(
+    cube.tetrahedra
+      .slice(4 * locations.tetrahedra[0])
+      .slice(0, 4)
+      .includes(8),
+  );
+});
+
+/** Distances that floating point rounds to the same number, or in the wrong order. */
+test('find compares distances exactly', async () => {
+  const tiny = 2 ** -60;
+  const mesh = await delaunay2d([
+    [1, 1],
+    [-1, 1 - tiny],
+    [-1, -1],
+    [1, -1 - 2 ** -52],
+  ]);
+  for (const [x, y] of [
+    [0, 0],
+    [tiny, 0],
+    [-tiny, tiny],
+    [0, 2 ** -53],
+    [1e-300, -1e-300],
+    [1e300, 1e300],
+    [-1e200, 1],
+  ]) {
+    const [expected] = await mesh.nearest([[x, y]]);
+    for (let start = 0; start < 4; start++) assert.equal(mesh.find(x, y, start), expected);
+  }
+});
+
+test('flat points have empty answers', async () => {
+  for (const points of [
+    [],
+    [[1, 2, 3]],
+    [
+      [0, 0, 0],
+      [1, 1, 1],
+      [2, 2, 2],
+    ],
+    CUBE.slice(0, 4),
+  ]) {
+    const mesh = await delaunay3d(points);
+    const located = await mesh.locate([[0, 0, 0]]);
+    assert.deepEqual([located.tetrahedra[0], located.facets[0]], [-1, -1]);
+    assert.deepEqual([...(await mesh.nearest([[0, 0, 0]]))], [-1]);
+    const values = new Float64Array(points.length);
+    assert.ok(Number.isNaN((await mesh.interpolate(values, [[0, 0, 0]]))[0]));
+    for (const clip of ['none', 'box', 'hull', [0, 0, 0, 1, 1, 1]])
+      assert.equal(sum((await mesh.voronoi({ clip })).volumes), 0);
+    const shape = await mesh.alphaShape();
+    assert.deepEqual([shape.alpha, shape.solid.length, shape.components], [0, 0, 0]);
+    assert.equal((await mesh.spanningTree()).edges.length, 0);
+  }
+  assert.equal((await cube.locate([])).tetrahedra.length, 0);
+  assert.equal((await square.nearest(new Float64Array(0))).length, 0);
+});
+
+test('bad input is a typed error that says what is wrong', async () => {
+  const queries = [
+    [0, 0, 0],
+    [1, Number.NaN, 0],
+  ];
+  await rejects(cube.locate(queries), 'NOT_FINITE', /query 1: the y coordinate is NaN/);
+  await assert.rejects(cube.nearest(queries), { index: 1 });
+  await rejects(square.locate([[0, Infinity]]), 'NOT_FINITE', /query 0: the y coordinate is inf/);
+  await rejects(cube.locate([[0, 0]]), 'BAD_INPUT', /3 numbers/);
+  await rejects(square.locate(new Float64Array(3)), 'BAD_INPUT', /multiple of 2/);
+  await rejects(cube.interpolate([1, 2], [[0, 0, 0]]), 'BAD_INPUT', /9 numbers, one per point/);
+  await rejects(
+    square.interpolate([1, 2, '3', 4, 5], [[0, 0]]),
+    'BAD_INPUT',
+    /number 2 of the values/,
+  );
+  await rejects(
+    cube.interpolate(new Float64Array(9), [[0, 0, 0]], { method: 'cubic' }),
+    'BAD_INPUT',
+    /linear, laplace, sibson/,
+  );
+  await rejects(cube.voronoi({ clip: 'sphere' }), 'BAD_INPUT', /none, box, hull, or 6 numbers/);
+  await rejects(square.voronoi({ clip: [0, 0, 1] }), 'BAD_INPUT', /4 numbers/);
+  await rejects(square.voronoi({ clip: [0, 1, 1, 1] }), 'BAD_INPUT', /along the y axis/);
+  await rejects(cube.voronoi({ clip: [0, 0, 0, Infinity, 1, 1] }), 'BAD_INPUT', /along the x axis/);
+  await rejects(cube.alphaShape({ alpha: -1 }), 'BAD_INPUT', /not negative/);
+  await rejects(cube.alphaShape({ alpha: Number.NaN }), 'BAD_INPUT', /not negative/);
+  await rejects(cube.alphaShape({ components: 0 }), 'BAD_INPUT', /an integer from 1 on/);
+  const bare = await delaunay3d(CUBE, { outputs: [] });
+  await rejects(bare.locate([[0, 0, 0]]), 'BAD_INPUT', /this needs 'neighbors'/);
+  assert.throws(() => square.find(0, 0, 5), { code: 'BAD_INPUT' });
+  assert.equal(square.find(Number.NaN, 0), -1);
+  assert.throws(() => square.neighbors(-1), { code: 'BAD_INPUT' });
+  // The worker has survived all that.
+  assert.equal((await cube.nearest([[0.9, 0.9, 0.9]]))[0], 7);
+});
+
+test('progress, aborts, and what the callback throws', async () => {
+  const points = await generate('uniform', 20_000, { seed: 8 });
+  const mesh = await delaunay3d(points);
+  const starts = {
+    locate: (options) => mesh.locate(points, options),
+    nearest: (options) => mesh.nearest(points, options),
+    interpolate: (options) => mesh.interpolate(new Float64Array(20_000), points, options),
+    voronoi: (options) => mesh.voronoi(options),
+    alpha: (options) => mesh.alphaShape(options),
+    tree: (options) => mesh.spanningTree(options),
+  };
+  for (const [phase, start] of Object.entries(starts)) {
+    const reports = [];
+    await start({ onProgress: (progress) => reports.push(progress) });
+    assert.ok(reports.every((report) => report.phase === phase));
+    assert.equal(reports.at(-1).fraction, 1);
+    assert.ok(reports.every(({ fraction }, i) => i === 0 || reports[i - 1].fraction <= fraction));
+    assert.deepEqual(await abortOf(start), { code: 'ABORTED', atOnce: true }, phase);
+    const thrown = new Error('mine');
+    const throwing = () => {
+      throw thrown;
+    };
+    await assert.rejects(start({ onProgress: throwing }), (error) => error === thrown);
+    await assert.rejects(start({ signal: AbortSignal.abort() }), { code: 'ABORTED' });
+  }
+  assert.equal((await mesh.nearest(points.slice(0, 3)))[0], 0);
+});
+
+// What the documentation of d3-delaunay says of `find`, Voronoi cells and clipping.
+
+test('find: the search starts at the given point, and collinear points are no exception', async () => {
+  const lines = await delaunay2d([0, 1, 2, 3, 4].map((i) => [i, 2 * i]));
+  assert.equal(lines.find(1.2, 1.9), 1);
+  assert.equal(lines.find(9, 9, 2), 4);
+  assert.deepEqual(sorted(lines.neighbors(2)), [1, 3]);
+  assert.deepEqual(lines.neighbors(0), [1]);
+  const one = await delaunay2d([[5, 5]]);
+  assert.equal(one.find(0, 0), 0);
+  const two = await delaunay2d([
+    [0, 0],
+    [1, 0],
+    [1, 0],
+  ]);
+  assert.equal(two.find(-1, 0), 0);
+  assert.equal(two.find(2, 0), 1);
+  assert.equal((await delaunay2d([])).find(0, 0), -1);
+});
+
+test('cells are closed convex polygons within the bounds', async () => {
+  const voronoi = await square.voronoi({ clip: [-1, -1, 3, 3] });
+  assert.ok(voronoi instanceof Voronoi2);
+  const polygons = [...voronoi.cellPolygons()];
+  assert.deepEqual(
+    polygons.map(({ index }) => index),
+    [0, 1, 2, 3, 4],
+  );
+  // The cell in the middle stands on a corner.
+  const middle = polygons[4];
+  assert.equal(middle.length, 5);
+  assert.deepEqual(middle[0], middle[4]);
+  assert.deepEqual(middle.slice(1).map(String).sort(), ['0,1', '1,0', '1,2', '2,1']);
+  for (const polygon of polygons) {
+    // All turn in the same direction as the triangles.
+    for (let k = 0; k + 2 < polygon.length; k++) {
+      const [[ax, ay], [bx, by], [cx, cy]] = polygon.slice(k, k + 3);
+      assert.ok((bx - ax) * (cy - ay) - (by - ay) * (cx - ax) < 0, JSON.stringify(polygon));
+    }
+  }
+  near(sum(voronoi.volumes), 16);
+  assert.deepEqual([...voronoi.circumcenters].length, 2 * 4);
+});
+
+test('cells outside the bounds are empty, and neighbours are clipped', async () => {
+  const mesh = await delaunay2d([
+    [0, 0],
+    [4, 0],
+    [0, 4],
+    [4, 4],
+    [2, 9],
+  ]);
+  const voronoi = await mesh.voronoi({ clip: [-1, -1, 1.5, 1.5] });
+  assert.deepEqual(
+    [...voronoi.cellPolygons()].map(({ index }) => index),
+    [0],
+  );
+  assert.equal(voronoi.cellPolygon(4), null);
+  assert.deepEqual([...voronoi.neighborsOf(0)], []);
+  const wide = await mesh.voronoi({ clip: [-1, -1, 5, 5] });
+  assert.deepEqual(sorted(wide.neighborsOf(0)), [1, 2]);
+});
+
+test('contains says which point is nearest, whatever the bounds are', async () => {
+  const voronoi = await square.voronoi({ clip: [0, 0, 0.1, 0.1] });
+  assert.ok(voronoi.contains(4, 1.2, 1.1) && !voronoi.contains(0, 1.2, 1.1));
+  assert.ok(voronoi.contains(3, 99, 99));
+  assert.ok(!voronoi.contains(0, Number.NaN, 0));
+  const mesh = await delaunay2d([
+    [0, 0],
+    [1, 0],
+    [0, 1],
+    [1, 0],
+  ]);
+  const coincident = await mesh.voronoi({ clip: [-1, -1, 2, 2] });
+  assert.ok(!coincident.contains(3, 1, 0) && coincident.contains(1, 1, 0));
+  assert.equal(coincident.cellPolygon(3), null);
+});
+
+test('without bounds, cells on the hull are unbounded and have no polygon', async () => {
+  const voronoi = await square.voronoi();
+  assert.equal(voronoi.cellPolygon(0), null);
+  assert.equal(voronoi.cellPolygon(4).length, 5);
+  assert.deepEqual(sorted(voronoi.neighborsOf(4)), [0, 1, 2, 3]);
+  assert.throws(() => voronoi.cellPolygon(5), { code: 'BAD_INPUT' });
+});
+
+test('collinear points have stripes as cells, and one point has the box', async () => {
+  const clip = [-1, -1, 5, 3];
+  const one = await (await delaunay2d([[0, 0]])).voronoi({ clip });
+  assert.deepEqual(one.cellPolygon(0), [
+    [-1, -1],
+    [-1, 3],
+    [5, 3],
+    [5, -1],
+    [-1, -1],
+  ]);
+  assert.deepEqual([...one.centroids], [2, 1]);
+  const points = [
+    [3, 0],
+    [0, 0],
+    [1, 0],
+    [1, 0],
+  ];
+  const voronoi = await (await delaunay2d(points)).voronoi({ clip });
+  assert.deepEqual([...voronoi.volumes], [12, 6, 6, 0]);
+  assert.deepEqual(voronoi.cellPolygon(3), null);
+  assert.deepEqual(sorted(voronoi.neighborsOf(2)), [0, 1]);
+  assert.deepEqual([...voronoi.neighborsOf(1)], [2]);
+  assert.deepEqual(voronoi.cellPolygon(2).slice(1).map(String).sort(), [
+    '0.5,-1',
+    '0.5,3',
+    '2,-1',
+    '2,3',
+  ]);
+  assert.ok(voronoi.contains(0, 2.5, 99));
+  // Far from the box, a stripe can be empty.
+  const far = await (await delaunay2d([...points, [100, 0]])).voronoi({ clip });
+  assert.equal(far.volumes[4], 0);
+  assert.equal(far.cellPolygon(4), null);
+  near(sum(far.volumes), 24);
+});

@@ -1,0 +1,410 @@
+//! What is derived from a mesh. 2D meshes have delaunator's orientation: they are made
+//! counter-clockwise by the negation of all *y*, which is undone in what is returned.
+
+use gdel::{
+    AlphaShape, Clip, Error, Interpolation, Interpolator, Location, Locator, Mesh, Mesh2, Mesh3, Points, SpanningTree,
+    Voronoi,
+    internals::{
+        derived::{AlphaEdges, StolenMeasures, VoronoiShapes},
+        geometry::{Euclidean, Geometry},
+    },
+};
+use js_sys::{Float64Array, Function, Int32Array, Uint32Array};
+use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+
+use crate::{
+    mesh::{CallerMesh, points_of_mesh},
+    objects::{Thrown, error, object, set},
+    points::{Coordinates, room, zeros},
+};
+
+/// The largest number of reports while queries are answered.
+const PARTS: usize = 16;
+/// The smallest number of queries between two reports: where few are answered at a time, they are far from each other.
+const MIN_PART: usize = 1 << 16;
+
+/// A mesh of the package.
+trait OfCaller<const D: usize, const N: usize>: Mesh<D, N> + Sized {
+    /// The name of the array of simplices.
+    const SIMPLICES: &str;
+
+    /// Copies a mesh.
+    fn of_caller(mesh: &JsValue) -> Result<Self, Thrown>;
+}
+
+impl OfCaller<3, 4> for Mesh3 {
+    const SIMPLICES: &str = "tetrahedra";
+
+    fn of_caller(mesh: &JsValue) -> Result<Self, Thrown> {
+        let caller = CallerMesh::<4, 3>::new(mesh, Self::SIMPLICES, "neighbors")?;
+        let mut mesh = Mesh3::default();
+        mesh.tetrahedra = caller.simplices;
+        mesh.neighbors = caller.neighbors.unwrap_or_default();
+        mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
+        Ok(mesh)
+    }
+}
+
+impl OfCaller<2, 3> for Mesh2 {
+    const SIMPLICES: &str = "triangles";
+
+    fn of_caller(mesh: &JsValue) -> Result<Self, Thrown> {
+        let caller = CallerMesh::<3, 1>::new(mesh, Self::SIMPLICES, "halfedges")?;
+        let mut mesh = Mesh2::default();
+        mesh.triangles = caller.simplices;
+        mesh.halfedges = caller.neighbors.unwrap_or_default();
+        mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
+        Ok(mesh)
+    }
+}
+
+/// A mesh with its points, and who is told how far the work has come.
+struct Task<M> {
+    points: Coordinates,
+    mesh: M,
+    report: Function,
+    phase: &'static str,
+}
+
+impl<M> Task<M> {
+    fn new<const D: usize, const N: usize>(
+        points: &JsValue,
+        mesh: &JsValue,
+        report: Function,
+        phase: &'static str,
+    ) -> Result<Self, Thrown>
+    where
+        M: OfCaller<D, N>,
+    {
+        let mut points = points_of_mesh::<D>(points)?;
+        if D == 2 {
+            points.flip_y();
+        }
+        let task = Task { points, mesh: M::of_caller(mesh)?, report, phase };
+        task.report(0.1)?;
+        Ok(task)
+    }
+
+    /// Reports the progress, and returns an error if the task is to end.
+    fn report(&self, fraction: f64) -> Result<(), Error> {
+        match self.report.call2(&JsValue::NULL, &self.phase.into(), &fraction.into()) {
+            Ok(stop) if stop.is_falsy() => Ok(()),
+            _ => Err(Error::Cancelled),
+        }
+    }
+
+    /// Calls `answer` with one part of the queries after the other.
+    fn in_parts<const D: usize, R>(
+        &self,
+        queries: &Coordinates,
+        answer: impl Fn(Points<'_, D>) -> Result<Vec<R>, Error>,
+    ) -> Result<Vec<R>, Thrown> {
+        let count = queries.points::<D>()?.len();
+        let mut answers = room(count)?;
+        let part = count.div_ceil(PARTS).max(MIN_PART);
+        for start in (0..count).step_by(part) {
+            let end = (start + part).min(count);
+            answers.extend(answer(queries.part(start..end)?)?);
+            self.report(0.1 + 0.8 * end as f64 / count as f64)?;
+        }
+        Ok(answers)
+    }
+}
+
+/// Copies query points.
+fn queries_of<const D: usize>(queries: &JsValue) -> Result<Coordinates, Thrown> {
+    let mut queries = Coordinates::new(queries)?;
+    queries.points::<D>()?.validate().map_err(|e| match e {
+        Error::NotFinite { index, axis, value } => {
+            let message = format!("query {index}: the {axis} coordinate is {value}, which is not a finite number");
+            let object = error("NOT_FINITE", &message);
+            set(&object, "index", index as f64);
+            object.into()
+        }
+        e => Thrown::from(e),
+    })?;
+    if D == 2 {
+        queries.flip_y();
+    }
+    Ok(queries)
+}
+
+/// Copies numbers.
+fn numbers_of(array: &Float64Array) -> Result<Vec<f64>, Thrown> {
+    let mut numbers = zeros(array.length())?;
+    array.copy_to(&mut numbers);
+    Ok(numbers)
+}
+
+/// Returns coordinates, interleaved.
+fn coordinates<const D: usize>(mut points: Vec<[f64; D]>) -> JsValue {
+    if D == 2 {
+        // Not −0.
+        points.iter_mut().for_each(|p| p[1] = 0.0 - p[1]);
+    }
+    Float64Array::new_from_slice(points.as_flattened()).into()
+}
+
+fn offsets(offsets: &[usize]) -> JsValue {
+    let offsets: Vec<u32> = offsets.iter().map(|&offset| offset as u32).collect();
+    Uint32Array::new_from_slice(&offsets).into()
+}
+
+/// Returns the simplex that contains each query, and the facet of the hull that sees it: `N` per
+/// simplex are counted.
+#[wasm_bindgen]
+pub fn locate(
+    dimension: u32,
+    points: &JsValue,
+    mesh: &JsValue,
+    queries: &JsValue,
+    report: Function,
+) -> Result<JsValue, Thrown> {
+    match dimension {
+        2 => locate_in::<Mesh2, 2, 3>(points, mesh, queries, report),
+        _ => locate_in::<Mesh3, 3, 4>(points, mesh, queries, report),
+    }
+}
+
+fn locate_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+    points: &JsValue,
+    mesh: &JsValue,
+    queries: &JsValue,
+    report: Function,
+) -> Result<JsValue, Thrown>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let task = Task::<M>::new::<D, N>(points, mesh, report, "locate")?;
+    let queries = queries_of::<D>(queries)?;
+    let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
+    let located = task.in_parts(&queries, |part| locator.locate_many(part))?;
+    let [mut simplices, mut facets] = [room(located.len())?, room(located.len())?];
+    for location in located {
+        let (simplex, facet) = match location {
+            Location::Inside(simplex) => (simplex as i32, -1),
+            Location::Outside { simplex, facet } => (-1, (N * simplex + facet) as i32),
+            _ => (-1, -1),
+        };
+        simplices.push(simplex);
+        facets.push(facet);
+    }
+    Ok(object([
+        ("simplices", Int32Array::new_from_slice(&simplices).into()),
+        ("facets", Int32Array::new_from_slice(&facets).into()),
+    ]))
+}
+
+/// Returns the vertex that is nearest to each query.
+#[wasm_bindgen]
+pub fn nearest(
+    dimension: u32,
+    points: &JsValue,
+    mesh: &JsValue,
+    queries: &JsValue,
+    report: Function,
+) -> Result<Int32Array, Thrown> {
+    match dimension {
+        2 => nearest_in::<Mesh2, 2, 3>(points, mesh, queries, report),
+        _ => nearest_in::<Mesh3, 3, 4>(points, mesh, queries, report),
+    }
+}
+
+fn nearest_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+    points: &JsValue,
+    mesh: &JsValue,
+    queries: &JsValue,
+    report: Function,
+) -> Result<Int32Array, Thrown>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let task = Task::<M>::new::<D, N>(points, mesh, report, "nearest")?;
+    let queries = queries_of::<D>(queries)?;
+    let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
+    let nearest = task.in_parts(&queries, |part| {
+        let nearest = locator.nearest_many(part)?;
+        Ok(nearest.into_iter().map(|vertex| vertex.map_or(-1, |v| v as i32)).collect())
+    })?;
+    Ok(Int32Array::new_from_slice(&nearest))
+}
+
+/// Returns the interpolated value at each query.
+#[wasm_bindgen]
+pub fn interpolate(
+    dimension: u32,
+    points: &JsValue,
+    mesh: &JsValue,
+    values: &Float64Array,
+    queries: &JsValue,
+    method: &str,
+    report: Function,
+) -> Result<Float64Array, Thrown> {
+    match dimension {
+        2 => interpolate_in::<Mesh2, 2, 3>(points, mesh, values, queries, method, report),
+        _ => interpolate_in::<Mesh3, 3, 4>(points, mesh, values, queries, method, report),
+    }
+}
+
+fn interpolate_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+    points: &JsValue,
+    mesh: &JsValue,
+    values: &Float64Array,
+    queries: &JsValue,
+    method: &str,
+    report: Function,
+) -> Result<Float64Array, Thrown>
+where
+    Euclidean: StolenMeasures<D, N>,
+{
+    let task = Task::<M>::new::<D, N>(points, mesh, report, "interpolate")?;
+    let queries = queries_of::<D>(queries)?;
+    let values = numbers_of(values)?;
+    let method = match method {
+        "sibson" => Interpolation::Sibson,
+        "laplace" => Interpolation::Laplace,
+        _ => Interpolation::Linear,
+    };
+    let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
+    let interpolator = Interpolator::new(&locator, &values)?;
+    let found = task.in_parts(&queries, |part| interpolator.interpolate_many(method, part))?;
+    Ok(Float64Array::new_from_slice(&found))
+}
+
+/// Returns the Voronoi diagram, clipped to nothing, the hull, the smallest box, or one with these
+/// bounds: the lowest corner, then the highest.
+#[wasm_bindgen]
+pub fn voronoi(
+    dimension: u32,
+    points: &JsValue,
+    mesh: &JsValue,
+    clip: &str,
+    bounds: &Float64Array,
+    report: Function,
+) -> Result<JsValue, Thrown> {
+    match dimension {
+        2 => voronoi_in::<Mesh2, 2, 3>(points, mesh, clip, bounds, report),
+        _ => voronoi_in::<Mesh3, 3, 4>(points, mesh, clip, bounds, report),
+    }
+}
+
+fn voronoi_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+    points: &JsValue,
+    mesh: &JsValue,
+    clip: &str,
+    bounds: &Float64Array,
+    report: Function,
+) -> Result<JsValue, Thrown>
+where
+    Euclidean: VoronoiShapes<D, N>,
+{
+    let task = Task::<M>::new::<D, N>(points, mesh, report, "voronoi")?;
+    let points = task.points.points::<D>()?;
+    let clip = match (clip, points.bounds()) {
+        ("hull", _) => Clip::Hull,
+        // Flat points, whose box may have no inside, have no cells.
+        ("box", Some(bounds)) if !task.mesh.simplices().is_empty() => Clip::Box(bounds),
+        ("bounds", _) => {
+            let bounds = numbers_of(bounds)?;
+            let [mut low, mut high]: [[f64; D]; 2] =
+                [0, D].map(|start| std::array::from_fn(|axis| bounds[start + axis]));
+            if D == 2 {
+                (low[1], high[1]) = (-high[1], -low[1]);
+            }
+            Clip::Box([low, high])
+        }
+        _ => Clip::None,
+    };
+    let voronoi = Voronoi::new(&task.mesh, points, clip)?;
+    task.report(0.3)?;
+    let diagram = voronoi.diagram();
+    task.report(0.9)?;
+    Ok(object([
+        ("vertices", coordinates(diagram.vertices)),
+        ("facetOffsets", offsets(&diagram.facets.offsets)),
+        ("facets", Uint32Array::new_from_slice(&diagram.facets.indices).into()),
+        ("neighbors", Int32Array::new_from_slice(&diagram.neighbors).into()),
+        ("areas", Float64Array::new_from_slice(&diagram.areas).into()),
+        ("cells", offsets(&diagram.cells)),
+        ("volumes", Float64Array::new_from_slice(&diagram.volumes).into()),
+        ("centroids", coordinates(diagram.centroids)),
+    ]))
+}
+
+/// Returns the alpha shape for a radius, or without one for the smallest that has all points in at
+/// most so many components.
+#[wasm_bindgen]
+pub fn alpha_shape(
+    dimension: u32,
+    points: &JsValue,
+    mesh: &JsValue,
+    alpha: Option<f64>,
+    components: u32,
+    with_critical_values: bool,
+    report: Function,
+) -> Result<JsValue, Thrown> {
+    match dimension {
+        2 => alpha_shape_in::<Mesh2, 2, 3>(points, mesh, alpha, components, with_critical_values, report),
+        _ => alpha_shape_in::<Mesh3, 3, 4>(points, mesh, alpha, components, with_critical_values, report),
+    }
+}
+
+fn alpha_shape_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+    points: &JsValue,
+    mesh: &JsValue,
+    alpha: Option<f64>,
+    components: u32,
+    with_critical_values: bool,
+    report: Function,
+) -> Result<JsValue, Thrown>
+where
+    Euclidean: AlphaEdges<D, N>,
+{
+    let task = Task::<M>::new::<D, N>(points, mesh, report, "alpha")?;
+    let shape = AlphaShape::new(&task.mesh, task.points.points::<D>()?)?;
+    task.report(0.6)?;
+    // Flat points have no solid for any radius.
+    let alpha = alpha.unwrap_or_else(|| shape.find_alpha(components as usize).unwrap_or(0.0));
+    let complex = shape.at(alpha)?;
+    let critical = if with_critical_values { shape.critical_values() } else { Vec::new() };
+    task.report(0.9)?;
+    let solid: Vec<u32> = complex.solid().map(|t| t as u32).collect();
+    let surface: Vec<[u32; D]> = complex.surface().collect();
+    let radii: Vec<f64> = shape.simplices().collect();
+    let (labels, count) = complex.components();
+    Ok(object([
+        ("alpha", alpha.into()),
+        ("solid", Uint32Array::new_from_slice(&solid).into()),
+        ("surface", Uint32Array::new_from_slice(surface.as_flattened()).into()),
+        ("components", count.into()),
+        ("componentOf", Int32Array::new_from_slice(&labels).into()),
+        ("radii", Float64Array::new_from_slice(&radii).into()),
+        ("criticalValues", Float64Array::new_from_slice(&critical).into()),
+    ]))
+}
+
+/// Returns the minimum spanning tree.
+#[wasm_bindgen]
+pub fn spanning_tree(dimension: u32, points: &JsValue, mesh: &JsValue, report: Function) -> Result<JsValue, Thrown> {
+    match dimension {
+        2 => spanning_tree_in::<Mesh2, 2, 3>(points, mesh, report),
+        _ => spanning_tree_in::<Mesh3, 3, 4>(points, mesh, report),
+    }
+}
+
+fn spanning_tree_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+    points: &JsValue,
+    mesh: &JsValue,
+    report: Function,
+) -> Result<JsValue, Thrown>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let task = Task::<M>::new::<D, N>(points, mesh, report, "tree")?;
+    let tree = SpanningTree::new(&task.mesh, task.points.points::<D>()?)?;
+    task.report(0.9)?;
+    Ok(object([
+        ("edges", Uint32Array::new_from_slice(tree.edges.as_flattened()).into()),
+        ("lengths", Float64Array::new_from_slice(&tree.lengths).into()),
+    ]))
+}
