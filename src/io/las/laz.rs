@@ -44,9 +44,9 @@ pub(super) fn decode<T>(
     let mut record = vec![0; header.point_format().len().into()];
     while (points.len() as u64) < header.number_of_points() {
         let at = source.position() as usize;
-        let count = chunks.next().ok_or_else(|| {
-            FormatError::byte(at, format!("the chunks of points end after {} points", points.len()))
-        })?;
+        let count = chunks
+            .next()
+            .ok_or_else(|| FormatError::byte(at, format!("the chunks of points end after {} points", points.len())))?;
         check_chunk(bytes, at, record.len(), layers(vlr.items()))?;
         let mut decompressor = decompressor(vlr.items(), &mut source).map_err(|error| in_header(error, size))?;
         let left = header.number_of_points() - points.len() as u64;
@@ -64,7 +64,9 @@ fn check_items(items: &[LazItem], compressor: u16, start: usize, record: u16) ->
     const ONE_STREAM: [u16; 2] = [CompressorType::PointWise as u16, CompressorType::PointWiseChunked as u16];
     const LAYERS: u16 = CompressorType::LayeredChunked as u16;
     let mut exact = LazItemRecordBuilder::new();
-    items.iter().for_each(|item| drop(exact.add_item(item.item_type())));
+    for item in items {
+        exact.add_item(item.item_type());
+    }
     let size: u64 = exact.build().iter().map(|item| u64::from(item.size())).sum();
     if size != u64::from(record) {
         let what = format!("points of {record} bytes cannot be made of items of {size} bytes");
@@ -83,8 +85,10 @@ fn chunks(source: &mut Cursor<&[u8]>, vlr: &LazVlr) -> Result<Box<dyn Iterator<I
     let start = source.position();
     check_table(source.get_ref(), start as usize)?;
     if vlr.uses_variable_size_chunks() {
-        let table = ChunkTable::read_from(&mut *source, vlr).map_err(|error| in_header(error, source.get_ref().len()))?;
-        let counts: Vec<u64> = table.as_ref().iter().map(|chunk| chunk.point_count).filter(|&count| count > 0).collect();
+        let table =
+            ChunkTable::read_from(&mut *source, vlr).map_err(|error| in_header(error, source.get_ref().len()))?;
+        let counts: Vec<u64> =
+            table.as_ref().iter().map(|chunk| chunk.point_count).filter(|&count| count > 0).collect();
         return Ok(Box::new(counts.into_iter()));
     }
     source.set_position(start + ChunkTable::OFFSET_SIZE as u64);
