@@ -34,7 +34,8 @@ fn main() {
     run(&arguments);
 }
 
-/// Returns the time that this thread has run, where Linux says it: on a busy machine it says more than the clock.
+/// Returns the time that this thread has run, where Linux says it: on a busy machine it says more
+/// than the clock.
 fn cpu_seconds() -> f64 {
     let schedstat = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
     schedstat.split(' ').next().and_then(|ns| ns.parse::<f64>().ok()).map_or(f64::NAN, |ns| ns * 1e-9)
@@ -131,7 +132,8 @@ fn run(arguments: &Arguments) {
     }
 }
 
-/// Returns a sum that is the same for the same pairs in any order, as the programs in `benches/peers/` do.
+/// Returns a sum that is the same for the same pairs in any order, as the programs in
+/// `benches/peers/` do.
 fn checksum(pairs: impl Iterator<Item = (u32, u32)>) -> u64 {
     pairs.fold(0, |sum, (i, j)| {
         let pair = u64::from(i) << 32 | u64::from(j);

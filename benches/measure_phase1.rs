@@ -2,9 +2,10 @@
 //! `cargo bench --features cli --bench measure_phase1 -- [KIND|FILE] [POINTS] [ADAPTER] [REPEATS]`,
 //! on coordinates rounded to `f32`.
 //!
-//! The variables PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE, SLOTS_PER_ACTIVE, WORKGROUPS, FEW, ROUNDS, BATCHES and SEED change the
-//! settings. Prints a line of JSON: medians over the repeats, after a second of runs to warm up, since a device raises its
-//! clock slowly; and the stages of one more run, which is slower because each dispatch is timed.
+//! The variables PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE, SLOTS_PER_ACTIVE,
+//! WORKGROUPS, FEW, ROUNDS, BATCHES and SEED change the settings. Prints a line of JSON: medians
+//! over the repeats, after a second of runs to warm up, since a device raises its clock slowly; and
+//! the stages of one more run, which is slower because each dispatch is timed.
 
 use gdel::Points;
 use gdel::internals::d3::generate::{Distribution3, generate3d};

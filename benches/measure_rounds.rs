@@ -1,8 +1,10 @@
-//! Counts what Phase 1 does on inputs on which flips wait for each other, beside ordinary ones: `cargo bench --features cli
-//! --bench measure_rounds -- [PART OF A NAME…]`. Times nothing, so that any adapter will do.
+//! Counts what Phase 1 does on inputs on which flips wait for each other, beside ordinary ones:
+//! `cargo bench --features cli --bench measure_rounds -- [PART OF A NAME…]`. Times nothing, so that
+//! any adapter will do.
 //!
-//! Prints a table: rounds that insert, flip iterations, flips, flips per iteration, dispatches, vertices that failed,
-//! and flat tetrahedra that are left. A run is given up after ITERATIONS (4,000) flip iterations, marked by `>`.
+//! Prints a table: rounds that insert, flip iterations, flips, flips per iteration, dispatches,
+//! vertices that failed, and flat tetrahedra that are left. A run is given up after ITERATIONS
+//! (4,000) flip iterations, marked by `>`.
 
 use gdel::{
     Points,
@@ -98,7 +100,8 @@ type Cloud<const D: usize> = (&'static str, Box<dyn Fn() -> Vec<[f64; D]>>);
 fn spatial() -> Vec<Cloud<3>> {
     let random = |distribution, n| move || generate3d(distribution, n, 1);
     let rotated = |points: Vec<[f64; 3]>| -> Vec<[f64; 3]> {
-        // The rows of an integer matrix of determinant 27, whose images are no multiples of each other.
+        // The rows of an integer matrix of determinant 27, whose images are no multiples of each
+        // other.
         points
             .into_iter()
             .map(|[x, y, z]| [2.0 * x - y + 2.0 * z, 2.0 * x + 2.0 * y - z, -x + 2.0 * y + 2.0 * z])

@@ -17,8 +17,8 @@ use crate::{
 const DIMENSIONS: [&str; 2] = ["d2", "d3"];
 /// The values of `{width}`.
 const WIDTHS: [&str; 2] = ["narrow", "wide"];
-/// The structure of `control` is two on the host: the second begins with the first of these members,
-/// and ends before the second one, an array as long as there is room.
+/// The structure of `control` is two on the host: the second begins with the first of these
+/// members, and ends before the second one, an array as long as there is room.
 const CONTROL: (&str, &str, &str) = ("Control", "iteration", "free");
 
 /// A shader in all its forms.

@@ -26,8 +26,8 @@ use crate::{
 };
 use std::{num::NonZeroUsize, ops::Range};
 
-/// With fewer points than this, one thread is as fast as several. Tests let many threads meet on few
-/// points.
+/// With fewer points than this, one thread is as fast as several. Tests let many threads meet on
+/// few points.
 const MIN_SHARED: usize = if cfg!(test) { 8 } else { 1 << 13 };
 /// So many points one thread inserts before the others join in, as long as they are few of all.
 const FEW: usize = 1 << 10;

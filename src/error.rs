@@ -159,7 +159,8 @@ pub enum Error {
     /// The radius of an alpha complex is negative or NaN.
     #[error("alpha must be a number that is not negative")]
     BadAlpha,
-    /// A mesh is not the Delaunay triangulation of the points that were given with it, and cannot be used.
+    /// A mesh is not the Delaunay triangulation of the points that were given with it, and cannot
+    /// be used.
     #[error("the mesh is not the Delaunay triangulation of the points: {what}")]
     BrokenMesh {
         /// How that was noticed.

@@ -9,9 +9,10 @@ use std::borrow::Cow;
 /// Lists of indices, one after the other in one array: compressed sparse rows.
 ///
 /// List *i* is `indices[offsets[i]..offsets[i + 1]]`. The simplices around each vertex
-/// ([`Mesh3::stars`](crate::Mesh3::stars), [`Mesh2::stars`](crate::Mesh2::stars)) and the neighbours of each vertex
-/// ([`Mesh3::vertex_neighbors`](crate::Mesh3::vertex_neighbors),
-/// [`Mesh2::vertex_neighbors`](crate::Mesh2::vertex_neighbors)) have this form. Build them once for many vertices.
+/// ([`Mesh3::stars`](crate::Mesh3::stars), [`Mesh2::stars`](crate::Mesh2::stars)) and the
+/// neighbours of each vertex ([`Mesh3::vertex_neighbors`](crate::Mesh3::vertex_neighbors),
+/// [`Mesh2::vertex_neighbors`](crate::Mesh2::vertex_neighbors)) have this form. Build them once for
+/// many vertices.
 ///
 /// # Examples
 ///
@@ -42,10 +43,11 @@ impl Default for Csr {
 }
 
 impl Csr {
-    /// Sorts simplices by their vertices, which are below `points`: list *v* has the simplices around *v*, in ascending
-    /// order.
+    /// Sorts simplices by their vertices, which are below `points`: list *v* has the simplices
+    /// around *v*, in ascending order.
     pub(crate) fn stars<const N: usize>(simplices: &[[u32; N]], points: usize) -> Self {
-        // Entry v + 1 counts the simplices of v, then says where the next of them goes, and at last where they end.
+        // Entry v + 1 counts the simplices of v, then says where the next of them goes, and at last
+        // where they end.
         let mut offsets = vec![0; points + 1];
         for &v in simplices.as_flattened() {
             offsets[v as usize + 1] += 1;
@@ -65,7 +67,8 @@ impl Csr {
         Csr { offsets, indices }
     }
 
-    /// Lists the vertices that share a simplex with each vertex, in ascending order. The vertices are below `points`.
+    /// Lists the vertices that share a simplex with each vertex, in ascending order. The vertices
+    /// are below `points`.
     pub(crate) fn vertex_neighbors<const N: usize>(simplices: &[[u32; N]], points: usize) -> Self {
         let stars = Csr::stars(simplices, points);
         let mut neighbors = Csr { offsets: Vec::with_capacity(points + 1), indices: Vec::new() };
@@ -129,8 +132,8 @@ impl Csr {
     }
 }
 
-/// A mesh of either dimension: [`Mesh3`](crate::Mesh3) with `D` = 3 coordinates per point and `N` = 4 vertices per
-/// tetrahedron, or [`Mesh2`](crate::Mesh2) with 2 and 3.
+/// A mesh of either dimension: [`Mesh3`](crate::Mesh3) with `D` = 3 coordinates per point and `N` =
+/// 4 vertices per tetrahedron, or [`Mesh2`](crate::Mesh2) with 2 and 3.
 ///
 /// It is what functions and types that take both ask for, and cannot be implemented for others.
 ///
@@ -149,10 +152,12 @@ pub trait Mesh<const D: usize, const N: usize>: sealed::Sealed {
     /// Returns the vertices of the tetrahedra or triangles.
     fn simplices(&self) -> &[[u32; N]];
 
-    /// Returns for each simplex the simplices opposite its vertices, or [`NONE`](crate::NONE) outside the hull.
+    /// Returns for each simplex the simplices opposite its vertices, or [`NONE`](crate::NONE)
+    /// outside the hull.
     fn opposites(&self) -> Cow<'_, [[i32; N]]>;
 
-    /// Returns for each point the one that stands for it, or [`NONE`](crate::NONE) if it is a vertex itself.
+    /// Returns for each point the one that stands for it, or [`NONE`](crate::NONE) if it is a
+    /// vertex itself.
     fn duplicate_of(&self) -> &[i32];
 }
 
@@ -161,8 +166,8 @@ pub(crate) mod sealed {
     pub trait Sealed {}
 }
 
-/// Returns for each vertex a simplex that has it, that with the lowest index; [`NONE`] for duplicates and vertices without
-/// simplices.
+/// Returns for each vertex a simplex that has it, that with the lowest index; [`NONE`] for
+/// duplicates and vertices without simplices.
 pub(crate) fn vertex_simplex<const N: usize>(simplices: &[[u32; N]], points: usize) -> Vec<i32> {
     let mut simplex = vec![NONE; points];
     for (t, vertices) in simplices.iter().enumerate().rev() {

@@ -30,8 +30,8 @@ pub(crate) fn for_chunks<T: Send>(threads: Threads, items: &mut [T], work: impl 
     work(0, items);
 }
 
-/// Calls `work` with corresponding chunks of two lists of equal length, and the index of their first
-/// elements.
+/// Calls `work` with corresponding chunks of two lists of equal length, and the index of their
+/// first elements.
 pub(crate) fn for_chunk_pairs<T: Send, U: Send>(
     threads: Threads,
     (items, others): (&mut [T], &mut [U]),

@@ -1,4 +1,5 @@
-//! The slots of a triangulation under construction: the vertices and the neighbours of each simplex.
+//! The slots of a triangulation under construction: the vertices and the neighbours of each
+//! simplex.
 
 mod shared;
 

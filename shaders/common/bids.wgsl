@@ -50,9 +50,9 @@ fn next_bid_base(bids: Bids) -> u32 {
     return changed_mark(bids) + 1;
 }
 
-// Returns the number of entries of the active list in a flip iteration whose lowest bid is `base`; 0
-// if they are fewer than `least`, or if there are not enough numbers left for their bids: then they
-// wait until the votes are cleared.
+// Returns the number of entries of the active list in a flip iteration whose lowest bid is `base`;
+// 0 if they are fewer than `least`, or if there are not enough numbers left for their bids: then
+// they wait until the votes are cleared.
 fn entries_of(iteration: u32, base: u32, least: u32) -> u32 {
     let count = atomicLoad(&control.active_len[iteration & 1]);
     return select(0u, count, count >= least && base <= MAX_BID_BASE);
@@ -69,6 +69,6 @@ fn half_of(iteration: u32) -> u32 {
     return (iteration & 1) * control.blocks * BLOCK;
 }
 
-// The largest of the lowest bids. Simplices are numbered in 30 bits, so that 2^31 numbers are enough
-// for an iteration.
+// The largest of the lowest bids. Simplices are numbered in 30 bits, so that 2^31 numbers are
+// enough for an iteration.
 const MAX_BID_BASE: u32 = 0x7fffffff;

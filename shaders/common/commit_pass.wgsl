@@ -2,9 +2,9 @@
 // simplices.
 //
 // A flip owns its simplices, so it overwrites them in place; the outer facets of the new ones keep
-// their old neighbours until the third pass, and each old simplex gets a message that says where its
-// outer facets went. A flip that finds no slot, or no room in the history, is put off: it stays in
-// the active list.
+// their old neighbours until the third pass, and each old simplex gets a message that says where
+// its outer facets went. A flip that finds no slot, or no room in the history, is put off: it stays
+// in the active list.
 //
 // A workgroup first collects the winners among many entries, and then carries them out, so that
 // nearly all of its invocations wait for memory at the same time: only a third of the entries win.

@@ -1,4 +1,5 @@
-// Scores each waiting point and finds the best score of each simplex (§3.1). One invocation per entry of the list of waiting points.
+// Scores each waiting point and finds the best score of each simplex (§3.1). One invocation per
+// entry of the list of waiting points.
 //!include {dim}/simplex
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read> vertices: array<VertexWords>;

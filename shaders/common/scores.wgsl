@@ -1,7 +1,7 @@
 // Scores: numbers of at least 1, the higher the more a point is wanted.
 
-// The share of the sum of a determinant's terms, all taken as positive, up to which its value may be
-// nothing but rounding.
+// The share of the sum of a determinant's terms, all taken as positive, up to which its value may
+// be nothing but rounding.
 const ROUNDING: f32 = 0x1p-20;
 
 // Returns whether a determinant is distinct from 0. `permanent` is that sum.

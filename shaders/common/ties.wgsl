@@ -35,8 +35,8 @@ fn in_order(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex) -> InOrder {
     return InOrder(a, b, c, d, parity);
 }
 
-// Returns `count` in a form that compilers do not see through. Otherwise they unroll loops of so many
-// steps, and spend seconds on exact arithmetic that hardly ever runs.
+// Returns `count` in a form that compilers do not see through. Otherwise they unroll loops of so
+// many steps, and spend seconds on exact arithmetic that hardly ever runs.
 fn not_unrolled(count: u32) -> u32 {
     return min(count, arrayLength(&vertices) + count - 1);
 }

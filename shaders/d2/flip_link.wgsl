@@ -15,8 +15,8 @@ fn changed_by(entry: Active) -> Changed {
 // The outer edges of a flip.
 const OUTER_FACETS: u32 = 4;
 
-// Returns which of the slots of a flip has outer edge j, and as which of its edges: edges 1 and 2 of
-// both triangles are outer ones.
+// Returns which of the slots of a flip has outer edge j, and as which of its edges: edges 1 and 2
+// of both triangles are outer ones.
 fn outer_facet(j: u32, count: u32) -> vec2u {
     return vec2u(j / 2, 1 + j % 2);
 }

@@ -5,9 +5,9 @@
 // oriented a, b, c, and changes sign with every exchange of two arguments.
 //
 // Ties are broken as d3/predicates explains: by the heights of the points, by infinity that leans
-// away from the interior point, then by the lowered coordinates ε(i, j), j = y, x. So a point of the
-// hull between two others on a line is beyond their edge, and no flat triangles lie along the hull.
-// A set S of lowered coordinates is a bit set, 2·rank + (y: 0, x: 1).
+// away from the interior point, then by the lowered coordinates ε(i, j), j = y, x. So a point of
+// the hull between two others on a line is beyond their edge, and no flat triangles lie along the
+// hull. A set S of lowered coordinates is a bit set, 2·rank + (y: 0, x: 1).
 //!include d2/exact_{width}
 //!include common/ties
 
@@ -45,8 +45,8 @@ struct Rows {
 }
 
 // Returns the sign that four vertices give to an in-circle test or an orientation, never 0 where
-// these are not: incircle(a, b, c, d); or, if `of_three`, the orientation of a, b, c, where d is the
-// interior point.
+// these are not: incircle(a, b, c, d); or, if `of_three`, the orientation of a, b, c, where d is
+// the interior point.
 fn perturbed_sign(a: Vertex, b: Vertex, c: Vertex, d: Vertex, of_three: bool) -> i32 {
     let sorted = in_order(a, b, c, d);
     let origin = sorted.d.position;

@@ -21,8 +21,8 @@ fn take_from(block: u32, free: u32) -> u32 {
 }
 
 // Takes a free slot from the block of a vertex of the flip, else from one of a few blocks of the
-// tail. Returns NONE if there is none. Several blocks are looked at together, because each look is a
-// long wait.
+// tail. Returns NONE if there is none. Several blocks are looked at together, because each look is
+// a long wait.
 fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
     let tail = control.blocks - control.infinite - 1;
     let seed = scramble(t, iteration, 31);

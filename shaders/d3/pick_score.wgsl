@@ -31,8 +31,8 @@ fn permanent(a: vec3f, b: vec3f, c: vec3f) -> f32 {
     return dot(abs(a), p.yzx * q.zxy + p.zxy * q.yzx);
 }
 
-// Returns the score of point w in the plane of a facet with the corners 0, u and v, by the in-circle
-// determinant: there the facet's circle is the half-space beyond it, as infinity leans.
+// Returns the score of point w in the plane of a facet with the corners 0, u and v, by the
+// in-circle determinant: there the facet's circle is the half-space beyond it, as infinity leans.
 fn score_in_plane(u: vec3f, v: vec3f, w: vec3f) -> u32 {
     let x = w - u;
     let y = w - v;

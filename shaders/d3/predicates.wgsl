@@ -4,22 +4,22 @@
 // insphere(a, b, c, d, e) is positive when e is inside the sphere through the positively oriented
 // a, b, c, d, and changes sign with every exchange of two arguments.
 //
-// Ties. Point i has the height h_i = |p_i|² + δ_i, δ_0 ≫ δ_1 ≫ …, and its coordinates are lowered by
-// ε(i, j), j = z, y, x, infinitely smaller than all δ, with ε(0, z) ≫ ε(0, y) ≫ ε(0, x) ≫ ε(1, z) ≫
-// …, each infinitely smaller than every product of those before it (Edelsbrunner and Mücke 1990).
-// The heights are those of the coordinates that are not lowered.
+// Ties. Point i has the height h_i = |p_i|² + δ_i, δ_0 ≫ δ_1 ≫ …, and its coordinates are lowered
+// by ε(i, j), j = z, y, x, infinitely smaller than all δ, with ε(0, z) ≫ ε(0, y) ≫ ε(0, x) ≫ ε(1,
+// z) ≫ …, each infinitely smaller than every product of those before it (Edelsbrunner and Mücke
+// 1990). The heights are those of the coordinates that are not lowered.
 //
-// Infinity leans. Lifted to these heights, the triangulation is a convex hull, and infinity would be
-// the direction straight up, which four coplanar points leave undecided. So it leans, by an η that
-// is smaller than all δ and larger than all ε, away from the interior point: with that point as the
-// origin, an orientation is the determinant of the rows (x, y, z, 1 + η·h), as if each point had
-// been moved towards the origin by an infinitely small share η·h of the way. Planes become
+// Infinity leans. Lifted to these heights, the triangulation is a convex hull, and infinity would
+// be the direction straight up, which four coplanar points leave undecided. So it leans, by an η
+// that is smaller than all δ and larger than all ε, away from the interior point: with that point
+// as the origin, an orientation is the determinant of the rows (x, y, z, 1 + η·h), as if each point
+// had been moved towards the origin by an infinitely small share η·h of the way. Planes become
 // paraboloids, so coplanar points of the hull are triangulated as their circles in the plane say,
 // as the CPU engine and splaying (src/d3/splay/predicates.rs) do it, and no flat tetrahedra lie
 // under the hull. The rows of an in-sphere determinant, (x, y, z, h, 1 + η·h), lose η to a column
-// operation: it knows nothing of the lean. So the coefficient of η in an orientation is the in-sphere
-// determinant with the interior point for the fifth: only where four points are in a plane with the
-// interior point, or in a line, is anything left to the lowered coordinates.
+// operation: it knows nothing of the lean. So the coefficient of η in an orientation is the
+// in-sphere determinant with the interior point for the fifth: only where four points are in a
+// plane with the interior point, or in a line, is anything left to the lowered coordinates.
 //
 // The coefficients, in order. A product of ε's is a set S of (point, coordinate). The determinant
 // is linear in each row and column, so only sets with at most one entry in each row and column
@@ -62,8 +62,8 @@ struct Rows {
 }
 
 // Returns the sign that five vertices give to an in-sphere test or an orientation, never 0 where
-// these are not: insphere(a, b, c, d, e); or, if `of_four`, the orientation of a, b, c, d, where e is
-// the interior point.
+// these are not: insphere(a, b, c, d, e); or, if `of_four`, the orientation of a, b, c, d, where e
+// is the interior point.
 fn perturbed_sign(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex, e_: Vertex, of_four: bool) -> i32 {
     var a = a_;
     var b = b_;

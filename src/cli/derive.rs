@@ -173,8 +173,8 @@ impl Common {
         Ok(input.read_with_values::<D>(column)?)
     }
 
-    /// Triangulates, calls `derive` with the mesh and prints what is to be said, as often as wanted. Returns the last
-    /// mesh and what was derived from it.
+    /// Triangulates, calls `derive` with the mesh and prints what is to be said, as often as
+    /// wanted. Returns the last mesh and what was derived from it.
     pub(super) fn run<M: Triangulation<D, N> + Mesh<D, N>, const D: usize, const N: usize, T>(
         &self,
         points: Points<'_, D>,

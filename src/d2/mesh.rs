@@ -88,15 +88,16 @@ impl Mesh2 {
         (0..count).map(move |i| [self.hull[i], self.hull[(i + 1) % count]])
     }
 
-    /// Returns the triangles around every vertex, counter-clockwise; the first one lies behind the hull edge that starts at
-    /// the vertex if there is one. A duplicate has none.
+    /// Returns the triangles around every vertex, counter-clockwise; the first one lies behind the
+    /// hull edge that starts at the vertex if there is one. A duplicate has none.
     pub fn stars(&self) -> Csr {
         let mut stars = Csr::stars(&self.triangles, self.duplicate_of.len());
         stars.arrange(|v, star| self.turn(v, star));
         stars
     }
 
-    /// Returns the vertices that every vertex has an edge to, in ascending order; none for duplicates.
+    /// Returns the vertices that every vertex has an edge to, in ascending order; none for
+    /// duplicates.
     ///
     /// # Examples
     ///
@@ -111,8 +112,8 @@ impl Mesh2 {
         Csr::vertex_neighbors(&self.triangles, self.duplicate_of.len())
     }
 
-    /// Returns for every point the lowest triangle that has it as a vertex; [`NONE`](crate::NONE) for duplicates, and for
-    /// all points if there are no triangles.
+    /// Returns for every point the lowest triangle that has it as a vertex; [`NONE`](crate::NONE)
+    /// for duplicates, and for all points if there are no triangles.
     ///
     /// # Examples
     ///
@@ -125,7 +126,8 @@ impl Mesh2 {
         mesh::vertex_simplex(&self.triangles, self.duplicate_of.len())
     }
 
-    /// Orders the triangles around a vertex counter-clockwise, from the one behind the hull edge that starts there, if any.
+    /// Orders the triangles around a vertex counter-clockwise, from the one behind the hull edge
+    /// that starts there, if any.
     fn turn(&self, v: u32, star: &mut [u32]) {
         let corner = |t: u32| self.triangles[t as usize].iter().position(|&w| w == v).unwrap_or(0);
         let behind_the_hull = |&t: &u32| self.halfedges[t as usize][corner(t)] == NONE;
@@ -144,7 +146,8 @@ impl Mesh2 {
     /// Returns the centre of the circle through the vertices of triangle `t`, where `points` are
     /// those of the mesh.
     ///
-    /// The error is at most 2⁻³⁷ times the radius, however flat the triangle is, plus the rounding of the result.
+    /// The error is at most 2⁻³⁷ times the radius, however flat the triangle is, plus the rounding
+    /// of the result.
     ///
     /// # Panics
     ///
@@ -154,9 +157,11 @@ impl Mesh2 {
         geometry::circumcenter(&self.triangles[t].map(|v| points.get(v as usize)))
     }
 
-    /// Returns the centres of the circles through the vertices of all triangles: the vertices of the Voronoi diagram.
+    /// Returns the centres of the circles through the vertices of all triangles: the vertices of
+    /// the Voronoi diagram.
     ///
-    /// `points` are those of the mesh. The errors are those of [`circumcenter`](Self::circumcenter).
+    /// `points` are those of the mesh. The errors are those of
+    /// [`circumcenter`](Self::circumcenter).
     ///
     /// # Panics
     ///
@@ -176,7 +181,8 @@ impl Mesh2 {
         geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::circumcenter(&t))
     }
 
-    /// Returns the radii of the circles through the vertices of all triangles, with relative errors below 2⁻³⁶.
+    /// Returns the radii of the circles through the vertices of all triangles, with relative errors
+    /// below 2⁻³⁶.
     ///
     /// # Panics
     ///
@@ -185,7 +191,8 @@ impl Mesh2 {
         geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::circumradius(&t))
     }
 
-    /// Returns the areas of all triangles. The errors are at most 2⁻⁵⁰ times the product of the edges at a vertex.
+    /// Returns the areas of all triangles. The errors are at most 2⁻⁵⁰ times the product of the
+    /// edges at a vertex.
     ///
     /// # Panics
     ///
@@ -194,8 +201,8 @@ impl Mesh2 {
         geometry::coordinates(points.into(), &self.triangles).map(|t| geometry::measure(&t))
     }
 
-    /// Returns twice the radius of the inscribed circle by that of the circumscribed circle for all triangles: 1 for
-    /// equilateral triangles, near 0 for flat ones.
+    /// Returns twice the radius of the inscribed circle by that of the circumscribed circle for all
+    /// triangles: 1 for equilateral triangles, near 0 for flat ones.
     ///
     /// # Panics
     ///

@@ -152,8 +152,8 @@ impl Triangulation2 {
     }
 
     /// Returns triangles, half-edges and hull as in [`Mesh2`](crate::d2::Mesh2), but of this
-    /// orientation, in the arrays where they lie; vertex *v* becomes `names[v]`. `threads` share the
-    /// work.
+    /// orientation, in the arrays where they lie; vertex *v* becomes `names[v]`. `threads` share
+    /// the work.
     pub fn into_mesh(
         self,
         names: &[u32],

@@ -145,7 +145,8 @@ impl Mesh3 {
         Csr::stars(&self.tetrahedra, self.duplicate_of.len())
     }
 
-    /// Returns the vertices that every vertex has an edge to, in ascending order; none for duplicates.
+    /// Returns the vertices that every vertex has an edge to, in ascending order; none for
+    /// duplicates.
     ///
     /// # Examples
     ///
@@ -160,8 +161,8 @@ impl Mesh3 {
         Csr::vertex_neighbors(&self.tetrahedra, self.duplicate_of.len())
     }
 
-    /// Returns for every point the lowest tetrahedron that has it as a vertex; [`NONE`] for duplicates, and for all points
-    /// if there are no tetrahedra.
+    /// Returns for every point the lowest tetrahedron that has it as a vertex; [`NONE`] for
+    /// duplicates, and for all points if there are no tetrahedra.
     ///
     /// # Examples
     ///
@@ -177,7 +178,8 @@ impl Mesh3 {
     /// Returns the centre of the sphere through the vertices of tetrahedron `t`, where `points` are
     /// those of the mesh.
     ///
-    /// The error is at most 2⁻³⁷ times the radius, however flat the tetrahedron is, plus the rounding of the result.
+    /// The error is at most 2⁻³⁷ times the radius, however flat the tetrahedron is, plus the
+    /// rounding of the result.
     ///
     /// # Panics
     ///
@@ -187,9 +189,11 @@ impl Mesh3 {
         geometry::circumcenter(&self.tetrahedra[t].map(|v| points.get(v as usize)))
     }
 
-    /// Returns the centres of the spheres through the vertices of all tetrahedra: the vertices of the Voronoi diagram.
+    /// Returns the centres of the spheres through the vertices of all tetrahedra: the vertices of
+    /// the Voronoi diagram.
     ///
-    /// `points` are those of the mesh. The errors are those of [`circumcenter`](Self::circumcenter).
+    /// `points` are those of the mesh. The errors are those of
+    /// [`circumcenter`](Self::circumcenter).
     ///
     /// # Panics
     ///
@@ -209,7 +213,8 @@ impl Mesh3 {
         geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::circumcenter(&t))
     }
 
-    /// Returns the radii of the spheres through the vertices of all tetrahedra, with relative errors below 2⁻³⁶.
+    /// Returns the radii of the spheres through the vertices of all tetrahedra, with relative
+    /// errors below 2⁻³⁶.
     ///
     /// # Panics
     ///
@@ -218,7 +223,8 @@ impl Mesh3 {
         geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::circumradius(&t))
     }
 
-    /// Returns the volumes of all tetrahedra. The errors are at most 2⁻⁵⁰ times the product of the edges at a vertex.
+    /// Returns the volumes of all tetrahedra. The errors are at most 2⁻⁵⁰ times the product of the
+    /// edges at a vertex.
     ///
     /// # Panics
     ///
@@ -227,8 +233,8 @@ impl Mesh3 {
         geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::measure(&t))
     }
 
-    /// Returns three times the radius of the inscribed sphere by that of the circumscribed sphere for all tetrahedra: 1 for
-    /// regular tetrahedra, near 0 for flat ones.
+    /// Returns three times the radius of the inscribed sphere by that of the circumscribed sphere
+    /// for all tetrahedra: 1 for regular tetrahedra, near 0 for flat ones.
     ///
     /// # Panics
     ///
@@ -250,8 +256,8 @@ impl Mesh3 {
         geometry::coordinates(points.into(), &self.tetrahedra).map(|t| geometry::radius_ratio(&t))
     }
 
-    /// Returns the dihedral angles of all tetrahedra in radians, at the edges between vertices 0 and 1, 0 and 2, 0 and 3,
-    /// 1 and 2, 1 and 3, 2 and 3.
+    /// Returns the dihedral angles of all tetrahedra in radians, at the edges between vertices 0
+    /// and 1, 0 and 2, 0 and 3, 1 and 2, 1 and 3, 2 and 3.
     ///
     /// # Panics
     ///

@@ -9,8 +9,9 @@ use crate::{
 };
 use std::borrow::Cow;
 
-/// A mesh and its points, checked as far as indices need it: no index leads out of an array. That the mesh is the
-/// Delaunay triangulation of the points is not checked; what walks over the mesh limits its steps.
+/// A mesh and its points, checked as far as indices need it: no index leads out of an array. That
+/// the mesh is the Delaunay triangulation of the points is not checked; what walks over the mesh
+/// limits its steps.
 #[derive(Debug, Clone)]
 pub struct Complex<'a, const D: usize, const N: usize> {
     pub(crate) points: Points<'a, D>,
@@ -92,7 +93,8 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
         (neighbor != NONE).then_some(neighbor as usize)
     }
 
-    /// Returns the index of the facet that simplices `t` and `u` share, as numbered in `u`; `N` if there is none.
+    /// Returns the index of the facet that simplices `t` and `u` share, as numbered in `u`; `N` if
+    /// there is none.
     #[inline(always)]
     pub(crate) fn facet_towards(&self, u: usize, t: usize) -> usize {
         let mut facet = N;

@@ -35,11 +35,13 @@ use std::sync::OnceLock;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Location {
-    /// The simplex with this index contains the point. If the point lies on a facet, an edge or a vertex, several simplices
-    /// do; it is then the one whose vertices come first if they are sorted.
+    /// The simplex with this index contains the point. If the point lies on a facet, an edge or a
+    /// vertex, several simplices do; it is then the one whose vertices come first if they are
+    /// sorted.
     Inside(usize),
-    /// The point lies outside the convex hull, and beyond this facet of it, from where the point can be seen. Which
-    /// facet it is if there are several depends on the order of the mesh's simplices.
+    /// The point lies outside the convex hull, and beyond this facet of it, from where the point
+    /// can be seen. Which facet it is if there are several depends on the order of the mesh's
+    /// simplices.
     Outside {
         /// The simplex that has the facet.
         simplex: usize,
@@ -63,9 +65,10 @@ impl Location {
 
 /// Locates points in a mesh, and finds the vertices nearest to them.
 ///
-/// Create one for a mesh with its points and use it for many queries: it holds a few places to start from, and after the
-/// first search for nearest vertices also the neighbours of each vertex. All answers are exact for all finite `f64`
-/// queries, `f32` included. Those for many queries are found by all threads, and are the same as for the queries one by one.
+/// Create one for a mesh with its points and use it for many queries: it holds a few places to
+/// start from, and after the first search for nearest vertices also the neighbours of each vertex.
+/// All answers are exact for all finite `f64` queries, `f32` included. Those for many queries are
+/// found by all threads, and are the same as for the queries one by one.
 ///
 /// # Examples
 ///
@@ -94,7 +97,8 @@ pub struct Locator<'a, const D: usize = 3, const N: usize = 4> {
     /// A power of two that makes the extent of the points neither large nor small.
     pub(super) scale: f64,
     pub(super) key: CurveKey<D>,
-    /// Some simplices, in the lower half, by the places of their first vertices along the curve, in the upper half.
+    /// Some simplices, in the lower half, by the places of their first vertices along the curve, in
+    /// the upper half.
     starts: Vec<u64>,
     /// The neighbours of each vertex, once they have been asked for.
     pub(super) neighbors: OnceLock<Csr>,
@@ -124,8 +128,8 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::PointCount`] if these are not the points of the mesh, [`Error::NotFinite`] if one of them is not finite, and
-    /// [`Error::BrokenMesh`] if the mesh's arrays contradict each other.
+    /// [`Error::PointCount`] if these are not the points of the mesh, [`Error::NotFinite`] if one
+    /// of them is not finite, and [`Error::BrokenMesh`] if the mesh's arrays contradict each other.
     pub fn new(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>) -> Result<Self, Error> {
         Complex::new(mesh, points.into()).map(Locator::of)
     }
@@ -146,13 +150,13 @@ where
 
     /// Returns where a point lies.
     ///
-    /// The walk from the nearest place to start from takes some ten steps on average. For many queries
-    /// [`locate_many`](Self::locate_many) is faster.
+    /// The walk from the nearest place to start from takes some ten steps on average. For many
+    /// queries [`locate_many`](Self::locate_many) is faster.
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`], or [`Error::BrokenMesh`] if the walk does not end because the mesh is not the Delaunay triangulation
-    /// of the points.
+    /// [`Error::NotFinite`], or [`Error::BrokenMesh`] if the walk does not end because the mesh is
+    /// not the Delaunay triangulation of the points.
     pub fn locate(&self, query: [f64; D]) -> Result<Location, Error> {
         Points::F64(&[query]).validate()?;
         let Some(start) = self.start(query) else { return Ok(Location::Nowhere) };
@@ -172,7 +176,8 @@ where
         map_along_curve(queries.into(), self.key, || None, locate)
     }
 
-    /// Finds the place of a query near the last one's simplex, which it updates; `None` if there are no simplices.
+    /// Finds the place of a query near the last one's simplex, which it updates; `None` if there
+    /// are no simplices.
     pub(super) fn place(&self, query: [f64; D], last: &mut Option<usize>) -> Result<Option<Place>, Error> {
         let start = match *last {
             Some(last) => last,
@@ -183,7 +188,8 @@ where
         };
         let mut place = self.walk(query, start)?;
         *last = Some(place.simplex);
-        // What facet is seen depends on where the walk started, which must not depend on other queries.
+        // What facet is seen depends on where the walk started, which must not depend on other
+        // queries.
         if place.beyond.is_some()
             && let Some(start) = self.start(query)
         {
@@ -227,8 +233,9 @@ where
 
     /// Walks from a simplex to the place of a query.
     ///
-    /// The walk crosses any facet that separates the current simplex from the query. With every step the power distance of
-    /// the query to the circumsphere decreases, perturbed as the triangulation's ties are, so it ends.
+    /// The walk crosses any facet that separates the current simplex from the query. With every
+    /// step the power distance of the query to the circumsphere decreases, perturbed as the
+    /// triangulation's ties are, so it ends.
     pub(super) fn walk(&self, query: [f64; D], start: usize) -> Result<Place, Error> {
         let bound = self.bound_with(query);
         let mut t = start;
@@ -264,8 +271,8 @@ where
         Err(Error::BrokenMesh { what: "a walk over it does not end" })
     }
 
-    /// Returns the facets that contain a query, which simplex `t` contains, as (simplex, opposite vertex): all facets of the
-    /// hull, and those between simplices from both sides.
+    /// Returns the facets that contain a query, which simplex `t` contains, as (simplex, opposite
+    /// vertex): all facets of the hull, and those between simplices from both sides.
     fn facets_at(&self, query: [f64; D], t: usize) -> Vec<(usize, usize)> {
         let bound = self.bound_with(query);
         let mut facets = Vec::new();
@@ -284,15 +291,16 @@ where
         facets
     }
 
-    /// Returns the facets of the hull that contain a query, which simplex `t` contains, as (simplex, opposite vertex).
+    /// Returns the facets of the hull that contain a query, which simplex `t` contains, as
+    /// (simplex, opposite vertex).
     pub(super) fn hull_facets_at(&self, query: [f64; D], t: usize) -> Vec<(usize, usize)> {
         let mut facets = self.facets_at(query, t);
         facets.retain(|&(t, k)| self.complex.across(t, k).is_none());
         facets
     }
 
-    /// Returns the simplex with the first vertices, if they are sorted, of those that contain a query that lies on the boundary
-    /// of `t`.
+    /// Returns the simplex with the first vertices, if they are sorted, of those that contain a
+    /// query that lies on the boundary of `t`.
     #[inline(never)]
     fn first_around(&self, query: [f64; D], t: usize) -> usize {
         let sorted = |t: usize| {
@@ -321,7 +329,8 @@ fn orientation_bound<const D: usize>([low, high]: [[f64; D]; 2]) -> f64 {
     unscaled_orientation_bound::<D>(std::array::from_fn(|axis| high[axis] - low[axis]))
 }
 
-/// Returns on which side of facet `k` a query is: see [`Geometry::side`]. `rows` are the corners minus the query.
+/// Returns on which side of facet `k` a query is: see [`Geometry::side`]. `rows` are the corners
+/// minus the query.
 #[inline(always)]
 fn side<const D: usize, const N: usize>(
     bound: f64,

@@ -1,9 +1,9 @@
-//! What is derived from a triangulation: point location, nearest vertices, interpolation, Voronoi diagrams, alpha shapes
-//! and minimum spanning trees, written once for 2D and 3D.
+//! What is derived from a triangulation: point location, nearest vertices, interpolation, Voronoi
+//! diagrams, alpha shapes and minimum spanning trees, written once for 2D and 3D.
 //!
-//! Signs are exact: which simplex contains a point, which vertex is nearest, which simplices belong to an alpha shape.
-//! Lengths, areas, volumes and weights are `f64` with a stated error. Results are a function of the mesh and the query,
-//! whatever the number of threads.
+//! Signs are exact: which simplex contains a point, which vertex is nearest, which simplices belong
+//! to an alpha shape. Lengths, areas, volumes and weights are `f64` with a stated error. Results
+//! are a function of the mesh and the query, whatever the number of threads.
 
 mod alpha;
 mod complex;

@@ -1,10 +1,10 @@
 //! Nearest vertices, by walking along the edges of the triangulation.
 //!
-//! In every Delaunay triangulation, for every point inside the hull or outside: the vertices nearest
-//! to it are connected, and every other vertex has a neighbour that is nearer. (Shrink the ball
-//! around the point that has the vertex on its boundary towards the vertex until its inside is empty:
-//! all other vertices on the boundary of what is left are nearer, and the vertex has an edge to one
-//! of them.) So no location is needed first.
+//! In every Delaunay triangulation, for every point inside the hull or outside: the vertices
+//! nearest to it are connected, and every other vertex has a neighbour that is nearer. (Shrink the
+//! ball around the point that has the vertex on its boundary towards the vertex until its inside is
+//! empty: all other vertices on the boundary of what is left are nearer, and the vertex has an edge
+//! to one of them.) So no location is needed first.
 
 use super::{Locator, queries::map_along_curve};
 use crate::{
@@ -21,8 +21,9 @@ impl<const D: usize, const N: usize> Locator<'_, D, N>
 where
     Euclidean: Geometry<D, N>,
 {
-    /// Returns the vertex that is nearest to a point, inside the hull or outside; `None` if the mesh has no simplices. Of
-    /// several vertices at the same distance it is the one with the lowest index.
+    /// Returns the vertex that is nearest to a point, inside the hull or outside; `None` if the
+    /// mesh has no simplices. Of several vertices at the same distance it is the one with the
+    /// lowest index.
     ///
     /// # Errors
     ///
@@ -59,8 +60,9 @@ where
         map_along_curve(queries.into(), self.key, || None, nearest)
     }
 
-    /// Returns the `k` vertices that are nearest to a point, in order of their distances, those at the same distance in order
-    /// of their indices; all vertices if there are no more than `k`, and none if the mesh has no simplices.
+    /// Returns the `k` vertices that are nearest to a point, in order of their distances, those at
+    /// the same distance in order of their indices; all vertices if there are no more than `k`, and
+    /// none if the mesh has no simplices.
     ///
     /// # Errors
     ///

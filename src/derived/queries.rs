@@ -27,7 +27,8 @@ impl<const D: usize> CurveKey<D> {
         CurveKey { low, scale: std::array::from_fn(|axis| cells / (high[axis] - low[axis])) }
     }
 
-    /// Returns the place of the cell that contains `p`, or of the nearest cell if `p` is outside the box.
+    /// Returns the place of the cell that contains `p`, or of the nearest cell if `p` is outside
+    /// the box.
     #[inline]
     pub(crate) fn of<const N: usize>(&self, p: [f64; D]) -> u32
     where
@@ -40,8 +41,8 @@ impl<const D: usize> CurveKey<D> {
     }
 }
 
-/// Calls `work` with every query, its index and a state, along the curve, and returns the results in the order of the
-/// queries. Threads have a state each, so the results must not depend on it.
+/// Calls `work` with every query, its index and a state, along the curve, and returns the results
+/// in the order of the queries. Threads have a state each, so the results must not depend on it.
 pub(crate) fn map_along_curve<const D: usize, const N: usize, S, R: Copy + Send>(
     queries: Points<'_, D>,
     key: CurveKey<D>,

@@ -11,9 +11,11 @@ use crate::{
 };
 use std::cmp::Ordering;
 
-/// The Euclidean minimum spanning tree of the vertices of a mesh: the shortest connection of all of them.
+/// The Euclidean minimum spanning tree of the vertices of a mesh: the shortest connection of all of
+/// them.
 ///
-/// Of several edges of exactly the same length the one with the lower vertices comes first, so the tree is unique.
+/// Of several edges of exactly the same length the one with the lower vertices comes first, so the
+/// tree is unique.
 ///
 /// # Examples
 ///
@@ -33,12 +35,13 @@ use std::cmp::Ordering;
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct SpanningTree {
-    /// The edges, the lower vertex first, in the order of their lengths. There is one less than vertices, and none at all if the
-    /// mesh has no simplices.
+    /// The edges, the lower vertex first, in the order of their lengths. There is one less than
+    /// vertices, and none at all if the mesh has no simplices.
     pub edges: Vec<[u32; 2]>,
     /// The length of each edge, with a relative error below 2⁻⁵⁰.
     pub lengths: Vec<f64>,
-    /// For each point, the one that stands for it, or [`NONE`](crate::NONE) if it is a vertex itself.
+    /// For each point, the one that stands for it, or [`NONE`](crate::NONE) if it is a vertex
+    /// itself.
     duplicate_of: Vec<i32>,
 }
 
@@ -57,7 +60,8 @@ impl SpanningTree {
     ///
     /// # Errors
     ///
-    /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for [`Locator::new`](crate::Locator::new).
+    /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for
+    /// [`Locator::new`](crate::Locator::new).
     pub fn new<'a, const D: usize, const N: usize>(
         mesh: &'a impl Mesh<D, N>,
         points: impl Into<Points<'a, D>>,
@@ -91,14 +95,16 @@ impl SpanningTree {
         self.lengths.iter().sum()
     }
 
-    /// Returns the single-linkage clusters that are left without the longest edges, as many as wanted if there are enough
-    /// vertices: for each point the number of its cluster. Clusters are counted in the order of their first points.
+    /// Returns the single-linkage clusters that are left without the longest edges, as many as
+    /// wanted if there are enough vertices: for each point the number of its cluster. Clusters are
+    /// counted in the order of their first points.
     pub fn clusters(&self, count: usize) -> Vec<u32> {
         self.label(self.edges.len().saturating_sub(count.saturating_sub(1)))
     }
 
-    /// Returns the single-linkage clusters that are left without the edges longer than `distance`: for each point the number of its
-    /// cluster. Clusters are counted in the order of their first points.
+    /// Returns the single-linkage clusters that are left without the edges longer than `distance`:
+    /// for each point the number of its cluster. Clusters are counted in the order of their first
+    /// points.
     pub fn clusters_within(&self, distance: f64) -> Vec<u32> {
         self.label(self.lengths.partition_point(|&length| length <= distance))
     }
@@ -117,7 +123,8 @@ impl SpanningTree {
                 labels[i as usize] = count;
                 count += 1;
             } else {
-                // The lowest vertex stands for all of a cluster, and a vertex is lower than its duplicates.
+                // The lowest vertex stands for all of a cluster, and a vertex is lower than its
+                // duplicates.
                 labels[i as usize] = labels[first as usize];
             }
         }
@@ -125,8 +132,8 @@ impl SpanningTree {
     }
 }
 
-/// Returns the edges of a mesh, some of them several times, without most of those that are the longest side of a triangle, which no
-/// minimum spanning tree has.
+/// Returns the edges of a mesh, some of them several times, without most of those that are the
+/// longest side of a triangle, which no minimum spanning tree has.
 fn candidates<const D: usize, const N: usize>(complex: &Complex<'_, D, N>) -> Vec<Candidate>
 where
     Euclidean: Geometry<D, N>,
@@ -169,9 +176,9 @@ where
     parallel::joined(ranges)
 }
 
-/// Returns the edges that connect what shorter ones do not, in their order (Osipov, Sanders and Singler, *The
-/// filter-Kruskal minimum spanning tree algorithm*, 2009): the longer half is looked at after the shorter one, and
-/// what that has connected is dropped before it is sorted.
+/// Returns the edges that connect what shorter ones do not, in their order (Osipov, Sanders and
+/// Singler, *The filter-Kruskal minimum spanning tree algorithm*, 2009): the longer half is looked
+/// at after the shorter one, and what that has connected is dropped before it is sorted.
 fn kruskal(
     vertices: usize,
     candidates: Vec<Candidate>,

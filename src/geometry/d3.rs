@@ -45,10 +45,10 @@ impl Geometry<3, 4> for Euclidean {
         (numerator, T::from(2) * polynomial::dot(b, &normals[0]))
     }
 
-    /// With ε = 2⁻⁵³, the lengths b, c, d of the edges, P = b·c·d and the radius R, the determinant has an error below
-    /// 20·ε·P: the permanent is at most √3·P, and no term has more than ten roundings. The three numerators have errors
-    /// below 12·ε·P·(b + c + d) ≤ 72·ε·P·R each. So the centre has one below 90·ε·P·R/|det|, which is less than 2⁻³⁷·R
-    /// where P < 2⁹·|det|.
+    /// With ε = 2⁻⁵³, the lengths b, c, d of the edges, P = b·c·d and the radius R, the determinant
+    /// has an error below 20·ε·P: the permanent is at most √3·P, and no term has more than ten
+    /// roundings. The three numerators have errors below 12·ε·P·(b + c + d) ≤ 72·ε·P·R each. So the
+    /// centre has one below 90·ε·P·R/|det|, which is less than 2⁻³⁷·R where P < 2⁹·|det|.
     #[inline]
     fn circumcenter_estimate(edges: &[[f64; 3]; 3]) -> Option<[f64; 3]> {
         let &[b, c, d] = edges;
@@ -106,7 +106,8 @@ fn triangle_circumcenter_offset(&[a, b, c]: &[[f64; 3]; 3]) -> [f64; 3] {
     let normal = vector::cross(u, v);
     let [uu, vv, nn] = [u, v, normal].map(vector::squared_norm);
     let is_safe = [uu, vv].iter().all(|x| (SMALL..LARGE).contains(x));
-    // The error is below 60·2⁻⁵³·|u|²·|v|²/|n|² times the radius, by the same count as for tetrahedra.
+    // The error is below 60·2⁻⁵³·|u|²·|v|²/|n|² times the radius, by the same count as for
+    // tetrahedra.
     if is_safe && nn * 512.0 > uu * vv {
         let (to_v, to_u) = (vector::cross(normal, u), vector::cross(v, normal));
         let half = 0.5 / nn;
@@ -130,7 +131,8 @@ fn triangle_circumcenter_fraction<T: Ring>([u, v]: &[[T; 3]; 2]) -> ([T; 3], T) 
     (numerator, T::from(2) * polynomial::dot(&normal, &normal))
 }
 
-/// Returns the dihedral angles at the edges between vertices 0 and 1, 0 and 2, 0 and 3, 1 and 2, 1 and 3, 2 and 3.
+/// Returns the dihedral angles at the edges between vertices 0 and 1, 0 and 2, 0 and 3, 1 and 2, 1
+/// and 3, 2 and 3.
 pub(crate) fn dihedral_angles(simplex: &[[f64; 3]; 4]) -> [f64; 6] {
     // The edge, and the other two vertices.
     [[0, 1, 2, 3], [0, 2, 1, 3], [0, 3, 1, 2], [1, 2, 0, 3], [1, 3, 0, 2], [2, 3, 0, 1]].map(|corners| {

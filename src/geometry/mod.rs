@@ -27,8 +27,9 @@ pub struct Euclidean;
 /// What the geometry of simplices with `N` = `D` + 1 vertices depends on the dimension for.
 #[doc(hidden)]
 pub trait Geometry<const D: usize, const N: usize>: Copy + Send + Sync + 'static {
-    /// The corners of the facet opposite vertex *k* of a positively oriented simplex: counter-clockwise as seen from
-    /// outside in 3D, in the direction that has the triangle on its left in 2D.
+    /// The corners of the facet opposite vertex *k* of a positively oriented simplex:
+    /// counter-clockwise as seen from outside in 3D, in the direction that has the triangle on its
+    /// left in 2D.
     const FACETS: [[usize; D]; N];
 
     /// How a mesh numbers the facet opposite vertex *k*.
@@ -37,37 +38,42 @@ pub trait Geometry<const D: usize, const N: usize>: Copy + Send + Sync + 'static
     /// The Hilbert curve.
     const CURVE: Curve<D>;
 
-    /// Returns the determinant of the rows, rounded. If they are differences of points, its error is below
-    /// [`unscaled_orientation_bound`](crate::predicates::filter::unscaled_orientation_bound) of the largest absolute entry
-    /// of each column.
+    /// Returns the determinant of the rows, rounded. If they are differences of points, its error
+    /// is below
+    /// [`unscaled_orientation_bound`](crate::predicates::filter::unscaled_orientation_bound) of the
+    /// largest absolute entry of each column.
     fn determinant(rows: &[[f64; D]; D]) -> f64;
 
-    /// Returns which side of a facet a point is on, exactly: 1 on the side that the facet is clockwise from, which is the
-    /// inner side of the facets in [`FACETS`](Self::FACETS), −1 on the other, 0 on the facet's plane.
+    /// Returns which side of a facet a point is on, exactly: 1 on the side that the facet is
+    /// clockwise from, which is the inner side of the facets in [`FACETS`](Self::FACETS), −1 on the
+    /// other, 0 on the facet's plane.
     fn side(facet: &[[f64; D]; D], p: [f64; D]) -> Sign;
 
-    /// Returns 1 if a point is inside the circumsphere of a positively oriented simplex, −1 outside, 0 on it; exactly.
+    /// Returns 1 if a point is inside the circumsphere of a positively oriented simplex, −1
+    /// outside, 0 on it; exactly.
     fn in_sphere(simplex: &[[f64; D]; N], p: [f64; D]) -> Sign;
 
     /// Returns the determinant of the rows, exactly if the ring is exact.
     fn determinant_in<T: Ring>(rows: &[[T; D]; D]) -> T;
 
-    /// Returns the circumcentre relative to the origin, which is a vertex of the simplex, times the second result. The
-    /// edges lead to the other vertices.
+    /// Returns the circumcentre relative to the origin, which is a vertex of the simplex, times the
+    /// second result. The edges lead to the other vertices.
     fn circumcenter_fraction<T: Ring>(edges: &[[T; D]; D]) -> ([T; D], T);
 
-    /// Returns the circumcentre relative to the first vertex, from the edges that lead to the others, if rounding
-    /// surely did not move it by more than 2⁻³⁷ times the circumradius.
+    /// Returns the circumcentre relative to the first vertex, from the edges that lead to the
+    /// others, if rounding surely did not move it by more than 2⁻³⁷ times the circumradius.
     fn circumcenter_estimate(edges: &[[f64; D]; D]) -> Option<[f64; D]>;
 
-    /// Returns the squared radius of the smallest sphere through the vertices of a face with `D` vertices, up to rounding.
+    /// Returns the squared radius of the smallest sphere through the vertices of a face with `D`
+    /// vertices, up to rounding.
     fn facet_squared_radius(facet: &[[f64; D]; D]) -> f64;
 
-    /// Returns the squared radius of the smallest sphere through the vertices of a simplex or a face of it, as a fraction with a
-    /// denominator that is not negative.
+    /// Returns the squared radius of the smallest sphere through the vertices of a simplex or a
+    /// face of it, as a fraction with a denominator that is not negative.
     fn squared_radius_fraction<T: Ring>(points: &[[T; D]]) -> (T, T);
 
-    /// Returns whether a point is inside the smallest sphere through the vertices of a facet, exactly.
+    /// Returns whether a point is inside the smallest sphere through the vertices of a facet,
+    /// exactly.
     fn in_smallest_sphere(facet: &[[f64; D]; D], p: [f64; D]) -> bool;
 
     /// Returns the sum of the measures of a simplex's facets.
@@ -117,8 +123,8 @@ fn edge_squared_radius<T: Ring, const D: usize>(a: &[T; D], b: &[T; D]) -> (T, T
 
 /// Returns the circumcentre relative to the first vertex.
 ///
-/// The error is at most 2⁻³⁷ times the circumradius, however flat the simplex is. Coordinates beyond
-/// the range of `f64` are infinite.
+/// The error is at most 2⁻³⁷ times the circumradius, however flat the simplex is. Coordinates
+/// beyond the range of `f64` are infinite.
 pub(crate) fn circumcenter_offset<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> [f64; D]
 where
     Euclidean: Geometry<D, N>,
@@ -142,8 +148,8 @@ where
 /// A point as numerators, a positive denominator, and the exponent of a power of two.
 type Fraction<const D: usize> = ([Big; D], Big, i32);
 
-/// Returns a point relative to the first of the given points, exactly; `fraction` finds it from the differences of the others to
-/// the first. There is none if the denominator is 0.
+/// Returns a point relative to the first of the given points, exactly; `fraction` finds it from the
+/// differences of the others to the first. There is none if the denominator is 0.
 #[inline(never)]
 fn exact_offset<const D: usize, const K: usize, const E: usize>(
     points: &[[f64; D]; K],
@@ -159,15 +165,16 @@ fn exact_offset<const D: usize, const K: usize, const E: usize>(
     }
 }
 
-/// Returns the coordinates of a point, correctly rounded unless they are subnormal; infinite ones if there is no point.
+/// Returns the coordinates of a point, correctly rounded unless they are subnormal; infinite ones
+/// if there is no point.
 fn rounded<const D: usize>(fraction: Option<Fraction<D>>) -> [f64; D] {
     fraction.map_or([f64::INFINITY; D], |(numerator, denominator, exponent)| {
         numerator.map(|x| quotient(&x, &denominator, exponent))
     })
 }
 
-/// Returns the barycentric coordinates of a point that a simplex contains. Their errors are below 2⁻³⁷, however flat the simplex
-/// is, and their sum is 1 up to rounding.
+/// Returns the barycentric coordinates of a point that a simplex contains. Their errors are below
+/// 2⁻³⁷, however flat the simplex is, and their sum is 1 up to rounding.
 pub(crate) fn barycentric<const D: usize, const N: usize>(simplex: &[[f64; D]; N], p: [f64; D]) -> [f64; N]
 where
     Euclidean: Geometry<D, N>,
@@ -220,7 +227,8 @@ where
     vector::norm(circumcenter_offset(simplex))
 }
 
-/// Returns the volume of a positively oriented tetrahedron or the area of a counter-clockwise triangle.
+/// Returns the volume of a positively oriented tetrahedron or the area of a counter-clockwise
+/// triangle.
 pub(crate) fn measure<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> f64
 where
     Euclidean: Geometry<D, N>,
@@ -228,7 +236,8 @@ where
     Euclidean::determinant(&edges(simplex)) / factorial(D)
 }
 
-/// Returns the ratio of the inradius to the circumradius, times `D`: 1 for the regular simplex, near 0 for flat ones.
+/// Returns the ratio of the inradius to the circumradius, times `D`: 1 for the regular simplex,
+/// near 0 for flat ones.
 pub(crate) fn radius_ratio<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> f64
 where
     Euclidean: Geometry<D, N>,
@@ -251,14 +260,16 @@ impl<const D: usize> Polynomial<3, D> for Angle {
     }
 }
 
-/// Returns whether p is inside the smallest sphere through a and b, exactly: whether it sees them at an obtuse angle.
+/// Returns whether p is inside the smallest sphere through a and b, exactly: whether it sees them
+/// at an obtuse angle.
 #[inline]
 pub(crate) fn is_obtuse<const D: usize>(p: [f64; D], a: [f64; D], b: [f64; D]) -> bool {
     sign(&Angle, &[p, a, b]) < 0
 }
 
-/// The difference of two squared radii times their denominators: those of two faces, or of a face and a number, which is
-/// the first coordinate of the fifth point if the second face has no vertices.
+/// The difference of two squared radii times their denominators: those of two faces, or of a face
+/// and a number, which is the first coordinate of the fifth point if the second face has no
+/// vertices.
 struct RadiusDifference<const N: usize> {
     /// The numbers of vertices.
     first: usize,
@@ -292,7 +303,8 @@ where
     exact_sign(&RadiusDifference::<N> { first: a.len(), second: b.len() }, &points)
 }
 
-/// Returns the sign of the difference of the radius of a face and a number that is not negative, exactly.
+/// Returns the sign of the difference of the radius of a face and a number that is not negative,
+/// exactly.
 #[inline(never)]
 pub(crate) fn compare_radius<const D: usize, const N: usize>(face: &[[f64; D]], radius: f64) -> Sign
 where
@@ -312,7 +324,8 @@ where
     let exponent = common_exponent(face.as_flattened());
     let integers: Vec<[Big; D]> = face.iter().map(|p| p.map(|x| Big::new(x, exponent))).collect();
     let (numerator, denominator) = Euclidean::squared_radius_fraction(&integers);
-    // The root of a number between 1/4 and 4, times a power of two: right up to a few units in the last place.
+    // The root of a number between 1/4 and 4, times a power of two: right up to a few units in the
+    // last place.
     let half = ((numerator.0.bits() as i64 - denominator.0.bits() as i64) / 2) as i32;
     let mut radius = libm::ldexp(quotient(&numerator, &denominator, -2 * half).sqrt(), half + exponent);
     while compare_radius::<D, N>(face, radius) <= 0 && radius > 0.0 {
@@ -347,7 +360,8 @@ pub(crate) fn compare_distances<const D: usize>(q: [f64; D], a: [f64; D], b: [f6
     }
 }
 
-/// Returns the sign of the difference of two rounded squared distances, or 0 if rounding may have changed it.
+/// Returns the sign of the difference of two rounded squared distances, or 0 if rounding may have
+/// changed it.
 ///
 /// Three roundings for each of at most three squares and two for their sum leave a relative error
 /// below 6·2⁻⁵³, and underflow an absolute one below 2⁻¹⁰⁷⁰.
@@ -367,7 +381,8 @@ pub(crate) struct SquaredLength {
 }
 
 impl SquaredLength {
-    /// Returns the squared distance of two points. On grids nothing is rounded, and that is noticed.
+    /// Returns the squared distance of two points. On grids nothing is rounded, and that is
+    /// noticed.
     #[inline]
     pub(crate) fn new<const D: usize>(a: [f64; D], b: [f64; D]) -> Self {
         let (mut value, mut is_exact) = (0.0, true);
@@ -375,8 +390,8 @@ impl SquaredLength {
             let difference = a[axis] - b[axis];
             let square = difference * difference;
             let sum = value + square;
-            // A difference is exact if both numbers can be had back from it, a square if the number has few digits and is not
-            // tiny, and a sum if both terms can be had back from it.
+            // A difference is exact if both numbers can be had back from it, a square if the number
+            // has few digits and is not tiny, and a sum if both terms can be had back from it.
             is_exact &= difference + b[axis] == a[axis] && a[axis] - difference == b[axis];
             let is_short = f64::from(difference as f32) == difference;
             is_exact &= difference == 0.0 || (is_short && square >= f64::from(f32::MIN_POSITIVE));
@@ -386,7 +401,8 @@ impl SquaredLength {
         SquaredLength { value, is_exact }
     }
 
-    /// Returns the sign of the difference of two squared distances, or 0 if rounding may have changed it.
+    /// Returns the sign of the difference of two squared distances, or 0 if rounding may have
+    /// changed it.
     #[inline]
     pub(crate) fn certain_difference(self, other: Self) -> Sign {
         if self.is_exact && other.is_exact {

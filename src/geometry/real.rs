@@ -10,8 +10,8 @@ use std::ops::{Add, Mul, Sub};
 
 /// A floating-point number.
 pub trait Real: Ring + Copy {
-    /// The largest relative error of an operation, and of a coordinate of a circumcentre by its circumradius as far as it
-    /// is not along the normal of a flat simplex.
+    /// The largest relative error of an operation, and of a coordinate of a circumcentre by its
+    /// circumradius as far as it is not along the normal of a flat simplex.
     const EPSILON: f64;
 
     /// Returns a − b, without error where that is possible.
@@ -47,8 +47,8 @@ impl Real for f64 {
     }
 }
 
-/// A number as the sum of two that do not overlap: twice the precision (Dekker, *A floating-point technique for extending the
-/// available precision*, 1971).
+/// A number as the sum of two that do not overlap: twice the precision (Dekker, *A floating-point
+/// technique for extending the available precision*, 1971).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Double {
     high: f64,
@@ -75,7 +75,8 @@ impl Double {
 
     /// Returns a·b without error.
     fn product(a: f64, b: f64) -> Self {
-        // In halves of 26 bits. A fused multiply-add would do it in one step, but is emulated slowly where there is none.
+        // In halves of 26 bits. A fused multiply-add would do it in one step, but is emulated
+        // slowly where there is none.
         let split = |x: f64| {
             let scaled = x * 134_217_729.0;
             let high = scaled - (scaled - x);

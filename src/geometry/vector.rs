@@ -79,13 +79,15 @@ pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// Returns a power of two that makes the largest extent of a box neither large nor small: 1 unless it is.
+/// Returns a power of two that makes the largest extent of a box neither large nor small: 1 unless
+/// it is.
 pub(crate) fn scale_of<const D: usize>([low, high]: [[f64; D]; 2]) -> f64 {
     let largest = (0..D).map(|axis| (high[axis] / 2.0 - low[axis] / 2.0).abs()).fold(0.0, f64::max);
     if largest == 0.0 || !largest.is_finite() || (1e-30..1e30).contains(&largest) {
         return 1.0;
     }
-    // The exponent of what is subnormal is taken for the lowest one. Both extremes stay powers of two that are normal.
+    // The exponent of what is subnormal is taken for the lowest one. Both extremes stay powers of
+    // two that are normal.
     let exponent = (largest.to_bits() >> 52) as i64 - 1023;
     f64::from_bits(((1023 - exponent).clamp(1, 2046) as u64) << 52)
 }

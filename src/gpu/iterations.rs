@@ -32,8 +32,8 @@ impl Iterations {
         Iterations { planned: FIRST_PLANNED, exact_every: EXACT_EVERY[0].0 }
     }
 
-    /// Plans a round by the one before the last one, which took `used` of `recorded` iterations and after which
-    /// `inserted` points are inserted and others wait.
+    /// Plans a round by the one before the last one, which took `used` of `recorded` iterations and
+    /// after which `inserted` points are inserted and others wait.
     pub(crate) fn plan(&mut self, used: u32, recorded: u32, inserted: u32, waiting: u32) {
         if recorded == 0 {
             return;

@@ -11,8 +11,8 @@
 //! **Tetrahedra** live in slots. Slots 8v … 8v + 7 are the *block* of vertex *v*, so that a
 //! tetrahedron is near its vertices in memory without any sorting; the block of infinity starts the
 //! initial tetrahedra, and the blocks after it are the *tail*, which serves when the blocks of all
-//! vertices of a flip are full. At the end of the buffer `control` there is one word per block whose
-//! low bits tell which of its slots are free.
+//! vertices of a flip are full. At the end of the buffer `control` there is one word per block
+//! whose low bits tell which of its slots are free.
 //!
 //! **Neighbours** are packed as 4·tetrahedron + face: entry *k* of a tetrahedron is the facet
 //! opposite its vertex *k*, as the tetrahedron on the other side numbers it.

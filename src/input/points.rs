@@ -120,7 +120,8 @@ impl<'a, const D: usize> Points<'a, D> {
         (0..self.len()).map(move |i| points.get(i))
     }
 
-    /// Returns the lowest and the highest corner of the smallest box that contains all points; `None` if there are none.
+    /// Returns the lowest and the highest corner of the smallest box that contains all points;
+    /// `None` if there are none.
     ///
     /// # Examples
     ///

@@ -135,8 +135,8 @@ impl PointFormat {
         }
     }
 
-    /// Reads a whole text or CSV file, and the values in its column with a name or a number, counted
-    /// from 1: one per point.
+    /// Reads a whole text or CSV file, and the values in its column with a name or a number,
+    /// counted from 1: one per point.
     ///
     /// # Errors
     ///

@@ -166,8 +166,8 @@ pub fn insphere_wide(a: Point, b: Point, c: Point, d: Point, e: Point) -> Sign {
 }
 
 /// Returns the sign of the in-circle determinant of points whose coordinates on axis *k* have been
-/// divided by 2^`shifts[k]`: positive if d lies inside the circle through the counter-clockwise a, b,
-/// c, for coordinates 0 ≤ q < 2⁶² and shifts up to [`MAX_SHIFT`].
+/// divided by 2^`shifts[k]`: positive if d lies inside the circle through the counter-clockwise a,
+/// b, c, for coordinates 0 ≤ q < 2⁶² and shifts up to [`MAX_SHIFT`].
 pub fn incircle_stretched(a: [i64; 2], b: [i64; 2], c: [i64; 2], d: [i64; 2], shifts: [u32; 2]) -> Sign {
     let (a, b, c) = (minus(a, d), minus(b, d), minus(c, d));
     let minor = |p: [i64; 2], q: [i64; 2]| {
@@ -178,8 +178,8 @@ pub fn incircle_stretched(a: [i64; 2], b: [i64; 2], c: [i64; 2], d: [i64; 2], sh
 }
 
 /// Returns the sign of the in-sphere determinant of points whose coordinates on axis *k* have been
-/// divided by 2^`shifts[k]`: positive if e lies inside the sphere through the positively oriented a,
-/// b, c, d, for coordinates 0 ≤ q < 2⁶² and shifts up to [`MAX_SHIFT`].
+/// divided by 2^`shifts[k]`: positive if e lies inside the sphere through the positively oriented
+/// a, b, c, d, for coordinates 0 ≤ q < 2⁶² and shifts up to [`MAX_SHIFT`].
 pub fn insphere_stretched(a: Point, b: Point, c: Point, d: Point, e: Point, shifts: [u32; 3]) -> Sign {
     let (a, b, c, d) = (minus(a, e), minus(b, e), minus(c, e), minus(d, e));
     let minor = |p: Point, q: Point| minor_wide(p, q, 0, 1);

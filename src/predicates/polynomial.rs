@@ -27,8 +27,8 @@ pub(crate) fn sign<const K: usize, const D: usize>(polynomial: &impl Polynomial<
     }
 }
 
-/// Returns the sign of a polynomial, exactly, for all finite coordinates, of which floating point is known not to be
-/// certain.
+/// Returns the sign of a polynomial, exactly, for all finite coordinates, of which floating point
+/// is known not to be certain.
 #[inline(never)]
 pub(crate) fn exact_sign<const K: usize, const D: usize>(
     polynomial: &impl Polynomial<K, D>,
@@ -73,7 +73,8 @@ const EPSILON: f64 = f64::EPSILON / 2.0;
 const TINY: f64 = f64::from_bits(8);
 
 /// A floating-point number and a bound of its error, as far as the bound itself was not rounded
-/// (Wilkinson's running error analysis: Higham, *Accuracy and Stability of Numerical Algorithms*, 2002, §3.3).
+/// (Wilkinson's running error analysis: Higham, *Accuracy and Stability of Numerical Algorithms*,
+/// 2002, §3.3).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Approximate {
     value: f64,
@@ -223,8 +224,8 @@ impl Mul for Big {
 
 impl Ring for Big {}
 
-/// Returns `numerator` / `denominator` · 2ᵉ, correctly rounded unless the result is subnormal; infinite
-/// beyond the range of `f64`. The denominator must be positive.
+/// Returns `numerator` / `denominator` · 2ᵉ, correctly rounded unless the result is subnormal;
+/// infinite beyond the range of `f64`. The denominator must be positive.
 pub(crate) fn quotient(Big(numerator): &Big, Big(denominator): &Big, exponent: i32) -> f64 {
     // The quotient gets 66 or 67 bits, then one that stands for all others.
     let shift = 66 - (numerator.bits() as i64 - denominator.bits() as i64);
@@ -242,8 +243,8 @@ pub(crate) fn quotient(Big(numerator): &Big, Big(denominator): &Big, exponent: i
 fn scaled(x: f64, exponent: i64) -> f64 {
     let mut left = exponent.clamp(-1300, 1300);
     let mut value = x;
-    // Each step multiplies by a power of two that is a normal number. A result that becomes subnormal does so in the last
-    // step, because the first steps are at most 2⁻⁵⁰⁰ each.
+    // Each step multiplies by a power of two that is a normal number. A result that becomes
+    // subnormal does so in the last step, because the first steps are at most 2⁻⁵⁰⁰ each.
     while left != 0 {
         let step = left.clamp(-500, 500);
         value *= f64::from_bits(((1023 + step) as u64) << 52);

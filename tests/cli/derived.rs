@@ -368,7 +368,8 @@ fn queries_from_standard_input() {
     assert_eq!(array::<i64>(&path.join("o.npz"), "nearest").len(), 9);
 }
 
-/// The input is never overwritten, other files only by force or if gdel marked them, and a failure leaves the old file.
+/// The input is never overwritten, other files only by force or if gdel marked them, and a failure
+/// leaves the old file.
 #[test]
 fn outputs_are_replaced_with_care() {
     let folder = samples();

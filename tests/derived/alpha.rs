@@ -56,8 +56,8 @@ impl Fraction {
     }
 }
 
-/// The squared radius of the smallest sphere through points, and the barycentric coordinates of its centre, by the bordered
-/// matrix of squared distances (Cayley and Menger).
+/// The squared radius of the smallest sphere through points, and the barycentric coordinates of its
+/// centre, by the bordered matrix of squared distances (Cayley and Menger).
 struct Sphere<'a, const D: usize> {
     points: Vec<&'a [BigInt; D]>,
     /// The cofactors of the matrix's first row.
@@ -398,8 +398,9 @@ fn negative_radii_are_errors() {
     assert_eq!(shape.at(-0.0).unwrap().solid().count(), 0);
 }
 
-/// `benches/peers/alpha.cpp` has made the files: the smallest alpha with one component, and for some radii how many vertices,
-/// edges, facets and simplices are exterior, singular, regular and interior.
+/// `benches/peers/alpha.cpp` has made the files: the smallest alpha with one component, and for
+/// some radii how many vertices, edges, facets and simplices are exterior, singular, regular and
+/// interior.
 #[test]
 fn alpha_complexes_equal_those_of_cgal() {
     for (distribution, file) in [

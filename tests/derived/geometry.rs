@@ -54,8 +54,8 @@ fn distance<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
     if largest == 0.0 { 0.0 } else { largest * (0..D).map(|i| ((a[i] - b[i]) / largest).powi(2)).sum::<f64>().sqrt() }
 }
 
-/// The centre is at the distance of the radius from all vertices, as far as the bounds promise and the rounding of its
-/// coordinates allows.
+/// The centre is at the distance of the radius from all vertices, as far as the bounds promise and
+/// the rounding of its coordinates allows.
 fn check_center<const D: usize, const N: usize>(name: &str, corners: [[f64; D]; N], center: [f64; D], radius: f64) {
     if !radius.is_finite() {
         assert!(name == "huge", "{name}: {corners:?}");

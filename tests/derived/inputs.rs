@@ -73,8 +73,8 @@ pub fn inputs2() -> Vec<(&'static str, Vec<[f64; 2]>)> {
     inputs
 }
 
-/// Returns queries around and between the points: random ones inside the bounding box and around it, the points, the
-/// middles of some pairs, and all of these moved by one unit in the last place.
+/// Returns queries around and between the points: random ones inside the bounding box and around
+/// it, the points, the middles of some pairs, and all of these moved by one unit in the last place.
 pub fn queries<const D: usize>(points: &[[f64; D]]) -> Vec<[f64; D]> {
     let random = generate3d(Distribution3::Uniform, 100, 77);
     let mut queries = vec![[0.0; D], [0.5; D], [-1.0; D]];

@@ -1,4 +1,5 @@
-//! Interpolation: what defines it, on degenerate cavities and on the hull's boundary too, and brute force.
+//! Interpolation: what defines it, on degenerate cavities and on the hull's boundary too, and brute
+//! force.
 
 use crate::inputs::{inputs2, inputs3, mesh2, mesh3, queries};
 use gdel::{
@@ -115,7 +116,8 @@ fn sibson_weights_are_the_stolen_areas() {
     }
 }
 
-/// A convex polyhedron as its faces, halved by the bisector of two points: what is nearer to `a` remains.
+/// A convex polyhedron as its faces, halved by the bisector of two points: what is nearer to `a`
+/// remains.
 fn nearer3(faces: &[Vec<[f64; 3]>], a: [f64; 3], b: [f64; 3]) -> Vec<Vec<[f64; 3]>> {
     let side = |p: [f64; 3]| [0, 1, 2].map(|i| (b[i] - a[i]) * (a[i] + b[i] - 2.0 * p[i])).iter().sum::<f64>();
     let mut result = Vec::new();
@@ -224,7 +226,8 @@ fn sibson_weights_are_the_stolen_volumes() {
     }
 }
 
-/// On a facet of the hull that many vertices share, Laplace's weights in 3D are Sibson's in 2D, and all methods are continuous.
+/// On a facet of the hull that many vertices share, Laplace's weights in 3D are Sibson's in 2D, and
+/// all methods are continuous.
 #[test]
 fn on_the_hull_interpolation_is_the_limit_from_inside() {
     let points: Vec<[f64; 3]> = inputs3().into_iter().find(|(name, _)| *name == "shuffled grid").unwrap().1;

@@ -1,4 +1,5 @@
-//! Point location: the simplex with the first vertices of all that contain the query, or a facet of the hull that sees it.
+//! Point location: the simplex with the first vertices of all that contain the query, or a facet of
+//! the hull that sees it.
 
 use crate::inputs::{inputs2, inputs3, mesh2, mesh3, queries};
 use gdel::{

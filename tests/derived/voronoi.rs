@@ -1,4 +1,5 @@
-//! Voronoi diagrams: against brute force by half-planes and half-spaces, and what holds for every diagram.
+//! Voronoi diagrams: against brute force by half-planes and half-spaces, and what holds for every
+//! diagram.
 
 use crate::inputs::{inputs2, inputs3, mesh2, mesh3};
 use gdel::{
@@ -46,7 +47,8 @@ fn check_cells<const D: usize, const N: usize>(
         assert!(cell.volume >= 0.0, "{}: {}", at(), cell.volume);
         let distance = |p: [f64; D], q: [f64; D]| (0..D).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
         if D == 2 {
-            // Each edge begins where the one before ends; of an unbounded cell, the first one comes from infinity.
+            // Each edge begins where the one before ends; of an unbounded cell, the first one comes
+            // from infinity.
             let ends = |f: usize| {
                 let ends = cell.facets.of((f % cell.facets.len()) as u32);
                 [ends[0], ends[ends.len() - 1]].map(|v| cell.vertices[v as usize])
@@ -179,8 +181,9 @@ fn cells_in_2d() {
     }
 }
 
-/// The nearest vertex decides in which cell a place is, so the share of places near a vertex is the volume of its cell; and
-/// exactly, whether a facet exists decides whether two vertices are nearest to some place.
+/// The nearest vertex decides in which cell a place is, so the share of places near a vertex is the
+/// volume of its cell; and exactly, whether a facet exists decides whether two vertices are nearest
+/// to some place.
 #[test]
 fn volumes_are_shares_of_the_box() {
     let points = inputs3().into_iter().find(|(name, _)| *name == "uniform").unwrap().1;

@@ -5,7 +5,8 @@ use gdel::internals::{input::lattice::Width, reference::d2::predicates::Vertex};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// The arguments of an in-circle test; the first three are those of an orientation, with the last for the interior point.
+/// The arguments of an in-circle test; the first three are those of an orientation, with the last
+/// for the interior point.
 pub type Case = [Vertex; 4];
 
 /// How the points of a case lie.

@@ -5,7 +5,8 @@ use gdel::internals::{input::lattice::Width, reference::d3::predicates::Vertex};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// The arguments of an in-sphere test; the first four are those of an orientation, with the last for the interior point.
+/// The arguments of an in-sphere test; the first four are those of an orientation, with the last
+/// for the interior point.
 pub type Case = [Vertex; 5];
 
 /// How the points of a case lie.

@@ -162,8 +162,8 @@ fn kept_buffers_do_not_matter() {
     }
 }
 
-/// Rounds that are submitted together, and ahead of what is known of the last ones: nothing is lost,
-/// also where slots and history run out meanwhile.
+/// Rounds that are submitted together, and ahead of what is known of the last ones: nothing is
+/// lost, also where slots and history run out meanwhile.
 #[test]
 fn batches_overlap() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");

@@ -155,8 +155,8 @@ fn five(rng: &mut Pcg32, size: i64) -> [Vertex; 5] {
     }
 }
 
-/// A point inside a tetrahedron is inside its circumsphere, in every kind of degenerate position, and never inside a flat
-/// one whose plane does not hold the interior point.
+/// A point inside a tetrahedron is inside its circumsphere, in every kind of degenerate position,
+/// and never inside a flat one whose plane does not hold the interior point.
 #[test]
 fn inside_is_inside_the_sphere() {
     let mut rng = Pcg32::seed_from_u64(3);

@@ -114,8 +114,8 @@ fn fours(n: usize) -> impl Iterator<Item = [usize; 4]> {
 }
 
 /// The perturbed points have a triangulation with no ties at all: the one that the crate promises.
-/// Infinity, which leans away from a point inside, is outside of all its spheres, and so none of its
-/// tetrahedra is flat.
+/// Infinity, which leans away from a point inside, is outside of all its spheres, and so none of
+/// its tetrahedra is flat.
 #[test]
 fn the_perturbed_triangulation_is_the_answer() {
     let mut rng = Pcg64Mcg::seed_from_u64(4);

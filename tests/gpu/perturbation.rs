@@ -30,8 +30,8 @@ pub fn perturbed_rows<const D: usize>(vertices: &[(u32, [i64; D])]) -> Vec<Vec<B
     vertices.iter().map(row).collect()
 }
 
-/// The rows of an orientation, where infinity leans away from the interior point: with that point as
-/// the origin, 1 + η·height in the place of 1.
+/// The rows of an orientation, where infinity leans away from the interior point: with that point
+/// as the origin, 1 + η·height in the place of 1.
 pub fn leaning<const D: usize>(mut rows: Vec<Vec<BigInt>>, interior: [i64; D]) -> Vec<Vec<BigInt>> {
     let one = EPSILON << (D * D - 1);
     for row in &mut rows {

@@ -29,8 +29,8 @@ pub fn two_skew_lines(n: u32) -> Vec<[f64; 3]> {
     (0..n).flat_map(|i| [[f64::from(i), 0.0, 0.0], [middle, f64::from(i) - middle - 0.5, 40.0]]).collect()
 }
 
-/// Returns a raster of `side` × `side` heights, as terrain is most often stored, in steps of `step`;
-/// with 0, heights are as fine as `f64` has them.
+/// Returns a raster of `side` × `side` heights, as terrain is most often stored, in steps of
+/// `step`; with 0, heights are as fine as `f64` has them.
 pub fn raster(side: u32, step: f64) -> Vec<[f64; 3]> {
     let noise = generate3d(Distribution3::Uniform, (side * side) as usize, 1);
     let height = |i: u32| {

@@ -74,11 +74,12 @@ where
         self.is_solid.iter().enumerate().filter(|&(_, &is_solid)| is_solid).map(|(t, _)| t)
     }
 
-    /// Returns the boundary of the simplices that are part of the complex: triangles that are counter-clockwise as seen from
-    /// outside, in 2D edges that have the inside on their left.
+    /// Returns the boundary of the simplices that are part of the complex: triangles that are
+    /// counter-clockwise as seen from outside, in 2D edges that have the inside on their left.
     ///
-    /// The surface is closed: every edge belongs to as many triangles in one direction as in the other, in 2D every vertex to as
-    /// many edges that end there as start there. Where solids touch in an edge or a vertex only, these are more than one.
+    /// The surface is closed: every edge belongs to as many triangles in one direction as in the
+    /// other, in 2D every vertex to as many edges that end there as start there. Where solids touch
+    /// in an edge or a vertex only, these are more than one.
     pub fn surface(&self) -> impl Iterator<Item = [u32; D]> + '_ {
         let complex = &self.shape.radii.complex;
         self.solid().flat_map(move |t| {
@@ -87,9 +88,9 @@ where
         })
     }
 
-    /// Returns for each simplex the number of its component, and the number of components. Components are simplices that hang
-    /// together across facets, counted in the order of their first simplices; those that are no part of the complex have
-    /// [`NONE`](crate::NONE).
+    /// Returns for each simplex the number of its component, and the number of components.
+    /// Components are simplices that hang together across facets, counted in the order of their
+    /// first simplices; those that are no part of the complex have [`NONE`](crate::NONE).
     pub fn components(&self) -> (Vec<i32>, usize) {
         let complex = &self.shape.radii.complex;
         let mut sets = DisjointSets::new(self.is_solid.len());

@@ -9,7 +9,8 @@ use super::{
 };
 use crate::geometry::{Euclidean, is_obtuse};
 
-/// The edges, each with the squares of the radii from which on it is something: see [`Interval`](super::Interval).
+/// The edges, each with the squares of the radii from which on it is something: see
+/// [`Interval`](super::Interval).
 #[derive(Debug, Clone, Default)]
 pub struct Edges {
     pub(super) edges: Vec<[u32; 2]>,
@@ -24,7 +25,8 @@ pub struct Edges {
 /// What differs between the dimensions in alpha shapes.
 #[doc(hidden)]
 pub trait AlphaEdges<const D: usize, const N: usize>: VoronoiShapes<D, N> {
-    /// Returns the edges that are no facets, from the squared radii of the simplices and the facets.
+    /// Returns the edges that are no facets, from the squared radii of the simplices and the
+    /// facets.
     fn edges(radii: &Radii<'_, D, N>, simplices: &[f64], facets: &[f64]) -> Edges;
 }
 
@@ -71,7 +73,8 @@ impl AlphaEdges<3, 4> for Euclidean {
                     found[u] |= 1 << EDGE[i][j];
                     interior = largest(interior, simplices[u]);
                     regular = smallest(regular, simplices[u]);
-                    // The facet opposite l is that opposite k of the tetrahedron before, and listed with the lower index.
+                    // The facet opposite l is that opposite k of the tetrahedron before, and listed
+                    // with the lower index.
                     let place = match facet_before {
                         Some((before, k)) if before < u => index.of(before, k),
                         _ => index.of(u, l),
@@ -97,7 +100,8 @@ impl AlphaEdges<3, 4> for Euclidean {
     }
 }
 
-/// Returns the places of `v` and `a` in a tetrahedron, and of the others so that all four are an even permutation.
+/// Returns the places of `v` and `a` in a tetrahedron, and of the others so that all four are an
+/// even permutation.
 fn corners(simplex: &[u32; 4], v: u32, a: u32) -> [usize; 4] {
     let (i, j) = (place(simplex, v), place(simplex, a));
     // Only in a broken mesh both are the same.
@@ -117,8 +121,8 @@ pub(super) fn largest(a: f64, b: f64) -> f64 {
 
 /// The places of the facets in the list that has each facet with the simplex of the lower index.
 struct FacetIndex {
-    /// For each simplex, the place of the first facet that is listed with it, or would be, times 16, and a bit for each of its
-    /// facets that is.
+    /// For each simplex, the place of the first facet that is listed with it, or would be, times
+    /// 16, and a bit for each of its facets that is.
     first: Vec<u64>,
 }
 
@@ -142,7 +146,8 @@ impl FacetIndex {
     }
 }
 
-/// Returns whether facet `k` of simplex `t` is listed with it: whether it is not the facet of a simplex with a lower index.
+/// Returns whether facet `k` of simplex `t` is listed with it: whether it is not the facet of a
+/// simplex with a lower index.
 pub(super) fn is_listed<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, t: usize, k: usize) -> bool {
     complex.across(t, k).is_none_or(|across| t < across)
 }

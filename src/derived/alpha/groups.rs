@@ -14,12 +14,14 @@ use std::cmp::Ordering;
 #[derive(Debug)]
 pub(super) struct Groups {
     faces: Vec<u32>,
-    /// Where each group of faces with the same radius starts in `faces`, and where the last one ends.
+    /// Where each group of faces with the same radius starts in `faces`, and where the last one
+    /// ends.
     starts: Vec<usize>,
 }
 
 impl Groups {
-    /// Sorts faces by their rounded squared radii, and exactly where these are too close to tell, or NaN.
+    /// Sorts faces by their rounded squared radii, and exactly where these are too close to tell,
+    /// or NaN.
     pub(super) fn new(count: usize, squared: impl Fn(u32) -> f64, compare: impl Fn(u32, u32) -> Ordering) -> Self {
         // Positive numbers are in the order of their bits, and NaN comes last.
         let mut keyed: Vec<(u64, u32)> = (0..count as u32).map(|i| (squared(i).to_bits(), i)).collect();
@@ -58,8 +60,8 @@ impl Groups {
         self.starts[..self.starts.len() - 1].iter().map(|&start| self.faces[start])
     }
 
-    /// Returns a simplex of the first group with which, and those before, all vertices have a simplex, and the simplices have at
-    /// most so many components.
+    /// Returns a simplex of the first group with which, and those before, all vertices have a
+    /// simplex, and the simplices have at most so many components.
     pub(super) fn first_with<const D: usize, const N: usize>(
         &self,
         components: usize,

@@ -24,13 +24,14 @@ use values::Radii;
 
 /// The alpha shapes of the vertices of a mesh, for all radii alpha.
 ///
-/// The *alpha complex* of a radius consists of the simplices and faces of the triangulation that have an empty sphere of this
-/// radius or less through their vertices, and of their faces. The *alpha shape* is the space that it fills. With a growing radius
-/// it goes from the points to their convex hull. A radius, and not its square as in CGAL, is what every function here takes and
+/// The *alpha complex* of a radius consists of the simplices and faces of the triangulation that
+/// have an empty sphere of this radius or less through their vertices, and of their faces. The
+/// *alpha shape* is the space that it fills. With a growing radius it goes from the points to their
+/// convex hull. A radius, and not its square as in CGAL, is what every function here takes and
 /// returns.
 ///
-/// Which simplices and faces belong to a complex is decided exactly, for all `f64` alpha. Radii that are returned have a relative
-/// error below 10⁻¹⁰, if nothing else is said.
+/// Which simplices and faces belong to a complex is decided exactly, for all `f64` alpha. Radii
+/// that are returned have a relative error below 10⁻¹⁰, if nothing else is said.
 ///
 /// # Examples
 ///
@@ -61,10 +62,11 @@ use values::Radii;
 #[derive(Debug)]
 pub struct AlphaShape<'a, const D: usize = 3, const N: usize = 4> {
     radii: Radii<'a, D, N>,
-    /// The squared circumradius of each simplex, scaled, NaN if it is not known. The same for the others.
+    /// The squared circumradius of each simplex, scaled, NaN if it is not known. The same for the
+    /// others.
     simplices: Vec<f64>,
-    /// Of each facet, listed with the simplex of the lower index, that of its smallest sphere; infinite if that contains another
-    /// vertex.
+    /// Of each facet, listed with the simplex of the lower index, that of its smallest sphere;
+    /// infinite if that contains another vertex.
     facets: Vec<f64>,
     /// Once they have been asked for.
     edges: OnceLock<Edges>,
@@ -109,12 +111,13 @@ pub type AlphaShape2<'a> = AlphaShape<'a, 2, 3>;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Interval {
-    /// The radius from which on the face is part of the complex: its value in the filtration. That of its own smallest sphere, if
-    /// this contains no other vertex, else the same as `regular`.
+    /// The radius from which on the face is part of the complex: its value in the filtration. That
+    /// of its own smallest sphere, if this contains no other vertex, else the same as `regular`.
     pub singular: f64,
     /// The radius from which on the face belongs to a larger one that is part of the complex.
     pub regular: f64,
-    /// The radius from which on all simplices around the face are part of the complex; infinite on the hull.
+    /// The radius from which on all simplices around the face are part of the complex; infinite on
+    /// the hull.
     pub interior: f64,
 }
 
@@ -122,13 +125,14 @@ impl<'a, const D: usize, const N: usize> AlphaShape<'a, D, N>
 where
     Euclidean: AlphaEdges<D, N>,
 {
-    /// Computes the filtration of a mesh with its points: from which radius on each simplex and each facet is part of the alpha
-    /// complex. The values of the edges of a 3D mesh and of vertices, which take longer, are computed when they are first asked
-    /// for.
+    /// Computes the filtration of a mesh with its points: from which radius on each simplex and
+    /// each facet is part of the alpha complex. The values of the edges of a 3D mesh and of
+    /// vertices, which take longer, are computed when they are first asked for.
     ///
     /// # Errors
     ///
-    /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for [`Locator::new`](crate::Locator::new).
+    /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for
+    /// [`Locator::new`](crate::Locator::new).
     pub fn new(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>) -> Result<Self, Error> {
         let complex = Complex::new(mesh, points.into())?;
         let scale = vector::scale_of(complex.bounds());
@@ -182,8 +186,8 @@ where
         Ok(AlphaComplex::new(self, alpha))
     }
 
-    /// Returns the smallest alpha whose solid has all vertices and at most so many components, which hang together across facets;
-    /// `None` if `components` is 0 or the mesh has no simplices.
+    /// Returns the smallest alpha whose solid has all vertices and at most so many components,
+    /// which hang together across facets; `None` if `components` is 0 or the mesh has no simplices.
     ///
     /// The result is not rounded down: the complex at this alpha has the promised properties.
     pub fn find_alpha(&self, components: usize) -> Option<f64> {
@@ -191,8 +195,9 @@ where
         Some(radius_rounded_up::<D, N>(&self.radii.complex.corners(t)))
     }
 
-    /// Returns the radii at which a simplex or a face becomes part of the complex, in ascending order, each once. They are rounded
-    /// up, by at most 10⁻⁹ of their value, so that what becomes part of the complex at one of them is in [`at`](Self::at) it.
+    /// Returns the radii at which a simplex or a face becomes part of the complex, in ascending
+    /// order, each once. They are rounded up, by at most 10⁻⁹ of their value, so that what becomes
+    /// part of the complex at one of them is in [`at`](Self::at) it.
     ///
     /// # Examples
     ///
@@ -237,8 +242,9 @@ where
         self.simplices.iter().enumerate().map(|(t, &squared)| self.radius_of(&self.radii.complex.simplices[t], squared))
     }
 
-    /// Returns all facets, with the radii from which on they are part of the complex. They are counter-clockwise as seen from
-    /// outside the simplex with the lower index, and in 2D have the triangle with the lower index on the left.
+    /// Returns all facets, with the radii from which on they are part of the complex. They are
+    /// counter-clockwise as seen from outside the simplex with the lower index, and in 2D have the
+    /// triangle with the lower index on the left.
     pub fn facets(&self) -> impl Iterator<Item = ([u32; D], Interval)> + '_ {
         self.listed_facets().zip(&self.facets).map(|((t, k), &own)| {
             let complex = &self.radii.complex;
@@ -252,7 +258,8 @@ where
         })
     }
 
-    /// Returns all vertices, with the radii from which on they are part of the complex: always, as singular ones.
+    /// Returns all vertices, with the radii from which on they are part of the complex: always, as
+    /// singular ones.
     pub fn vertices(&self) -> impl Iterator<Item = (u32, Interval)> + '_ {
         let is_vertex = |&(v, _): &(usize, &[f64; 2])| self.radii.complex.duplicate_of[v] == NONE;
         self.vertex_values().iter().enumerate().filter(is_vertex).map(|(v, &[regular, interior])| {
@@ -327,7 +334,8 @@ where
 }
 
 impl AlphaShape<'_, 3, 4> {
-    /// Returns all edges of a 3D mesh, with the radii from which on they are part of the complex. (In 2D they are the facets.)
+    /// Returns all edges of a 3D mesh, with the radii from which on they are part of the complex.
+    /// (In 2D they are the facets.)
     ///
     /// # Examples
     ///

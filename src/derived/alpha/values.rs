@@ -7,11 +7,12 @@ use crate::{
 };
 use std::cmp::Ordering;
 
-/// A bound of the relative error of rounded squared radii, and of the difference of two, generously: 2⁻³³.
+/// A bound of the relative error of rounded squared radii, and of the difference of two,
+/// generously: 2⁻³³.
 const ERROR: f64 = 1.0 / (1u64 << 33) as f64;
 
-/// Squared radii out of this range, in which no product of them or of coordinates comes near the limits of `f64`, are not
-/// known by their rounded values: these are NaN.
+/// Squared radii out of this range, in which no product of them or of coordinates comes near the
+/// limits of `f64`, are not known by their rounded values: these are NaN.
 const KNOWN: std::ops::Range<f64> = 1e-100..1e100;
 
 /// Returns a rounded squared radius, or NaN if it is not known.
@@ -19,7 +20,8 @@ pub(super) fn known(squared: f64) -> f64 {
     if KNOWN.contains(&squared) { squared } else { f64::NAN }
 }
 
-/// Returns the sign of the difference of two squared radii, or `None` if rounding may have changed it.
+/// Returns the sign of the difference of two squared radii, or `None` if rounding may have changed
+/// it.
 #[inline]
 pub(super) fn certain(a: f64, b: f64) -> Option<Sign> {
     let margin = ERROR * (a + b);
@@ -71,15 +73,16 @@ where
         face.map(|v| self.complex.point(v))
     }
 
-    /// Returns the squared circumradius of simplex `t`, and for each facet whether its smallest sphere contains the opposite
-    /// vertex: whether the circumcentre lies beyond it.
+    /// Returns the squared circumradius of simplex `t`, and for each facet whether its smallest
+    /// sphere contains the opposite vertex: whether the circumcentre lies beyond it.
     pub(super) fn simplex(&self, t: usize) -> (f64, [bool; N]) {
         let corners = self.complex.corners(t);
         let scaled = corners.map(|p| self.scaled(p));
         let center = circumcenter_offset(&scaled);
         let squared = vector::squared_norm(center);
         let rows = scaled.map(|p| vector::minus(vector::minus(p, scaled[0]), center));
-        // The centre is off by at most 2⁻³⁷ times the radius, and a facet has at most 2.6 times its (D − 1)-th power.
+        // The centre is off by at most 2⁻³⁷ times the radius, and a facet has at most 2.6 times its
+        // (D − 1)-th power.
         let bound = 16.0 * ERROR * if D == 2 { squared } else { squared * squared.sqrt() };
         let is_known = KNOWN.contains(&squared);
         let is_beyond = std::array::from_fn(|k| {

@@ -1,14 +1,16 @@
 //! Natural neighbours on the boundary of the hull.
 //!
-//! Towards a facet of the convex hull the Voronoi cell of a point grows beyond all bounds, and all that counts of it is
-//! between the vertices in the facet's plane. At height *H* above the plane, a point that is *h* below it has as its cell the
-//! places *x* of the plane where 2·H·h ≤ |x − v|² − |x − p|² for all vertices *v* in the plane. So in the limit the
-//! volume taken from *v* is the integral of this difference over the area that the point would take from *v* in the plane,
-//! and the facet between both is that area times their distance: natural neighbours of the next higher order (Hiyoshi
-//! and Sugihara 2000). On an edge of the convex hull only the two vertices beside the point are left.
+//! Towards a facet of the convex hull the Voronoi cell of a point grows beyond all bounds, and all
+//! that counts of it is between the vertices in the facet's plane. At height *H* above the plane, a
+//! point that is *h* below it has as its cell the places *x* of the plane where 2·H·h ≤ |x − v|² −
+//! |x − p|² for all vertices *v* in the plane. So in the limit the volume taken from *v* is the
+//! integral of this difference over the area that the point would take from *v* in the plane, and
+//! the facet between both is that area times their distance: natural neighbours of the next higher
+//! order (Hiyoshi and Sugihara 2000). On an edge of the convex hull only the two vertices beside
+//! the point are left.
 //!
-//! Everything is in twice the precision, because near an edge of the convex hull the areas are long, and nothing is
-//! urgent here.
+//! Everything is in twice the precision, because near an edge of the convex hull the areas are
+//! long, and nothing is urgent here.
 
 use super::{
     super::{Interpolation, Locator, complex::Complex},
@@ -36,8 +38,8 @@ pub(super) fn linear_on_edge<const D: usize, const N: usize>(
     weights.extend([(edge[0], to_b / length), (edge[1], to_a / length)]);
 }
 
-/// Appends the weights of the natural neighbours of a query on the facets of the hull that are listed; nothing where an edge
-/// of the convex hull is too near for twice the precision.
+/// Appends the weights of the natural neighbours of a query on the facets of the hull that are
+/// listed; nothing where an edge of the convex hull is too near for twice the precision.
 pub(super) fn weights(
     locator: &Locator<'_, 3, 4>,
     method: Interpolation,
@@ -77,7 +79,8 @@ struct Projection {
 }
 
 impl Projection {
-    /// Returns the projection that shrinks the plane of a triangle least, of those that rounding allows to tell apart.
+    /// Returns the projection that shrinks the plane of a triangle least, of those that rounding
+    /// allows to tell apart.
     fn of([a, b, c]: [[f64; 3]; 3]) -> Self {
         let projections = [[1, 2], [2, 0], [0, 1]].map(|axes| {
             let [a, b, c] = [a, b, c].map(|p| axes.map(|axis| p[axis]));
@@ -105,7 +108,8 @@ struct Vertex {
     origin: [Double; 3],
 }
 
-/// An edge of a facet, and the centres of the facet and of the next one or, around the cavity, of the edge and the query.
+/// An edge of a facet, and the centres of the facet and of the next one or, around the cavity, of
+/// the edge and the query.
 struct Edge {
     corners: [u32; 2],
     inside: [Double; 3],
@@ -211,9 +215,11 @@ impl Cavity {
 }
 
 impl Complex<'_, 3, 4> {
-    /// Returns the facet of the hull across the edge of facet (t, k) opposite its vertex `apex`; `None` if the mesh is broken.
+    /// Returns the facet of the hull across the edge of facet (t, k) opposite its vertex `apex`;
+    /// `None` if the mesh is broken.
     fn hull_neighbor(&self, (mut t, mut k): (usize, usize), apex: u32) -> Option<(usize, usize)> {
-        // Turns around the edge, from facet k of t through the others. The other facet at the edge is opposite `turn`.
+        // Turns around the edge, from facet k of t through the others. The other facet at the edge
+        // is opposite `turn`.
         let mut turn = apex;
         for _ in 0..=self.simplices.len() {
             let leave = self.simplices[t].iter().position(|&v| v == turn)?;

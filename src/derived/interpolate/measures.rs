@@ -16,11 +16,12 @@ use rustc_hash::FxHashMap;
 /// What differs between the dimensions in natural neighbours.
 #[doc(hidden)]
 pub trait StolenMeasures<const D: usize, const N: usize>: Geometry<D, N> {
-    /// Fills in the measures of the vertices of a cavity, except for a factor that is the same for all.
+    /// Fills in the measures of the vertices of a cavity, except for a factor that is the same for
+    /// all.
     fn measure<T: Real>(cavity: &mut Cavity<T, D>);
 
-    /// Appends the natural neighbours of a query on the facets of the hull that are listed, as (simplex, opposite vertex), with
-    /// their weights.
+    /// Appends the natural neighbours of a query on the facets of the hull that are listed, as
+    /// (simplex, opposite vertex), with their weights.
     fn weights_on_hull(
         locator: &Locator<'_, D, N>,
         method: Interpolation,
@@ -33,11 +34,13 @@ pub trait StolenMeasures<const D: usize, const N: usize>: Geometry<D, N> {
 impl StolenMeasures<2, 3> for Euclidean {
     /// Fills in the areas, times 2.
     ///
-    /// An edge of a triangle of the cavity from *a* to *b* is dual to the Voronoi edge between the circumcentres on its left
-    /// and its right, which runs clockwise around *a* and counter-clockwise around *b*.
+    /// An edge of a triangle of the cavity from *a* to *b* is dual to the Voronoi edge between the
+    /// circumcentres on its left and its right, which runs clockwise around *a* and
+    /// counter-clockwise around *b*.
     fn measure<T: Real>(Cavity { vertices, facets, magnitude }: &mut Cavity<T, 2>) {
         let area = |p: [T; 2], q: [T; 2]| p[0] * q[1] - p[1] * q[0];
-        // The centre on the edge of the cavity's boundary that ends at each vertex, and on that which starts there.
+        // The centre on the edge of the cavity's boundary that ends at each vertex, and on that
+        // which starts there.
         let mut ends = vec![[[T::from(0); 2]; 2]; vertices.len()];
         for &CavityFacet { corners: [a, b], inside, beyond, is_boundary } in facets.iter() {
             let [a, b] = [a as usize, b as usize];
@@ -76,10 +79,11 @@ impl StolenMeasures<2, 3> for Euclidean {
 impl StolenMeasures<3, 4> for Euclidean {
     /// Fills in the volumes, times 12.
     ///
-    /// A facet of a tetrahedron of the cavity is dual to the Voronoi edge from the tetrahedron's circumcentre to that on the other
-    /// side, which turns counter-clockwise around each edge of the facet, seen along the edge. The edge from *a* to *b* is
-    /// dual to the Voronoi polygon between the cells of *a* and *b*; its triangles with a corner in the middle of *a* and
-    /// *b* are the bases of pyramids with their apex at the query.
+    /// A facet of a tetrahedron of the cavity is dual to the Voronoi edge from the tetrahedron's
+    /// circumcentre to that on the other side, which turns counter-clockwise around each edge of
+    /// the facet, seen along the edge. The edge from *a* to *b* is dual to the Voronoi polygon
+    /// between the cells of *a* and *b*; its triangles with a corner in the middle of *a* and *b*
+    /// are the bases of pyramids with their apex at the query.
     fn measure<T: Real>(Cavity { vertices, facets, magnitude }: &mut Cavity<T, 3>) {
         let six_volumes = |o: [T; 3], p: [T; 3], q: [T; 3]| dot(o, cross(&p, &q));
         let reach = vertices.iter().map(|vertex| length(vertex.position)).fold(0.0, f64::max);
@@ -102,7 +106,8 @@ impl StolenMeasures<3, 4> for Euclidean {
                 }
             }
         }
-        // The Voronoi edges around the facets of the query's cell close the polygons around the edges of the cavity.
+        // The Voronoi edges around the facets of the query's cell close the polygons around the
+        // edges of the cavity.
         let boundary = |&&CavityFacet { is_boundary, .. }: &&CavityFacet<T, 3>| is_boundary;
         let edges = facets.iter().filter(boundary).flat_map(|&CavityFacet { corners: [a, b, c], beyond, .. }| {
             [(a, b), (b, c), (c, a)].map(|(from, to)| (from, to, beyond))

@@ -38,22 +38,23 @@ use natural::Scratch;
 pub enum Interpolation {
     /// Barycentric coordinates in the simplex that contains the point: continuous, and the fastest.
     Linear,
-    /// Natural neighbours, weighted by the measures of the facets that the point's Voronoi cell would have, divided by
-    /// the distances (Belikov et al. 1997; Sugihara 1999): continuous, and smooth except where natural neighbours change and
-    /// at the vertices.
+    /// Natural neighbours, weighted by the measures of the facets that the point's Voronoi cell
+    /// would have, divided by the distances (Belikov et al. 1997; Sugihara 1999): continuous, and
+    /// smooth except where natural neighbours change and at the vertices.
     Laplace,
-    /// Natural neighbours, weighted by what the point's Voronoi cell would take from theirs (Sibson 1981): smooth except
-    /// at the vertices.
+    /// Natural neighbours, weighted by what the point's Voronoi cell would take from theirs (Sibson
+    /// 1981): smooth except at the vertices.
     Sibson,
 }
 
 /// Interpolates values that are given at the points of a mesh.
 ///
-/// All methods reproduce linear functions, within an error of 10⁻¹⁰ times the largest value, and the value of a vertex at
-/// the vertex. Outside the hull, and everywhere if the mesh has no simplices, there is no value: NaN. On the hull's boundary,
-/// where the point's Voronoi cell would be unbounded, the weights are the limits from inside, which depend only on the
-/// vertices in the same plane or on the same line. Nearer to it than about 10⁻¹⁸ times the distances of the vertices, but not
-/// on it, interpolation is linear.
+/// All methods reproduce linear functions, within an error of 10⁻¹⁰ times the largest value, and
+/// the value of a vertex at the vertex. Outside the hull, and everywhere if the mesh has no
+/// simplices, there is no value: NaN. On the hull's boundary, where the point's Voronoi cell would
+/// be unbounded, the weights are the limits from inside, which depend only on the vertices in the
+/// same plane or on the same line. Nearer to it than about 10⁻¹⁸ times the distances of the
+/// vertices, but not on it, interpolation is linear.
 ///
 /// # Examples
 ///
@@ -86,7 +87,8 @@ impl<'a, const D: usize, const N: usize> Interpolator<'a, D, N>
 where
     Euclidean: StolenMeasures<D, N>,
 {
-    /// Creates an interpolator for values at the points of a mesh, one per point. Those of duplicates are not used.
+    /// Creates an interpolator for values at the points of a mesh, one per point. Those of
+    /// duplicates are not used.
     ///
     /// # Errors
     ///
@@ -123,8 +125,8 @@ where
         map_along_curve(queries.into(), self.locator.key, State::default, value)
     }
 
-    /// Returns the vertices whose values are interpolated at a point, with their weights, which are not negative and have
-    /// the sum 1; `None` outside the hull.
+    /// Returns the vertices whose values are interpolated at a point, with their weights, which are
+    /// not negative and have the sum 1; `None` outside the hull.
     ///
     /// # Errors
     ///

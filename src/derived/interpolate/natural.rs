@@ -1,9 +1,9 @@
-//! Natural neighbours of a point: what the Voronoi cell that it would have takes from the cells of the
-//! vertices (Sibson 1981).
+//! Natural neighbours of a point: what the Voronoi cell that it would have takes from the cells of
+//! the vertices (Sibson 1981).
 //!
 //! The cell is the dual of the *cavity*, the simplices whose circumspheres contain the point. Its
-//! measures are sums over the facets of the cavity's simplices. Each facet is dual to a Voronoi edge
-//! between two circumcentres, and counts, with one sign or the other, for all its vertices, so
+//! measures are sums over the facets of the cavity's simplices. Each facet is dual to a Voronoi
+//! edge between two circumcentres, and counts, with one sign or the other, for all its vertices, so
 //! the shares of all vertices add up to the cell whatever rounding did to the circumcentres. No
 //! facet is taken out of order, and none is special: a grid's cavities are as good as any.
 //!
@@ -54,12 +54,13 @@ impl<T: Real, const D: usize> Vertex<T, D> {
 /// A facet of a cavity's simplex, and its dual Voronoi edge.
 #[derive(Debug, Clone, Copy)]
 pub struct CavityFacet<T, const D: usize> {
-    /// Places in `vertices`: in the direction that has the simplex inside on the left in 2D, counter-clockwise as seen from
-    /// the other side in 3D.
+    /// Places in `vertices`: in the direction that has the simplex inside on the left in 2D,
+    /// counter-clockwise as seen from the other side in 3D.
     pub(super) corners: [u32; D],
     /// The circumcentre of the simplex inside.
     pub(super) inside: [T; D],
-    /// The circumcentre of the simplex on the other side or, around the cavity, that of the facet and the point.
+    /// The circumcentre of the simplex on the other side or, around the cavity, that of the facet
+    /// and the point.
     pub(super) beyond: [T; D],
     pub(super) is_boundary: bool,
 }
@@ -80,7 +81,8 @@ impl<T: Real, const D: usize> Cavity<T, D> {
     /// Appends the weights of the vertices, unless their errors might exceed [`MAX_ERROR`].
     fn weights(&self, method: Interpolation, weights: &mut Vec<(u32, f64)>) -> bool {
         let measure = |vertex: &Vertex<T, D>| match method {
-            // The measure of the facet, divided by the distance: a pyramid has half the distance as its height.
+            // The measure of the facet, divided by the distance: a pyramid has half the distance as
+            // its height.
             Interpolation::Laplace => {
                 let squared = vector::squared_norm(vertex.position.map(T::to_f64));
                 [vertex.pyramid.to_f64() / squared, vertex.pyramid_magnitude / squared]
@@ -114,15 +116,16 @@ impl<T: Real, const D: usize> Cavity<T, D> {
 pub(super) struct Scratch<const D: usize> {
     /// The simplices of the cavity.
     conflict: Vec<u32>,
-    /// The place of each simplex in `conflict`, or `None` if its circumsphere does not contain the point.
+    /// The place of each simplex in `conflict`, or `None` if its circumsphere does not contain the
+    /// point.
     place: FxHashMap<u32, Option<u32>>,
     /// The places of the cavity's vertices.
     local: FxHashMap<u32, u32>,
     cavity: Cavity<f64, D>,
 }
 
-/// Appends the natural neighbours of a query, which simplex `t` contains and which is no vertex, with their weights; nothing
-/// where the hull is too near for twice the precision.
+/// Appends the natural neighbours of a query, which simplex `t` contains and which is no vertex,
+/// with their weights; nothing where the hull is too near for twice the precision.
 pub(super) fn weights<const D: usize, const N: usize>(
     locator: &Locator<'_, D, N>,
     method: Interpolation,
@@ -151,8 +154,8 @@ pub(super) fn weights<const D: usize, const N: usize>(
 
 /// Finds the cavity of a query inside the hull.
 ///
-/// A circumsphere that has the query on it counts as empty, so that the query is strictly on the inner side of every facet
-/// of the cavity.
+/// A circumsphere that has the query on it counts as empty, so that the query is strictly on the
+/// inner side of every facet of the cavity.
 fn find<const D: usize, const N: usize>(
     locator: &Locator<'_, D, N>,
     query: [f64; D],
@@ -182,7 +185,8 @@ fn find<const D: usize, const N: usize>(
     }
 }
 
-/// Gathers the vertices and facets of a cavity, and measures what the query's cell takes from those of the vertices.
+/// Gathers the vertices and facets of a cavity, and measures what the query's cell takes from those
+/// of the vertices.
 fn measure<T: Real, const D: usize, const N: usize>(
     locator: &Locator<'_, D, N>,
     query: [f64; D],

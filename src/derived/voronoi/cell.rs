@@ -10,13 +10,17 @@ use crate::{index::NONE, mesh::Csr};
 pub struct Cell<const D: usize = 3> {
     /// The vertices. Vertices that coincide because of a tie are several.
     pub vertices: Vec<[f64; D]>,
-    /// For each vertex the simplex of the mesh whose circumcentre it is; [`NONE`](crate::NONE) if clipping made it.
+    /// For each vertex the simplex of the mesh whose circumcentre it is; [`NONE`](crate::NONE) if
+    /// clipping made it.
     pub simplices: Vec<i32>,
-    /// The vertices of each facet: counter-clockwise as seen from outside in 3D, both ends counter-clockwise around the cell in
-    /// 2D, where the facets are in this order, too, and those of an unbounded cell begin and end with its rays. The chain of an unbounded facet's vertices is open: in 3D it comes from infinity before its first vertex and
-    /// returns there after its last one.
+    /// The vertices of each facet: counter-clockwise as seen from outside in 3D, both ends
+    /// counter-clockwise around the cell in 2D, where the facets are in this order, too, and those
+    /// of an unbounded cell begin and end with its rays. The chain of an unbounded facet's vertices
+    /// is open: in 3D it comes from infinity before its first vertex and returns there after its
+    /// last one.
     pub facets: Csr,
-    /// For each facet the point on the other side; [`NONE`](crate::NONE) where the cell was clipped.
+    /// For each facet the point on the other side; [`NONE`](crate::NONE) where the cell was
+    /// clipped.
     pub neighbors: Vec<i32>,
     /// The area of each facet, its length in 2D; infinite for unbounded facets.
     pub areas: Vec<f64>,
@@ -45,8 +49,8 @@ impl<const D: usize> Default for Cell<D> {
 }
 
 impl<const D: usize> Cell<D> {
-    /// Returns whether nothing is left of the cell: it was outside what the diagram was clipped to, or belongs to a
-    /// duplicate, or the mesh has no simplices.
+    /// Returns whether nothing is left of the cell: it was outside what the diagram was clipped to,
+    /// or belongs to a duplicate, or the mesh has no simplices.
     pub fn is_empty(&self) -> bool {
         self.facets.is_empty()
     }

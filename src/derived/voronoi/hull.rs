@@ -1,8 +1,10 @@
-//! Which facets of the hull each Voronoi cell meets: the Voronoi diagram restricted to the hull's boundary.
+//! Which facets of the hull each Voronoi cell meets: the Voronoi diagram restricted to the hull's
+//! boundary.
 //!
-//! The diagram divides a facet of the hull into convex pieces. The first one is that of a corner of the facet; behind an edge of
-//! a piece that lies on a bisector is the piece of another vertex (Yan et al. 2009). A cell is clipped by exactly
-//! the facets that it meets: the others cannot cut anything off that these leave, because cell and hull are convex.
+//! The diagram divides a facet of the hull into convex pieces. The first one is that of a corner of
+//! the facet; behind an edge of a piece that lies on a bisector is the piece of another vertex (Yan
+//! et al. 2009). A cell is clipped by exactly the facets that it meets: the others cannot cut
+//! anything off that these leave, because cell and hull are convex.
 
 use super::{super::Locator, polytope::Polygon};
 use crate::{
@@ -16,8 +18,8 @@ use rustc_hash::FxHashSet;
 /// The number of facets that is worth handing to another thread.
 const GRAIN: usize = 1 << 8;
 
-/// Returns for each vertex the facets of the hull that its cell meets, as places in the list that comes with them: (simplex,
-/// opposite vertex).
+/// Returns for each vertex the facets of the hull that its cell meets, as places in the list that
+/// comes with them: (simplex, opposite vertex).
 pub(super) fn hull_facets_of_cells<const D: usize, const N: usize>(
     locator: &Locator<'_, D, N>,
 ) -> (Csr, Vec<(usize, usize)>)

@@ -51,12 +51,15 @@ pub enum Clip<const D: usize = 3> {
     Hull,
 }
 
-/// The Voronoi diagram of the vertices of a mesh: for each vertex, the places that are nearer to it than to any other.
+/// The Voronoi diagram of the vertices of a mesh: for each vertex, the places that are nearer to it
+/// than to any other.
 ///
-/// Cells are computed when they are asked for; [`diagram`](Self::diagram) has all of them as arrays. Their vertices are the
-/// circumcentres of the simplices, with the errors of [`Mesh3::circumcenters`](crate::Mesh3::circumcenters). Cells whose vertices
-/// are not all within what the diagram is clipped to are made from it by clipping with bisectors, so that
-/// no circumcentre, however far away, makes them wrong. Facets that are empty because of a tie are left out, exactly.
+/// Cells are computed when they are asked for; [`diagram`](Self::diagram) has all of them as
+/// arrays. Their vertices are the circumcentres of the simplices, with the errors of
+/// [`Mesh3::circumcenters`](crate::Mesh3::circumcenters). Cells whose vertices are not all within
+/// what the diagram is clipped to are made from it by clipping with bisectors, so that no
+/// circumcentre, however far away, makes them wrong. Facets that are empty because of a tie are
+/// left out, exactly.
 ///
 /// # Examples
 ///
@@ -81,7 +84,8 @@ pub struct Voronoi<'a, const D: usize = 3, const N: usize = 4> {
     vertices: Vec<[f64; D]>,
     /// Whether each vertex of the mesh is on the hull.
     on_hull: Vec<bool>,
-    /// If the diagram is clipped to the hull, the facets that each vertex's cell meets, as places in the next list.
+    /// If the diagram is clipped to the hull, the facets that each vertex's cell meets, as places
+    /// in the next list.
     hull_facets_of_cells: Csr,
     /// The facets of the hull as (simplex, opposite vertex).
     hull_facets: Vec<(usize, usize)>,
@@ -110,18 +114,21 @@ pub type Voronoi2<'a> = Voronoi<'a, 2, 3>;
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Diagram<const D: usize = 3> {
-    /// The vertices: first the circumcentre of each simplex of the mesh, then those that clipping made. Of the circumcentres not
-    /// all are vertices of cells, if the diagram was clipped.
+    /// The vertices: first the circumcentre of each simplex of the mesh, then those that clipping
+    /// made. Of the circumcentres not all are vertices of cells, if the diagram was clipped.
     pub vertices: Vec<[f64; D]>,
     /// The vertices of each facet, as in [`Cell::facets`].
     pub facets: Csr,
-    /// For each facet the point on the other side; [`NONE`](crate::NONE) where the cell was clipped.
+    /// For each facet the point on the other side; [`NONE`](crate::NONE) where the cell was
+    /// clipped.
     pub neighbors: Vec<i32>,
     /// The area of each facet, its length in 2D; infinite for unbounded facets.
     pub areas: Vec<f64>,
-    /// Where the facets of each point's cell start, and one more entry that says where the last ones end. A duplicate has none.
+    /// Where the facets of each point's cell start, and one more entry that says where the last
+    /// ones end. A duplicate has none.
     pub cells: Vec<usize>,
-    /// The volume of each point's cell, its area in 2D: infinite for unbounded cells, 0 for empty ones.
+    /// The volume of each point's cell, its area in 2D: infinite for unbounded cells, 0 for empty
+    /// ones.
     pub volumes: Vec<f64>,
     /// The centre of mass of each point's cell; NaN for unbounded and empty ones.
     pub centroids: Vec<[f64; D]>,
@@ -131,12 +138,14 @@ impl<'a, const D: usize, const N: usize> Voronoi<'a, D, N>
 where
     Euclidean: VoronoiShapes<D, N>,
 {
-    /// Creates the Voronoi diagram of a mesh with its points, clipped to a box or the hull if wanted.
+    /// Creates the Voronoi diagram of a mesh with its points, clipped to a box or the hull if
+    /// wanted.
     ///
     /// # Errors
     ///
-    /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for [`Locator::new`](crate::Locator::new);
-    /// [`Error::EmptyBox`] if the lowest corner of the box is not below the highest, or not finite.
+    /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for
+    /// [`Locator::new`](crate::Locator::new); [`Error::EmptyBox`] if the lowest corner of the box
+    /// is not below the highest, or not finite.
     pub fn new(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>, clip: Clip<D>) -> Result<Self, Error> {
         if let Clip::Box([low, high]) = clip {
             let is_wrong = |&axis: &usize| !(low[axis] < high[axis] && (high[axis] - low[axis]).is_finite());
@@ -164,12 +173,14 @@ where
         Ok(Voronoi { locator, clip, stars, vertices, on_hull, hull_facets_of_cells, hull_facets })
     }
 
-    /// Returns the vertices of the diagram before it is clipped: the circumcentre of each simplex of the mesh.
+    /// Returns the vertices of the diagram before it is clipped: the circumcentre of each simplex
+    /// of the mesh.
     pub fn vertices(&self) -> &[[f64; D]] {
         &self.vertices
     }
 
-    /// Returns the cell of point `i`; an empty one for duplicates, and for all points if the mesh has no simplices.
+    /// Returns the cell of point `i`; an empty one for duplicates, and for all points if the mesh
+    /// has no simplices.
     ///
     /// # Panics
     ///
@@ -227,9 +238,11 @@ where
         sorted.into_iter().flatten().collect()
     }
 
-    /// Returns the volume of each point's cell, its area in 2D: infinite for unbounded cells, 0 for empty ones.
+    /// Returns the volume of each point's cell, its area in 2D: infinite for unbounded cells, 0 for
+    /// empty ones.
     ///
-    /// The sum of all is the volume of the box or the hull, as far as that contains all points, within 10⁻⁹ of it.
+    /// The sum of all is the volume of the box or the hull, as far as that contains all points,
+    /// within 10⁻⁹ of it.
     pub fn volumes(&self) -> Vec<f64> {
         self.map_cells(|_, cell| cell.volume)
     }
@@ -248,8 +261,8 @@ where
         neighbors
     }
 
-    /// Returns the points after one step of Lloyd's relaxation: each in the centre of mass of its cell, duplicates in that
-    /// of their vertex. Points with unbounded or empty cells stay.
+    /// Returns the points after one step of Lloyd's relaxation: each in the centre of mass of its
+    /// cell, duplicates in that of their vertex. Points with unbounded or empty cells stay.
     ///
     /// # Examples
     ///
@@ -370,8 +383,9 @@ where
         });
     }
 
-    /// Returns whether the facet that is dual to an edge has an area, in 2D a length. It has none if ties make so many of its
-    /// vertices coincide that at most two are left, in 2D one. `relative` has the circumcentres of the star, relative to *v*.
+    /// Returns whether the facet that is dual to an edge has an area, in 2D a length. It has none
+    /// if ties make so many of its vertices coincide that at most two are left, in 2D one.
+    /// `relative` has the circumcentres of the star, relative to *v*.
     fn is_facet(&self, star: &[u32], relative: &[[f64; D]], ring: &[u32], is_closed: bool, [v, a]: [u32; 2]) -> bool {
         let complex = &self.locator.complex;
         let are_distinct = |&[t, u]: &[u32; 2]| {
@@ -390,11 +404,13 @@ where
         if is_closed {
             return distinct >= <Euclidean as VoronoiShapes<D, N>>::FACET_EDGES;
         }
-        // Without an edge, an unbounded facet has two rays from one vertex, which coincide if the facets of the hull share a plane.
+        // Without an edge, an unbounded facet has two rays from one vertex, which coincide if the
+        // facets of the hull share a plane.
         distinct > 0 || !self.hull_is_flat_at(star, ring, [v, a])
     }
 
-    /// Returns whether the two facets of the hull at an edge, around which these simplices of a star are, share a plane.
+    /// Returns whether the two facets of the hull at an edge, around which these simplices of a
+    /// star are, share a plane.
     fn hull_is_flat_at(&self, star: &[u32], ring: &[u32], edge: [u32; 2]) -> bool {
         let complex = &self.locator.complex;
         // In 2D, the edge is all of the hull's facet.
@@ -412,8 +428,8 @@ where
         other.into_iter().all(|v| Euclidean::side(&one, complex.point(v)) == 0)
     }
 
-    /// Makes the cell of vertex `v` from the box, or that around the hull, by clipping it with the bisectors of the cell's facets,
-    /// which it replaces, and with the facets of the hull.
+    /// Makes the cell of vertex `v` from the box, or that around the hull, by clipping it with the
+    /// bisectors of the cell's facets, which it replaces, and with the facets of the hull.
     fn clip_cell(&self, v: u32, worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
         let Worker { cell, is_open, corners: facet_corners, polytope, .. } = worker;
         let complex = &self.locator.complex;

@@ -1,8 +1,8 @@
 //! Convex polygons and polyhedra, clipped by half-planes and half-spaces.
 //!
-//! A clipped polytope is closed whatever rounding does: which vertices remain is decided once for each vertex, an edge
-//! between one that remains and one that does not is cut once, and the new edges are linked to the boundary of the new
-//! facet.
+//! A clipped polytope is closed whatever rounding does: which vertices remain is decided once for
+//! each vertex, an edge between one that remains and one that does not is cut once, and the new
+//! edges are linked to the boundary of the new facet.
 
 use crate::geometry::vector;
 
@@ -11,25 +11,27 @@ pub trait Polytope<const D: usize>: Default + Send {
     /// Makes it a box. Its sides have the name `side`.
     fn reset(&mut self, bounds: [[f64; D]; 2], side: i32);
 
-    /// Keeps what is on the side x·normal ≤ offset of a line or plane, which becomes a facet of this name.
+    /// Keeps what is on the side x·normal ≤ offset of a line or plane, which becomes a facet of
+    /// this name.
     fn clip(&mut self, normal: [f64; D], offset: f64, name: i32);
 
     /// Returns the vertices.
     fn vertices(&self) -> &[[f64; D]];
 
-    /// Calls `visit` with the vertices and the name of every facet: both ends in 2D, counter-clockwise; the corners in 3D,
-    /// counter-clockwise as seen from outside.
+    /// Calls `visit` with the vertices and the name of every facet: both ends in 2D,
+    /// counter-clockwise; the corners in 3D, counter-clockwise as seen from outside.
     fn for_facets(&self, visit: impl FnMut(&[u32], i32));
 }
 
-/// Where the edge from p to q, of which p remains, meets the line or plane: `s` and `t` are their values of x·normal − offset.
+/// Where the edge from p to q, of which p remains, meets the line or plane: `s` and `t` are their
+/// values of x·normal − offset.
 fn cut<const D: usize>(p: [f64; D], q: [f64; D], s: f64, t: f64) -> [f64; D] {
     // Not more than 1, as s ≤ 0 < t.
     vector::plus(p, vector::times(s / (s - t), vector::minus(q, p)))
 }
 
-/// A convex polygon, counter-clockwise in 2D; in 3D within a plane. With two vertices it is a segment, whose edges lead there
-/// and back.
+/// A convex polygon, counter-clockwise in 2D; in 3D within a plane. With two vertices it is a
+/// segment, whose edges lead there and back.
 #[derive(Debug)]
 pub struct Polygon<const D: usize> {
     vertices: Vec<[f64; D]>,
@@ -53,7 +55,8 @@ impl<const D: usize> Polygon<D> {
         self.names.resize(vertices.len(), side);
     }
 
-    /// Keeps what is on the side x·normal ≤ offset of a line or plane. The edge on it has this name.
+    /// Keeps what is on the side x·normal ≤ offset of a line or plane. The edge on it has this
+    /// name.
     pub(super) fn halve(&mut self, normal: [f64; D], offset: f64, name: i32) {
         let value = |p: [f64; D]| vector::dot(p, normal) - offset;
         let (vertices, names) = &mut self.halved;
@@ -227,7 +230,8 @@ impl Polytope<3> for Polyhedron {
                 faces.corners.push(new);
                 crossings.push((new, s <= 0.0));
             }
-            // From where the face leaves to where it comes back there is a new edge, which the new face has in the other direction.
+            // From where the face leaves to where it comes back there is a new edge, which the new
+            // face has in the other direction.
             for (i, &(leave, leaves)) in crossings.iter().enumerate() {
                 if leaves {
                     let (back, _) = crossings[(i + 1) % crossings.len()];
@@ -300,7 +304,8 @@ mod tests {
     }
 
     proptest! {
-        /// Both sides of a plane together are what was there before, also where the plane meets vertices.
+        /// Both sides of a plane together are what was there before, also where the plane meets
+        /// vertices.
         #[test]
         fn both_sides_of_planes_add_up(planes in prop::collection::vec((prop::array::uniform3(-3i32..4), -3i32..4), 1..12), scale in 0.1f64..3.0) {
             let (mut space, mut plane) = (Polyhedron::default(), Polygon::default());

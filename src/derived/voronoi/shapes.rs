@@ -14,7 +14,8 @@ use crate::{
 pub struct FacetMeasures<const D: usize> {
     /// The area; in 2D the length.
     pub(crate) area: f64,
-    /// The volume of the pyramid with its apex at the origin, in 2D the area of the triangle; positive if the origin is inside.
+    /// The volume of the pyramid with its apex at the origin, in 2D the area of the triangle;
+    /// positive if the origin is inside.
     pub(crate) volume: f64,
     /// The integral of the coordinates over that pyramid.
     pub(crate) moment: [f64; D],
@@ -26,9 +27,10 @@ pub trait VoronoiShapes<const D: usize, const N: usize>: Geometry<D, N> {
     /// The shape of a cell while it is clipped.
     type Polytope: Polytope<D>;
 
-    /// Calls `visit` with each neighbour *a* of vertex *v*, the simplices around the edge between both as places in the star of
-    /// *v*, and whether they close a ring, or in 2D whether there are two. They are counter-clockwise as seen from *a* in 3D,
-    /// and from right to left as seen from *v* in 2D, where the neighbours come counter-clockwise, on the hull from the first.
+    /// Calls `visit` with each neighbour *a* of vertex *v*, the simplices around the edge between
+    /// both as places in the star of *v*, and whether they close a ring, or in 2D whether there are
+    /// two. They are counter-clockwise as seen from *a* in 3D, and from right to left as seen from
+    /// *v* in 2D, where the neighbours come counter-clockwise, on the hull from the first.
     fn for_rings(
         complex: &Complex<'_, D, N>,
         v: u32,
@@ -40,7 +42,8 @@ pub trait VoronoiShapes<const D: usize, const N: usize>: Geometry<D, N> {
     /// The number of Voronoi edges, or vertices in 2D, that a bounded facet has at least.
     const FACET_EDGES: usize;
 
-    /// Returns the outer normal of the facet of a simplex, and its product with the points of the facet.
+    /// Returns the outer normal of the facet of a simplex, and its product with the points of the
+    /// facet.
     fn plane(facet: &[[f64; D]; D]) -> ([f64; D], f64);
 
     /// Returns the measures of a facet.
@@ -57,7 +60,8 @@ impl VoronoiShapes<2, 3> for Euclidean {
         _: &mut Star,
         mut visit: impl FnMut(u32, &[u32], bool),
     ) {
-        // Of a counter-clockwise triangle (v, a, b), the next one is across (v, b), opposite a, and the one before opposite b.
+        // Of a counter-clockwise triangle (v, a, b), the next one is across (v, b), opposite a, and
+        // the one before opposite b.
         let corner = |place: u32, after: usize| {
             let t = star[place as usize] as usize;
             let corner = complex.simplices[t].iter().position(|&w| w == v).unwrap_or(0);
@@ -66,7 +70,8 @@ impl VoronoiShapes<2, 3> for Euclidean {
         let across = |place: u32, after: usize| {
             let (t, corner) = corner(place, after);
             let across = complex.across(t, corner)?;
-            // A star is in ascending order. Only a broken mesh has other triangles around the vertex.
+            // A star is in ascending order. Only a broken mesh has other triangles around the
+            // vertex.
             star.binary_search(&(across as u32)).ok().map(|place| place as u32)
         };
         let vertex = |place: u32, after: usize| {
@@ -120,13 +125,14 @@ impl VoronoiShapes<2, 3> for Euclidean {
 /// The star of a vertex in 3D, with places in it instead of indices of the mesh.
 #[derive(Debug, Default)]
 pub struct Star {
-    /// The other vertices *a*, *b*, *c* of each tetrahedron, so that (v, a, b, c) is positive; [`VISITED`] when the ring around
-    /// the edge to one is.
+    /// The other vertices *a*, *b*, *c* of each tetrahedron, so that (v, a, b, c) is positive;
+    /// [`VISITED`] when the ring around the edge to one is.
     corners: Vec<[u32; 3]>,
     /// The place of the tetrahedron across the facet opposite each of them, or [`OUTSIDE`].
     across: Vec<[u32; 3]>,
     ring: Vec<u32>,
-    /// The tetrahedra with their places, by a hash of their index, with room for twice as many and more.
+    /// The tetrahedra with their places, by a hash of their index, with room for twice as many and
+    /// more.
     table: Vec<(u32, u32)>,
 }
 
@@ -173,8 +179,8 @@ impl Star {
 /// For each corner of a tetrahedron, an even permutation that begins with it.
 const EVEN: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]];
 
-/// Puts the tetrahedra around the edge from vertex *v* to vertex *a* of tetrahedron `t` into `ring`: counter-clockwise as seen from
-/// *a*. Returns whether they close a ring.
+/// Puts the tetrahedra around the edge from vertex *v* to vertex *a* of tetrahedron `t` into
+/// `ring`: counter-clockwise as seen from *a*. Returns whether they close a ring.
 pub(in super::super) fn ring(complex: &Complex<'_, 3, 4>, v: u32, a: u32, t: usize, ring: &mut Vec<u32>) -> bool {
     ring.clear();
     let (simplices, neighbors) = (complex.simplices, &*complex.neighbors);
@@ -206,14 +212,16 @@ pub(in super::super) fn ring(complex: &Complex<'_, 3, 4>, v: u32, a: u32, t: usi
     false
 }
 
-/// Returns the place of a vertex in a tetrahedron, without branches; 0 if it is not there, as happens in broken meshes only.
+/// Returns the place of a vertex in a tetrahedron, without branches; 0 if it is not there, as
+/// happens in broken meshes only.
 #[inline(always)]
 pub(in super::super) fn place(simplex: &[u32; 4], v: u32) -> usize {
     // Not a sum: a broken mesh may have a vertex twice in a tetrahedron.
     usize::from(simplex[1] == v) | (usize::from(simplex[2] == v) << 1) | (usize::from(simplex[3] == v) * 3)
 }
 
-/// For corners *i* and *j* of a tetrahedron, the corner *k* such that (i, j, k, l) is an even permutation.
+/// For corners *i* and *j* of a tetrahedron, the corner *k* such that (i, j, k, l) is an even
+/// permutation.
 pub(crate) const THIRD: [[usize; 4]; 4] = [[4, 2, 3, 1], [3, 4, 0, 2], [1, 3, 4, 0], [2, 0, 1, 4]];
 
 impl VoronoiShapes<3, 4> for Euclidean {
@@ -242,8 +250,8 @@ impl VoronoiShapes<3, 4> for Euclidean {
                     (next != OUTSIDE).then_some(next as usize)
                 };
                 ring.clear();
-                // Of a positive tetrahedron (v, a, b, c), the next one counter-clockwise is across (v, a, c), and the one
-                // before across (v, a, b).
+                // Of a positive tetrahedron (v, a, b, c), the next one counter-clockwise is across
+                // (v, a, c), and the one before across (v, a, b).
                 let before = across[start][(corner + 2) % 3];
                 let mut at = start;
                 let is_closed = loop {

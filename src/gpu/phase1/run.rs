@@ -96,8 +96,8 @@ struct Batch {
     recorded: u32,
 }
 
-/// How many points a round inserts per point that is inserted, as a rule at most: hardly more of its
-/// simplices have points to pick from.
+/// How many points a round inserts per point that is inserted, as a rule at most: hardly more of
+/// its simplices have points to pick from.
 const GROWTH: u32 = 5;
 
 /// Flip iterations are done in one workgroup until this many times as many simplices are active as
@@ -269,8 +269,8 @@ where
         self.counters.active()
     }
 
-    /// Runs rounds of insertion and flips, and, when all points are inserted, flip iterations, until
-    /// it knows of the next batch what was done. Returns whether there is more to do.
+    /// Runs rounds of insertion and flips, and, when all points are inserted, flip iterations,
+    /// until it knows of the next batch what was done. Returns whether there is more to do.
     ///
     /// While the device works on a batch, the next one is submitted, so that it never waits.
     ///
@@ -330,7 +330,8 @@ where
             let workgroups = self.workgroups();
             self.kernels.stages.insert.record_first(&mut recorder, &self.memory.bound.insert, workgroups);
         } else {
-            // Rounds that were submitted before the slots were added can say that there were too few.
+            // Rounds that were submitted before the slots were added can say that there were too
+            // few.
             if self.counters.overflow & SLOTS_FULL != 0 && self.counters.round > self.rounds_before_growth {
                 self.grow(&mut recorder)?;
             }

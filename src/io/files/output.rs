@@ -158,8 +158,8 @@ pub struct ResultOutput<F> {
 }
 
 impl<F: Copy> ResultOutput<F> {
-    /// Creates the output at `path`, with the format that `format_of` has for its extension; `known`
-    /// has all of these, and `what` says what is written.
+    /// Creates the output at `path`, with the format that `format_of` has for its extension;
+    /// `known` has all of these, and `what` says what is written.
     ///
     /// # Errors
     ///

@@ -87,7 +87,7 @@ impl GpsTime {
             2..10 => (symbol as i32, 2),
             10..MAX_MULTIPLE => (symbol as i32, 3),
             MAX_MULTIPLE => (symbol as i32, 4),
-            ..MIN_MULTIPLE => (MAX_MULTIPLE as i32 - symbol as i32, 5),
+            _ if symbol < MIN_MULTIPLE => (MAX_MULTIPLE as i32 - symbol as i32, 5),
             MIN_MULTIPLE => (MAX_MULTIPLE as i32 - symbol as i32, 6),
             UNCHANGED => return Ok(true),
             NEW_SEQUENCE => {

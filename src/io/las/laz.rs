@@ -3,8 +3,8 @@
 //! The crate `laz` decodes the items of a point; here they are put together to records, and those
 //! to chunks, because of one item: in the crate, a point's GPS time that is said to be in another
 //! sequence than the last is read by recursion, and a broken file says so a million times in a row.
-//! Of the formats that code all items in one stream, [`GpsTime`] takes the crate's place. Those that
-//! code each item in a layer of its own are read without the layers that no coordinate needs.
+//! Of the formats that code all items in one stream, [`GpsTime`] takes the crate's place. Those
+//! that code each item in a layer of its own are read without the layers that no coordinate needs.
 
 use super::{gps_time::GpsTime, in_header, is_end};
 use crate::io::FormatError;

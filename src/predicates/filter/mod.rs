@@ -299,8 +299,8 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
     }
 }
 
-/// Returns the exact stage of vertices whose positions on a wide lattice are stored, and how many of
-/// them are rounded.
+/// Returns the exact stage of vertices whose positions on a wide lattice are stored, and how many
+/// of them are rounded.
 fn exact_stage<const D: usize>(
     threads: Threads,
     input: Points<'_, D>,

@@ -31,8 +31,8 @@ fn orient3d_at(width: Width, [a, b, c, d]: [[i64; 3]; 4]) -> Sign {
 }
 
 /// Returns the sign of det(b − a, c − a, d − a), with ties broken: never 0 for vertices with
-/// different indices. Infinity leans away from `interior`, a point with an index above theirs, which
-/// may also be one of them.
+/// different indices. Infinity leans away from `interior`, a point with an index above theirs,
+/// which may also be one of them.
 pub fn orient3d(width: Width, vertices: [Vertex; 4], interior: Vertex) -> Sign {
     let orientation = |positions: [[i64; 3]; 5]| orient3d_at(width, symbolic::without(positions, 4));
     let [a, b, c, d] = vertices;

@@ -30,8 +30,8 @@ impl WasmTriangulator {
     }
 }
 
-/// Triangulates in 2D with the CPU backend, without returning to the event loop. Statistics are left
-/// out on request: for few points they take longer than the triangulation.
+/// Triangulates in 2D with the CPU backend, without returning to the event loop. Statistics are
+/// left out on request: for few points they take longer than the triangulation.
 #[wasm_bindgen]
 pub fn delaunay2d_blocking(points: JsValue, with_statistics: bool) -> Result<JsValue, Thrown> {
     let coordinates = Coordinates::new(&points)?;

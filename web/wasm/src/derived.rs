@@ -20,7 +20,8 @@ use crate::{
 
 /// The largest number of reports while queries are answered.
 const PARTS: usize = 16;
-/// The smallest number of queries between two reports: where few are answered at a time, they are far from each other.
+/// The smallest number of queries between two reports: where few are answered at a time, they are
+/// far from each other.
 const MIN_PART: usize = 1 << 16;
 
 /// A mesh of the package.
