@@ -136,7 +136,7 @@ fn check_chunk(bytes: &[u8], at: usize, record: usize, layers: usize) -> Result<
     }
     match end <= bytes.len() {
         true => Ok(()),
-        false => Err(FormatError::byte(at, "the chunk of points that starts here goes on behind the end of the file")),
+        false => Err(FormatError::byte(at, "the file ends within the chunk of points that starts here: it is truncated")),
     }
 }
 
