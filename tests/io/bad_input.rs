@@ -308,7 +308,7 @@ fn laz_with_a_layer_of_gigabytes() {
     let start = u32::from_le_bytes(file[las_header::OFFSET_TO_POINTS..][..4].try_into().unwrap()) as usize;
     let record = u16::from_le_bytes(file[las_header::RECORD_LENGTH..][..2].try_into().unwrap()) as usize;
     file[start + 8 + record + 4..][..4].fill(0xff);
-    fails(PointFormat::Las, file, Position::Byte(start + 8), "behind the end");
+    fails(PointFormat::Las, file, Position::Byte(start + 8), "ends within the chunk");
 }
 
 #[test]
