@@ -136,7 +136,9 @@ fn check_chunk(bytes: &[u8], at: usize, record: usize, layers: usize) -> Result<
     }
     match end <= bytes.len() {
         true => Ok(()),
-        false => Err(FormatError::byte(at, "the file ends within the chunk of points that starts here: it is truncated")),
+        false => {
+            Err(FormatError::byte(at, "the file ends within the chunk of points that starts here: it is truncated"))
+        }
     }
 }
 
