@@ -160,18 +160,20 @@ where
     let start = slots.any_slot(number * 7919);
     let mut inserter = Inserter { slots, vertices, scratch, last: start, misses: 0, held: 0, is_done: false };
     let mut put_off = Vec::new();
-    let mut tried = 0;
+    let mut next_report = 0;
     for portion in round.portions(number) {
-        let length = portion.len();
-        let mut missed = Vec::new();
-        for p in portion.map(|i| round.point(i)) {
-            if tried % Worker::<N>::REPORT == 0
-                && let Err(error) = report(round.inserted.load(Relaxed))
-            {
+        // Counted over all workers, because the one that reports may get little time to insert.
+        let done = round.inserted.load(Relaxed);
+        if done >= next_report {
+            next_report = done + Worker::<N>::REPORT;
+            if let Err(error) = report(done) {
                 round.is_stopped.store(true, Relaxed);
                 return Err(error);
             }
-            tried += 1;
+        }
+        let length = portion.len();
+        let mut missed = Vec::new();
+        for p in portion.map(|i| round.point(i)) {
             if inserter.has_to_stop(round) || !inserter.insert(p)? {
                 missed.push(p);
             }
