@@ -254,8 +254,7 @@ pub(crate) fn insert_points<const D: usize, T: Insert<D>>(
             report(inserted)?;
         }
         let start = triangulation.locate(vertices, p, last);
-        // Nobody disturbs the only thread.
-        last = triangulation.insert(vertices, p, start, &mut scratch)?.unwrap_or(last);
+        last = triangulation.insert(vertices, p, start, &mut scratch)?.expect("nobody disturbs the only thread");
     }
     triangulation.finish(scratch);
     Ok(())

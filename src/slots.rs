@@ -51,6 +51,62 @@ pub trait Slots<const N: usize> {
     fn claim(&mut self, v: u32) -> bool;
 }
 
+/// Implements [`Slots`] for a triangulation with an array of simplices of `$n` vertices, one of
+/// `neighbors`, and the number `infinite`, which no other thread changes.
+macro_rules! slots_of_arrays {
+    ($triangulation:ty, $n:literal, $simplices:ident, $limit:expr) => {
+        impl $crate::slots::Slots<$n> for $triangulation {
+            const SHARED: bool = false;
+
+            #[inline]
+            fn infinite(&self) -> u32 {
+                self.infinite
+            }
+
+            #[inline]
+            fn simplex(&self, t: u32) -> [u32; $n] {
+                self.$simplices[t as usize]
+            }
+
+            #[inline]
+            fn set_simplex(&mut self, t: u32, vertices: [u32; $n]) {
+                self.$simplices[t as usize] = vertices;
+            }
+
+            #[inline]
+            fn neighbors(&self, t: u32) -> [u32; $n] {
+                self.neighbors[t as usize]
+            }
+
+            #[inline]
+            fn set_neighbors(&mut self, t: u32, neighbors: [u32; $n]) {
+                self.neighbors[t as usize] = neighbors;
+            }
+
+            #[inline]
+            fn set_neighbor(&mut self, facet: u32, across: u32) {
+                self.neighbors[facet as usize / 4][facet as usize % 4] = across;
+            }
+
+            #[inline]
+            fn push(&mut self) -> Result<u32, $crate::error::Error> {
+                $crate::slots::push(&mut self.$simplices, &mut self.neighbors, $limit)
+            }
+
+            #[inline]
+            fn has_room(&mut self, _slots: usize) -> bool {
+                true
+            }
+
+            #[inline]
+            fn claim(&mut self, _v: u32) -> bool {
+                true
+            }
+        }
+    };
+}
+pub(crate) use slots_of_arrays;
+
 /// What cavities of more than two dimensions need in addition: their simplices are marked, their
 /// vertices numbered, and not all their slots filled again.
 pub trait MarkedSlots<const N: usize>: Slots<N> {

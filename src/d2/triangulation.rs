@@ -1,11 +1,10 @@
 //! Triangles and their neighbours under construction, the outside of the hull included.
 
 use crate::{
-    error::Error,
     index::{NO_INDEX, NONE},
     options::Winding,
     parallel::{self, Threads},
-    slots::{self, Slots},
+    slots,
 };
 
 /// Half-edges are numbered below 2³¹, because −1 stands for none.
@@ -225,51 +224,4 @@ impl Triangulation2 {
     }
 }
 
-impl Slots<3> for Triangulation2 {
-    const SHARED: bool = false;
-
-    #[inline]
-    fn infinite(&self) -> u32 {
-        self.infinite
-    }
-
-    #[inline]
-    fn simplex(&self, t: u32) -> [u32; 3] {
-        self.triangles[t as usize]
-    }
-
-    #[inline]
-    fn set_simplex(&mut self, t: u32, vertices: [u32; 3]) {
-        self.triangles[t as usize] = vertices;
-    }
-
-    #[inline]
-    fn neighbors(&self, t: u32) -> [u32; 3] {
-        self.neighbors[t as usize]
-    }
-
-    #[inline]
-    fn set_neighbors(&mut self, t: u32, neighbors: [u32; 3]) {
-        self.neighbors[t as usize] = neighbors;
-    }
-
-    #[inline]
-    fn set_neighbor(&mut self, facet: u32, across: u32) {
-        self.neighbors[facet as usize / 4][facet as usize % 4] = across;
-    }
-
-    #[inline]
-    fn push(&mut self) -> Result<u32, Error> {
-        slots::push(&mut self.triangles, &mut self.neighbors, MAX_TRIANGLES)
-    }
-
-    #[inline]
-    fn has_room(&mut self, _slots: usize) -> bool {
-        true
-    }
-
-    #[inline]
-    fn claim(&mut self, _v: u32) -> bool {
-        true
-    }
-}
+slots::slots_of_arrays!(Triangulation2, 3, triangles, MAX_TRIANGLES);

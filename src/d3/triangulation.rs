@@ -1,10 +1,9 @@
 //! Tetrahedra and their neighbours under construction, the outside of the hull included.
 
 use crate::{
-    error::Error,
     index::{NO_INDEX, NONE},
     parallel::{self, Threads},
-    slots::{self, MarkedSlots, Slots},
+    slots::{self, MarkedSlots},
 };
 use std::sync::atomic::Ordering::Relaxed;
 
@@ -60,11 +59,6 @@ impl Triangulation3 {
     /// Returns the neighbours of each tetrahedron.
     pub fn neighbors(&self) -> &[[u32; 4]] {
         &self.neighbors
-    }
-
-    /// Appends an unused slot.
-    pub(crate) fn push(&mut self) -> Result<u32, Error> {
-        slots::push(&mut self.tetrahedra, &mut self.neighbors, MAX_TETRAHEDRA)
     }
 
     /// Makes two facets each other's neighbours.
@@ -202,54 +196,7 @@ impl Triangulation3 {
     }
 }
 
-impl Slots<4> for Triangulation3 {
-    const SHARED: bool = false;
-
-    #[inline]
-    fn infinite(&self) -> u32 {
-        self.infinite
-    }
-
-    #[inline]
-    fn simplex(&self, t: u32) -> [u32; 4] {
-        self.tetrahedra[t as usize]
-    }
-
-    #[inline]
-    fn set_simplex(&mut self, t: u32, vertices: [u32; 4]) {
-        self.tetrahedra[t as usize] = vertices;
-    }
-
-    #[inline]
-    fn neighbors(&self, t: u32) -> [u32; 4] {
-        self.neighbors[t as usize]
-    }
-
-    #[inline]
-    fn set_neighbors(&mut self, t: u32, neighbors: [u32; 4]) {
-        self.neighbors[t as usize] = neighbors;
-    }
-
-    #[inline]
-    fn set_neighbor(&mut self, facet: u32, across: u32) {
-        self.neighbors[facet as usize / 4][facet as usize % 4] = across;
-    }
-
-    #[inline]
-    fn push(&mut self) -> Result<u32, Error> {
-        self.push()
-    }
-
-    #[inline]
-    fn has_room(&mut self, _slots: usize) -> bool {
-        true
-    }
-
-    #[inline]
-    fn claim(&mut self, _v: u32) -> bool {
-        true
-    }
-}
+slots::slots_of_arrays!(Triangulation3, 4, tetrahedra, MAX_TETRAHEDRA);
 
 impl MarkedSlots<4> for Triangulation3 {
     type Places = Vec<u32>;

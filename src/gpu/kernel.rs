@@ -1,5 +1,7 @@
 //! Compute pipelines.
 
+#[cfg(not(target_arch = "wasm32"))]
+use crate::parallel::{self, Threads};
 use crate::{
     error::Error,
     gpu::{
@@ -173,22 +175,20 @@ impl<'a> Compiler<'a> {
     /// Returns the errors of [`Gpu::with_error_scope`].
     pub async fn finish(self) -> Result<(), Error> {
         let Compiler { gpu, kernels } = self;
-        let kernels = kernels.into_inner();
         #[cfg(not(target_arch = "wasm32"))]
         {
-            use rayon::prelude::*;
             // Scopes of errors belong to threads, and are answered at once.
-            let compile = |kernel: Kernel| {
+            let compile = |_, kernel: &mut Kernel| {
                 pollster::block_on(gpu.with_error_scope("pipelines", || {
                     kernel.pipeline();
                     Ok(())
                 }))
             };
-            kernels.into_par_iter().with_max_len(1).try_for_each(compile)
+            parallel::map_mut(Threads::All, &mut kernels.into_inner(), compile).into_iter().collect()
         }
         #[cfg(target_arch = "wasm32")]
         gpu.with_error_scope("pipelines", || {
-            kernels.iter().for_each(|kernel| _ = kernel.pipeline());
+            kernels.borrow().iter().for_each(|kernel| _ = kernel.pipeline());
             Ok(())
         })
         .await

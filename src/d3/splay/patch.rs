@@ -13,6 +13,7 @@ use crate::{
         triangulation::{Triangulation3, state},
     },
     parallel::{self, Threads},
+    slots::Slots,
 };
 
 const UNMATCHED: Aborted = Aborted::Inconsistent("a facet of the patch has not one neighbour");

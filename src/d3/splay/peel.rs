@@ -16,6 +16,7 @@ use crate::{
     d3::triangulation::{Triangulation3, state},
     error::Error,
     parallel::Threads,
+    slots::Slots,
 };
 use rustc_hash::FxHashMap;
 

@@ -38,7 +38,7 @@ where
 }
 
 impl Stages {
-    /// Compiles the kernels of `D` dimensions.
+    /// Creates the kernels of `D` dimensions.
     pub(crate) fn new<const D: usize>(compiler: &Compiler<'_>, width: Width) -> Self
     where
         Dimension<D>: Finish<D>,

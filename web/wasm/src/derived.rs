@@ -24,6 +24,16 @@ const PARTS: usize = 16;
 /// far from each other.
 const MIN_PART: usize = 1 << 16;
 
+/// Calls a function for the meshes of 2 or 3 dimensions.
+macro_rules! in_dimension {
+    ($dimension:ident, $function:ident($($argument:ident),*)) => {
+        match $dimension {
+            2 => $function::<Mesh2, 2, 3>($($argument),*),
+            _ => $function::<Mesh3, 3, 4>($($argument),*),
+        }
+    };
+}
+
 /// A mesh of the package.
 trait OfCaller<const D: usize, const N: usize>: Mesh<D, N> + Sized {
     /// The name of the array of simplices.
@@ -161,10 +171,7 @@ pub fn locate(
     queries: &JsValue,
     report: Function,
 ) -> Result<JsValue, Thrown> {
-    match dimension {
-        2 => locate_in::<Mesh2, 2, 3>(points, mesh, queries, report),
-        _ => locate_in::<Mesh3, 3, 4>(points, mesh, queries, report),
-    }
+    in_dimension!(dimension, locate_in(points, mesh, queries, report))
 }
 
 fn locate_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
@@ -205,10 +212,7 @@ pub fn nearest(
     queries: &JsValue,
     report: Function,
 ) -> Result<Int32Array, Thrown> {
-    match dimension {
-        2 => nearest_in::<Mesh2, 2, 3>(points, mesh, queries, report),
-        _ => nearest_in::<Mesh3, 3, 4>(points, mesh, queries, report),
-    }
+    in_dimension!(dimension, nearest_in(points, mesh, queries, report))
 }
 
 fn nearest_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
@@ -241,10 +245,7 @@ pub fn interpolate(
     method: &str,
     report: Function,
 ) -> Result<Float64Array, Thrown> {
-    match dimension {
-        2 => interpolate_in::<Mesh2, 2, 3>(points, mesh, values, queries, method, report),
-        _ => interpolate_in::<Mesh3, 3, 4>(points, mesh, values, queries, method, report),
-    }
+    in_dimension!(dimension, interpolate_in(points, mesh, values, queries, method, report))
 }
 
 fn interpolate_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
@@ -283,10 +284,7 @@ pub fn voronoi(
     bounds: &Float64Array,
     report: Function,
 ) -> Result<JsValue, Thrown> {
-    match dimension {
-        2 => voronoi_in::<Mesh2, 2, 3>(points, mesh, clip, bounds, report),
-        _ => voronoi_in::<Mesh3, 3, 4>(points, mesh, clip, bounds, report),
-    }
+    in_dimension!(dimension, voronoi_in(points, mesh, clip, bounds, report))
 }
 
 fn voronoi_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
@@ -344,10 +342,7 @@ pub fn alpha_shape(
     with_critical_values: bool,
     report: Function,
 ) -> Result<JsValue, Thrown> {
-    match dimension {
-        2 => alpha_shape_in::<Mesh2, 2, 3>(points, mesh, alpha, components, with_critical_values, report),
-        _ => alpha_shape_in::<Mesh3, 3, 4>(points, mesh, alpha, components, with_critical_values, report),
-    }
+    in_dimension!(dimension, alpha_shape_in(points, mesh, alpha, components, with_critical_values, report))
 }
 
 fn alpha_shape_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
@@ -387,10 +382,7 @@ where
 /// Returns the minimum spanning tree.
 #[wasm_bindgen]
 pub fn spanning_tree(dimension: u32, points: &JsValue, mesh: &JsValue, report: Function) -> Result<JsValue, Thrown> {
-    match dimension {
-        2 => spanning_tree_in::<Mesh2, 2, 3>(points, mesh, report),
-        _ => spanning_tree_in::<Mesh3, 3, 4>(points, mesh, report),
-    }
+    in_dimension!(dimension, spanning_tree_in(points, mesh, report))
 }
 
 fn spanning_tree_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
