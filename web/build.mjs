@@ -17,6 +17,7 @@ import { delimiter, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import * as esbuild from 'esbuild';
+import { gluePlugin } from './glue.mjs';
 
 const web = dirname(fileURLToPath(import.meta.url));
 const root = dirname(web);
@@ -62,42 +63,9 @@ function buildWasm() {
   }
 }
 
-/**
- * Turns wasm-bindgen's glue, which keeps its instance in module variables, into a function. Each
- * call of it has an instance of its own, and sees the global object that it is passed.
- */
-const glue = {
-  name: 'glue',
-  setup(build) {
-    build.onResolve({ filter: /^glue:/ }, ({ path }) => ({
-      path: path.slice('glue:'.length),
-      namespace: 'glue',
-    }));
-    build.onLoad({ filter: /.*/, namespace: 'glue' }, async ({ path }) => {
-      const { outputFiles } = await esbuild.build({
-        entryPoints: [join(pkg(path), 'gdel.js')],
-        bundle: true,
-        write: false,
-        format: 'cjs',
-        target: 'es2022',
-        minify: true,
-        // Only the asynchronous initialisation uses it, and nobody calls that.
-        define: { 'import.meta.url': '""' },
-      });
-      const [{ text }] = outputFiles;
-      // wgpu distinguishes errors by these classes, which are not globals everywhere.
-      const classes = ['GPUValidationError', 'GPUOutOfMemoryError'].map(
-        (name) =>
-          `const ${name} = { [Symbol.hasInstance]: (e) => e?.constructor?.name === '${name}' };`,
-      );
-      // jsdom does not have these, but Node below it does.
-      const coders =
-        "const { TextDecoder, TextEncoder } = globalThis.TextDecoder ? globalThis : globalThis.process.getBuiltinModule('node:util');";
-      const contents = `export default function (globalThis) { const module = { exports: {} }; ${classes.join(' ')} ${coders}\n${text}\nreturn module.exports; }`;
-      return { contents, loader: 'js' };
-    });
-  },
-};
+const glue = gluePlugin(
+  Object.fromEntries(Object.keys(MODULES).map((name) => [name, join(pkg(name), 'gdel.js')])),
+);
 
 /** The module that holds a copy of a wasm module, or of the worker. */
 const COPIES = {
@@ -131,22 +99,26 @@ function writeCopies() {
 }
 
 async function bundle(entry, outfile, { plugins = [], ...options } = {}) {
-  await esbuild.build({
+  const target = 'es2022';
+  const { outputFiles } = await esbuild.build({
     entryPoints: [join(web, 'src', entry)],
     outfile: join(dist, outfile),
+    write: false,
     bundle: true,
     format: 'esm',
-    target: 'es2022',
+    target,
     legalComments: 'none',
-    // Names stay: those of classes are visible in consoles and debuggers.
-    minifySyntax: true,
-    minifyWhitespace: true,
     plugins: [glue, copies, ...plugins],
     ...options,
   });
-  // On a line of its own, where tools that recognise ES modules by patterns find it.
-  const file = join(dist, outfile);
-  writeFileSync(file, readFileSync(file, 'utf8').replace(/export\{[^{}]*\};\s*$/, '\n$&'));
+  // Minified as a script, whose names at the top level stay: those of functions and classes are
+  // visible in consoles, debuggers and stack traces. The exports come on a line of their own, where
+  // tools that recognise ES modules by patterns find them.
+  const [{ text }] = outputFiles;
+  const [exports] = /^export \{[^{}]*\};$/m.exec(text) ?? [''];
+  const script = text.replace(exports, '');
+  const { code } = await esbuild.transform(script, { minify: true, target, legalComments: 'none' });
+  writeFileSync(join(dist, outfile), `${code}${exports.replace(/\s+/g, ' ')}\n`);
 }
 
 /** An entry, whose assets are those of `src/assets*.ts`. */

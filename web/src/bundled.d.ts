@@ -1,11 +1,11 @@
 // What the build script makes of the wasm packages and of the worker.
 
 /**
- * The JavaScript side of a wasm module, with a state of its own in each call: a broken instance can
- * be replaced.
+ * The JavaScript side of the wasm modules, with a state of its own in each call: a broken instance
+ * can be replaced. It has the exports of all modules; those of the named one work.
  */
-declare module 'glue:*' {
-  const makeGlue: (globalThis: object) => any;
+declare module 'glue' {
+  const makeGlue: (moduleName: string, globalThis: object) => any;
   export default makeGlue;
 }
 

@@ -1,9 +1,6 @@
 // The tasks, on the WebAssembly instances that run them: in a worker or in the calling thread.
 
-import makeGlue2d from 'glue:d2';
-import makeGlue3d from 'glue:d3';
-import makeDerivedGlue from 'glue:derived';
-import makeToolsGlue from 'glue:tools';
+import makeGlue from 'glue';
 import type { Coordinates } from './arrays.js';
 import { type PlainError, toPlainError } from './errors.js';
 import type { Control, CoreInfo, CoreStats, ModuleName, TaskName, Tasks } from './protocol.js';
@@ -94,12 +91,12 @@ function scopeWith(gpu: object): object {
 
 /** Returns an instance of a module with its own state, or throws a {@link PlainError}. */
 function instantiate(
-  makeGlue: (globalThis: object) => any,
+  name: ModuleName,
   module: WebAssembly.Module,
   scope: object = globalThis,
 ): { glue: any; memory: WebAssembly.Memory } {
   try {
-    const glue = makeGlue(scope);
+    const glue = makeGlue(name, scope);
     return { glue, memory: glue.initSync({ module }).memory };
   } catch (error) {
     const why = `WebAssembly cannot be started: ${String(error)}`;
@@ -110,12 +107,8 @@ function instantiate(
 }
 
 /** What 3D and 2D tasks share: an instance, its triangulator, and the choice of the backend. */
-function instance(
-  makeGlue: (globalThis: object) => any,
-  module: WebAssembly.Module,
-  gpu: object | undefined,
-) {
-  const { glue, memory } = instantiate(makeGlue, module, gpu ? scopeWith(gpu) : globalThis);
+function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | undefined) {
+  const { glue, memory } = instantiate(name, module, gpu ? scopeWith(gpu) : globalThis);
   const triangulator = new glue.WasmTriangulator();
   let looking: Promise<AdapterInfo> | undefined;
 
@@ -193,7 +186,7 @@ function instance(
 }
 
 function tasks3d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
-  const { glue, memory, triangulator, choose, run, dispose } = instance(makeGlue3d, module, gpu);
+  const { glue, memory, triangulator, choose, run, dispose } = instance('d3', module, gpu);
 
   const handlers: Handlers = {
     async open({ backend }) {
@@ -234,7 +227,7 @@ function withEmpty(mesh: any): any {
 }
 
 function tasks2d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
-  const { glue, memory, triangulator, run, dispose } = instance(makeGlue2d, module, gpu);
+  const { glue, memory, triangulator, run, dispose } = instance('d2', module, gpu);
 
   const handlers: Handlers = {
     delaunay2d(args, control) {
@@ -257,7 +250,7 @@ type Blocking<T extends 'delaunay3d' | 'delaunay2d'> = Omit<Tasks[T]['result'], 
 export function createBlocking3d(
   module: WebAssembly.Module,
 ): (points: Coordinates, outputs: readonly Output[]) => Blocking<'delaunay3d'> {
-  const instance = blockingInstance(makeGlue3d, module);
+  const instance = blockingInstance('d3', module);
   return (points, outputs) =>
     instance((glue) => withEmpty(glue.delaunay3d_blocking(points, outputsOf(glue, outputs))));
 }
@@ -267,7 +260,7 @@ export function createBlocking3d(
  * those that do not.
  */
 export function createBlocking2d(module: WebAssembly.Module) {
-  const instance = blockingInstance(makeGlue2d, module);
+  const instance = blockingInstance('d2', module);
   return {
     mesh: (points: Coordinates): Blocking<'delaunay2d'> =>
       instance((glue) => glue.delaunay2d_blocking(points, true)),
@@ -276,8 +269,8 @@ export function createBlocking2d(module: WebAssembly.Module) {
   };
 }
 
-function blockingInstance(makeGlue: (globalThis: object) => any, module: WebAssembly.Module) {
-  const open = () => instantiate(makeGlue, module);
+function blockingInstance(name: 'd3' | 'd2', module: WebAssembly.Module) {
+  const open = () => instantiate(name, module);
   let instance: ReturnType<typeof open> | undefined = open();
   return (triangulate: (glue: any) => any) => {
     const started = performance.now();
@@ -318,7 +311,7 @@ function describe({ info, limits }: Adapter): AdapterInfo {
 }
 
 function toolsTasks(module: WebAssembly.Module): ModuleTasks {
-  const { glue, memory } = instantiate(makeToolsGlue, module);
+  const { glue, memory } = instantiate('tools', module);
 
   const tasks: { [T in TaskName]?: (args: Tasks[T]['args']) => Tasks[T]['result'] } = {
     readPoints: ({ bytes, extension }) => glue.read_points(bytes, extension),
@@ -340,7 +333,7 @@ function toolsTasks(module: WebAssembly.Module): ModuleTasks {
 }
 
 function derivedTasks(module: WebAssembly.Module): ModuleTasks {
-  const { glue, memory } = instantiate(makeDerivedGlue, module);
+  const { glue, memory } = instantiate('derived', module);
   type Report = (phase: string, fraction: number) => boolean;
 
   const tasks: {

@@ -1,0 +1,116 @@
+// Joins the JavaScript that wasm-bindgen writes for each wasm module: most of it is the same for
+// all of them, and it keeps its instance in module variables.
+
+import { readFileSync } from 'node:fs';
+import * as esbuild from 'esbuild';
+import ts from 'typescript';
+
+/** The function that returns the imports of a module. */
+const IMPORTS = '__wbg_get_imports';
+
+/** The parameter of the joined glue that says which module an instance is of. */
+const MODULE = 'moduleName';
+
+/** What modules have by the same name, in one or several texts. */
+class Variants {
+  #byName = new Map();
+
+  add(name, text, module) {
+    const variants = this.#byName.get(name) ?? new Map();
+    variants.set(text, [...(variants.get(text) ?? []), module]);
+    this.#byName.set(name, variants);
+  }
+
+  /**
+   * Calls `same` for what has one text, and `different` with an expression that chooses by
+   * {@link MODULE} for the rest. Modules that do not have it can have any.
+   */
+  map(same, different) {
+    return [...this.#byName].map(([name, variants]) => {
+      const [first, ...others] = variants;
+      if (others.length === 0) return same(name, first[0]);
+      const choices = others.flatMap(([text, modules]) => modules.map((m) => `${m}: ${text}`));
+      return different(name, `{ ${choices.join(', ')} }[${MODULE}] ?? ${first[0]}`);
+    });
+  }
+}
+
+/** Returns the statements of a file, without comments, since these differ where the code does not. */
+function parse(file) {
+  const { code } = esbuild.transformSync(readFileSync(file, 'utf8'), { legalComments: 'none' });
+  return ts.createSourceFile(file, code, ts.ScriptTarget.ES2022, true).statements;
+}
+
+/** Returns the object with the imports, which is the first thing that their function declares. */
+const importsOf = ({ body }) => body.statements[0].declarationList.declarations[0].initializer;
+
+/**
+ * Returns the text of an ES module that holds the glue of all modules in `files`, names to paths.
+ * Classes and imports that differ between modules are chosen by the free variable
+ * {@link MODULE}; at its end it assigns all exports to the free variable `glue`.
+ */
+function join(files) {
+  const declarations = new Variants();
+  const imports = new Variants();
+  const exported = new Set(['initSync']);
+  for (const [module, file] of Object.entries(files)) {
+    for (const statement of parse(file)) {
+      if (ts.isExportDeclaration(statement)) continue;
+      const text = statement.getText().replace(/^export /, '');
+      if (text !== statement.getText()) exported.add(statement.name.text);
+      if (statement.name?.text !== IMPORTS) {
+        declarations.add(statement.name?.text ?? text, text, module);
+        continue;
+      }
+      for (const property of importsOf(statement).properties)
+        imports.add(property.name.getText(), property.initializer.getText(), module);
+    }
+  }
+  const property = (name, value) => `${name}: ${value}`;
+  const properties = imports.map(property, property);
+  return [
+    ...declarations.map(
+      (_, text) => text,
+      (name, choice) => `const ${name} = ${choice};`,
+    ),
+    `function ${IMPORTS}() { return { './gdel_bg.js': { ${properties.join(', ')} } }; }`,
+    `glue = { ${[...exported].join(', ')} };`,
+  ].join('\n');
+}
+
+// wgpu distinguishes errors by these classes, which are not globals everywhere.
+const ERROR_CLASSES = ['GPUValidationError', 'GPUOutOfMemoryError'].map(
+  (name) => `const ${name} = { [Symbol.hasInstance]: (e) => e?.constructor?.name === '${name}' };`,
+);
+
+// jsdom does not have these, but Node below it does.
+const CODERS =
+  "const { TextDecoder, TextEncoder } = globalThis.TextDecoder ? globalThis : globalThis.process.getBuiltinModule('node:util');";
+
+/**
+ * Resolves the import `glue` to a function, of which each call has an instance of its own: of the
+ * module that it is told, and with the global object that it is passed.
+ */
+export function gluePlugin(files) {
+  return {
+    name: 'glue',
+    setup(build) {
+      build.onResolve({ filter: /^glue$/ }, ({ path }) => ({ path, namespace: 'glue' }));
+      build.onLoad({ filter: /.*/, namespace: 'glue' }, async () => {
+        // Leaves out what only the asynchronous initialisation needs, and nobody calls that.
+        const { outputFiles } = await esbuild.build({
+          stdin: { contents: join(files) },
+          bundle: true,
+          write: false,
+          format: 'esm',
+          target: 'es2022',
+          minify: true,
+          define: { 'import.meta.url': '""' },
+        });
+        const body = [...ERROR_CLASSES, CODERS, 'let glue;', outputFiles[0].text, 'return glue;'];
+        const contents = `export default function (${MODULE}, globalThis) { ${body.join('\n')} }`;
+        return { contents, loader: 'js' };
+      });
+    },
+  };
+}
