@@ -98,7 +98,10 @@ pub use derived::{
 };
 pub use error::Error;
 #[cfg(feature = "gpu")]
-pub use gpu::{AdapterChoice, AdapterSummary};
+pub use gpu::{
+    AdapterChoice, AdapterSummary,
+    device_mesh::{DeviceMesh, DeviceMesh2, DeviceMesh3, Outputs},
+};
 pub use index::NONE;
 pub use input::points::{Points, Points2, Points3};
 #[cfg(feature = "mint")]

@@ -209,6 +209,9 @@ pub trait MeshInfo {
 
     /// Returns the statistics, to be changed.
     fn stats_mut(&mut self) -> &mut Stats;
+
+    /// Returns what the mesh says of its points (the duplicates and the dimension) and of its run.
+    fn into_info(self) -> (Vec<i32>, u8, Stats);
 }
 
 /// Implements [`Mesh`], [`MeshInfo`], and methods on `duplicate_of`, which both meshes have, for
@@ -250,6 +253,10 @@ macro_rules! common_methods {
 
             fn stats_mut(&mut self) -> &mut $crate::stats::Stats {
                 &mut self.stats
+            }
+
+            fn into_info(self) -> (Vec<i32>, u8, $crate::stats::Stats) {
+                (self.duplicate_of, self.dimension, self.stats)
             }
         }
 

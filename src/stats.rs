@@ -263,6 +263,8 @@ with_fields! {
         pub merged: u64,
         /// The number of results that were read back.
         pub readbacks: u64,
+        /// The number of bytes that were read back.
+        pub bytes_read: u64,
         /// The number of kernels that were run.
         pub dispatches: u64,
         /// The number of submissions to the queue.

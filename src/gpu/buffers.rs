@@ -18,12 +18,15 @@ pub struct Storage<T> {
     elements: PhantomData<T>,
 }
 
+/// The size of a buffer without elements.
+const EMPTY_BYTES: u128 = 16;
+
 const USAGES: wgpu::BufferUsages =
     wgpu::BufferUsages::STORAGE.union(wgpu::BufferUsages::COPY_SRC).union(wgpu::BufferUsages::COPY_DST);
 
 impl<T: Pod> Storage<T> {
-    /// Creates a buffer of `len` elements; of one when `len` is 0, because an empty buffer cannot
-    /// be bound.
+    /// Creates a buffer of `len` elements; of 16 bytes when `len` is 0, because an empty buffer
+    /// cannot be bound, and no element in a shader is larger.
     ///
     /// # Errors
     ///
@@ -31,6 +34,15 @@ impl<T: Pod> Storage<T> {
     /// [`Gpu::with_error_scope`] reports a lack of memory.
     pub fn new(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
         Self::create(gpu, label, len, USAGES, false)
+    }
+
+    /// Creates a buffer that can also be drawn from, for an array that the caller gets.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Storage::new`].
+    pub(crate) fn for_caller(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
+        Self::create(gpu, label, len, USAGES | wgpu::BufferUsages::INDEX | wgpu::BufferUsages::VERTEX, false)
     }
 
     /// Creates a buffer that timestamps are written to.
@@ -68,7 +80,10 @@ impl<T: Pod> Storage<T> {
     ) -> Result<Self, Error> {
         let limit = gpu.max_storage_bytes();
         // In 128 bits no length overflows. Sizes are multiples of 4, as copies need.
-        let bytes = (len.max(1) as u128 * size_of::<T>() as u128).next_multiple_of(4);
+        let bytes = match len {
+            0 => EMPTY_BYTES,
+            _ => (len as u128 * size_of::<T>() as u128).next_multiple_of(4),
+        };
         let size = u64::try_from(bytes).ok().filter(|&size| size <= limit).ok_or(Error::BufferTooLarge {
             label,
             bytes,

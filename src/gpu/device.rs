@@ -1,6 +1,9 @@
 //! The device: adapters, limits, and errors as values.
 
-use std::sync::{Arc, OnceLock};
+use std::{
+    sync::{Arc, OnceLock},
+    time::Duration,
+};
 
 use crate::error::Error;
 use crate::gpu::MAX_WORKGROUPS;
@@ -181,36 +184,61 @@ impl Gpu {
         what: &'static str,
         body: impl FnOnce() -> Result<T, Error>,
     ) -> Result<T, Error> {
-        let (result, reports) = {
-            use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
-            let [a, b, c] = [Validation, Internal, OutOfMemory].map(|filter| self.device.push_error_scope(filter));
+        let (result, report) = {
+            let scope = ErrorScope::open(self, what);
             let result = body();
-            // The scopes are a stack; popped here and not after the await, because they belong to
-            // this thread.
-            let [c, b, a] = [c, b, a].map(wgpu::ErrorScopeGuard::pop);
-            (result, [c, b, a])
+            // Closed here and not after the await, because it belongs to this thread.
+            (result, scope.close())
         };
-        for report in reports {
-            match report.await {
-                None => {}
-                Some(wgpu::Error::OutOfMemory { .. }) => return Err(Error::OutOfDeviceMemory { what }),
-                Some(error) => return Err(self.failure(&error.to_string())),
-            }
-        }
-        match self.lost.get() {
-            Some(reason) => Err(Error::DeviceLost { reason: reason.clone() }),
-            None => result,
-        }
+        report.await?;
+        result
     }
 
     /// Returns the error for an operation that failed: the loss of the device, if that is why.
     pub(crate) fn failure(&self, message: &str) -> Error {
-        // Native backends report the loss only when the device is polled; that polling fails, too,
-        // adds nothing.
-        let _ = self.device.poll(wgpu::PollType::Poll);
+        // Native backends report the loss only when the device is polled and has nothing left to do;
+        // that polling fails, too, adds nothing.
+        let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(Duration::from_secs(1)) };
+        let _ = self.device.poll(wait);
         match self.lost.get() {
             Some(reason) => Error::DeviceLost { reason: reason.clone() },
             None => Error::Gpu { message: message.to_owned() },
+        }
+    }
+}
+
+/// Collects what the device reports for the commands between its opening and its closing.
+pub(crate) struct ErrorScope<'a> {
+    gpu: &'a Gpu,
+    what: &'static str,
+    /// For validation, internal errors, and lack of memory.
+    guards: [wgpu::ErrorScopeGuard; 3],
+}
+
+impl<'a> ErrorScope<'a> {
+    /// Opens a scope around `what`.
+    pub(crate) fn open(gpu: &'a Gpu, what: &'static str) -> Self {
+        use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
+        let guards = [Validation, Internal, OutOfMemory].map(|filter| gpu.device.push_error_scope(filter));
+        ErrorScope { gpu, what, guards }
+    }
+
+    /// Closes the scope. The report says what went wrong, as [`Gpu::with_error_scope`] does.
+    pub(crate) fn close(self) -> impl Future<Output = Result<(), Error>> + use<'a> {
+        let ErrorScope { gpu, what, guards: [a, b, c] } = self;
+        // The scopes are a stack.
+        let [c, b, a] = [c, b, a].map(wgpu::ErrorScopeGuard::pop);
+        async move {
+            if let Some(report) = a.await.or(b.await).or(c.await) {
+                return Err(match report {
+                    wgpu::Error::OutOfMemory { .. } => Error::OutOfDeviceMemory { what },
+                    error => gpu.failure(&error.to_string()),
+                });
+            }
+            match gpu.lost.get() {
+                Some(reason) => Err(Error::DeviceLost { reason: reason.clone() }),
+                None => Ok(()),
+            }
         }
     }
 }

@@ -14,6 +14,7 @@
 
 mod buffers;
 mod device;
+pub mod device_mesh;
 pub mod dim;
 pub mod engine;
 pub(crate) mod iterations;

@@ -2,33 +2,61 @@
 
 use bytemuck::Pod;
 use futures_channel::oneshot;
+use std::{
+    collections::VecDeque,
+    sync::{Arc, Mutex, PoisonError},
+};
 
 use crate::error::Error;
-use crate::gpu::{Gpu, Storage};
+use crate::gpu::{Gpu, Storage, device::ErrorScope};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::parallel::{Threads, for_chunks};
 
-/// A pool of staging buffers.
+/// The most bytes of a large array that are on their way in one staging buffer: so many that a
+/// submission per piece costs nothing, and so few that copying out of one piece begins while most
+/// others are still to come.
+const PIECE: u64 = 32 << 20;
+
+/// The pieces that are on their way at a time.
+const PIECES_AHEAD: usize = 4;
+
+/// A pool of staging buffers. Clones share it.
 ///
 /// A readback has two halves, so that the next batch of commands can run while the host waits:
 /// [`Readback::copy`] records it, [`Readback::receive`] waits for it after the submission.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Readback {
-    idle: Vec<wgpu::Buffer>,
+    idle: Arc<Mutex<Vec<wgpu::Buffer>>>,
     count: usize,
+    bytes: u64,
 }
 
 /// A readback that is recorded.
 #[derive(Debug)]
 #[must_use = "a readback does nothing until it is received"]
 pub struct Pending<T> {
-    staging: wgpu::Buffer,
+    staged: Staged,
     len: usize,
-    /// The bytes that are mapped, from the start: the elements, and what lies behind them in
-    /// `staging`, up to [`with_room`].
+    elements: std::marker::PhantomData<T>,
+}
+
+/// A staging buffer that is about to be mapped.
+#[derive(Debug)]
+struct Staged {
+    staging: wgpu::Buffer,
+    /// The bytes that are mapped, from the start: those that were asked for, and what lies behind
+    /// them, up to the room that was.
     mapped_bytes: u64,
     mapped: oneshot::Receiver<Result<(), wgpu::BufferAsyncError>>,
-    elements: std::marker::PhantomData<T>,
+}
+
+/// Where the bytes of a buffer go.
+pub trait Target {
+    /// Returns the number of bytes, a multiple of 4.
+    fn bytes(&self) -> u64;
+
+    /// Takes `len` bytes from the start of `piece`, which belong at byte `start`.
+    fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView);
 }
 
 impl Readback {
@@ -42,22 +70,10 @@ impl Readback {
         len: usize,
     ) -> Pending<T> {
         // In 64 bits, which `usize` need not have.
-        let bytes_of = |elements: usize| (elements as u64 * size_of::<T>() as u64).next_multiple_of(4).max(4);
-        let bytes = bytes_of(len);
-        let bytes_with_room = bytes_of(with_room(len));
-        let staging = self.staging(gpu, bytes, bytes_with_room);
-        let mapped_bytes = bytes_with_room.min(staging.size());
-        if len > 0 {
-            let offset = start as u64 * size_of::<T>() as u64;
-            encoder.copy_buffer_to_buffer(source.buffer(), offset, &staging, 0, bytes);
-        }
-        let (sender, mapped) = oneshot::channel();
-        encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, ..mapped_bytes, move |result| {
-            // The receiver may be gone when a run was cancelled.
-            let _ = sender.send(result);
-        });
-        self.count += 1;
-        Pending { staging, len, mapped_bytes, mapped, elements: std::marker::PhantomData }
+        let bytes_of = |elements: usize| (elements as u64 * size_of::<T>() as u64).next_multiple_of(4);
+        let offset = start as u64 * size_of::<T>() as u64;
+        let staged = self.stage(gpu, encoder, source.buffer(), offset, bytes_of(len), bytes_of(with_room(len)));
+        Pending { staged, len, elements: std::marker::PhantomData }
     }
 
     /// Waits for a readback that `submission` contains, and for no later one.
@@ -71,24 +87,9 @@ impl Readback {
         submission: &wgpu::SubmissionIndex,
         pending: Pending<T>,
     ) -> Result<Vec<T>, Error> {
-        // Browsers call back by themselves and ignore this.
-        let wait = wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout: None };
-        gpu.device().poll(wait).map_err(|e| gpu.failure(&e.to_string()))?;
-        match pending.mapped.await {
-            Ok(Ok(())) => {}
-            Ok(Err(e)) => return Err(gpu.failure(&e.to_string())),
-            Err(oneshot::Canceled) => return Err(gpu.failure("a readback was never carried out")),
-        }
-        let result = if pending.len == 0 {
-            Vec::new()
-        } else {
-            let view = pending.staging.get_mapped_range(..pending.mapped_bytes);
-            let view = view.map_err(|e| gpu.failure(&e.to_string()))?;
-            copied(&view, pending.len)
-        };
-        pending.staging.unmap();
-        self.idle.push(pending.staging);
-        Ok(result)
+        let len = pending.len;
+        self.unstage(gpu, submission, pending.staged, |view| if len == 0 { Vec::new() } else { copied(view, len) })
+            .await
     }
 
     /// Reads elements now: a submission of its own, for tests and for results at the end of a run.
@@ -113,18 +114,111 @@ impl Readback {
         self.receive(gpu, &submission, pending).await
     }
 
+    /// Reads buffers from their starts, as far as their targets go: in pieces, so that one is taken
+    /// out of its staging buffer while others are on their way.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Readback::receive`] and [`Gpu::with_error_scope`].
+    pub async fn read_into<T: Target>(
+        &mut self,
+        gpu: &Gpu,
+        mut reads: Vec<(&wgpu::Buffer, T)>,
+    ) -> Result<Vec<T>, Error> {
+        let lengths: Vec<u64> = reads.iter().map(|(_, target)| target.bytes()).collect();
+        let mut pieces = lengths.iter().enumerate().flat_map(|(i, &bytes)| {
+            let piece = move |k: u64| (i, k * PIECE, PIECE.min(bytes - k * PIECE));
+            (0..bytes.div_ceil(PIECE)).map(piece)
+        });
+        let mut ahead = VecDeque::new();
+        loop {
+            while ahead.len() < PIECES_AHEAD
+                && let Some((i, start, len)) = pieces.next()
+            {
+                // The answer of a scope takes a while in browsers, so it is awaited with the piece.
+                let scope = ErrorScope::open(gpu, "readback");
+                let mut encoder = gpu.device().create_command_encoder(&Default::default());
+                let staged = self.stage(gpu, &mut encoder, reads[i].0, start, len, len);
+                let submission = gpu.queue().submit([encoder.finish()]);
+                ahead.push_back((scope.close(), submission, staged, (i, start, len)));
+            }
+            let Some((report, submission, staged, (i, start, len))) = ahead.pop_front() else { break };
+            report.await?;
+            let target = &mut reads[i].1;
+            self.unstage(gpu, &submission, staged, |view| target.take(start, len, view)).await?;
+        }
+        Ok(reads.into_iter().map(|(_, target)| target).collect())
+    }
+
     /// Returns how many readbacks were recorded.
     pub fn count(&self) -> usize {
         self.count
     }
 
+    /// Returns how many bytes were read back, without what lay behind those that were asked for.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// Records the copy of bytes from `offset` on into a staging buffer. `room`, which is no less,
+    /// are mapped.
+    fn stage(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        source: &wgpu::Buffer,
+        offset: u64,
+        bytes: u64,
+        room: u64,
+    ) -> Staged {
+        let staging = self.staging(gpu, bytes.max(4), room.max(4));
+        let mapped_bytes = room.max(4).min(staging.size());
+        if bytes > 0 {
+            encoder.copy_buffer_to_buffer(source, offset, &staging, 0, bytes);
+        }
+        let (sender, mapped) = oneshot::channel();
+        encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, ..mapped_bytes, move |result| {
+            // The receiver may be gone when a run was cancelled.
+            let _ = sender.send(result);
+        });
+        self.count += 1;
+        self.bytes += bytes;
+        Staged { staging, mapped_bytes, mapped }
+    }
+
+    /// Waits for the copy that `submission` contains, has `take` look at the bytes, and keeps the
+    /// staging buffer for later readbacks.
+    async fn unstage<R>(
+        &mut self,
+        gpu: &Gpu,
+        submission: &wgpu::SubmissionIndex,
+        staged: Staged,
+        take: impl FnOnce(&wgpu::BufferView) -> R,
+    ) -> Result<R, Error> {
+        let Staged { staging, mapped_bytes, mapped } = staged;
+        // Browsers call back by themselves and ignore this.
+        let wait = wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout: None };
+        gpu.device().poll(wait).map_err(|e| gpu.failure(&e.to_string()))?;
+        match mapped.await {
+            Ok(Ok(())) => {}
+            Ok(Err(e)) => return Err(gpu.failure(&e.to_string())),
+            Err(oneshot::Canceled) => return Err(gpu.failure("a readback was never carried out")),
+        }
+        let view = staging.get_mapped_range(..mapped_bytes).map_err(|e| gpu.failure(&e.to_string()))?;
+        let result = take(&view);
+        drop(view);
+        staging.unmap();
+        self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(staging);
+        Ok(result)
+    }
+
     /// Returns the smallest idle staging buffer of as many bytes, or a new one of at least
     /// `wanted`, a little larger for next time.
     fn staging(&mut self, gpu: &Gpu, bytes: u64, wanted: u64) -> wgpu::Buffer {
-        let fitting =
-            (0..self.idle.len()).filter(|&i| self.idle[i].size() >= bytes).min_by_key(|&i| self.idle[i].size());
+        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let fitting = (0..idle.len()).filter(|&i| idle[i].size() >= bytes).min_by_key(|&i| idle[i].size());
         match fitting {
-            Some(i) => self.idle.swap_remove(i),
+            Some(i) => idle.swap_remove(i),
             None => gpu.device().create_buffer(&wgpu::BufferDescriptor {
                 label: Some("staging"),
                 size: wanted
@@ -138,23 +232,51 @@ impl Readback {
     }
 }
 
+/// Memory of the host. Most of the time goes into page faults where it is fresh, so threads share
+/// the work.
+impl Target for &mut [u8] {
+    fn bytes(&self) -> u64 {
+        self.len() as u64
+    }
+
+    #[cfg(not(target_arch = "wasm32"))]
+    fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView) {
+        let target = &mut self[start as usize..(start + len) as usize];
+        for_chunks(Threads::All, target, |at, chunk| chunk.copy_from_slice(&piece[at..at + chunk.len()]));
+    }
+
+    #[cfg(target_arch = "wasm32")]
+    fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView) {
+        let target = &mut self[start as usize..(start + len) as usize];
+        piece.as_uint8array().subarray(0, len as u32).copy_to(target);
+    }
+}
+
+/// Memory outside of that of wasm: the bytes go there with one copy.
+#[cfg(target_arch = "wasm32")]
+impl Target for js_sys::Uint8Array {
+    fn bytes(&self) -> u64 {
+        self.byte_length().into()
+    }
+
+    fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView) {
+        self.set(&piece.as_uint8array().subarray(0, len as u32), start as u32);
+    }
+}
+
 /// Returns how many elements are given room when `len` are read, so that Phase 2 need not move the
 /// whole to add a few tetrahedra.
 fn with_room(len: usize) -> usize {
     len + len / 64
 }
 
-/// Copies `len` elements from the bytes of a mapped buffer. Most of the time goes into page faults
-/// of fresh memory, so threads share the work.
+/// Copies `len` elements from the bytes of a mapped buffer.
 #[cfg(not(target_arch = "wasm32"))]
 fn copied<T: Pod>(view: &wgpu::BufferView, len: usize) -> Vec<T> {
     let mut result = bytemuck::zeroed_vec(with_room(len));
     result.truncate(len);
-    let target: &mut [u8] = bytemuck::cast_slice_mut(&mut result);
-    let bytes = &view[..target.len()];
-    for_chunks(Threads::All, target, |start, chunk| {
-        chunk.copy_from_slice(&bytes[start..start + chunk.len()]);
-    });
+    let mut target: &mut [u8] = bytemuck::cast_slice_mut(&mut result);
+    target.take(0, target.bytes(), view);
     result
 }
 

@@ -7,7 +7,10 @@ mod shared_device;
 pub use shared_device::{MIN_POINTS_2D, MIN_POINTS_3D, OPENING_POINTS_2D, OPENING_POINTS_3D};
 
 #[cfg(feature = "gpu")]
-use crate::gpu::{AdapterChoice, Gpu};
+use crate::gpu::{
+    AdapterChoice, Gpu,
+    device_mesh::{DeviceMesh2, DeviceMesh3},
+};
 use crate::{
     backend::Backend,
     d2::Mesh2,
@@ -268,6 +271,99 @@ impl Triangulator {
         }
         #[cfg(not(feature = "gpu"))]
         self.delaunay2d(points)
+    }
+
+    /// Returns the 3D Delaunay triangulation of `points` as a mesh that stays on the device, which
+    /// is opened whatever the backend is. Blocks the thread.
+    ///
+    /// What is left to the CPU, because of the backend or [`Stats::fallback`], is uploaded.
+    ///
+    /// [`Stats::fallback`]: crate::stats::Stats::fallback
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::delaunay3d`], and those of the GPU with every backend.
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    pub fn delaunay3d_on_device<'a>(&self, points: impl Into<Points3<'a>>) -> Result<DeviceMesh3, Error> {
+        pollster::block_on(self.delaunay3d_on_device_async(points))
+    }
+
+    /// Does the same as `delaunay3d_on_device`, and waits for the GPU without blocking the thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of `delaunay3d_on_device`.
+    #[cfg(feature = "gpu")]
+    pub async fn delaunay3d_on_device_async<'a>(&self, points: impl Into<Points3<'a>>) -> Result<DeviceMesh3, Error> {
+        self.device.delaunay3d_on_device(points.into(), &self.options).await
+    }
+
+    /// Returns the 2D Delaunay triangulation of `points` as a mesh that stays on the device, which
+    /// is opened whatever the backend is. Blocks the thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of `delaunay3d_on_device`.
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    pub fn delaunay2d_on_device<'a>(&self, points: impl Into<Points2<'a>>) -> Result<DeviceMesh2, Error> {
+        pollster::block_on(self.delaunay2d_on_device_async(points))
+    }
+
+    /// Does the same as `delaunay2d_on_device`, and waits for the GPU without blocking the thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of `delaunay3d_on_device`.
+    #[cfg(feature = "gpu")]
+    pub async fn delaunay2d_on_device_async<'a>(&self, points: impl Into<Points2<'a>>) -> Result<DeviceMesh2, Error> {
+        self.device.delaunay2d_on_device(points.into(), &self.options).await
+    }
+
+    /// Returns the 3D Delaunay triangulation of the points in a buffer of the device that this
+    /// triangulator was [created from](Triangulator::from_device), as a mesh that stays there.
+    /// Blocks the thread.
+    ///
+    /// `points` is an array of `f32`, three per point and nothing else, of the usage
+    /// [`COPY_SRC`](wgpu::BufferUsages::COPY_SRC). Commands that write it have to be submitted
+    /// before. It is read back, since the host decides what rounding leaves open.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::delaunay3d_on_device`], [`Error::NotWholePoints`], and
+    /// [`Error::Gpu`] for a buffer of another device or usage.
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    pub fn delaunay3d_of_buffer(&self, points: &wgpu::Buffer) -> Result<DeviceMesh3, Error> {
+        pollster::block_on(self.delaunay3d_of_buffer_async(points))
+    }
+
+    /// Does the same as `delaunay3d_of_buffer`, and waits for the GPU without blocking the thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of `delaunay3d_of_buffer`.
+    #[cfg(feature = "gpu")]
+    pub async fn delaunay3d_of_buffer_async(&self, points: &wgpu::Buffer) -> Result<DeviceMesh3, Error> {
+        self.device.delaunay3d_of_buffer(points, &self.options).await
+    }
+
+    /// Does the same in 2D, with two coordinates per point.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::delaunay3d_of_buffer`].
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    pub fn delaunay2d_of_buffer(&self, points: &wgpu::Buffer) -> Result<DeviceMesh2, Error> {
+        pollster::block_on(self.delaunay2d_of_buffer_async(points))
+    }
+
+    /// Does the same as `delaunay2d_of_buffer`, and waits for the GPU without blocking the thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of `delaunay2d_of_buffer`.
+    #[cfg(feature = "gpu")]
+    pub async fn delaunay2d_of_buffer_async(&self, points: &wgpu::Buffer) -> Result<DeviceMesh2, Error> {
+        self.device.delaunay2d_of_buffer(points, &self.options).await
     }
 
     /// Opens the device and compiles the kernels for 3D, unless that was done.

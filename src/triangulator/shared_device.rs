@@ -9,7 +9,8 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        AdapterChoice, Gpu,
+        AdapterChoice, Gpu, Readback,
+        device_mesh::{DeviceMesh, DeviceMesh2, DeviceMesh3, MeshArrays, with_len},
         engine::{Complete, GpuEngine},
         phase1::Finish,
     },
@@ -57,6 +58,8 @@ struct State {
     d3: Slot<3>,
     /// On the same device.
     d2: Slot<2>,
+    /// The device that was opened here, while it is open.
+    opened: Option<Gpu>,
     /// The caller's device, which [`Backend::Auto`] may take though it is software, and which is
     /// not destroyed here.
     caller_supplied: Option<Gpu>,
@@ -85,7 +88,7 @@ where
 }
 
 /// What [`Backend::Auto`] has to know of a dimension.
-trait Choice<const D: usize>: Complete<D>
+trait Choice<const D: usize>: Complete<D> + MeshArrays<D>
 where
     Dimension<D>: Complete<D>,
 {
@@ -136,7 +139,7 @@ impl SharedDevice {
     /// it.
     pub(super) async fn close(&self) {
         let mut state = self.state.lock().await;
-        if let (None, Some(gpu)) = (&state.caller_supplied, state.open_device()) {
+        if let Some(gpu) = &state.opened {
             gpu.device().destroy();
         }
         state.close();
@@ -150,6 +153,74 @@ impl SharedDevice {
     /// Triangulates `points` in 2D.
     pub(super) async fn delaunay2d(&self, points: Points2<'_>, options: &Options) -> Result<Mesh2, Error> {
         self.run::<2>(points, options).await
+    }
+
+    /// Triangulates `points` in 3D, and leaves the mesh on the device.
+    pub(super) async fn delaunay3d_on_device(
+        &self,
+        points: Points3<'_>,
+        options: &Options,
+    ) -> Result<DeviceMesh3, Error> {
+        self.run_on_device::<3>(points, options).await
+    }
+
+    /// Triangulates `points` in 2D, and leaves the mesh on the device.
+    pub(super) async fn delaunay2d_on_device(
+        &self,
+        points: Points2<'_>,
+        options: &Options,
+    ) -> Result<DeviceMesh2, Error> {
+        self.run_on_device::<2>(points, options).await
+    }
+
+    /// Triangulates the points in a buffer of the device in 3D, and leaves the mesh there.
+    pub(super) async fn delaunay3d_of_buffer(
+        &self,
+        points: &wgpu::Buffer,
+        options: &Options,
+    ) -> Result<DeviceMesh3, Error> {
+        let points = self.read_points::<3>(points).await?;
+        self.run_on_device::<3>((&points).into(), options).await
+    }
+
+    /// Triangulates the points in a buffer of the device in 2D, and leaves the mesh there.
+    pub(super) async fn delaunay2d_of_buffer(
+        &self,
+        points: &wgpu::Buffer,
+        options: &Options,
+    ) -> Result<DeviceMesh2, Error> {
+        let points = self.read_points::<2>(points).await?;
+        self.run_on_device::<2>((&points).into(), options).await
+    }
+
+    /// Reads points, which the host needs for the lattice and for exact predicates.
+    async fn read_points<const D: usize>(&self, points: &wgpu::Buffer) -> Result<Vec<[f32; D]>, Error> {
+        let bytes = points.size();
+        let point_bytes = (D * size_of::<f32>()) as u64;
+        if !bytes.is_multiple_of(point_bytes) {
+            return Err(Error::NotWholePoints { length: (bytes / 4) as usize, dimension: D });
+        }
+        let gpu = self.state.lock().await.device(&self.adapter).await?;
+        let mut array = Vec::new();
+        let target = with_len::<[f32; D]>(&mut array, (bytes / point_bytes) as usize)?;
+        Readback::default().read_into(&gpu, vec![(points, target)]).await?;
+        Ok(array)
+    }
+
+    async fn run_on_device<const D: usize>(
+        &self,
+        points: Points<'_, D>,
+        options: &Options,
+    ) -> Result<DeviceMesh<D>, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let mesh = self.run::<D>(points, options).await?;
+        let mut state = self.state.lock().await;
+        let gpu = state.device(&self.adapter).await?;
+        let result = DeviceMesh::upload(&gpu, mesh).await;
+        state.forget_if_lost(&result);
+        result
     }
 
     async fn run<const D: usize>(&self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>
@@ -211,22 +282,17 @@ impl State {
         Ok(Dimension::<D>::slot(self).engine.insert(engine))
     }
 
-    /// Returns the device of the engines that are open: they share one.
-    fn open_device(&self) -> Option<Gpu> {
-        let d3 = self.d3.engine.as_ref().map(GpuEngine::gpu);
-        d3.or(self.d2.engine.as_ref().map(GpuEngine::gpu)).cloned()
-    }
-
-    /// Returns that device, or opens a new one.
-    async fn device(&self, adapter: &AdapterChoice) -> Result<Gpu, Error> {
-        match self.open_device().or_else(|| self.caller_supplied.clone()) {
-            Some(gpu) => Ok(gpu),
-            None => Gpu::open(adapter).await,
+    /// Returns the device, opened if it is not.
+    async fn device(&mut self, adapter: &AdapterChoice) -> Result<Gpu, Error> {
+        match self.opened.as_ref().or(self.caller_supplied.as_ref()) {
+            Some(gpu) => Ok(gpu.clone()),
+            None => Ok(self.opened.insert(Gpu::open(adapter).await?).clone()),
         }
     }
 
-    /// Forgets what was compiled for the device.
+    /// Forgets the device that was opened, and what was compiled.
     fn close(&mut self) {
+        self.opened = None;
         self.d3.engine = None;
         self.d2.engine = None;
     }
@@ -240,8 +306,8 @@ impl State {
         if let Some(why) = &self.unusable {
             return Err(why.clone());
         }
-        if let Some(gpu) = self.open_device() {
-            self.check_usable(&gpu)?;
+        if let Some(gpu) = &self.opened {
+            self.check_usable(gpu)?;
         }
         if Dimension::<D>::slot(self).engine.is_some() {
             return Ok(());
@@ -263,7 +329,10 @@ impl State {
                 Dimension::<D>::slot(self).engine = Some(engine);
                 Ok(())
             }
-            Err(why) => Err(self.unusable.insert(why).clone()),
+            Err(why) => {
+                self.opened = None;
+                Err(self.unusable.insert(why).clone())
+            }
         }
     }
 
@@ -277,11 +346,16 @@ impl State {
             return Err(Error::NoAdapter { reason: "it is not open".to_owned() });
         };
         let result = engine.triangulate(points, options).await;
+        self.forget_if_lost(&result);
+        result
+    }
+
+    /// Forgets the device if `result` says that it is lost: the next run opens another.
+    fn forget_if_lost<T>(&mut self, result: &Result<T, Error>) {
         if matches!(result, Err(Error::DeviceLost { .. })) {
             self.close();
             self.caller_supplied = None;
         }
-        result
     }
 
     /// Says why [`Backend::Auto`] cannot use this device: an adapter that is software is of no use

@@ -73,6 +73,24 @@ fn a_readback_sees_its_own_submission_only() {
     }
 }
 
+/// More pieces than are on their way at a time, of several buffers, one of them empty.
+#[test]
+fn large_buffers_are_read_piece_by_piece() {
+    let gpu = open();
+    let words: Vec<u32> = (0..25_000_000).collect();
+    let large = Storage::with_contents(&gpu, "large", &words).unwrap();
+    let small = Storage::with_contents(&gpu, "small", &[7u32, 8, 9]).unwrap();
+    let (mut all, mut some, mut none, mut few) = (vec![0u32; words.len()], vec![0u32; 9_000_000], [0u32; 0], [0u32; 2]);
+    let mut readback = Readback::default();
+    let targets: [&mut [u32]; 4] = [&mut all, &mut none, &mut few, &mut some];
+    let buffers = [&large, &small, &small, &large].map(Storage::buffer);
+    let reads = buffers.into_iter().zip(targets.map(|target| -> &mut [u8] { bytemuck::cast_slice_mut(target) }));
+    block_on(readback.read_into(&gpu, reads.collect())).unwrap();
+    assert!(all == words && some == words[..some.len()]);
+    assert_eq!(few, [7, 8]);
+    assert_eq!(readback.bytes(), 4 * (25_000_000 + 9_000_000 + 2));
+}
+
 #[test]
 fn buffers_grow_and_keep_their_contents() {
     let gpu = open();
@@ -95,7 +113,7 @@ fn buffers_grow_and_keep_their_contents() {
 fn empty_buffers_can_be_bound_and_read() {
     let gpu = open();
     let values = Storage::<u32>::with_contents(&gpu, "values", &[]).unwrap();
-    assert!(values.is_empty() && values.bytes() == 4);
+    assert!(values.is_empty() && values.bytes() == 16);
     let kernel = Kernel::from_wgsl(&gpu, "double", DOUBLE, &["values"], &[]);
     kernel.bind(&gpu, &[("values", values.buffer())]);
     assert!(block_on(Readback::default().read(&gpu, &values, 0, 0)).unwrap().is_empty());

@@ -21,6 +21,7 @@ mod d2_phase1;
 mod d2_predicates;
 mod d2_reference;
 mod d3_kernels;
+mod d3_outputs;
 mod d3_phase1;
 mod d3_predicates;
 mod d3_reference;

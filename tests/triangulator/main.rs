@@ -9,6 +9,7 @@ mod d3;
 #[path = "../shared/degenerate.rs"]
 mod degenerate;
 mod outcomes;
+mod resident;
 mod statistics;
 
 use gdel::{

@@ -67,6 +67,8 @@ export interface GpuStats {
   merged: number;
   /** The number of results that were read back. */
   readbacks: number;
+  /** The number of bytes that were read back. */
+  bytesRead: number;
   /** The number of kernels that were run. */
   dispatches: number;
   /** The number of submissions to the queue. */

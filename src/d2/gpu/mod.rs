@@ -6,4 +6,5 @@ mod dim;
 mod engine;
 pub mod finish;
 pub mod layout;
+pub mod outputs;
 pub mod vertex;

@@ -5,5 +5,6 @@ pub mod buffers;
 mod dim;
 mod engine;
 pub mod finish;
+pub mod outputs;
 pub mod trace;
 pub mod vertex;

@@ -71,8 +71,8 @@ where
     counters: Counters,
     points: Option<PointBuffers>,
     memory: Memory<D>,
-    /// Readbacks before this run.
-    read_before: usize,
+    /// Readbacks before this run, and their bytes.
+    read_before: (usize, u64),
     /// Batches of rounds whose counters are not read yet, oldest first.
     submitted: VecDeque<Batch>,
     /// About the most points that can be inserted after the rounds that were submitted.
@@ -236,7 +236,7 @@ where
             counters: Counters { first_node: 1, next_node: 1, bid_base: 1, entries: points, ..Counters::default() },
             points: point_buffers,
             memory,
-            read_before: kernels.readback.count(),
+            read_before: (kernels.readback.count(), kernels.readback.bytes()),
             kernels,
             submitted: VecDeque::new(),
             inserted_at_most: D as u32 + 1,
@@ -410,7 +410,8 @@ where
         let Run { kernels, points, memory, read_before, counters, mut stats, mut clock, .. } = self;
         stats.time = clock.lap();
         stats.counters = counters;
-        stats.readbacks = kernels.readback.count() - read_before;
+        stats.readbacks = kernels.readback.count() - read_before.0;
+        stats.bytes_read = kernels.readback.bytes() - read_before.1;
         stats.bytes = memory.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
         kernels.kept = Kept { points, memory: Some(memory) };
         stats
@@ -453,7 +454,8 @@ where
         stats.readback_time = clock.lap();
         stats.counters = counters;
         stats.submits += BoundFinish::<D>::SUBMITS;
-        stats.readbacks = readback.count() - read_before;
+        stats.readbacks = readback.count() - read_before.0;
+        stats.bytes_read = readback.bytes() - read_before.1;
         stats.bytes = memory.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
         kernels.kept = Kept { points, memory: Some(memory) };
         let merged = (0..).zip(merged_into).filter(|&(_, other)| other != NONE);

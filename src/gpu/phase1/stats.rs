@@ -20,6 +20,8 @@ pub struct Phase1Stats {
     pub submits: usize,
     /// Readbacks.
     pub readbacks: usize,
+    /// Bytes that were read back.
+    pub bytes_read: u64,
     /// The most bytes of GPU memory that were held at a time.
     pub bytes: u64,
     /// The time from the upload to the end of the last kernel, on the host's clock; zero where
@@ -45,6 +47,7 @@ impl Phase1Stats {
             failed_vertices: counters.failed.into(),
             merged: counters.merged.into(),
             readbacks: self.readbacks as u64,
+            bytes_read: self.bytes_read,
             dispatches: self.dispatches as u64,
             submits: self.submits as u64,
             bytes: self.bytes,

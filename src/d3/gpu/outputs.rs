@@ -1,0 +1,163 @@
+//! From the mesh of the slots to the arrays of the caller's mesh, on the device.
+//!
+//! 1. `outputs_mark` and a scan number the tetrahedra of the mesh in the order of their slots.
+//! 2. `outputs_write` copies them with these numbers, and the hull from the ghosts.
+//! 3. `vertex_clear` and `vertex_simplex` find a tetrahedron of each point.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::{
+    d3::Mesh3,
+    dimension::Dimension,
+    error::Error,
+    gpu::{
+        Compiler, Gpu, Kernel, Readback, Recorder, Storage,
+        device_mesh::{DeviceArrays, MeshArrays, Outputs, with_len},
+        phase1::Slot,
+        primitives::scan::{GROUPS, Scan},
+        shader::{self, assert_layout},
+        workgroups,
+    },
+    input::lattice::Width,
+    mesh,
+};
+
+/// The parameters of the kernels.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct OutputParams {
+    /// The number of slots.
+    pub count: u32,
+    /// The number of points, which is the vertex at infinity.
+    pub infinite: u32,
+    /// The number of tetrahedra of the mesh.
+    pub finite: u32,
+    /// The number of facets of its hull.
+    pub hull: u32,
+}
+assert_layout!(OutputParams);
+
+/// A mesh in slots, on the device.
+#[derive(Debug, Clone, Copy)]
+pub struct SlotMesh<'a> {
+    /// The vertices of each slot, as input indices: ghosts have infinity last, unused slots are
+    /// zero.
+    pub tetrahedra: &'a Storage<Slot>,
+    /// The neighbours of each slot: 4·slot + facet.
+    pub neighbors: &'a Storage<Slot>,
+    /// A word per slot to work with.
+    pub marks: &'a Storage<u32>,
+    /// Another one.
+    pub numbers: &'a Storage<u32>,
+    /// How many of what there are.
+    pub params: OutputParams,
+}
+
+/// The kernels.
+#[derive(Debug)]
+pub struct OutputStage {
+    mark: Kernel,
+    scan: Scan,
+    write: Kernel,
+    vertex_clear: Kernel,
+    vertex_simplex: Kernel,
+}
+
+impl OutputStage {
+    /// Creates the kernels.
+    pub fn new(compiler: &Compiler<'_>) -> Self {
+        let kernel = |name| compiler.kernel(shader::D3.get(name), Width::Narrow);
+        OutputStage {
+            mark: kernel("outputs_mark"),
+            scan: Scan::new(compiler),
+            write: kernel("outputs_write"),
+            vertex_clear: kernel("vertex_clear"),
+            vertex_simplex: kernel("vertex_simplex"),
+        }
+    }
+
+    /// Makes the arrays of the mesh, and waits until the device has done so. Returns the number of
+    /// dispatches as well.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Gpu::with_error_scope`] and [`Storage::new`], and [`Error::Gpu`] if
+    /// there are not as many tetrahedra or facets of the hull as `mesh` says.
+    pub async fn run(
+        &self,
+        gpu: &Gpu,
+        readback: &mut Readback,
+        mesh: SlotMesh<'_>,
+    ) -> Result<(DeviceArrays, usize), Error> {
+        let OutputParams { count, infinite, finite, hull } = mesh.params;
+        let (arrays, dispatches, submission, finite_read, hull_read) = gpu
+            .with_error_scope("the mesh", || {
+                let [finite, hull, points] = [finite, hull, infinite].map(|n| n as usize);
+                let arrays = DeviceArrays::new(gpu, 4, finite, 3 * hull, points)?;
+                let params = Storage::with_contents(gpu, "parameters of the mesh", &[mesh.params])?;
+                let hull_len = Storage::<u32>::new(gpu, "facets of the hull", 1)?;
+                let buffers = [
+                    ("outputs", params.buffer()),
+                    ("mesh_tetrahedra", mesh.tetrahedra.buffer()),
+                    ("mesh_neighbors", mesh.neighbors.buffer()),
+                    ("marks", mesh.marks.buffer()),
+                    ("numbers", mesh.numbers.buffer()),
+                    ("out_tetrahedra", arrays.simplices.buffer()),
+                    ("out_neighbors", arrays.neighbors.buffer()),
+                    ("out_hull", arrays.hull.buffer()),
+                    ("hull_len", hull_len.buffer()),
+                    ("corners", arrays.simplices.buffer()),
+                    ("vertex_simplices", arrays.vertex_simplices.buffer()),
+                ];
+                // The count is what the parameters of the scan are, too.
+                let scan = self.scan.bind(gpu, &params.cast(), mesh.marks, mesh.numbers)?;
+                let mut recorder = Recorder::new(gpu, None);
+                let groups = |items: u32| workgroups(items).min(gpu.max_workgroups());
+                let run = |recorder: &mut Recorder<'_>, kernel: &Kernel, items: u32| {
+                    recorder.dispatch(kernel, &kernel.bind(gpu, &buffers), groups(items));
+                };
+                run(&mut recorder, &self.mark, count);
+                self.scan.record(&mut recorder, &scan);
+                run(&mut recorder, &self.write, count);
+                run(&mut recorder, &self.vertex_clear, infinite);
+                if finite > 0 {
+                    run(&mut recorder, &self.vertex_simplex, arrays.simplices.len() as u32);
+                }
+                let dispatches = recorder.dispatches();
+                let finite = readback.copy(gpu, recorder.encoder(), scan.sums(), GROUPS, 1);
+                let hull = readback.copy(gpu, recorder.encoder(), &hull_len, 0, 1);
+                Ok((arrays, dispatches, recorder.submit(gpu), finite, hull))
+            })
+            .await?;
+        let counted = readback.receive(gpu, &submission, finite_read).await?;
+        let on_hull = readback.receive(gpu, &submission, hull_read).await?;
+        if (counted[0], on_hull[0]) != (finite, hull) {
+            let message = format!(
+                "the mesh has {} tetrahedra and {} facets on the hull, not {finite} and {hull}",
+                counted[0], on_hull[0]
+            );
+            return Err(Error::Gpu { message });
+        }
+        Ok((arrays, dispatches))
+    }
+}
+
+impl MeshArrays<3> for Dimension<3> {
+    fn words(mesh: &Mesh3) -> [&[u32]; 3] {
+        let neighbors = bytemuck::cast_slice(mesh.neighbors.as_flattened());
+        [mesh.tetrahedra.as_flattened(), neighbors, mesh.hull.as_flattened()]
+    }
+
+    fn vertex_simplex(mesh: &Mesh3) -> Vec<i32> {
+        mesh::vertex_simplex(&mesh.tetrahedra, mesh.duplicate_of.len())
+    }
+
+    fn make_room(mesh: &mut Mesh3, outputs: Outputs, simplices: usize, hull: usize) -> Result<[&mut [u8]; 3], Error> {
+        let len = |output: Outputs, len: usize| if outputs.contains(output) { len } else { 0 };
+        Ok([
+            with_len(&mut mesh.tetrahedra, len(Outputs::SIMPLICES, simplices))?,
+            with_len(&mut mesh.neighbors, len(Outputs::NEIGHBORS, simplices))?,
+            with_len(&mut mesh.hull, len(Outputs::HULL, hull))?,
+        ])
+    }
+}

@@ -1,0 +1,378 @@
+//! Meshes that stay on the device that made them.
+
+use std::{fmt, ops::BitOr};
+
+use bytemuck::Pod;
+
+use crate::{
+    cpu::{Incremental, MeshOf},
+    dimension::Dimension,
+    error::Error,
+    gpu::{Gpu, Readback, Storage, readback::Target},
+    mesh::MeshInfo,
+    stats::Stats,
+};
+
+/// Which arrays of a mesh are read from the device.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::Outputs;
+///
+/// let outputs = Outputs::SIMPLICES | Outputs::HULL;
+/// assert!(outputs.contains(Outputs::HULL) && !outputs.contains(Outputs::NEIGHBORS));
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Default)]
+pub struct Outputs(u8);
+
+impl Outputs {
+    /// Nothing but what the host knows.
+    pub const NONE: Outputs = Outputs(0);
+    /// The vertices of the tetrahedra or triangles.
+    pub const SIMPLICES: Outputs = Outputs(1);
+    /// The neighbours of the tetrahedra, or the half-edges of the triangles.
+    pub const NEIGHBORS: Outputs = Outputs(2);
+    /// The hull.
+    pub const HULL: Outputs = Outputs(4);
+    /// All arrays of a mesh.
+    pub const ALL: Outputs = Outputs(7);
+
+    /// Returns whether all of `outputs` are among these.
+    pub fn contains(self, outputs: Outputs) -> bool {
+        self.0 & outputs.0 == outputs.0
+    }
+}
+
+impl BitOr for Outputs {
+    type Output = Outputs;
+
+    fn bitor(self, other: Outputs) -> Outputs {
+        Outputs(self.0 | other.0)
+    }
+}
+
+impl fmt::Debug for Outputs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let named = [(Outputs::SIMPLICES, "simplices"), (Outputs::NEIGHBORS, "neighbors"), (Outputs::HULL, "hull")];
+        f.debug_set().entries(named.into_iter().filter(|&(one, _)| self.contains(one)).map(|(_, name)| name)).finish()
+    }
+}
+
+/// The arrays of a mesh in host memory, as the device has them.
+pub trait MeshArrays<const D: usize>: Incremental<D> {
+    /// Returns the words of the simplices, of their neighbours, and of the hull.
+    fn words(mesh: &Self::Mesh) -> [&[u32]; 3];
+
+    /// Returns the lowest simplex of each point.
+    fn vertex_simplex(mesh: &Self::Mesh) -> Vec<i32>;
+
+    /// Gives the arrays that are among `outputs` room for `simplices` simplices and a hull of
+    /// `hull` elements, and empties the others. Returns their bytes.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::OutOfMemory`].
+    fn make_room(
+        mesh: &mut Self::Mesh,
+        outputs: Outputs,
+        simplices: usize,
+        hull: usize,
+    ) -> Result<[&mut [u8]; 3], Error>;
+}
+
+/// Gives `array` as many elements, whatever they are, in the memory that it has if that suffices.
+/// Returns their bytes.
+///
+/// # Errors
+///
+/// Returns [`Error::OutOfMemory`].
+pub(crate) fn with_len<T: Pod>(array: &mut Vec<T>, len: usize) -> Result<&mut [u8], Error> {
+    if array.capacity() < len {
+        // Freed before, so that both are never held.
+        *array = Vec::new();
+        *array = bytemuck::try_zeroed_vec(len).map_err(|()| Error::OutOfMemory { simplices: len })?;
+    } else {
+        array.resize(len, T::zeroed());
+    }
+    Ok(bytemuck::cast_slice_mut(array))
+}
+
+/// The arrays of a mesh on the device.
+#[derive(Debug)]
+pub struct DeviceArrays {
+    /// The vertices of the simplices, D + 1 each.
+    pub simplices: Storage<u32>,
+    /// The neighbours of the simplices, D + 1 each.
+    pub neighbors: Storage<u32>,
+    /// The hull: three vertices per triangle in 3D, the vertices in their order in 2D.
+    pub hull: Storage<u32>,
+    /// The lowest simplex of each point.
+    pub vertex_simplices: Storage<u32>,
+}
+
+impl DeviceArrays {
+    /// Creates the arrays of `simplices` simplices with `corners` corners each, a hull of `hull`
+    /// words, and `points` points.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Storage::new`].
+    pub(crate) fn new(gpu: &Gpu, corners: usize, simplices: usize, hull: usize, points: usize) -> Result<Self, Error> {
+        Ok(DeviceArrays {
+            simplices: Storage::for_caller(gpu, "simplices of the mesh", corners * simplices)?,
+            neighbors: Storage::for_caller(gpu, "neighbours of the mesh", corners * simplices)?,
+            hull: Storage::for_caller(gpu, "hull of the mesh", hull)?,
+            vertex_simplices: Storage::for_caller(gpu, "simplices of points", points)?,
+        })
+    }
+
+    fn storages(&self) -> [&Storage<u32>; 4] {
+        [&self.simplices, &self.neighbors, &self.hull, &self.vertex_simplices]
+    }
+}
+
+/// A mesh on the device that made it, in buffers that belong to it: later runs do not change them.
+///
+/// All buffers are arrays of 32-bit integers. They can be bound as storage, vertex and index
+/// buffers, and copied from. An array without elements has a buffer of 16 bytes.
+///
+/// The memory is freed when the mesh is dropped, once the device has no more use for it. Meshes
+/// outlive the triangulator that made them.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Outputs, Triangulator};
+///
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
+/// match Triangulator::new().delaunay3d_on_device(&points) {
+///     Ok(mesh) => {
+///         // Four words per tetrahedron.
+///         assert_eq!((mesh.simplex_count(), mesh.simplices().size()), (1, 16));
+///         let read = mesh.read(Outputs::HULL)?;
+///         assert_eq!((read.hull.len(), read.tetrahedra.len()), (4, 0));
+///         assert_eq!(mesh.read_vertex_simplex()?, [0; 4]);
+///     }
+///     // There is no GPU at all.
+///     Err(error) => println!("{error}"),
+/// }
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct DeviceMesh<const D: usize> {
+    gpu: Gpu,
+    /// Shares the staging buffers of the runs.
+    readback: Readback,
+    arrays: DeviceArrays,
+    duplicate_of: Vec<i32>,
+    dimension: u8,
+    stats: Stats,
+}
+
+/// A 3D mesh on the device.
+pub type DeviceMesh3 = DeviceMesh<3>;
+/// A 2D mesh on the device.
+pub type DeviceMesh2 = DeviceMesh<2>;
+
+impl<const D: usize> DeviceMesh<D> {
+    /// Returns the buffer of the vertices of the simplices, which are input indices: four per
+    /// tetrahedron (`vec4<u32>`), or three per triangle.
+    pub fn simplices(&self) -> &wgpu::Buffer {
+        self.arrays.simplices.buffer()
+    }
+
+    /// Returns the buffer of the neighbours, −1 outside the hull: four tetrahedra per tetrahedron
+    /// (`vec4<i32>`), as [`Mesh3::neighbors`](crate::Mesh3::neighbors), or three half-edges per
+    /// triangle, as [`Mesh2::halfedges`](crate::Mesh2::halfedges).
+    pub fn neighbors(&self) -> &wgpu::Buffer {
+        self.arrays.neighbors.buffer()
+    }
+
+    /// Returns the buffer of the hull: three vertices per triangle, as
+    /// [`Mesh3::hull`](crate::Mesh3::hull), or the vertices, as
+    /// [`Mesh2::hull`](crate::Mesh2::hull).
+    pub fn hull(&self) -> &wgpu::Buffer {
+        self.arrays.hull.buffer()
+    }
+
+    /// Returns the buffer of the lowest simplex of each point (`i32`), −1 for duplicates.
+    pub fn vertex_simplex(&self) -> &wgpu::Buffer {
+        self.arrays.vertex_simplices.buffer()
+    }
+
+    /// Returns the number of tetrahedra or triangles.
+    pub fn simplex_count(&self) -> usize {
+        self.arrays.simplices.len() / (D + 1)
+    }
+
+    /// Returns the number of triangles of the hull, or of its vertices in 2D.
+    pub fn hull_count(&self) -> usize {
+        self.arrays.hull.len() / if D == 3 { 3 } else { 1 }
+    }
+
+    /// Returns the number of points.
+    pub fn point_count(&self) -> usize {
+        self.duplicate_of.len()
+    }
+
+    /// Returns for each point the one that stands for it, as
+    /// [`Mesh3::duplicate_of`](crate::Mesh3::duplicate_of): the host has it in any case.
+    pub fn duplicate_of(&self) -> &[i32] {
+        &self.duplicate_of
+    }
+
+    /// Returns the affine dimension of the points; with less than `D` there are no simplices.
+    pub fn dimension(&self) -> u8 {
+        self.dimension
+    }
+
+    /// Returns how the mesh was computed.
+    pub fn stats(&self) -> &Stats {
+        &self.stats
+    }
+
+    /// Returns the bytes that the mesh takes on the device.
+    pub fn bytes(&self) -> u64 {
+        self.arrays.storages().map(Storage::bytes).iter().sum()
+    }
+
+    /// Frees the buffers now, also for those who have clones of them: for garbage collectors.
+    #[doc(hidden)]
+    pub fn destroy(&self) {
+        for storage in self.arrays.storages() {
+            storage.buffer().destroy();
+        }
+    }
+
+    /// Returns the lowest simplex of each point, [`NONE`](crate::NONE) for duplicates. Blocks the
+    /// thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of `read`.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn read_vertex_simplex(&self) -> Result<Vec<i32>, Error> {
+        pollster::block_on(self.read_vertex_simplex_async())
+    }
+
+    /// Does the same without blocking the thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of `read`.
+    pub async fn read_vertex_simplex_async(&self) -> Result<Vec<i32>, Error> {
+        let mut array = Vec::new();
+        let bytes = with_len(&mut array, self.arrays.vertex_simplices.len())?;
+        self.readback.clone().read_into(&self.gpu, vec![(self.vertex_simplex(), bytes)]).await?;
+        Ok(array)
+    }
+}
+
+impl<const D: usize> DeviceMesh<D>
+where
+    Dimension<D>: MeshArrays<D>,
+{
+    /// Takes over arrays that a run has made, and what `mesh`, whose arrays are empty, says of the
+    /// input and of the run.
+    pub(crate) fn new(gpu: &Gpu, readback: &Readback, arrays: DeviceArrays, mesh: MeshOf<D>) -> Self {
+        let (duplicate_of, dimension, stats) = mesh.into_info();
+        DeviceMesh { gpu: gpu.clone(), readback: readback.clone(), arrays, duplicate_of, dimension, stats }
+    }
+
+    /// Uploads a mesh that the host has made.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Gpu::with_error_scope`] and [`Storage::new`].
+    pub(crate) async fn upload(gpu: &Gpu, mesh: MeshOf<D>) -> Result<Self, Error> {
+        let [simplices, neighbors, hull] = Dimension::<D>::words(&mesh);
+        let vertex_simplex = Dimension::<D>::vertex_simplex(&mesh);
+        let points = vertex_simplex.len();
+        let arrays = gpu
+            .with_error_scope("the mesh", || {
+                let arrays = DeviceArrays::new(gpu, D + 1, simplices.len() / (D + 1), hull.len(), points)?;
+                let words = [simplices, neighbors, hull, bytemuck::cast_slice(&vertex_simplex)];
+                for (storage, words) in arrays.storages().into_iter().zip(words) {
+                    storage.write(gpu, 0, words);
+                }
+                gpu.queue().submit([]);
+                Ok(arrays)
+            })
+            .await?;
+        Ok(DeviceMesh::new(gpu, &Readback::default(), arrays, mesh))
+    }
+
+    /// Reads buffers of the mesh. Returns the number of bytes as well.
+    pub(crate) async fn read_with<T: Target>(&self, reads: Vec<(&wgpu::Buffer, T)>) -> Result<(Vec<T>, u64), Error> {
+        let mut readback = self.readback.clone();
+        let before = readback.bytes();
+        let targets = readback.read_into(&self.gpu, reads).await?;
+        Ok((targets, readback.bytes() - before))
+    }
+
+    async fn read_arrays(&self, outputs: Outputs, mesh: &mut MeshOf<D>) -> Result<(), Error> {
+        let parts = Dimension::<D>::make_room(mesh, outputs, self.simplex_count(), self.hull_count())?;
+        let buffers = [self.simplices(), self.neighbors(), self.hull()];
+        let (_, bytes) = self.read_with(buffers.into_iter().zip(parts).collect()).await?;
+        let mut stats = self.stats.clone();
+        if let Some(gpu) = &mut stats.gpu {
+            gpu.bytes_read += bytes;
+        }
+        mesh.set_input(self.duplicate_of.clone(), self.dimension);
+        *mesh.stats_mut() = stats;
+        Ok(())
+    }
+}
+
+/// Implements the methods of a mesh on the device that return a `$mesh`.
+macro_rules! reading {
+    ($D:literal, $mesh:ident) => {
+        impl DeviceMesh<$D> {
+            /// Reads the arrays that are among `outputs`; the others are empty. Blocks the thread.
+            ///
+            /// # Errors
+            ///
+            /// Returns [`Error::DeviceLost`], for a device of the caller's [`Error::Gpu`], and
+            /// [`Error::OutOfMemory`].
+            #[cfg(not(target_arch = "wasm32"))]
+            pub fn read(&self, outputs: Outputs) -> Result<crate::$mesh, Error> {
+                pollster::block_on(self.read_async(outputs))
+            }
+
+            /// Does the same without blocking the thread.
+            ///
+            /// # Errors
+            ///
+            /// Returns the errors of `read`.
+            pub async fn read_async(&self, outputs: Outputs) -> Result<crate::$mesh, Error> {
+                let mut mesh = crate::$mesh::default();
+                self.read_into_async(outputs, &mut mesh).await?;
+                Ok(mesh)
+            }
+
+            /// Reads into `mesh` instead, in the memory that its arrays have: most of the time of
+            /// [`read`](Self::read) is that in which the system provides fresh memory. Arrays that
+            /// are not among `outputs` become empty. After an error the contents have no meaning.
+            ///
+            /// # Errors
+            ///
+            /// Returns the errors of `read`.
+            #[cfg(not(target_arch = "wasm32"))]
+            pub fn read_into(&self, outputs: Outputs, mesh: &mut crate::$mesh) -> Result<(), Error> {
+                pollster::block_on(self.read_into_async(outputs, mesh))
+            }
+
+            /// Does the same without blocking the thread.
+            ///
+            /// # Errors
+            ///
+            /// Returns the errors of `read`.
+            pub async fn read_into_async(&self, outputs: Outputs, mesh: &mut crate::$mesh) -> Result<(), Error> {
+                self.read_arrays(outputs, mesh).await
+            }
+        }
+    };
+}
+reading!(3, Mesh3);
+reading!(2, Mesh2);
