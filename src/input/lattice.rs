@@ -45,6 +45,10 @@ pub struct Lattice<const D: usize> {
     /// The scaled and rounded minimum of each axis, which is subtracted from the coordinates;
     /// `None` for an axis on which all points agree (its lattice coordinates are all 0).
     origin: [Option<i128>; D],
+    /// The lower bits of the origin; 0 where there is none.
+    lower_origin: [i64; D],
+    /// Whether no coordinate exceeds 2⁶² before the origin is subtracted.
+    is_near: bool,
     /// The minimum and the maximum of each axis.
     bounds: [[f64; D]; 2],
 }
@@ -121,18 +125,22 @@ impl<const D: usize> Lattice<D> {
             Lattice::with_exponents(width, [exponent; D], varies, [low, high])
         };
         let narrow = lattice(Width::Narrow);
-        let is_exact = |p| narrow.coordinates(p).iter().all(|c| c.exact);
+        let is_exact = |p| !narrow.rounds(p);
         let exact = parallel::map_ranges(threads, points.len(), |range| points.range(range).iter().all(is_exact));
         if exact.into_iter().all(|exact| exact) { narrow } else { lattice(Width::Wide) }
     }
 
     fn with_exponents(width: Width, exponents: [i32; D], varies: [bool; D], bounds: [[f64; D]; 2]) -> Self {
-        let origin = std::array::from_fn(|axis| varies[axis].then(|| scale(bounds[0][axis], exponents[axis]).0));
+        let scaled = |end: usize, axis: usize| varies[axis].then(|| scale(bounds[end][axis], exponents[axis]).0);
+        let origin: [Option<i128>; D] = std::array::from_fn(|axis| scaled(0, axis));
+        let ends = (0..D).flat_map(|axis| [origin[axis], scaled(1, axis)]).flatten();
+        let is_near = ends.into_iter().all(|end| end.unsigned_abs() <= 1 << 62);
+        let lower_origin = origin.map(|origin| origin.unwrap_or(0) as i64);
         let factors = exponents.map(|exponent| match exponent {
             -1000..=1000 => f64::from_bits(((1023 + exponent) as u64) << 52),
             _ => f64::NAN,
         });
-        Lattice { width, exponents, factors, origin, bounds }
+        Lattice { width, exponents, factors, origin, lower_origin, is_near, bounds }
     }
 
     /// Returns the wide lattice on which each axis has the largest *k* for which its coordinates
@@ -196,6 +204,23 @@ impl<const D: usize> Lattice<D> {
             None => 0.0,
             Some(_) => p[axis] * self.factors[0] - self.bounds[0][axis] * self.factors[0],
         })
+    }
+
+    /// Returns the lattice coordinates of a point of the input that the lattice was fitted to and
+    /// does not [round](Self::rounds), from the point's coordinates times 2ᵏ⁻ᵐ, where *m* is `more`.
+    #[inline]
+    pub(crate) fn position(&self, scaled: [f64; D], more: u32) -> [i64; D] {
+        let factor = (1u64 << more) as f64;
+        // Integers, of which the differences need only the lower bits.
+        let lower = |x: f64| if self.is_near { x as i64 } else { x as i128 as i64 };
+        std::array::from_fn(|axis| lower(scaled[axis] * factor).wrapping_sub(self.lower_origin[axis]))
+    }
+
+    /// Returns whether the lattice coordinates of a point of the input that the lattice was fitted
+    /// to are rounded.
+    #[inline]
+    pub(crate) fn rounds(&self, p: [f64; D]) -> bool {
+        self.coordinates(p).iter().any(|c| !c.exact)
     }
 
     /// Returns the lattice coordinates of a point of the input that the lattice was fitted to.

@@ -47,27 +47,30 @@ pub(crate) fn insertion_order<const D: usize>(
     curve: Curve<D>,
     order: Order,
 ) -> Distinct {
-    let mut duplicate_of = vec![NONE; points.len()];
-    let distinct = along_curve(threads, points, lattice, curve, &mut duplicate_of);
+    let mut duplicate_of = bytemuck::zeroed_vec(points.len());
+    parallel::for_chunks(threads, &mut duplicate_of, |_, chunk| chunk.fill(NONE));
+    let (sorted, distinct) = along_curve(threads, points, lattice, curve, &mut duplicate_of);
+    // Most inputs have no duplicates, and what they duplicate need not be looked up.
+    let is_first = |i: u32| distinct == points.len() || duplicate_of[i as usize] == NONE;
     let (order, rounds) = match order {
-        Order::Brio => rounds(threads, distinct),
+        Order::Brio => rounds(threads, &sorted, distinct, is_first),
         Order::Shuffled(seed) => {
-            let all = 0..distinct.len() as u32;
-            (shuffled(distinct, seed), vec![all])
+            let all = 0..distinct as u32;
+            (shuffled(sorted.into_iter().map(|entry| entry as u32).filter(|&i| is_first(i)), seed), vec![all])
         }
     };
     Distinct { order, rounds, duplicate_of }
 }
 
-/// Returns the distinct points in the order of the curve, or of their coordinates if their lattice
-/// cells coincide.
+/// Returns the points, in the lower halves of the entries, in the order of the curve, or of their
+/// coordinates if their lattice cells coincide; and how many are distinct.
 fn along_curve<const D: usize>(
     threads: Threads,
     points: Points<'_, D>,
     lattice: &Lattice<D>,
     curve: Curve<D>,
     duplicate_of: &mut [i32],
-) -> Vec<u32> {
+) -> (Vec<u64>, usize) {
     let bits = lattice.width().bits();
     // The key takes this many bits of each coordinate, so that it fits beside an index in 64 bits.
     let key_bits = 32 / D as u32;
@@ -90,12 +93,8 @@ fn along_curve<const D: usize>(
     for &[duplicate, first] in duplicates.iter().flatten() {
         duplicate_of[duplicate as usize] = first as i32;
     }
-    let order = keyed.into_iter().map(|entry| entry as u32);
-    if duplicates.iter().all(Vec::is_empty) {
-        order.collect()
-    } else {
-        order.filter(|&i| duplicate_of[i as usize] == NONE).collect()
-    }
+    let distinct = keyed.len() - duplicates.iter().map(Vec::len).sum::<usize>();
+    (keyed, distinct)
 }
 
 /// Splits sorted entries into parts for threads to share, none of which begins among entries of
@@ -208,36 +207,48 @@ fn sort_by(entries: &mut [u64], compare: &dyn Fn(u64, u64) -> Ordering) {
 }
 
 /// Returns the points in a random order.
-fn shuffled(order: Vec<u32>, seed: u64) -> Vec<u32> {
+fn shuffled(order: impl Iterator<Item = u32>, seed: u64) -> Vec<u32> {
     let key = |i: u32| mix(u64::from(i) ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 32;
-    let mut keyed: Vec<u64> = order.into_iter().map(|i| key(i) << 32 | u64::from(i)).collect();
+    let mut keyed: Vec<u64> = order.map(|i| key(i) << 32 | u64::from(i)).collect();
     keyed.sort_unstable();
     keyed.into_iter().map(|entry| entry as u32).collect()
 }
 
-/// Splits an order into rounds at random, and keeps the order within each; small rounds come first.
-/// Returns the parts, too.
-fn rounds(threads: Threads, order: Vec<u32>) -> (Vec<u32>, Vec<Range<u32>>) {
+/// Splits the points of sorted entries that are in the set, `distinct` ones, into rounds at random,
+/// and keeps the order within each; small rounds come first. Returns the parts, too.
+fn rounds(
+    threads: Threads,
+    sorted: &[u64],
+    distinct: usize,
+    is_first: impl Fn(u32) -> bool + Sync,
+) -> (Vec<u32>, Vec<Range<u32>>) {
     let mut last = 0;
-    while order.len() >> (ROUND_BITS * (last + 1)) >= MIN_ROUND {
+    while distinct >> (ROUND_BITS * (last + 1)) >= MIN_ROUND {
         last += 1;
     }
     let count = last as usize + 1;
     let round = |i: u32| (last - last.min(mix(u64::from(i)).trailing_zeros() / ROUND_BITS)) as usize;
     // The points of each round, chunk by chunk.
-    let parts = parallel::map_ranges(threads, order.len(), |range| {
+    let parts = parallel::map_ranges(threads, sorted.len(), |range| {
         let mut part = vec![Vec::new(); count];
-        order[range].iter().for_each(|&i| part[round(i)].push(i));
+        sorted[range].iter().map(|&entry| entry as u32).filter(|&i| is_first(i)).for_each(|i| part[round(i)].push(i));
         part
     });
-    let mut sorted = Vec::with_capacity(order.len());
-    let mut starts = Vec::new();
+    let mut order: Vec<u32> = bytemuck::zeroed_vec(distinct);
+    let mut copies = Vec::new();
+    let mut starts = vec![0];
+    let (mut rest, mut start) = (order.as_mut_slice(), 0);
     for r in 0..count {
-        starts.push(sorted.len() as u32);
-        parts.iter().for_each(|part| sorted.extend_from_slice(&part[r]));
+        for part in &parts {
+            let (to, others) = rest.split_at_mut(part[r].len());
+            start += to.len() as u32;
+            copies.push((to, &part[r]));
+            rest = others;
+        }
+        starts.push(start);
     }
-    starts.push(sorted.len() as u32);
-    (sorted, starts.windows(2).map(|ends| ends[0]..ends[1]).collect())
+    parallel::map_mut(threads, &mut copies, |_, (to, from)| to.copy_from_slice(from));
+    (order, starts.windows(2).map(|ends| ends[0]..ends[1]).collect())
 }
 
 /// Returns a hash, by the finaliser of SplitMix64, so that the same input gives the same order on

@@ -61,6 +61,12 @@ fn zeros(words: usize, slots: usize) -> Result<Vec<AtomicU32>, Error> {
     bytemuck::try_zeroed_vec(words).map(share).map_err(|()| Error::OutOfMemory { simplices: slots })
 }
 
+/// Returns the words of so many vertices, none of which is claimed.
+fn unclaimed(vertices: usize, slots: usize) -> Result<Vec<AtomicU16>, Error> {
+    let words: Vec<u16> = bytemuck::try_zeroed_vec(vertices).map_err(|()| Error::OutOfMemory { simplices: slots })?;
+    Ok(words.into_iter().map(AtomicU16::new).collect())
+}
+
 /// Returns the same words, where they are, for threads to share. The loop compiles to nothing.
 pub(crate) fn share(words: Vec<u32>) -> Vec<AtomicU32> {
     words.into_iter().map(AtomicU32::new).collect()
@@ -97,7 +103,7 @@ impl<const N: usize> SharedSlots<N> {
             neighbors: copy(neighbors)?,
             full: AtomicBool::new(false),
             unused,
-            claims: (0..infinite).map(|_| AtomicU16::new(0)).collect(),
+            claims: unclaimed(infinite as usize, room)?,
             infinite,
             limit,
         })

@@ -1,6 +1,6 @@
 //! The 2D predicates.
 
-use crate::predicates::filter::{ERROR_BOUNDS, ExactStage, PredicateContext2, UNDERFLOW, in_sphere_bound, minus};
+use crate::predicates::filter::{EPSILON, ERROR_BOUNDS, ExactStage, PredicateContext2, UNDERFLOW, greatest, minus};
 use crate::predicates::{Sign, exact, integer, symbolic};
 
 impl PredicateContext2<'_> {
@@ -50,7 +50,7 @@ impl PredicateContext2<'_> {
                 let [a, b, c] = vertices.map(|v| self.narrow(v));
                 integer::orient2d_narrow(a, b, c)
             }
-            ExactStage::Wide { positions, rounded, .. } => match self.wide(positions, rounded, vertices) {
+            ExactStage::Wide(wide) => match self.wide(wide, vertices) {
                 Some([a, b, c]) => {
                     self.count(|c| &mut c.integer);
                     integer::orient2d_wide(a, b, c)
@@ -87,8 +87,9 @@ impl PredicateContext2<'_> {
     #[inline(always)]
     fn incircle_of(&self, vertices: [u32; 4], [a, b, c]: [[f64; 2]; 3]) -> Sign {
         let minor = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
-        let det = lift(a) * minor(b, c) + lift(b) * minor(c, a) + lift(c) * minor(a, b);
-        if det.abs() > self.in_sphere_bound {
+        let lifts = [a, b, c].map(lift);
+        let det = lifts[0] * minor(b, c) + lifts[1] * minor(c, a) + lifts[2] * minor(a, b);
+        if det.abs() > self.in_sphere_bound || det.abs() > local_bound(greatest(lifts)) {
             return if det > 0.0 { 1 } else { -1 };
         }
         self.incircle_unfiltered(vertices, [a, b, c], det)
@@ -96,10 +97,6 @@ impl PredicateContext2<'_> {
 
     #[inline(never)]
     fn incircle_unfiltered(&self, vertices: [u32; 4], [a, b, c]: [[f64; 2]; 3], det: f64) -> Sign {
-        let extent = |axis: usize| a[axis].abs().max(b[axis].abs()).max(c[axis].abs());
-        if det.abs() > in_sphere_bound([extent(0), extent(1)]) {
-            return if det > 0.0 { 1 } else { -1 };
-        }
         let permanent = |p: [f64; 2], q: [f64; 2]| (p[0] * q[1]).abs() + (p[1] * q[0]).abs();
         let permanent = lift(a) * permanent(b, c) + lift(b) * permanent(c, a) + lift(c) * permanent(a, b);
         if det.abs() > ERROR_BOUNDS[2].in_sphere * permanent + UNDERFLOW {
@@ -111,13 +108,12 @@ impl PredicateContext2<'_> {
                 let [a, b, c, d] = vertices.map(|v| self.narrow(v));
                 integer::incircle_narrow(a, b, c, d)
             }
-            ExactStage::Wide { positions, rounded, shifts } => match self.wide(positions, rounded, vertices) {
+            ExactStage::Wide(wide) => match self.wide(wide, vertices) {
                 Some([a, b, c, d]) => {
                     self.count(|c| &mut c.integer);
-                    if *shifts == [0; 2] {
-                        integer::incircle_wide(a, b, c, d)
-                    } else {
-                        integer::incircle_stretched(a, b, c, d, *shifts)
+                    match &wide.stretched {
+                        None => integer::incircle_wide(a, b, c, d),
+                        Some(stretched) => integer::incircle_stretched(a, b, c, d, stretched.shifts),
                     }
                 }
                 None => {
@@ -144,6 +140,16 @@ impl PredicateContext2<'_> {
         let ascending = |p: [f64; 2], q: [f64; 2]| p < q;
         (ascending(a, b) && ascending(b, c)) || (ascending(c, b) && ascending(b, a))
     }
+}
+
+/// Returns a bound of an in-circle determinant's error, from the greatest squared distance *L* of its
+/// three points to the fourth: the permanent of two vectors is at most the product of their lengths,
+/// so that of the determinant is at most 3·L². The last factor covers the roundings in the bound
+/// itself.
+#[inline]
+fn local_bound(greatest_lift: f64) -> f64 {
+    const FACTOR: f64 = 3.0 * ERROR_BOUNDS[2].in_sphere * (1.0 + 64.0 * EPSILON);
+    FACTOR * (greatest_lift * greatest_lift) + UNDERFLOW
 }
 
 /// Returns the squared distance from the origin.

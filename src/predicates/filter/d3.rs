@@ -1,6 +1,6 @@
 //! The 3D predicates.
 
-use crate::predicates::filter::{ERROR_BOUNDS, ExactStage, PredicateContext3, UNDERFLOW, in_sphere_bound, minus};
+use crate::predicates::filter::{EPSILON, ERROR_BOUNDS, ExactStage, PredicateContext3, UNDERFLOW, greatest, minus};
 use crate::predicates::{Sign, exact, integer, symbolic};
 
 impl PredicateContext3<'_> {
@@ -52,7 +52,7 @@ impl PredicateContext3<'_> {
                 let [a, b, c, d] = vertices.map(|v| self.narrow(v));
                 integer::orient3d_narrow(a, b, c, d)
             }
-            ExactStage::Wide { positions, rounded, .. } => match self.wide(positions, rounded, vertices) {
+            ExactStage::Wide(wide) => match self.wide(wide, vertices) {
                 Some([a, b, c, d]) => {
                     self.count(|c| &mut c.integer);
                     integer::orient3d_wide(a, b, c, d)
@@ -88,8 +88,9 @@ impl PredicateContext3<'_> {
     /// Returns the sign, from the differences to the last vertex.
     #[inline(always)]
     fn insphere_of(&self, vertices: [u32; 5], [a, b, c, d]: [[f64; 3]; 4]) -> Sign {
-        let det = insphere_determinant(a, b, c, d);
-        if det.abs() > self.in_sphere_bound {
+        let lifts = [a, b, c, d].map(lift);
+        let det = insphere_determinant([a, b, c, d], lifts);
+        if det.abs() > self.in_sphere_bound || det * det > squared_bound(greatest(lifts)) {
             return if det > 0.0 { 1 } else { -1 };
         }
         self.insphere_unfiltered(vertices, [a, b, c, d], det)
@@ -97,10 +98,6 @@ impl PredicateContext3<'_> {
 
     #[inline(never)]
     fn insphere_unfiltered(&self, vertices: [u32; 5], [a, b, c, d]: [[f64; 3]; 4], det: f64) -> Sign {
-        let extent = |axis: usize| a[axis].abs().max(b[axis].abs()).max(c[axis].abs().max(d[axis].abs()));
-        if det.abs() > in_sphere_bound([extent(0), extent(1), extent(2)]) {
-            return if det > 0.0 { 1 } else { -1 };
-        }
         if det.abs() > ERROR_BOUNDS[3].in_sphere * insphere_permanent(a, b, c, d) + UNDERFLOW {
             return if det > 0.0 { 1 } else { -1 };
         }
@@ -110,13 +107,12 @@ impl PredicateContext3<'_> {
                 let [a, b, c, d, e] = vertices.map(|v| self.narrow(v));
                 integer::insphere_narrow(a, b, c, d, e)
             }
-            ExactStage::Wide { positions, rounded, shifts } => match self.wide(positions, rounded, vertices) {
+            ExactStage::Wide(wide) => match self.wide(wide, vertices) {
                 Some([a, b, c, d, e]) => {
                     self.count(|c| &mut c.integer);
-                    if *shifts == [0; 3] {
-                        integer::insphere_wide(a, b, c, d, e)
-                    } else {
-                        integer::insphere_stretched(a, b, c, d, e, *shifts)
+                    match &wide.stretched {
+                        None => integer::insphere_wide(a, b, c, d, e),
+                        Some(stretched) => integer::insphere_stretched(a, b, c, d, e, stretched.shifts),
                     }
                 }
                 None => {
@@ -137,8 +133,29 @@ impl PredicateContext3<'_> {
     }
 }
 
+/// Returns a bound of the square of an in-sphere determinant's error, from the greatest squared
+/// distance *L* of its four points to the fifth.
+///
+/// The permanent of three vectors is at most √3 times the product of their lengths, by Cauchy and
+/// Schwarz twice: |b₁c₂| + |b₂c₁| ≤ |b|·|c|, and |a₀| + |a₁| + |a₂| ≤ √3·|a|. So that of the
+/// determinant is at most 4·√3·L^(5/2). The last factor covers the roundings in the bound itself;
+/// the last term, underflow: an error of [`UNDERFLOW`] beside one of at most 2¹²⁰.
 #[inline]
-fn insphere_determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> f64 {
+fn squared_bound(greatest_lift: f64) -> f64 {
+    const FACTOR: f64 = 48.0 * ERROR_BOUNDS[3].in_sphere * ERROR_BOUNDS[3].in_sphere * (1.0 + 128.0 * EPSILON);
+    const SQUARED_UNDERFLOW: f64 = f64::from_bits((1023 - 700) << 52);
+    let squared = greatest_lift * greatest_lift;
+    FACTOR * (squared * squared) * greatest_lift + SQUARED_UNDERFLOW
+}
+
+/// Returns the squared distance from the origin.
+#[inline]
+fn lift(p: [f64; 3]) -> f64 {
+    p[0] * p[0] + p[1] * p[1] + p[2] * p[2]
+}
+
+#[inline]
+fn insphere_determinant([a, b, c, d]: [[f64; 3]; 4], lifts: [f64; 4]) -> f64 {
     let minor = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - q[0] * p[1];
     let (ab, bc, cd, da) = (minor(a, b), minor(b, c), minor(c, d), minor(d, a));
     let (ac, bd) = (minor(a, c), minor(b, d));
@@ -146,8 +163,7 @@ fn insphere_determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> f
     let bcd = b[2] * cd - c[2] * bd + d[2] * bc;
     let cda = c[2] * da + d[2] * ac + a[2] * cd;
     let dab = d[2] * ab + a[2] * bd + b[2] * da;
-    let lift = |p: [f64; 3]| p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
-    (lift(a) * bcd - lift(b) * cda) + (lift(c) * dab - lift(d) * abc)
+    (lifts[0] * bcd - lifts[1] * cda) + (lifts[2] * dab - lifts[3] * abc)
 }
 
 fn insphere_permanent(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> f64 {
@@ -159,14 +175,13 @@ fn insphere_permanent(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> f64
     let bcd = bz * cd + cz * bd + dz * bc;
     let cda = cz * da + dz * ac + az * cd;
     let dab = dz * ab + az * bd + bz * da;
-    let lift = |p: [f64; 3]| p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
     lift(a) * bcd + lift(b) * cda + lift(c) * dab + lift(d) * abc
 }
 
 #[cfg(test)]
 mod tests {
     use super::{super::Scale, *};
-    use crate::input::lattice::Lattice;
+    use crate::input::lattice::{Lattice, Width};
     use proptest::prelude::*;
 
     /// Checks that every sign of a `PredicateContext` for the first five points agrees with the
@@ -244,6 +259,23 @@ mod tests {
             let mut points = points.map(|p| p.map(|x| Scale::new(scale).apply(x)));
             if nudge { points[2][0] = points[2][0].next_up(); }
             agree(&points)?;
+        }
+    }
+
+    /// Scaled to the lattice, such coordinates exceed 2⁶² before the origin is subtracted.
+    #[test]
+    fn far_from_the_origin() {
+        // More than 31 bits apart, so that the lattice is wide.
+        let far = |i: u32, side: u32| 1.0 + f64::from(i % side) * (1.0 / 16384.0 + f64::EPSILON);
+        for side in [2, 3, 5] {
+            for seed in 0..40u32 {
+                let at = |k: u32| (seed * 31 + k * k * 7 + k) % (side * side * side);
+                let points: Vec<_> = (0..5)
+                    .map(|k| [far(at(k), side), far(at(k) / side, side), far(at(k) / (side * side), side)])
+                    .collect();
+                assert_eq!(Lattice::fit((&points).into()).width(), Width::Wide);
+                agree(&points).unwrap();
+            }
         }
     }
 

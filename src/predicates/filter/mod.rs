@@ -13,7 +13,7 @@ use crate::{
     predicates::integer,
     stats::ExactCounts,
 };
-use std::{cell::Cell, iter::repeat_n, sync::Arc};
+use std::{cell::Cell, sync::Arc};
 
 /// The maximum roundoff of Shewchuk's determinants, as multiples of their permanents.
 #[derive(Clone, Copy)]
@@ -35,6 +35,9 @@ const ERROR_BOUNDS: [ErrorBounds; 4] = [
     ErrorBounds { orientation: (7.0 + 56.0 * EPSILON) * EPSILON, in_sphere: (16.0 + 224.0 * EPSILON) * EPSILON },
 ];
 
+/// Wide lattice coordinates have so many bits more than the stored coordinates have before the point.
+const WIDER: u32 = Width::Wide.bits() - Width::Narrow.bits();
+
 /// Added to every error bound, 2⁻⁹⁰⁰. Coordinates are scaled to a range of 2³¹, so the total effect
 /// of underflow, 2⁻¹⁰⁷⁴ in each of about a hundred operations, times at most 2¹⁵⁷ of later factors,
 /// is far below it.
@@ -53,10 +56,10 @@ pub struct PredicateContext<'a, const D: usize> {
     input: Points<'a, D>,
     lattice: Lattice<D>,
     /// The input index of each vertex; empty if the vertices are the input points in their order.
-    indices: Arc<[u32]>,
+    indices: Arc<Vec<u32>>,
     /// Input coordinates times a power of two that brings the range of every axis below 2³¹; for a
     /// narrow lattice, the lattice coordinates. Empty if they are computed each time.
-    coordinates: Arc<[[f64; D]]>,
+    coordinates: Arc<Vec<[f64; D]>>,
     scaling: Scaling<D>,
     exact: ExactStage<D>,
     /// Bounds, valid for all arguments, of the error of the determinants' floating-point values.
@@ -76,9 +79,25 @@ pub type PredicateContext3<'a> = PredicateContext<'a, 3>;
 enum ExactStage<const D: usize> {
     /// 31-bit integers, which are the `coordinates`.
     Narrow,
-    /// 62-bit integers where no coordinate of the vertices is rounded, expansions elsewhere. Both
-    /// lists are empty if they are computed each time. The shifts are those of the lattice.
-    Wide { positions: Arc<[[i64; D]]>, rounded: Arc<[bool]>, shifts: [u32; D] },
+    /// 62-bit integers where no coordinate of the vertices is rounded, expansions elsewhere.
+    Wide(Wide<D>),
+}
+
+/// What is known of the vertices on a wide lattice.
+#[derive(Clone, Default)]
+struct Wide<const D: usize> {
+    /// Whether a vertex is rounded; empty if this and its position are computed each time.
+    rounded: Arc<Vec<bool>>,
+    /// Where the lattice is not that of the input.
+    stretched: Option<Stretched<D>>,
+}
+
+/// The vertices on a stretched lattice.
+#[derive(Clone)]
+struct Stretched<const D: usize> {
+    positions: Arc<Vec<[i64; D]>>,
+    /// Those of the lattice.
+    shifts: [u32; D],
 }
 
 /// How coordinates are computed from the input.
@@ -135,27 +154,32 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
     pub(crate) fn new_by(threads: Threads, input: Points<'a, D>, lattice: &Lattice<D>, indices: Vec<u32>) -> Self {
         let mut context = PredicateContext::of_input(input, lattice);
         let scaling = &context.scaling;
-        let mut coordinates: Arc<[[f64; D]]> = repeat_n([0.0; D], indices.len()).collect();
-        parallel::for_chunks(threads, Arc::make_mut(&mut coordinates), |start, chunk| {
-            for (p, &i) in chunk.iter_mut().zip(&indices[start..]) {
-                *p = scaling.apply(lattice, input.get(i as usize));
-            }
-        });
-        context.coordinates = coordinates;
-        if let ExactStage::Wide { .. } = context.exact {
-            let (mut exact, number) = exact_stage(threads, input, lattice, &indices);
-            // Few inputs have points that are rounded, and few of these have axes that differ.
-            if number > 0
-                && let Some(stretched) = lattice.stretched(integer::MAX_SHIFT)
-            {
-                let (other, fewer) = exact_stage(threads, input, &stretched, &indices);
-                if fewer < number / 2 {
-                    exact = other;
+        let mut coordinates = bytemuck::zeroed_vec(indices.len());
+        if let ExactStage::Narrow = context.exact {
+            parallel::for_chunks(threads, &mut coordinates, |start, chunk| {
+                for (p, &i) in chunk.iter_mut().zip(&indices[start..]) {
+                    *p = scaling.apply(lattice, input.get(i as usize));
                 }
-            }
-            context.exact = exact;
+            });
+        } else {
+            let mut rounded: Vec<bool> = bytemuck::zeroed_vec(indices.len());
+            let lists = (&mut coordinates[..], &mut rounded[..]);
+            parallel::for_chunk_pairs(threads, lists, |start, (coordinates, rounded)| {
+                for ((p, rounded), &i) in coordinates.iter_mut().zip(rounded).zip(&indices[start..]) {
+                    let point = input.get(i as usize);
+                    *p = scaling.apply(lattice, point);
+                    *rounded = lattice.rounds(point);
+                }
+            });
+            // Few inputs have points that are rounded, and few of these have axes that differ.
+            let number = rounded.iter().filter(|&&rounded| rounded).count();
+            let stretched = lattice.stretched(integer::MAX_SHIFT).filter(|_| number > 0);
+            let better = stretched.and_then(|lattice| stretch(threads, input, &lattice, &indices, number / 2));
+            context.exact =
+                ExactStage::Wide(better.unwrap_or_else(|| Wide { rounded: Arc::new(rounded), stretched: None }));
         }
-        context.indices = indices.into();
+        context.coordinates = Arc::new(coordinates);
+        context.indices = Arc::new(indices);
         context
     }
 
@@ -183,16 +207,15 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
         let (scaling, exact) = match lattice.width() {
             Width::Narrow => (Scaling::Lattice, ExactStage::Narrow),
             Width::Wide => {
-                let exponent = lattice.exponent() - (Width::Wide.bits() - Width::Narrow.bits()) as i32;
-                let exact = ExactStage::Wide { positions: Arc::new([]), rounded: Arc::new([]), shifts: [0; D] };
-                (Scaling::By(Scale::new(exponent), lattice.varies()), exact)
+                let exponent = lattice.exponent() - WIDER as i32;
+                (Scaling::By(Scale::new(exponent), lattice.varies()), ExactStage::Wide(Wide::default()))
             }
         };
         let mut context = PredicateContext {
             input,
             lattice: lattice.clone(),
-            indices: Arc::new([]),
-            coordinates: Arc::new([]),
+            indices: Arc::default(),
+            coordinates: Arc::default(),
             scaling,
             exact,
             orientation_bound: 0.0,
@@ -239,7 +262,7 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
     }
 
     /// Returns the input index of every vertex.
-    pub fn into_input_indices(self) -> Arc<[u32]> {
+    pub fn into_input_indices(self) -> Arc<Vec<u32>> {
         self.indices
     }
 
@@ -264,19 +287,17 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
     }
 
     /// Returns the lattice coordinates of these vertices, if none of them is rounded.
-    fn wide<const N: usize>(
-        &self,
-        positions: &[[i64; D]],
-        rounded: &[bool],
-        vertices: [u32; N],
-    ) -> Option<[[i64; D]; N]> {
-        if positions.is_empty() {
+    fn wide<const N: usize>(&self, wide: &Wide<D>, vertices: [u32; N]) -> Option<[[i64; D]; N]> {
+        if wide.rounded.is_empty() {
             return self.computed_wide(vertices);
         }
-        if vertices.iter().any(|&v| rounded[v as usize]) {
+        if vertices.iter().any(|&v| wide.rounded[v as usize]) {
             return None;
         }
-        Some(vertices.map(|v| positions[v as usize]))
+        Some(match &wide.stretched {
+            None => vertices.map(|v| self.lattice.position(self.coordinates[v as usize], WIDER)),
+            Some(stretched) => vertices.map(|v| stretched.positions[v as usize]),
+        })
     }
 
     #[inline(never)]
@@ -299,17 +320,18 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
     }
 }
 
-/// Returns the exact stage of vertices whose positions on a wide lattice are stored, and how many
-/// of them are rounded.
-fn exact_stage<const D: usize>(
+/// Returns what is known of vertices on a stretched lattice, if it rounds fewer of them than
+/// `limit`.
+fn stretch<const D: usize>(
     threads: Threads,
     input: Points<'_, D>,
     lattice: &Lattice<D>,
     indices: &[u32],
-) -> (ExactStage<D>, usize) {
-    let mut positions: Arc<[[i64; D]]> = repeat_n([0; D], indices.len()).collect();
-    let mut rounded: Arc<[bool]> = repeat_n(false, indices.len()).collect();
-    let lists = (Arc::make_mut(&mut positions), Arc::make_mut(&mut rounded));
+    limit: usize,
+) -> Option<Wide<D>> {
+    let mut positions: Vec<[i64; D]> = bytemuck::zeroed_vec(indices.len());
+    let mut rounded: Vec<bool> = bytemuck::zeroed_vec(indices.len());
+    let lists = (&mut positions[..], &mut rounded[..]);
     parallel::for_chunk_pairs(threads, lists, |start, (positions, rounded)| {
         for ((position, rounded), &i) in positions.iter_mut().zip(rounded).zip(&indices[start..]) {
             let q = lattice.coordinates(input.get(i as usize));
@@ -318,7 +340,8 @@ fn exact_stage<const D: usize>(
         }
     });
     let number = rounded.iter().filter(|&&rounded| rounded).count();
-    (ExactStage::Wide { positions, rounded, shifts: lattice.shifts() }, number)
+    let stretched = Stretched { positions: Arc::new(positions), shifts: lattice.shifts() };
+    (number < limit).then(|| Wide { rounded: Arc::new(rounded), stretched: Some(stretched) })
 }
 
 /// Returns a bound of the error of an orientation's floating-point value if no difference of
@@ -352,6 +375,12 @@ fn in_sphere_bound<const D: usize>(extents: [f64; D]) -> f64 {
 #[inline]
 fn greatest_permanent<const D: usize>(extents: [f64; D]) -> f64 {
     extents.iter().zip(1..).map(|(x, factor)| x * f64::from(factor)).product()
+}
+
+/// Returns the greatest of some numbers, none of which is NaN.
+#[inline]
+fn greatest<const N: usize>(numbers: [f64; N]) -> f64 {
+    numbers.into_iter().reduce(|a, b| if a > b { a } else { b }).unwrap_or(0.0)
 }
 
 /// Returns the difference of two points.
