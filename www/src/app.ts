@@ -1,23 +1,25 @@
 import * as Comlink from 'comlink';
-import type { Filter } from './geometry/filter';
 import { connect } from './model/client';
 import type { Edit } from './model/edits';
-import { type Drawing, type DrawRequest, MAX_POINTS_TO_RECORD, type Summary } from './model/model';
+import type { Drawing, DrawRequest, Summary } from './model/model';
 import { type Dimension, type Source, titleOf } from './model/source';
 import type { Progress } from './model/worker';
 import type { Page, Part } from './page';
 import {
   colorFor,
   defaults,
+  FRESH,
+  fileIn,
   filterFor,
   fromHash,
   type Settings,
   type Tool,
   toHash,
-  upFor,
+  viewOf,
 } from './settings';
 import { showBusy, whileBusy } from './ui/busy';
 import { comparePanel } from './ui/comparePanel';
+import { complaint, complaintAbout } from './ui/complaint';
 import { dimensionSwitch } from './ui/dimension';
 import { byId } from './ui/dom';
 import { wireDrop } from './ui/drop';
@@ -29,7 +31,7 @@ import { showMessage, wireMessage } from './ui/message';
 import { pointer } from './ui/pointer';
 import { pointsPanel } from './ui/pointsPanel';
 import { showResult } from './ui/result';
-import { runPanel } from './ui/runPanel';
+import { runPanel, whyNotRecord } from './ui/runPanel';
 import { wireShare } from './ui/share';
 import { showStrip } from './ui/strip';
 import { wireTabs } from './ui/tabs';
@@ -44,12 +46,17 @@ import type { Viewer } from './view/viewer';
  */
 export class App implements Page {
   settings: Settings = fromHash(location.hash);
-  readonly model = connect();
+  readonly model = connect(() =>
+    showMessage(
+      'The part of the page that triangulates could not be started. Check your connection, then reload the page.',
+    ),
+  );
   viewer: Viewer | null = null;
   summary: Summary | null = null;
   lastDrawing: Drawing | null = null;
   live = false;
   positions: Float32Array | null = null;
+  hasGpu: boolean | null = null;
   tool: Tool = 'move';
   private readonly parts: Part[];
   /** What was there when the visitor left for the other dimension. */
@@ -61,6 +68,14 @@ export class App implements Page {
   private drawing = false;
   private drawn = '';
   private hashTimer = 0;
+  /** Whether a run comes from the browser's history. */
+  private following = false;
+  /** The cut while it moves by itself, from everything to where it stays; else null. */
+  private sweep: number | null = null;
+  /** The files of this visit, which links and the browser's Back can only name. */
+  private readonly files = new Map<string, File>();
+  /** The view in the link that was followed here, for a file that the visitor does not have yet. */
+  private awaited: { file: string; settings: Settings } | null = null;
 
   constructor() {
     wireMessage();
@@ -84,13 +99,42 @@ export class App implements Page {
     ];
     wireKeyboard(this);
     byId('cancel').addEventListener('click', () => this.model.cancel());
-    window.addEventListener('hashchange', () => this.followHash());
+    window.addEventListener('hashchange', () => void this.followHash());
     this.tell();
     void whileBusy(this.startViewer());
-    void this.run(this.settings.source, this.settings);
+    this.start();
+    void whileBusy(this.askForGpu());
+  }
+
+  /** Finds out what need not be offered. */
+  private async askForGpu(): Promise<void> {
+    this.hasGpu = Boolean((await this.model.info()).adapter);
+    for (const part of this.parts) part.changed?.(this.settings);
+  }
+
+  /** Shows what the address says. */
+  private start(): void {
+    const file = fileIn(location.hash);
+    if (file === null) {
+      void this.run(this.settings.source, this.settings);
+      return;
+    }
+    this.awaited = { file, settings: this.settings };
+    this.settings = defaults(this.settings.source.dimension);
+    void this.run(this.settings.source).then(() =>
+      showMessage(
+        `This link shows “${file}”, a file that stayed with the person who shared it. Open the same file here to see it as they did.`,
+      ),
+    );
   }
 
   run(source: Source, settings: Partial<Settings> = {}): Promise<boolean> {
+    if (source.kind === 'file') {
+      const { file } = source;
+      this.files.set(file.name, file);
+      if (this.awaited?.file === file.name)
+        settings = { ...this.awaited.settings, source, ...settings };
+    }
     const { edits = [], backend = this.settings.backend } = settings;
     return whileBusy(
       this.newRun(source, { edits, ...settings }, (onProgress) =>
@@ -111,8 +155,7 @@ export class App implements Page {
         edits: [],
         filter: filterFor(source),
         color: colorFor(source),
-        up: upFor(source),
-        alpha: null,
+        ...FRESH,
       });
     }
     void this.run(to.source, { ...to, backend: settings.backend });
@@ -140,7 +183,7 @@ export class App implements Page {
         if (run !== this.lastRun) return;
         this.summary = summary;
         this.drawn = JSON.stringify(this.request());
-        showResult(summary);
+        showResult(summary, titleOf(this.settings.source));
         showStrip(summary);
         this.positions = positions;
         this.viewer?.showPoints(positions);
@@ -151,7 +194,7 @@ export class App implements Page {
       this.tell();
       await this.onScreen();
     } catch (error) {
-      if (run === this.lastRun) showMessage((error as Error).message);
+      if (run === this.lastRun) showMessage(complaint(this.settings.source, error));
     } finally {
       this.editing = false;
     }
@@ -179,25 +222,28 @@ export class App implements Page {
       );
       if (!isLast()) return false;
       const before = this.settings;
-      if (source !== before.source) {
+      const isNew = source !== before.source;
+      if (isNew) {
+        this.leavePage();
         if (source.dimension !== before.source.dimension) this.left = { ...before };
         if (source.kind !== before.source.kind) before.color = colorFor(source);
         Object.assign(before, {
           source,
           filter: filterFor(source),
-          up: upFor(source),
-          alpha: null,
+          ...FRESH,
         });
       }
       Object.assign(before, settings);
       this.summary = summary;
       this.round = null;
       this.drawn = '';
-      showResult(summary);
+      showResult(summary, titleOf(this.settings.source));
       showStrip(summary);
       for (const part of this.parts) part.ran?.(summary);
+      this.sweep = (isNew || run === 1) && this.opensSlowly ? 1 : null;
       await this.newMesh();
       this.change(settings);
+      await this.cutSlowly(run);
       return true;
     } catch (error) {
       if (isLast()) {
@@ -221,20 +267,20 @@ export class App implements Page {
     ) {
       void this.record();
     }
-    if (settings.camera && this.viewer) this.viewer.pose = settings.camera;
+    if (settings.camera !== undefined && this.viewer) this.viewer.pose = this.view.camera;
     this.tell();
     void this.draw();
   }
 
   restore(): void {
-    showResult(this.summary!);
+    showResult(this.summary!, titleOf(this.settings.source));
     showStrip(this.summary!);
     this.drawn = '';
     void whileBusy(this.newMesh().then(() => this.draw()));
   }
 
   private get canRecord(): boolean {
-    return this.summary!.dimension === 3 && this.summary!.points <= MAX_POINTS_TO_RECORD;
+    return whyNotRecord(this) === null;
   }
 
   showRound(round: number | null): void {
@@ -248,14 +294,20 @@ export class App implements Page {
   }
 
   private async startViewer(): Promise<void> {
+    let Viewer: typeof import('./view/viewer').Viewer;
     try {
-      const { Viewer } = await import('./view/viewer');
+      ({ Viewer } = await import('./view/viewer'));
+    } catch (error) {
+      showMessage(complaintAbout('The drawing', error));
+      return;
+    }
+    try {
       this.viewer = await Viewer.create(
         byId<HTMLCanvasElement>('canvas'),
         () => this.cameraMoved(),
         () =>
           showMessage(
-            'The GPU was reset, and the drawing is lost. Reload the page to see it again.',
+            'The GPU was reset, and the drawing is lost. Reload the page to get it back.',
           ),
       );
     } catch {
@@ -265,18 +317,18 @@ export class App implements Page {
       return;
     }
     paint(this.viewer);
-    this.viewer.pose = this.settings.camera;
-    if (this.summary) {
-      await this.newMesh();
-      await this.draw();
-    }
+    if (!this.summary) return;
+    this.sweep = this.opensSlowly ? 1 : null;
+    await this.newMesh();
+    await this.draw();
+    await this.cutSlowly(this.lastRun);
   }
 
   /** Gives the viewer what stays the same for a mesh, however it is cut. */
   private async newMesh(): Promise<void> {
     if (!this.viewer) return;
     this.viewer.setDimension(this.summary!.dimension);
-    this.viewer.pose = this.settings.camera;
+    this.viewer.pose = this.view.camera;
     this.positions = await this.model.positions();
     this.viewer.showPoints(this.positions);
     this.viewer.showHull(await this.model.hull());
@@ -324,37 +376,35 @@ export class App implements Page {
     this.viewer.showPieces(drawing.pieces);
     this.viewer.showVoronoi(drawing.voronoi);
     const { planeNormal, pointsAbove } = this.viewer.look;
-    planeNormal.value.set(...this.settings.normal);
+    planeNormal.value.set(...this.view.normal);
     pointsAbove.value = Math.min(drawing.level, 1e9);
     this.look();
   }
 
   private request(): DrawRequest {
-    const { normal, keep, color, apart, layers } = this.settings;
+    const { filter, alpha, keep, color, apart, layers } = this.settings;
     return {
-      filter: this.filter,
-      plane: { normal, keep },
-      color,
+      filter: { kind: filter, alpha },
+      plane: { normal: this.view.normal, keep: this.sweep ?? keep },
+      // Only a recorded run tells the phases.
+      color: color === 'phase' && !this.summary?.trace ? 'quality' : color,
       pieces: apart > 0,
       round: this.round,
       voronoi: layers.voronoi,
     };
   }
 
-  private get filter(): Filter {
-    const { filter, alpha } = this.settings;
-    return filter === 'all'
-      ? { kind: 'all' }
-      : { kind: filter, alpha: alpha ?? this.summary!.alpha.typical };
+  get view(): ReturnType<typeof viewOf> {
+    return viewOf(this.settings, this.summary);
   }
 
   look(): void {
     const { viewer } = this;
     if (!viewer) return;
-    const { layers, map, color, apart, up, source } = this.settings;
+    const { layers, map, color, apart, source } = this.settings;
     const flat = source.dimension === 2;
-    viewer.setUp(up);
-    viewer.setColorMap(color === 'phase' ? 'phases' : map);
+    viewer.setUp(this.view.up);
+    viewer.setColorMap(color === 'phase' && this.summary?.trace ? 'phases' : map);
     viewer.look.edges.value = layers.edges ? 1 : 0;
     viewer.look.apart.value = this.round === null ? apart : Math.max(apart, 0.02);
     viewer.look.fill.value = layers.simplices ? 1 : 0;
@@ -379,27 +429,73 @@ export class App implements Page {
   private rememberInHash(): void {
     clearTimeout(this.hashTimer);
     // Browsers allow only so many changes of the address a second.
-    this.hashTimer = window.setTimeout(
-      () => history.replaceState(null, '', `#${toHash(this.settings)}`),
-      300,
+    this.hashTimer = window.setTimeout(() => this.writeHash(), 300);
+  }
+
+  private writeHash(): void {
+    clearTimeout(this.hashTimer);
+    history.replaceState(null, '', `#${toHash(this.settings)}`);
+  }
+
+  /** Leaves the present object in the browser's history, so that Back returns to it. */
+  private leavePage(): void {
+    if (this.following || !this.summary) return;
+    this.writeHash();
+    history.pushState(null, '', location.hash);
+  }
+
+  /** The visitor followed a link to another view of this page, or went back to one. */
+  private async followHash(): Promise<void> {
+    clearTimeout(this.hashTimer);
+    const settings = fromHash(location.hash);
+    const name = fileIn(location.hash);
+    const file = name === null ? undefined : this.files.get(name);
+    if (file) settings.source = { kind: 'file', dimension: settings.source.dimension, file };
+    const pointsOf = ({ source, edits, backend }: Settings) =>
+      JSON.stringify([source, source.kind === 'file' && source.file.name, edits, backend]);
+    if (pointsOf(settings) === pointsOf(this.settings)) {
+      this.change({ ...settings, source: this.settings.source });
+      return;
+    }
+    this.following = true;
+    try {
+      await this.run(settings.source, settings);
+    } finally {
+      this.following = false;
+    }
+  }
+
+  /** Whether a new object is shown whole before it is cut. */
+  private get opensSlowly(): boolean {
+    return (
+      this.summary!.dimension === 3 &&
+      this.settings.keep === null &&
+      !matchMedia('(prefers-reduced-motion: reduce)').matches
     );
   }
 
-  /** The visitor followed a link to another view of this page. */
-  private followHash(): void {
-    const settings = fromHash(location.hash);
-    const pointsOf = ({ source, edits, backend }: Settings) =>
-      JSON.stringify([source, edits, backend]);
-    if (pointsOf(settings) === pointsOf(this.settings)) this.change(settings);
-    else void this.run(settings.source, settings);
+  /**
+   * Cuts an object that is shown whole, along the side that faces the camera, unless the visitor
+   * cuts it or goes on to something else.
+   */
+  private async cutSlowly(run: number): Promise<void> {
+    if (this.sweep === null || !this.viewer) return;
+    await this.draw();
+    const started = performance.now();
+    for (
+      let at = 0;
+      at < 1 && run === this.lastRun && this.settings.keep === null;
+      at = (performance.now() - started - WHOLE) / OPENING
+    ) {
+      const eased = Math.max(0, at) ** 2 * (3 - 2 * Math.max(0, at));
+      this.sweep = 1 + eased * ((this.lastDrawing?.half ?? 1) - 1);
+      await this.draw();
+    }
+    if (run !== this.lastRun) return;
+    this.sweep = null;
+    await this.draw();
   }
 }
 
-/** What to say when a run ends without a mesh. */
-function complaint(source: Source, error: unknown): string {
-  const { name, message } = error as Error;
-  if (name === 'ABORTED' || name === 'AbortError')
-    return 'Cancelled. The previous triangulation is still shown.';
-  const subject = source.kind === 'file' ? `${titleOf(source)}: ` : '';
-  return `${subject}${message}`;
-}
+/** How long a new object is shown whole, and how long the cut then moves, in milliseconds. */
+const [WHOLE, OPENING] = [500, 900];

@@ -2,7 +2,7 @@ import type { ModelClient } from './model/client';
 import type { Edit } from './model/edits';
 import type { Drawing, Summary } from './model/model';
 import type { Dimension, Source } from './model/source';
-import type { Settings, Tool } from './settings';
+import type { Settings, Tool, viewOf } from './settings';
 import type { Viewer } from './view/viewer';
 
 /** What the parts of the page may do with the whole. */
@@ -13,8 +13,12 @@ export interface Page {
   readonly viewer: Viewer | null;
   /** What the last run gave; null before the first has ended. */
   readonly summary: Summary | null;
+  /** How the points are looked at and cut, chosen or not. */
+  readonly view: ReturnType<typeof viewOf>;
   /** Whether points move: then the live mode draws, not the page. */
   live: boolean;
+  /** Whether there is a GPU to triangulate on; null until that is known. */
+  readonly hasGpu: boolean | null;
   /** What is on the screen; null before anything is. */
   readonly lastDrawing: Drawing | null;
   /**

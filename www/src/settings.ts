@@ -1,7 +1,9 @@
 import type { Backend } from 'gdel-wasm';
-import type { Filter } from './geometry/filter';
+import type { FilterKind } from './geometry/filter';
 import type { ColorBy } from './geometry/scale';
+import { axisFacing, UPS, type Up } from './geometry/up';
 import { type Edit, editsFromText, editsToText } from './model/edits';
+import type { Summary } from './model/model';
 import {
   DISTRIBUTIONS,
   type Dimension,
@@ -13,8 +15,6 @@ import {
 import { COLOR_MAPS, type ColorMapName } from './view/colormap';
 import type { CameraPose } from './view/viewer';
 
-export type Up = 'y' | 'z';
-
 export const LAYERS = ['simplices', 'edges', 'points', 'hull', 'facets', 'voronoi'] as const;
 export type Layer = (typeof LAYERS)[number];
 
@@ -22,7 +22,10 @@ export type Layer = (typeof LAYERS)[number];
 export const TOOLS = ['move', 'add', 'remove'] as const;
 export type Tool = (typeof TOOLS)[number];
 
-/** Everything that makes up a view, and so a link. */
+/**
+ * Everything that makes up a view, and so a link. Null stands for what suits the points: a new
+ * object begins with it.
+ */
 export interface Settings {
   source: Source;
   /** The changes by hand, in 2D only. */
@@ -30,21 +33,35 @@ export interface Settings {
   backend: Backend;
   color: ColorBy;
   map: ColorMapName;
-  filter: Filter['kind'];
-  /** In units of the input; null for one that suits the points. */
+  filter: FilterKind;
+  /** In units of the input. */
   alpha: number | null;
-  normal: [number, number, number];
-  keep: number;
+  /** Of the cutting plane, in the input's axes. */
+  normal: Vector | null;
+  /** How much of the points' extent along the normal stays. */
+  keep: number | null;
   /** The axis that points up. */
-  up: Up;
+  up: Up | null;
   /** How far the tetrahedra are pulled apart: 0 not at all, 1 to half their size. */
   apart: number;
   layers: Record<Layer, boolean>;
-  camera: CameraPose;
+  camera: CameraPose | null;
 }
 
+type Vector = [number, number, number];
+
+/** What depends on the shape of the points, and what each new object begins with. */
+export const FRESH = {
+  alpha: null,
+  normal: null,
+  keep: null,
+  up: null,
+  apart: 0,
+  camera: null,
+} as const;
+
 /** What suits a source: the carved solid of a scan, all of a synthetic cloud. */
-export function filterFor({ kind, dimension }: Source): Filter['kind'] {
+export function filterFor({ kind, dimension }: Source): FilterKind {
   return kind === 'generator' || dimension === 2 ? 'all' : 'carve';
 }
 
@@ -56,19 +73,28 @@ export function colorFor(source: Source): ColorBy {
   return source.kind === 'generator' ? 'quality' : 'circumradius';
 }
 
-/** Scans of the land have z up, models y. */
-export function upFor(source: Source): Up {
-  const land = /\.(las|laz|pcd|pts|xyz|asc|txt|csv|tsv)$/i;
-  return source.kind === 'file' && source.dimension === 3 && land.test(source.file.name)
-    ? 'z'
-    : 'y';
-}
-
 /** Where the camera is at first: beside a 3D model, above a 2D one. */
-export const HOME: Record<Dimension, CameraPose> = {
+const HOME: Record<Dimension, CameraPose> = {
   3: [0.5, 0.24, 2.85, 0, 0, 0],
   2: [0, 0, 2.7, 0, 0, 0],
 };
+
+/** How the points are looked at and cut: what was chosen, else what suits them. */
+export function viewOf(
+  { source, up, normal, camera }: Settings,
+  summary: Pick<Summary, 'up' | 'elevation'> | null,
+): { up: Up; normal: Vector; camera: CameraPose; home: CameraPose } {
+  const home: CameraPose = [...HOME[source.dimension]];
+  if (source.dimension === 3 && summary) home[1] = summary.elevation;
+  const upwards = up ?? summary?.up ?? 'y';
+  const [azimuth] = home;
+  return {
+    up: upwards,
+    normal: normal ?? axisFacing(upwards, [Math.sin(azimuth), 0, Math.cos(azimuth)]),
+    camera: camera ?? home,
+    home,
+  };
+}
 
 /** What a visitor sees first in 3D or 2D. */
 export function defaults(dimension: Dimension = 3): Settings {
@@ -83,11 +109,7 @@ export function defaults(dimension: Dimension = 3): Settings {
     color: colorFor(source),
     map: 'viridis',
     filter: filterFor(source),
-    alpha: null,
-    normal: [0, 0, 1],
-    keep: 0.5,
-    up: 'y',
-    apart: 0,
+    ...FRESH,
     layers: {
       simplices: true,
       edges: true,
@@ -96,13 +118,12 @@ export function defaults(dimension: Dimension = 3): Settings {
       facets: false,
       voronoi: dimension === 2,
     },
-    camera: [...HOME[dimension]],
   };
 }
 
 /**
- * The part of the address after '#'. Only what differs from the defaults is in it, and never a
- * file.
+ * The part of the address after '#'. Only what differs from the defaults is in it, and of a file
+ * only the name.
  */
 export function toHash(settings: Settings): string {
   const { source, edits } = settings;
@@ -110,24 +131,24 @@ export function toHash(settings: Settings): string {
   const hash = new URLSearchParams();
   if (source.dimension === 2) hash.set('dim', '2');
   if (source.kind === 'sample') hash.set('points', source.sample);
+  if (source.kind === 'file') hash.set('file', source.file.name);
   if (source.kind === 'generator')
     hash.set('points', [source.distribution, source.count, source.seed].join('_'));
   if (source.kind === 'generator' && edits.length > 0) hash.set('edits', editsToText(edits));
   start.filter = filterFor(source);
-  start.up = upFor(source);
   start.color = colorFor(source);
-  for (const key of ['backend', 'color', 'map', 'filter', 'up'] as const) {
+  for (const key of ['backend', 'color', 'map', 'filter'] as const) {
     if (settings[key] !== start[key]) hash.set(key, settings[key]);
   }
   if (settings.alpha !== null) hash.set('alpha', String(Number(settings.alpha.toPrecision(4))));
-  const cut = list([...settings.normal, settings.keep]);
-  if (cut !== list([...start.normal, start.keep])) hash.set('cut', cut);
+  if (settings.up) hash.set('up', settings.up);
+  if (settings.normal) hash.set('normal', list(settings.normal));
+  if (settings.keep !== null) hash.set('keep', short(settings.keep));
   if (settings.apart !== 0) hash.set('apart', short(settings.apart));
   const layers = LAYERS.filter((layer) => settings.layers[layer]).join('_');
   if (layers !== LAYERS.filter((layer) => start.layers[layer]).join('_'))
     hash.set('layers', layers);
-  const camera = list(settings.camera);
-  if (camera !== list(start.camera)) hash.set('camera', camera);
+  if (settings.camera) hash.set('camera', list(settings.camera));
   return hash.toString();
 }
 
@@ -152,21 +173,28 @@ export function fromHash(hash: string): Settings {
     dimension === 2 ? ['all', 'alpha'] : ['all', 'alpha', 'carve'],
     filterFor(settings.source),
   );
-  settings.up = choice('up', ['y', 'z'], upFor(settings.source));
+  settings.up = UPS.find((up) => up === given.get('up')) ?? null;
   const alpha = Number(given.get('alpha'));
   if (alpha > 0 && alpha < Infinity) settings.alpha = alpha;
-  const [nx, ny, nz, keep] = numbers(given.get('cut'), 4) ?? [...settings.normal, settings.keep];
-  const length = Math.hypot(nx, ny, nz);
-  if (length > 0) settings.normal = [nx / length, ny / length, nz / length];
-  settings.keep = clamp(keep);
+  const normal = numbers(given.get('normal'), 3) as Vector | null;
+  const length = Math.hypot(...(normal ?? []));
+  if (normal && length > 0) settings.normal = normal.map((x) => x / length) as Vector;
+  const keep = numbers(given.get('keep'), 1);
+  if (keep) settings.keep = clamp(keep[0]);
   settings.apart = clamp(Number(given.get('apart')));
   const layers = given.get('layers')?.split('_');
   if (layers) for (const layer of LAYERS) settings.layers[layer] = layers.includes(layer);
   const camera = numbers(given.get('camera'), 6);
   if (camera && camera[2] > 0) settings.camera = camera as CameraPose;
   // Straight down.
-  if (dimension === 2) settings.camera[0] = settings.camera[1] = settings.camera[5] = 0;
+  if (dimension === 2 && settings.camera)
+    settings.camera[0] = settings.camera[1] = settings.camera[5] = 0;
   return settings;
+}
+
+/** The name of the file that a link was made from, which is not in it; else null. */
+export function fileIn(hash: string): string | null {
+  return new URLSearchParams(hash.replace(/^#/, '')).get('file');
 }
 
 /** Returns the quantities that exist in a dimension. */
@@ -210,7 +238,7 @@ export function generator(
 export const MAX_POINTS = 10_000_000;
 
 function numbers(text: string | null, count: number): number[] | null {
-  const values = text?.split('_').map(Number);
+  const values = text?.split('_').map((part) => (part === '' ? NaN : Number(part)));
   return values?.length === count && values.every(Number.isFinite) ? values : null;
 }
 

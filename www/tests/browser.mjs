@@ -19,7 +19,8 @@ mkdirSync(SCREENSHOTS, { recursive: true });
 export async function serve() {
   const server = await preview({
     root: here('..'),
-    preview: { port: 0, host: '127.0.0.1' },
+    // As GitHub Pages does: frames in a sandbox have no origin of their own.
+    preview: { port: 0, host: '127.0.0.1', cors: { origin: '*' } },
     logLevel: 'error',
   });
   return {
@@ -50,13 +51,16 @@ const HANG = 300_000;
  * Opens the page and waits for the first drawing. Collects the errors that the page does not
  * handle, and the paths of all files that it loads.
  */
-export async function open(browser, url, { hang = HANG, ...options } = {}) {
+export async function open(browser, url, { hang = HANG, ...options } = {}, prepare = () => {}) {
   // A context of its own: axe needs one, and no visit sees what another left.
   const context = await browser.newContext({
     viewport: { width: 1440, height: 900 },
     colorScheme: 'light',
+    // The cut that opens a new object takes its time.
+    reducedMotion: 'reduce',
     ...options,
   });
+  await prepare(context);
   const page = await context.newPage();
   page.setDefaultTimeout(hang);
   page.problems = [];
@@ -154,6 +158,13 @@ export async function drop(page, name, bytes) {
   await page.dispatchEvent('#stage', 'dragover', { dataTransfer: transfer });
   await page.dispatchEvent('#stage', 'drop', { dataTransfer: transfer });
   await settled(page);
+}
+
+/** The address of the page once it says what the page shows. */
+export async function addressOf(page) {
+  // The page writes it with a delay: a change of its own makes it write at once.
+  await page.click('#share');
+  return page.url();
 }
 
 /** Clicks on a button that copies something, and returns that. */

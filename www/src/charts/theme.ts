@@ -1,3 +1,5 @@
+import { create } from '../ui/dom';
+
 /** What all charts share: their size in the panel, and text in the colours of the theme. */
 export const CHART = {
   width: 336,
@@ -12,7 +14,10 @@ export async function chart(
   description: string,
   options: (Plot: typeof import('@observablehq/plot')) => import('@observablehq/plot').PlotOptions,
 ): Promise<Element> {
-  const Plot = await import('@observablehq/plot');
+  const Plot = await import('@observablehq/plot').catch(() => null);
+  // Offline, say. The figures are in words besides.
+  if (!Plot)
+    return create('p', { className: 'note' }, `${description} (the chart could not be loaded)`);
   const drawn = Plot.plot(options(Plot));
   for (const part of drawn.querySelectorAll('g[aria-label]')) part.removeAttribute('aria-label');
   const svg = drawn instanceof SVGElement ? drawn : drawn.querySelector('svg:last-of-type')!;

@@ -1,3 +1,7 @@
+import { startWorker } from '../model/client';
+import delaunator from './delaunator.worker?worker&url';
+import qhull from './qhull.worker?worker&url';
+
 /** What another library made of the points. */
 export interface OtherResult {
   milliseconds: number;
@@ -7,9 +11,8 @@ export interface OtherResult {
 }
 
 const WORKERS = {
-  'qhull-wasm': () => new Worker(new URL('./qhull.worker.ts', import.meta.url), { type: 'module' }),
-  delaunator: () =>
-    new Worker(new URL('./delaunator.worker.ts', import.meta.url), { type: 'module' }),
+  'qhull-wasm': qhull,
+  delaunator,
 };
 
 /** Runs a library on points in a worker of its own. Aborting ends the worker. */
@@ -18,7 +21,7 @@ export function runOther(
   points: Float32Array | Float64Array,
   signal: AbortSignal,
 ): Promise<OtherResult> {
-  const worker = WORKERS[library]();
+  const worker = startWorker(new URL(WORKERS[library], import.meta.url));
   const result = new Promise<OtherResult>((resolve, reject) => {
     worker.onmessage = ({ data }) => resolve(data);
     worker.onerror = (event) => reject(new Error(event.message || `${library} could not be run.`));

@@ -1,17 +1,17 @@
-import { facetCircumradiusSquared } from './measures';
-import { FACETS } from './mesh';
+/** Which simplices are shown, before the cutting plane cuts. */
+export interface Filter {
+  kind: FilterKind;
+  /** In units of the input; null for one that suits the points. */
+  alpha: number | null;
+}
 
-/** Which tetrahedra a filter keeps, before the cutting plane cuts. */
-export type Filter =
-  /** Every tetrahedron: the points' convex hull is full. */
-  | { kind: 'all' }
-  /** The alpha complex's tetrahedra: those with a circumradius of at most alpha. */
-  | { kind: 'alpha'; alpha: number }
-  /**
-   * What a ball of radius alpha cannot carve away from outside: it enters through the facets whose
-   * circumcircle is larger than it. Of a scanned surface, this leaves the solid.
-   */
-  | { kind: 'carve'; alpha: number };
+export type FilterKind =
+  /** Every simplex: the points' convex hull is full. */
+  | 'all'
+  /** The alpha complex: the simplices with a circumradius of at most alpha. */
+  | 'alpha'
+  /** What a ball of radius alpha cannot carve away from outside; see `carvingRadii`. */
+  | 'carve';
 
 /** What a filter left. */
 export interface Kept {
@@ -21,15 +21,11 @@ export interface Kept {
   rim: Uint8Array;
 }
 
-/** Applies a filter to all tetrahedra. */
-export function applyFilter(
-  filter: Filter,
-  points: ArrayLike<number>,
-  tetrahedra: Uint32Array,
-  neighbors: Int32Array,
-  circumradius: Float32Array,
-): Kept {
-  const kept = keptBy(filter, points, tetrahedra, neighbors, circumradius);
+/** Keeps the tetrahedra whose radius is at most alpha; all without radii. */
+export function keep(radii: Float32Array | null, alpha: number, neighbors: Int32Array): Kept {
+  const kept = new Uint8Array(neighbors.length / 4);
+  if (!radii) kept.fill(1);
+  else for (let t = 0; t < kept.length; t++) kept[t] = radii[t] <= alpha ? 1 : 0;
   const rim = new Uint8Array(kept.length);
   for (let t = 0; t < kept.length; t++) {
     if (!kept[t]) continue;
@@ -42,92 +38,4 @@ export function applyFilter(
     }
   }
   return { kept, rim };
-}
-
-function keptBy(
-  filter: Filter,
-  points: ArrayLike<number>,
-  tetrahedra: Uint32Array,
-  neighbors: Int32Array,
-  circumradius: Float32Array,
-): Uint8Array {
-  const count = tetrahedra.length / 4;
-  const kept = new Uint8Array(count);
-  if (filter.kind === 'all') return kept.fill(1);
-  if (filter.kind === 'alpha') {
-    for (let t = 0; t < count; t++) kept[t] = circumradius[t] <= filter.alpha ? 1 : 0;
-    return kept;
-  }
-  return carve(filter.alpha, points, tetrahedra, neighbors, kept.fill(1));
-}
-
-function carve(
-  alpha: number,
-  points: ArrayLike<number>,
-  tetrahedra: Uint32Array,
-  neighbors: Int32Array,
-  kept: Uint8Array,
-): Uint8Array {
-  const open = (t: number, k: number) =>
-    facetCircumradiusSquared(
-      points,
-      tetrahedra[4 * t + FACETS[3 * k]],
-      tetrahedra[4 * t + FACETS[3 * k + 1]],
-      tetrahedra[4 * t + FACETS[3 * k + 2]],
-    ) >
-    alpha * alpha;
-
-  const carved = new Uint32Array(kept.length);
-  let end = 0;
-  const take = (t: number) => {
-    kept[t] = 0;
-    carved[end++] = t;
-  };
-  for (let t = 0; t < kept.length; t++) {
-    for (let k = 0; k < 4; k++) {
-      if (kept[t] && neighbors[4 * t + k] < 0 && open(t, k)) take(t);
-    }
-  }
-  for (let next = 0; next < end; next++) {
-    const t = carved[next];
-    for (let k = 0; k < 4; k++) {
-      const u = neighbors[4 * t + k];
-      if (u >= 0 && kept[u] && open(t, k)) take(u);
-    }
-  }
-  return kept;
-}
-
-/**
- * An alpha that suits a cloud: ten times the typical distance between neighbouring points, measured
- * as the median of the shortest edges of a sample of the simplices, tetrahedra or triangles.
- */
-export function typicalAlpha(
-  points: ArrayLike<number>,
-  simplices: Uint32Array,
-  dimension: 2 | 3 = 3,
-): number {
-  const corners = dimension + 1;
-  const count = simplices.length / corners;
-  const samples = Math.min(count, 10_000);
-  const shortest = new Float64Array(samples);
-  for (let i = 0; i < samples; i++) {
-    const t = corners * Math.floor((i * count) / samples);
-    let min = Infinity;
-    for (let j = 0; j < corners; j++) {
-      for (let k = j + 1; k < corners; k++) {
-        let squared = 0;
-        for (let axis = 0; axis < dimension; axis++) {
-          squared +=
-            (points[dimension * simplices[t + j] + axis] -
-              points[dimension * simplices[t + k] + axis]) **
-            2;
-        }
-        min = Math.min(min, squared);
-      }
-    }
-    shortest[i] = Math.sqrt(min);
-  }
-  shortest.sort();
-  return samples > 0 ? 10 * shortest[samples >> 1] : 0;
 }

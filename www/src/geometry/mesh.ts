@@ -1,3 +1,5 @@
+import { rangeAlong, wholeRange } from './range';
+
 /** A tetrahedralisation as the drawing code sees it. */
 export interface Tetrahedralisation {
   /** Three coordinates a point, moved and scaled into the unit ball: what is drawn. */
@@ -24,28 +26,21 @@ export interface Frame {
 }
 
 /**
- * The frame that moves the bounding box of points, of two or three coordinates each, into the unit
- * ball.
+ * The frame that moves the box around points, of two or three coordinates each, into the unit ball.
+ * Outliers may be outside.
  */
 export function frameOf(points: ArrayLike<number>, dimension: 2 | 3 = 3): Frame {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  for (let i = 0; i < points.length; i += dimension) {
-    for (let axis = 0; axis < dimension; axis++) {
-      const x = points[i + axis];
-      if (x < low[axis]) low[axis] = x;
-      if (x > high[axis]) high[axis] = x;
-    }
-  }
   // Without points, the unit cube or square.
-  if (points.length === 0) {
-    low.fill(0);
-    high.fill(1);
-  }
-  if (dimension === 2) low[2] = high[2] = 0;
+  const along = (axis: number) =>
+    points.length > 0 ? rangeAlong(points, axis, dimension) : ([0, 1] as [number, number]);
+  let ranges = Array.from({ length: dimension }, (_, axis) => along(axis));
+  // Where nearly all points coincide, all that there is.
+  if (ranges.every(([low, high]) => low === high))
+    ranges = ranges.map((_, axis) => wholeRange(points, axis, dimension));
+  if (dimension === 2) ranges.push([0, 0]);
   // Halves first: the sum of two large coordinates could overflow.
-  const center = low.map((l, axis) => l / 2 + high[axis] / 2) as [number, number, number];
-  const radius = Math.hypot(...high.map((h, axis) => h / 2 - low[axis] / 2));
+  const center = ranges.map(([low, high]) => low / 2 + high / 2) as [number, number, number];
+  const radius = Math.hypot(...ranges.map(([low, high]) => high / 2 - low / 2));
   return { center, scale: radius > 0 ? 1 / radius : 1 };
 }
 

@@ -1,4 +1,5 @@
 import type { Tetrahedralisation } from './mesh';
+import { Sample } from './range';
 
 /**
  * The cutting plane in the frame of the drawing: what lies on the side of its normal is cut away.
@@ -6,8 +7,11 @@ import type { Tetrahedralisation } from './mesh';
 export interface Plane {
   /** Of length 1. */
   normal: readonly [number, number, number];
-  /** How much of the points' extent along the normal stays: 1 is everything, 0 nothing. */
-  keep: number;
+  /**
+   * How much of the points' extent along the normal stays: 1 is everything, 0 nothing. Null for a
+   * cut that leaves half of the points.
+   */
+  keep: number | null;
 }
 
 /**
@@ -16,8 +20,10 @@ export interface Plane {
  */
 export interface Heights {
   normal: readonly [number, number, number];
-  /** The lowest and the highest point. */
+  /** The lowest and the highest point that is no outlier. */
   extent: [number, number];
+  /** The height below which half of the points lie. */
+  middle: number;
   /** Of each tetrahedron's centroid. */
   height: Float32Array;
   /** The highest centroid among each tetrahedron's neighbours. */
@@ -31,13 +37,8 @@ export function heightsAlong(
 ): Heights {
   const [nx, ny, nz] = normal;
   const points = new Float32Array(positions.length / 3);
-  let low = Infinity;
-  let high = -Infinity;
   for (let i = 0, p = 0; i < points.length; i++, p += 3) {
-    const h = nx * positions[p] + ny * positions[p + 1] + nz * positions[p + 2];
-    points[i] = h;
-    if (h < low) low = h;
-    if (h > high) high = h;
+    points[i] = nx * positions[p] + ny * positions[p + 1] + nz * positions[p + 2];
   }
   const count = tetrahedra.length / 4;
   const height = new Float32Array(count);
@@ -58,10 +59,25 @@ export function heightsAlong(
     }
     reach[t] = highest;
   }
-  return { normal, extent: [low, high], height, reach };
+  const sample = points.length > 0 ? new Sample(points.length, (i) => points[i]) : null;
+  return {
+    normal,
+    extent: sample?.range ?? [0, 1],
+    middle: sample?.quantile(0.5) ?? 0.5,
+    height,
+    reach,
+  };
 }
 
-/** How high the plane lies. Infinite where it cuts nothing. */
-export function levelOf({ keep }: Plane, { extent: [low, high] }: Heights): number {
-  return keep >= 1 ? Infinity : low + (high - low) * keep;
+/** How much of the extent a plane leaves. */
+export function keepOf({ keep }: Plane, { extent: [low, high], middle }: Heights): number {
+  return keep ?? (high > low ? (middle - low) / (high - low) : 1);
+}
+
+/** How high the plane lies. Infinite where it cuts nothing, or everything. */
+export function levelOf(plane: Plane, heights: Heights): number {
+  const keep = keepOf(plane, heights);
+  const [low, high] = heights.extent;
+  if (keep >= 1) return Infinity;
+  return keep <= 0 ? -Infinity : low + (high - low) * keep;
 }

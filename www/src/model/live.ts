@@ -1,6 +1,6 @@
 import { type Backend, generate, generate2d, type Triangulator } from 'gdel-wasm';
 import { frameOf } from '../geometry/mesh';
-import type { Drawing, DrawRequest, Model } from './model';
+import { type Drawing, type DrawRequest, type Model, NOTHING_ABOUT } from './model';
 import { Model2d } from './model2d';
 import { Model3d } from './model3d';
 import type { Dimension } from './source';
@@ -47,8 +47,14 @@ export class Live {
     if (is3d) this.turnBall(seconds);
     else this.stirDisk(seconds);
     const model = is3d
-      ? await Model3d.make(triangulator, this.moved, { backend, outputs: ['neighbors'] }, BALL)
-      : await Model2d.make(triangulator, this.moved, { backend }, DISK);
+      ? await Model3d.make(
+          triangulator,
+          this.moved,
+          { backend, outputs: ['neighbors'] },
+          NOTHING_ABOUT,
+          BALL,
+        )
+      : await Model2d.make(triangulator, this.moved, { backend }, NOTHING_ABOUT, DISK);
     const drawing = model.draw(request);
     const { milliseconds } = model.mesh.stats;
     return {

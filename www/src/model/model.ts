@@ -6,6 +6,7 @@ import type { Pieces } from '../geometry/pieces';
 import type { Plane } from '../geometry/plane';
 import type { ColorBy, ColorScale } from '../geometry/scale';
 import type { Surface } from '../geometry/surface';
+import type { Up } from '../geometry/up';
 import type { Voronoi } from '../geometry/voronoi';
 import type { Dimension } from './source';
 
@@ -29,12 +30,16 @@ export interface Summary {
   affineDimension: number;
   points: number;
   duplicates: number;
+  /** How many points the file has besides, which hold no measurement. */
+  noReturn: number;
   simplices: number;
   hullFacets: number;
   stats: Stats;
   frame: Frame;
-  /** An alpha that suits these points, and the range that is worth a slider. */
-  alpha: { typical: number; range: [number, number] };
+  /** Which axis seems to point up; in 2D that is y. */
+  up: Up;
+  /** How steeply to look down at first, in radians. */
+  elevation: number;
   /** What was recorded of the run: null where nothing was. */
   trace: {
     /** The rounds whose triangulation can be looked at. */
@@ -73,8 +78,14 @@ export interface Drawing {
   total: number;
   /** Facets that are not drawn, because there are too many. */
   leftOut: number;
+  /** How much of the points' extent the cutting plane leaves. */
+  keep: number;
+  /** How much it would leave to halve the points. */
+  half: number;
   /** The height of the cutting plane in the frame. Infinite if it cuts nothing. */
   level: number;
+  /** The filter's alpha, and the range that is worth a slider; null where all is shown. */
+  alpha: { value: number; range: [low: number, high: number] } | null;
   /** How long this took. */
   milliseconds: number;
 }
@@ -91,6 +102,16 @@ export interface Picked {
   /** Its edges as drawn, in 2D with its circumcircle: two ends of three coordinates per line. */
   outline: Float32Array;
 }
+
+/** What a source says about its points. */
+export interface About {
+  /** How many points the file has besides, which hold no measurement. */
+  noReturn: number;
+  /** Which axis points up, or by custom does, unless the points tell otherwise. */
+  up: { axis: 'y' | 'z'; sure: boolean };
+}
+
+export const NOTHING_ABOUT: About = { noReturn: 0, up: { axis: 'y', sure: true } };
 
 /** One set of points, its mesh, and what has been worked out about it so far. */
 export interface Model {

@@ -1,12 +1,13 @@
 import type { Mesh2, RunOptions2, Triangulator } from 'gdel-wasm';
-import { typicalAlpha } from '../geometry/filter';
 import type { Measures } from '../geometry/measures';
 import { type Frame, toFrame } from '../geometry/mesh';
 import { firstHit, type Ray } from '../geometry/pick';
-import { mapping, percentiles, scaleFor } from '../geometry/scale';
+import { mapping, scaleFor } from '../geometry/scale';
 import { flatSurface, measureTriangles, type Triangulation } from '../geometry/triangles';
 import { type Box, type Voronoi, voronoiEdges } from '../geometry/voronoi';
+import { AlphaRadii } from './alpha';
 import {
+  type About,
   cornersOf,
   type Drawing,
   type DrawRequest,
@@ -25,6 +26,7 @@ const CIRCLE_STEPS = 128;
 export class Model2d implements Model {
   readonly positions: Float32Array;
   private readonly drawable: Triangulation;
+  private readonly alphas: AlphaRadii;
   private measures: Measures | null = null;
   private diagram: Voronoi | null = null;
   private drawing: Drawing | null = null;
@@ -33,6 +35,7 @@ export class Model2d implements Model {
     readonly points: Float32Array | Float64Array,
     readonly mesh: Mesh2,
     readonly frame: Frame,
+    readonly about: About,
   ) {
     this.positions = toFrame(points, frame, 2);
     this.drawable = {
@@ -41,20 +44,28 @@ export class Model2d implements Model {
       halfedges: mesh.halfedges,
       hull: mesh.hull,
     };
+    this.alphas = new AlphaRadii(
+      points,
+      mesh.triangles,
+      mesh.halfedges.map((edge) => (edge < 0 ? -1 : Math.floor(edge / 3))),
+      2,
+      frame,
+      () => this.measured,
+    );
   }
 
   static async make(
     triangulator: Triangulator,
     points: Float32Array | Float64Array,
     options: RunOptions2,
+    about: About,
     frame: Frame,
   ): Promise<Model2d> {
-    return new Model2d(points, await triangulator.delaunay2d(points, options), frame);
+    return new Model2d(points, await triangulator.delaunay2d(points, options), frame, about);
   }
 
   summary(): Summary {
     const { mesh } = this;
-    const [low, high] = percentiles(this.measured.circumradius, 0.02, 1);
     let duplicates = 0;
     for (const stand of mesh.duplicateOf) if (stand >= 0) duplicates++;
     return {
@@ -62,11 +73,13 @@ export class Model2d implements Model {
       affineDimension: mesh.dimension,
       points: this.points.length / 2,
       duplicates,
+      noReturn: this.about.noReturn,
       simplices: mesh.triangles.length / 3,
       hullFacets: mesh.dimension === 2 ? mesh.hull.length : 0,
       stats: mesh.stats,
       frame: this.frame,
-      alpha: { typical: typicalAlpha(this.points, mesh.triangles, 2), range: [low, high] },
+      up: 'y',
+      elevation: 0,
       trace: null,
     };
   }
@@ -74,12 +87,12 @@ export class Model2d implements Model {
   draw({ filter, color, voronoi }: DrawRequest): Drawing {
     const started = performance.now();
     const { circumradius } = this.measured;
-    const alpha = filter.kind === 'all' ? Infinity : filter.alpha;
+    const alpha = this.alphas.of(filter);
     const kept = new Uint8Array(circumradius.length);
     const all = new Uint32Array(circumradius.length);
     let count = 0;
     for (let t = 0; t < kept.length; t++) {
-      if (circumradius[t] > alpha) continue;
+      if (alpha && circumradius[t] > alpha.value) continue;
       kept[t] = 1;
       all[count++] = t;
     }
@@ -103,7 +116,10 @@ export class Model2d implements Model {
       shown: count,
       total: kept.length,
       leftOut: Math.max(0, count - MAX_FACETS),
+      keep: 1,
+      half: 1,
       level: Infinity,
+      alpha,
       milliseconds: performance.now() - started,
     };
     return this.drawing;

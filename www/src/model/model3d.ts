@@ -1,13 +1,16 @@
 import type { Mesh3, RunOptions, Triangulator } from 'gdel-wasm';
-import { applyFilter, type Filter, type Kept, typicalAlpha } from '../geometry/filter';
+import { type Filter, type Kept, keep } from '../geometry/filter';
 import { type Measures, measure } from '../geometry/measures';
 import { FACETS, type Frame, frameOf, type Tetrahedralisation, toFrame } from '../geometry/mesh';
 import { firstHit, type Ray } from '../geometry/pick';
 import { outermost, piecesOf, trianglesOf } from '../geometry/pieces';
-import { type Heights, heightsAlong, levelOf, type Plane } from '../geometry/plane';
-import { mapping, percentiles, scaleFor } from '../geometry/scale';
+import { type Heights, heightsAlong, keepOf, levelOf, type Plane } from '../geometry/plane';
+import { mapping, scaleFor } from '../geometry/scale';
 import { boundaryOf, surfaceOf } from '../geometry/surface';
+import { detectUp, elevationFor } from '../geometry/up';
+import { AlphaRadii } from './alpha';
 import {
+  type About,
   cornersOf,
   type Drawing,
   type DrawRequest,
@@ -28,6 +31,7 @@ export class Model3d implements Model {
   private readonly created: Uint8Array | null;
   private measures: Measures | null = null;
   private heights: Heights | null = null;
+  private readonly alphas: AlphaRadii;
   private filtered: { filter: Filter; kept: Kept } | null = null;
   private drawing: Drawing | null = null;
 
@@ -35,6 +39,7 @@ export class Model3d implements Model {
     readonly points: Float32Array | Float64Array,
     readonly mesh: Mesh3,
     readonly frame: Frame,
+    readonly about: About,
   ) {
     this.positions = toFrame(points, frame);
     this.drawable = {
@@ -43,33 +48,44 @@ export class Model3d implements Model {
       neighbors: mesh.neighbors,
     };
     this.created = mesh.trace?.created ?? null;
+    this.alphas = new AlphaRadii(
+      points,
+      mesh.tetrahedra,
+      mesh.neighbors,
+      3,
+      frame,
+      () => this.measured,
+    );
   }
 
   static async make(
     triangulator: Triangulator,
     points: Float32Array | Float64Array,
     options: RunOptions,
+    about: About,
     frame?: Frame,
   ): Promise<Model3d> {
     const mesh = await triangulator.delaunay3d(points, options);
-    return new Model3d(points, mesh, frame ?? frameOf(points));
+    return new Model3d(points, mesh, frame ?? frameOf(points), about);
   }
 
   summary(): Summary {
-    const { mesh } = this;
-    const [low, high] = percentiles(this.measured.circumradius, 0.02, 1);
+    const { mesh, points, frame, about } = this;
+    const up = about.up.sure ? about.up.axis : detectUp(points, mesh.hull, about.up.axis);
     let duplicates = 0;
     for (const stand of mesh.duplicateOf) if (stand >= 0) duplicates++;
     return {
       dimension: 3,
       affineDimension: mesh.dimension,
-      points: this.points.length / 3,
+      points: points.length / 3,
       duplicates,
+      noReturn: about.noReturn,
       simplices: mesh.tetrahedra.length / 4,
       hullFacets: mesh.hull.length / 3,
       stats: mesh.stats,
-      frame: this.frame,
-      alpha: { typical: typicalAlpha(this.points, mesh.tetrahedra), range: [low, high] },
+      frame,
+      up,
+      elevation: elevationFor(points, up, frame),
       trace: mesh.trace
         ? {
             rounds: mesh.trace.rounds.length,
@@ -113,7 +129,10 @@ export class Model3d implements Model {
       shown: boundary.shown,
       total: tetrahedra.length / 4,
       leftOut: pieces ? 0 : Math.max(0, boundary.facets.length - MAX_FACETS),
+      keep: keepOf(plane, heights),
+      half: keepOf({ ...plane, keep: null }, heights),
       level,
+      alpha: this.alphas.of(filter),
       milliseconds: performance.now() - started,
     };
   }
@@ -145,7 +164,10 @@ export class Model3d implements Model {
       shown: owners.length,
       total: tetrahedra.length / 4,
       leftOut: 0,
+      keep: keepOf(plane, heights),
+      half: keepOf({ ...plane, keep: null }, heights),
       level,
+      alpha: null,
       milliseconds: performance.now() - started,
     };
   }
@@ -201,10 +223,11 @@ export class Model3d implements Model {
 
   private keptBy(filter: Filter): Kept {
     if (JSON.stringify(this.filtered?.filter) !== JSON.stringify(filter)) {
-      const { tetrahedra, neighbors } = this.mesh;
+      const { alphas } = this;
+      const alpha = alphas.of(filter)?.value ?? Infinity;
       this.filtered = {
         filter,
-        kept: applyFilter(filter, this.points, tetrahedra, neighbors, this.measured.circumradius),
+        kept: keep(alphas.radii(filter.kind), alpha, this.mesh.neighbors),
       };
     }
     return this.filtered!.kept;

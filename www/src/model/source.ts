@@ -1,6 +1,7 @@
 import { generate, generate2d, readPoints } from 'gdel-wasm';
 import bunny from '../../samples/bunny.f32.gz?url';
 import dragon from '../../samples/dragon.f32.gz?url';
+import { type About, NOTHING_ABOUT } from './model';
 
 /** 3D or 2D. */
 export type Dimension = 2 | 3;
@@ -48,6 +49,9 @@ type Generator<D extends Dimension> = {
   seed: number;
 };
 
+/** The formats of files that can be read, for people. */
+export const EXTENSIONS = 'PLY, OBJ, STL, XYZ, TXT, CSV, PTS, PCD, LAS, LAZ, NPY';
+
 /** Where points come from. In 2D, the z of a file is ignored. */
 export type Source =
   | { kind: 'sample'; dimension: 3; sample: Sample }
@@ -74,26 +78,39 @@ export interface LoadOptions {
 export async function load(
   source: Source,
   options: LoadOptions,
-): Promise<Float32Array | Float64Array> {
+): Promise<{ points: Float32Array | Float64Array; about: About }> {
   if (source.kind === 'generator') {
     const { count, seed } = source;
     options.onProgress({ phase: 'Generating points', fraction: 0 });
-    return source.dimension === 3
+    const points = await (source.dimension === 3
       ? generate(source.distribution, count, { seed })
-      : generate2d(source.distribution, count, { seed });
+      : generate2d(source.distribution, count, { seed }));
+    return { points, about: NOTHING_ABOUT };
   }
   if (source.kind === 'sample') {
     options.onProgress({ phase: `Fetching the ${titleOf(source)}`, fraction: 0 });
-    return fetchSample(source.sample, options.signal);
+    return { points: await fetchSample(source.sample, options.signal), about: NOTHING_ABOUT };
   }
   const { file } = source;
   const phase = `Reading ${file.name}`;
   options.onProgress({ phase, fraction: 0 });
-  const { points } = await readPoints(file, {
+  const name = file.name.replace(/\.gz$/i, '');
+  const { points, noReturn } = await readPoints(await unpacked(file), {
+    name,
     signal: options.signal,
     onProgress: ({ fraction }) => options.onProgress({ phase, fraction }),
   });
-  return source.dimension === 3 ? points : withoutZ(points);
+  return {
+    points: source.dimension === 3 ? points : withoutZ(points),
+    about: { noReturn, up: upOf(name) },
+  };
+}
+
+/** Scans of the land have z up; models have y, and those for printing z, unless they stand otherwise. */
+function upOf(name: string): About['up'] {
+  const extension = name.replace(/^.*\./, '').toLowerCase();
+  const model = ['ply', 'obj', 'stl', 'npy', 'f32', 'f64'].includes(extension);
+  return { axis: model && extension !== 'stl' ? 'y' : 'z', sure: !model };
 }
 
 function withoutZ(points: Float32Array | Float64Array): Float32Array | Float64Array {
@@ -113,6 +130,16 @@ async function fetchSample(sample: Sample, signal: AbortSignal): Promise<Float32
     throw new Error(`The ${title} could not be fetched: the server answered ${response.status}.`);
   const data = await response.arrayBuffer();
   return new Float32Array(isGzip(data) ? await gunzip(data) : data);
+}
+
+/** The content of a file, which may be compressed. */
+async function unpacked(file: File): Promise<Blob | ArrayBuffer> {
+  if (!/\.gz$/i.test(file.name)) return file;
+  try {
+    return await gunzip(await file.arrayBuffer());
+  } catch {
+    throw new Error('the file is no gzip file, or it is damaged');
+  }
 }
 
 // Some servers unpack such files themselves.

@@ -47,16 +47,17 @@ class ModelWorker {
   ): Promise<Summary> {
     return named(async () => {
       const signal = this.begin();
-      const points = await load(source, { signal, onProgress });
+      const { points, about } = await load(source, { signal, onProgress });
       const options = { backend, signal, onProgress };
       const triangulator = await this.triangulator;
       this.model =
         source.dimension === 3
-          ? await Model3d.make(triangulator, points, options)
+          ? await Model3d.make(triangulator, points, options, about)
           : await Model2d.make(
               triangulator,
               applyEdits(points, edits),
               options,
+              about,
               frameOf(points, 2),
             );
       this.start = points;
@@ -73,6 +74,7 @@ class ModelWorker {
         await this.triangulator,
         applyEdits(this.start, edits),
         options,
+        this.current.about,
         this.current.frame,
       );
       this.model = model;
@@ -98,7 +100,8 @@ class ModelWorker {
         onProgress,
         outputs: [...ALL, 'trace'],
       } as const;
-      this.model = await Model3d.make(await this.triangulator, this.current.points, options);
+      const { points, about } = this.current;
+      this.model = await Model3d.make(await this.triangulator, points, options, about);
       return this.model.summary();
     });
   }

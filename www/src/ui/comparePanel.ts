@@ -1,7 +1,7 @@
 import { type Time, timesChart } from '../charts/times';
 import { runOther } from '../compare/other';
 import type { Page, Part } from '../page';
-import { byId, count, create, duration } from './dom';
+import { byId, count, create, duration, simplices } from './dom';
 import { nameOf } from './result';
 
 /** The panel that runs the same points with other libraries, and the one that proves the mesh. */
@@ -28,8 +28,7 @@ async function compare(page: Page): Promise<void> {
   }
   const { signal } = (abort = new AbortController());
   signal.addEventListener('abort', () => page.model.cancel());
-  const { dimension, simplices } = page.summary!;
-  const cells = dimension === 3 ? 'tetrahedra' : 'triangles';
+  const { dimension, simplices: expected } = page.summary!;
   const other = dimension === 3 ? 'qhull-wasm' : 'delaunator';
   const times: Time[] = [];
   const notes: string[] = [];
@@ -40,9 +39,9 @@ async function compare(page: Page): Promise<void> {
     byId('times-note').textContent = notes.join(' ');
   };
   const agree = (name: string, found: number) =>
-    found === simplices
-      ? `${name}: ${count(found)} ${cells}, as many.`
-      : `${name}: ${count(found)} ${cells}, not ${count(simplices)}.`;
+    found === expected
+      ? `${name}: ${simplices(found, dimension)}, as many.`
+      : `${name}: ${simplices(found, dimension)}, not ${count(expected)}.`;
 
   button.textContent = 'Stop';
   try {
@@ -67,7 +66,7 @@ async function compare(page: Page): Promise<void> {
       }
     }
     say(
-      `Running ${other}${dimension === 3 ? '; it takes seconds for 100,000 points, and almost a minute for a million' : ''} …`,
+      `Running ${other}${dimension === 3 ? ', which takes seconds for 100,000 points and almost a minute for a million' : ''} …`,
     );
     const theirs = await runOther(other, await page.model.points(), signal);
     const flat = theirs.flat

@@ -29,6 +29,14 @@ const three = new Intl.NumberFormat('en', { maximumSignificantDigits: 3 });
 /** A number of things: 35,947. */
 export const count = (n: number): string => whole.format(n);
 
+/** So many things: 1 tetrahedron, 2 tetrahedra. */
+export const things = (n: number, one: string, many: string): string =>
+  `${count(n)} ${n === 1 ? one : many}`;
+
+/** So many tetrahedra or triangles. */
+export const simplices = (n: number, dimension: 2 | 3): string =>
+  dimension === 3 ? things(n, 'tetrahedron', 'tetrahedra') : things(n, 'triangle', 'triangles');
+
 /** A measured value to three digits: 0.0124, 1.2e-9. */
 export const measured = (x: number): string =>
   x === 0 || (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e6)

@@ -20,9 +20,12 @@ export function editor(page: Page): Part {
   const canvas = byId<HTMLCanvasElement>('canvas');
   const ring = byId('ring');
   const undo = byId<HTMLButtonElement>('undo');
+  const redo = byId<HTMLButtonElement>('redo');
   const said = byId('edited');
   /** The point that is dragged, or held by the keys. */
   let held: number | null = null;
+  /** What was taken back, the last first, until there is another change. */
+  let undone: Edit[] = [];
   let pressed: { x: number; y: number; moved: boolean } | null = null;
 
   const flat = () => page.settings.source.dimension === 2 && !page.live && page.summary !== null;
@@ -60,6 +63,7 @@ export function editor(page: Page): Part {
 
   const change = (edit: Edit, words: string) => {
     said.textContent = words;
+    undone = [];
     return page.edit(withEdit(page.settings.edits, edit));
   };
   const add = (x: number, y: number) => change({ do: 'add', at: place(x, y) }, 'Point added');
@@ -152,17 +156,24 @@ export function editor(page: Page): Part {
     Escape: keys[' '],
   };
   const takeBack = () => {
-    if (page.settings.edits.length === 0) return;
+    const last = page.settings.edits.at(-1);
+    if (!last) return;
+    undone.push(last);
     said.textContent = 'Undone';
     void page.edit(page.settings.edits.slice(0, -1));
   };
+  const bringBack = () => {
+    const edit = undone.pop();
+    if (!edit) return;
+    said.textContent = 'Redone';
+    void page.edit([...page.settings.edits, edit]);
+  };
   canvas.addEventListener('keydown', (event) => {
     if (!flat() || event.altKey) return;
-    const undoes = (event.ctrlKey || event.metaKey) && event.key === 'z';
-    const act = undoes
-      ? takeBack
-      : event.ctrlKey || event.metaKey
-        ? undefined
+    const withControl = { z: event.shiftKey ? bringBack : takeBack, y: bringBack };
+    const act =
+      event.ctrlKey || event.metaKey
+        ? withControl[event.key.toLowerCase() as 'z' | 'y']
         : ((held !== null ? whileHeld[event.key] : undefined) ?? keys[event.key]);
     if (!act) return;
     event.preventDefault();
@@ -175,6 +186,7 @@ export function editor(page: Page): Part {
     show();
   });
   undo.addEventListener('click', takeBack);
+  redo.addEventListener('click', bringBack);
   byId('clear').addEventListener('click', () => {
     page.tool = 'add';
     void page.run({ kind: 'generator', dimension: 2, distribution: 'uniform', count: 0, seed: 1 });
@@ -184,8 +196,10 @@ export function editor(page: Page): Part {
     canvas.dataset.tool = flat() ? page.tool : '';
     for (const radio of tools) radio.checked = radio.value === page.tool;
     undo.disabled = page.settings.edits.length === 0;
+    redo.disabled = undone.length === 0;
   };
   const forget = () => {
+    undone = [];
     held = pressed = null;
     mark(null);
     show();

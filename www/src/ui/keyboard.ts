@@ -1,5 +1,4 @@
 import type { Page } from '../page';
-import { HOME } from '../settings';
 import { byId } from './dom';
 
 const TURN = Math.PI / 36;
@@ -9,14 +8,16 @@ const STEP = 0.08;
 
 /** The keys that work while the drawing has the focus. */
 export function wireKeyboard(page: Page): void {
-  const slice = (by: number) =>
-    page.change({ keep: Math.min(1, Math.max(0, page.settings.keep + by)) });
+  const slice = (by: number) => {
+    const keep = page.settings.keep ?? page.lastDrawing?.keep;
+    if (keep !== undefined) page.change({ keep: Math.min(1, Math.max(0, keep + by)) });
+  };
   const isFlat = () => page.settings.source.dimension === 2;
   const go = (right: number, up: number) =>
     isFlat()
       ? page.viewer?.pan(right * STEP, up * STEP)
       : page.viewer?.orbit(right * TURN, up * TURN, 1);
-  const home = () => page.change({ camera: HOME[page.settings.source.dimension] });
+  const home = () => page.change({ camera: null });
   const keys: Record<string, () => void> = {
     ArrowLeft: () => go(-1, 0),
     ArrowRight: () => go(1, 0),

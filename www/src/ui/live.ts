@@ -1,6 +1,6 @@
 import { framesChart } from '../charts/frames';
 import type { Page, Part } from '../page';
-import { byId, count, create, duration, measured } from './dom';
+import { byId, count, create, duration, measured, simplices } from './dom';
 import { showLegend } from './legend';
 
 const KEPT = 120;
@@ -43,8 +43,8 @@ export function live(page: Page): Part {
       const points = Math.min(200_000, Math.max(10, Math.round(number.valueAsNumber) || 3000));
       const seconds = (performance.now() - run) / 1000;
       const frame = await page.model.liveFrame(dimension, points, settings.backend, seconds, {
-        filter: { kind: 'all' },
-        plane: { normal: settings.normal, keep: settings.keep },
+        filter: { kind: 'all', alpha: null },
+        plane: { normal: page.view.normal, keep: settings.keep },
         color: settings.color === 'phase' ? 'quality' : settings.color,
         pieces: settings.apart > 0,
         round: null,
@@ -65,7 +65,7 @@ export function live(page: Page): Part {
       if (now - charted > 400) {
         charted = now;
         byId('count').textContent =
-          `${count(points)} moving points → ${count(frame.simplices)} ${dimension === 3 ? 'tetrahedra' : 'triangles'}`;
+          `${count(points)} moving points → ${simplices(frame.simplices, dimension)}`;
         byId('took').replaceChildren(
           create('b', {}, duration(frame.milliseconds)),
           create('span', {}, `per frame, ${measured(1000 / (now - last))} frames per second`),

@@ -87,7 +87,11 @@ export function pointsPanel(page: Page): Part {
         number.value = String(source.count);
         seed.value = String(source.seed);
       }
-      for (const radio of backends) radio.checked = radio.value === backend;
+      for (const radio of backends) {
+        radio.checked = radio.value === backend;
+        radio.disabled = radio.value === 'gpu' && page.hasGpu === false;
+      }
+      byId('backend-note').hidden = page.hasGpu !== false;
     },
   };
 }

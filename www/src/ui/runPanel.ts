@@ -4,6 +4,7 @@ import { MAX_POINTS_TO_RECORD, type Summary } from '../model/model';
 import { titleOf } from '../model/source';
 import type { Page, Part } from '../page';
 import { byId, count, create } from './dom';
+import { phasesOf } from './phases';
 import { repairOf } from './repair';
 
 /** At most so many runs stand side by side in the breakdown. */
@@ -33,11 +34,11 @@ export function runPanel(page: Page): Part {
   const ran = (summary: Summary) => {
     stepper(summary);
     showFigures(summary);
-    showRepair(summary);
+    showRepair(page);
     const title = `${titleOf(page.settings.source)}, ${count(summary.points)}, ${summary.stats.backend.toUpperCase()}`;
     const again = runs.findIndex((run) => run.title === title);
     if (again >= 0) runs.splice(again, 1);
-    runs.unshift({ title, phases: summary.stats.phases });
+    runs.unshift({ title, phases: phasesOf(summary.stats) });
     runs.length = Math.min(runs.length, RUNS);
     charted = false;
   };
@@ -47,6 +48,7 @@ export function runPanel(page: Page): Part {
     // Follows every run; of changes by hand in a row, the last.
     changed({ layers }) {
       shade.checked = layers.facets;
+      if (page.summary) showRepair(page);
       void chart();
     },
     showed: () => void chart(),
@@ -85,20 +87,32 @@ function showFigures({
   );
 }
 
-function showRepair(summary: Summary): void {
-  const { trace, points } = summary;
-  const small = points <= MAX_POINTS_TO_RECORD;
-  byId('record-section').hidden = trace !== null || !small;
+/** Why a run of these points cannot be recorded, in a sentence; null where it can. */
+export function whyNotRecord({ summary, hasGpu }: Page): string | null {
+  if (!summary || summary.dimension === 2) return 'Only runs in 3D can be recorded.';
+  if (hasGpu === false)
+    return 'Runs are recorded on the GPU, and this browser offers none through WebGPU.';
+  if (summary.points > MAX_POINTS_TO_RECORD)
+    return `Runs of up to ${count(MAX_POINTS_TO_RECORD)} points can be recorded to see where.`;
+  return null;
+}
+
+function showRepair(page: Page): void {
+  const { trace } = page.summary!;
+  const why = whyNotRecord(page);
+  for (const id of ['record', 'record-few'])
+    byId<HTMLButtonElement>(id).disabled = page.hasGpu === false;
+  byId<HTMLButtonElement>('record').hidden = why !== null && page.hasGpu !== false;
+  byId('record-section').hidden = trace !== null;
   byId('recorded').hidden = trace === null;
   if (!trace) {
     byId('repair').textContent =
       'Phase 1 flips in parallel on the GPU and gets stuck in a few places. There, Phase 2 splays stars. ' +
-      (small
-        ? 'Recorded, a run shows where, and how it came about round by round. That takes several times as long.'
-        : `Runs of up to ${count(MAX_POINTS_TO_RECORD)} points can be recorded to see where.`);
+      (why ??
+        'Recorded, a run shows where, and how it came about round by round. That takes several times as long.');
     return;
   }
-  byId('repair').textContent = repairOf(trace, summary);
+  byId('repair').textContent = repairOf(trace, page.summary!);
 }
 
 /** The slider over the rounds of the trace. Returns what to do with a new mesh. */

@@ -1,13 +1,14 @@
 import type { Summary } from '../model/model';
 import { byId, create, duration } from './dom';
-import { phaseColor } from './phases';
+import { phaseColor, phasesOf } from './phases';
 
 /** The bar along the bottom of the stage: what the milliseconds went into. */
 export function showStrip({ stats }: Summary): void {
-  const total = stats.phases.reduce((sum, { milliseconds }) => sum + milliseconds, 0);
+  const phases = phasesOf(stats);
+  const total = phases.reduce((sum, { milliseconds }) => sum + milliseconds, 0);
   byId('strip').hidden = total === 0;
   byId('bar').replaceChildren(
-    ...stats.phases.map(({ name, milliseconds }) => {
+    ...phases.map(({ name, milliseconds }) => {
       const piece = create('i', { title: `${name}: ${duration(milliseconds)}` });
       piece.style.flex = String(milliseconds / total);
       piece.style.setProperty('--phase', phaseColor(name));
@@ -15,7 +16,7 @@ export function showStrip({ stats }: Summary): void {
     }),
   );
   byId('phases').replaceChildren(
-    ...stats.phases.map(({ name, milliseconds }) => {
+    ...phases.map(({ name, milliseconds }) => {
       const item = create('li', {}, `${name} `, create('b', {}, duration(milliseconds)));
       item.style.setProperty('--phase', phaseColor(name));
       return item;

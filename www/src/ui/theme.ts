@@ -1,19 +1,21 @@
 import type { Viewer } from '../view/viewer';
 import { byId } from './dom';
+import { recall, remember } from './storage';
 
 const KEY = 'gdel-theme';
 
 /** Light or dark: the visitor's choice, else the system's. */
 export function wireTheme(onChange: () => void): void {
   const system = matchMedia('(prefers-color-scheme: dark)');
+  let chosen = recall(KEY);
   const apply = () => {
-    const stored = localStorage.getItem(KEY);
-    document.documentElement.dataset.theme = stored ?? (system.matches ? 'dark' : 'light');
+    document.documentElement.dataset.theme = chosen ?? (system.matches ? 'dark' : 'light');
     onChange();
   };
   system.addEventListener('change', apply);
   byId('theme').addEventListener('click', () => {
-    localStorage.setItem(KEY, document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark');
+    chosen = document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark';
+    remember(KEY, chosen);
     apply();
   });
   apply();

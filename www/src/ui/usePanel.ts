@@ -1,6 +1,7 @@
 import { FORMATS, type Format, type SavedFile } from '../model/save';
 import { type Source, titleOf } from '../model/source';
 import type { Page, Part } from '../page';
+import { complaintAbout } from './complaint';
 import { byId, count, create } from './dom';
 import { showMessage } from './message';
 import { nameOf } from './result';
@@ -50,6 +51,7 @@ async function download(
   button: HTMLButtonElement,
 ): Promise<void> {
   button.disabled = true;
+  showMessage(null);
   try {
     const files =
       format === 'GLB' || format === 'SVG'
@@ -68,7 +70,7 @@ async function download(
       setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
     }
   } catch (error) {
-    showMessage(`${format}: ${(error as Error).message}`);
+    showMessage(complaintAbout(format, error));
   } finally {
     button.disabled = false;
   }

@@ -1,12 +1,14 @@
-import type { Filter } from '../geometry/filter';
+import type { FilterKind } from '../geometry/filter';
 import type { ColorBy } from '../geometry/scale';
+import { UPS } from '../geometry/up';
 import { MAX_PIECES } from '../model/model';
 import type { Dimension } from '../model/source';
 import type { Page, Part } from '../page';
-import { colorsIn, LAYERS, type Layer, type Settings, type Up } from '../settings';
+import { colorsIn, LAYERS, type Layer, type Settings } from '../settings';
 import { COLOR_MAPS, type ColorMapName } from '../view/colormap';
 import { byId, count, create, measured, radios } from './dom';
 import { QUANTITIES } from './legend';
+import { whyNotRecord } from './runPanel';
 
 /** The names of the layers in 3D and 2D. */
 const LAYER_NAMES: Record<Dimension, Partial<Record<Layer, string>>> = {
@@ -26,7 +28,7 @@ const LAYER_NAMES: Record<Dimension, Partial<Record<Layer, string>>> = {
   },
 };
 
-const FILTER_NOTES: Record<Dimension, Record<Filter['kind'], string>> = {
+const FILTER_NOTES: Record<Dimension, Record<FilterKind, string>> = {
   3: {
     all: 'Every tetrahedron. Together they fill the convex hull.',
     carve:
@@ -40,7 +42,7 @@ const FILTER_NOTES: Record<Dimension, Record<Filter['kind'], string>> = {
   },
 };
 
-const NORMALS: Record<string, Settings['normal']> = {
+const NORMALS: Record<string, NonNullable<Settings['normal']>> = {
   X: [1, 0, 0],
   Y: [0, 1, 0],
   Z: [0, 0, 1],
@@ -72,10 +74,19 @@ export function viewPanel(page: Page): Part {
     () => page.viewer && page.change({ normal: page.viewer.towardsCamera }),
   );
 
-  const ups = radios('up', (up) => page.change({ up: up as Up }));
-  const filters = radios('filter', (filter) => page.change({ filter: filter as Filter['kind'] }));
+  const ups = UPS.map((up) => {
+    const radio = create('input', { type: 'radio', name: 'up', value: up });
+    radio.addEventListener('change', () => page.change({ up, normal: null }));
+    const title = up.replace('-', '−').toUpperCase();
+    byId('ups').append(create('label', {}, radio, create('span', {}, title)));
+    return radio;
+  });
+  const filters = radios('filter', (filter) => page.change({ filter: filter as FilterKind }));
   const alpha = byId<HTMLInputElement>('alpha');
-  alpha.addEventListener('input', () => page.change({ alpha: alphaAt(alpha.valueAsNumber, page) }));
+  alpha.addEventListener('input', () => {
+    const range = page.lastDrawing?.alpha?.range;
+    if (range) page.change({ alpha: alphaAt(alpha.valueAsNumber, range) });
+  });
 
   const apart = byId<HTMLInputElement>('apart');
   apart.addEventListener('input', () => page.change({ apart: apart.valueAsNumber }));
@@ -111,19 +122,20 @@ export function viewPanel(page: Page): Part {
     const { dimension } = settings.source;
     offer(dimension);
     color.value = settings.color;
+    const phase = color.querySelector<HTMLOptionElement>('[value=phase]');
+    if (phase) {
+      const why = page.summary && !page.summary.trace ? whyNotRecord(page) : null;
+      phase.disabled = why !== null;
+      phase.title = why ?? '';
+    }
     map.value = settings.map;
-    keep.value = String(settings.keep);
+    const { normal: along, up } = page.view;
     for (const { radio, normal } of normals)
-      radio.checked = normal.join() === settings.normal.join();
+      radio.checked = normal.every((x, axis) => x === along[axis]);
     for (const radio of filters) radio.checked = radio.value === settings.filter;
-    for (const radio of ups) radio.checked = radio.value === settings.up;
+    for (const radio of ups) radio.checked = radio.value === up;
     byId('filter-note').textContent = FILTER_NOTES[dimension][settings.filter];
     alpha.disabled = settings.filter === 'all';
-    if (page.summary) {
-      const value = settings.alpha ?? page.summary.alpha.typical;
-      alpha.value = String(positionOf(value, page));
-      byId('alpha-value').textContent = settings.filter === 'all' ? '' : measured(value);
-    }
     apart.value = String(settings.apart);
     for (const { layer, box } of layers) box.checked = settings.layers[layer];
   };
@@ -131,7 +143,10 @@ export function viewPanel(page: Page): Part {
   return {
     changed,
     ran: () => changed(page.settings),
-    drew({ pieces, shown }) {
+    drew({ pieces, shown, keep: kept, alpha: used }) {
+      keep.value = String(kept);
+      if (used) alpha.value = String(positionOf(used.value, used.range));
+      byId('alpha-value').textContent = used ? measured(used.value) : '';
       byId('apart-note').textContent =
         pieces && pieces.owners.length < shown
           ? `The outermost ${count(pieces.owners.length)} of ${count(shown)} are drawn: at most ${count(MAX_PIECES)} at a time.`
@@ -141,12 +156,10 @@ export function viewPanel(page: Page): Part {
 }
 
 // The slider is logarithmic: radii span orders of magnitude.
-function alphaAt(position: number, { summary }: Page): number {
-  const [low, high] = summary!.alpha.range;
+function alphaAt(position: number, [low, high]: [number, number]): number {
   return low * (high / low) ** position;
 }
 
-function positionOf(value: number, { summary }: Page): number {
-  const [low, high] = summary!.alpha.range;
+function positionOf(value: number, [low, high]: [number, number]): number {
   return high > low ? Math.log(value / low) / Math.log(high / low) : 0;
 }

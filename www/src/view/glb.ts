@@ -3,10 +3,11 @@ import { BufferAttribute, BufferGeometry, Color, Mesh, MeshStandardMaterial } fr
 import { trianglesOf } from '../geometry/pieces';
 import type { Page } from '../page';
 import { rgbOf } from './colormap';
+import { turnTo } from './viewer';
 
 /** What the page shows, as a binary glTF file: the surface with its colours. */
-export async function toGLB({ settings, lastDrawing }: Page): Promise<Uint8Array> {
-  if (!lastDrawing) throw new Error('There is nothing to see yet.');
+export async function toGLB({ settings, view, summary, lastDrawing }: Page): Promise<Uint8Array> {
+  if (!lastDrawing || !summary) throw new Error('There is nothing to see yet.');
   const { surface, pieces, scale } = lastDrawing;
   const positions = surface ? surface.positions : trianglesOf(pieces!, settings.apart);
   // A piece has 12 corners for its one value; a surface has a value for every corner.
@@ -30,7 +31,12 @@ export async function toGLB({ settings, lastDrawing }: Page): Promise<Uint8Array
     geometry,
     new MeshStandardMaterial({ vertexColors: true, roughness: 1, metalness: 0 }),
   );
-  if (settings.up === 'z') mesh.rotation.x = -Math.PI / 2;
+  // The node's transform undoes that of the drawing: in a viewer, lengths are the file's.
+  const { frame } = summary;
+  const turn = turnTo(view.up);
+  mesh.quaternion.copy(turn);
+  mesh.scale.setScalar(1 / frame.scale);
+  mesh.position.set(...frame.center).applyQuaternion(turn);
   const glb = await new GLTFExporter().parseAsync(mesh, { binary: true });
   return new Uint8Array(glb as ArrayBuffer);
 }

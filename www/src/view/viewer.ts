@@ -10,10 +10,12 @@ import {
   InstancedInterleavedBuffer,
   InterleavedBufferAttribute,
   type Material,
+  Matrix4,
   Mesh,
   MOUSE,
   type Object3D,
   PerspectiveCamera,
+  Quaternion,
   Raycaster,
   Scene,
   Sphere,
@@ -28,6 +30,7 @@ import { FACETS } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
 import type { Pieces } from '../geometry/pieces';
 import type { Surface } from '../geometry/surface';
+import { fromScreen, type Up } from '../geometry/up';
 import type { Voronoi } from '../geometry/voronoi';
 import type { Dimension } from '../model/source';
 import type { ColorMapName } from './colormap';
@@ -80,13 +83,15 @@ export class Viewer {
   private readonly camera = new PerspectiveCamera(38, 1, 0.01, 100);
   private readonly controls: OrbitControls;
   private frame = 0;
+  /** Whether the camera is being placed by the page. */
+  private placing = false;
   private dimension: Dimension = 3;
   private readonly layers: Layers;
 
   private constructor(
     private readonly renderer: WebGPURenderer,
     private readonly canvas: HTMLCanvasElement,
-    onCamera: () => void,
+    private readonly onCamera: () => void,
   ) {
     this.scene.add(this.model);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -94,7 +99,7 @@ export class Viewer {
     this.controls.maxDistance = 20;
     this.controls.addEventListener('change', () => {
       this.render();
-      onCamera();
+      if (!this.placing) onCamera();
     });
     const { look } = this;
     this.layers = {
@@ -233,8 +238,8 @@ export class Viewer {
   }
 
   /** Which of the model's axes points up. */
-  setUp(up: 'y' | 'z'): void {
-    this.model.rotation.x = up === 'z' ? -Math.PI / 2 : 0;
+  setUp(up: Up): void {
+    this.model.quaternion.copy(turnTo(up));
     this.model.updateMatrixWorld();
     this.render();
   }
@@ -253,7 +258,9 @@ export class Viewer {
     this.camera.position
       .setFromSpherical(new Spherical(distance, phi, azimuth))
       .add(this.controls.target);
+    this.placing = true;
     this.controls.update();
+    this.placing = false;
     this.render();
   }
 
@@ -261,6 +268,7 @@ export class Viewer {
   orbit(azimuth: number, elevation: number, zoom: number): void {
     const [a, e, d, ...target] = this.pose;
     this.pose = [a + azimuth, Math.min(1.55, Math.max(-1.55, e + elevation)), d * zoom, ...target];
+    this.onCamera();
   }
 
   /** Moves the 2D view, by shares of what is visible. */
@@ -268,6 +276,7 @@ export class Viewer {
     const [a, e, d, x, y, z] = this.pose;
     const [width, height] = this.seen;
     this.pose = [a, e, d, x + right * width, y + up * height, z];
+    this.onCamera();
   }
 
   /** How much of the frame is visible in 2D. */
@@ -385,6 +394,17 @@ export class Viewer {
     this.camera.setViewOffset(clientWidth, clientHeight, -right, -down, clientWidth, clientHeight);
     this.render();
   }
+}
+
+/** The turn that takes the input's axes to those of the screen. */
+export function turnTo(up: Up): Quaternion {
+  const axes = [
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+  ] as const;
+  const [x, y, z] = axes.map((axis) => new Vector3(...fromScreen(up, axis)));
+  return new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(x, y, z)).invert();
 }
 
 function triangles(positions: Float32Array, values?: Float32Array): BufferGeometry | null {

@@ -1,12 +1,13 @@
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
-import { applyFilter, typicalAlpha } from '../../src/geometry/filter';
-import { measure } from '../../src/geometry/measures';
+import { keep } from '../../src/geometry/filter';
+import { facetCircumradiusSquared, measure } from '../../src/geometry/measures';
 import { FACETS, frameOf, toFrame } from '../../src/geometry/mesh';
 import { firstHit } from '../../src/geometry/pick';
 import { outermost, piecesOf, trianglesOf } from '../../src/geometry/pieces';
 import { heightsAlong, levelOf } from '../../src/geometry/plane';
 import { mapping, scaleFor } from '../../src/geometry/scale';
+import { carvingRadii, solidRadius, spacingOf } from '../../src/geometry/solid';
 import { boundaryOf, surfaceOf } from '../../src/geometry/surface';
 import { closeTo } from './close';
 
@@ -79,7 +80,7 @@ const frame = frameOf(points);
 const positions = toFrame(points, frame);
 const mesh = { positions, tetrahedra, neighbors };
 const measures = measure(points, tetrahedra);
-const all = applyFilter({ kind: 'all' }, points, tetrahedra, neighbors, measures.circumradius);
+const all = keep(null, Infinity, neighbors);
 
 /** The volume that a closed surface encloses. */
 function enclosed(triangles: Float32Array): number {
@@ -157,14 +158,12 @@ describe('the cut', () => {
 });
 
 describe('filters', () => {
+  const carving = carvingRadii(points, tetrahedra, neighbors);
+  const carved = (alpha: number) =>
+    keep(carving, alpha, neighbors).kept.reduce((sum, kept) => sum + kept, 0);
+
   test('the alpha complex keeps what is small enough', () => {
-    const { kept } = applyFilter(
-      { kind: 'alpha', alpha: 0.1 },
-      points,
-      tetrahedra,
-      neighbors,
-      measures.circumradius,
-    );
+    const { kept } = keep(measures.circumradius, 0.1, neighbors);
     assert.equal(
       kept.every((k) => k === 0),
       true,
@@ -172,14 +171,6 @@ describe('filters', () => {
   });
 
   test('carving takes nothing from outside where no facet is large, and all where every facet is', () => {
-    const carved = (alpha: number) =>
-      applyFilter(
-        { kind: 'carve', alpha },
-        points,
-        tetrahedra,
-        neighbors,
-        measures.circumradius,
-      ).kept.reduce((s, k) => s + k, 0);
     assert.equal(carved(1), count);
     assert.equal(carved(0.1), 0);
   });
@@ -187,23 +178,88 @@ describe('filters', () => {
   test('a ball of radius alpha carves a tetrahedron whose facets have a larger circumcircle', () => {
     const regular = Float64Array.of(1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1);
     const one = Uint32Array.of(0, 1, 2, 3);
-    const kept = (alpha: number) =>
-      applyFilter(
-        { kind: 'carve', alpha },
-        regular,
-        one,
-        Int32Array.of(-1, -1, -1, -1),
-        measure(regular, one).circumradius,
-      ).kept[0];
+    const outside = Int32Array.of(-1, -1, -1, -1);
+    const radii = carvingRadii(regular, one, outside);
     // Equilateral facets with sides of √8.
     const circumradius = Math.sqrt(8 / 3);
-    assert.deepEqual([kept(0.999 * circumradius), kept(1.001 * circumradius)], [0, 1]);
+    assert.deepEqual(
+      [0.999, 1.001].map((times) => keep(radii, times * circumradius, outside).kept[0]),
+      [0, 1],
+    );
   });
 
-  test('the typical alpha is ten edges of the grid', () => {
-    closeTo(typicalAlpha(points, tetrahedra), 10, 5);
+  test('carving for every radius at once leaves what carving for one leaves', () => {
+    const scattered = jittered(7);
+    const radii = carvingRadii(scattered.points, scattered.tetrahedra, scattered.neighbors);
+    for (const alpha of [0.05, 0.1, 0.2, 0.3, 0.5, 1]) {
+      const expected = carveNaively(alpha, scattered);
+      const kept = keep(radii, alpha, scattered.neighbors).kept;
+      // Radii are told apart by a tenth of a percent.
+      const wrong = [...kept].filter((k, t) => k !== expected[t]).length;
+      assert.ok(wrong <= 0.002 * kept.length, `${wrong} of ${kept.length} differ for ${alpha}`);
+    }
+  });
+
+  test('the solid of a grid is found as soon as its cubes hang together', () => {
+    // Facets with two sides of a cube, and those across it: the latter are inside.
+    const radius = solidRadius(carving, measures.volume, tetrahedra, 3);
+    closeTo(radius, Math.SQRT1_2, 1);
+    assert.equal(carved(radius), count);
+    const none = new Float32Array();
+    assert.equal(solidRadius(none, none, new Uint32Array(), 3), Infinity);
+  });
+
+  test('an uneven scan closes, and outliers do not blow it up', () => {
+    // Four points hang together by a chain of tetrahedra of radius 1; at 3 the inside comes in, and
+    // a point that belongs to nothing at 100.
+    const radii = Float32Array.of(...Array(600).fill(1), 3, 3, 100);
+    const volumes = Float32Array.of(...Array(600).fill(0.002), 5, 5, 20);
+    const simplices = Uint32Array.from([...radii.keys()].flatMap((t) => [t, t + 1, t + 2, t + 3]));
+    assert.equal(solidRadius(radii, volumes, simplices, 3), 3);
+    // Land has no inside: its small holes close, and no more.
+    volumes.fill(0.01);
+    const ramp = radii.map((_, t) => 1 + t / 1000);
+    closeTo(solidRadius(ramp, volumes, simplices, 3), 2 * 1.588, 1);
+  });
+
+  test('the spacing is an edge of the grid', () => {
+    closeTo(spacingOf(points, tetrahedra, 3), 1, 5);
   });
 });
+
+/** The grid with its points moved at random: not Delaunay, but as good for carving. */
+function jittered(seed: number) {
+  let state = seed;
+  const random = () => {
+    state = (state * 1103515245 + 12345) % 2 ** 31;
+    return state / 2 ** 31;
+  };
+  return { points: points.map((x) => 0.2 * (x + 0.45 * random())), tetrahedra, neighbors };
+}
+
+/** Carves for one radius, from outside inwards. */
+function carveNaively(
+  alpha: number,
+  { points, tetrahedra, neighbors }: ReturnType<typeof jittered>,
+): Uint8Array {
+  const kept = new Uint8Array(tetrahedra.length / 4).fill(1);
+  const isOpen = (t: number, k: number) => {
+    const [a, b, c] = [0, 1, 2].map((j) => tetrahedra[4 * t + FACETS[3 * k + j]]);
+    return facetCircumradiusSquared(points, a, b, c) > alpha * alpha;
+  };
+  for (let changed = true; changed; ) {
+    changed = false;
+    for (let t = 0; t < kept.length; t++) {
+      for (let k = 0; k < 4; k++) {
+        const u = neighbors[4 * t + k];
+        if (!kept[t] || (u >= 0 && kept[u]) || !isOpen(t, k)) continue;
+        kept[t] = 0;
+        changed = true;
+      }
+    }
+  }
+  return kept;
+}
 
 describe('pieces', () => {
   const heights = heightsAlong([1, 0, 0], mesh);

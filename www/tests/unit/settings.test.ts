@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { defaults, fromHash, toHash } from '../../src/settings';
+import { defaults, fileIn, fromHash, toHash } from '../../src/settings';
 
 test('the first view needs no more than the name of its points', () => {
   assert.equal(toHash(defaults()), 'points=bunny');
@@ -18,7 +18,7 @@ test('a link restores every setting', () => {
     alpha: 0.25,
     normal: [0, -1, 0],
     keep: 0.375,
-    up: 'z',
+    up: '-z',
     apart: 0.5,
     layers: {
       simplices: true,
@@ -70,6 +70,7 @@ test('in 2D there is nothing to carve, no phase of creation, and nothing to look
     assert.deepEqual(fromHash(hash), defaults(2), hash);
   }
   assert.deepEqual(fromHash('#dim=2&camera=1_1_2_3_4_5').camera, [0, 0, 2, 3, 4, 0]);
+  assert.equal(fromHash('#dim=2').camera, null);
   assert.deepEqual(fromHash('#edits=add_1_2').edits, []);
 });
 
@@ -82,8 +83,11 @@ test('what makes no sense in a link is left out', () => {
     '#points=uniform',
     '#dim=4',
     '#backend=magic',
-    '#cut=0_0_0_0.5',
-    '#cut=1_2',
+    '#normal=0_0_0',
+    '#normal=1_2',
+    '#keep=',
+    '#keep=half',
+    '#up=w',
     '#camera=NaN_0_0_0_0_0',
     '#camera=0_0_-1_0_0_0',
     '#alpha=-1',
@@ -92,4 +96,11 @@ test('what makes no sense in a link is left out', () => {
     assert.deepEqual(fromHash(hash), defaults(), hash);
   }
   assert.equal(fromHash('#apart=7').apart, 1);
+});
+
+test('a link made from a file names it', () => {
+  const file = new File([], 'scan of a cat.ply');
+  const hash = toHash({ ...defaults(), source: { kind: 'file', dimension: 3, file } });
+  assert.equal(fileIn(`#${hash}`), 'scan of a cat.ply');
+  assert.equal(fileIn('#points=bunny'), null);
 });

@@ -1,0 +1,261 @@
+// People's own scans: how they are shown at first, and what does not stay from the last.
+
+import assert from 'node:assert/strict';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { gzipSync } from 'node:zlib';
+import {
+  addressOf,
+  choose,
+  drop,
+  launch,
+  open,
+  pictureOf,
+  save,
+  serve,
+  settled,
+  shown,
+  slide,
+  tab,
+  text,
+  until,
+} from './browser.mjs';
+
+/** The same numbers everywhere, from 0 to 1. */
+function randomNumbers(seed) {
+  let state = seed;
+  return () => {
+    state = (state * 48271) % 2147483647;
+    return state / 2147483647;
+  };
+}
+
+const xyz = (points) => points.map((point) => point.join(' ')).join('\n');
+
+/** Hills with z up, far from the origin, as they are seen from a plane: with a few birds. */
+function airborne() {
+  const random = randomNumbers(1);
+  const points = [];
+  for (let i = 0; i < 8000; i++) {
+    const [x, y] = [1000 * random(), 600 * random()];
+    const z = 30 * Math.sin(x / 150) * Math.cos(y / 120) + random();
+    points.push([500_000 + x, 4_000_000 + y, z]);
+  }
+  for (let i = 0; i < 40; i++)
+    points.push([500_000 + 1000 * random(), 4_000_000 + 600 * random(), 20_000 * random()]);
+  return points;
+}
+
+/** A half ball with its flat side below, where up is an axis from 0 to 2. */
+function figure(up) {
+  const random = randomNumbers(2);
+  const points = [];
+  while (points.length < 3000) {
+    const p = [0, 1, 2].map(() => 2 * random() - 1);
+    const radius = Math.hypot(...p);
+    if (radius > 1) continue;
+    // Half of the points on the round side, half on the flat one.
+    const above = points.length % 2 ? p.map((x) => x / radius) : [p[0], 0, p[2]];
+    above[1] = Math.abs(above[1]);
+    points.push([above[(4 - up) % 3], above[(5 - up) % 3], above[(6 - up) % 3]]);
+  }
+  return points;
+}
+
+const ply = (points) =>
+  `ply\nformat ascii 1.0\nelement vertex ${points.length}\nproperty float x\nproperty float y\nproperty float z\nend_header\n${xyz(points)}\n`;
+
+let server;
+before(async () => (server = await serve()));
+after(() => server.close());
+
+describe('a scan', () => {
+  let browser;
+  let page;
+  before(async () => {
+    browser = await launch();
+    page = await open(browser, `${server.url}#points=uniform_200_1`);
+  });
+  after(() => browser.close());
+
+  test('from the air is framed and cut without its birds', async () => {
+    await drop(page, 'hills.xyz', xyz(airborne()));
+    assert.match(await text(page, 'count'), /^8,040 points/);
+    const counts = await shown(page);
+    const share = counts.shown / counts.total;
+    assert.ok(share > 0.25 && share < 0.75, `${counts.shown} of ${counts.total} shown`);
+    await pictureOf(page, 'scan-airborne');
+  });
+
+  test('stands upright, whichever axis is up', async () => {
+    for (const [axis, up] of [
+      [1, 'y'],
+      [2, 'z'],
+    ]) {
+      await drop(page, `figure-${up}.ply`, ply(figure(axis)));
+      assert.equal(await page.locator('input[name=up]:checked').inputValue(), up);
+    }
+    await pictureOf(page, 'scan-figure');
+  });
+
+  test('is seen as a new one, not as the last one was', async () => {
+    await drop(page, 'hills.xyz', xyz(airborne()));
+    await slide(page, 'keep', 0.2);
+    await tab(page, 'view');
+    await slide(page, 'alpha', 0.9);
+    await page.focus('#canvas');
+    await page.keyboard.press('ArrowLeft');
+    for (const key of ['keep', 'alpha', 'camera'])
+      assert.ok((await addressOf(page)).includes(`${key}=`), key);
+    await drop(page, 'figure.ply', ply(figure(1)));
+    assert.doesNotMatch(await addressOf(page), /keep|alpha|camera|normal|up=/);
+  });
+
+  test('is named, and a link to it says which file it needs', async () => {
+    await drop(page, 'my cat.ply', ply(figure(1)));
+    assert.equal(await text(page, 'name'), 'my cat.ply');
+    await slide(page, 'keep', 0.25);
+    const other = await open(browser, await addressOf(page));
+    assert.match(await text(other, 'message-text'), /“my cat\.ply”.*Open the same file/);
+    await drop(other, 'my cat.ply', ply(figure(1)));
+    assert.equal(await text(other, 'shown'), await text(page, 'shown'));
+    assert.deepEqual(other.problems, []);
+    await other.context().close();
+  });
+
+  test('may be compressed', async () => {
+    await drop(page, 'figure.ply.gz', gzipSync(ply(figure(1))));
+    assert.match(await text(page, 'count'), /^3,000 points/);
+    await drop(page, 'no.ply.gz', Buffer.from('no gzip'));
+    assert.match(await text(page, 'message-text'), /^no\.ply\.gz: The file is no gzip file/);
+  });
+
+  test('that cannot be read says what can', async () => {
+    await drop(page, 'photo.jpg', Buffer.from([255]));
+    assert.match(await text(page, 'message-text'), /^Can’t read \.jpg\. Supported: PLY, .*\.gz\.$/);
+    await drop(page, 'nothing.ply', Buffer.from([]));
+    assert.equal(await text(page, 'message-text'), 'nothing.ply: The file is empty.');
+  });
+
+  test('tells of the points that hold no measurement', async () => {
+    const points = figure(1).map((point, i) => (i % 3 ? point : ['nan', 'nan', 'nan']));
+    const header = `# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 60\nHEIGHT 50\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 3000\nDATA ascii\n`;
+    await drop(page, 'organised.pcd', header + xyz(points));
+    assert.match(await text(page, 'count'), /^2,000 points/);
+    assert.match(await text(page, 'left-out'), /^1,000 points without a measurement/);
+  });
+
+  test('is saved as GLB in its own units and place', async () => {
+    await drop(page, 'hills.xyz', xyz(airborne()));
+    await tab(page, 'use');
+    const folder = mkdtempSync(join(tmpdir(), 'gdel-scan-'));
+    const glb = readFileSync((await save(page, 'GLB', folder))[0]);
+    rmSync(folder, { recursive: true });
+    const json = JSON.parse(glb.subarray(20, 20 + glb.readUInt32LE(12)).toString());
+    const [{ matrix, scale, translation }] = json.nodes;
+    const place = translation ?? matrix.slice(12, 15);
+    // z is up in the file, y in GLB.
+    assert.ok(Math.abs(place[0] - 500_500) < 20, place.join());
+    assert.ok(Math.abs(place[2] + 4_000_300) < 20, place.join());
+    const size = scale?.[0] ?? Math.hypot(...matrix.slice(0, 3));
+    assert.ok(size > 400 && size < 800, `${size} file units to one of the drawing`);
+  });
+
+  test('leaves the one before in the history', async () => {
+    await drop(page, 'hills.xyz', xyz(airborne()));
+    const hills = await text(page, 'count');
+    await drop(page, 'figure.ply', ply(figure(1)));
+    const before = await text(page, 'count');
+    assert.notEqual(before, hills);
+    await page.goBack();
+    await until(page, (hills) => document.querySelector('#count').textContent === hills, hills);
+    await settled(page);
+    await page.goForward();
+    await until(page, (before) => document.querySelector('#count').textContent === before, before);
+    await settled(page);
+  });
+
+  test('is shown whole, then cut, where motion is welcome', async () => {
+    const still = await open(browser, `${server.url}#points=uniform_200_1`);
+    const moving = await open(browser, `${server.url}#points=uniform_200_1`, {
+      reducedMotion: 'no-preference',
+    });
+    assert.equal(await text(moving, 'shown'), await text(still, 'shown'));
+    assert.equal(await moving.inputValue('#keep'), await still.inputValue('#keep'));
+    for (const each of [still, moving]) await each.context().close();
+  });
+
+  test('has gone through all this without an error in the console', () => {
+    assert.deepEqual(page.problems, []);
+  });
+});
+
+describe('in difficult surroundings', () => {
+  let browser;
+  before(async () => (browser = await launch()));
+  after(() => browser.close());
+
+  test('works where the browser stores nothing', async () => {
+    const page = await open(browser, `${server.url}#points=uniform_200_1`, {}, (context) =>
+      context.addInitScript(() =>
+        Object.defineProperty(window, 'localStorage', {
+          get() {
+            throw new DOMException('denied', 'SecurityError');
+          },
+        }),
+      ),
+    );
+    assert.match(await text(page, 'count'), /^200 points/);
+    const before = await page.evaluate(() => document.documentElement.dataset.theme);
+    await page.click('#theme');
+    assert.notEqual(await page.evaluate(() => document.documentElement.dataset.theme), before);
+    assert.deepEqual(page.problems, []);
+    await page.context().close();
+  });
+
+  test('works in a sandboxed frame', async () => {
+    const outer = createServer((_, response) => {
+      response.setHeader('content-type', 'text/html');
+      response.end(
+        `<iframe sandbox="allow-scripts" width="1200" height="800" src="${server.url}#points=uniform_200_1"></iframe>`,
+      );
+    });
+    await new Promise((resolve) => outer.listen(0, '127.0.0.1', resolve));
+    const context = await browser.newContext({ reducedMotion: 'reduce' });
+    try {
+      const page = await context.newPage();
+      await page.goto(`http://127.0.0.1:${outer.address().port}`);
+      const frame = page.frameLocator('iframe');
+      await frame.locator('#count', { hasText: '200 points' }).waitFor();
+      await frame.locator('#stage[aria-busy="false"]').waitFor();
+      assert.ok(await frame.locator('#message').isHidden());
+    } finally {
+      await context.close();
+      outer.close();
+    }
+  });
+
+  test('says in words that the connection is gone', async () => {
+    const page = await open(browser, `${server.url}#points=uniform_200_1`);
+    await page.context().setOffline(true);
+    await tab(page, 'points');
+    await page.getByRole('button', { name: 'Stanford dragon' }).click();
+    await settled(page);
+    assert.equal(
+      await text(page, 'message-text'),
+      'Stanford dragon could not be loaded. Check your connection and try again.',
+    );
+    await tab(page, 'use');
+    await page.getByRole('button', { name: 'GLB', exact: true }).click();
+    await until(page, () =>
+      document.querySelector('#message-text').textContent.startsWith('GLB could not be loaded.'),
+    );
+    // What is there still works.
+    await tab(page, 'points');
+    await choose(page, 'dimension', '2');
+    await page.context().close();
+  });
+});
