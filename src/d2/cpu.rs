@@ -11,7 +11,7 @@ use crate::{
     error::Error,
     input::{hilbert, order::Curve, points::Points2},
     options::Options,
-    parallel::Threads,
+    parallel::{self, Threads},
     predicates::orient2d,
     slots::{self, SharedSlots},
 };
@@ -81,7 +81,8 @@ impl Grow<2> for Triangulation2 {
     fn insert_by_threads(self, run: &Run<'_, 2>) -> Result<(Self, Vec<u32>), Error> {
         let Triangulation2 { triangles, neighbors, infinite } = self;
         let room = infinite as usize * Self::SIMPLICES_PER_POINT;
-        let mut slots = SharedSlots::new(&triangles, &neighbors, Vec::new(), infinite, room, MAX_TRIANGLES)?;
+        let workers = parallel::count(run.threads);
+        let mut slots = SharedSlots::new(&triangles, &neighbors, Vec::new(), infinite, room, MAX_TRIANGLES, workers)?;
         drop((triangles, neighbors));
         let left = insert_by_workers(&mut slots, run)?;
         let (triangles, neighbors) = slots.into_arrays();

@@ -11,7 +11,7 @@ use crate::{
     error::Error,
     input::{hilbert, order::Curve, points::Points3},
     options::Options,
-    parallel::Threads,
+    parallel::{self, Threads},
     predicates::{collinear, orient3d},
     slots::{self, SharedSlots},
 };
@@ -86,8 +86,10 @@ impl Grow<3> for Triangulation3 {
         let is_unused = |&t: &u32| self.state(t) == state::FREE;
         let unused = (0..self.tetrahedra.len() as u32).filter(is_unused).collect();
         let Triangulation3 { tetrahedra, neighbors, infinite } = self;
-        let room = infinite as usize * Self::SIMPLICES_PER_POINT;
-        let mut slots = SharedSlots::new(&tetrahedra, &neighbors, unused, infinite, room, MAX_TETRAHEDRA)?;
+        // Room that is not used takes no memory, and to make more the workers have to stop.
+        let room = infinite as usize * (Self::SIMPLICES_PER_POINT + 1);
+        let workers = parallel::count(run.threads);
+        let mut slots = SharedSlots::new(&tetrahedra, &neighbors, unused, infinite, room, MAX_TETRAHEDRA, workers)?;
         drop((tetrahedra, neighbors));
         let left = insert_by_workers(&mut slots, run)?;
         let (tetrahedra, neighbors) = slots.into_arrays();

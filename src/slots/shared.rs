@@ -79,7 +79,8 @@ pub(crate) fn unshare(words: Vec<AtomicU32>) -> Vec<u32> {
 
 impl<const N: usize> SharedSlots<N> {
     /// Copies the slots of a triangulation, some of which are `unused`, to where there is room for
-    /// `room`, in all at most `limit`.
+    /// `room`, in all at most `limit`, besides those that so many `workers` take before they use
+    /// them.
     ///
     /// # Errors
     ///
@@ -91,7 +92,9 @@ impl<const N: usize> SharedSlots<N> {
         infinite: u32,
         room: usize,
         limit: usize,
+        workers: usize,
     ) -> Result<Self, Error> {
+        let room = room + workers * CHUNK;
         let copy = |from: &[[u32; N]]| {
             let mut words = zeros(room.clamp(from.len(), limit) * N, room)?;
             words.iter_mut().zip(from.as_flattened()).for_each(|(word, &value)| *word = value.into());
@@ -113,7 +116,7 @@ impl<const N: usize> SharedSlots<N> {
         self.simplices.len() / N
     }
 
-    /// Makes room for half as many slots again if a worker found none. Returns whether it did.
+    /// Makes room for an eighth more slots if a worker found none. Returns whether it did.
     ///
     /// # Errors
     ///
@@ -126,7 +129,7 @@ impl<const N: usize> SharedSlots<N> {
         if room == self.limit {
             return Err(Error::TooManySimplices { limit: self.limit });
         }
-        let slots = (room + room / 2 + CHUNK).min(self.limit);
+        let slots = (room + room / 8 + CHUNK).min(self.limit);
         for words in [&mut self.simplices, &mut self.neighbors] {
             let mut more = unshare(std::mem::take(words));
             more.try_reserve_exact(slots * N - more.len()).map_err(|_| Error::OutOfMemory { simplices: slots })?;
