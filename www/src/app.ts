@@ -17,10 +17,12 @@ import {
   toHash,
   viewOf,
 } from './settings';
+import { wireAbout } from './ui/about';
 import { showBusy, whileBusy } from './ui/busy';
 import { comparePanel } from './ui/comparePanel';
 import { complaint, complaintAbout } from './ui/complaint';
 import { dimensionSwitch } from './ui/dimension';
+import { dock } from './ui/dock';
 import { byId } from './ui/dom';
 import { wireDrop } from './ui/drop';
 import { editor } from './ui/editor';
@@ -85,10 +87,12 @@ export class App implements Page {
     wireTheme(() => this.viewer && paint(this.viewer));
     wireDrop(this);
     wireShare(this);
+    wireAbout();
     this.parts = [
       dimensionSwitch(this),
       pointsPanel(this),
       viewPanel(this),
+      dock(this),
       runPanel(this),
       comparePanel(this),
       usePanel(this),

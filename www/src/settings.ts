@@ -1,7 +1,7 @@
 import type { Backend } from 'gdel-wasm';
 import type { FilterKind } from './geometry/filter';
 import type { ColorBy } from './geometry/scale';
-import { axisFacing, UPS, type Up } from './geometry/up';
+import { AZIMUTH, axisFacing, UPS, type Up } from './geometry/up';
 import { type Edit, editsFromText, editsToText } from './model/edits';
 import type { Summary } from './model/model';
 import {
@@ -73,26 +73,16 @@ export function colorFor(source: Source): ColorBy {
   return source.kind === 'generator' ? 'quality' : 'circumradius';
 }
 
-/** Where the camera is at first: beside a 3D model, above a 2D one. */
-const HOME: Record<Dimension, CameraPose> = {
-  3: [0.5, 0.24, 2.85, 0, 0, 0],
-  2: [0, 0, 2.7, 0, 0, 0],
-};
-
 /** How the points are looked at and cut: what was chosen, else what suits them. */
 export function viewOf(
-  { source, up, normal, camera }: Settings,
-  summary: Pick<Summary, 'up' | 'elevation'> | null,
-): { up: Up; normal: Vector; camera: CameraPose; home: CameraPose } {
-  const home: CameraPose = [...HOME[source.dimension]];
-  if (source.dimension === 3 && summary) home[1] = summary.elevation;
+  { up, normal, camera }: Settings,
+  summary: Pick<Summary, 'up' | 'home'> | null,
+): { up: Up; normal: Vector; camera: CameraPose } {
   const upwards = up ?? summary?.up ?? 'y';
-  const [azimuth] = home;
   return {
     up: upwards,
-    normal: normal ?? axisFacing(upwards, [Math.sin(azimuth), 0, Math.cos(azimuth)]),
-    camera: camera ?? home,
-    home,
+    normal: normal ?? axisFacing(upwards, [Math.sin(AZIMUTH), 0, Math.cos(AZIMUTH)]),
+    camera: camera ?? summary?.home ?? [0, 0, 2.7, 0, 0, 0],
   };
 }
 

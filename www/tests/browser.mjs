@@ -253,14 +253,14 @@ export async function expectAccessiblePanels(page, pictures) {
 }
 
 /** Opens the page on a phone, on which it must not be wider than the screen. */
-export async function openOnPhone(browser, url) {
+export async function openOnPhone(browser, url, viewport = { width: 390, height: 844 }) {
   const page = await open(browser, url, {
-    viewport: { width: 390, height: 844 },
+    viewport,
     isMobile: true,
     hasTouch: true,
     deviceScaleFactor: 2,
   });
   const width = await page.evaluate(() => document.documentElement.scrollWidth);
-  assert.ok(width <= 390, `${width} pixels wide`);
+  assert.ok(width <= viewport.width, `${width} pixels wide`);
   return page;
 }

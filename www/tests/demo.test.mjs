@@ -233,7 +233,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
   test('fits a phone', async () => {
     const page = await openOnPhone(browser, server.url);
     await pictureOf(page, '3d-phone');
-    await page.touchscreen.tap(190, 300);
+    await page.touchscreen.tap(215, 340);
     await page.locator('#tip').waitFor();
     await tab(page, 'view');
     await expectAccessible(page);

@@ -84,6 +84,25 @@ export function facetCircumradiusSquared(
   return fourAreaSquared > 0 ? (uu * vv * (uu + vv - 2 * uv)) / (4 * fourAreaSquared) : Infinity;
 }
 
+/** The centre of the sphere through four points of three coordinates each; not finite if flat. */
+export function circumcenter(corners: ArrayLike<number>): [number, number, number] {
+  const [u, v, w] = [3, 6, 9].map((p) =>
+    [0, 1, 2].map((axis) => corners[p + axis] - corners[axis]),
+  );
+  const cross = (a: number[], b: number[]) => [
+    a[1] * b[2] - a[2] * b[1],
+    a[2] * b[0] - a[0] * b[2],
+    a[0] * b[1] - a[1] * b[0],
+  ];
+  const dot = (a: number[], b: number[]) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  const [vw, wu, uv] = [cross(v, w), cross(w, u), cross(u, v)];
+  const twelve = 2 * dot(u, vw);
+  return [0, 1, 2].map(
+    (axis) =>
+      corners[axis] + (dot(u, u) * vw[axis] + dot(v, v) * wu[axis] + dot(w, w) * uv[axis]) / twelve,
+  ) as [number, number, number];
+}
+
 // Math.hypot guards against overflow and takes several times as long.
 function length(x: number, y: number, z: number): number {
   return Math.sqrt(x * x + y * y + z * z);

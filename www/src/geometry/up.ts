@@ -1,5 +1,4 @@
-import type { Frame } from './mesh';
-import { rangeAlong } from './range';
+import { rangeAlong, Sample } from './range';
 
 /** The axis of the input that points up on the screen. */
 export type Up = 'x' | 'y' | 'z' | '-x' | '-y' | '-z';
@@ -107,9 +106,42 @@ export function axisFacing(up: Up, towardsViewer: Vector): [number, number, numb
   );
 }
 
-/** How steeply to look down at first, in radians: on what lies flat, from higher up. */
-export function elevationFor(points: ArrayLike<number>, up: Up, { scale }: Frame): number {
-  const axis = 'xyz'.indexOf(up.replace('-', ''));
-  const [low, high] = points.length > 0 ? rangeAlong(points, axis, 3) : [0, 1];
-  return (high - low) * scale < 0.5 ? 0.62 : 0.24;
+/** Half the angle that the smaller side of the drawing sees, as a tangent. */
+export const HALF_VIEW = Math.tan(Math.PI / 9.5);
+
+/** Where the camera first is beside a 3D object: to the right of its front. */
+export const AZIMUTH = 0.5;
+
+/**
+ * A place for the camera from which the points, as drawn, fill the view but for their outliers:
+ * above them a little, of what lies flat more. In the form of the viewer's `CameraPose`.
+ */
+export function poseFor(
+  positions: Float32Array,
+  up: Up,
+): [number, number, number, number, number, number] {
+  const count = positions.length / 3;
+  if (count === 0) return [AZIMUTH, 0.24, 2.85, 0, 0, 0];
+  const along = (direction: Vector) => {
+    const [x, y, z] = fromScreen(up, direction);
+    const at = (i: number) =>
+      x * positions[3 * i] + y * positions[3 * i + 1] + z * positions[3 * i + 2];
+    const [low, high] = new Sample(count, at).range;
+    return { middle: (low + high) / 2, half: (high - low) / 2 };
+  };
+  const elevation = along([0, 1, 0]).half < 0.25 ? 0.62 : 0.24;
+  const [sinA, cosA] = [Math.sin(AZIMUTH), Math.cos(AZIMUTH)];
+  const [sinE, cosE] = [Math.sin(elevation), Math.cos(elevation)];
+  const axes: Vector[] = [
+    [cosA, 0, -sinA],
+    [-sinA * sinE, cosE, -cosA * sinE],
+    [sinA * cosE, sinE, cosA * cosE],
+  ];
+  const [right, above, near] = axes.map(along);
+  const target = [0, 1, 2].map((i) =>
+    [right, above, near].reduce((sum, { middle }, axis) => sum + middle * axes[axis][i], 0),
+  );
+  // What is near looks larger: about half of the depth is in front of the largest extent.
+  const distance = (1.12 * Math.max(right.half, above.half)) / HALF_VIEW + 0.5 * near.half;
+  return [AZIMUTH, elevation, Math.max(0.2, distance), target[0], target[1], target[2]];
 }

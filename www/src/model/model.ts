@@ -8,6 +8,7 @@ import type { ColorBy, ColorScale } from '../geometry/scale';
 import type { Surface } from '../geometry/surface';
 import type { Up } from '../geometry/up';
 import type { Voronoi } from '../geometry/voronoi';
+import type { CameraPose } from '../view/viewer';
 import type { Dimension } from './source';
 
 /** At most so many tetrahedra are drawn one by one when they are pulled apart. */
@@ -38,8 +39,8 @@ export interface Summary {
   frame: Frame;
   /** Which axis seems to point up; in 2D that is y. */
   up: Up;
-  /** How steeply to look down at first, in radians. */
-  elevation: number;
+  /** Where the camera is at first. */
+  home: CameraPose;
   /** What was recorded of the run: null where nothing was. */
   trace: {
     /** The rounds whose triangulation can be looked at. */

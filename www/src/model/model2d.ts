@@ -5,6 +5,7 @@ import { firstHit, type Ray } from '../geometry/pick';
 import { mapping, scaleFor } from '../geometry/scale';
 import { flatSurface, measureTriangles, type Triangulation } from '../geometry/triangles';
 import { type Box, type Voronoi, voronoiEdges } from '../geometry/voronoi';
+import type { CameraPose } from '../view/viewer';
 import { AlphaRadii } from './alpha';
 import {
   type About,
@@ -21,6 +22,9 @@ import {
 const MARGIN = 0.2;
 
 const CIRCLE_STEPS = 128;
+
+/** Above the middle. */
+const HOME_2D: CameraPose = [0, 0, 2.9, 0, 0, 0];
 
 /** The model of 2D points. */
 export class Model2d implements Model {
@@ -79,7 +83,7 @@ export class Model2d implements Model {
       stats: mesh.stats,
       frame: this.frame,
       up: 'y',
-      elevation: 0,
+      home: HOME_2D,
       trace: null,
     };
   }

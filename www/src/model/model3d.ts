@@ -1,13 +1,13 @@
 import type { Mesh3, RunOptions, Triangulator } from 'gdel-wasm';
 import { type Filter, type Kept, keep } from '../geometry/filter';
-import { type Measures, measure } from '../geometry/measures';
+import { circumcenter, type Measures, measure } from '../geometry/measures';
 import { FACETS, type Frame, frameOf, type Tetrahedralisation, toFrame } from '../geometry/mesh';
 import { firstHit, type Ray } from '../geometry/pick';
 import { outermost, piecesOf, trianglesOf } from '../geometry/pieces';
 import { type Heights, heightsAlong, keepOf, levelOf, type Plane } from '../geometry/plane';
 import { mapping, scaleFor } from '../geometry/scale';
 import { boundaryOf, surfaceOf } from '../geometry/surface';
-import { detectUp, elevationFor } from '../geometry/up';
+import { detectUp, poseFor } from '../geometry/up';
 import { AlphaRadii } from './alpha';
 import {
   type About,
@@ -85,7 +85,7 @@ export class Model3d implements Model {
       stats: mesh.stats,
       frame,
       up,
-      elevation: elevationFor(points, up, frame),
+      home: poseFor(this.positions, up),
       trace: mesh.trace
         ? {
             rounds: mesh.trace.rounds.length,
@@ -204,7 +204,7 @@ export class Model3d implements Model {
       circumradius: this.measured.circumradius[index],
       radiusRatio: this.measured.radiusRatio[index],
       phase: this.created ? (this.created[index] ? 2 : 1) : null,
-      outline: cornersOf(corners, EDGES),
+      outline: withSphere(cornersOf(corners, EDGES), corners),
     };
   }
 
@@ -238,6 +238,32 @@ export class Model3d implements Model {
       this.heights = heightsAlong(normal, this.drawable);
     return this.heights!;
   }
+}
+
+/** How large a sphere may be, in units of the frame, to be drawn with its tetrahedron. */
+const MAX_SPHERE = 1.2;
+
+/** Adds three great circles of the sphere through four corners: no point is inside it. */
+function withSphere(lines: Float32Array, corners: Float32Array): Float32Array {
+  const center = circumcenter(corners);
+  const radius = Math.hypot(...center.map((x, axis) => x - corners[axis]));
+  if (!(radius < MAX_SPHERE)) return lines;
+  const steps = 64;
+  const all = new Float32Array(lines.length + 3 * steps * 6);
+  all.set(lines);
+  let at = lines.length;
+  for (let axis = 0; axis < 3; axis++) {
+    for (let step = 0; step < steps; step++) {
+      for (const end of [step, step + 1]) {
+        const angle = (2 * Math.PI * end) / steps;
+        all[at + axis] = center[axis];
+        all[at + ((axis + 1) % 3)] = center[(axis + 1) % 3] + radius * Math.cos(angle);
+        all[at + ((axis + 2) % 3)] = center[(axis + 2) % 3] + radius * Math.sin(angle);
+        at += 3;
+      }
+    }
+  }
+  return all;
 }
 
 /** How many of some triangles are facets of no tetrahedron. */

@@ -1,19 +1,22 @@
 import { type Time, timesChart } from '../charts/times';
 import { runOther } from '../compare/other';
 import type { Page, Part } from '../page';
-import { byId, count, create, duration, simplices } from './dom';
+import { byId, count, create, duration, measured, simplices } from './dom';
 import { nameOf } from './result';
 
 /** The panel that runs the same points with other libraries, and the one that proves the mesh. */
 export function comparePanel(page: Page): Part {
   byId('compare-run').addEventListener('click', () => void compare(page));
-  byId('verify-run').addEventListener('click', () => void prove(page));
+  for (const id of ['verify-run', 'verify-here'])
+    byId(id).addEventListener('click', () => void prove(page));
   const forget = () => {
     abort?.abort();
     byId('times').replaceChildren();
     byId('times-note').textContent = '';
     byId('verdicts').replaceChildren();
     byId('verify-note').textContent = '';
+    byId('verify-here').textContent = 'Verify';
+    byId('ratio').textContent = '';
   };
   return { ran: forget, edited: forget };
 }
@@ -79,10 +82,11 @@ async function compare(page: Page): Promise<void> {
     const fastest = times
       .filter(({ ours }) => ours)
       .sort((a, b) => a.milliseconds - b.milliseconds)[0];
-    if (fastest)
-      notes.push(
-        `${other} took ${(theirs.milliseconds / fastest.milliseconds).toFixed(1)} times as long as the ${fastest.name}.`,
-      );
+    if (fastest) {
+      const ratio = theirs.milliseconds / fastest.milliseconds;
+      byId('ratio').textContent = `${measured(ratio)} × ${other}’s speed`;
+      notes.push(`${other} took ${ratio.toFixed(1)} times as long as the ${fastest.name}.`);
+    }
     byId('times-note').textContent = notes.join(' ');
   } catch (error) {
     notes.push(signal.aborted ? 'Stopped.' : `${other}: ${(error as Error).message}`);
@@ -98,10 +102,35 @@ function say(text: string): void {
   byId('compare-status').textContent = text;
 }
 
+/** What each check proves, in words. */
+const CHECKS: Record<string, string> = {
+  dimension: 'The points span as many dimensions as stated',
+  duplicates: 'Points in one place are counted once',
+  indices: 'Every index names a point',
+  vertices: 'Every distinct point is a vertex',
+  orientation: 'No cell is flat or turned inside out',
+  facets: 'No facet belongs to more than two cells',
+  neighbors: 'The neighbours fit',
+  delaunay: 'No circumsphere has a point inside',
+  'canonical-ties': 'Ties are broken by the order of the points',
+  hull: 'The hull bounds the cells',
+  'hull-closed': 'The hull is closed',
+  'hull-convex': 'The hull is convex',
+  'euler-characteristic': 'The mesh has no holes',
+  covering: 'The cells fill the hull without overlap',
+};
+
+function verdictOf(name: string, passed: boolean, detail: string): string {
+  const claim = CHECKS[name] ?? name;
+  return passed || !detail ? claim : `${claim}: no, ${detail}`;
+}
+
 async function prove(page: Page): Promise<void> {
-  const button = byId<HTMLButtonElement>('verify-run');
+  const buttons = ['verify-run', 'verify-here'].map((id) => byId<HTMLButtonElement>(id));
+  const here = buttons[1];
   const note = byId('verify-note');
-  button.disabled = true;
+  for (const button of buttons) button.disabled = true;
+  here.textContent = 'Checking …';
   note.textContent = 'Checking …';
   const started = performance.now();
   try {
@@ -114,17 +143,19 @@ async function prove(page: Page): Promise<void> {
             'span',
             {},
             create('span', { className: 'hidden' }, passed ? 'Passed: ' : 'Failed: '),
-            detail ? `${name}: ${detail}` : name,
+            verdictOf(name, passed, detail),
           ),
         );
         return verdict;
       }),
     );
     const all = checks.every(({ passed }) => passed);
+    here.textContent = all ? '✓ Proven' : '✕ Not proven';
     note.textContent = `${all ? 'Proven' : 'Not proven'} in ${duration(performance.now() - started)}.`;
   } catch (error) {
+    here.textContent = 'Verify';
     note.textContent = (error as Error).message;
   } finally {
-    button.disabled = false;
+    for (const button of buttons) button.disabled = false;
   }
 }

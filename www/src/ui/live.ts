@@ -67,8 +67,7 @@ export function live(page: Page): Part {
         byId('count').textContent =
           `${count(points)} moving points → ${simplices(frame.simplices, dimension)}`;
         byId('took').replaceChildren(
-          create('b', {}, duration(frame.milliseconds)),
-          create('span', {}, `per frame, ${measured(1000 / (now - last))} frames per second`),
+          `${duration(frame.milliseconds)} per frame, ${measured(1000 / (now - last))} frames per second`,
         );
         const chart = await framesChart(frames);
         times.replaceChildren(

@@ -1,8 +1,8 @@
 import type { AdapterInfo, Stats } from 'gdel-wasm';
 import type { Summary } from '../model/model';
-import { byId, count, create, duration, simplices } from './dom';
+import { byId, count, duration, simplices } from './dom';
 
-/** Says in the page's title block what came out, how long it took and what did it. */
+/** Says in the line under the drawing what came out, how long it took and what did it. */
 export function showResult(summary: Summary, name: string): void {
   byId('name').textContent = name;
   document.title = `${name} · gdel`;
@@ -11,11 +11,15 @@ export function showResult(summary: Summary, name: string): void {
   byId('count').textContent =
     affineDimension === dimension
       ? `${count(points)} points → ${simplices(summary.simplices, dimension)}`
-      : points < 2
-        ? `${['No points', 'One point'][points]}, so there are no ${of}`
-        : `${count(points)} points: ${FLAT[affineDimension]}, so there are no ${of}`;
-  byId('took').replaceChildren(create('b', {}, duration(summary.stats.milliseconds)));
+      : points === 0
+        ? `No points yet${dimension === 2 ? ': click on the sheet to add some' : ''}`
+        : points === 1
+          ? `One point, so there are no ${of}`
+          : `${count(points)} points: ${FLAT[affineDimension]}, so there are no ${of}`;
+  byId('took').textContent = duration(summary.stats.milliseconds);
   byId('backend-used').textContent = backendOf(summary.stats);
+  // The line may be too short for the reason.
+  byId('backend-used').title = backendOf(summary.stats);
   byId('left-out').textContent = leftOut(summary);
 }
 
@@ -32,7 +36,9 @@ const FLAT = ['all in one place', 'all on one line', 'all in one plane'];
 /** Returns the backend and its adapter in words, or why it was the CPU. */
 export function backendOf({ backend, adapter, fallback }: Stats): string {
   if (backend === 'gpu') return `On the GPU: ${adapter ? nameOf(adapter) : 'WebGPU'}`;
-  return fallback ? `On the CPU: ${fallback}` : 'On the CPU, in WebAssembly';
+  if (!fallback) return 'On the CPU, in WebAssembly';
+  // The package's numbers have no separators.
+  return `On the CPU: ${fallback.replace(/\b\d{4,}\b/g, (digits) => count(Number(digits)))}`;
 }
 
 /** Browsers leave out much of what they know about an adapter. */

@@ -1,7 +1,9 @@
 import { byId } from './dom';
+import { wireSheet } from './sheet';
 
 /** Makes the tab list of the panel work, with the mouse and with the arrow keys. */
 export function wireTabs(onShow: (panel: string) => void): void {
+  const sheet = wireSheet();
   const tabs = [...document.querySelectorAll<HTMLButtonElement>('[role=tab]')];
   const show = (chosen: HTMLButtonElement) => {
     for (const tab of tabs) {
@@ -13,7 +15,10 @@ export function wireTabs(onShow: (panel: string) => void): void {
     onShow(chosen.getAttribute('aria-controls')!);
   };
   tabs.forEach((tab, i) => {
-    tab.addEventListener('click', () => show(tab));
+    tab.addEventListener('click', () => {
+      show(tab);
+      sheet.open();
+    });
     tab.addEventListener('keydown', (event) => {
       const to = { ArrowRight: i + 1, ArrowLeft: i - 1, Home: 0, End: tabs.length - 1 }[event.key];
       if (to === undefined) return;

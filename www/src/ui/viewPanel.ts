@@ -1,12 +1,11 @@
 import type { FilterKind } from '../geometry/filter';
 import type { ColorBy } from '../geometry/scale';
 import { UPS } from '../geometry/up';
-import { MAX_PIECES } from '../model/model';
 import type { Dimension } from '../model/source';
 import type { Page, Part } from '../page';
 import { colorsIn, LAYERS, type Layer, type Settings } from '../settings';
 import { COLOR_MAPS, type ColorMapName } from '../view/colormap';
-import { byId, count, create, measured, radios } from './dom';
+import { byId, create, radios } from './dom';
 import { QUANTITIES } from './legend';
 import { whyNotRecord } from './runPanel';
 
@@ -51,7 +50,7 @@ const NORMALS: Record<string, NonNullable<Settings['normal']>> = {
   '−Z': [0, 0, -1],
 };
 
-/** The panel that says how the mesh is drawn, and the slider for the cutting plane on the stage. */
+/** The panel that says how the mesh is drawn and cut. */
 export function viewPanel(page: Page): Part {
   const color = byId<HTMLSelectElement>('color');
   color.addEventListener('change', () => page.change({ color: color.value as ColorBy }));
@@ -59,9 +58,6 @@ export function viewPanel(page: Page): Part {
   const map = byId<HTMLSelectElement>('map');
   map.append(...Object.keys(COLOR_MAPS).map((value) => create('option', { value }, value)));
   map.addEventListener('change', () => page.change({ map: map.value as ColorMapName }));
-
-  const keep = byId<HTMLInputElement>('keep');
-  keep.addEventListener('input', () => page.change({ keep: keep.valueAsNumber }));
 
   const normals = Object.entries(NORMALS).map(([title, normal]) => {
     const radio = create('input', { type: 'radio', name: 'normal', value: title });
@@ -82,15 +78,6 @@ export function viewPanel(page: Page): Part {
     return radio;
   });
   const filters = radios('filter', (filter) => page.change({ filter: filter as FilterKind }));
-  const alpha = byId<HTMLInputElement>('alpha');
-  alpha.addEventListener('input', () => {
-    const range = page.lastDrawing?.alpha?.range;
-    if (range) page.change({ alpha: alphaAt(alpha.valueAsNumber, range) });
-  });
-
-  const apart = byId<HTMLInputElement>('apart');
-  apart.addEventListener('input', () => page.change({ apart: apart.valueAsNumber }));
-
   const layers = LAYERS.map((layer) => {
     const box = create('input', { type: 'checkbox' });
     box.addEventListener('change', () =>
@@ -135,31 +122,8 @@ export function viewPanel(page: Page): Part {
     for (const radio of filters) radio.checked = radio.value === settings.filter;
     for (const radio of ups) radio.checked = radio.value === up;
     byId('filter-note').textContent = FILTER_NOTES[dimension][settings.filter];
-    alpha.disabled = settings.filter === 'all';
-    apart.value = String(settings.apart);
     for (const { layer, box } of layers) box.checked = settings.layers[layer];
   };
 
-  return {
-    changed,
-    ran: () => changed(page.settings),
-    drew({ pieces, shown, keep: kept, alpha: used }) {
-      keep.value = String(kept);
-      if (used) alpha.value = String(positionOf(used.value, used.range));
-      byId('alpha-value').textContent = used ? measured(used.value) : '';
-      byId('apart-note').textContent =
-        pieces && pieces.owners.length < shown
-          ? `The outermost ${count(pieces.owners.length)} of ${count(shown)} are drawn: at most ${count(MAX_PIECES)} at a time.`
-          : '';
-    },
-  };
-}
-
-// The slider is logarithmic: radii span orders of magnitude.
-function alphaAt(position: number, [low, high]: [number, number]): number {
-  return low * (high / low) ** position;
-}
-
-function positionOf(value: number, [low, high]: [number, number]): number {
-  return high > low ? Math.log(value / low) / Math.log(high / low) : 0;
+  return { changed, ran: () => changed(page.settings) };
 }

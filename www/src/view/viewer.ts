@@ -30,7 +30,7 @@ import { FACETS } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
 import type { Pieces } from '../geometry/pieces';
 import type { Surface } from '../geometry/surface';
-import { fromScreen, type Up } from '../geometry/up';
+import { fromScreen, HALF_VIEW, type Up } from '../geometry/up';
 import type { Voronoi } from '../geometry/voronoi';
 import type { Dimension } from '../model/source';
 import type { ColorMapName } from './colormap';
@@ -381,17 +381,8 @@ export class Viewer {
     this.look.size.value.set(clientWidth, clientHeight);
     this.camera.aspect = clientWidth / clientHeight;
     // The smaller side of the canvas sees the same angle, whichever side it is.
-    const wide = clientWidth > 700;
-    const zoom = this.dimension === 2 && !wide ? 1.12 : 1;
-    this.camera.fov =
-      (360 / Math.PI) *
-      Math.atan((zoom * Math.tan(Math.PI / 9.5)) / Math.min(1, this.camera.aspect));
-    // The title is at the top left: the model makes room, sidewards where there is width, else
-    // downwards, and by being smaller where it would fill the canvas.
-    const [right, down] = wide
-      ? [0.07 * clientWidth, 0.02 * clientHeight]
-      : [0, 0.05 * clientHeight];
-    this.camera.setViewOffset(clientWidth, clientHeight, -right, -down, clientWidth, clientHeight);
+    this.camera.fov = (360 / Math.PI) * Math.atan(HALF_VIEW / Math.min(1, this.camera.aspect));
+    this.camera.updateProjectionMatrix();
     this.render();
   }
 }
