@@ -7,7 +7,11 @@
 //! new triangle is flat.
 
 use crate::{
-    cpu::Insert, d2::triangulation::MAX_TRIANGLES, error::Error, predicates::filter::PredicateContext2, slots::Slots,
+    cpu::Insert,
+    d2::triangulation::MAX_TRIANGLES,
+    error::Error,
+    predicates::filter::{PredicateContext2, PredicatesAt},
+    slots::Slots,
 };
 
 /// The maximum number of points: a sphere of *n* + 1 vertices has 2·*n* − 2 triangles.
@@ -55,6 +59,7 @@ impl<S: Slots<3>> Insert<2> for S {
             Some(k) => self.neighbors(start)[k] >> 2,
             None => start,
         };
+        let here = vertices.at(p);
         let mut came_through = 3;
         let mut steps = 0;
         'walk: loop {
@@ -65,7 +70,7 @@ impl<S: Slots<3>> Insert<2> for S {
             steps += 1;
             for k in 0..3 {
                 let [a, b] = edge_of(v, k);
-                if k != came_through && vertices.orient2d(a, b, p) < 0 {
+                if k != came_through && here.orient2d(a, b) < 0 {
                     let across = self.neighbors(t)[k];
                     (t, came_through) = (across >> 2, across as usize & 3);
                     continue 'walk;
@@ -86,7 +91,7 @@ impl<S: Slots<3>> Insert<2> for S {
             return Ok(None);
         }
         // The new triangles are two more than the old ones.
-        if !find_cavity(self, vertices, p, start, scratch) || !self.has_room(2) {
+        if !find_cavity(self, &vertices.at(p), start, scratch) || !self.has_room(2) {
             return Ok(None);
         }
         let Scratch { conflict, boundary, .. } = scratch;
@@ -115,20 +120,20 @@ pub(crate) fn edge_of(triangle: [u32; 3], k: usize) -> [u32; 2] {
     [triangle[NEXT[k]], triangle[PREVIOUS[k]]]
 }
 
-/// Returns whether the circumcircle of `t` contains vertex `p`.
+/// Returns whether the circumcircle of `t` contains the vertex `here`.
 ///
 /// The circumcircle of a ghost is the half-plane beyond its edge and, on the edge's line, the edge
 /// itself: the part of the line inside the circumcircle of the triangle on the other side of the
 /// edge.
 #[inline]
-pub(crate) fn in_conflict(slots: &impl Slots<3>, vertices: &PredicateContext2<'_>, t: u32, p: u32) -> bool {
+pub(crate) fn in_conflict(slots: &impl Slots<3>, here: &PredicatesAt<'_, '_, 2>, t: u32) -> bool {
     let v = slots.simplex(t);
     match v.iter().position(|&v| v == slots.infinite()) {
-        None => vertices.incircle(v, p) > 0,
+        None => here.incircle(v) > 0,
         Some(k) => {
             let [a, b] = edge_of(v, k);
-            match vertices.orient2d(a, b, p) {
-                0 => vertices.is_between(a, p, b),
+            match here.orient2d(a, b) {
+                0 => here.is_between(a, b),
                 side => side > 0,
             }
         }
@@ -143,21 +148,15 @@ fn can_begin(slots: &mut impl Slots<3>, vertices: &PredicateContext2<'_>, p: u32
         && slots.claim(p)
         && seen.iter().all(|&v| slots.claim(v))
         && slots.simplex(start) == seen
-        && in_conflict(slots, vertices, start, p)
+        && in_conflict(slots, &vertices.at(p), start)
 }
 
-/// Lists the triangles in conflict with `p`, and the edges around them, counter-clockwise,
+/// Lists the triangles in conflict with the vertex `here`, and the edges around them, counter-clockwise,
 /// depth-first. Returns whether all their vertices could be claimed.
 ///
 /// No vertex lies inside the cavity, so the adjacencies of its triangles form a tree, and none is
 /// visited twice.
-fn find_cavity<S: Slots<3>>(
-    slots: &mut S,
-    vertices: &PredicateContext2<'_>,
-    p: u32,
-    start: u32,
-    scratch: &mut Scratch,
-) -> bool {
+fn find_cavity<S: Slots<3>>(slots: &mut S, here: &PredicatesAt<'_, '_, 2>, start: u32, scratch: &mut Scratch) -> bool {
     let Scratch { conflict, boundary, pending } = scratch;
     conflict.clear();
     boundary.clear();
@@ -167,7 +166,7 @@ fn find_cavity<S: Slots<3>>(
     pending.extend([edge(slots, start, 2), edge(slots, start, 1), edge(slots, start, 0)]);
     while let Some(next) = pending.pop() {
         let (t, k) = (next.beyond >> 2, (next.beyond & 3) as usize);
-        if in_conflict(slots, vertices, t, p) {
+        if in_conflict(slots, here, t) {
             if S::SHARED && !slots.claim(slots.simplex(t)[k]) {
                 return false;
             }

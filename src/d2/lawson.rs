@@ -141,9 +141,9 @@ impl Triangulation2 {
             // Everything on either side of the edge has been peeled off.
             false
         } else if q == self.infinite {
-            !in_conflict(self, vertices, across >> 2, p)
+            !in_conflict(self, &vertices.at(p), across >> 2)
         } else {
-            !in_conflict(self, vertices, edge >> 2, q)
+            !in_conflict(self, &vertices.at(q), edge >> 2)
         }
     }
 

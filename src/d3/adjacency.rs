@@ -11,7 +11,8 @@ const MATRIX: usize = 64;
 /// A facet of a cavity.
 #[derive(Clone, Copy)]
 pub(crate) struct Facet {
-    /// Counter-clockwise as seen from outside the cavity; an infinite vertex comes last.
+    /// Counter-clockwise as seen from outside the cavity; an infinite vertex comes last. What links
+    /// facets replaces them.
     pub(crate) corners: [u32; 3],
     /// The tetrahedron outside the cavity: 4·(tetrahedron) + (facet as it is numbered there).
     pub(crate) beyond: u32,
@@ -22,10 +23,9 @@ pub(crate) struct EdgeMap<P> {
     /// The place of each mesh vertex in `vertices`, valid only if the vertex there is the same. So
     /// nothing needs clearing.
     place: P,
-    /// The vertices of the boundary.
-    vertices: Vec<u32>,
-    /// The places of each facet's corners.
-    places: Vec<[u32; 3]>,
+    /// The vertices of the boundary, so many.
+    vertices: [u32; MATRIX],
+    count: usize,
     /// Entry (i, j) belongs to the directed edge from the *i*-th to the *j*-th vertex of the
     /// boundary. Every edge that is looked up has been entered, because the surface is closed, so
     /// nothing needs clearing here either.
@@ -61,59 +61,60 @@ impl<P: Places> EdgeMap<P> {
     pub(crate) fn new(place: P) -> Self {
         EdgeMap {
             place,
-            vertices: Vec::with_capacity(MATRIX),
-            places: Vec::new(),
+            vertices: [0; MATRIX],
+            count: 0,
             matrix: Box::new([0; MATRIX * MATRIX]),
             table: HashMap::default(),
         }
     }
 
-    /// Returns the place of `v` in `vertices`, where it is appended if it is new.
+    /// Returns the place of `v` in `vertices`, where it is appended if it is new. The masks have no
+    /// effect except that they spare the bounds checks.
+    #[inline]
     fn place_of(&mut self, v: u32) -> u32 {
         let place = self.place.place(v);
-        if self.vertices.get(place as usize) == Some(&v) {
+        if (place as usize) < self.count && self.vertices[place as usize % MATRIX] == v {
             return place;
         }
-        let place = self.vertices.len() as u32;
+        let place = self.count as u32;
         self.place.set_place(v, place);
-        self.vertices.push(v);
+        self.vertices[self.count % MATRIX] = v;
+        self.count += 1;
         place
     }
 
-    /// Calls `link(f, [a, b, c])` for each facet `f` of a closed surface, where a, b and c are the
-    /// names of what lies across the edges opposite its corners 0, 1 and 2.
-    ///
-    /// `name(f, k)` is the name of facet `f` as seen across its edge opposite corner `k`.
+    /// Calls `link(t, neighbors)` for the tetrahedron `t` on each facet of a closed surface, as
+    /// listed in `tetrahedra`. Its first vertex is the same for all, and the others are the corners
+    /// of the facet; so its neighbours are first what is beyond the facet, then those across the
+    /// edges opposite the corners.
     pub(crate) fn link_all(
         &mut self,
-        facets: &[Facet],
-        name: impl Fn(usize, usize) -> u32,
-        mut link: impl FnMut(usize, [u32; 3]),
+        facets: &mut [Facet],
+        tetrahedra: impl Iterator<Item = u32> + Clone,
+        mut link: impl FnMut(u32, [u32; 4]),
     ) {
         // A triangulated sphere of *F* facets has *F*/2 + 2 vertices.
         if facets.len() / 2 + 2 <= MATRIX {
-            self.vertices.clear();
-            self.places.clear();
-            for (f, facet) in facets.iter().enumerate() {
+            self.count = 0;
+            for (facet, t) in facets.iter_mut().zip(tetrahedra.clone()) {
                 let [a, b, c] = facet.corners;
                 let [i, j, k] = [self.place_of(a), self.place_of(b), self.place_of(c)];
-                self.places.push([i, j, k]);
-                self.matrix[cell(j, k)] = name(f, 0);
-                self.matrix[cell(k, i)] = name(f, 1);
-                self.matrix[cell(i, j)] = name(f, 2);
+                self.matrix[cell(j, k)] = 4 * t + 1;
+                self.matrix[cell(k, i)] = 4 * t + 2;
+                self.matrix[cell(i, j)] = 4 * t + 3;
+                facet.corners = [i, j, k];
             }
-            for (f, &[i, j, k]) in self.places.iter().enumerate() {
-                link(f, [self.matrix[cell(k, j)], self.matrix[cell(i, k)], self.matrix[cell(j, i)]]);
+            for (&Facet { corners: [i, j, k], beyond }, t) in facets.iter().zip(tetrahedra) {
+                link(t, [beyond, self.matrix[cell(k, j)], self.matrix[cell(i, k)], self.matrix[cell(j, i)]]);
             }
         } else {
             self.table.clear();
-            for (f, facet) in facets.iter().enumerate() {
-                let [a, b, c] = facet.corners;
-                self.table.extend([((b, c), name(f, 0)), ((c, a), name(f, 1)), ((a, b), name(f, 2))]);
+            for (&Facet { corners: [a, b, c], .. }, t) in facets.iter().zip(tetrahedra.clone()) {
+                self.table.extend([((b, c), 4 * t + 1), ((c, a), 4 * t + 2), ((a, b), 4 * t + 3)]);
             }
-            for (f, facet) in facets.iter().enumerate() {
-                let [a, b, c] = facet.corners;
-                link(f, [(c, b), (a, c), (b, a)].map(|edge| self.table[&edge]));
+            for (&Facet { corners: [a, b, c], beyond }, t) in facets.iter().zip(tetrahedra) {
+                let across = |edge| self.table[&edge];
+                link(t, [beyond, across((c, b)), across((a, c)), across((b, a))]);
             }
         }
     }

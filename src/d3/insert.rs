@@ -14,7 +14,7 @@ use crate::{
         triangulation::{MAX_TETRAHEDRA, state},
     },
     error::Error,
-    predicates::filter::PredicateContext3,
+    predicates::filter::{PredicateContext3, PredicatesAt},
     slots::MarkedSlots,
 };
 
@@ -27,12 +27,14 @@ pub struct Scratch<P> {
     conflict: Vec<u32>,
     /// The facets of the cavity.
     boundary: Vec<Facet>,
-    /// The slots of the new tetrahedra, one per facet of the cavity.
-    filled: Vec<u32>,
-    /// Unused slots.
+    /// Unused slots; the last are for the new tetrahedra.
     free: Vec<u32>,
     edges: EdgeMap<P>,
 }
+
+/// The [`FACETS`] of a tetrahedron, beginning so that its last vertex, which may be infinite, comes
+/// last.
+const CAVITY_FACETS: [[usize; 3]; 4] = [[1, 2, 3], [2, 0, 3], [0, 1, 3], [0, 2, 1]];
 
 /// A walk among tetrahedra that other threads change ends after this many: it may go in circles.
 const MAX_STEPS: usize = 1 << 14;
@@ -43,18 +45,13 @@ impl<S: MarkedSlots<4>> Insert<3> for S {
     const REPORT: usize = 1 << 12;
 
     fn scratch(&self) -> Self::Scratch {
-        Scratch {
-            conflict: Vec::new(),
-            boundary: Vec::new(),
-            filled: Vec::new(),
-            free: Vec::new(),
-            edges: EdgeMap::new(self.places()),
-        }
+        Scratch { conflict: Vec::new(), boundary: Vec::new(), free: Vec::new(), edges: EdgeMap::new(self.places()) }
     }
 
     fn locate(&self, vertices: &PredicateContext3<'_>, p: u32, start: u32) -> u32 {
         let is_ghost = corners(self, start)[3] == self.infinite();
         let mut t = if is_ghost { self.neighbors(start)[3] >> 2 } else { start };
+        let here = vertices.at(p);
         let mut came_through = 4;
         let mut steps = 0;
         'walk: loop {
@@ -68,7 +65,7 @@ impl<S: MarkedSlots<4>> Insert<3> for S {
                     continue;
                 }
                 let [a, b, c] = facet.map(|i| v[i]);
-                if vertices.orient3d(a, b, c, p) > 0 {
+                if here.orient3d(a, b, c) > 0 {
                     let across = self.neighbors(t)[k];
                     t = across >> 2;
                     came_through = across as usize & 3;
@@ -89,29 +86,26 @@ impl<S: MarkedSlots<4>> Insert<3> for S {
         if S::SHARED && !can_begin(self, vertices, p, start) {
             return Ok(None);
         }
-        if !find_cavity(self, vertices, p, start, scratch) || !self.has_room(scratch.boundary.len()) {
+        if !find_cavity(self, &vertices.at(p), start, scratch) || !self.has_room(scratch.boundary.len()) {
             undo_marks(self, scratch);
             return Ok(None);
         }
-        let Scratch { conflict, boundary, filled, free, edges } = scratch;
+        let Scratch { conflict, boundary, free, edges } = scratch;
         free.append(conflict);
-        filled.clear();
-        for &Facet { corners: [a, b, c], beyond } in boundary.iter() {
-            let new = match free.pop() {
-                Some(slot) => slot,
-                None => self.push()?,
-            };
-            filled.push(new);
-            self.set_simplex(new, [p, a, b, c]);
-            mark(self, beyond >> 2, state::UNKNOWN);
-            self.set_neighbor(beyond, 4 * new);
+        while free.len() < boundary.len() {
+            free.push(self.push()?);
         }
-        edges.link_all(
-            boundary,
-            |f, corner| 4 * filled[f] + 1 + corner as u32,
-            |f, [a, b, c]| self.set_neighbors(filled[f], [boundary[f].beyond, a, b, c]),
-        );
-        Ok(Some(filled[filled.len() - 1]))
+        let rest = free.len() - boundary.len();
+        let new = free[rest..].iter().copied();
+        for (&Facet { corners: [a, b, c], beyond }, t) in boundary.iter().zip(new.clone()) {
+            self.set_simplex(t, [p, a, b, c]);
+            mark(self, beyond >> 2, state::UNKNOWN);
+            self.set_neighbor(beyond, 4 * t);
+        }
+        edges.link_all(boundary, new, |t, neighbors| self.set_neighbors(t, neighbors));
+        let last = free[free.len() - 1];
+        free.truncate(rest);
+        Ok(Some(last))
     }
 
     fn finish(&mut self, scratch: Self::Scratch) {
@@ -127,29 +121,24 @@ fn corners(slots: &impl MarkedSlots<4>, t: u32) -> [u32; 4] {
     [a & !state::MASK, b, c, d]
 }
 
-/// Returns the state of tetrahedron `t`.
-fn state_of(slots: &impl MarkedSlots<4>, t: u32) -> u32 {
-    slots.first(t) & state::MASK
-}
-
 /// Sets the state of tetrahedron `t`.
 fn mark(slots: &mut impl MarkedSlots<4>, t: u32, state: u32) {
     slots.set_first(t, slots.first(t) & !state::MASK | state);
 }
 
-/// Returns whether the circumsphere of `t` contains vertex `p`.
+/// Returns whether the circumsphere of `t` contains the vertex `here`.
 ///
 /// The circumsphere of a ghost is the half-space beyond its facet and, in the facet's plane, the
 /// circumdisc of the facet: the part of the plane inside the circumsphere of the tetrahedron on the
 /// other side of the facet.
 #[inline]
-fn in_conflict(slots: &impl MarkedSlots<4>, vertices: &PredicateContext3<'_>, t: u32, p: u32) -> bool {
+fn in_conflict(slots: &impl MarkedSlots<4>, here: &PredicatesAt<'_, '_, 3>, t: u32) -> bool {
     let v = corners(slots, t);
     if v[3] != slots.infinite() {
-        return vertices.insphere(v, p) > 0;
+        return here.insphere(v) > 0;
     }
-    match vertices.orient3d(v[0], v[1], v[2], p) {
-        0 => vertices.insphere(corners(slots, slots.neighbors(t)[3] >> 2), p) > 0,
+    match here.orient3d(v[0], v[1], v[2]) {
+        0 => here.insphere(corners(slots, slots.neighbors(t)[3] >> 2)) > 0,
         side => side > 0,
     }
 }
@@ -163,15 +152,14 @@ fn can_begin(slots: &mut impl MarkedSlots<4>, vertices: &PredicateContext3<'_>, 
         && slots.claim(p)
         && seen.iter().all(|&v| slots.claim(v))
         && slots.simplex(start) == seen
-        && in_conflict(slots, vertices, start, p)
+        && in_conflict(slots, &vertices.at(p), start)
 }
 
-/// Marks and lists the tetrahedra in conflict with `p`, and the facets around them, breadth-first.
+/// Marks and lists the tetrahedra in conflict with the vertex `here`, and the facets around them, breadth-first.
 /// Returns whether all their vertices could be claimed.
 fn find_cavity<S: MarkedSlots<4>>(
     slots: &mut S,
-    vertices: &PredicateContext3<'_>,
-    p: u32,
+    here: &PredicatesAt<'_, '_, 3>,
     start: u32,
     scratch: &mut Scratch<S::Places>,
 ) -> bool {
@@ -183,28 +171,26 @@ fn find_cavity<S: MarkedSlots<4>>(
     while let Some(&t) = conflict.get(next) {
         next += 1;
         let corners_of_t = corners(slots, t);
-        for (facet, beyond) in FACETS.iter().zip(slots.neighbors(t)) {
+        let around = slots.neighbors(t);
+        for k in 0..4 {
+            let beyond = around[k];
             let other = beyond >> 2;
-            match state_of(slots, other) {
+            let first = slots.first(other);
+            match first & state::MASK {
                 state::CONFLICT => continue,
-                state::UNKNOWN if in_conflict(slots, vertices, other, p) => {
+                state::UNKNOWN if in_conflict(slots, here, other) => {
                     if S::SHARED && !slots.claim(corners(slots, other)[beyond as usize & 3]) {
                         return false;
                     }
-                    mark(slots, other, state::CONFLICT);
+                    slots.set_first(other, first | state::CONFLICT);
                     conflict.push(other);
                     continue;
                 }
-                state::UNKNOWN => mark(slots, other, state::BEYOND),
+                state::UNKNOWN => slots.set_first(other, first | state::BEYOND),
                 _ => {}
             }
-            let [a, b, c] = facet.map(|i| corners_of_t[i]);
-            let corners = match slots.infinite() {
-                i if i == a => [b, c, a],
-                i if i == b => [c, a, b],
-                _ => [a, b, c],
-            };
-            boundary.push(Facet { corners, beyond });
+            // The mask has no effect except that it spares the bounds check.
+            boundary.push(Facet { corners: CAVITY_FACETS[k].map(|i| corners_of_t[i & 3]), beyond });
         }
     }
     true

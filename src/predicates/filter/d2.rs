@@ -1,20 +1,46 @@
 //! The 2D predicates.
 
-use crate::predicates::filter::{EPSILON, ERROR_BOUNDS, ExactStage, PredicateContext2, UNDERFLOW, greatest, minus};
+use crate::predicates::filter::{
+    EPSILON, ERROR_BOUNDS, ExactStage, PredicateContext2, PredicatesAt, UNDERFLOW, greatest, minus,
+};
 use crate::predicates::{Sign, exact, integer, symbolic};
+
+impl PredicatesAt<'_, '_, 2> {
+    /// Returns [`PredicateContext::orient2d`] with the vertex as c.
+    #[inline]
+    pub(crate) fn orient2d(&self, a: u32, b: u32) -> Sign {
+        let vertices = [a, b, self.vertex];
+        if self.stored.is_empty() {
+            return self.context.orient2d_computed(vertices);
+        }
+        let [u, v] = [a, b].map(|v| minus(self.stored[v as usize], self.place));
+        self.context.orient2d_of(vertices, u, v)
+    }
+
+    /// Returns [`PredicateContext::incircle`] with the vertex as d.
+    #[inline]
+    pub(crate) fn incircle(&self, [a, b, c]: [u32; 3]) -> Sign {
+        let vertices = [a, b, c, self.vertex];
+        if self.stored.is_empty() {
+            return self.context.incircle_computed(vertices);
+        }
+        self.context.incircle_of(vertices, [a, b, c].map(|v| minus(self.stored[v as usize], self.place)))
+    }
+
+    /// Returns whether the vertex, which is collinear with the different points a and b, lies
+    /// strictly between them.
+    pub(crate) fn is_between(&self, a: u32, b: u32) -> bool {
+        let [a, p, b] = [a, self.vertex, b].map(|v| self.context.point(v));
+        (a < p && p < b) || (b < p && p < a)
+    }
+}
 
 impl PredicateContext2<'_> {
     /// Returns the sign of det(b − a, c − a): positive if a, b, c turn counter-clockwise, the *y*
     /// axis pointing up.
     #[inline]
     pub fn orient2d(&self, a: u32, b: u32, c: u32) -> Sign {
-        let stored = &self.coordinates;
-        if stored.is_empty() {
-            return self.orient2d_computed([a, b, c]);
-        }
-        let pc = stored[c as usize];
-        let [u, v] = [a, b].map(|v| minus(stored[v as usize], pc));
-        self.orient2d_of([a, b, c], u, v)
+        self.at(c).orient2d(a, b)
     }
 
     #[inline(never)]
@@ -69,12 +95,7 @@ impl PredicateContext2<'_> {
     /// vertices of which at least three are not collinear.
     #[inline]
     pub fn incircle(&self, [a, b, c]: [u32; 3], d: u32) -> Sign {
-        let stored = &self.coordinates;
-        if stored.is_empty() {
-            return self.incircle_computed([a, b, c, d]);
-        }
-        let pd = stored[d as usize];
-        self.incircle_of([a, b, c, d], [a, b, c].map(|v| minus(stored[v as usize], pd)))
+        self.at(d).incircle([a, b, c])
     }
 
     #[inline(never)]
@@ -131,14 +152,6 @@ impl PredicateContext2<'_> {
             let [a, b, c] = symbolic::without(vertices, k);
             self.orient2d(a, b, c)
         })
-    }
-
-    /// Returns whether b, which is collinear with the different points a and c, lies strictly
-    /// between them.
-    pub fn is_between(&self, a: u32, b: u32, c: u32) -> bool {
-        let [a, b, c] = [a, b, c].map(|v| self.point(v));
-        let ascending = |p: [f64; 2], q: [f64; 2]| p < q;
-        (ascending(a, b) && ascending(b, c)) || (ascending(c, b) && ascending(b, a))
     }
 }
 

@@ -1,19 +1,38 @@
 //! The 3D predicates.
 
-use crate::predicates::filter::{EPSILON, ERROR_BOUNDS, ExactStage, PredicateContext3, UNDERFLOW, greatest, minus};
+use crate::predicates::filter::{
+    EPSILON, ERROR_BOUNDS, ExactStage, PredicateContext3, PredicatesAt, UNDERFLOW, greatest, minus,
+};
 use crate::predicates::{Sign, exact, integer, symbolic};
+
+impl PredicatesAt<'_, '_, 3> {
+    /// Returns [`PredicateContext::orient3d`] with the vertex as d.
+    #[inline]
+    pub(crate) fn orient3d(&self, a: u32, b: u32, c: u32) -> Sign {
+        let vertices = [a, b, c, self.vertex];
+        if self.stored.is_empty() {
+            return self.context.orient3d_computed(vertices);
+        }
+        let [u, v, w] = [a, b, c].map(|v| minus(self.stored[v as usize], self.place));
+        self.context.orient3d_of(vertices, u, v, w)
+    }
+
+    /// Returns [`PredicateContext::insphere`] with the vertex as e.
+    #[inline(always)]
+    pub(crate) fn insphere(&self, [a, b, c, d]: [u32; 4]) -> Sign {
+        let vertices = [a, b, c, d, self.vertex];
+        if self.stored.is_empty() {
+            return self.context.insphere_computed(vertices);
+        }
+        self.context.insphere_of(vertices, [a, b, c, d].map(|v| minus(self.stored[v as usize], self.place)))
+    }
+}
 
 impl PredicateContext3<'_> {
     /// Returns the sign of det(b − a, c − a, d − a).
     #[inline]
     pub fn orient3d(&self, a: u32, b: u32, c: u32, d: u32) -> Sign {
-        let stored = &self.coordinates;
-        if stored.is_empty() {
-            return self.orient3d_computed([a, b, c, d]);
-        }
-        let pd = stored[d as usize];
-        let [u, v, w] = [a, b, c].map(|v| minus(stored[v as usize], pd));
-        self.orient3d_of([a, b, c, d], u, v, w)
+        self.at(d).orient3d(a, b, c)
     }
 
     #[inline(never)]
@@ -71,12 +90,7 @@ impl PredicateContext3<'_> {
     /// different vertices of which at least four are not coplanar.
     #[inline(always)]
     pub fn insphere(&self, [a, b, c, d]: [u32; 4], e: u32) -> Sign {
-        let stored = &self.coordinates;
-        if stored.is_empty() {
-            return self.insphere_computed([a, b, c, d, e]);
-        }
-        let pe = stored[e as usize];
-        self.insphere_of([a, b, c, d, e], [a, b, c, d].map(|v| minus(stored[v as usize], pe)))
+        self.at(e).insphere([a, b, c, d])
     }
 
     #[inline(never)]

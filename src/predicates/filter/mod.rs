@@ -68,6 +68,18 @@ pub struct PredicateContext<'a, const D: usize> {
     counts: Cell<ExactCounts>,
 }
 
+/// The predicates of which one vertex is given, so that its coordinates need not be looked up each
+/// time.
+#[derive(Clone, Copy)]
+pub(crate) struct PredicatesAt<'c, 'a, const D: usize> {
+    context: &'c PredicateContext<'a, D>,
+    vertex: u32,
+    /// The coordinates of all vertices; empty if they are computed each time.
+    stored: &'c [[f64; D]],
+    /// Those of the vertex if they are stored.
+    place: [f64; D],
+}
+
 /// 2D points in an order of the caller's choosing (*vertices*), with the predicates on them.
 pub type PredicateContext2<'a> = PredicateContext<'a, 2>;
 
@@ -227,6 +239,14 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
         context.orientation_bound = orientation_bound(extents);
         context.in_sphere_bound = in_sphere_bound(extents);
         context
+    }
+
+    /// Returns the predicates of which `vertex` is given.
+    #[inline]
+    pub(crate) fn at(&self, vertex: u32) -> PredicatesAt<'_, 'a, D> {
+        let stored = self.coordinates.as_slice();
+        let place = if stored.is_empty() { [0.0; D] } else { stored[vertex as usize] };
+        PredicatesAt { context: self, vertex, stored, place }
     }
 
     /// Returns the arguments of [`PredicateContext::of_input`] that create an equal context for
