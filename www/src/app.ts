@@ -2,6 +2,7 @@ import * as Comlink from 'comlink';
 import { connect } from './model/client';
 import type { Edit } from './model/edits';
 import type { Drawing, DrawRequest, Summary } from './model/model';
+import { unpack } from './model/packed';
 import { type Dimension, type Source, titleOf } from './model/source';
 import type { Progress } from './model/worker';
 import type { Page, Part } from './page';
@@ -47,7 +48,7 @@ import type { Viewer } from './view/viewer';
  * panels out.
  */
 export class App implements Page {
-  settings: Settings = fromHash(location.hash);
+  settings: Settings = fromHash(wholeHash());
   readonly model = connect(() =>
     showMessage(
       'The part of the page that triangulates could not be started. Check your connection, then reload the page.',
@@ -103,10 +104,12 @@ export class App implements Page {
     ];
     wireKeyboard(this);
     byId('cancel').addEventListener('click', () => this.model.cancel());
+    // Before anything is written over the entry of the history that the visitor went to.
+    window.addEventListener('popstate', () => clearTimeout(this.hashTimer));
     window.addEventListener('hashchange', () => void this.followHash());
     this.tell();
     void whileBusy(this.startViewer());
-    this.start();
+    void whileBusy(this.start());
     void whileBusy(this.askForGpu());
   }
 
@@ -117,19 +120,34 @@ export class App implements Page {
   }
 
   /** Shows what the address says. */
-  private start(): void {
-    const file = fileIn(location.hash);
-    if (file === null) {
-      void this.run(this.settings.source, this.settings);
+  private async start(): Promise<void> {
+    const asked = fileIn(location.hash);
+    if (!asked) {
+      await this.run(this.settings.source, this.settings);
       return;
     }
-    this.awaited = { file, settings: this.settings };
-    this.settings = defaults(this.settings.source.dimension);
-    void this.run(this.settings.source).then(() =>
-      showMessage(
-        `This link shows “${file}”, a file that stayed with the person who shared it. Open the same file here to see it as they did.`,
-      ),
+    const { settings } = this;
+    const source = await this.sourceNamed(asked, settings.source.dimension);
+    if (source) {
+      this.settings = { ...settings, source };
+      await this.run(source, this.settings);
+      return;
+    }
+    this.awaited = { file: asked.name, settings };
+    this.settings = defaults(settings.source.dimension);
+    await this.run(this.settings.source);
+    showMessage(
+      `This link shows “${asked.name}”, a file that stayed with the person who shared it. Open the same file here to see it as they did.`,
     );
+  }
+
+  /** The file that an address names: from the address itself, or from this visit. */
+  private async sourceNamed(
+    { name, packed }: { name: string; packed: string | null },
+    dimension: Dimension,
+  ): Promise<Source | null> {
+    const file = this.files.get(name) ?? (packed ? await unpack(packed, name) : null);
+    return file && { kind: 'file', dimension, file, ...(packed ? { packed } : {}) };
   }
 
   run(source: Source, settings: Partial<Settings> = {}): Promise<boolean> {
@@ -152,7 +170,7 @@ export class App implements Page {
     if (dimension === settings.source.dimension) return;
     const to = left?.source.dimension === dimension ? left : defaults(dimension);
     // A scan can be looked at in both.
-    if (settings.source.kind === 'file') {
+    if (settings.source.kind === 'file' || settings.source.kind === 'url') {
       const source: Source = { ...settings.source, dimension };
       Object.assign(to, {
         source,
@@ -247,6 +265,7 @@ export class App implements Page {
       this.sweep = (isNew || run === 1) && this.opensSlowly ? 1 : null;
       await this.newMesh();
       this.change(settings);
+      this.writeHash();
       await this.cutSlowly(run);
       return true;
     } catch (error) {
@@ -293,6 +312,7 @@ export class App implements Page {
   }
 
   private tell(): void {
+    document.documentElement.toggleAttribute('data-embed', this.settings.embed);
     for (const part of this.parts) part.changed?.(this.settings);
     this.rememberInHash();
   }
@@ -452,9 +472,9 @@ export class App implements Page {
   private async followHash(): Promise<void> {
     clearTimeout(this.hashTimer);
     const settings = fromHash(location.hash);
-    const name = fileIn(location.hash);
-    const file = name === null ? undefined : this.files.get(name);
-    if (file) settings.source = { kind: 'file', dimension: settings.source.dimension, file };
+    const asked = fileIn(location.hash);
+    const source = asked && (await this.sourceNamed(asked, settings.source.dimension));
+    if (source) settings.source = source;
     const pointsOf = ({ source, edits, backend }: Settings) =>
       JSON.stringify([source, source.kind === 'file' && source.file.name, edits, backend]);
     if (pointsOf(settings) === pointsOf(this.settings)) {
@@ -503,3 +523,14 @@ export class App implements Page {
 
 /** How long a new object is shown whole, and how long the cut then moves, in milliseconds. */
 const [WHOLE, OPENING] = [500, 900];
+
+/** What the address asks for. A file on the web may also be named before the '#': `?url=`. */
+function wholeHash(): string {
+  const query = new URLSearchParams(location.search);
+  const url = query.get('url');
+  // What the visitor went on to is after the '#'.
+  if (url === null || /(^#?|&)(points|file|url)=/.test(location.hash)) return location.hash;
+  const hash = new URLSearchParams(location.hash.replace(/^#/, ''));
+  hash.set('url', url);
+  return hash.toString();
+}

@@ -46,6 +46,8 @@ export interface Settings {
   apart: number;
   layers: Record<Layer, boolean>;
   camera: CameraPose | null;
+  /** Whether only the drawing and its dock are shown, in a frame of another page. */
+  embed: boolean;
 }
 
 type Vector = [number, number, number];
@@ -100,6 +102,7 @@ export function defaults(dimension: Dimension = 3): Settings {
     map: 'viridis',
     filter: filterFor(source),
     ...FRESH,
+    embed: false,
     layers: {
       simplices: true,
       edges: true,
@@ -122,6 +125,9 @@ export function toHash(settings: Settings): string {
   if (source.dimension === 2) hash.set('dim', '2');
   if (source.kind === 'sample') hash.set('points', source.sample);
   if (source.kind === 'file') hash.set('file', source.file.name);
+  if (source.kind === 'file' && source.packed) hash.set('data', source.packed);
+  if (source.kind === 'url') hash.set('url', source.url);
+  if (settings.embed) hash.set('embed', '1');
   if (source.kind === 'generator')
     hash.set('points', [source.distribution, source.count, source.seed].join('_'));
   if (source.kind === 'generator' && edits.length > 0) hash.set('edits', editsToText(edits));
@@ -153,7 +159,11 @@ export function fromHash(hash: string): Settings {
   const choice = <T extends string>(key: string, of: readonly T[], otherwise: T) =>
     of.find((option) => option === given.get(key)) ?? otherwise;
 
-  settings.source = sourceFrom(given.get('points'), dimension) ?? settings.source;
+  const url = addressFrom(given.get('url'));
+  settings.source = url
+    ? { kind: 'url', dimension, url }
+    : (sourceFrom(given.get('points'), dimension) ?? settings.source);
+  settings.embed = given.has('embed');
   if (dimension === 2) settings.edits = editsFromText(given.get('edits') ?? '') ?? [];
   settings.backend = choice('backend', ['auto', 'gpu', 'cpu'], settings.backend);
   settings.color = choice('color', colorsIn(dimension), colorFor(settings.source));
@@ -182,9 +192,11 @@ export function fromHash(hash: string): Settings {
   return settings;
 }
 
-/** The name of the file that a link was made from, which is not in it; else null. */
-export function fileIn(hash: string): string | null {
-  return new URLSearchParams(hash.replace(/^#/, '')).get('file');
+/** The file that a link was made from: its name, and its content if it is in the link. */
+export function fileIn(hash: string): { name: string; packed: string | null } | null {
+  const given = new URLSearchParams(hash.replace(/^#/, ''));
+  const name = given.get('file');
+  return name === null ? null : { name, packed: given.get('data') };
 }
 
 /** Returns the quantities that exist in a dimension. */
@@ -192,6 +204,16 @@ export function colorsIn(dimension: Dimension): ColorBy[] {
   return dimension === 3
     ? ['quality', 'volume', 'circumradius', 'phase']
     : ['quality', 'volume', 'circumradius'];
+}
+
+/** An address of the web in a link. */
+function addressFrom(text: string | null): string | null {
+  try {
+    const url = new URL(text ?? '');
+    return /^https?:$/.test(url.protocol) ? url.href : null;
+  } catch {
+    return null;
+  }
 }
 
 function sourceFrom(text: string | null, dimension: Dimension): Source | null {

@@ -201,9 +201,9 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
       );
     }
     for (const format of ['PLY', 'OBJ', 'STL']) {
-      const [hull] = await save(page, format, folder);
-      // The hull's corners are the points of its file.
-      gdel('triangulate', hull);
+      const [surface] = await save(page, format, folder);
+      // The surface's corners are the points of its file.
+      gdel('triangulate', surface);
     }
     const [glb] = await save(page, 'GLB', folder);
     assert.equal(readFileSync(glb).subarray(0, 4).toString(), 'glTF');

@@ -11,6 +11,8 @@ import {
   addressOf,
   choose,
   drop,
+  expectAccessible,
+  gdel,
   launch,
   open,
   pictureOf,
@@ -162,6 +164,75 @@ describe('a scan', () => {
     assert.ok(Math.abs(place[2] + 4_000_300) < 20, place.join());
     const size = scale?.[0] ?? Math.hypot(...matrix.slice(0, 3));
     assert.ok(size > 400 && size < 800, `${size} file units to one of the drawing`);
+  });
+
+  test('gives its surface, which is its solid again, in its own units', async () => {
+    const cat = figure(1).map((point) => point.map((x) => 500_000 + 100 * x));
+    await drop(page, 'cat.ply', ply(cat).replaceAll('property float', 'property double'));
+    await tab(page, 'use');
+    const folder = mkdtempSync(join(tmpdir(), 'gdel-scan-'));
+    const { total } = await shown(page);
+    for (const format of ['PLY', 'OBJ', 'STL']) {
+      const [file] = await save(page, format, folder);
+      gdel('triangulate', file);
+      if (format !== 'OBJ') continue;
+      const lines = readFileSync(file, 'utf8').split('\n');
+      const xs = lines.filter((line) => line.startsWith('v ')).map((line) => line.split(' ')[1]);
+      assert.ok(xs.every((x) => x > 499_890 && x < 500_110));
+      const triangles = lines.filter((line) => line.startsWith('f ')).length;
+      assert.ok(triangles > 100 && triangles < 4 * total, `${triangles} triangles`);
+    }
+    const png = readFileSync((await save(page, 'PNG', folder))[0]);
+    assert.equal(png.subarray(1, 4).toString(), 'PNG');
+    rmSync(folder, { recursive: true });
+  });
+
+  test('that is small goes with the link', async () => {
+    await drop(
+      page,
+      'small cat.xyz',
+      xyz(
+        figure(1)
+          .slice(0, 300)
+          .map((p) => p.map((x) => x.toFixed(3))),
+      ),
+    );
+    const link = await addressOf(page);
+    assert.match(link, /data=/);
+    const other = await open(browser, link);
+    assert.equal(await text(other, 'name'), 'small cat.xyz');
+    assert.equal(await text(other, 'shown'), await text(page, 'shown'));
+    assert.deepEqual(other.problems, []);
+    await other.context().close();
+  });
+
+  test('may be on the web, in a frame without the panel', async () => {
+    const files = createServer((_, response) => {
+      response.setHeader('access-control-allow-origin', '*');
+      response.end(xyz(figure(1)));
+    });
+    await new Promise((resolve) => files.listen(0, '127.0.0.1', resolve));
+    const url = `http://127.0.0.1:${files.address().port}/web%20cat.xyz`;
+    try {
+      const other = await open(browser, `${server.url}?url=${encodeURIComponent(url)}#embed`);
+      assert.equal(await text(other, 'name'), 'web cat.xyz');
+      assert.match(await text(other, 'count'), /^3,000 points/);
+      assert.ok(await other.locator('#panel').isHidden());
+      assert.ok(await other.locator('#keep').isVisible());
+      await pictureOf(other, 'embedded');
+      await expectAccessible(other, 'embedded');
+      const [whole] = await Promise.all([
+        other.context().waitForEvent('page'),
+        other.click('#whole'),
+      ]);
+      await whole.locator('#stage[aria-busy="false"]').waitFor();
+      assert.ok(await whole.locator('#panel').isVisible());
+      assert.equal(await text(whole, 'name'), 'web cat.xyz');
+      assert.deepEqual(other.problems, []);
+      await other.context().close();
+    } finally {
+      files.close();
+    }
   });
 
   test('leaves the one before in the history', async () => {

@@ -20,6 +20,7 @@ import {
   type Picked,
   type Summary,
 } from './model';
+import type { SurfaceMesh } from './surfaceFiles';
 
 /** The corners of a tetrahedron's edges. */
 const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
@@ -210,6 +211,19 @@ export class Model3d implements Model {
 
   hull(): Float32Array {
     return cornersOf(this.positions, this.mesh.hull);
+  }
+
+  /** The surface of what a filter keeps, uncut, in the units of the input. */
+  surface(filter: Filter): SurfaceMesh {
+    const heights = this.heights ?? this.heightsAlong([0, 0, 1]);
+    const { facets } = boundaryOf(this.drawable, this.keptBy(filter), heights, Infinity);
+    const { tetrahedra } = this.mesh;
+    const triangles = new Uint32Array(3 * facets.length);
+    for (let i = 0; i < facets.length; i++) {
+      const [t, k] = [facets[i] >>> 2, facets[i] & 3];
+      for (let j = 0; j < 3; j++) triangles[3 * i + j] = tetrahedra[4 * t + FACETS[3 * k + j]];
+    }
+    return { points: this.points, triangles };
   }
 
   /** The facets that were not locally Delaunay after Phase 1, nine coordinates each. */

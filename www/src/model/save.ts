@@ -1,7 +1,10 @@
-import type { Mesh2, Mesh3 } from 'gdel-wasm';
+import type { Filter } from '../geometry/filter';
+import type { Model2d } from './model2d';
+import { Model3d } from './model3d';
+import { SURFACE_FORMATS, type SurfaceFormat, surfaceFile } from './surfaceFiles';
 
 /** The formats that the package writes. In 2D, TetGen's files are those of Triangle. */
-export const FORMATS = ['VTU', 'TetGen', 'NPZ', 'PLY', 'OBJ', 'STL'] as const;
+export const FORMATS = ['VTU', 'TetGen', 'NPZ', ...SURFACE_FORMATS] as const;
 export type Format = (typeof FORMATS)[number];
 
 export interface SavedFile {
@@ -10,22 +13,44 @@ export interface SavedFile {
   bytes: Uint8Array;
 }
 
-/** The mesh as files: one, or for TetGen three. */
-export async function save(mesh: Mesh2 | Mesh3, format: Format): Promise<SavedFile[]> {
+/**
+ * The mesh as files: one, or for TetGen three. In 3D, the formats of surfaces hold that of what the
+ * filter keeps.
+ */
+export async function save(
+  model: Model2d | Model3d,
+  filter: Filter,
+  format: Format,
+): Promise<SavedFile[]> {
+  if (model instanceof Model3d) {
+    if (isSurface(format)) return [file(format, surfaceFile(model.surface(filter), format))];
+    if (format === 'TetGen') return several(await model.mesh.toTetGen());
+    return [file(format, await (format === 'VTU' ? model.mesh.toVTU() : model.mesh.toNPZ()))];
+  }
+  const { mesh } = model;
   switch (format) {
     case 'VTU':
-      return [{ extension: '.vtu', bytes: await mesh.toVTU() }];
+      return [file(format, await mesh.toVTU())];
     case 'NPZ':
-      return [{ extension: '.npz', bytes: await mesh.toNPZ() }];
+      return [file(format, await mesh.toNPZ())];
     case 'PLY':
-      return [{ extension: '.ply', bytes: await mesh.toPLY() }];
+      return [file(format, await mesh.toPLY())];
     case 'OBJ':
-      return [{ extension: '.obj', bytes: await mesh.toOBJ() }];
+      return [file(format, await mesh.toOBJ())];
     case 'STL':
-      return [{ extension: '.stl', bytes: await mesh.toSTL() }];
-    case 'TetGen': {
-      const files = await ('toTetGen' in mesh ? mesh.toTetGen() : mesh.toTriangle());
-      return Object.entries(files).map(([name, bytes]) => ({ extension: `.${name}`, bytes }));
-    }
+      return [file(format, await mesh.toSTL())];
+    case 'TetGen':
+      return several(await mesh.toTriangle());
   }
 }
+
+const isSurface = (format: Format): format is SurfaceFormat =>
+  (SURFACE_FORMATS as readonly string[]).includes(format);
+
+const file = (format: string, bytes: Uint8Array): SavedFile => ({
+  extension: `.${format.toLowerCase()}`,
+  bytes,
+});
+
+const several = (files: Record<string, Uint8Array>): SavedFile[] =>
+  Object.entries(files).map(([name, bytes]) => ({ extension: `.${name}`, bytes }));

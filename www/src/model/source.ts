@@ -57,12 +57,21 @@ export type Source =
   | { kind: 'sample'; dimension: 3; sample: Sample }
   | Generator<2>
   | Generator<3>
-  | { kind: 'file'; dimension: Dimension; file: File };
+  | {
+      kind: 'file';
+      dimension: Dimension;
+      file: File;
+      /** The file as it is in the link, if it is small enough and somebody shared it. */
+      packed?: string;
+    }
+  /** A file on a server that lets pages of others read it. */
+  | { kind: 'url'; dimension: Dimension; url: string };
 
 /** What to call a source. */
 export function titleOf(source: Source): string {
   if (source.kind === 'sample') return SAMPLES[source.sample].title;
   if (source.kind === 'file') return source.file.name;
+  if (source.kind === 'url') return nameIn(source.url);
   if (source.dimension === 3) return DISTRIBUTIONS[3][source.distribution];
   return source.count === 0 ? 'Drawn by hand' : DISTRIBUTIONS[2][source.distribution];
 }
@@ -91,7 +100,7 @@ export async function load(
     options.onProgress({ phase: `Fetching the ${titleOf(source)}`, fraction: 0 });
     return { points: await fetchSample(source.sample, options.signal), about: NOTHING_ABOUT };
   }
-  const { file } = source;
+  const file = source.kind === 'file' ? source.file : await download(source.url, options);
   const phase = `Reading ${file.name}`;
   options.onProgress({ phase, fraction: 0 });
   const name = file.name.replace(/\.gz$/i, '');
@@ -130,6 +139,24 @@ async function fetchSample(sample: Sample, signal: AbortSignal): Promise<Float32
     throw new Error(`The ${title} could not be fetched: the server answered ${response.status}.`);
   const data = await response.arrayBuffer();
   return new Float32Array(isGzip(data) ? await gunzip(data) : data);
+}
+
+/** The name of the file that an address leads to. */
+function nameIn(url: string): string {
+  const last = new URL(url).pathname.split('/').at(-1) ?? '';
+  try {
+    return decodeURIComponent(last) || url;
+  } catch {
+    return last;
+  }
+}
+
+async function download(url: string, { signal, onProgress }: LoadOptions): Promise<File> {
+  const name = nameIn(url);
+  onProgress({ phase: `Fetching ${name}`, fraction: 0 });
+  const response = await fetch(url, { signal });
+  if (!response.ok) throw new Error(`The server answered ${response.status}`);
+  return new File([await response.blob()], name);
 }
 
 /** The content of a file, which may be compressed. */

@@ -25,7 +25,8 @@ function compact({ points, triangles }: SurfaceMesh): SurfaceMesh {
     points instanceof Float32Array
       ? new Float32Array(3 * used.length)
       : new Float64Array(3 * used.length);
-  for (const [i, point] of used.entries()) own.set(points.subarray(3 * point, 3 * point + 3), 3 * i);
+  for (const [i, point] of used.entries())
+    own.set(points.subarray(3 * point, 3 * point + 3), 3 * i);
   return { points: own, triangles: renumbered };
 }
 

@@ -7,6 +7,7 @@ import {
   verify,
   verify2d,
 } from 'gdel-wasm';
+import type { Filter } from '../geometry/filter';
 import { frameOf } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
 import { applyEdits, type Edit } from './edits';
@@ -171,8 +172,8 @@ class ModelWorker {
     });
   }
 
-  save(format: Format): Promise<SavedFile[]> {
-    return named(() => save(this.current.mesh, format));
+  save(format: Format, filter: Filter): Promise<SavedFile[]> {
+    return named(() => save(this.current, filter, format));
   }
 
   /** Moves the points of the live mode to a time in seconds, and triangulates them. */

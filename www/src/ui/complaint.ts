@@ -16,7 +16,7 @@ export function complaint(source: Source, error: unknown): string {
     return `${sentence(message)} Choose the CPU, or fewer points.`;
   if (isOffline(error)) return `${titleOf(source)} could not be loaded. ${CONNECTION}`;
   const what = sentence(message.replace(/^byte 0: /, ''));
-  return source.kind === 'file' ? `${titleOf(source)}: ${what}` : what;
+  return source.kind === 'file' || source.kind === 'url' ? `${titleOf(source)}: ${what}` : what;
 }
 
 const CONNECTION = 'Check your connection and try again.';

@@ -1,17 +1,24 @@
+import { pack } from '../model/packed';
 import type { Page } from '../page';
 import { toHash } from '../settings';
 import { byId } from './dom';
 
 /** The button that copies a link to the view. */
 export function wireShare(page: Page): void {
+  byId('whole').addEventListener('click', (event) => {
+    (event.currentTarget as HTMLAnchorElement).href =
+      `#${toHash({ ...page.settings, embed: false })}`;
+  });
   const button = byId('share');
   button.addEventListener('click', async () => {
+    const { source } = page.settings;
+    if (source.kind === 'file') source.packed ??= (await pack(source.file)) ?? undefined;
     const hash = toHash(page.settings);
     history.replaceState(null, '', `#${hash}`);
     try {
       await navigator.clipboard.writeText(location.href);
       button.textContent =
-        page.settings.source.kind === 'file' ? 'Copied, without the file' : 'Link copied';
+        source.kind === 'file' && !source.packed ? 'Copied, without the file' : 'Link copied';
     } catch {
       // No permission, or no secure page: the link is in the address bar.
       button.textContent = 'Link is in the address bar';

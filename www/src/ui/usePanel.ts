@@ -7,7 +7,7 @@ import { showMessage } from './message';
 import { nameOf } from './result';
 
 /** The formats of what is to be seen. */
-const VIEWS = ['GLB', 'SVG'] as const;
+const VIEWS = ['GLB', 'PNG', 'SVG'] as const;
 
 /** The panel with downloads, the code, and what this machine's WebGPU can do. */
 export function usePanel(page: Page): Part {
@@ -39,6 +39,10 @@ export function usePanel(page: Page): Part {
 async function viewAs(format: (typeof VIEWS)[number], page: Page): Promise<SavedFile> {
   if (format === 'GLB')
     return { extension: '.glb', bytes: await (await import('../view/glb')).toGLB(page) };
+  if (format === 'PNG') {
+    if (!page.viewer) throw new Error('This browser cannot draw.');
+    return { extension: '.png', bytes: await page.viewer.picture() };
+  }
   return {
     extension: '.svg',
     bytes: new TextEncoder().encode((await import('../view/svg')).toSVG(page)),
@@ -54,9 +58,12 @@ async function download(
   showMessage(null);
   try {
     const files =
-      format === 'GLB' || format === 'SVG'
+      format === 'GLB' || format === 'PNG' || format === 'SVG'
         ? [await viewAs(format, page)]
-        : await page.model.save(format);
+        : await page.model.save(format, {
+            kind: page.settings.filter,
+            alpha: page.settings.alpha,
+          });
     const stem = titleOf(page.settings.source)
       .replace(/\.[^.]*$/, '')
       .replace(/[^\w-]+/g, '-')
@@ -117,7 +124,11 @@ function generated({
 
 function read(source: Exclude<Source, { kind: 'generator' }>): string[] {
   const name =
-    source.kind === 'file' ? source.file.name.replaceAll("'", "\\'") : `${source.sample}.ply`;
+    source.kind === 'url'
+      ? source.url
+      : source.kind === 'file'
+        ? source.file.name.replaceAll("'", "\\'")
+        : `${source.sample}.ply`;
   const flat = source.dimension === 2;
   return [
     `import { ${flat ? 'delaunay2d' : 'delaunay3d'}, readPoints }`,

@@ -333,6 +333,22 @@ export class Viewer {
     });
   }
 
+  /** The drawing on the paper of the theme, as a PNG file. */
+  async picture(): Promise<Uint8Array> {
+    const { canvas } = this;
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const context = copy.getContext('2d')!;
+    context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue('--paper');
+    context.fillRect(0, 0, copy.width, copy.height);
+    // What was drawn can be read until the browser shows it.
+    this.renderer.render(this.scene, this.camera);
+    context.drawImage(canvas, 0, 0);
+    const blob = await new Promise<Blob | null>((resolve) => copy.toBlob(resolve, 'image/png'));
+    if (!blob) throw new Error('The picture is too large.');
+    return new Uint8Array(await blob.arrayBuffer());
+  }
+
   /** Resolves after the next drawing has been handed to the browser. */
   drawn(): Promise<void> {
     this.render();

@@ -29,6 +29,7 @@ test('a link restores every setting', () => {
       voronoi: false,
     },
     camera: [1, -0.5, 3, 0.1, 0.2, -0.3],
+    embed: true,
   } as const;
   assert.deepEqual(fromHash(toHash(settings as never)), settings);
 });
@@ -92,6 +93,8 @@ test('what makes no sense in a link is left out', () => {
     '#camera=0_0_-1_0_0_0',
     '#alpha=-1',
     '#map=constructor',
+    '#url=javascript:alert(1)',
+    '#url=scan.ply',
   ]) {
     assert.deepEqual(fromHash(hash), defaults(), hash);
   }
@@ -101,6 +104,14 @@ test('what makes no sense in a link is left out', () => {
 test('a link made from a file names it', () => {
   const file = new File([], 'scan of a cat.ply');
   const hash = toHash({ ...defaults(), source: { kind: 'file', dimension: 3, file } });
-  assert.equal(fileIn(`#${hash}`), 'scan of a cat.ply');
+  assert.deepEqual(fileIn(`#${hash}`), { name: 'scan of a cat.ply', packed: null });
   assert.equal(fileIn('#points=bunny'), null);
+});
+
+test('a link may name a file on the web', () => {
+  const url = 'https://example.org/a%20cat.ply?x=1&y=2';
+  const settings = fromHash(`#url=${encodeURIComponent(url)}&embed`);
+  assert.deepEqual(settings.source, { kind: 'url', dimension: 3, url });
+  assert.equal(settings.embed, true);
+  assert.deepEqual(fromHash(toHash(settings)), settings);
 });
