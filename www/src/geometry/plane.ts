@@ -69,9 +69,16 @@ export function heightsAlong(
   };
 }
 
+/**
+ * A cut that halves the points is at least so far from either end: half of the points may lie on
+ * one wall.
+ */
+const OFF = 0.35;
+
 /** How much of the extent a plane leaves. */
 export function keepOf({ keep }: Plane, { extent: [low, high], middle }: Heights): number {
-  return keep ?? (high > low ? (middle - low) / (high - low) : 1);
+  if (keep !== null) return keep;
+  return high > low ? Math.min(1 - OFF, Math.max(OFF, (middle - low) / (high - low))) : 1;
 }
 
 /** How high the plane lies. Infinite where it cuts nothing, or everything. */

@@ -72,6 +72,13 @@ describe('the cutting plane', () => {
     assert.ok(share > 0.4 && share < 0.7, `the slider is at ${share}`);
   });
 
+  test('opens the object even where half of the points lie on the wall in front', () => {
+    const positions = Float32Array.from({ length: 3000 }, (_, i) => (i % 2 ? 1 : (i % 600) / 600));
+    const mesh = { positions, tetrahedra: new Uint32Array(), neighbors: new Int32Array() };
+    const share = keepOf({ normal: [0, 0, 1], keep: null }, heightsAlong([0, 0, 1], mesh));
+    assert.ok(share > 0.3 && share < 0.7, `the slider is at ${share}`);
+  });
+
   test('lies along the axis that faces the camera, whichever axis is up', () => {
     for (const up of UPS) {
       const normal = axisFacing(up, [0.3, 0.9, 0.6]);
