@@ -35,6 +35,7 @@ import { pointer } from './ui/pointer';
 import { pointsPanel } from './ui/pointsPanel';
 import { showResult } from './ui/result';
 import { runPanel, whyNotRecord } from './ui/runPanel';
+import { scaleBar } from './ui/scaleBar';
 import { wireShare } from './ui/share';
 import { showStrip } from './ui/strip';
 import { wireTabs } from './ui/tabs';
@@ -94,6 +95,7 @@ export class App implements Page {
       pointsPanel(this),
       viewPanel(this),
       dock(this),
+      scaleBar(this),
       runPanel(this),
       comparePanel(this),
       usePanel(this),
@@ -311,6 +313,10 @@ export class App implements Page {
     void this.draw();
   }
 
+  private tellMoved(): void {
+    for (const part of this.parts) part.moved?.();
+  }
+
   private tell(): void {
     document.documentElement.toggleAttribute('data-embed', this.settings.embed);
     for (const part of this.parts) part.changed?.(this.settings);
@@ -329,6 +335,7 @@ export class App implements Page {
       this.viewer = await Viewer.create(
         byId<HTMLCanvasElement>('canvas'),
         () => this.cameraMoved(),
+        () => this.tellMoved(),
         () =>
           showMessage(
             'The GPU was reset, and the drawing is lost. Reload the page to get it back.',
@@ -447,6 +454,7 @@ export class App implements Page {
   private cameraMoved(): void {
     if (!this.viewer) return;
     this.settings.camera = this.viewer.pose;
+    this.tellMoved();
     this.rememberInHash();
   }
 

@@ -62,6 +62,8 @@ export interface Part {
   changed?(settings: Settings): void;
   /** There is a new drawing. */
   drew?(drawing: Drawing): void;
+  /** The camera has moved, or the drawing has another size. */
+  moved?(): void;
   /** A panel has come to the front. */
   showed?(panel: string): void;
 }

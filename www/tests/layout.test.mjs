@@ -112,6 +112,20 @@ describe('on a screen', () => {
     assert.ok(!bare.equals(await page.locator('#canvas').screenshot()));
   });
 
+  test('the scale bar is as long as it says, near and far', async () => {
+    const units = async () => {
+      const [{ width }, length] = [await box(page, '#scale-bar'), await text(page, 'scale-length')];
+      assert.ok(width > 30 && width <= 111, `${width} pixels`);
+      return width / Number(length);
+    };
+    const before = await units();
+    await page.focus('#canvas');
+    await page.keyboard.press('+');
+    await page.keyboard.press('+');
+    const ratio = (await units()) / before;
+    assert.ok(Math.abs(ratio - 1 / 0.81) < 0.02, `${ratio} times as near`);
+  });
+
   test('tells newcomers what this is', async () => {
     await page.click('#help');
     assert.ok(await page.locator('#about').isVisible());

@@ -92,6 +92,7 @@ export class Viewer {
     private readonly renderer: WebGPURenderer,
     private readonly canvas: HTMLCanvasElement,
     private readonly onCamera: () => void,
+    private readonly onSize: () => void,
   ) {
     this.scene.add(this.model);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -127,12 +128,13 @@ export class Viewer {
   static async create(
     canvas: HTMLCanvasElement,
     onCamera: () => void,
+    onSize: () => void,
     onLost: () => void,
   ): Promise<Viewer> {
     const renderer = new WebGPURenderer({ canvas, antialias: true, alpha: true });
     renderer.onDeviceLost = onLost;
     await renderer.init();
-    return new Viewer(renderer, canvas, onCamera);
+    return new Viewer(renderer, canvas, onCamera, onSize);
   }
 
   /** What the drawing goes through. */
@@ -279,10 +281,15 @@ export class Viewer {
     this.onCamera();
   }
 
-  /** How much of the frame is visible in 2D. */
+  /** How much of the frame is visible, in 3D at the distance of what the camera looks at. */
   get seen(): [width: number, height: number] {
     const height = 2 * this.pose[2] * Math.tan((Math.PI / 360) * this.camera.fov);
     return [height * this.camera.aspect, height];
+  }
+
+  /** How many pixels a unit of the frame is long, at the distance of what the camera looks at. */
+  get pixelsPerUnit(): number {
+    return this.canvas.clientHeight / this.seen[1];
   }
 
   /** Returns the 2D place under a place on the canvas. */
@@ -399,6 +406,7 @@ export class Viewer {
     // The smaller side of the canvas sees the same angle, whichever side it is.
     this.camera.fov = (360 / Math.PI) * Math.atan(HALF_VIEW / Math.min(1, this.camera.aspect));
     this.camera.updateProjectionMatrix();
+    this.onSize();
     this.render();
   }
 }
