@@ -30,7 +30,7 @@ use std::{num::NonZeroUsize, ops::Range};
 /// few points.
 const MIN_SHARED: usize = if cfg!(test) { 8 } else { 1 << 13 };
 /// So many points one thread inserts before the others join in, as long as they are few of all.
-const FEW: usize = 1 << 10;
+const FEW: usize = 1 << 9;
 
 /// The mesh of `D` dimensions.
 pub type MeshOf<const D: usize> = <Dimension<D> as Incremental<D>>::Mesh;
