@@ -1,14 +1,15 @@
 //! Times the GPU backend in 3D:
 //! `cargo bench --features cli --bench measure_3d -- [KIND|FILE] [POINTS] [ADAPTER] [REPEATS]`.
 //!
-//! The variable SINGLE (1) rounds the coordinates to `f32`, SEED chooses others. Prints a line of
+//! The variable SINGLE (1) rounds the coordinates to `f32`, SEED chooses others, RESIDENT (1) leaves
+//! the mesh on the device, REUSE (1) reads it into the same vectors each time. Prints a line of
 //! JSON: medians over the repeats of the whole run and its phases, points in host memory to mesh in
 //! host memory. Before, it runs for a second to warm up: a device raises its clock slowly.
 
 use gdel::internals::d3::generate::{Distribution3, generate3d};
 use gdel::internals::gpu::{AdapterChoice, Gpu, engine::GpuEngine};
 use gdel::internals::io::files::read_points;
-use gdel::{Points, Points3, internals::Options};
+use gdel::{Mesh3, Outputs, Points, Points3, internals::Options};
 use pollster::block_on;
 use std::{path::Path, time::Instant};
 
@@ -33,8 +34,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let gpu = block_on(Gpu::open(&choice))?;
     let name = gpu.adapter().name.clone();
     let mut engine = block_on(GpuEngine::new(gpu))?;
+    let (resident, reuse) = (option("RESIDENT", 0) != 0, option("REUSE", 0) != 0);
+    let mut kept = Mesh3::default();
     let mut run = || -> Result<_, gdel::Error> {
         let clock = Instant::now();
+        if resident || reuse {
+            let mesh = block_on(engine.triangulate_on_device(points, &Options::default()))?;
+            if reuse {
+                mesh.read_into(Outputs::ALL, &mut kept)?;
+            }
+            return Ok((1e3 * clock.elapsed().as_secs_f64(), mesh.simplex_count(), mesh.stats().clone()));
+        }
         let mesh = block_on(engine.triangulate(points, &Options::default()))?;
         Ok((1e3 * clock.elapsed().as_secs_f64(), mesh.tetrahedra.len(), mesh.stats))
     };

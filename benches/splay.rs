@@ -10,7 +10,7 @@ use gdel::{
     internals::{
         d3::{
             generate::{Distribution3, generate3d},
-            splay::{NearDelaunay3, SplayOutcome, splay},
+            splay::{NearDelaunay3, SplayOutcome, Terms, splay},
             triangulation::Triangulation3,
         },
         gpu::{
@@ -76,7 +76,7 @@ fn run(
     };
     let vertices = PredicateContext::of_input(points.into(), lattice);
     let started = Instant::now();
-    let (triangulation, stats) = match splay(&vertices, near, u64::MAX, threads, &|_| Ok(()))? {
+    let (triangulation, stats) = match splay(&vertices, near, Terms::unlimited(threads))? {
         SplayOutcome::Delaunay(triangulation, stats) => (triangulation, stats),
         SplayOutcome::Aborted(reason) => return Err(format!("splaying aborted: {reason:?}").into()),
     };

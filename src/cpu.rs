@@ -38,7 +38,7 @@ pub type MeshOf<const D: usize> = <Dimension<D> as Incremental<D>>::Mesh;
 /// What the CPU engine of a dimension has of its own.
 pub trait Incremental<const D: usize> {
     /// The result.
-    type Mesh: MeshInfo + Send;
+    type Mesh: MeshInfo + Default + Send;
     /// The triangulation under construction.
     type Triangulation: Grow<D>;
 

@@ -352,6 +352,10 @@ with_fields! {
         pub signs: u64,
         /// The number of rounds of insertions.
         pub rounds: usize,
+        /// The number of times that stars were gathered from the device.
+        pub gathers: usize,
+        /// The number of tetrahedra that were gathered.
+        pub gathered: usize,
     }
 }
 

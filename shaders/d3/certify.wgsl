@@ -1,7 +1,7 @@
 // Lists the tetrahedra that are flat, and where coordinates were rounded to the lattice also those
 // of which the filter does not decide the orientation or whether a facet is locally Delaunay. The
-// filter's bound includes the rounding; where nothing was rounded, the lattice is the truth. One
-// invocation per slot.
+// filter's bound includes the rounding; where nothing was rounded, the lattice is the truth. The
+// stars of their vertices are wanted. One invocation per slot.
 //
 // Each facet is examined from the tetrahedron in the lower slot. Whether a facet to infinity bounds
 // a finite tetrahedron follows from the orientation of that tetrahedron.
@@ -16,6 +16,8 @@
 @group(0) @binding(5) var<storage, read> counts: array<u32>;
 // The number of a tetrahedron, and its undecided facets (bits 0 to 3) and orientation (bit 4).
 @group(0) @binding(6) var<storage, read_write> uncertain: array<vec2u>;
+// A bit per point.
+@group(0) @binding(7) var<storage, read_write> wanted: array<atomic<u32>>;
 //!include common/count_words
 //!include d3/predicates
 //!include d3/filter
@@ -78,6 +80,12 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         }
         if undecided != 0 {
             uncertain[atomicAdd(&control.uncertain, 1u)] = vec2u(numbers[t] >> 2, undecided);
+            for (var k = 0u; k < 4; k++) {
+                if tet[k] != control.infinite {
+                    let point = index_of(tet[k]);
+                    atomicOr(&wanted[point >> 5], 1u << (point & 31));
+                }
+            }
         }
     }
 }

@@ -1,4 +1,5 @@
-// Marks the vertices of the facets that are not locally Delaunay (§3.2.1). One invocation per slot.
+// Marks the vertices of the facets that are not locally Delaunay (§3.2.1): their stars are wanted.
+// One invocation per slot.
 //
 // Only facets that a flip iteration found so and could not flip are examined again: the tetrahedra
 // around them may have changed since.
@@ -12,11 +13,15 @@
 @group(0) @binding(5) var<storage, read_write> failed: array<atomic<u32>>;
 // The input indices of the failed vertices.
 @group(0) @binding(6) var<storage, read_write> failed_points: array<u32>;
+// A bit per point.
+@group(0) @binding(7) var<storage, read_write> wanted: array<atomic<u32>>;
 //!include d3/signs
 
 fn fail(v: u32) {
     if v != control.infinite && atomicExchange(&failed[v], 1u) == 0 {
-        failed_points[atomicAdd(&control.failed, 1u)] = index_of(v);
+        let point = index_of(v);
+        failed_points[atomicAdd(&control.failed, 1u)] = point;
+        atomicOr(&wanted[point >> 5], 1u << (point & 31));
     }
 }
 

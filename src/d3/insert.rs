@@ -132,7 +132,7 @@ fn mark(slots: &mut impl MarkedSlots<4>, t: u32, state: u32) {
 /// circumdisc of the facet: the part of the plane inside the circumsphere of the tetrahedron on the
 /// other side of the facet.
 #[inline]
-fn in_conflict(slots: &impl MarkedSlots<4>, here: &PredicatesAt<'_, '_, 3>, t: u32) -> bool {
+pub(crate) fn in_conflict(slots: &impl MarkedSlots<4>, here: &PredicatesAt<'_, '_, 3>, t: u32) -> bool {
     let v = corners(slots, t);
     if v[3] != slots.infinite() {
         return here.insphere(v) > 0;

@@ -51,6 +51,18 @@ impl Triangulation3 {
         Triangulation3 { tetrahedra, neighbors, infinite }
     }
 
+    /// Returns the infinite vertex.
+    pub fn infinite(&self) -> u32 {
+        self.infinite
+    }
+
+    /// Marks the slots as unused that are not used any more on a device: all their vertices are 0.
+    pub fn discard_unused(&mut self) {
+        parallel::for_chunks(Threads::All, &mut self.tetrahedra, |_, chunk| {
+            chunk.iter_mut().filter(|t| **t == [0; 4]).for_each(|t| t[0] = state::FREE);
+        });
+    }
+
     /// Returns the vertices of each tetrahedron; those of unused slots have no meaning.
     pub fn tetrahedra(&self) -> &[[u32; 4]] {
         &self.tetrahedra

@@ -10,7 +10,7 @@ use crate::{
     error::Error,
     gpu::{Gpu, Readback, Storage, readback::Target},
     mesh::MeshInfo,
-    stats::Stats,
+    stats::{Phase, Stats, Stopwatch},
 };
 
 /// Which arrays of a mesh are read from the device.
@@ -232,6 +232,10 @@ impl<const D: usize> DeviceMesh<D> {
         &self.stats
     }
 
+    pub(crate) fn stats_mut(&mut self) -> &mut Stats {
+        &mut self.stats
+    }
+
     /// Returns the bytes that the mesh takes on the device.
     pub fn bytes(&self) -> u64 {
         self.arrays.storages().map(Storage::bytes).iter().sum()
@@ -303,23 +307,39 @@ where
         Ok(DeviceMesh::new(gpu, &Readback::default(), arrays, mesh))
     }
 
-    /// Reads buffers of the mesh. Returns the number of bytes as well.
-    pub(crate) async fn read_with<T: Target>(&self, reads: Vec<(&wgpu::Buffer, T)>) -> Result<(Vec<T>, u64), Error> {
+    /// Reads buffers of the mesh. Returns the statistics with what that took.
+    pub(crate) async fn read_with<T: Target>(&self, reads: Vec<(&wgpu::Buffer, T)>) -> Result<(Vec<T>, Stats), Error> {
         let mut readback = self.readback.clone();
-        let before = readback.bytes();
+        let (count, bytes) = (readback.count(), readback.bytes());
         let targets = readback.read_into(&self.gpu, reads).await?;
-        Ok((targets, readback.bytes() - before))
+        let mut stats = self.stats.clone();
+        if let Some(gpu) = &mut stats.gpu {
+            // Each in a submission of its own.
+            let pieces = (readback.count() - count) as u64;
+            (gpu.readbacks, gpu.submits) = (gpu.readbacks + pieces, gpu.submits + pieces);
+            gpu.bytes_read += readback.bytes() - bytes;
+        }
+        Ok((targets, stats))
+    }
+
+    /// Reads all arrays, and frees those on the device.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of `read`.
+    pub(crate) async fn into_host(self) -> Result<MeshOf<D>, Error> {
+        let mut stopwatch = Stopwatch::start();
+        let mut mesh = MeshOf::<D>::default();
+        self.read_arrays(Outputs::ALL, &mut mesh).await?;
+        mesh.stats_mut().phases.push((Phase::Readback, stopwatch.lap()));
+        mesh.set_input(self.duplicate_of, self.dimension);
+        Ok(mesh)
     }
 
     async fn read_arrays(&self, outputs: Outputs, mesh: &mut MeshOf<D>) -> Result<(), Error> {
         let parts = Dimension::<D>::make_room(mesh, outputs, self.simplex_count(), self.hull_count())?;
         let buffers = [self.simplices(), self.neighbors(), self.hull()];
-        let (_, bytes) = self.read_with(buffers.into_iter().zip(parts).collect()).await?;
-        let mut stats = self.stats.clone();
-        if let Some(gpu) = &mut stats.gpu {
-            gpu.bytes_read += bytes;
-        }
-        mesh.set_input(self.duplicate_of.clone(), self.dimension);
+        let (_, stats) = self.read_with(buffers.into_iter().zip(parts).collect()).await?;
         *mesh.stats_mut() = stats;
         Ok(())
     }
@@ -369,7 +389,9 @@ macro_rules! reading {
             ///
             /// Returns the errors of `read`.
             pub async fn read_into_async(&self, outputs: Outputs, mesh: &mut crate::$mesh) -> Result<(), Error> {
-                self.read_arrays(outputs, mesh).await
+                self.read_arrays(outputs, mesh).await?;
+                mesh.set_input(self.duplicate_of.clone(), self.dimension);
+                Ok(())
             }
         }
     };

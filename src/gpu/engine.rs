@@ -12,7 +12,8 @@ use crate::{
     error::Error,
     gpu::{
         Gpu,
-        phase1::{Finish, Input, Phase1, Phase1Output, Run, Settings},
+        device_mesh::{DeviceMesh, MeshArrays},
+        phase1::{Finish, Input, Phase1, Phase1Stats, Run, Settings},
         start::first_simplex,
     },
     index::NONE,
@@ -40,9 +41,9 @@ pub mod progress {
 
 /// How a dimension's engine completes what Phase 1 leaves.
 #[expect(async_fn_in_trait, reason = "only this crate implements it, and no caller is generic over threads")]
-pub trait Complete<const D: usize>: Finish<D> + Incremental<D>
+pub trait Complete<const D: usize>: Finish<D> + MeshArrays<D>
 where
-    Dimension<D>: Finish<D>,
+    Dimension<D>: Finish<D> + MeshArrays<D>,
 {
     /// Collects what [`Options::trace`] asks for.
     type Tracer;
@@ -62,37 +63,65 @@ where
     /// Returns the errors of [`Readback::read`](crate::gpu::Readback::read).
     async fn trace_round(tracer: &mut Self::Tracer, gpu: &Gpu, run: &Run<'_, D>) -> Result<(), Error>;
 
-    /// Makes the mesh of what Phase 1 left, or says why the CPU engine has to; its statistics are
+    /// Makes the mesh of what Phase 1 leaves, or says why the CPU engine has to; its statistics are
     /// set by the caller.
     ///
     /// # Errors
     ///
-    /// Returns [`Error::Cancelled`] and [`Error::OutOfMemory`].
-    fn complete(near: Near<'_, D>, tracer: Self::Tracer) -> Result<Result<Self::Mesh, Fallback>, Error>;
+    /// Returns [`Error::Cancelled`], [`Error::OutOfMemory`], and those of the device.
+    async fn complete(
+        run: Run<'_, D>,
+        near: Near<'_, D>,
+        tracer: Self::Tracer,
+    ) -> Result<Result<Made<D>, Fallback>, Error>;
 }
 
-/// What Phase 1 left, and what goes with it.
-pub struct Near<'a, const D: usize>
+/// A mesh where the engine has made it.
+pub enum Made<const D: usize>
 where
-    Dimension<D>: Finish<D>,
+    Dimension<D>: Incremental<D>,
 {
+    /// In the memory of the host.
+    Host(MeshOf<D>),
+    /// On the device.
+    Device(DeviceMesh<D>),
+}
+
+/// What goes with a run of Phase 1 that is to be completed.
+pub struct Near<'a, const D: usize> {
     /// The points of the run.
     pub(crate) points: Points<'a, D>,
     /// The lattice that is fitted to them.
     pub(crate) lattice: &'a Lattice<D>,
-    /// The result of Phase 1.
-    pub(crate) result: <Dimension<D> as Finish<D>>::Result,
-    /// The points that Phase 1 did not insert although they are not duplicates, each with the
-    /// vertex at the same place of the lattice.
-    pub(crate) missing: Vec<[u32; 2]>,
-    /// The field of the mesh of the same name.
-    pub(crate) duplicate_of: Vec<i32>,
     /// The options of the run.
     pub(crate) options: &'a Options,
+    /// The name of the adapter.
+    pub(crate) adapter: &'a str,
+    /// [`Settings::sparse`], or whether the mesh is to stay on the device.
+    pub(crate) sparse: bool,
     /// Receives the statistics.
     pub(crate) stats: &'a mut Stats,
     /// Times the phases.
     pub(crate) stopwatch: &'a mut Stopwatch,
+}
+
+impl<const D: usize> Near<'_, D> {
+    /// Takes what Phase 1 did into the statistics, at its end.
+    pub(crate) fn end_of_phase1(&mut self, phase1: &Phase1Stats) {
+        let readback = phase1.readback_time;
+        self.stats.phases.push((Phase::Phase1, self.stopwatch.lap().saturating_sub(readback)));
+        if !readback.is_zero() {
+            self.stats.phases.push((Phase::Readback, readback));
+        }
+    }
+
+    /// Returns the points that Phase 1 did not insert although they are not duplicates, each with
+    /// the vertex at the same place of the lattice, and the field `duplicate_of` of the mesh.
+    pub(crate) fn missing(&self, merged: &[[u32; 2]]) -> (Vec<[u32; 2]>, Vec<i32>) {
+        let mut duplicate_of = vec![NONE; self.points.len()];
+        let missing = missing_points(self.points, merged, &mut duplicate_of);
+        (missing, duplicate_of)
+    }
 }
 
 /// A device with the kernels of `D` dimensions compiled for it: create one and use it for many
@@ -146,6 +175,35 @@ where
     /// Returns the errors of [`delaunay3d`](crate::delaunay3d), and those of the device.
     pub async fn triangulate(&mut self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error> {
         let options = &options.monotone();
+        let mesh = match self.make(points, options, self.settings.sparse).await? {
+            Made::Host(mesh) => mesh,
+            Made::Device(mesh) => mesh.into_host().await?,
+        };
+        options.report(Phase::Finish, 1.0)?;
+        Ok(mesh)
+    }
+
+    /// Triangulates `points`, and leaves the mesh on the device, or takes it there.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`GpuEngine::triangulate`].
+    pub async fn triangulate_on_device(
+        &mut self,
+        points: Points<'_, D>,
+        options: &Options,
+    ) -> Result<DeviceMesh<D>, Error> {
+        let options = &options.monotone();
+        let mesh = match self.make(points, options, true).await? {
+            Made::Host(mesh) => DeviceMesh::upload(&self.gpu, mesh).await?,
+            Made::Device(mesh) => mesh,
+        };
+        options.report(Phase::Finish, 1.0)?;
+        Ok(mesh)
+    }
+
+    /// Makes the mesh wherever that is done.
+    async fn make(&mut self, points: Points<'_, D>, options: &Options, sparse: bool) -> Result<Made<D>, Error> {
         let mut stopwatch = Stopwatch::start();
         options.report(Phase::Lattice, 0.0)?;
         points.validate_by(Threads::All)?;
@@ -179,31 +237,24 @@ where
                 return fall_back(points, options, Fallback::Flips, stats);
             }
         }
-        let Phase1Output { result, merged, stats: phase1 } = run.finish().await?;
-        stats.gpu = Some(phase1.summary(&self.gpu.adapter().name));
-        let readback = phase1.readback_time;
-        stats.phases.push((Phase::Phase1, stopwatch.lap().saturating_sub(readback)));
-        stats.phases.push((Phase::Readback, readback));
-
-        let mut duplicate_of = vec![NONE; points.len()];
-        let missing = missing_points(points, &merged, &mut duplicate_of);
         let near = Near {
             points,
             lattice: &lattice,
-            result,
-            missing,
-            duplicate_of,
             options,
+            adapter: &gpu.adapter().name,
+            sparse,
             stats: &mut stats,
             stopwatch: &mut stopwatch,
         };
-        let mut mesh = match Dimension::<D>::complete(near, tracer)? {
-            Ok(mesh) => mesh,
+        let mut made = match Dimension::<D>::complete(run, near, tracer).await? {
+            Ok(made) => made,
             Err(why) => return fall_back(points, options, why, stats),
         };
-        options.report(Phase::Finish, 1.0)?;
-        *mesh.stats_mut() = stats;
-        Ok(mesh)
+        *match &mut made {
+            Made::Host(mesh) => mesh.stats_mut(),
+            Made::Device(mesh) => mesh.stats_mut(),
+        } = stats;
+        Ok(made)
     }
 
     /// Returns the device with the kernels for points of this width, compiled if they are not, and
@@ -235,12 +286,12 @@ fn fall_back<const D: usize>(
     options: &Options,
     why: Fallback,
     before: Stats,
-) -> Result<MeshOf<D>, Error>
+) -> Result<Made<D>, Error>
 where
     Dimension<D>: Complete<D>,
 {
     let mut mesh = cpu::delaunay(points, options)?;
     let stats = mesh.stats_mut();
     (stats.fallback, stats.gpu) = (Some(why), before.gpu);
-    Ok(mesh)
+    Ok(Made::Host(mesh))
 }

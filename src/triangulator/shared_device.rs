@@ -116,6 +116,53 @@ impl Choice<2> for Dimension<2> {
     }
 }
 
+/// Where a caller wants the mesh.
+trait Form<const D: usize>: Sized
+where
+    Dimension<D>: Choice<D>,
+{
+    /// Runs the GPU engine.
+    async fn triangulate(engine: &mut GpuEngine<D>, points: Points<'_, D>, options: &Options) -> Result<Self, Error>;
+
+    /// Takes a mesh that the CPU engine has made there.
+    async fn of_host(device: &SharedDevice, mesh: MeshOf<D>) -> Result<Self, Error>;
+}
+
+/// A mesh in the memory of the host.
+struct Host<const D: usize>(MeshOf<D>)
+where
+    Dimension<D>: Choice<D>;
+
+impl<const D: usize> Form<D> for Host<D>
+where
+    Dimension<D>: Choice<D>,
+{
+    async fn triangulate(engine: &mut GpuEngine<D>, points: Points<'_, D>, options: &Options) -> Result<Self, Error> {
+        engine.triangulate(points, options).await.map(Host)
+    }
+
+    async fn of_host(_device: &SharedDevice, mesh: MeshOf<D>) -> Result<Self, Error> {
+        Ok(Host(mesh))
+    }
+}
+
+impl<const D: usize> Form<D> for DeviceMesh<D>
+where
+    Dimension<D>: Choice<D>,
+{
+    async fn triangulate(engine: &mut GpuEngine<D>, points: Points<'_, D>, options: &Options) -> Result<Self, Error> {
+        engine.triangulate_on_device(points, options).await
+    }
+
+    async fn of_host(device: &SharedDevice, mesh: MeshOf<D>) -> Result<Self, Error> {
+        let mut state = device.state.lock().await;
+        let gpu = state.device(&device.adapter).await?;
+        let result = DeviceMesh::upload(&gpu, mesh).await;
+        state.forget_if_lost(&result);
+        result
+    }
+}
+
 impl SharedDevice {
     /// Creates the state for a device of this adapter.
     pub(super) fn new(adapter: AdapterChoice) -> Self {
@@ -147,12 +194,12 @@ impl SharedDevice {
 
     /// Triangulates `points` in 3D.
     pub(super) async fn delaunay3d(&self, points: Points3<'_>, options: &Options) -> Result<Mesh3, Error> {
-        self.run::<3>(points, options).await
+        Ok(self.run::<3, Host<3>>(points, options).await?.0)
     }
 
     /// Triangulates `points` in 2D.
     pub(super) async fn delaunay2d(&self, points: Points2<'_>, options: &Options) -> Result<Mesh2, Error> {
-        self.run::<2>(points, options).await
+        Ok(self.run::<2, Host<2>>(points, options).await?.0)
     }
 
     /// Triangulates `points` in 3D, and leaves the mesh on the device.
@@ -161,7 +208,7 @@ impl SharedDevice {
         points: Points3<'_>,
         options: &Options,
     ) -> Result<DeviceMesh3, Error> {
-        self.run_on_device::<3>(points, options).await
+        self.run(points, options).await
     }
 
     /// Triangulates `points` in 2D, and leaves the mesh on the device.
@@ -170,7 +217,7 @@ impl SharedDevice {
         points: Points2<'_>,
         options: &Options,
     ) -> Result<DeviceMesh2, Error> {
-        self.run_on_device::<2>(points, options).await
+        self.run(points, options).await
     }
 
     /// Triangulates the points in a buffer of the device in 3D, and leaves the mesh there.
@@ -180,7 +227,7 @@ impl SharedDevice {
         options: &Options,
     ) -> Result<DeviceMesh3, Error> {
         let points = self.read_points::<3>(points).await?;
-        self.run_on_device::<3>((&points).into(), options).await
+        self.run((&points).into(), options).await
     }
 
     /// Triangulates the points in a buffer of the device in 2D, and leaves the mesh there.
@@ -190,7 +237,7 @@ impl SharedDevice {
         options: &Options,
     ) -> Result<DeviceMesh2, Error> {
         let points = self.read_points::<2>(points).await?;
-        self.run_on_device::<2>((&points).into(), options).await
+        self.run((&points).into(), options).await
     }
 
     /// Reads points, which the host needs for the lattice and for exact predicates.
@@ -207,52 +254,37 @@ impl SharedDevice {
         Ok(array)
     }
 
-    async fn run_on_device<const D: usize>(
-        &self,
-        points: Points<'_, D>,
-        options: &Options,
-    ) -> Result<DeviceMesh<D>, Error>
+    async fn run<const D: usize, F: Form<D>>(&self, points: Points<'_, D>, options: &Options) -> Result<F, Error>
     where
         Dimension<D>: Choice<D>,
     {
-        let mesh = self.run::<D>(points, options).await?;
-        let mut state = self.state.lock().await;
-        let gpu = state.device(&self.adapter).await?;
-        let result = DeviceMesh::upload(&gpu, mesh).await;
-        state.forget_if_lost(&result);
-        result
-    }
-
-    async fn run<const D: usize>(&self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>
-    where
-        Dimension<D>: Choice<D>,
-    {
-        match options.backend {
-            Backend::Cpu => cpu::delaunay(points, options),
+        let mesh = match options.backend {
+            Backend::Cpu => cpu::delaunay(points, options)?,
             Backend::Gpu => {
                 let mut state = self.state.lock().await;
                 state.open::<D>(&self.adapter).await?;
-                state.run::<D>(points, options).await
+                return state.run::<D, F>(points, options).await;
             }
             Backend::Auto => {
                 let options = &options.monotone();
-                let why = match self.try_gpu::<D>(points, options).await {
+                let why = match self.try_gpu::<D, F>(points, options).await {
                     Ok(result) => return result,
                     Err(why) => why,
                 };
                 let mut mesh = cpu::delaunay(points, options)?;
                 mesh.stats_mut().fallback = Some(why);
-                Ok(mesh)
+                mesh
             }
-        }
+        };
+        F::of_host(self, mesh).await
     }
 
     /// Returns what the GPU engine makes of the points, or why the CPU engine has to.
-    async fn try_gpu<const D: usize>(
+    async fn try_gpu<const D: usize, F: Form<D>>(
         &self,
         points: Points<'_, D>,
         options: &Options,
-    ) -> Result<Result<MeshOf<D>, Error>, Fallback>
+    ) -> Result<Result<F, Error>, Fallback>
     where
         Dimension<D>: Choice<D>,
     {
@@ -262,7 +294,7 @@ impl SharedDevice {
         }
         let mut state = self.state.lock().await;
         state.open_if_it_pays::<D>(&self.adapter, points.len()).await?;
-        match state.run::<D>(points, options).await {
+        match state.run::<D, F>(points, options).await {
             Err(error) if error.is_of_the_gpu() => Err(Fallback::GpuFailed(error)),
             result => Ok(result),
         }
@@ -338,14 +370,14 @@ impl State {
 
     /// Runs the GPU engine, which is open. If its device gets lost, the next run has to open
     /// another.
-    async fn run<const D: usize>(&mut self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>
+    async fn run<const D: usize, F: Form<D>>(&mut self, points: Points<'_, D>, options: &Options) -> Result<F, Error>
     where
         Dimension<D>: Choice<D>,
     {
         let Some(engine) = &mut Dimension::<D>::slot(self).engine else {
             return Err(Error::NoAdapter { reason: "it is not open".to_owned() });
         };
-        let result = engine.triangulate(points, options).await;
+        let result = F::triangulate(engine, points, options).await;
         self.forget_if_lost(&result);
         result
     }

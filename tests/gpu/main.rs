@@ -20,6 +20,7 @@ mod d2_kernels;
 mod d2_phase1;
 mod d2_predicates;
 mod d2_reference;
+mod d3_gather;
 mod d3_kernels;
 mod d3_outputs;
 mod d3_phase1;

@@ -5,6 +5,8 @@ mod flips;
 mod inputs;
 #[cfg(feature = "gpu")]
 mod phase1;
+#[cfg(feature = "gpu")]
+mod regions;
 
 use flips::{Soup, found_out, near};
 use gdel::{
@@ -12,8 +14,8 @@ use gdel::{
     internals::{
         Options, cpu,
         d3::{
-            splay::{Aborted, NearDelaunay3, SplayOutcome, splay},
-            triangulation::FiniteMesh,
+            splay::{Aborted, NearDelaunay3, SplayOutcome, Terms, splay},
+            triangulation::{FiniteMesh, Triangulation3},
         },
         index::NO_INDEX,
         input::lattice::Lattice,
@@ -44,22 +46,37 @@ fn canonical(mut tetrahedra: Vec<[u32; 4]>) -> Vec<[u32; 4]> {
 /// that the result is exact.
 fn check(name: &str, vertices: &PredicateContext3<'_>, near: NearDelaunay3, answer: &[[u32; 4]]) -> SplayStats {
     let known = found_out(vertices, &near);
+    #[cfg(feature = "gpu")]
+    let in_parts = [&near, &known].map(|near| regions::splayed(name, vertices, near.clone()));
     let (doubting, _) = splayed(name, vertices, near);
     let (tetrahedra, stats) = splayed(name, vertices, known);
     let answer = canonical(answer.iter().map(|t| t.map(|v| vertices.input_index(v))).collect());
     assert_eq!(canonical(doubting), answer, "{name}");
     assert_eq!(canonical(tetrahedra), answer, "{name}");
+    #[cfg(feature = "gpu")]
+    for (tetrahedra, in_parts) in in_parts {
+        assert_eq!(canonical(tetrahedra), answer, "{name}, in parts");
+        // Each part does what is done with the whole, except for where walks begin.
+        if stats.inserted == 0 {
+            assert_eq!((in_parts.failed > 0, in_parts.inserted), (stats.failed > 0, stats.inserted), "{name}");
+        }
+    }
     stats
 }
 
 /// Returns the tetrahedra that splaying gives, which the verifier must accept.
 fn splayed(name: &str, vertices: &PredicateContext3<'_>, near: NearDelaunay3) -> (Vec<[u32; 4]>, SplayStats) {
     let started = std::time::Instant::now();
-    let (mesh, stats) = match splay(vertices, near, u64::MAX, Threads::All, &|_| Ok(())).unwrap() {
+    let (mesh, stats) = match splay(vertices, near, Terms::unlimited(Threads::All)).unwrap() {
         SplayOutcome::Delaunay(mesh, stats) => (mesh, stats),
         SplayOutcome::Aborted(reason) => panic!("{name}: aborted: {reason:?}"),
     };
     println!("{name}: {} vertices, {:.1?}, {stats:?}", vertices.len(), started.elapsed());
+    (verified(name, vertices, *mesh), stats)
+}
+
+/// Returns the tetrahedra of a triangulation by input indices. The verifier must accept them.
+fn verified(name: &str, vertices: &PredicateContext3<'_>, mesh: Triangulation3) -> Vec<[u32; 4]> {
     let names: Vec<u32> = (0..vertices.len() as u32).map(|v| vertices.input_index(v)).collect();
     let FiniteMesh { tetrahedra, neighbors, hull } = mesh.into_mesh(Some(&names), Threads::All);
     let mut points = vec![[0.0; 3]; names.len()];
@@ -69,7 +86,7 @@ fn splayed(name: &str, vertices: &PredicateContext3<'_>, near: NearDelaunay3) ->
     statement.hull = Some(&hull);
     let report = verify3d(&points, statement).unwrap();
     assert!(report.passed(), "{name}: {:?}", report.failures().next());
-    (tetrahedra, stats)
+    tetrahedra
 }
 
 /// Returns a random numbering of the points.
@@ -253,7 +270,7 @@ fn threads_share_the_stars() {
     let lattice = Lattice::fit((&points).into());
     let results = [Threads::One, Threads::All].map(|threads| {
         let vertices = PredicateContext::of_input((&points).into(), &lattice);
-        match splay(&vertices, near.clone(), u64::MAX, threads, &|_| Ok(())).unwrap() {
+        match splay(&vertices, near.clone(), Terms::unlimited(threads)).unwrap() {
             SplayOutcome::Delaunay(mesh, stats) => {
                 (canonical(mesh.into_mesh(None, threads).tetrahedra), stats, vertices.exact_counts())
             }
@@ -270,12 +287,13 @@ fn too_much_work_aborts() {
     let points = inputs::uniform(200, 19);
     let lattice = Lattice::fit((&points).into());
     let vertices = PredicateContext::new((&points).into(), &lattice, shuffled(points.len(), 21));
-    let enough = match splay(&vertices, spoilt(&points), u64::MAX, Threads::All, &|_| Ok(())).unwrap() {
+    let enough = match splay(&vertices, spoilt(&points), Terms::unlimited(Threads::All)).unwrap() {
         SplayOutcome::Delaunay(_, stats) => stats.signs,
         SplayOutcome::Aborted(reason) => panic!("{reason:?}"),
     };
     for max_evaluations in [0, enough / 4, enough / 2, enough - enough / 8] {
-        let outcome = splay(&vertices, spoilt(&points), max_evaluations, Threads::All, &|_| Ok(())).unwrap();
+        let outcome =
+            splay(&vertices, spoilt(&points), Terms { max_evaluations, ..Terms::unlimited(Threads::All) }).unwrap();
         assert!(matches!(outcome, SplayOutcome::Aborted(Aborted::BudgetExceeded)), "{max_evaluations} of {enough}");
     }
 }
@@ -289,7 +307,7 @@ fn what_is_not_a_triangulation_aborts() {
     let no_tetrahedra = NearDelaunay3 { incident: vec![NO_INDEX; points.len() + 1], ..near.clone() };
     let wrong_tetrahedra = NearDelaunay3 { incident: near.incident.iter().rev().copied().collect(), ..near };
     for near in [no_tetrahedra, wrong_tetrahedra] {
-        let outcome = splay(&vertices, near, u64::MAX, Threads::All, &|_| Ok(())).unwrap();
+        let outcome = splay(&vertices, near, Terms::unlimited(Threads::All)).unwrap();
         assert!(matches!(outcome, SplayOutcome::Aborted(Aborted::Inconsistent(_))), "{outcome:?}");
     }
 }
@@ -299,7 +317,11 @@ fn a_caller_can_cancel() {
     let points = inputs::uniform(200, 23);
     let lattice = Lattice::fit((&points).into());
     let vertices = PredicateContext::new((&points).into(), &lattice, shuffled(points.len(), 21));
-    let outcome = splay(&vertices, spoilt(&points), u64::MAX, Threads::All, &|_| Err(gdel::Error::Cancelled));
+    let outcome = splay(
+        &vertices,
+        spoilt(&points),
+        Terms { report: &|_| Err(gdel::Error::Cancelled), ..Terms::unlimited(Threads::All) },
+    );
     assert_eq!(outcome.err(), Some(gdel::Error::Cancelled));
 }
 

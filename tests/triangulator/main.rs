@@ -13,7 +13,7 @@ mod resident;
 mod statistics;
 
 use gdel::{
-    Backend, Mesh3, Points3,
+    Backend, Mesh3, Outputs, Points3,
     internals::{
         Options, cpu,
         gpu::{AdapterChoice, Gpu, engine::GpuEngine},
@@ -46,6 +46,11 @@ fn agree<'a>(points: impl Into<Points3<'a>>) {
     assert_eq!(mesh.stats.fallback, None);
     assert_eq!(mesh.stats.backend, Backend::Gpu);
     same(points, &mesh);
+    // The same where splaying sees only what it asks for, and the device makes the arrays.
+    let resident = block_on(engine().triangulate_on_device(points, &Options::default())).expect("triangulates");
+    assert_eq!(resident.stats().fallback, None);
+    assert!(resident.stats().splay.is_some_and(|splay| splay.gathers > 0), "{:?}", resident.stats());
+    same(points, &resident.read(Outputs::ALL).expect("reads"));
 }
 
 /// The mesh is the CPU engine's, and the verifier passes.

@@ -2,7 +2,7 @@
 
 use crate::engine;
 use gdel::{
-    Mesh3,
+    Mesh3, Outputs,
     internals::{
         Options,
         d3::{
@@ -49,10 +49,25 @@ fn the_statistics_add_up() {
 
 #[test]
 fn every_submission_is_counted() {
-    let (_, mesh) = triangulate_thin_sphere(&Options::default());
+    let (points, mesh) = triangulate_thin_sphere(&Options::default());
     let gpu = mesh.stats.gpu.expect("the GPU worked");
     // One for the points, one per round, one for the end, and two to read the mesh.
     assert_eq!(gpu.submits, 1 + gpu.rounds.len() as u64 + 1 + 2);
+
+    let mut engine = engine();
+    engine.set_settings(Settings { insert_all: true, rounds: 1, batches: 1, ..Settings::default() });
+    let mesh = block_on(engine.triangulate_on_device((&points).into(), &Options::default())).expect("triangulates");
+    engine.set_settings(Settings::default());
+    let (gpu, splay) = (mesh.stats().gpu.clone().expect("the GPU worked"), mesh.stats().splay.expect("and splaying"));
+    // One for the points, one per round, one for the end, which gathers the first stars, one for
+    // each of the other gathers, one for what splaying has changed, and one for the arrays.
+    assert_eq!(gpu.submits, 1 + gpu.rounds.len() as u64 + splay.gathers as u64 + 1 + 1, "{gpu:?}, {splay:?}");
+    assert!(splay.gathers > 0 && splay.gathered > splay.removed);
+    // And three to read them.
+    let read = mesh.read(Outputs::ALL).expect("reads").stats.gpu.expect("the GPU worked");
+    assert_eq!(read.submits, gpu.submits + 3);
+    let bytes = 16 * (2 * mesh.simplex_count() as u64) + 12 * mesh.hull_count() as u64;
+    assert_eq!(read.bytes_read, gpu.bytes_read + bytes);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use gdel::{
     internals::{
         d3::{
             generate::{Distribution3, generate3d},
-            splay::{NearDelaunay3, SplayOutcome, splay},
+            splay::{NearDelaunay3, SplayOutcome, Terms, splay},
         },
         input::lattice::Lattice,
         parallel::Threads,
@@ -43,7 +43,7 @@ impl Spoilt {
 
     /// Makes it Delaunay.
     pub fn splay(self) -> SplayOutcome {
-        splay(&self.vertices, self.near, u64::MAX, Threads::One, &|_| Ok(())).expect("memory")
+        splay(&self.vertices, self.near, Terms::unlimited(Threads::One)).expect("memory")
     }
 }
 

@@ -17,8 +17,8 @@ use crate::{
     error::Error,
     gpu::{
         Gpu,
-        engine::{Complete, Near, progress},
-        phase1::Run,
+        engine::{Complete, Made, Near, progress},
+        phase1::{Phase1Output, Run},
     },
     options::Options,
     parallel::Threads,
@@ -39,8 +39,12 @@ impl Complete<2> for Dimension<2> {
         Ok(())
     }
 
-    fn complete(near: Near<'_, 2>, _tracer: ()) -> Result<Result<Mesh2, Fallback>, Error> {
-        let Near { points, lattice, result, missing, duplicate_of, options, stats, stopwatch } = near;
+    async fn complete(run: Run<'_, 2>, mut near: Near<'_, 2>, _tracer: ()) -> Result<Result<Made<2>, Fallback>, Error> {
+        let Phase1Output { result, merged, stats: phase1 } = run.finish().await?;
+        near.end_of_phase1(&phase1);
+        near.stats.gpu = Some(phase1.summary(near.adapter));
+        let (missing, duplicate_of) = near.missing(&merged);
+        let Near { points, lattice, options, stats, stopwatch, .. } = near;
         let NearMesh { mesh: Mesh { mut triangles, mut halfedges, hull }, uncertain } = result;
         options.report(Phase::Finish, progress::COMPLETION)?;
         let mut failed = uncertain;
@@ -68,7 +72,8 @@ impl Complete<2> for Dimension<2> {
             stats.phases.push((Phase::Flip, stopwatch.lap()));
         }
         stats.phases.push((Phase::Finish, stopwatch.lap()));
-        Ok(Ok(Mesh2 { triangles, halfedges, hull, duplicate_of, dimension: 2, stats: Stats::default() }))
+        let mesh = Mesh2 { triangles, halfedges, hull, duplicate_of, dimension: 2, stats: Stats::default() };
+        Ok(Ok(Made::Host(mesh)))
     }
 }
 

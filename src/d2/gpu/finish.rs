@@ -5,7 +5,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Pending,
+        Compiler, Pending,
         layout::Counters,
         phase1::{Buffers, Copied, Copies, Finish, Step},
     },
@@ -46,6 +46,8 @@ impl Finish<2> for Dimension<2> {
     type Aliases = Aliases;
     type Reading = Reading;
     type Result = NearMesh;
+    /// The host makes the arrays.
+    type Outputs = ();
 
     /// The search for uncertain tests, and the compaction.
     const STEPS: &'static [Step<&'static str>] = &[
@@ -55,6 +57,12 @@ impl Finish<2> for Dimension<2> {
         Step::Scan,
         Step::Kernel("mesh_compact"),
     ];
+
+    /// Nothing is gathered of a mesh that the host reads as a whole.
+    const GATHER: &'static [Step<&'static str>] = &[];
+    const PATCH: &'static [Step<&'static str>] = &[];
+
+    fn outputs(_compiler: &Compiler<'_>) {}
 
     fn mesh_len(finite: usize, _counters: &Counters) -> usize {
         finite

@@ -5,6 +5,7 @@
 //! | `messages` | scores and points while they are picked; the list of undecided checks; messages | the tetrahedra of the mesh |
 //! | `active` | the active list | the neighbours of the mesh |
 //! | `status` | the status of each slot, until the failed vertices are marked | the list of uncertain tetrahedra |
+//! | `simplices`, `neighbors` | the slots | tetrahedra that are gathered, and those of a patch |
 //! | `scores` | the scores of waiting points; marks while their list is compacted | the list of failed vertices |
 
 use crate::gpu::{
@@ -26,6 +27,10 @@ pub struct Aliases {
     pub uncertain: Storage<Active>,
     /// The places in the input of the failed vertices.
     pub failed: Storage<u32>,
+    /// The vertices of gathered tetrahedra, then of those of a patch.
+    pub gathered_tetrahedra: Storage<Slot>,
+    /// The neighbours of gathered tetrahedra, then of those of a patch.
+    pub gathered_neighbors: Storage<Slot>,
 }
 
 // The mesh has no more tetrahedra than there are slots, and the active list has two entries per
@@ -42,6 +47,8 @@ impl phase1::Aliases<3> for Aliases {
             uncertain: b.status.cast(),
             // There is a score per point, and no vertex is listed twice.
             failed: b.scores.clone(),
+            gathered_tetrahedra: b.simplices.clone(),
+            gathered_neighbors: b.neighbors.clone(),
         }
     }
 
@@ -55,6 +62,8 @@ impl phase1::Aliases<3> for Aliases {
             ("mesh_neighbors", self.neighbors.buffer()),
             ("uncertain", self.uncertain.buffer()),
             ("failed_points", self.failed.buffer()),
+            ("gathered_tetrahedra", self.gathered_tetrahedra.buffer()),
+            ("gathered_neighbors", self.gathered_neighbors.buffer()),
         ]
     }
 }

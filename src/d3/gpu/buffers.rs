@@ -2,8 +2,20 @@
 
 use crate::{
     error::Error,
-    gpu::{Binding, Gpu, Storage, dim},
+    gpu::{Binding, Gpu, Storage, dim, layout::BLOCK, shader::assert_layout},
 };
+use bytemuck::{Pod, Zeroable};
+
+/// What the host asks for when it gathers tetrahedra, or writes changed ones back.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Gathering {
+    /// The number of the first tetrahedron that is gathered: 1 at the first time.
+    pub first: u32,
+    /// The entries of the patch.
+    pub patched: u32,
+}
+assert_layout!(Gathering);
 
 /// The buffers of Phase 1 that only 3D has.
 #[derive(Debug, Clone)]
@@ -13,31 +25,60 @@ pub struct OwnBuffers {
     /// One tetrahedron of the mesh at each point, plus 1; 0 for points that are merged into others.
     /// Infinity comes last.
     pub tet_of: Storage<u32>,
+    /// For each point, a bit that says whether its star is wanted.
+    pub wanted: Storage<u32>,
+    /// What is asked for.
+    pub gathering: Storage<Gathering>,
+    /// For each tetrahedron of the mesh, the number under which it was gathered, or 0.
+    pub region_numbers: Storage<u32>,
+    /// Where the gathered tetrahedra are in the mesh; then the slots of the patch.
+    pub gathered_slots: Storage<u32>,
 }
 
 impl dim::OwnBuffers for OwnBuffers {
-    fn new(gpu: &Gpu, points: usize, _blocks: u32) -> Result<Self, Error> {
+    fn new(gpu: &Gpu, points: usize, blocks: u32) -> Result<Self, Error> {
+        let slots = blocks as usize * BLOCK as usize;
         Ok(OwnBuffers {
             failed: Storage::new(gpu, "failed vertices", points)?,
             tet_of: Storage::new(gpu, "tetrahedra of points", points + 1)?,
+            wanted: Storage::new(gpu, "wanted stars", points.div_ceil(32))?,
+            gathering: Storage::new(gpu, "gathering", 1)?,
+            region_numbers: Storage::new(gpu, "numbers of gathered tetrahedra", slots)?,
+            gathered_slots: Storage::new(gpu, "slots of gathered tetrahedra", slots)?,
         })
     }
 
-    fn with_blocks(&self, _gpu: &Gpu, _encoder: &mut wgpu::CommandEncoder, _blocks: u32) -> Result<Self, Error> {
-        Ok(self.clone())
+    fn with_blocks(&self, gpu: &Gpu, _encoder: &mut wgpu::CommandEncoder, blocks: u32) -> Result<Self, Error> {
+        let slots = blocks as usize * BLOCK as usize;
+        // Nothing was gathered yet.
+        Ok(OwnBuffers {
+            region_numbers: Storage::new(gpu, "numbers of gathered tetrahedra", slots)?,
+            gathered_slots: Storage::new(gpu, "slots of gathered tetrahedra", slots)?,
+            ..self.clone()
+        })
     }
 
-    /// Records that no vertex failed, and that no point has a tetrahedron.
+    /// Records that no vertex failed, that no point has a tetrahedron, and that no star is wanted.
     fn record_clear(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.clear_buffer(self.failed.buffer(), 0, None);
         encoder.clear_buffer(self.tet_of.buffer(), 0, None);
+        encoder.clear_buffer(self.wanted.buffer(), 0, None);
     }
 
     fn bindings(&self) -> Vec<Binding<'_>> {
-        vec![("failed", self.failed.buffer()), ("tet_of", self.tet_of.buffer())]
+        vec![
+            ("failed", self.failed.buffer()),
+            ("tet_of", self.tet_of.buffer()),
+            ("wanted", self.wanted.buffer()),
+            ("gathering", self.gathering.buffer()),
+            ("region_numbers", self.region_numbers.buffer()),
+            ("gathered_slots", self.gathered_slots.buffer()),
+        ]
     }
 
     fn bytes(&self) -> u64 {
-        self.failed.bytes() + self.tet_of.bytes()
+        let OwnBuffers { failed, tet_of, wanted, gathering, region_numbers, gathered_slots } = self;
+        let points = failed.bytes() + tet_of.bytes() + wanted.bytes() + gathering.bytes();
+        points + region_numbers.bytes() + gathered_slots.bytes()
     }
 }

@@ -1,21 +1,27 @@
 //! How the GPU engine of 3D completes what Phase 1 leaves: star splaying on the CPU (the paper's
 //! §3).
 //!
-//! `result of Phase 1 → splay → drop the ghosts → input indices → mesh`
+//! `result of Phase 1 → splay → drop the ghosts → mesh`, or, for a mesh that stays on the device or
+//! must not take the host's memory, `stars → splay → patch → arrays of the mesh, on the device`
 
 use crate::{
     d3::{
         Mesh3,
-        gpu::{finish::NearMesh, trace::Tracer},
-        splay::{self, Aborted, NearDelaunay3, SplayOutcome},
+        gpu::{
+            exchange::{Begun, Device},
+            finish::NearMesh,
+            trace::Tracer,
+        },
+        splay::{self, Aborted, Doubts, NearDelaunay3, Splay, SplayOutcome, Stop, Terms},
         triangulation::{FiniteMesh, Triangulation3},
     },
     dimension::Dimension,
     error::Error,
     gpu::{
         Gpu,
-        engine::{Complete, Near, progress},
-        phase1::Run,
+        device_mesh::{DeviceMesh, Outputs},
+        engine::{Complete, Made, Near, progress},
+        phase1::{Phase1Output, Run},
     },
     options::Options,
     parallel::Threads,
@@ -40,34 +46,65 @@ impl Complete<3> for Dimension<3> {
         }
     }
 
-    fn complete(near: Near<'_, 3>, mut tracer: Option<Tracer>) -> Result<Result<Mesh3, Fallback>, Error> {
-        let Near { points, lattice, result, missing, duplicate_of, options, stats, stopwatch } = near;
-        options.report(Phase::Splay, progress::COMPLETION)?;
-        let vertices = PredicateContext::of_input(points, lattice);
-        let near = near_delaunay(points.len(), result, &missing);
-        if let Some(tracer) = &mut tracer {
-            tracer.facets(&near.triangulation, &vertices);
+    async fn complete(
+        run: Run<'_, 3>,
+        near: Near<'_, 3>,
+        tracer: Option<Tracer>,
+    ) -> Result<Result<Made<3>, Fallback>, Error> {
+        if near.sparse {
+            return complete_on_device(run, near, tracer).await;
         }
-        let max_evaluations = near.evaluations_from_scratch();
-        let share = progress::FINISH - progress::COMPLETION;
-        let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
-        let triangulation = match splay::splay(&vertices, near, max_evaluations, Threads::All, &report)? {
-            SplayOutcome::Delaunay(triangulation, splay) => {
-                stats.splay = Some(splay);
-                triangulation
-            }
-            SplayOutcome::Aborted(Aborted::BudgetExceeded) => return Ok(Err(Fallback::Splaying)),
-            SplayOutcome::Aborted(Aborted::Inconsistent(what)) => return Ok(Err(Fallback::Inconsistent(what))),
-        };
-        stats.phases.push((Phase::Splay, stopwatch.lap()));
-
-        options.report(Phase::Finish, progress::FINISH)?;
-        stats.exact = vertices.exact_counts();
-        let FiniteMesh { tetrahedra, neighbors, hull } = triangulation.into_mesh(None, Threads::All);
-        stats.phases.push((Phase::Finish, stopwatch.lap()));
-        stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
-        Ok(Ok(Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats: Stats::default() }))
+        let output = run.finish().await?;
+        complete_on_host(output, near, tracer)
     }
+}
+
+/// Returns why the CPU engine has to do what splaying aborted.
+fn fallback(reason: Aborted) -> Fallback {
+    match reason {
+        Aborted::BudgetExceeded => Fallback::Splaying,
+        Aborted::Inconsistent(what) => Fallback::Inconsistent(what),
+    }
+}
+
+/// Makes the mesh of what was read back as a whole.
+fn complete_on_host(
+    output: Phase1Output<3>,
+    mut near: Near<'_, 3>,
+    mut tracer: Option<Tracer>,
+) -> Result<Result<Made<3>, Fallback>, Error> {
+    let Phase1Output { result, merged, stats: phase1 } = output;
+    near.end_of_phase1(&phase1);
+    let (missing, duplicate_of) = near.missing(&merged);
+    let Near { points, lattice, options, adapter, stats, stopwatch, .. } = near;
+    stats.gpu = Some(phase1.summary(adapter));
+    options.report(Phase::Splay, progress::COMPLETION)?;
+
+    let vertices = PredicateContext::of_input(points, lattice);
+    let near = near_delaunay(points.len(), result, &missing);
+    if let Some(tracer) = &mut tracer {
+        tracer.facets(&near.triangulation, &vertices);
+    }
+    let share = progress::FINISH - progress::COMPLETION;
+    let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
+    let max_evaluations = splay::evaluations_from_scratch(near.triangulation.tetrahedra().len());
+    let terms = Terms { max_evaluations, threads: Threads::All, report: &report };
+    let triangulation = match splay::splay(&vertices, near, terms)? {
+        SplayOutcome::Delaunay(triangulation, splay) => {
+            stats.splay = Some(splay);
+            triangulation
+        }
+        SplayOutcome::Aborted(reason) => return Ok(Err(fallback(reason))),
+    };
+    stats.phases.push((Phase::Splay, stopwatch.lap()));
+
+    options.report(Phase::Finish, progress::FINISH)?;
+    stats.exact = vertices.exact_counts();
+    let FiniteMesh { tetrahedra, neighbors, hull } = triangulation.into_mesh(None, Threads::All);
+    stats.phases.push((Phase::Finish, stopwatch.lap()));
+    stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
+    let mesh = Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats: Stats::default() };
+    Ok(Ok(Made::Host(mesh)))
 }
 
 /// Returns the result of Phase 1 in the form that splaying takes.
@@ -78,4 +115,80 @@ fn near_delaunay(points: usize, result: NearMesh, missing: &[[u32; 2]]) -> NearD
     let triangulation = Triangulation3::new(tets, neighbors, points as u32);
     let uncertain = uncertain.into_iter().map(|[t, _]| t).collect();
     NearDelaunay3 { triangulation, incident, failed, uncertain, missing }
+}
+
+/// Makes the mesh on the device, with the stars that splaying needs on the host.
+async fn complete_on_device(
+    run: Run<'_, 3>,
+    mut near: Near<'_, 3>,
+    mut tracer: Option<Tracer>,
+) -> Result<Result<Made<3>, Fallback>, Error> {
+    let count = near.points.len();
+    let (mut device, begun) = Device::end(run).await?;
+    near.end_of_phase1(&device.ended.stats);
+    let (missing, duplicate_of) = near.missing(&device.ended.read_merged().await?);
+    let Near { points, lattice, options, adapter, stats, stopwatch, .. } = near;
+    options.report(Phase::Splay, progress::COMPLETION)?;
+
+    let vertices = PredicateContext::of_input(points, lattice);
+    let slots = device.ended.len();
+    if let Some(tracer) = &mut tracer {
+        let [tetrahedra, neighbors] = device.read().await?;
+        tracer.facets(&Triangulation3::new(tetrahedra, neighbors, count as u32), &vertices);
+    }
+    let share = progress::FINISH - progress::COMPLETION;
+    let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
+    let max_evaluations = splay::evaluations_from_scratch(slots);
+    let terms = || Terms { max_evaluations, threads: Threads::All, report: &report };
+    // Both are borrowed for a step at a time: they cannot be shared while the device is awaited.
+    let begin =
+        |Begun { region, doubts }: Begun| Splay::begin(&vertices, region, Doubts { missing, ..doubts }, terms());
+    let mut step = begun.map_err(Stop::Aborted).and_then(begin);
+    let splayed = loop {
+        let mut splay = match step {
+            Ok(splay) => splay,
+            Err(stop) => break Err(stop),
+        };
+        let lacking = match splay.advance(&vertices, terms()) {
+            Ok(lacking) if lacking.is_empty() => break Ok(splay.finish()),
+            Ok(lacking) => lacking,
+            Err(stop) => break Err(stop),
+        };
+        let gathered = device.gather(&lacking, splay.region().next()).await?;
+        step = splay.add(lacking, &gathered).map(|()| splay);
+    };
+    let patch = match splayed {
+        Ok((region, splay)) => {
+            stats.splay = Some(splay);
+            region.patch(slots, Threads::All)
+        }
+        Err(Stop::Error(error)) => return Err(error),
+        Err(Stop::Aborted(reason)) => {
+            stats.gpu = Some(device.ended.release().summary(adapter));
+            return Ok(Err(fallback(reason)));
+        }
+    };
+    stats.exact = vertices.exact_counts();
+    if let Err(error) = device.patch(&patch).await {
+        stats.gpu = Some(device.ended.release().summary(adapter));
+        return match error {
+            Error::TooManySimplices { .. } => Ok(Err(Fallback::GpuFailed(error))),
+            _ => Err(error),
+        };
+    }
+    stats.phases.push((Phase::Splay, stopwatch.lap()));
+
+    options.report(Phase::Finish, progress::FINISH)?;
+    let arrays = device.outputs(&patch).await?;
+    let gpu = device.ended.gpu;
+    let readback = device.ended.kernels.readback.clone();
+    stats.gpu = Some(device.ended.release().summary(adapter));
+    let mesh = Mesh3 { duplicate_of, dimension: 3, ..Mesh3::default() };
+    let mesh = DeviceMesh::<3>::new(gpu, &readback, arrays, mesh);
+    stats.phases.push((Phase::Finish, stopwatch.lap()));
+    if let Some(tracer) = tracer {
+        let tetrahedra = mesh.read_async(Outputs::SIMPLICES).await?.tetrahedra;
+        stats.trace = Some(tracer.finish(&tetrahedra));
+    }
+    Ok(Ok(Made::Device(mesh)))
 }

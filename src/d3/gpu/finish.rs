@@ -2,11 +2,11 @@
 //! open by rounding.
 
 use crate::{
-    d3::gpu::aliases::Aliases,
+    d3::gpu::{aliases::Aliases, outputs::OutputStage},
     dimension::Dimension,
     error::Error,
     gpu::{
-        Pending,
+        Compiler, Pending,
         layout::{Active, Counters},
         phase1::{Buffers, Copied, Copies, Finish, Slot, Step},
     },
@@ -48,6 +48,7 @@ impl Finish<3> for Dimension<3> {
     type Aliases = Aliases;
     type Reading = Reading;
     type Result = NearMesh;
+    type Outputs = OutputStage;
 
     /// The search for failed vertices, the compaction, and the certification.
     const STEPS: &'static [Step<&'static str>] = &[
@@ -61,6 +62,20 @@ impl Finish<3> for Dimension<3> {
         Step::Stage("certify"),
         Step::Kernel("certify"),
     ];
+
+    /// The stars that are wanted, numbered in the order of the mesh.
+    const GATHER: &'static [Step<&'static str>] = &[
+        Step::Stage("gather"),
+        Step::Kernel("gather_mark"),
+        Step::ScanGathered,
+        Step::Kernel("gather_number"),
+        Step::Kernel("gather_copy"),
+    ];
+    const PATCH: &'static [Step<&'static str>] = &[Step::Stage("patch"), Step::Kernel("patch")];
+
+    fn outputs(compiler: &Compiler<'_>) -> OutputStage {
+        OutputStage::new(compiler)
+    }
 
     fn mesh_len(finite: usize, counters: &Counters) -> usize {
         finite + counters.ghosts as usize

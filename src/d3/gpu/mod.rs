@@ -4,6 +4,7 @@ pub mod aliases;
 pub mod buffers;
 mod dim;
 mod engine;
+pub(crate) mod exchange;
 pub mod finish;
 pub mod outputs;
 pub mod trace;

@@ -5,17 +5,15 @@ use crate::d3::splay::{
     flip_flop::flip_flop,
     ledger::Entry,
     predicates::StarPredicates,
+    region::Region,
     star::{Changes, LinkFinder, Star, Triangle},
 };
-use crate::d3::triangulation::Triangulation3;
 use crate::index::NO_INDEX;
 use rustc_hash::FxHashSet;
 
-/// The triangulation, and what is known about it.
-pub(super) struct Known<'a> {
-    pub(super) mesh: &'a Triangulation3,
-    /// A tetrahedron at each vertex.
-    pub(super) incident: &'a [u32],
+/// The triangulation as far as it is here, and what is known about it.
+pub(super) struct Known {
+    pub(super) region: Region,
     /// For each vertex, whether it belongs to a tetrahedron or facet that has failed.
     pub(super) failed: Vec<bool>,
     /// The finite tetrahedra that are not positively oriented.
@@ -33,7 +31,7 @@ pub(super) enum Origin {
     FromPoints,
 }
 
-impl Known<'_> {
+impl Known {
     /// Returns the convex star of `v`. It is that of the triangulation, unless `v` has failed or
     /// has an inverted tetrahedron; then it is made convex, and the differences are added to
     /// `entries` for the ledger.
@@ -44,7 +42,7 @@ impl Known<'_> {
         v: u32,
         entries: &mut Vec<Entry>,
     ) -> Result<(Star, Origin), Aborted> {
-        let mut star = links.star(self.mesh, v, self.incident[v as usize])?;
+        let mut star = links.star(&self.region.mesh, v, self.region.incident[v as usize])?;
         let is_oriented = self.is_oriented(predicates, &star);
         if is_oriented && !self.failed[v as usize] {
             return Ok((star, Origin::Pulled));

@@ -3,7 +3,8 @@
 //! the Delaunay triangulation.
 //!
 //! 1. The stars of the failed vertices are made convex. Other stars are already convex in the
-//!    triangulation, and are taken from there when they are needed.
+//!    triangulation, and are taken from there when they are needed; before that, they are gathered
+//!    if the region lacks them.
 //! 2. A tetrahedron is unsettled while it is in some stars of its vertices, but not in all. Its
 //!    vertices are inserted into a star that lacks it. If the star still lacks it then, some vertex
 //!    on the star's link lies inside the circumsphere, and is inserted into the stars that have the
@@ -17,6 +18,7 @@
 //! Every insertion makes a star wider for good, so splaying ends. There is no useful bound on how
 //! soon, hence the budget.
 
+use crate::parallel::{self, Threads};
 use crate::{
     d3::splay::{
         Aborted, Stop,
@@ -28,10 +30,6 @@ use crate::{
     index::NO_INDEX,
     stats::SplayStats,
 };
-use crate::{
-    error::Error,
-    parallel::{self, Threads},
-};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The number of stars that a thread takes at a time.
@@ -40,15 +38,21 @@ const STAR_GRAIN: usize = 4;
 const TETRAHEDRON_GRAIN: usize = 64;
 
 /// The stars, on their way to consistency.
-pub(super) struct Splaying<'a> {
-    known: Known<'a>,
+pub(super) struct Splaying {
+    pub(super) known: Known,
     threads: Threads,
     /// In a round, each star is changed by one thread only.
     stars: Vec<Mutex<Star>>,
     /// For each vertex, its place in `stars` plus 1, or 0.
     star_of: Vec<u32>,
     ledger: Ledger,
-    stats: SplayStats,
+    /// The tetrahedra that are unsettled.
+    unsettled: Vec<Key>,
+    /// What a round is to do, while stars are missing for it.
+    requests: Vec<Request>,
+    /// The share of the work that is done.
+    share: f64,
+    pub(super) stats: SplayStats,
 }
 
 /// What the star of a vertex has to do about an unsettled tetrahedron.
@@ -68,67 +72,96 @@ struct BatchResult {
     insertions: usize,
 }
 
-impl<'a> Splaying<'a> {
-    pub(super) fn new(known: Known<'a>, threads: Threads) -> Self {
-        let infinite = known.mesh.infinite;
+impl Splaying {
+    pub(super) fn new(known: Known, threads: Threads) -> Self {
+        let infinite = known.region.mesh.infinite;
         Splaying {
             known,
             threads,
             stars: Vec::new(),
             star_of: vec![0; infinite as usize + 1],
             ledger: Ledger::new(infinite, threads),
+            unsettled: Vec::new(),
+            requests: Vec::new(),
+            share: 0.5,
             stats: SplayStats::default(),
         }
     }
 
-    /// Makes the stars of the failed vertices convex, and all stars consistent, with at most
-    /// `max_evaluations` predicate evaluations.
+    /// Makes the stars of the failed vertices convex.
     ///
-    /// Calls `report` with the share of the work that is done; an error from it ends the work.
-    /// Returns the slots of the tetrahedra to remove, the tetrahedra to add, and statistics.
-    pub(super) fn run(
-        mut self,
+    /// # Errors
+    ///
+    /// Those of `report`, which gets the share of the work that is done, and [`Aborted`].
+    pub(super) fn begin(
+        &mut self,
         predicates: &StarPredicates<'_>,
         failed: &[u32],
-        max_evaluations: u64,
-        report: &dyn Fn(f64) -> Result<(), Error>,
-    ) -> Result<(Vec<u32>, Vec<Key>, SplayStats), Stop> {
-        let check_work =
-            || if predicates.evaluations() > max_evaluations { Err(Aborted::BudgetExceeded) } else { Ok(()) };
+        report: &dyn Fn(f64) -> Result<(), Stop>,
+    ) -> Result<(), Stop> {
         report(0.0)?;
-        // The number of stars between two reports of progress, larger where threads share them.
-        let batch_len = match self.threads {
-            Threads::One => 1 << 9,
-            Threads::All => 1 << 12,
-        };
+        let batch_len = self.batch_len();
         let mut entries = Vec::new();
         for (i, batch) in failed.chunks(batch_len).enumerate() {
             let results = self.make_convex(predicates, batch)?;
             self.adopt(results, &mut entries);
-            check_work()?;
             report(0.5 * (i * batch_len + batch.len()) as f64 / failed.len() as f64)?;
         }
-        let mut unsettled = self.ledger.enter(&entries)?;
-        let mut share = 0.5;
-        while !unsettled.is_empty() {
-            self.stats.rounds += 1;
-            self.stats.checks += unsettled.len();
-            let requests = self.requests(predicates, &unsettled)?;
-            let requests: Vec<&[Request]> = requests.chunk_by(|r, s| r.vertex == s.vertex).collect();
+        self.unsettled = self.ledger.enter(&entries)?;
+        Ok(())
+    }
+
+    /// Makes all stars consistent, as far as the region has the stars that this takes. Returns the
+    /// vertices of which it lacks them, all that a round needs; none at the end.
+    ///
+    /// # Errors
+    ///
+    /// Those of `report`, which gets the share of the work that is done, and [`Aborted`].
+    pub(super) fn settle(
+        &mut self,
+        predicates: &StarPredicates<'_>,
+        report: &dyn Fn(f64) -> Result<(), Stop>,
+    ) -> Result<Vec<u32>, Stop> {
+        while !self.unsettled.is_empty() {
+            if self.requests.is_empty() {
+                self.stats.rounds += 1;
+                self.stats.checks += self.unsettled.len();
+                self.requests = self.requests(predicates)?;
+            }
+            let requests: Vec<&[Request]> = self.requests.chunk_by(|r, s| r.vertex == s.vertex).collect();
+            let pulled = requests.iter().map(|requests| requests[0].vertex).filter(|&v| self.star_of[v as usize] == 0);
+            let lacking = self.known.region.lacking(pulled);
+            if !lacking.is_empty() {
+                return Ok(lacking);
+            }
             let mut entries = Vec::new();
-            for batch in requests.chunks(batch_len) {
-                report(share)?;
+            let requests = std::mem::take(&mut self.requests);
+            let requests: Vec<&[Request]> = requests.chunk_by(|r, s| r.vertex == s.vertex).collect();
+            for batch in requests.chunks(self.batch_len()) {
                 let results = self.widen_stars(predicates, batch)?;
                 self.adopt(results, &mut entries);
-                check_work()?;
+                report(self.share)?;
             }
             // Rounds become smaller. Their number is not known, so each counts for a quarter of
             // what is left.
-            share += (1.0 - share) / 4.0;
-            unsettled = self.ledger.enter(&entries)?;
+            self.share += (1.0 - self.share) / 4.0;
+            self.unsettled = self.ledger.enter(&entries)?;
         }
-        let (remove, add) = self.ledger.difference()?;
-        Ok((remove, add, self.stats))
+        Ok(Vec::new())
+    }
+
+    /// Returns what changes when all stars are consistent: the tetrahedra to remove, and those to
+    /// add.
+    pub(super) fn difference(&mut self) -> Result<(Vec<u32>, Vec<Key>), Aborted> {
+        self.ledger.difference()
+    }
+
+    /// Returns the number of stars between two reports of progress, larger where threads share them.
+    fn batch_len(&self) -> usize {
+        match self.threads {
+            Threads::One => 1 << 9,
+            Threads::All => 1 << 12,
+        }
     }
 
     /// Makes the stars of these vertices, which have failed, convex.
@@ -167,7 +200,8 @@ impl<'a> Splaying<'a> {
     }
 
     /// Returns the requests for all unsettled tetrahedra, sorted by vertex.
-    fn requests(&self, predicates: &StarPredicates<'_>, unsettled: &[Key]) -> Result<Vec<Request>, Aborted> {
+    fn requests(&self, predicates: &StarPredicates<'_>) -> Result<Vec<Request>, Aborted> {
+        let unsettled = &self.unsettled;
         let requests = predicates.shared(self.threads, unsettled.len(), TETRAHEDRON_GRAIN, |predicates, range| {
             let mut requests = Vec::new();
             unsettled[range].iter().try_for_each(|&key| self.add_requests(predicates, key, &mut requests))?;

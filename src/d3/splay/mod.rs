@@ -6,20 +6,22 @@
 //!
 //! All predicates are evaluated at the exact coordinates, with the ties that define the result. The
 //! work is proportional to what has to change: neither the triangulation nor its hull is ever
-//! visited as a whole. If that turns out to be too much, or the input is not a triangulation,
+//! visited as a whole. It need not be here as a whole, either: splaying works on a [`Region`], and
+//! says which stars it lacks. If that turns out to be too much, or the input is not a triangulation,
 //! splaying aborts and returns the reason.
 
 mod build;
 mod consistency;
 mod flip_flop;
+mod insert;
 mod ledger;
 mod patch;
 mod peel;
 mod predicates;
+mod region;
 mod star;
 
 use crate::{
-    cpu::insert_points,
     d3::triangulation::{Triangulation3, state},
     error::Error,
     index::NO_INDEX,
@@ -30,6 +32,7 @@ use crate::{
 use build::Known;
 use consistency::Splaying;
 use predicates::StarPredicates;
+pub use region::{Gathered, KEEP, Patch, Region};
 use rustc_hash::FxHashSet;
 
 /// The result of Phase 1: a triangulation that is nearly Delaunay, and where it may not be.
@@ -54,11 +57,25 @@ pub struct NearDelaunay3 {
     pub missing: Vec<u32>,
 }
 
-/// The result of [`splay`].
+/// Where a triangulation may not be Delaunay: [`NearDelaunay3`] for a [`Region`] of it.
+#[derive(Debug, Clone, Default)]
+pub struct Doubts {
+    /// The vertices of all facets that are known not to be locally Delaunay. The region has their
+    /// stars.
+    pub failed: Vec<u32>,
+    /// The tetrahedra that may be flat or inverted, or may have a facet that is not locally
+    /// Delaunay for other reasons. The region has the stars of their vertices.
+    pub uncertain: Vec<u32>,
+    /// The vertices that the triangulation lacks, each with one near it that it has, or with
+    /// [`NO_INDEX`] if it is near the one before.
+    pub missing: Vec<[u32; 2]>,
+}
+
+/// How splaying ends.
 #[derive(Debug)]
-pub enum SplayOutcome {
-    /// The Delaunay triangulation, and what splaying did.
-    Delaunay(Box<Triangulation3>, SplayStats),
+pub enum SplayOutcome<T = Triangulation3> {
+    /// The Delaunay triangulation, or the region of it that is here, and what splaying did.
+    Delaunay(Box<T>, SplayStats),
     /// No triangulation, for this reason: the CPU has to triangulate the points from scratch.
     Aborted(Aborted),
 }
@@ -76,8 +93,11 @@ pub enum Aborted {
 const TETRAHEDRON_GRAIN: usize = 256;
 
 /// The reason why splaying ends early.
-enum Stop {
+#[derive(Debug)]
+pub enum Stop {
+    /// The CPU has to triangulate the points from scratch.
     Aborted(Aborted),
+    /// An error of the caller's, or a lack of memory.
     Error(Error),
 }
 
@@ -93,99 +113,201 @@ impl From<Error> for Stop {
     }
 }
 
-impl NearDelaunay3 {
-    /// Returns the approximate number of predicate evaluations that the CPU needs to triangulate
-    /// the points from scratch: 16 per tetrahedron.
-    pub fn evaluations_from_scratch(&self) -> u64 {
-        16 * self.triangulation.tetrahedra().len() as u64
+/// Returns the approximate number of predicate evaluations that the CPU needs to triangulate
+/// points from scratch whose triangulation has so many tetrahedra: 16 for each.
+pub fn evaluations_from_scratch(tetrahedra: usize) -> u64 {
+    16 * tetrahedra as u64
+}
+
+/// How splaying is limited and followed.
+#[derive(Clone, Copy)]
+pub struct Terms<'a> {
+    /// Splaying aborts if it needs more predicate evaluations, the measure of its work; see
+    /// [`evaluations_from_scratch`].
+    pub max_evaluations: u64,
+    /// Who shares the work, unless the context of the vertices stores coordinates.
+    pub threads: Threads,
+    /// Receives the share of the work that is done from time to time; an error from it ends the
+    /// work.
+    pub report: &'a dyn Fn(f64) -> Result<(), Error>,
+}
+
+impl Terms<'static> {
+    /// Returns the terms without a limit and without reports.
+    pub fn unlimited(threads: Threads) -> Self {
+        Terms { max_evaluations: u64::MAX, threads, report: &|_| Ok(()) }
     }
 }
 
 /// Returns the Delaunay triangulation of `vertices`, given `near`, which is nearly one.
 ///
-/// Splaying aborts if it needs more than `max_evaluations` predicate evaluations, the measure of
-/// its work; see [`NearDelaunay3::evaluations_from_scratch`]. `threads` share the work, unless
-/// `vertices` stores coordinates. Calls `report` with the share of the work that is done from time
-/// to time; an error from it ends the work.
-///
 /// # Errors
 ///
-/// What `report` returns, [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
-pub fn splay(
-    vertices: &PredicateContext3<'_>,
-    near: NearDelaunay3,
-    max_evaluations: u64,
-    threads: Threads,
-    report: &dyn Fn(f64) -> Result<(), Error>,
-) -> Result<SplayOutcome, Error> {
-    match try_splay(vertices, near, max_evaluations, threads, report) {
-        Ok((triangulation, stats)) => Ok(SplayOutcome::Delaunay(Box::new(triangulation), stats)),
+/// What the report of `terms` returns, [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
+pub fn splay(vertices: &PredicateContext3<'_>, near: NearDelaunay3, terms: Terms<'_>) -> Result<SplayOutcome, Error> {
+    let NearDelaunay3 { triangulation, incident, failed, uncertain, missing } = near;
+    let missing = missing.into_iter().map(|v| [v, NO_INDEX]).collect();
+    let region = Region::whole(triangulation, incident);
+    let splayed = || -> Result<_, Stop> {
+        let mut splay = Splay::begin(vertices, region, Doubts { failed, uncertain, missing }, terms)?;
+        // Nothing is lacking of what is there as a whole.
+        splay.advance(vertices, terms)?;
+        Ok(splay.finish())
+    };
+    match splayed() {
+        Ok((region, stats)) => Ok(SplayOutcome::Delaunay(Box::new(region.into_mesh()), stats)),
         Err(Stop::Aborted(reason)) => Ok(SplayOutcome::Aborted(reason)),
         Err(Stop::Error(error)) => Err(error),
     }
 }
 
-fn try_splay(
-    vertices: &PredicateContext3<'_>,
-    near: NearDelaunay3,
-    max_evaluations: u64,
-    threads: Threads,
-    report: &dyn Fn(f64) -> Result<(), Error>,
-) -> Result<(Triangulation3, SplayStats), Stop> {
-    let NearDelaunay3 { triangulation: mut mesh, mut incident, mut failed, uncertain, missing } = near;
-    let spanning = spanning_tetrahedron(&mesh, vertices).ok_or(Aborted::Inconsistent("all tetrahedra are flat"))?;
-    let predicates = StarPredicates::new(vertices, mesh.infinite, spanning);
-    let mut free = Vec::new();
+/// Splaying of a region, which goes on as far as the region has the stars that it needs.
+///
+/// The vertices and the terms are the same in all calls.
+pub struct Splay {
+    stars: Splaying,
+    /// Four vertices that are not coplanar.
+    spanning: [u32; 4],
+    /// Whether the triangulation is Delaunay, except that it lacks points.
+    is_delaunay: bool,
+    /// The unused slots.
+    free: Vec<u32>,
+    missing: Vec<[u32; 2]>,
+    /// The predicate evaluations of the calls before.
+    evaluations: u64,
+}
 
-    let mut flat = predicates
-        .shared(threads, uncertain.len(), TETRAHEDRON_GRAIN, |predicates, range| {
-            let is_flat = |&t: &u32| !mesh.is_ghost(t) && predicates.orient(mesh.vertices(t)) == 0;
-            uncertain[range].iter().copied().filter(is_flat).collect::<Vec<_>>()
-        })
-        .concat();
-    let found = flat.len();
-    let mut suspect = peel::peel(&mut mesh, &predicates, threads, &mut flat, &mut incident, &mut free)?;
-    let peeled = found - flat.len();
+impl Splay {
+    /// Begins to make the triangulation of `vertices` that `region` is a part of Delaunay, given
+    /// where it may not be.
+    ///
+    /// # Errors
+    ///
+    /// Returns why splaying ends early.
+    pub fn begin(
+        vertices: &PredicateContext3<'_>,
+        mut region: Region,
+        doubts: Doubts,
+        terms: Terms<'_>,
+    ) -> Result<Self, Stop> {
+        let threads = terms.threads;
+        let Doubts { mut failed, uncertain, missing } = doubts;
+        let is_delaunay = failed.is_empty() && uncertain.is_empty();
+        let infinite = region.mesh.infinite;
+        let spanning = if is_delaunay { Some([0; 4]) } else { spanning_tetrahedron(&region.mesh, vertices) };
+        let spanning = spanning.ok_or(Aborted::Inconsistent("all tetrahedra are flat"))?;
+        let predicates = StarPredicates::new(vertices, infinite, spanning);
+        let mut free = Vec::new();
 
-    suspect.extend(uncertain);
-    parallel::sort(threads, &mut suspect);
-    suspect.dedup();
-    let mut inverted = FxHashSet::default();
-    for (more_failed, more_inverted) in
-        predicates.shared(threads, suspect.len(), TETRAHEDRON_GRAIN, |predicates, range| {
-            let (mut failed, mut inverted) = (Vec::new(), Vec::new());
-            for &t in suspect[range].iter().filter(|&&t| mesh.state(t) != state::FREE) {
-                if add_failed(&mesh, predicates, t, &mut failed) {
-                    inverted.push(t);
+        let mesh = &region.mesh;
+        let mut flat = predicates
+            .shared(threads, uncertain.len(), TETRAHEDRON_GRAIN, |predicates, range| {
+                let is_flat = |&t: &u32| !mesh.is_ghost(t) && predicates.orient(mesh.vertices(t)) == 0;
+                uncertain[range].iter().copied().filter(is_flat).collect::<Vec<_>>()
+            })
+            .concat();
+        let found = flat.len();
+        let Region { mesh, incident, .. } = &mut region;
+        let mut suspect = peel::peel(mesh, &predicates, threads, &mut flat, incident, &mut free)?;
+        let peeled = found - flat.len();
+
+        suspect.extend(uncertain);
+        parallel::sort(threads, &mut suspect);
+        suspect.dedup();
+        let mesh = &region.mesh;
+        let mut inverted = FxHashSet::default();
+        for (more_failed, more_inverted) in
+            predicates.shared(threads, suspect.len(), TETRAHEDRON_GRAIN, |predicates, range| {
+                let (mut failed, mut inverted) = (Vec::new(), Vec::new());
+                for &t in suspect[range].iter().filter(|&&t| mesh.state(t) != state::FREE) {
+                    if add_failed(mesh, predicates, t, &mut failed) {
+                        inverted.push(t);
+                    }
                 }
+                (failed, inverted)
+            })
+        {
+            failed.extend(more_failed);
+            inverted.extend(more_inverted);
+        }
+        failed.retain(|&v| v != infinite);
+        failed.sort_unstable();
+        failed.dedup();
+        let mut has_failed = vec![false; infinite as usize + 1];
+        failed.iter().for_each(|&v| has_failed[v as usize] = true);
+
+        let stars = Splaying::new(Known { region, failed: has_failed, inverted }, threads);
+        let mut splay = Splay { stars, spanning, is_delaunay, free, missing, evaluations: 0 };
+        let limited = limited(&predicates, 0, terms);
+        splay.stars.begin(&predicates, &failed, &limited)?;
+        splay.evaluations = predicates.evaluations();
+        let stats = &mut splay.stars.stats;
+        (stats.peeled, stats.failed, stats.inserted) = (peeled, failed.len(), splay.missing.len());
+        Ok(splay)
+    }
+
+    /// Goes on. Returns the vertices of which the region lacks the stars; none at the end.
+    ///
+    /// # Errors
+    ///
+    /// Returns why splaying ends early.
+    pub fn advance(&mut self, vertices: &PredicateContext3<'_>, terms: Terms<'_>) -> Result<Vec<u32>, Stop> {
+        if !self.is_delaunay {
+            let predicates = StarPredicates::new(vertices, self.region().mesh.infinite, self.spanning);
+            let lacking = self.stars.settle(&predicates, &limited(&predicates, self.evaluations, terms))?;
+            if lacking.is_empty() {
+                let (remove, add) = self.stars.difference()?;
+                let Known { region, .. } = &mut self.stars.known;
+                let mesh = &mut region.mesh;
+                let filled = patch::patch(mesh, &predicates, terms.threads, &remove, &add, &mut self.free)?;
+                region.note(filled);
+                (self.stars.stats.removed, self.stars.stats.added) = (remove.len(), add.len());
+                self.is_delaunay = true;
             }
-            (failed, inverted)
-        })
-    {
-        failed.extend(more_failed);
-        inverted.extend(more_inverted);
+            self.evaluations += predicates.evaluations();
+            if !lacking.is_empty() {
+                return Ok(lacking);
+            }
+        }
+        insert::insert(&mut self.stars.known.region, vertices, &mut self.missing, terms.report)
     }
-    failed.retain(|&v| v != mesh.infinite);
-    failed.sort_unstable();
-    failed.dedup();
-    let mut has_failed = vec![false; mesh.infinite as usize + 1];
-    failed.iter().for_each(|&v| has_failed[v as usize] = true);
 
-    let known = Known { mesh: &mesh, incident: &incident, failed: has_failed, inverted };
-    let splaying = Splaying::new(known, threads);
-    let (remove, add, mut stats) = splaying.run(&predicates, &failed, max_evaluations, report)?;
-    let filled = patch::patch(&mut mesh, &predicates, threads, &remove, &add, &mut free)?;
-
-    let start = filled.last().or(incident.iter().find(|&&t| t != NO_INDEX)).copied().unwrap_or(0);
-    stats.signs = predicates.evaluations();
-    stats.inserted = missing.len();
-    if !missing.is_empty() {
-        insert_points(&mut mesh, vertices, missing, start, |_| report(1.0))?;
+    /// Returns the region.
+    pub fn region(&self) -> &Region {
+        &self.stars.known.region
     }
-    stats.peeled = peeled;
-    stats.failed = failed.len();
-    (stats.removed, stats.added) = (remove.len(), add.len());
-    Ok((mesh, stats))
+
+    /// Adds the stars of `vertices`, as [`Region::add`] does.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Region::add`].
+    pub fn add(&mut self, vertices: Vec<u32>, gathered: &Gathered) -> Result<(), Stop> {
+        Ok(self.stars.known.region.add(vertices, gathered)?)
+    }
+
+    /// Returns the region, of the Delaunay triangulation when nothing is lacking any more, and what
+    /// splaying did.
+    pub fn finish(self) -> (Region, SplayStats) {
+        let Splaying { known: Known { region, .. }, mut stats, .. } = self.stars;
+        stats.signs = self.evaluations;
+        [stats.gathers, stats.gathered] = region.gathers;
+        (region, stats)
+    }
+}
+
+/// Returns a report that ends the work beyond the number of predicate evaluations that `terms`
+/// allow, of which there were so many before.
+fn limited<'a>(
+    predicates: &'a StarPredicates<'_>,
+    before: u64,
+    terms: Terms<'a>,
+) -> impl Fn(f64) -> Result<(), Stop> + 'a {
+    move |share| {
+        (terms.report)(share)?;
+        let is_exceeded = before + predicates.evaluations() > terms.max_evaluations;
+        if is_exceeded { Err(Aborted::BudgetExceeded.into()) } else { Ok(()) }
+    }
 }
 
 /// Returns the first tetrahedron that is positively oriented.

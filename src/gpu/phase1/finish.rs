@@ -26,6 +26,8 @@ pub enum Step<K> {
     Kernel(K),
     /// Numbers the simplices of the mesh by a scan of [`Buffers::marks`].
     Scan,
+    /// Numbers what is gathered of the mesh in the same way, with sums of its own.
+    ScanGathered,
 }
 
 impl<K> Step<K> {
@@ -34,6 +36,7 @@ impl<K> Step<K> {
             Step::Stage(name) => Step::Stage(name),
             Step::Kernel(k) => Step::Kernel(kernel(k)),
             Step::Scan => Step::Scan,
+            Step::ScanGathered => Step::ScanGathered,
         }
     }
 }
@@ -50,9 +53,18 @@ where
     type Reading;
     /// The mesh, and what is to be repaired or checked of it.
     type Result: Debug + Clone + PartialEq;
+    /// The kernels that make the arrays of the caller's mesh.
+    type Outputs: Debug;
 
     /// The steps, with the names of the kernels.
     const STEPS: &'static [Step<&'static str>];
+    /// The steps that gather parts of the mesh.
+    const GATHER: &'static [Step<&'static str>];
+    /// The steps that write changed parts back.
+    const PATCH: &'static [Step<&'static str>];
+
+    /// Creates the kernels that make the arrays of the caller's mesh.
+    fn outputs(compiler: &Compiler<'_>) -> Self::Outputs;
 
     /// Returns the number of simplices that the mesh has, of which `finite` are finite.
     fn mesh_len(finite: usize, counters: &Counters) -> usize;
@@ -97,23 +109,28 @@ where
 
 /// Records readbacks in one submission.
 pub struct Copies<'a> {
-    readback: &'a mut Readback,
-    gpu: &'a Gpu,
-    recorder: Recorder<'static>,
+    pub(crate) readback: &'a mut Readback,
+    pub(crate) gpu: &'a Gpu,
+    pub(crate) recorder: Recorder<'a>,
 }
 
 impl Copies<'_> {
     /// Records the readback of the first `len` elements of `source`.
     pub fn copy<T: Pod>(&mut self, source: &Storage<T>, len: usize) -> Pending<T> {
-        self.readback.copy(self.gpu, self.recorder.encoder(), source, 0, len)
+        self.copy_from(source, 0, len)
+    }
+
+    /// Records the readback of `len` elements of `source`, from element `start`.
+    pub(crate) fn copy_from<T: Pod>(&mut self, source: &Storage<T>, start: usize, len: usize) -> Pending<T> {
+        self.readback.copy(self.gpu, self.recorder.encoder(), source, start, len)
     }
 }
 
 /// Receives the readbacks of one submission.
 pub struct Copied<'a> {
-    readback: &'a mut Readback,
-    gpu: &'a Gpu,
-    submission: wgpu::SubmissionIndex,
+    pub(crate) readback: &'a mut Readback,
+    pub(crate) gpu: &'a Gpu,
+    pub(crate) submission: wgpu::SubmissionIndex,
 }
 
 impl Copied<'_> {
@@ -131,6 +148,8 @@ impl Copied<'_> {
 #[derive(Debug)]
 pub(crate) struct FinishStage {
     steps: Vec<Step<Kernel>>,
+    gather: Vec<Step<Kernel>>,
+    patch: Vec<Step<Kernel>>,
     scan: Scan,
 }
 
@@ -140,10 +159,16 @@ pub(crate) struct BoundFinish<const D: usize>
 where
     Dimension<D>: Finish<D>,
 {
-    steps: Vec<Step<(Kernel, wgpu::BindGroup)>>,
+    steps: BoundSteps,
+    gather: BoundSteps,
+    patch: BoundSteps,
     scan: BoundScan,
+    gather_scan: BoundScan,
     aliases: <Dimension<D> as Finish<D>>::Aliases,
 }
+
+/// Steps with their bind groups.
+type BoundSteps = Vec<Step<(Kernel, wgpu::BindGroup)>>;
 
 impl FinishStage {
     /// Creates the kernels.
@@ -152,8 +177,11 @@ impl FinishStage {
         Dimension<D>: Finish<D>,
     {
         let kernel = |name: &&str| compiler.kernel(Dimension::<D>::SHADERS.get(name), width);
+        let kernels = |steps: &[Step<&str>]| steps.iter().map(|step| step.map(kernel)).collect();
         FinishStage {
-            steps: Dimension::<D>::STEPS.iter().map(|step| step.map(kernel)).collect(),
+            steps: kernels(Dimension::<D>::STEPS),
+            gather: kernels(Dimension::<D>::GATHER),
+            patch: kernels(Dimension::<D>::PATCH),
             scan: Scan::new(compiler),
         }
     }
@@ -170,13 +198,16 @@ impl FinishStage {
         let count = ScanParams { count: b.simplices.len() as u32 };
         let params = Storage::with_contents(gpu, "scan parameters", &[count])?;
         let scan = self.scan.bind(gpu, &params, &b.marks, &b.numbers)?;
+        let gather_scan = self.scan.bind(gpu, &params, &b.marks, &b.numbers)?;
         let aliases = <Dimension<D> as Finish<D>>::Aliases::new(b);
         let mut buffers = b.bindings();
         buffers.extend(aliases.bindings());
         buffers.push(("sums", scan.sums().buffer()));
+        buffers.push(("gather_sums", gather_scan.sums().buffer()));
         let bind = |kernel: &Kernel| (kernel.clone(), kernel.bind(gpu, &buffers));
-        let steps = self.steps.iter().map(|step| step.map(bind)).collect();
-        Ok(BoundFinish { steps, scan, aliases })
+        let bind = |steps: &[Step<Kernel>]| steps.iter().map(|step| step.map(bind)).collect();
+        let [steps, gather, patch] = [&self.steps, &self.gather, &self.patch].map(|steps| bind(steps));
+        Ok(BoundFinish { steps, gather, patch, scan, gather_scan, aliases })
     }
 
     /// Records the end of Phase 1.
@@ -184,11 +215,48 @@ impl FinishStage {
     where
         Dimension<D>: Finish<D>,
     {
-        for step in &bound.steps {
+        self.record_steps(recorder, bound, &bound.steps, workgroups);
+    }
+
+    /// Records gathering.
+    pub(crate) fn record_gather<const D: usize>(
+        &self,
+        recorder: &mut Recorder<'_>,
+        bound: &BoundFinish<D>,
+        workgroups: u32,
+    ) where
+        Dimension<D>: Finish<D>,
+    {
+        self.record_steps(recorder, bound, &bound.gather, workgroups);
+    }
+
+    /// Records that changed parts are written back.
+    pub(crate) fn record_patch<const D: usize>(
+        &self,
+        recorder: &mut Recorder<'_>,
+        bound: &BoundFinish<D>,
+        workgroups: u32,
+    ) where
+        Dimension<D>: Finish<D>,
+    {
+        self.record_steps(recorder, bound, &bound.patch, workgroups);
+    }
+
+    fn record_steps<const D: usize>(
+        &self,
+        recorder: &mut Recorder<'_>,
+        bound: &BoundFinish<D>,
+        steps: &BoundSteps,
+        workgroups: u32,
+    ) where
+        Dimension<D>: Finish<D>,
+    {
+        for step in steps {
             match step {
                 Step::Stage(name) => recorder.stage(name),
                 Step::Kernel((kernel, bindings)) => recorder.dispatch(kernel, bindings, workgroups),
                 Step::Scan => self.scan.record(recorder, &bound.scan),
+                Step::ScanGathered => self.scan.record(recorder, &bound.gather_scan),
             }
         }
     }
@@ -205,6 +273,16 @@ where
     /// is the number of finite simplices.
     pub(crate) fn sums(&self) -> &Storage<u32> {
         self.scan.sums()
+    }
+
+    /// Returns the sums of the scan of what is gathered; the same entry is how many simplices are.
+    pub(crate) fn gather_sums(&self) -> &Storage<u32> {
+        self.gather_scan.sums()
+    }
+
+    /// Returns the names that buffers have at the end.
+    pub(crate) fn aliases(&self) -> &<Dimension<D> as Finish<D>>::Aliases {
+        &self.aliases
     }
 
     /// Reads the mesh back, of which `finite` simplices are finite, and, if any point was merged,

@@ -20,6 +20,7 @@ where
 {
     pub(crate) points: PointStage<D>,
     pub(crate) stages: Stages,
+    pub(crate) outputs: <Dimension<D> as Finish<D>>::Outputs,
     pub(crate) readback: Readback,
     pub(crate) kept: Kept<D>,
 }
@@ -38,6 +39,7 @@ where
         let phase1 = Phase1 {
             points: PointStage::new(&compiler),
             stages: Stages::new::<D>(&compiler, width),
+            outputs: Dimension::<D>::outputs(&compiler),
             readback: Readback::default(),
             kept: Kept::default(),
         };

@@ -10,11 +10,12 @@ use crate::{
         layout::{BLOCK, COUNTER_WORDS, Counters, LOGGED, NONE, PARAM_WORDS, Params, SLOTS_FULL},
         phase1::{
             buffers::{Buffers, largest_bytes},
-            finish::{BoundFinish, Finish},
+            finish::{BoundFinish, Copies, Finish},
             flip::FlipPlan,
             kernels::Phase1,
             memory::{Kept, Memory},
             settings::Settings,
+            stages::Stages,
             stats::Phase1Stats,
         },
         points::{PointBuffers, PointInput},
@@ -249,6 +250,11 @@ where
         })
     }
 
+    /// Returns the device.
+    pub(crate) fn gpu(&self) -> &'a Gpu {
+        self.gpu
+    }
+
     /// Returns the buffers, for tests.
     pub fn buffers(&self) -> &Buffers<D> {
         &self.memory.buffers
@@ -373,7 +379,8 @@ where
         self.kernels.readback.copy(self.gpu, encoder, control, PARAM_WORDS, COUNTER_WORDS)
     }
 
-    fn workgroups(&self) -> u32 {
+    /// Returns the workgroups of a kernel with an invocation per slot.
+    pub(crate) fn workgroups(&self) -> u32 {
         let max = self.settings.workgroups.min(self.gpu.max_workgroups());
         workgroups(self.params.blocks.saturating_mul(BLOCK)).min(max)
     }
@@ -422,21 +429,37 @@ where
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub async fn finish(mut self) -> Result<Phase1Output<D>, Error> {
+    pub async fn finish(self) -> Result<Phase1Output<D>, Error> {
+        let (mut ended, _, ()) = self.end(|_, _, _| ()).await?;
+        let (result, merged) = ended.read().await?;
+        Ok(Phase1Output { result, merged, stats: ended.release() })
+    }
+
+    /// Makes the mesh and leaves it on the device. `more` records what the same submission is to do
+    /// with it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::advance`].
+    pub(crate) async fn end<T>(
+        mut self,
+        more: impl FnOnce(&mut Copies<'_>, &Stages, &Memory<D>) -> T,
+    ) -> Result<(Ended<'a, D>, wgpu::SubmissionIndex, T), Error> {
         let gpu = self.gpu;
         let workgroups = self.workgroups();
         let profiler = self.profiler.take();
-        let (submission, counters, finite) = gpu
+        let (submission, counters, finite, more) = gpu
             .with_error_scope("the end of Phase 1", || {
-                let mut recorder = Recorder::new(gpu, profiler);
-                let (finish, bound) = (&self.kernels.stages.finish, &self.memory.bound.finish);
-                finish.record(&mut recorder, bound, workgroups);
-                self.stats.dispatches += recorder.dispatches();
+                let (stages, memory, readback) = (&self.kernels.stages, &self.memory, &mut self.kernels.readback);
+                let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, profiler) };
+                let bound = &memory.bound.finish;
+                stages.finish.record(&mut copies.recorder, bound, workgroups);
+                let more = more(&mut copies, stages, memory);
+                let finite = copies.copy_from(bound.sums(), GROUPS, 1);
+                let counters = copies.copy_from(&memory.buffers.control, PARAM_WORDS, COUNTER_WORDS);
+                self.stats.dispatches += copies.recorder.dispatches();
                 self.stats.submits += 1;
-                let encoder = recorder.encoder();
-                let finite = self.kernels.readback.copy(gpu, encoder, bound.sums(), GROUPS, 1);
-                let counters = self.read_counters(encoder);
-                Ok((recorder.submit(gpu), counters, finite))
+                Ok((copies.recorder.submit(gpu), counters, finite, more))
             })
             .await?;
         // What was submitted beyond the end had nothing to do, and came before.
@@ -447,20 +470,85 @@ where
         let finite = self.kernels.readback.receive(gpu, &submission, finite).await?[0] as usize;
         let counters = counters_in(&words);
         self.stats.time = self.clock.lap();
+        self.stats.counters = counters;
+        let Run { kernels, points, memory, read_before, stats, clock, .. } = self;
+        let ended = Ended { kernels, gpu, memory, points, counters, finite, workgroups, read_before, stats, clock };
+        Ok((ended, submission, more))
+    }
+}
 
-        let Run { kernels, points, memory, read_before, mut stats, mut clock, .. } = self;
-        let readback = &mut kernels.readback;
-        let (result, merged_into) = memory.bound.finish.read(gpu, readback, &memory.buffers, finite, &counters).await?;
-        stats.readback_time = clock.lap();
-        stats.counters = counters;
-        stats.submits += BoundFinish::<D>::SUBMITS;
-        stats.readbacks = readback.count() - read_before.0;
-        stats.bytes_read = readback.bytes() - read_before.1;
+/// A run that has made the mesh, which is still on the device.
+pub struct Ended<'a, const D: usize>
+where
+    Dimension<D>: Finish<D>,
+{
+    pub(crate) kernels: &'a mut Phase1<D>,
+    pub(crate) gpu: &'a Gpu,
+    pub(crate) memory: Memory<D>,
+    points: Option<PointBuffers>,
+    pub(crate) counters: Counters,
+    /// The number of finite simplices.
+    pub(crate) finite: usize,
+    pub(crate) workgroups: u32,
+    read_before: (usize, u64),
+    pub(crate) stats: Phase1Stats,
+    clock: Stopwatch,
+}
+
+impl<const D: usize> Ended<'_, D>
+where
+    Dimension<D>: Finish<D>,
+{
+    /// Returns the number of simplices of the mesh, the infinite ones included if it has them.
+    pub(crate) fn len(&self) -> usize {
+        Dimension::<D>::mesh_len(self.finite, &self.counters)
+    }
+
+    /// Reads the mesh back, and what is to be repaired or checked of it; and the points that are
+    /// vertices of no simplex, as [`Phase1Output::merged`] has them.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::advance`].
+    pub(crate) async fn read(&mut self) -> Result<(<Dimension<D> as Finish<D>>::Result, Vec<[u32; 2]>), Error> {
+        let (readback, memory) = (&mut self.kernels.readback, &self.memory);
+        self.clock.lap();
+        let bound = &memory.bound.finish;
+        let (result, merged) = bound.read(self.gpu, readback, &memory.buffers, self.finite, &self.counters).await?;
+        self.stats.readback_time += self.clock.lap();
+        self.stats.submits += BoundFinish::<D>::SUBMITS;
+        Ok((result, pairs(merged)))
+    }
+
+    /// Reads the points that are vertices of no simplex.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::advance`].
+    pub(crate) async fn read_merged(&mut self) -> Result<Vec<[u32; 2]>, Error> {
+        if self.counters.merged == 0 {
+            return Ok(Vec::new());
+        }
+        let merged_into = &self.memory.buffers.points.merged_into;
+        self.stats.submits += 1;
+        Ok(pairs(self.kernels.readback.read(self.gpu, merged_into, 0, merged_into.len()).await?))
+    }
+
+    /// Keeps the buffers for the next run. Returns what this one did.
+    pub(crate) fn release(self) -> Phase1Stats {
+        let Ended { kernels, points, memory, read_before, mut stats, .. } = self;
+        stats.readbacks = kernels.readback.count() - read_before.0;
+        stats.bytes_read = kernels.readback.bytes() - read_before.1;
         stats.bytes = memory.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
         kernels.kept = Kept { points, memory: Some(memory) };
-        let merged = (0..).zip(merged_into).filter(|&(_, other)| other != NONE);
-        Ok(Phase1Output { result, merged: merged.map(|(point, other)| [point, other]).collect(), stats })
+        stats
     }
+}
+
+/// Returns the points that are merged into others, each with the other one.
+fn pairs(merged_into: Vec<u32>) -> Vec<[u32; 2]> {
+    let merged = (0..).zip(merged_into).filter(|&(_, other)| other != NONE);
+    merged.map(|(point, other)| [point, other]).collect()
 }
 
 impl<const D: usize> Phase1<D>

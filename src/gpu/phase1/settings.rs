@@ -49,6 +49,10 @@ pub struct Settings<const D: usize> {
     /// Whether points are ordered along the Hilbert curve, and so are the slots of their simplices
     /// in memory (§4.3, Figure 12).
     pub sort: bool,
+    /// 3D only: whether splaying gets only the stars that it needs, and the device makes the arrays
+    /// of the mesh, also of one that the host wants to have. It saves most of the host's memory;
+    /// where many threads splay and copy, it is faster to read the whole mesh before splaying.
+    pub sparse: bool,
     /// 2D only: the orientation of the mesh.
     pub winding: Winding,
 }
@@ -72,6 +76,7 @@ where
             spare_iterations: 256,
             flips_per_iteration: 256,
             sort: true,
+            sparse: cfg!(target_arch = "wasm32"),
             winding: Winding::CounterClockwise,
         }
     }

@@ -4,6 +4,7 @@ mod dim;
 mod flip_check;
 mod flip_commit;
 mod flip_compact;
+pub mod gather;
 mod mark_failed;
 mod outputs;
 mod pick;

@@ -1,0 +1,10 @@
+// What the host asks for when it gathers tetrahedra of the mesh, or writes changed ones back.
+struct Gathering {
+    // The number of the first tetrahedron that is gathered: 1 at the first time.
+    first: u32,
+    // The entries of the patch.
+    patched: u32,
+}
+
+// In a patch: the neighbour stays what it is.
+const KEEP: u32 = 0xffffffff;

@@ -1,0 +1,278 @@
+//! What splaying and the device exchange: stars of the mesh one way, what has changed the other.
+
+use crate::{
+    d3::{
+        gpu::{
+            buffers::Gathering,
+            outputs::{OutputParams, SlotMesh},
+        },
+        splay::{Aborted, Doubts, Gathered, Patch, Region},
+    },
+    error::Error,
+    gpu::{
+        Gpu, Pending, Recorder, Storage,
+        device_mesh::DeviceArrays,
+        layout::Active,
+        phase1::{Copied, Copies, Ended, Memory, Run, Slot, Stages},
+        primitives::scan::GROUPS,
+        workgroups,
+    },
+};
+use bytemuck::Pod;
+
+/// How many elements of a list are read before it is known how many there are: enough for what is
+/// gathered of a million uniform points, and 1.2 MB.
+const AHEAD: usize = 1 << 15;
+
+/// A list of which the first elements are being read.
+struct Ahead<T> {
+    source: Storage<T>,
+    first: Pending<T>,
+}
+
+impl<T: Pod> Ahead<T> {
+    fn copy(copies: &mut Copies<'_>, source: &Storage<T>) -> Self {
+        Ahead { source: source.clone(), first: copies.copy(source, AHEAD.min(source.len())) }
+    }
+}
+
+/// What is gathered, as far as it is being read.
+struct Gathering3 {
+    count: Pending<u32>,
+    tetrahedra: Ahead<Slot>,
+    neighbors: Ahead<Slot>,
+    slots: Ahead<u32>,
+}
+
+impl Gathering3 {
+    /// Records gathering, and that its result is read.
+    fn record(copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>, workgroups: u32) -> Self {
+        let bound = &memory.bound.finish;
+        stages.finish.record_gather(&mut copies.recorder, bound, workgroups);
+        let (aliases, own) = (bound.aliases(), &memory.buffers.own);
+        Gathering3 {
+            count: copies.copy_from(bound.gather_sums(), GROUPS, 1),
+            tetrahedra: Ahead::copy(copies, &aliases.gathered_tetrahedra),
+            neighbors: Ahead::copy(copies, &aliases.gathered_neighbors),
+            slots: Ahead::copy(copies, &own.gathered_slots),
+        }
+    }
+}
+
+/// What splaying begins with.
+pub(crate) struct Begun {
+    /// The stars of the failed vertices and of those of uncertain tetrahedra.
+    pub(crate) region: Region,
+    /// Where the mesh may not be Delaunay; nothing is missing yet.
+    pub(crate) doubts: Doubts,
+}
+
+/// The mesh on the device at the end of Phase 1.
+pub(crate) struct Device<'a> {
+    pub(crate) ended: Ended<'a, 3>,
+}
+
+impl<'a> Device<'a> {
+    /// Ends the run, and gathers what splaying begins with.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::advance`].
+    pub(crate) async fn end(run: Run<'a, 3>) -> Result<(Self, Result<Begun, Aborted>), Error> {
+        let gather = Gathering { first: 1, patched: 0 };
+        let (gpu, points) = (run.gpu(), run.control().0.infinite as usize);
+        let workgroups = run.workgroups();
+        run.buffers().own.gathering.write(gpu, 0, &[gather]);
+        let (ended, submission, (gathering, failed, uncertain)) = run
+            .end(|copies, stages, memory| {
+                let gathering = Gathering3::record(copies, stages, memory, workgroups);
+                let aliases = memory.bound.finish.aliases();
+                let (failed, uncertain) = (&aliases.failed, &aliases.uncertain);
+                (gathering, Ahead::copy(copies, failed), Ahead::copy(copies, uncertain))
+            })
+            .await?;
+        let (failed_len, uncertain_len) = (ended.counters.failed as usize, ended.counters.uncertain as usize);
+        let mut device = Device { ended };
+        let gathered = device.receive(&submission, gathering).await?;
+        let mut failed = device.receive_list(&submission, failed, failed_len).await?;
+        let uncertain: Vec<Active> = device.receive_list(&submission, uncertain, uncertain_len).await?;
+
+        failed.sort_unstable();
+        let mut uncertain: Vec<u32> = uncertain.into_iter().map(|Active { tet, .. }| tet).collect();
+        uncertain.sort_unstable();
+        Ok((device, begin(points, &gathered, failed, uncertain)))
+    }
+
+    /// Receives what is gathered, and reads the rest of it if there is more than was read ahead.
+    async fn receive(&mut self, submission: &wgpu::SubmissionIndex, gathering: Gathering3) -> Result<Gathered, Error> {
+        let Gathering3 { count, tetrahedra, neighbors, slots } = gathering;
+        let Ended { gpu, kernels, stats, .. } = &mut self.ended;
+        let gpu: &Gpu = gpu;
+        let mut copied = Copied { readback: &mut kernels.readback, gpu, submission: submission.clone() };
+        let count = copied.receive(count).await?[0] as usize;
+        let mut rest = None;
+        if count > AHEAD {
+            stats.submits += 1;
+            let readback = &mut *copied.readback;
+            let submitted = gpu.with_error_scope("gathered stars", || {
+                let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, None) };
+                let len = count - AHEAD;
+                let lists = (
+                    copies.copy_from(&tetrahedra.source, AHEAD, len),
+                    copies.copy_from(&neighbors.source, AHEAD, len),
+                    copies.copy_from(&slots.source, AHEAD, len),
+                );
+                Ok((copies.recorder.submit(gpu), lists))
+            });
+            rest = Some(submitted.await?);
+        }
+        let mut gathered = Gathered {
+            tetrahedra: copied.receive(tetrahedra.first).await?,
+            neighbors: copied.receive(neighbors.first).await?,
+            slots: copied.receive(slots.first).await?,
+        };
+        if let Some((submission, (tetrahedra, neighbors, slots))) = rest {
+            copied.submission = submission;
+            gathered.tetrahedra.extend(copied.receive(tetrahedra).await?);
+            gathered.neighbors.extend(copied.receive(neighbors).await?);
+            gathered.slots.extend(copied.receive(slots).await?);
+        }
+        gathered.tetrahedra.truncate(count);
+        gathered.neighbors.truncate(count);
+        gathered.slots.truncate(count);
+        Ok(gathered)
+    }
+
+    /// Receives a list, and reads the rest of it if it has more than was read ahead.
+    async fn receive_list<T: Pod>(
+        &mut self,
+        submission: &wgpu::SubmissionIndex,
+        ahead: Ahead<T>,
+        len: usize,
+    ) -> Result<Vec<T>, Error> {
+        let Ended { gpu, kernels, stats, .. } = &mut self.ended;
+        let mut list = kernels.readback.receive(gpu, submission, ahead.first).await?;
+        if len > list.len() {
+            stats.submits += 1;
+            list.extend(kernels.readback.read(gpu, &ahead.source, list.len(), len - list.len()).await?);
+        }
+        list.truncate(len);
+        Ok(list)
+    }
+
+    /// Returns the tetrahedra at `vertices` that it has not returned before, and numbers them from
+    /// `first` on.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::advance`].
+    pub(crate) async fn gather(&mut self, vertices: &[u32], first: u32) -> Result<Gathered, Error> {
+        let Ended { gpu, kernels, memory, stats, workgroups, .. } = &mut self.ended;
+        let gpu: &Gpu = gpu;
+        let own = &memory.buffers.own;
+        let mut wanted = vec![0u32; own.wanted.len()];
+        vertices.iter().for_each(|&v| wanted[v as usize / 32] |= 1 << (v % 32));
+        let (submission, gathering) = gpu
+            .with_error_scope("gathering stars", || {
+                own.wanted.write(gpu, 0, &wanted);
+                own.gathering.write(gpu, 0, &[Gathering { first, patched: 0 }]);
+                let mut copies = Copies { readback: &mut kernels.readback, gpu, recorder: Recorder::new(gpu, None) };
+                let gathering = Gathering3::record(&mut copies, &kernels.stages, memory, *workgroups);
+                stats.dispatches += copies.recorder.dispatches();
+                stats.submits += 1;
+                Ok((copies.recorder.submit(gpu), gathering))
+            })
+            .await?;
+        self.receive(&submission, gathering).await
+    }
+
+    /// Writes back what splaying has changed.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::TooManySimplices`] if the device has no room for it.
+    pub(crate) async fn patch(&mut self, patch: &Patch) -> Result<(), Error> {
+        let Ended { gpu, kernels, memory, stats, .. } = &mut self.ended;
+        let gpu: &Gpu = gpu;
+        let (bound, own) = (&memory.bound.finish, &memory.buffers.own);
+        let aliases = bound.aliases();
+        let limit = aliases.tets.len();
+        if patch.len > limit {
+            return Err(Error::TooManySimplices { limit });
+        }
+        if patch.slots.is_empty() {
+            return Ok(());
+        }
+        gpu.with_error_scope("what splaying has changed", || {
+            let count = patch.slots.len() as u32;
+            own.gathering.write(gpu, 0, &[Gathering { first: 0, patched: count }]);
+            own.gathered_slots.write(gpu, 0, &patch.slots);
+            aliases.gathered_tetrahedra.write(gpu, 0, &patch.tetrahedra);
+            aliases.gathered_neighbors.write(gpu, 0, &patch.neighbors);
+            let mut recorder = Recorder::new(gpu, None);
+            kernels.stages.finish.record_patch(&mut recorder, bound, workgroups(count));
+            stats.dispatches += recorder.dispatches();
+            stats.submits += 1;
+            recorder.submit(gpu);
+            Ok(())
+        })
+        .await
+    }
+
+    /// Makes the arrays of the caller's mesh, which has changed by `patch`.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`OutputStage::run`](crate::d3::gpu::outputs::OutputStage::run).
+    pub(crate) async fn outputs(&mut self, patch: &Patch) -> Result<DeviceArrays, Error> {
+        let Ended { gpu, kernels, memory, stats, finite, counters, .. } = &mut self.ended;
+        let (aliases, buffers) = (memory.bound.finish.aliases(), &memory.buffers);
+        let [more, more_ghosts] = patch.more;
+        let params = OutputParams {
+            count: patch.len as u32,
+            infinite: buffers.points.pairs.len() as u32,
+            finite: finite.wrapping_add_signed(more) as u32,
+            hull: (counters.ghosts as usize).wrapping_add_signed(more_ghosts) as u32,
+        };
+        let mesh = SlotMesh {
+            tetrahedra: &aliases.tets,
+            neighbors: &aliases.neighbors,
+            marks: &buffers.marks,
+            numbers: &buffers.numbers,
+            params,
+        };
+        let (arrays, dispatches) = kernels.outputs.run(gpu, &mut kernels.readback, mesh).await?;
+        stats.dispatches += dispatches;
+        stats.submits += 1;
+        Ok(arrays)
+    }
+
+    /// Reads the tetrahedra of the mesh back, and their neighbours, to look at them.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::advance`].
+    pub(crate) async fn read(&mut self) -> Result<[Vec<Slot>; 2], Error> {
+        let len = self.ended.len();
+        let Ended { gpu, kernels, memory, stats, .. } = &mut self.ended;
+        let aliases = memory.bound.finish.aliases();
+        stats.submits += 2;
+        let tetrahedra = kernels.readback.read(gpu, &aliases.tets, 0, len).await?;
+        Ok([tetrahedra, kernels.readback.read(gpu, &aliases.neighbors, 0, len).await?])
+    }
+}
+
+/// Returns the region of what was gathered first, and the doubts by its numbers.
+fn begin(points: usize, gathered: &Gathered, failed: Vec<u32>, uncertain: Vec<u32>) -> Result<Begun, Aborted> {
+    let mut region = Region::new(points);
+    let first = region.next();
+    // Both are in the order of the mesh.
+    let mut slots = (first..).zip(&gathered.slots);
+    let number = |slot: u32| slots.find(|&(_, &s)| s == slot).map(|(number, _)| number);
+    let uncertain: Option<Vec<u32>> = uncertain.into_iter().map(number).collect();
+    let uncertain = uncertain.ok_or(Aborted::Inconsistent("an uncertain tetrahedron was not gathered"))?;
+    let corners = uncertain.iter().flat_map(|&t| gathered.tetrahedra[(t - first) as usize]);
+    let stars = corners.filter(|&v| v != points as u32).chain(failed.iter().copied());
+    region.add(stars, gathered)?;
+    Ok(Begun { region, doubts: Doubts { failed, uncertain, missing: Vec::new() } })
+}

@@ -1,0 +1,111 @@
+//! The points that Phase 1 could not insert, because others were rounded to the same place of the
+//! lattice, are inserted one after the other, where the region has the whole cavity.
+
+use crate::{
+    cpu::Insert,
+    d3::{
+        insert::in_conflict,
+        mesh::FACETS,
+        splay::{Aborted, Stop, region::Region, star::LinkFinder},
+        triangulation::Triangulation3,
+    },
+    error::Error,
+    index::NO_INDEX,
+    predicates::filter::{PredicateContext3, PredicatesAt},
+};
+use rustc_hash::FxHashSet;
+
+/// Inserts those of the `missing` vertices, each with a vertex near it or with [`NO_INDEX`], of which
+/// the region has the whole cavity; the others remain. Returns vertices whose stars they need.
+pub(super) fn insert(
+    region: &mut Region,
+    vertices: &PredicateContext3<'_>,
+    missing: &mut Vec<[u32; 2]>,
+    report: &dyn Fn(f64) -> Result<(), Error>,
+) -> Result<Vec<u32>, Stop> {
+    let near = missing.iter().map(|&[_, near]| near).filter(|&near| near != NO_INDEX);
+    let mut lacking = region.lacking(near);
+    if missing.is_empty() || !lacking.is_empty() {
+        return Ok(lacking);
+    }
+    let mut scratch = Insert::scratch(&region.mesh);
+    let mut links = LinkFinder::default();
+    let first = region.incident.iter().copied().find(|&t| t != NO_INDEX);
+    let mut last = first.ok_or(Aborted::Inconsistent("no vertex has a tetrahedron"))?;
+    for (i, [p, near]) in std::mem::take(missing).into_iter().enumerate() {
+        if i % <Triangulation3 as Insert<3>>::REPORT == 0 {
+            report(1.0)?;
+        }
+        let start = region.incident.get(near as usize).copied().filter(|&t| t != NO_INDEX).unwrap_or(last);
+        match cavity(region, vertices, p, start) {
+            Ok(start) => {
+                let inserted = region.mesh.insert(vertices, p, start, &mut scratch)?;
+                last = inserted.expect("nobody disturbs the only thread");
+                let star = links.star(&region.mesh, p, last)?;
+                region.note(star.used().map(|triangle| triangle.tetrahedron));
+            }
+            Err(around) => {
+                lacking.extend(around);
+                missing.push([p, near]);
+            }
+        }
+    }
+    Insert::finish(&mut region.mesh, scratch);
+    Ok(region.lacking(lacking))
+}
+
+/// Returns a tetrahedron in conflict with `p` if the region has all of them, and all their
+/// neighbours; otherwise vertices whose stars have what is missing next.
+fn cavity(region: &Region, vertices: &PredicateContext3<'_>, p: u32, start: u32) -> Result<u32, Vec<u32>> {
+    let (mesh, here) = (&region.mesh, vertices.at(p));
+    let start = walk(region, &here, start)?;
+    let (mut cavity, mut next) = (vec![start], 0);
+    let mut seen = FxHashSet::from_iter([start]);
+    let mut wanted = Vec::new();
+    while let Some(&t) = cavity.get(next) {
+        next += 1;
+        for other in mesh.neighbors[t as usize].map(|across| across >> 2) {
+            if !seen.insert(other) && !region.is_outside(other) {
+                continue;
+            }
+            // A ghost's conflicts can be those of the tetrahedron under it.
+            let lacks = |t: u32| mesh.is_ghost(t) && region.is_outside(mesh.neighbors[t as usize][3] >> 2);
+            if region.is_outside(other) {
+                wanted.extend(mesh.vertices(t));
+            } else if lacks(other) {
+                wanted.extend(mesh.vertices(other));
+            } else if in_conflict(mesh, &here, other) {
+                cavity.push(other);
+            }
+        }
+    }
+    if wanted.is_empty() { Ok(start) } else { Err(wanted) }
+}
+
+/// Walks to a point as the CPU engine does. Returns the tetrahedron that contains it, or a ghost whose
+/// facet sees it; otherwise the vertices of the last one before the region ends.
+fn walk(region: &Region, here: &PredicatesAt<'_, '_, 3>, start: u32) -> Result<u32, Vec<u32>> {
+    let mesh = &region.mesh;
+    let mut t = start;
+    if mesh.is_ghost(t) {
+        t = mesh.neighbors[start as usize][3] >> 2;
+        if region.is_outside(t) {
+            return Err(mesh.vertices(start).into());
+        }
+    }
+    loop {
+        let v = mesh.vertices(t);
+        if mesh.is_ghost(t) {
+            return Ok(t);
+        }
+        let separates = |facet: &[usize; 3]| {
+            let [a, b, c] = facet.map(|i| v[i]);
+            here.orient3d(a, b, c) > 0
+        };
+        let Some(k) = FACETS.iter().position(separates) else { return Ok(t) };
+        t = mesh.neighbors[t as usize][k] >> 2;
+        if region.is_outside(t) {
+            return Err(v.into());
+        }
+    }
+}

@@ -1,0 +1,245 @@
+//! The part of a triangulation that splaying sees: the stars of the vertices that it asked for.
+//!
+//! The triangulation is elsewhere, as a rule on a device, and the region takes numbers and not
+//! copies of the whole: it numbers the tetrahedra in the order in which it gets them, from 1 on, and
+//! number 0 stands for every tetrahedron that it has not got. So all that works on a triangulation
+//! works on a region, as long as it stays among the stars that are there.
+
+use crate::{
+    d3::{
+        splay::Aborted,
+        triangulation::{Triangulation3, state},
+    },
+    index::NO_INDEX,
+    parallel::{self, Threads},
+};
+
+/// The number of every tetrahedron that is not in the region.
+const OUTSIDE: u32 = 0;
+
+/// An entry of [`Patch::neighbors`]: what is there stays as it is.
+pub const KEEP: u32 = u32::MAX;
+
+/// Tetrahedra of a triangulation, numbered in this order.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Gathered {
+    /// The vertices of each; a ghost has infinity last.
+    pub tetrahedra: Vec<[u32; 4]>,
+    /// The neighbours of each, 4·number + facet; below 4 where the neighbour has not been gathered.
+    pub neighbors: Vec<[u32; 4]>,
+    /// Where each is in the triangulation.
+    pub slots: Vec<u32>,
+}
+
+/// What splaying changed in a region, for the triangulation that the region is a part of.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Patch {
+    /// The slots that have changed.
+    pub slots: Vec<u32>,
+    /// Their vertices; all 0 for slots that are not used any more.
+    pub tetrahedra: Vec<[u32; 4]>,
+    /// Their neighbours, 4·slot + facet; [`KEEP`] for those that have not changed.
+    pub neighbors: Vec<[u32; 4]>,
+    /// How many slots there are now.
+    pub len: usize,
+    /// How many more finite tetrahedra there are now, and how many more ghosts.
+    pub more: [isize; 2],
+}
+
+/// A part of a triangulation.
+#[derive(Debug, Clone)]
+pub struct Region {
+    pub(super) mesh: Triangulation3,
+    /// A tetrahedron of each vertex, if the region has any; a ghost if there is one in a star that
+    /// was asked for.
+    pub(super) incident: Vec<u32>,
+    /// The vertices of which the region has the whole star.
+    complete: Complete,
+    /// The tetrahedra as they were gathered. Those that splaying adds are in no slot.
+    given: Gathered,
+    /// How often tetrahedra were gathered, and how many.
+    pub(super) gathers: [usize; 2],
+}
+
+/// The vertices of which a region has the whole star.
+#[derive(Debug, Clone)]
+enum Complete {
+    All,
+    Those(Vec<bool>),
+}
+
+impl Region {
+    /// Creates a region that has nothing of a triangulation of so many vertices.
+    pub fn new(vertices: usize) -> Self {
+        let infinite = vertices as u32;
+        // What is outside looks like a tetrahedron that is not there. Nothing depends on it.
+        let outside = Gathered {
+            tetrahedra: vec![[infinite | state::FREE, infinite, infinite, infinite]],
+            neighbors: vec![[OUTSIDE; 4]],
+            slots: vec![NO_INDEX],
+        };
+        Region {
+            mesh: Triangulation3::new(outside.tetrahedra.clone(), outside.neighbors.clone(), infinite),
+            incident: vec![NO_INDEX; vertices],
+            complete: Complete::Those(vec![false; vertices]),
+            given: outside,
+            gathers: [0; 2],
+        }
+    }
+
+    /// Creates the region that is a whole triangulation, with a tetrahedron at each vertex, a ghost
+    /// if there is one.
+    pub(super) fn whole(mesh: Triangulation3, incident: Vec<u32>) -> Self {
+        Region { mesh, incident, complete: Complete::All, given: Gathered::default(), gathers: [0; 2] }
+    }
+
+    /// Returns the number of the next tetrahedron.
+    pub fn next(&self) -> u32 {
+        self.mesh.tetrahedra.len() as u32
+    }
+
+    /// Returns the vertices of a tetrahedron of the region.
+    pub fn tetrahedron(&self, t: u32) -> [u32; 4] {
+        self.mesh.vertices(t)
+    }
+
+    /// Returns the triangulation: the whole one, if the region is that.
+    pub(super) fn into_mesh(self) -> Triangulation3 {
+        self.mesh
+    }
+
+    /// Returns whether the region has the whole star of a vertex.
+    pub(super) fn has_star(&self, v: u32) -> bool {
+        match &self.complete {
+            Complete::All => true,
+            Complete::Those(complete) => complete[v as usize],
+        }
+    }
+
+    /// Returns whether this number stands for what the region has not got.
+    pub(super) fn is_outside(&self, t: u32) -> bool {
+        t == OUTSIDE && !matches!(self.complete, Complete::All)
+    }
+
+    /// Adds what was gathered, numbered from [`next`](Region::next) on. Now the region has the
+    /// stars of `vertices`.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Aborted::Inconsistent`] if the neighbours do not fit.
+    pub fn add(&mut self, vertices: impl IntoIterator<Item = u32>, gathered: &Gathered) -> Result<(), Aborted> {
+        const DO_NOT_FIT: Aborted = Aborted::Inconsistent("gathered tetrahedra do not fit what is there");
+        let Region { mesh, incident, complete, given, gathers } = self;
+        let Gathered { tetrahedra, neighbors, slots } = gathered;
+        let first = mesh.tetrahedra.len();
+        *gathers = [gathers[0] + 1, gathers[1] + slots.len()];
+        given.tetrahedra.resize(first, [0; 4]);
+        given.neighbors.resize(first, [0; 4]);
+        given.slots.resize(first, NO_INDEX);
+        given.tetrahedra.extend_from_slice(tetrahedra);
+        given.neighbors.extend_from_slice(neighbors);
+        given.slots.extend_from_slice(slots);
+        mesh.tetrahedra.extend_from_slice(tetrahedra);
+        mesh.neighbors.extend_from_slice(neighbors);
+        if [neighbors.len(), slots.len()] != [tetrahedra.len(); 2] {
+            return Err(DO_NOT_FIT);
+        }
+        for (t, (v, across)) in (first as u32..).zip(tetrahedra.iter().zip(neighbors)) {
+            let is_ghost = v[3] == mesh.infinite;
+            for &v in &v[..if is_ghost { 3 } else { 4 }] {
+                let incident = incident.get_mut(v as usize).ok_or(DO_NOT_FIT)?;
+                if is_ghost || *incident == NO_INDEX {
+                    *incident = t;
+                }
+            }
+            for (k, &across) in (0..).zip(across) {
+                // What came earlier did not know of this one.
+                if across >> 2 != OUTSIDE && ((across >> 2) as usize) < first {
+                    for neighbors in [&mut mesh.neighbors, &mut given.neighbors] {
+                        let back = &mut neighbors[across as usize / 4][across as usize % 4];
+                        if *back >> 2 != OUTSIDE {
+                            return Err(DO_NOT_FIT);
+                        }
+                        *back = 4 * t + k;
+                    }
+                }
+            }
+        }
+        if let Complete::Those(complete) = complete {
+            for v in vertices {
+                *complete.get_mut(v as usize).ok_or(DO_NOT_FIT)? = true;
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns those of the `vertices` of which the region lacks the stars, each once.
+    pub(super) fn lacking(&self, vertices: impl IntoIterator<Item = u32>) -> Vec<u32> {
+        let lacks = |&v: &u32| v != self.mesh.infinite && !self.has_star(v);
+        let mut lacking: Vec<u32> = vertices.into_iter().filter(lacks).collect();
+        lacking.sort_unstable();
+        lacking.dedup();
+        lacking
+    }
+
+    /// Records that these tetrahedra are new, each at its vertices.
+    pub(super) fn note(&mut self, tetrahedra: impl IntoIterator<Item = u32>) {
+        for t in tetrahedra {
+            for v in self.mesh.vertices(t) {
+                if let Some(incident) = self.incident.get_mut(v as usize) {
+                    *incident = t;
+                }
+            }
+        }
+    }
+
+    /// Returns what has changed since it was gathered, where the triangulation has `len` slots.
+    /// `threads` share the work.
+    pub fn patch(&self, len: usize, threads: Threads) -> Patch {
+        let Region { mesh, given, .. } = self;
+        // What splaying added is in no slot yet. Numbers of slots stay below 2³⁰ if those of the
+        // region do, of which no more are added than the triangulation may have.
+        let mut slots = given.slots.clone();
+        let mut next = len as u32;
+        slots.resize(mesh.tetrahedra.len(), NO_INDEX);
+        for (t, slot) in (0..).zip(&mut slots).skip(1) {
+            if *slot == NO_INDEX && mesh.state(t) != state::FREE {
+                *slot = next;
+                next += 1;
+            }
+        }
+        let parts = parallel::map_ranges(threads, mesh.tetrahedra.len(), |range| {
+            let mut patch = Patch::default();
+            for t in range {
+                let (v, across) = (mesh.tetrahedra[t], mesh.neighbors[t]);
+                let is_given = given.tetrahedra.get(t) == Some(&v) && given.neighbors.get(t) == Some(&across);
+                if slots[t] == NO_INDEX || is_given {
+                    continue;
+                }
+                let is_free = v[0] & state::MASK == state::FREE;
+                if !is_free {
+                    patch.more[usize::from(v[3] == mesh.infinite)] += 1;
+                }
+                if given.slots.get(t).is_some_and(|&slot| slot != NO_INDEX) {
+                    patch.more[usize::from(given.tetrahedra[t][3] == mesh.infinite)] -= 1;
+                }
+                patch.slots.push(slots[t]);
+                patch.tetrahedra.push(if is_free { [0; 4] } else { v });
+                patch.neighbors.push(across.map(|across| match across >> 2 {
+                    OUTSIDE => KEEP,
+                    _ if is_free => KEEP,
+                    u => 4 * slots[u as usize] + across % 4,
+                }));
+            }
+            patch
+        });
+        let mut patch = Patch { len: next as usize, ..Patch::default() };
+        for part in parts {
+            patch.slots.extend(part.slots);
+            patch.tetrahedra.extend(part.tetrahedra);
+            patch.neighbors.extend(part.neighbors);
+            patch.more = [patch.more[0] + part.more[0], patch.more[1] + part.more[1]];
+        }
+        patch
+    }
+}

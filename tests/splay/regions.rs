@@ -1,0 +1,88 @@
+//! Splaying of a triangulation that is elsewhere: only the stars that splaying asks for are
+//! gathered, and what it changes is written back.
+
+use crate::{inputs, verified};
+use gdel::{
+    internals::{
+        d3::{
+            splay::{Doubts, NearDelaunay3, Patch, Region, Splay, Stop, Terms},
+            triangulation::Triangulation3,
+        },
+        index::NO_INDEX,
+        parallel::Threads,
+        predicates::filter::PredicateContext3,
+        reference::d3::gather::{self, Mesh},
+    },
+    stats::SplayStats,
+};
+
+/// The triangulation elsewhere, the region of it that is here, and what may be wrong.
+pub struct Elsewhere {
+    pub mesh: Mesh,
+    pub region: Region,
+    pub doubts: Doubts,
+}
+
+/// Gathers what splaying begins with.
+pub fn elsewhere(near: NearDelaunay3) -> Elsewhere {
+    let NearDelaunay3 { triangulation, incident, failed, uncertain, missing } = near;
+    let infinite = triangulation.infinite();
+    let mut mesh = Mesh::new(triangulation.tetrahedra().to_vec(), triangulation.neighbors().to_vec(), infinite);
+    let corners = |&t: &u32| mesh.tetrahedra[t as usize];
+    let mut wanted: Vec<u32> = uncertain.iter().flat_map(corners).chain(failed.iter().copied()).collect();
+    wanted.retain(|&v| v != infinite);
+    let mut region = Region::new(infinite as usize);
+    let gathered = mesh.gather(&wanted, region.next());
+    region.add(wanted, &gathered).unwrap();
+    let uncertain = uncertain.iter().map(|&t| mesh.region_numbers[t as usize]).collect();
+    // A vertex that is not missing: as if each were at the place of the one before it.
+    let there = (0..infinite).find(|&v| incident[v as usize] != NO_INDEX).unwrap();
+    let missing = missing.into_iter().map(|v| [v, there]).collect();
+    Elsewhere { mesh, region, doubts: Doubts { failed, uncertain, missing } }
+}
+
+/// Returns what splaying changes, and what it did.
+pub fn patch(name: &str, vertices: &PredicateContext3<'_>, elsewhere: Elsewhere) -> (Mesh, Patch, SplayStats) {
+    let Elsewhere { mut mesh, region, doubts } = elsewhere;
+    let terms = Terms::unlimited(Threads::All);
+    let splayed = || -> Result<_, Stop> {
+        let mut splay = Splay::begin(vertices, region, doubts, terms)?;
+        loop {
+            let lacking = splay.advance(vertices, terms)?;
+            if lacking.is_empty() {
+                return Ok(splay.finish());
+            }
+            let gathered = mesh.gather(&lacking, splay.region().next());
+            splay.add(lacking, &gathered)?;
+        }
+    };
+    let (region, stats) = splayed().unwrap_or_else(|stop| panic!("{name}: {stop:?}"));
+    let patch = region.patch(mesh.tetrahedra.len(), Threads::All);
+    (mesh, patch, stats)
+}
+
+/// Returns the tetrahedra that splaying gives, which the verifier must accept.
+pub fn splayed(name: &str, vertices: &PredicateContext3<'_>, near: NearDelaunay3) -> (Vec<[u32; 4]>, SplayStats) {
+    let (mut mesh, patch, stats) = patch(name, vertices, elsewhere(near));
+    gather::patch(&mut mesh, &patch);
+    let mut triangulation = Triangulation3::new(mesh.tetrahedra, mesh.neighbors, mesh.infinite);
+    triangulation.discard_unused();
+    (verified(name, vertices, triangulation), stats)
+}
+
+#[test]
+fn only_what_is_needed_is_gathered() {
+    let points = inputs::uniform(20_000, 30);
+    let indices: Vec<u32> = (0..points.len() as u32).collect();
+    let lattice = gdel::internals::input::lattice::Lattice::fit((&points).into());
+    let vertices = gdel::internals::predicates::filter::PredicateContext::of_input((&points).into(), &lattice);
+    let mut soup = crate::Soup::new(&vertices, &crate::exact(&points, &indices));
+    assert!((0..100).any(|slot| (0..4).any(|k| soup.flip(slot, k))));
+    let near = crate::found_out(&vertices, &soup.finish());
+    let tetrahedra = near.triangulation.tetrahedra().len();
+    let (mesh, patch, stats) = patch("one flip", &vertices, elsewhere(near));
+    assert!(stats.removed > 0 && stats.added > 0, "{stats:?}");
+    let gathered = mesh.region_numbers.iter().filter(|&&number| number != 0).count();
+    assert!(gathered < 500 && patch.slots.len() < 50, "{gathered} gathered, {} patched", patch.slots.len());
+    assert!(patch.len.abs_diff(tetrahedra) < 5);
+}
