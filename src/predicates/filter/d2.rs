@@ -6,7 +6,7 @@ use crate::predicates::filter::{
 use crate::predicates::{Sign, exact, integer, symbolic};
 
 impl PredicatesAt<'_, '_, 2> {
-    /// Returns [`PredicateContext::orient2d`] with the vertex as c.
+    /// Returns the context's `orient2d` with the vertex as c.
     #[inline]
     pub(crate) fn orient2d(&self, a: u32, b: u32) -> Sign {
         let vertices = [a, b, self.vertex];
@@ -17,7 +17,7 @@ impl PredicatesAt<'_, '_, 2> {
         self.context.orient2d_of(vertices, u, v)
     }
 
-    /// Returns [`PredicateContext::incircle`] with the vertex as d.
+    /// Returns the context's `incircle` with the vertex as d.
     #[inline]
     pub(crate) fn incircle(&self, [a, b, c]: [u32; 3]) -> Sign {
         let vertices = [a, b, c, self.vertex];
@@ -155,10 +155,10 @@ impl PredicateContext2<'_> {
     }
 }
 
-/// Returns a bound of an in-circle determinant's error, from the greatest squared distance *L* of its
-/// three points to the fourth: the permanent of two vectors is at most the product of their lengths,
-/// so that of the determinant is at most 3·L². The last factor covers the roundings in the bound
-/// itself.
+/// Returns a bound of an in-circle determinant's error, from the greatest squared distance *L* of
+/// its three points to the fourth: the permanent of two vectors is at most the product of their
+/// lengths, so that of the determinant is at most 3·L². The last factor covers the roundings in the
+/// bound itself.
 #[inline]
 fn local_bound(greatest_lift: f64) -> f64 {
     const FACTOR: f64 = 3.0 * ERROR_BOUNDS[2].in_sphere * (1.0 + 64.0 * EPSILON);

@@ -6,7 +6,7 @@ use crate::predicates::filter::{
 use crate::predicates::{Sign, exact, integer, symbolic};
 
 impl PredicatesAt<'_, '_, 3> {
-    /// Returns [`PredicateContext::orient3d`] with the vertex as d.
+    /// Returns the context's `orient3d` with the vertex as d.
     #[inline]
     pub(crate) fn orient3d(&self, a: u32, b: u32, c: u32) -> Sign {
         let vertices = [a, b, c, self.vertex];
@@ -17,7 +17,7 @@ impl PredicatesAt<'_, '_, 3> {
         self.context.orient3d_of(vertices, u, v, w)
     }
 
-    /// Returns [`PredicateContext::insphere`] with the vertex as e.
+    /// Returns the context's `insphere` with the vertex as e.
     #[inline(always)]
     pub(crate) fn insphere(&self, [a, b, c, d]: [u32; 4]) -> Sign {
         let vertices = [a, b, c, d, self.vertex];
