@@ -84,7 +84,7 @@ where
     /// In the memory of the host.
     Host(MeshOf<D>),
     /// On the device.
-    Device(DeviceMesh<D>),
+    Device(Box<DeviceMesh<D>>),
 }
 
 /// What goes with a run of Phase 1 that is to be completed.
@@ -196,7 +196,7 @@ where
         let options = &options.monotone();
         let mesh = match self.make(points, options, true).await? {
             Made::Host(mesh) => DeviceMesh::upload(&self.gpu, mesh).await?,
-            Made::Device(mesh) => mesh,
+            Made::Device(mesh) => *mesh,
         };
         options.report(Phase::Finish, 1.0)?;
         Ok(mesh)

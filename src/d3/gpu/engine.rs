@@ -190,5 +190,5 @@ async fn complete_on_device(
         let tetrahedra = mesh.read_async(Outputs::SIMPLICES).await?.tetrahedra;
         stats.trace = Some(tracer.finish(&tetrahedra));
     }
-    Ok(Ok(Made::Device(mesh)))
+    Ok(Ok(Made::Device(Box::new(mesh))))
 }
