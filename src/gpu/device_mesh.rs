@@ -249,6 +249,22 @@ impl<const D: usize> DeviceMesh<D> {
         }
     }
 
+    /// Reads buffers of the mesh into memory outside of that of WebAssembly: the simplices, their
+    /// neighbours, the hull, and the lowest simplex of each point, by these numbers.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of `read`.
+    #[cfg(target_arch = "wasm32")]
+    pub async fn read_to_js(&self, arrays: &[usize]) -> Result<Vec<js_sys::Uint8Array>, Error> {
+        let storages = self.arrays.storages();
+        let reads = arrays.iter().map(|&i| {
+            let target = js_sys::Uint8Array::new_with_length(4 * storages[i].len() as u32);
+            (storages[i].buffer(), target)
+        });
+        self.readback.clone().read_into(&self.gpu, reads.collect()).await
+    }
+
     /// Returns the lowest simplex of each point, [`NONE`](crate::NONE) for duplicates. Blocks the
     /// thread.
     ///

@@ -13,7 +13,6 @@ const { create } = await import('webgpu');
 
 test('the mesh is the native one; a run can be aborted', { timeout: 600_000 }, async () => {
   const { createTriangulator, generate } = await importFrom(project());
-  const gpu = create([]);
   const triangulator = await createTriangulator({ gpu, backend: 'gpu' });
   assert.equal(triangulator.info.backend, 'gpu');
   assert.equal(triangulator.info.thread, 'caller');
@@ -35,4 +34,90 @@ test('the mesh is the native one; a run can be aborted', { timeout: 600_000 }, a
   await assert.rejects(run, { code: 'ABORTED' });
   triangulator.dispose();
   await assert.rejects(triangulator.delaunay3d(points), { code: 'DISPOSED' });
+});
+
+/** Kept, since Dawn's devices do not outlive their instance. */
+const gpu = create([]);
+
+/** Returns a device with the largest buffers that the driver has. */
+async function openDevice() {
+  const adapter = await gpu.requestAdapter();
+  const { maxBufferSize, maxStorageBufferBindingSize } = adapter.limits;
+  return adapter.requestDevice({ requiredLimits: { maxBufferSize, maxStorageBufferBindingSize } });
+}
+
+/** Returns a buffer with these contents. */
+function bufferOf(device, array, usage = 0) {
+  const buffer = device.createBuffer({ size: array.byteLength, usage: usage | 4 | 8 });
+  device.queue.writeBuffer(buffer, 0, array);
+  return buffer;
+}
+
+test("a mesh stays on the caller's device", { timeout: 600_000 }, async () => {
+  const { createTriangulator, delaunay3d, generate, ResidentMesh3 } = await importFrom(project());
+  const device = await openDevice();
+  const triangulator = await createTriangulator({ device, backend: 'gpu' });
+  assert.equal(triangulator.info.thread, 'caller');
+  const points = await generate('uniform', 300, { seed: 3 });
+  const expected = await delaunay3d(points, { backend: 'cpu' });
+  const print = fingerprint(expected.tetrahedra);
+
+  const mesh = await triangulator.delaunay3d(points, { resident: true });
+  assert.ok(mesh instanceof ResidentMesh3);
+  assert.equal(mesh.stats.backend, 'gpu');
+  assert.equal(mesh.stats.fallback, null);
+  assert.equal(mesh.dimension, 3);
+  assert.deepEqual(mesh.duplicateOf, expected.duplicateOf);
+  assert.equal(mesh.tetrahedronCount, expected.tetrahedra.length / 4);
+  assert.equal(mesh.hullCount, expected.hull.length / 3);
+  const { buffers } = mesh;
+  assert.equal(buffers.tetrahedra.size, 4 * expected.tetrahedra.length);
+  assert.equal(buffers.neighbors.size, buffers.tetrahedra.size);
+  assert.equal(buffers.hull.size, 4 * expected.hull.length);
+  assert.equal(buffers.vertexTetrahedron.size, 4 * 300);
+
+  // Another run, with the same points from a buffer, does not change the first mesh.
+  const other = await triangulator.delaunay3d(bufferOf(device, new Float32Array(points)));
+  const rounded = await delaunay3d(new Float32Array(points), { backend: 'cpu' });
+  assert.equal(fingerprint(other.tetrahedra), fingerprint(rounded.tetrahedra));
+  assert.equal(other.neighbors.length, other.tetrahedra.length);
+  assert.ok(other.stats.gpu.bytesRead >= 4 * (2 * other.tetrahedra.length + other.hull.length));
+
+  const tetrahedra = await mesh.read('tetrahedra');
+  assert.equal(fingerprint(tetrahedra), print);
+  const neighbors = await mesh.read('neighbors');
+  assert.ok(neighbors instanceof Int32Array && neighbors.length === tetrahedra.length);
+  neighbors.forEach((u, i) => {
+    if (u >= 0) assert.ok(neighbors.subarray(4 * u, 4 * u + 4).includes(i >> 2));
+  });
+  const lowest = new Int32Array(300).fill(-1);
+  for (let i = tetrahedra.length - 1; i >= 0; i--) lowest[tetrahedra[i]] = i >> 2;
+  assert.deepEqual(await mesh.read('vertexTetrahedron'), lowest);
+  assert.equal((await mesh.read('hull')).length, expected.hull.length);
+  await assert.rejects(mesh.read('nothing'), { code: 'BAD_INPUT' });
+
+  mesh.destroy();
+  await assert.rejects(mesh.read('hull'), { code: 'DISPOSED' });
+
+  // Few points are the CPU's, and on the device all the same.
+  const cpu = await triangulator.delaunay3d(points, { resident: true, backend: 'cpu' });
+  assert.equal(cpu.stats.backend, 'cpu');
+  assert.equal(fingerprint(await cpu.read('tetrahedra')), print);
+
+  const wrong = bufferOf(device, new Float32Array(4));
+  await assert.rejects(triangulator.delaunay3d(wrong), { code: 'BAD_INPUT' });
+  const unreadable = device.createBuffer({ size: 36, usage: 128 });
+  await assert.rejects(triangulator.delaunay3d(unreadable), { code: 'BAD_INPUT' });
+  await assert.rejects(delaunay3d(points, { resident: true }), { code: 'BAD_INPUT' });
+  await assert.rejects(createTriangulator({ device: {} }), { code: 'BAD_INPUT' });
+
+  // The device remains the caller's, and the meshes remain.
+  triangulator.dispose();
+  assert.equal(fingerprint(await cpu.read('tetrahedra')), print);
+  assert.ok(bufferOf(device, new Float32Array(4)));
+
+  device.destroy();
+  await assert.rejects(cpu.read('tetrahedra'), (error) =>
+    ['DEVICE_LOST', 'GPU'].includes(error.code),
+  );
 });

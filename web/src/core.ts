@@ -67,6 +67,8 @@ export function makeCore(name: ModuleName, module: WebAssembly.Module, gpu?: obj
 }
 
 interface Gpu {
+  /** Whether it stands for a device of the caller's, which is not given back. */
+  isGiven?: boolean;
   requestAdapter(options: object): Promise<Adapter | null>;
 }
 
@@ -182,7 +184,10 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
     return { ...mesh, points, stats };
   }
 
-  return { glue, memory, triangulator, choose, run, dispose: () => void triangulator.close() };
+  const dispose = () => {
+    if (!(gpu as Gpu | undefined)?.isGiven) void triangulator.close();
+  };
+  return { glue, memory, triangulator, choose, run, dispose };
 }
 
 function tasks3d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
@@ -204,8 +209,9 @@ function tasks3d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
 
     async delaunay3d(args, control) {
       const minGpuCoordinates = 3 * glue.min_gpu_points_3d();
+      const { points, outputs, resident = false } = args;
       const mesh = await run(args, minGpuCoordinates, control, (backend, report) =>
-        triangulator.delaunay3d(args.points, backend, outputsOf(glue, args.outputs), report),
+        triangulator.delaunay3d(points, backend, outputsOf(glue, outputs), resident, report),
       );
       return withEmpty(mesh);
     },

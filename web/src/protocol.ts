@@ -44,7 +44,12 @@ interface DerivedArgs {
 export interface Tasks {
   open: { args: { backend: Backend }; result: CoreInfo };
   delaunay3d: {
-    args: { points: Coordinates; backend: Backend; outputs: readonly Output[] };
+    args: {
+      points: Coordinates;
+      backend: Backend;
+      outputs: readonly Output[];
+      resident?: boolean;
+    };
     result: {
       points: Coordinates;
       tetrahedra: Indices;
@@ -53,6 +58,14 @@ export interface Tasks {
       duplicateOf: SignedIndices;
       dimension: 0 | 1 | 2 | 3;
       trace?: Trace;
+      /** Instead of the arrays, if it was requested: the mesh on the device. */
+      resident?: {
+        buffers: object[];
+        counts: [number, number];
+        duplicateOf: SignedIndices;
+        dimension: 0 | 1 | 2 | 3;
+        mesh: { read(array: number): Promise<Uint8Array<ArrayBuffer>> };
+      };
       stats: CoreStats;
     };
   };

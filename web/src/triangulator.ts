@@ -1,4 +1,5 @@
 import { wasm2d, wasm3d } from '#assets';
+import { GdelError } from './errors.js';
 import { Host, type Sending } from './host.js';
 import { Mesh3 } from './mesh.js';
 import { Mesh2 } from './mesh2.js';
@@ -12,6 +13,14 @@ import {
   taskOptions,
 } from './options.js';
 import { coordinatesInSlices } from './points.js';
+import {
+  coordinatesOf,
+  type Device,
+  type GpuBuffer,
+  gpuOf,
+  isBuffer,
+  ResidentMesh3,
+} from './resident.js';
 import { throwIfAborted } from './stop.js';
 import type {
   AccessorOptions,
@@ -32,34 +41,47 @@ const BACKENDS: readonly Backend[] = ['auto', 'gpu', 'cpu'];
 export class Triangulator {
   readonly #host: Host;
   readonly #backend: Backend;
+  readonly #device: Device | undefined;
   /** What `'auto'` uses, as found when the triangulator was created. */
   readonly info: TriangulatorInfo;
 
   /** @internal */
-  constructor(host: Host, backend: Backend, info: TriangulatorInfo) {
+  constructor(host: Host, backend: Backend, info: TriangulatorInfo, device?: Device) {
     this.#host = host;
     this.#backend = backend;
+    this.#device = device;
     this.info = info;
     // Not a method, since older environments lack the symbol, and bundlers keep what computes names.
     if (Symbol.dispose)
       Object.defineProperty(this, Symbol.dispose, { value: () => this.dispose() });
   }
 
-  /** Does the same as the function {@link delaunay3d}. */
-  delaunay3d(points: Points, options?: RunOptions): Promise<Mesh3>;
+  /**
+   * Does the same as the function {@link delaunay3d}; with `resident`, the mesh stays on the device.
+   * With the option `device`, points may come in a `GPUBuffer` of it, as `f32`, three per point and
+   * nothing else, of the usage `COPY_SRC`. They are copied as they are at the time of the call.
+   */
+  delaunay3d(
+    points: Points | GpuBuffer,
+    options: RunOptions & { resident: true },
+  ): Promise<ResidentMesh3>;
+  delaunay3d(points: Points | GpuBuffer, options?: RunOptions): Promise<Mesh3>;
   delaunay3d<T>(points: ArrayLike<T>, options: AccessorOptions<T>): Promise<Mesh3>;
-  delaunay3d(points: unknown, options?: RunOptions): Promise<Mesh3> {
-    return triangulate(this.#host, this.#backend, points, options);
+  delaunay3d(points: unknown, options?: RunOptions): Promise<any> {
+    return triangulate(this.#host, this.#backend, points, options, this.#device);
   }
 
-  /** Does the same as the function {@link delaunay2d}. */
-  delaunay2d(points: Points, options?: RunOptions2): Promise<Mesh2>;
+  /**
+   * Does the same as the function {@link delaunay2d}. With the option `device`, points may come in a
+   * `GPUBuffer` of it, as `f32`, two per point.
+   */
+  delaunay2d(points: Points | GpuBuffer, options?: RunOptions2): Promise<Mesh2>;
   delaunay2d<T>(
     points: ArrayLike<T>,
     options: RunOptions2 & Pick<AccessorOptions<T>, 'point'>,
   ): Promise<Mesh2>;
   delaunay2d(points: unknown, options?: RunOptions2): Promise<Mesh2> {
-    return triangulate2d(this.#host, this.#backend, points, options);
+    return triangulate2d(this.#host, this.#backend, points, options, this.#device);
   }
 
   /** Ends the worker and releases the device. Unfinished runs fail with code `DISPOSED`. */
@@ -76,22 +98,36 @@ export class Triangulator {
  * `backend` is `'cpu'`.
  */
 export async function createTriangulator(options?: TriangulatorOptions): Promise<Triangulator> {
-  const { backend = 'auto', gpu, worker } = optionsOf(options);
+  const {
+    backend = 'auto',
+    device,
+    worker,
+  } = optionsOf(options) as TriangulatorOptions & {
+    device?: Device;
+  };
+  let { gpu } = optionsOf(options);
   checkOneOf('backend', backend, BACKENDS);
   checkBoolean('worker', worker);
   const { requestAdapter } = (gpu ?? {}) as { requestAdapter?: unknown };
   if (gpu !== undefined && typeof requestAdapter !== 'function')
     throw bad('the option gpu', 'a GPU object, with the function requestAdapter', gpu);
+  if (device !== undefined) {
+    if (typeof device?.createBuffer !== 'function')
+      throw bad('the option device', 'a GPUDevice', device);
+    if (gpu) throw bad('the option gpu', 'left out beside the option device', gpu);
+    gpu = gpuOf(device);
+  }
   const host = new Host({ gpu, worker });
   try {
     if (backend !== 'cpu') {
       const { result, place } = await host.run(wasm3d, 'open', { backend }, { transfer: [] }, {});
-      return new Triangulator(host, backend, { ...result, ...place });
+      return new Triangulator(host, backend, { ...result, ...place }, device);
     }
     // A run on no points shows that the worker starts, or why it does not.
     const args = { points: new Float64Array(0), backend, outputs: [] };
     const { place } = await host.run(wasm3d, 'delaunay3d', args, { transfer: [] }, {});
-    return new Triangulator(host, backend, { backend, fallback: null, adapter: null, ...place });
+    const info = { backend, fallback: null, adapter: null, ...place };
+    return new Triangulator(host, backend, info, device);
   } catch (error) {
     host.dispose();
     throw error;
@@ -117,7 +153,7 @@ let shared: Host | undefined;
 export function delaunay3d(points: Points, options?: RunOptions): Promise<Mesh3>;
 export function delaunay3d<T>(points: ArrayLike<T>, options: AccessorOptions<T>): Promise<Mesh3>;
 export function delaunay3d(points: unknown, options?: RunOptions): Promise<Mesh3> {
-  return triangulate((shared ??= new Host()), 'auto', points, options);
+  return triangulate((shared ??= new Host()), 'auto', points, options) as Promise<Mesh3>;
 }
 
 /**
@@ -142,11 +178,20 @@ async function triangulate(
   backend: Backend,
   points: unknown,
   options: AnyOptions | undefined,
-): Promise<Mesh3> {
-  const outputs = outputsOf(optionsOf(options));
-  const { args, sending, task } = await prepare(points, 3, backend, options);
-  const done = await host.run(wasm3d, 'delaunay3d', { ...args, outputs }, sending, task);
-  return new Mesh3(done.result, done.place, outputs);
+  device?: Device,
+): Promise<Mesh3 | ResidentMesh3> {
+  const checked = optionsOf(options);
+  const outputs = outputsOf(checked);
+  const { resident = false } = checked;
+  checkBoolean('resident', resident);
+  if (resident && !device)
+    throw new GdelError('BAD_INPUT', 'the option resident needs a triangulator with a device');
+  const { args, sending, task } = await prepare(points, 3, backend, checked, device);
+  const all = { ...args, outputs, resident };
+  const { result, place } = await host.run(wasm3d, 'delaunay3d', all, sending, task);
+  return result.resident
+    ? new ResidentMesh3(result.resident, { ...result.stats, ...place })
+    : new Mesh3(result, place, outputs);
 }
 
 async function triangulate2d(
@@ -154,8 +199,9 @@ async function triangulate2d(
   backend: Backend,
   points: unknown,
   options: AnyOptions | undefined,
+  device?: Device,
 ): Promise<Mesh2> {
-  const { args, sending, task } = await prepare(points, 2, backend, options);
+  const { args, sending, task } = await prepare(points, 2, backend, options, device);
   const done = await host.run(wasm2d, 'delaunay2d', args, sending, task);
   return new Mesh2(done.result, done.place);
 }
@@ -166,15 +212,21 @@ async function prepare(
   dimension: number,
   defaultBackend: Backend,
   options: AnyOptions | undefined,
+  device: Device | undefined,
 ) {
   const checked = optionsOf(options);
-  const { backend = defaultBackend, transfer = false } = checked;
+  const { backend = defaultBackend } = checked;
+  let { transfer = false } = checked;
   const task = taskOptions(checked);
   throwIfAborted(task.signal);
   checkOneOf('backend', backend, BACKENDS);
   checkBoolean('transfer', transfer);
   checkFunction('point', checked.point);
   const point = checked.point as AccessorOptions<unknown>['point'] | undefined;
+  if (device && isBuffer(points)) {
+    points = await coordinatesOf(device, points);
+    transfer = true;
+  }
   const coordinates = await coordinatesInSlices(points, { dimension, transfer, point }, () =>
     throwIfAborted(task.signal),
   );

@@ -63,10 +63,15 @@ export interface RunOptions extends TaskOptions {
    * worker that has them. Default: false.
    */
   transfer?: boolean | undefined;
+  /**
+   * Whether the mesh stays on the device of a triangulator that was created with the option
+   * `device`; `outputs` then has no meaning. Default: false.
+   */
+  resident?: boolean | undefined;
 }
 
 /** Options for a 2D triangulation. */
-export type RunOptions2 = Omit<RunOptions, 'outputs'>;
+export type RunOptions2 = Omit<RunOptions, 'outputs' | 'resident'>;
 
 /** Options for a 3D triangulation in the calling thread. */
 export type SyncOptions = Pick<RunOptions, 'outputs'>;
@@ -90,6 +95,12 @@ export interface TriangulatorOptions {
    * thread.
    */
   gpu?: object | undefined;
+  /**
+   * A `GPUDevice` to use. It remains the caller's, and allows the option `resident` and points in a
+   * `GPUBuffer`. Runs take place in the calling thread. WebGPU's default limits suffice; larger
+   * buffers allow larger inputs.
+   */
+  device?: object | undefined;
   /** Whether to work in a worker, default true. */
   worker?: boolean | undefined;
 }

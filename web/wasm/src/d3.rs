@@ -1,6 +1,6 @@
 //! 3D triangulation.
 
-use gdel::{Backend, Mesh3, Triangulator, internals::triangulator::MIN_POINTS_3D, stats::Trace};
+use gdel::{Backend, DeviceMesh3, Mesh3, Triangulator, internals::triangulator::MIN_POINTS_3D, stats::Trace};
 use js_sys::{Array, Function, Int32Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
@@ -43,18 +43,53 @@ impl WasmTriangulator {
         Ok(())
     }
 
-    /// Triangulates in 3D.
+    /// Triangulates in 3D. With `resident`, the mesh stays on the device, and `outputs` has no
+    /// meaning.
     pub async fn delaunay3d(
         &self,
         points: JsValue,
         backend: &str,
         outputs: Outputs,
+        resident: bool,
         report: Function,
     ) -> Result<JsValue, Thrown> {
         let coordinates = Coordinates::new(&points)?;
         drop(points);
         let triangulator = self.for_run(backend, report).trace(outputs.trace);
-        Ok(mesh3(triangulator.delaunay3d_async(coordinates.points()?).await?, outputs))
+        let points = coordinates.points()?;
+        Ok(match resident {
+            true => resident3(triangulator.delaunay3d_on_device_async(points).await?),
+            false => mesh3(triangulator.delaunay3d_async(points).await?, outputs),
+        })
+    }
+}
+
+/// Hands a mesh on the device over.
+fn resident3(mesh: DeviceMesh3) -> JsValue {
+    let buffers = [mesh.simplices(), mesh.neighbors(), mesh.hull(), mesh.vertex_simplex()];
+    let buffers: Array = buffers.into_iter().filter_map(|buffer| buffer.as_webgpu()).collect();
+    let counts = Array::of2(&mesh.simplex_count().into(), &mesh.hull_count().into());
+    let stats = statistics(mesh.stats());
+    let resident = object([
+        ("dimension", mesh.dimension().into()),
+        ("duplicateOf", Int32Array::new_from_slice(mesh.duplicate_of()).into()),
+        ("buffers", buffers.into()),
+        ("counts", counts.into()),
+        ("mesh", WasmMesh3(mesh).into()),
+    ]);
+    object([("stats", stats), ("resident", resident)])
+}
+
+/// A mesh on the device.
+#[wasm_bindgen]
+pub struct WasmMesh3(DeviceMesh3);
+
+#[wasm_bindgen]
+impl WasmMesh3 {
+    /// Returns the bytes of an array: the tetrahedra, their neighbours, the hull, or a tetrahedron
+    /// of each point, by these numbers.
+    pub async fn read(&self, array: usize) -> Result<JsValue, Thrown> {
+        Ok(self.0.read_to_js(&[array]).await?.swap_remove(0).into())
     }
 }
 
