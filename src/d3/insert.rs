@@ -155,8 +155,8 @@ fn can_begin(slots: &mut impl MarkedSlots<4>, vertices: &PredicateContext3<'_>, 
         && in_conflict(slots, &vertices.at(p), start)
 }
 
-/// Marks and lists the tetrahedra in conflict with the vertex `here`, and the facets around them, breadth-first.
-/// Returns whether all their vertices could be claimed.
+/// Marks and lists the tetrahedra in conflict with the vertex `here`, and the facets around them,
+/// breadth-first. Returns whether all their vertices could be claimed.
 fn find_cavity<S: MarkedSlots<4>>(
     slots: &mut S,
     here: &PredicatesAt<'_, '_, 3>,

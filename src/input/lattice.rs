@@ -207,7 +207,7 @@ impl<const D: usize> Lattice<D> {
     }
 
     /// Returns the lattice coordinates of a point of the input that the lattice was fitted to and
-    /// does not [round](Self::rounds), from the point's coordinates times 2ᵏ⁻ᵐ, where *m* is `more`.
+    /// does not [round](Self::rounds), from its coordinates times 2ᵏ⁻ᵐ, where *m* is `more`.
     #[inline]
     pub(crate) fn position(&self, scaled: [f64; D], more: u32) -> [i64; D] {
         let factor = (1u64 << more) as f64;

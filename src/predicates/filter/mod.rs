@@ -35,7 +35,7 @@ const ERROR_BOUNDS: [ErrorBounds; 4] = [
     ErrorBounds { orientation: (7.0 + 56.0 * EPSILON) * EPSILON, in_sphere: (16.0 + 224.0 * EPSILON) * EPSILON },
 ];
 
-/// Wide lattice coordinates have so many bits more than the stored coordinates have before the point.
+/// Wide lattice coordinates have so many bits more than stored coordinates have before the point.
 const WIDER: u32 = Width::Wide.bits() - Width::Narrow.bits();
 
 /// Added to every error bound, 2⁻⁹⁰⁰. Coordinates are scaled to a range of 2³¹, so the total effect
