@@ -76,6 +76,8 @@ impl<S: MarkedSlots<4>> Insert<3> for S {
         }
     }
 
+    // Called by the CPU engine and by splaying: not worth two copies.
+    #[inline(never)]
     fn insert(
         &mut self,
         vertices: &PredicateContext3<'_>,

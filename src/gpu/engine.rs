@@ -98,6 +98,7 @@ pub struct Near<'a, const D: usize> {
     /// The name of the adapter.
     pub(crate) adapter: &'a str,
     /// [`Settings::sparse`], or whether the mesh is to stay on the device.
+    #[cfg_attr(target_arch = "wasm32", expect(dead_code, reason = "it is always so in wasm"))]
     pub(crate) sparse: bool,
     /// Receives the statistics.
     pub(crate) stats: &'a mut Stats,

@@ -4,16 +4,17 @@
 //! `result of Phase 1 → splay → drop the ghosts → mesh`, or, for a mesh that stays on the device or
 //! must not take the host's memory, `stars → splay → patch → arrays of the mesh, on the device`
 
+#[cfg(not(target_arch = "wasm32"))]
+use crate::d3::gpu::whole;
 use crate::{
     d3::{
         Mesh3,
         gpu::{
             exchange::{Begun, Device},
-            finish::NearMesh,
             trace::Tracer,
         },
-        splay::{self, Aborted, Doubts, NearDelaunay3, Splay, SplayOutcome, Stop, Terms},
-        triangulation::{FiniteMesh, Triangulation3},
+        splay::{self, Aborted, Doubts, Splay, Stop, Terms},
+        triangulation::Triangulation3,
     },
     dimension::Dimension,
     error::Error,
@@ -21,12 +22,12 @@ use crate::{
         Gpu,
         device_mesh::{DeviceMesh, Outputs},
         engine::{Complete, Made, Near, progress},
-        phase1::{Phase1Output, Run},
+        phase1::Run,
     },
     options::Options,
     parallel::Threads,
     predicates::filter::PredicateContext,
-    stats::{Fallback, Phase, Stats},
+    stats::{Fallback, Phase},
 };
 
 impl Complete<3> for Dimension<3> {
@@ -51,70 +52,22 @@ impl Complete<3> for Dimension<3> {
         near: Near<'_, 3>,
         tracer: Option<Tracer>,
     ) -> Result<Result<Made<3>, Fallback>, Error> {
-        if near.sparse {
-            return complete_on_device(run, near, tracer).await;
+        // In wasm, one thread would splay and copy the whole mesh, in memory of its own.
+        #[cfg(not(target_arch = "wasm32"))]
+        if !near.sparse {
+            let output = run.finish().await?;
+            return whole::complete(output, near, tracer);
         }
-        let output = run.finish().await?;
-        complete_on_host(output, near, tracer)
+        complete_on_device(run, near, tracer).await
     }
 }
 
 /// Returns why the CPU engine has to do what splaying aborted.
-fn fallback(reason: Aborted) -> Fallback {
+pub(super) fn fallback(reason: Aborted) -> Fallback {
     match reason {
         Aborted::BudgetExceeded => Fallback::Splaying,
         Aborted::Inconsistent(what) => Fallback::Inconsistent(what),
     }
-}
-
-/// Makes the mesh of what was read back as a whole.
-fn complete_on_host(
-    output: Phase1Output<3>,
-    mut near: Near<'_, 3>,
-    mut tracer: Option<Tracer>,
-) -> Result<Result<Made<3>, Fallback>, Error> {
-    let Phase1Output { result, merged, stats: phase1 } = output;
-    near.end_of_phase1(&phase1);
-    let (missing, duplicate_of) = near.missing(&merged);
-    let Near { points, lattice, options, adapter, stats, stopwatch, .. } = near;
-    stats.gpu = Some(phase1.summary(adapter));
-    options.report(Phase::Splay, progress::COMPLETION)?;
-
-    let vertices = PredicateContext::of_input(points, lattice);
-    let near = near_delaunay(points.len(), result, &missing);
-    if let Some(tracer) = &mut tracer {
-        tracer.facets(&near.triangulation, &vertices);
-    }
-    let share = progress::FINISH - progress::COMPLETION;
-    let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
-    let max_evaluations = splay::evaluations_from_scratch(near.triangulation.tetrahedra().len());
-    let terms = Terms { max_evaluations, threads: Threads::All, report: &report };
-    let triangulation = match splay::splay(&vertices, near, terms)? {
-        SplayOutcome::Delaunay(triangulation, splay) => {
-            stats.splay = Some(splay);
-            triangulation
-        }
-        SplayOutcome::Aborted(reason) => return Ok(Err(fallback(reason))),
-    };
-    stats.phases.push((Phase::Splay, stopwatch.lap()));
-
-    options.report(Phase::Finish, progress::FINISH)?;
-    stats.exact = vertices.exact_counts();
-    let FiniteMesh { tetrahedra, neighbors, hull } = triangulation.into_mesh(None, Threads::All);
-    stats.phases.push((Phase::Finish, stopwatch.lap()));
-    stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
-    let mesh = Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats: Stats::default() };
-    Ok(Ok(Made::Host(mesh)))
-}
-
-/// Returns the result of Phase 1 in the form that splaying takes.
-fn near_delaunay(points: usize, result: NearMesh, missing: &[[u32; 2]]) -> NearDelaunay3 {
-    let NearMesh { tets, neighbors, failed, tet_of: mut incident, uncertain, .. } = result;
-    let missing = missing.iter().map(|&[i, _]| i).collect();
-    incident.truncate(points);
-    let triangulation = Triangulation3::new(tets, neighbors, points as u32);
-    let uncertain = uncertain.into_iter().map(|[t, _]| t).collect();
-    NearDelaunay3 { triangulation, incident, failed, uncertain, missing }
 }
 
 /// Makes the mesh on the device, with the stars that splaying needs on the host.

@@ -9,3 +9,5 @@ pub mod finish;
 pub mod outputs;
 pub mod trace;
 pub mod vertex;
+#[cfg(not(target_arch = "wasm32"))]
+mod whole;

@@ -36,11 +36,11 @@ pub(super) fn patch(
         let facets = remove[range].iter().flat_map(|&t| (0..4).map(move |k| (t, k)));
         let outer = facets.filter_map(|(t, k)| {
             let across = mesh.neighbors[t as usize][k];
-            (mesh.state(across >> 2) != state::FREE).then(|| (facet(mesh.vertices(t), k), across))
+            (mesh.state(across >> 2) != state::FREE).then(|| facet(mesh.vertices(t), k, across))
         });
         outer.collect::<Vec<_>>()
     });
-    let mut facets: Vec<([u32; 3], u32)> = around.concat();
+    let mut facets: Vec<[u32; 4]> = around.concat();
     facets.reserve(4 * add.len());
     free.extend(remove.iter().rev());
     let mut filled = Vec::with_capacity(add.len());
@@ -51,11 +51,11 @@ pub(super) fn patch(
         };
         filled.push(slot);
         mesh.tetrahedra[slot as usize] = v;
-        facets.extend((0..4).map(|k| (facet(v, k), 4 * slot + k as u32)));
+        facets.extend((0..4).map(|k| facet(v, k, 4 * slot + k as u32)));
     }
     parallel::sort(threads, &mut facets);
-    for same in facets.chunk_by(|f, g| f.0 == g.0) {
-        let &[(_, f), (_, g)] = same else { return Err(UNMATCHED.into()) };
+    for same in facets.chunk_by(|f, g| f[..3] == g[..3]) {
+        let &[[.., f], [.., g]] = same else { return Err(UNMATCHED.into()) };
         mesh.join(f, g);
     }
     let mesh = &*mesh;
@@ -79,9 +79,11 @@ pub(super) fn is_locally_delaunay(mesh: &Triangulation3, predicates: &StarPredic
     predicates.conflict(mesh.vertices(t), apex) < 0
 }
 
-/// Returns the vertices of facet `k`, in ascending order.
-fn facet(v: [u32; 4], k: usize) -> [u32; 3] {
-    let mut facet = FACETS[k].map(|i| v[i]);
-    facet.sort_unstable();
-    facet
+/// Returns the vertices of facet `k`, in ascending order, and the number of the facet.
+fn facet(v: [u32; 4], k: usize, number: u32) -> [u32; 4] {
+    let [mut a, mut b, mut c] = FACETS[k].map(|i| v[i]);
+    (a, b) = (a.min(b), a.max(b));
+    (b, c) = (b.min(c), b.max(c));
+    (a, b) = (a.min(b), a.max(b));
+    [a, b, c, number]
 }
