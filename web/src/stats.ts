@@ -129,4 +129,8 @@ export interface SplayStats {
   signs: number;
   /** The number of rounds of insertions. */
   rounds: number;
+  /** The number of times that stars were gathered from the device. */
+  gathers: number;
+  /** The number of tetrahedra that were gathered. */
+  gathered: number;
 }
