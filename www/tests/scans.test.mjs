@@ -197,8 +197,9 @@ describe('a scan', () => {
           .map((p) => p.map((x) => x.toFixed(3))),
       ),
     );
+    // The points are compressed after the name is there.
+    await page.waitForFunction(() => location.hash.includes('data='));
     const link = await addressOf(page);
-    assert.match(link, /data=/);
     const other = await open(browser, link);
     assert.equal(await text(other, 'name'), 'small cat.xyz');
     assert.equal(await text(other, 'shown'), await text(page, 'shown'));
