@@ -198,7 +198,7 @@ describe('a scan', () => {
       ),
     );
     // The points are compressed after the name is there.
-    await page.waitForFunction(() => location.hash.includes('data='));
+    await until(page, () => location.hash.includes('data='));
     const link = await addressOf(page);
     const other = await open(browser, link);
     assert.equal(await text(other, 'name'), 'small cat.xyz');
