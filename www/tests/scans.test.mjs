@@ -198,8 +198,9 @@ describe('a scan', () => {
       ),
     );
     // The points are compressed after the name is there.
+    await addressOf(page);
     await until(page, () => location.hash.includes('data='));
-    const link = await addressOf(page);
+    const link = page.url();
     const other = await open(browser, link);
     assert.equal(await text(other, 'name'), 'small cat.xyz');
     assert.equal(await text(other, 'shown'), await text(page, 'shown'));
