@@ -76,8 +76,9 @@ impl<S: MarkedSlots<4>> Insert<3> for S {
         }
     }
 
-    // Called by the CPU engine and by splaying: not worth two copies.
-    #[inline(never)]
+    // In the package, two copies, for the CPU engine and for splaying, are too large. Natively each
+    // is faster with its own.
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
     fn insert(
         &mut self,
         vertices: &PredicateContext3<'_>,

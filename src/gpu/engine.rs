@@ -110,6 +110,7 @@ impl<const D: usize> Near<'_, D> {
     /// Takes what Phase 1 did into the statistics, at its end.
     pub(crate) fn end_of_phase1(&mut self, phase1: &Phase1Stats) {
         let readback = phase1.readback_time;
+        self.stats.gpu = Some(phase1.summary(self.adapter));
         self.stats.phases.push((Phase::Phase1, self.stopwatch.lap().saturating_sub(readback)));
         if !readback.is_zero() {
             self.stats.phases.push((Phase::Readback, readback));

@@ -42,7 +42,6 @@ impl Complete<2> for Dimension<2> {
     async fn complete(run: Run<'_, 2>, mut near: Near<'_, 2>, _tracer: ()) -> Result<Result<Made<2>, Fallback>, Error> {
         let Phase1Output { result, merged, stats: phase1 } = run.finish().await?;
         near.end_of_phase1(&phase1);
-        near.stats.gpu = Some(phase1.summary(near.adapter));
         let (missing, duplicate_of) = near.missing(&merged);
         let Near { points, lattice, options, stats, stopwatch, .. } = near;
         let NearMesh { mesh: Mesh { mut triangles, mut halfedges, hull }, uncertain } = result;

@@ -48,7 +48,7 @@ impl Gathering3 {
     /// Records gathering, and that its result is read.
     fn record(copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>, workgroups: u32) -> Self {
         let bound = &memory.bound.finish;
-        stages.finish.record_gather(&mut copies.recorder, bound, workgroups);
+        stages.finish.record(&mut copies.recorder, bound, &bound.gather, workgroups);
         let (aliases, own) = (bound.aliases(), &memory.buffers.own);
         Gathering3 {
             count: copies.copy_from(bound.gather_sums(), GROUPS, 1),
@@ -210,7 +210,7 @@ impl<'a> Device<'a> {
             aliases.gathered_tetrahedra.write(gpu, 0, &patch.tetrahedra);
             aliases.gathered_neighbors.write(gpu, 0, &patch.neighbors);
             let mut recorder = Recorder::new(gpu, None);
-            kernels.stages.finish.record_patch(&mut recorder, bound, workgroups(count));
+            kernels.stages.finish.record(&mut recorder, bound, &bound.patch, workgroups(count));
             stats.dispatches += recorder.dispatches();
             stats.submits += 1;
             recorder.submit(gpu);

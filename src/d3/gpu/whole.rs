@@ -27,8 +27,7 @@ pub(super) fn complete(
     let Phase1Output { result, merged, stats: phase1 } = output;
     near.end_of_phase1(&phase1);
     let (missing, duplicate_of) = near.missing(&merged);
-    let Near { points, lattice, options, adapter, stats, stopwatch, .. } = near;
-    stats.gpu = Some(phase1.summary(adapter));
+    let Near { points, lattice, options, stats, stopwatch, .. } = near;
     options.report(Phase::Splay, progress::COMPLETION)?;
 
     let vertices = PredicateContext::of_input(points, lattice);

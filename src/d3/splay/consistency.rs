@@ -18,7 +18,6 @@
 //! Every insertion makes a star wider for good, so splaying ends. There is no useful bound on how
 //! soon, hence the budget.
 
-use crate::parallel::{self, Threads};
 use crate::{
     d3::splay::{
         Aborted, Stop,
@@ -28,6 +27,7 @@ use crate::{
         star::{Changes, LinkFinder, Star},
     },
     index::NO_INDEX,
+    parallel::{self, Threads},
     stats::SplayStats,
 };
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -128,8 +128,7 @@ impl Splaying {
                 self.stats.checks += self.unsettled.len();
                 self.requests = self.requests(predicates)?;
             }
-            let requests: Vec<&[Request]> = self.requests.chunk_by(|r, s| r.vertex == s.vertex).collect();
-            let pulled = requests.iter().map(|requests| requests[0].vertex).filter(|&v| self.star_of[v as usize] == 0);
+            let pulled = self.requests.iter().map(|r| r.vertex).filter(|&v| self.star_of[v as usize] == 0);
             let lacking = self.known.region.lacking(pulled);
             if !lacking.is_empty() {
                 return Ok(lacking);

@@ -73,9 +73,9 @@ pub struct Doubts {
 
 /// How splaying ends.
 #[derive(Debug)]
-pub enum SplayOutcome<T = Triangulation3> {
-    /// The Delaunay triangulation, or the region of it that is here, and what splaying did.
-    Delaunay(Box<T>, SplayStats),
+pub enum SplayOutcome {
+    /// The Delaunay triangulation, and what splaying did.
+    Delaunay(Box<Triangulation3>, SplayStats),
     /// No triangulation, for this reason: the CPU has to triangulate the points from scratch.
     Aborted(Aborted),
 }

@@ -1,9 +1,9 @@
 //! The part of a triangulation that splaying sees: the stars of the vertices that it asked for.
 //!
-//! The triangulation is elsewhere, as a rule on a device, and the region takes numbers and not
-//! copies of the whole: it numbers the tetrahedra in the order in which it gets them, from 1 on, and
-//! number 0 stands for every tetrahedron that it has not got. So all that works on a triangulation
-//! works on a region, as long as it stays among the stars that are there.
+//! The triangulation itself is elsewhere, as a rule on a device. The region numbers tetrahedra in
+//! the order in which they are gathered, from 1; number 0 stands for every tetrahedron that the
+//! region lacks. Everything that works on a triangulation therefore works on a region, as long as
+//! it stays within the stars that have been gathered.
 
 use crate::{
     d3::{

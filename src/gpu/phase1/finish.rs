@@ -159,16 +159,19 @@ pub(crate) struct BoundFinish<const D: usize>
 where
     Dimension<D>: Finish<D>,
 {
-    steps: BoundSteps,
-    gather: BoundSteps,
-    patch: BoundSteps,
+    /// The end of Phase 1.
+    pub(crate) steps: BoundSteps,
+    /// Gathers what is wanted.
+    pub(crate) gather: BoundSteps,
+    /// Writes changed parts back.
+    pub(crate) patch: BoundSteps,
     scan: BoundScan,
     gather_scan: BoundScan,
     aliases: <Dimension<D> as Finish<D>>::Aliases,
 }
 
 /// Steps with their bind groups.
-type BoundSteps = Vec<Step<(Kernel, wgpu::BindGroup)>>;
+pub(crate) type BoundSteps = Vec<Step<(Kernel, wgpu::BindGroup)>>;
 
 impl FinishStage {
     /// Creates the kernels.
@@ -210,39 +213,8 @@ impl FinishStage {
         Ok(BoundFinish { steps, gather, patch, scan, gather_scan, aliases })
     }
 
-    /// Records the end of Phase 1.
-    pub(crate) fn record<const D: usize>(&self, recorder: &mut Recorder<'_>, bound: &BoundFinish<D>, workgroups: u32)
-    where
-        Dimension<D>: Finish<D>,
-    {
-        self.record_steps(recorder, bound, &bound.steps, workgroups);
-    }
-
-    /// Records gathering.
-    pub(crate) fn record_gather<const D: usize>(
-        &self,
-        recorder: &mut Recorder<'_>,
-        bound: &BoundFinish<D>,
-        workgroups: u32,
-    ) where
-        Dimension<D>: Finish<D>,
-    {
-        self.record_steps(recorder, bound, &bound.gather, workgroups);
-    }
-
-    /// Records that changed parts are written back.
-    pub(crate) fn record_patch<const D: usize>(
-        &self,
-        recorder: &mut Recorder<'_>,
-        bound: &BoundFinish<D>,
-        workgroups: u32,
-    ) where
-        Dimension<D>: Finish<D>,
-    {
-        self.record_steps(recorder, bound, &bound.patch, workgroups);
-    }
-
-    fn record_steps<const D: usize>(
+    /// Records these steps of `bound`.
+    pub(crate) fn record<const D: usize>(
         &self,
         recorder: &mut Recorder<'_>,
         bound: &BoundFinish<D>,

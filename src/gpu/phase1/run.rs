@@ -453,7 +453,7 @@ where
                 let (stages, memory, readback) = (&self.kernels.stages, &self.memory, &mut self.kernels.readback);
                 let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, profiler) };
                 let bound = &memory.bound.finish;
-                stages.finish.record(&mut copies.recorder, bound, workgroups);
+                stages.finish.record(&mut copies.recorder, bound, &bound.steps, workgroups);
                 let more = more(&mut copies, stages, memory);
                 let finite = copies.copy_from(bound.sums(), GROUPS, 1);
                 let counters = copies.copy_from(&memory.buffers.control, PARAM_WORDS, COUNTER_WORDS);
