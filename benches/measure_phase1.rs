@@ -85,8 +85,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let all: Vec<String> = runs.iter().map(|r| format!("{:.2}", milliseconds(r.stats.time))).collect();
     let Phase1Output { stats, result, merged } = &runs[runs.len() / 2];
     let counters = &stats.counters;
-    let each_round: Vec<String> =
-        stats.rounds.iter().map(|r| format!("[{},{},{},{}]", r.inserted, r.active, r.flips, r.iterations)).collect();
+    let each_round: Vec<String> = stats
+        .rounds
+        .iter()
+        .map(|r| format!("[{},{},{},{},{:.2}]", r.inserted, r.active, r.flips, r.iterations, milliseconds(r.time)))
+        .collect();
     let stages: Vec<String> = stages.iter().map(|(name, ms)| format!("\"{name}\":{ms:.3}")).collect();
     println!(
         "{{\"input\":\"{kind}\",\"points\":{},\"adapter\":\"{}\",\"width\":\"{:?}\",\"ms\":{:.2},\"all_ms\":[{}],\

@@ -24,7 +24,7 @@ use crate::{
     predicates::filter::PredicateContext,
     stats::{Phase, Stats, Stopwatch},
 };
-use std::{num::NonZeroUsize, ops::Range};
+use std::{num::NonZeroUsize, ops::Range, sync::Arc};
 
 /// With fewer points than this, one thread is as fast as several. Tests let many threads meet on
 /// few points.
@@ -74,6 +74,10 @@ pub trait Grow<const D: usize>: Insert<D> + Sized {
     ///
     /// Returns [`Error::OutOfMemory`].
     fn reserve(&mut self, simplices: usize) -> Result<(), Error>;
+
+    /// Returns the corners and the neighbours of the simplices, unused slots left out, each as four
+    /// words: infinity is [`NO_INDEX`](crate::index::NO_INDEX), and in 2D the last one is 0.
+    fn into_simplices(self) -> Vec<[[u32; 4]; 2]>;
 
     /// Inserts the vertices of a run by several threads. Returns those that the threads could not
     /// insert because they disturbed each other.
@@ -192,6 +196,29 @@ where
     mesh.set_input(duplicate_of, dimension);
     *mesh.stats_mut() = stats;
     Ok(mesh)
+}
+
+/// Triangulates a few points by the calling thread. Returns the triangulation and the points that
+/// are its vertices; `None` if they span fewer dimensions.
+///
+/// # Errors
+///
+/// Returns [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
+pub(crate) fn triangulation<const D: usize>(
+    points: Points<'_, D>,
+) -> Result<Option<(<Dimension<D> as Incremental<D>>::Triangulation, Arc<[u32]>)>, Error>
+where
+    Dimension<D>: Incremental<D>,
+{
+    let lattice = Lattice::fit(points);
+    let Distinct { mut order, rounds, .. } =
+        insertion_order(Threads::One, points, &lattice, Dimension::<D>::CURVE, Order::default());
+    if usize::from(Dimension::<D>::spanning_first(points, &mut order)) < D {
+        return Ok(None);
+    }
+    let vertices = PredicateContext::new(points, &lattice, order);
+    let triangulation = insert_all(Threads::One, &vertices, &rounds, &Options::default())?;
+    Ok(Some((triangulation, vertices.into_input_indices())))
 }
 
 /// Triangulates all vertices, of which the first `D + 1` must be positively oriented. Each of the

@@ -2,4 +2,3 @@
 // bound for reading.
 const COUNT_MERGED: u32 = 0;
 const COUNT_ROUNDED: u32 = 2;
-const COUNT_FOUND: u32 = 8;

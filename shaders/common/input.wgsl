@@ -21,8 +21,6 @@ struct InputParams {
     origin_high: vec3u,
     // The bits of a lattice coordinate: 31 or 62.
     width: u32,
-    // The points whose vertices the host asks for.
-    wanted: vec4u,
     // The coordinates of a point: 3, or 2, where z counts as 0.
     dimension: u32,
     unused: array<u32, 3>,

@@ -7,8 +7,4 @@ struct InputCounts {
     // Points with a coordinate that was rounded to the lattice.
     rounded: atomic<u32>,
     unused: u32,
-    // The points that the wanted ones were merged into.
-    stands_for: array<u32, 4>,
-    // The vertices of the wanted points.
-    found: array<u32, 4>,
 }

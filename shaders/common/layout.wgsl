@@ -28,6 +28,9 @@ struct Control {
     blocks_before: u32,
     compact_from: u32,
     clockwise: u32,
+    start_points: u32,
+    start_simplices: u32,
+    start_stride: u32,
 
     iteration: u32,
     link_iteration: u32,

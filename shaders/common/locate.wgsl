@@ -1,38 +1,74 @@
-// Makes the first simplices, lists all points and locates them there. One invocation per point.
+// Lists all points, and finds the simplex of the start that each lies in: one walks there from a
+// simplex nearby. One invocation per point.
 //!include {dim}/simplex
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read> vertices: array<VertexWords>;
 //!include common/pairs
-// The words of InputCounts.
-@group(0) @binding(3) var<storage, read> counts: array<u32>;
-@group(0) @binding(4) var<storage, read_write> waiting: array<Waiting>;
-@group(0) @binding(5) var<storage, read_write> simplices: array<vec4u>;
-@group(0) @binding(6) var<storage, read_write> neighbors: array<vec4u>;
-//!include common/count_words
+// For each stretch of vertices the slot of a simplex, plus 1; 0 where there is none.
+@group(0) @binding(3) var<storage, read> start_near: array<u32>;
+@group(0) @binding(4) var<storage, read> start_vertices: array<u32>;
+@group(0) @binding(5) var<storage, read_write> waiting: array<Waiting>;
+@group(0) @binding(6) var<storage, read> simplices: array<vec4u>;
+@group(0) @binding(7) var<storage, read> neighbors: array<vec4u>;
+//!include common/start_slots
 //!include {dim}/signs
-//!include {dim}/child_of
-//!include {dim}/locate
+
+// The most steps of a walk. A walk in a Delaunay triangulation ends; but where points lie on a
+// sphere, ties are broken in ways in which it might not. Then all simplices are looked at in turn.
+const MAX_STEPS: u32 = 1024;
+
+// Returns a simplex near vertex p.
+fn near(p: u32) -> u32 {
+    let stretches = (control.infinite + control.start_stride - 1) / control.start_stride;
+    var at = p / control.start_stride;
+    var slot = start_near[at];
+    for (var i = 1u; i < stretches && slot == 0; i++) {
+        at = select(at, stretches, at == 0) - 1;
+        slot = start_near[at];
+    }
+    return slot - 1;
+}
+
+// Returns the simplex that holds vertex p; NONE if p is one of the corners of the start.
+fn holding(p: u32) -> u32 {
+    var t = near(p);
+    var came = CORNERS;
+    for (var step = 1u; step <= MAX_STEPS + control.start_simplices; step++) {
+        let simplex = unpacked(simplices[t]);
+        if any(simplex == Simplex(p)) {
+            return NONE;
+        }
+        var beyond = CORNERS;
+        for (var k = 0u; k < CORNERS && beyond == CORNERS; k++) {
+            if k != came && orient(replaced(simplex, k, p)) < 0 {
+                beyond = k;
+            }
+        }
+        if beyond == CORNERS {
+            return t;
+        }
+        if step < MAX_STEPS {
+            let across = neighbors[t][beyond];
+            t = across >> 2;
+            came = across & 3;
+        } else {
+            t = start_slot(min(step - MAX_STEPS, control.start_simplices - 1));
+            came = CORNERS;
+        }
+    }
+    return t;
+}
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let first = first_simplex();
-    let infinite = control.infinite;
-    for (var p = id.x; p < infinite; p += groups.x * WORKGROUP) {
+    for (var p = id.x; p < control.infinite; p += groups.x * WORKGROUP) {
         var t = NONE;
-        if all(first != Simplex(p)) && pairs[p].x != MERGED_KEY {
-            // The interior point, not infinity, whose number it has.
-            let k = child_of(first, infinite, p, NONE);
-            let beyond = orient_finite(replaced(first, k, p)) < 0;
-            t = infinite * SLOTS_PER_POINT + select(0u, 1 + k, beyond);
+        if pairs[p].x != MERGED_KEY {
+            t = holding(p);
         }
         waiting[p] = Waiting(p, t);
     }
     if exact_signs != 0 {
         atomicAdd(&control.exact, exact_signs);
-    }
-    if id.x == 0 {
-        make_first(first, infinite);
-        atomicAdd(&control.inserted, CORNERS);
-        control.merged = counts[COUNT_MERGED];
     }
 }

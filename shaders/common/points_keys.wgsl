@@ -41,10 +41,5 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         if !place.exact {
             atomicAdd(&counts.rounded, 1);
         }
-        for (var k = 0u; k < 4; k++) {
-            if params.wanted[k] == point {
-                counts.stands_for[k] = first;
-            }
-        }
     }
 }

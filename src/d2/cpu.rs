@@ -9,6 +9,7 @@ use crate::{
     },
     dimension::Dimension,
     error::Error,
+    index::NO_INDEX,
     input::{hilbert, order::Curve, points::Points2},
     options::Options,
     parallel::{self, Threads},
@@ -76,6 +77,13 @@ impl Grow<2> for Triangulation2 {
 
     fn reserve(&mut self, triangles: usize) -> Result<(), Error> {
         slots::reserve(&mut self.triangles, &mut self.neighbors, triangles)
+    }
+
+    fn into_simplices(self) -> Vec<[[u32; 4]; 2]> {
+        let corner = |v: u32| if v == self.infinite { NO_INDEX } else { v };
+        let words = |[a, b, c]: [u32; 3]| [a, b, c, 0];
+        let simplices = self.triangles.iter().zip(&self.neighbors);
+        simplices.map(|(t, &near)| [words(t.map(corner)), words(near)]).collect()
     }
 
     fn insert_by_threads(self, run: &Run<'_, 2>) -> Result<(Self, Vec<u32>), Error> {

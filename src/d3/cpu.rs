@@ -9,6 +9,7 @@ use crate::{
     },
     dimension::Dimension,
     error::Error,
+    index::NO_INDEX,
     input::{hilbert, order::Curve, points::Points3},
     options::Options,
     parallel::{self, Threads},
@@ -80,6 +81,16 @@ impl Grow<3> for Triangulation3 {
 
     fn reserve(&mut self, tetrahedra: usize) -> Result<(), Error> {
         slots::reserve(&mut self.tetrahedra, &mut self.neighbors, tetrahedra)
+    }
+
+    fn into_simplices(self) -> Vec<[[u32; 4]; 2]> {
+        let is_used = |t: u32| self.state(t) != state::FREE;
+        let used: Vec<u32> = (0..self.tetrahedra.len() as u32).filter(|&t| is_used(t)).collect();
+        let mut number = vec![0; self.tetrahedra.len()];
+        (0..).zip(&used).for_each(|(i, &t)| number[t as usize] = i);
+        let corner = |v: u32| if v == self.infinite { NO_INDEX } else { v };
+        let across = |f: u32| 4 * number[f as usize / 4] + f % 4;
+        used.iter().map(|&t| [self.vertices(t).map(corner), self.neighbors[t as usize].map(across)]).collect()
     }
 
     fn insert_by_threads(self, run: &Run<'_, 3>) -> Result<(Self, Vec<u32>), Error> {

@@ -10,6 +10,7 @@ use std::fmt::Debug;
 use bytemuck::Pod;
 
 use crate::{
+    cpu::Incremental,
     dimension::Dimension,
     error::Error,
     gpu::{Binding, Gpu, shader::Shaders},
@@ -24,7 +25,7 @@ pub type Corners<const D: usize> = <Dimension<D> as Dim<D>>::Corners;
 pub type Flip<const D: usize> = <Dimension<D> as Dim<D>>::Flip;
 
 /// What differs between the dimensions: simplices, flips, vertices, and how many slots there are.
-pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
+pub trait Dim<const D: usize>: Incremental<D> + Debug + Copy + Send + Sync + 'static {
     /// The vertices of a simplex: `[u32; D + 1]`.
     type Corners: Pod + Debug + PartialEq + Eq + Send + Sync + AsRef<[u32]> + AsMut<[u32]>;
     /// A flip in the history.
@@ -32,6 +33,8 @@ pub trait Dim<const D: usize>: Debug + Copy + Send + Sync + 'static {
     /// The buffers of Phase 1 that only this dimension has.
     type OwnBuffers: OwnBuffers;
 
+    /// The slots of a vertex: it owns `SLOTS_PER_POINT * v` and those that follow.
+    const SLOTS_PER_POINT: u32;
     /// What simplices are called in labels and messages.
     const SIMPLICES: &'static str;
     /// The words that a vertex with narrow coordinates takes on the device; one with wide

@@ -9,10 +9,9 @@
 //! interior point flips the sign of an orientation.
 //!
 //! **Tetrahedra** live in slots. Slots 8v … 8v + 7 are the *block* of vertex *v*, so that a
-//! tetrahedron is near its vertices in memory without any sorting; the block of infinity starts the
-//! initial tetrahedra, and the blocks after it are the *tail*, which serves when the blocks of all
-//! vertices of a flip are full. At the end of the buffer `control` there is one word per block
-//! whose low bits tell which of its slots are free.
+//! tetrahedron is near its vertices in memory without any sorting; the blocks after that of infinity
+//! are the *tail*, which serves when the blocks of all vertices of a flip are full. At the end of
+//! the buffer `control` there is one word per block whose low bits tell which of its slots are free.
 //!
 //! **Neighbours** are packed as 4·tetrahedron + face: entry *k* of a tetrahedron is the facet
 //! opposite its vertex *k*, as the tetrahedron on the other side numbers it.
@@ -226,6 +225,12 @@ pub struct Params {
     pub compact_from: u32,
     /// In 2D: 1 for a mesh that is clockwise with *y* up, 0 for one that is counter-clockwise.
     pub clockwise: u32,
+    /// The points that the start triangulates.
+    pub start_points: u32,
+    /// The simplices of the start.
+    pub start_simplices: u32,
+    /// The vertices of a stretch, for which a simplex of the start nearby is known.
+    pub start_stride: u32,
 }
 assert_layout!(Params);
 

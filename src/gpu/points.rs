@@ -50,8 +50,6 @@ pub struct InputParams {
     pub origin_high: [u32; 3],
     /// The bits of a lattice coordinate.
     pub width: u32,
-    /// Points whose vertices are wanted.
-    pub wanted: [u32; 4],
     /// The coordinates of a point: 2 or 3.
     pub dimension: u32,
     /// Zero.
@@ -71,17 +69,12 @@ pub struct InputCounts {
     pub rounded: u32,
     /// Zero.
     pub unused: u32,
-    /// The points that stand for the wanted ones.
-    pub stands_for: [u32; 4],
-    /// The vertices of the wanted points.
-    pub found: [u32; 4],
 }
 assert_layout!(InputCounts);
 // Some kernels see the words of the structure.
 const _: () = {
     assert!(std::mem::offset_of!(InputCounts, merged) == 4 * constants::COUNT_MERGED as usize);
     assert!(std::mem::offset_of!(InputCounts, rounded) == 4 * constants::COUNT_ROUNDED as usize);
-    assert!(std::mem::offset_of!(InputCounts, found) == 4 * constants::COUNT_FOUND as usize);
 };
 
 /// The bits of a sort key: 30 for the place along the curve, and the largest for points that others
@@ -104,8 +97,6 @@ pub struct PointInput<'a, const D: usize = 3> {
     pub points: Points<'a, D>,
     /// The lattice that is fitted to them.
     pub lattice: &'a Lattice<D>,
-    /// Points whose vertices come out in the counts.
-    pub wanted: [u32; 4],
     /// Whether to sort along the Hilbert curve; else the vertices are in the order of the points.
     pub sort: bool,
 }
@@ -120,6 +111,8 @@ pub struct DevicePoints {
     pub pairs: Storage<[u32; 2]>,
     /// For each point the one that stands for it, or `u32::MAX` if it is a vertex itself.
     pub merged_into: Storage<u32>,
+    /// For each point its place in the order.
+    pub vertex_of: Storage<u32>,
     /// One element.
     pub counts: Storage<InputCounts>,
 }
@@ -168,7 +161,7 @@ where
         kept: &mut Option<PointBuffers>,
         input: PointInput<'_, D>,
     ) -> Result<DevicePoints, Error> {
-        let PointInput { points, lattice, wanted, sort } = input;
+        let PointInput { points, lattice, sort } = input;
         let n = points.len();
         let (bits, doubles): (&[u32], bool) = match points {
             Points::F32(p) => (bytemuck::cast_slice(p), false),
@@ -190,7 +183,6 @@ where
             table_mask: buffers.table.len() as u32 - 1,
             origin_high: origin.map(|origin| (origin >> 32) as u32),
             width: lattice.width().bits(),
-            wanted,
             dimension: D as u32,
             unused: [0; 3],
         };
@@ -235,7 +227,9 @@ where
             ("params", params.buffer()),
             ("input", input.buffer()),
             ("table", table.buffer()),
+            // Nothing looks into the table any more when the vertices are known.
             ("slots", slots.buffer()),
+            ("vertex_of", slots.buffer()),
             ("pairs", pairs.buffer()),
             ("merged_into", merged_into.buffer()),
             ("counts", counts.buffer()),
@@ -251,7 +245,7 @@ where
             + 2 * pairs.bytes()
             + merged_into.bytes()
             + vertices.bytes();
-        let device = DevicePoints { vertices, pairs, merged_into, counts };
+        let device = DevicePoints { vertices, pairs, merged_into, vertex_of: slots, counts };
         Ok(PointBuffers { form, params, input, table, device, merge, keys, sort, gather, bytes })
     }
 }

@@ -1,10 +1,14 @@
-//! The first simplex.
+//! What Phase 1 starts with: the first simplex, and the triangulation of some of the points.
 
 use bytemuck::Zeroable;
 
+use crate::cpu::{self, Grow, Incremental};
 use crate::dimension::Dimension;
 use crate::gpu::dim::{Corners, Dim};
-use crate::input::lattice::Width;
+use crate::index::NO_INDEX;
+use crate::input::lattice::{Lattice, Width};
+use crate::input::order::mix;
+use crate::input::points::Points;
 
 /// The first simplex, and a point inside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,4 +91,111 @@ where
         vertices.as_mut().iter_mut().zip(first).for_each(|(v, i)| *v = i as u32);
         Start { first: vertices, interior_point }
     })
+}
+
+/// The simplices that Phase 1 starts with: the Delaunay triangulation of some of the points, or of
+/// the corners of the first simplex.
+///
+/// The CPU engine makes it while the device orders the points. The first rounds of the device would
+/// insert as many points, and take longer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct StartMesh {
+    /// The points, by place in the input, each with one of its simplices.
+    pub points: Vec<[u32; 2]>,
+    /// The corners of each simplex, by place among `points`, where
+    /// [`NO_INDEX`](crate::index::NO_INDEX) is infinity; and its neighbours, 4·simplex + facet. In
+    /// 2D the last of them is 0. All are positively oriented if infinity lies opposite to the
+    /// interior point. There are no more of them than the points have slots.
+    pub simplices: Vec<[[u32; 4]; 2]>,
+}
+
+/// What the CPU engine makes.
+type Grown<const D: usize> = <Dimension<D> as Incremental<D>>::Triangulation;
+
+/// The most points that the CPU engine triangulates: with more it takes longer than it saves.
+const MAX_START: usize = 4096;
+
+impl StartMesh {
+    /// Returns how many of so many points the CPU engine triangulates, about 1.5 √count: as many as
+    /// it manages while the device orders all of them.
+    pub fn points_for<const D: usize>(count: usize) -> usize {
+        (9 * count / 4).isqrt().min(MAX_START).max(D + 1)
+    }
+
+    /// Triangulates `wanted` of the points, evenly spaced in the input, beside the corners of the
+    /// first simplex. What the lattice does not represent is left out; where that leaves too little,
+    /// or where the simplices are too many, the first simplex has to do.
+    pub fn new<const D: usize>(points: Points<'_, D>, lattice: &Lattice<D>, start: &Start<D>, wanted: usize) -> Self
+    where
+        Dimension<D>: Dim<D>,
+    {
+        Self::of_sample(points, lattice, start, wanted).unwrap_or_else(|| Self::of_first(start))
+    }
+
+    /// Returns the first simplex alone, with those at infinity around it.
+    pub fn of_first<const D: usize>(start: &Start<D>) -> Self
+    where
+        Dimension<D>: Dim<D>,
+    {
+        Self::of_triangulation(Grown::<D>::initial(D as u32 + 1), start.first.as_ref().iter().copied())
+    }
+
+    /// Returns how many of so many vertices make up a stretch, for which a simplex nearby is looked
+    /// up: so many that few stretches have no point of the start.
+    pub fn stride(&self, vertices: u32) -> u32 {
+        let stretches = (self.points.len() as u32 / 2).max(1);
+        vertices.div_ceil(stretches).max(1)
+    }
+
+    fn of_sample<const D: usize>(
+        points: Points<'_, D>,
+        lattice: &Lattice<D>,
+        start: &Start<D>,
+        wanted: usize,
+    ) -> Option<Self>
+    where
+        Dimension<D>: Dim<D>,
+    {
+        let first = start.first.as_ref();
+        let is_exact = |&i: &u32| lattice.coordinates(points.get(i as usize)).iter().all(|c| c.exact);
+        if wanted <= first.len() || !first.iter().all(is_exact) {
+            return None;
+        }
+        let wanted = (wanted - first.len()).min(points.len());
+        let mut sample: Vec<u32> = first.to_vec();
+        // One of each stretch, so that no regularity of the input comes through.
+        let place = |k: usize| (k as u64 * points.len() as u64 / wanted as u64) as u32;
+        sample.extend((0..wanted).map(|k| {
+            let stretch = place(k + 1) - place(k);
+            place(k) + (mix(k as u64) % u64::from(stretch)) as u32
+        }));
+        sample.sort_unstable();
+        sample.dedup();
+        sample.retain(is_exact);
+        let (triangulation, vertices) = match points {
+            Points::F32(p) => cpu::triangulation(Points::F32(&taken(p, &sample))),
+            Points::F64(p) => cpu::triangulation(Points::F64(&taken(p, &sample))),
+        }
+        .ok()
+        .flatten()?;
+        let mesh = Self::of_triangulation(triangulation, vertices.iter().map(|&i| sample[i as usize]));
+        let slots = mesh.points.len() * Dimension::<D>::SLOTS_PER_POINT as usize;
+        (mesh.simplices.len() <= slots).then_some(mesh)
+    }
+
+    fn of_triangulation<const D: usize>(triangulation: impl Grow<D>, points: impl Iterator<Item = u32>) -> Self {
+        let simplices = triangulation.into_simplices();
+        let mut points: Vec<[u32; 2]> = points.map(|i| [i, 0]).collect();
+        for (k, [corners, _]) in (0..).zip(&simplices) {
+            if !corners.contains(&NO_INDEX) {
+                corners[..=D].iter().for_each(|&v| points[v as usize][1] = k);
+            }
+        }
+        StartMesh { points, simplices }
+    }
+}
+
+/// Returns the items at these places.
+fn taken<T: Copy>(items: &[T], places: &[u32]) -> Vec<T> {
+    places.iter().map(|&i| items[i as usize]).collect()
 }

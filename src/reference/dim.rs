@@ -15,8 +15,6 @@ pub trait ReferenceDim<const D: usize>: Dim<D> {
     /// The buffers that only this dimension has.
     type OwnState: OwnState;
 
-    /// The slots of a vertex: it owns `SLOTS_PER_POINT * v` and those that follow.
-    const SLOTS_PER_POINT: u32;
     /// The Euler characteristic of the sphere of `D` dimensions: vertices − edges + triangles in
     /// 2D, vertices − edges + facets − tetrahedra in 3D. There are twice as many facets as
     /// tetrahedra, so that it is vertices − edges + simplices in both dimensions.
@@ -62,6 +60,9 @@ pub trait OwnState: Debug + Clone + PartialEq {
 
     /// Notes that the first `slots` slots of a vertex are used.
     fn occupy(&mut self, vertex: u32, slots: u32);
+
+    /// Notes that a slot is used.
+    fn occupy_slot(&mut self, slot: u32);
 }
 
 /// No buffers.
@@ -71,6 +72,8 @@ impl OwnState for () {
     fn grow(&mut self, _blocks: u32) {}
 
     fn occupy(&mut self, _vertex: u32, _slots: u32) {}
+
+    fn occupy_slot(&mut self, _slot: u32) {}
 }
 
 /// The parts of the references that are mathematics of one dimension.

@@ -1,69 +1,53 @@
-//! The first simplices, and which of them each point lies in.
+//! The simplices of the start, and which of them each point lies in.
 
 use crate::dimension::Dimension;
-use crate::gpu::dim::Corners;
-use crate::gpu::layout::{NONE, Waiting};
+use crate::gpu::layout::{Active, CHECK, NONE, Status, Waiting};
 
 use crate::reference::State;
 use crate::reference::dim::{OwnState, ReferenceDim};
-use crate::reference::state::{replaced, slot};
+use crate::reference::state::replaced;
 
-/// Writes the simplices that Phase 1 starts with: a positively oriented one and the infinite ones
-/// around it.
-///
-/// The first slot of infinity holds `first`, and slot 1 + k after it the one beyond its facet k:
-/// the facet's corners and infinity.
-pub fn start<const D: usize>(state: &mut State<D>, first: Corners<D>)
+/// Writes the simplices that Phase 1 starts with into the slots of their vertices, and lists them,
+/// because all their facets are to be checked. One invocation per simplex.
+pub fn start_mesh<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: ReferenceDim<D>,
 {
-    state.first = first;
     let infinite = state.params.infinite;
-    let base = Dimension::<D>::SLOTS_PER_POINT * infinite;
-    let outer = |k: usize| base + 1 + k as u32;
-    let around: Vec<u32> = (0..=D).map(|k| 4 * outer(k) + D as u32).collect();
-    state.simplices[base as usize] = slot(first);
-    state.neighbors[base as usize] = slot(around);
-    for k in 0..=D {
-        let corners = Dimension::<D>::facet(k);
-        let mut vertices: Vec<u32> = corners.iter().map(|&c| first.as_ref()[c]).collect();
-        vertices.push(infinite);
-        // Beyond the ridge opposite a corner, the infinite simplex of the facet opposite that
-        // corner.
-        let beyond = |&corner: &usize| {
-            let face = Dimension::<D>::facet(corner).iter().position(|&c| c == k);
-            4 * outer(corner) + face.expect("facets share all corners but two") as u32
+    let count = state.start.simplices.len();
+    for i in 0..count {
+        let slot = state.start_slot(i as u32);
+        let [corners, near] = state.start.simplices[i];
+        let words = |word: &dyn Fn(u32) -> u32, words: [u32; 4]| {
+            let mut result = [0; 4];
+            (0..=D).for_each(|k| result[k] = word(words[k]));
+            result
         };
-        let mut neighbors: Vec<u32> = corners.iter().map(beyond).collect();
-        neighbors.push(4 * base + k as u32);
-        state.simplices[outer(k) as usize] = slot(vertices);
-        state.neighbors[outer(k) as usize] = slot(neighbors);
+        let vertex = |v: u32| if v == NONE { infinite } else { state.start_vertices[v as usize] };
+        let across = |f: u32| 4 * state.start_slot(f >> 2) + (f & 3);
+        (state.simplices[slot as usize], state.neighbors[slot as usize]) =
+            (words(&vertex, corners), words(&across, near));
+        let flags = CHECK & ((2 << D) - 1);
+        state.status[slot as usize] = Status { flags, ..state.status[slot as usize] };
+        state.active[0][i] = Active { tet: slot, outcome: 0 };
+        state.own.occupy_slot(slot);
     }
-    state.own.occupy(infinite, D as u32 + 2);
-    state.counters.inserted = D as u32 + 1;
+    state.counters.active_len[0] = count as u32;
+    state.counters.inserted = state.start_vertices.len() as u32;
+    state.counters.merged = state.merged.iter().filter(|&&merged| merged).count() as u32;
 }
 
-/// Lists all points and locates them in the first simplices, with D + 1 orientations each. One
-/// invocation per point.
-///
-/// Seen from the interior point, the facets of the first simplex divide all directions.
+/// Lists all points, and finds the simplex of the start that each lies in: the only one in which it
+/// is on the inner side of every facet. One invocation per point.
 pub fn locate<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: ReferenceDim<D>,
 {
-    let first = state.first;
-    let infinite = state.params.infinite;
-    state.counters.merged = state.merged.iter().filter(|&&merged| merged).count() as u32;
-    let base = Dimension::<D>::SLOTS_PER_POINT * infinite;
-    for point in 0..infinite {
-        let tet = if first.as_ref().contains(&point) || state.merged[point as usize] {
-            NONE
-        } else {
-            // The interior point, not infinity, whose number it has.
-            let orient = |corners| state.orient_finite(corners);
-            let k = Dimension::<D>::child_of(first, infinite, point, orient);
-            if orient(replaced(first, k, point)) < 0 { base + 1 + k as u32 } else { base }
-        };
+    let slots: Vec<u32> = (0..state.start.simplices.len() as u32).map(|i| state.start_slot(i)).collect();
+    for point in 0..state.params.infinite {
+        let is_waiting = !state.merged[point as usize] && !state.start_vertices.contains(&point);
+        let holds = |&t: &u32| (0..=D).all(|k| state.orient(replaced(state.corners(t), k, point)) > 0);
+        let tet = if is_waiting { slots.iter().copied().find(holds).expect("they cover space") } else { NONE };
         state.waiting[point as usize] = Waiting { point, tet };
     }
 }

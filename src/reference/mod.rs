@@ -30,7 +30,7 @@ pub use begin_round::begin_round;
 pub use flip_check::flip_check;
 pub use flip_commit::flip_commit;
 pub use flip_link::flip_link;
-pub use locate::{locate, start};
+pub use locate::{locate, start_mesh};
 pub use pick::{pick_point, pick_score};
 pub use relocate::relocate;
 pub use split::{relocate_split, split};

@@ -2,13 +2,13 @@
 
 use crate::dimension::Dimension;
 use crate::gpu::layout::{NONE, Pick, SLOTS_FULL};
-use crate::gpu::start::first_simplex;
+use crate::gpu::start::{StartMesh, first_simplex};
 use crate::input::lattice::Width;
 
 use crate::reference::dim::{Kernels, ReferenceDim};
 use crate::reference::{
     State, Vertex, begin_round, flip_check, flip_commit, flip_link, locate, pick_point, pick_score, relocate,
-    relocate_split, split, start,
+    relocate_split, split, start_mesh,
 };
 
 /// How to run.
@@ -56,7 +56,8 @@ where
             state.validate();
         }
     };
-    start(&mut state, begin.first);
+    state.set_start(StartMesh::of_first(&begin), begin.first.as_ref().to_vec());
+    start_mesh(&mut state);
     locate(&mut state);
     check(&state);
     while state.waiting.iter().any(|entry| entry.tet != NONE) {

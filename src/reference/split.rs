@@ -1,6 +1,7 @@
 //! Inserting the picked points (§3.1), and relocating those in the split simplices.
 
 use crate::dimension::Dimension;
+use crate::gpu::dim::Dim;
 use crate::gpu::layout::{CHECK, HELD_SHIFT, NONE, Status, Waiting};
 
 use crate::reference::State;

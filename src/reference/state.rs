@@ -5,6 +5,7 @@ use bytemuck::Zeroable;
 use crate::dimension::Dimension;
 use crate::gpu::dim::{Corners, Dim, Flip};
 use crate::gpu::layout::{Active, BLOCK, Counters, HELD_SHIFT, NONE, Params, Status, Waiting};
+use crate::gpu::start::StartMesh;
 use crate::input::lattice::Width;
 use crate::predicates::Sign;
 
@@ -31,8 +32,10 @@ where
     pub params: Params,
     /// The vertices, and the interior point.
     pub points: Vec<Vertex<D>>,
-    /// The first simplex.
-    pub first: Corners<D>,
+    /// The simplices of the start.
+    pub start: StartMesh,
+    /// The vertices of the start's points.
+    pub start_vertices: Vec<u32>,
     /// Whether another vertex stands for each, because it lies at the same place.
     pub merged: Vec<bool>,
     /// The vertices of each slot, in 2D followed by 0; all zero in an unused one.
@@ -72,7 +75,8 @@ where
         State {
             width,
             params: Params { infinite, blocks, history, compact_from: u32::MAX, ..Params::default() },
-            first: Zeroable::zeroed(),
+            start: StartMesh { points: Vec::new(), simplices: Vec::new() },
+            start_vertices: Vec::new(),
             merged: vec![false; infinite as usize],
             simplices: vec![[0; 4]; slots],
             neighbors: vec![[NONE; 4]; slots],
@@ -98,6 +102,20 @@ where
         self.messages.resize(slots, [0; 4]);
         self.active.iter_mut().for_each(|half| half.resize(slots, Active::default()));
         self.own.grow(blocks);
+    }
+
+    /// Sets the start, and its vertices.
+    pub fn set_start(&mut self, start: StartMesh, vertices: Vec<u32>) {
+        self.params.start_points = start.points.len() as u32;
+        self.params.start_simplices = start.simplices.len() as u32;
+        self.params.start_stride = start.stride(self.params.infinite);
+        (self.start, self.start_vertices) = (start, vertices);
+    }
+
+    /// Returns the slot of simplex `i` of the start.
+    pub fn start_slot(&self, i: u32) -> u32 {
+        let each = Dimension::<D>::SLOTS_PER_POINT;
+        each * self.start_vertices[(i / each) as usize] + i % each
     }
 
     /// Returns the vertices of a simplex.

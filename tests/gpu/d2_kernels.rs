@@ -11,9 +11,9 @@ use gdel::internals::{
     gpu::{
         layout::{DONE, NONE, Pick},
         phase1::Aliases as _,
-        start::first_simplex,
+        start::{StartMesh, first_simplex},
     },
-    input::lattice::Width,
+    input::lattice::{Lattice, Width},
     reference::{self, d2, d2::predicates::Vertex},
 };
 use std::collections::BTreeSet;
@@ -46,15 +46,18 @@ fn compare(width: Width, pick: Pick) {
     points.push(Vertex { position: start.interior_point, index: 200 });
     let mut state = State::new(width, points, 0, 4096);
     state.params.pick = pick as u32;
-    state.first = start.first;
+    let floats: Vec<[f64; 2]> = positions.iter().map(|q| q.map(|x| x as f64)).collect();
+    let points = (&floats).into();
+    let start = StartMesh::new(points, &Lattice::fit(points), &start, 20);
+    assert!(start.points.len() > 15);
+    // The points are in the order of the vertices.
+    let vertices = start.points.iter().map(|&[v, _]| v).collect();
+    state.set_start(start, vertices);
     let device = Device::<2>::new(width, &state);
     let aliases = Aliases::new(&device.buffers);
     let device = device.with(&aliases.bindings());
-    device.equal("locate", &mut state, |s| {
-        let first = s.first;
-        reference::start(s, first);
-        reference::locate(s);
-    });
+    device.start(&mut state);
+    state.validate_mesh();
     while state.waiting.iter().any(|entry| entry.tet != NONE) {
         state.messages.fill([0; 4]);
         device.begin_round(&mut state);

@@ -9,9 +9,9 @@ use gdel::internals::{
     gpu::{
         Storage,
         layout::{CHECK, Counters, DONE, NONE, Pick},
-        start::first_simplex,
+        start::{StartMesh, first_simplex},
     },
-    input::lattice::Width,
+    input::lattice::{Lattice, Width},
     reference::{self, d3, d3::predicates::Vertex},
 };
 use std::collections::BTreeSet;
@@ -69,15 +69,18 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
     let mut state = State::new(width, points, 64, 4096);
     state.params.pick = pick as u32;
     state.params.compact_from = compact_from;
-    state.first = start.first;
+    let floats: Vec<[f64; 3]> = positions.iter().map(|q| q.map(|x| x as f64)).collect();
+    let points = (&floats).into();
+    let start = StartMesh::new(points, &Lattice::fit(points), &start, 20);
+    assert!(start.points.len() > 15);
+    // The points are in the order of the vertices.
+    let vertices = start.points.iter().map(|&[v, _]| v).collect();
+    state.set_start(start, vertices);
     let device = Device::<3>::new(width, &state);
     let failed_points = Storage::new(&device.kernels.gpu, "failed points", 250).unwrap();
     let device = device.with(&[("failed_points", failed_points.buffer())]);
-    device.equal("locate", &mut state, |s| {
-        let first = s.first;
-        reference::start(s, first);
-        reference::locate(s);
-    });
+    device.start(&mut state);
+    state.validate_mesh();
     while state.waiting.iter().any(|entry| entry.tet != NONE) {
         state.messages.fill([0; 4]);
         device.begin_round(&mut state);

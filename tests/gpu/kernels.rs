@@ -8,6 +8,7 @@ use gdel::{
         gpu::{
             AdapterChoice, Binding, Compiler, Gpu, Kernel, Recorder, Storage,
             dim::Dim,
+            layout::NONE,
             phase1::Buffers,
             points::{DevicePoints, InputCounts},
             shader::Shader,
@@ -72,8 +73,6 @@ where
         let kernels = Kernels::new(width);
         let gpu = &kernels.gpu;
         let count = state.params.infinite as usize;
-        let first = state.first.as_ref();
-        let counts = InputCounts { found: std::array::from_fn(|k| first[k.min(D)]), ..Default::default() };
         let pairs: Vec<[u32; 2]> = state.points[..count].iter().map(|v| [0, v.index]).collect();
         let mut words = Vec::new();
         for v in &state.points {
@@ -83,7 +82,8 @@ where
             vertices: Storage::with_contents(gpu, "vertices", &words).unwrap(),
             pairs: Storage::with_contents(gpu, "pairs", &pairs).unwrap(),
             merged_into: Storage::new(gpu, "merged", count).unwrap(),
-            counts: Storage::with_contents(gpu, "counts", &[counts]).unwrap(),
+            vertex_of: Storage::new(gpu, "vertices of points", count).unwrap(),
+            counts: Storage::with_contents(gpu, "counts", &[InputCounts::default()]).unwrap(),
         };
         let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
         let scan = Storage::new(gpu, "scan parameters", 1).unwrap();
@@ -125,6 +125,32 @@ where
         let device = self.download(state);
         assert_eq!(device.counters, state.counters, "{name}");
         device
+    }
+
+    /// Makes the simplices of the start, and locates the points.
+    pub fn start(&self, state: &mut State<D>) {
+        let gpu = &self.kernels.gpu;
+        let b = &self.buffers;
+        // Vertices are points in their order.
+        let vertices: Vec<u32> = (0..state.params.infinite).collect();
+        b.points.vertex_of.write(gpu, 0, &vertices);
+        b.points.merged_into.write(gpu, 0, &vec![NONE; vertices.len()]);
+        b.start_points.write(gpu, 0, &state.start.points);
+        b.start_simplices.write(gpu, 0, &state.start.simplices);
+        self.upload(state);
+        self.run("start_vertices");
+        let count = state.start.points.len();
+        assert_eq!(self.read(&b.start_vertices)[..count], state.start_vertices);
+        let near = self.read(&b.start_near);
+        for (&v, &[_, simplex]) in state.start_vertices.iter().zip(&state.start.points) {
+            let slot = near[(v / state.params.start_stride) as usize];
+            assert!(slot > state.start_slot(simplex), "the last one of a stretch is kept");
+        }
+        // The host sets these two.
+        state.counters.active_len[0] = state.params.start_simplices;
+        state.counters.inserted = state.params.start_points;
+        self.equal("start_mesh", state, reference::start_mesh);
+        self.equal("locate", state, reference::locate);
     }
 
     /// Begins a round: one function of the reference; three kernels, and a scan.

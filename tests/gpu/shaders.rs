@@ -19,6 +19,7 @@ fn points(gpu: &Gpu) -> DevicePoints {
     DevicePoints {
         vertices: Storage::new(gpu, "vertices", 1).unwrap(),
         pairs: Storage::new(gpu, "pairs", 1).unwrap(),
+        vertex_of: Storage::new(gpu, "vertices of points", 1).unwrap(),
         merged_into: Storage::new(gpu, "merged", 1).unwrap(),
         counts: Storage::new(gpu, "counts", 1).unwrap(),
     }

@@ -2,7 +2,7 @@
 
 use crate::{
     d2::gpu::{
-        layout::{EdgeFlip, blocks},
+        layout::{EdgeFlip, SLOTS_PER_POINT, blocks},
         vertex,
     },
     dimension::Dimension,
@@ -19,6 +19,7 @@ impl Dim<2> for Dimension<2> {
     type Flip = EdgeFlip;
     type OwnBuffers = ();
 
+    const SLOTS_PER_POINT: u32 = SLOTS_PER_POINT;
     const SIMPLICES: &'static str = "triangles";
     const NARROW_WORDS: usize = 2;
     const SHADERS: &'static Shaders = &shader::D2;

@@ -5,7 +5,7 @@ use crate::{
     dimension::Dimension,
     gpu::{
         dim::Dim,
-        layout::FlipNode,
+        layout::{BLOCK, FlipNode},
         shader::{self, Shaders},
     },
     input::lattice::Width,
@@ -17,6 +17,7 @@ impl Dim<3> for Dimension<3> {
     type Flip = FlipNode;
     type OwnBuffers = OwnBuffers;
 
+    const SLOTS_PER_POINT: u32 = BLOCK;
     const SIMPLICES: &'static str = "tetrahedra";
     const NARROW_WORDS: usize = 4;
     const SHADERS: &'static Shaders = &shader::D3;

@@ -8,6 +8,7 @@ use crate::{
         dim::{Dim, Flip, OwnBuffers},
         layout::{Active, BLOCK, FREE_START, PARAM_WORDS, Status, Waiting},
         points::DevicePoints,
+        start::StartMesh,
     },
 };
 
@@ -44,6 +45,14 @@ where
     pub waiting: Storage<Waiting>,
     /// Scores of the waiting points.
     pub scores: Storage<u32>,
+    /// The points of the start, each with one of its simplices.
+    pub start_points: Storage<[u32; 2]>,
+    /// The simplices of the start: corners and neighbours.
+    pub start_simplices: Storage<[Slot; 2]>,
+    /// The vertices of the start's points.
+    pub start_vertices: Storage<u32>,
+    /// For each stretch of vertices the slot of a simplex of the start, plus 1, or 0.
+    pub start_near: Storage<u32>,
     /// Whether each slot has a simplex of the mesh, at the end.
     pub marks: Storage<u32>,
     /// The number of each slot's simplex in the mesh, at the end.
@@ -75,6 +84,7 @@ where
     pub fn new(gpu: &Gpu, points: DevicePoints, blocks: u32, history: u32) -> Result<Self, Error> {
         let count = points.pairs.len();
         let slots = slots(blocks);
+        let start = StartMesh::points_for::<D>(count);
         Ok(Buffers {
             control: Storage::new(gpu, "control", FREE_START + blocks as usize)?,
             simplices: Storage::new(gpu, Dimension::<D>::SIMPLICES, slots)?,
@@ -85,6 +95,14 @@ where
             history: Storage::new(gpu, "history", history as usize)?,
             waiting: Storage::new(gpu, "waiting points", 2 * count)?,
             scores: Storage::new(gpu, "scores", count)?,
+            start_points: Storage::new(gpu, "points of the start", start)?,
+            start_simplices: Storage::new(
+                gpu,
+                "simplices of the start",
+                start * Dimension::<D>::SLOTS_PER_POINT as usize,
+            )?,
+            start_vertices: Storage::new(gpu, "vertices of the start", start)?,
+            start_near: Storage::new(gpu, "simplices near vertices", start)?,
             marks: Storage::new(gpu, "marks", slots)?,
             numbers: Storage::new(gpu, "numbers of simplices", slots)?,
             own: OwnBuffers::new(gpu, count, blocks)?,
@@ -132,6 +150,7 @@ where
         let encoder = recorder.encoder();
         encoder.clear_buffer(self.simplices.buffer(), 0, None);
         encoder.clear_buffer(self.status.buffer(), 0, None);
+        encoder.clear_buffer(self.start_near.buffer(), 0, None);
         self.own.record_clear(encoder);
     }
 
@@ -144,6 +163,8 @@ where
             ("vertices", self.points.vertices.buffer()),
             ("pairs", self.points.pairs.buffer()),
             ("counts", self.points.counts.buffer()),
+            ("merged_into", self.points.merged_into.buffer()),
+            ("vertex_of", self.points.vertex_of.buffer()),
             ("simplices", self.simplices.buffer()),
             ("neighbors", self.neighbors.buffer()),
             ("status", self.status.buffer()),
@@ -156,6 +177,10 @@ where
             ("history", self.history.buffer()),
             ("waiting", self.waiting.buffer()),
             ("scores", self.scores.buffer()),
+            ("start_points", self.start_points.buffer()),
+            ("start_simplices", self.start_simplices.buffer()),
+            ("start_vertices", self.start_vertices.buffer()),
+            ("start_near", self.start_near.buffer()),
             ("marks", self.marks.buffer()),
             ("numbers", self.numbers.buffer()),
         ]);
@@ -180,6 +205,10 @@ where
             history,
             waiting,
             scores,
+            start_points,
+            start_simplices,
+            start_vertices,
+            start_near,
             marks,
             numbers,
             own,
@@ -187,6 +216,7 @@ where
         let words = control.bytes() + waiting.bytes() + scores.bytes();
         let slots = simplices.bytes() + neighbors.bytes() + status.bytes() + active.bytes() + messages.bytes();
         let mesh = marks.bytes() + numbers.bytes();
-        words + slots + mesh + history.bytes() + own.bytes()
+        let start = start_points.bytes() + start_simplices.bytes() + start_vertices.bytes() + start_near.bytes();
+        words + slots + mesh + history.bytes() + start + own.bytes()
     }
 }

@@ -18,6 +18,8 @@ use crate::{
 pub(crate) struct Insert {
     /// In a dimension with lists of free slots.
     fill_free: Option<Kernel>,
+    start_vertices: Kernel,
+    start_mesh: Kernel,
     locate: Kernel,
     begin_round: Kernel,
     list: WaitingList,
@@ -31,6 +33,8 @@ pub(crate) struct Insert {
 #[derive(Debug)]
 pub(crate) struct BoundInsert {
     fill_free: Option<wgpu::BindGroup>,
+    start_vertices: wgpu::BindGroup,
+    start_mesh: wgpu::BindGroup,
     locate: wgpu::BindGroup,
     begin_round: wgpu::BindGroup,
     list: BoundWaitingList,
@@ -56,6 +60,8 @@ impl Insert {
         let kernel = |name| compiler.kernel(Dimension::<D>::SHADERS.get(name), width);
         Insert {
             fill_free: Dimension::<D>::SHADERS.find("fill_free").map(|shader| compiler.kernel(shader, width)),
+            start_vertices: kernel("start_vertices"),
+            start_mesh: kernel("start_mesh"),
             locate: kernel("locate"),
             begin_round: kernel("begin_round"),
             list: WaitingList::new(compiler),
@@ -81,6 +87,8 @@ impl Insert {
         buffers.push(("scan", list.params().buffer()));
         Ok(BoundInsert {
             fill_free: self.fill_free.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
+            start_vertices: self.start_vertices.bind(gpu, &buffers),
+            start_mesh: self.start_mesh.bind(gpu, &buffers),
             locate: self.locate.bind(gpu, &buffers),
             begin_round: self.begin_round.bind(gpu, &buffers),
             pick_score: self.pick_score.bind(gpu, &buffers),
@@ -105,9 +113,12 @@ impl Insert {
         }
     }
 
-    /// Records the first simplices, and which of them each point lies in.
+    /// Records the simplices of the start, and which of them each point lies in.
     pub(crate) fn record_first(&self, recorder: &mut Recorder<'_>, bound: &BoundInsert, workgroups: u32) {
-        self.record_fill_free(recorder, bound, "locate", workgroups);
+        self.record_fill_free(recorder, bound, "start", workgroups);
+        recorder.stage("start");
+        recorder.dispatch(&self.start_vertices, &bound.start_vertices, workgroups);
+        recorder.dispatch(&self.start_mesh, &bound.start_mesh, workgroups);
         recorder.stage("locate");
         recorder.dispatch(&self.locate, &bound.locate, workgroups);
     }

@@ -20,11 +20,12 @@ use crate::{
         },
         points::{PointBuffers, PointInput},
         primitives::scan::GROUPS,
-        start::Start,
+        start::{Start, StartMesh},
         workgroups,
     },
     input::{lattice::Lattice, points::Points},
     options::Winding,
+    parallel,
     stats::{Round, Stopwatch},
 };
 use std::collections::VecDeque;
@@ -72,6 +73,7 @@ where
     counters: Counters,
     points: Option<PointBuffers>,
     memory: Memory<D>,
+    start: StartMesh,
     /// Readbacks before this run, and their bytes.
     read_before: (usize, u64),
     /// Batches of rounds whose counters are not read yet, oldest first.
@@ -196,24 +198,30 @@ where
         let history = wanted.clamp(MIN_HISTORY, bindable.max(MIN_HISTORY)) as u32;
         // What is kept is lost if the run fails.
         let Kept { points: mut point_buffers, memory: kept } = std::mem::take(&mut kernels.kept);
-        let (memory, dispatches) = gpu
+        let Input { points: input, lattice, start } = input;
+        let triangulate = || match settings.start {
+            true => StartMesh::new(input, lattice, &start, StartMesh::points_for::<D>(count)),
+            false => StartMesh::of_first(&start),
+        };
+        let upload = || {
+            // The device orders the points while the host makes the other buffers.
+            let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
+            let input = PointInput { points: input, lattice, sort: settings.sort };
+            let device = kernels.points.record(gpu, &mut recorder, &mut point_buffers, input)?;
+            let mut words = Vec::new();
+            Dimension::<D>::append_vertex(&mut words, lattice.width(), start.interior_point, points, false);
+            device.vertices.write(gpu, count * words.len(), &words);
+            let dispatches = recorder.dispatches();
+            recorder.submit(gpu);
+            Ok((Memory::new(&kernels.stages, gpu, kept, device, blocks, history)?, dispatches))
+        };
+        let (mut start, (memory, dispatches)) = gpu
             .with_error_scope("Phase 1", || {
-                // The device orders the points while the host makes the other buffers.
-                let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
-                let Input { points: input, lattice, start } = input;
-                // Three of a triangle's, the last one twice.
-                let first = start.first.as_ref();
-                let wanted = std::array::from_fn(|k| first[k.min(D)]);
-                let input = PointInput { points: input, lattice, wanted, sort: settings.sort };
-                let device = kernels.points.record(gpu, &mut recorder, &mut point_buffers, input)?;
-                let mut words = Vec::new();
-                Dimension::<D>::append_vertex(&mut words, lattice.width(), start.interior_point, points, false);
-                device.vertices.write(gpu, count * words.len(), &words);
-                let dispatches = recorder.dispatches();
-                recorder.submit(gpu);
-                Ok((Memory::new(&kernels.stages, gpu, kept, device, blocks, history)?, dispatches))
+                let (uploaded, start) = parallel::beside(upload, vec![triangulate]);
+                Ok((start, uploaded?))
             })
             .await?;
+        let start = start.swap_remove(0);
         let blocks = memory.buffers.blocks();
         let few = if kernels.stages.flip.takes_few() { settings.few } else { 0 };
         Ok(Run {
@@ -232,6 +240,9 @@ where
                 compact_from: compact_from(blocks, &settings),
                 pick: settings.pick as u32,
                 clockwise: u32::from(settings.winding == Winding::Clockwise),
+                start_points: start.points.len() as u32,
+                start_simplices: start.simplices.len() as u32,
+                start_stride: start.stride(points),
                 ..Params::default()
             },
             counters: Counters { first_node: 1, next_node: 1, bid_base: 1, entries: points, ..Counters::default() },
@@ -240,7 +251,8 @@ where
             read_before: (kernels.readback.count(), kernels.readback.bytes()),
             kernels,
             submitted: VecDeque::new(),
-            inserted_at_most: D as u32 + 1,
+            inserted_at_most: start.points.len() as u32,
+            start,
             rounds_submitted: 0,
             rounds_before_growth: 0,
             iterations: Iterations::new(),
@@ -331,7 +343,11 @@ where
         let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
         if self.rounds_submitted == 0 {
             self.memory.buffers.control.write(gpu, 0, bytemuck::cast_slice(&[self.params]));
-            self.memory.buffers.control.write(gpu, PARAM_WORDS, bytemuck::cast_slice(&[self.counters]));
+            let (inserted, active) = (self.params.start_points, self.params.start_simplices);
+            let counters = Counters { inserted, active_len: [active, 0], ..self.counters };
+            self.memory.buffers.control.write(gpu, PARAM_WORDS, bytemuck::cast_slice(&[counters]));
+            self.memory.buffers.start_points.write(gpu, 0, &self.start.points);
+            self.memory.buffers.start_simplices.write(gpu, 0, &self.start.simplices);
             self.memory.buffers.record_clear(&mut recorder);
             let workgroups = self.workgroups();
             self.kernels.stages.insert.record_first(&mut recorder, &self.memory.bound.insert, workgroups);

@@ -18,6 +18,8 @@ pub struct Settings<const D: usize> {
     pub pick: Pick,
     /// Whether to insert all points before flipping (§5.3; `InsAll` in Figure 12).
     pub insert_all: bool,
+    /// Whether the CPU engine triangulates some of the points first, while the device orders them.
+    pub start: bool,
     /// With fewer active simplices than this, and than one per 1,024 points that are inserted,
     /// flipping waits for the next round; except at the end.
     pub min_active: u32,
@@ -65,6 +67,7 @@ where
         Settings {
             pick: Pick::Circumcenter,
             insert_all: false,
+            start: true,
             min_active: 1024,
             workgroups: 512,
             points_per_tail_block: 16,

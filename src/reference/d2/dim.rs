@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::d2::gpu::layout::{EdgeFlip, FLIP_22, SLOTS_PER_POINT};
+use crate::d2::gpu::layout::{EdgeFlip, FLIP_22};
 use crate::dimension::Dimension;
 use crate::gpu::layout::Counters;
 use crate::input::lattice::Width;
@@ -16,7 +16,6 @@ use crate::reference::dim::{Kernels, ReferenceDim};
 impl ReferenceDim<2> for Dimension<2> {
     type OwnState = ();
 
-    const SLOTS_PER_POINT: u32 = SLOTS_PER_POINT;
     const EULER_CHARACTERISTIC: usize = 2;
 
     fn facet(k: usize) -> &'static [usize] {

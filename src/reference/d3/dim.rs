@@ -17,7 +17,6 @@ use crate::reference::state::replaced;
 impl ReferenceDim<3> for Dimension<3> {
     type OwnState = OwnState;
 
-    const SLOTS_PER_POINT: u32 = BLOCK;
     const EULER_CHARACTERISTIC: usize = 0;
 
     fn facet(k: usize) -> &'static [usize] {
@@ -126,5 +125,9 @@ impl dim::OwnState for OwnState {
 
     fn occupy(&mut self, vertex: u32, slots: u32) {
         self.free[vertex as usize] &= !((1 << slots) - 1);
+    }
+
+    fn occupy_slot(&mut self, slot: u32) {
+        self.free[(slot / BLOCK) as usize] &= !(1 << (slot % BLOCK));
     }
 }
