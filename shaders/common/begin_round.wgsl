@@ -1,10 +1,7 @@
 // Begins an insertion round: what the kernels of the round have to know of what the last one left.
 // One invocation.
 //!include common/layout
-//!include primitives/scan
 @group(0) @binding(0) var<storage, read_write> control: Control;
-// Of the scan that compacts the list of waiting points.
-@group(0) @binding(1) var<storage, read_write> scan: ScanParams;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(global_invocation_id) id: vec3u) {
@@ -24,12 +21,12 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
         control.min_active = 0;
     }
     atomicStore(&control.overflow, 0u);
-    // Compacting the list costs about as much as walking it a few times.
+    // To compact the list costs about as much as to walk it once more.
+    atomicStore(&control.kept, 0u);
     control.entries_before = 0;
     if waiting < control.entries / 4 * 3 {
         control.entries_before = control.entries;
         control.entries = waiting;
         control.waiting_half ^= 1;
     }
-    scan.count = control.entries_before;
 }

@@ -60,6 +60,7 @@ struct Control {
     flips_22: atomic<u32>,
     hull: atomic<u32>,
     few_done: u32,
+    kept: atomic<u32>,
     log: array<array<u32, 5>, LOGGED>,
 
     free: array<atomic<u32>>,

@@ -166,6 +166,8 @@ pub struct Counters {
     pub hull: u32,
     /// Flip iterations that were done in one workgroup.
     pub few_done: u32,
+    /// Entries of the list of waiting points that were kept when it was compacted in this round.
+    pub kept: u32,
     /// What the rounds have done: entry *r* modulo [`LOGGED`] is the state after round *r*, as
     /// [`Counters::progress`] returns it.
     pub log: [[u32; 5]; LOGGED],

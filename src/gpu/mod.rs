@@ -28,7 +28,6 @@ mod readback;
 mod recorder;
 pub mod shader;
 pub mod start;
-pub mod waiting;
 
 pub use buffers::Storage;
 pub use device::{AdapterChoice, AdapterSummary, Gpu, adapters};

@@ -6,8 +6,8 @@ use crate::gpu::layout::{LOGGED, NONE};
 use crate::reference::State;
 use crate::reference::dim::ReferenceDim;
 
-/// Begins an insertion round, and compacts the list of waiting points where that pays. One
-/// invocation, and those of the compaction.
+/// Begins an insertion round, and decides whether the list of waiting points is compacted. One
+/// invocation.
 pub fn begin_round<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: ReferenceDim<D>,
@@ -25,10 +25,10 @@ where
         _ => NONE,
     };
     counters.overflow = 0;
+    counters.kept = 0;
     counters.entries_before = 0;
     if waiting < counters.entries / 4 * 3 {
         counters.entries_before = std::mem::replace(&mut counters.entries, waiting);
         counters.waiting_half ^= 1;
-        state.waiting.retain(|entry| entry.tet != NONE);
     }
 }

@@ -6,12 +6,16 @@ use crate::gpu::layout::{NONE, Pick, Waiting};
 use crate::reference::State;
 use crate::reference::dim::{Kernels, ReferenceDim};
 
-/// Scores each waiting point and finds the best score of each simplex. One invocation per waiting
-/// point.
+/// Scores each waiting point and finds the best score of each simplex. Compacts the list if that is
+/// due. One invocation per entry of the list.
 pub fn pick_score<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: Kernels<D>,
 {
+    if state.counters.entries_before != 0 {
+        state.waiting.retain(|entry| entry.tet != NONE);
+        state.counters.kept = state.waiting.len() as u32;
+    }
     for i in 0..state.waiting.len() {
         let Waiting { point: p, tet: t } = state.waiting[i];
         if t == NONE {

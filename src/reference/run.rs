@@ -3,7 +3,8 @@
 use crate::dimension::Dimension;
 use crate::gpu::layout::{NONE, Pick, SLOTS_FULL};
 use crate::gpu::start::{StartMesh, first_simplex};
-use crate::input::lattice::Width;
+use crate::input::lattice::{Lattice, Width};
+use crate::input::points::Points;
 
 use crate::reference::dim::{Kernels, ReferenceDim};
 use crate::reference::{
@@ -48,6 +49,16 @@ where
     Dimension<D>: Kernels<D>,
 {
     let begin = first_simplex(width, sites.len(), |i| sites[i].position)?;
+    // The points that make the start are given in floating point.
+    let is_exact = sites.iter().all(|s| s.position.iter().all(|&x| x < 1 << f64::MANTISSA_DIGITS));
+    let start = if is_exact {
+        let points: Vec<[f64; D]> = sites.iter().map(|s| s.position.map(|x| x as f64)).collect();
+        let points = Points::F64(&points);
+        StartMesh::new(points, &Lattice::fit(points), &begin, StartMesh::points_for::<D>(sites.len()))
+    } else {
+        StartMesh::of_first(&begin)
+    };
+    let vertices = start.points.iter().map(|&[v, _]| v).collect();
     sites.push(Vertex { position: begin.interior_point, index: sites.iter().map(|s| s.index).max()? + 1 });
     let mut state = State::new(width, sites, settings.tail, settings.history);
     state.params.pick = settings.pick as u32;
@@ -56,7 +67,7 @@ where
             state.validate();
         }
     };
-    state.set_start(StartMesh::of_first(&begin), begin.first.as_ref().to_vec());
+    state.set_start(start, vertices);
     start_mesh(&mut state);
     locate(&mut state);
     check(&state);

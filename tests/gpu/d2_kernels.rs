@@ -60,8 +60,8 @@ fn compare(width: Width, pick: Pick) {
     state.validate_mesh();
     while state.waiting.iter().any(|entry| entry.tet != NONE) {
         state.messages.fill([0; 4]);
-        device.begin_round(&mut state);
-        device.equal("pick_score", &mut state, reference::pick_score);
+        device.equal("begin_round", &mut state, reference::begin_round);
+        device.pick_score(&mut state);
         device.equal("pick_point", &mut state, reference::pick_point);
 
         let split = device.both("split", &mut state, reference::split);

@@ -58,8 +58,6 @@ where
 {
     pub kernels: Kernels,
     pub buffers: Buffers<D>,
-    scan: Storage<u32>,
-    offsets: Storage<u32>,
     /// What only some kernels are bound to.
     more: Vec<(&'static str, wgpu::Buffer)>,
 }
@@ -86,10 +84,7 @@ where
             counts: Storage::with_contents(gpu, "counts", &[InputCounts::default()]).unwrap(),
         };
         let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
-        let scan = Storage::new(gpu, "scan parameters", 1).unwrap();
-        let offsets = Storage::new(gpu, "offsets", count).unwrap();
-        let more = vec![("scan", scan.buffer().clone()), ("offsets", offsets.buffer().clone())];
-        Device { kernels, buffers, scan, offsets, more }
+        Device { kernels, buffers, more: Vec::new() }
     }
 
     /// Binds kernels to these buffers, too.
@@ -153,19 +148,24 @@ where
         self.equal("locate", state, reference::locate);
     }
 
-    /// Begins a round: one function of the reference; three kernels, and a scan.
-    pub fn begin_round(&self, state: &mut State<D>) {
-        self.upload(state);
-        self.run("begin_round");
-        reference::begin_round(state);
-        let entries = state.counters.entries_before;
-        assert_eq!(self.read(&self.scan), [entries], "begin_round");
-        self.run("waiting_mark");
-        let marks = &self.read(&self.buffers.marks)[..entries as usize];
-        let offsets: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
-        self.offsets.write(&self.kernels.gpu, 0, &offsets);
-        self.run("waiting_compact");
-        states::assert_equal(&self.download(state), state, "begin_round");
+    /// Scores the waiting points. Where the list of them is compacted, it may be in any order, and
+    /// so are the scores.
+    pub fn pick_score(&self, state: &mut State<D>)
+    where
+        Dimension<D>: reference::dim::Kernels<D>,
+    {
+        let before = (state.waiting.clone(), state.counters.entries_before);
+        let mut device = self.both("pick_score", state, reference::pick_score);
+        if before.1 != 0 {
+            assert_eq!(before.0.len() as u32, before.1);
+            let sorted = |state: &State<D>| {
+                let scores = state.scores.iter().copied();
+                state.waiting.iter().map(|entry| [entry.point, entry.tet]).zip(scores).collect::<BTreeSet<_>>()
+            };
+            assert_eq!(sorted(&device), sorted(state), "pick_score");
+            (device.waiting, device.scores) = (state.waiting.clone(), state.scores.clone());
+        }
+        states::assert_equal(&device, state, "pick_score");
     }
 
     /// Runs a kernel and its reference, whose results are the same to the last bit.

@@ -11,6 +11,7 @@ use gdel::internals::{
     reference::{State, d3, dim::ReferenceDim},
 };
 use pollster::block_on;
+use std::ops::Range;
 
 /// Moves the buffers that only one dimension has.
 pub trait Own<const D: usize>: ReferenceDim<D>
@@ -51,12 +52,17 @@ pub fn read_counters(gpu: &Gpu, control: &Storage<u32>) -> Counters {
     *bytemuck::from_bytes(bytemuck::cast_slice(&read(gpu, control)[PARAM_WORDS..FREE_START]))
 }
 
-/// Returns where the half of the list of waiting points starts that is in use.
-fn waiting_start<const D: usize>(state: &State<D>) -> usize
+/// Returns where the list of waiting points is: when a round has begun that will compact it, in the
+/// other half.
+fn waiting_range<const D: usize>(state: &State<D>) -> Range<usize>
 where
     Dimension<D>: Own<D>,
 {
-    (state.counters.waiting_half * state.params.infinite) as usize
+    let Counters { entries, entries_before, kept, waiting_half, .. } = state.counters;
+    let (half, len) =
+        if entries_before != 0 && kept == 0 { (waiting_half ^ 1, entries_before) } else { (waiting_half, entries) };
+    let start = half * state.params.infinite;
+    start as usize..(start + len) as usize
 }
 
 /// Writes all buffers but those of the points.
@@ -71,7 +77,7 @@ where
     b.active.write(gpu, 0, &state.active.concat());
     b.messages.write(gpu, 0, &state.messages);
     b.history.write(gpu, 0, &state.history);
-    b.waiting.write(gpu, waiting_start(state), &state.waiting);
+    b.waiting.write(gpu, waiting_range(state).start, &state.waiting);
     b.scores.write(gpu, 0, &state.scores);
     Dimension::<D>::write(gpu, b, &state.own);
 }
@@ -84,9 +90,7 @@ where
 {
     let active = read(gpu, &b.active);
     let (even, odd) = active.split_at(active.len() / 2);
-    let mut waiting = read(gpu, &b.waiting);
-    waiting.drain(..waiting_start(like));
-    waiting.truncate(like.counters.entries as usize);
+    let waiting = read(gpu, &b.waiting)[waiting_range(like)].to_vec();
     let Counters { exact, failed, .. } = like.counters;
     State {
         simplices: read(gpu, &b.simplices),

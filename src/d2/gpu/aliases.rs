@@ -6,7 +6,7 @@
 //! | `status` | the status of each slot | the half-edges of the mesh |
 //! | `waiting` | the list of waiting points | the edges of the hull |
 //! | `active` | the active list | the tests that rounding makes uncertain |
-//! | `scores` | the scores of waiting points; marks while their list is compacted | |
+//! | `scores` | the scores of waiting points | |
 
 use crate::{
     d2::gpu::layout::UncertainTest,

@@ -6,7 +6,7 @@
 //! | `active` | the active list | the neighbours of the mesh |
 //! | `status` | the status of each slot, until the failed vertices are marked | the list of uncertain tetrahedra |
 //! | `simplices`, `neighbors` | the slots | tetrahedra that are gathered, and those of a patch |
-//! | `scores` | the scores of waiting points; marks while their list is compacted | the list of failed vertices |
+//! | `scores` | the scores of waiting points | the list of failed vertices |
 
 use crate::gpu::{
     Binding, Storage,

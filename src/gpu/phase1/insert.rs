@@ -3,13 +3,7 @@
 
 use crate::{
     dimension::Dimension,
-    error::Error,
-    gpu::{
-        Compiler, Gpu, Kernel, Recorder,
-        dim::Dim,
-        phase1::buffers::Buffers,
-        waiting::{BoundWaitingList, WaitingList},
-    },
+    gpu::{Compiler, Gpu, Kernel, Recorder, dim::Dim, phase1::buffers::Buffers},
     input::lattice::Width,
 };
 
@@ -22,7 +16,6 @@ pub(crate) struct Insert {
     start_mesh: Kernel,
     locate: Kernel,
     begin_round: Kernel,
-    list: WaitingList,
     pick_score: Kernel,
     pick_point: Kernel,
     split: Kernel,
@@ -37,18 +30,10 @@ pub(crate) struct BoundInsert {
     start_mesh: wgpu::BindGroup,
     locate: wgpu::BindGroup,
     begin_round: wgpu::BindGroup,
-    list: BoundWaitingList,
     pick_score: wgpu::BindGroup,
     pick_point: wgpu::BindGroup,
     split: wgpu::BindGroup,
     relocate_split: wgpu::BindGroup,
-}
-
-impl BoundInsert {
-    /// Returns the bytes that it takes on the device beside the buffers that it shares.
-    pub(crate) fn bytes(&self) -> u64 {
-        self.list.bytes()
-    }
 }
 
 impl Insert {
@@ -64,7 +49,6 @@ impl Insert {
             start_mesh: kernel("start_mesh"),
             locate: kernel("locate"),
             begin_round: kernel("begin_round"),
-            list: WaitingList::new(compiler),
             pick_score: kernel("pick_score"),
             pick_point: kernel("pick_point"),
             split: kernel("split"),
@@ -73,19 +57,12 @@ impl Insert {
     }
 
     /// Binds the kernels to these buffers.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Storage::new`](crate::gpu::Storage::new).
-    pub(crate) fn bind<const D: usize>(&self, gpu: &Gpu, b: &Buffers<D>) -> Result<BoundInsert, Error>
+    pub(crate) fn bind<const D: usize>(&self, gpu: &Gpu, b: &Buffers<D>) -> BoundInsert
     where
         Dimension<D>: Dim<D>,
     {
-        // The scores are of no use any more when the list is compacted.
-        let list = self.list.bind(gpu, &b.control, &b.waiting, &b.scores)?;
-        let mut buffers = b.bindings();
-        buffers.push(("scan", list.params().buffer()));
-        Ok(BoundInsert {
+        let buffers = b.bindings();
+        BoundInsert {
             fill_free: self.fill_free.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
             start_vertices: self.start_vertices.bind(gpu, &buffers),
             start_mesh: self.start_mesh.bind(gpu, &buffers),
@@ -95,8 +72,7 @@ impl Insert {
             pick_point: self.pick_point.bind(gpu, &buffers),
             split: self.split.bind(gpu, &buffers),
             relocate_split: self.relocate_split.bind(gpu, &buffers),
-            list,
-        })
+        }
     }
 
     /// Records that the slots of new blocks are free.
@@ -136,7 +112,6 @@ impl Insert {
         recorder.encoder().clear_buffer(b.messages.buffer(), 0, None);
         recorder.stage("begin round");
         recorder.dispatch(&self.begin_round, &bound.begin_round, 1);
-        self.list.record(recorder, &bound.list, workgroups);
         recorder.stage("pick");
         recorder.dispatch(&self.pick_score, &bound.pick_score, workgroups);
         recorder.dispatch(&self.pick_point, &bound.pick_point, workgroups);

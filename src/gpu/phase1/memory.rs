@@ -85,6 +85,6 @@ where
 
     /// Returns the bytes that it takes, without the points.
     pub(crate) fn bytes(&self) -> u64 {
-        self.buffers.bytes() + self.bound.bytes()
+        self.buffers.bytes()
     }
 }

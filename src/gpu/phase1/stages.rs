@@ -61,20 +61,10 @@ impl Stages {
         Dimension<D>: Finish<D>,
     {
         Ok(BoundStages {
-            insert: self.insert.bind(gpu, b)?,
+            insert: self.insert.bind(gpu, b),
             flip: self.flip.bind(gpu, b),
             relocate: self.relocate.bind(gpu, b),
             finish: self.finish.bind(gpu, b)?,
         })
-    }
-}
-
-impl<const D: usize> BoundStages<D>
-where
-    Dimension<D>: Finish<D>,
-{
-    /// Returns the bytes that they take on the device beside the buffers that they share.
-    pub(crate) fn bytes(&self) -> u64 {
-        self.insert.bytes()
     }
 }
