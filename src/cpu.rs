@@ -206,7 +206,7 @@ where
 /// Returns [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
 pub(crate) fn triangulation<const D: usize>(
     points: Points<'_, D>,
-) -> Result<Option<(<Dimension<D> as Incremental<D>>::Triangulation, Arc<[u32]>)>, Error>
+) -> Result<Option<(<Dimension<D> as Incremental<D>>::Triangulation, Arc<Vec<u32>>)>, Error>
 where
     Dimension<D>: Incremental<D>,
 {

@@ -59,6 +59,10 @@ pub trait Dim<const D: usize>: Incremental<D> + Debug + Copy + Send + Sync + 'st
         }
     }
 
+    /// Returns how many of so many points the CPU engine triangulates while the device orders all of
+    /// them: with more it takes longer than the rounds that this saves. At least `D + 1`.
+    fn start_points(count: usize) -> usize;
+
     /// Appends the words of a vertex at `position`, which the lattice has `rounded` or not. 3D
     /// stores the input index with it; 2D stores it elsewhere and ignores it here.
     fn append_vertex(words: &mut Vec<i32>, width: Width, position: [i64; D], index: u32, rounded: bool);

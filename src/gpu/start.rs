@@ -112,16 +112,7 @@ pub struct StartMesh {
 /// What the CPU engine makes.
 type Grown<const D: usize> = <Dimension<D> as Incremental<D>>::Triangulation;
 
-/// The most points that the CPU engine triangulates: with more it takes longer than it saves.
-const MAX_START: usize = 4096;
-
 impl StartMesh {
-    /// Returns how many of so many points the CPU engine triangulates, about 1.5 √count: as many as
-    /// it manages while the device orders all of them.
-    pub fn points_for<const D: usize>(count: usize) -> usize {
-        (9 * count / 4).isqrt().min(MAX_START).max(D + 1)
-    }
-
     /// Triangulates `wanted` of the points, evenly spaced in the input, beside the corners of the
     /// first simplex. What the lattice does not represent is left out; where that leaves too little,
     /// or where the simplices are too many, the first simplex has to do.

@@ -1,6 +1,7 @@
 //! Phase 1 on the references.
 
 use crate::dimension::Dimension;
+use crate::gpu::dim::Dim;
 use crate::gpu::layout::{NONE, Pick, SLOTS_FULL};
 use crate::gpu::start::{StartMesh, first_simplex};
 use crate::input::lattice::{Lattice, Width};
@@ -54,7 +55,7 @@ where
     let start = if is_exact {
         let points: Vec<[f64; D]> = sites.iter().map(|s| s.position.map(|x| x as f64)).collect();
         let points = Points::F64(&points);
-        StartMesh::new(points, &Lattice::fit(points), &begin, StartMesh::points_for::<D>(sites.len()))
+        StartMesh::new(points, &Lattice::fit(points), &begin, Dimension::<D>::start_points(sites.len()))
     } else {
         StartMesh::of_first(&begin)
     };

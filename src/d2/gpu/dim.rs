@@ -14,6 +14,9 @@ use crate::{
     predicates::{Sign, integer::orient2d_wide},
 };
 
+/// The most points of the start.
+const MAX_START: usize = 4096;
+
 impl Dim<2> for Dimension<2> {
     type Corners = [u32; 3];
     type Flip = EdgeFlip;
@@ -29,6 +32,11 @@ impl Dim<2> for Dimension<2> {
 
     fn blocks(points: u32, _tail: u32) -> u32 {
         blocks(points)
+    }
+
+    /// Returns 1.5 √count: the CPU engine takes some 1 µs per point.
+    fn start_points(count: usize) -> usize {
+        (9 * count / 4).isqrt().min(MAX_START) + 3
     }
 
     fn append_vertex(words: &mut Vec<i32>, width: Width, position: [i64; 2], _index: u32, rounded: bool) {

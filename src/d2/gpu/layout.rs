@@ -3,10 +3,10 @@
 //! counterparts.
 //!
 //! **Triangles** live in slots of four words, of which the last is 0. Slots 2v and 2v + 1 are the
-//! two that the insertion of vertex *v* adds; those of infinity and the two after them start the
-//! first triangles. Flips change no slot's owner, so there is no list of free ones. The kernels
-//! that know nothing of dimensions count slots by blocks of eight: there are at least as many, and
-//! the last slot is never used.
+//! two that the insertion of vertex *v* adds; the triangles of the start fill those of its vertices.
+//! Flips change no slot's owner, so there is no list of free ones. The kernels that know nothing of
+//! dimensions count slots by blocks of eight: there are at least as many, and the last slot is never
+//! used.
 //!
 //! **Neighbours** are packed as 4·triangle + edge: entry *k* of a triangle is the edge opposite its
 //! vertex *k*, as the triangle on the other side numbers it.
@@ -26,7 +26,7 @@ pub const FLIP_22: u32 = d2::FLIP_22;
 
 /// Returns the blocks of eight slots for `points` points.
 pub fn blocks(points: u32) -> u32 {
-    (SLOTS_PER_POINT * points + 5).div_ceil(BLOCK)
+    (SLOTS_PER_POINT * points + 1).div_ceil(BLOCK)
 }
 
 /// A flip in the history.

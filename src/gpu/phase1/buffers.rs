@@ -8,7 +8,6 @@ use crate::{
         dim::{Dim, Flip, OwnBuffers},
         layout::{Active, BLOCK, FREE_START, PARAM_WORDS, Status, Waiting},
         points::DevicePoints,
-        start::StartMesh,
     },
 };
 
@@ -84,7 +83,7 @@ where
     pub fn new(gpu: &Gpu, points: DevicePoints, blocks: u32, history: u32) -> Result<Self, Error> {
         let count = points.pairs.len();
         let slots = slots(blocks);
-        let start = StartMesh::points_for::<D>(count);
+        let start = Dimension::<D>::start_points(count);
         Ok(Buffers {
             control: Storage::new(gpu, "control", FREE_START + blocks as usize)?,
             simplices: Storage::new(gpu, Dimension::<D>::SIMPLICES, slots)?,

@@ -2,7 +2,8 @@
 //! triangulation.
 //!
 //! 1. *Points*: lattice, points at the same place, order along the Hilbert curve
-//!    ([`points`](crate::gpu::points)).
+//!    ([`points`](crate::gpu::points)). Meanwhile the CPU engine triangulates some of them
+//!    ([`start`](crate::gpu::start)), from which the rounds go on.
 //! 2. *Rounds*, until no point waits: every simplex with waiting points picks one and is split;
 //!    flip iterations until (nearly) none is active; the waiting points follow the history of the
 //!    flips.

@@ -6,7 +6,7 @@ use crate::{
     gpu::{
         Gpu, Pending, Profiler, Recorder,
         dim::{Dim, Flip},
-        iterations::Iterations,
+        iterations::{Iterations, Known},
         layout::{BLOCK, COUNTER_WORDS, Counters, LOGGED, NONE, PARAM_WORDS, Params, SLOTS_FULL},
         phase1::{
             buffers::{Buffers, largest_bytes},
@@ -200,7 +200,7 @@ where
         let Kept { points: mut point_buffers, memory: kept } = std::mem::take(&mut kernels.kept);
         let Input { points: input, lattice, start } = input;
         let triangulate = || match settings.start {
-            true => StartMesh::new(input, lattice, &start, StartMesh::points_for::<D>(count)),
+            true => StartMesh::new(input, lattice, &start, Dimension::<D>::start_points(count)),
             false => StartMesh::of_first(&start),
         };
         let upload = || {
@@ -326,7 +326,11 @@ where
                 time,
             });
             if is_last {
-                self.iterations.plan(used - (few - few_before), recorded, inserted, self.waiting());
+                let waiting = self.waiting();
+                let left = waiting.saturating_mul(D as u32 + 1).saturating_add(active);
+                let is_few = left <= self.params.few_limit;
+                let used = used - (few - few_before);
+                self.iterations.plan(Known { used, recorded, inserted, waiting, is_few });
             }
             if inserted == inserted_before && inserted + read.merged < self.params.infinite {
                 return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
