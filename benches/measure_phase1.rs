@@ -95,7 +95,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "{{\"input\":\"{kind}\",\"points\":{},\"adapter\":\"{}\",\"width\":\"{:?}\",\"ms\":{:.2},\"all_ms\":[{}],\
          \"mesh_readback_ms\":{:.2},\"lattice_ms\":{lattice_ms:.1},\"pipelines_ms\":{pipelines_ms:.0},\"rounds\":{},\
          \"each_round\":[{}],\"flip_iterations\":{},\"few_done\":{},\"visits\":{},\"flips_23\":{},\"flips_32\":{},\"exact\":{},\"tets\":{},\"failed\":{},\
-         \"merged\":{},\"uncertain\":{},\"readbacks\":{},\"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
+         \"merged\":{},\"uncertain\":{},\"readbacks\":{},\"stalls\":{},\"dispatches\":{},\"gpu_bytes\":{},\"stages_ms\":{{{}}}}}",
         points.len(),
         gpu.adapter().name,
         lattice.width(),
@@ -115,6 +115,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         merged.len(),
         result.uncertain.len(),
         stats.readbacks,
+        stats.stalls,
         stats.dispatches,
         stats.bytes,
         stages.join(",")

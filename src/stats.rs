@@ -263,6 +263,8 @@ with_fields! {
         pub merged: u64,
         /// The number of results that were read back.
         pub readbacks: u64,
+        /// How often the host waited for one of them while the device had nothing else to do.
+        pub stalls: u64,
         /// The number of bytes that were read back.
         pub bytes_read: u64,
         /// The number of kernels that were run.

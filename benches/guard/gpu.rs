@@ -28,6 +28,7 @@ fn print(input: &str, stats: &Stats) {
         ("dispatches", gpu.dispatches),
         ("submits", gpu.submits),
         ("readbacks", gpu.readbacks),
+        ("stalls", gpu.stalls),
         ("bytes", gpu.bytes),
     ];
     for (name, count) in counts {

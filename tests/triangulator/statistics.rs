@@ -47,6 +47,17 @@ fn the_statistics_add_up() {
     assert_eq!(mesh.stats.trace, None);
 }
 
+/// The next batch is submitted before the counters of the last one are read: the device waits only
+/// for the host to ask for the mesh, and to receive it.
+#[test]
+fn the_device_does_not_wait_between_rounds() {
+    let points = generate3d(Distribution3::Uniform, 20_000, 1);
+    let mesh = block_on(engine().triangulate((&points).into(), &Options::default())).expect("triangulates");
+    let gpu = mesh.stats.gpu.expect("the GPU worked");
+    assert_eq!(gpu.stalls, 2, "{gpu:?}");
+    assert!(gpu.readbacks > gpu.rounds.len() as u64);
+}
+
 #[test]
 fn every_submission_is_counted() {
     let (points, mesh) = triangulate_thin_sphere(&Options::default());

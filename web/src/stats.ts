@@ -67,6 +67,8 @@ export interface GpuStats {
   merged: number;
   /** The number of results that were read back. */
   readbacks: number;
+  /** How often the CPU waited for one of them while the device had nothing else to do. */
+  stalls: number;
   /** The number of bytes that were read back. */
   bytesRead: number;
   /** The number of kernels that were run. */

@@ -240,6 +240,8 @@ where
 {
     /// The submissions that [`BoundFinish::read`] takes.
     pub(crate) const SUBMITS: usize = 2;
+    /// How often it waits while the device has nothing to do: for the second of them.
+    pub(crate) const STALLS: usize = 1;
 
     /// Returns the sums of the scan; their entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS)
     /// is the number of finite simplices.

@@ -306,6 +306,7 @@ where
         let Some(Batch { submission, counters, recorded, rounds }) = self.submitted.pop_front() else {
             return Ok(false);
         };
+        self.stats.stalls += usize::from(self.submitted.is_empty());
         let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
         let before = std::mem::replace(&mut self.counters, counters_in(&words));
         let read = self.counters;
@@ -366,12 +367,13 @@ where
                 flip.record_clear_votes(&mut recorder, bound, self.workgroups());
             }
         }
-        let (mut rounds, mut recorded) = (0, 0);
+        let (mut rounds, mut recorded, mut are_few) = (0, 0, true);
         let limit = self.settings.rounds.clamp(1, LOGGED as u32);
-        while rounds < limit || (self.settings.batches > 1 && recorded == 0 && rounds < LOGGED as u32) {
-            // All flips of the first rounds are few.
+        while rounds < limit || (self.settings.batches > 1 && are_few && rounds < LOGGED as u32) {
+            // All flips of the first rounds of few points are few.
             let active = self.inserted_at_most.saturating_mul(GROWTH * (D as u32 + 1));
-            recorded = if active <= self.params.few_limit { 0 } else { self.iterations.planned() };
+            are_few = active <= self.params.few_limit;
+            recorded = if are_few { 0 } else { self.iterations.planned() };
             self.inserted_at_most = self.inserted_at_most.saturating_mul(1 + GROWTH);
             self.record_round(&mut recorder, recorded);
             rounds += 1;
@@ -486,6 +488,7 @@ where
         for Batch { submission, counters, .. } in std::mem::take(&mut self.submitted) {
             self.kernels.readback.receive(gpu, &submission, counters).await?;
         }
+        self.stats.stalls += 1;
         let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
         let finite = self.kernels.readback.receive(gpu, &submission, finite).await?[0] as usize;
         let counters = counters_in(&words);
@@ -537,6 +540,7 @@ where
         let (result, merged) = bound.read(self.gpu, readback, &memory.buffers, self.finite, &self.counters).await?;
         self.stats.readback_time += self.clock.lap();
         self.stats.submits += BoundFinish::<D>::SUBMITS;
+        self.stats.stalls += BoundFinish::<D>::STALLS;
         Ok((result, pairs(merged)))
     }
 
@@ -551,6 +555,7 @@ where
         }
         let merged_into = &self.memory.buffers.points.merged_into;
         self.stats.submits += 1;
+        self.stats.stalls += 1;
         Ok(pairs(self.kernels.readback.read(self.gpu, merged_into, 0, merged_into.len()).await?))
     }
 

@@ -20,6 +20,8 @@ pub struct Phase1Stats {
     pub submits: usize,
     /// Readbacks.
     pub readbacks: usize,
+    /// How often the host waited for a readback while the device had nothing else to do.
+    pub stalls: usize,
     /// Bytes that were read back.
     pub bytes_read: u64,
     /// The most bytes of GPU memory that were held at a time.
@@ -47,6 +49,7 @@ impl Phase1Stats {
             failed_vertices: counters.failed.into(),
             merged: counters.merged.into(),
             readbacks: self.readbacks as u64,
+            stalls: self.stalls as u64,
             bytes_read: self.bytes_read,
             dispatches: self.dispatches as u64,
             submits: self.submits as u64,
