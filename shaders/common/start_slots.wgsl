@@ -1,7 +1,9 @@
-// The slots of the simplices that Phase 1 starts with: those of their vertices, in turn.
+// The slots of the simplices that Phase 1 starts with: the first ones of each of their vertices, so
+// that flips find free ones everywhere.
 //
-// Expects: start_vertices.
+// Expects: control, start_vertices.
 
 fn start_slot(simplex: u32) -> u32 {
-    return SLOTS_PER_POINT * start_vertices[simplex / SLOTS_PER_POINT] + simplex % SLOTS_PER_POINT;
+    let points = control.start_points;
+    return SLOTS_PER_POINT * start_vertices[simplex % points] + simplex / points;
 }

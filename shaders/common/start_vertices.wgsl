@@ -23,8 +23,9 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
     for (var i = id.x; i < control.start_points; i += groups.x * WORKGROUP) {
         let v = vertex_at(i);
         start_vertices[i] = v;
+        // As start_slot has it.
         let simplex = start_points[i].y;
-        let slot = SLOTS_PER_POINT * vertex_at(simplex / SLOTS_PER_POINT) + simplex % SLOTS_PER_POINT;
+        let slot = SLOTS_PER_POINT * vertex_at(simplex % control.start_points) + simplex / control.start_points;
         atomicMax(&start_near[v / control.start_stride], slot + 1);
     }
 }

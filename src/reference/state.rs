@@ -114,8 +114,8 @@ where
 
     /// Returns the slot of simplex `i` of the start.
     pub fn start_slot(&self, i: u32) -> u32 {
-        let each = Dimension::<D>::SLOTS_PER_POINT;
-        each * self.start_vertices[(i / each) as usize] + i % each
+        let points = self.params.start_points;
+        Dimension::<D>::SLOTS_PER_POINT * self.start_vertices[(i % points) as usize] + i / points
     }
 
     /// Returns the vertices of a simplex.
