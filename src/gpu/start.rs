@@ -169,6 +169,11 @@ impl StartMesh {
         }
         .ok()
         .flatten()?;
+        // The device breaks ties by the lowest of the points at one place. Where even a sample shows
+        // that there are many such, it would have to undo much of what was triangulated here.
+        if vertices.len() < sample.len() {
+            return None;
+        }
         let mesh = Self::of_triangulation(triangulation, vertices.iter().map(|&i| sample[i as usize]));
         let slots = mesh.points.len() * Dimension::<D>::SLOTS_PER_POINT as usize;
         (mesh.simplices.len() <= slots).then_some(mesh)
