@@ -198,15 +198,23 @@ where
     Ok(mesh)
 }
 
-/// Triangulates a few points by the calling thread. Returns the triangulation and the points that
-/// are its vertices; `None` if they span fewer dimensions.
+/// The triangulation of a few points.
+pub(crate) struct Triangulated<const D: usize>
+where
+    Dimension<D>: Incremental<D>,
+{
+    /// The triangulation.
+    pub(crate) triangulation: <Dimension<D> as Incremental<D>>::Triangulation,
+    /// The points that are its vertices.
+    pub(crate) vertices: Arc<Vec<u32>>,
+}
+
+/// Triangulates a few points by the calling thread. Returns `None` if they span fewer dimensions.
 ///
 /// # Errors
 ///
 /// Returns [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
-pub(crate) fn triangulation<const D: usize>(
-    points: Points<'_, D>,
-) -> Result<Option<(<Dimension<D> as Incremental<D>>::Triangulation, Arc<Vec<u32>>)>, Error>
+pub(crate) fn triangulate_few<const D: usize>(points: Points<'_, D>) -> Result<Option<Triangulated<D>>, Error>
 where
     Dimension<D>: Incremental<D>,
 {
@@ -218,7 +226,7 @@ where
     }
     let vertices = PredicateContext::new(points, &lattice, order);
     let triangulation = insert_all(Threads::One, &vertices, &rounds, &Options::default())?;
-    Ok(Some((triangulation, vertices.into_input_indices())))
+    Ok(Some(Triangulated { triangulation, vertices: vertices.into_input_indices() }))
 }
 
 /// Triangulates all vertices, of which the first `D + 1` must be positively oriented. Each of the

@@ -2,7 +2,7 @@
 
 use bytemuck::Zeroable;
 
-use crate::cpu::{self, Grow, Incremental};
+use crate::cpu::{self, Grow, Incremental, Triangulated};
 use crate::dimension::Dimension;
 use crate::gpu::dim::{Corners, Dim};
 use crate::index::NO_INDEX;
@@ -163,9 +163,9 @@ impl StartMesh {
         sample.sort_unstable();
         sample.dedup();
         sample.retain(is_exact);
-        let (triangulation, vertices) = match points {
-            Points::F32(p) => cpu::triangulation(Points::F32(&taken(p, &sample))),
-            Points::F64(p) => cpu::triangulation(Points::F64(&taken(p, &sample))),
+        let Triangulated { triangulation, vertices } = match points {
+            Points::F32(p) => cpu::triangulate_few(Points::F32(&taken(p, &sample))),
+            Points::F64(p) => cpu::triangulate_few(Points::F64(&taken(p, &sample))),
         }
         .ok()
         .flatten()?;
