@@ -128,18 +128,23 @@ fn rounds_on_rasters_grids_and_lines() {
     }
 }
 
+/// On the average: of one input as many as twice that can fail, since they come in clusters.
 #[test]
 fn failed_vertices_are_few() {
-    let sites = sites(random(100_000, 11, 1 << 24));
+    let count = 50_000;
+    let inputs: Vec<Vec<Vertex>> = (11..15).map(|seed| sites(random(count, seed, 1 << 24))).collect();
     for pick in [Pick::Circumcenter, Pick::Centroid, Pick::Random] {
-        let start = std::time::Instant::now();
         // As many slots as on a device: flips that wait for slots cost failed vertices.
-        let settings = Settings { pick, tail: 64 + 100_000 / 16, ..Settings::default() };
-        let state = run(Width::Narrow, sites.clone(), &settings).expect("not flat");
-        let failed: u32 = state.own.failed.iter().sum();
-        println!("{pick:?} failed {failed} {:?} {:?}", state.counters, start.elapsed());
+        let settings = Settings { pick, tail: 64 + count as u32 / 16, ..Settings::default() };
+        let failed = |sites: &Vec<Vertex>| {
+            let state = run(Width::Narrow, sites.clone(), &settings).expect("not flat");
+            state.own.failed.iter().sum::<u32>()
+        };
+        let some = if pick == Pick::Circumcenter { &inputs[..] } else { &inputs[..1] };
+        let failed: Vec<u32> = some.iter().map(failed).collect();
+        println!("{pick:?} failed {failed:?}");
         if pick == Pick::Circumcenter {
-            assert!(failed <= 150, "{failed} of 100,000 vertices failed");
+            assert!(failed.iter().sum::<u32>() <= 300, "{failed:?} of 50,000 vertices failed each");
         }
     }
 }
