@@ -5,7 +5,7 @@
 //! grid.
 //!
 //! The variables SINGLE (1: coordinates rounded to `f32`), PICK (0–2), INSERT_ALL (0, 1), SORT (0,
-//! 1), MIN_ACTIVE, WORKGROUPS and SEED change input and settings (the paper's Figure 12). Prints a
+//! 1), MIN_ACTIVE, WORKGROUPS, START and SEED change input and settings (the paper's Figure 12). Prints a
 //! line of JSON: medians over the repeats, after one run to warm up, of the whole run and its
 //! phases, points in host memory to mesh in host memory; then the same for the CPU engine (once;
 //! CPU=0 leaves it out) and whether both agree; and the stages of one more run on the device, which
@@ -60,6 +60,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         sort: option("SORT", 1) != 0,
         min_active: option("MIN_ACTIVE", defaults.min_active),
         workgroups: option("WORKGROUPS", defaults.workgroups),
+        start_points: std::env::var("START").ok().and_then(|value| value.parse().ok()),
         ..defaults
     };
     let doubles = points(&kind, count, option("SEED", 1).into())?;

@@ -2,12 +2,13 @@
 //! `cargo bench --features cli --bench measure_3d -- [KIND|FILE] [POINTS] [ADAPTER] [REPEATS]`.
 //!
 //! The variable SINGLE (1) rounds the coordinates to `f32`, SEED chooses others, RESIDENT (1) leaves
-//! the mesh on the device, REUSE (1) reads it into the same vectors each time. Prints a line of
-//! JSON: medians over the repeats of the whole run and its phases, points in host memory to mesh in
-//! host memory. Before, it runs for a second to warm up: a device raises its clock slowly.
+//! the mesh on the device, REUSE (1) reads it into the same vectors each time, START is the number
+//! of points that the CPU engine triangulates first. Prints a line of JSON: medians over the repeats
+//! of the whole run and its phases, points in host memory to mesh in host memory. Before, it runs
+//! for a second to warm up: a device raises its clock slowly.
 
 use gdel::internals::d3::generate::{Distribution3, generate3d};
-use gdel::internals::gpu::{AdapterChoice, Gpu, engine::GpuEngine};
+use gdel::internals::gpu::{AdapterChoice, Gpu, engine::GpuEngine, phase1::Settings};
 use gdel::internals::io::files::read_points;
 use gdel::{Mesh3, Outputs, Points, Points3, internals::Options};
 use pollster::block_on;
@@ -34,6 +35,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let gpu = block_on(Gpu::open(&choice))?;
     let name = gpu.adapter().name.clone();
     let mut engine = block_on(GpuEngine::new(gpu))?;
+    let start_points = std::env::var("START").ok().and_then(|value| value.parse().ok());
+    engine.set_settings(Settings { start_points, ..Settings::default() });
     let (resident, reuse) = (option("RESIDENT", 0) != 0, option("REUSE", 0) != 0);
     let mut kept = Mesh3::default();
     let mut run = || -> Result<_, gdel::Error> {
@@ -58,9 +61,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (ms, tetrahedra, stats) = &runs[runs.len() / 2];
     let phases: serde_json::Map<_, _> =
         stats.phases.iter().map(|&(phase, time)| (phase.to_string(), (1e3 * time.as_secs_f64()).into())).collect();
+    let gpu = stats.gpu.as_ref().map(|gpu| {
+        serde_json::json!({
+            "rounds": gpu.rounds.len(), "flip_iterations": gpu.flip_iterations, "dispatches": gpu.dispatches,
+            "readbacks": gpu.readbacks, "stalls": gpu.stalls, "failed_vertices": gpu.failed_vertices,
+        })
+    });
     let line = serde_json::json!({
         "input": kind, "points": points.len(), "single": single, "adapter": name, "ms": ms,
         "all_ms": runs.iter().map(|run| run.0).collect::<Vec<_>>(), "phases_ms": phases, "tetrahedra": tetrahedra,
+        "gpu": gpu,
         "splay": stats.splay, "fallback": stats.fallback,
     });
     println!("{line}");

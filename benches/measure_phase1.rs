@@ -3,9 +3,10 @@
 //! on coordinates rounded to `f32`.
 //!
 //! The variables PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE, SLOTS_PER_ACTIVE,
-//! WORKGROUPS, FEW, ROUNDS, BATCHES and SEED change the settings. Prints a line of JSON: medians
-//! over the repeats, after a second of runs to warm up, since a device raises its clock slowly; and
-//! the stages of one more run, which is slower because each dispatch is timed.
+//! WORKGROUPS, FEW, START (the points that the CPU engine triangulates first), ROUNDS, BATCHES and
+//! SEED change the settings. Prints a line of JSON: medians over the repeats, after a second of runs
+//! to warm up, since a device raises its clock slowly; and the stages of one more run, which is
+//! slower because each dispatch is timed.
 
 use gdel::Points;
 use gdel::internals::d3::generate::{Distribution3, generate3d};
@@ -44,6 +45,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         workgroups: option("WORKGROUPS", defaults.workgroups),
         sort: option("SORT", 1) != 0,
         few: option("FEW", defaults.few),
+        start_points: std::env::var("START").ok().and_then(|value| value.parse().ok()),
         rounds: option("ROUNDS", defaults.rounds),
         batches: option("BATCHES", defaults.batches),
         ..defaults

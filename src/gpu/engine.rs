@@ -222,7 +222,7 @@ where
         let mut settings = Settings { winding: options.winding, ..self.settings };
         if options.trace {
             // What is traced is the triangulation after each round.
-            (settings.rounds, settings.batches, settings.start) = (1, 1, false);
+            (settings.rounds, settings.batches, settings.start_points) = (1, 1, Some(0));
         }
         let (gpu, phase1) = self.kernels(lattice.width()).await?;
         let mut run = Run::new(phase1, gpu, Input { points, lattice: &lattice, start }, settings, None).await?;

@@ -8,8 +8,8 @@ use gdel::{
         gpu::{
             AdapterChoice, Binding, Compiler, Gpu, Kernel, Recorder, Storage,
             dim::Dim,
-            layout::NONE,
-            phase1::Buffers,
+            layout::{NONE, Params},
+            phase1::{Buffers, Sizes},
             points::{DevicePoints, InputCounts},
             shader::Shader,
         },
@@ -83,7 +83,9 @@ where
             vertex_of: Storage::new(gpu, "vertices of points", count).unwrap(),
             counts: Storage::with_contents(gpu, "counts", &[InputCounts::default()]).unwrap(),
         };
-        let buffers = Buffers::new(gpu, points, state.params.blocks, state.params.history).unwrap();
+        let Params { blocks, history, start_points, .. } = state.params;
+        let sizes = Sizes { blocks, history, start_points: start_points as usize };
+        let buffers = Buffers::new(gpu, points, sizes).unwrap();
         Device { kernels, buffers, more: Vec::new() }
     }
 

@@ -7,13 +7,15 @@ use gdel::internals::{
     gpu::{
         AdapterChoice, Compiler, Gpu, Storage,
         dim::OwnBuffers,
-        phase1::{Aliases, Buffers},
+        phase1::{Aliases, Buffers, Sizes},
         points::DevicePoints,
         shader::{self, Shaders},
     },
     input::lattice::Width,
 };
 use pollster::block_on;
+
+const SIZES: Sizes = Sizes { blocks: 1, history: 1, start_points: 1 };
 
 fn points(gpu: &Gpu) -> DevicePoints {
     DevicePoints {
@@ -36,8 +38,8 @@ fn variables(shaders: &Shaders) -> BTreeSet<&'static str> {
 fn every_name_of_a_buffer_is_one_of_a_variable() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let (d2_names, d3_names) = (variables(&shader::D2), variables(&shader::D3));
-    let in_2d = Buffers::<2>::new(&gpu, points(&gpu), 1, 1).unwrap();
-    let in_3d = Buffers::<3>::new(&gpu, points(&gpu), 1, 1).unwrap();
+    let in_2d = Buffers::<2>::new(&gpu, points(&gpu), SIZES).unwrap();
+    let in_3d = Buffers::<3>::new(&gpu, points(&gpu), SIZES).unwrap();
     let (aliases_2d, aliases_3d) = (d2::gpu::aliases::Aliases::new(&in_2d), d3::gpu::aliases::Aliases::new(&in_3d));
     for (name, _) in aliases_2d.bindings() {
         assert!(d2_names.contains(name), "no kernel for triangles has a variable {name}");

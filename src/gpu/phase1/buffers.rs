@@ -60,6 +60,17 @@ where
     pub own: <Dimension<D> as Dim<D>>::OwnBuffers,
 }
 
+/// How large the buffers of a run are, beside what follows from the number of its points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sizes {
+    /// The blocks of slots.
+    pub blocks: u32,
+    /// The nodes of the history.
+    pub history: u32,
+    /// The points that the CPU engine triangulates first, at most.
+    pub start_points: usize,
+}
+
 /// Returns the bytes of the largest of the buffers: with 16 bytes per slot, several have this size,
 /// and no other is larger.
 pub(crate) fn largest_bytes(blocks: u32) -> u128 {
@@ -75,15 +86,15 @@ impl<const D: usize> Buffers<D>
 where
     Dimension<D>: Dim<D>,
 {
-    /// Creates buffers for these points, for `blocks` blocks of slots and `history` nodes.
+    /// Creates buffers for these points, of these sizes.
     ///
     /// # Errors
     ///
     /// Returns [`Error::BufferTooLarge`].
-    pub fn new(gpu: &Gpu, points: DevicePoints, blocks: u32, history: u32) -> Result<Self, Error> {
+    pub fn new(gpu: &Gpu, points: DevicePoints, sizes: Sizes) -> Result<Self, Error> {
+        let Sizes { blocks, history, start_points } = sizes;
         let count = points.pairs.len();
         let slots = slots(blocks);
-        let start = Dimension::<D>::start_points(count);
         Ok(Buffers {
             control: Storage::new(gpu, "control", FREE_START + blocks as usize)?,
             simplices: Storage::new(gpu, Dimension::<D>::SIMPLICES, slots)?,
@@ -94,14 +105,14 @@ where
             history: Storage::new(gpu, "history", history as usize)?,
             waiting: Storage::new(gpu, "waiting points", 2 * count)?,
             scores: Storage::new(gpu, "scores", count)?,
-            start_points: Storage::new(gpu, "points of the start", start)?,
+            start_points: Storage::new(gpu, "points of the start", start_points)?,
             start_simplices: Storage::new(
                 gpu,
                 "simplices of the start",
-                start * Dimension::<D>::SLOTS_PER_POINT as usize,
+                start_points * Dimension::<D>::SLOTS_PER_POINT as usize,
             )?,
-            start_vertices: Storage::new(gpu, "vertices of the start", start)?,
-            start_near: Storage::new(gpu, "simplices near vertices", start)?,
+            start_vertices: Storage::new(gpu, "vertices of the start", start_points)?,
+            start_near: Storage::new(gpu, "simplices near vertices", start_points)?,
             marks: Storage::new(gpu, "marks", slots)?,
             numbers: Storage::new(gpu, "numbers of simplices", slots)?,
             own: OwnBuffers::new(gpu, count, blocks)?,

@@ -6,7 +6,7 @@ use crate::{
     gpu::{
         Gpu, Recorder,
         phase1::{
-            buffers::Buffers,
+            buffers::{Buffers, Sizes},
             finish::Finish,
             stages::{BoundStages, Stages},
         },
@@ -58,17 +58,17 @@ where
         gpu: &Gpu,
         kept: Option<Memory<D>>,
         points: DevicePoints,
-        blocks: u32,
-        history: u32,
+        sizes: Sizes,
     ) -> Result<Self, Error> {
         let fits = |b: &Buffers<D>| {
             b.points.vertices.buffer() == points.vertices.buffer()
-                && b.blocks() >= blocks
-                && b.history.len() == history as usize
+                && b.blocks() >= sizes.blocks
+                && b.history.len() == sizes.history as usize
+                && b.start_points.len() >= sizes.start_points
         };
         match kept {
             Some(memory) if fits(&memory.buffers) => Ok(memory),
-            _ => Memory::bind(stages, gpu, Buffers::new(gpu, points, blocks, history)?),
+            _ => Memory::bind(stages, gpu, Buffers::new(gpu, points, sizes)?),
         }
     }
 

@@ -38,7 +38,7 @@ mod settings;
 mod stages;
 mod stats;
 
-pub use buffers::{Buffers, Slot};
+pub use buffers::{Buffers, Sizes, Slot};
 pub use finish::{Aliases, Copied, Copies, Finish, Step};
 pub use kernels::Phase1;
 pub(crate) use memory::Memory;

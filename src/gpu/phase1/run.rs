@@ -9,7 +9,7 @@ use crate::{
         iterations::{Iterations, Known},
         layout::{BLOCK, COUNTER_WORDS, Counters, LOGGED, NONE, PARAM_WORDS, Params, SLOTS_FULL},
         phase1::{
-            buffers::{Buffers, largest_bytes},
+            buffers::{Buffers, Sizes, largest_bytes},
             finish::{BoundFinish, Copies, Finish},
             flip::FlipPlan,
             kernels::Phase1,
@@ -199,10 +199,8 @@ where
         // What is kept is lost if the run fails.
         let Kept { points: mut point_buffers, memory: kept } = std::mem::take(&mut kernels.kept);
         let Input { points: input, lattice, start } = input;
-        let triangulate = || match settings.start {
-            true => StartMesh::new(input, lattice, &start, Dimension::<D>::start_points(count)),
-            false => StartMesh::of_first(&start),
-        };
+        let start_points = settings.start_points(count);
+        let triangulate = || StartMesh::new(input, lattice, &start, start_points);
         let upload = || {
             // The device orders the points while the host makes the other buffers.
             let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
@@ -213,7 +211,7 @@ where
             device.vertices.write(gpu, count * words.len(), &words);
             let dispatches = recorder.dispatches();
             recorder.submit(gpu);
-            Ok((Memory::new(&kernels.stages, gpu, kept, device, blocks, history)?, dispatches))
+            Ok((Memory::new(&kernels.stages, gpu, kept, device, Sizes { blocks, history, start_points })?, dispatches))
         };
         let (mut start, (memory, dispatches)) = gpu
             .with_error_scope("Phase 1", || {

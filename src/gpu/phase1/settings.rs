@@ -18,8 +18,9 @@ pub struct Settings<const D: usize> {
     pub pick: Pick,
     /// Whether to insert all points before flipping (§5.3; `InsAll` in Figure 12).
     pub insert_all: bool,
-    /// Whether the CPU engine triangulates some of the points first, while the device orders them.
-    pub start: bool,
+    /// How many of the points the CPU engine triangulates first, while the device orders them;
+    /// `None` for what was measured to be best.
+    pub start_points: Option<u32>,
     /// With fewer active simplices than this, and than one per 1,024 points that are inserted,
     /// flipping waits for the next round; except at the end.
     pub min_active: u32,
@@ -67,7 +68,7 @@ where
         Settings {
             pick: Pick::Circumcenter,
             insert_all: false,
-            start: true,
+            start_points: None,
             min_active: 1024,
             workgroups: 512,
             points_per_tail_block: 16,
@@ -86,6 +87,15 @@ where
 }
 
 impl<const D: usize> Settings<D> {
+    /// Returns how many of `count` points the CPU engine triangulates first. The corners of the
+    /// first simplex are always among them.
+    pub(crate) fn start_points(&self, count: usize) -> usize
+    where
+        Dimension<D>: Dim<D>,
+    {
+        self.start_points.map_or_else(|| Dimension::<D>::start_points(count), |n| n as usize).max(D + 1)
+    }
+
     /// Returns whether the flips of a run wait for each other, so that the CPU engine finishes
     /// sooner.
     ///
