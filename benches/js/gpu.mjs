@@ -3,6 +3,10 @@
 //
 //   node benches/js/gpu.mjs [--package FOLDER] [--webgpu FOLDER] \
 //     [--points 100000,1000000] [--kind uniform] [--runs 5] [--native GDEL]
+//     [--outputs neighbors,hull,duplicateOf] [--resident]
+//
+// With --resident, the mesh stays on a device that the script opens; --outputs '' leaves the
+// tetrahedra alone.
 //
 // To run it on another machine, carry this file, web/dist and node_modules/webgpu there; of the
 // latter, `index.js`, `package.json` and the `.dawn.node` of its platform in `dist` are enough.
@@ -25,6 +29,8 @@ const { values } = parseArgs({
     kind: { type: 'string', default: 'uniform' },
     runs: { type: 'string', default: '5' },
     native: { type: 'string' },
+    outputs: { type: 'string', default: 'neighbors,hull,duplicateOf' },
+    resident: { type: 'boolean', default: false },
   },
 });
 const load = (folder, file) => import(pathToFileURL(join(resolve(folder), file)));
@@ -35,8 +41,22 @@ const folder = mkdtempSync(join(tmpdir(), 'gdel-bench-'));
 process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
 const median = (numbers) => numbers.slice().sort((a, b) => a - b)[numbers.length >> 1];
 
+/** Returns a device with the largest buffers that the adapter has. */
+async function deviceOf(gpu) {
+  const adapter = await gpu.requestAdapter({ powerPreference: 'high-performance' });
+  const { maxBufferSize, maxStorageBufferBindingSize } = adapter.limits;
+  return adapter.requestDevice({ requiredLimits: { maxBufferSize, maxStorageBufferBindingSize } });
+}
+
 const opened = performance.now();
-const triangulator = await createTriangulator({ gpu: create([]), backend: 'gpu' });
+const gpu = create([]);
+const { resident } = values;
+const triangulator = await createTriangulator({
+  ...(resident ? { device: await deviceOf(gpu) } : { gpu }),
+  backend: 'gpu',
+});
+const outputs = values.outputs.split(',').filter(Boolean);
+const kept = resident ? { resident } : { outputs };
 const openMilliseconds = performance.now() - opened;
 const runs = +values.runs;
 
@@ -65,28 +85,31 @@ for (const count of values.points.split(',').map(Number)) {
   for (let run = -1; run < runs; run++) {
     const copy = points.slice();
     const started = performance.now();
-    mesh = await triangulator.delaunay3d(copy, { backend: 'gpu', transfer: true });
+    mesh = await triangulator.delaunay3d(copy, { backend: 'gpu', transfer: true, ...kept });
     if (run >= 0) times.push(performance.now() - started);
+    if (resident) mesh.destroy();
   }
-  const { gpu, splay, phases, why, adapter, wasmBytes } = mesh.stats;
+  const { gpu: device, splay, phases, fallback, adapter, wasmBytes } = mesh.stats;
   const milliseconds = median(times);
   console.log(
     JSON.stringify({
       kind: values.kind,
       points: count,
-      tetrahedra: mesh.tetrahedra.length / 4,
+      tetrahedra: mesh.tetrahedronCount ?? mesh.tetrahedra.length / 4,
+      outputs: resident ? 'resident' : outputs,
       milliseconds,
       all: times,
       nativeMilliseconds: native,
       ratio: native && milliseconds / native,
       phases,
-      why,
-      submits: gpu?.submits,
-      dispatches: gpu?.dispatches,
-      readbacks: gpu?.readbacks,
-      failedVertices: gpu?.failedVertices,
+      fallback,
+      submits: device?.submits,
+      dispatches: device?.dispatches,
+      readbacks: device?.readbacks,
+      bytesRead: device?.bytesRead,
+      failedVertices: device?.failedVertices,
       splayed: splay?.built,
-      gpuBytes: gpu?.bytes,
+      gpuBytes: device?.bytes,
       wasmBytes,
       openMilliseconds,
       adapter,

@@ -249,20 +249,36 @@ impl<const D: usize> DeviceMesh<D> {
         }
     }
 
+    /// Reads buffers of the mesh. Returns the statistics with what that took.
+    pub(crate) async fn read_with<T: Target>(&self, reads: Vec<(&wgpu::Buffer, T)>) -> Result<(Vec<T>, Stats), Error> {
+        let mut readback = self.readback.clone();
+        let (count, bytes) = (readback.count(), readback.bytes());
+        let targets = readback.read_into(&self.gpu, reads).await?;
+        let mut stats = self.stats.clone();
+        if let Some(gpu) = &mut stats.gpu {
+            // Each in a submission of its own.
+            let pieces = (readback.count() - count) as u64;
+            (gpu.readbacks, gpu.submits) = (gpu.readbacks + pieces, gpu.submits + pieces);
+            gpu.bytes_read += readback.bytes() - bytes;
+        }
+        Ok((targets, stats))
+    }
+
     /// Reads buffers of the mesh into memory outside of that of WebAssembly: the simplices, their
-    /// neighbours, the hull, and the lowest simplex of each point, by these numbers.
+    /// neighbours, the hull, and the lowest simplex of each point, by these numbers. Returns the
+    /// statistics as well, with what that took.
     ///
     /// # Errors
     ///
     /// Returns the errors of `read`.
     #[cfg(target_arch = "wasm32")]
-    pub async fn read_to_js(&self, arrays: &[usize]) -> Result<Vec<js_sys::Uint8Array>, Error> {
+    pub async fn read_to_js(&self, arrays: &[usize]) -> Result<(Vec<js_sys::Uint8Array>, Stats), Error> {
         let storages = self.arrays.storages();
         let reads = arrays.iter().map(|&i| {
             let target = js_sys::Uint8Array::new_with_length(4 * storages[i].len() as u32);
             (storages[i].buffer(), target)
         });
-        self.readback.clone().read_into(&self.gpu, reads.collect()).await
+        self.read_with(reads.collect()).await
     }
 
     /// Returns the lowest simplex of each point, [`NONE`](crate::NONE) for duplicates. Blocks the
@@ -321,21 +337,6 @@ where
             })
             .await?;
         Ok(DeviceMesh::new(gpu, &Readback::default(), arrays, mesh))
-    }
-
-    /// Reads buffers of the mesh. Returns the statistics with what that took.
-    pub(crate) async fn read_with<T: Target>(&self, reads: Vec<(&wgpu::Buffer, T)>) -> Result<(Vec<T>, Stats), Error> {
-        let mut readback = self.readback.clone();
-        let (count, bytes) = (readback.count(), readback.bytes());
-        let targets = readback.read_into(&self.gpu, reads).await?;
-        let mut stats = self.stats.clone();
-        if let Some(gpu) = &mut stats.gpu {
-            // Each in a submission of its own.
-            let pieces = (readback.count() - count) as u64;
-            (gpu.readbacks, gpu.submits) = (gpu.readbacks + pieces, gpu.submits + pieces);
-            gpu.bytes_read += readback.bytes() - bytes;
-        }
-        Ok((targets, stats))
     }
 
     /// Reads all arrays, and frees those on the device.

@@ -87,6 +87,35 @@ where
     Device(Box<DeviceMesh<D>>),
 }
 
+impl<const D: usize> Made<D>
+where
+    Dimension<D>: MeshArrays<D>,
+{
+    /// Returns the mesh in the memory of the host.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`DeviceMesh::read_vertex_simplex_async`].
+    pub(crate) async fn into_host(self) -> Result<MeshOf<D>, Error> {
+        match self {
+            Made::Host(mesh) => Ok(mesh),
+            Made::Device(mesh) => mesh.into_host().await,
+        }
+    }
+
+    /// Returns the mesh on the device, which is `gpu`.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Gpu::with_error_scope`].
+    pub(crate) async fn into_device(self, gpu: &Gpu) -> Result<DeviceMesh<D>, Error> {
+        match self {
+            Made::Host(mesh) => DeviceMesh::upload(gpu, mesh).await,
+            Made::Device(mesh) => Ok(*mesh),
+        }
+    }
+}
+
 /// What goes with a run of Phase 1 that is to be completed.
 pub struct Near<'a, const D: usize> {
     /// The points of the run.
@@ -177,10 +206,7 @@ where
     /// Returns the errors of [`delaunay3d`](crate::delaunay3d), and those of the device.
     pub async fn triangulate(&mut self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error> {
         let options = &options.monotone();
-        let mesh = match self.make(points, options, self.settings.sparse).await? {
-            Made::Host(mesh) => mesh,
-            Made::Device(mesh) => mesh.into_host().await?,
-        };
+        let mesh = self.make(points, options, false).await?.into_host().await?;
         options.report(Phase::Finish, 1.0)?;
         Ok(mesh)
     }
@@ -196,16 +222,23 @@ where
         options: &Options,
     ) -> Result<DeviceMesh<D>, Error> {
         let options = &options.monotone();
-        let mesh = match self.make(points, options, true).await? {
-            Made::Host(mesh) => DeviceMesh::upload(&self.gpu, mesh).await?,
-            Made::Device(mesh) => *mesh,
-        };
+        let mesh = self.make(points, options, true).await?.into_device(&self.gpu).await?;
         options.report(Phase::Finish, 1.0)?;
         Ok(mesh)
     }
 
-    /// Makes the mesh wherever that is done.
-    async fn make(&mut self, points: Points<'_, D>, options: &Options, sparse: bool) -> Result<Made<D>, Error> {
+    /// Triangulates `points`, and leaves the mesh where it is made, which is the device if `resident`
+    /// and the device can make it. The last report of progress is the caller's.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`GpuEngine::triangulate`].
+    pub(crate) async fn make(
+        &mut self,
+        points: Points<'_, D>,
+        options: &Options,
+        resident: bool,
+    ) -> Result<Made<D>, Error> {
         let mut stopwatch = Stopwatch::start();
         options.report(Phase::Lattice, 0.0)?;
         points.validate_by(Threads::All)?;
@@ -244,7 +277,7 @@ where
             lattice: &lattice,
             options,
             adapter: &gpu.adapter().name,
-            sparse,
+            sparse: settings.sparse || resident,
             stats: &mut stats,
             stopwatch: &mut stopwatch,
         };

@@ -6,6 +6,8 @@ mod shared_device;
 #[cfg(feature = "gpu")]
 pub use shared_device::{MIN_POINTS_2D, MIN_POINTS_3D, OPENING_POINTS_2D, OPENING_POINTS_3D};
 
+#[cfg(all(feature = "gpu", target_arch = "wasm32"))]
+use crate::gpu::engine::Made;
 #[cfg(feature = "gpu")]
 use crate::gpu::{
     AdapterChoice, Gpu,
@@ -364,6 +366,19 @@ impl Triangulator {
     #[cfg(feature = "gpu")]
     pub async fn delaunay2d_of_buffer_async(&self, points: &wgpu::Buffer) -> Result<DeviceMesh2, Error> {
         self.device.delaunay2d_of_buffer(points, &self.options).await
+    }
+
+    /// Triangulates in 3D, and has `deliver` take the mesh where it was made, or, if `resident`, on
+    /// the device: [`Backend::Auto`] takes the CPU if the GPU fails before that is done.
+    #[doc(hidden)]
+    #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
+    pub async fn deliver3d<'a, R>(
+        &self,
+        points: impl Into<Points3<'a>>,
+        resident: bool,
+        deliver: impl AsyncFn(Made<3>) -> Result<R, Error>,
+    ) -> Result<R, Error> {
+        self.device.deliver3d(points.into(), &self.options, resident, deliver).await
     }
 
     /// Opens the device and compiles the kernels for 3D, unless that was done.

@@ -11,13 +11,13 @@ use crate::{
     gpu::{
         AdapterChoice, Gpu, Readback,
         device_mesh::{DeviceMesh, DeviceMesh2, DeviceMesh3, MeshArrays, with_len},
-        engine::{Complete, GpuEngine},
+        engine::{Complete, GpuEngine, Made},
         phase1::Finish,
     },
     input::points::{Points, Points2, Points3},
     mesh::MeshInfo,
     options::Options,
-    stats::Fallback,
+    stats::{Fallback, Phase},
 };
 use async_lock::Mutex;
 
@@ -116,53 +116,6 @@ impl Choice<2> for Dimension<2> {
     }
 }
 
-/// Where a caller wants the mesh.
-trait Form<const D: usize>: Sized
-where
-    Dimension<D>: Choice<D>,
-{
-    /// Runs the GPU engine.
-    async fn triangulate(engine: &mut GpuEngine<D>, points: Points<'_, D>, options: &Options) -> Result<Self, Error>;
-
-    /// Takes a mesh that the CPU engine has made there.
-    async fn of_host(device: &SharedDevice, mesh: MeshOf<D>) -> Result<Self, Error>;
-}
-
-/// A mesh in the memory of the host.
-struct Host<const D: usize>(MeshOf<D>)
-where
-    Dimension<D>: Choice<D>;
-
-impl<const D: usize> Form<D> for Host<D>
-where
-    Dimension<D>: Choice<D>,
-{
-    async fn triangulate(engine: &mut GpuEngine<D>, points: Points<'_, D>, options: &Options) -> Result<Self, Error> {
-        engine.triangulate(points, options).await.map(Host)
-    }
-
-    async fn of_host(_device: &SharedDevice, mesh: MeshOf<D>) -> Result<Self, Error> {
-        Ok(Host(mesh))
-    }
-}
-
-impl<const D: usize> Form<D> for DeviceMesh<D>
-where
-    Dimension<D>: Choice<D>,
-{
-    async fn triangulate(engine: &mut GpuEngine<D>, points: Points<'_, D>, options: &Options) -> Result<Self, Error> {
-        engine.triangulate_on_device(points, options).await
-    }
-
-    async fn of_host(device: &SharedDevice, mesh: MeshOf<D>) -> Result<Self, Error> {
-        let mut state = device.state.lock().await;
-        let gpu = state.device(&device.adapter).await?;
-        let result = DeviceMesh::upload(&gpu, mesh).await;
-        state.forget_if_lost(&result);
-        result
-    }
-}
-
 impl SharedDevice {
     /// Creates the state for a device of this adapter.
     pub(super) fn new(adapter: AdapterChoice) -> Self {
@@ -194,12 +147,31 @@ impl SharedDevice {
 
     /// Triangulates `points` in 3D.
     pub(super) async fn delaunay3d(&self, points: Points3<'_>, options: &Options) -> Result<Mesh3, Error> {
-        Ok(self.run::<3, Host<3>>(points, options).await?.0)
+        self.run_on_host(points, options).await
     }
 
     /// Triangulates `points` in 2D.
     pub(super) async fn delaunay2d(&self, points: Points2<'_>, options: &Options) -> Result<Mesh2, Error> {
-        Ok(self.run::<2, Host<2>>(points, options).await?.0)
+        self.run_on_host(points, options).await
+    }
+
+    /// Triangulates `points` in 3D, and has `deliver` take the mesh where it was made, or, if
+    /// `resident`, on the device.
+    #[cfg(target_arch = "wasm32")]
+    pub(super) async fn deliver3d<R>(
+        &self,
+        points: Points3<'_>,
+        options: &Options,
+        resident: bool,
+        deliver: impl AsyncFn(Made<3>) -> Result<R, Error>,
+    ) -> Result<R, Error> {
+        let deliver = async |mesh: Made<3>, gpu: Option<Gpu>| match mesh {
+            Made::Host(mesh) if resident => {
+                deliver(Made::Device(Box::new(self.to_device(Made::Host(mesh), gpu).await?))).await
+            }
+            mesh => deliver(mesh).await,
+        };
+        self.run(points, options, true, deliver).await
     }
 
     /// Triangulates `points` in 3D, and leaves the mesh on the device.
@@ -208,7 +180,7 @@ impl SharedDevice {
         points: Points3<'_>,
         options: &Options,
     ) -> Result<DeviceMesh3, Error> {
-        self.run(points, options).await
+        self.run_on_device::<3>(points, options).await
     }
 
     /// Triangulates `points` in 2D, and leaves the mesh on the device.
@@ -217,7 +189,7 @@ impl SharedDevice {
         points: Points2<'_>,
         options: &Options,
     ) -> Result<DeviceMesh2, Error> {
-        self.run(points, options).await
+        self.run_on_device::<2>(points, options).await
     }
 
     /// Triangulates the points in a buffer of the device in 3D, and leaves the mesh there.
@@ -227,7 +199,7 @@ impl SharedDevice {
         options: &Options,
     ) -> Result<DeviceMesh3, Error> {
         let points = self.read_points::<3>(points).await?;
-        self.run((&points).into(), options).await
+        self.run_on_device::<3>((&points).into(), options).await
     }
 
     /// Triangulates the points in a buffer of the device in 2D, and leaves the mesh there.
@@ -237,7 +209,7 @@ impl SharedDevice {
         options: &Options,
     ) -> Result<DeviceMesh2, Error> {
         let points = self.read_points::<2>(points).await?;
-        self.run((&points).into(), options).await
+        self.run_on_device::<2>((&points).into(), options).await
     }
 
     /// Reads points, which the host needs for the lattice and for exact predicates.
@@ -254,37 +226,80 @@ impl SharedDevice {
         Ok(array)
     }
 
-    async fn run<const D: usize, F: Form<D>>(&self, points: Points<'_, D>, options: &Options) -> Result<F, Error>
+    async fn run_on_host<const D: usize>(&self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>
     where
         Dimension<D>: Choice<D>,
     {
-        let mesh = match options.backend {
-            Backend::Cpu => cpu::delaunay(points, options)?,
+        self.run(points, options, false, async |mesh: Made<D>, _| mesh.into_host().await).await
+    }
+
+    async fn run_on_device<const D: usize>(
+        &self,
+        points: Points<'_, D>,
+        options: &Options,
+    ) -> Result<DeviceMesh<D>, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        self.run(points, options, true, async |mesh: Made<D>, gpu| self.to_device(mesh, gpu).await).await
+    }
+
+    /// Takes a mesh to the device, which is `gpu` if it is in use.
+    async fn to_device<const D: usize>(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<DeviceMesh<D>, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        if let Some(gpu) = gpu {
+            return mesh.into_device(&gpu).await;
+        }
+        let mut state = self.state.lock().await;
+        let gpu = state.device(&self.adapter).await?;
+        let result = mesh.into_device(&gpu).await;
+        state.forget_if_lost(&result);
+        result
+    }
+
+    /// Triangulates `points`, if `resident` for a mesh on the device, and has `deliver` take the mesh
+    /// where it was made, with the GPU if it was used. If the backend is [`Backend::Auto`] and the GPU
+    /// fails before that is done, `deliver` gets the mesh of the CPU.
+    async fn run<const D: usize, R>(
+        &self,
+        points: Points<'_, D>,
+        options: &Options,
+        resident: bool,
+        deliver: impl AsyncFn(Made<D>, Option<Gpu>) -> Result<R, Error>,
+    ) -> Result<R, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        match options.backend {
+            Backend::Cpu => deliver(Made::Host(cpu::delaunay(points, options)?), None).await,
             Backend::Gpu => {
                 let mut state = self.state.lock().await;
                 state.open::<D>(&self.adapter).await?;
-                return state.run::<D, F>(points, options).await;
+                state.run(points, options, resident, deliver).await
             }
             Backend::Auto => {
                 let options = &options.monotone();
-                let why = match self.try_gpu::<D, F>(points, options).await {
+                let why = match self.try_gpu(points, options, resident, &deliver).await {
                     Ok(result) => return result,
                     Err(why) => why,
                 };
                 let mut mesh = cpu::delaunay(points, options)?;
                 mesh.stats_mut().fallback = Some(why);
-                mesh
+                deliver(Made::Host(mesh), None).await
             }
-        };
-        F::of_host(self, mesh).await
+        }
     }
 
-    /// Returns what the GPU engine makes of the points, or why the CPU engine has to.
-    async fn try_gpu<const D: usize, F: Form<D>>(
+    /// Delivers what the GPU engine makes of the points, or says why the CPU engine has to.
+    async fn try_gpu<const D: usize, R>(
         &self,
         points: Points<'_, D>,
         options: &Options,
-    ) -> Result<Result<F, Error>, Fallback>
+        resident: bool,
+        deliver: impl AsyncFn(Made<D>, Option<Gpu>) -> Result<R, Error>,
+    ) -> Result<Result<R, Error>, Fallback>
     where
         Dimension<D>: Choice<D>,
     {
@@ -294,7 +309,7 @@ impl SharedDevice {
         }
         let mut state = self.state.lock().await;
         state.open_if_it_pays::<D>(&self.adapter, points.len()).await?;
-        match state.run::<D, F>(points, options).await {
+        match state.run(points, options, resident, deliver).await {
             Err(error) if error.is_of_the_gpu() => Err(Fallback::GpuFailed(error)),
             result => Ok(result),
         }
@@ -370,14 +385,27 @@ impl State {
 
     /// Runs the GPU engine, which is open. If its device gets lost, the next run has to open
     /// another.
-    async fn run<const D: usize, F: Form<D>>(&mut self, points: Points<'_, D>, options: &Options) -> Result<F, Error>
+    async fn run<const D: usize, R>(
+        &mut self,
+        points: Points<'_, D>,
+        options: &Options,
+        resident: bool,
+        deliver: impl AsyncFn(Made<D>, Option<Gpu>) -> Result<R, Error>,
+    ) -> Result<R, Error>
     where
         Dimension<D>: Choice<D>,
     {
         let Some(engine) = &mut Dimension::<D>::slot(self).engine else {
             return Err(Error::NoAdapter { reason: "it is not open".to_owned() });
         };
-        let result = F::triangulate(engine, points, options).await;
+        let options = &options.monotone();
+        let result = async {
+            let mesh = engine.make(points, options, resident).await?;
+            let delivered = deliver(mesh, Some(engine.gpu().clone())).await?;
+            options.report(Phase::Finish, 1.0)?;
+            Ok(delivered)
+        };
+        let result = result.await;
         self.forget_if_lost(&result);
         result
     }

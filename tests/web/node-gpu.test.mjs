@@ -26,6 +26,17 @@ test('the mesh is the native one; a run can be aborted', { timeout: 600_000 }, a
   assert.ok(mesh.stats.gpu.dispatches > 0);
   assert.ok(mesh.stats.adapter.maxStorageBufferBindingSize >= 128 * 2 ** 20);
 
+  // What was not asked for is not read from the device.
+  const hull = await triangulator.delaunay3d(points, { outputs: ['hull'] });
+  assert.equal(fingerprint(hull.tetrahedra), expected);
+  assert.equal(hull.hull.length, mesh.hull.length);
+  assert.deepEqual([hull.neighbors.length, hull.duplicateOf.length], [0, 0]);
+  assert.deepEqual(
+    [mesh.neighbors.length, mesh.duplicateOf.length],
+    [mesh.tetrahedra.length, count],
+  );
+  assert.ok(hull.stats.gpu.bytesRead < mesh.stats.gpu.bytesRead);
+
   const controller = new AbortController();
   const run = triangulator.delaunay3d(points, {
     signal: controller.signal,

@@ -1,6 +1,10 @@
 //! 3D triangulation.
 
-use gdel::{Backend, DeviceMesh3, Mesh3, Triangulator, internals::triangulator::MIN_POINTS_3D, stats::Trace};
+use gdel::{
+    Backend, DeviceMesh3, Error, Mesh3, Triangulator,
+    internals::{gpu::engine::Made, triangulator::MIN_POINTS_3D},
+    stats::{Stats, Trace},
+};
 use js_sys::{Array, Function, Int32Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
@@ -56,11 +60,12 @@ impl WasmTriangulator {
         let coordinates = Coordinates::new(&points)?;
         drop(points);
         let triangulator = self.for_run(backend, report).trace(outputs.trace);
-        let points = coordinates.points()?;
-        Ok(match resident {
-            true => resident3(triangulator.delaunay3d_on_device_async(points).await?),
-            false => mesh3(triangulator.delaunay3d_async(points).await?, outputs),
-        })
+        let deliver = async |mesh: Made<3>| match mesh {
+            Made::Host(mesh) => Ok(mesh3(mesh, outputs)),
+            Made::Device(mesh) if resident => Ok(resident3(*mesh)),
+            Made::Device(mesh) => read3(&mesh, outputs).await,
+        };
+        Ok(triangulator.deliver3d(coordinates.points()?, resident, deliver).await?)
     }
 }
 
@@ -89,7 +94,7 @@ impl WasmMesh3 {
     /// Returns the bytes of an array: the tetrahedra, their neighbours, the hull, or a tetrahedron
     /// of each point, by these numbers.
     pub async fn read(&self, array: usize) -> Result<JsValue, Thrown> {
-        Ok(self.0.read_to_js(&[array]).await?.swap_remove(0).into())
+        Ok(self.0.read_to_js(&[array]).await?.0.swap_remove(0).into())
     }
 }
 
@@ -100,6 +105,28 @@ pub fn delaunay3d_blocking(points: JsValue, outputs: Outputs) -> Result<JsValue,
     drop(points);
     let triangulator = Triangulator::new().backend(Backend::Cpu);
     Ok(mesh3(triangulator.delaunay3d(coordinates.points()?)?, outputs))
+}
+
+/// Copies a mesh from the device, straight into arrays of JavaScript.
+async fn read3(mesh: &DeviceMesh3, outputs: Outputs) -> Result<JsValue, Error> {
+    let wanted: Vec<usize> = [true, outputs.neighbors, outputs.hull]
+        .into_iter()
+        .enumerate()
+        .filter_map(|(array, is_wanted)| is_wanted.then_some(array))
+        .collect();
+    let (arrays, stats) = mesh.read_to_js(&wanted).await?;
+    mesh.destroy();
+    let result = object([("dimension", mesh.dimension().into()), ("stats", statistics(&stats))]);
+    for (array, bytes) in wanted.into_iter().zip(arrays) {
+        let buffer = bytes.buffer();
+        match array {
+            0 => set(&result, "tetrahedra", Uint32Array::new(&buffer)),
+            1 => set(&result, "neighbors", Int32Array::new(&buffer)),
+            _ => set(&result, "hull", Uint32Array::new(&buffer)),
+        }
+    }
+    set_extras(&result, &stats, mesh.duplicate_of(), outputs);
+    Ok(result)
 }
 
 /// Copies a mesh. Each array is freed as soon as it is copied: a mesh is large, and WebAssembly's
@@ -116,13 +143,18 @@ fn mesh3(mesh: Mesh3, outputs: Outputs) -> JsValue {
     if outputs.hull {
         set(&result, "hull", Uint32Array::new_from_slice(hull.as_flattened()));
     }
+    set_extras(&result, &stats, &duplicate_of, outputs);
+    result
+}
+
+/// Adds what the host has of every mesh.
+fn set_extras(result: &JsValue, stats: &Stats, duplicate_of: &[i32], outputs: Outputs) {
     if let Some(trace) = &stats.trace {
-        set(&result, "trace", self::trace(trace));
+        set(result, "trace", self::trace(trace));
     }
     if outputs.duplicate_of {
-        set(&result, "duplicateOf", Int32Array::new_from_slice(&duplicate_of));
+        set(result, "duplicateOf", Int32Array::new_from_slice(duplicate_of));
     }
-    result
 }
 
 fn trace(trace: &Trace) -> JsValue {
