@@ -24,7 +24,7 @@ use crate::{
     predicates::filter::PredicateContext,
     stats::{Phase, Stats, Stopwatch},
 };
-use std::{num::NonZeroUsize, ops::Range, sync::Arc};
+use std::{num::NonZeroUsize, ops::Range};
 
 /// With fewer points than this, one thread is as fast as several. Tests let many threads meet on
 /// few points.
@@ -196,37 +196,6 @@ where
     mesh.set_input(duplicate_of, dimension);
     *mesh.stats_mut() = stats;
     Ok(mesh)
-}
-
-/// The triangulation of a few points.
-pub(crate) struct Triangulated<const D: usize>
-where
-    Dimension<D>: Incremental<D>,
-{
-    /// The triangulation.
-    pub(crate) triangulation: <Dimension<D> as Incremental<D>>::Triangulation,
-    /// The points that are its vertices.
-    pub(crate) vertices: Arc<Vec<u32>>,
-}
-
-/// Triangulates a few points by the calling thread. Returns `None` if they span fewer dimensions.
-///
-/// # Errors
-///
-/// Returns [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
-pub(crate) fn triangulate_few<const D: usize>(points: Points<'_, D>) -> Result<Option<Triangulated<D>>, Error>
-where
-    Dimension<D>: Incremental<D>,
-{
-    let lattice = Lattice::fit(points);
-    let Distinct { mut order, rounds, .. } =
-        insertion_order(Threads::One, points, &lattice, Dimension::<D>::CURVE, Order::default());
-    if usize::from(Dimension::<D>::spanning_first(points, &mut order)) < D {
-        return Ok(None);
-    }
-    let vertices = PredicateContext::new(points, &lattice, order);
-    let triangulation = insert_all(Threads::One, &vertices, &rounds, &Options::default())?;
-    Ok(Some(Triangulated { triangulation, vertices: vertices.into_input_indices() }))
 }
 
 /// Triangulates all vertices, of which the first `D + 1` must be positively oriented. Each of the

@@ -1,14 +1,20 @@
 //! What Phase 1 starts with: the first simplex, and the triangulation of some of the points.
 
+use std::sync::Arc;
+
 use bytemuck::Zeroable;
 
-use crate::cpu::{self, Grow, Incremental, Triangulated};
+use crate::cpu::{Grow, Incremental, insert_all};
 use crate::dimension::Dimension;
+use crate::error::Error;
 use crate::gpu::dim::{Corners, Dim};
 use crate::index::NO_INDEX;
 use crate::input::lattice::{Lattice, Width};
-use crate::input::order::mix;
+use crate::input::order::{Distinct, Order, insertion_order, mix};
 use crate::input::points::Points;
+use crate::options::Options;
+use crate::parallel::Threads;
+use crate::predicates::filter::PredicateContext;
 
 /// The first simplex, and a point inside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -164,8 +170,8 @@ impl StartMesh {
         sample.dedup();
         sample.retain(is_exact);
         let Triangulated { triangulation, vertices } = match points {
-            Points::F32(p) => cpu::triangulate_few(Points::F32(&taken(p, &sample))),
-            Points::F64(p) => cpu::triangulate_few(Points::F64(&taken(p, &sample))),
+            Points::F32(p) => triangulate_few(Points::F32(&taken(p, &sample))),
+            Points::F64(p) => triangulate_few(Points::F64(&taken(p, &sample))),
         }
         .ok()
         .flatten()?;
@@ -194,4 +200,35 @@ impl StartMesh {
 /// Returns the items at these places.
 fn taken<T: Copy>(items: &[T], places: &[u32]) -> Vec<T> {
     places.iter().map(|&i| items[i as usize]).collect()
+}
+
+/// The triangulation of a few points.
+struct Triangulated<const D: usize>
+where
+    Dimension<D>: Incremental<D>,
+{
+    /// The triangulation.
+    triangulation: <Dimension<D> as Incremental<D>>::Triangulation,
+    /// The points that are its vertices.
+    vertices: Arc<Vec<u32>>,
+}
+
+/// Triangulates a few points by the calling thread. Returns `None` if they span fewer dimensions.
+///
+/// # Errors
+///
+/// Returns [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
+fn triangulate_few<const D: usize>(points: Points<'_, D>) -> Result<Option<Triangulated<D>>, Error>
+where
+    Dimension<D>: Incremental<D>,
+{
+    let lattice = Lattice::fit(points);
+    let Distinct { mut order, rounds, .. } =
+        insertion_order(Threads::One, points, &lattice, Dimension::<D>::CURVE, Order::default());
+    if usize::from(Dimension::<D>::spanning_first(points, &mut order)) < D {
+        return Ok(None);
+    }
+    let vertices = PredicateContext::new(points, &lattice, order);
+    let triangulation = insert_all(Threads::One, &vertices, &rounds, &Options::default())?;
+    Ok(Some(Triangulated { triangulation, vertices: vertices.into_input_indices() }))
 }
