@@ -126,9 +126,8 @@ pub struct Near<'a, const D: usize> {
     pub(crate) options: &'a Options,
     /// The name of the adapter.
     pub(crate) adapter: &'a str,
-    /// [`Settings::sparse`], or whether the mesh is to stay on the device.
-    #[cfg_attr(target_arch = "wasm32", expect(dead_code, reason = "it is always so in wasm"))]
-    pub(crate) sparse: bool,
+    /// Whether the mesh is to stay on the device, or [`Settings::sparse`].
+    pub(crate) resident: bool,
     /// Receives the statistics.
     pub(crate) stats: &'a mut Stats,
     /// Times the phases.
@@ -277,7 +276,7 @@ where
             lattice: &lattice,
             options,
             adapter: &gpu.adapter().name,
-            sparse: settings.sparse || resident,
+            resident: settings.sparse || resident,
             stats: &mut stats,
             stopwatch: &mut stopwatch,
         };

@@ -28,6 +28,7 @@ mod readback;
 mod recorder;
 pub mod shader;
 pub mod start;
+pub(crate) mod vertex_simplices;
 
 pub use buffers::Storage;
 pub use device::{AdapterChoice, AdapterSummary, Gpu, adapters};

@@ -381,6 +381,18 @@ impl Triangulator {
         self.device.deliver3d(points.into(), &self.options, resident, deliver).await
     }
 
+    /// Does the same in 2D.
+    #[doc(hidden)]
+    #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
+    pub async fn deliver2d<'a, R>(
+        &self,
+        points: impl Into<Points2<'a>>,
+        resident: bool,
+        deliver: impl AsyncFn(Made<2>) -> Result<R, Error>,
+    ) -> Result<R, Error> {
+        self.device.deliver2d(points.into(), &self.options, resident, deliver).await
+    }
+
     /// Opens the device and compiles the kernels for 3D, unless that was done.
     #[doc(hidden)]
     #[cfg(feature = "gpu")]

@@ -165,13 +165,20 @@ impl SharedDevice {
         resident: bool,
         deliver: impl AsyncFn(Made<3>) -> Result<R, Error>,
     ) -> Result<R, Error> {
-        let deliver = async |mesh: Made<3>, gpu: Option<Gpu>| match mesh {
-            Made::Host(mesh) if resident => {
-                deliver(Made::Device(Box::new(self.to_device(Made::Host(mesh), gpu).await?))).await
-            }
-            mesh => deliver(mesh).await,
-        };
-        self.run(points, options, true, deliver).await
+        self.deliver(points, options, resident, deliver).await
+    }
+
+    /// Triangulates `points` in 2D, and has `deliver` take the mesh where it was made, or, if
+    /// `resident`, on the device.
+    #[cfg(target_arch = "wasm32")]
+    pub(super) async fn deliver2d<R>(
+        &self,
+        points: Points2<'_>,
+        options: &Options,
+        resident: bool,
+        deliver: impl AsyncFn(Made<2>) -> Result<R, Error>,
+    ) -> Result<R, Error> {
+        self.deliver(points, options, resident, deliver).await
     }
 
     /// Triangulates `points` in 3D, and leaves the mesh on the device.
@@ -224,6 +231,24 @@ impl SharedDevice {
         let target = with_len::<[f32; D]>(&mut array, (bytes / point_bytes) as usize)?;
         Readback::default().read_into(&gpu, vec![(points, target)]).await?;
         Ok(array)
+    }
+
+    #[cfg(target_arch = "wasm32")]
+    async fn deliver<const D: usize, R>(
+        &self,
+        points: Points<'_, D>,
+        options: &Options,
+        resident: bool,
+        deliver: impl AsyncFn(Made<D>) -> Result<R, Error>,
+    ) -> Result<R, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let deliver = async |mesh: Made<D>, gpu: Option<Gpu>| match mesh {
+            Made::Host(_) if resident => deliver(Made::Device(Box::new(self.to_device(mesh, gpu).await?))).await,
+            mesh => deliver(mesh).await,
+        };
+        self.run(points, options, true, deliver).await
     }
 
     async fn run_on_host<const D: usize>(&self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>

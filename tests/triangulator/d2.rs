@@ -2,7 +2,7 @@
 
 use crate::degenerate;
 use gdel::{
-    Backend, Mesh2, Points2,
+    Backend, DeviceMesh2, Mesh2, Outputs, Points2,
     internals::{
         Options,
         cpu::delaunay_in_order,
@@ -52,6 +52,16 @@ fn agree(name: &str, points: Points2<'_>) {
     assert_eq!(mesh.stats.fallback, None, "{name}");
     assert_eq!(mesh.stats.backend, Backend::Gpu);
     same(points, &mesh);
+    // The same where the device makes the arrays.
+    let resident = on_device(points);
+    assert_eq!(resident.stats().fallback, None, "{name}");
+    same(points, &resident.read(Outputs::ALL).expect("reads"));
+}
+
+fn on_device(points: Points2<'_>) -> DeviceMesh2 {
+    let mut engine = ENGINE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    engine.set_settings(Settings::default());
+    block_on(engine.triangulate_on_device(points, &Options::default())).expect("triangulates")
 }
 
 fn random(n: usize, seed: u64, point: impl Fn(&mut Pcg64Mcg) -> [f64; 2]) -> Vec<[f64; 2]> {

@@ -8,7 +8,7 @@ use gdel::{
         d3::generate::{Distribution3, generate3d},
         gpu::{AdapterChoice, Gpu},
     },
-    stats::Fallback,
+    stats::{Fallback, Phase, Stats},
     wgpu,
 };
 use pollster::block_on;
@@ -56,7 +56,30 @@ fn a_mesh_on_the_device_is_that_of_the_host_in_2d() {
         assert!(report.passed(), "{report}");
         assert_eq!((mesh.simplex_count(), mesh.hull_count()), (read.triangles.len(), read.hull.len()));
         assert_eq!(mesh.read_vertex_simplex().expect("reads"), read.vertex_triangle());
+        // The mesh did not go through the host, of which it takes 24 bytes per triangle.
+        let bytes = |of: &Stats| of.gpu.as_ref().expect("the GPU was used").bytes_read;
+        let words = 6 * read.triangles.len() + read.hull.len();
+        assert_eq!(bytes(&read.stats) - bytes(mesh.stats()), 4 * words as u64);
+        assert!(bytes(mesh.stats()) < bytes(&expected.stats), "{distribution:?}: {:?}", mesh.stats());
     }
+}
+
+/// Rounding leaves signs open that the true coordinates decide otherwise, or puts points at one place:
+/// the host flips, and takes the mesh to the device.
+#[test]
+fn what_the_host_has_flipped_is_on_the_device_in_2d() {
+    let triangulator = on(&device());
+    // Next to each other at a distance that the lattice of the others does not have.
+    let mut points = generate2d(Distribution2::Uniform, 500, 7);
+    points.extend_from_within(..20);
+    points[500..].iter_mut().for_each(|p| p[0] = f64::from_bits(p[0].to_bits() + 1));
+    points.push([1e30, 1e30]);
+    let mesh = triangulator.delaunay2d_on_device(&points).expect("triangulates");
+    assert_eq!((mesh.stats().fallback.as_ref(), mesh.stats().backend), (None, Backend::Gpu));
+    assert!(mesh.stats().phases.iter().any(|&(phase, _)| phase == Phase::Flip), "{:?}", mesh.stats().phases);
+    let read = mesh.read(Outputs::ALL).expect("reads");
+    let expected = triangulator.clone().backend(Backend::Cpu).delaunay2d(&points).expect("triangulates");
+    assert!(read.canonical() == expected.canonical() && read.hull == expected.hull);
 }
 
 #[test]

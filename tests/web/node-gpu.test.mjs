@@ -132,3 +132,62 @@ test("a mesh stays on the caller's device", { timeout: 600_000 }, async () => {
     ['DEVICE_LOST', 'GPU'].includes(error.code),
   );
 });
+
+/** Returns the triangles in an order of their own: equal for equal meshes. */
+function canonical2d(triangles) {
+  const rows = [];
+  for (let t = 0; t < triangles.length; t += 3)
+    rows.push(
+      triangles
+        .slice(t, t + 3)
+        .sort()
+        .join(),
+    );
+  return rows.sort().join(' ');
+}
+
+test("a 2D mesh stays on the caller's device, or comes from there", {
+  timeout: 600_000,
+}, async () => {
+  const { createTriangulator, delaunay2d, generate2d, ResidentMesh2 } = await importFrom(project());
+  const device = await openDevice();
+  const triangulator = await createTriangulator({ device, backend: 'gpu' });
+  const points = await generate2d('uniform', 500, { seed: 3 });
+  const expected = await delaunay2d(points, { backend: 'cpu' });
+  const print = canonical2d(expected.triangles);
+
+  const read = await triangulator.delaunay2d(points);
+  assert.deepEqual([read.stats.backend, read.stats.fallback], ['gpu', null]);
+  assert.equal(canonical2d(read.triangles), print);
+  assert.deepEqual(read.hull, expected.hull);
+  assert.deepEqual(read.duplicateOf, expected.duplicateOf);
+  assert.equal(read.halfedges.length, expected.halfedges.length);
+
+  const mesh = await triangulator.delaunay2d(points, { resident: true });
+  assert.ok(mesh instanceof ResidentMesh2);
+  assert.deepEqual([mesh.stats.backend, mesh.stats.fallback], ['gpu', null]);
+  assert.ok(mesh.stats.gpu.bytesRead < read.stats.gpu.bytesRead);
+  assert.equal(mesh.triangleCount, expected.triangles.length / 3);
+  assert.equal(mesh.hullCount, expected.hull.length);
+  assert.equal(mesh.buffers.halfedges.size, 4 * expected.halfedges.length);
+  const triangles = await mesh.read('triangles');
+  assert.equal(canonical2d(triangles), print);
+  assert.deepEqual(await mesh.read('hull'), expected.hull);
+  const halfedges = await mesh.read('halfedges');
+  assert.ok(halfedges instanceof Int32Array && halfedges.length === triangles.length);
+  halfedges.forEach((against, e) => {
+    if (against >= 0) assert.equal(halfedges[against], e);
+  });
+  const lowest = new Int32Array(500).fill(-1);
+  for (let i = triangles.length - 1; i >= 0; i--) lowest[triangles[i]] = Math.floor(i / 3);
+  assert.deepEqual(await mesh.read('vertexTriangle'), lowest);
+  mesh.destroy();
+  await assert.rejects(mesh.read('hull'), { code: 'DISPOSED' });
+
+  // What the CPU has made is on the device all the same.
+  const line = await triangulator.delaunay2d([0, 0, 2, 2, 1, 1], { resident: true });
+  assert.deepEqual([line.dimension, line.triangleCount], [1, 0]);
+  assert.deepEqual(await line.read('hull'), new Uint32Array([0, 2, 1]));
+  await assert.rejects(delaunay2d(points, { resident: true }), { code: 'BAD_INPUT' });
+  triangulator.dispose();
+});

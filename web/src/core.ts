@@ -239,7 +239,7 @@ function tasks2d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
     delaunay2d(args, control) {
       const minGpuCoordinates = 2 * glue.min_gpu_points_2d();
       return run(args, minGpuCoordinates, control, (backend, report) =>
-        triangulator.delaunay2d(args.points, backend, report),
+        triangulator.delaunay2d(args.points, backend, args.resident ?? false, report),
       );
     },
   };

@@ -21,7 +21,14 @@ export {
 export { GdelError, type GdelErrorCode } from './errors.js';
 export { type Locations3, Mesh3 } from './mesh.js';
 export { type Locations2, Mesh2 } from './mesh2.js';
-export { type GpuBuffer, type ResidentArray, ResidentMesh3 } from './resident.js';
+export {
+  type GpuBuffer,
+  type ResidentArrays2,
+  type ResidentArrays3,
+  type ResidentMesh,
+  ResidentMesh2,
+  ResidentMesh3,
+} from './resident.js';
 export type { ExactCounts, GpuStats, Round, SplayStats } from './stats.js';
 export { delaunay2dSync, delaunay3dSync, load2d, load3d } from './sync.js';
 export {

@@ -3,6 +3,7 @@
 import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
 import type { AlphaShape, VoronoiArrays } from './derived.js';
 import type { PlainError } from './errors.js';
+import type { MadeResident } from './resident.js';
 import type {
   Backend,
   MeshView,
@@ -59,18 +60,12 @@ export interface Tasks {
       dimension: 0 | 1 | 2 | 3;
       trace?: Trace;
       /** Instead of the arrays, if it was requested: the mesh on the device. */
-      resident?: {
-        buffers: object[];
-        counts: [number, number];
-        duplicateOf: SignedIndices;
-        dimension: 0 | 1 | 2 | 3;
-        mesh: { read(array: number): Promise<Uint8Array<ArrayBuffer>> };
-      };
+      resident?: MadeResident;
       stats: CoreStats;
     };
   };
   delaunay2d: {
-    args: { points: Coordinates; backend: Backend };
+    args: { points: Coordinates; backend: Backend; resident?: boolean };
     result: {
       points: Coordinates;
       triangles: Indices;
@@ -78,6 +73,8 @@ export interface Tasks {
       hull: Indices;
       duplicateOf: SignedIndices;
       dimension: 0 | 1 | 2;
+      /** Instead of the arrays, if it was requested. */
+      resident?: MadeResident;
       stats: CoreStats;
     };
   };

@@ -3,7 +3,6 @@
 import type { Coordinates, Indices, SignedIndices } from './arrays.js';
 import { GdelError, toGdelError, toPlainError } from './errors.js';
 import { checkOneOf } from './options.js';
-import type { Tasks } from './protocol.js';
 import type { Stats } from './types.js';
 
 /** A `GPUBuffer`; any object where the types of WebGPU are not there. */
@@ -11,10 +10,21 @@ export type GpuBuffer = typeof globalThis extends { GPUBuffer: { prototype: infe
   ? B
   : object;
 
-/** The arrays of a mesh on the device. */
-export type ResidentArray = 'tetrahedra' | 'neighbors' | 'hull' | 'vertexTetrahedron';
+/** The arrays of a 3D mesh on the device. */
+export interface ResidentArrays3 {
+  tetrahedra: Indices;
+  neighbors: SignedIndices;
+  hull: Indices;
+  vertexTetrahedron: SignedIndices;
+}
 
-const ARRAYS: readonly ResidentArray[] = ['tetrahedra', 'neighbors', 'hull', 'vertexTetrahedron'];
+/** The arrays of a 2D mesh on the device. */
+export interface ResidentArrays2 {
+  triangles: Indices;
+  halfedges: SignedIndices;
+  hull: Indices;
+  vertexTriangle: SignedIndices;
+}
 
 /** What is used of a `GPUBuffer`. */
 interface Buffer {
@@ -77,41 +87,47 @@ export async function coordinatesOf(device: Device, points: Buffer): Promise<Coo
   }
 }
 
+/** What runs in both dimensions return of a mesh on the device. */
+export interface MadeResident {
+  buffers: object[];
+  counts: [number, number];
+  duplicateOf: SignedIndices;
+  dimension: 0 | 1 | 2 | 3;
+  mesh: { read(array: number): Promise<Uint8Array<ArrayBuffer>> };
+}
+
 /**
- * A 3D Delaunay triangulation in buffers of the caller's device. Later runs do not change them. They
- * can be bound as storage, vertex and index buffers, and copied from; an empty array has a buffer of
- * 16 bytes.
+ * A mesh in buffers of the caller's device. Later runs do not change them. They can be bound as
+ * storage, vertex and index buffers, and copied from; an empty array has a buffer of 16 bytes.
  */
-export class ResidentMesh3 {
-  /**
-   * The arrays on the device, as {@link Mesh3} has them: `tetrahedra` (`array<vec4u>`), `neighbors`
-   * (`array<vec4i>`), `hull` (three `u32` per triangle), and `vertexTetrahedron`, the lowest
-   * tetrahedron of each point (`i32`, −1 for duplicates).
-   */
-  readonly buffers: Readonly<Record<ResidentArray, GpuBuffer>>;
-  /** The number of tetrahedra. */
-  readonly tetrahedronCount: number;
-  /** The number of triangles of the hull. */
+export class ResidentMesh<Arrays> {
+  /** The arrays on the device. */
+  readonly buffers: Readonly<Record<keyof Arrays, GpuBuffer>>;
+  /** The number of triangles of the hull in 3D, of its vertices in 2D. */
   readonly hullCount: number;
   /**
    * One per point: −1, or the lowest index of a point with the same coordinates, which represents
    * this one in the mesh.
    */
   readonly duplicateOf: SignedIndices;
-  /** The affine dimension of the points. Below 3 there are no tetrahedra. */
+  /**
+   * The affine dimension of the points. Below that of the mesh there are no tetrahedra or triangles.
+   */
   readonly dimension: 0 | 1 | 2 | 3;
   /** Statistics of the run. */
   readonly stats: Stats;
-  #resident: { read(array: number): Promise<Uint8Array<ArrayBuffer>> } | undefined;
+  #resident: MadeResident['mesh'] | undefined;
+  readonly #names: readonly string[];
 
   /** @internal */
-  constructor(made: NonNullable<Tasks['delaunay3d']['result']['resident']>, stats: Stats) {
-    this.buffers = Object.fromEntries(ARRAYS.map((name, i) => [name, made.buffers[i]])) as any;
-    [this.tetrahedronCount, this.hullCount] = made.counts;
+  constructor(names: readonly (keyof Arrays & string)[], made: MadeResident, stats: Stats) {
+    this.buffers = Object.fromEntries(names.map((name, i) => [name, made.buffers[i]])) as any;
+    this.hullCount = made.counts[1];
     this.duplicateOf = made.duplicateOf;
     this.dimension = made.dimension;
     this.stats = stats;
     this.#resident = made.mesh;
+    this.#names = names;
   }
 
   /**
@@ -119,17 +135,14 @@ export class ResidentMesh3 {
    *
    * @throws {@link GdelError} `DEVICE_LOST`, `DISPOSED` after {@link destroy}.
    */
-  async read(array: 'tetrahedra' | 'hull'): Promise<Indices>;
-  async read(array: 'neighbors' | 'vertexTetrahedron'): Promise<SignedIndices>;
-  async read(array: ResidentArray): Promise<Indices | SignedIndices>;
-  async read(array: ResidentArray): Promise<Indices | SignedIndices> {
-    checkOneOf('array', array, ARRAYS);
+  async read<Name extends keyof Arrays & string>(array: Name): Promise<Arrays[Name]> {
+    checkOneOf('array', array, this.#names);
     if (!this.#resident) throw new GdelError('DISPOSED', 'the mesh was destroyed');
+    const i = this.#names.indexOf(array);
     try {
-      const { buffer } = await this.#resident.read(ARRAYS.indexOf(array));
-      return array === 'tetrahedra' || array === 'hull'
-        ? new Uint32Array(buffer)
-        : new Int32Array(buffer);
+      const { buffer } = await this.#resident.read(i);
+      // Every other array has −1 where there is nothing.
+      return new (i % 2 ? Int32Array : Uint32Array)(buffer) as Arrays[Name];
     } catch (thrown) {
       throw toGdelError(toPlainError(thrown, 0));
     }
@@ -139,5 +152,37 @@ export class ResidentMesh3 {
   destroy(): void {
     this.#resident = undefined;
     for (const buffer of Object.values(this.buffers)) (buffer as unknown as Buffer).destroy();
+  }
+}
+
+/**
+ * A 3D Delaunay triangulation on the caller's device, with the arrays of {@link Mesh3}: `tetrahedra`
+ * (`array<vec4u>`), `neighbors` (`array<vec4i>`), `hull` (three `u32` per triangle), and
+ * `vertexTetrahedron`, the lowest tetrahedron of each point (`i32`, −1 for duplicates).
+ */
+export class ResidentMesh3 extends ResidentMesh<ResidentArrays3> {
+  /** The number of tetrahedra. */
+  readonly tetrahedronCount: number;
+
+  /** @internal */
+  constructor(made: MadeResident, stats: Stats) {
+    super(['tetrahedra', 'neighbors', 'hull', 'vertexTetrahedron'], made, stats);
+    this.tetrahedronCount = made.counts[0];
+  }
+}
+
+/**
+ * A 2D Delaunay triangulation on the caller's device, with the arrays of {@link Mesh2}: `triangles`
+ * (three `u32` per triangle), `halfedges` (three `i32` per triangle), `hull` (`u32`), and
+ * `vertexTriangle`, the lowest triangle of each point (`i32`, −1 for duplicates).
+ */
+export class ResidentMesh2 extends ResidentMesh<ResidentArrays2> {
+  /** The number of triangles. */
+  readonly triangleCount: number;
+
+  /** @internal */
+  constructor(made: MadeResident, stats: Stats) {
+    super(['triangles', 'halfedges', 'hull', 'vertexTriangle'], made, stats);
+    this.triangleCount = made.counts[0];
   }
 }

@@ -19,6 +19,7 @@ import {
   type GpuBuffer,
   gpuOf,
   isBuffer,
+  ResidentMesh2,
   ResidentMesh3,
 } from './resident.js';
 import { throwIfAborted } from './stop.js';
@@ -72,15 +73,19 @@ export class Triangulator {
   }
 
   /**
-   * Does the same as the function {@link delaunay2d}. With the option `device`, points may come in a
-   * `GPUBuffer` of it, as `f32`, two per point.
+   * Does the same as the function {@link delaunay2d}, with `resident` and points in a `GPUBuffer` as
+   * in 3D, `f32`, two per point.
    */
+  delaunay2d(
+    points: Points | GpuBuffer,
+    options: RunOptions2 & { resident: true },
+  ): Promise<ResidentMesh2>;
   delaunay2d(points: Points | GpuBuffer, options?: RunOptions2): Promise<Mesh2>;
   delaunay2d<T>(
     points: ArrayLike<T>,
     options: RunOptions2 & Pick<AccessorOptions<T>, 'point'>,
   ): Promise<Mesh2>;
-  delaunay2d(points: unknown, options?: RunOptions2): Promise<Mesh2> {
+  delaunay2d(points: unknown, options?: RunOptions2): Promise<any> {
     return triangulate2d(this.#host, this.#backend, points, options, this.#device);
   }
 
@@ -168,7 +173,7 @@ export function delaunay2d<T>(
   options: RunOptions2 & Pick<AccessorOptions<T>, 'point'>,
 ): Promise<Mesh2>;
 export function delaunay2d(points: unknown, options?: RunOptions2): Promise<Mesh2> {
-  return triangulate2d((shared ??= new Host()), 'auto', points, options);
+  return triangulate2d((shared ??= new Host()), 'auto', points, options) as Promise<Mesh2>;
 }
 
 type AnyOptions = RunOptions & { point?: unknown };
@@ -182,12 +187,8 @@ async function triangulate(
 ): Promise<Mesh3 | ResidentMesh3> {
   const checked = optionsOf(options);
   const outputs = outputsOf(checked);
-  const { resident = false } = checked;
-  checkBoolean('resident', resident);
-  if (resident && !device)
-    throw new GdelError('BAD_INPUT', 'the option resident needs a triangulator with a device');
   const { args, sending, task } = await prepare(points, 3, backend, checked, device);
-  const all = { ...args, outputs, resident };
+  const all = { ...args, outputs };
   const { result, place } = await host.run(wasm3d, 'delaunay3d', all, sending, task);
   return result.resident
     ? new ResidentMesh3(result.resident, { ...result.stats, ...place })
@@ -200,10 +201,12 @@ async function triangulate2d(
   points: unknown,
   options: AnyOptions | undefined,
   device?: Device,
-): Promise<Mesh2> {
+): Promise<Mesh2 | ResidentMesh2> {
   const { args, sending, task } = await prepare(points, 2, backend, options, device);
-  const done = await host.run(wasm2d, 'delaunay2d', args, sending, task);
-  return new Mesh2(done.result, done.place);
+  const { result, place } = await host.run(wasm2d, 'delaunay2d', args, sending, task);
+  return result.resident
+    ? new ResidentMesh2(result.resident, { ...result.stats, ...place })
+    : new Mesh2(result, place);
 }
 
 /** Returns the checked arguments of a run. What is small is copied before this returns. */
@@ -217,10 +220,14 @@ async function prepare(
   const checked = optionsOf(options);
   const { backend = defaultBackend } = checked;
   let { transfer = false } = checked;
+  const { resident = false } = checked;
   const task = taskOptions(checked);
   throwIfAborted(task.signal);
   checkOneOf('backend', backend, BACKENDS);
   checkBoolean('transfer', transfer);
+  checkBoolean('resident', resident);
+  if (resident && !device)
+    throw new GdelError('BAD_INPUT', 'the option resident needs a triangulator with a device');
   checkFunction('point', checked.point);
   const point = checked.point as AccessorOptions<unknown>['point'] | undefined;
   if (device && isBuffer(points)) {
@@ -231,5 +238,5 @@ async function prepare(
     throwIfAborted(task.signal),
   );
   const sending: Sending = { transfer: [coordinates.buffer], isGiven: transfer };
-  return { args: { points: coordinates, backend }, sending, task };
+  return { args: { points: coordinates, backend, resident }, sending, task };
 }

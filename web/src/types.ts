@@ -71,7 +71,7 @@ export interface RunOptions extends TaskOptions {
 }
 
 /** Options for a 2D triangulation. */
-export type RunOptions2 = Omit<RunOptions, 'outputs' | 'resident'>;
+export type RunOptions2 = Omit<RunOptions, 'outputs'>;
 
 /** Options for a 3D triangulation in the calling thread. */
 export type SyncOptions = Pick<RunOptions, 'outputs'>;

@@ -3,22 +3,26 @@
 //!
 //! `result of Phase 1 → tests that rounding makes uncertain → mesh`, or, where one of these fails,
 //! `result of Phase 1 → uncertain tests → flips → missing points → mesh`
+//!
+//! A mesh that is to stay on the device never leaves it in the first case.
 
 use crate::{
     d2::{
         Mesh2, Triangulation2,
         gpu::{
             certify::{failed_tests, near_delaunay},
-            finish::{Mesh, NearMesh},
+            finish::{Mesh, NearMesh, Open},
+            layout::UncertainTest,
         },
         lawson::{self, Aborted, LawsonOutcome},
     },
     dimension::Dimension,
     error::Error,
     gpu::{
-        Gpu,
+        Gpu, Recorder,
+        device_mesh::{DeviceArrays, DeviceMesh},
         engine::{Complete, Made, Near, progress},
-        phase1::{Phase1Output, Run},
+        phase1::{Copied, Copies, Ended, Run},
     },
     options::Options,
     parallel::Threads,
@@ -40,8 +44,26 @@ impl Complete<2> for Dimension<2> {
     }
 
     async fn complete(run: Run<'_, 2>, mut near: Near<'_, 2>, _tracer: ()) -> Result<Result<Made<2>, Fallback>, Error> {
-        let Phase1Output { result, merged, stats: phase1 } = run.finish().await?;
-        near.end_of_phase1(&phase1);
+        let (mut ended, _, ()) = run.end(|_, _, _| ()).await?;
+        if near.resident {
+            near.end_of_phase1(&ended.stats);
+            if let Some((arrays, duplicate_of)) = complete_on_device(&mut ended, &mut near).await? {
+                let readback = ended.kernels.readback.clone();
+                let mesh = Mesh2 { duplicate_of, dimension: 2, ..Mesh2::default() };
+                let mesh = DeviceMesh::<2>::new(ended.gpu, &readback, arrays, mesh);
+                near.stats.gpu = Some(ended.release().summary(near.adapter));
+                near.stats.phases.push((Phase::Finish, near.stopwatch.lap()));
+                return Ok(Ok(Made::Device(Box::new(mesh))));
+            }
+        }
+        let (result, merged) = ended.read().await?;
+        let phase1 = ended.release();
+        if near.resident {
+            near.stats.gpu = Some(phase1.summary(near.adapter));
+            near.stats.phases.push((Phase::Readback, near.stopwatch.lap()));
+        } else {
+            near.end_of_phase1(&phase1);
+        }
         let (missing, duplicate_of) = near.missing(&merged);
         let Near { points, lattice, options, stats, stopwatch, .. } = near;
         let NearMesh { mesh: Mesh { mut triangles, mut halfedges, hull }, uncertain } = result;
@@ -74,6 +96,50 @@ impl Complete<2> for Dimension<2> {
         let mesh = Mesh2 { triangles, halfedges, hull, duplicate_of, dimension: 2, stats: Stats::default() };
         Ok(Ok(Made::Host(mesh)))
     }
+}
+
+/// Makes the arrays of the mesh on the device, if nothing is left to flips. Returns them with
+/// [`Mesh2::duplicate_of`].
+async fn complete_on_device(
+    ended: &mut Ended<'_, 2>,
+    near: &mut Near<'_, 2>,
+) -> Result<Option<(DeviceArrays, Vec<i32>)>, Error> {
+    let Open { hull, uncertain } = read_open(ended).await?;
+    let (missing, duplicate_of) = near.missing(&ended.read_merged().await?);
+    near.stats.phases.push((Phase::Readback, near.stopwatch.lap()));
+    let Some(tests) = uncertain.filter(|_| missing.is_empty()) else { return Ok(None) };
+    near.options.report(Phase::Finish, progress::COMPLETION)?;
+    if !tests.is_empty() {
+        let (failed, exact) = failed_tests(near.points, near.lattice, &tests);
+        near.stats.phases.push((Phase::Check, near.stopwatch.lap()));
+        if !failed.is_empty() {
+            return Ok(None);
+        }
+        near.stats.exact = exact;
+    }
+    let points = near.points.len();
+    let Ended { gpu, kernels, memory, stats, finite, .. } = ended;
+    let aliases = memory.bound.finish.aliases();
+    let made = kernels.outputs.run(gpu, aliases, *finite, points, &in_order(&hull, points)).await?;
+    stats.dispatches += made.1;
+    stats.submits += 1;
+    Ok(Some((made.0, duplicate_of)))
+}
+
+/// Reads what the host has to see of any mesh.
+async fn read_open(ended: &mut Ended<'_, 2>) -> Result<Open<Vec<[u32; 2]>, Vec<UncertainTest>>, Error> {
+    let Ended { gpu, kernels, memory, stats, counters, .. } = ended;
+    let gpu: &Gpu = gpu;
+    let readback = &mut kernels.readback;
+    let (submission, open) = gpu
+        .with_error_scope("the result of Phase 1", || {
+            let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, None) };
+            let open = Open::copy(&mut copies, &memory.buffers, memory.bound.finish.aliases(), counters);
+            Ok((copies.recorder.submit(gpu), open))
+        })
+        .await?;
+    stats.submits += 1;
+    open.receive(&mut Copied { readback: &mut kernels.readback, gpu, submission }).await
 }
 
 /// The flips per point after which the CPU engine finishes sooner: about as many as it takes from

@@ -1,7 +1,7 @@
 //! The end of Phase 1: the mesh without gaps, and what is left open by rounding.
 
 use crate::{
-    d2::gpu::{aliases::Aliases, layout::UncertainTest},
+    d2::gpu::{aliases::Aliases, layout::UncertainTest, outputs::OutputStage},
     dimension::Dimension,
     error::Error,
     gpu::{
@@ -38,16 +38,50 @@ pub struct NearMesh {
 /// The readbacks that follow that of the triangles.
 pub struct Reading {
     halfedges: Pending<[i32; 3]>,
-    hull: Pending<[u32; 2]>,
-    uncertain: Option<Pending<UncertainTest>>,
+    open: Open<Pending<[u32; 2]>, Pending<UncertainTest>>,
+}
+
+/// What the host has to see of any mesh.
+pub(crate) struct Open<H, U> {
+    /// [`Mesh::hull`].
+    pub(crate) hull: H,
+    /// [`NearMesh::uncertain`].
+    pub(crate) uncertain: Option<U>,
+}
+
+impl Open<Pending<[u32; 2]>, Pending<UncertainTest>> {
+    /// Records the readbacks.
+    pub(crate) fn copy(copies: &mut Copies<'_>, b: &Buffers<2>, aliases: &Aliases, counters: &Counters) -> Self {
+        let tests = counters.uncertain as usize;
+        Open {
+            hull: copies.copy(&aliases.hull, counters.hull as usize),
+            uncertain: (tests <= b.simplices.len()).then(|| copies.copy(&aliases.uncertain, tests)),
+        }
+    }
+
+    /// Receives them.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Copied::receive`].
+    pub(crate) async fn receive(
+        self,
+        copied: &mut Copied<'_>,
+    ) -> Result<Open<Vec<[u32; 2]>, Vec<UncertainTest>>, Error> {
+        let hull = copied.receive(self.hull).await?;
+        let uncertain = match self.uncertain {
+            Some(tests) => Some(copied.receive(tests).await?),
+            None => None,
+        };
+        Ok(Open { hull, uncertain })
+    }
 }
 
 impl Finish<2> for Dimension<2> {
     type Aliases = Aliases;
     type Reading = Reading;
     type Result = NearMesh;
-    /// The host makes the arrays.
-    type Outputs = ();
+    type Outputs = OutputStage;
 
     /// The search for uncertain tests, and the compaction.
     const STEPS: &'static [Step<&'static str>] = &[
@@ -58,23 +92,21 @@ impl Finish<2> for Dimension<2> {
         Step::Kernel("mesh_compact"),
     ];
 
-    /// Nothing is gathered of a mesh that the host reads as a whole.
+    /// Nothing is gathered: the host sees the whole mesh, or none of it.
     const GATHER: &'static [Step<&'static str>] = &[];
     const PATCH: &'static [Step<&'static str>] = &[];
 
-    fn outputs(_compiler: &Compiler<'_>) {}
+    fn outputs(compiler: &Compiler<'_>) -> OutputStage {
+        OutputStage::new(compiler)
+    }
 
     fn mesh_len(finite: usize, _counters: &Counters) -> usize {
         finite
     }
 
     fn copy(copies: &mut Copies<'_>, b: &Buffers<2>, aliases: &Aliases, len: usize, counters: &Counters) -> Reading {
-        let tests = counters.uncertain as usize;
-        Reading {
-            halfedges: copies.copy(&aliases.halfedges, len),
-            hull: copies.copy(&aliases.hull, counters.hull as usize),
-            uncertain: (tests <= b.simplices.len()).then(|| copies.copy(&aliases.uncertain, tests)),
-        }
+        let halfedges = copies.copy(&aliases.halfedges, len);
+        Reading { halfedges, open: Open::copy(copies, b, aliases, counters) }
     }
 
     async fn receive(
@@ -84,11 +116,7 @@ impl Finish<2> for Dimension<2> {
         _finite: usize,
     ) -> Result<NearMesh, Error> {
         let halfedges = copied.receive(reading.halfedges).await?;
-        let hull = copied.receive(reading.hull).await?;
-        let uncertain = match reading.uncertain {
-            Some(tests) => Some(copied.receive(tests).await?),
-            None => None,
-        };
+        let Open { hull, uncertain } = reading.open.receive(copied).await?;
         Ok(NearMesh { mesh: Mesh { triangles, halfedges, hull }, uncertain })
     }
 }

@@ -1,12 +1,64 @@
-//! The arrays of a mesh on the device.
+//! The arrays of the caller's mesh, on the device: those of the end of Phase 1 are copied, and
+//! `vertex_clear` and `vertex_simplex` find a triangle of each point.
 
 use crate::{
-    d2::Mesh2,
+    d2::{Mesh2, gpu::aliases::Aliases},
     dimension::Dimension,
     error::Error,
-    gpu::device_mesh::{MeshArrays, Outputs, with_len},
+    gpu::{
+        Compiler, Gpu, Recorder, Storage,
+        device_mesh::{DeviceArrays, MeshArrays, Outputs, with_len},
+        vertex_simplices::VertexSimplices,
+    },
     mesh,
 };
+
+/// The kernels.
+#[derive(Debug)]
+pub struct OutputStage {
+    vertices: VertexSimplices,
+}
+
+impl OutputStage {
+    /// Creates the kernels.
+    pub fn new(compiler: &Compiler<'_>) -> Self {
+        OutputStage { vertices: VertexSimplices::new::<2>(compiler) }
+    }
+
+    /// Makes the arrays of the mesh of `points` points: its first `triangles` triangles, and this
+    /// `hull`. Returns the number of dispatches as well.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Gpu::with_error_scope`] and [`Storage::new`].
+    pub(crate) async fn run(
+        &self,
+        gpu: &Gpu,
+        mesh: &Aliases,
+        triangles: usize,
+        points: usize,
+        hull: &[u32],
+    ) -> Result<(DeviceArrays, usize), Error> {
+        gpu.with_error_scope("the mesh", || {
+            let arrays = DeviceArrays::new(gpu, 3, triangles, hull.len(), points)?;
+            arrays.hull.write(gpu, 0, hull);
+            let mut recorder = Recorder::new(gpu, None);
+            let mut copy = |from: &wgpu::Buffer, to: &Storage<u32>| {
+                let bytes = (to.len() * size_of::<u32>()) as u64;
+                if bytes > 0 {
+                    recorder.encoder().copy_buffer_to_buffer(from, 0, to.buffer(), 0, bytes);
+                }
+            };
+            copy(mesh.triangles.buffer(), &arrays.simplices);
+            copy(mesh.halfedges.buffer(), &arrays.neighbors);
+            self.vertices.record(gpu, &mut recorder, &arrays);
+            let dispatches = recorder.dispatches();
+            recorder.submit(gpu);
+            Ok((arrays, dispatches))
+        })
+        .await
+    }
+}
 
 impl MeshArrays<2> for Dimension<2> {
     fn words(mesh: &Mesh2) -> [&[u32]; 3] {

@@ -54,7 +54,7 @@ impl Complete<3> for Dimension<3> {
     ) -> Result<Result<Made<3>, Fallback>, Error> {
         // In wasm, one thread would splay and copy the whole mesh, in memory of its own.
         #[cfg(not(target_arch = "wasm32"))]
-        if !near.sparse {
+        if !near.resident {
             let output = run.finish().await?;
             return whole::complete(output, near, tracer);
         }

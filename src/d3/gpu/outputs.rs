@@ -16,6 +16,7 @@ use crate::{
         phase1::Slot,
         primitives::scan::{GROUPS, Scan},
         shader::{self, assert_layout},
+        vertex_simplices::VertexSimplices,
         workgroups,
     },
     input::lattice::Width,
@@ -59,8 +60,7 @@ pub struct OutputStage {
     mark: Kernel,
     scan: Scan,
     write: Kernel,
-    vertex_clear: Kernel,
-    vertex_simplex: Kernel,
+    vertices: VertexSimplices,
 }
 
 impl OutputStage {
@@ -71,8 +71,7 @@ impl OutputStage {
             mark: kernel("outputs_mark"),
             scan: Scan::new(compiler),
             write: kernel("outputs_write"),
-            vertex_clear: kernel("vertex_clear"),
-            vertex_simplex: kernel("vertex_simplex"),
+            vertices: VertexSimplices::new::<3>(compiler),
         }
     }
 
@@ -106,8 +105,6 @@ impl OutputStage {
                     ("out_neighbors", arrays.neighbors.buffer()),
                     ("out_hull", arrays.hull.buffer()),
                     ("hull_len", hull_len.buffer()),
-                    ("corners", arrays.simplices.buffer()),
-                    ("vertex_simplices", arrays.vertex_simplices.buffer()),
                 ];
                 // The count is what the parameters of the scan are, too.
                 let scan = self.scan.bind(gpu, &params.cast(), mesh.marks, mesh.numbers)?;
@@ -119,10 +116,7 @@ impl OutputStage {
                 run(&mut recorder, &self.mark, count);
                 self.scan.record(&mut recorder, &scan);
                 run(&mut recorder, &self.write, count);
-                run(&mut recorder, &self.vertex_clear, infinite);
-                if finite > 0 {
-                    run(&mut recorder, &self.vertex_simplex, arrays.simplices.len() as u32);
-                }
+                self.vertices.record(gpu, &mut recorder, &arrays);
                 let dispatches = recorder.dispatches();
                 let finite = readback.copy(gpu, recorder.encoder(), scan.sums(), GROUPS, 1);
                 let hull = readback.copy(gpu, recorder.encoder(), &hull_len, 0, 1);

@@ -1,15 +1,16 @@
 //! 2D triangulation, in delaunator's orientation.
 
 use gdel::{
-    Backend, Mesh2, Triangulator,
-    internals::{Winding, triangulator::MIN_POINTS_2D},
+    Backend, DeviceMesh2, Mesh2, Triangulator,
+    internals::{Winding, gpu::engine::Made, triangulator::MIN_POINTS_2D},
 };
 use js_sys::{Function, Int32Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
-    objects::{Thrown, object},
+    objects::{Thrown, object, set},
     points::Coordinates,
+    resident,
     triangulator::{WasmTriangulator, statistics},
 };
 
@@ -21,12 +22,40 @@ pub fn min_gpu_points_2d() -> u32 {
 
 #[wasm_bindgen]
 impl WasmTriangulator {
-    /// Triangulates in 2D.
-    pub async fn delaunay2d(&self, points: JsValue, backend: &str, report: Function) -> Result<JsValue, Thrown> {
+    /// Triangulates in 2D. With `on_device`, the mesh stays on the device.
+    pub async fn delaunay2d(
+        &self,
+        points: JsValue,
+        backend: &str,
+        on_device: bool,
+        report: Function,
+    ) -> Result<JsValue, Thrown> {
         let coordinates = Coordinates::new(&points)?;
         drop(points);
         let triangulator = self.for_run(backend, report).winding(Winding::Clockwise);
-        Ok(mesh2(triangulator.delaunay2d_async(coordinates.points()?).await?, true))
+        let deliver = async |mesh: Made<2>| match mesh {
+            Made::Host(mesh) => Ok(mesh2(mesh, true)),
+            Made::Device(mesh) if on_device => Ok(resident::hand_over(*mesh, |mesh| WasmMesh2(mesh).into())),
+            Made::Device(mesh) => {
+                let (result, _) = resident::read(&mesh, &[(0, "triangles"), (1, "halfedges"), (2, "hull")]).await?;
+                set(&result, "duplicateOf", Int32Array::new_from_slice(mesh.duplicate_of()));
+                Ok(result)
+            }
+        };
+        Ok(triangulator.deliver2d(coordinates.points()?, on_device, deliver).await?)
+    }
+}
+
+/// A mesh on the device.
+#[wasm_bindgen]
+pub struct WasmMesh2(DeviceMesh2);
+
+#[wasm_bindgen]
+impl WasmMesh2 {
+    /// Returns the bytes of an array: the triangles, their half-edges, the hull, or a triangle of each
+    /// point, by these numbers.
+    pub async fn read(&self, array: usize) -> Result<JsValue, Thrown> {
+        Ok(self.0.read_to_js(&[array]).await?.0.swap_remove(0).into())
     }
 }
 

@@ -11,6 +11,7 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use crate::{
     objects::{Thrown, object, set},
     points::Coordinates,
+    resident,
     triangulator::{WasmTriangulator, statistics},
 };
 
@@ -47,14 +48,14 @@ impl WasmTriangulator {
         Ok(())
     }
 
-    /// Triangulates in 3D. With `resident`, the mesh stays on the device, and `outputs` has no
+    /// Triangulates in 3D. With `on_device`, the mesh stays on the device, and `outputs` has no
     /// meaning.
     pub async fn delaunay3d(
         &self,
         points: JsValue,
         backend: &str,
         outputs: Outputs,
-        resident: bool,
+        on_device: bool,
         report: Function,
     ) -> Result<JsValue, Thrown> {
         let coordinates = Coordinates::new(&points)?;
@@ -62,27 +63,11 @@ impl WasmTriangulator {
         let triangulator = self.for_run(backend, report).trace(outputs.trace);
         let deliver = async |mesh: Made<3>| match mesh {
             Made::Host(mesh) => Ok(mesh3(mesh, outputs)),
-            Made::Device(mesh) if resident => Ok(resident3(*mesh)),
+            Made::Device(mesh) if on_device => Ok(resident::hand_over(*mesh, |mesh| WasmMesh3(mesh).into())),
             Made::Device(mesh) => read3(&mesh, outputs).await,
         };
-        Ok(triangulator.deliver3d(coordinates.points()?, resident, deliver).await?)
+        Ok(triangulator.deliver3d(coordinates.points()?, on_device, deliver).await?)
     }
-}
-
-/// Hands a mesh on the device over.
-fn resident3(mesh: DeviceMesh3) -> JsValue {
-    let buffers = [mesh.simplices(), mesh.neighbors(), mesh.hull(), mesh.vertex_simplex()];
-    let buffers: Array = buffers.into_iter().filter_map(|buffer| buffer.as_webgpu()).collect();
-    let counts = Array::of2(&mesh.simplex_count().into(), &mesh.hull_count().into());
-    let stats = statistics(mesh.stats());
-    let resident = object([
-        ("dimension", mesh.dimension().into()),
-        ("duplicateOf", Int32Array::new_from_slice(mesh.duplicate_of()).into()),
-        ("buffers", buffers.into()),
-        ("counts", counts.into()),
-        ("mesh", WasmMesh3(mesh).into()),
-    ]);
-    object([("stats", stats), ("resident", resident)])
 }
 
 /// A mesh on the device.
@@ -107,24 +92,12 @@ pub fn delaunay3d_blocking(points: JsValue, outputs: Outputs) -> Result<JsValue,
     Ok(mesh3(triangulator.delaunay3d(coordinates.points()?)?, outputs))
 }
 
-/// Copies a mesh from the device, straight into arrays of JavaScript.
+/// Copies a mesh from the device.
 async fn read3(mesh: &DeviceMesh3, outputs: Outputs) -> Result<JsValue, Error> {
-    let wanted: Vec<usize> = [true, outputs.neighbors, outputs.hull]
-        .into_iter()
-        .enumerate()
-        .filter_map(|(array, is_wanted)| is_wanted.then_some(array))
-        .collect();
-    let (arrays, stats) = mesh.read_to_js(&wanted).await?;
-    mesh.destroy();
-    let result = object([("dimension", mesh.dimension().into()), ("stats", statistics(&stats))]);
-    for (array, bytes) in wanted.into_iter().zip(arrays) {
-        let buffer = bytes.buffer();
-        match array {
-            0 => set(&result, "tetrahedra", Uint32Array::new(&buffer)),
-            1 => set(&result, "neighbors", Int32Array::new(&buffer)),
-            _ => set(&result, "hull", Uint32Array::new(&buffer)),
-        }
-    }
+    let arrays = [(0, "tetrahedra", true), (1, "neighbors", outputs.neighbors), (2, "hull", outputs.hull)];
+    let wanted: Vec<(usize, &str)> =
+        arrays.into_iter().filter(|&(.., wanted)| wanted).map(|(number, name, _)| (number, name)).collect();
+    let (result, stats) = resident::read(mesh, &wanted).await?;
     set_extras(&result, &stats, mesh.duplicate_of(), outputs);
     Ok(result)
 }

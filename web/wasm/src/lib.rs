@@ -14,6 +14,8 @@ mod derived;
 mod mesh;
 mod objects;
 mod points;
+#[cfg(any(feature = "d2", feature = "d3"))]
+mod resident;
 #[cfg(feature = "tools")]
 mod tools;
 #[cfg(any(feature = "d2", feature = "d3"))]

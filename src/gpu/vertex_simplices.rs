@@ -1,0 +1,35 @@
+//! A simplex of each point, found on the device.
+
+use crate::{
+    dimension::Dimension,
+    gpu::{Compiler, Gpu, Kernel, Recorder, device_mesh::DeviceArrays, dim::Dim, workgroups},
+    input::lattice::Width,
+};
+
+/// The kernels that find the lowest simplex of each point.
+#[derive(Debug)]
+pub(crate) struct VertexSimplices {
+    clear: Kernel,
+    minimum: Kernel,
+}
+
+impl VertexSimplices {
+    /// Creates the kernels.
+    pub(crate) fn new<const D: usize>(compiler: &Compiler<'_>) -> Self
+    where
+        Dimension<D>: Dim<D>,
+    {
+        let kernel = |name| compiler.kernel(Dimension::<D>::SHADERS.get(name), Width::Narrow);
+        VertexSimplices { clear: kernel("vertex_clear"), minimum: kernel("vertex_simplex") }
+    }
+
+    /// Records that they find the simplices of the points in the simplices that `arrays` have.
+    pub(crate) fn record(&self, gpu: &Gpu, recorder: &mut Recorder<'_>, arrays: &DeviceArrays) {
+        let buffers = [("corners", arrays.simplices.buffer()), ("vertex_simplices", arrays.vertex_simplices.buffer())];
+        let groups = |items: usize| workgroups(items as u32).min(gpu.max_workgroups());
+        recorder.dispatch(&self.clear, &self.clear.bind(gpu, &buffers), groups(arrays.vertex_simplices.len()));
+        if !arrays.simplices.is_empty() {
+            recorder.dispatch(&self.minimum, &self.minimum.bind(gpu, &buffers), groups(arrays.simplices.len()));
+        }
+    }
+}
