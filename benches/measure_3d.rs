@@ -38,6 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let start_points = std::env::var("START").ok().and_then(|value| value.parse().ok());
     engine.set_settings(Settings { start_points, ..Settings::default() });
     let (resident, reuse) = (option("RESIDENT", 0) != 0, option("REUSE", 0) != 0);
+    engine.set_settings(Settings { sparse: option("SPARSE", 0) != 0, ..Settings::default() });
     let mut kept = Mesh3::default();
     let mut run = || -> Result<_, gdel::Error> {
         let clock = Instant::now();

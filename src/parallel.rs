@@ -30,6 +30,38 @@ pub(crate) fn for_chunks<T: Send>(threads: Threads, items: &mut [T], work: impl 
     work(0, items);
 }
 
+/// Calls `work` with as many parts of `items` as there are threads, each with the index of its first
+/// element. For work that is the same for every part, however large.
+pub(crate) fn for_parts<T: Send>(threads: Threads, items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
+    if threads == Threads::All && !items.is_empty() {
+        let len = items.len().div_ceil(count(threads));
+        return items.par_chunks_mut(len).enumerate().for_each(|(i, part)| work(i * len, part));
+    }
+    let _ = threads;
+    work(0, items);
+}
+
+/// Returns a list of `len` times `value`: the system provides its memory to several threads at once.
+pub(crate) fn filled<T: Copy + Send + Sync>(threads: Threads, len: usize, value: T) -> Vec<T> {
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
+    if threads == Threads::All && len > CHUNK {
+        return rayon::iter::repeat_n(value, len).with_min_len(CHUNK).collect();
+    }
+    let _ = threads;
+    vec![value; len]
+}
+
+/// Appends `items` to `list`.
+pub(crate) fn extend<T: Copy + Send + Sync>(threads: Threads, list: &mut Vec<T>, items: &[T]) {
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
+    if threads == Threads::All && items.len() > CHUNK {
+        return list.par_extend(items.par_iter().with_min_len(CHUNK).copied());
+    }
+    let _ = threads;
+    list.extend_from_slice(items);
+}
+
 /// Calls `work` with corresponding chunks of two lists of equal length, and the index of their
 /// first elements.
 pub(crate) fn for_chunk_pairs<T: Send, U: Send>(
@@ -182,6 +214,14 @@ mod tests {
                     chunk.iter_mut().zip(start..).for_each(|(x, i)| *x += i + 1);
                 });
                 assert!(items.iter().copied().eq(1..=len));
+                for_parts(threads, &mut items, |start, part| {
+                    part.iter_mut().zip(start..).for_each(|(x, i)| *x += i);
+                });
+                assert!(items.iter().copied().eq((0..len).map(|i| 2 * i + 1)));
+                assert!(filled(threads, len, 7) == vec![7; len]);
+                let mut list = vec![7];
+                extend(threads, &mut list, &items);
+                assert!(list[0] == 7 && list[1..] == items);
                 let ranges = map_ranges(threads, len, |range| range);
                 assert!(ranges.into_iter().flatten().eq(0..len));
             }

@@ -108,7 +108,9 @@ export function gluePlugin(files) {
           define: { 'import.meta.url': '""' },
         });
         const body = [...ERROR_CLASSES, CODERS, 'let glue;', outputFiles[0].text, 'return glue;'];
-        const contents = `export default function (${MODULE}, globalThis) { ${body.join('\n')} }`;
+        // wasm-bindgen looks for the global object under both names, and under this one first.
+        const parameters = `${MODULE}, globalThis, self = globalThis`;
+        const contents = `export default function (${parameters}) { ${body.join('\n')} }`;
         return { contents, loader: 'js' };
       });
     },

@@ -24,7 +24,7 @@ use crate::{
     },
     mesh::MeshInfo,
     options::Options,
-    parallel::Threads,
+    parallel::{self, Threads},
     stats::{Fallback, Phase, Stats, Stopwatch},
 };
 
@@ -148,7 +148,7 @@ impl<const D: usize> Near<'_, D> {
     /// Returns the points that Phase 1 did not insert although they are not duplicates, each with
     /// the vertex at the same place of the lattice, and the field `duplicate_of` of the mesh.
     pub(crate) fn missing(&self, merged: &[[u32; 2]]) -> (Vec<[u32; 2]>, Vec<i32>) {
-        let mut duplicate_of = vec![NONE; self.points.len()];
+        let mut duplicate_of = parallel::filled(Threads::All, self.points.len(), NONE);
         let missing = missing_points(self.points, merged, &mut duplicate_of);
         (missing, duplicate_of)
     }

@@ -31,9 +31,9 @@ pub fn elsewhere(near: NearDelaunay3) -> Elsewhere {
     let corners = |&t: &u32| mesh.tetrahedra[t as usize];
     let mut wanted: Vec<u32> = uncertain.iter().flat_map(corners).chain(failed.iter().copied()).collect();
     wanted.retain(|&v| v != infinite);
-    let mut region = Region::new(infinite as usize);
+    let mut region = Region::new(infinite as usize, Threads::All);
     let gathered = mesh.gather(&wanted, region.next());
-    region.add(wanted, &gathered).unwrap();
+    region.add(wanted, gathered, Threads::All).unwrap();
     let uncertain = uncertain.iter().map(|&t| mesh.region_numbers[t as usize]).collect();
     // A vertex that is not missing: as if each were at the place of the one before it.
     let there = (0..infinite).find(|&v| incident[v as usize] != NO_INDEX).unwrap();
@@ -53,7 +53,7 @@ pub fn patch(name: &str, vertices: &PredicateContext3<'_>, elsewhere: Elsewhere)
                 return Ok(splay.finish());
             }
             let gathered = mesh.gather(&lacking, splay.region().next());
-            splay.add(lacking, &gathered)?;
+            splay.add(lacking, gathered)?;
         }
     };
     let (region, stats) = splayed().unwrap_or_else(|stop| panic!("{name}: {stop:?}"));

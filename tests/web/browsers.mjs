@@ -14,6 +14,14 @@ const QUIET = [
 /** WebGPU, on the software adapter that Chromium has everywhere. */
 export const WEBGPU = ['--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader'];
 
+/** The same with SwiftShader's Vulkan, without which headless Chromium cannot show what WebGPU draws. */
+export const WEBGPU_DRAWING = [
+  ...WEBGPU,
+  '--enable-features=Vulkan',
+  '--use-vulkan=swiftshader',
+  '--use-angle=vulkan',
+];
+
 // A file of tests that hangs gets SIGTERM, which Playwright takes for a wish to close the browsers
 // only. When the process exits, it kills those that are left.
 process.once('SIGTERM', () => process.exit(1));

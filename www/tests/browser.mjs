@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import AxeBuilder from '@axe-core/playwright';
 import { preview } from 'vite';
-import { WEBGPU as COMPUTE, launchChromium } from '../../tests/web/browsers.mjs';
+import { launchChromium, WEBGPU_DRAWING } from '../../tests/web/browsers.mjs';
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 
@@ -29,17 +29,8 @@ export async function serve() {
   };
 }
 
-// SwiftShader, Chromium's software rasteriser. Without its Vulkan, headless Chromium cannot show
-// what WebGPU draws.
-const WEBGPU = [
-  ...COMPUTE,
-  '--enable-features=Vulkan',
-  '--use-vulkan=swiftshader',
-  '--use-angle=vulkan',
-];
-
 export function launch({ webgpu = true } = {}) {
-  return launchChromium(webgpu ? WEBGPU : ['--enable-unsafe-swiftshader']);
+  return launchChromium(webgpu ? WEBGPU_DRAWING : ['--enable-unsafe-swiftshader']);
 }
 
 /**

@@ -108,7 +108,7 @@ async fn complete_on_device(
             Err(stop) => break Err(stop),
         };
         let gathered = device.gather(&lacking, splay.region().next()).await?;
-        step = splay.add(lacking, &gathered).map(|()| splay);
+        step = splay.add(lacking, gathered).map(|()| splay);
     };
     let patch = match splayed {
         Ok((region, splay)) => {

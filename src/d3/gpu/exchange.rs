@@ -17,6 +17,7 @@ use crate::{
         primitives::scan::GROUPS,
         workgroups,
     },
+    parallel::Threads,
 };
 use bytemuck::Pod;
 
@@ -100,7 +101,7 @@ impl<'a> Device<'a> {
         failed.sort_unstable();
         let mut uncertain: Vec<u32> = uncertain.into_iter().map(|Active { tet, .. }| tet).collect();
         uncertain.sort_unstable();
-        Ok((device, begin(points, &gathered, failed, uncertain)))
+        Ok((device, begin(points, gathered, failed, uncertain)))
     }
 
     /// Receives what is gathered, and reads the rest of it if there is more than was read ahead.
@@ -263,8 +264,8 @@ impl<'a> Device<'a> {
 }
 
 /// Returns the region of what was gathered first, and the doubts by its numbers.
-fn begin(points: usize, gathered: &Gathered, failed: Vec<u32>, uncertain: Vec<u32>) -> Result<Begun, Aborted> {
-    let mut region = Region::new(points);
+fn begin(points: usize, gathered: Gathered, failed: Vec<u32>, uncertain: Vec<u32>) -> Result<Begun, Aborted> {
+    let mut region = Region::new(points, Threads::All);
     let first = region.next();
     // Both are in the order of the mesh.
     let mut slots = (first..).zip(&gathered.slots);
@@ -272,7 +273,7 @@ fn begin(points: usize, gathered: &Gathered, failed: Vec<u32>, uncertain: Vec<u3
     let uncertain: Option<Vec<u32>> = uncertain.into_iter().map(number).collect();
     let uncertain = uncertain.ok_or(Aborted::Inconsistent("an uncertain tetrahedron was not gathered"))?;
     let corners = uncertain.iter().flat_map(|&t| gathered.tetrahedra[(t - first) as usize]);
-    let stars = corners.filter(|&v| v != points as u32).chain(failed.iter().copied());
-    region.add(stars, gathered)?;
+    let stars: Vec<u32> = corners.filter(|&v| v != points as u32).chain(failed.iter().copied()).collect();
+    region.add(stars, gathered, Threads::All)?;
     Ok(Begun { region, doubts: Doubts { failed, uncertain, missing: Vec::new() } })
 }

@@ -40,7 +40,7 @@ const TETRAHEDRON_GRAIN: usize = 64;
 /// The stars, on their way to consistency.
 pub(super) struct Splaying {
     pub(super) known: Known,
-    threads: Threads,
+    pub(super) threads: Threads,
     /// In a round, each star is changed by one thread only.
     stars: Vec<Mutex<Star>>,
     /// For each vertex, its place in `stars` plus 1, or 0.

@@ -282,8 +282,8 @@ impl Splay {
     /// # Errors
     ///
     /// Those of [`Region::add`].
-    pub fn add(&mut self, vertices: Vec<u32>, gathered: &Gathered) -> Result<(), Stop> {
-        Ok(self.stars.known.region.add(vertices, gathered)?)
+    pub fn add(&mut self, vertices: Vec<u32>, gathered: Gathered) -> Result<(), Stop> {
+        Ok(self.stars.known.region.add(vertices, gathered, self.stars.threads)?)
     }
 
     /// Returns the region, of the Delaunay triangulation when nothing is lacking any more, and what

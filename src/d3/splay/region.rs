@@ -20,6 +20,9 @@ const OUTSIDE: u32 = 0;
 /// An entry of [`Patch::neighbors`]: what is there stays as it is.
 pub const KEEP: u32 = u32::MAX;
 
+/// From how many gathered tetrahedra on it is worth that each thread looks at all of them.
+const SHARED_FROM: usize = 1 << 12;
+
 /// Tetrahedra of a triangulation, numbered in this order.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Gathered {
@@ -55,8 +58,9 @@ pub struct Region {
     pub(super) incident: Vec<u32>,
     /// The vertices of which the region has the whole star.
     complete: Complete,
-    /// The tetrahedra as they were gathered. Those that splaying adds are in no slot.
-    given: Gathered,
+    /// The tetrahedra as they were gathered, each time with the number of the first. Those that
+    /// splaying adds are in none of them.
+    given: Vec<(usize, Gathered)>,
     /// How often tetrahedra were gathered, and how many.
     pub(super) gathers: [usize; 2],
 }
@@ -69,20 +73,17 @@ enum Complete {
 }
 
 impl Region {
-    /// Creates a region that has nothing of a triangulation of so many vertices.
-    pub fn new(vertices: usize) -> Self {
+    /// Creates a region that has nothing of a triangulation of so many vertices. `threads` share the
+    /// work.
+    pub fn new(vertices: usize, threads: Threads) -> Self {
         let infinite = vertices as u32;
         // What is outside looks like a tetrahedron that is not there. Nothing depends on it.
-        let outside = Gathered {
-            tetrahedra: vec![[infinite | state::FREE, infinite, infinite, infinite]],
-            neighbors: vec![[OUTSIDE; 4]],
-            slots: vec![NO_INDEX],
-        };
+        let outside = vec![[infinite | state::FREE, infinite, infinite, infinite]];
         Region {
-            mesh: Triangulation3::new(outside.tetrahedra.clone(), outside.neighbors.clone(), infinite),
-            incident: vec![NO_INDEX; vertices],
+            mesh: Triangulation3::new(outside, vec![[OUTSIDE; 4]], infinite),
+            incident: parallel::filled(threads, vertices, NO_INDEX),
             complete: Complete::Those(vec![false; vertices]),
-            given: outside,
+            given: Vec::new(),
             gathers: [0; 2],
         }
     }
@@ -90,7 +91,7 @@ impl Region {
     /// Creates the region that is a whole triangulation, with a tetrahedron at each vertex, a ghost
     /// if there is one.
     pub(super) fn whole(mesh: Triangulation3, incident: Vec<u32>) -> Self {
-        Region { mesh, incident, complete: Complete::All, given: Gathered::default(), gathers: [0; 2] }
+        Region { mesh, incident, complete: Complete::All, given: Vec::new(), gathers: [0; 2] }
     }
 
     /// Returns the number of the next tetrahedron.
@@ -122,49 +123,65 @@ impl Region {
     }
 
     /// Adds what was gathered, numbered from [`next`](Region::next) on. Now the region has the
-    /// stars of `vertices`.
+    /// stars of `vertices`. `threads` share the work.
     ///
     /// # Errors
     ///
     /// Returns [`Aborted::Inconsistent`] if the neighbours do not fit.
-    pub fn add(&mut self, vertices: impl IntoIterator<Item = u32>, gathered: &Gathered) -> Result<(), Aborted> {
+    pub fn add(
+        &mut self,
+        vertices: impl IntoIterator<Item = u32>,
+        gathered: Gathered,
+        threads: Threads,
+    ) -> Result<(), Aborted> {
         const DO_NOT_FIT: Aborted = Aborted::Inconsistent("gathered tetrahedra do not fit what is there");
         let Region { mesh, incident, complete, given, gathers } = self;
-        let Gathered { tetrahedra, neighbors, slots } = gathered;
+        let Gathered { tetrahedra, neighbors, slots } = &gathered;
         let first = mesh.tetrahedra.len();
+        let infinite = mesh.infinite;
         *gathers = [gathers[0] + 1, gathers[1] + slots.len()];
-        given.tetrahedra.resize(first, [0; 4]);
-        given.neighbors.resize(first, [0; 4]);
-        given.slots.resize(first, NO_INDEX);
-        given.tetrahedra.extend_from_slice(tetrahedra);
-        given.neighbors.extend_from_slice(neighbors);
-        given.slots.extend_from_slice(slots);
-        mesh.tetrahedra.extend_from_slice(tetrahedra);
-        mesh.neighbors.extend_from_slice(neighbors);
-        if [neighbors.len(), slots.len()] != [tetrahedra.len(); 2] {
+        let fits = |v: &[u32; 4]| v[..3].iter().all(|&v| v < infinite) && v[3] <= infinite;
+        let fit = parallel::map_ranges(threads, tetrahedra.len(), |range| tetrahedra[range].iter().all(fits));
+        if [neighbors.len(), slots.len()] != [tetrahedra.len(); 2] || fit.contains(&false) {
             return Err(DO_NOT_FIT);
         }
-        for (t, (v, across)) in (first as u32..).zip(tetrahedra.iter().zip(neighbors)) {
-            let is_ghost = v[3] == mesh.infinite;
-            for &v in &v[..if is_ghost { 3 } else { 4 }] {
-                let incident = incident.get_mut(v as usize).ok_or(DO_NOT_FIT)?;
-                if is_ghost || *incident == NO_INDEX {
-                    *incident = t;
-                }
-            }
-            for (k, &across) in (0..).zip(across) {
-                // What came earlier did not know of this one.
-                if across >> 2 != OUTSIDE && ((across >> 2) as usize) < first {
-                    for neighbors in [&mut mesh.neighbors, &mut given.neighbors] {
-                        let back = &mut neighbors[across as usize / 4][across as usize % 4];
-                        if *back >> 2 != OUTSIDE {
-                            return Err(DO_NOT_FIT);
-                        }
-                        *back = 4 * t + k;
+        parallel::extend(threads, &mut mesh.tetrahedra, tetrahedra);
+        parallel::extend(threads, &mut mesh.neighbors, neighbors);
+        // Every thread looks at all tetrahedra for the vertices of its own, so that nothing depends on
+        // their order.
+        let sharing = if tetrahedra.len() < SHARED_FROM { Threads::One } else { threads };
+        parallel::for_parts(sharing, incident, |start, part| {
+            for (t, v) in (first as u32..).zip(tetrahedra) {
+                let is_ghost = v[3] == infinite;
+                for &v in &v[..if is_ghost { 3 } else { 4 }] {
+                    // Vertices before the part wrap around.
+                    if let Some(incident) = part.get_mut((v as usize).wrapping_sub(start))
+                        && (is_ghost || *incident == NO_INDEX)
+                    {
+                        *incident = t;
                     }
                 }
             }
+        });
+        // What came earlier did not know of this.
+        let back = parallel::map_ranges(threads, neighbors.len(), |range| {
+            let facets = range.flat_map(|t| (0..4).map(move |k| (neighbors[t][k], 4 * (first + t) + k)));
+            let to_earlier = |across: u32| across >> 2 != OUTSIDE && ((across >> 2) as usize) < first;
+            facets.filter(|&(across, _)| to_earlier(across)).collect::<Vec<_>>()
+        });
+        for (across, facet) in back.into_iter().flatten() {
+            let (t, k) = (across as usize / 4, across as usize % 4);
+            if mesh.neighbors[t][k] >> 2 != OUTSIDE {
+                return Err(DO_NOT_FIT);
+            }
+            mesh.neighbors[t][k] = facet as u32;
+            if let Some((first, given)) = given.iter_mut().rfind(|(first, _)| *first <= t)
+                && let Some(neighbors) = given.neighbors.get_mut(t - *first)
+            {
+                neighbors[k] = facet as u32;
+            }
         }
+        given.push((first, gathered));
         if let Complete::Those(complete) = complete {
             for v in vertices {
                 *complete.get_mut(v as usize).ok_or(DO_NOT_FIT)? = true;
@@ -199,9 +216,11 @@ impl Region {
         let Region { mesh, given, .. } = self;
         // What splaying added is in no slot yet. Numbers of slots stay below 2³⁰ if those of the
         // region do, of which no more are added than the triangulation may have.
-        let mut slots = given.slots.clone();
+        let mut slots = vec![NO_INDEX; mesh.tetrahedra.len()];
+        for (first, given) in given {
+            slots[*first..][..given.slots.len()].copy_from_slice(&given.slots);
+        }
         let mut next = len as u32;
-        slots.resize(mesh.tetrahedra.len(), NO_INDEX);
         for (t, slot) in (0..).zip(&mut slots).skip(1) {
             if *slot == NO_INDEX && mesh.state(t) != state::FREE {
                 *slot = next;
@@ -212,7 +231,10 @@ impl Region {
             let mut patch = Patch::default();
             for t in range {
                 let (v, across) = (mesh.tetrahedra[t], mesh.neighbors[t]);
-                let is_given = given.tetrahedra.get(t) == Some(&v) && given.neighbors.get(t) == Some(&across);
+                let given = given.iter().rfind(|(first, _)| *first <= t).and_then(|(first, given)| {
+                    Some((given.tetrahedra.get(t - first)?, given.neighbors.get(t - first)?))
+                });
+                let is_given = given == Some((&v, &across));
                 if slots[t] == NO_INDEX || is_given {
                     continue;
                 }
@@ -220,8 +242,8 @@ impl Region {
                 if !is_free {
                     patch.more[usize::from(v[3] == mesh.infinite)] += 1;
                 }
-                if given.slots.get(t).is_some_and(|&slot| slot != NO_INDEX) {
-                    patch.more[usize::from(given.tetrahedra[t][3] == mesh.infinite)] -= 1;
+                if let Some((v, _)) = given {
+                    patch.more[usize::from(v[3] == mesh.infinite)] -= 1;
                 }
                 patch.slots.push(slots[t]);
                 patch.tetrahedra.push(if is_free { [0; 4] } else { v });
