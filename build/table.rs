@@ -69,9 +69,22 @@ pub fn write() -> Result<(), String> {
             }
         }
     }
-    let module = module(&sources, &tables, &declarations).expect("strings can be written to");
+    // A module of WebAssembly is downloaded. Natively the names stay, for the messages of drivers.
+    let is_downloaded = env::var("CARGO_CFG_TARGET_FAMILY").as_deref() == Ok("wasm");
+    let sources = if is_downloaded { &shortened(&sources, &tables)? } else { &sources };
+    let module = module(sources, &tables, &declarations).expect("strings can be written to");
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it")).join("shaders.rs");
     fs::write(&out, module).map_err(|e| format!("{}: {e}", out.display()))
+}
+
+/// Returns the sources with short names, with which the shaders are validated once more.
+fn shortened(sources: &Sources, tables: &[Vec<Shader<'_>>; 3]) -> Result<Sources, String> {
+    let short = sources.shortened();
+    for parts in tables.iter().flatten().flat_map(|shader| &shader.parts) {
+        let parts: Vec<&File> = parts.iter().filter_map(|file| short.get(&file.name)).collect();
+        check(&parts)?;
+    }
+    Ok(short)
 }
 
 fn names<'a>(parts: &'a [Vec<&File>; 2]) -> Vec<&'a str> {

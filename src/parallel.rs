@@ -119,6 +119,23 @@ pub(crate) fn sort<T: Ord + Send>(threads: Threads, items: &mut [T]) {
     items.sort_unstable();
 }
 
+/// Does the same for items of several numbers. A sort is large, so that there is one for all of
+/// them in a WebAssembly module, which orders their indices.
+pub(crate) fn sort_records<T: Ord + Copy + Send>(threads: Threads, records: &mut [T]) {
+    if cfg!(not(target_arch = "wasm32")) {
+        return sort(threads, records);
+    }
+    let given = records.to_vec();
+    let mut order: Vec<u64> = (0..given.len() as u64).collect();
+    sort_indirectly(&mut order, &|i, j| given[i as usize].cmp(&given[j as usize]));
+    records.iter_mut().zip(order).for_each(|(record, i)| *record = given[i as usize]);
+}
+
+/// Sorts by a function behind a pointer, so that the sort is compiled once for all of them.
+pub(crate) fn sort_indirectly(items: &mut [u64], compare: &dyn Fn(u64, u64) -> Ordering) {
+    items.sort_unstable_by(|&i, &j| compare(i, j));
+}
+
 /// Sorts items by a total order.
 pub(crate) fn sort_by<T: Send>(threads: Threads, items: &mut [T], compare: impl Fn(&T, &T) -> Ordering + Sync) {
     #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]

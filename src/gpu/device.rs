@@ -8,7 +8,7 @@ use std::{
 use crate::error::Error;
 use crate::gpu::MAX_WORKGROUPS;
 
-/// Which adapter to open.
+/// Which adapter to open. Browsers offer only the default.
 ///
 /// # Examples
 ///
@@ -251,6 +251,8 @@ async fn choose(instance: &wgpu::Instance, choice: &AdapterChoice) -> Result<wgp
             None => Err(Error::AdapterNotFound { wanted, available: names }),
         }
     };
+    // Browsers offer no list, and looking through one takes 2 kB of a module.
+    let choice = if cfg!(target_arch = "wasm32") { &AdapterChoice::Default } else { choice };
     match choice {
         AdapterChoice::Default => instance
             .request_adapter(&wgpu::RequestAdapterOptions {

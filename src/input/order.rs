@@ -163,7 +163,7 @@ fn sort_runs<const D: usize>(
 /// coordinates, then by index. Equal points become neighbours, the lowest index first.
 pub(crate) fn sort_by_place<const D: usize>(points: Points<'_, D>, entries: &mut [u64]) {
     let point = |entry: u64| points.get(entry as u32 as usize);
-    sort_by(entries, &|i, j| {
+    parallel::sort_indirectly(entries, &|i, j| {
         // −0 and 0 are the same coordinate.
         let by_place = point(i).partial_cmp(&point(j)).unwrap_or(Ordering::Equal);
         (i >> 32).cmp(&(j >> 32)).then(by_place).then(i.cmp(&j))
@@ -198,12 +198,6 @@ pub(crate) fn missing_points<const D: usize>(
         }
     }
     missing
-}
-
-/// Sorts by a function behind a pointer, so that the sort, which is large, is compiled once for all
-/// kinds of points.
-fn sort_by(entries: &mut [u64], compare: &dyn Fn(u64, u64) -> Ordering) {
-    entries.sort_unstable_by(|&i, &j| compare(i, j));
 }
 
 /// Returns the points in a random order.

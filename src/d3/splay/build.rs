@@ -8,7 +8,10 @@ use crate::d3::splay::{
     region::Region,
     star::{Changes, LinkFinder, Star, Triangle},
 };
-use crate::index::NO_INDEX;
+use crate::{
+    index::NO_INDEX,
+    parallel::{self, Threads},
+};
 use rustc_hash::FxHashSet;
 
 /// The triangulation as far as it is here, and what is known about it.
@@ -84,7 +87,7 @@ fn recognize(star: &mut Star, removed: &mut Vec<Triangle>) -> Vec<u32> {
         _ => [c, a, b],
     };
     removed.iter_mut().for_each(|t| t.vertices = rotated(t.vertices));
-    removed.sort_unstable_by_key(|t| t.vertices);
+    parallel::sort_records(Threads::One, removed);
     let mut added = Vec::new();
     for (i, t) in star.triangles.iter_mut().enumerate().filter(|(_, t)| t.is_used() && t.tetrahedron == NO_INDEX) {
         match removed.binary_search_by_key(&rotated(t.vertices), |t| t.vertices) {

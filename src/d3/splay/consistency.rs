@@ -207,7 +207,7 @@ impl Splaying {
             Ok(requests)
         });
         let mut requests = requests.into_iter().collect::<Result<Vec<_>, Aborted>>()?.concat();
-        parallel::sort(self.threads, &mut requests);
+        parallel::sort_records(self.threads, &mut requests);
         Ok(requests)
     }
 

@@ -243,7 +243,7 @@ impl Ledger {
         }
         // The order in the hash tables is arbitrary.
         remove.sort_unstable();
-        add.sort_unstable();
+        parallel::sort_records(Threads::One, &mut add);
         Ok((remove, add))
     }
 }

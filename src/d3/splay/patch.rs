@@ -53,7 +53,7 @@ pub(super) fn patch(
         mesh.tetrahedra[slot as usize] = v;
         facets.extend((0..4).map(|k| facet(v, k, 4 * slot + k as u32)));
     }
-    parallel::sort(threads, &mut facets);
+    parallel::sort_records(threads, &mut facets);
     for same in facets.chunk_by(|f, g| f[..3] == g[..3]) {
         let &[[.., f], [.., g]] = same else { return Err(UNMATCHED.into()) };
         mesh.join(f, g);

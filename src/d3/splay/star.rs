@@ -14,7 +14,7 @@ use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
 
 /// A triangle of a link.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Triangle {
     /// Counter-clockwise as seen from outside; the first is [`NO_INDEX`] in an unused slot.
     pub(super) vertices: [u32; 3],
