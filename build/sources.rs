@@ -70,7 +70,7 @@ impl Sources {
         Ok(parts)
     }
 
-    /// Returns the files with short names for what they declare, the same in all of them, and the
+    /// Returns the files as one line each, with short names for what they declare, the same in all of them, and the
     /// shortest for what is named most often.
     ///
     /// Names of one or two characters stay, which swizzles have, too.
@@ -93,9 +93,11 @@ impl Sources {
         let is_free =
             |name: &String| !SCALARS.contains(&&**name) && uses.get(&**name).is_none_or(|(_, declared)| *declared);
         let short: BTreeMap<&str, String> = names.into_iter().zip(short_names().filter(is_free)).collect();
-        let shortened = |line: &str| tokens(line).map(|token| short.get(token).map_or(token, |name| name)).collect();
+        let shortened =
+            |line: &str| -> String { tokens(line).map(|token| short.get(token).map_or(token, |name| name)).collect() };
         let files = self.files().map(|file| {
-            let lines = file.lines.iter().map(|(number, line)| (*number, shortened(line))).collect();
+            let lines: Vec<String> = file.lines.iter().map(|(_, line)| shortened(line)).collect();
+            let lines = vec![(1, compact(&lines.join(" ")))];
             (file.name.clone(), File { name: file.name.clone(), lines, includes: file.includes.clone() })
         });
         Sources(files.collect())
