@@ -116,6 +116,87 @@ impl Choice<2> for Dimension<2> {
     }
 }
 
+/// Where a caller wants the mesh. A trait rather than closures, whose futures could not be sent to
+/// other threads.
+trait Deliver<const D: usize>
+where
+    Dimension<D>: Choice<D>,
+{
+    type Output;
+
+    /// Whether the mesh is to be made on the device.
+    const RESIDENT: bool;
+
+    /// Takes the mesh there from where it was made, with the GPU if it was used.
+    async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<Self::Output, Error>;
+}
+
+/// To the memory of the host.
+struct ToHost;
+
+impl<const D: usize> Deliver<D> for ToHost
+where
+    Dimension<D>: Choice<D>,
+{
+    type Output = MeshOf<D>;
+
+    const RESIDENT: bool = false;
+
+    async fn deliver(&self, mesh: Made<D>, _gpu: Option<Gpu>) -> Result<MeshOf<D>, Error> {
+        mesh.into_host().await
+    }
+}
+
+/// To the device.
+struct ToDevice<'a>(&'a SharedDevice);
+
+impl<const D: usize> Deliver<D> for ToDevice<'_>
+where
+    Dimension<D>: Choice<D>,
+{
+    type Output = DeviceMesh<D>;
+
+    const RESIDENT: bool = true;
+
+    async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<DeviceMesh<D>, Error> {
+        if let Some(gpu) = gpu {
+            return mesh.into_device(&gpu).await;
+        }
+        let ToDevice(device) = self;
+        let mut state = device.state.lock().await;
+        let gpu = state.device(&device.adapter).await?;
+        let result = mesh.into_device(&gpu).await;
+        state.forget_if_lost(&result);
+        result
+    }
+}
+
+/// To a function of the caller's: from where it was made, or from the device.
+#[cfg(target_arch = "wasm32")]
+struct ToCaller<'a, F, R> {
+    on_device: Option<ToDevice<'a>>,
+    take: F,
+    result: std::marker::PhantomData<R>,
+}
+
+#[cfg(target_arch = "wasm32")]
+impl<const D: usize, R, F: AsyncFn(Made<D>) -> Result<R, Error>> Deliver<D> for ToCaller<'_, F, R>
+where
+    Dimension<D>: Choice<D>,
+{
+    type Output = R;
+
+    const RESIDENT: bool = true;
+
+    async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<R, Error> {
+        let mesh = match (mesh, &self.on_device) {
+            (mesh @ Made::Host(_), Some(on_device)) => Made::Device(Box::new(on_device.deliver(mesh, gpu).await?)),
+            (mesh, _) => mesh,
+        };
+        (self.take)(mesh).await
+    }
+}
+
 impl SharedDevice {
     /// Creates the state for a device of this adapter.
     pub(super) fn new(adapter: AdapterChoice) -> Self {
@@ -147,15 +228,15 @@ impl SharedDevice {
 
     /// Triangulates `points` in 3D.
     pub(super) async fn delaunay3d(&self, points: Points3<'_>, options: &Options) -> Result<Mesh3, Error> {
-        self.run_on_host(points, options).await
+        self.run(points, options, &ToHost).await
     }
 
     /// Triangulates `points` in 2D.
     pub(super) async fn delaunay2d(&self, points: Points2<'_>, options: &Options) -> Result<Mesh2, Error> {
-        self.run_on_host(points, options).await
+        self.run(points, options, &ToHost).await
     }
 
-    /// Triangulates `points` in 3D, and has `deliver` take the mesh where it was made, or, if
+    /// Triangulates `points` in 3D, and has `take` take the mesh where it was made, or, if
     /// `resident`, on the device.
     #[cfg(target_arch = "wasm32")]
     pub(super) async fn deliver3d<R>(
@@ -163,12 +244,13 @@ impl SharedDevice {
         points: Points3<'_>,
         options: &Options,
         resident: bool,
-        deliver: impl AsyncFn(Made<3>) -> Result<R, Error>,
+        take: impl AsyncFn(Made<3>) -> Result<R, Error>,
     ) -> Result<R, Error> {
-        self.deliver(points, options, resident, deliver).await
+        let on_device = resident.then_some(ToDevice(self));
+        self.run(points, options, &ToCaller { on_device, take, result: std::marker::PhantomData }).await
     }
 
-    /// Triangulates `points` in 2D, and has `deliver` take the mesh where it was made, or, if
+    /// Triangulates `points` in 2D, and has `take` take the mesh where it was made, or, if
     /// `resident`, on the device.
     #[cfg(target_arch = "wasm32")]
     pub(super) async fn deliver2d<R>(
@@ -176,9 +258,10 @@ impl SharedDevice {
         points: Points2<'_>,
         options: &Options,
         resident: bool,
-        deliver: impl AsyncFn(Made<2>) -> Result<R, Error>,
+        take: impl AsyncFn(Made<2>) -> Result<R, Error>,
     ) -> Result<R, Error> {
-        self.deliver(points, options, resident, deliver).await
+        let on_device = resident.then_some(ToDevice(self));
+        self.run(points, options, &ToCaller { on_device, take, result: std::marker::PhantomData }).await
     }
 
     /// Triangulates `points` in 3D, and leaves the mesh on the device.
@@ -187,7 +270,7 @@ impl SharedDevice {
         points: Points3<'_>,
         options: &Options,
     ) -> Result<DeviceMesh3, Error> {
-        self.run_on_device::<3>(points, options).await
+        self.run(points, options, &ToDevice(self)).await
     }
 
     /// Triangulates `points` in 2D, and leaves the mesh on the device.
@@ -196,7 +279,7 @@ impl SharedDevice {
         points: Points2<'_>,
         options: &Options,
     ) -> Result<DeviceMesh2, Error> {
-        self.run_on_device::<2>(points, options).await
+        self.run(points, options, &ToDevice(self)).await
     }
 
     /// Triangulates the points in a buffer of the device in 3D, and leaves the mesh there.
@@ -206,7 +289,7 @@ impl SharedDevice {
         options: &Options,
     ) -> Result<DeviceMesh3, Error> {
         let points = self.read_points::<3>(points).await?;
-        self.run_on_device::<3>((&points).into(), options).await
+        self.run((&points).into(), options, &ToDevice(self)).await
     }
 
     /// Triangulates the points in a buffer of the device in 2D, and leaves the mesh there.
@@ -216,7 +299,7 @@ impl SharedDevice {
         options: &Options,
     ) -> Result<DeviceMesh2, Error> {
         let points = self.read_points::<2>(points).await?;
-        self.run_on_device::<2>((&points).into(), options).await
+        self.run((&points).into(), options, &ToDevice(self)).await
     }
 
     /// Reads points, which the host needs for the lattice and for exact predicates.
@@ -233,98 +316,44 @@ impl SharedDevice {
         Ok(array)
     }
 
-    #[cfg(target_arch = "wasm32")]
-    async fn deliver<const D: usize, R>(
+    /// Triangulates `points`, and delivers the mesh. If the backend is [`Backend::Auto`] and the GPU
+    /// fails before that is done, the mesh of the CPU is delivered.
+    async fn run<const D: usize, L: Deliver<D>>(
         &self,
         points: Points<'_, D>,
         options: &Options,
-        resident: bool,
-        deliver: impl AsyncFn(Made<D>) -> Result<R, Error>,
-    ) -> Result<R, Error>
-    where
-        Dimension<D>: Choice<D>,
-    {
-        let deliver = async |mesh: Made<D>, gpu: Option<Gpu>| match mesh {
-            Made::Host(_) if resident => deliver(Made::Device(Box::new(self.to_device(mesh, gpu).await?))).await,
-            mesh => deliver(mesh).await,
-        };
-        self.run(points, options, true, deliver).await
-    }
-
-    async fn run_on_host<const D: usize>(&self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>
-    where
-        Dimension<D>: Choice<D>,
-    {
-        self.run(points, options, false, async |mesh: Made<D>, _| mesh.into_host().await).await
-    }
-
-    async fn run_on_device<const D: usize>(
-        &self,
-        points: Points<'_, D>,
-        options: &Options,
-    ) -> Result<DeviceMesh<D>, Error>
-    where
-        Dimension<D>: Choice<D>,
-    {
-        self.run(points, options, true, async |mesh: Made<D>, gpu| self.to_device(mesh, gpu).await).await
-    }
-
-    /// Takes a mesh to the device, which is `gpu` if it is in use.
-    async fn to_device<const D: usize>(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<DeviceMesh<D>, Error>
-    where
-        Dimension<D>: Choice<D>,
-    {
-        if let Some(gpu) = gpu {
-            return mesh.into_device(&gpu).await;
-        }
-        let mut state = self.state.lock().await;
-        let gpu = state.device(&self.adapter).await?;
-        let result = mesh.into_device(&gpu).await;
-        state.forget_if_lost(&result);
-        result
-    }
-
-    /// Triangulates `points`, if `resident` for a mesh on the device, and has `deliver` take the mesh
-    /// where it was made, with the GPU if it was used. If the backend is [`Backend::Auto`] and the GPU
-    /// fails before that is done, `deliver` gets the mesh of the CPU.
-    async fn run<const D: usize, R>(
-        &self,
-        points: Points<'_, D>,
-        options: &Options,
-        resident: bool,
-        deliver: impl AsyncFn(Made<D>, Option<Gpu>) -> Result<R, Error>,
-    ) -> Result<R, Error>
+        to: &L,
+    ) -> Result<L::Output, Error>
     where
         Dimension<D>: Choice<D>,
     {
         match options.backend {
-            Backend::Cpu => deliver(Made::Host(cpu::delaunay(points, options)?), None).await,
+            Backend::Cpu => to.deliver(Made::Host(cpu::delaunay(points, options)?), None).await,
             Backend::Gpu => {
                 let mut state = self.state.lock().await;
                 state.open::<D>(&self.adapter).await?;
-                state.run(points, options, resident, deliver).await
+                state.run(points, options, to).await
             }
             Backend::Auto => {
                 let options = &options.monotone();
-                let why = match self.try_gpu(points, options, resident, &deliver).await {
+                let why = match self.try_gpu(points, options, to).await {
                     Ok(result) => return result,
                     Err(why) => why,
                 };
                 let mut mesh = cpu::delaunay(points, options)?;
                 mesh.stats_mut().fallback = Some(why);
-                deliver(Made::Host(mesh), None).await
+                to.deliver(Made::Host(mesh), None).await
             }
         }
     }
 
     /// Delivers what the GPU engine makes of the points, or says why the CPU engine has to.
-    async fn try_gpu<const D: usize, R>(
+    async fn try_gpu<const D: usize, L: Deliver<D>>(
         &self,
         points: Points<'_, D>,
         options: &Options,
-        resident: bool,
-        deliver: impl AsyncFn(Made<D>, Option<Gpu>) -> Result<R, Error>,
-    ) -> Result<Result<R, Error>, Fallback>
+        to: &L,
+    ) -> Result<Result<L::Output, Error>, Fallback>
     where
         Dimension<D>: Choice<D>,
     {
@@ -334,7 +363,7 @@ impl SharedDevice {
         }
         let mut state = self.state.lock().await;
         state.open_if_it_pays::<D>(&self.adapter, points.len()).await?;
-        match state.run(points, options, resident, deliver).await {
+        match state.run(points, options, to).await {
             Err(error) if error.is_of_the_gpu() => Err(Fallback::GpuFailed(error)),
             result => Ok(result),
         }
@@ -410,13 +439,12 @@ impl State {
 
     /// Runs the GPU engine, which is open. If its device gets lost, the next run has to open
     /// another.
-    async fn run<const D: usize, R>(
+    async fn run<const D: usize, L: Deliver<D>>(
         &mut self,
         points: Points<'_, D>,
         options: &Options,
-        resident: bool,
-        deliver: impl AsyncFn(Made<D>, Option<Gpu>) -> Result<R, Error>,
-    ) -> Result<R, Error>
+        to: &L,
+    ) -> Result<L::Output, Error>
     where
         Dimension<D>: Choice<D>,
     {
@@ -425,8 +453,8 @@ impl State {
         };
         let options = &options.monotone();
         let result = async {
-            let mesh = engine.make(points, options, resident).await?;
-            let delivered = deliver(mesh, Some(engine.gpu().clone())).await?;
+            let mesh = engine.make(points, options, L::RESIDENT).await?;
+            let delivered = to.deliver(mesh, Some(engine.gpu().clone())).await?;
             options.report(Phase::Finish, 1.0)?;
             Ok(delivered)
         };
