@@ -5,6 +5,7 @@
 //! All of it is generic over the number `D` of coordinates; [`Incremental`] and [`Insert`] are what
 //! the dimensions supply.
 
+pub mod update;
 mod workers;
 
 pub(crate) use workers::{Run, insert_by_workers};

@@ -109,9 +109,9 @@ pub use input::points::{from_mint2, from_mint3};
 pub use mesh::{Csr, Mesh};
 pub use options::Progress;
 pub use predicates::{Sign, incircle, insphere, orient2d, orient3d};
-pub use triangulator::Triangulator;
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
 pub use triangulator::adapters;
+pub use triangulator::{Moving, Triangulator};
 #[cfg(feature = "gpu")]
 pub use wgpu;
 

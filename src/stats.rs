@@ -44,6 +44,8 @@ with_fields! {
         pub gpu: Option<GpuStats>,
         /// What star splaying did after that; 3D only.
         pub splay: Option<SplayStats>,
+        /// What [`Triangulator::update`](crate::Triangulator::update) did, if it made the mesh.
+        pub update: Option<UpdateStats>,
         /// The intermediate triangulations, if [`Triangulator::trace`](crate::Triangulator::trace)
         /// requested them.
         #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
@@ -61,6 +63,7 @@ impl Stats {
             exact: ExactCounts::default(),
             gpu: None,
             splay: None,
+            update: None,
             trace: None,
         }
     }
@@ -88,7 +91,9 @@ impl Default for Stats {
 /// On the CPU the phases are [`Sort`](Phase::Sort), [`Insert`](Phase::Insert) and
 /// [`Finish`](Phase::Finish). On the GPU they are [`Lattice`](Phase::Lattice),
 /// [`Phase1`](Phase::Phase1), [`Readback`](Phase::Readback), then [`Splay`](Phase::Splay) in 3D or
-/// [`Check`](Phase::Check) and [`Flip`](Phase::Flip) in 2D, and [`Finish`](Phase::Finish).
+/// [`Check`](Phase::Check) and [`Flip`](Phase::Flip) in 2D, and [`Finish`](Phase::Finish). An update
+/// has [`Check`](Phase::Check), [`Flip`](Phase::Flip), [`Splay`](Phase::Splay) in 3D, and
+/// [`Finish`](Phase::Finish).
 ///
 /// # Examples
 ///
@@ -110,11 +115,12 @@ pub enum Phase {
     Phase1,
     /// Copying the result of the GPU to host memory.
     Readback,
-    /// Repairing the GPU's triangulation by star splaying: Phase 2 of the gDel3D paper.
+    /// Repairing a triangulation by star splaying: Phase 2 of the gDel3D paper.
     Splay,
-    /// Evaluating exactly what rounding to the lattice left open, in 2D.
+    /// Evaluating exactly what rounding to the lattice left open, in 2D; or, in an update, every
+    /// sign at the new points.
     Check,
-    /// Repairing the GPU's triangulation by flips, in 2D.
+    /// Repairing a triangulation by flips.
     Flip,
     /// Removing the ghosts and extracting the hull.
     Finish,
@@ -361,6 +367,104 @@ with_fields! {
     }
 }
 
+with_fields! {
+    /// What an update of a mesh to points that have moved did.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Backend, Triangulator};
+    ///
+    /// let triangulator = Triangulator::new().backend(Backend::Cpu);
+    /// let mut mesh = triangulator.delaunay2d(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [0.0, 1.0f64]])?;
+    /// triangulator.update(&mut mesh, &[[0.0, 0.0], [2.0, 0.0], [2.0, 0.5], [0.0, 1.0f64]])?;
+    /// let update = mesh.stats.update.expect("the mesh was updated");
+    /// assert_eq!((update.inverted, update.flips, update.restarted), (0, 1, None));
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+    #[non_exhaustive]
+    pub struct UpdateStats {
+        /// The number of tetrahedra, or triangles in 2D, that were flat or inverted at the new
+        /// points.
+        pub inverted: usize,
+        /// The number of facets, or edges in 2D, that were not locally Delaunay there.
+        pub not_locally_delaunay: usize,
+        /// The number of flips.
+        pub flips: u64,
+        /// The number of stars that were made convex; 3D only.
+        pub stars: usize,
+        /// The number of vertices that were removed and inserted again where they are now; 2D only.
+        pub reinserted: usize,
+        /// The number of points that were inserted because they are no duplicates any more.
+        pub inserted: usize,
+        /// Why the points were triangulated from scratch, if they were.
+        pub restarted: Option<Restart>,
+    }
+}
+
+/// Why an update triangulated the points from scratch.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Backend, Triangulator, stats::Restart};
+///
+/// let triangulator = Triangulator::new().backend(Backend::Cpu);
+/// let mut mesh = triangulator.delaunay2d(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]])?;
+/// triangulator.update(&mut mesh, &[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0f64]])?;
+/// assert_eq!((mesh.dimension, mesh.triangles.len()), (1, 0));
+/// // From one dimension, there is nothing to begin with.
+/// triangulator.update(&mut mesh, &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]])?;
+/// assert_eq!(mesh.stats.update.and_then(|update| update.restarted), Some(Restart::Degenerate));
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, thiserror::Error)]
+#[non_exhaustive]
+pub enum Restart {
+    /// The points span fewer dimensions, or did before.
+    #[error("the points span fewer dimensions, or did before")]
+    Degenerate,
+    /// More simplices are flat or inverted at the new points than it pays to repair.
+    #[error("too many simplices are inverted")]
+    Inverted,
+    /// More has changed for other reasons than it pays to repair.
+    #[error("too much has changed")]
+    Changed,
+    /// So many threads triangulate the points before they have checked the mesh.
+    #[error("so many threads are faster from scratch")]
+    Threads,
+    /// The repair did not lead to the Delaunay triangulation.
+    #[error("flips and star splaying do not lead to the Delaunay triangulation")]
+    Stuck,
+    /// Points that were apart have the same coordinates now.
+    #[error("points that were apart have the same coordinates")]
+    Coincident,
+    /// More points are no duplicates any more than it pays to insert.
+    #[error("too many duplicates have parted")]
+    Parted,
+    /// The arrays of the mesh are not those of a triangulation of as many points.
+    #[error("the mesh is not a triangulation")]
+    Broken,
+}
+
+impl Restart {
+    /// Returns the name of the reason, such as `inverted`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Restart::Degenerate => "degenerate",
+            Restart::Inverted => "inverted",
+            Restart::Changed => "changed",
+            Restart::Threads => "threads",
+            Restart::Stuck => "stuck",
+            Restart::Coincident => "coincident",
+            Restart::Parted => "parted",
+            Restart::Broken => "broken",
+        }
+    }
+}
+
 /// The intermediate triangulations of a run on the GPU in 3D.
 ///
 /// # Examples
@@ -443,6 +547,16 @@ impl Field for Fallback {
     }
 }
 
+impl Field for Restart {
+    fn value(&self) -> Value<'_> {
+        Value::Text(self.name().into())
+    }
+
+    fn typescript() -> Option<String> {
+        Some("string".to_owned())
+    }
+}
+
 impl Field for (Phase, Duration) {
     fn value(&self) -> Value<'_> {
         let &(phase, time) = self;
@@ -471,7 +585,7 @@ impl Field for Option<Trace> {
 
 #[cfg(feature = "serde")]
 mod serialize {
-    use super::{Fallback, Phase};
+    use super::{Fallback, Phase, Restart};
     use serde::{
         Serialize, Serializer,
         ser::{SerializeMap, SerializeStruct},
@@ -479,6 +593,12 @@ mod serialize {
     use std::time::Duration;
 
     impl Serialize for Phase {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            serializer.serialize_str(self.name())
+        }
+    }
+
+    impl Serialize for Restart {
         fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
             serializer.serialize_str(self.name())
         }

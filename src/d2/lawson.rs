@@ -82,27 +82,12 @@ pub fn lawson(
     if missing.len() as u64 > max_flips {
         return Ok(LawsonOutcome::Aborted(Aborted::BudgetExceeded));
     }
-    let mut pending: Vec<u32> = uncertain.iter().flat_map(|&t| [4 * t, 4 * t + 1, 4 * t + 2]).collect();
-    let mut stuck = Vec::new();
+    let pending = uncertain.iter().flat_map(|&t| [4 * t, 4 * t + 1, 4 * t + 2]).collect();
     let mut flips = 0;
-    while let Some(edge) = pending.pop() {
-        if mesh.is_delaunay(vertices, edge) {
-            continue;
-        }
-        if !mesh.can_flip(vertices, edge) {
-            stuck.push(edge);
-            continue;
-        }
-        if flips == max_flips {
-            return Ok(LawsonOutcome::Aborted(Aborted::BudgetExceeded));
-        }
-        if flips % REPORT == 0 {
-            report(flips as f64 / max_flips as f64)?;
-        }
-        flips += 1;
-        let [t, u] = mesh.flip(edge);
-        pending.extend([4 * t, 4 * t + 2, 4 * u, 4 * u + 1]);
-    }
+    let report_flips = |flips: u64| report(flips as f64 / max_flips as f64);
+    let Some(stuck) = flip_edges(&mut mesh, vertices, pending, &mut flips, max_flips, &report_flips)? else {
+        return Ok(LawsonOutcome::Aborted(Aborted::BudgetExceeded));
+    };
     let hull_turns_once = mesh.hull_turns_once(vertices);
     let counter_clockwise = uncertain.iter().all(|&t| mesh.is_ghost(t) || mesh.orientation(vertices, t) > 0);
     if !hull_turns_once || !counter_clockwise || stuck.iter().any(|&edge| !mesh.is_delaunay(vertices, edge)) {
@@ -115,9 +100,47 @@ pub fn lawson(
     Ok(LawsonOutcome::Delaunay(mesh, flips))
 }
 
+/// Flips edges until those that are not locally Delaunay cannot be flipped, and returns these;
+/// `None` if that takes more than `max_flips` flips. `flips` counts them.
+///
+/// Calls `report` with their number from time to time; an error from it ends the work.
+///
+/// # Errors
+///
+/// Returns the errors of `report`.
+pub(crate) fn flip_edges(
+    mesh: &mut Triangulation2,
+    vertices: &PredicateContext2<'_>,
+    mut pending: Vec<u32>,
+    flips: &mut u64,
+    max_flips: u64,
+    report: &dyn Fn(u64) -> Result<(), Error>,
+) -> Result<Option<Vec<u32>>, Error> {
+    let mut stuck = Vec::new();
+    while let Some(edge) = pending.pop() {
+        if mesh.is_delaunay(vertices, edge) {
+            continue;
+        }
+        if !mesh.can_flip(vertices, edge) {
+            stuck.push(edge);
+            continue;
+        }
+        if *flips == max_flips {
+            return Ok(None);
+        }
+        if flips.is_multiple_of(REPORT) {
+            report(*flips)?;
+        }
+        *flips += 1;
+        let [t, u] = mesh.flip(edge);
+        pending.extend([4 * t, 4 * t + 2, 4 * u, 4 * u + 1]);
+    }
+    Ok(Some(stuck))
+}
+
 impl Triangulation2 {
     /// Returns the orientation of triangle `t`.
-    fn orientation(&self, vertices: &PredicateContext2<'_>, t: u32) -> Sign {
+    pub(crate) fn orientation(&self, vertices: &PredicateContext2<'_>, t: u32) -> Sign {
         let [a, b, c] = self.triangles[t as usize];
         vertices.orient2d(a, b, c)
     }
@@ -133,7 +156,7 @@ impl Triangulation2 {
 
     /// Returns whether the triangle on one side of the edge is not in conflict with the vertex on
     /// the other; both sides give the same answer.
-    fn is_delaunay(&self, vertices: &PredicateContext2<'_>, edge: u32) -> bool {
+    pub(crate) fn is_delaunay(&self, vertices: &PredicateContext2<'_>, edge: u32) -> bool {
         let across = self.neighbors[edge as usize / 4][edge as usize % 4];
         let [p, .., q] = self.around(edge);
         // A conflict between a ghost and infinity has no meaning, so the other side is tested then.
@@ -179,7 +202,7 @@ impl Triangulation2 {
 
     /// Returns whether the hull is one polygon without a dent that turns once: exactly one of its
     /// vertices precedes both its neighbours in lexicographic order, and exactly one follows both.
-    fn hull_turns_once(&self, vertices: &PredicateContext2<'_>) -> bool {
+    pub(crate) fn hull_turns_once(&self, vertices: &PredicateContext2<'_>) -> bool {
         let ghosts = (0..self.triangles.len() as u32).filter(|&t| self.is_ghost(t)).count();
         let hull = self.hull_vertices();
         if hull.len() != ghosts {

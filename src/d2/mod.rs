@@ -8,6 +8,7 @@ mod insert;
 pub mod lawson;
 mod mesh;
 mod triangulation;
+mod update;
 pub mod verify;
 
 pub use mesh::Mesh2;

@@ -106,6 +106,11 @@ impl Triangulation2 {
         Triangulation2 { triangles, neighbors, infinite }
     }
 
+    /// Returns the edge that half-edge `halfedge` of a mesh of this orientation has become.
+    pub(crate) fn edge_of_halfedge(halfedge: u32, winding: Winding) -> u32 {
+        4 * (halfedge / 3) + edge_of_halfedge(winding == Winding::Clockwise)[halfedge as usize % 3] as u32
+    }
+
     /// Returns the vertices of each triangle.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles

@@ -6,9 +6,11 @@ pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub(crate) mod insert;
+mod lawson;
 pub mod mesh;
 pub mod splay;
 pub mod triangulation;
+mod update;
 pub mod verify;
 
 pub use mesh::Mesh3;

@@ -1,7 +1,10 @@
 //! Triangulations with options, on the CPU or the GPU.
 
+mod moving;
 #[cfg(feature = "gpu")]
 mod shared_device;
+
+pub use moving::Moving;
 
 #[cfg(feature = "gpu")]
 pub use shared_device::{MIN_POINTS_2D, MIN_POINTS_3D, OPENING_POINTS_2D, OPENING_POINTS_3D};
@@ -273,6 +276,79 @@ impl Triangulator {
         }
         #[cfg(not(feature = "gpu"))]
         self.delaunay2d(points)
+    }
+
+    /// Makes `mesh` the Delaunay triangulation of `points`: those of the mesh, after they have
+    /// moved. Blocks the thread.
+    ///
+    /// The mesh is that of a run from scratch, except for the order of its simplices: also where
+    /// points have become equal or coplanar, have left the hull, or are no duplicates any more.
+    /// Where that is faster, the CPU repairs the mesh: with one thread, if points have moved by up to
+    /// about 1 % of their distances (3 % in 2D). Else, and always with more than three
+    /// [threads](Triangulator::threads), the points are triangulated from scratch by the backend.
+    /// [`Stats::update`](crate::stats::Stats::update) says what was done.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Backend, Triangulator};
+    ///
+    /// let mut points: Vec<[f64; 2]> = (0..100).map(|i| [f64::from(i * i % 101), f64::from(i)]).collect();
+    /// let triangulator = Triangulator::new().backend(Backend::Cpu);
+    /// let mut mesh = triangulator.delaunay2d(&points)?;
+    /// for step in 0..10 {
+    ///     for (i, [x, y]) in points.iter_mut().enumerate() {
+    ///         *x += 0.1 * (i as f64).sin();
+    ///         *y += 0.1 * (i as f64).cos();
+    ///     }
+    ///     triangulator.update(&mut mesh, &points)?;
+    ///     assert_eq!(mesh.canonical(), gdel::delaunay2d(&points)?.canonical());
+    /// }
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::delaunay3d`], and [`Error::PointCount`] if the mesh is
+    /// not one of as many points. After an error the mesh is what it was before.
+    pub fn update<'a, M: Moving>(&self, mesh: &mut M, points: impl Into<M::Points<'a>>) -> Result<(), Error> {
+        let points = points.into();
+        let update = match mesh.repaired(points, &self.options)? {
+            (Some(repaired), _) => {
+                *mesh = repaired;
+                return Ok(());
+            }
+            (None, update) => update,
+        };
+        let mut made = M::from_scratch(self, points)?;
+        made.stats_mut().update = Some(update);
+        *mesh = made;
+        Ok(())
+    }
+
+    /// Does the same as [`update`](Triangulator::update), and waits for the GPU without blocking
+    /// the thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::update`].
+    pub async fn update_async<'a, M: Moving>(
+        &self,
+        mesh: &mut M,
+        points: impl Into<M::Points<'a>>,
+    ) -> Result<(), Error> {
+        let points = points.into();
+        let update = match mesh.repaired(points, &self.options)? {
+            (Some(repaired), _) => {
+                *mesh = repaired;
+                return Ok(());
+            }
+            (None, update) => update,
+        };
+        let mut made = M::from_scratch_async(self, points).await?;
+        made.stats_mut().update = Some(update);
+        *mesh = made;
+        Ok(())
     }
 
     /// Returns the 3D Delaunay triangulation of `points` as a mesh that stays on the device, which

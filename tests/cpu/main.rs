@@ -3,6 +3,8 @@
 mod broken;
 #[path = "../shared/clouds.rs"]
 mod clouds;
+#[path = "../shared/motions.rs"]
+mod motions;
 mod oracle;
 
 mod conversions;
@@ -14,6 +16,7 @@ mod fingerprints;
 mod generate;
 mod inputs;
 mod meshes;
+mod moving;
 mod predicates;
 mod threads;
 mod typescript;

@@ -2,7 +2,7 @@
 
 use gdel::{
     internals::fields::{FieldOfStruct, Struct},
-    stats::{ExactCounts, GpuStats, Round, SplayStats, Stats},
+    stats::{ExactCounts, GpuStats, Round, SplayStats, Stats, UpdateStats},
 };
 use std::{fmt::Write as _, fs, path::Path};
 
@@ -28,6 +28,7 @@ fn declarations() -> String {
         GpuStats::DECLARATION,
         Round::DECLARATION,
         SplayStats::DECLARATION,
+        UpdateStats::DECLARATION,
     ];
     for Struct { name, attributes, fields } in structs {
         file.push('\n');

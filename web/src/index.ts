@@ -29,7 +29,7 @@ export {
   ResidentMesh2,
   ResidentMesh3,
 } from './resident.js';
-export type { ExactCounts, GpuStats, Round, SplayStats } from './stats.js';
+export type { ExactCounts, GpuStats, Round, SplayStats, UpdateStats } from './stats.js';
 export { delaunay2dSync, delaunay3dSync, load2d, load3d } from './sync.js';
 export {
   type GenerateOptions,

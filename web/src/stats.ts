@@ -20,6 +20,8 @@ export interface Stats {
   gpu: GpuStats | null;
   /** What star splaying did after that; 3D only. */
   splay: SplayStats | null;
+  /** What `Triangulator::update` did, if it made the mesh. */
+  update: UpdateStats | null;
 }
 
 /**
@@ -67,7 +69,7 @@ export interface GpuStats {
   merged: number;
   /** The number of results that were read back. */
   readbacks: number;
-  /** How often the CPU waited for one of them while the device had nothing else to do. */
+  /** How often the host waited for one of them while the device had nothing else to do. */
   stalls: number;
   /** The number of bytes that were read back. */
   bytesRead: number;
@@ -135,4 +137,22 @@ export interface SplayStats {
   gathers: number;
   /** The number of tetrahedra that were gathered. */
   gathered: number;
+}
+
+/** What an update of a mesh to points that have moved did. */
+export interface UpdateStats {
+  /** The number of tetrahedra, or triangles in 2D, that were flat or inverted at the new points. */
+  inverted: number;
+  /** The number of facets, or edges in 2D, that were not locally Delaunay there. */
+  notLocallyDelaunay: number;
+  /** The number of flips. */
+  flips: number;
+  /** The number of stars that were made convex; 3D only. */
+  stars: number;
+  /** The number of vertices that were removed and inserted again where they are now; 2D only. */
+  reinserted: number;
+  /** The number of points that were inserted because they are no duplicates any more. */
+  inserted: number;
+  /** Why the points were triangulated from scratch, if they were. */
+  restarted: string | null;
 }

@@ -17,7 +17,7 @@ mod insert;
 mod ledger;
 mod patch;
 mod peel;
-mod predicates;
+pub(in crate::d3) mod predicates;
 mod region;
 mod star;
 

@@ -23,7 +23,7 @@ use crate::{
 use std::{cell::Cell, ops::Range};
 
 /// A point set and infinity.
-pub(super) struct StarPredicates<'a> {
+pub(in crate::d3) struct StarPredicates<'a> {
     context: &'a PredicateContext3<'a>,
     infinite: u32,
     /// The vertices of the spanning tetrahedron.
@@ -33,7 +33,7 @@ pub(super) struct StarPredicates<'a> {
 
 impl<'a> StarPredicates<'a> {
     /// Creates the predicates. The four vertices `spanning` must not be coplanar.
-    pub(super) fn new(context: &'a PredicateContext3<'a>, infinite: u32, spanning: [u32; 4]) -> Self {
+    pub(in crate::d3) fn new(context: &'a PredicateContext3<'a>, infinite: u32, spanning: [u32; 4]) -> Self {
         StarPredicates { context, infinite, spanning, evaluations: Cell::new(0) }
     }
 
@@ -81,7 +81,7 @@ impl<'a> StarPredicates<'a> {
 
     /// Returns the orientation of four different vertices. Zero for four coplanar vertices, and for
     /// infinity with three collinear vertices.
-    pub(super) fn orient(&self, t: [u32; 4]) -> Sign {
+    pub(in crate::d3) fn orient(&self, t: [u32; 4]) -> Sign {
         self.evaluations.set(self.evaluations.get() + 1);
         let orient = |[a, b, c, d]: [u32; 4]| self.context.orient3d(a, b, c, d);
         match t.iter().position(|&v| v == self.infinite) {
@@ -95,7 +95,7 @@ impl<'a> StarPredicates<'a> {
 
     /// Returns a positive sign if vertex `e` lies inside the circumsphere of the positively
     /// oriented `t`, that is, below its hyperplane in R⁴. The sign changes with the orientation.
-    pub(super) fn conflict(&self, t: [u32; 4], e: u32) -> Sign {
+    pub(in crate::d3) fn conflict(&self, t: [u32; 4], e: u32) -> Sign {
         self.evaluations.set(self.evaluations.get() + 1);
         if e == self.infinite {
             return -self.infinite_above(t);
