@@ -13,7 +13,7 @@ use crate::{
             exchange::{Begun, Device},
             trace::Tracer,
         },
-        splay::{self, Aborted, Doubts, Splay, Stop, Terms},
+        splay::{self, Doubts, Splay, Stop, Terms},
         triangulation::Triangulation3,
     },
     dimension::Dimension,
@@ -59,14 +59,6 @@ impl Complete<3> for Dimension<3> {
             return whole::complete(output, near, tracer);
         }
         complete_on_device(run, near, tracer).await
-    }
-}
-
-/// Returns why the CPU engine has to do what splaying aborted.
-pub(super) fn fallback(reason: Aborted) -> Fallback {
-    match reason {
-        Aborted::BudgetExceeded => Fallback::Splaying,
-        Aborted::Inconsistent(what) => Fallback::Inconsistent(what),
     }
 }
 
@@ -118,7 +110,7 @@ async fn complete_on_device(
         Err(Stop::Error(error)) => return Err(error),
         Err(Stop::Aborted(reason)) => {
             stats.gpu = Some(device.ended.release().summary(adapter));
-            return Ok(Err(fallback(reason)));
+            return Ok(Err(reason.into()));
         }
     };
     stats.exact = vertices.exact_counts();

@@ -4,7 +4,7 @@
 use crate::{
     d3::{
         Mesh3,
-        gpu::{engine::fallback, finish::NearMesh, trace::Tracer},
+        gpu::{finish::NearMesh, trace::Tracer},
         splay::{self, NearDelaunay3, SplayOutcome, Terms},
         triangulation::{FiniteMesh, Triangulation3},
     },
@@ -44,7 +44,7 @@ pub(super) fn complete(
             stats.splay = Some(splay);
             triangulation
         }
-        SplayOutcome::Aborted(reason) => return Ok(Err(fallback(reason))),
+        SplayOutcome::Aborted(reason) => return Ok(Err(reason.into())),
     };
     stats.phases.push((Phase::Splay, stopwatch.lap()));
 

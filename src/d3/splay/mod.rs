@@ -27,7 +27,7 @@ use crate::{
     index::NO_INDEX,
     parallel::{self, Threads},
     predicates::filter::PredicateContext3,
-    stats::SplayStats,
+    stats::{Fallback, SplayStats},
 };
 use build::Known;
 use consistency::Splaying;
@@ -87,6 +87,16 @@ pub enum Aborted {
     BudgetExceeded,
     /// The input is not a triangulation, for this reason.
     Inconsistent(&'static str),
+}
+
+/// Why the CPU engine has to do what splaying aborted.
+impl From<Aborted> for Fallback {
+    fn from(reason: Aborted) -> Self {
+        match reason {
+            Aborted::BudgetExceeded => Fallback::Splaying,
+            Aborted::Inconsistent(what) => Fallback::Inconsistent(what),
+        }
+    }
 }
 
 /// The number of tetrahedra that a thread takes at a time.
