@@ -293,7 +293,8 @@ where
     Ok(Ok(made))
 }
 
-/// Returns the points that are no duplicates any more, each with the vertex that it duplicated; and what the others duplicate. `None` if duplicates of duplicates are given.
+/// Returns the points that are no duplicates any more, each with the vertex that it duplicated; and
+/// what the others duplicate. `None` if duplicates of duplicates are given.
 fn parted<const D: usize>(duplicate_of: &[i32], points: Points<'_, D>) -> Option<(Vec<[u32; 2]>, Vec<i32>)> {
     let mut merged = Vec::new();
     for (i, &first) in (0..).zip(duplicate_of) {
