@@ -70,12 +70,11 @@ impl Sources {
         Ok(parts)
     }
 
-    /// Returns the files as one line each, with short names for what they declare, the same in all of them, and the
-    /// shortest for what is named most often.
+    /// Returns the files as one line each, with short names for what they declare: the same in all
+    /// files, and the shortest for what is named most often.
     ///
-    /// Names of one or two characters stay, which swizzles have, too.
-    /// Where a declaration shadows something built in, that is renamed as well, so validate the
-    /// result.
+    /// Names of one or two characters stay, which swizzles have, too. Where a declaration shadows
+    /// something built in, that is renamed as well, so validate the result.
     pub fn shortened(&self) -> Self {
         let mut uses = BTreeMap::<&str, (usize, bool)>::new();
         for (_, line) in self.files().flat_map(|file| &file.lines) {
@@ -106,8 +105,7 @@ impl Sources {
     fn append<'a>(&'a self, file: &'a File, values: &[(&str, &str)], parts: &mut Vec<&'a File>) -> Result<(), String> {
         for (line, name) in &file.includes {
             let name = values.iter().fold(name.clone(), |name, (from, to)| name.replace(from, to));
-            let included =
-                self.0.get(&name).ok_or_else(|| format!("{}:{line}: there is no file {name}", file.path()))?;
+            let included = self.get(&name).ok_or_else(|| format!("{}:{line}: there is no file {name}", file.path()))?;
             if !parts.iter().any(|part| part.name == name) {
                 self.append(included, values, parts)?;
             }

@@ -81,7 +81,8 @@ pub fn write() -> Result<(), String> {
 fn shortened(sources: &Sources, tables: &[Vec<Shader<'_>>; 3]) -> Result<Sources, String> {
     let short = sources.shortened();
     for parts in tables.iter().flatten().flat_map(|shader| &shader.parts) {
-        let parts: Vec<&File> = parts.iter().filter_map(|file| short.get(&file.name)).collect();
+        let parts: Vec<&File> =
+            parts.iter().map(|file| short.get(&file.name).expect("it has the same files")).collect();
         check(&parts)?;
     }
     Ok(short)

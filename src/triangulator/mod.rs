@@ -23,6 +23,7 @@ use crate::{
     error::Error,
     input::points::{Points2, Points3},
     options::{Options, Progress, Winding},
+    stats::UpdateStats,
 };
 #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
 use crate::{
@@ -313,13 +314,7 @@ impl Triangulator {
     /// not one of as many points. After an error the mesh is what it was before.
     pub fn update<'a, M: Moving>(&self, mesh: &mut M, points: impl Into<M::Points<'a>>) -> Result<(), Error> {
         let points = points.into();
-        let update = match mesh.repaired(points, &self.options)? {
-            (Some(repaired), _) => {
-                *mesh = repaired;
-                return Ok(());
-            }
-            (None, update) => update,
-        };
+        let Some(update) = self.repair(mesh, points)? else { return Ok(()) };
         let mut made = M::from_scratch(self, points)?;
         made.stats_mut().update = Some(update);
         *mesh = made;
@@ -338,17 +333,24 @@ impl Triangulator {
         points: impl Into<M::Points<'a>>,
     ) -> Result<(), Error> {
         let points = points.into();
-        let update = match mesh.repaired(points, &self.options)? {
-            (Some(repaired), _) => {
-                *mesh = repaired;
-                return Ok(());
-            }
-            (None, update) => update,
-        };
+        let Some(update) = self.repair(mesh, points)? else { return Ok(()) };
         let mut made = M::from_scratch_async(self, points).await?;
         made.stats_mut().update = Some(update);
         *mesh = made;
         Ok(())
+    }
+
+    /// Repairs the mesh, or returns what was done if the points have to be triangulated from
+    /// scratch.
+    fn repair<M: Moving>(&self, mesh: &mut M, points: M::Points<'_>) -> Result<Option<UpdateStats>, Error> {
+        let (repaired, update) = mesh.repaired(points, &self.options)?;
+        Ok(match repaired {
+            Some(repaired) => {
+                *mesh = repaired;
+                None
+            }
+            None => Some(update),
+        })
     }
 
     /// Returns the 3D Delaunay triangulation of `points` as a mesh that stays on the device, which
