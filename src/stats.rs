@@ -249,6 +249,10 @@ with_fields! {
         pub adapter: String,
         /// The insertion rounds, then the rounds that only flipped.
         pub rounds: Vec<Round>,
+        /// The number of points that Phase 1 started with, which count as inserted by the first
+        /// round: those that the CPU triangulated, or the corners of one simplex where that is
+        /// faster, or the sample has duplicates.
+        pub start_points: u64,
         /// The number of flips of two tetrahedra into three.
         pub flips_23: u64,
         /// The number of flips of three tetrahedra into two.

@@ -58,6 +58,20 @@ fn the_device_does_not_wait_between_rounds() {
     assert!(gpu.readbacks > gpu.rounds.len() as u64);
 }
 
+/// The CPU triangulates points while the device orders all of them. The first simplex alone has to
+/// do where a sample has duplicates.
+#[test]
+fn phase_1_starts_with_points_that_the_cpu_has_triangulated() {
+    let points = generate3d(Distribution3::Uniform, 20_000, 1);
+    let start_points = |points: &[[f64; 3]]| {
+        let mesh = block_on(engine().triangulate(points.into(), &Options::default())).expect("triangulates");
+        mesh.stats.gpu.expect("the GPU worked").start_points
+    };
+    assert!((100..120).contains(&start_points(&points)));
+    let twice: Vec<[f64; 3]> = points.iter().flat_map(|&p| [p; 200]).take(20_000).collect();
+    assert_eq!(start_points(&twice), 4);
+}
+
 #[test]
 fn every_submission_is_counted() {
     let (points, mesh) = triangulate_thin_sphere(&Options::default());

@@ -45,6 +45,12 @@ export interface GpuStats {
   adapter: string;
   /** The insertion rounds, then the rounds that only flipped. */
   rounds: Round[];
+  /**
+   * The number of points that Phase 1 started with, which count as inserted by the first round:
+   * those that the CPU triangulated, or the corners of one simplex where that is faster, or the
+   * sample has duplicates.
+   */
+  startPoints: number;
   /** The number of flips of two tetrahedra into three. */
   flips23: number;
   /** The number of flips of three tetrahedra into two. */

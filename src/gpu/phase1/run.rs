@@ -250,11 +250,11 @@ where
             kernels,
             submitted: VecDeque::new(),
             inserted_at_most: start.points.len() as u32,
+            stats: Phase1Stats { start_points: start.points.len(), dispatches, submits: 1, ..Phase1Stats::default() },
             start,
             rounds_submitted: 0,
             rounds_before_growth: 0,
             iterations: Iterations::new(),
-            stats: Phase1Stats { dispatches, submits: 1, ..Phase1Stats::default() },
             clock,
             round_clock,
         })

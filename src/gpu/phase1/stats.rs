@@ -12,6 +12,8 @@ pub struct Phase1Stats {
     /// The insertion rounds, the first with the ordering of the points; then the rounds of the last
     /// flips.
     pub rounds: Vec<Round>,
+    /// The points of the start.
+    pub start_points: usize,
     /// The kernels' counters.
     pub counters: Counters,
     /// Dispatches.
@@ -40,6 +42,7 @@ impl Phase1Stats {
         GpuStats {
             adapter: adapter.to_owned(),
             rounds: self.rounds.clone(),
+            start_points: self.start_points as u64,
             flips_23: counters.flips_23.into(),
             flips_32: counters.flips_32.into(),
             flips_22: counters.flips_22.into(),
