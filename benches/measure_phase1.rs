@@ -63,11 +63,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let position = |i: usize| lattice.coordinates(points[i].map(f64::from)).map(|c| c.value);
     let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
     let lattice_ms = clock.elapsed().as_secs_f64() * 1e3;
-    let input = Input { points: (&points).into(), lattice: &lattice, start };
+    let input = Input { points: (&points).into(), lattice: &lattice, start, has_moved: false };
 
     let clock = std::time::Instant::now();
     let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
     let pipelines_ms = clock.elapsed().as_secs_f64() * 1e3;
+    block_on(phase1.finish_compiling(&gpu))?;
     let mut runs: Vec<Phase1Output<3>> = Vec::new();
     let warm_up = std::time::Instant::now();
     while runs.is_empty() || warm_up.elapsed().as_secs_f64() < 1.0 {

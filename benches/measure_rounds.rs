@@ -55,7 +55,8 @@ where
             Some(kernels) => kernels,
             none => none.insert(block_on(Phase1::new(gpu, width))?),
         };
-        let input = Input { points, lattice: &lattice, start };
+        block_on(kernels.finish_compiling(gpu))?;
+        let input = Input { points, lattice: &lattice, start, has_moved: false };
         let mut run = block_on(Run::new(kernels, gpu, input, Settings::default(), None))?;
         let mut rounds = Vec::new();
         let mut before = Counters::default();

@@ -98,7 +98,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         let position = |i: usize| lattice.coordinates(points[i].map(f64::from)).map(|c| c.value);
         let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
         let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
-        let of_points = Input { points: (&points).into(), lattice: &lattice, start };
+        block_on(phase1.finish_compiling(&gpu))?;
+        let of_points = Input { points: (&points).into(), lattice: &lattice, start, has_moved: false };
         let output = block_on(phase1.run(&gpu, of_points, &Settings::default(), None))?;
         for threads in [Threads::One, Threads::All] {
             let (mut splay, mut end, mut did) = (Vec::new(), Vec::new(), SplayStats::default());

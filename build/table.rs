@@ -21,6 +21,10 @@ const WIDTHS: [&str; 2] = ["narrow", "wide"];
 /// members, and ends before the second one, an array as long as there is room.
 const CONTROL: (&str, &str, &str) = ("Control", "iteration", "free");
 
+/// Kernels that modules of WebAssembly do without: those of experiments, which are optional, and those
+/// for queries, which only native programs ask.
+const NATIVE: [&str; 3] = ["flip_compact", "query_", "edges_"];
+
 /// A shader in all its forms.
 struct Shader<'a> {
     name: String,
@@ -71,6 +75,10 @@ pub fn write() -> Result<(), String> {
     }
     // A module of WebAssembly is downloaded. Natively the names stay, for the messages of drivers.
     let is_downloaded = env::var("CARGO_CFG_TARGET_FAMILY").as_deref() == Ok("wasm");
+    if is_downloaded {
+        let is_native = |name: &str| NATIVE.iter().any(|native| name.split('/').any(|part| part.starts_with(native)));
+        tables.iter_mut().for_each(|table| table.retain(|shader| !is_native(&shader.name)));
+    }
     let sources = if is_downloaded { &shortened(&sources, &tables)? } else { &sources };
     let module = module(sources, &tables, &declarations).expect("strings can be written to");
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it")).join("shaders.rs");

@@ -1,10 +1,11 @@
 //! Follows points that move: one JSON object per dimension and displacement.
 //!
 //! `cargo run --release --example moving [POINTS [BACKEND [STEPS]]]`, by default 5,000 points, the
-//! backend `cpu`, and 5 steps, of which the medians are printed, in milliseconds. Displacements are
-//! normally distributed, and given as shares of the mean spacing of the points.
+//! backend `cpu`, and 5 steps, of which the medians are printed, in milliseconds. With the backends
+//! `gpu` and `auto` the meshes stay on the device. Displacements are normally distributed, and given
+//! as shares of the mean spacing of the points.
 
-use gdel::{Backend, Error, Mesh2, Mesh3, Moving, Triangulator};
+use gdel::{Backend, DeviceMesh2, DeviceMesh3, Error, Mesh2, Mesh3, Outputs, Triangulator, stats::Stats};
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 use std::{env, f64::consts::TAU, time::Instant};
 
@@ -20,44 +21,72 @@ fn main() -> Result<(), Error> {
     };
     let steps = arguments.next().and_then(|n| n.parse().ok()).unwrap_or(5);
     let triangulator = Triangulator::new().backend(backend);
-    follow::<3, Mesh3>(&triangulator, points, steps)?;
-    follow::<2, Mesh2>(&triangulator, points, steps)
+    if backend == Backend::Cpu {
+        follow::<3, Mesh3>(&triangulator, points, steps)?;
+        follow::<2, Mesh2>(&triangulator, points, steps)
+    } else {
+        follow::<3, DeviceMesh3>(&triangulator, points, steps)?;
+        follow::<2, DeviceMesh2>(&triangulator, points, steps)
+    }
 }
 
 /// The meshes of `D` dimensions.
-trait Mesh<const D: usize>: Moving {
+trait Mesh<const D: usize>: Sized {
     fn triangulate(triangulator: &Triangulator, points: &[[f64; D]]) -> Result<Self, Error>;
     fn update(&mut self, triangulator: &Triangulator, points: &[[f64; D]]) -> Result<(), Error>;
-    fn is_same(&self, other: &Self) -> bool;
+    fn stats(&self) -> &Stats;
+    fn is_same(&self, other: &Self) -> Result<bool, Error>;
 }
 
-impl Mesh<3> for Mesh3 {
-    fn triangulate(triangulator: &Triangulator, points: &[[f64; 3]]) -> Result<Self, Error> {
-        triangulator.delaunay3d(points)
-    }
+macro_rules! on_host {
+    ($D:literal, $mesh:ident, $triangulate:ident) => {
+        impl Mesh<$D> for $mesh {
+            fn triangulate(triangulator: &Triangulator, points: &[[f64; $D]]) -> Result<Self, Error> {
+                triangulator.$triangulate(points)
+            }
 
-    fn update(&mut self, triangulator: &Triangulator, points: &[[f64; 3]]) -> Result<(), Error> {
-        triangulator.update(self, points)
-    }
+            fn update(&mut self, triangulator: &Triangulator, points: &[[f64; $D]]) -> Result<(), Error> {
+                triangulator.update(self, points)
+            }
 
-    fn is_same(&self, other: &Self) -> bool {
-        self.canonical() == other.canonical() && self.duplicate_of == other.duplicate_of
-    }
+            fn stats(&self) -> &Stats {
+                &self.stats
+            }
+
+            fn is_same(&self, other: &Self) -> Result<bool, Error> {
+                Ok(self.canonical() == other.canonical() && self.duplicate_of == other.duplicate_of)
+            }
+        }
+    };
 }
+on_host!(3, Mesh3, delaunay3d);
+on_host!(2, Mesh2, delaunay2d);
 
-impl Mesh<2> for Mesh2 {
-    fn triangulate(triangulator: &Triangulator, points: &[[f64; 2]]) -> Result<Self, Error> {
-        triangulator.delaunay2d(points)
-    }
+/// On the device, the arrays are read only to compare them.
+macro_rules! on_device {
+    ($D:literal, $mesh:ident, $triangulate:ident) => {
+        impl Mesh<$D> for $mesh {
+            fn triangulate(triangulator: &Triangulator, points: &[[f64; $D]]) -> Result<Self, Error> {
+                triangulator.$triangulate(points)
+            }
 
-    fn update(&mut self, triangulator: &Triangulator, points: &[[f64; 2]]) -> Result<(), Error> {
-        triangulator.update(self, points)
-    }
+            fn update(&mut self, triangulator: &Triangulator, points: &[[f64; $D]]) -> Result<(), Error> {
+                triangulator.update(self, points)
+            }
 
-    fn is_same(&self, other: &Self) -> bool {
-        self.canonical() == other.canonical() && self.duplicate_of == other.duplicate_of
-    }
+            fn stats(&self) -> &Stats {
+                $mesh::stats(self)
+            }
+
+            fn is_same(&self, other: &Self) -> Result<bool, Error> {
+                let [mesh, other] = [self.read(Outputs::SIMPLICES)?, other.read(Outputs::SIMPLICES)?];
+                Ok(mesh.canonical() == other.canonical() && mesh.duplicate_of == other.duplicate_of)
+            }
+        }
+    };
 }
+on_device!(3, DeviceMesh3, delaunay3d_on_device);
+on_device!(2, DeviceMesh2, delaunay2d_on_device);
 
 fn follow<const D: usize, M: Mesh<D>>(triangulator: &Triangulator, points: usize, steps: usize) -> Result<(), Error> {
     let mut random = StdRng::seed_from_u64(1);
@@ -67,7 +96,7 @@ fn follow<const D: usize, M: Mesh<D>>(triangulator: &Triangulator, points: usize
         let mut at = start.clone();
         let mut mesh = M::triangulate(triangulator, &at)?;
         let (mut updates, mut scratches) = (Vec::new(), Vec::new());
-        let mut same = true;
+        let mut scratch = M::triangulate(triangulator, &at)?;
         for _ in 0..steps {
             for x in at.as_flattened_mut() {
                 *x += displacement * spacing * gaussian(&mut random);
@@ -76,10 +105,11 @@ fn follow<const D: usize, M: Mesh<D>>(triangulator: &Triangulator, points: usize
             mesh.update(triangulator, &at)?;
             updates.push(milliseconds(began));
             let began = Instant::now();
-            let scratch = M::triangulate(triangulator, &at)?;
+            scratch = M::triangulate(triangulator, &at)?;
             scratches.push(milliseconds(began));
-            same &= mesh.is_same(&scratch);
         }
+        // To compare them takes longer than all steps, in which a GPU would get slow.
+        let same = mesh.is_same(&scratch)?;
         let update = mesh.stats().update.unwrap_or_default();
         println!(
             "{{\"dimension\":{D},\"points\":{points},\"displacement\":{displacement},\"update\":{:.3},\"scratch\":{:.3},\

@@ -25,7 +25,7 @@ use crate::{
     predicates::filter::PredicateContext,
     stats::{Phase, Stats, Stopwatch},
 };
-use std::{num::NonZeroUsize, ops::Range};
+use std::{fmt::Debug, num::NonZeroUsize, ops::Range};
 
 /// With fewer points than this, one thread is as fast as several. Tests let many threads meet on
 /// few points.
@@ -39,7 +39,7 @@ pub type MeshOf<const D: usize> = <Dimension<D> as Incremental<D>>::Mesh;
 /// What the CPU engine of a dimension has of its own.
 pub trait Incremental<const D: usize> {
     /// The result.
-    type Mesh: MeshInfo + Default + Send;
+    type Mesh: MeshInfo + Debug + Default + Send + Sync;
     /// The triangulation under construction.
     type Triangulation: Grow<D>;
 
@@ -176,8 +176,7 @@ where
     let mut stopwatch = Stopwatch::start();
     let mut stats = Stats::new(Backend::Cpu);
     options.report(Phase::Sort, 0.0)?;
-    points.validate_by(threads)?;
-    let lattice = Lattice::fit_by(threads, points);
+    let lattice = Lattice::fit_by(threads, points)?;
     let Distinct { mut order, rounds, duplicate_of } =
         insertion_order(threads, points, &lattice, Dimension::<D>::CURVE, order);
     let dimension = Dimension::<D>::spanning_first(points, &mut order);

@@ -96,7 +96,11 @@ pub use derived::{
     AlphaComplex, AlphaShape, AlphaShape2, Cell, Clip, Diagram, FaceClass, Interpolation, Interpolator, Interpolator2,
     Interval, Location, Locator, Locator2, SpanningTree, Voronoi, Voronoi2,
 };
+#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+pub use derived::{DeviceLocator, DeviceLocator2, Locations};
 pub use error::Error;
+#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+pub use gpu::device_edges::DeviceEdges;
 #[cfg(feature = "gpu")]
 pub use gpu::{
     AdapterChoice, AdapterSummary,

@@ -119,7 +119,36 @@ pub(crate) fn sort<T: Ord + Send>(threads: Threads, items: &mut [T]) {
     items.sort_unstable();
 }
 
-/// Does the same for items of several numbers. A sort is large, so that there is one for all of
+/// Sorts entries by their upper halves; those with equal ones stay in their order. The lower halves
+/// must be in ascending order.
+pub(crate) fn sort_keyed(threads: Threads, entries: &mut Vec<u64>) {
+    if count(threads) > 1 && threads == Threads::All {
+        return sort(threads, entries);
+    }
+    // A radix sort from the lowest digit.
+    const DIGIT: u32 = 11;
+    let digit = |entry: u64, shift: u32| (entry >> shift) as usize & ((1 << DIGIT) - 1);
+    let mut others = vec![0; entries.len()];
+    for shift in [32, 32 + DIGIT, 32 + 2 * DIGIT] {
+        let mut starts = [0usize; 1 << DIGIT];
+        entries.iter().for_each(|&entry| starts[digit(entry, shift)] += 1);
+        if starts.contains(&entries.len()) {
+            continue;
+        }
+        let mut before = 0;
+        for start in &mut starts {
+            before += std::mem::replace(start, before);
+        }
+        for &entry in &*entries {
+            let start = &mut starts[digit(entry, shift)];
+            others[*start] = entry;
+            *start += 1;
+        }
+        std::mem::swap(entries, &mut others);
+    }
+}
+
+/// Sorts items of several numbers, of which equal ones are indistinguishable. A sort is large, so that there is one for all of
 /// them in a WebAssembly module, which orders their indices.
 pub(crate) fn sort_records<T: Ord + Copy + Send>(threads: Threads, records: &mut [T]) {
     if cfg!(not(target_arch = "wasm32")) {
@@ -221,6 +250,23 @@ pub(crate) fn beside<S, R: Send>(own: impl FnOnce() -> S, others: Vec<impl FnOnc
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn entries_are_sorted_by_their_upper_halves() {
+        for len in [0u64, 1, 2, 1000, 5000] {
+            for mask in [0, 7, 0xffff_0000, u64::from(u32::MAX)] {
+                let key = |i: u64| (i + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32 & mask;
+                let entries: Vec<u64> = (0..len).map(|i| key(i) << 32 | i).collect();
+                let mut expected = entries.clone();
+                expected.sort_unstable();
+                for threads in [Threads::One, Threads::All] {
+                    let mut sorted = entries.clone();
+                    sort_keyed(threads, &mut sorted);
+                    assert_eq!(sorted, expected);
+                }
+            }
+        }
+    }
 
     #[test]
     fn every_element_is_visited_once() {

@@ -92,8 +92,8 @@ impl Default for Stats {
 /// [`Finish`](Phase::Finish). On the GPU they are [`Lattice`](Phase::Lattice),
 /// [`Phase1`](Phase::Phase1), [`Readback`](Phase::Readback), then [`Splay`](Phase::Splay) in 3D or
 /// [`Check`](Phase::Check) and [`Flip`](Phase::Flip) in 2D, and [`Finish`](Phase::Finish). An update
-/// has [`Check`](Phase::Check), [`Flip`](Phase::Flip), [`Splay`](Phase::Splay) in 3D, and
-/// [`Finish`](Phase::Finish).
+/// by the CPU has [`Check`](Phase::Check), [`Flip`](Phase::Flip), [`Splay`](Phase::Splay) in 3D, and
+/// [`Finish`](Phase::Finish); one by the GPU has the phases of a run there.
 ///
 /// # Examples
 ///
@@ -253,6 +253,10 @@ with_fields! {
         /// round: those that the CPU triangulated, or the corners of one simplex where that is
         /// faster, or the sample has duplicates.
         pub start_points: u64,
+        /// The number of points for which the walk to their simplex of this start took so many
+        /// steps that all simplices were looked at in turn: 0 as a rule. Where it is not, the points
+        /// were inserted anew into one simplex.
+        pub long_walks: u64,
         /// The number of flips of two tetrahedra into three.
         pub flips_23: u64,
         /// The number of flips of three tetrahedra into two.
@@ -261,6 +265,10 @@ with_fields! {
         pub flips_22: u64,
         /// The number of flip iterations that had something to do.
         pub flip_iterations: u64,
+        /// The number of them that were done in one workgroup, in 3D: those with few active
+        /// tetrahedra, and none while the kernel for that is being compiled, which a first run does
+        /// not wait for.
+        pub few_iterations: u64,
         /// The number of predicate evaluations that took exact arithmetic.
         pub exact_tests: u64,
         /// The number of facets that were not locally Delaunay and could not be flipped, including
@@ -448,6 +456,10 @@ pub enum Restart {
     /// More points are no duplicates any more than it pays to insert.
     #[error("too many duplicates have parted")]
     Parted,
+    /// The mesh is not where the points are triangulated: on another device, or on one when the CPU
+    /// has to do it.
+    #[error("the mesh is not where the points are triangulated")]
+    Elsewhere,
     /// The arrays of the mesh are not those of a triangulation of as many points.
     #[error("the mesh is not a triangulation")]
     Broken,
@@ -464,6 +476,7 @@ impl Restart {
             Restart::Stuck => "stuck",
             Restart::Coincident => "coincident",
             Restart::Parted => "parted",
+            Restart::Elsewhere => "elsewhere",
             Restart::Broken => "broken",
         }
     }

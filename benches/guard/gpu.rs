@@ -5,13 +5,16 @@
 //! gpu_counts` links it with what is compiled for the tests anyway.
 
 use gdel::{
-    Backend, Triangulator,
+    Error,
     internals::{
+        Options,
         d2::generate::{Distribution2, generate2d},
         d3::generate::{Distribution3, generate3d},
+        gpu::{AdapterChoice, Gpu, engine::GpuEngine},
     },
     stats::Stats,
 };
+use pollster::block_on;
 
 const POINTS: usize = 10_000;
 
@@ -36,8 +39,12 @@ fn print(input: &str, stats: &Stats) {
     }
 }
 
-fn main() {
-    let triangulator = Triangulator::new().backend(Backend::Gpu);
+fn main() -> Result<(), Error> {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default))?;
+    let mut engine = block_on(GpuEngine::<3>::new(gpu.clone()))?;
+    // Both widths, with what a first run does without.
+    block_on(engine.triangulate((&generate3d(Distribution3::Grid, 100, 1)).into(), &Options::default()))?;
+    block_on(engine.finish_compiling())?;
     let grid = |side: u32| -> Vec<[f64; 3]> {
         (0..side.pow(3)).map(|i| [i % side, i / side % side, i / side.pow(2)].map(f64::from)).collect()
     };
@@ -47,10 +54,11 @@ fn main() {
         ("sphere", generate3d(Distribution3::Sphere, POINTS, 1)),
     ];
     for (name, points) in inputs {
-        let mesh = triangulator.delaunay3d(&points).expect("lavapipe");
+        let mesh = block_on(engine.triangulate((&points).into(), &Options::default()))?;
         print(&format!("3D {name}"), &mesh.stats);
     }
 
+    let mut engine = block_on(GpuEngine::<2>::new(gpu))?;
     let grid: Vec<[f64; 2]> = (0..100u32.pow(2)).map(|i| [i % 100, i / 100].map(f64::from)).collect();
     let inputs = [
         ("uniform", generate2d(Distribution2::Uniform, POINTS, 1)),
@@ -59,7 +67,8 @@ fn main() {
         ("clusters", generate2d(Distribution2::Clusters, POINTS, 1)),
     ];
     for (name, points) in inputs {
-        let mesh = triangulator.delaunay2d(&points).expect("lavapipe");
+        let mesh = block_on(engine.triangulate((&points).into(), &Options::default()))?;
         print(&format!("2D {name}"), &mesh.stats);
     }
+    Ok(())
 }

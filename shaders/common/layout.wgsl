@@ -31,6 +31,9 @@ struct Control {
     start_points: u32,
     start_simplices: u32,
     start_stride: u32,
+    moved_simplices: u32,
+    moved_ghosts: u32,
+    moved_spread: u32,
 
     iteration: u32,
     link_iteration: u32,
@@ -61,6 +64,10 @@ struct Control {
     hull: atomic<u32>,
     few_done: u32,
     kept: atomic<u32>,
+    moved_hull: atomic<u32>,
+    inverted: atomic<u32>,
+    violated: atomic<u32>,
+    long_walks: atomic<u32>,
     log: array<array<u32, 5>, LOGGED>,
 
     free: array<atomic<u32>>,

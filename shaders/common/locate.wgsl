@@ -14,7 +14,8 @@
 //!include {dim}/signs
 
 // The most steps of a walk. A walk in a Delaunay triangulation ends; but where points lie on a
-// sphere, ties are broken in ways in which it might not. Then all simplices are looked at in turn.
+// sphere, ties are broken in ways in which it might not. Then all simplices are looked at in turn,
+// and the walk is counted.
 const MAX_STEPS: u32 = 1024;
 
 // Returns a simplex near vertex p.
@@ -46,6 +47,9 @@ fn holding(p: u32) -> u32 {
         }
         if beyond == CORNERS {
             return t;
+        }
+        if step == MAX_STEPS {
+            atomicAdd(&control.long_walks, 1u);
         }
         if step < MAX_STEPS {
             let across = neighbors[t][beyond];

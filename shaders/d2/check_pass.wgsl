@@ -2,9 +2,14 @@
 // locally Delaunay, and bids for the two triangles that its flip would change. Every such edge can
 // be flipped.
 //
+// Where the points of a mesh have moved, a flip of an inverted triangle is proposed as soon as those
+// that it makes are positively oriented: signed areas add up, so that they cover what the others
+// did.
+//
 // Expects: control, vertices, simplices, neighbors, status, actives.
 //!include d2/signs
 //!include common/bids
+//!include common/moved_slots
 
 var<workgroup> exact_here: atomic<u32>;
 
@@ -28,7 +33,12 @@ fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
             let theirs = u < t && ((status[u].made.x >> edge) & 1) != 0;
             var violated = false;
             if !theirs {
-                violated = inside(tri, simplices[u][edge]);
+                let e = simplices[u][edge];
+                if control.moved_simplices == 0 || ((status[t].made.x | status[u].made.x) & INVERTED) == 0 {
+                    violated = inside(tri, e);
+                } else if e != tri[k] {
+                    violated = orient(vec3u(tri[(k + 1) % 3], e, tri[k])) > 0 && orient(vec3u(tri[(k + 2) % 3], tri[k], e)) > 0;
+                }
             }
             if violated {
                 flip = (FLIP_22 << KIND_SHIFT) | (k << FACET_SHIFT);

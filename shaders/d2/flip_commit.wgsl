@@ -1,6 +1,7 @@
 // Flips of triangles.
 //
 // Expects: control, simplices, neighbors, status, messages, history; common/bids, common/history.
+//!include common/moved_slots
 
 // A proposed flip.
 struct Proposal {
@@ -46,7 +47,10 @@ fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: Round) -> u32 {
         history[node - round.first_node] = EdgeFlip(vec2u(e, d), vec2u(t, u), vec2u(NONE));
     }
     let mark = changed_mark(bids);
-    let flags = select(round.number << HELD_SHIFT, 0u, node == NONE) | 6;
+    // The inner edge is locally Delaunay, unless the flip was one of an inverted triangle.
+    let before = status[t].made.x | status[u].made.x;
+    let was_inverted = control.moved_simplices != 0 && (before & INVERTED) != 0;
+    let flags = select(round.number << HELD_SHIFT, 0u, node == NONE) | select(6u, 7u, was_inverted);
     let last = select(node << 2, 0u, node == NONE);
     renew(t, flags, mark, last);
     renew(u, flags, mark, last + select(1u, 0u, node == NONE));

@@ -1,7 +1,7 @@
 // Marks the triangles of the answer: finite ones that are not flat. Where coordinates were rounded,
 // lists the signs that the lattice does not prove for the true ones, which the host evaluates:
-// orientations of triangles and corners of the hull, and whether edges are locally Delaunay. One
-// invocation per slot.
+// orientations of triangles and corners of the hull, and whether edges are locally Delaunay. Counts
+// those that are inverted, which there can be where points have moved. One invocation per slot.
 //
 // The filter's bound counts rounding in, and the exact value has a bound of its own
 // (d2/rounding_wide).
@@ -77,8 +77,12 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         let tri = simplices[t].xyz;
         let used = any(tri != vec3u(0));
         var kept = used && !any(tri == vec3u(infinite));
-        if kept && orientation_filter(tri) == 0 {
-            kept = orient2d_exact(load_position(tri.x), load_position(tri.y), load_position(tri.z)) != 0;
+        if kept && orientation_filter(tri) <= 0 {
+            let sign = orient2d_exact(load_position(tri.x), load_position(tri.y), load_position(tri.z));
+            kept = sign != 0;
+            if sign < 0 {
+                atomicAdd(&control.failed, 1u);
+            }
             if is_uncertain(tri) {
                 add_test(tri, select(FLAT, COUNTER_CLOCKWISE, kept));
             }

@@ -7,19 +7,11 @@
 // value of b bits is at least 2^(b − 1).
 //
 // Expects: vertices; d2/predicates.
+//!include arithmetic/bits
 
 // Returns whether a coordinate of this vertex was rounded to the lattice.
 fn rounded(v: u32) -> bool {
     return vertices[v].z < 0;
-}
-
-// Returns the number of bits of a 64-bit magnitude, low limb first.
-fn bits_of(a: vec2u) -> u32 {
-    return select(32 - countLeadingZeros(a.x), 64 - countLeadingZeros(a.y), a.y != 0);
-}
-
-fn bits_of_128(a: vec4u) -> u32 {
-    return select(bits_of(a.xy), 64 + bits_of(a.zw), any(a.zw != vec2u(0)));
 }
 
 // Returns the m of a row: the number of bits of its magnitudes, or of one less where they are

@@ -1,4 +1,4 @@
-// Lists the tetrahedra that are flat, and where coordinates were rounded to the lattice also those
+// Lists the tetrahedra that are flat, or inverted where points have moved, and where coordinates were rounded to the lattice also those
 // of which the filter does not decide the orientation or whether a facet is locally Delaunay. The
 // filter's bound includes the rounding; where nothing was rounded, the lattice is the truth. The
 // stars of their vertices are wanted. One invocation per slot.
@@ -33,8 +33,16 @@ fn orientation_of(tet: vec4u) -> i32 {
     return orient3d_filter(load_high(tet.x), load_high(tet.y), load_high(tet.z), load_high(tet.w));
 }
 
+// Returns whether a tetrahedron is not positively oriented on the lattice.
 fn is_flat(tet: vec4u) -> bool {
-    return orient3d_exact(load_vertex(tet.x), load_vertex(tet.y), load_vertex(tet.z), load_vertex(tet.w)) == 0;
+    return orient3d_exact(load_vertex(tet.x), load_vertex(tet.y), load_vertex(tet.z), load_vertex(tet.w)) <= 0;
+}
+
+// Returns whether a ghost is inverted, whose number of infinity stands for the interior point. It
+// cannot be unless points have moved.
+fn is_inverted_ghost(tet: vec4u) -> bool {
+    return control.moved_simplices != 0
+        && orient3d_exact(load_vertex(tet.x), load_vertex(tet.y), load_vertex(tet.z), load_vertex(tet.w)) >= 0;
 }
 
 // Returns the undecided facets of tetrahedron t.
@@ -73,10 +81,13 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         if counts[COUNT_ROUNDED] != 0 {
             undecided = undecided_facets(t, tet);
         }
-        if !any(tet == vec4u(control.infinite)) && orientation_of(tet) == 0 {
-            if any_rounded(tet) || is_flat(tet) {
+        let sign = orientation_of(tet);
+        if any(tet == vec4u(control.infinite)) {
+            if sign >= 0 && is_inverted_ghost(tet) {
                 undecided |= ORIENTATION;
             }
+        } else if sign <= 0 && (sign < 0 || any_rounded(tet) || is_flat(tet)) {
+            undecided |= ORIENTATION;
         }
         if undecided != 0 {
             uncertain[atomicAdd(&control.uncertain, 1u)] = vec2u(numbers[t] >> 2, undecided);

@@ -6,7 +6,12 @@
 //
 // Expects: control, simplices, neighbors, status, actives; orient and conflict of d3/signs or
 // d3/signs_filtered.
+// Where the points of a mesh have moved, a flip of inverted tetrahedra is proposed as soon as those
+// that it makes are positively oriented: signed volumes add up, so that they cover what the others
+// did.
+//
 //!include d3/simplex
+//!include common/moved_slots
 //!include common/bids
 
 // What was found out about the facets of an entry: those that need no more checking (bits 0–3), and
@@ -23,6 +28,19 @@ fn sharing(entries: u32, groups: u32) -> u32 {
     return select(1u, 4u, entries <= groups * 64);
 }
 
+// Returns whether the vertices opposite to the facet k of t, across which u lies, already have an
+// edge in a tetrahedron that adjoins both. That is so only beside inverted ones.
+fn is_edge(t: u32, u: u32, k: u32) -> bool {
+    let c = facet(k);
+    var found = false;
+    for (var j = 0u; j < 3; j++) {
+        let opposite = turned(c, j).z;
+        let there = place_of(simplices[u], simplices[t][opposite]);
+        found = found || neighbors[u][there] >> 2 == neighbors[t][opposite] >> 2;
+    }
+    return found;
+}
+
 // Returns what is found out about facet k of t, which is to be checked.
 //
 // Components with an index that is not known beforehand are loaded one by one: of a vector in
@@ -37,7 +55,14 @@ fn check_facet(t: u32, tet: vec4u, k: u32) -> u32 {
         return found;
     }
     let e = simplices[u][face];
-    let violated = conflict(tet, e);
+    let has_moved = control.moved_simplices != 0;
+    var violated = 1;
+    if !has_moved || ((status[t].made.x | status[u].made.x) & INVERTED) == 0 {
+        violated = conflict(tet, e);
+    } else if simplices[t][k] == e {
+        // The same tetrahedron from both sides.
+        violated = -1;
+    }
     if violated == 0 {
         return UNDECIDED;
     }
@@ -60,7 +85,7 @@ fn check_facet(t: u32, tet: vec4u, k: u32) -> u32 {
         }
         var kind = 0u;
         if negative == 0 {
-            kind = FLIP_23;
+            kind = select(FLIP_23, 0u, has_moved && is_edge(t, u, k));
         } else if negative == 1 {
             let opposite = turned(c, edge).z;
             let there = place_of(simplices[u], simplices[t][opposite]);

@@ -1,6 +1,7 @@
 // Flips of tetrahedra.
 //
 // Expects: control, simplices, neighbors, status, messages, history; common/bids, common/history.
+//!include common/moved_slots
 
 // How often a flip looks for a free slot in four blocks of the tail.
 const TAIL_TRIES: u32 = 4;
@@ -130,7 +131,10 @@ fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: Round) -> u32 {
         let flags = select(round.number << HELD_SHIFT, 0u, node == NONE);
         let last = select(node << 2, 0u, node == NONE);
         let step = select(1u, 0u, node == NONE);
-        let check = select(0x7u, 0xcu, kind == FLIP_23);
+        // The inner facets are locally Delaunay, unless the flip was one of an inverted tetrahedron.
+        let before = status[t].made.x | status[u].made.x | status[flip.w].made.x;
+        let was_inverted = control.moved_simplices != 0 && (before & INVERTED) != 0;
+        let check = select(select(0x7u, 0xcu, kind == FLIP_23), CHECK, was_inverted);
         renew(t, flags | check, mark, last);
         renew(u, flags | check, mark, last + step);
         renew(third, select(0u, flags | check, kind == FLIP_23), mark, last + 2 * step);

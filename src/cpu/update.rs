@@ -40,7 +40,7 @@ const SAMPLE: usize = 256;
 const FEW: f64 = 8.0;
 
 /// What it pays to repair.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// The number of simplices that are flat or inverted, by that of all.
     pub inverted: f64,
@@ -62,6 +62,28 @@ impl Limits {
         match dimension {
             2 => Limits { inverted: 0.003, changed: 0.06, threads: 3 },
             _ => Limits { inverted: 0.001, changed: 0.075, threads: 3 },
+        }
+    }
+
+    /// Returns the limits beyond which a device triangulates faster from scratch in `dimension`
+    /// dimensions. In 3D, a million uniform points have so much that move by 1.5 % of their mean
+    /// spacing: beyond that, star splaying often gives up. In 2D, where it pays to repair anything,
+    /// one inverted triangle in ten is left by the flips.
+    pub fn on_device(dimension: usize) -> Self {
+        match dimension {
+            2 => Limits { inverted: 0.0, changed: 0.06, threads: usize::MAX },
+            _ => Limits { inverted: 0.001, changed: 0.12, threads: usize::MAX },
+        }
+    }
+
+    /// Returns why it does not pay to repair so much of so many simplices by one thread.
+    pub(crate) fn check(&self, inverted: f64, changed: f64, simplices: f64) -> Result<(), Restart> {
+        if inverted > FEW + self.inverted * simplices {
+            Err(Restart::Inverted)
+        } else if changed > FEW + self.changed * simplices {
+            Err(Restart::Changed)
+        } else {
+            Ok(())
         }
     }
 }
@@ -136,17 +158,10 @@ impl<const D: usize> Moved<'_, D> {
         let [inverted, not_locally_delaunay] =
             parts.iter().map(Checked::counts).fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);
         let threads = parallel::count(self.threads) as f64;
-        let limit = |share: f64| FEW + share * simplices as f64 / threads;
         let expected = |count: usize| (count as f64 * all as f64 / simplices.max(1) as f64) as usize;
         self.update.inverted = expected(inverted);
         self.update.not_locally_delaunay = expected(not_locally_delaunay);
-        if inverted as f64 > limit(self.limits.inverted) {
-            Err(Restart::Inverted)
-        } else if not_locally_delaunay as f64 > limit(self.limits.changed) {
-            Err(Restart::Changed)
-        } else {
-            Ok(())
-        }
+        self.limits.check(inverted as f64, not_locally_delaunay as f64, simplices as f64 / threads)
     }
 }
 
@@ -245,7 +260,7 @@ where
     if missing.len() > points.len() / PARTED {
         return Ok(Err(Restart::Parted));
     }
-    let lattice = &Lattice::fit_by(threads, points);
+    let lattice = &Lattice::fit_by(threads, points)?;
     let names: Vec<u32> = (0..points.len() as u32).collect();
     let vertices = PredicateContext::new_by(threads, points, lattice, names);
     let mut moved = Moved {

@@ -22,6 +22,7 @@ use crate::{
     cpu::insert_points,
     d2::insert::in_conflict,
     error::Error,
+    options::Winding,
     predicates::{Sign, filter::PredicateContext2},
 };
 
@@ -200,28 +201,33 @@ impl Triangulation2 {
         [t, u]
     }
 
-    /// Returns whether the hull is one polygon without a dent that turns once: exactly one of its
-    /// vertices precedes both its neighbours in lexicographic order, and exactly one follows both.
+    /// Returns whether the hull is one polygon that [`turns_once`].
     pub(crate) fn hull_turns_once(&self, vertices: &PredicateContext2<'_>) -> bool {
         let ghosts = (0..self.triangles.len() as u32).filter(|&t| self.is_ghost(t)).count();
         let hull = self.hull_vertices();
-        if hull.len() != ghosts {
+        hull.len() == ghosts && turns_once(vertices, &hull, Winding::Clockwise)
+    }
+}
+
+/// Returns whether a polygon has no dent and turns once: exactly one of its vertices precedes both
+/// its neighbours in lexicographic order, and exactly one follows both.
+pub(crate) fn turns_once(vertices: &PredicateContext2<'_>, polygon: &[u32], winding: Winding) -> bool {
+    let dent = match winding {
+        Winding::Clockwise => 1,
+        Winding::CounterClockwise => -1,
+    };
+    let before = |v: u32, w: u32| vertices.point(v) < vertices.point(w);
+    let corners = (0..polygon.len()).map(|i| [0, 1, 2].map(|k| polygon[(i + k) % polygon.len()]));
+    let [mut first, mut last] = [0, 0];
+    for [a, b, c] in corners {
+        match (before(a, b), before(b, c)) {
+            (true, false) => last += 1,
+            (false, true) => first += 1,
+            _ => {}
+        }
+        if vertices.orient2d(a, b, c) == dent {
             return false;
         }
-        let before = |v: u32, w: u32| vertices.point(v) < vertices.point(w);
-        let corners = (0..hull.len()).map(|i| [0, 1, 2].map(|k| hull[(i + k) % hull.len()]));
-        let [mut first, mut last] = [0, 0];
-        for [a, b, c] in corners {
-            match (before(a, b), before(b, c)) {
-                (true, false) => last += 1,
-                (false, true) => first += 1,
-                _ => {}
-            }
-            // The hull is clockwise.
-            if vertices.orient2d(a, b, c) > 0 {
-                return false;
-            }
-        }
-        first == 1 && last == 1
     }
+    first == 1 && last == 1
 }

@@ -1,6 +1,8 @@
 //! Tetrahedra whose vertices move: exact signs, flips, star splaying of the vertices of what is
 //! inverted or stuck, and a proof that the hull encloses its inside once.
 
+#[cfg(feature = "gpu")]
+use crate::input::{lattice::Lattice, points::Points3};
 use crate::{
     cpu::update::{Checked, Moved, Update},
     d3::{
@@ -23,6 +25,10 @@ use std::ops::Range;
 
 /// Splaying may take this share of the predicate evaluations that triangulating from scratch takes.
 const SPLAY_SHARE: u64 = 4;
+
+/// The number of facets of the hull that a thread takes at a time.
+#[cfg(feature = "gpu")]
+const FACET_GRAIN: usize = 1 << 10;
 
 /// What the signs at the new points leave unproven.
 #[derive(Default)]
@@ -251,6 +257,34 @@ fn check_ghosts(mesh: &Triangulation3, predicates: &StarPredicates<'_>) -> Doubt
 /// Returns the ghosts of a triangulation.
 fn ghosts(mesh: &Triangulation3) -> impl Iterator<Item = u32> {
     (0..mesh.tetrahedra.len() as u32).filter(|&t| mesh.is_ghost(t) && mesh.state(t) != state::FREE)
+}
+
+/// Returns whether a hull, whose edges are convex, is the boundary of a convex body that it encloses
+/// once, as [`is_convex`] explains. `spanning` are vertices inside of the hull or on it, whose
+/// tetrahedron is positively oriented on the lattice.
+#[cfg(feature = "gpu")]
+pub(in crate::d3) fn encloses_once(
+    points: Points3<'_>,
+    lattice: &Lattice<3>,
+    hull: &[[u32; 3]],
+    spanning: [u32; 4],
+) -> bool {
+    let infinite = points.len() as u32;
+    let hits = parallel::map_grains(Threads::All, hull.len(), FACET_GRAIN, |range| {
+        let vertices = PredicateContext::of_input(points, lattice);
+        let predicates = StarPredicates::new(&vertices, infinite, spanning);
+        let mut hits = 0;
+        for &[a, b, c] in &hull[range] {
+            if predicates.orient([a, b, c, infinite]) <= 0 {
+                return None;
+            }
+            hits += usize::from(is_hit(&vertices, [a, b, c], spanning));
+        }
+        Some(hits)
+    });
+    let [a, b, c, d] = spanning;
+    let vertices = PredicateContext::of_input(points, lattice);
+    vertices.orient3d(a, b, c, d) > 0 && hits.into_iter().sum::<Option<usize>>() == Some(1)
 }
 
 /// Returns whether the hull is convex, and encloses its inside once.

@@ -14,11 +14,18 @@ use std::borrow::Cow;
 /// limits its steps.
 #[derive(Debug, Clone)]
 pub struct Complex<'a, const D: usize, const N: usize> {
-    pub(crate) points: Points<'a, D>,
-    pub(crate) simplices: &'a [[u32; N]],
+    pub(crate) points: Coordinates<'a, D>,
+    pub(crate) simplices: Cow<'a, [[u32; N]]>,
     /// Entry *k* is opposite vertex *k*, in 2D too.
     pub(crate) neighbors: Cow<'a, [[i32; N]]>,
-    pub(crate) duplicate_of: &'a [i32],
+    pub(crate) duplicate_of: Cow<'a, [i32]>,
+}
+
+/// The coordinates of a mesh's points.
+#[derive(Debug, Clone)]
+pub(crate) enum Coordinates<'a, const D: usize> {
+    Borrowed(Points<'a, D>),
+    Owned(Vec<[f64; D]>),
 }
 
 impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
@@ -51,27 +58,48 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
         if !duplicate_of.iter().all(|&i| is_index(i, points.len())) {
             return broken("a duplicate is that of a point that does not exist");
         }
-        Ok(Complex { points, simplices, neighbors, duplicate_of })
+        let (simplices, duplicate_of) = (Cow::Borrowed(simplices), Cow::Borrowed(duplicate_of));
+        Ok(Complex { points: Coordinates::Borrowed(points), simplices, neighbors, duplicate_of })
+    }
+
+    /// Returns the points.
+    #[inline(always)]
+    pub(crate) fn points(&self) -> Points<'_, D> {
+        match &self.points {
+            Coordinates::Borrowed(points) => *points,
+            Coordinates::Owned(points) => Points::F64(points),
+        }
     }
 
     /// Returns the minimum and the maximum of each axis; infinities if there are no points.
     pub(crate) fn bounds(&self) -> [[f64; D]; 2] {
-        self.points.bounds().unwrap_or([[f64::INFINITY; D], [f64::NEG_INFINITY; D]])
+        self.points().bounds().unwrap_or([[f64::INFINITY; D], [f64::NEG_INFINITY; D]])
     }
 
     /// Returns the coordinates of vertex `v`.
     #[inline(always)]
     pub(crate) fn point(&self, v: u32) -> [f64; D] {
-        self.points.get(v as usize)
+        self.points().get(v as usize)
+    }
+
+    /// Returns the vertices of simplex `t` and its neighbours.
+    #[inline(always)]
+    pub(crate) fn row(&self, t: usize) -> ([u32; N], [i32; N]) {
+        (self.simplices[t], self.neighbors[t])
     }
 
     /// Returns the coordinates of the vertices of simplex `t`.
     #[inline(always)]
     pub(crate) fn corners(&self, t: usize) -> [[f64; D]; N] {
-        let simplex = &self.simplices[t];
+        self.corners_of(&self.simplices[t])
+    }
+
+    /// Returns the coordinates of vertices.
+    #[inline(always)]
+    pub(crate) fn corners_of(&self, simplex: &[u32; N]) -> [[f64; D]; N] {
         let mut corners = [[0.0; D]; N];
         // The kind of coordinates is looked at once.
-        match self.points {
+        match self.points() {
             Points::F64(points) => {
                 for (corner, &v) in corners.iter_mut().zip(simplex) {
                     *corner = points[v as usize];

@@ -8,6 +8,7 @@ use super::{
 use crate::{
     error::Error,
     geometry::{Euclidean, Geometry, facet, vector},
+    index::NONE,
     input::points::Points,
     mesh::Csr,
     mesh::Mesh,
@@ -159,8 +160,7 @@ where
     /// not the Delaunay triangulation of the points.
     pub fn locate(&self, query: [f64; D]) -> Result<Location, Error> {
         Points::F64(&[query]).validate()?;
-        let Some(start) = self.start(query) else { return Ok(Location::Nowhere) };
-        Ok(self.name(self.walk(query, start)?))
+        Ok(self.place(query)?.map_or(Location::Nowhere, |place| self.name(place)))
     }
 
     /// Returns where each of many points lies.
@@ -169,33 +169,65 @@ where
     ///
     /// The same as for [`locate`](Self::locate).
     pub fn locate_many<'q>(&self, queries: impl Into<Points<'q, D>>) -> Result<Vec<Location>, Error> {
-        let locate = |last: &mut Option<usize>, query: [f64; D]| match self.place(query, last)? {
-            Some(place) => Ok(self.name(place)),
-            None => Ok(Location::Nowhere),
-        };
-        map_along_curve(queries.into(), self.key, || None, locate)
+        map_along_curve(queries.into(), self.key, |run| match self.places(run)? {
+            Some(places) => Ok(places.into_iter().map(|place| self.name(place)).collect()),
+            None => Ok(vec![Location::Nowhere; run.len()]),
+        })
     }
 
-    /// Finds the place of a query near the last one's simplex, which it updates; `None` if there
+    /// Returns the place of a query; `None` if there are no simplices.
+    pub(super) fn place(&self, query: [f64; D]) -> Result<Option<Place>, Error> {
+        self.start(query).map(|start| self.walk(query, start)).transpose()
+    }
+
+    /// Returns the places of queries of which consecutive ones are near each other; `None` if there
     /// are no simplices.
-    pub(super) fn place(&self, query: [f64; D], last: &mut Option<usize>) -> Result<Option<Place>, Error> {
-        let start = match *last {
-            Some(last) => last,
-            None => match self.start(query) {
-                Some(start) => start,
-                None => return Ok(None),
-            },
-        };
-        let mut place = self.walk(query, start)?;
-        *last = Some(place.simplex);
-        // What facet is seen depends on where the walk started, which must not depend on other
-        // queries.
-        if place.beyond.is_some()
-            && let Some(start) = self.start(query)
-        {
-            place = self.walk(query, start)?;
+    ///
+    /// Where a simplex and its vertices are is known only when the walk is there, and they are
+    /// seldom at hand. So several walks take turns, and wait for memory at the same time.
+    pub(super) fn places(&self, queries: &[[f64; D]]) -> Result<Option<Vec<Place>>, Error> {
+        let mut places = vec![Place { simplex: 0, beyond: None, on_facet: false }; queries.len()];
+        let mut walks = Vec::with_capacity(WALKS);
+        let share = queries.len().div_ceil(WALKS).max(1);
+        for (w, part) in queries.chunks(share).enumerate() {
+            let Some(start) = self.start(part[0]) else { return Ok(None) };
+            let (step, end) = (self.first_step(part[0], start), w * share + part.len());
+            walks.push((w * share, end, step, self.complex.row(start)));
         }
-        Ok(Some(place))
+        let mut corners = [[[0.0; D]; N]; WALKS];
+        while !walks.is_empty() {
+            for (.., step, row) in &mut walks {
+                *row = self.complex.row(step.simplex);
+            }
+            for ((.., row), corners) in walks.iter().zip(&mut corners) {
+                *corners = self.complex.corners_of(&row.0);
+            }
+            let mut w = 0;
+            // Walks that end are removed.
+            for corners in corners.iter().take(walks.len()) {
+                let (at, end, step, (_, neighbors)) = &mut walks[w];
+                let Some(place) = self.take(step, corners, neighbors)? else {
+                    w += 1;
+                    continue;
+                };
+                places[*at] = place;
+                // What facet is seen depends on where the walk started, which must not depend on
+                // other queries.
+                if place.beyond.is_some()
+                    && let Some(place) = self.place(step.query)?
+                {
+                    places[*at] = place;
+                }
+                *at += 1;
+                if at < end {
+                    *step = self.first_step(queries[*at], place.simplex);
+                    w += 1;
+                } else {
+                    walks.remove(w);
+                }
+            }
+        }
+        Ok(Some(places))
     }
 
     /// Returns the public form of a place.
@@ -232,43 +264,55 @@ where
     }
 
     /// Walks from a simplex to the place of a query.
+    fn walk(&self, query: [f64; D], start: usize) -> Result<Place, Error> {
+        let mut step = self.first_step(query, start);
+        loop {
+            let (simplex, neighbors) = self.complex.row(step.simplex);
+            if let Some(place) = self.take(&mut step, &self.complex.corners_of(&simplex), &neighbors)? {
+                return Ok(place);
+            }
+        }
+    }
+
+    /// Returns the beginning of the walk from a simplex to a query.
+    fn first_step(&self, query: [f64; D], start: usize) -> Step<D> {
+        Step {
+            query,
+            bound: self.bound_with(query),
+            simplex: start,
+            before: NO_SIMPLEX,
+            left: self.complex.simplices.len(),
+        }
+    }
+
+    /// Takes a step of a walk, from a simplex with these corners and neighbours, or returns where
+    /// the walk has ended.
     ///
     /// The walk crosses any facet that separates the current simplex from the query. With every
     /// step the power distance of the query to the circumsphere decreases, perturbed as the
     /// triangulation's ties are, so it ends.
-    pub(super) fn walk(&self, query: [f64; D], start: usize) -> Result<Place, Error> {
-        let bound = self.bound_with(query);
-        let mut t = start;
-        let mut came_through = N;
-        for _ in 0..=self.complex.simplices.len() {
-            let corners = self.complex.corners(t);
-            let rows = vector::relative(&corners, query);
-            let mut on_facet = false;
-            let mut leave = N;
-            for k in 0..N {
-                if k == came_through {
-                    continue;
-                }
-                match side(bound, &corners, &rows, k, query) {
-                    1 => {}
-                    0 => on_facet = true,
-                    _ => {
-                        leave = k;
-                        break;
-                    }
+    #[inline(always)]
+    fn take(&self, step: &mut Step<D>, corners: &[[f64; D]; N], neighbors: &[i32; N]) -> Result<Option<Place>, Error> {
+        let &mut Step { query, bound, simplex, before, left } = step;
+        let rows = vector::relative(corners, query);
+        let mut on_facet = false;
+        for (k, &across) in neighbors.iter().enumerate() {
+            if across == before {
+                continue;
+            }
+            match side(bound, corners, &rows, k, query) {
+                1 => {}
+                0 => on_facet = true,
+                _ if across == NONE => return Ok(Some(Place { simplex, beyond: Some(k), on_facet: false })),
+                _ if left == 0 => return Err(Error::BrokenMesh { what: "a walk over it does not end" }),
+                _ => {
+                    *step = Step { simplex: across as usize, before: simplex as i32, left: left - 1, ..*step };
+                    return Ok(None);
                 }
             }
-            if leave == N {
-                let simplex = if on_facet { self.first_around(query, t) } else { t };
-                return Ok(Place { simplex, beyond: None, on_facet });
-            }
-            let Some(next) = self.complex.across(t, leave) else {
-                return Ok(Place { simplex: t, beyond: Some(leave), on_facet: false });
-            };
-            came_through = self.complex.facet_towards(next, t);
-            t = next;
         }
-        Err(Error::BrokenMesh { what: "a walk over it does not end" })
+        let simplex = if on_facet { self.first_around(query, simplex) } else { simplex };
+        Ok(Some(Place { simplex, beyond: None, on_facet }))
     }
 
     /// Returns the facets that contain a query, which simplex `t` contains, as (simplex, opposite
@@ -311,6 +355,25 @@ where
         let around = self.facets_at(query, t).into_iter().map(|(t, _)| t);
         around.min_by_key(|&t| sorted(t)).unwrap_or(t)
     }
+}
+
+/// The number of walks that take turns.
+const WALKS: usize = 16;
+
+/// No simplex that a walk has come from: neither one of the mesh nor [`NONE`].
+const NO_SIMPLEX: i32 = i32::MIN;
+
+/// Where a walk to a query is.
+#[derive(Debug, Clone, Copy)]
+struct Step<const D: usize> {
+    query: [f64; D],
+    /// A bound of the error of orientations with the query.
+    bound: f64,
+    simplex: usize,
+    /// The simplex that it has come from.
+    before: i32,
+    /// The number of steps that it may take.
+    left: usize,
 }
 
 /// A simplex that contains a point, or one of whose facets sees it.

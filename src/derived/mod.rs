@@ -7,15 +7,20 @@
 
 mod alpha;
 mod complex;
+#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+mod device_locator;
 mod interpolate;
 mod locate;
 mod nearest;
 mod queries;
 mod sets;
+mod sorted;
 mod tree;
 mod voronoi;
 
 pub use alpha::{AlphaComplex, AlphaEdges, AlphaShape, AlphaShape2, FaceClass, Interval};
+#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+pub use device_locator::{DeviceLocator, DeviceLocator2, Locations};
 pub use interpolate::{Interpolation, Interpolator, Interpolator2, StolenMeasures};
 pub use locate::{Location, Locator, Locator2};
 pub use tree::SpanningTree;

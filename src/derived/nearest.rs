@@ -52,12 +52,15 @@ where
     /// ```
     pub fn nearest_many<'q>(&self, queries: impl Into<Points<'q, D>>) -> Result<Vec<Option<u32>>, Error> {
         let neighbors = self.vertex_neighbors();
-        let nearest = |last: &mut Option<u32>, query: [f64; D]| {
-            let start = || self.start(query).map(|start| self.complex.simplices[start][0]);
-            *last = last.or_else(start).map(|start| self.nearest_from(neighbors, query, start));
-            Ok(*last)
-        };
-        map_along_curve(queries.into(), self.key, || None, nearest)
+        map_along_curve(queries.into(), self.key, |run| {
+            let mut last = None;
+            let nearest = |&query: &[f64; D]| {
+                let start = || self.start(query).map(|start| self.complex.simplices[start][0]);
+                last = last.or_else(start).map(|start| self.nearest_from(neighbors, query, start));
+                last
+            };
+            Ok(run.iter().map(nearest).collect())
+        })
     }
 
     /// Returns the `k` vertices that are nearest to a point, in order of their distances, those at
@@ -102,7 +105,7 @@ where
 
     /// Returns the neighbours of each vertex.
     pub(super) fn vertex_neighbors(&self) -> &Csr {
-        self.neighbors.get_or_init(|| Csr::vertex_neighbors(self.complex.simplices, self.complex.points.len()))
+        self.neighbors.get_or_init(|| Csr::vertex_neighbors(&self.complex.simplices, self.complex.points().len()))
     }
 
     /// Walks from a vertex to the one nearest to a query.

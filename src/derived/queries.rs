@@ -11,20 +11,30 @@ use crate::{
 const GRAIN: usize = 1 << 11;
 
 /// Maps points to their places along the Hilbert curve that fills a box.
+///
+/// The cell of a coordinate *x* is ⌊x·2ᵏ⌋ less that of the box, with the largest *k* for which all
+/// cells fit: no step rounds, so that the device, which has integers only, finds the same cell.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CurveKey<const D: usize> {
-    low: [f64; D],
-    /// Cells per unit of each axis.
-    scale: [f64; D],
+    /// 2ᵏ for each axis.
+    factors: [f64; D],
+    /// ⌊x·2ᵏ⌋ of the lowest coordinates.
+    origin: [f64; D],
 }
 
 impl<const D: usize> CurveKey<D> {
     /// Bits per axis, so that a key fits beside an index in 64 bits.
-    const BITS: u32 = 32 / D as u32;
+    const BITS: u32 = 30 / D as u32;
+    /// The number of cells of an axis.
+    const CELLS: u32 = 1 << Self::BITS;
+    /// The most by which the *k* of an axis exceeds another one.
+    const MAX_STRETCH: i32 = 40;
 
     pub(crate) fn new([low, high]: [[f64; D]; 2]) -> Self {
-        let cells = (1u64 << Self::BITS) as f64;
-        CurveKey { low, scale: std::array::from_fn(|axis| cells / (high[axis] - low[axis])) }
+        let own: [Option<i32>; D] = std::array::from_fn(|axis| largest_exponent(low[axis], high[axis], Self::CELLS));
+        let max = own.iter().flatten().min().map_or(0, |min| min + Self::MAX_STRETCH);
+        let factors = own.map(|k| libm::ldexp(1.0, k.unwrap_or(0).min(max)));
+        CurveKey { factors, origin: std::array::from_fn(|axis| floor_product(low[axis], factors[axis])) }
     }
 
     /// Returns the place of the cell that contains `p`, or of the nearest cell if `p` is outside
@@ -34,20 +44,55 @@ impl<const D: usize> CurveKey<D> {
     where
         Euclidean: Geometry<D, N>,
     {
-        let last = (1u32 << Self::BITS) - 1;
-        // A conversion to an integer saturates, and makes 0 of NaN, where the box has no width.
-        let cell = std::array::from_fn(|axis| (((p[axis] - self.low[axis]) * self.scale[axis]) as u32).min(last));
+        let cell = std::array::from_fn(|axis| {
+            // A conversion to an integer saturates.
+            ((floor_product(p[axis], self.factors[axis]) - self.origin[axis]) as u32).min(Self::CELLS - 1)
+        });
         (<Euclidean as Geometry<D, N>>::CURVE)(cell, Self::BITS) as u32
+    }
+
+    /// Returns *k* of each axis, and ⌊x·2ᵏ⌋ of the lowest coordinates modulo 2⁶⁴.
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    pub(crate) fn cells(&self) -> [(i32, u64); D] {
+        std::array::from_fn(|axis| (libm::ilogb(self.factors[axis]), self.origin[axis] as i128 as u64))
     }
 }
 
-/// Calls `work` with every query, its index and a state, along the curve, and returns the results
-/// in the order of the queries. Threads have a state each, so the results must not depend on it.
-pub(crate) fn map_along_curve<const D: usize, const N: usize, S, R: Copy + Send>(
+/// Returns the largest *k*, within what `f64` represents, for which there are at most so many cells
+/// of the size 2⁻ᵏ from `low` to `high`; `None` if these are equal, or there is no box.
+fn largest_exponent(low: f64, high: f64, cells: u32) -> Option<i32> {
+    // The halves do not overflow.
+    let half = high / 2.0 - low / 2.0;
+    if !(low < high && half.is_finite()) {
+        return None;
+    }
+    let exponent = if half > 0.0 { libm::ilogb(half) } else { -1074 };
+    let mut k = (cells.ilog2() as i32 - exponent).clamp(-1000, 1000);
+    let count = |k: i32| {
+        let factor = libm::ldexp(1.0, k);
+        floor_product(high, factor) - floor_product(low, factor)
+    };
+    while count(k) >= f64::from(cells) {
+        k -= 1;
+    }
+    Some(k)
+}
+
+/// Returns ⌊x·f⌋ for a power of two *f*.
+#[inline(always)]
+fn floor_product(x: f64, factor: f64) -> f64 {
+    let product = x * factor;
+    // What underflows is negative nevertheless.
+    if product == 0.0 && x < 0.0 { -1.0 } else { product.floor() }
+}
+
+/// Calls `work` with runs of queries that are consecutive along the curve, and returns the results,
+/// of which there is one for each query of a run, in the order of the queries. The results must not
+/// depend on where runs begin.
+pub(crate) fn map_along_curve<const D: usize, const N: usize, R: Copy + Send>(
     queries: Points<'_, D>,
     key: CurveKey<D>,
-    state: impl Fn() -> S + Sync,
-    work: impl Fn(&mut S, [f64; D]) -> Result<R, Error> + Sync,
+    work: impl Fn(&[[f64; D]]) -> Result<Vec<R>, Error> + Sync,
 ) -> Result<Vec<R>, Error>
 where
     Euclidean: Geometry<D, N>,
@@ -58,10 +103,16 @@ where
     }
     let order = order_along_curve(queries, key);
     let results = parallel::map_grains(Threads::All, order.len(), GRAIN, |range| {
-        let mut state = state();
-        order[range].iter().map(|&query| work(&mut state, queries.get(query as usize))).collect::<Result<Vec<_>, _>>()
+        let mut results = Vec::with_capacity(range.len());
+        let mut run = Vec::with_capacity(GRAIN.min(range.len()));
+        for part in order[range].chunks(GRAIN) {
+            run.clear();
+            run.extend(part.iter().map(|&query| queries.get(query as usize)));
+            results.extend(work(&run)?);
+        }
+        Ok(results)
     });
-    let mut results = results.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten();
+    let mut results = results.into_iter().collect::<Result<Vec<Vec<R>>, Error>>()?.into_iter().flatten();
     let Some(first) = results.next() else { return Ok(Vec::new()) };
     let mut sorted = vec![first; queries.len()];
     for (&query, result) in order[1..].iter().zip(results) {
@@ -75,11 +126,22 @@ pub(crate) fn order_along_curve<const D: usize, const N: usize>(points: Points<'
 where
     Euclidean: Geometry<D, N>,
 {
-    let ranges = parallel::map_ranges(Threads::All, points.len(), |range| {
-        let place = |i: usize| u64::from(key.of::<N>(points.get(i))) << 32 | i as u64;
-        range.map(place).collect::<Vec<_>>()
-    });
-    let mut keyed = parallel::joined(ranges);
-    parallel::sort(Threads::All, &mut keyed);
+    sorted_by(places(points, key))
+}
+
+/// Returns the places of points along the curve.
+fn places<const D: usize, const N: usize>(points: Points<'_, D>, key: CurveKey<D>) -> Vec<u32>
+where
+    Euclidean: Geometry<D, N>,
+{
+    parallel::joined(parallel::map_ranges(Threads::All, points.len(), |range| {
+        range.map(|i| key.of::<N>(points.get(i))).collect::<Vec<_>>()
+    }))
+}
+
+/// Returns the indices of places in ascending order of these.
+pub(crate) fn sorted_by(places: Vec<u32>) -> Vec<u32> {
+    let mut keyed: Vec<u64> = (0..).zip(places).map(|(i, place)| u64::from(place) << 32 | i).collect();
+    parallel::sort_keyed(Threads::All, &mut keyed);
     keyed.into_iter().map(|entry| entry as u32).collect()
 }

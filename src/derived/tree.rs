@@ -3,7 +3,7 @@
 use super::{complex::Complex, sets::DisjointSets};
 use crate::{
     error::Error,
-    geometry::{Euclidean, Geometry, SquaredLength, certain_difference, compare_lengths, vector},
+    geometry::{Euclidean, Geometry, SquaredLength, compare_lengths, surely_larger, vector},
     index::NONE,
     input::points::Points,
     mesh::Mesh,
@@ -55,6 +55,9 @@ struct Candidate {
 /// Fewer candidates than this are sorted rather than split.
 const SORTED: usize = 1 << 14;
 
+/// About so many candidates are looked at to split them in the middle.
+const SAMPLE: usize = 1 << 8;
+
 impl SpanningTree {
     /// Computes the minimum spanning tree of the vertices of a mesh.
     ///
@@ -83,11 +86,14 @@ impl SpanningTree {
             };
             lengths.cmp(&0).then(a.edge.cmp(&b.edge))
         };
-        let edges = kruskal(complex.points.len(), candidates(&complex), compare);
-        let edges: Vec<[u32; 2]> = edges.iter().map(|candidate| candidate.edge).collect();
-        let length = |&[v, w]: &[u32; 2]| vector::norm(vector::minus(complex.point(v), complex.point(w)));
+        let edges = kruskal(complex.points().len(), candidates(&complex), compare);
+        let length = |&Candidate { length, edge: [v, w] }: &Candidate| {
+            let measured = || vector::norm(vector::minus(complex.point(v), complex.point(w)));
+            length.root().unwrap_or_else(measured)
+        };
         let lengths = edges.iter().map(length).collect();
-        Ok(SpanningTree { edges, lengths, duplicate_of: complex.duplicate_of.to_vec() })
+        let edges = edges.iter().map(|candidate| candidate.edge).collect();
+        Ok(SpanningTree { edges, lengths, duplicate_of: complex.duplicate_of.into_owned() })
     }
 
     /// Returns the sum of all lengths.
@@ -140,7 +146,7 @@ where
 {
     let neighbors = &*complex.neighbors;
     let ranges = parallel::map_ranges(Threads::All, complex.simplices.len(), |range| {
-        let mut candidates = Vec::new();
+        let mut candidates = Vec::with_capacity(range.len());
         for t in range {
             // Of the simplices around an edge, those whose neighbours there have higher numbers.
             let is_lowest = neighbors[t].map(|across| across == NONE || t < across as usize);
@@ -150,18 +156,21 @@ where
             let simplex = complex.simplices[t];
             let corners = complex.corners(t);
             let mut squared = [[0.0; N]; N];
+            // Squared lengths that are larger surely are those of longer edges.
+            let mut surely = squared;
             for i in 0..N {
                 for j in 0..i {
                     squared[i][j] = vector::squared_norm(vector::minus(corners[i], corners[j]));
-                    squared[j][i] = squared[i][j];
+                    surely[i][j] = surely_larger(squared[i][j]);
+                    surely[j][i] = surely[i][j];
                 }
             }
             for i in 0..N {
                 for j in 0..i {
                     let mut is_candidate = true;
                     for k in (0..N).filter(|&k| k != i && k != j) {
-                        let is_longer = |other: f64| certain_difference(squared[i][j], other) > 0;
-                        is_candidate &= is_lowest[k] & !(is_longer(squared[i][k]) & is_longer(squared[j][k]));
+                        let is_longest = (squared[i][j] > surely[i][k]) & (squared[i][j] > surely[j][k]);
+                        is_candidate &= is_lowest[k] & !is_longest;
                     }
                     if is_candidate {
                         let [v, w] = [simplex[i], simplex[j]];
@@ -179,13 +188,16 @@ where
 /// Returns the edges that connect what shorter ones do not, in their order (Osipov, Sanders and
 /// Singler, *The filter-Kruskal minimum spanning tree algorithm*, 2009): the longer half is looked
 /// at after the shorter one, and what that has connected is dropped before it is sorted.
+///
+/// Until they are sorted, candidates stay in their order, in which neighbours are near each other,
+/// so that the sets that are looked up are at hand.
 fn kruskal(
     vertices: usize,
     candidates: Vec<Candidate>,
     compare: impl Fn(&Candidate, &Candidate) -> Ordering,
 ) -> Vec<Candidate> {
     let mut sets = DisjointSets::new(vertices);
-    let mut tree = Vec::new();
+    let mut tree = Vec::with_capacity(vertices);
     // The longest edges first.
     let mut pending = vec![candidates];
     while let Some(mut edges) = pending.pop() {
@@ -193,14 +205,42 @@ fn kruskal(
             edges.retain(|&Candidate { edge: [a, b], .. }| sets.find(a) != sets.find(b));
         }
         if edges.len() > SORTED {
-            let middle = edges.len() / 2;
-            edges.select_nth_unstable_by(middle, &compare);
-            let longer = edges.split_off(middle);
-            pending.extend([longer, edges]);
-            continue;
+            // The median of some.
+            let mut sample: Vec<Candidate> = edges.iter().step_by(edges.len() / SAMPLE).copied().collect();
+            let middle = sample.len() / 2;
+            let (_, &mut pivot, _) = sample.select_nth_unstable_by(middle, &compare);
+            let longer = split_off(&mut edges, |edge| compare(edge, &pivot).is_gt());
+            // There are none where most are the same edge.
+            if !longer.is_empty() {
+                pending.extend([longer, edges]);
+                continue;
+            }
         }
         edges.sort_unstable_by(&compare);
         tree.extend(edges.into_iter().filter(|&Candidate { edge: [a, b], .. }| sets.unite(a, b)));
     }
     tree
+}
+
+/// Removes the edges that are long and returns them. All stay in their order.
+fn split_off(edges: &mut Vec<Candidate>, is_long: impl Fn(&Candidate) -> bool) -> Vec<Candidate> {
+    const BLOCK: usize = 1 << 8;
+    let mut longer = Vec::with_capacity(edges.len() / 2 + edges.len() / 16);
+    let mut block = [edges[0]; BLOCK];
+    let mut short = 0;
+    for start in (0..edges.len()).step_by(BLOCK) {
+        let mut long = 0;
+        for i in start..(start + BLOCK).min(edges.len()) {
+            let edge = edges[i];
+            // Without a branch, which nothing could predict.
+            edges[short] = edge;
+            block[long] = edge;
+            let is_long = usize::from(is_long(&edge));
+            short += 1 - is_long;
+            long += is_long;
+        }
+        longer.extend_from_slice(&block[..long]);
+    }
+    edges.truncate(short);
+    longer
 }

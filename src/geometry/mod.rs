@@ -16,7 +16,8 @@ use crate::{
     input::points::Points,
     predicates::{
         Sign,
-        polynomial::{Big, Polynomial, Ring, big_sign, common_exponent, dot, exact_sign, minus, quotient, sign},
+        big::{Big, common_exponent, quotient},
+        polynomial::{Polynomial, Ring, dot, exact_sign, minus},
     },
 };
 
@@ -158,7 +159,7 @@ fn exact_offset<const D: usize, const K: usize, const E: usize>(
     let exponent = common_exponent(points.as_flattened());
     let integers = points.map(|p| p.map(|x| Big::new(x, exponent)));
     let (numerator, denominator) = fraction(&std::array::from_fn(|i| minus(&integers[i + 1], &integers[0])));
-    match big_sign(&denominator) {
+    match denominator.sign() {
         1 => Some((numerator, denominator, exponent)),
         -1 => Some((numerator.map(|x| Big::from(0) - x), Big::from(0) - denominator, exponent)),
         _ => None,
@@ -204,7 +205,7 @@ where
         Euclidean::determinant_in(&<Euclidean as Geometry<D, N>>::FACETS[k].map(|corner| rows[corner].clone()))
     });
     let sum = shares.iter().cloned().fold(Big::from(0), |sum, share| sum + share);
-    if big_sign(&sum) <= 0 {
+    if sum.sign() <= 0 {
         return [f64::NAN; N];
     }
     shares.map(|share| quotient(&share, &sum, 0))
@@ -262,9 +263,24 @@ impl<const D: usize> Polynomial<3, D> for Angle {
 
 /// Returns whether p is inside the smallest sphere through a and b, exactly: whether it sees them
 /// at an obtuse angle.
+///
+/// With the differences and the products at most three roundings are in each term of the dot
+/// product, and two in its sum, so that its error is below 6·2⁻⁵³ times the sum of the terms'
+/// magnitudes, and 2⁻¹⁰⁷⁰ where terms underflow.
 #[inline]
 pub(crate) fn is_obtuse<const D: usize>(p: [f64; D], a: [f64; D], b: [f64; D]) -> bool {
-    sign(&Angle, &[p, a, b]) < 0
+    let (u, v) = (vector::minus(a, p), vector::minus(b, p));
+    let (mut dot, mut magnitude) = (0.0, 0.0);
+    for axis in 0..D {
+        let term = u[axis] * v[axis];
+        dot += term;
+        magnitude += term.abs();
+    }
+    if dot.abs() > RELATIVE_MARGIN * magnitude + ABSOLUTE_MARGIN {
+        dot < 0.0
+    } else {
+        exact_sign(&Angle, &[p, a, b]) < 0
+    }
 }
 
 /// The difference of two squared radii times their denominators: those of two faces, or of a face
@@ -326,7 +342,7 @@ where
     let (numerator, denominator) = Euclidean::squared_radius_fraction(&integers);
     // The root of a number between 1/4 and 4, times a power of two: right up to a few units in the
     // last place.
-    let half = ((numerator.0.bits() as i64 - denominator.0.bits() as i64) / 2) as i32;
+    let half = ((numerator.bits() - denominator.bits()) / 2) as i32;
     let mut radius = libm::ldexp(quotient(&numerator, &denominator, -2 * half).sqrt(), half + exponent);
     while compare_radius::<D, N>(face, radius) <= 0 && radius > 0.0 {
         radius = radius.next_down();
@@ -367,17 +383,26 @@ pub(crate) fn compare_distances<const D: usize>(q: [f64; D], a: [f64; D], b: [f6
 /// below 6·2⁻⁵³, and underflow an absolute one below 2⁻¹⁰⁷⁰.
 #[inline]
 pub(crate) fn certain_difference(a: f64, b: f64) -> Sign {
-    const RELATIVE: f64 = 16.0 * f64::EPSILON;
-    const ABSOLUTE: f64 = f64::from_bits((1023 - 1000) << 52);
-    let margin = RELATIVE * (a + b) + ABSOLUTE;
+    let margin = RELATIVE_MARGIN * (a + b) + ABSOLUTE_MARGIN;
     (a - b > margin) as Sign - (b - a > margin) as Sign
 }
+
+/// Returns a number such that rounded squared distances above it are those of points that are surely
+/// further apart than those whose rounded squared distance is given.
+#[inline]
+pub(crate) fn surely_larger(squared: f64) -> f64 {
+    squared * (1.0 + 4.0 * RELATIVE_MARGIN) + ABSOLUTE_MARGIN
+}
+
+/// Above the errors of sums of rounded products of differences of coordinates.
+const RELATIVE_MARGIN: f64 = 16.0 * f64::EPSILON;
+const ABSOLUTE_MARGIN: f64 = f64::from_bits((1023 - 1000) << 52);
 
 /// A squared distance, rounded, and whether nothing was rounded.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct SquaredLength {
+    /// The squared distance, with a minus where it was rounded.
     value: f64,
-    is_exact: bool,
 }
 
 impl SquaredLength {
@@ -398,17 +423,29 @@ impl SquaredLength {
             is_exact &= sum - value == square && sum - square == value;
             value = sum;
         }
-        SquaredLength { value, is_exact }
+        SquaredLength { value: if is_exact { value } else { -value } }
+    }
+
+    #[inline(always)]
+    fn is_exact(self) -> bool {
+        self.value.is_sign_positive()
+    }
+
+    /// Returns the distance, unless the square came near the limits of `f64`.
+    pub(crate) fn root(self) -> Option<f64> {
+        let squared = self.value.abs();
+        (1e-280..1e280).contains(&squared).then(|| squared.sqrt())
     }
 
     /// Returns the sign of the difference of two squared distances, or 0 if rounding may have
     /// changed it.
     #[inline]
     pub(crate) fn certain_difference(self, other: Self) -> Sign {
-        if self.is_exact && other.is_exact {
-            return (self.value > other.value) as Sign - (self.value < other.value) as Sign;
+        let (a, b) = (self.value.abs(), other.value.abs());
+        if self.is_exact() && other.is_exact() {
+            return (a > b) as Sign - (a < b) as Sign;
         }
-        certain_difference(self.value, other.value)
+        certain_difference(a, b)
     }
 }
 
@@ -429,7 +466,7 @@ pub(crate) fn compare_lengths<const D: usize>(
     ([c, d], second): ([[f64; D]; 2], SquaredLength),
 ) -> Sign {
     match first.certain_difference(second) {
-        0 if !(first.is_exact && second.is_exact) => exact_sign(&LengthDifference, &[a, b, c, d]),
+        0 if !(first.is_exact() && second.is_exact()) => exact_sign(&LengthDifference, &[a, b, c, d]),
         sign => sign,
     }
 }

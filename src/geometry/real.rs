@@ -3,9 +3,11 @@
 use super::{Euclidean, Geometry, circumcenter_offset, exact_offset};
 use crate::{
     input::lattice::decompose,
-    predicates::polynomial::{Big, Ring, quotient},
+    predicates::{
+        big::{Big, quotient},
+        polynomial::Ring,
+    },
 };
-use num_bigint::BigInt;
 use std::ops::{Add, Mul, Sub};
 
 /// A floating-point number.
@@ -95,10 +97,11 @@ impl Double {
         }
         // What the first half leaves.
         let (mantissa, e) = decompose(high);
-        let mantissa = BigInt::from(if high < 0.0 { -(mantissa as i64) } else { mantissa as i64 });
+        let mantissa = Big::from(if high < 0.0 { -(mantissa as i64) } else { mantissa as i64 });
         let lowest = e.min(exponent);
-        let rest = (&numerator.0 << (exponent - lowest)) - ((mantissa * &denominator.0) << (e - lowest));
-        Double { high, low: quotient(&Big(rest), denominator, lowest) }
+        let shift = |e: i32| (e - lowest) as u32;
+        let rest = (numerator.clone() << shift(exponent)) - ((&mantissa * denominator) << shift(e));
+        Double { high, low: quotient(&rest, denominator, lowest) }
     }
 }
 
@@ -160,11 +163,13 @@ impl Real for Double {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::predicates::big::tests::oracle;
+    use num_bigint::BigInt;
     use proptest::prelude::*;
 
     /// Returns the number times 2⁴⁰⁰.
     fn exact(x: Double) -> BigInt {
-        [x.high, x.low].map(|x| Big::new(x, -400).0).iter().sum()
+        [x.high, x.low].map(|x| oracle(&Big::new(x, -400))).iter().sum()
     }
 
     /// A number of about 100 bits.
@@ -190,7 +195,7 @@ mod tests {
 
         #[test]
         fn quotients_have_twice_the_precision(a in -(1i64 << 60)..1 << 60, b in 1i64..1 << 60, e in -40i32..40) {
-            let found = exact(Double::quotient(&Big(a.into()), &Big(b.into()), e));
+            let found = exact(Double::quotient(&a.into(), &b.into(), e));
             let expected = (BigInt::from(a) << (400 + e)) / b;
             prop_assert!((found - &expected).magnitude() << 100u32 <= *expected.magnitude());
         }

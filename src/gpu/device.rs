@@ -1,12 +1,15 @@
 //! The device: adapters, limits, and errors as values.
 
 use std::{
-    sync::{Arc, OnceLock},
+    sync::{Arc, Mutex, OnceLock, PoisonError},
     time::Duration,
 };
 
-use crate::error::Error;
-use crate::gpu::MAX_WORKGROUPS;
+use crate::{
+    error::Error,
+    gpu::{Kernel, MAX_WORKGROUPS},
+    input::lattice::Width,
+};
 
 /// Which adapter to open. Browsers offer only the default.
 ///
@@ -100,7 +103,12 @@ pub struct Gpu {
     adapter: AdapterSummary,
     /// Why the device was lost, once it was.
     lost: Arc<OnceLock<String>>,
+    /// Kernels that are kept, with their names.
+    kernels: Arc<Mutex<Vec<KeptKernel>>>,
 }
+
+/// The name of a kernel, the width for which it is compiled, and the kernel.
+type KeptKernel = (&'static str, Width, Kernel);
 
 impl Gpu {
     /// Opens an adapter.
@@ -134,12 +142,17 @@ impl Gpu {
         Ok(gpu)
     }
 
+    /// Returns whether this is a clone of `other`. Devices of different instances may compare equal.
+    pub(crate) fn is_same(&self, other: &Gpu) -> bool {
+        Arc::ptr_eq(&self.lost, &other.lost)
+    }
+
     /// Uses the caller's device. Its limits are taken as they are: the defaults of WebGPU are
     /// enough, larger buffers allow larger inputs. Its handlers for errors and loss are left alone,
     /// so that its loss comes out as [`Error::Gpu`].
     pub fn from_device(device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let adapter = AdapterSummary::new(device.adapter_info(), &device.limits(), device.features());
-        Gpu { device, queue, adapter, lost: Arc::default() }
+        Gpu { device, queue, adapter, lost: Arc::default(), kernels: Arc::default() }
     }
 
     /// Returns the device.
@@ -150,6 +163,17 @@ impl Gpu {
     /// Returns the queue.
     pub fn queue(&self) -> &wgpu::Queue {
         &self.queue
+    }
+
+    /// Returns the kernel that is kept by this name, or keeps a new one.
+    pub(crate) fn kept_kernel(&self, name: &'static str, width: Width, new: impl FnOnce() -> Kernel) -> Kernel {
+        let mut kernels = self.kernels.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((.., kernel)) = kernels.iter().find(|&&(kept, of, _)| (kept, of) == (name, width)) {
+            return kernel.clone();
+        }
+        let kernel = new();
+        kernels.push((name, width, kernel.clone()));
+        kernel
     }
 
     /// Returns the adapter that the device runs on.

@@ -232,6 +232,17 @@ impl<const D: usize> DeviceMesh<D> {
         &self.stats
     }
 
+    /// Returns the device.
+    pub(crate) fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Returns the staging buffers.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn readback(&self) -> Readback {
+        self.readback.clone()
+    }
+
     pub(crate) fn stats_mut(&mut self) -> &mut Stats {
         &mut self.stats
     }
@@ -265,20 +276,26 @@ impl<const D: usize> DeviceMesh<D> {
     }
 
     /// Reads buffers of the mesh into memory outside of that of WebAssembly: the simplices, their
-    /// neighbours, the hull, and the lowest simplex of each point, by these numbers. Returns the
-    /// statistics as well, with what that took.
+    /// neighbours, the hull, and the lowest simplex of each point, by these numbers. `memory` returns
+    /// that for a number of bytes, if there is as much. Returns the statistics as well, with what
+    /// that took.
     ///
     /// # Errors
     ///
     /// Returns the errors of `read`.
     #[cfg(target_arch = "wasm32")]
-    pub async fn read_to_js(&self, arrays: &[usize]) -> Result<(Vec<js_sys::Uint8Array>, Stats), Error> {
+    pub async fn read_to_js(
+        &self,
+        arrays: &[usize],
+        memory: impl Fn(u32) -> Option<js_sys::Uint8Array>,
+    ) -> Result<(Vec<js_sys::Uint8Array>, Stats), Error> {
         let storages = self.arrays.storages();
-        let reads = arrays.iter().map(|&i| {
-            let target = js_sys::Uint8Array::new_with_length(4 * storages[i].len() as u32);
-            (storages[i].buffer(), target)
-        });
-        self.read_with(reads.collect()).await
+        let read = |&i: &usize| {
+            let target = memory(4 * storages[i].len() as u32);
+            let target = target.ok_or(Error::OutOfMemory { simplices: self.simplex_count() })?;
+            Ok((storages[i].buffer(), target))
+        };
+        self.read_with(arrays.iter().map(read).collect::<Result<_, Error>>()?).await
     }
 
     /// Returns the lowest simplex of each point, [`NONE`](crate::NONE) for duplicates. Blocks the
@@ -350,6 +367,19 @@ where
         self.read_arrays(Outputs::ALL, &mut mesh).await?;
         mesh.stats_mut().phases.push((Phase::Readback, stopwatch.lap()));
         mesh.set_input(self.duplicate_of, self.dimension);
+        Ok(mesh)
+    }
+
+    /// Reads all arrays.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of `read`.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) async fn read_all(&self) -> Result<MeshOf<D>, Error> {
+        let mut mesh = MeshOf::<D>::default();
+        self.read_arrays(Outputs::ALL, &mut mesh).await?;
+        mesh.set_input(self.duplicate_of.clone(), self.dimension);
         Ok(mesh)
     }
 

@@ -46,6 +46,9 @@ pub trait Dim<const D: usize>: Incremental<D> + Debug + Copy + Send + Sync + 'st
     const MAX_POINTS: usize;
     /// The default of [`Settings::history`](crate::gpu::phase1::Settings::history).
     const HISTORY: u32;
+    /// The flip iterations to record for a round of which nothing is known: enough for most inputs
+    /// while each round inserts several times as many points as the one before.
+    const FIRST_ITERATIONS: u32;
 
     /// Returns the blocks, of [`BLOCK`](crate::gpu::layout::BLOCK) slots each, for `points` points.
     /// `tail` of them belong to no vertex; 2D needs none and ignores it.

@@ -7,12 +7,13 @@ use std::fmt::Debug;
 
 use crate::{
     backend::Backend,
-    cpu::{self, Incremental, MeshOf},
+    cpu::{self, Incremental, MeshOf, update::PARTED},
     dimension::Dimension,
     error::Error,
     gpu::{
         Gpu,
         device_mesh::{DeviceMesh, MeshArrays},
+        dim::{Corners, Dim},
         phase1::{Finish, Input, Phase1, Phase1Stats, Run, Settings},
         start::first_simplex,
     },
@@ -25,7 +26,7 @@ use crate::{
     mesh::MeshInfo,
     options::Options,
     parallel::{self, Threads},
-    stats::{Fallback, Phase, Stats, Stopwatch},
+    stats::{Fallback, Phase, Restart, Stats, Stopwatch, UpdateStats},
 };
 
 /// The shares of a run at which its phases begin, as progress reports them: about those of the time
@@ -103,6 +104,13 @@ where
         }
     }
 
+    pub(crate) fn stats_mut(&mut self) -> &mut Stats {
+        match self {
+            Made::Host(mesh) => mesh.stats_mut(),
+            Made::Device(mesh) => mesh.stats_mut(),
+        }
+    }
+
     /// Returns the mesh on the device, which is `gpu`.
     ///
     /// # Errors
@@ -116,8 +124,24 @@ where
     }
 }
 
+/// What is known of a mesh whose points have moved.
+pub(crate) struct Moved<'a, const D: usize>
+where
+    Dimension<D>: Dim<D>,
+{
+    /// Its field `duplicate_of`.
+    pub(crate) duplicate_of: &'a [i32],
+    /// The vertices of a simplex that is positively oriented where the points are now.
+    pub(crate) spanning: Corners<D>,
+    /// Receives what was done.
+    pub(crate) update: &'a mut UpdateStats,
+}
+
 /// What goes with a run of Phase 1 that is to be completed.
-pub struct Near<'a, const D: usize> {
+pub struct Near<'a, const D: usize>
+where
+    Dimension<D>: Dim<D>,
+{
     /// The points of the run.
     pub(crate) points: Points<'a, D>,
     /// The lattice that is fitted to them.
@@ -128,13 +152,18 @@ pub struct Near<'a, const D: usize> {
     pub(crate) adapter: &'a str,
     /// Whether the mesh is to stay on the device, or [`Settings::sparse`].
     pub(crate) resident: bool,
+    /// For a mesh whose points have moved, what is known of it.
+    pub(crate) moved: Option<Moved<'a, D>>,
     /// Receives the statistics.
     pub(crate) stats: &'a mut Stats,
     /// Times the phases.
     pub(crate) stopwatch: &'a mut Stopwatch,
 }
 
-impl<const D: usize> Near<'_, D> {
+impl<const D: usize> Near<'_, D>
+where
+    Dimension<D>: Dim<D>,
+{
     /// Takes what Phase 1 did into the statistics, at its end.
     pub(crate) fn end_of_phase1(&mut self, phase1: &Phase1Stats) {
         let readback = phase1.readback_time;
@@ -147,9 +176,16 @@ impl<const D: usize> Near<'_, D> {
 
     /// Returns the points that Phase 1 did not insert although they are not duplicates, each with
     /// the vertex at the same place of the lattice, and the field `duplicate_of` of the mesh.
-    pub(crate) fn missing(&self, merged: &[[u32; 2]]) -> (Vec<[u32; 2]>, Vec<i32>) {
+    pub(crate) fn missing(&mut self, merged: &[[u32; 2]]) -> (Vec<[u32; 2]>, Vec<i32>) {
         let mut duplicate_of = parallel::filled(Threads::All, self.points.len(), NONE);
-        let missing = missing_points(self.points, merged, &mut duplicate_of);
+        let mut missing = missing_points(self.points, merged, &mut duplicate_of);
+        if let Some(moved) = &mut self.moved {
+            // The mesh lacks what was a duplicate. The vertex of its place then is still one.
+            let parted = (0..).zip(moved.duplicate_of.iter().zip(&duplicate_of));
+            let parted = parted.filter(|&(_, (&before, &now))| before != NONE && now == NONE);
+            missing = parted.map(|(v, (&before, _))| [v, before as u32]).collect();
+            moved.update.inserted = missing.len();
+        }
         (missing, duplicate_of)
     }
 }
@@ -183,6 +219,19 @@ where
         Ok(GpuEngine { gpu, wide, narrow: None, settings: Settings::default() })
     }
 
+    /// Returns when also the kernels are compiled that a first run does without.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Gpu::with_error_scope`].
+    pub async fn finish_compiling(&self) -> Result<(), Error> {
+        self.wide.finish_compiling(&self.gpu).await?;
+        match &self.narrow {
+            Some(narrow) => narrow.finish_compiling(&self.gpu).await,
+            None => Ok(()),
+        }
+    }
+
     /// Changes the settings for Phase 1, for experiments: they change the time, and not the set of
     /// simplices.
     pub fn set_settings(&mut self, settings: Settings<D>) {
@@ -205,7 +254,7 @@ where
     /// Returns the errors of [`delaunay3d`](crate::delaunay3d), and those of the device.
     pub async fn triangulate(&mut self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error> {
         let options = &options.monotone();
-        let mesh = self.make(points, options, false).await?.into_host().await?;
+        let mesh = self.make(points, options, false, None).await?.into_host().await?;
         options.report(Phase::Finish, 1.0)?;
         Ok(mesh)
     }
@@ -221,30 +270,88 @@ where
         options: &Options,
     ) -> Result<DeviceMesh<D>, Error> {
         let options = &options.monotone();
-        let mesh = self.make(points, options, true).await?.into_device(&self.gpu).await?;
+        let mesh = self.make(points, options, true, None).await?.into_device(&self.gpu).await?;
+        options.report(Phase::Finish, 1.0)?;
+        Ok(mesh)
+    }
+
+    /// Triangulates `points`, which are those of `mesh` after they have moved, and leaves the new
+    /// mesh on the device, or takes it there.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`GpuEngine::triangulate`], and [`Error::PointCount`].
+    pub async fn update_on_device(
+        &mut self,
+        mesh: &DeviceMesh<D>,
+        points: Points<'_, D>,
+        options: &Options,
+    ) -> Result<DeviceMesh<D>, Error> {
+        let options = &options.monotone();
+        let mesh = self.make(points, options, true, Some(mesh)).await?.into_device(&self.gpu).await?;
         options.report(Phase::Finish, 1.0)?;
         Ok(mesh)
     }
 
     /// Triangulates `points`, and leaves the mesh where it is made, which is the device if `resident`
-    /// and the device can make it. The last report of progress is the caller's.
+    /// and the device can make it. It goes on from `moved`, the mesh of the points where they were,
+    /// if there is one and that pays. The last report of progress is the caller's.
     ///
     /// # Errors
     ///
-    /// Those of [`GpuEngine::triangulate`].
+    /// Those of [`GpuEngine::update_on_device`].
     pub(crate) async fn make(
         &mut self,
         points: Points<'_, D>,
         options: &Options,
         resident: bool,
+        moved: Option<&DeviceMesh<D>>,
     ) -> Result<Made<D>, Error> {
         let mut stopwatch = Stopwatch::start();
         options.report(Phase::Lattice, 0.0)?;
-        points.validate_by(Threads::All)?;
-        let lattice = Lattice::fit_by(Threads::All, points);
+        if let Some(mesh) = moved.filter(|mesh| mesh.point_count() != points.len()) {
+            return Err(Error::PointCount { points: points.len(), expected: mesh.point_count() });
+        }
+        let mut update = moved.map(|_| UpdateStats::default());
+        let mut from = moved;
+        let mut made = loop {
+            let before = from.zip(update.as_mut());
+            match self.attempt(points, options, resident, before, &mut stopwatch).await? {
+                Ok(made) => break made,
+                Err(why) => {
+                    if let Some(update) = &mut update {
+                        update.restarted = Some(why);
+                    }
+                    from = None;
+                }
+            }
+        };
+        let stats = made.stats_mut();
+        if let Some(update) = &mut update {
+            if update.restarted.is_none() {
+                update.stars = stats.splay.as_ref().map_or(0, |splay| splay.built);
+            }
+            stats.update = Some(*update);
+        }
+        Ok(made)
+    }
+
+    /// Does the same, or says why it takes a run from scratch.
+    async fn attempt(
+        &mut self,
+        points: Points<'_, D>,
+        options: &Options,
+        resident: bool,
+        moved: Option<(&DeviceMesh<D>, &mut UpdateStats)>,
+        stopwatch: &mut Stopwatch,
+    ) -> Result<Result<Made<D>, Restart>, Error> {
+        let lattice = Lattice::fit_by(Threads::All, points)?;
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let Some(start) = first_simplex(lattice.width(), points.len(), position) else {
-            return fall_back(points, options, Dimension::<D>::DEGENERATE, Stats::default());
+            if let Some((_, update)) = moved {
+                update.restarted = Some(Restart::Degenerate);
+            }
+            return fall_back(points, options, Dimension::<D>::DEGENERATE, Stats::default()).map(Ok);
         };
         let mut stats = Stats::new(Backend::Gpu);
         let mut tracer = Dimension::<D>::tracer(options);
@@ -257,38 +364,49 @@ where
             (settings.rounds, settings.batches, settings.start_points) = (1, 1, Some(0));
         }
         let (gpu, phase1) = self.kernels(lattice.width()).await?;
-        let mut run = Run::new(phase1, gpu, Input { points, lattice: &lattice, start }, settings, None).await?;
-        loop {
-            let more = run.advance().await?;
+        let input = Input { points, lattice: &lattice, start, has_moved: moved.is_some() };
+        let mut run = Run::new(phase1, gpu, input, settings, None).await?;
+        let mut moved = match moved {
+            Some((mesh, update)) => take(&mut run, &input, mesh, update).await?,
+            None => None,
+        };
+        let mut more = moved.is_none() || run.active() > 0;
+        while more {
+            more = run.advance().await?;
             Dimension::<D>::trace_round(&mut tracer, gpu, &run).await?;
             let inserted = 1.0 - f64::from(run.waiting()) / points.len() as f64;
             options.report(Phase::Phase1, progress::PHASE_1 + Dimension::<D>::ROUNDS_SHARE * inserted)?;
-            if !more {
-                break;
-            }
-            if settings.is_slow(&run.control().1) {
+            if more && settings.is_slow(&run.control().1) {
                 stats.gpu = Some(run.abandon().summary(&self.gpu.adapter().name));
-                return fall_back(points, options, Fallback::Flips, stats);
+                return match moved {
+                    Some(_) => Ok(Err(Restart::Stuck)),
+                    None => fall_back(points, options, Fallback::Flips, stats).map(Ok),
+                };
             }
         }
+        if let Some(moved) = &mut moved {
+            moved.update.flips = run.control().1.flips().into();
+        }
+        let has_moved = moved.is_some();
         let near = Near {
             points,
             lattice: &lattice,
             options,
             adapter: &gpu.adapter().name,
             resident: settings.sparse || resident,
+            moved,
             stats: &mut stats,
-            stopwatch: &mut stopwatch,
+            stopwatch,
         };
-        let mut made = match Dimension::<D>::complete(run, near, tracer).await? {
-            Ok(made) => made,
-            Err(why) => return fall_back(points, options, why, stats),
-        };
-        *match &mut made {
-            Made::Host(mesh) => mesh.stats_mut(),
-            Made::Device(mesh) => mesh.stats_mut(),
-        } = stats;
-        Ok(made)
+        match Dimension::<D>::complete(run, near, tracer).await? {
+            Ok(mut made) => {
+                *made.stats_mut() = stats;
+                Ok(Ok(made))
+            }
+            Err(Fallback::Splaying) if has_moved => Ok(Err(Restart::Changed)),
+            Err(_) if has_moved => Ok(Err(Restart::Stuck)),
+            Err(why) => fall_back(points, options, why, stats).map(Ok),
+        }
     }
 
     /// Returns the device with the kernels for points of this width, compiled if they are not, and
@@ -310,8 +428,64 @@ where
                 &mut self.wide
             }
         };
+        // Where no other thread compiles what the first run does without, the second one waits.
+        #[cfg(target_arch = "wasm32")]
+        if phase1.kept.memory.is_some() {
+            phase1.finish_compiling(&self.gpu).await?;
+        }
         Ok((&self.gpu, phase1))
     }
+}
+
+/// Has a run go on from `mesh` if that pays. Returns what goes with it then.
+async fn take<'a, const D: usize>(
+    run: &mut Run<'_, D>,
+    input: &Input<'_, D>,
+    mesh: &'a DeviceMesh<D>,
+    update: &'a mut UpdateStats,
+) -> Result<Option<Moved<'a, D>>, Error>
+where
+    Dimension<D>: Complete<D>,
+{
+    let restarted = if usize::from(mesh.dimension()) != D {
+        Err(Restart::Degenerate)
+    } else if !mesh.gpu().is_same(run.gpu()) {
+        Err(Restart::Elsewhere)
+    } else {
+        match run.take(mesh).await? {
+            None => Err(Restart::Broken),
+            Some([inverted, changed]) => {
+                (update.inverted, update.not_locally_delaunay) = (inverted, changed);
+                let pays = run.settings().limits.check(inverted as f64, changed as f64, mesh.simplex_count() as f64);
+                match pays {
+                    Ok(()) => check_duplicates(mesh.duplicate_of(), &run.read_merged().await?),
+                    Err(why) => Err(why),
+                }
+            }
+        }
+    };
+    match restarted {
+        Ok(()) => Ok(Some(Moved { duplicate_of: mesh.duplicate_of(), spanning: input.start.first, update })),
+        Err(why) => {
+            update.restarted = Some(why);
+            run.forget(input);
+            Ok(None)
+        }
+    }
+}
+
+/// Returns why a mesh cannot be repaired that had these duplicates, where these points are at the
+/// same places of the lattice now.
+fn check_duplicates(duplicate_of: &[i32], merged: &[[u32; 2]]) -> Result<(), Restart> {
+    if merged.iter().any(|&[v, _]| duplicate_of[v as usize] == NONE) {
+        return Err(Restart::Coincident);
+    }
+    // All of these were duplicates.
+    let before = duplicate_of.iter().filter(|&&first| first != NONE).count();
+    if before - merged.len() > duplicate_of.len() / PARTED {
+        return Err(Restart::Parted);
+    }
+    Ok(())
 }
 
 /// Returns the CPU engine's mesh, with what the GPU did before.

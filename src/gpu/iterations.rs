@@ -1,14 +1,16 @@
 //! How many flip iterations the host records ahead for a round, a dispatch per pass.
 
-/// The iterations to record for a round of which nothing is known: enough for those of uniform
-/// points while each round inserts several times as many points as the one before.
-const FIRST_PLANNED: u32 = 30;
+use std::f64::consts::SQRT_2;
+
 /// The smallest number of iterations to record for a round, unless one workgroup can do them all.
 const MIN_PLANNED: u32 = 6;
 /// The largest number: what more there is to do waits for the next round.
-const MAX_PLANNED: u32 = 64;
-/// How many more to record than an earlier round took.
+const MAX_PLANNED: u32 = 80;
+/// How many more to record than a round is expected to take.
 const MARGIN: u32 = 4;
+/// While so many times as many points wait as are inserted, each round takes more iterations than
+/// the one before.
+const RISING: u32 = 48;
 
 /// Where few signs are left open, exact checks wait for each other: one alone takes longer than all
 /// filters of an iteration. Where they are many, there would be no progress. So they follow the
@@ -23,6 +25,8 @@ const FIRST_EXACT_EVERY: u32 = 4;
 /// that has to wait for the next round may cost failed vertices.
 #[derive(Debug)]
 pub(crate) struct Iterations {
+    /// To record for a round of which nothing is known.
+    first: u32,
     /// To record for a round.
     planned: u32,
     /// Exact checks follow the filter in every so many iterations of a round.
@@ -36,6 +40,8 @@ pub(crate) struct Known {
     pub(crate) used: u32,
     /// The iterations that were recorded.
     pub(crate) recorded: u32,
+    /// The points that were inserted before it.
+    pub(crate) inserted_before: u32,
     /// The points that are inserted.
     pub(crate) inserted: u32,
     /// The points that wait.
@@ -44,29 +50,50 @@ pub(crate) struct Known {
     pub(crate) is_few: bool,
 }
 
+impl Known {
+    /// Returns how often the number of points that are inserted per point before will have halved in
+    /// the round after the next one.
+    ///
+    /// *n* points make simplices for *r*·*n* more, where *r* depends on how the points lie: about 6
+    /// for uniform points, 2 to 4 on surfaces. Of *w* waiting points, a round inserts some
+    /// *w*·*r*·*n* / (*w* + *r*·*n*): one per simplex while many wait, all of them when few do.
+    fn halvings(&self) -> u32 {
+        let [before, mut inserted, mut waiting] = [self.inserted_before, self.inserted, self.waiting].map(f64::from);
+        let added = inserted - before;
+        let share = added / before;
+        let room = share * (waiting + added) / waiting;
+        let mut later = 0.0;
+        for _ in 0..2 {
+            let added = waiting * room * inserted / (waiting + room * inserted);
+            later = added / inserted;
+            inserted += added;
+            waiting -= added;
+        }
+        (1..u32::BITS).take_while(|&k| share * SQRT_2 >= later * f64::from(1u32 << k)).count() as u32
+    }
+}
+
 impl Iterations {
-    /// Creates the plan of a run's first round.
-    pub(crate) fn new() -> Self {
-        Iterations { planned: FIRST_PLANNED, exact_every: FIRST_EXACT_EVERY }
+    /// Creates the plan of a run's first round, for which `first` iterations are recorded.
+    pub(crate) fn new(first: u32) -> Self {
+        Iterations { first, planned: first, exact_every: FIRST_EXACT_EVERY }
     }
 
     /// Plans a round by the one before the last one.
     pub(crate) fn plan(&mut self, known: Known) {
-        let Known { used, recorded, inserted, waiting, is_few } = known;
-        // Most points are in, will be after the round that is planned, or will not.
+        let Known { used, recorded, inserted, waiting, is_few, .. } = known;
+        // A round that took all of its iterations has left flips to the next one.
+        let needed = if used >= recorded { used + used / 4 } else { used };
         let wanted = match waiting {
             _ if recorded == 0 => self.planned.max(MIN_PLANNED),
             _ if is_few => 0,
-            _ if used >= recorded => (used + used / 4 + MARGIN).max(MIN_PLANNED),
-            _ if waiting <= inserted / 8 => (used / 3 + MARGIN).max(MIN_PLANNED),
-            _ if waiting / 4 <= inserted => (used / 2 + MARGIN).max(MIN_PLANNED),
-            _ if waiting / 24 <= inserted => (used / 4 * 3 + MARGIN).max(MIN_PLANNED),
-            // The next rounds insert several times as many points, and take more iterations.
-            _ => (used + MARGIN).max(FIRST_PLANNED),
+            0 => (needed / 3 + MARGIN).max(MIN_PLANNED),
+            _ if waiting / RISING >= inserted => (needed + needed / 8 + MARGIN).max(self.first),
+            // An eighth less each time that half as many points are inserted.
+            _ => ((0..known.halvings()).fold(needed, |n, _| n - n / 8) + MARGIN).max(MIN_PLANNED),
         };
         self.planned = wanted.min(MAX_PLANNED);
     }
-
     /// Plans how often exact checks follow the filter, which left `exact` signs of `visits` visited
     /// simplices open.
     pub(crate) fn plan_exact(&mut self, exact: u32, visits: u32) {
@@ -83,5 +110,95 @@ impl Iterations {
     /// Returns in every how many iterations exact checks follow the filter; only 3D has them apart.
     pub(crate) fn exact_every(&self) -> u32 {
         self.exact_every
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{dimension::Dimension, gpu::dim::Dim};
+
+    /// What rounds have taken on a device when all that they needed was recorded: the points that
+    /// each inserted, and its iterations with a dispatch per pass.
+    type Rounds = &'static [(u32, u32)];
+
+    /// The input, its points, those inserted before the first of the rounds, and the rounds.
+    const MEASURED: [(&str, u32, u32, Rounds); 5] = [
+        (
+            "uniform",
+            1_000_000,
+            400,
+            &[(2909, 29), (18857, 39), (126633, 36), (450274, 31), (355984, 20), (44369, 12), (971, 6)],
+        ),
+        (
+            "dragon",
+            435_545,
+            1414,
+            &[(6611, 46), (27752, 54), (78845, 57), (136995, 48), (124687, 49), (50621, 24), (8068, 20), (571, 12)],
+        ),
+        (
+            "sphere",
+            996_000,
+            100,
+            &[
+                (296, 47),
+                (588, 45),
+                (1764, 49),
+                (5288, 50),
+                (15828, 50),
+                (47096, 54),
+                (133096, 54),
+                (290649, 52),
+                (329706, 44),
+                (148818, 36),
+                (25094, 25),
+                (1712, 13),
+            ],
+        ),
+        (
+            "thin sphere",
+            1_000_000,
+            35,
+            &[
+                (110, 32),
+                (461, 49),
+                (2033, 67),
+                (8756, 72),
+                (44496, 69),
+                (199115, 75),
+                (437671, 48),
+                (266797, 25),
+                (38922, 16),
+            ],
+        ),
+        (
+            "grid",
+            996_223,
+            241,
+            &[(1219, 30), (8344, 34), (54643, 28), (267545, 26), (483179, 25), (169592, 20), (10994, 19), (467, 10)],
+        ),
+    ];
+
+    /// The rounds in which most points are inserted get what they need, and not much more.
+    #[test]
+    fn planned_iterations_are_those_that_rounds_take() {
+        for (name, points, mut inserted, rounds) in MEASURED {
+            let mut iterations = Iterations::new(Dimension::<3>::FIRST_ITERATIONS);
+            // The next round is recorded before the last one is known.
+            let mut recorded = iterations.planned();
+            let (mut lacking, mut idle) = (0, 0);
+            for &(added, needed) in rounds {
+                let planned = iterations.planned();
+                (inserted, lacking) = (inserted + added, lacking + needed.saturating_sub(recorded) * (added / 1000));
+                idle += recorded.saturating_sub(needed);
+                let used = needed.min(recorded);
+                let (inserted_before, waiting) = (inserted - added, points.saturating_sub(inserted));
+                iterations.plan(Known { used, recorded, inserted_before, inserted, waiting, is_few: false });
+                recorded = planned;
+            }
+            println!("{name}: {lacking} lacking, weighted by thousands of points, {idle} idle");
+            assert!(lacking <= points / 300, "{name}: {lacking} lacking");
+            assert!(idle <= 12 * rounds.len() as u32, "{name}: {idle} idle");
+        }
     }
 }

@@ -99,7 +99,13 @@ impl Kernel {
         })
     }
 
-    /// Returns the pipeline, and compiles it if that was not done yet.
+    /// Returns whether the pipeline is compiled.
+    pub fn is_compiled(&self) -> bool {
+        self.pipeline.get().is_some()
+    }
+
+    /// Returns the pipeline, and compiles it if that was not done yet. Waits if another thread is
+    /// compiling it.
     pub fn pipeline(&self) -> &wgpu::ComputePipeline {
         self.pipeline.get_or_init(|| {
             let (shader, width) = self.shader.expect("what is not a shader was compiled at once");
@@ -147,12 +153,21 @@ pub struct Compiler<'a> {
     gpu: &'a Gpu,
     /// Those to be compiled.
     kernels: RefCell<Vec<Kernel>>,
+    /// Those that runs can do without.
+    deferred: RefCell<Vec<Kernel>>,
+    /// Whether the device keeps the kernels.
+    kept: bool,
 }
 
 impl<'a> Compiler<'a> {
     /// Starts without any kernels.
     pub fn new(gpu: &'a Gpu) -> Self {
-        Compiler { gpu, kernels: RefCell::default() }
+        Compiler { gpu, kernels: RefCell::default(), deferred: RefCell::default(), kept: false }
+    }
+
+    /// Starts without any kernels. The device keeps them, so that they are compiled only once.
+    pub fn keeping(gpu: &'a Gpu) -> Self {
+        Compiler { kept: true, ..Compiler::new(gpu) }
     }
 
     /// Creates the kernel of a shader. It is compiled by [`Compiler::finish`], or when it is used
@@ -163,34 +178,112 @@ impl<'a> Compiler<'a> {
         kernel
     }
 
-    /// Creates the kernel of a shader that few runs need. It is compiled when it is used.
-    pub fn on_demand(&self, shader: &'static Shader, width: Width) -> Kernel {
-        Kernel::new(self.gpu, shader, width)
+    /// Creates the kernel of a shader that takes long to compile, and that runs can do without
+    /// until [`Kernel::is_compiled`]. [`Compiler::take_deferred`] returns those to be compiled.
+    pub fn deferred(&self, shader: &'static Shader, width: Width) -> Kernel {
+        let kernel = self.on_demand(shader, width);
+        self.deferred.borrow_mut().push(kernel.clone());
+        kernel
     }
 
-    /// Compiles the kernels, where there are threads on all of them.
+    /// Creates the kernel of a shader that few runs need. It is compiled when it is used.
+    pub fn on_demand(&self, shader: &'static Shader, width: Width) -> Kernel {
+        match self.kept {
+            true => self.gpu.kept_kernel(shader.name(), width, || Kernel::new(self.gpu, shader, width)),
+            false => Kernel::new(self.gpu, shader, width),
+        }
+    }
+
+    /// Returns the kernels that runs can do without.
+    pub fn take_deferred(&self) -> Deferred {
+        Deferred(self.deferred.take())
+    }
+
+    /// Compiles the kernels that runs need, where there are threads on all of them.
     ///
     /// # Errors
     ///
     /// Returns the errors of [`Gpu::with_error_scope`].
     pub async fn finish(self) -> Result<(), Error> {
-        let Compiler { gpu, kernels } = self;
+        let Compiler { gpu, kernels, .. } = self;
         #[cfg(not(target_arch = "wasm32"))]
         {
             // Scopes of errors belong to threads, and are answered at once.
-            let compile = |_, kernel: &mut Kernel| {
-                pollster::block_on(gpu.with_error_scope("pipelines", || {
-                    kernel.pipeline();
-                    Ok(())
-                }))
-            };
+            let compile = |_, kernel: &mut Kernel| pollster::block_on(compile_all(gpu, std::slice::from_ref(kernel)));
             parallel::map_mut(Threads::All, &mut kernels.into_inner(), compile).into_iter().collect()
         }
         #[cfg(target_arch = "wasm32")]
-        gpu.with_error_scope("pipelines", || {
-            kernels.borrow().iter().for_each(|kernel| _ = kernel.pipeline());
-            Ok(())
-        })
-        .await
+        compile_all(gpu, &kernels.take()).await
+    }
+}
+
+/// Compiles those of the kernels that are not.
+async fn compile_all(gpu: &Gpu, kernels: &[Kernel]) -> Result<(), Error> {
+    gpu.with_error_scope("pipelines", || {
+        kernels.iter().for_each(|kernel| _ = kernel.pipeline());
+        Ok(())
+    })
+    .await
+}
+
+/// Kernels that runs can do without until they are compiled.
+#[derive(Debug)]
+pub struct Deferred(Vec<Kernel>);
+
+impl Deferred {
+    /// Lets a thread compile the kernels.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn start(&self, gpu: &Gpu) {
+        if self.0.is_empty() {
+            return;
+        }
+        let (gpu, kernels) = (gpu.clone(), self.0.clone());
+        // What fails here fails again where the kernel is used, which reports it. Without the thread
+        // runs do without.
+        let compile = move || _ = pollster::block_on(compile_all(&gpu, &kernels));
+        if let Ok(thread) = std::thread::Builder::new().name("gdel pipelines".to_owned()).spawn(compile) {
+            started::join_at_the_end(thread);
+        }
+    }
+
+    /// Returns when the kernels are compiled. What no thread has begun with is compiled here.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Gpu::with_error_scope`].
+    pub async fn finish(&self, gpu: &Gpu) -> Result<(), Error> {
+        match self.0.iter().all(Kernel::is_compiled) {
+            true => Ok(()),
+            false => compile_all(gpu, &self.0).await,
+        }
+    }
+}
+
+/// The threads that compile, in the thread that has started them. It waits for them when it ends,
+/// which for the main thread is before the process does: a driver that compiles while its library is
+/// being unloaded may crash.
+#[cfg(not(target_arch = "wasm32"))]
+mod started {
+    use std::{cell::RefCell, thread::JoinHandle};
+
+    struct Started(Vec<JoinHandle<()>>);
+
+    impl Drop for Started {
+        fn drop(&mut self) {
+            // A panic was reported where it came up.
+            self.0.drain(..).for_each(|thread| _ = thread.join());
+        }
+    }
+
+    thread_local! {
+        static STARTED: RefCell<Started> = const { RefCell::new(Started(Vec::new())) };
+    }
+
+    /// Joins a thread when the calling one ends.
+    pub(super) fn join_at_the_end(thread: JoinHandle<()>) {
+        STARTED.with_borrow_mut(|Started(threads)| {
+            threads.retain(|thread| !thread.is_finished());
+            threads.push(thread);
+        });
     }
 }

@@ -147,7 +147,7 @@ pub struct Counters {
     pub iterations: u32,
     /// Tetrahedra looked at in all flip iterations.
     pub visits: u32,
-    /// Failed vertices.
+    /// Failed vertices; in 2D, inverted triangles where points have moved.
     pub failed: u32,
     /// Points that another one stands for, because it lies at the same place.
     pub merged: u32,
@@ -168,6 +168,17 @@ pub struct Counters {
     pub few_done: u32,
     /// Entries of the list of waiting points that were kept when it was compacted in this round.
     pub kept: u32,
+    /// In a run that goes on from a mesh whose points have moved: the facets of its hull that were
+    /// found.
+    pub moved_hull: u32,
+    /// In such a run: the simplices that are not positively oriented, or 2³¹ and more if the arrays
+    /// of the mesh do not fit each other.
+    pub inverted: u32,
+    /// In such a run: the facets that are not locally Delaunay between others, as far as the filter
+    /// decides.
+    pub violated: u32,
+    /// Points for which the walk to their simplex of the start took too many steps.
+    pub long_walks: u32,
     /// What the rounds have done: entry *r* modulo [`LOGGED`] is the state after round *r*, as
     /// [`Counters::progress`] returns it.
     pub log: [[u32; 5]; LOGGED],
@@ -233,6 +244,13 @@ pub struct Params {
     pub start_simplices: u32,
     /// The vertices of a stretch, for which a simplex of the start nearby is known.
     pub start_stride: u32,
+    /// In a run that goes on from a mesh whose points have moved, the number of its simplices; 0 in
+    /// others.
+    pub moved_simplices: u32,
+    /// The number of facets of its hull.
+    pub moved_ghosts: u32,
+    /// By how much the slots of these are spread: the unused slots per 1,024 that are used.
+    pub moved_spread: u32,
 }
 assert_layout!(Params);
 

@@ -14,6 +14,8 @@
 
 mod buffers;
 mod device;
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) mod device_edges;
 pub mod device_mesh;
 pub mod dim;
 pub mod engine;
@@ -24,6 +26,8 @@ pub mod phase1;
 pub mod points;
 pub mod primitives;
 mod profiler;
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) mod queries;
 mod readback;
 mod recorder;
 pub mod shader;
@@ -32,7 +36,7 @@ pub(crate) mod vertex_simplices;
 
 pub use buffers::Storage;
 pub use device::{AdapterChoice, AdapterSummary, Gpu, adapters};
-pub use kernel::{Binding, Compiler, Kernel};
+pub use kernel::{Binding, Compiler, Deferred, Kernel};
 pub use profiler::Profiler;
 pub use readback::{Pending, Readback};
 pub use recorder::Recorder;

@@ -10,6 +10,7 @@
 //! axis rounds fewer points. The CPU's predicates use it in that case.
 
 use crate::{
+    error::Error,
     input::points::Points,
     parallel::{self, Threads},
 };
@@ -94,28 +95,22 @@ fn scale(x: f64, exponent: i32) -> (i128, bool) {
 }
 
 impl<const D: usize> Lattice<D> {
-    /// Returns the lattice of `points`, which must be finite.
+    /// Returns the lattice of `points`.
+    ///
+    /// # Panics
+    ///
+    /// Panics if a coordinate is not finite.
     pub fn fit(points: Points<'_, D>) -> Self {
-        Lattice::fit_by(Threads::One, points)
+        Lattice::fit_by(Threads::One, points).expect("the points have been checked")
     }
 
-    /// Returns the lattice of `points`, which must be finite, computed by `threads`.
-    pub(crate) fn fit_by(threads: Threads, points: Points<'_, D>) -> Self {
-        let bounds = parallel::map_ranges(threads, points.len(), |range| {
-            let mut low = [f64::INFINITY; D];
-            let mut high = [f64::NEG_INFINITY; D];
-            for p in points.range(range).iter() {
-                for axis in 0..D {
-                    low[axis] = low[axis].min(p[axis]);
-                    high[axis] = high[axis].max(p[axis]);
-                }
-            }
-            [low, high]
-        });
-        let empty = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-        let [low, high] = bounds.into_iter().fold(empty, |[low, high], [l, h]| {
-            [std::array::from_fn(|a| low[a].min(l[a])), std::array::from_fn(|a| high[a].max(h[a]))]
-        });
+    /// Returns the lattice of `points`, computed by `threads`.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::NotFinite`] with the first point that has a coordinate that is not finite.
+    pub(crate) fn fit_by(threads: Threads, points: Points<'_, D>) -> Result<Self, Error> {
+        let [low, high] = points.finite_bounds(threads)?;
         let varies: [bool; D] = std::array::from_fn(|axis| low[axis] < high[axis]);
         let fitting = |width: Width| {
             (0..D).filter(|&axis| varies[axis]).map(|axis| largest_exponent(low[axis], high[axis], width.bits())).min()
@@ -127,7 +122,7 @@ impl<const D: usize> Lattice<D> {
         let narrow = lattice(Width::Narrow);
         let is_exact = |p| !narrow.rounds(p);
         let exact = parallel::map_ranges(threads, points.len(), |range| points.range(range).iter().all(is_exact));
-        if exact.into_iter().all(|exact| exact) { narrow } else { lattice(Width::Wide) }
+        Ok(if exact.into_iter().all(|exact| exact) { narrow } else { lattice(Width::Wide) })
     }
 
     fn with_exponents(width: Width, exponents: [i32; D], varies: [bool; D], bounds: [[f64; D]; 2]) -> Self {
@@ -141,6 +136,30 @@ impl<const D: usize> Lattice<D> {
             _ => f64::NAN,
         });
         Lattice { width, exponents, factors, origin, lower_origin, is_near, bounds }
+    }
+
+    /// Returns a wide lattice of points with these bounds, and the box around them within which it
+    /// has coordinates for other points as well, rounded if they are not exact. The box is wider
+    /// than the bounds by more than half of the longest axis on each side; it is empty where `f64`
+    /// does not represent it.
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    pub(crate) fn with_room(bounds: [[f64; D]; 2]) -> (Self, [[f64; D]; 2]) {
+        // The points take the second quarter and a half of the coordinates.
+        const BITS: u32 = Width::Wide.bits() - 2;
+        const ROOM: i64 = 3 << (BITS - 1);
+        let [low, high] = bounds;
+        let varies: [bool; D] = std::array::from_fn(|axis| low[axis] < high[axis]);
+        let fitting =
+            (0..D).filter(|&axis| varies[axis]).map(|axis| largest_exponent(low[axis], high[axis], BITS)).min();
+        let exponent = fitting.unwrap_or(0);
+        let mut lattice = Lattice::with_exponents(Width::Wide, [exponent; D], varies, bounds);
+        lattice.origin = lattice.origin.map(|origin| origin.map(|origin| origin - i128::from(ROOM)));
+        lattice.lower_origin = lattice.lower_origin.map(|origin| origin.wrapping_sub(ROOM));
+        // Three halves of this are room on each side. What rounding changes is at most half of it,
+        // since there are two different coordinates on some axis.
+        let extent = libm::ldexp(1.0, BITS as i32 - exponent);
+        let room = if extent.is_finite() { 0.875 * extent } else { f64::NEG_INFINITY };
+        (lattice, [low.map(|x| x - room), high.map(|x| x + room)])
     }
 
     /// Returns the wide lattice on which each axis has the largest *k* for which its coordinates

@@ -140,6 +140,27 @@ impl<'a, const D: usize> Points<'a, D> {
         })
     }
 
+    /// Returns the lowest and the highest corner of the smallest box that contains all points, as
+    /// [`bounds`](Self::bounds) does, by `threads`; infinite ones the other way round if there are
+    /// no points.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::NotFinite`] with the first point that has a coordinate that is not.
+    pub(crate) fn finite_bounds(&self, threads: Threads) -> Result<[[f64; D]; 2], Error> {
+        let parts = parallel::map_ranges(threads, self.len(), |range| match self.range(range) {
+            Points::F32(p) => box_of_f32(p.as_flattened(), D),
+            Points::F64(p) => box_of_f64(p.as_flattened(), D),
+        });
+        if parts.iter().any(|&(_, is_finite)| !is_finite) {
+            self.validate_by(threads)?;
+        }
+        let none = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+        Ok(parts.into_iter().fold(none, |[low, high], ([l, h], _)| {
+            [std::array::from_fn(|a| low[a].min(l[a])), std::array::from_fn(|a| high[a].max(h[a]))]
+        }))
+    }
+
     /// Checks that every coordinate is a finite number.
     ///
     /// # Errors
@@ -169,6 +190,44 @@ impl<'a, const D: usize> Points<'a, D> {
         };
         Err(Error::NotFinite { index, axis: ['x', 'y', 'z'][axis], value })
     }
+}
+
+/// The box of some points, of which the third axis has no meaning in 2D, and whether all
+/// coordinates are finite.
+type Box3 = ([[f64; 3]; 2], bool);
+
+/// Returns the box of points in `D` ≤ 3 dimensions.
+///
+/// The comparisons stand for `f64::min` and `f64::max`, which take WebAssembly longer, since they
+/// are exact about NaN.
+#[inline(always)]
+fn box_in<T: Copy + Into<f64>, const D: usize>(coordinates: &[T]) -> Box3 {
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    let mut zero = [0.0; 3];
+    for p in coordinates.as_chunks::<D>().0 {
+        for axis in 0..D {
+            let x: f64 = p[axis].into();
+            low[axis] = if x < low[axis] { x } else { low[axis] };
+            high[axis] = if x > high[axis] { x } else { high[axis] };
+            // NaN from the first coordinate on that is not finite.
+            zero[axis] += 0.0 * x;
+        }
+    }
+    ([low, high], zero == [0.0; 3])
+}
+
+/// Returns the box of points whose coordinates are in double precision.
+///
+/// Not generic over the dimension, as generic functions are compiled with the crate that calls them,
+/// which in WebAssembly is optimised for size.
+fn box_of_f64(coordinates: &[f64], dimension: usize) -> Box3 {
+    if dimension == 3 { box_in::<f64, 3>(coordinates) } else { box_in::<f64, 2>(coordinates) }
+}
+
+/// Returns the box of points whose coordinates are in single precision.
+fn box_of_f32(coordinates: &[f32], dimension: usize) -> Box3 {
+    if dimension == 3 { box_in::<f32, 3>(coordinates) } else { box_in::<f32, 2>(coordinates) }
 }
 
 fn whole_points<T, const D: usize>(coordinates: &[T]) -> Result<&[[T; D]], Error> {
@@ -294,4 +353,36 @@ pub fn from_mint3<T>(points: impl IntoIterator<Item = impl Into<mint::Point3<T>>
 #[cfg(feature = "mint")]
 pub fn from_mint2<T>(points: impl IntoIterator<Item = impl Into<mint::Point2<T>>>) -> Vec<[T; 2]> {
     points.into_iter().map(|point| point.into().into()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::{collection::vec, prelude::*};
+
+    fn check<const D: usize>(points: Points<'_, D>) -> Result<(), TestCaseError> {
+        let none = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+        let expected = points.validate().map(|()| points.bounds().unwrap_or(none));
+        prop_assert_eq!(points.finite_bounds(Threads::All), expected);
+        Ok(())
+    }
+
+    proptest! {
+        #[test]
+        fn finite_bounds_are_bounds_of_valid_points(
+            mut coordinates in vec(-10i8..10, 0..40),
+            bad in proptest::option::of((0usize..40, prop::sample::select(vec![f32::NAN, f32::INFINITY, f32::NEG_INFINITY]))),
+        ) {
+            coordinates.truncate(coordinates.len() / 6 * 6);
+            let mut single: Vec<f32> = coordinates.iter().map(|&x| f32::from(x)).collect();
+            if let Some((i, value)) = bad && let Some(x) = single.get_mut(i) {
+                *x = value;
+            }
+            let double: Vec<f64> = single.iter().map(|&x| x.into()).collect();
+            check(Points::<3>::from_interleaved_f32(&single).unwrap())?;
+            check(Points::<2>::from_interleaved_f32(&single).unwrap())?;
+            check(Points::<3>::from_interleaved_f64(&double).unwrap())?;
+            check(Points::<2>::from_interleaved_f64(&double).unwrap())?;
+        }
+    }
 }

@@ -3,10 +3,12 @@
 //! Shewchuk's adaptive expansions (the `robust` crate) are exact as long as no intermediate result
 //! overflows or underflows. Where the exponents do not rule that out, big integers decide.
 
-use crate::input::lattice::decompose;
-use crate::predicates::Sign;
-use num_bigint::BigInt;
+use crate::predicates::{
+    Sign,
+    big::{Big, common_exponent},
+};
 use robust::{Coord, Coord3D};
+use std::ops::Add;
 
 /// Returns whether no product of five differences, nor any of its rounding errors, leaves the range
 /// of `f64`.
@@ -36,43 +38,31 @@ fn sign(value: f64) -> Sign {
 ///
 /// The code is large and rarely used, so it is compiled once for all predicates.
 fn big_sign(points: &[&[f64]], lifted: bool) -> Sign {
-    let coordinates = points.iter().copied().flatten().filter(|x| **x != 0.0);
     // All coordinates are multiplied by the same power of two.
-    let min_exponent = coordinates.map(|&x| decompose(x).1).min().unwrap_or(0);
-    let integer = |x: f64| {
-        let (mantissa, exponent) = decompose(x);
-        if mantissa == 0 {
-            return BigInt::ZERO;
-        }
-        let magnitude = BigInt::from(mantissa) << (exponent - min_exponent);
-        if x < 0.0 { -magnitude } else { magnitude }
-    };
+    let exponent = common_exponent(points.iter().copied().flatten());
     let Some((last, others)) = points.split_last() else { return 0 };
-    let rows: Vec<Vec<BigInt>> = others
+    let rows: Vec<Vec<Big>> = others
         .iter()
         .map(|p| {
-            let mut row: Vec<BigInt> = p.iter().zip(*last).map(|(&x, &y)| integer(x) - integer(y)).collect();
+            let difference = |(&x, &y)| Big::new(x, exponent) - Big::new(y, exponent);
+            let mut row: Vec<Big> = p.iter().zip(*last).map(difference).collect();
             if lifted {
-                row.insert(0, row.iter().map(|x| x * x).sum());
+                row.insert(0, row.iter().map(|x| x * x).fold(Big::default(), Add::add));
             }
             row
         })
         .collect();
-    match determinant(&rows.iter().map(Vec::as_slice).collect::<Vec<_>>()).sign() {
-        num_bigint::Sign::Minus => -1,
-        num_bigint::Sign::NoSign => 0,
-        num_bigint::Sign::Plus => 1,
-    }
+    determinant(&rows.iter().map(Vec::as_slice).collect::<Vec<_>>()).sign()
 }
 
 /// Returns the determinant, by the cofactors of the first column.
-fn determinant(rows: &[&[BigInt]]) -> BigInt {
+fn determinant(rows: &[&[Big]]) -> Big {
     let [only] = rows else {
-        let mut sum = BigInt::ZERO;
+        let mut sum = Big::default();
         for (i, row) in rows.iter().enumerate() {
             let others = rows.iter().enumerate().filter(|&(j, _)| j != i);
             let term = &row[0] * &determinant(&others.map(|(_, row)| &row[1..]).collect::<Vec<_>>());
-            if i % 2 == 0 { sum += &term } else { sum -= &term }
+            sum = if i % 2 == 0 { sum + term } else { sum - term };
         }
         return sum;
     };

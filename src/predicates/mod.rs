@@ -14,8 +14,9 @@
 //! [`exact`](mod@exact) evaluates predicates for `f64` coordinates of any size, [`integer`] for
 //! lattice coordinates. [`symbolic`] breaks ties. [`filter`] puts floating-point filters in front
 //! of them, for a whole point set. [`polynomial`] evaluates the rarer predicates of what is derived
-//! from a triangulation.
+//! from a triangulation. [`big`] has the integers that have no bound.
 
+pub(crate) mod big;
 pub mod exact;
 pub mod filter;
 pub mod integer;

@@ -4,8 +4,13 @@
 //! The in-sphere tests and orientations have hand-written filters elsewhere; these are the
 //! predicates of what is derived from a triangulation, which are evaluated less often.
 
-use crate::{input::lattice::decompose, predicates::Sign};
-use num_bigint::BigInt;
+use crate::{
+    input::lattice::decompose,
+    predicates::{
+        Sign,
+        big::{Big, common_exponent},
+    },
+};
 use std::ops::{Add, Mul, Sub};
 
 /// Numbers that polynomials are evaluated in.
@@ -36,16 +41,7 @@ pub(crate) fn exact_sign<const K: usize, const D: usize>(
 ) -> Sign {
     let exponent = common_exponent(points.as_flattened());
     let small = || Some(polynomial.value(&try_map(points, |x| Checked::new(x, exponent))?).0?.signum() as Sign);
-    small().unwrap_or_else(|| big_sign(&polynomial.value(&points.map(|p| p.map(|x| Big::new(x, exponent))))))
-}
-
-/// Returns the sign of a big integer.
-pub(crate) fn big_sign(Big(x): &Big) -> Sign {
-    match x.sign() {
-        num_bigint::Sign::Minus => -1,
-        num_bigint::Sign::NoSign => 0,
-        num_bigint::Sign::Plus => 1,
-    }
+    small().unwrap_or_else(|| polynomial.value(&points.map(|p| p.map(|x| Big::new(x, exponent)))).sign())
 }
 
 /// Applies `f` to all coordinates, until one has no result.
@@ -59,11 +55,6 @@ fn try_map<T: Copy, const K: usize, const D: usize>(
         *to = f(x)?;
     }
     Some(mapped)
-}
-
-/// Returns the largest exponent *e* such that all coordinates are integers times 2ᵉ.
-pub(crate) fn common_exponent(coordinates: &[f64]) -> i32 {
-    coordinates.iter().filter(|x| **x != 0.0).map(|&x| decompose(x).1).min().unwrap_or(0)
 }
 
 /// The largest relative error of a rounded operation, 2⁻⁵³.
@@ -179,79 +170,7 @@ checked!(Add, add, checked_add; Sub, sub, checked_sub; Mul, mul, checked_mul);
 
 impl Ring for Checked {}
 
-/// A big integer.
-#[derive(Debug, Clone)]
-pub(crate) struct Big(pub(crate) BigInt);
-
-impl Big {
-    /// Returns `x`·2⁻ᵉ, which must be an integer.
-    pub(crate) fn new(x: f64, exponent: i32) -> Self {
-        let (mantissa, e) = decompose(x);
-        if mantissa == 0 {
-            return Big(BigInt::ZERO);
-        }
-        let magnitude = BigInt::from(mantissa) << (e - exponent);
-        Big(if x < 0.0 { -magnitude } else { magnitude })
-    }
-}
-
-impl From<i32> for Big {
-    fn from(x: i32) -> Self {
-        Big(x.into())
-    }
-}
-
-impl Add for Big {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Big(self.0 + other.0)
-    }
-}
-
-impl Sub for Big {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Big(self.0 - other.0)
-    }
-}
-
-impl Mul for Big {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Big(self.0 * other.0)
-    }
-}
-
 impl Ring for Big {}
-
-/// Returns `numerator` / `denominator` · 2ᵉ, correctly rounded unless the result is subnormal;
-/// infinite beyond the range of `f64`. The denominator must be positive.
-pub(crate) fn quotient(Big(numerator): &Big, Big(denominator): &Big, exponent: i32) -> f64 {
-    // The quotient gets 66 or 67 bits, then one that stands for all others.
-    let shift = 66 - (numerator.bits() as i64 - denominator.bits() as i64);
-    let magnitude = BigInt::from(numerator.magnitude().clone());
-    let (dividend, divisor) =
-        if shift >= 0 { (magnitude << shift, denominator.clone()) } else { (magnitude, denominator.clone() << -shift) };
-    let whole = &dividend / &divisor;
-    let sticky = u128::from(&whole * &divisor != dividend);
-    let rounded = (u128::try_from(whole).unwrap_or(u128::MAX) << 1 | sticky) as f64;
-    let value = scaled(rounded, i64::from(exponent) - shift - 1);
-    if numerator.sign() == num_bigint::Sign::Minus { -value } else { value }
-}
-
-/// Returns `x`·2ᵉ for a number between 2⁶⁴ and 2⁷⁰, or 0.
-fn scaled(x: f64, exponent: i64) -> f64 {
-    let mut left = exponent.clamp(-1300, 1300);
-    let mut value = x;
-    // Each step multiplies by a power of two that is a normal number. A result that becomes
-    // subnormal does so in the last step, because the first steps are at most 2⁻⁵⁰⁰ each.
-    while left != 0 {
-        let step = left.clamp(-500, 500);
-        value *= f64::from_bits(((1023 + step) as u64) << 52);
-        left -= step;
-    }
-    value
-}
 
 /// The dot product.
 pub(crate) fn dot<T: Ring, const D: usize>(u: &[T; D], v: &[T; D]) -> T {
@@ -313,22 +232,5 @@ mod tests {
         })))) {
             agree(points)?;
         }
-
-        #[test]
-        fn quotients_are_rounded_correctly(a in -1_000_000i64..1_000_000, b in 1i64..1_000_000, e in -900i32..900) {
-            let found = quotient(&Big(a.into()), &Big(b.into()), e);
-            prop_assert_eq!(found, scaled((a as f64 / b as f64) * 2f64.powi(66), i64::from(e) - 66));
-        }
-    }
-
-    #[test]
-    fn extreme_quotients() {
-        let big = |bits: u32| Big(BigInt::from(1) << bits);
-        assert_eq!(quotient(&big(0), &Big(3.into()), 0), 1.0 / 3.0);
-        assert_eq!(quotient(&big(5000), &big(4999), 0), 2.0);
-        assert_eq!(quotient(&big(5000), &big(0), 0), f64::INFINITY);
-        assert_eq!(quotient(&big(0), &big(1074), 0), 5e-324);
-        assert_eq!(quotient(&big(0), &big(5000), 0), 0.0);
-        assert_eq!(quotient(&Big(BigInt::ZERO), &big(3), 7), 0.0);
     }
 }

@@ -23,7 +23,6 @@ use crate::{
     error::Error,
     input::points::{Points2, Points3},
     options::{Options, Progress, Winding},
-    stats::UpdateStats,
 };
 #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
 use crate::{
@@ -284,9 +283,10 @@ impl Triangulator {
     ///
     /// The mesh is that of a run from scratch, except for the order of its simplices: also where
     /// points have become equal or coplanar, have left the hull, or are no duplicates any more.
-    /// Where that is faster, the CPU repairs the mesh: with one thread, if points have moved by up to
-    /// about 1 % of their distances (3 % in 2D). Else, and always with more than three
-    /// [threads](Triangulator::threads), the points are triangulated from scratch by the backend.
+    /// Where that is faster, the mesh is repaired; else the points are triangulated from scratch by
+    /// the backend. A mesh in host memory is repaired by the CPU: with one thread, if points have
+    /// moved by up to about 1 % of their distances (3 % in 2D), and never with more than three
+    /// [threads](Triangulator::threads). One on the device is repaired there.
     /// [`Stats::update`](crate::stats::Stats::update) says what was done.
     ///
     /// # Examples
@@ -313,12 +313,7 @@ impl Triangulator {
     /// Returns the errors of [`Triangulator::delaunay3d`], and [`Error::PointCount`] if the mesh is
     /// not one of as many points. After an error the mesh is what it was before.
     pub fn update<'a, M: Moving>(&self, mesh: &mut M, points: impl Into<M::Points<'a>>) -> Result<(), Error> {
-        let points = points.into();
-        let Some(update) = self.repair(mesh, points)? else { return Ok(()) };
-        let mut made = M::from_scratch(self, points)?;
-        made.stats_mut().update = Some(update);
-        *mesh = made;
-        Ok(())
+        mesh.follow(self, points.into())
     }
 
     /// Does the same as [`update`](Triangulator::update), and waits for the GPU without blocking
@@ -332,25 +327,7 @@ impl Triangulator {
         mesh: &mut M,
         points: impl Into<M::Points<'a>>,
     ) -> Result<(), Error> {
-        let points = points.into();
-        let Some(update) = self.repair(mesh, points)? else { return Ok(()) };
-        let mut made = M::from_scratch_async(self, points).await?;
-        made.stats_mut().update = Some(update);
-        *mesh = made;
-        Ok(())
-    }
-
-    /// Repairs the mesh, or returns what was done if the points have to be triangulated from
-    /// scratch.
-    fn repair<M: Moving>(&self, mesh: &mut M, points: M::Points<'_>) -> Result<Option<UpdateStats>, Error> {
-        let (repaired, update) = mesh.repaired(points, &self.options)?;
-        Ok(match repaired {
-            Some(repaired) => {
-                *mesh = repaired;
-                None
-            }
-            None => Some(update),
-        })
+        mesh.follow_async(self, points.into()).await
     }
 
     /// Returns the 3D Delaunay triangulation of `points` as a mesh that stays on the device, which
@@ -426,6 +403,49 @@ impl Triangulator {
         self.device.delaunay3d_of_buffer(points, &self.options).await
     }
 
+    /// [Updates](Triangulator::update) a 3D mesh to the points in a buffer of its device, which are
+    /// as [`delaunay3d_of_buffer`](Triangulator::delaunay3d_of_buffer) takes them. Blocks the
+    /// thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::update`] and of
+    /// [`Triangulator::delaunay3d_of_buffer`].
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    pub fn update3d_of_buffer(&self, mesh: &mut DeviceMesh3, points: &wgpu::Buffer) -> Result<(), Error> {
+        pollster::block_on(self.update3d_of_buffer_async(mesh, points))
+    }
+
+    /// Does the same as `update3d_of_buffer`, and waits for the GPU without blocking the thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of `update3d_of_buffer`.
+    #[cfg(feature = "gpu")]
+    pub async fn update3d_of_buffer_async(&self, mesh: &mut DeviceMesh3, points: &wgpu::Buffer) -> Result<(), Error> {
+        self.device.update_of_buffer(mesh, points, &self.options).await
+    }
+
+    /// Does the same in 2D, with two coordinates per point.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::update3d_of_buffer`].
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    pub fn update2d_of_buffer(&self, mesh: &mut DeviceMesh2, points: &wgpu::Buffer) -> Result<(), Error> {
+        pollster::block_on(self.update2d_of_buffer_async(mesh, points))
+    }
+
+    /// Does the same as `update2d_of_buffer`, and waits for the GPU without blocking the thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of `update3d_of_buffer`.
+    #[cfg(feature = "gpu")]
+    pub async fn update2d_of_buffer_async(&self, mesh: &mut DeviceMesh2, points: &wgpu::Buffer) -> Result<(), Error> {
+        self.device.update_of_buffer(mesh, points, &self.options).await
+    }
+
     /// Does the same in 2D, with two coordinates per point.
     ///
     /// # Errors
@@ -447,28 +467,31 @@ impl Triangulator {
     }
 
     /// Triangulates in 3D, and has `deliver` take the mesh where it was made, or, if `resident`, on
-    /// the device: [`Backend::Auto`] takes the CPU if the GPU fails before that is done.
+    /// the device: [`Backend::Auto`] takes the CPU if the GPU fails before that is done. A mesh that
+    /// is `resident` goes on from `moved`, the mesh of the points where they were, if there is one.
     #[doc(hidden)]
     #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-    pub async fn deliver3d<'a, R>(
+    pub async fn deliver3d<R>(
         &self,
-        points: impl Into<Points3<'a>>,
+        points: Points3<'_>,
         resident: bool,
+        moved: Option<&DeviceMesh3>,
         deliver: impl AsyncFn(Made<3>) -> Result<R, Error>,
     ) -> Result<R, Error> {
-        self.device.deliver3d(points.into(), &self.options, resident, deliver).await
+        self.device.deliver(points, &self.options, resident, moved, deliver).await
     }
 
     /// Does the same in 2D.
     #[doc(hidden)]
     #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-    pub async fn deliver2d<'a, R>(
+    pub async fn deliver2d<R>(
         &self,
-        points: impl Into<Points2<'a>>,
+        points: Points2<'_>,
         resident: bool,
+        moved: Option<&DeviceMesh2>,
         deliver: impl AsyncFn(Made<2>) -> Result<R, Error>,
     ) -> Result<R, Error> {
-        self.device.deliver2d(points.into(), &self.options, resident, deliver).await
+        self.device.deliver(points, &self.options, resident, moved, deliver).await
     }
 
     /// Opens the device and compiles the kernels for 3D, unless that was done.

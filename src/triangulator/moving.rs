@@ -1,5 +1,7 @@
 //! The meshes that follow their points.
 
+#[cfg(feature = "gpu")]
+use crate::gpu::device_mesh::{DeviceMesh2, DeviceMesh3};
 use crate::{
     cpu::update::{Limits, update},
     d2::Mesh2,
@@ -7,12 +9,11 @@ use crate::{
     error::Error,
     input::points::{Points2, Points3},
     mesh::{MeshInfo, sealed::Sealed},
-    options::Options,
-    stats::UpdateStats,
     triangulator::Triangulator,
 };
 
-/// A mesh that [`Triangulator::update`] takes: [`Mesh3`] or [`Mesh2`].
+/// A mesh that [`Triangulator::update`] takes: [`Mesh3`], [`Mesh2`], and with the feature `gpu`
+/// `DeviceMesh3` and `DeviceMesh2`.
 ///
 /// It cannot be implemented for others.
 ///
@@ -31,50 +32,90 @@ use crate::{
 /// # Ok::<(), gdel::Error>(())
 /// ```
 #[expect(async_fn_in_trait, reason = "only this crate implements it, and no caller is generic over threads")]
-pub trait Moving: Sealed + MeshInfo + Sized {
+pub trait Moving: Sealed + Sized {
     /// The points of the mesh.
     type Points<'a>: Copy;
 
-    /// Returns the repaired mesh, or nothing if the points have to be triangulated from scratch,
-    /// and what was done.
     #[doc(hidden)]
-    fn repaired(&self, points: Self::Points<'_>, options: &Options) -> Result<(Option<Self>, UpdateStats), Error>;
+    fn follow(&mut self, triangulator: &Triangulator, points: Self::Points<'_>) -> Result<(), Error>;
 
     #[doc(hidden)]
-    fn from_scratch(triangulator: &Triangulator, points: Self::Points<'_>) -> Result<Self, Error>;
-
-    #[doc(hidden)]
-    async fn from_scratch_async(triangulator: &Triangulator, points: Self::Points<'_>) -> Result<Self, Error>;
+    async fn follow_async(&mut self, triangulator: &Triangulator, points: Self::Points<'_>) -> Result<(), Error>;
 }
 
-impl Moving for Mesh3 {
-    type Points<'a> = Points3<'a>;
+/// Implements it for a mesh in the memory of the host.
+macro_rules! on_host {
+    ($D:literal, $mesh:ident, $points:ident, $scratch:ident, $scratch_async:ident) => {
+        impl Moving for $mesh {
+            type Points<'a> = $points<'a>;
 
-    fn repaired(&self, points: Points3<'_>, options: &Options) -> Result<(Option<Self>, UpdateStats), Error> {
-        update::<3>(self, points, options, Limits::measured(3))
-    }
+            fn follow(&mut self, triangulator: &Triangulator, points: Self::Points<'_>) -> Result<(), Error> {
+                let (repaired, stats) = update::<$D>(self, points, &triangulator.options, Limits::measured($D))?;
+                *self = match repaired {
+                    Some(repaired) => repaired,
+                    None => {
+                        let mut made = triangulator.$scratch(points)?;
+                        made.stats_mut().update = Some(stats);
+                        made
+                    }
+                };
+                Ok(())
+            }
 
-    fn from_scratch(triangulator: &Triangulator, points: Points3<'_>) -> Result<Self, Error> {
-        triangulator.delaunay3d(points)
-    }
-
-    async fn from_scratch_async(triangulator: &Triangulator, points: Self::Points<'_>) -> Result<Self, Error> {
-        triangulator.delaunay3d_async(points).await
-    }
+            async fn follow_async(
+                &mut self,
+                triangulator: &Triangulator,
+                points: Self::Points<'_>,
+            ) -> Result<(), Error> {
+                let (repaired, stats) = update::<$D>(self, points, &triangulator.options, Limits::measured($D))?;
+                *self = match repaired {
+                    Some(repaired) => repaired,
+                    None => {
+                        let mut made = triangulator.$scratch_async(points).await?;
+                        made.stats_mut().update = Some(stats);
+                        made
+                    }
+                };
+                Ok(())
+            }
+        }
+    };
 }
+on_host!(3, Mesh3, Points3, delaunay3d, delaunay3d_async);
+on_host!(2, Mesh2, Points2, delaunay2d, delaunay2d_async);
 
-impl Moving for Mesh2 {
-    type Points<'a> = Points2<'a>;
+/// Implements it for a mesh on the device.
+#[cfg(feature = "gpu")]
+macro_rules! on_device {
+    ($mesh:ident, $points:ident) => {
+        impl Sealed for $mesh {}
 
-    fn repaired(&self, points: Points2<'_>, options: &Options) -> Result<(Option<Self>, UpdateStats), Error> {
-        update::<2>(self, points, options, Limits::measured(2))
-    }
+        impl Moving for $mesh {
+            type Points<'a> = $points<'a>;
 
-    fn from_scratch(triangulator: &Triangulator, points: Points2<'_>) -> Result<Self, Error> {
-        triangulator.delaunay2d(points)
-    }
+            fn follow(&mut self, triangulator: &Triangulator, points: Self::Points<'_>) -> Result<(), Error> {
+                #[cfg(not(target_arch = "wasm32"))]
+                {
+                    pollster::block_on(self.follow_async(triangulator, points))
+                }
+                #[cfg(target_arch = "wasm32")]
+                {
+                    let _ = (triangulator, points);
+                    Err(Error::Gpu { message: "in WebAssembly, only update_async can wait for it".to_owned() })
+                }
+            }
 
-    async fn from_scratch_async(triangulator: &Triangulator, points: Self::Points<'_>) -> Result<Self, Error> {
-        triangulator.delaunay2d_async(points).await
-    }
+            async fn follow_async(
+                &mut self,
+                triangulator: &Triangulator,
+                points: Self::Points<'_>,
+            ) -> Result<(), Error> {
+                triangulator.device.update(self, points, &triangulator.options).await
+            }
+        }
+    };
 }
+#[cfg(feature = "gpu")]
+on_device!(DeviceMesh3, Points3);
+#[cfg(feature = "gpu")]
+on_device!(DeviceMesh2, Points2);

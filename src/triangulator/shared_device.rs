@@ -17,7 +17,7 @@ use crate::{
     input::points::{Points, Points2, Points3},
     mesh::MeshInfo,
     options::Options,
-    stats::{Fallback, Phase},
+    stats::{Fallback, Phase, Restart, UpdateStats},
 };
 use async_lock::Mutex;
 
@@ -54,7 +54,7 @@ pub(super) struct SharedDevice {
 }
 
 #[derive(Debug, Default)]
-struct State {
+pub(super) struct State {
     d3: Slot<3>,
     /// On the same device.
     d2: Slot<2>,
@@ -68,7 +68,7 @@ struct State {
 }
 
 #[derive(Debug)]
-struct Slot<const D: usize>
+pub(super) struct Slot<const D: usize>
 where
     Dimension<D>: Finish<D>,
 {
@@ -88,7 +88,7 @@ where
 }
 
 /// What [`Backend::Auto`] has to know of a dimension.
-trait Choice<const D: usize>: Complete<D> + MeshArrays<D>
+pub(super) trait Choice<const D: usize>: Complete<D> + MeshArrays<D>
 where
     Dimension<D>: Complete<D>,
 {
@@ -127,6 +127,11 @@ where
     /// Whether the mesh is to be made on the device.
     const RESIDENT: bool;
 
+    /// Returns the mesh of the points where they were, if they have moved.
+    fn moved(&self) -> Option<&DeviceMesh<D>> {
+        None
+    }
+
     /// Takes the mesh there from where it was made, with the GPU if it was used.
     async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<Self::Output, Error>;
 }
@@ -148,9 +153,13 @@ where
 }
 
 /// To the device.
-struct ToDevice<'a>(&'a SharedDevice);
+struct ToDevice<'a, const D: usize> {
+    device: &'a SharedDevice,
+    /// The mesh of the points where they were, if they have moved.
+    moved: Option<&'a DeviceMesh<D>>,
+}
 
-impl<const D: usize> Deliver<D> for ToDevice<'_>
+impl<const D: usize> Deliver<D> for ToDevice<'_, D>
 where
     Dimension<D>: Choice<D>,
 {
@@ -158,11 +167,15 @@ where
 
     const RESIDENT: bool = true;
 
+    fn moved(&self) -> Option<&DeviceMesh<D>> {
+        self.moved
+    }
+
     async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<DeviceMesh<D>, Error> {
         if let Some(gpu) = gpu {
             return mesh.into_device(&gpu).await;
         }
-        let ToDevice(device) = self;
+        let device = self.device;
         let mut state = device.state.lock().await;
         let gpu = state.device(&device.adapter).await?;
         let result = mesh.into_device(&gpu).await;
@@ -173,14 +186,14 @@ where
 
 /// To a function of the caller's: from where it was made, or from the device.
 #[cfg(target_arch = "wasm32")]
-struct ToCaller<'a, F, R> {
-    on_device: Option<ToDevice<'a>>,
+struct ToCaller<'a, F, R, const D: usize> {
+    on_device: Option<ToDevice<'a, D>>,
     take: F,
     result: std::marker::PhantomData<R>,
 }
 
 #[cfg(target_arch = "wasm32")]
-impl<const D: usize, R, F: AsyncFn(Made<D>) -> Result<R, Error>> Deliver<D> for ToCaller<'_, F, R>
+impl<const D: usize, R, F: AsyncFn(Made<D>) -> Result<R, Error>> Deliver<D> for ToCaller<'_, F, R, D>
 where
     Dimension<D>: Choice<D>,
 {
@@ -188,13 +201,33 @@ where
 
     const RESIDENT: bool = true;
 
+    fn moved(&self) -> Option<&DeviceMesh<D>> {
+        self.on_device.as_ref()?.moved
+    }
+
     async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<R, Error> {
-        let mesh = match (mesh, &self.on_device) {
+        let mut mesh = match (mesh, &self.on_device) {
             (mesh @ Made::Host(_), Some(on_device)) => Made::Device(Box::new(on_device.deliver(mesh, gpu).await?)),
             (mesh, _) => mesh,
         };
+        if self.moved().is_some() {
+            mesh.stats_mut().update.get_or_insert_with(elsewhere);
+        }
         (self.take)(mesh).await
     }
+}
+
+/// Checks that there are as many points as before they moved.
+fn check_count<const D: usize>(points: Points<'_, D>, moved: Option<&DeviceMesh<D>>) -> Result<(), Error> {
+    match moved.map(DeviceMesh::point_count) {
+        Some(expected) if expected != points.len() => Err(Error::PointCount { points: points.len(), expected }),
+        _ => Ok(()),
+    }
+}
+
+/// Returns the statistics of an update by the CPU of a mesh on the device: it is from scratch.
+fn elsewhere() -> UpdateStats {
+    UpdateStats { restarted: Some(Restart::Elsewhere), ..UpdateStats::default() }
 }
 
 impl SharedDevice {
@@ -236,31 +269,23 @@ impl SharedDevice {
         self.run(points, options, &ToHost).await
     }
 
-    /// Triangulates `points` in 3D, and has `take` take the mesh where it was made, or, if
-    /// `resident`, on the device.
+    /// Triangulates `points`, and has `take` take the mesh where it was made, or, if `resident`, on
+    /// the device; there it goes on from `moved`, the mesh of the points where they were, if there is
+    /// one.
     #[cfg(target_arch = "wasm32")]
-    pub(super) async fn deliver3d<R>(
+    pub(super) async fn deliver<const D: usize, R>(
         &self,
-        points: Points3<'_>,
+        points: Points<'_, D>,
         options: &Options,
         resident: bool,
-        take: impl AsyncFn(Made<3>) -> Result<R, Error>,
-    ) -> Result<R, Error> {
-        let on_device = resident.then_some(ToDevice(self));
-        self.run(points, options, &ToCaller { on_device, take, result: std::marker::PhantomData }).await
-    }
-
-    /// Triangulates `points` in 2D, and has `take` take the mesh where it was made, or, if
-    /// `resident`, on the device.
-    #[cfg(target_arch = "wasm32")]
-    pub(super) async fn deliver2d<R>(
-        &self,
-        points: Points2<'_>,
-        options: &Options,
-        resident: bool,
-        take: impl AsyncFn(Made<2>) -> Result<R, Error>,
-    ) -> Result<R, Error> {
-        let on_device = resident.then_some(ToDevice(self));
+        moved: Option<&DeviceMesh<D>>,
+        take: impl AsyncFn(Made<D>) -> Result<R, Error>,
+    ) -> Result<R, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        check_count(points, moved)?;
+        let on_device = resident.then_some(ToDevice { device: self, moved });
         self.run(points, options, &ToCaller { on_device, take, result: std::marker::PhantomData }).await
     }
 
@@ -270,7 +295,7 @@ impl SharedDevice {
         points: Points3<'_>,
         options: &Options,
     ) -> Result<DeviceMesh3, Error> {
-        self.run(points, options, &ToDevice(self)).await
+        self.run(points, options, &ToDevice { device: self, moved: None }).await
     }
 
     /// Triangulates `points` in 2D, and leaves the mesh on the device.
@@ -279,7 +304,7 @@ impl SharedDevice {
         points: Points2<'_>,
         options: &Options,
     ) -> Result<DeviceMesh2, Error> {
-        self.run(points, options, &ToDevice(self)).await
+        self.run(points, options, &ToDevice { device: self, moved: None }).await
     }
 
     /// Triangulates the points in a buffer of the device in 3D, and leaves the mesh there.
@@ -289,7 +314,7 @@ impl SharedDevice {
         options: &Options,
     ) -> Result<DeviceMesh3, Error> {
         let points = self.read_points::<3>(points).await?;
-        self.run((&points).into(), options, &ToDevice(self)).await
+        self.run((&points).into(), options, &ToDevice { device: self, moved: None }).await
     }
 
     /// Triangulates the points in a buffer of the device in 2D, and leaves the mesh there.
@@ -299,7 +324,38 @@ impl SharedDevice {
         options: &Options,
     ) -> Result<DeviceMesh2, Error> {
         let points = self.read_points::<2>(points).await?;
-        self.run((&points).into(), options, &ToDevice(self)).await
+        self.run((&points).into(), options, &ToDevice { device: self, moved: None }).await
+    }
+
+    /// Makes `mesh` that of `points`, which have moved.
+    pub(super) async fn update<const D: usize>(
+        &self,
+        mesh: &mut DeviceMesh<D>,
+        points: Points<'_, D>,
+        options: &Options,
+    ) -> Result<(), Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        check_count(points, Some(mesh))?;
+        let mut made = self.run(points, options, &ToDevice { device: self, moved: Some(mesh) }).await?;
+        made.stats_mut().update.get_or_insert_with(elsewhere);
+        *mesh = made;
+        Ok(())
+    }
+
+    /// Makes `mesh` that of the points in a buffer of the device, which have moved.
+    pub(super) async fn update_of_buffer<const D: usize>(
+        &self,
+        mesh: &mut DeviceMesh<D>,
+        points: &wgpu::Buffer,
+        options: &Options,
+    ) -> Result<(), Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let points = self.read_points::<D>(points).await?;
+        self.update(mesh, Points::F32(&points), options).await
     }
 
     /// Reads points, which the host needs for the lattice and for exact predicates.
@@ -453,7 +509,7 @@ impl State {
         };
         let options = &options.monotone();
         let result = async {
-            let mesh = engine.make(points, options, L::RESIDENT).await?;
+            let mesh = engine.make(points, options, L::RESIDENT, to.moved()).await?;
             let delivered = to.deliver(mesh, Some(engine.gpu().clone())).await?;
             options.report(Phase::Finish, 1.0)?;
             Ok(delivered)

@@ -21,7 +21,7 @@ type Answer = (Vec<Vec<u32>>, Vec<Vec<u32>>, Vec<i32>, u8);
 /// A dimension's meshes.
 trait Case<const D: usize>: Moving + Clone {
     fn scratch(points: &[[f64; D]]) -> Self;
-    fn follow(&mut self, triangulator: &Triangulator, points: &[[f64; D]]) -> Result<(), Error>;
+    fn go_to(&mut self, triangulator: &Triangulator, points: &[[f64; D]]) -> Result<(), Error>;
     /// Repairs the mesh, whether that pays or not.
     fn repair(&self, points: &[[f64; D]], threads: Option<NonZeroUsize>) -> (Option<Self>, UpdateStats);
     fn answer(&self) -> Answer;
@@ -33,7 +33,7 @@ impl Case<3> for Mesh3 {
         cpu().delaunay3d(points).expect("triangulates")
     }
 
-    fn follow(&mut self, triangulator: &Triangulator, points: &[[f64; 3]]) -> Result<(), Error> {
+    fn go_to(&mut self, triangulator: &Triangulator, points: &[[f64; 3]]) -> Result<(), Error> {
         triangulator.update(self, Points3::from(points))
     }
 
@@ -63,7 +63,7 @@ impl Case<2> for Mesh2 {
         cpu().delaunay2d(points).expect("triangulates")
     }
 
-    fn follow(&mut self, triangulator: &Triangulator, points: &[[f64; 2]]) -> Result<(), Error> {
+    fn go_to(&mut self, triangulator: &Triangulator, points: &[[f64; 2]]) -> Result<(), Error> {
         triangulator.update(self, Points2::from(points))
     }
 
@@ -87,7 +87,7 @@ impl Case<2> for Mesh2 {
 fn step<const D: usize, M: Case<D>>(mesh: &mut M, to: &[[f64; D]]) -> UpdateStats {
     let expected = M::scratch(to).answer();
     let (repaired, repair) = mesh.repair(to, None);
-    mesh.follow(&cpu(), to).expect("follows");
+    mesh.go_to(&cpu(), to).expect("follows");
     let update = mesh.update();
     assert!(mesh.answer() == expected, "not that of a run from scratch: {update:?}");
     if let Some(repaired) = repaired {
@@ -146,10 +146,9 @@ both!(
 );
 
 fn displacements_of_all_sizes<const D: usize, M: Case<D>>() {
-    for n in [300, 3000] {
-        let points = motions::uniform::<D>(n, 1);
+    for n in [300, 2000] {
         for share in motions::DISPLACEMENTS {
-            let updates = follow::<D, M>([points.clone(), motions::jitter(&points, share, 2)]);
+            let updates = follow::<D, M>(motions::displaced(n, share));
             // Where next to nothing happens, nothing is begun anew.
             if share <= 1e-3 {
                 repaired(&updates);
@@ -159,71 +158,41 @@ fn displacements_of_all_sizes<const D: usize, M: Case<D>>() {
 }
 
 fn a_hundred_steps_without_drift<const D: usize, M: Case<D>>() {
-    let mut points = motions::uniform::<D>(1000, 3);
-    let steps = (0..=100).map(|i| {
-        points = motions::jitter(&points, 0.01, i);
-        points.clone()
-    });
-    let updates = follow::<D, M>(steps.collect::<Vec<_>>());
+    let updates = follow::<D, M>(motions::drifting(500, 0.01, 100));
     assert!(updates.iter().map(|update| update.flips).sum::<u64>() > 1000);
     repaired(&updates);
 }
 
 fn a_grid_that_rotates<const D: usize, M: Case<D>>() {
-    let grid = motions::grid::<D>(if D == 3 { 9 } else { 30 });
-    follow::<D, M>([0.0, 1e-9, 1e-3, 0.01, 0.02, 0.5].map(|angle| motions::rotated(&grid, angle)));
+    follow::<D, M>(motions::rotating_grid());
 }
 
 fn a_grid_that_trembles<const D: usize, M: Case<D>>() {
-    let grid = motions::grid::<D>(if D == 3 { 9 } else { 30 });
-    let steps = [0.0, 1e-12, 1e-6, 1e-3, 0.0, 1.0, 0.0];
-    follow::<D, M>(steps.map(|share| motions::jitter(&grid, share, 1)));
+    follow::<D, M>(motions::trembling_grid());
 }
 
 fn a_sphere_that_breathes<const D: usize, M: Case<D>>() {
-    let sphere = motions::sphere::<D>(400, 1);
-    follow::<D, M>([1.0, 1.01, 0.99, 0.5, 3.0].map(|by| motions::scaled(&sphere, by)));
+    follow::<D, M>(motions::breathing_sphere());
 }
 
 fn a_sphere_whose_points_move<const D: usize, M: Case<D>>() {
-    let mut sphere = motions::sphere::<D>(400, 1);
-    let steps = (0..10).map(|i| {
-        sphere = motions::jitter(&sphere, 0.02, i);
-        sphere.clone()
-    });
-    follow::<D, M>(steps.collect::<Vec<_>>());
+    follow::<D, M>(motions::dissolving_sphere());
 }
 
 fn clusters_that_pass_through_each_other<const D: usize, M: Case<D>>() {
-    follow::<D, M>((0..30).map(|i| motions::two_clusters(200, f64::from(i - 15) * 0.13)));
+    follow::<D, M>(motions::passing_clusters());
 }
 
 fn points_that_swap_places<const D: usize, M: Case<D>>() {
-    let points = motions::uniform::<D>(500, 4);
-    let swapped = |pairs: &[[usize; 2]]| {
-        let mut points = points.clone();
-        pairs.iter().for_each(|&[i, j]| points.swap(i, j));
-        points
-    };
-    let all: Vec<_> = (0..250).map(|i| [i, 499 - i]).collect();
-    follow::<D, M>([swapped(&[]), swapped(&[[3, 4]]), swapped(&[]), swapped(&[[0, 1], [7, 9]]), swapped(&all)]);
+    follow::<D, M>(motions::swapping());
 }
 
 fn a_point_that_jumps_across_the_hull<const D: usize, M: Case<D>>() {
-    let points = motions::uniform::<D>(300, 5);
-    let with = |i: usize, x: f64| {
-        let mut points = points.clone();
-        points[i] = [x; D];
-        points
-    };
-    follow::<D, M>([with(0, 0.5), with(0, 1.5), with(0, 0.4), with(0, -20.0), with(1, 9.0), with(0, 0.999)]);
+    follow::<D, M>(motions::jumping());
 }
 
 fn points_that_become_equal<const D: usize, M: Case<D>>() {
-    let points = motions::uniform::<D>(300, 6);
-    let mut met = points.clone();
-    (met[7], met[100], met[200]) = (met[30], met[30], met[2]);
-    let updates = follow::<D, M>([points.clone(), met.clone(), met, points]);
+    let updates = follow::<D, M>(motions::meeting());
     assert!(updates[0].restarted.is_some());
     // What has not moved is no work, and the points part again.
     repaired(&updates[1..]);
@@ -231,52 +200,29 @@ fn points_that_become_equal<const D: usize, M: Case<D>>() {
 }
 
 fn points_that_become_flat_and_round_again<const D: usize, M: Case<D>>() {
-    let points = motions::uniform::<D>(200, 7);
-    let flat: Vec<_> = points
-        .iter()
-        .map(|&(mut p)| {
-            p[D - 1] = 0.25;
-            p
-        })
-        .collect();
-    let updates = follow::<D, M>([points.clone(), flat, points, vec![[1.0; D]; 200]]);
+    let updates = follow::<D, M>(motions::flattening());
     assert!(updates[0].restarted.is_some());
     assert_eq!(updates[1].restarted, Some(Restart::Degenerate));
 }
 
 fn duplicates_that_part<const D: usize, M: Case<D>>() {
-    let points = motions::with_duplicates::<D>(1000, 700, 8);
-    let mut some = points.clone();
-    for (i, p) in some.iter_mut().enumerate().skip(700).step_by(10) {
-        p[0] += 1e-4 * i as f64;
-    }
-    let updates = follow::<D, M>([points.clone(), some, points.clone(), motions::jitter(&points, 0.01, 1)]);
+    let updates = follow::<D, M>(motions::parting());
     assert_eq!((updates[0].inserted, updates[0].restarted), (30, None));
     assert_eq!(updates[2].restarted, Some(Restart::Parted));
 }
 
 fn duplicates_of_which_the_first_leaves<const D: usize, M: Case<D>>() {
-    let mut points = motions::uniform::<D>(300, 9);
-    (points[50], points[60], points[70]) = (points[5], points[5], points[5]);
-    let mut left = points.clone();
-    left[5] = [0.5; D];
-    let updates = follow::<D, M>([points, left]);
+    let updates = follow::<D, M>(motions::leaving());
     assert_eq!(updates[0].inserted, 1);
 }
 
 fn a_duplicate_that_moves_onto_another_point<const D: usize, M: Case<D>>() {
-    let mut points = motions::uniform::<D>(300, 10);
-    points[50] = points[5];
-    let mut moved = points.clone();
-    moved[50] = points[200];
-    let updates = follow::<D, M>([points, moved]);
+    let updates = follow::<D, M>(motions::changing_sides());
     assert_eq!(updates[0].restarted, Some(Restart::Coincident));
 }
 
 fn far_away_and_back<const D: usize, M: Case<D>>() {
-    let points = motions::uniform::<D>(300, 11);
-    let at = |by: f64, far: f64| motions::scaled(&points, by).into_iter().map(move |p| p.map(|x| x + far)).collect();
-    follow::<D, M>([at(1.0, 0.0), at(1e-300, 0.0), at(1e300, 0.0), at(1.0, 1e9), at(1.0, 0.0)]);
+    follow::<D, M>(motions::far_and_back());
 }
 
 fn cancellation_leaves_the_mesh<const D: usize, M: Case<D>>() {
@@ -292,7 +238,7 @@ fn cancellation_leaves_the_mesh<const D: usize, M: Case<D>>() {
                 _ => ControlFlow::Continue(()),
             };
             let mut copy = mesh.clone();
-            match copy.follow(&cpu().on_progress(cancel), &to) {
+            match copy.go_to(&cpu().on_progress(cancel), &to) {
                 Err(Error::Cancelled) => assert!(copy.answer() == before, "the mesh has changed"),
                 result => {
                     result.expect("follows");
@@ -309,11 +255,11 @@ fn other_points_leave_the_mesh<const D: usize, M: Case<D>>() {
     let points = motions::uniform::<D>(20, 13);
     let mut mesh = M::scratch(&points);
     let before = mesh.answer();
-    let fewer = mesh.follow(&cpu(), &points[1..]);
+    let fewer = mesh.go_to(&cpu(), &points[1..]);
     assert_eq!(fewer, Err(Error::PointCount { points: 19, expected: 20 }));
     let mut not_finite = points.clone();
     not_finite[3][1] = f64::NAN;
-    assert!(matches!(mesh.follow(&cpu(), &not_finite), Err(Error::NotFinite { index: 3, axis: 'y', .. })));
+    assert!(matches!(mesh.go_to(&cpu(), &not_finite), Err(Error::NotFinite { index: 3, axis: 'y', .. })));
     assert!(mesh.answer() == before);
 }
 
@@ -322,9 +268,9 @@ fn what_does_not_pay_is_not_repaired<const D: usize, M: Case<D>>() {
     for (n, share) in [(300, 10.0), (5000, 0.5)] {
         let points = motions::uniform::<D>(n, 18);
         let mut mesh = M::scratch(&points);
-        mesh.follow(&cpu(), &motions::jitter(&points, share, 1)).expect("follows");
+        mesh.go_to(&cpu(), &motions::jitter(&points, share, 1)).expect("follows");
         assert_eq!((mesh.update().restarted, mesh.update().flips), (Some(Restart::Inverted), 0));
-        mesh.follow(&cpu(), &motions::jitter(&points, share, 1)).expect("follows");
+        mesh.go_to(&cpu(), &motions::jitter(&points, share, 1)).expect("follows");
         assert_eq!((mesh.update().restarted, mesh.update().flips), (None, 0));
     }
 }
@@ -340,7 +286,7 @@ fn any_number_of_threads<const D: usize, M: Case<D>>() {
         assert_eq!(update.restarted, None);
         assert!(repaired.is_some_and(|mesh| mesh.answer() == expected), "{threads:?}");
         let mut mesh = mesh.clone();
-        mesh.follow(&cpu().threads(threads.unwrap()), &to).expect("follows");
+        mesh.go_to(&cpu().threads(threads.unwrap()), &to).expect("follows");
         assert!(mesh.answer() == expected, "{threads:?}");
         assert_eq!(mesh.update().restarted == Some(Restart::Threads), threads.unwrap().get() == 8);
     }
@@ -362,7 +308,7 @@ fn meshes_that_are_none<const D: usize, M: Case<D>>() {
 
 fn few_points<const D: usize, M: Case<D>>() {
     for n in 0..12 {
-        for seed in 0..20 {
+        for seed in 0..10 {
             let steps = (0..4).map(|i| motions::uniform::<D>(n, 4 * seed + i));
             follow::<D, M>(steps.collect::<Vec<_>>());
         }

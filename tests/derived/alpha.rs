@@ -6,7 +6,7 @@ use gdel::{
     internals::{
         d3::generate::{Distribution3, generate3d},
         derived::AlphaEdges,
-        geometry::Euclidean,
+        geometry::{Euclidean, Geometry},
     },
 };
 use num_bigint::BigInt;
@@ -259,6 +259,23 @@ fn assert_closed<const D: usize>(name: &str, surface: &[[u32; D]]) {
     assert!(balance.values().all(|&balance| balance == 0), "{name}");
 }
 
+/// The facets of a mesh as they are in the simplices with the lower indices, sorted.
+fn facets_of<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>) -> Vec<[u32; D]>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let mut facets = Vec::new();
+    for (t, (simplex, across)) in mesh.simplices().iter().zip(&*mesh.opposites()).enumerate() {
+        for (k, corners) in <Euclidean as Geometry<D, N>>::FACETS.iter().enumerate() {
+            if across[k] == gdel::NONE || t < across[k] as usize {
+                facets.push(corners.map(|corner| simplex[corner]));
+            }
+        }
+    }
+    facets.sort_unstable();
+    facets
+}
+
 /// The edges of a 3D mesh, which in 2D are facets.
 type EdgesOf<'f, S> = &'f dyn Fn(&S, f64) -> Vec<(Vec<u32>, Interval, FaceClass)>;
 
@@ -266,7 +283,7 @@ fn check<'m, const D: usize, const N: usize, M: Mesh<D, N>>(
     name: &str,
     mesh: &'m M,
     points: &'m [[f64; D]],
-    edges_of: EdgesOf<'_, AlphaShape<'m, D, N>>,
+    edges_of: EdgesOf<'_, AlphaShape<D, N>>,
 ) where
     Euclidean: AlphaEdges<D, N>,
 {
@@ -275,6 +292,9 @@ fn check<'m, const D: usize, const N: usize, M: Mesh<D, N>>(
     for (t, radius) in shape.simplices().enumerate() {
         assert!(near(radius, expected.radii[t].root()), "{name}: {radius}");
     }
+    let mut facets: Vec<[u32; D]> = shape.facets().map(|(facet, _)| facet).collect();
+    facets.sort_unstable();
+    assert_eq!(facets, facets_of(mesh), "{name}: as they are in the simplices with the lower indices");
     let mut count = shape.simplices().len();
     for (facet, interval) in shape.facets() {
         count += 1;
@@ -322,6 +342,11 @@ fn check<'m, const D: usize, const N: usize, M: Mesh<D, N>>(
         let (labels, components) = complex.components();
         assert_eq!(components, count_components(mesh, &is_solid), "{name} {alpha}");
         assert!(labels.iter().zip(&is_solid).all(|(&label, &is_solid)| (label != gdel::NONE) == is_solid));
+        let mut next = 0;
+        for label in labels.into_iter().filter(|&label| label != gdel::NONE) {
+            assert!(label <= next, "{name} {alpha}: in the order of the first simplices");
+            next = next.max(label + 1);
+        }
         for (facet, class) in complex.facets() {
             assert_eq!(class, expected.class(&facet, &squared), "{name} {alpha} {facet:?}");
         }

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use gdel::internals::d3::generate::{Distribution3, generate3d};
 use gdel::internals::input::lattice::Width;
 use rand::{RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;
@@ -45,6 +46,16 @@ pub fn uniform(width: Width, count: usize) -> Input {
 pub fn two_lines(width: Width, count: i64) -> Input {
     let points = (0..count).map(|i| if i % 2 == 0 { [4 * i, 0, 0] } else { [0, 4 * i, 40] }).collect();
     input("two lines", width, points)
+}
+
+/// Points in a needle, nearly all of them different, that is a few of the units thick in which `f64`
+/// has its length.
+pub fn needle(count: usize) -> Input {
+    let thin = |x: f64| 1.0 + 1e-15 * x;
+    let points = generate3d(Distribution3::Uniform, count, 1);
+    let positions: Vec<[f64; 3]> = points.into_iter().map(|[x, y, z]: [f64; 3]| [x, thin(y), thin(z)]).collect();
+    let distinct: HashSet<[u64; 3]> = positions.iter().map(|p| p.map(f64::to_bits)).collect();
+    Input { name: "needle", sharing: positions.len() - distinct.len(), positions }
 }
 
 /// All kinds.

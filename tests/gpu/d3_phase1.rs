@@ -13,7 +13,7 @@ use gdel::internals::{
     d3::gpu::vertex,
     gpu::{
         AdapterChoice, Gpu,
-        layout::Pick,
+        layout::{Counters, Pick},
         phase1::{Input, Phase1, Phase1Output, Run, Settings},
     },
 };
@@ -39,14 +39,15 @@ fn state_of(gpu: &Gpu, width: Width, run: &Run<'_, 3>) -> State {
     download(gpu, b, &State { params, counters, merged, ..State::new(width, points, 0, 0) })
 }
 
-fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, settings: Settings<3>) {
+/// Returns the counters of the run.
+fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, settings: Settings<3>) -> Counters {
     let count = points.positions.len();
     let lattice = Lattice::fit((&points.positions).into());
     let width = lattice.width();
     let kernels = &mut kernels[usize::from(width == Width::Wide)];
     let position = |i: usize| lattice.coordinates(points.positions[i]).map(|c| c.value);
     let start = first_simplex(width, count, position).expect("not coplanar");
-    let input = Input { points: (&points.positions).into(), lattice: &lattice, start };
+    let input = Input { points: (&points.positions).into(), lattice: &lattice, start, has_moved: false };
     let mut run = block_on(Run::new(kernels, gpu, input, settings, None)).unwrap();
     let mut more = true;
     while more {
@@ -118,10 +119,16 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, se
     assert!(stats.readbacks <= batches + 10, "{}: {} readbacks in {batches} rounds", points.name, stats.readbacks);
     let distinct: BTreeSet<[u32; 4]> = output.tets.iter().copied().collect();
     assert_eq!(distinct.len(), output.tets.len());
+    stats.counters
 }
 
 fn kernels(gpu: &Gpu) -> [Phase1<3>; 2] {
-    [Width::Narrow, Width::Wide].map(|width| block_on(Phase1::new(gpu, width)).unwrap())
+    [Width::Narrow, Width::Wide].map(|width| {
+        let kernels = block_on(Phase1::new(gpu, width)).unwrap();
+        // How the flips are done must not depend on when a thread has compiled them.
+        block_on(kernels.finish_compiling(gpu)).unwrap();
+        kernels
+    })
 }
 
 #[test]
@@ -130,7 +137,8 @@ fn every_round_is_valid() {
     let mut kernels = kernels(&gpu);
     let settings = Settings { rounds: 1, batches: 1, ..Settings::default() };
     for points in inputs::all(Width::Narrow).iter().chain(&inputs::all(Width::Wide)) {
-        run_and_validate(&gpu, &mut kernels, points, settings);
+        let counters = run_and_validate(&gpu, &mut kernels, points, settings);
+        assert_eq!(counters.long_walks, 0, "{}", points.name);
     }
     let uniform = &inputs::all(Width::Narrow)[1];
     let some = Settings { min_active: 100, pick: Pick::Centroid, ..settings };
@@ -189,4 +197,33 @@ fn few_flips_are_done_in_one_workgroup() {
             run_and_validate(&gpu, &mut kernels, &points, settings);
         }
     }
+}
+
+/// The kernel that does them in one workgroup takes longer to compile than all others, so that a
+/// first run may have to do without.
+#[test]
+fn a_first_run_does_without_the_kernel_that_takes_longest_to_compile() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let mut kernels = [Width::Narrow, Width::Wide].map(|width| block_on(Phase1::of_first_run(&gpu, width)).unwrap());
+    for points in [inputs::two_lines(Width::Narrow, 100), inputs::uniform(Width::Wide, 1000)] {
+        let first = run_and_validate(&gpu, &mut kernels, &points, Settings::default());
+        assert!(first.iterations > 0 && first.few_done == 0, "{first:?}");
+    }
+    kernels.iter().for_each(|kernels| block_on(kernels.finish_compiling(&gpu)).unwrap());
+    for points in [inputs::two_lines(Width::Narrow, 100), inputs::uniform(Width::Wide, 1000)] {
+        let second = run_and_validate(&gpu, &mut kernels, &points, Settings::default());
+        assert!(second.few_done > 0, "{second:?}");
+    }
+}
+
+/// In a needle of few lattice points, the device sees some points in no simplex of a large start:
+/// the run begins anew with the first simplex alone.
+#[test]
+fn points_in_no_simplex_of_the_start_are_inserted() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let mut kernels = kernels(&gpu);
+    let settings = Settings { start_points: Some(5000), ..Settings::default() };
+    let points = inputs::needle(6000);
+    let counters = run_and_validate(&gpu, &mut kernels, &points, settings);
+    assert!(counters.long_walks > 0);
 }

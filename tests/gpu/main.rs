@@ -3,10 +3,15 @@
 #![cfg(feature = "gpu")]
 
 mod assemble;
+#[path = "../shared/clouds.rs"]
+mod clouds;
 mod d2_cases;
 mod d2_inputs;
 mod d3_cases;
 mod d3_inputs;
+#[allow(dead_code)]
+#[path = "../derived/inputs.rs"]
+mod inputs;
 mod kernels;
 #[path = "../cpu/oracle.rs"]
 mod oracle;
@@ -28,6 +33,8 @@ mod d3_predicates;
 mod d3_reference;
 mod d3_reference_predicates;
 mod host;
+mod moved;
 mod points;
 mod primitives;
+mod queries;
 mod shaders;

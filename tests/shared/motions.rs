@@ -10,6 +10,135 @@ use std::f64::consts::TAU;
 /// The displacements, as a share of the mean spacing, from none to more than any mesh can follow.
 pub const DISPLACEMENTS: [f64; 9] = [0.0, 1e-12, 1e-6, 1e-3, 0.01, 0.05, 0.2, 1.0, 10.0];
 
+/// The steps of points that move: their coordinates at each.
+pub type Steps<const D: usize> = Vec<Vec<[f64; D]>>;
+
+/// Returns points before and after a displacement.
+pub fn displaced<const D: usize>(n: usize, share: f64) -> Steps<D> {
+    let points = uniform::<D>(n, 1);
+    vec![points.clone(), jitter(&points, share, 2)]
+}
+
+/// Returns so many displacements, one after the other.
+pub fn drifting<const D: usize>(n: usize, share: f64, steps: u64) -> Steps<D> {
+    let mut points = uniform::<D>(n, 3);
+    let step = |i| {
+        points = jitter(&points, share, i);
+        points.clone()
+    };
+    (0..=steps).map(step).collect()
+}
+
+/// Returns a grid that rotates, by small angles first.
+pub fn rotating_grid<const D: usize>() -> Steps<D> {
+    let grid = grid::<D>(if D == 3 { 9 } else { 30 });
+    [0.0, 1e-9, 1e-3, 0.01, 0.02, 0.5].map(|angle| rotated(&grid, angle)).into()
+}
+
+/// Returns a grid that leaves its place, and comes back.
+pub fn trembling_grid<const D: usize>() -> Steps<D> {
+    let grid = grid::<D>(if D == 3 { 9 } else { 30 });
+    [0.0, 1e-12, 1e-6, 1e-3, 0.0, 1.0, 0.0].map(|share| jitter(&grid, share, 1)).into()
+}
+
+/// Returns a sphere that grows and shrinks.
+pub fn breathing_sphere<const D: usize>() -> Steps<D> {
+    let sphere = sphere::<D>(400, 1);
+    [1.0, 1.01, 0.99, 0.5, 3.0].map(|by| scaled(&sphere, by)).into()
+}
+
+/// Returns a sphere whose points leave it.
+pub fn dissolving_sphere<const D: usize>() -> Steps<D> {
+    let mut sphere = sphere::<D>(400, 1);
+    let step = |i| {
+        sphere = jitter(&sphere, 0.02, i);
+        sphere.clone()
+    };
+    (0..10).map(step).collect()
+}
+
+/// Returns two clusters that pass through each other.
+pub fn passing_clusters<const D: usize>() -> Steps<D> {
+    (0..30).map(|i| two_clusters(200, f64::from(i - 15) * 0.13)).collect()
+}
+
+/// Returns points that swap places.
+pub fn swapping<const D: usize>() -> Steps<D> {
+    let points = uniform::<D>(500, 4);
+    let swapped = |pairs: &[[usize; 2]]| {
+        let mut points = points.clone();
+        pairs.iter().for_each(|&[i, j]| points.swap(i, j));
+        points
+    };
+    let all: Vec<_> = (0..250).map(|i| [i, 499 - i]).collect();
+    vec![swapped(&[]), swapped(&[[3, 4]]), swapped(&[]), swapped(&[[0, 1], [7, 9]]), swapped(&all)]
+}
+
+/// Returns points of which one jumps across the hull.
+pub fn jumping<const D: usize>() -> Steps<D> {
+    let points = uniform::<D>(300, 5);
+    let with = |i: usize, x: f64| {
+        let mut points = points.clone();
+        points[i] = [x; D];
+        points
+    };
+    vec![with(0, 0.5), with(0, 1.5), with(0, 0.4), with(0, -20.0), with(1, 9.0), with(0, 0.999)]
+}
+
+/// Returns points of which three become equal to others, stay so, and part again.
+pub fn meeting<const D: usize>() -> Steps<D> {
+    let points = uniform::<D>(300, 6);
+    let mut met = points.clone();
+    (met[7], met[100], met[200]) = (met[30], met[30], met[2]);
+    vec![points.clone(), met.clone(), met, points]
+}
+
+/// Returns points that become coplanar, or collinear in 2D, leave that, and become equal.
+pub fn flattening<const D: usize>() -> Steps<D> {
+    let points = uniform::<D>(200, 7);
+    let flat = |&(mut p): &[f64; D]| {
+        p[D - 1] = 0.25;
+        p
+    };
+    let flat = points.iter().map(flat).collect();
+    vec![points.clone(), flat, points, vec![[1.0; D]; 200]]
+}
+
+/// Returns points with 30 % duplicates, of which 30 part and come back, and then all part.
+pub fn parting<const D: usize>() -> Steps<D> {
+    let points = with_duplicates::<D>(1000, 700, 8);
+    let mut some = points.clone();
+    for (i, p) in some.iter_mut().enumerate().skip(700).step_by(10) {
+        p[0] += 1e-4 * i as f64;
+    }
+    vec![points.clone(), some, points.clone(), jitter(&points, 0.01, 1)]
+}
+
+/// Returns duplicates of which the first leaves.
+pub fn leaving<const D: usize>() -> Steps<D> {
+    let mut points = uniform::<D>(300, 9);
+    (points[50], points[60], points[70]) = (points[5], points[5], points[5]);
+    let mut left = points.clone();
+    left[5] = [0.5; D];
+    vec![points, left]
+}
+
+/// Returns a duplicate that moves onto another point.
+pub fn changing_sides<const D: usize>() -> Steps<D> {
+    let mut points = uniform::<D>(300, 10);
+    points[50] = points[5];
+    let mut moved = points.clone();
+    moved[50] = points[200];
+    vec![points, moved]
+}
+
+/// Returns points whose scale and place change by many orders of magnitude.
+pub fn far_and_back<const D: usize>() -> Steps<D> {
+    let points = uniform::<D>(300, 11);
+    let at = |by: f64, far: f64| scaled(&points, by).into_iter().map(move |p| p.map(|x| x + far)).collect();
+    vec![at(1.0, 0.0), at(1e-300, 0.0), at(1e300, 0.0), at(1.0, 1e9), at(1.0, 0.0)]
+}
+
 /// Returns `n` points in the unit cube or square.
 pub fn uniform<const D: usize>(n: usize, seed: u64) -> Vec<[f64; D]> {
     let mut random = Pcg64Mcg::seed_from_u64(seed);

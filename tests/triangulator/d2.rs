@@ -16,21 +16,26 @@ use pollster::block_on;
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use std::sync::{LazyLock, Mutex};
+use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 
 /// The engine that the tests of 2D share.
-pub static ENGINE: LazyLock<Mutex<GpuEngine<2>>> = LazyLock::new(|| {
+static ENGINE: LazyLock<Mutex<GpuEngine<2>>> = LazyLock::new(|| {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a Vulkan driver: scripts/setup.sh");
     Mutex::new(block_on(GpuEngine::new(gpu)).expect("the kernels compile"))
 });
 
+/// The engine that the tests share.
+pub fn engine() -> MutexGuard<'static, GpuEngine<2>> {
+    ENGINE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 fn triangulate(points: Points2<'_>, settings: &Settings<2>) -> Mesh2 {
-    let mut engine = ENGINE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut engine = engine();
     engine.set_settings(*settings);
     block_on(engine.triangulate(points, &Options::default())).expect("triangulates")
 }
 
-fn same(points: Points2<'_>, mesh: &Mesh2) {
+pub fn same(points: Points2<'_>, mesh: &Mesh2) {
     let expected = delaunay_in_order::<2>(points, &Options::default(), Order::default()).expect("triangulates");
     assert_eq!(mesh.dimension, expected.dimension);
     assert_eq!(mesh.duplicate_of, expected.duplicate_of);
@@ -59,7 +64,7 @@ fn agree(name: &str, points: Points2<'_>) {
 }
 
 fn on_device(points: Points2<'_>) -> DeviceMesh2 {
-    let mut engine = ENGINE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut engine = engine();
     engine.set_settings(Settings::default());
     block_on(engine.triangulate_on_device(points, &Options::default())).expect("triangulates")
 }

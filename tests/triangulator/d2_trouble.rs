@@ -2,7 +2,7 @@
 //! users have reported, and of the literature on robustness, made anew. On each the CPU engine, in
 //! several insertion orders, and the GPU engine agree, and the exact verifier proves the mesh.
 
-use crate::d2::ENGINE;
+use crate::d2::engine;
 use gdel::{
     Mesh2,
     internals::{Options, cpu::delaunay_in_order, input::order::Order},
@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 /// The mesh of the engine `gpu`, which all others agree with.
 fn agreed(points: &[[f64; 2]]) -> Mesh2 {
     let mesh = {
-        let mut engine = ENGINE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut engine = engine();
         block_on(engine.triangulate(points.into(), &Options::default())).expect("triangulates")
     };
     let report = verify2d(points, &mesh).expect("finite points");

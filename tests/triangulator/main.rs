@@ -8,6 +8,9 @@ mod d2_trouble;
 mod d3;
 #[path = "../shared/degenerate.rs"]
 mod degenerate;
+#[path = "../shared/motions.rs"]
+mod motions;
+mod moving;
 mod outcomes;
 mod resident;
 mod statistics;

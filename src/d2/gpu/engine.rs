@@ -14,7 +14,7 @@ use crate::{
             finish::{Mesh, NearMesh, Open},
             layout::UncertainTest,
         },
-        lawson::{self, Aborted, LawsonOutcome},
+        lawson::{self, Aborted, LawsonOutcome, turns_once},
     },
     dimension::Dimension,
     error::Error,
@@ -45,6 +45,11 @@ impl Complete<2> for Dimension<2> {
 
     async fn complete(run: Run<'_, 2>, mut near: Near<'_, 2>, _tracer: ()) -> Result<Result<Made<2>, Fallback>, Error> {
         let (mut ended, _, ()) = run.end(|_, _, _| ()).await?;
+        if near.moved.is_some() && ended.counters.failed > 0 {
+            // Triangles are still inverted.
+            near.stats.gpu = Some(ended.release().summary(near.adapter));
+            return Ok(Err(Fallback::Folded));
+        }
         if near.resident {
             near.end_of_phase1(&ended.stats);
             if let Some((arrays, duplicate_of)) = complete_on_device(&mut ended, &mut near).await? {
@@ -65,7 +70,7 @@ impl Complete<2> for Dimension<2> {
             near.end_of_phase1(&phase1);
         }
         let (missing, duplicate_of) = near.missing(&merged);
-        let Near { points, lattice, options, stats, stopwatch, .. } = near;
+        let Near { points, lattice, options, moved, stats, stopwatch, .. } = near;
         let NearMesh { mesh: Mesh { mut triangles, mut halfedges, hull }, uncertain } = result;
         options.report(Phase::Finish, progress::COMPLETION)?;
         let mut failed = uncertain;
@@ -91,6 +96,10 @@ impl Complete<2> for Dimension<2> {
             (triangles, halfedges, hull) =
                 triangulation.into_mesh(&(0..points.len() as u32).collect::<Vec<_>>(), options.winding, Threads::All);
             stats.phases.push((Phase::Flip, stopwatch.lap()));
+        }
+        let vertices = PredicateContext2::of_input(points, lattice);
+        if moved.is_some() && !turns_once(&vertices, &hull, options.winding) {
+            return Ok(Err(Fallback::Folded));
         }
         stats.phases.push((Phase::Finish, stopwatch.lap()));
         let mesh = Mesh2 { triangles, halfedges, hull, duplicate_of, dimension: 2, stats: Stats::default() };
@@ -118,9 +127,15 @@ async fn complete_on_device(
         near.stats.exact = exact;
     }
     let points = near.points.len();
+    let hull = in_order(&hull, points);
+    // The triangles of points that have moved may go round more than once.
+    let vertices = PredicateContext2::of_input(near.points, near.lattice);
+    if near.moved.is_some() && !turns_once(&vertices, &hull, near.options.winding) {
+        return Ok(None);
+    }
     let Ended { gpu, kernels, memory, stats, finite, .. } = ended;
     let aliases = memory.bound.finish.aliases();
-    let made = kernels.outputs.run(gpu, aliases, *finite, points, &in_order(&hull, points)).await?;
+    let made = kernels.outputs.run(gpu, aliases, *finite, points, &hull).await?;
     stats.dispatches += made.1;
     stats.submits += 1;
     Ok(Some((made.0, duplicate_of)))

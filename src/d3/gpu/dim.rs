@@ -12,8 +12,10 @@ use crate::{
     predicates::{Sign, integer},
 };
 
-/// The most points for which a start was measured to pay.
-const MAX_STARTED: usize = 300_000;
+/// The most points of a start. The CPU engine takes some 6 µs per point, so that the device does not
+/// wait for it; with four times as many, more vertices fail than without a start, on a grid twice as
+/// many.
+const MAX_START: usize = 100;
 
 impl Dim<3> for Dimension<3> {
     type Corners = [u32; 4];
@@ -28,16 +30,16 @@ impl Dim<3> for Dimension<3> {
     const MAX_POINTS: usize = 120_000_000;
     /// Uniform points take 3.1 nodes per point in the round that takes most.
     const HISTORY: u32 = 4;
+    const FIRST_ITERATIONS: u32 = 40;
 
     /// Returns the blocks of the points, that of infinity, and the tail.
     fn blocks(points: u32, tail: u32) -> u32 {
         points + 1 + tail
     }
 
-    /// Returns 4 ∛count for as many as pay: the CPU engine takes some 6 µs per point, about as long
-    /// in all as the device takes to order them.
+    /// Returns 4 ∛count, and at most [`MAX_START`].
     fn start_points(count: usize) -> usize {
-        if count > MAX_STARTED { 0 } else { (4.0 * libm::cbrt(count as f64)) as usize + 4 }
+        ((4.0 * libm::cbrt(count as f64)) as usize + 4).min(MAX_START)
     }
 
     fn append_vertex(words: &mut Vec<i32>, width: Width, position: [i64; 3], index: u32, rounded: bool) {

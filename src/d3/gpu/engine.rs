@@ -15,13 +15,14 @@ use crate::{
         },
         splay::{self, Doubts, Splay, Stop, Terms},
         triangulation::Triangulation3,
+        update::encloses_once,
     },
     dimension::Dimension,
     error::Error,
     gpu::{
         Gpu,
         device_mesh::{DeviceMesh, Outputs},
-        engine::{Complete, Made, Near, progress},
+        engine::{Complete, Made, Moved, Near, progress},
         phase1::Run,
     },
     options::Options,
@@ -72,7 +73,7 @@ async fn complete_on_device(
     let (mut device, begun) = Device::end(run).await?;
     near.end_of_phase1(&device.ended.stats);
     let (missing, duplicate_of) = near.missing(&device.ended.read_merged().await?);
-    let Near { points, lattice, options, adapter, stats, stopwatch, .. } = near;
+    let Near { points, lattice, options, adapter, moved, stats, stopwatch, .. } = near;
     options.report(Phase::Splay, progress::COMPLETION)?;
 
     let vertices = PredicateContext::of_input(points, lattice);
@@ -124,12 +125,17 @@ async fn complete_on_device(
     stats.phases.push((Phase::Splay, stopwatch.lap()));
 
     options.report(Phase::Finish, progress::FINISH)?;
-    let arrays = device.outputs(&patch).await?;
+    let (arrays, hull) = device.outputs(&patch, moved.is_some()).await?;
     let gpu = device.ended.gpu;
     let readback = device.ended.kernels.readback.clone();
     stats.gpu = Some(device.ended.release().summary(adapter));
     let mesh = Mesh3 { duplicate_of, dimension: 3, ..Mesh3::default() };
     let mesh = DeviceMesh::<3>::new(gpu, &readback, arrays, mesh);
+    if let Some(Moved { spanning, .. }) = moved
+        && !encloses_once(points, lattice, &hull, spanning)
+    {
+        return Ok(Err(Fallback::Inconsistent("the hull does not enclose its inside once")));
+    }
     stats.phases.push((Phase::Finish, stopwatch.lap()));
     if let Some(tracer) = tracer {
         let tetrahedra = mesh.read_async(Outputs::SIMPLICES).await?.tetrahedra;

@@ -4,7 +4,7 @@ use crate::{
     d3::{
         gpu::{
             buffers::Gathering,
-            outputs::{OutputParams, SlotMesh},
+            outputs::{Made, OutputParams, SlotMesh},
         },
         splay::{Aborted, Doubts, Gathered, Patch, Region},
     },
@@ -220,12 +220,17 @@ impl<'a> Device<'a> {
         .await
     }
 
-    /// Makes the arrays of the caller's mesh, which has changed by `patch`.
+    /// Makes the arrays of the caller's mesh, which has changed by `patch`. Returns the hull as well if
+    /// `reads_hull`.
     ///
     /// # Errors
     ///
     /// Those of [`OutputStage::run`](crate::d3::gpu::outputs::OutputStage::run).
-    pub(crate) async fn outputs(&mut self, patch: &Patch) -> Result<DeviceArrays, Error> {
+    pub(crate) async fn outputs(
+        &mut self,
+        patch: &Patch,
+        reads_hull: bool,
+    ) -> Result<(DeviceArrays, Vec<[u32; 3]>), Error> {
         let Ended { gpu, kernels, memory, stats, finite, counters, .. } = &mut self.ended;
         let (aliases, buffers) = (memory.bound.finish.aliases(), &memory.buffers);
         let [more, more_ghosts] = patch.more;
@@ -242,10 +247,11 @@ impl<'a> Device<'a> {
             numbers: &buffers.numbers,
             params,
         };
-        let (arrays, dispatches) = kernels.outputs.run(gpu, &mut kernels.readback, mesh).await?;
+        let Made { arrays, hull, dispatches } =
+            kernels.outputs.run(gpu, &mut kernels.readback, mesh, reads_hull).await?;
         stats.dispatches += dispatches;
         stats.submits += 1;
-        Ok(arrays)
+        Ok((arrays, hull))
     }
 
     /// Reads the tetrahedra of the mesh back, and their neighbours, to look at them.

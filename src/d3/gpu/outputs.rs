@@ -63,6 +63,17 @@ pub struct OutputStage {
     vertices: VertexSimplices,
 }
 
+/// What the kernels have made.
+#[derive(Debug)]
+pub struct Made {
+    /// The arrays of the caller's mesh.
+    pub arrays: DeviceArrays,
+    /// The hull, if it was to be read.
+    pub hull: Vec<[u32; 3]>,
+    /// The number of dispatches.
+    pub dispatches: usize,
+}
+
 impl OutputStage {
     /// Creates the kernels.
     pub fn new(compiler: &Compiler<'_>) -> Self {
@@ -75,8 +86,8 @@ impl OutputStage {
         }
     }
 
-    /// Makes the arrays of the mesh, and waits until the device has done so. Returns the number of
-    /// dispatches as well.
+    /// Makes the arrays of the mesh, and waits until the device has done so. Reads the hull in the
+    /// same submission if `reads_hull`.
     ///
     /// # Errors
     ///
@@ -87,9 +98,10 @@ impl OutputStage {
         gpu: &Gpu,
         readback: &mut Readback,
         mesh: SlotMesh<'_>,
-    ) -> Result<(DeviceArrays, usize), Error> {
+        reads_hull: bool,
+    ) -> Result<Made, Error> {
         let OutputParams { count, infinite, finite, hull } = mesh.params;
-        let (arrays, dispatches, submission, finite_read, hull_read) = gpu
+        let (arrays, dispatches, submission, finite_read, hull_len_read, hull_read) = gpu
             .with_error_scope("the mesh", || {
                 let [finite, hull, points] = [finite, hull, infinite].map(|n| n as usize);
                 let arrays = DeviceArrays::new(gpu, 4, finite, 3 * hull, points)?;
@@ -119,12 +131,18 @@ impl OutputStage {
                 self.vertices.record(gpu, &mut recorder, &arrays);
                 let dispatches = recorder.dispatches();
                 let finite = readback.copy(gpu, recorder.encoder(), scan.sums(), GROUPS, 1);
-                let hull = readback.copy(gpu, recorder.encoder(), &hull_len, 0, 1);
-                Ok((arrays, dispatches, recorder.submit(gpu), finite, hull))
+                let hull_len = readback.copy(gpu, recorder.encoder(), &hull_len, 0, 1);
+                let hull =
+                    reads_hull.then(|| readback.copy(gpu, recorder.encoder(), &arrays.hull, 0, arrays.hull.len()));
+                Ok((arrays, dispatches, recorder.submit(gpu), finite, hull_len, hull))
             })
             .await?;
         let counted = readback.receive(gpu, &submission, finite_read).await?;
-        let on_hull = readback.receive(gpu, &submission, hull_read).await?;
+        let on_hull = readback.receive(gpu, &submission, hull_len_read).await?;
+        let hull_words = match hull_read {
+            Some(pending) => readback.receive(gpu, &submission, pending).await?,
+            None => Vec::new(),
+        };
         if (counted[0], on_hull[0]) != (finite, hull) {
             let message = format!(
                 "the mesh has {} tetrahedra and {} facets on the hull, not {finite} and {hull}",
@@ -132,7 +150,8 @@ impl OutputStage {
             );
             return Err(Error::Gpu { message });
         }
-        Ok((arrays, dispatches))
+        let hull = hull_words.as_chunks().0.to_vec();
+        Ok(Made { arrays, hull, dispatches })
     }
 }
 

@@ -1,9 +1,10 @@
 //! The alpha complex for one radius.
 
 use super::{
-    super::{sets::DisjointSets, voronoi::ring},
+    super::{sets::DisjointSets, sorted::Sorted, voronoi::ring},
     AlphaEdges, AlphaShape,
     edges::Edges,
+    given_edge,
     values::{Alpha, certain},
 };
 use crate::{
@@ -52,9 +53,9 @@ pub enum FaceClass {
 /// ```
 #[derive(Debug)]
 pub struct AlphaComplex<'s, const D: usize = 3, const N: usize = 4> {
-    shape: &'s AlphaShape<'s, D, N>,
+    shape: &'s AlphaShape<D, N>,
     alpha: Alpha,
-    /// Whether each simplex is part of the complex.
+    /// Whether each simplex of the sorted mesh is part of the complex.
     is_solid: Vec<bool>,
 }
 
@@ -62,16 +63,17 @@ impl<'s, const D: usize, const N: usize> AlphaComplex<'s, D, N>
 where
     Euclidean: AlphaEdges<D, N>,
 {
-    pub(super) fn new(shape: &'s AlphaShape<'s, D, N>, alpha: f64) -> Self {
+    pub(super) fn new(shape: &'s AlphaShape<D, N>, alpha: f64) -> Self {
         let alpha = shape.radii.alpha(alpha);
         let is_solid = |(simplex, &squared): (&[u32; N], &f64)| shape.radii.compare_with(simplex, squared, alpha) <= 0;
-        let is_solid = shape.radii.complex.simplices.iter().zip(&shape.simplices).map(is_solid).collect();
+        let is_solid = shape.radii.mesh.complex.simplices.iter().zip(&shape.simplices).map(is_solid).collect();
         AlphaComplex { shape, alpha, is_solid }
     }
 
     /// Returns the simplices that are part of the complex, in ascending order.
     pub fn solid(&self) -> impl Iterator<Item = usize> + '_ {
-        self.is_solid.iter().enumerate().filter(|&(_, &is_solid)| is_solid).map(|(t, _)| t)
+        let places = self.shape.radii.mesh.places.iter().enumerate();
+        places.filter(|&(_, &place)| self.is_solid[place as usize]).map(|(t, _)| t)
     }
 
     /// Returns the boundary of the simplices that are part of the complex: triangles that are
@@ -81,10 +83,11 @@ where
     /// other, in 2D every vertex to as many edges that end there as start there. Where solids touch
     /// in an edge or a vertex only, these are more than one.
     pub fn surface(&self) -> impl Iterator<Item = [u32; D]> + '_ {
-        let complex = &self.shape.radii.complex;
+        let mesh = &self.shape.radii.mesh;
         self.solid().flat_map(move |t| {
-            let is_outer = move |&k: &usize| complex.across(t, k).is_none_or(|across| !self.is_solid[across]);
-            (0..N).filter(is_outer).map(move |k| facet(&complex.simplices[t], k))
+            let t = mesh.places[t] as usize;
+            let is_outer = move |&k: &usize| mesh.complex.across(t, k).is_none_or(|across| !self.is_solid[across]);
+            (0..N).filter(is_outer).map(move |k| mesh.given(facet(&mesh.complex.simplices[t], k)))
         })
     }
 
@@ -92,65 +95,70 @@ where
     /// Components are simplices that hang together across facets, counted in the order of their
     /// first simplices; those that are no part of the complex have [`NONE`](crate::NONE).
     pub fn components(&self) -> (Vec<i32>, usize) {
-        let complex = &self.shape.radii.complex;
+        let Sorted { complex, places, .. } = &self.shape.radii.mesh;
         let mut sets = DisjointSets::new(self.is_solid.len());
-        for t in self.solid() {
+        for t in (0..self.is_solid.len()).filter(|&t| self.is_solid[t]) {
             for across in (0..N).filter_map(|k| complex.across(t, k)).filter(|&across| self.is_solid[across]) {
                 sets.unite(t as u32, across as u32);
             }
         }
         let mut labels = vec![NONE; self.is_solid.len()];
+        let mut label_of_set = labels.clone();
         let mut count = 0;
         for t in self.solid() {
-            // The lowest simplex stands for all of a component, and so comes first.
-            let first = sets.find(t as u32) as usize;
-            if first == t {
-                labels[t] = count;
+            let label = &mut label_of_set[sets.find(places[t]) as usize];
+            if *label == NONE {
+                *label = count;
                 count += 1;
-            } else {
-                labels[t] = labels[first];
             }
+            labels[t] = *label;
         }
         (labels, count as usize)
     }
 
     /// Returns all facets and what they are: in the order of [`AlphaShape::facets`].
     pub fn facets(&self) -> impl Iterator<Item = ([u32; D], FaceClass)> + '_ {
-        let complex = &self.shape.radii.complex;
+        let facets = self.facet_classes();
+        facets.map(|((t, k), class)| (self.shape.given_facet(t, k), class))
+    }
+
+    /// Returns the facets of the sorted mesh as (simplex, opposite vertex), and what they are.
+    fn facet_classes(&self) -> impl Iterator<Item = ((usize, usize), FaceClass)> + '_ {
+        let complex = &self.shape.radii.mesh.complex;
         self.shape.listed_facets().zip(&self.shape.facets).map(move |((t, k), &own)| {
-            let vertices = facet(&complex.simplices[t], k);
             let other = complex.across(t, k).map(|across| self.is_solid[across]);
             let class = match (self.is_solid[t], other) {
                 (true, Some(true)) => FaceClass::Interior,
                 (true, _) | (_, Some(true)) => FaceClass::Regular,
-                _ if self.is_own(&vertices, own) => FaceClass::Singular,
+                _ if self.is_own(&facet(&complex.simplices[t], k), own) => FaceClass::Singular,
                 _ => FaceClass::Exterior,
             };
-            (vertices, class)
+            ((t, k), class)
         })
     }
 
     /// Returns all vertices and what they are: in ascending order.
     pub fn vertices(&self) -> impl Iterator<Item = (u32, FaceClass)> + '_ {
-        let is_vertex = |&(v, _): &(usize, &[f64; 2])| self.shape.radii.complex.duplicate_of[v] == NONE;
+        let values = self.shape.vertex_values();
         // What is left open by rounded values depends on the faces around the vertex.
         let mut exactly = None;
-        self.shape.vertex_values().iter().enumerate().filter(is_vertex).map(move |(v, &[regular, interior])| {
+        self.shape.given_vertices().map(move |(i, v)| {
+            let [regular, interior] = values[v];
             let class = match (self.certainly(regular), self.certainly(interior)) {
                 (Some(_), Some(true)) => FaceClass::Interior,
                 (Some(true), Some(false)) => FaceClass::Regular,
                 (Some(false), Some(false)) => FaceClass::Singular,
                 _ => exactly.get_or_insert_with(|| self.classify_vertices())[v],
             };
-            (v as u32, class)
+            (i, class)
         })
     }
 
-    /// Classifies all vertices by the faces around them.
+    /// Classifies all vertices of the sorted mesh by the faces around them.
     fn classify_vertices(&self) -> Vec<FaceClass> {
-        let complex = &self.shape.radii.complex;
+        let complex = &self.shape.radii.mesh.complex;
         let start = if complex.simplices.is_empty() { FaceClass::Singular } else { FaceClass::Interior };
-        let mut classes = vec![start; complex.points.len()];
+        let mut classes = vec![start; complex.points().len()];
         let mut is_face = vec![false; classes.len()];
         for (t, simplex) in complex.simplices.iter().enumerate() {
             for &v in simplex {
@@ -160,8 +168,8 @@ where
                 }
             }
         }
-        for ((t, k), (vertices, class)) in self.shape.listed_facets().zip(self.facets()) {
-            for v in vertices {
+        for ((t, k), class) in self.facet_classes() {
+            for v in facet(&complex.simplices[t], k) {
                 is_face[v as usize] |= class != FaceClass::Exterior;
                 if complex.across(t, k).is_none() {
                     classes[v as usize] = FaceClass::Regular;
@@ -208,13 +216,13 @@ impl AlphaComplex<'_, 3, 4> {
                 (Some(false), Some(false)) => FaceClass::Exterior,
                 _ => self.classify_edge(e),
             };
-            (edge, class)
+            (given_edge(&self.shape.radii.mesh, edge), class)
         })
     }
 
     /// Classifies an edge by the faces around it.
     fn classify_edge(&self, e: usize) -> FaceClass {
-        let complex = &self.shape.radii.complex;
+        let complex = &self.shape.radii.mesh.complex;
         let edges = self.shape.edge_values();
         let (edge, t) = (edges.edges[e], edges.simplex[e] as usize);
         let mut around = Vec::new();

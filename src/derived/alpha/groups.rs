@@ -69,7 +69,7 @@ impl Groups {
     ) -> Option<usize> {
         let mut sets = DisjointSets::new(complex.simplices.len());
         let mut is_present = vec![false; complex.simplices.len()];
-        let mut is_covered = vec![false; complex.points.len()];
+        let mut is_covered = vec![false; complex.points().len()];
         let mut uncovered = complex.duplicate_of.iter().filter(|&&d| d == NONE).count();
         let mut count = 0;
         for ends in self.starts.windows(2) {

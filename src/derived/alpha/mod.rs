@@ -8,7 +8,10 @@ mod values;
 pub use complex::{AlphaComplex, FaceClass};
 pub use edges::AlphaEdges;
 
-use super::complex::Complex;
+use super::{
+    complex::Complex,
+    sorted::{Sorted, inverse},
+};
 use crate::{
     error::Error,
     geometry::{Euclidean, facet, radius_rounded_up, vector},
@@ -60,8 +63,9 @@ use values::Radii;
 /// # Ok::<(), gdel::Error>(())
 /// ```
 #[derive(Debug)]
-pub struct AlphaShape<'a, const D: usize = 3, const N: usize = 4> {
-    radii: Radii<'a, D, N>,
+pub struct AlphaShape<const D: usize = 3, const N: usize = 4> {
+    /// The mesh, sorted, as the lists below are.
+    radii: Radii<D, N>,
     /// The squared circumradius of each simplex, scaled, NaN if it is not known. The same for the
     /// others.
     simplices: Vec<f64>,
@@ -91,7 +95,7 @@ pub struct AlphaShape<'a, const D: usize = 3, const N: usize = 4> {
 /// assert_eq!(complex.components().1, 2);
 /// # Ok::<(), gdel::Error>(())
 /// ```
-pub type AlphaShape2<'a> = AlphaShape<'a, 2, 3>;
+pub type AlphaShape2 = AlphaShape<2, 3>;
 
 /// From which radii on a face of the triangulation is part of the alpha complex, and how.
 ///
@@ -121,7 +125,7 @@ pub struct Interval {
     pub interior: f64,
 }
 
-impl<'a, const D: usize, const N: usize> AlphaShape<'a, D, N>
+impl<const D: usize, const N: usize> AlphaShape<D, N>
 where
     Euclidean: AlphaEdges<D, N>,
 {
@@ -133,11 +137,11 @@ where
     ///
     /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for
     /// [`Locator::new`](crate::Locator::new).
-    pub fn new(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>) -> Result<Self, Error> {
-        let complex = Complex::new(mesh, points.into())?;
-        let scale = vector::scale_of(complex.bounds());
-        let radii = Radii { complex, scale };
-        let complex = &radii.complex;
+    pub fn new<'a>(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>) -> Result<Self, Error> {
+        let mesh = Sorted::new(&Complex::new(mesh, points.into())?);
+        let scale = vector::scale_of(mesh.complex.bounds());
+        let radii = Radii { mesh, scale };
+        let complex = &radii.mesh.complex;
         let mut simplices = vec![(0.0, [false; N]); complex.simplices.len()];
         parallel::for_chunks(Threads::All, &mut simplices, |start, chunk| {
             for (simplex, t) in chunk.iter_mut().zip(start..) {
@@ -191,8 +195,8 @@ where
     ///
     /// The result is not rounded down: the complex at this alpha has the promised properties.
     pub fn find_alpha(&self, components: usize) -> Option<f64> {
-        let t = self.groups().first_with(components, &self.radii.complex)?;
-        Some(radius_rounded_up::<D, N>(&self.radii.complex.corners(t)))
+        let t = self.groups().first_with(components, &self.radii.mesh.complex)?;
+        Some(radius_rounded_up::<D, N>(&self.radii.mesh.complex.corners(t)))
     }
 
     /// Returns the radii at which a simplex or a face becomes part of the complex, in ascending
@@ -211,8 +215,8 @@ where
     /// # Ok::<(), gdel::Error>(())
     /// ```
     pub fn critical_values(&self) -> Vec<f64> {
-        let complex = &self.radii.complex;
-        let simplices = self.simplices.iter().zip(complex.simplices).map(|(&r, vertices)| (face(vertices), r));
+        let complex = &self.radii.mesh.complex;
+        let simplices = self.simplices.iter().zip(&*complex.simplices).map(|(&r, vertices)| (face(vertices), r));
         let facets =
             self.listed_facets().zip(&self.facets).map(|((t, k), &r)| (face(&facet(&complex.simplices[t], k)), r));
         let Edges { edges, own, .. } = self.edge_values();
@@ -231,7 +235,7 @@ where
     /// Returns a radius that is at most 10⁻⁹ of its value above that of a face.
     fn radius_above(&self, (face, squared): (&[u32], f64)) -> f64 {
         if squared.is_nan() {
-            let points: Vec<[f64; D]> = face.iter().map(|&v| self.radii.complex.point(v)).collect();
+            let points: Vec<[f64; D]> = face.iter().map(|&v| self.radii.mesh.complex.point(v)).collect();
             return radius_rounded_up::<D, N>(&points);
         }
         self.radius(squared) * (1.0 + 2e-10)
@@ -239,7 +243,8 @@ where
 
     /// Returns the radius from which on each simplex is part of the complex, its circumradius.
     pub fn simplices(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
-        self.simplices.iter().enumerate().map(|(t, &squared)| self.radius_of(&self.radii.complex.simplices[t], squared))
+        let Sorted { complex, places, .. } = &self.radii.mesh;
+        places.iter().map(|&t| self.radius_of(&complex.simplices[t as usize], self.simplices[t as usize]))
     }
 
     /// Returns all facets, with the radii from which on they are part of the complex. They are
@@ -247,13 +252,13 @@ where
     /// triangle with the lower index on the left.
     pub fn facets(&self) -> impl Iterator<Item = ([u32; D], Interval)> + '_ {
         self.listed_facets().zip(&self.facets).map(|((t, k), &own)| {
-            let complex = &self.radii.complex;
-            let vertices = facet(&complex.simplices[t], k);
+            let complex = &self.radii.mesh.complex;
+            let vertices = self.given_facet(t, k);
             let radius = |t: usize| self.radius_of(&complex.simplices[t], self.simplices[t]);
             let (one, other) = (radius(t), complex.across(t, k).map(radius));
             let regular = other.map_or(one, |other| one.min(other));
             let interior = other.map_or(f64::INFINITY, |other| one.max(other));
-            let own = if own == f64::INFINITY { own } else { self.radius_of(&vertices, own) };
+            let own = if own == f64::INFINITY { own } else { self.radius_of(&facet(&complex.simplices[t], k), own) };
             (vertices, Interval { singular: own.min(regular), regular, interior })
         })
     }
@@ -261,10 +266,31 @@ where
     /// Returns all vertices, with the radii from which on they are part of the complex: always, as
     /// singular ones.
     pub fn vertices(&self) -> impl Iterator<Item = (u32, Interval)> + '_ {
-        let is_vertex = |&(v, _): &(usize, &[f64; 2])| self.radii.complex.duplicate_of[v] == NONE;
-        self.vertex_values().iter().enumerate().filter(is_vertex).map(|(v, &[regular, interior])| {
-            (v as u32, Interval { singular: 0.0, regular: self.radius(regular), interior: self.radius(interior) })
+        let values = self.vertex_values();
+        self.given_vertices().map(|(i, v)| {
+            let [regular, interior] = values[v].map(|squared| self.radius(squared));
+            (i, Interval { singular: 0.0, regular, interior })
         })
+    }
+
+    /// Returns the vertices in ascending order, as they were numbered in the mesh that was given and
+    /// as they are here.
+    fn given_vertices(&self) -> impl Iterator<Item = (u32, usize)> {
+        let Sorted { complex, points, .. } = &self.radii.mesh;
+        let ranks = (0..).zip(inverse(points)).map(|(i, v)| (i, v as usize));
+        ranks.filter(|&(_, v)| complex.duplicate_of[v] == NONE)
+    }
+
+    /// Returns the vertices of facet `k` of simplex `t` as they were numbered in the mesh that was
+    /// given, in their order in the simplex that had the lower index there.
+    fn given_facet(&self, t: usize, k: usize) -> [u32; D] {
+        let Sorted { complex, simplices, .. } = &self.radii.mesh;
+        let across = complex.across(t, k).filter(|&across| simplices[across] < simplices[t]);
+        let (t, k) = match across.map(|across| (across, complex.facet_towards(across, t))) {
+            Some((across, facet)) if facet < N => (across, facet),
+            _ => (t, k),
+        };
+        self.radii.mesh.given(facet(&complex.simplices[t], k))
     }
 
     /// Returns the radius whose scaled square is given.
@@ -279,7 +305,7 @@ where
 
     /// Returns the facets as (simplex, opposite vertex), each with the simplex of the lower index.
     fn listed_facets(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let complex = &self.radii.complex;
+        let complex = &self.radii.mesh.complex;
         (0..complex.simplices.len())
             .flat_map(move |t| (0..N).filter(move |&k| is_listed(complex, t, k)).map(move |k| (t, k)))
     }
@@ -287,7 +313,7 @@ where
     /// Returns the simplices in groups of the same radius.
     fn groups(&self) -> &Groups {
         self.groups.get_or_init(|| {
-            let simplex = |t: u32| (&self.radii.complex.simplices[t as usize][..], self.simplices[t as usize]);
+            let simplex = |t: u32| (&self.radii.mesh.complex.simplices[t as usize][..], self.simplices[t as usize]);
             Groups::new(self.simplices.len(), |t| simplex(t).1, |t, u| self.radii.compare(simplex(t), simplex(u)))
         })
     }
@@ -303,10 +329,10 @@ where
     }
 
     fn find_vertex_values(&self) -> Vec<[f64; 2]> {
-        let complex = &self.radii.complex;
+        let complex = &self.radii.mesh.complex;
         // A vertex without simplices is never within any.
         let interior = if complex.simplices.is_empty() { f64::INFINITY } else { 0.0 };
-        let mut values = vec![[f64::INFINITY, interior]; complex.points.len()];
+        let mut values = vec![[f64::INFINITY, interior]; complex.points().len()];
         for (simplex, &squared) in complex.simplices.iter().zip(&self.simplices) {
             for &v in simplex {
                 let [regular, interior] = &mut values[v as usize];
@@ -333,7 +359,7 @@ where
     }
 }
 
-impl AlphaShape<'_, 3, 4> {
+impl AlphaShape<3, 4> {
     /// Returns all edges of a 3D mesh, with the radii from which on they are part of the complex.
     /// (In 2D they are the facets.)
     ///
@@ -353,9 +379,15 @@ impl AlphaShape<'_, 3, 4> {
             let [regular, interior] = [edges.regular[e], edges.interior[e]].map(|squared| self.radius(squared));
             let own = edges.own[e];
             let own = if own == f64::INFINITY { own } else { self.radius_of(&edge, own) };
-            (edge, Interval { singular: own.min(regular), regular, interior })
+            (given_edge(&self.radii.mesh, edge), Interval { singular: own.min(regular), regular, interior })
         })
     }
+}
+
+/// Returns an edge as its vertices were numbered in the mesh that was given, the lower one first.
+fn given_edge(mesh: &Sorted<3, 4>, edge: [u32; 2]) -> [u32; 2] {
+    let [v, w] = mesh.given(edge);
+    [v.min(w), v.max(w)]
 }
 
 /// Returns the vertices of a face with `u32::MAX` in the unused places.

@@ -1,6 +1,6 @@
 //! Squared radii, rounded, with exact comparisons where rounding leaves them open.
 
-use super::super::complex::Complex;
+use super::super::sorted::Sorted;
 use crate::{
     geometry::{Euclidean, Geometry, circumcenter_offset, compare_radii, compare_radius, facet, vector},
     predicates::Sign,
@@ -15,9 +15,12 @@ const ERROR: f64 = 1.0 / (1u64 << 33) as f64;
 /// limits of `f64`, are not known by their rounded values: these are NaN.
 const KNOWN: std::ops::Range<f64> = 1e-100..1e100;
 
-/// Returns a rounded squared radius, or NaN if it is not known.
+/// A squared radius that is not known: the NaN whose bits are those of a negative number.
+pub(super) const UNKNOWN: f64 = f64::from_bits(0xfff8 << 48);
+
+/// Returns a rounded squared radius, or [`UNKNOWN`].
 pub(super) fn known(squared: f64) -> f64 {
-    if KNOWN.contains(&squared) { squared } else { f64::NAN }
+    if KNOWN.contains(&squared) { squared } else { UNKNOWN }
 }
 
 /// Returns the sign of the difference of two squared radii, or `None` if rounding may have changed
@@ -34,8 +37,8 @@ pub(super) fn certain(a: f64, b: f64) -> Option<Sign> {
 
 /// A mesh whose faces have squared radii.
 #[derive(Debug)]
-pub struct Radii<'a, const D: usize, const N: usize> {
-    pub(super) complex: Complex<'a, D, N>,
+pub struct Radii<const D: usize, const N: usize> {
+    pub(super) mesh: Sorted<D, N>,
     /// The power of two that coordinates are multiplied by before they are rounded.
     pub(super) scale: f64,
 }
@@ -54,7 +57,7 @@ impl Alpha {
     }
 }
 
-impl<const D: usize, const N: usize> Radii<'_, D, N>
+impl<const D: usize, const N: usize> Radii<D, N>
 where
     Euclidean: Geometry<D, N>,
 {
@@ -70,13 +73,13 @@ where
 
     /// Returns the coordinates of the vertices of a face.
     pub(super) fn points<const K: usize>(&self, face: [u32; K]) -> [[f64; D]; K] {
-        face.map(|v| self.complex.point(v))
+        face.map(|v| self.mesh.complex.point(v))
     }
 
     /// Returns the squared circumradius of simplex `t`, and for each facet whether its smallest
     /// sphere contains the opposite vertex: whether the circumcentre lies beyond it.
     pub(super) fn simplex(&self, t: usize) -> (f64, [bool; N]) {
-        let corners = self.complex.corners(t);
+        let corners = self.mesh.complex.corners(t);
         let scaled = corners.map(|p| self.scaled(p));
         let center = circumcenter_offset(&scaled);
         let squared = vector::squared_norm(center);
@@ -114,7 +117,7 @@ where
             return -1;
         }
         certain(squared, alpha.squared).unwrap_or_else(|| {
-            let points: Vec<[f64; D]> = face.iter().map(|&v| self.complex.point(v)).collect();
+            let points: Vec<[f64; D]> = face.iter().map(|&v| self.mesh.complex.point(v)).collect();
             compare_radius::<D, N>(&points, alpha.radius)
         })
     }
@@ -123,7 +126,7 @@ where
     #[inline]
     pub(super) fn compare(&self, a: (&[u32], f64), b: (&[u32], f64)) -> Ordering {
         let sign = certain(a.1, b.1).unwrap_or_else(|| {
-            let points = |face: &[u32]| face.iter().map(|&v| self.complex.point(v)).collect::<Vec<_>>();
+            let points = |face: &[u32]| face.iter().map(|&v| self.mesh.complex.point(v)).collect::<Vec<_>>();
             compare_radii::<D, N>(&points(a.0), &points(b.0))
         });
         sign.cmp(&0)

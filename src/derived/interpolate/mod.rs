@@ -94,7 +94,7 @@ where
     ///
     /// [`Error::ValueCount`] if there are not as many values as points.
     pub fn new(locator: &'a Locator<'a, D, N>, values: &'a [f64]) -> Result<Self, Error> {
-        let points = locator.complex.points.len();
+        let points = locator.complex.points().len();
         if values.len() != points {
             return Err(Error::ValueCount { values: values.len(), points });
         }
@@ -108,7 +108,8 @@ where
     /// [`Error::NotFinite`], or [`Error::BrokenMesh`] as for [`Locator::locate`].
     pub fn interpolate(&self, method: Interpolation, query: [f64; D]) -> Result<f64, Error> {
         Points::F64(&[query]).validate()?;
-        self.value(method, query, &mut State::default())
+        let Some(place) = self.locator.place(query)? else { return Ok(f64::NAN) };
+        Ok(self.value_at(method, query, place, &mut State::default()))
     }
 
     /// Returns the interpolated value at each of many points; NaN outside the hull.
@@ -121,8 +122,11 @@ where
         method: Interpolation,
         queries: impl Into<Points<'q, D>>,
     ) -> Result<Vec<f64>, Error> {
-        let value = |state: &mut State<D>, query| self.value(method, query, state);
-        map_along_curve(queries.into(), self.locator.key, State::default, value)
+        map_along_curve(queries.into(), self.locator.key, |run| {
+            let mut state = State::default();
+            let Some(places) = self.locator.places(run)? else { return Ok(vec![f64::NAN; run.len()]) };
+            Ok(run.iter().zip(places).map(|(&query, place)| self.value_at(method, query, place, &mut state)).collect())
+        })
     }
 
     /// Returns the vertices whose values are interpolated at a point, with their weights, which are
@@ -149,29 +153,28 @@ where
     pub fn weights(&self, method: Interpolation, query: [f64; D]) -> Result<Option<Vec<(u32, f64)>>, Error> {
         Points::F64(&[query]).validate()?;
         let mut state = State::default();
-        Ok(self.find_weights(method, query, &mut state)?.then_some(state.weights))
+        let Some(place) = self.locator.place(query)? else { return Ok(None) };
+        Ok(self.find_weights(method, query, place, &mut state).then_some(state.weights))
     }
 
-    fn value(&self, method: Interpolation, query: [f64; D], state: &mut State<D>) -> Result<f64, Error> {
-        if !self.find_weights(method, query, state)? {
-            return Ok(f64::NAN);
+    fn value_at(&self, method: Interpolation, query: [f64; D], place: Place, state: &mut State<D>) -> f64 {
+        if !self.find_weights(method, query, place, state) {
+            return f64::NAN;
         }
         // A weight of 0 does not spread NaN and infinities.
         let terms = state.weights.iter().filter(|&&(_, weight)| weight != 0.0);
-        Ok(terms.map(|&(vertex, weight)| weight * self.values[vertex as usize]).sum())
+        terms.map(|&(vertex, weight)| weight * self.values[vertex as usize]).sum()
     }
 
     /// Puts the weights at a point into `state`, or returns `false` outside the hull.
-    fn find_weights(&self, method: Interpolation, query: [f64; D], state: &mut State<D>) -> Result<bool, Error> {
-        let State { last, scratch, weights } = state;
+    fn find_weights(&self, method: Interpolation, query: [f64; D], place: Place, state: &mut State<D>) -> bool {
+        let State { scratch, weights } = state;
         weights.clear();
-        let Some(Place { simplex, beyond: None, on_facet }) = self.locator.place(query, last)? else {
-            return Ok(false);
-        };
+        let Place { simplex, beyond: None, on_facet } = place else { return false };
         let vertices = self.locator.complex.simplices[simplex];
         if on_facet && let Some(vertex) = vertices.into_iter().find(|&v| self.locator.complex.point(v) == query) {
             weights.push((vertex, 1.0));
-            return Ok(true);
+            return true;
         }
         match method {
             Interpolation::Linear => {}
@@ -182,20 +185,18 @@ where
             let shares = barycentric(&self.locator.complex.corners(simplex), query);
             weights.extend(vertices.into_iter().zip(shares));
         }
-        Ok(true)
+        true
     }
 }
 
 /// What the interpolation at a point leaves to that at the next one.
 struct State<const D: usize> {
-    /// The last simplex.
-    last: Option<usize>,
     scratch: Scratch<D>,
     weights: Vec<(u32, f64)>,
 }
 
 impl<const D: usize> Default for State<D> {
     fn default() -> Self {
-        State { last: None, scratch: Scratch::default(), weights: Vec::new() }
+        State { scratch: Scratch::default(), weights: Vec::new() }
     }
 }

@@ -64,7 +64,7 @@ where
     parallel::sort(Threads::All, &mut meetings);
     let mut of_cells = Csr::default();
     let mut rest = meetings.as_slice();
-    for v in 0..complex.points.len() as u32 {
+    for v in 0..complex.points().len() as u32 {
         let (own, others) = rest.split_at(rest.partition_point(|&[w, _]| w == v));
         of_cells.push(own.iter().map(|&[_, f]| f));
         rest = others;

@@ -155,14 +155,14 @@ where
         }
         let locator = Locator::new(mesh, points)?;
         let complex = &locator.complex;
-        let stars = Csr::stars(complex.simplices, complex.points.len());
+        let stars = Csr::stars(&complex.simplices, complex.points().len());
         let mut vertices = vec![[0.0; D]; complex.simplices.len()];
         parallel::for_chunks(Threads::All, &mut vertices, |start, chunk| {
             for (vertex, t) in chunk.iter_mut().zip(start..) {
                 *vertex = circumcenter(&complex.corners(t));
             }
         });
-        let mut on_hull = vec![false; complex.points.len()];
+        let mut on_hull = vec![false; complex.points().len()];
         for (simplex, neighbors) in complex.simplices.iter().zip(&*complex.neighbors) {
             for k in (0..N).filter(|&k| neighbors[k] == NONE) {
                 facet(simplex, k).into_iter().for_each(|v| on_hull[v as usize] = true);
@@ -221,7 +221,7 @@ where
     /// ```
     pub fn map_cells<R: Send>(&self, f: impl Fn(u32, &Cell<D>) -> R + Sync) -> Vec<R> {
         // Cells that come one after the other share simplices, which are then at hand.
-        let order = order_along_curve(self.locator.complex.points, self.locator.key);
+        let order = order_along_curve(self.locator.complex.points(), self.locator.key);
         let results = parallel::map_grains(Threads::All, order.len(), GRAIN, |range| {
             let mut worker = Worker::default();
             let results = order[range].iter().map(|&i| {
@@ -285,7 +285,7 @@ where
         let centroids = self.centroids();
         let relaxed = |i: usize| {
             let centroid = centroids[complex.representative(i as u32) as usize];
-            if centroid.iter().all(|x| x.is_finite()) { centroid } else { complex.points.get(i) }
+            if centroid.iter().all(|x| x.is_finite()) { centroid } else { complex.points().get(i) }
         };
         (0..centroids.len()).map(relaxed).collect()
     }

@@ -183,7 +183,7 @@ const EVEN: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 
 /// `ring`: counter-clockwise as seen from *a*. Returns whether they close a ring.
 pub(in super::super) fn ring(complex: &Complex<'_, 3, 4>, v: u32, a: u32, t: usize, ring: &mut Vec<u32>) -> bool {
     ring.clear();
-    let (simplices, neighbors) = (complex.simplices, &*complex.neighbors);
+    let (simplices, neighbors) = (&*complex.simplices, &*complex.neighbors);
     // Of a positive tetrahedron (v, a, b, c), the next one counter-clockwise is across (v, a, c).
     let next = |t: usize, from: u32, to: u32| {
         let across = *neighbors[t].get(THIRD[place(&simplices[t], from)][place(&simplices[t], to)])?;

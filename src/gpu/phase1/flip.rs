@@ -17,7 +17,8 @@ pub(crate) struct Flip {
     /// In a dimension that can find the active simplices by looking at all slots (§4.2).
     compact: Option<Kernel>,
     clear_votes: Kernel,
-    /// In a dimension that takes iterations of few simplices in one workgroup.
+    /// In a dimension that takes iterations of few simplices in one workgroup. It has all of the
+    /// exact arithmetic and is by far the slowest to compile.
     few: Option<Kernel>,
 }
 
@@ -43,6 +44,8 @@ pub(crate) struct FlipPlan {
     /// Whether there may be so many active simplices in one that the next ones are found by
     /// compaction (§4.2).
     pub(crate) compacts: bool,
+    /// Whether iterations of few simplices are done in one workgroup.
+    pub(crate) takes_few: bool,
 }
 
 impl Flip {
@@ -54,6 +57,7 @@ impl Flip {
         let kernel = |name| compiler.kernel(Dimension::<D>::SHADERS.get(name), width);
         let optional = |name| Dimension::<D>::SHADERS.find(name).map(|shader| compiler.kernel(shader, width));
         let compact = Dimension::<D>::SHADERS.find("flip_compact");
+        let few = Dimension::<D>::SHADERS.find("flip_few");
         Flip {
             check: kernel("flip_check"),
             check_exact: optional("flip_check_exact"),
@@ -61,7 +65,7 @@ impl Flip {
             link: kernel("flip_link"),
             compact: compact.map(|shader| compiler.on_demand(shader, width)),
             clear_votes: compiler.on_demand(Dimension::<D>::SHADERS.get("clear_votes"), width),
-            few: optional("flip_few"),
+            few: few.map(|shader| compiler.deferred(shader, width)),
         }
     }
 
@@ -82,12 +86,13 @@ impl Flip {
         }
     }
 
-    /// Returns whether iterations of few simplices are done in one workgroup.
+    /// Returns whether iterations of few simplices can be done in one workgroup by now.
     pub(crate) fn takes_few(&self) -> bool {
-        self.few.is_some()
+        self.few.as_ref().is_some_and(Kernel::is_compiled)
     }
 
-    /// Records flip iterations, a dispatch per pass, then those of few simplices in one dispatch.
+    /// Records flip iterations, a dispatch per pass, then, if the plan says so, those of few
+    /// simplices in one dispatch.
     /// Those that find too few active simplices do nothing.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundFlip, plan: FlipPlan, workgroups: u32) {
         let check_exact = self.check_exact.as_ref().zip(bound.check_exact.as_ref());
@@ -109,7 +114,7 @@ impl Flip {
                 recorder.dispatch(kernel, bindings, workgroups);
             }
         }
-        if let Some((kernel, bindings)) = self.few.as_ref().zip(bound.few.as_ref()) {
+        if let Some((kernel, bindings)) = self.few.as_ref().zip(bound.few.as_ref()).filter(|_| plan.takes_few) {
             recorder.stage("flip: few");
             recorder.dispatch(kernel, bindings, 1);
         }

@@ -99,6 +99,12 @@ impl Insert {
         recorder.dispatch(&self.locate, &bound.locate, workgroups);
     }
 
+    /// Records the beginning of a round.
+    pub(crate) fn record_begin(&self, recorder: &mut Recorder<'_>, bound: &BoundInsert) {
+        recorder.stage("begin round");
+        recorder.dispatch(&self.begin_round, &bound.begin_round, 1);
+    }
+
     /// Records an insertion round.
     pub(crate) fn record<const D: usize>(
         &self,
@@ -110,8 +116,7 @@ impl Insert {
         Dimension<D>: Dim<D>,
     {
         recorder.encoder().clear_buffer(b.messages.buffer(), 0, None);
-        recorder.stage("begin round");
-        recorder.dispatch(&self.begin_round, &bound.begin_round, 1);
+        self.record_begin(recorder, bound);
         recorder.stage("pick");
         recorder.dispatch(&self.pick_score, &bound.pick_score, workgroups);
         recorder.dispatch(&self.pick_point, &bound.pick_point, workgroups);

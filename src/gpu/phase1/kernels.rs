@@ -4,7 +4,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Compiler, Gpu, Readback,
+        Compiler, Deferred, Gpu, Readback,
         phase1::{finish::Finish, memory::Kept, stages::Stages},
         points::PointStage,
     },
@@ -23,18 +23,39 @@ where
     pub(crate) outputs: <Dimension<D> as Finish<D>>::Outputs,
     pub(crate) readback: Readback,
     pub(crate) kept: Kept<D>,
+    deferred: Deferred,
 }
 
 impl<const D: usize> Phase1<D>
 where
     Dimension<D>: Finish<D>,
 {
-    /// Compiles the kernels.
+    /// Compiles the kernels that a run needs. A thread, where there are any, begins with the others;
+    /// [`Phase1::finish_compiling`] waits for them.
     ///
     /// # Errors
     ///
     /// Returns the errors of [`Compiler::finish`].
     pub async fn new(gpu: &Gpu, width: Width) -> Result<Self, Error> {
+        let (phase1, compiler) = Self::uncompiled(gpu, width);
+        #[cfg(not(target_arch = "wasm32"))]
+        phase1.deferred.start(gpu);
+        compiler.finish().await?;
+        Ok(phase1)
+    }
+
+    /// Compiles the kernels that a run needs, and no others: what a first run may find, for tests.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Phase1::new`].
+    pub async fn of_first_run(gpu: &Gpu, width: Width) -> Result<Self, Error> {
+        let (phase1, compiler) = Self::uncompiled(gpu, width);
+        compiler.finish().await?;
+        Ok(phase1)
+    }
+
+    fn uncompiled(gpu: &Gpu, width: Width) -> (Self, Compiler<'_>) {
         let compiler = Compiler::new(gpu);
         let phase1 = Phase1 {
             points: PointStage::new(&compiler),
@@ -42,9 +63,18 @@ where
             outputs: Dimension::<D>::outputs(&compiler),
             readback: Readback::default(),
             kept: Kept::default(),
+            deferred: compiler.take_deferred(),
         };
-        compiler.finish().await?;
-        Ok(phase1)
+        (phase1, compiler)
+    }
+
+    /// Returns when the kernels that runs can do without are compiled, too.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Deferred::finish`].
+    pub async fn finish_compiling(&self, gpu: &Gpu) -> Result<(), Error> {
+        self.deferred.finish(gpu).await
     }
 
     /// Gives the buffers of the last run back.

@@ -32,6 +32,7 @@ mod flip;
 mod insert;
 mod kernels;
 mod memory;
+mod moved;
 mod relocate;
 mod run;
 mod settings;

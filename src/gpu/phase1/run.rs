@@ -5,6 +5,7 @@ use crate::{
     error::Error,
     gpu::{
         Gpu, Pending, Profiler, Recorder,
+        device_mesh::DeviceMesh,
         dim::{Dim, Flip},
         iterations::{Iterations, Known},
         layout::{BLOCK, COUNTER_WORDS, Counters, LOGGED, NONE, PARAM_WORDS, Params, SLOTS_FULL},
@@ -42,6 +43,8 @@ where
     pub lattice: &'a Lattice<D>,
     /// The first simplex, by input indices.
     pub start: Start<D>,
+    /// Whether there may be no insertion of points: [`Run::take`] comes next.
+    pub has_moved: bool,
 }
 
 /// The output of a run.
@@ -73,7 +76,10 @@ where
     counters: Counters,
     points: Option<PointBuffers>,
     memory: Memory<D>,
+    first: Start<D>,
     start: StartMesh,
+    /// Whether there is a triangulation of all points on the device, so that no round inserts any.
+    has_moved: bool,
     /// Readbacks before this run, and their bytes.
     read_before: (usize, u64),
     /// Batches of rounds whose counters are not read yet, oldest first.
@@ -118,6 +124,10 @@ const CLEAR_VOTES_FROM: u32 = 1 << 30;
 /// Simplices are numbered in 30 bits.
 const MAX_SIMPLICES: u32 = 1 << 30;
 
+/// The most unused slots per 1,024 simplices of a mesh that is taken: so few that their product with
+/// 1,024 fits 32 bits.
+const MAX_SPREAD: u64 = 1 << 20;
+
 /// Blocks in the tail for no points: so many that few points do not need many steps to grow.
 const MIN_TAIL_BLOCKS: u32 = 64;
 
@@ -154,6 +164,11 @@ where
         *(if fits(&middle) { &mut fitting } else { &mut too_many }) = middle;
     }
     fitting as usize
+}
+
+/// Returns the counters before the first round, where so many points wait.
+fn first_counters(waiting: u32) -> Counters {
+    Counters { first_node: 1, next_node: 1, bid_base: 1, entries: waiting, ..Counters::default() }
 }
 
 /// Returns the counters in the words that were read back.
@@ -198,16 +213,19 @@ where
         let history = wanted.clamp(MIN_HISTORY, bindable.max(MIN_HISTORY)) as u32;
         // What is kept is lost if the run fails.
         let Kept { points: mut point_buffers, memory: kept } = std::mem::take(&mut kernels.kept);
-        let Input { points: input, lattice, start } = input;
+        let Input { points: input, lattice, start: first, has_moved } = input;
         let start_points = settings.start_points(count);
-        let triangulate = || StartMesh::new(input, lattice, &start, start_points);
+        let triangulate = || match has_moved {
+            true => StartMesh::of_first(&first),
+            false => StartMesh::new(input, lattice, &first, start_points),
+        };
         let upload = || {
             // The device orders the points while the host makes the other buffers.
             let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
             let input = PointInput { points: input, lattice, sort: settings.sort };
             let device = kernels.points.record(gpu, &mut recorder, &mut point_buffers, input)?;
             let mut words = Vec::new();
-            Dimension::<D>::append_vertex(&mut words, lattice.width(), start.interior_point, points, false);
+            Dimension::<D>::append_vertex(&mut words, lattice.width(), first.interior_point, points, false);
             device.vertices.write(gpu, count * words.len(), &words);
             let dispatches = recorder.dispatches();
             recorder.submit(gpu);
@@ -243,7 +261,7 @@ where
                 start_stride: start.stride(points),
                 ..Params::default()
             },
-            counters: Counters { first_node: 1, next_node: 1, bid_base: 1, entries: points, ..Counters::default() },
+            counters: first_counters(points),
             points: point_buffers,
             memory,
             read_before: (kernels.readback.count(), kernels.readback.bytes()),
@@ -251,10 +269,12 @@ where
             submitted: VecDeque::new(),
             inserted_at_most: start.points.len() as u32,
             stats: Phase1Stats { start_points: start.points.len(), dispatches, submits: 1, ..Phase1Stats::default() },
+            first,
             start,
+            has_moved: false,
             rounds_submitted: 0,
             rounds_before_growth: 0,
-            iterations: Iterations::new(),
+            iterations: Iterations::new(Dimension::<D>::FIRST_ITERATIONS),
             clock,
             round_clock,
         })
@@ -263,6 +283,11 @@ where
     /// Returns the device.
     pub(crate) fn gpu(&self) -> &'a Gpu {
         self.gpu
+    }
+
+    /// Returns the settings.
+    pub(crate) fn settings(&self) -> &Settings<D> {
+        &self.settings
     }
 
     /// Returns the buffers, for tests.
@@ -283,6 +308,102 @@ where
     /// Returns the number of active simplices.
     pub fn active(&self) -> u32 {
         self.counters.active()
+    }
+
+    /// Takes the simplices of `mesh`, the triangulation of the points where they were, in place of
+    /// the rounds that insert points, and finds out what is wrong with them. Returns the number of
+    /// those that are not positively oriented, and that of facets that are not locally Delaunay;
+    /// `None` if the arrays of the mesh do not fit each other.
+    ///
+    /// The flips that follow repair what they can. [`Run::forget`] has the points inserted instead.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::advance`].
+    pub(crate) async fn take(&mut self, mesh: &DeviceMesh<D>) -> Result<Option<[usize; 2]>, Error> {
+        let gpu = self.gpu;
+        let profiler = self.profiler.take();
+        let (simplices, hull) = (mesh.simplex_count(), mesh.hull_count());
+        let all = (simplices + hull) as u32;
+        let (submission, counters) = gpu
+            .with_error_scope("the mesh of points that have moved", || {
+                let mut recorder = Recorder::new(gpu, profiler);
+                // A sixteenth of the slots is left to flips.
+                let blocks = (all + all / 16).div_ceil(BLOCK) + tail_blocks(self.params.infinite, &self.settings);
+                if D == 3 && blocks > self.params.blocks {
+                    self.grow_to(&mut recorder, blocks)?;
+                }
+                // In 2D, the last slot is never used.
+                let free = self.params.blocks * BLOCK - all - 1;
+                self.params.blocks_before = 0;
+                self.params.moved_simplices = simplices as u32;
+                self.params.moved_ghosts = hull as u32;
+                self.params.moved_spread = (u64::from(free) * 1024 / u64::from(all.max(1))).min(MAX_SPREAD) as u32;
+                let buffers = &self.memory.buffers;
+                buffers.control.write(gpu, 0, bytemuck::cast_slice(&[self.params]));
+                buffers.control.write(gpu, PARAM_WORDS, bytemuck::cast_slice(&[first_counters(0)]));
+                buffers.record_clear(&mut recorder);
+                let (stages, workgroups) = (&self.kernels.stages, self.workgroups());
+                stages.insert.record_fill_free(&mut recorder, &self.memory.bound.insert, "moved mesh", workgroups);
+                let arrays = [("moved_simplices", mesh.simplices()), ("moved_neighbors", mesh.neighbors())];
+                stages.moved.record(gpu, &mut recorder, buffers, arrays, workgroups);
+                self.stats.dispatches += recorder.dispatches();
+                self.stats.submits += 1;
+                self.stats.stalls += 1;
+                let counters = self.read_counters(recorder.encoder());
+                Ok((recorder.submit(gpu), counters))
+            })
+            .await?;
+        let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
+        self.counters = counters_in(&words);
+        self.has_moved = true;
+        self.stats.start_points = 0;
+        let Counters { inverted, violated, .. } = self.counters;
+        Ok((inverted < MAX_SIMPLICES).then_some([inverted as usize, violated as usize]))
+    }
+
+    /// Forgets the mesh that was taken: all points of the input wait to be inserted.
+    pub(crate) fn forget(&mut self, input: &Input<'_, D>) {
+        let Input { points, lattice, start, .. } = input;
+        self.begin_with(StartMesh::new(*points, lattice, start, self.settings.start_points(points.len())));
+    }
+
+    /// Has all points of the input wait to be inserted into `start`.
+    fn begin_with(&mut self, start: StartMesh) {
+        self.has_moved = false;
+        self.params = Params {
+            moved_simplices: 0,
+            moved_ghosts: 0,
+            start_points: start.points.len() as u32,
+            start_simplices: start.simplices.len() as u32,
+            start_stride: start.stride(self.params.infinite),
+            ..self.params
+        };
+        let long_walks = self.counters.long_walks;
+        self.counters = Counters { long_walks, ..first_counters(self.params.infinite) };
+        self.iterations = Iterations::new(Dimension::<D>::FIRST_ITERATIONS);
+        self.submitted.clear();
+        (self.rounds_submitted, self.rounds_before_growth) = (0, 0);
+        self.inserted_at_most = self.params.start_points;
+        self.stats.rounds.clear();
+        self.stats.start_points = start.points.len();
+        self.start = start;
+    }
+
+    /// Reads the points that are vertices of no simplex, as [`Phase1Output::merged`] has them, after
+    /// [`Run::take`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::advance`].
+    pub(crate) async fn read_merged(&mut self) -> Result<Vec<[u32; 2]>, Error> {
+        if self.counters.merged == 0 {
+            return Ok(Vec::new());
+        }
+        let merged_into = &self.memory.buffers.points.merged_into;
+        self.stats.submits += 1;
+        self.stats.stalls += 1;
+        Ok(pairs(self.kernels.readback.read(self.gpu, merged_into, 0, merged_into.len()).await?))
     }
 
     /// Runs rounds of insertion and flips, and, when all points are inserted, flip iterations,
@@ -309,6 +430,12 @@ where
         let before = std::mem::replace(&mut self.counters, counters_in(&words));
         let read = self.counters;
         let time = self.round_clock.lap() / rounds;
+        if read.long_walks > 0 && self.start.points.len() > D + 1 {
+            // A point may lie in no simplex of the start, which the host and the device see with
+            // different perturbations. It lies in one of those around the first simplex.
+            self.begin_with(StartMesh::of_first(&self.first));
+            return Ok(true);
+        }
         let mut last = before.progress();
         for round in before.round + 1..=read.round {
             // The state after the last round of a batch is that which was read.
@@ -329,7 +456,7 @@ where
                 let left = waiting.saturating_mul(D as u32 + 1).saturating_add(active);
                 let is_few = left <= self.params.few_limit;
                 let used = used - (few - few_before);
-                self.iterations.plan(Known { used, recorded, inserted, waiting, is_few });
+                self.iterations.plan(Known { used, recorded, inserted_before, inserted, waiting, is_few });
             }
             if inserted == inserted_before && inserted + read.merged < self.params.infinite {
                 return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
@@ -344,7 +471,7 @@ where
         let gpu = self.gpu;
         let mut profiler = self.profiler.take();
         let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
-        if self.rounds_submitted == 0 {
+        if self.rounds_submitted == 0 && !self.has_moved {
             self.memory.buffers.control.write(gpu, 0, bytemuck::cast_slice(&[self.params]));
             let (inserted, active) = (self.params.start_points, self.params.start_simplices);
             let counters = Counters { inserted, active_len: [active, 0], ..self.counters };
@@ -387,11 +514,18 @@ where
     fn record_round(&self, recorder: &mut Recorder<'_>, iterations: u32) {
         let workgroups = self.workgroups();
         let (stages, Memory { buffers, bound }) = (&self.kernels.stages, &self.memory);
-        stages.insert.record(recorder, &bound.insert, buffers, workgroups);
+        if self.has_moved {
+            stages.insert.record_begin(recorder, &bound.insert);
+        } else {
+            stages.insert.record(recorder, &bound.insert, buffers, workgroups);
+        }
         let compacts = self.settings.slots_per_active > 0;
-        let plan = FlipPlan { iterations, exact_every: self.iterations.exact_every(), compacts };
+        let takes_few = self.params.few > 0;
+        let plan = FlipPlan { iterations, exact_every: self.iterations.exact_every(), compacts, takes_few };
         stages.flip.record(recorder, &bound.flip, plan, workgroups);
-        stages.relocate.record(recorder, &bound.relocate, workgroups);
+        if !self.has_moved {
+            stages.relocate.record(recorder, &bound.relocate, workgroups);
+        }
     }
 
     fn read_counters(&mut self, encoder: &mut wgpu::CommandEncoder) -> Pending<u32> {
@@ -407,10 +541,15 @@ where
 
     /// Adds slots to the tail.
     fn grow(&mut self, recorder: &mut Recorder<'_>) -> Result<(), Error> {
-        let before = self.params.blocks;
         let more = tail_blocks(self.params.infinite, &self.settings);
-        let blocks = before.saturating_add(more).min(MAX_SIMPLICES / BLOCK - 1);
-        if blocks == before {
+        self.grow_to(recorder, self.params.blocks.saturating_add(more))
+    }
+
+    /// Adds slots to the tail, so that there are so many blocks.
+    fn grow_to(&mut self, recorder: &mut Recorder<'_>, blocks: u32) -> Result<(), Error> {
+        let before = self.params.blocks;
+        let blocks = blocks.min(MAX_SIMPLICES / BLOCK - 1);
+        if blocks <= before {
             return Err(Error::TooManySimplices { limit: MAX_SIMPLICES as usize });
         }
         let (bytes, limit) = (largest_bytes(blocks), self.gpu.max_storage_bytes());

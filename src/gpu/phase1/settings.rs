@@ -1,6 +1,7 @@
 //! Settings for Phase 1.
 
 use crate::{
+    cpu::update::Limits,
     dimension::Dimension,
     gpu::{
         dim::Dim,
@@ -11,7 +12,7 @@ use crate::{
 
 /// Settings for Phase 1 in `D` dimensions, for experiments: they change the time, and not the set
 /// of simplices.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings<const D: usize> {
     /// How points are picked. The circumcentre is that of a tetrahedron's sphere or of a triangle's
     /// circle.
@@ -58,6 +59,8 @@ pub struct Settings<const D: usize> {
     pub sparse: bool,
     /// 2D only: the orientation of the mesh.
     pub winding: Winding,
+    /// How much of a mesh whose points have moved it pays to repair.
+    pub limits: Limits,
 }
 
 impl<const D: usize> Default for Settings<D>
@@ -82,6 +85,7 @@ where
             sort: true,
             sparse: cfg!(target_arch = "wasm32"),
             winding: Winding::CounterClockwise,
+            limits: Limits::on_device(D),
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::{
             finish::{BoundFinish, Finish, FinishStage},
             flip::{BoundFlip, Flip},
             insert::{BoundInsert, Insert},
+            moved::Moved,
             relocate::{BoundRelocate, Relocate},
         },
     },
@@ -23,6 +24,7 @@ pub(crate) struct Stages {
     pub(crate) flip: Flip,
     pub(crate) relocate: Relocate,
     pub(crate) finish: FinishStage,
+    pub(crate) moved: Moved,
 }
 
 /// Their bind groups.
@@ -48,6 +50,7 @@ impl Stages {
             flip: Flip::new::<D>(compiler, width),
             relocate: Relocate::new::<D>(compiler, width),
             finish: FinishStage::new::<D>(compiler, width),
+            moved: Moved::new::<D>(compiler, width),
         }
     }
 

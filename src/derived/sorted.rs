@@ -1,0 +1,78 @@
+//! A mesh in an order in which what is near in space is near in memory.
+
+use super::{
+    complex::{Complex, Coordinates},
+    queries::{CurveKey, order_along_curve, sorted_by},
+};
+use crate::{
+    geometry::{Euclidean, Geometry},
+    index::NONE,
+    parallel::{self, Threads},
+};
+use std::borrow::Cow;
+
+/// A copy of a mesh and its points that is numbered along the Hilbert curve: the points by their
+/// places, the simplices by the first of their vertices.
+///
+/// A mesh comes in whatever order its backend has made it in, and its points in that of the input,
+/// so that a step to a neighbour reads memory that no other step has brought near. To look at all
+/// simplices and what is around them a few times takes longer than to sort them first.
+#[derive(Debug)]
+pub struct Sorted<const D: usize, const N: usize> {
+    pub(super) complex: Complex<'static, D, N>,
+    /// The number of each point in the mesh that was sorted.
+    pub(super) points: Vec<u32>,
+    /// The number of each simplex in the mesh that was sorted.
+    pub(super) simplices: Vec<u32>,
+    /// The place of each simplex of that mesh in this one.
+    pub(super) places: Vec<u32>,
+}
+
+impl<const D: usize, const N: usize> Sorted<D, N>
+where
+    Euclidean: Geometry<D, N>,
+{
+    pub(super) fn new(complex: &Complex<'_, D, N>) -> Self {
+        let points = order_along_curve(complex.points(), CurveKey::new(complex.bounds()));
+        let ranks = inverse(&points);
+        let firsts = map(complex.simplices.len(), |t| {
+            let ranks = complex.simplices[t].map(|v| ranks[v as usize]);
+            ranks.into_iter().fold(u32::MAX, u32::min)
+        });
+        let simplices = sorted_by(firsts);
+        let places = inverse(&simplices);
+        let rank_or_none = |i: i32, ranks: &[u32]| if i == NONE { NONE } else { ranks[i as usize] as i32 };
+        let sorted = Complex {
+            points: Coordinates::Owned(map(points.len(), |rank| complex.point(points[rank]))),
+            simplices: Cow::Owned(map(simplices.len(), |place| {
+                complex.simplices[simplices[place] as usize].map(|v| ranks[v as usize])
+            })),
+            neighbors: Cow::Owned(map(simplices.len(), |place| {
+                complex.neighbors[simplices[place] as usize].map(|t| rank_or_none(t, &places))
+            })),
+            duplicate_of: Cow::Owned(map(points.len(), |rank| {
+                rank_or_none(complex.duplicate_of[points[rank] as usize], &ranks)
+            })),
+        };
+        Sorted { complex: sorted, points, simplices, places }
+    }
+
+    /// Returns the vertices of a face as they were numbered in the mesh that was sorted.
+    pub(super) fn given<const K: usize>(&self, face: [u32; K]) -> [u32; K] {
+        face.map(|v| self.points[v as usize])
+    }
+}
+
+/// Returns the results of `work` for the numbers below `len`. Threads share the work.
+fn map<R: Clone + Send>(len: usize, work: impl Fn(usize) -> R + Sync) -> Vec<R> {
+    parallel::joined(parallel::map_ranges(Threads::All, len, |range| range.map(&work).collect()))
+}
+
+/// Returns where each number is in a list of all numbers below its length.
+pub(super) fn inverse(order: &[u32]) -> Vec<u32> {
+    let mut places = vec![0; order.len()];
+    for (place, &i) in (0..).zip(order) {
+        places[i as usize] = place;
+    }
+    places
+}
