@@ -17,7 +17,8 @@ import { delimiter, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import * as esbuild from 'esbuild';
-import { gluePlugin } from './glue.mjs';
+import { gluePlugin, importNames } from './glue.mjs';
+import { renameImports } from './imports.mjs';
 
 const web = dirname(fileURLToPath(import.meta.url));
 const root = dirname(web);
@@ -28,6 +29,7 @@ const pkg = (name) => join(web, 'pkg', name);
 const MODULES = {
   d3: 'gdel-3d.wasm',
   d2: 'gdel-2d.wasm',
+  update: 'gdel-update.wasm',
   tools: 'gdel-tools.wasm',
   derived: 'gdel-derived.wasm',
 };
@@ -63,14 +65,16 @@ function buildWasm() {
   }
 }
 
-const glue = gluePlugin(
-  Object.fromEntries(Object.keys(MODULES).map((name) => [name, join(pkg(name), 'gdel.js')])),
+const glueFiles = Object.fromEntries(
+  Object.keys(MODULES).map((name) => [name, join(pkg(name), 'gdel.js')]),
 );
+const glue = gluePlugin(glueFiles);
 
 /** The module that holds a copy of a wasm module, or of the worker. */
 const COPIES = {
   d3: 'inline-3d',
   d2: 'inline-2d',
+  update: 'inline-update',
   tools: 'inline-tools',
   derived: 'inline-derived',
   worker: 'inline-worker',
@@ -148,8 +152,11 @@ const COMMON_JS = {
 async function buildJs() {
   rmSync(dist, { recursive: true, force: true });
   mkdirSync(dist);
-  for (const [name, file] of Object.entries(MODULES))
-    cpSync(join(pkg(name), 'gdel_bg.wasm'), join(dist, file));
+  const imports = importNames(glueFiles);
+  for (const [name, file] of Object.entries(MODULES)) {
+    const module = readFileSync(join(pkg(name), 'gdel_bg.wasm'));
+    writeFileSync(join(dist, file), renameImports(module, imports));
+  }
   say('JavaScript: esbuild');
   await bundle('worker.ts', 'worker.js');
   writeCopies();

@@ -1,6 +1,7 @@
 // Joins the JavaScript that wasm-bindgen writes for each wasm module: most of it is the same for
 // all of them, and it keeps its instance in module variables.
 
+import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import * as esbuild from 'esbuild';
 import ts from 'typescript';
@@ -45,11 +46,31 @@ function parse(file) {
 const importsOf = ({ body }) => body.statements[0].declarationList.declarations[0].initializer;
 
 /**
+ * Returns short names for what the modules in `files`, names to paths, import, and a name for the
+ * module from which: one that says which names these are, so that JavaScript and WebAssembly of
+ * different versions do not fit. The names of wasm-bindgen end in hashes, and there are so many that
+ * they take 3 kB of the 3D module and of the JavaScript, compressed.
+ */
+export function importNames(files) {
+  const functions = Object.values(files).flatMap((file) =>
+    parse(file).filter(({ name }) => name?.text === IMPORTS),
+  );
+  const found = functions.flatMap((declaration) =>
+    importsOf(declaration).properties.map(({ name }) => name.getText()),
+  );
+  const sorted = [...new Set(found)].sort();
+  const hash = createHash('sha256').update(sorted.join()).digest('hex').slice(0, 8);
+  return { module: hash, names: new Map(sorted.map((name, i) => [name, `_${i.toString(36)}`])) };
+}
+
+/**
  * Returns the text of an ES module that holds the glue of all modules in `files`, names to paths.
  * Classes and imports that differ between modules are chosen by the free variable
- * {@link MODULE}; at its end it assigns all exports to the free variable `glue`.
+ * {@link MODULE}; imports have the names of {@link importNames}. At its end it assigns all exports to
+ * the free variable `glue`.
  */
 function join(files) {
+  const { module: from, names } = importNames(files);
   const declarations = new Variants();
   const imports = new Variants();
   const exported = new Set(['initSync']);
@@ -63,7 +84,7 @@ function join(files) {
         continue;
       }
       for (const property of importsOf(statement).properties)
-        imports.add(property.name.getText(), property.initializer.getText(), module);
+        imports.add(names.get(property.name.getText()), property.initializer.getText(), module);
     }
   }
   const property = (name, value) => `${name}: ${value}`;
@@ -73,7 +94,7 @@ function join(files) {
       (_, text) => text,
       (name, choice) => `const ${name} = ${choice};`,
     ),
-    `function ${IMPORTS}() { return { './gdel_bg.js': { ${properties.join(', ')} } }; }`,
+    `function ${IMPORTS}() { return { '${from}': { ${properties.join(', ')} } }; }`,
     `glue = { ${[...exported].join(', ')} };`,
   ].join('\n');
 }
@@ -89,7 +110,8 @@ const CODERS =
 
 /**
  * Resolves the import `glue` to a function, of which each call has an instance of its own: of the
- * module that it is told, and with the global object that it is passed.
+ * module that it is told, and with the global object that it is passed. The modules'
+ * imports have the names of {@link importNames}.
  */
 export function gluePlugin(files) {
   return {

@@ -3,10 +3,10 @@
 //
 //   node benches/js/gpu.mjs [--package FOLDER] [--webgpu FOLDER] \
 //     [--points 100000,1000000] [--kind uniform] [--runs 5] [--native GDEL]
-//     [--outputs neighbors,hull,duplicateOf] [--resident]
+//     [--outputs neighbors,hull,duplicateOf] [--resident] [--reuse]
 //
 // With --resident, the mesh stays on a device that the script opens; --outputs '' leaves the
-// tetrahedra alone.
+// tetrahedra alone. With --reuse, each mesh takes the memory of the one before.
 //
 // To run it on another machine, carry this file, web/dist and node_modules/webgpu there; of the
 // latter, `index.js`, `package.json` and the `.dawn.node` of its platform in `dist` are enough.
@@ -31,6 +31,7 @@ const { values } = parseArgs({
     native: { type: 'string' },
     outputs: { type: 'string', default: 'neighbors,hull,duplicateOf' },
     resident: { type: 'boolean', default: false },
+    reuse: { type: 'boolean', default: false },
   },
 });
 const load = (folder, file) => import(pathToFileURL(join(resolve(folder), file)));
@@ -50,6 +51,8 @@ async function deviceOf(gpu) {
 
 const opened = performance.now();
 const gpu = create([]);
+// When it is garbage, its devices are lost.
+globalThis.gpu = gpu;
 const { resident } = values;
 const triangulator = await createTriangulator({
   ...(resident ? { device: await deviceOf(gpu) } : { gpu }),
@@ -84,8 +87,9 @@ for (const count of values.points.split(',').map(Number)) {
   let mesh;
   for (let run = -1; run < runs; run++) {
     const copy = points.slice();
+    const reuse = values.reuse ? mesh : undefined;
     const started = performance.now();
-    mesh = await triangulator.delaunay3d(copy, { backend: 'gpu', transfer: true, ...kept });
+    mesh = await triangulator.delaunay3d(copy, { backend: 'gpu', transfer: true, reuse, ...kept });
     if (run >= 0) times.push(performance.now() - started);
     if (resident) mesh.destroy();
   }
@@ -97,6 +101,7 @@ for (const count of values.points.split(',').map(Number)) {
       points: count,
       tetrahedra: mesh.tetrahedronCount ?? mesh.tetrahedra.length / 4,
       outputs: resident ? 'resident' : outputs,
+      reuse: values.reuse,
       milliseconds,
       all: times,
       nativeMilliseconds: native,

@@ -108,6 +108,92 @@ for (const [D, triangulate, generated] of [
     assert.ok(outside > 5 && outside < 195);
   });
 
+  test(`${D}D: the k nearest vertices are those of brute force`, async () => {
+    const points = await generated('uniform', 50, { seed: 1 });
+    const mesh = await triangulate(points);
+    const queries = await generated('uniform', 20, { seed: 2 });
+    for (const k of [1, 3, 60]) {
+      const nearest = await mesh.nearest(queries, { k });
+      assert.equal(nearest.length, 20 * k);
+      for (let q = 0; q < 20; q++) {
+        const distance = (v) =>
+          sum(Array.from({ length: D }, (_, k) => (queries[D * q + k] - points[D * v + k]) ** 2));
+        const all = Array.from({ length: 50 }, (_, v) => v);
+        all.sort((v, w) => distance(v) - distance(w) || v - w);
+        const expected = Array.from({ length: k }, (_, i) => all[i] ?? -1);
+        assert.deepEqual(Array.from(nearest.subarray(k * q, k * q + k)), expected);
+      }
+    }
+    for (const k of [0, 1.5, '2', 2 ** 40])
+      await assert.rejects(mesh.nearest(queries, { k }), { code: 'BAD_INPUT' });
+  });
+
+  test(`${D}D: edges, facets and neighbours are those of the simplices`, async () => {
+    const N = D + 1;
+    const points = await generated('uniform', 200, { seed: 3 });
+    points.copyWithin(D * 199, 0, D);
+    const mesh = await triangulate(points);
+    const simplices = D === 2 ? mesh.triangles : mesh.tetrahedra;
+    const topology = await mesh.topology();
+    const facesOf = (list, size) => {
+      const faces = [];
+      for (let i = 0; i < list.length; i += size)
+        faces.push(`${Array.from(list.subarray(i, i + size)).sort((a, b) => a - b)}`);
+      return faces.sort();
+    };
+    const edges = new Set();
+    const facets = new Set();
+    const stars = Array.from({ length: 200 }, () => []);
+    for (let t = 0; t < simplices.length / N; t++) {
+      const simplex = simplices.subarray(N * t, N * t + N);
+      for (const v of simplex) {
+        stars[v].push(t);
+        facets.add(`${Array.from(simplex.filter((w) => w !== v)).sort((a, b) => a - b)}`);
+        for (const w of simplex) if (v < w) edges.add(`${[v, w]}`);
+      }
+    }
+    assert.deepEqual(facesOf(topology.edges, 2), [...edges].sort());
+    assert.deepEqual(facesOf(topology.facets, D), [...facets].sort());
+    for (let v = 0; v < 200; v++) {
+      const [start, end] = topology.neighborOffsets.subarray(v, v + 2);
+      const expected = new Set(
+        stars[v].flatMap((t) => Array.from(simplices.slice(N * t, N * t + N))),
+      );
+      expected.delete(v);
+      assert.deepEqual(
+        Array.from(topology.neighbors.subarray(start, end)),
+        [...expected].sort((a, b) => a - b),
+      );
+      assert.equal(topology.simplexOf[v], stars[v][0] ?? -1);
+    }
+    assert.equal(topology.simplexOf[199], -1, 'a duplicate');
+  });
+
+  test(`${D}D: the geometry of simplices`, async () => {
+    const N = D + 1;
+    const points = await generated('uniform', 200, { seed: 4 });
+    const mesh = await triangulate(points);
+    const simplices = D === 2 ? mesh.triangles : mesh.tetrahedra;
+    const geometry = await mesh.geometry();
+    const { circumcenters, circumradii, volumes, radiusRatios, angles } = geometry;
+    for (let t = 0; t < simplices.length / N; t++) {
+      for (const v of simplices.subarray(N * t, N * t + N)) {
+        const offsets = Array.from(
+          { length: D },
+          (_, k) => points[D * v + k] - circumcenters[D * t + k],
+        );
+        near(Math.hypot(...offsets), circumradii[t], 1e-9 * (1 + circumradii[t]));
+      }
+      assert.ok(radiusRatios[t] > 0 && radiusRatios[t] <= 1 + 1e-9);
+    }
+    const { volumes: cells } = await mesh.voronoi({ clip: 'hull' });
+    near(sum(Array.from(volumes)), sum(Array.from(cells)), 1e-9);
+    const perSimplex = D === 2 ? 3 : 6;
+    assert.equal(angles.length, (perSimplex * simplices.length) / N);
+    assert.ok(angles.every((angle) => angle > 0 && angle < Math.PI));
+    if (D === 2) near(sum(Array.from(angles)), (Math.PI * simplices.length) / 3, 1e-9);
+  });
+
   test(`${D}D: linear functions are interpolated by all methods`, async () => {
     const points = await generated('uniform', 500, { seed: 3 });
     const mesh = await triangulate(points);

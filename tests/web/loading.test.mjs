@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { rmSync, writeFileSync } from 'node:fs';
+import { readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { dist, importFrom, project } from './package.mjs';
@@ -29,7 +29,7 @@ const EXPECTED = { thread: 'worker', whyThread: null, whyInlined: null, sync: nu
 
 test('where all files are, no copy is loaded', () => {
   const withoutCopies = (folder) => {
-    for (const name of ['3d', '2d', 'tools', 'derived', 'worker'])
+    for (const name of ['3d', '2d', 'update', 'tools', 'derived', 'worker'])
       rmSync(join(folder, `inline-${name}.js`));
   };
   assert.deepEqual(run(withoutCopies), EXPECTED);
@@ -47,24 +47,38 @@ test('a page of HTML in place of a wasm file is told apart', () => {
   assert.deepEqual({ ...found, whyInlined: null }, EXPECTED);
 });
 
-test('a wasm file of another version is an error that says so, everywhere', async () => {
-  const folder = project();
-  writeFileSync(join(dist(folder), 'gdel-3d.wasm'), Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0));
-  const { createTriangulator, delaunay3d, GdelError, load3d } = await importFrom(folder);
-  for (const call of [
-    () => delaunay3d([0, 0, 0]),
-    () => load3d(),
-    () => createTriangulator({ worker: false, backend: 'cpu' }),
-    () => createTriangulator(),
-  ]) {
-    await assert.rejects(call, (error) => {
-      assert.ok(error instanceof GdelError, String(error));
-      assert.equal(error.code, 'LOAD_FAILED');
-      assert.match(error.message, /one version/);
-      return true;
-    });
-  }
-});
+/** Wasm files that do not fit. */
+const OTHER_VERSIONS = {
+  'without exports': () => Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0),
+  'with other imports': (file) => {
+    // The imports have short names, and the name of their module says which they are.
+    const [{ module }] = WebAssembly.Module.imports(new WebAssembly.Module(file));
+    const other = [...module].reverse().join('');
+    assert.notEqual(other, module);
+    return Buffer.from(file.toString('latin1').replaceAll(module, other), 'latin1');
+  },
+};
+
+for (const [what, other] of Object.entries(OTHER_VERSIONS))
+  test(`a wasm file of another version, ${what}, is an error that says so, everywhere`, async () => {
+    const folder = project();
+    const file = join(dist(folder), 'gdel-3d.wasm');
+    writeFileSync(file, other(readFileSync(file)));
+    const { createTriangulator, delaunay3d, GdelError, load3d } = await importFrom(folder);
+    for (const call of [
+      () => delaunay3d([0, 0, 0]),
+      () => load3d(),
+      () => createTriangulator({ worker: false, backend: 'cpu' }),
+      () => createTriangulator(),
+    ]) {
+      await assert.rejects(call, (error) => {
+        assert.ok(error instanceof GdelError, String(error));
+        assert.equal(error.code, 'LOAD_FAILED');
+        assert.match(error.message, /one version/);
+        return true;
+      });
+    }
+  });
 
 test('code that is missing is an error that says what to do', async () => {
   const folder = project();
@@ -89,7 +103,7 @@ test('a worker that is missing is replaced by its copy, and the statistics say s
 
 test('gdel-wasm/inline needs no files', () => {
   const found = run((folder) => {
-    for (const module of ['3d', '2d', 'tools', 'derived'])
+    for (const module of ['3d', '2d', 'update', 'tools', 'derived'])
       rmSync(join(folder, `gdel-${module}.wasm`));
     rmSync(join(folder, 'worker.js'));
   }, 'gdel-wasm/inline');

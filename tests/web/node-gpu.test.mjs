@@ -96,6 +96,9 @@ test("a mesh stays on the caller's device", { timeout: 600_000 }, async () => {
 
   const tetrahedra = await mesh.read('tetrahedra');
   assert.equal(fingerprint(tetrahedra), print);
+  const unneeded = await mesh.read('neighbors');
+  assert.equal(fingerprint(await mesh.read('tetrahedra', { reuse: unneeded })), print);
+  assert.equal(unneeded.length, 0);
   const neighbors = await mesh.read('neighbors');
   assert.ok(neighbors instanceof Int32Array && neighbors.length === tetrahedra.length);
   neighbors.forEach((u, i) => {
@@ -131,6 +134,52 @@ test("a mesh stays on the caller's device", { timeout: 600_000 }, async () => {
   await assert.rejects(cpu.read('tetrahedra'), (error) =>
     ['DEVICE_LOST', 'GPU'].includes(error.code),
   );
+});
+
+test('the arrays of a mesh give their memory to the next one', { timeout: 600_000 }, async () => {
+  const { createTriangulator, delaunay2d, delaunay3d, generate } = await importFrom(project());
+  const triangulator = await createTriangulator({ gpu, backend: 'gpu' });
+  const points = await generate('uniform', 320, { seed: 1 });
+  const fewer = points.slice(0, 3 * 300);
+  const old = await triangulator.delaunay3d(points);
+  const { tetrahedra, neighbors, hull } = old;
+  const bytes = tetrahedra.buffer.byteLength;
+  assert.equal(bytes, tetrahedra.byteLength);
+
+  const mesh = await triangulator.delaunay3d(fewer, { reuse: old });
+  for (const array of [tetrahedra, neighbors, hull]) assert.equal(array.length, 0);
+  assert.equal(old.points.length, 3 * 320);
+  const expected = await delaunay3d(fewer, { backend: 'cpu' });
+  assert.equal(fingerprint(mesh.tetrahedra), fingerprint(expected.tetrahedra));
+  assert.equal(mesh.neighbors.length, expected.neighbors.length);
+  assert.equal(mesh.hull.length, expected.hull.length);
+  assert.equal(mesh.tetrahedra.buffer.byteLength, bytes);
+  assert.equal(mesh.neighbors.buffer.byteLength, bytes);
+
+  // What is too small, or far too large, is not taken. Fresh memory is a little larger, for next time.
+  const large = await delaunay3d(await generate('uniform', 1000, { seed: 1 }), { backend: 'cpu' });
+  const fresh = await triangulator.delaunay3d(fewer, { reuse: large });
+  assert.equal(large.tetrahedra.length, 0);
+  assert.equal(fingerprint(fresh.tetrahedra), fingerprint(mesh.tetrahedra));
+  const room = fresh.tetrahedra.buffer.byteLength / fresh.tetrahedra.byteLength;
+  assert.ok(room > 1 && room < 1.1);
+  // A mesh whose memory was taken has none.
+  const again = await triangulator.delaunay3d(fewer, { reuse: large });
+  assert.equal(fingerprint(again.tetrahedra), fingerprint(mesh.tetrahedra));
+
+  const flat = await triangulator.delaunay2d(fewer.slice(0, 600));
+  const next = await triangulator.delaunay2d(fewer.slice(0, 598), { reuse: flat });
+  assert.equal(flat.triangles.length, 0);
+  assert.equal(flat.coords.length, 600);
+  const expected2d = await delaunay2d(fewer.slice(0, 598), { backend: 'cpu' });
+  assert.deepEqual(canonical2d(next.triangles), canonical2d(expected2d.triangles));
+
+  // In a worker, which gets the memory.
+  const elsewhere = await delaunay3d(points, { backend: 'cpu', reuse: mesh });
+  assert.equal(mesh.tetrahedra.length, 0);
+  assert.equal(elsewhere.tetrahedra.byteLength, bytes);
+  await assert.rejects(delaunay3d(points, { reuse: 3 }), { code: 'BAD_INPUT' });
+  triangulator.dispose();
 });
 
 /** Returns the triangles in an order of their own: equal for equal meshes. */

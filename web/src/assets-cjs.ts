@@ -13,6 +13,11 @@ export const wasm2d: WasmAsset = {
   file: () => new URL('./gdel-2d.wasm', import.meta.url),
 };
 
+export const wasmUpdate: WasmAsset = {
+  name: 'update',
+  file: () => new URL('./gdel-update.wasm', import.meta.url),
+};
+
 export const wasmTools: WasmAsset = {
   name: 'tools',
   file: () => new URL('./gdel-tools.wasm', import.meta.url),

@@ -16,6 +16,12 @@ export const wasm2d: WasmAsset = {
   copy: () => import('base64:d2'),
 };
 
+export const wasmUpdate: WasmAsset = {
+  name: 'update',
+  file: () => new URL('./gdel-update.wasm', import.meta.url),
+  copy: () => import('base64:update'),
+};
+
 export const wasmTools: WasmAsset = {
   name: 'tools',
   file: () => new URL('./gdel-tools.wasm', import.meta.url),

@@ -3,7 +3,9 @@
 import makeGlue from 'glue';
 import type { Coordinates } from './arrays.js';
 import { type PlainError, toPlainError } from './errors.js';
+import { Memory, MemoryThreads } from './memory.js';
 import type { Control, CoreInfo, CoreStats, ModuleName, TaskName, Tasks } from './protocol.js';
+import type { MadeResident } from './resident.js';
 import type { AdapterInfo, Backend, Output } from './types.js';
 
 /** The shortest time between two progress reports, since each is a message to the page. */
@@ -19,6 +21,7 @@ interface ModuleTasks {
 const TASKS: Record<ModuleName, (module: WebAssembly.Module, gpu?: object) => ModuleTasks> = {
   d3: tasks3d,
   d2: tasks2d,
+  update: updateTasks,
   tools: toolsTasks,
   derived: derivedTasks,
 };
@@ -108,11 +111,38 @@ function instantiate(
   }
 }
 
+type Report = (phase: string, fraction: number) => boolean;
+
+/** Returns the function that WebAssembly calls with its progress. */
+const reporting =
+  (control: Control): Report =>
+  (phase, fraction) => {
+    control.onProgress({ phase, fraction });
+    return control.isAborted();
+  };
+
+/** The arrays of meshes on the device, by their numbers. */
+const ARRAYS = {
+  d3: ['tetrahedra', 'neighbors', 'hull'],
+  d2: ['triangles', 'halfedges', 'hull'],
+};
+
+/** Returns whether the GPU is to blame for what WebAssembly threw. */
+const isOfGpu = (thrown: unknown) => /ADAPTER|DEVICE|BUFFER|^GPU/.test((thrown as PlainError).code);
+
+/** What runs have in common. */
+type RunArgs = Tasks['delaunay2d']['args'];
+
 /** What 3D and 2D tasks share: an instance, its triangulator, and the choice of the backend. */
 function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | undefined) {
   const { glue, memory } = instantiate(name, module, gpu ? scopeWith(gpu) : globalThis);
   const triangulator = new glue.WasmTriangulator();
   let looking: Promise<AdapterInfo> | undefined;
+  const memoryThreads = new MemoryThreads();
+  /** The mesh of the last run, if that was an update of arrays: the next one goes on from it. */
+  let kept: (MadeResident & { key: number }) | undefined;
+  /** Of the simplices: there are 6.8 per uniform point in 3D, and less than 2 per point in 2D. */
+  let bytesPerCoordinate = name === 'd3' ? (7 * 16) / 3 : (2 * 12) / 2;
 
   /** Looks for an adapter. */
   async function look(): Promise<AdapterInfo> {
@@ -155,36 +185,98 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
     }
   }
 
-  /** Triangulates, and adds to the mesh what is only known in JavaScript. */
+  /**
+   * Triangulates, and adds to the mesh what is only known in JavaScript. Of its arrays, `large` are
+   * those of simplices and neighbours.
+   */
   async function run(
-    { points, backend }: { points: Coordinates; backend: Backend },
+    { points, backend, resident, spare, moved, key, outputs }: RunArgs,
     minGpuCoordinates: number,
+    large: number,
     control: Control,
     triangulate: (
       backend: Backend,
-      report: (phase: string, fraction: number) => boolean,
+      resident: boolean,
+      take: (bytes: number) => Uint8Array,
+      report: Report,
     ) => Promise<any>,
   ): Promise<any> {
     const started = performance.now();
     const isDecided =
       backend === 'cpu' || (backend === 'auto' && points.length < minGpuCoordinates);
     const info = isDecided ? null : await choose(backend);
-    if (isDecided || info?.backend === 'cpu') control.onBlocking();
-    const mesh = await triangulate(info?.backend === 'cpu' ? 'cpu' : backend, (phase, fraction) => {
-      control.onProgress({ phase, fraction });
-      return control.isAborted();
-    });
+    const isOnGpu = info?.backend === 'gpu';
+    if (!isOnGpu) control.onBlocking();
+    const ready = new Memory(spare);
+    if (isOnGpu && !resident && !spare?.length)
+      memoryThreads.serve(ready, large, Math.ceil(bytesPerCoordinate * points.length));
+    const report = reporting(control);
+    const chosen = info?.backend === 'cpu' ? 'cpu' : backend;
+    // A mesh of an instance that broke is of no use to this one.
+    const { constructor } = moved?.mesh ?? {};
+    const isHere = constructor === (name === 'd3' ? glue.WasmMesh3 : glue.WasmMesh2);
+    const run = (onDevice: boolean) => triangulate(chosen, onDevice, ready.take, report);
+    let mesh: any;
+    try {
+      if (isOnGpu && key !== undefined) {
+        const before = key === kept?.key ? kept.mesh : undefined;
+        try {
+          mesh = await (before?.update(triangulator, points, chosen, report) ?? run(true));
+          mesh = await keep(mesh, outputs!, ready);
+        } catch (error) {
+          // The CPU takes over from a device that failed, without which nothing can be kept.
+          if (backend === 'gpu' || !isOfGpu(error)) throw error;
+          mesh = await run(false);
+        }
+      } else {
+        drop();
+        mesh = isHere
+          ? await moved!.use((mesh) => mesh.update(triangulator, points, chosen, report))
+          : await run(resident ?? false);
+      }
+    } finally {
+      memoryThreads.release();
+    }
+    const { byteLength } = mesh.tetrahedra ?? mesh.triangles ?? points;
+    // The next run may have a few more of them.
+    if (isOnGpu && !resident) bytesPerCoordinate = (1.02 * byteLength) / (points.length || 1);
     const stats: CoreStats = {
       ...mesh.stats,
       fallback: mesh.stats.fallback ?? info?.fallback ?? null,
       adapter: mesh.stats.backend === 'gpu' ? (info?.adapter ?? null) : null,
       milliseconds: performance.now() - started,
       wasmBytes: memory.buffer.byteLength,
+      readyBytes: ready.readyBytes,
     };
     return { ...mesh, points, stats };
   }
 
+  /** Frees what the device keeps. */
+  function drop(): void {
+    for (const buffer of kept?.buffers ?? []) (buffer as { destroy(): void }).destroy();
+    kept?.mesh.free();
+    kept = undefined;
+  }
+
+  /** Returns the arrays of a mesh on the device, which keeps it. */
+  async function keep(made: any, outputs: readonly string[], { take }: Memory): Promise<any> {
+    const resident = made.resident as MadeResident;
+    const { mesh, dimension, duplicateOf } = resident;
+    const arrays = ARRAYS[name].map(async (array, i) => {
+      if (i > 0 && !outputs.includes(array)) return [];
+      const { buffer, length } = await mesh.read(i, take);
+      return [[array, new (i === 1 ? Int32Array : Uint32Array)(buffer, 0, length / 4)]];
+    });
+    const read = Object.fromEntries((await Promise.all(arrays)).flat());
+    drop();
+    kept = { ...resident, key: Math.random() };
+    if (outputs.includes('duplicateOf')) read.duplicateOf = duplicateOf;
+    return { ...read, dimension, stats: made.stats, key: kept.key };
+  }
+
   const dispose = () => {
+    drop();
+    memoryThreads.end();
     if (!(gpu as Gpu | undefined)?.isGiven) void triangulator.close();
   };
   return { glue, memory, triangulator, choose, run, dispose };
@@ -209,9 +301,10 @@ function tasks3d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
 
     async delaunay3d(args, control) {
       const minGpuCoordinates = 3 * glue.min_gpu_points_3d();
-      const { points, outputs, resident = false } = args;
-      const mesh = await run(args, minGpuCoordinates, control, (backend, report) =>
-        triangulator.delaunay3d(points, backend, outputsOf(glue, outputs), resident, report),
+      const { points, outputs } = args;
+      const large = outputs.includes('neighbors') ? 2 : 1;
+      const mesh = await run(args, minGpuCoordinates, large, control, (backend, ...to) =>
+        triangulator.delaunay3d(points, backend, outputsOf(glue, outputs), ...to),
       );
       return withEmpty(mesh);
     },
@@ -238,13 +331,43 @@ function tasks2d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
   const handlers: Handlers = {
     delaunay2d(args, control) {
       const minGpuCoordinates = 2 * glue.min_gpu_points_2d();
-      return run(args, minGpuCoordinates, control, (backend, report) =>
-        triangulator.delaunay2d(args.points, backend, args.resident ?? false, report),
+      const all = { ...args, outputs: [...ARRAYS.d2, 'duplicateOf'] };
+      return run(all, minGpuCoordinates, 2, control, (backend, ...to) =>
+        triangulator.delaunay2d(args.points, backend, ...to),
       );
     },
   };
   return { handlers, memory, dispose };
 }
+
+/** Meshes in the memory of the CPU whose points move. */
+function updateTasks(module: WebAssembly.Module): ModuleTasks {
+  const { glue, memory } = instantiate('update', module);
+  const task =
+    (update: (args: Tasks['update3d']['args'], report: Report) => any) =>
+    async (args: Tasks['update3d']['args'], control: Control) => {
+      const started = performance.now();
+      control.onBlocking();
+      const mesh = update(args, reporting(control));
+      return { ...mesh, points: args.points, stats: statsOf(mesh.stats, started, memory) };
+    };
+  const handlers: Handlers = {
+    update3d: task(({ points, moved, outputs }, report) =>
+      withEmpty(glue.update3d(points, moved, outputsOf(glue, outputs), report)),
+    ),
+    update2d: task(({ points, moved }, report) => glue.update2d(points, moved, report)),
+  };
+  return { handlers, memory, dispose() {} };
+}
+
+/** Returns the statistics of the CPU with what is only known in JavaScript. */
+const statsOf = (stats: object, started: number, memory: WebAssembly.Memory) => ({
+  ...stats,
+  adapter: null,
+  milliseconds: performance.now() - started,
+  wasmBytes: memory.buffer.byteLength,
+  readyBytes: 0,
+});
 
 /** The arrays and the statistics of a triangulation. */
 type Blocking<T extends 'delaunay3d' | 'delaunay2d'> = Omit<Tasks[T]['result'], 'points'>;
@@ -283,11 +406,7 @@ function blockingInstance(name: 'd3' | 'd2', module: WebAssembly.Module) {
     const { glue, memory } = (instance ??= open());
     try {
       const mesh = triangulate(glue);
-      if (mesh.stats) {
-        mesh.stats.adapter = null;
-        mesh.stats.milliseconds = performance.now() - started;
-        mesh.stats.wasmBytes = memory.buffer.byteLength;
-      }
+      if (mesh.stats) mesh.stats = statsOf(mesh.stats, started, memory);
       return mesh;
     } catch (thrown) {
       const error = toPlainError(thrown, memory.buffer.byteLength);
@@ -338,36 +457,29 @@ function toolsTasks(module: WebAssembly.Module): ModuleTasks {
   return { handlers: Object.fromEntries(handlers), memory, dispose() {} };
 }
 
+const DERIVED: readonly TaskName[] = [
+  'locate',
+  'nearest',
+  'interpolate',
+  'voronoi',
+  'alphaShape',
+  'spanningTree',
+  'topology',
+  'geometry',
+];
+
 function derivedTasks(module: WebAssembly.Module): ModuleTasks {
   const { glue, memory } = instantiate('derived', module);
-  type Report = (phase: string, fraction: number) => boolean;
-
-  const tasks: {
-    [T in TaskName]?: (args: Tasks[T]['args'], report: Report) => Tasks[T]['result'];
-  } = {
-    locate: ({ dimension, points, mesh, queries }, report) =>
-      glue.locate(dimension, points, mesh, queries, report),
-    nearest: ({ dimension, points, mesh, queries }, report) =>
-      glue.nearest(dimension, points, mesh, queries, report),
-    interpolate: ({ dimension, points, mesh, values, queries, method }, report) =>
-      glue.interpolate(dimension, points, mesh, values, queries, method, report),
-    voronoi: ({ dimension, points, mesh, clip, bounds }, report) =>
-      glue.voronoi(dimension, points, mesh, clip, bounds, report),
-    alphaShape: ({ dimension, points, mesh, alpha, components, criticalValues }, report) =>
-      glue.alpha_shape(dimension, points, mesh, alpha, components, criticalValues, report),
-    spanningTree: ({ dimension, points, mesh }, report) =>
-      glue.spanning_tree(dimension, points, mesh, report),
-  };
-  const handlers = Object.entries(tasks).map(([name, task]) => [
+  // The functions of the module take the arguments of their tasks in the order in which these name
+  // them.
+  const handlers = DERIVED.map((name) => [
     name,
-    async (args: never, control: Control) => {
+    async (args: object, control: Control) => {
       control.onBlocking();
       let last = '';
-      const result = task(args, (phase, fraction) => {
-        last = phase;
-        control.onProgress({ phase, fraction });
-        return control.isAborted();
-      });
+      const reported = reporting(control);
+      const report: Report = (phase, fraction) => reported((last = phase), fraction);
+      const result = glue[name](...Object.values(args), report);
       control.onProgress({ phase: last, fraction: 1 });
       return result;
     },

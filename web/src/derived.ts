@@ -1,9 +1,8 @@
 // What is derived from a mesh, in a WebAssembly module of its own.
 
 import { wasmDerived } from '#assets';
-import { type Coordinates, type Doubles, type Indices, isDetached, kindOf } from './arrays.js';
-import { GdelError } from './errors.js';
-import { bad, checkBoolean, checkOneOf, optionsOf, taskOptions } from './options.js';
+import { type Coordinates, type Doubles, type Indices, kindOf } from './arrays.js';
+import { bad, checkArrays, checkBoolean, checkOneOf, optionsOf, taskOptions } from './options.js';
 import { coordinatesInSlices } from './points.js';
 import type { DerivedMesh, TaskName, Tasks } from './protocol.js';
 import { runShared } from './shared.js';
@@ -18,6 +17,12 @@ export type InterpolationMethod =
   | 'laplace'
   /** Natural neighbours, weighted by volumes of Voronoi cells: smooth except at the vertices. */
   | 'sibson';
+
+/** Options of `nearest`. */
+export interface NearestOptions extends TaskOptions {
+  /** How many vertices to find for each query, default 1. */
+  k?: number | undefined;
+}
 
 /** Options of `interpolate`. */
 export interface InterpolateOptions extends TaskOptions {
@@ -74,6 +79,46 @@ export interface AlphaShape {
   readonly criticalValues: Doubles;
 }
 
+/** What is connected with what in a mesh. */
+export interface Topology {
+  /** 2 vertices per edge; each edge once. */
+  readonly edges: Indices;
+  /**
+   * 3 vertices per facet, counter-clockwise as seen from outside the tetrahedron with the lower index;
+   * each facet once. In 2D the facets are the edges.
+   */
+  readonly facets: Indices;
+  /**
+   * Where the neighbours of each point start in `neighbors`; one more entry says where the last end.
+   * Duplicates have none.
+   */
+  readonly neighborOffsets: Indices;
+  /** The points that each point has an edge to, ascending. */
+  readonly neighbors: Indices;
+  /** For each point the first simplex that has it; −1 for duplicates, and if there are no simplices. */
+  readonly simplexOf: Int32Array;
+}
+
+/** What the simplices of a mesh are like. */
+export interface Geometry {
+  /** The coordinates of the centre of each simplex's circumsphere, infinite beyond the range of doubles. */
+  readonly circumcenters: Doubles;
+  /** The radii of the circumspheres. */
+  readonly circumradii: Doubles;
+  /** The volumes, in 2D the areas. */
+  readonly volumes: Doubles;
+  /**
+   * The inradius divided by the circumradius, times the dimension: 1 for regular simplices, near 0 for
+   * flat ones.
+   */
+  readonly radiusRatios: Doubles;
+  /**
+   * In radians: 6 dihedral angles per tetrahedron, at the edges between vertices 0 and 1, 0 and 2, 0
+   * and 3, 1 and 2, 1 and 3, 2 and 3; in 2D 3 angles per triangle, at its vertices.
+   */
+  readonly angles: Doubles;
+}
+
 /** The Voronoi diagram of the points of a mesh, as arrays. */
 export interface VoronoiArrays {
   /**
@@ -117,10 +162,7 @@ async function run<T extends TaskName>(
   args: Omit<Tasks[T]['args'], keyof Source>,
   options: TaskOptions,
 ): Promise<Tasks[T]['result']> {
-  for (const [name, array] of Object.entries({ points, ...mesh })) {
-    if (isDetached(array))
-      throw new GdelError('BAD_INPUT', `the mesh’s ${name} are detached: they were transferred`);
-  }
+  checkArrays({ points, ...mesh });
   const all = { dimension, points, mesh, ...args } as Tasks[T]['args'];
   return runShared(wasmDerived, task, all, options);
 }
@@ -136,9 +178,21 @@ export async function locate(source: Source, queries: Points, options: TaskOptio
   return run('locate', source, { queries: await queriesOf(queries, source, task) }, task);
 }
 
-export async function nearest(source: Source, queries: Points, options: TaskOptions | undefined) {
+export async function nearest(
+  source: Source,
+  queries: Points,
+  options: NearestOptions | undefined,
+) {
+  const { k = 1 } = optionsOf(options);
+  checkCount('the option k', k);
   const task = taskOptions(optionsOf(options));
-  return run('nearest', source, { queries: await queriesOf(queries, source, task) }, task);
+  return run('nearest', source, { queries: await queriesOf(queries, source, task), k }, task);
+}
+
+/** Checks a number of things, of which there is one at least. */
+function checkCount(what: string, count: unknown): void {
+  if (!Number.isInteger(count) || (count as number) < 1 || (count as number) > 2 ** 31)
+    throw bad(what, 'an integer from 1 on', count);
 }
 
 export async function interpolate(
@@ -197,8 +251,7 @@ export async function alphaShape(
   const { alpha = 'auto', components = 1, criticalValues = false } = optionsOf(options);
   if (alpha !== 'auto' && !(typeof alpha === 'number' && alpha >= 0))
     throw bad('the option alpha', "'auto' or a number that is not negative", alpha);
-  if (!Number.isInteger(components) || components < 1 || components > 2 ** 31)
-    throw bad('the option components', 'an integer from 1 on', components);
+  checkCount('the option components', components);
   checkBoolean('criticalValues', criticalValues);
   const args = { alpha: alpha === 'auto' ? undefined : alpha, components, criticalValues };
   return run('alphaShape', source, args, taskOptions(optionsOf(options)));
@@ -224,8 +277,7 @@ export class SpanningTree {
    * out so that there are `count` clusters, as far as there are points enough.
    */
   clusters(count: number): Indices {
-    if (!Number.isInteger(count) || count < 1)
-      throw bad('the number of clusters', 'an integer from 1 on', count);
+    checkCount('the number of clusters', count);
     return this.#label(Math.max(0, this.lengths.length - (count - 1)));
   }
 
@@ -273,4 +325,12 @@ export async function spanningTree(
   const { duplicateOf } = source.mesh;
   const tree = await run('spanningTree', source, {}, taskOptions(optionsOf(options)));
   return new SpanningTree(tree, duplicateOf);
+}
+
+export async function topology(source: Source, options: TaskOptions | undefined) {
+  return run('topology', source, {}, taskOptions(optionsOf(options)));
+}
+
+export async function geometry(source: Source, options: TaskOptions | undefined) {
+  return run('geometry', source, {}, taskOptions(optionsOf(options)));
 }

@@ -12,9 +12,12 @@ export {
   type AlphaOptions,
   type AlphaShape,
   type Bounds,
+  type Geometry,
   type InterpolateOptions,
   type InterpolationMethod,
+  type NearestOptions,
   SpanningTree,
+  type Topology,
   type VoronoiArrays,
   type VoronoiOptions,
 } from './derived.js';
@@ -65,5 +68,6 @@ export type {
   Trace,
   TriangulatorInfo,
   TriangulatorOptions,
+  UpdateOptions,
 } from './types.js';
 export { type Polygon, Voronoi2 } from './voronoi2.js';

@@ -3,21 +3,36 @@ import {
   type AlphaOptions,
   type AlphaShape,
   alphaShape,
+  type Geometry,
+  geometry,
   type InterpolateOptions,
   interpolate,
   locate,
+  type NearestOptions,
   nearest,
   type Source,
   type SpanningTree,
   spanningTree,
+  type Topology,
+  topology,
   type VoronoiArrays,
   type VoronoiOptions,
   voronoi,
 } from './derived.js';
 import { GdelError } from './errors.js';
-import type { Tasks } from './protocol.js';
+import type { Done } from './host.js';
+import type { Update } from './run.js';
 import { write } from './tools.js';
-import type { Output, Place, Points, Stats, TaskOptions, Trace } from './types.js';
+import type {
+  AccessorOptions,
+  Output,
+  Points,
+  Stats,
+  TaskOptions,
+  Trace,
+  UpdateOptions,
+} from './types.js';
+import { Updating } from './updating.js';
 
 /** Where points are in a 3D mesh. */
 export interface Locations3 {
@@ -41,46 +56,71 @@ export class Mesh3 {
    * Four vertices per tetrahedron, positively oriented: det(b − a, c − a, d − a) > 0. No
    * tetrahedron is flat.
    */
-  readonly tetrahedra: Indices;
+  declare readonly tetrahedra: Indices;
   /**
    * Four per tetrahedron: entry *k* is the tetrahedron across the facet opposite vertex *k*, or −1
    * on the hull.
    */
-  readonly neighbors: SignedIndices;
+  declare readonly neighbors: SignedIndices;
   /** Three vertices per triangle of the convex hull, counter-clockwise as seen from outside. */
-  readonly hull: Indices;
+  declare readonly hull: Indices;
   /**
    * One per point: −1, or the lowest index of a point with the same coordinates, which represents
    * this one in the mesh.
    */
-  readonly duplicateOf: SignedIndices;
+  declare readonly duplicateOf: SignedIndices;
   /**
    * The affine dimension of the points: 3, or 2, 1, 0 if they are coplanar, collinear, coincident;
    * 0 if there are none. Below 3 there are no tetrahedra.
    */
-  readonly dimension: 0 | 1 | 2 | 3;
+  declare readonly dimension: 0 | 1 | 2 | 3;
   /**
    * The coordinates x, y, z, x, y, z, …: a copy of the input, or its buffer if that was
    * transferred.
    */
-  readonly points: Coordinates;
+  declare readonly points: Coordinates;
   /** Statistics of the run. */
-  readonly stats: Stats;
+  declare readonly stats: Stats;
   /** The intermediate triangulations, if `outputs` has `'trace'` and the GPU computed the mesh. */
-  readonly trace?: Trace;
+  declare readonly trace?: Trace;
   readonly #outputs: readonly Output[];
+  readonly #update: Update<'delaunay3d'>;
+  readonly #updating = new Updating();
 
   /** @internal */
-  constructor(arrays: Tasks['delaunay3d']['result'], place: Place, outputs: readonly Output[]) {
-    this.tetrahedra = arrays.tetrahedra;
-    this.neighbors = arrays.neighbors;
-    this.hull = arrays.hull;
-    this.duplicateOf = arrays.duplicateOf;
-    this.dimension = arrays.dimension;
-    this.points = arrays.points;
-    this.stats = { ...arrays.stats, ...place };
-    if (arrays.trace) this.trace = arrays.trace;
+  constructor(done: Done<'delaunay3d'>, outputs: readonly Output[], update: Update<'delaunay3d'>) {
     this.#outputs = outputs;
+    this.#update = update;
+    this.#take(done);
+  }
+
+  /** Takes over what a run has made. */
+  #take({ result, place }: Done<'delaunay3d'>): void {
+    Object.assign(this, { trace: undefined }, result, { stats: { ...result.stats, ...place } });
+  }
+
+  /**
+   * Moves the points of the mesh: it becomes the mesh of as many other points, the same as a run from
+   * scratch makes of them, except for the order of its tetrahedra. Where little has changed, that is
+   * faster; {@link UpdateStats}, in `stats.update`, say what was done.
+   *
+   * What triangulated the points does it: its backend, and its worker. The arrays of the mesh are
+   * replaced by new ones when the promise is fulfilled. Until then, and if it is rejected, the mesh is
+   * what it was.
+   *
+   * @throws {@link GdelError} `BAD_INPUT` for another number of points, if the mesh is being updated,
+   * or if `outputs` lacked `'neighbors'` or `'duplicateOf'`; and what `delaunay3d` is rejected with.
+   */
+  update(points: Points, options?: UpdateOptions): Promise<void>;
+  update<T>(
+    points: ArrayLike<T>,
+    options: UpdateOptions & Pick<AccessorOptions<T>, 'point'>,
+  ): Promise<void>;
+  update(points: unknown, options?: UpdateOptions): Promise<void> {
+    return this.#updating.run(async () => {
+      const moved = { ...this.#source().mesh, dimension: this.dimension };
+      this.#take(await this.#update(points, options, moved, this.stats));
+    });
   }
 
   /**
@@ -96,9 +136,10 @@ export class Mesh3 {
 
   /**
    * Returns the vertex that is nearest to each query point, exactly: of several at the same distance
-   * the one with the lowest index; −1 if the mesh has no tetrahedra.
+   * the one with the lowest index; −1 if the mesh has no tetrahedra. With `k`, the `k` nearest ones, nearest
+   * first, and −1 where there are not so many.
    */
-  async nearest(queries: Points, options?: TaskOptions): Promise<SignedIndices> {
+  async nearest(queries: Points, options?: NearestOptions): Promise<SignedIndices> {
     return nearest(this.#source(), queries, options);
   }
 
@@ -113,6 +154,16 @@ export class Mesh3 {
     options?: InterpolateOptions,
   ): Promise<Doubles> {
     return interpolate(this.#source(), values, queries, options);
+  }
+
+  /** Returns the edges, the facets, the neighbours of each vertex and a simplex of each. */
+  async topology(options?: TaskOptions): Promise<Topology> {
+    return topology(this.#source(), options);
+  }
+
+  /** Returns circumcentres, radii, volumes, quality and angles of the simplices. */
+  async geometry(options?: TaskOptions): Promise<Geometry> {
+    return geometry(this.#source(), options);
   }
 
   /** Returns the Voronoi diagram of the vertices. */

@@ -3,21 +3,28 @@ import {
   type AlphaOptions,
   type AlphaShape,
   alphaShape,
+  type Geometry,
+  geometry,
   type InterpolateOptions,
   interpolate,
   locate,
+  type NearestOptions,
   nearest,
   type Source,
   type SpanningTree,
   spanningTree,
+  type Topology,
+  topology,
   type VoronoiOptions,
   voronoi,
 } from './derived.js';
+import type { Done } from './host.js';
 import { bad, optionsOf } from './options.js';
 import { findNearest, Rings, stripes } from './plane.js';
-import type { Tasks } from './protocol.js';
+import type { Update } from './run.js';
 import { write2d } from './tools.js';
-import type { Place, Points, Stats, TaskOptions } from './types.js';
+import type { AccessorOptions, Points, Stats, TaskOptions, UpdateOptions } from './types.js';
+import { Updating } from './updating.js';
 import { Voronoi2 } from './voronoi2.js';
 
 /** Where points are in a 2D mesh. */
@@ -46,42 +53,66 @@ export class Mesh2 {
    * Three vertices per triangle, counter-clockwise if the y axis points down: det(b − a, c − a) <
    * 0. No triangle is flat.
    */
-  readonly triangles: Indices;
+  declare readonly triangles: Indices;
   /**
    * Three per triangle: the opposite of the half-edge from vertex *k* to the next one, or −1 on the
    * hull.
    */
-  readonly halfedges: SignedIndices;
+  declare readonly halfedges: SignedIndices;
   /**
    * The vertices on the convex hull, including those in the middle of its edges, in the orientation
    * of the triangles. If all points are collinear: the distinct points, sorted.
    */
-  readonly hull: Indices;
+  declare readonly hull: Indices;
   /**
    * One per point: −1, or the lowest index of a point with the same coordinates, which represents
    * this one in the mesh.
    */
-  readonly duplicateOf: SignedIndices;
+  declare readonly duplicateOf: SignedIndices;
   /**
    * The affine dimension of the points: 2, or 1 if they are collinear, or 0 if they are coincident
    * or there are none. Below 2 there are no triangles.
    */
-  readonly dimension: 0 | 1 | 2;
+  declare readonly dimension: 0 | 1 | 2;
   /** The coordinates x, y, x, y, …: a copy of the input, or its buffer if that was transferred. */
-  readonly coords: Coordinates;
+  declare readonly coords: Coordinates;
   /** Statistics of the run. */
-  readonly stats: Stats;
+  declare readonly stats: Stats;
   #rings: Rings | undefined;
+  readonly #update: Update<'delaunay2d'>;
+  readonly #updating = new Updating();
 
   /** @internal */
-  constructor(arrays: Tasks['delaunay2d']['result'], place: Place) {
-    this.triangles = arrays.triangles;
-    this.halfedges = arrays.halfedges;
-    this.hull = arrays.hull;
-    this.duplicateOf = arrays.duplicateOf;
-    this.dimension = arrays.dimension;
-    this.coords = arrays.points;
-    this.stats = { ...arrays.stats, ...place };
+  constructor(done: Done<'delaunay2d'>, update: Update<'delaunay2d'>) {
+    this.#update = update;
+    this.#take(done);
+  }
+
+  /** Takes over what a run has made. */
+  #take({ result, place }: Done<'delaunay2d'>): void {
+    const { points: coords, stats, ...arrays } = result;
+    Object.assign(this, arrays, { coords, stats: { ...stats, ...place } });
+    this.#rings = undefined;
+  }
+
+  /**
+   * Moves the points of the mesh: it becomes the mesh of as many other points, the same as a run from
+   * scratch makes of them, except for the order of its triangles. See {@link Mesh3.update}.
+   *
+   * @throws {@link GdelError} `BAD_INPUT` for another number of points, or if the mesh is being
+   * updated; and what `delaunay2d` is rejected with.
+   */
+  update(points: Points, options?: UpdateOptions): Promise<void>;
+  update<T>(
+    points: ArrayLike<T>,
+    options: UpdateOptions & Pick<AccessorOptions<T>, 'point'>,
+  ): Promise<void>;
+  update(points: unknown, options?: UpdateOptions): Promise<void> {
+    return this.#updating.run(async () => {
+      const { hull, dimension } = this;
+      const moved = { ...this.#source().mesh, hull, dimension };
+      this.#take(await this.#update(points, options, moved, this.stats));
+    });
   }
 
   /**
@@ -97,9 +128,10 @@ export class Mesh2 {
 
   /**
    * Returns the vertex that is nearest to each query point, exactly: of several at the same distance
-   * the one with the lowest index; −1 if the mesh has no triangles.
+   * the one with the lowest index; −1 if the mesh has no triangles. With `k`, the `k` nearest ones, nearest
+   * first, and −1 where there are not so many.
    */
-  async nearest(queries: Points, options?: TaskOptions): Promise<SignedIndices> {
+  async nearest(queries: Points, options?: NearestOptions): Promise<SignedIndices> {
     return nearest(this.#source(), queries, options);
   }
 
@@ -135,6 +167,16 @@ export class Mesh2 {
    */
   async alphaShape(options?: AlphaOptions): Promise<AlphaShape> {
     return alphaShape(this.#source(), options);
+  }
+
+  /** Returns the edges, the neighbours of each vertex and a triangle of each. */
+  async topology(options?: TaskOptions): Promise<Topology> {
+    return topology(this.#source(), options);
+  }
+
+  /** Returns circumcentres, radii, areas, quality and angles of the triangles. */
+  async geometry(options?: TaskOptions): Promise<Geometry> {
+    return geometry(this.#source(), options);
   }
 
   /** Returns the Euclidean minimum spanning tree of the vertices, with single-linkage clusters. */

@@ -1,5 +1,6 @@
 // Checks of what callers pass: whatever is wrong with it is a `GdelError` that says what.
 
+import { isDetached } from './arrays.js';
 import { GdelError } from './errors.js';
 import type { Output, TaskOptions } from './types.js';
 
@@ -58,6 +59,14 @@ export function checkFunction(option: string, value: unknown): void {
 export function checkBoolean(option: string, value: unknown): void {
   if (value !== undefined && typeof value !== 'boolean')
     throw bad(`the option ${option}`, 'true or false', value);
+}
+
+/** Checks that the arrays of a mesh are still there. */
+export function checkArrays(arrays: object): void {
+  for (const [name, array] of Object.entries(arrays)) {
+    if (ArrayBuffer.isView(array) && isDetached(array))
+      throw new GdelError('BAD_INPUT', `the mesh’s ${name} are detached: they were transferred`);
+  }
 }
 
 /** Checks a word of a list. */

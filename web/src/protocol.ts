@@ -1,9 +1,10 @@
 // The messages between the page and the worker.
 
 import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
-import type { AlphaShape, VoronoiArrays } from './derived.js';
+import type { AlphaShape, Geometry, Topology, VoronoiArrays } from './derived.js';
 import type { PlainError } from './errors.js';
-import type { MadeResident } from './resident.js';
+import type { Held, MadeResident } from './resident.js';
+import type { UpdateStats } from './stats.js';
 import type {
   Backend,
   MeshView,
@@ -20,7 +21,7 @@ import type {
 } from './types.js';
 
 /** The wasm modules. */
-export type ModuleName = 'd3' | 'd2' | 'tools' | 'derived';
+export type ModuleName = 'd3' | 'd2' | 'update' | 'tools' | 'derived';
 
 export type CoreInfo = Omit<TriangulatorInfo, keyof Place>;
 
@@ -41,6 +42,18 @@ interface DerivedArgs {
   mesh: DerivedMesh;
 }
 
+/** The mesh of points before they moved. */
+export interface MovedMesh extends DerivedMesh {
+  /** In 2D. */
+  hull?: Indices;
+  dimension: number;
+}
+
+/** What the result of an update has instead of arrays if the points are to be triangulated anew. */
+interface Restarted {
+  update?: UpdateStats;
+}
+
 /** The arguments and the result of each task. */
 export interface Tasks {
   open: { args: { backend: Backend }; result: CoreInfo };
@@ -50,6 +63,12 @@ export interface Tasks {
       backend: Backend;
       outputs: readonly Output[];
       resident?: boolean;
+      /** Memory for the arrays. */
+      spare?: ArrayBuffer[];
+      /** The mesh on the device of the points where they were, if they have moved. */
+      moved?: Held;
+      /** For an update of what the GPU has made: the key of the last one, 0 for the first. */
+      key?: number;
     };
     result: {
       points: Coordinates;
@@ -61,11 +80,21 @@ export interface Tasks {
       trace?: Trace;
       /** Instead of the arrays, if it was requested: the mesh on the device. */
       resident?: MadeResident;
+      /** The key of what the device keeps for the next update, if this was one. */
+      key?: number;
       stats: CoreStats;
     };
   };
   delaunay2d: {
-    args: { points: Coordinates; backend: Backend; resident?: boolean };
+    args: {
+      points: Coordinates;
+      backend: Backend;
+      resident?: boolean;
+      spare?: ArrayBuffer[];
+      moved?: Held;
+      key?: number;
+      outputs?: readonly string[];
+    };
     result: {
       points: Coordinates;
       triangles: Indices;
@@ -75,8 +104,17 @@ export interface Tasks {
       dimension: 0 | 1 | 2;
       /** Instead of the arrays, if it was requested. */
       resident?: MadeResident;
+      key?: number;
       stats: CoreStats;
     };
+  };
+  update3d: {
+    args: { points: Coordinates; moved: MovedMesh; outputs: readonly Output[] };
+    result: Tasks['delaunay3d']['result'] & Restarted;
+  };
+  update2d: {
+    args: { points: Coordinates; moved: MovedMesh; outputs: readonly Output[] };
+    result: Tasks['delaunay2d']['result'] & Restarted;
   };
   generate: { args: { kind: string; count: number; seed: bigint }; result: Doubles };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };
@@ -95,7 +133,7 @@ export interface Tasks {
     args: DerivedArgs & { queries: Coordinates };
     result: { simplices: SignedIndices; facets: SignedIndices };
   };
-  nearest: { args: DerivedArgs & { queries: Coordinates }; result: SignedIndices };
+  nearest: { args: DerivedArgs & { queries: Coordinates; k: number }; result: SignedIndices };
   interpolate: {
     args: DerivedArgs & { queries: Coordinates; values: Doubles; method: string };
     result: Doubles;
@@ -106,6 +144,8 @@ export interface Tasks {
     result: AlphaShape;
   };
   spanningTree: { args: DerivedArgs; result: { edges: Indices; lengths: Doubles } };
+  topology: { args: DerivedArgs; result: Topology };
+  geometry: { args: DerivedArgs; result: Geometry };
 }
 
 export type TaskName = keyof Tasks;

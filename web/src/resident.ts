@@ -2,8 +2,12 @@
 
 import type { Coordinates, Indices, SignedIndices } from './arrays.js';
 import { GdelError, toGdelError, toPlainError } from './errors.js';
+import type { Done } from './host.js';
+import { Memory, memoryOf } from './memory.js';
 import { checkOneOf } from './options.js';
-import type { Stats } from './types.js';
+import type { Task, Update } from './run.js';
+import type { Points, Stats, UpdateOptions } from './types.js';
+import { Updating } from './updating.js';
 
 /** A `GPUBuffer`; any object where the types of WebGPU are not there. */
 export type GpuBuffer = typeof globalThis extends { GPUBuffer: { prototype: infer B } }
@@ -93,7 +97,48 @@ export interface MadeResident {
   counts: [number, number];
   duplicateOf: SignedIndices;
   dimension: 0 | 1 | 2 | 3;
-  mesh: { read(array: number): Promise<Uint8Array<ArrayBuffer>> };
+  mesh: WasmMesh;
+}
+
+/** A mesh on the device, in an instance of a WebAssembly module. */
+interface WasmMesh {
+  read(array: number, memory: (bytes: number) => Uint8Array): Promise<Uint8Array<ArrayBuffer>>;
+  update(
+    triangulator: object,
+    points: Coordinates,
+    backend: string,
+    report: (phase: string, fraction: number) => boolean,
+  ): Promise<any>;
+  free(): void;
+}
+
+/** A mesh on the device that lasts until nobody needs it: runs and readers, too. */
+export class Held {
+  readonly mesh: WasmMesh;
+  readonly #buffers: object[];
+  #users = 1;
+
+  constructor({ mesh, buffers }: MadeResident) {
+    this.mesh = mesh;
+    this.#buffers = buffers;
+  }
+
+  /** Does something with the mesh, which lasts until that is done. */
+  async use<R>(work: (mesh: WasmMesh) => Promise<R>): Promise<R> {
+    this.#users++;
+    try {
+      return await work(this.mesh);
+    } finally {
+      this.release();
+    }
+  }
+
+  /** Says that its owner does not need it any more. */
+  release(): void {
+    if (--this.#users > 0) return;
+    for (const buffer of this.#buffers) (buffer as Buffer).destroy();
+    this.mesh.free();
+  }
 }
 
 /**
@@ -102,47 +147,100 @@ export interface MadeResident {
  */
 export class ResidentMesh<Arrays> {
   /** The arrays on the device. */
-  readonly buffers: Readonly<Record<keyof Arrays, GpuBuffer>>;
+  declare readonly buffers: Readonly<Record<keyof Arrays, GpuBuffer>>;
   /** The number of triangles of the hull in 3D, of its vertices in 2D. */
-  readonly hullCount: number;
+  declare readonly hullCount: number;
   /**
    * One per point: −1, or the lowest index of a point with the same coordinates, which represents
    * this one in the mesh.
    */
-  readonly duplicateOf: SignedIndices;
+  declare readonly duplicateOf: SignedIndices;
   /**
    * The affine dimension of the points. Below that of the mesh there are no tetrahedra or triangles.
    */
-  readonly dimension: 0 | 1 | 2 | 3;
+  declare readonly dimension: 0 | 1 | 2 | 3;
   /** Statistics of the run. */
-  readonly stats: Stats;
-  #resident: MadeResident['mesh'] | undefined;
+  declare readonly stats: Stats;
+  #held: Held | undefined;
   readonly #names: readonly string[];
+  /** What the number of tetrahedra or triangles is called. */
+  readonly #count: string;
+  readonly #update: Update<Task>;
+  readonly #updating = new Updating();
 
   /** @internal */
-  constructor(names: readonly (keyof Arrays & string)[], made: MadeResident, stats: Stats) {
-    this.buffers = Object.fromEntries(names.map((name, i) => [name, made.buffers[i]])) as any;
-    this.hullCount = made.counts[1];
-    this.duplicateOf = made.duplicateOf;
-    this.dimension = made.dimension;
-    this.stats = stats;
-    this.#resident = made.mesh;
+  constructor(
+    names: readonly (keyof Arrays & string)[],
+    count: string,
+    done: Done<Task>,
+    update: Update<Task>,
+  ) {
     this.#names = names;
+    this.#count = count;
+    this.#update = update;
+    this.#take(done);
+  }
+
+  /** Takes over what a run has made. */
+  #take({ result, place }: Done<Task>): void {
+    const made = result.resident!;
+    const { counts, duplicateOf, dimension } = made;
+    const stats = { ...result.stats, ...place };
+    const buffers = Object.fromEntries(this.#names.map((name, i) => [name, made.buffers[i]]));
+    const [count, hullCount] = counts;
+    Object.assign(this, { buffers, hullCount, duplicateOf, dimension, stats });
+    Object.assign(this, { [this.#count]: count });
+    this.#held = new Held(made);
+  }
+
+  #heldNow(): Held {
+    if (!this.#held) throw new GdelError('DISPOSED', 'the mesh was destroyed');
+    return this.#held;
   }
 
   /**
-   * Returns a copy of an array.
+   * Moves the points of the mesh: it becomes the mesh of as many other points, the same as a run from
+   * scratch makes of them, except for the order of its tetrahedra or triangles. Where little has
+   * changed, that is faster. {@link UpdateStats} say what was done.
+   *
+   * `points` are those of a run of the triangulator that made the mesh, also in a `GPUBuffer`. When
+   * the promise is fulfilled, the mesh has new {@link buffers}, to be bound anew, and the old ones
+   * are destroyed. Until then, and if it is rejected, the mesh is what it was.
+   *
+   * @throws {@link GdelError} `BAD_INPUT` for another number of points, or if the mesh is being
+   * updated; `NOT_FINITE`, `ABORTED`, `DISPOSED`, and those of the device.
+   */
+  update(points: Points | GpuBuffer, options?: UpdateOptions): Promise<void> {
+    return this.#updating.run(async () => {
+      const held = this.#heldNow();
+      const done = await this.#update(points, options, held, this.stats);
+      if (this.#held !== held) {
+        new Held(done.result.resident!).release();
+        this.#heldNow();
+      }
+      this.#take(done);
+      held.release();
+    });
+  }
+
+  /**
+   * Returns a copy of an array: in the memory of `reuse`, which becomes empty, if that is given and
+   * large enough.
    *
    * @throws {@link GdelError} `DEVICE_LOST`, `DISPOSED` after {@link destroy}.
    */
-  async read<Name extends keyof Arrays & string>(array: Name): Promise<Arrays[Name]> {
+  async read<Name extends keyof Arrays & string>(
+    array: Name,
+    { reuse }: { reuse?: Indices | SignedIndices | undefined } = {},
+  ): Promise<Arrays[Name]> {
     checkOneOf('array', array, this.#names);
-    if (!this.#resident) throw new GdelError('DISPOSED', 'the mesh was destroyed');
+    const held = this.#heldNow();
     const i = this.#names.indexOf(array);
     try {
-      const { buffer } = await this.#resident.read(i);
+      const { take } = new Memory(reuse && memoryOf([reuse]));
+      const { buffer, length } = await held.use((mesh) => mesh.read(i, take));
       // Every other array has −1 where there is nothing.
-      return new (i % 2 ? Int32Array : Uint32Array)(buffer) as Arrays[Name];
+      return new (i % 2 ? Int32Array : Uint32Array)(buffer, 0, length / 4) as Arrays[Name];
     } catch (thrown) {
       throw toGdelError(toPlainError(thrown, 0));
     }
@@ -150,8 +248,8 @@ export class ResidentMesh<Arrays> {
 
   /** Frees the buffers now, rather than when the mesh is garbage. */
   destroy(): void {
-    this.#resident = undefined;
-    for (const buffer of Object.values(this.buffers)) (buffer as unknown as Buffer).destroy();
+    this.#held?.release();
+    this.#held = undefined;
   }
 }
 
@@ -162,12 +260,16 @@ export class ResidentMesh<Arrays> {
  */
 export class ResidentMesh3 extends ResidentMesh<ResidentArrays3> {
   /** The number of tetrahedra. */
-  readonly tetrahedronCount: number;
+  declare readonly tetrahedronCount: number;
 
   /** @internal */
-  constructor(made: MadeResident, stats: Stats) {
-    super(['tetrahedra', 'neighbors', 'hull', 'vertexTetrahedron'], made, stats);
-    this.tetrahedronCount = made.counts[0];
+  constructor(done: Done<Task>, update: Update<Task>) {
+    super(
+      ['tetrahedra', 'neighbors', 'hull', 'vertexTetrahedron'],
+      'tetrahedronCount',
+      done,
+      update,
+    );
   }
 }
 
@@ -178,11 +280,10 @@ export class ResidentMesh3 extends ResidentMesh<ResidentArrays3> {
  */
 export class ResidentMesh2 extends ResidentMesh<ResidentArrays2> {
   /** The number of triangles. */
-  readonly triangleCount: number;
+  declare readonly triangleCount: number;
 
   /** @internal */
-  constructor(made: MadeResident, stats: Stats) {
-    super(['triangles', 'halfedges', 'hull', 'vertexTriangle'], made, stats);
-    this.triangleCount = made.counts[0];
+  constructor(done: Done<Task>, update: Update<Task>) {
+    super(['triangles', 'halfedges', 'hull', 'vertexTriangle'], 'triangleCount', done, update);
   }
 }

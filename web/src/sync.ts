@@ -9,6 +9,7 @@ import { compiled } from './modules.js';
 import { checkFunction, optionsOf, outputsOf } from './options.js';
 import { coordinatesNow } from './points.js';
 import type { Tasks } from './protocol.js';
+import { IN_2D, IN_3D, sharedMaker, updating } from './run.js';
 import { loadCode, type WasmAsset } from './runtime.js';
 import type { AccessorOptions, Place, Points, SyncOptions } from './types.js';
 
@@ -97,7 +98,8 @@ export function delaunay3dSync(points: unknown, options?: SyncOptions): Mesh3 {
   const outputs = outputsOf(optionsOf(options));
   const coordinates = coordinatesOf(points, 3, options);
   const arrays = thrown(() => triangulate(coordinates, outputs));
-  return new Mesh3({ ...arrays, points: coordinates }, place, outputs);
+  const result = { ...arrays, points: coordinates };
+  return new Mesh3({ result, place }, outputs, updating(sharedMaker('cpu'), IN_3D, {}, outputs));
 }
 
 /** Returns the same as `delaunay2d`; see {@link delaunay3dSync}. Needs {@link load2d}. */
@@ -110,7 +112,8 @@ export function delaunay2dSync(points: unknown, options?: object): Mesh2 {
   const { triangulate, place } = loaded(loadable2d, 'load2d');
   const coordinates = coordinatesOf(points, 2, options);
   const arrays = thrown(() => triangulate.mesh(coordinates));
-  return new Mesh2({ ...arrays, points: coordinates }, place);
+  const result = { ...arrays, points: coordinates };
+  return new Mesh2({ result, place }, updating(sharedMaker('cpu'), IN_2D, {}));
 }
 
 /** Returns the arrays alone, for coordinates that are not copied. */

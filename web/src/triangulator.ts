@@ -1,28 +1,19 @@
-import { wasm2d, wasm3d } from '#assets';
-import { GdelError } from './errors.js';
-import { Host, type Sending } from './host.js';
+import { wasm3d } from '#assets';
+import { Host } from './host.js';
 import { Mesh3 } from './mesh.js';
 import { Mesh2 } from './mesh2.js';
+import { bad, checkBoolean, checkOneOf, optionsOf, outputsOf } from './options.js';
+import { type Device, type GpuBuffer, gpuOf, ResidentMesh2, ResidentMesh3 } from './resident.js';
 import {
-  bad,
-  checkBoolean,
-  checkFunction,
-  checkOneOf,
-  optionsOf,
-  outputsOf,
-  taskOptions,
-} from './options.js';
-import { coordinatesInSlices } from './points.js';
-import {
-  coordinatesOf,
-  type Device,
-  type GpuBuffer,
-  gpuOf,
-  isBuffer,
-  ResidentMesh2,
-  ResidentMesh3,
-} from './resident.js';
-import { throwIfAborted } from './stop.js';
+  type AnyOptions,
+  BACKENDS,
+  IN_2D,
+  IN_3D,
+  type Maker,
+  sharedMaker,
+  triangulate,
+  updating,
+} from './run.js';
 import type {
   AccessorOptions,
   Backend,
@@ -33,24 +24,18 @@ import type {
   TriangulatorOptions,
 } from './types.js';
 
-const BACKENDS: readonly Backend[] = ['auto', 'gpu', 'cpu'];
-
 /**
  * Triangulates in a worker of its own and, if it uses the GPU, with a device of its own. Its runs
  * take place one after the other. It stays usable after every error.
  */
 export class Triangulator {
-  readonly #host: Host;
-  readonly #backend: Backend;
-  readonly #device: Device | undefined;
+  readonly #maker: Maker;
   /** What `'auto'` uses, as found when the triangulator was created. */
   readonly info: TriangulatorInfo;
 
   /** @internal */
   constructor(host: Host, backend: Backend, info: TriangulatorInfo, device?: Device) {
-    this.#host = host;
-    this.#backend = backend;
-    this.#device = device;
+    this.#maker = { host, backend, device };
     this.info = info;
     // Not a method, since older environments lack the symbol, and bundlers keep what computes names.
     if (Symbol.dispose)
@@ -69,7 +54,7 @@ export class Triangulator {
   delaunay3d(points: Points | GpuBuffer, options?: RunOptions): Promise<Mesh3>;
   delaunay3d<T>(points: ArrayLike<T>, options: AccessorOptions<T>): Promise<Mesh3>;
   delaunay3d(points: unknown, options?: RunOptions): Promise<any> {
-    return triangulate(this.#host, this.#backend, points, options, this.#device);
+    return triangulate3d(this.#maker, points, options);
   }
 
   /**
@@ -86,12 +71,12 @@ export class Triangulator {
     options: RunOptions2 & Pick<AccessorOptions<T>, 'point'>,
   ): Promise<Mesh2>;
   delaunay2d(points: unknown, options?: RunOptions2): Promise<any> {
-    return triangulate2d(this.#host, this.#backend, points, options, this.#device);
+    return triangulate2d(this.#maker, points, options);
   }
 
   /** Ends the worker and releases the device. Unfinished runs fail with code `DISPOSED`. */
   dispose(): void {
-    this.#host.dispose();
+    this.#maker.host.dispose();
   }
 
   /** Supports `using triangulator = await createTriangulator()`. */
@@ -139,8 +124,6 @@ export async function createTriangulator(options?: TriangulatorOptions): Promise
   }
 }
 
-let shared: Host | undefined;
-
 /**
  * Returns the 3D Delaunay triangulation of points. It is unique and exact, has no flat tetrahedra,
  * and every distinct point is a vertex of it.
@@ -158,7 +141,7 @@ let shared: Host | undefined;
 export function delaunay3d(points: Points, options?: RunOptions): Promise<Mesh3>;
 export function delaunay3d<T>(points: ArrayLike<T>, options: AccessorOptions<T>): Promise<Mesh3>;
 export function delaunay3d(points: unknown, options?: RunOptions): Promise<Mesh3> {
-  return triangulate((shared ??= new Host()), 'auto', points, options) as Promise<Mesh3>;
+  return triangulate3d(sharedMaker('auto'), points, options) as Promise<Mesh3>;
 }
 
 /**
@@ -173,70 +156,26 @@ export function delaunay2d<T>(
   options: RunOptions2 & Pick<AccessorOptions<T>, 'point'>,
 ): Promise<Mesh2>;
 export function delaunay2d(points: unknown, options?: RunOptions2): Promise<Mesh2> {
-  return triangulate2d((shared ??= new Host()), 'auto', points, options) as Promise<Mesh2>;
+  return triangulate2d(sharedMaker('auto'), points, options) as Promise<Mesh2>;
 }
 
-type AnyOptions = RunOptions & { point?: unknown };
-
-async function triangulate(
-  host: Host,
-  backend: Backend,
+async function triangulate3d(
+  maker: Maker,
   points: unknown,
   options: AnyOptions | undefined,
-  device?: Device,
 ): Promise<Mesh3 | ResidentMesh3> {
-  const checked = optionsOf(options);
-  const outputs = outputsOf(checked);
-  const { args, sending, task } = await prepare(points, 3, backend, checked, device);
-  const all = { ...args, outputs };
-  const { result, place } = await host.run(wasm3d, 'delaunay3d', all, sending, task);
-  return result.resident
-    ? new ResidentMesh3(result.resident, { ...result.stats, ...place })
-    : new Mesh3(result, place, outputs);
+  const outputs = outputsOf(optionsOf(options));
+  const done = await triangulate(maker, IN_3D, points, options, outputs);
+  const update = updating(maker, IN_3D, options, outputs);
+  return done.result.resident ? new ResidentMesh3(done, update) : new Mesh3(done, outputs, update);
 }
 
 async function triangulate2d(
-  host: Host,
-  backend: Backend,
+  maker: Maker,
   points: unknown,
   options: AnyOptions | undefined,
-  device?: Device,
 ): Promise<Mesh2 | ResidentMesh2> {
-  const { args, sending, task } = await prepare(points, 2, backend, options, device);
-  const { result, place } = await host.run(wasm2d, 'delaunay2d', args, sending, task);
-  return result.resident
-    ? new ResidentMesh2(result.resident, { ...result.stats, ...place })
-    : new Mesh2(result, place);
-}
-
-/** Returns the checked arguments of a run. What is small is copied before this returns. */
-async function prepare(
-  points: unknown,
-  dimension: number,
-  defaultBackend: Backend,
-  options: AnyOptions | undefined,
-  device: Device | undefined,
-) {
-  const checked = optionsOf(options);
-  const { backend = defaultBackend } = checked;
-  let { transfer = false } = checked;
-  const { resident = false } = checked;
-  const task = taskOptions(checked);
-  throwIfAborted(task.signal);
-  checkOneOf('backend', backend, BACKENDS);
-  checkBoolean('transfer', transfer);
-  checkBoolean('resident', resident);
-  if (resident && !device)
-    throw new GdelError('BAD_INPUT', 'the option resident needs a triangulator with a device');
-  checkFunction('point', checked.point);
-  const point = checked.point as AccessorOptions<unknown>['point'] | undefined;
-  if (device && isBuffer(points)) {
-    points = await coordinatesOf(device, points);
-    transfer = true;
-  }
-  const coordinates = await coordinatesInSlices(points, { dimension, transfer, point }, () =>
-    throwIfAborted(task.signal),
-  );
-  const sending: Sending = { transfer: [coordinates.buffer], isGiven: transfer };
-  return { args: { points: coordinates, backend, resident }, sending, task };
+  const done = await triangulate(maker, IN_2D, points, options);
+  const update = updating(maker, IN_2D, options);
+  return done.result.resident ? new ResidentMesh2(done, update) : new Mesh2(done, update);
 }

@@ -1,4 +1,6 @@
 import type { Bytes, Coordinates, Indices } from './arrays.js';
+import type { Mesh3 } from './mesh.js';
+import type { Mesh2 } from './mesh2.js';
 import type { Stats as RunStats } from './stats.js';
 
 /**
@@ -29,7 +31,7 @@ export interface Progress {
   phase: string;
   /**
    * The completed part of the run, 0 to 1. It never decreases, unless the CPU takes over from the
-   * GPU.
+   * GPU, or an update begins anew.
    */
   fraction: number;
 }
@@ -68,10 +70,19 @@ export interface RunOptions extends TaskOptions {
    * `device`; `outputs` then has no meaning. Default: false.
    */
   resident?: boolean | undefined;
+  /**
+   * A mesh that is not needed any more: its arrays, apart from the points, become empty, and those
+   * that the GPU makes are written where they fit into their memory. Fresh memory takes the system
+   * longer to provide than the arrays take to copy.
+   */
+  reuse?: Mesh3 | undefined;
 }
 
 /** Options for a 2D triangulation. */
-export type RunOptions2 = Omit<RunOptions, 'outputs'>;
+export interface RunOptions2 extends Omit<RunOptions, 'outputs' | 'reuse'> {
+  /** As in 3D. */
+  reuse?: Mesh2 | undefined;
+}
 
 /** Options for a 3D triangulation in the calling thread. */
 export type SyncOptions = Pick<RunOptions, 'outputs'>;
@@ -81,6 +92,9 @@ export interface AccessorOptions<T> extends RunOptions {
   /** Returns the coordinates of an item. */
   point: (item: T, index: number) => ArrayLike<number>;
 }
+
+/** Options of `update`. */
+export interface UpdateOptions extends TaskOptions, Pick<RunOptions, 'transfer'> {}
 
 /** Options of `createTriangulator`. */
 export interface TriangulatorOptions {
@@ -148,6 +162,11 @@ export interface Stats extends RunStats, Place {
   milliseconds: number;
   /** The size of the WebAssembly memory in bytes: the maximum so far, since it never shrinks. */
   wasmBytes: number;
+  /**
+   * The bytes of arrays of a GPU that went to memory that was ready: that of the option `reuse`, or
+   * what other threads had prepared.
+   */
+  readyBytes: number;
 }
 
 /** The intermediate triangulations of a run on the GPU. */

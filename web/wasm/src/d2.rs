@@ -1,17 +1,18 @@
 //! 2D triangulation, in delaunator's orientation.
 
 use gdel::{
-    Backend, DeviceMesh2, Mesh2, Triangulator,
+    Backend, DeviceMesh2, Triangulator,
     internals::{Winding, gpu::engine::Made, triangulator::MIN_POINTS_2D},
 };
-use js_sys::{Function, Int32Array, Uint32Array};
+use js_sys::{Function, Int32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
-    objects::{Thrown, object, set},
+    arrays::d2::mesh2,
+    objects::{Thrown, set},
     points::Coordinates,
     resident,
-    triangulator::{WasmTriangulator, statistics},
+    triangulator::WasmTriangulator,
 };
 
 /// Returns the number of points from which on the backend `auto` considers the GPU in 2D.
@@ -22,28 +23,42 @@ pub fn min_gpu_points_2d() -> u32 {
 
 #[wasm_bindgen]
 impl WasmTriangulator {
-    /// Triangulates in 2D. With `on_device`, the mesh stays on the device.
+    /// Triangulates in 2D. With `on_device`, the mesh stays on the device; else its arrays are read
+    /// into what `memory` returns for a number of bytes.
     pub async fn delaunay2d(
         &self,
         points: JsValue,
         backend: &str,
         on_device: bool,
+        memory: Function,
         report: Function,
     ) -> Result<JsValue, Thrown> {
-        let coordinates = Coordinates::new(&points)?;
-        drop(points);
-        let triangulator = self.for_run(backend, report).winding(Winding::Clockwise);
-        let deliver = async |mesh: Made<2>| match mesh {
-            Made::Host(mesh) => Ok(mesh2(mesh, true)),
-            Made::Device(mesh) if on_device => Ok(resident::hand_over(*mesh, |mesh| WasmMesh2(mesh).into())),
-            Made::Device(mesh) => {
-                let (result, _) = resident::read(&mesh, &[(0, "triangles"), (1, "halfedges"), (2, "hull")]).await?;
-                set(&result, "duplicateOf", Int32Array::new_from_slice(mesh.duplicate_of()));
-                Ok(result)
-            }
-        };
-        Ok(triangulator.deliver2d(coordinates.points()?, on_device, deliver).await?)
+        run(self.for_run(backend, report), points, (!on_device).then_some(memory), None).await
     }
+}
+
+/// Triangulates. The mesh stays on the device if no memory for its arrays is given, and then goes on
+/// from `moved`.
+async fn run(
+    triangulator: Triangulator,
+    points: JsValue,
+    memory: Option<Function>,
+    moved: Option<&DeviceMesh2>,
+) -> Result<JsValue, Thrown> {
+    let coordinates = Coordinates::new(&points)?;
+    drop(points);
+    let triangulator = triangulator.winding(Winding::Clockwise);
+    let deliver = async |mesh: Made<2>| match (mesh, &memory) {
+        (Made::Host(mesh), _) => Ok(mesh2(mesh, true)),
+        (Made::Device(mesh), Some(memory)) => {
+            let arrays = [(0, "triangles"), (1, "halfedges"), (2, "hull")];
+            let (result, _) = resident::read(&mesh, &arrays, memory).await?;
+            set(&result, "duplicateOf", Int32Array::new_from_slice(mesh.duplicate_of()));
+            Ok(result)
+        }
+        (Made::Device(mesh), None) => Ok(resident::hand_over(*mesh, |mesh| WasmMesh2(mesh).into())),
+    };
+    Ok(triangulator.deliver2d(coordinates.points()?, memory.is_none(), moved, deliver).await?)
 }
 
 /// A mesh on the device.
@@ -53,9 +68,20 @@ pub struct WasmMesh2(DeviceMesh2);
 #[wasm_bindgen]
 impl WasmMesh2 {
     /// Returns the bytes of an array: the triangles, their half-edges, the hull, or a triangle of each
-    /// point, by these numbers.
-    pub async fn read(&self, array: usize) -> Result<JsValue, Thrown> {
-        Ok(self.0.read_to_js(&[array]).await?.0.swap_remove(0).into())
+    /// point, by these numbers, in what `memory` returns for a number of them.
+    pub async fn read(&self, array: usize, memory: Function) -> Result<JsValue, Thrown> {
+        resident::read_one(&self.0, array, &memory).await
+    }
+
+    /// Returns the mesh of the points after they have moved, which stays on the device, too.
+    pub async fn update(
+        &self,
+        triangulator: &WasmTriangulator,
+        points: JsValue,
+        backend: &str,
+        report: Function,
+    ) -> Result<JsValue, Thrown> {
+        run(triangulator.for_run(backend, report), points, None, Some(&self.0)).await
     }
 }
 
@@ -67,15 +93,4 @@ pub fn delaunay2d_blocking(points: JsValue, with_statistics: bool) -> Result<JsV
     drop(points);
     let triangulator = Triangulator::new().backend(Backend::Cpu).winding(Winding::Clockwise);
     Ok(mesh2(triangulator.delaunay2d(coordinates.points()?)?, with_statistics))
-}
-
-fn mesh2(mesh: Mesh2, with_statistics: bool) -> JsValue {
-    object([
-        ("dimension", mesh.dimension.into()),
-        ("stats", if with_statistics { statistics(&mesh.stats) } else { JsValue::NULL }),
-        ("triangles", Uint32Array::new_from_slice(mesh.triangles.as_flattened()).into()),
-        ("halfedges", Int32Array::new_from_slice(mesh.halfedges.as_flattened()).into()),
-        ("hull", Uint32Array::new_from_slice(&mesh.hull).into()),
-        ("duplicateOf", Int32Array::new_from_slice(&mesh.duplicate_of).into()),
-    ])
 }

@@ -1,37 +1,19 @@
 //! 3D triangulation.
 
 use gdel::{
-    Backend, DeviceMesh3, Error, Mesh3, Triangulator,
+    Backend, DeviceMesh3, Error, Triangulator,
     internals::{gpu::engine::Made, triangulator::MIN_POINTS_3D},
-    stats::{Stats, Trace},
 };
-use js_sys::{Array, Function, Int32Array, Uint8Array, Uint32Array};
+use js_sys::Function;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
-    objects::{Thrown, object, set},
+    arrays::d3::{Outputs, mesh3, set_extras},
+    objects::Thrown,
     points::Coordinates,
     resident,
-    triangulator::{WasmTriangulator, statistics},
+    triangulator::WasmTriangulator,
 };
-
-/// What to copy out of this module's memory besides the tetrahedra.
-#[wasm_bindgen]
-#[derive(Clone, Copy)]
-pub struct Outputs {
-    neighbors: bool,
-    hull: bool,
-    duplicate_of: bool,
-    trace: bool,
-}
-
-#[wasm_bindgen]
-impl Outputs {
-    #[wasm_bindgen(constructor)]
-    pub fn new(neighbors: bool, hull: bool, duplicate_of: bool, trace: bool) -> Self {
-        Outputs { neighbors, hull, duplicate_of, trace }
-    }
-}
 
 /// Returns the number of points from which on the backend `auto` considers the GPU in 3D.
 #[wasm_bindgen]
@@ -49,25 +31,40 @@ impl WasmTriangulator {
     }
 
     /// Triangulates in 3D. With `on_device`, the mesh stays on the device, and `outputs` has no
-    /// meaning.
+    /// meaning; else its arrays are read into what `memory` returns for a number of bytes.
     pub async fn delaunay3d(
         &self,
         points: JsValue,
         backend: &str,
         outputs: Outputs,
         on_device: bool,
+        memory: Function,
         report: Function,
     ) -> Result<JsValue, Thrown> {
-        let coordinates = Coordinates::new(&points)?;
-        drop(points);
         let triangulator = self.for_run(backend, report).trace(outputs.trace);
-        let deliver = async |mesh: Made<3>| match mesh {
-            Made::Host(mesh) => Ok(mesh3(mesh, outputs)),
-            Made::Device(mesh) if on_device => Ok(resident::hand_over(*mesh, |mesh| WasmMesh3(mesh).into())),
-            Made::Device(mesh) => read3(&mesh, outputs).await,
-        };
-        Ok(triangulator.deliver3d(coordinates.points()?, on_device, deliver).await?)
+        run(&triangulator, points, (!on_device).then_some((outputs, memory)), None).await
     }
+}
+
+/// Triangulates. The mesh stays on the device if no arrays of it are read into memory, and then goes on
+/// from `moved`.
+async fn run(
+    triangulator: &Triangulator,
+    points: JsValue,
+    read: Option<(Outputs, Function)>,
+    moved: Option<&DeviceMesh3>,
+) -> Result<JsValue, Thrown> {
+    let coordinates = Coordinates::new(&points)?;
+    drop(points);
+    let deliver = async |mesh: Made<3>| match (mesh, &read) {
+        (Made::Host(mesh), read) => {
+            let (outputs, _) = read.as_ref().expect("what stays on the device is there");
+            Ok(mesh3(mesh, *outputs))
+        }
+        (Made::Device(mesh), Some((outputs, memory))) => read3(&mesh, *outputs, memory).await,
+        (Made::Device(mesh), None) => Ok(resident::hand_over(*mesh, |mesh| WasmMesh3(mesh).into())),
+    };
+    Ok(triangulator.deliver3d(coordinates.points()?, read.is_none(), moved, deliver).await?)
 }
 
 /// A mesh on the device.
@@ -77,9 +74,20 @@ pub struct WasmMesh3(DeviceMesh3);
 #[wasm_bindgen]
 impl WasmMesh3 {
     /// Returns the bytes of an array: the tetrahedra, their neighbours, the hull, or a tetrahedron
-    /// of each point, by these numbers.
-    pub async fn read(&self, array: usize) -> Result<JsValue, Thrown> {
-        Ok(self.0.read_to_js(&[array]).await?.0.swap_remove(0).into())
+    /// of each point, by these numbers, in what `memory` returns for a number of them.
+    pub async fn read(&self, array: usize, memory: Function) -> Result<JsValue, Thrown> {
+        resident::read_one(&self.0, array, &memory).await
+    }
+
+    /// Returns the mesh of the points after they have moved, which stays on the device, too.
+    pub async fn update(
+        &self,
+        triangulator: &WasmTriangulator,
+        points: JsValue,
+        backend: &str,
+        report: Function,
+    ) -> Result<JsValue, Thrown> {
+        run(&triangulator.for_run(backend, report), points, None, Some(&self.0)).await
     }
 }
 
@@ -93,52 +101,11 @@ pub fn delaunay3d_blocking(points: JsValue, outputs: Outputs) -> Result<JsValue,
 }
 
 /// Copies a mesh from the device.
-async fn read3(mesh: &DeviceMesh3, outputs: Outputs) -> Result<JsValue, Error> {
+async fn read3(mesh: &DeviceMesh3, outputs: Outputs, memory: &Function) -> Result<JsValue, Error> {
     let arrays = [(0, "tetrahedra", true), (1, "neighbors", outputs.neighbors), (2, "hull", outputs.hull)];
     let wanted: Vec<(usize, &str)> =
         arrays.into_iter().filter(|&(.., wanted)| wanted).map(|(number, name, _)| (number, name)).collect();
-    let (result, stats) = resident::read(mesh, &wanted).await?;
+    let (result, stats) = resident::read(mesh, &wanted, memory).await?;
     set_extras(&result, &stats, mesh.duplicate_of(), outputs);
     Ok(result)
-}
-
-/// Copies a mesh. Each array is freed as soon as it is copied: a mesh is large, and WebAssembly's
-/// memory never shrinks.
-fn mesh3(mesh: Mesh3, outputs: Outputs) -> JsValue {
-    let Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension, stats, .. } = mesh;
-    let result = object([("dimension", dimension.into()), ("stats", statistics(&stats))]);
-    set(&result, "tetrahedra", Uint32Array::new_from_slice(tetrahedra.as_flattened()));
-    drop(tetrahedra);
-    if outputs.neighbors {
-        set(&result, "neighbors", Int32Array::new_from_slice(neighbors.as_flattened()));
-    }
-    drop(neighbors);
-    if outputs.hull {
-        set(&result, "hull", Uint32Array::new_from_slice(hull.as_flattened()));
-    }
-    set_extras(&result, &stats, &duplicate_of, outputs);
-    result
-}
-
-/// Adds what the host has of every mesh.
-fn set_extras(result: &JsValue, stats: &Stats, duplicate_of: &[i32], outputs: Outputs) {
-    if let Some(trace) = &stats.trace {
-        set(result, "trace", self::trace(trace));
-    }
-    if outputs.duplicate_of {
-        set(result, "duplicateOf", Int32Array::new_from_slice(duplicate_of));
-    }
-}
-
-fn trace(trace: &Trace) -> JsValue {
-    let round =
-        |round: &Vec<[u32; 4]>| object([("tetrahedra", Uint32Array::new_from_slice(round.as_flattened()).into())]);
-    let rounds: Array = trace.rounds.iter().map(round).collect();
-    let facets = Uint32Array::new_from_slice(trace.not_locally_delaunay.as_flattened());
-    let created: Vec<u8> = trace.splayed.iter().map(|&splayed| u8::from(splayed)).collect();
-    object([
-        ("rounds", rounds.into()),
-        ("nonDelaunayFacets", facets.into()),
-        ("created", Uint8Array::new_from_slice(&created).into()),
-    ])
 }

@@ -2,8 +2,8 @@
 //! counter-clockwise by the negation of all *y*, which is undone in what is returned.
 
 use gdel::{
-    AlphaShape, Clip, Error, Interpolation, Interpolator, Location, Locator, Mesh, Mesh2, Mesh3, Points, SpanningTree,
-    Voronoi,
+    AlphaShape, Clip, Csr, Error, Interpolation, Interpolator, Location, Locator, Mesh, Mesh2, Mesh3, Points,
+    SpanningTree, Voronoi,
     internals::{
         derived::{AlphaEdges, StolenMeasures, VoronoiShapes},
         geometry::{Euclidean, Geometry},
@@ -41,6 +41,31 @@ trait OfCaller<const D: usize, const N: usize>: Mesh<D, N> + Sized {
 
     /// Copies a mesh.
     fn of_caller(mesh: &JsValue) -> Result<Self, Thrown>;
+
+    /// Returns the edges.
+    fn edges(&self) -> Vec<[u32; 2]>;
+
+    /// Returns the facets, which in 2D are the edges.
+    fn facets(&self) -> Vec<[u32; D]>;
+
+    /// Returns the neighbours of each vertex.
+    fn vertex_neighbors(&self) -> Csr;
+
+    /// Returns a simplex of each vertex.
+    fn vertex_simplex(&self) -> Vec<i32>;
+
+    /// Returns the centres and the radii of the circumspheres, the volumes, the ratios of the radii
+    /// and the angles.
+    fn shapes(&self, points: Points<'_, D>) -> Shapes<D>;
+}
+
+/// What the simplices of a mesh are like.
+struct Shapes<const D: usize> {
+    circumcenters: Vec<[f64; D]>,
+    circumradii: Vec<f64>,
+    volumes: Vec<f64>,
+    radius_ratios: Vec<f64>,
+    angles: Vec<f64>,
 }
 
 impl OfCaller<3, 4> for Mesh3 {
@@ -54,6 +79,32 @@ impl OfCaller<3, 4> for Mesh3 {
         mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
         Ok(mesh)
     }
+
+    fn edges(&self) -> Vec<[u32; 2]> {
+        self.edges().collect()
+    }
+
+    fn facets(&self) -> Vec<[u32; 3]> {
+        self.facets().collect()
+    }
+
+    fn vertex_neighbors(&self) -> Csr {
+        self.vertex_neighbors()
+    }
+
+    fn vertex_simplex(&self) -> Vec<i32> {
+        self.vertex_tetrahedron()
+    }
+
+    fn shapes(&self, points: Points<'_, 3>) -> Shapes<3> {
+        Shapes {
+            circumcenters: self.circumcenters(points).collect(),
+            circumradii: self.circumradii(points).collect(),
+            volumes: self.volumes(points).collect(),
+            radius_ratios: self.radius_ratios(points).collect(),
+            angles: self.dihedral_angles(points).flatten().collect(),
+        }
+    }
 }
 
 impl OfCaller<2, 3> for Mesh2 {
@@ -66,6 +117,32 @@ impl OfCaller<2, 3> for Mesh2 {
         mesh.halfedges = caller.neighbors.unwrap_or_default();
         mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
         Ok(mesh)
+    }
+
+    fn edges(&self) -> Vec<[u32; 2]> {
+        self.edges().collect()
+    }
+
+    fn facets(&self) -> Vec<[u32; 2]> {
+        self.edges().collect()
+    }
+
+    fn vertex_neighbors(&self) -> Csr {
+        self.vertex_neighbors()
+    }
+
+    fn vertex_simplex(&self) -> Vec<i32> {
+        self.vertex_triangle()
+    }
+
+    fn shapes(&self, points: Points<'_, 2>) -> Shapes<2> {
+        Shapes {
+            circumcenters: self.circumcenters(points).collect(),
+            circumradii: self.circumradii(points).collect(),
+            volumes: self.areas(points).collect(),
+            radius_ratios: self.radius_ratios(points).collect(),
+            angles: self.angles(points).flatten().collect(),
+        }
     }
 }
 
@@ -104,14 +181,16 @@ impl<M> Task<M> {
         }
     }
 
-    /// Calls `answer` with one part of the queries after the other.
+    /// Calls `answer` with one part of the queries after the other, to each of which there are so
+    /// many answers.
     fn in_parts<const D: usize, R>(
         &self,
         queries: &Coordinates,
+        each: usize,
         answer: impl Fn(Points<'_, D>) -> Result<Vec<R>, Error>,
     ) -> Result<Vec<R>, Thrown> {
         let count = queries.points::<D>()?.len();
-        let mut answers = room(count)?;
+        let mut answers = room(count.saturating_mul(each))?;
         let part = count.div_ceil(PARTS).max(MIN_PART);
         for start in (0..count).step_by(part) {
             let end = (start + part).min(count);
@@ -186,7 +265,7 @@ where
     let task = Task::<M>::new::<D, N>(points, mesh, report, "locate")?;
     let queries = queries_of::<D>(queries)?;
     let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
-    let located = task.in_parts(&queries, |part| locator.locate_many(part))?;
+    let located = task.in_parts(&queries, 1, |part| locator.locate_many(part))?;
     let [mut simplices, mut facets] = [room(located.len())?, room(located.len())?];
     for location in located {
         let (simplex, facet) = match location {
@@ -203,22 +282,25 @@ where
     ]))
 }
 
-/// Returns the vertex that is nearest to each query.
+/// Returns the `k` vertices that are nearest to each query, nearest first, and −1 where there are
+/// not so many.
 #[wasm_bindgen]
 pub fn nearest(
     dimension: u32,
     points: &JsValue,
     mesh: &JsValue,
     queries: &JsValue,
+    k: usize,
     report: Function,
 ) -> Result<Int32Array, Thrown> {
-    in_dimension!(dimension, nearest_in(points, mesh, queries, report))
+    in_dimension!(dimension, nearest_in(points, mesh, queries, k, report))
 }
 
 fn nearest_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
     points: &JsValue,
     mesh: &JsValue,
     queries: &JsValue,
+    k: usize,
     report: Function,
 ) -> Result<Int32Array, Thrown>
 where
@@ -227,9 +309,17 @@ where
     let task = Task::<M>::new::<D, N>(points, mesh, report, "nearest")?;
     let queries = queries_of::<D>(queries)?;
     let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
-    let nearest = task.in_parts(&queries, |part| {
-        let nearest = locator.nearest_many(part)?;
-        Ok(nearest.into_iter().map(|vertex| vertex.map_or(-1, |v| v as i32)).collect())
+    let nearest = task.in_parts(&queries, k, |part| match k {
+        1 => Ok(locator.nearest_many(part)?.into_iter().map(|vertex| vertex.map_or(-1, |v| v as i32)).collect()),
+        _ => {
+            let mut nearest = Vec::with_capacity(k * part.len());
+            for query in part.iter() {
+                let end = nearest.len() + k;
+                nearest.extend(locator.nearest_k(query, k)?.into_iter().map(|v| v as i32));
+                nearest.resize(end, -1);
+            }
+            Ok(nearest)
+        }
     })?;
     Ok(Int32Array::new_from_slice(&nearest))
 }
@@ -240,19 +330,19 @@ pub fn interpolate(
     dimension: u32,
     points: &JsValue,
     mesh: &JsValue,
-    values: &Float64Array,
     queries: &JsValue,
+    values: &Float64Array,
     method: &str,
     report: Function,
 ) -> Result<Float64Array, Thrown> {
-    in_dimension!(dimension, interpolate_in(points, mesh, values, queries, method, report))
+    in_dimension!(dimension, interpolate_in(points, mesh, queries, values, method, report))
 }
 
 fn interpolate_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
     points: &JsValue,
     mesh: &JsValue,
-    values: &Float64Array,
     queries: &JsValue,
+    values: &Float64Array,
     method: &str,
     report: Function,
 ) -> Result<Float64Array, Thrown>
@@ -269,7 +359,7 @@ where
     };
     let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
     let interpolator = Interpolator::new(&locator, &values)?;
-    let found = task.in_parts(&queries, |part| interpolator.interpolate_many(method, part))?;
+    let found = task.in_parts(&queries, 1, |part| interpolator.interpolate_many(method, part))?;
     Ok(Float64Array::new_from_slice(&found))
 }
 
@@ -332,7 +422,7 @@ where
 
 /// Returns the alpha shape for a radius, or without one for the smallest that has all points in at
 /// most so many components.
-#[wasm_bindgen]
+#[wasm_bindgen(js_name = alphaShape)]
 pub fn alpha_shape(
     dimension: u32,
     points: &JsValue,
@@ -380,7 +470,7 @@ where
 }
 
 /// Returns the minimum spanning tree.
-#[wasm_bindgen]
+#[wasm_bindgen(js_name = spanningTree)]
 pub fn spanning_tree(dimension: u32, points: &JsValue, mesh: &JsValue, report: Function) -> Result<JsValue, Thrown> {
     in_dimension!(dimension, spanning_tree_in(points, mesh, report))
 }
@@ -399,5 +489,66 @@ where
     Ok(object([
         ("edges", Uint32Array::new_from_slice(tree.edges.as_flattened()).into()),
         ("lengths", Float64Array::new_from_slice(&tree.lengths).into()),
+    ]))
+}
+
+/// Returns what is connected with what.
+#[wasm_bindgen]
+pub fn topology(dimension: u32, points: &JsValue, mesh: &JsValue, report: Function) -> Result<JsValue, Thrown> {
+    in_dimension!(dimension, topology_in(points, mesh, report))
+}
+
+fn topology_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+    points: &JsValue,
+    mesh: &JsValue,
+    report: Function,
+) -> Result<JsValue, Thrown>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let task = Task::<M>::new::<D, N>(points, mesh, report, "topology")?;
+    // Only to check the mesh.
+    Locator::new(&task.mesh, task.points.points::<D>()?)?;
+    let edges = OfCaller::edges(&task.mesh);
+    task.report(0.4)?;
+    let facets = OfCaller::facets(&task.mesh);
+    task.report(0.6)?;
+    let neighbors = OfCaller::vertex_neighbors(&task.mesh);
+    task.report(0.9)?;
+    Ok(object([
+        ("edges", Uint32Array::new_from_slice(edges.as_flattened()).into()),
+        ("facets", Uint32Array::new_from_slice(facets.as_flattened()).into()),
+        ("neighborOffsets", offsets(&neighbors.offsets)),
+        ("neighbors", Uint32Array::new_from_slice(&neighbors.indices).into()),
+        ("simplexOf", Int32Array::new_from_slice(&task.mesh.vertex_simplex()).into()),
+    ]))
+}
+
+/// Returns what the simplices are like.
+#[wasm_bindgen]
+pub fn geometry(dimension: u32, points: &JsValue, mesh: &JsValue, report: Function) -> Result<JsValue, Thrown> {
+    in_dimension!(dimension, geometry_in(points, mesh, report))
+}
+
+fn geometry_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+    points: &JsValue,
+    mesh: &JsValue,
+    report: Function,
+) -> Result<JsValue, Thrown>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let task = Task::<M>::new::<D, N>(points, mesh, report, "geometry")?;
+    let points = task.points.points::<D>()?;
+    // Only to check the mesh.
+    Locator::new(&task.mesh, points)?;
+    let Shapes { circumcenters, circumradii, volumes, radius_ratios, angles } = task.mesh.shapes(points);
+    task.report(0.9)?;
+    Ok(object([
+        ("circumcenters", coordinates(circumcenters)),
+        ("circumradii", Float64Array::new_from_slice(&circumradii).into()),
+        ("volumes", Float64Array::new_from_slice(&volumes).into()),
+        ("radiusRatios", Float64Array::new_from_slice(&radius_ratios).into()),
+        ("angles", Float64Array::new_from_slice(&angles).into()),
     ]))
 }

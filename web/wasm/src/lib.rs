@@ -1,25 +1,31 @@
 //! The WebAssembly bindings of the npm package: typed arrays in, typed arrays out, errors as
 //! `Error` objects with a `code`. The TypeScript in `web/src` is their only caller.
 //!
-//! The features `d3`, `d2`, `tools` and `derived` are the modules of the package.
+//! The features `d3`, `d2`, `update`, `tools` and `derived` are the modules of the package.
 #![cfg(target_arch = "wasm32")]
 
+#[cfg(any(feature = "d2", feature = "d3", feature = "update"))]
+mod arrays;
 #[cfg(feature = "d2")]
 mod d2;
 #[cfg(feature = "d3")]
 mod d3;
 #[cfg(feature = "derived")]
 mod derived;
-#[cfg(any(feature = "tools", feature = "derived"))]
+#[cfg(any(feature = "tools", feature = "derived", feature = "update"))]
 mod mesh;
 mod objects;
 mod points;
 #[cfg(any(feature = "d2", feature = "d3"))]
 mod resident;
+#[cfg(any(feature = "d2", feature = "d3", feature = "update"))]
+mod run;
 #[cfg(feature = "tools")]
 mod tools;
 #[cfg(any(feature = "d2", feature = "d3"))]
 mod triangulator;
+#[cfg(feature = "update")]
+mod update;
 
 use wasm_bindgen::prelude::wasm_bindgen;
 

@@ -2,17 +2,24 @@
 
 #[cfg(feature = "tools")]
 use gdel::Points;
+#[cfg(any(feature = "update", feature = "tools"))]
+use gdel::{Mesh2, Mesh3};
 use js_sys::{Int32Array, Reflect, Uint32Array};
 use wasm_bindgen::{JsCast, JsValue};
 
+#[cfg(any(feature = "tools", feature = "derived"))]
+use crate::points::Coordinates;
 use crate::{
     objects::{Thrown, error},
-    points::{Coordinates, room, zeros},
+    points::{room, zeros},
 };
 
 /// A mesh copied into this module's memory: `N` vertices per simplex, `H` per hull facet in `hull`.
 /// `None` stands for what the caller did not state.
-#[cfg_attr(not(feature = "tools"), expect(dead_code, reason = "the hull and the dimension are for files and proofs"))]
+#[cfg_attr(
+    not(any(feature = "update", feature = "tools")),
+    expect(dead_code, reason = "the hull and the dimension are for files, proofs and updates")
+)]
 pub(crate) struct CallerMesh<const N: usize, const H: usize> {
     pub(crate) simplices: Vec<[u32; N]>,
     pub(crate) neighbors: Option<Vec<[i32; N]>>,
@@ -59,7 +66,34 @@ impl<const N: usize, const H: usize> CallerMesh<N, H> {
     }
 }
 
+#[cfg(any(feature = "update", feature = "tools"))]
+impl From<CallerMesh<4, 3>> for Mesh3 {
+    fn from(caller: CallerMesh<4, 3>) -> Mesh3 {
+        let mut mesh = Mesh3::default();
+        mesh.tetrahedra = caller.simplices;
+        mesh.neighbors = caller.neighbors.unwrap_or_default();
+        mesh.hull = caller.hull.unwrap_or_default();
+        mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
+        mesh.dimension = caller.dimension.unwrap_or(3);
+        mesh
+    }
+}
+
+#[cfg(any(feature = "update", feature = "tools"))]
+impl From<CallerMesh<3, 1>> for Mesh2 {
+    fn from(caller: CallerMesh<3, 1>) -> Mesh2 {
+        let mut mesh = Mesh2::default();
+        mesh.triangles = caller.simplices;
+        mesh.halfedges = caller.neighbors.unwrap_or_default();
+        mesh.hull = caller.hull.unwrap_or_default().into_iter().flatten().collect();
+        mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
+        mesh.dimension = caller.dimension.unwrap_or(2);
+        mesh
+    }
+}
+
 /// Copies the points of a mesh, and checks them.
+#[cfg(any(feature = "tools", feature = "derived"))]
 pub(crate) fn points_of_mesh<const D: usize>(points: &JsValue) -> Result<Coordinates, Thrown> {
     let coordinates = Coordinates::new(points)?;
     coordinates.points::<D>()?.validate()?;

@@ -16,15 +16,11 @@ impl Coordinates {
     /// Copies a `Float32Array` or a `Float64Array`.
     pub(crate) fn new(array: &JsValue) -> Result<Self, Thrown> {
         if let Some(array) = array.dyn_ref::<Float32Array>() {
-            let mut values = zeros(array.length())?;
-            array.copy_to(&mut values);
-            return Ok(Coordinates::F32(values));
+            return Ok(Coordinates::F32(copied(array.length(), || array.to_vec())?));
         }
         let array: &Float64Array =
             array.dyn_ref().ok_or_else(|| error("BAD_INPUT", "points must be a Float32Array or a Float64Array"))?;
-        let mut values = zeros(array.length())?;
-        array.copy_to(&mut values);
-        Ok(Coordinates::F64(values))
+        Ok(Coordinates::F64(copied(array.length(), || array.to_vec())?))
     }
 
     /// Negates the *y* coordinates of 2D points.
@@ -55,6 +51,13 @@ impl Coordinates {
     }
 }
 
+/// Returns what `copy` returns, an array of `length` elements, or an error if memory does not suffice.
+fn copied<T>(length: u32, copy: impl FnOnce() -> Vec<T>) -> Result<Vec<T>, Thrown> {
+    // `copy` takes the same memory again, and does not fill it with zeros before.
+    drop(room::<T>(length as usize)?);
+    Ok(copy())
+}
+
 /// Returns an empty array with room for `length` elements, or an error if memory does not suffice.
 pub(crate) fn room<T>(length: usize) -> Result<Vec<T>, Thrown> {
     let mut values = Vec::new();
@@ -65,6 +68,7 @@ pub(crate) fn room<T>(length: usize) -> Result<Vec<T>, Thrown> {
 }
 
 /// Returns an array of zeros, or an error if memory does not suffice.
+#[cfg(any(feature = "tools", feature = "derived", feature = "update"))]
 pub(crate) fn zeros<T: Clone + Default>(length: u32) -> Result<Vec<T>, Thrown> {
     let mut values = room(length as usize)?;
     values.resize(length as usize, T::default());

@@ -1,12 +1,12 @@
 //! Meshes on the device.
 
 use gdel::{DeviceMesh, Error, stats::Stats};
-use js_sys::{Array, Int32Array, Uint32Array};
-use wasm_bindgen::JsValue;
+use js_sys::{Array, Function, Int32Array, Uint8Array, Uint32Array};
+use wasm_bindgen::{JsCast, JsValue};
 
 use crate::{
-    objects::{object, set},
-    triangulator::statistics,
+    objects::{Thrown, object, set},
+    run::statistics,
 };
 
 /// Hands a mesh on the device over. `wrap` makes the object that reads its arrays.
@@ -25,23 +25,38 @@ pub(crate) fn hand_over<const D: usize>(mesh: DeviceMesh<D>, wrap: impl FnOnce(D
     object([("stats", stats), ("resident", resident)])
 }
 
-/// Reads some arrays of a mesh, by their numbers, under these names, straight into memory of
-/// JavaScript, and frees the mesh. Returns the object that has them, and the statistics with what
-/// that took.
+/// Returns memory for a number of bytes from a function of JavaScript, if it does not throw.
+fn from(memory: &Function) -> impl Fn(u32) -> Option<Uint8Array> {
+    |bytes| Some(memory.call1(&JsValue::NULL, &bytes.into()).ok()?.unchecked_into())
+}
+
+/// Reads an array of a mesh, by its number, into what `memory` returns for its bytes. Returns these.
+pub(crate) async fn read_one<const D: usize>(
+    mesh: &DeviceMesh<D>,
+    array: usize,
+    memory: &Function,
+) -> Result<JsValue, Thrown> {
+    Ok(mesh.read_to_js(&[array], from(memory)).await?.0.swap_remove(0).into())
+}
+
+/// Reads some arrays of a mesh, by their numbers, under these names, straight into what `memory`
+/// returns for their bytes, and frees the mesh. Returns the object that has them, and the statistics
+/// with what that took.
 pub(crate) async fn read<const D: usize>(
     mesh: &DeviceMesh<D>,
     arrays: &[(usize, &str)],
+    memory: &Function,
 ) -> Result<(JsValue, Stats), Error> {
     let numbers: Vec<usize> = arrays.iter().map(|&(number, _)| number).collect();
-    let (read, stats) = mesh.read_to_js(&numbers).await?;
+    let (read, stats) = mesh.read_to_js(&numbers, from(memory)).await?;
     mesh.destroy();
     let result = object([("dimension", mesh.dimension().into()), ("stats", statistics(&stats))]);
     for (&(number, name), bytes) in arrays.iter().zip(read) {
-        let buffer = bytes.buffer();
+        let (buffer, start, length) = (bytes.buffer(), bytes.byte_offset(), bytes.length() / 4);
         // Neighbours are signed.
         match number {
-            1 => set(&result, name, Int32Array::new(&buffer)),
-            _ => set(&result, name, Uint32Array::new(&buffer)),
+            1 => set(&result, name, Int32Array::new_with_byte_offset_and_length(&buffer, start, length)),
+            _ => set(&result, name, Uint32Array::new_with_byte_offset_and_length(&buffer, start, length)),
         }
     }
     Ok((result, stats))

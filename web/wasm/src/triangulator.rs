@@ -1,17 +1,10 @@
-//! What 3D and 2D runs share: the triangulator, progress reports, statistics.
+//! The triangulator of 3D and 2D runs.
 
-use std::ops::ControlFlow;
+use gdel::{Backend, Triangulator};
+use js_sys::Function;
+use wasm_bindgen::prelude::wasm_bindgen;
 
-use gdel::{
-    Backend, Progress, Triangulator,
-    internals::fields::{Field, Value},
-    stats::Stats,
-};
-use js_sys::{Array, Function, Object};
-use send_wrapper::SendWrapper;
-use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
-
-use crate::objects::set;
+use crate::run::reporting;
 
 /// A triangulator for any number of runs.
 #[wasm_bindgen]
@@ -42,37 +35,6 @@ impl WasmTriangulator {
             "cpu" => Backend::Cpu,
             _ => Backend::Auto,
         };
-        // Nothing moves to another thread, since there is none.
-        let report = SendWrapper::new(report);
-        self.triangulator.clone().backend(backend).on_progress(move |progress: Progress| {
-            let stop = report.call2(&JsValue::NULL, &progress.phase.name().into(), &progress.fraction.into());
-            match stop {
-                Ok(stop) if stop.is_falsy() => ControlFlow::Continue(()),
-                _ => ControlFlow::Break(()),
-            }
-        })
-    }
-}
-
-/// Returns the statistics as the object that `web/src/stats.ts` describes.
-pub(crate) fn statistics(stats: &Stats) -> JsValue {
-    copy(stats.value())
-}
-
-fn copy(value: Value<'_>) -> JsValue {
-    match value {
-        Value::Omitted | Value::Null => JsValue::NULL,
-        Value::Number(number) => number.into(),
-        Value::Text(text) => (&*text).into(),
-        Value::List(values) => values.into_iter().map(copy).collect::<Array>().into(),
-        Value::Object(fields) => {
-            let object = Object::new().into();
-            for (name, value) in fields {
-                if !matches!(value, Value::Omitted) {
-                    set(&object, &name, copy(value));
-                }
-            }
-            object
-        }
+        self.triangulator.clone().backend(backend).on_progress(reporting(report))
     }
 }

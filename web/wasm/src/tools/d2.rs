@@ -31,13 +31,11 @@ pub fn write2d(points: &JsValue, mesh: &JsValue, format: &str) -> Result<JsValue
     let points = coordinates.points::<2>()?;
     let caller = caller_mesh(mesh)?;
     caller.check_vertices(points)?;
-    let mut mesh = Mesh2::default();
-    mesh.triangles = caller.simplices;
+    let mut mesh = Mesh2::from(caller);
     for [_, b, c] in &mut mesh.triangles {
         std::mem::swap(b, c);
     }
     let reversed = |halfedge: i32| if halfedge == NONE { NONE } else { halfedge / 3 * 3 + 2 - halfedge % 3 };
-    mesh.halfedges = caller.neighbors.unwrap_or_default();
     for halfedges in &mut mesh.halfedges {
         halfedges.reverse();
         *halfedges = halfedges.map(reversed);

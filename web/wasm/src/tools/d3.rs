@@ -31,13 +31,7 @@ pub fn write3d(points: &JsValue, mesh: &JsValue, format: &str) -> Result<JsValue
     let points = coordinates.points::<3>()?;
     let caller = caller_mesh(mesh)?;
     caller.check_vertices(points)?;
-    let mut mesh = Mesh3::default();
-    mesh.tetrahedra = caller.simplices;
-    mesh.neighbors = caller.neighbors.unwrap_or_default();
-    mesh.hull = caller.hull.unwrap_or_default();
-    mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
-    mesh.dimension = caller.dimension.unwrap_or(3);
-    files(points, &mesh, format, "tetgen")
+    files(points, &Mesh3::from(caller), format, "tetgen")
 }
 
 /// Returns what the verifier finds.

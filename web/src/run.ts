@@ -1,0 +1,206 @@
+// Runs on points: triangulations from scratch, and updates of meshes whose points have moved.
+
+import { wasm2d, wasm3d, wasmUpdate } from '#assets';
+import { GdelError } from './errors.js';
+import { type Done, Host, type Sending } from './host.js';
+import { memoryOf } from './memory.js';
+import {
+  checkArrays,
+  checkBoolean,
+  checkFunction,
+  checkOneOf,
+  objectOf,
+  optionsOf,
+  taskOptions,
+} from './options.js';
+import { coordinatesInSlices } from './points.js';
+import type { MovedMesh, Tasks } from './protocol.js';
+import { coordinatesOf, type Device, type Held, isBuffer } from './resident.js';
+import type { WasmAsset } from './runtime.js';
+import type { UpdateStats } from './stats.js';
+import { throwIfAborted } from './stop.js';
+import type {
+  AccessorOptions,
+  Backend,
+  Output,
+  RunOptions,
+  Stats,
+  TaskOptions,
+  UpdateOptions,
+} from './types.js';
+
+export const BACKENDS: readonly Backend[] = ['auto', 'gpu', 'cpu'];
+
+export type Task = 'delaunay3d' | 'delaunay2d';
+
+/** A dimension. Each constant names its own files alone, so that bundlers leave out the others. */
+interface Kind<T extends Task> {
+  task: T;
+  update: 'update3d' | 'update2d';
+  asset: WasmAsset;
+  dimension: 2 | 3;
+}
+
+export const IN_3D: Kind<'delaunay3d'> = {
+  task: 'delaunay3d',
+  update: 'update3d',
+  asset: wasm3d,
+  dimension: 3,
+};
+
+export const IN_2D: Kind<'delaunay2d'> = {
+  task: 'delaunay2d',
+  update: 'update2d',
+  asset: wasm2d,
+  dimension: 2,
+};
+
+/** What makes meshes, and updates them later. */
+export interface Maker {
+  host: Host;
+  backend: Backend;
+  device?: Device | undefined;
+}
+
+let shared: Host | undefined;
+
+/** Returns what all calls of functions share. */
+export const sharedMaker = (backend: Backend): Maker => ({
+  host: (shared ??= new Host()),
+  backend,
+});
+
+export type AnyOptions = Omit<RunOptions, 'reuse'> & {
+  reuse?: object | undefined;
+  point?: unknown;
+};
+
+/** Triangulates points. What is small is copied before this returns. */
+export async function triangulate<T extends Task>(
+  maker: Maker,
+  kind: Kind<T>,
+  points: unknown,
+  options: AnyOptions | undefined,
+  outputs: readonly Output[] = [],
+): Promise<Done<T>> {
+  return start(maker, kind, await prepare(maker, kind, points, options), { outputs });
+}
+
+/** Makes a mesh of points that have moved, from the mesh before and its statistics. */
+export type Update<T extends Task> = (
+  points: unknown,
+  options: UpdateOptions | undefined,
+  moved: MovedMesh | Held,
+  stats: Stats,
+) => Promise<Done<T>>;
+
+/** The statistics of an update that could not go on from the mesh, which the GPU does not have. */
+const ELSEWHERE: UpdateStats = {
+  inverted: 0,
+  notLocallyDelaunay: 0,
+  flips: 0,
+  stars: 0,
+  reinserted: 0,
+  inserted: 0,
+  restarted: 'elsewhere',
+};
+
+/**
+ * Returns what updates a mesh that a run with these options has made. What is on the device is
+ * updated there. Otherwise the CPU repairs what it has made. What the GPU has made, it makes anew the
+ * first time, and keeps it for the next one.
+ */
+export function updating<T extends Task>(
+  maker: Maker,
+  kind: Kind<T>,
+  made: AnyOptions | undefined,
+  outputs: readonly Output[] = [],
+): Update<T> {
+  const { backend, resident } = optionsOf(made);
+  let key = 0;
+  return async (points, given, moved, stats) => {
+    const all = { ...optionsOf(given), backend, resident, reuse: undefined };
+    if (resident) {
+      const job = await prepare(maker, kind, points, all);
+      return start(maker, kind, job, { outputs, moved });
+    }
+    checkArrays(moved);
+    const job = await prepare(maker, kind, points, all);
+    let [update, milliseconds] = [ELSEWHERE, 0];
+    if (stats.backend === 'cpu') {
+      const { sending, options } = job;
+      const args = { points: job.args.points, moved: moved as MovedMesh, outputs };
+      const done = await maker.host.run(wasmUpdate, kind.update, args, sending, options);
+      const { result } = done;
+      if (!result.update) return done as unknown as Done<T>;
+      update = result.update;
+      milliseconds = result.stats.milliseconds;
+      // They have been there and back.
+      job.args.points = result.points;
+      sending.transfer = [result.points.buffer];
+    }
+    const done = await start(
+      maker,
+      kind,
+      job,
+      stats.backend === 'gpu' ? { outputs, key } : { outputs },
+    );
+    const { stats: last } = done.result;
+    last.update ??= update;
+    last.milliseconds += milliseconds;
+    key = done.result.key ?? 0;
+    return done;
+  };
+}
+
+/** A run whose arguments are checked. */
+interface Job {
+  args: Tasks['delaunay2d']['args'];
+  sending: Sending;
+  options: TaskOptions;
+}
+
+const start = <T extends Task>(
+  { host }: Maker,
+  { task, asset }: Kind<T>,
+  { args, sending, options }: Job,
+  more: object,
+): Promise<Done<T>> =>
+  host.run(asset, task, { ...args, ...more } as Tasks[T]['args'], sending, options);
+
+/** Returns the checked arguments of a run. What is small is copied before this returns. */
+async function prepare(
+  { backend: defaultBackend, device }: Maker,
+  { dimension }: Kind<Task>,
+  points: unknown,
+  options: AnyOptions | undefined,
+): Promise<Job> {
+  const checked = optionsOf(options);
+  const { backend = defaultBackend } = checked;
+  let { transfer = false } = checked;
+  const { resident = false, reuse } = checked;
+  const task = taskOptions(checked);
+  throwIfAborted(task.signal);
+  checkOneOf('backend', backend, BACKENDS);
+  checkBoolean('transfer', transfer);
+  checkBoolean('resident', resident);
+  if (resident && !device)
+    throw new GdelError('BAD_INPUT', 'the option resident needs a triangulator with a device');
+  const {
+    points: _,
+    coords: __,
+    ...arrays
+  } = objectOf<{ points?: unknown; coords?: unknown }>('the option reuse', reuse ?? {});
+  checkFunction('point', checked.point);
+  const point = checked.point as AccessorOptions<unknown>['point'] | undefined;
+  if (device && isBuffer(points)) {
+    points = await coordinatesOf(device, points);
+    transfer = true;
+  }
+  const coordinates = await coordinatesInSlices(points, { dimension, transfer, point }, () =>
+    throwIfAborted(task.signal),
+  );
+  const spare = resident ? [] : memoryOf(arrays);
+  const sending: Sending = { transfer: [coordinates.buffer, ...spare], isGiven: transfer };
+  return { args: { points: coordinates, backend, resident, spare }, sending, options: task };
+}

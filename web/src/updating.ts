@@ -1,0 +1,17 @@
+import { GdelError } from './errors.js';
+
+/** Sees to it that a mesh has one update at a time: the next one goes on from its result. */
+export class Updating {
+  #isRunning = false;
+
+  async run(update: () => Promise<void>): Promise<void> {
+    if (this.#isRunning)
+      throw new GdelError('BAD_INPUT', 'the mesh is being updated: await that first');
+    this.#isRunning = true;
+    try {
+      await update();
+    } finally {
+      this.#isRunning = false;
+    }
+  }
+}
