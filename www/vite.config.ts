@@ -1,3 +1,4 @@
+import { serwist } from '@serwist/vite';
 import { defineConfig } from 'vite';
 
 export default defineConfig({
@@ -6,4 +7,17 @@ export default defineConfig({
   worker: { format: 'es' },
   build: { target: 'es2023', chunkSizeWarningLimit: 900 },
   server: { fs: { allow: ['..'] } },
+  plugins: [
+    serwist({
+      swSrc: 'src/offline.worker.ts',
+      swDest: 'offline.js',
+      globDirectory: 'dist',
+      globPatterns: ['**/*.{html,js,css,wasm,svg,webp,woff2,gz,webmanifest}'],
+      // Ten times as large as all else, and kept when it is fetched.
+      globIgnores: ['**/dragon*'],
+      maximumFileSizeToCacheInBytes: 4e6,
+      injectionPoint: 'self.__SW_MANIFEST',
+      rollupFormat: 'iife',
+    }),
+  ],
 });

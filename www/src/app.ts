@@ -19,6 +19,7 @@ import {
   viewOf,
 } from './settings';
 import { wireAbout } from './ui/about';
+import { axes } from './ui/axes';
 import { showBusy, whileBusy } from './ui/busy';
 import { comparePanel } from './ui/comparePanel';
 import { complaint, complaintAbout } from './ui/complaint';
@@ -27,13 +28,16 @@ import { dock } from './ui/dock';
 import { byId } from './ui/dom';
 import { wireDrop } from './ui/drop';
 import { editor } from './ui/editor';
+import { firstVisit } from './ui/firstVisit';
 import { wireKeyboard } from './ui/keyboard';
 import { showLegend } from './ui/legend';
 import { live } from './ui/live';
 import { showMessage, wireMessage } from './ui/message';
+import { keepOffline } from './ui/offline';
 import { pointer } from './ui/pointer';
 import { pointsPanel } from './ui/pointsPanel';
 import { showResult } from './ui/result';
+import { ruler } from './ui/ruler';
 import { runPanel, whyNotRecord } from './ui/runPanel';
 import { scaleBar } from './ui/scaleBar';
 import { wireShare } from './ui/share';
@@ -77,7 +81,7 @@ export class App implements Page {
   /** The cut while it moves by itself, from everything to where it stays; else null. */
   private sweep: number | null = null;
   /** The files of this visit, which links and the browser's Back can only name. */
-  private readonly files = new Map<string, File>();
+  private readonly files = new Map<string, readonly File[]>();
   /** The view in the link that was followed here, for a file that the visitor does not have yet. */
   private awaited: { file: string; settings: Settings } | null = null;
 
@@ -96,6 +100,8 @@ export class App implements Page {
       viewPanel(this),
       dock(this),
       scaleBar(this),
+      axes(this),
+      ruler(this),
       runPanel(this),
       comparePanel(this),
       usePanel(this),
@@ -103,6 +109,7 @@ export class App implements Page {
       // Before the keys of the drawing: a point that is held takes the arrow keys.
       editor(this),
       live(this),
+      firstVisit(this),
     ];
     wireKeyboard(this);
     byId('cancel').addEventListener('click', () => this.model.cancel());
@@ -111,7 +118,7 @@ export class App implements Page {
     window.addEventListener('hashchange', () => void this.followHash());
     this.tell();
     void whileBusy(this.startViewer());
-    void whileBusy(this.start());
+    void whileBusy(this.start()).then(keepOffline);
     void whileBusy(this.askForGpu());
   }
 
@@ -148,15 +155,15 @@ export class App implements Page {
     { name, packed }: { name: string; packed: string | null },
     dimension: Dimension,
   ): Promise<Source | null> {
-    const file = this.files.get(name) ?? (packed ? await unpack(packed, name) : null);
-    return file && { kind: 'file', dimension, file, ...(packed ? { packed } : {}) };
+    const unpacked = packed ? await unpack(packed, name) : null;
+    const files = this.files.get(name) ?? (unpacked && [unpacked]);
+    return files && { kind: 'file', dimension, files, ...(packed ? { packed } : {}) };
   }
 
   run(source: Source, settings: Partial<Settings> = {}): Promise<boolean> {
     if (source.kind === 'file') {
-      const { file } = source;
-      this.files.set(file.name, file);
-      if (this.awaited?.file === file.name)
+      this.files.set(titleOf(source), source.files);
+      if (this.awaited?.file === titleOf(source))
         settings = { ...this.awaited.settings, source, ...settings };
     }
     const { edits = [], backend = this.settings.backend } = settings;
@@ -422,6 +429,7 @@ export class App implements Page {
       pieces: apart > 0,
       round: this.round,
       voronoi: layers.voronoi,
+      cells: layers.voronoi && this.settings.source.dimension === 3 ? apart : null,
     };
   }
 
@@ -436,7 +444,8 @@ export class App implements Page {
     const flat = source.dimension === 2;
     viewer.setUp(this.view.up);
     viewer.setColorMap(color === 'phase' && this.summary?.trace ? 'phases' : map);
-    viewer.look.edges.value = layers.edges ? 1 : 0;
+    // Facets of Voronoi cells are drawn as several triangles.
+    viewer.look.edges.value = layers.edges && !this.lastDrawing?.cells ? 1 : 0;
     viewer.look.apart.value = this.round === null ? apart : Math.max(apart, 0.02);
     viewer.look.fill.value = layers.simplices ? 1 : 0;
     viewer.setVisible('surface', layers.simplices);
@@ -484,7 +493,7 @@ export class App implements Page {
     const source = asked && (await this.sourceNamed(asked, settings.source.dimension));
     if (source) settings.source = source;
     const pointsOf = ({ source, edits, backend }: Settings) =>
-      JSON.stringify([source, source.kind === 'file' && source.file.name, edits, backend]);
+      JSON.stringify([source, source.kind === 'file' && titleOf(source), edits, backend]);
     if (pointsOf(settings) === pointsOf(this.settings)) {
       this.change({ ...settings, source: this.settings.source });
       return;

@@ -11,6 +11,7 @@ import {
   SAMPLES,
   type Sample,
   type Source,
+  titleOf,
 } from './model/source';
 import { COLOR_MAPS, type ColorMapName } from './view/colormap';
 import type { CameraPose } from './view/viewer';
@@ -124,7 +125,7 @@ export function toHash(settings: Settings): string {
   const hash = new URLSearchParams();
   if (source.dimension === 2) hash.set('dim', '2');
   if (source.kind === 'sample') hash.set('points', source.sample);
-  if (source.kind === 'file') hash.set('file', source.file.name);
+  if (source.kind === 'file') hash.set('file', titleOf(source));
   if (source.kind === 'file' && source.packed) hash.set('data', source.packed);
   if (source.kind === 'url') hash.set('url', source.url);
   if (settings.embed) hash.set('embed', '1');

@@ -49,6 +49,8 @@ export async function open(browser, url, { hang = HANG, ...options } = {}, prepa
     colorScheme: 'light',
     // The cut that opens a new object takes its time.
     reducedMotion: 'reduce',
+    // Keeping the page for visits without a connection fetches all of it.
+    serviceWorkers: 'block',
     ...options,
   });
   await prepare(context);
@@ -61,7 +63,14 @@ export async function open(browser, url, { hang = HANG, ...options } = {}, prepa
   page.on('console', (message) => message.type() === 'error' && page.problems.push(message.text()));
   await page.goto(url);
   await settled(page);
+  await unfold(page);
   return page;
+}
+
+/** Shows what the panel of points has folded away. */
+export async function unfold(page) {
+  for (const fold of await page.locator('.fold').all())
+    await fold.evaluate((details) => (details.open = true));
 }
 
 /**
@@ -137,15 +146,22 @@ export async function generate(page, distribution, points, { backend = 'auto' } 
 }
 
 /** Drops a file on the page. */
-export async function drop(page, name, bytes) {
-  const transfer = await page.evaluateHandle(
-    ({ name, base64 }) => {
-      const transfer = new DataTransfer();
+export function drop(page, name, bytes) {
+  return dropAll(page, { [name]: bytes });
+}
+
+/** Drops files on the page together: their contents by name. */
+export async function dropAll(page, contents) {
+  const files = Object.entries(contents).map(([name, bytes]) => ({
+    name,
+    base64: Buffer.from(bytes).toString('base64'),
+  }));
+  const transfer = await page.evaluateHandle((files) => {
+    const transfer = new DataTransfer();
+    for (const { name, base64 } of files)
       transfer.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
-      return transfer;
-    },
-    { name, base64: Buffer.from(bytes).toString('base64') },
-  );
+    return transfer;
+  }, files);
   await page.dispatchEvent('#stage', 'dragover', { dataTransfer: transfer });
   await page.dispatchEvent('#stage', 'drop', { dataTransfer: transfer });
   await settled(page);

@@ -172,6 +172,16 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
       document.querySelector('#took').textContent.includes('frames per second'),
     );
     await page.locator('#live-times svg').waitFor();
+    // The first frame has none before it.
+    await until(page, () =>
+      /^(Mesh kept: [\d,]+ tetrahedr(on|a) inverted, [\d,]+ flips?|From scratch: )/.test(
+        document.querySelector('#backend-used').textContent,
+      ),
+    );
+    assert.match(
+      await page.textContent('#live-times .note'),
+      /^Milliseconds to triangulate, for the last [\d,]+ frames?, of which [\d,]+ kept/,
+    );
     await pictureOf(page, '3d-live');
     await page.click('#live');
     await settled(page);
@@ -180,7 +190,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
 
   test('downloads what the command line proves', async () => {
     await tab(page, 'points');
-    await page.click('#samples button');
+    await page.click('#gallery button');
     await settled(page);
     assert.match(await text(page, 'count'), /^35,947 /);
     await tab(page, 'use');

@@ -3,6 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
+import { generate } from '../../web/dist/index.js';
 import {
   choose,
   drop,
@@ -17,6 +18,7 @@ import {
   slide,
   tab,
   text,
+  until,
 } from './browser.mjs';
 
 let server;
@@ -126,6 +128,16 @@ describe('on a screen', () => {
     assert.ok(Math.abs(ratio - 1 / 0.81) < 0.02, `${ratio} times as near`);
   });
 
+  test('the axes turn with the model', async () => {
+    const ends = () =>
+      page.locator('#axes line').evaluateAll((lines) => lines.map((line) => line.outerHTML));
+    const before = await ends();
+    assert.equal(before.length, 3);
+    await page.focus('#canvas');
+    await page.keyboard.press('ArrowLeft');
+    assert.notDeepEqual(await ends(), before);
+  });
+
   test('tells newcomers what this is', async () => {
     await page.click('#help');
     assert.ok(await page.locator('#about').isVisible());
@@ -140,9 +152,65 @@ describe('on a screen', () => {
   });
 });
 
+test('the distance between two points is that in the file', async () => {
+  const points = await generate('ball', 500, { seed: 1 });
+  const page = await open(browser, `${server.url}#points=ball_500_1`);
+  await page.click('#measure');
+  const { width, height } = await page.locator('#canvas').boundingBox();
+  const said = () => text(page, 'measured');
+  const pointsIn = async () => (await said()).match(/\d+/g).map(Number);
+  await page.locator('#canvas').click({ position: { x: width * 0.5, y: height * 0.55 } });
+  await until(page, () => document.querySelector('#measured').textContent.startsWith('From'));
+  await page.locator('#canvas').click({ position: { x: width * 0.6, y: height * 0.65 } });
+  await until(page, () => document.querySelector('#measured').textContent.includes(' to '));
+  const [from, to] = await pointsIn();
+  const [a, b] = [from, to].map((v) => points.slice(3 * v, 3 * v + 3));
+  const distance = Math.hypot(...a.map((x, axis) => b[axis] - x));
+  const shown = Number(/: ([\d.e-]+) units/.exec(await said())[1]);
+  assert.ok(Math.abs(shown / distance - 1) < 0.01, `${shown} instead of ${distance}`);
+  await pictureOf(page, '3d-measured');
+  await page.click('#measure');
+  assert.ok(await page.locator('#measured').isHidden());
+  assert.deepEqual(page.problems, []);
+  await page.context().close();
+});
+
 test('an empty sheet says what to do', async () => {
   const page = await open(browser, `${server.url}#dim=2&points=uniform_0_1`);
   assert.match(await text(page, 'count'), /^No points yet: click/);
+  await page.context().close();
+});
+
+test('nothing in the dock or the panel lies over another, however wide the window', async () => {
+  const page = await open(browser, `${server.url}#points=ball_500_1`);
+  for (const width of [1600, 1280, 1080, 900, 800]) {
+    await page.setViewportSize({ width, height: 800 });
+    const boxes = await page
+      .locator('.tools-row > :visible, .slide:visible > :not(.hidden)')
+      .evaluateAll((all) =>
+        all
+          .filter((element) => !element.matches('.slides'))
+          .map((element) => ({
+            name: element.id || element.className,
+            ...element.getBoundingClientRect().toJSON(),
+          })),
+      );
+    for (const [i, a] of boxes.entries())
+      for (const b of boxes.slice(i + 1)) {
+        const apart =
+          a.right <= b.left + 1 ||
+          b.right <= a.left + 1 ||
+          a.bottom <= b.top + 1 ||
+          b.bottom <= a.top + 1;
+        assert.ok(apart, `${a.name} and ${b.name} at ${width}`);
+      }
+    const slider = boxes.find(({ name }) => name === 'keep');
+    assert.ok(slider.width > 100, `the slider is ${slider.width} wide at ${width}`);
+    const overflow = await page
+      .locator('#panel')
+      .evaluate((panel) => panel.scrollWidth - panel.clientWidth);
+    assert.ok(overflow <= 0, `the panel is ${overflow} too narrow at ${width}`);
+  }
   await page.context().close();
 });
 
@@ -177,6 +245,10 @@ for (const dimension of [2, 3]) {
     const [stage, dock] = [await box(page, '#stage'), await box(page, '#dock')];
     assert.ok(stage.height > 150, `the drawing is ${stage.height} pixels high`);
     assert.ok(dock.y + dock.height <= 390.5);
+    const { scrollWidth, clientWidth } = await page
+      .locator('#panel')
+      .evaluate(({ scrollWidth, clientWidth }) => ({ scrollWidth, clientWidth }));
+    assert.ok(scrollWidth <= clientWidth, 'the panel is too narrow');
     for (const selector of dimension === 2 ? ['#undo', '#canvas'] : ['#keep', '#canvas'])
       await expectReachable(page, selector);
     await pictureOf(page, `phone-side-${dimension}d`);

@@ -17,24 +17,42 @@ export interface ColorScale {
 export function scaleFor(by: ColorBy, measures: Measures, kept: Uint8Array): ColorScale {
   if (by === 'quality') return { by, domain: [0, 1], kind: 'linear' };
   if (by === 'phase') return { by, domain: [0, 1], kind: 'phases' };
-  const [low, high] = percentiles(measures[by], 0.01, 0.99, kept);
-  return { by, domain: [low, high], kind: 'log' };
+  return scaleOf(by, measures[by], kept);
+}
+
+/** The scale for lengths and volumes of what is kept: from the 1st to the 99th percentile. */
+export function scaleOf(
+  by: 'volume' | 'circumradius',
+  values: Float32Array,
+  kept: Uint8Array,
+): ColorScale {
+  return { by, domain: percentiles(values, 0.01, 0.99, kept), kind: 'log' };
 }
 
 /**
  * From a tetrahedron to its position on the map, 0 to 1. `created`: 1 for those that Phase 2 made.
  */
 export function mapping(
-  { by, domain: [low, high], kind }: ColorScale,
+  scale: ColorScale,
   measures: Measures,
   created: Uint8Array | null,
 ): (t: number) => number {
+  const { by, kind } = scale;
   if (kind === 'phases') return (t) => (created?.[t] ? 1 : 0);
   if (by === 'quality') return (t) => measures.radiusRatio[t];
-  const values = measures[by === 'volume' ? 'volume' : 'circumradius'];
+  return positionOn(scale, measures[by === 'volume' ? 'volume' : 'circumradius']);
+}
+
+/** From an index of lengths or volumes to its position on the map, 0 to 1. */
+export function positionOn(
+  { domain: [low, high] }: ColorScale,
+  values: Float32Array,
+): (i: number) => number {
+  // All are equal: in the middle, where shading shows.
+  if (!(high > low)) return () => 0.5;
   const start = Math.log(low);
-  const perStep = high > low ? 1 / (Math.log(high) - start) : 0;
-  return (t) => Math.min(1, Math.max(0, (Math.log(values[t]) - start) * perStep));
+  const perStep = 1 / (Math.log(high) - start);
+  return (i) => Math.min(1, Math.max(0, (Math.log(values[i]) - start) * perStep));
 }
 
 /** Two percentiles of the positive, finite values of a sample of those kept. */

@@ -1,4 +1,12 @@
-import { type Backend, generate, generate2d, type Triangulator } from 'gdel-wasm';
+import {
+  type Backend,
+  generate,
+  generate2d,
+  type Mesh2,
+  Mesh3,
+  type Triangulator,
+  type UpdateStats,
+} from 'gdel-wasm';
 import { frameOf } from '../geometry/mesh';
 import { type Drawing, type DrawRequest, type Model, NOTHING_ABOUT } from './model';
 import { Model2d } from './model2d';
@@ -13,14 +21,19 @@ export interface LiveFrame {
   simplices: number;
   /** For the triangulation alone. */
   milliseconds: number;
+  /** How it was made from the frame before; null for the first one. */
+  update: UpdateStats | null;
 }
 
 /**
  * Points of a ball or a disk that turn at different speeds, so that no two frames have the same
- * triangulation.
+ * triangulation. Each is an update of the one before.
  */
 export class Live {
   private readonly moved: Float32Array;
+  /** The mesh of the last frame, and what was asked to make it. */
+  private last: { mesh: Mesh3 | Mesh2; backend: Backend } | null = null;
+
   private constructor(
     readonly dimension: Dimension,
     readonly count: number,
@@ -37,6 +50,7 @@ export class Live {
     );
   }
 
+  /** Moves the points, and the mesh of the last frame with them. */
   async frame(
     triangulator: Triangulator,
     backend: Backend,
@@ -46,17 +60,13 @@ export class Live {
     const is3d = this.dimension === 3;
     if (is3d) this.turnBall(seconds);
     else this.stirDisk(seconds);
-    const model = is3d
-      ? await Model3d.make(
-          triangulator,
-          this.moved,
-          { backend, outputs: ['neighbors'] },
-          NOTHING_ABOUT,
-          BALL,
-        )
-      : await Model2d.make(triangulator, this.moved, { backend }, NOTHING_ABOUT, DISK);
+    const mesh = await this.meshBy(triangulator, backend);
+    const model =
+      mesh instanceof Mesh3
+        ? Model3d.of(mesh, this.moved, NOTHING_ABOUT, BALL)
+        : Model2d.of(mesh, this.moved, NOTHING_ABOUT, DISK);
     const drawing = model.draw(request);
-    const { milliseconds } = model.mesh.stats;
+    const { milliseconds, update } = mesh.stats;
     return {
       model,
       frame: {
@@ -64,8 +74,26 @@ export class Live {
         positions: is3d ? null : model.positions,
         simplices: drawing.total,
         milliseconds,
+        update,
       },
     };
+  }
+
+  /** The mesh of the moved points: that of the last frame, updated, if it is by the same backend. */
+  private async meshBy(triangulator: Triangulator, backend: Backend): Promise<Mesh3 | Mesh2> {
+    if (this.last?.backend === backend) {
+      await this.last.mesh.update(this.moved);
+      return this.last.mesh;
+    }
+    const mesh =
+      this.dimension === 3
+        ? await triangulator.delaunay3d(this.moved, {
+            backend,
+            outputs: ['neighbors', 'duplicateOf'],
+          })
+        : await triangulator.delaunay2d(this.moved, { backend });
+    this.last = { mesh, backend };
+    return mesh;
   }
 
   private turnBall(seconds: number): void {

@@ -14,6 +14,9 @@ import type { Dimension } from './source';
 /** At most so many tetrahedra are drawn one by one when they are pulled apart. */
 export const MAX_PIECES = 300_000;
 
+/** Of at most so many points, Voronoi cells are drawn in 3D. */
+export const MAX_CELLS = 50_000;
+
 /** At most so many facets are drawn: more would take gigabytes. */
 export const MAX_FACETS = 4_000_000;
 
@@ -66,6 +69,8 @@ export interface DrawRequest {
   round: number | null;
   /** Whether the Voronoi diagram is wanted; in 2D only. */
   voronoi: boolean;
+  /** In 3D how far apart Voronoi cells are drawn instead of tetrahedra; null or missing for these. */
+  cells?: number | null;
 }
 
 /** What to draw, and what the legend says. */
@@ -87,6 +92,8 @@ export interface Drawing {
   level: number;
   /** The filter's alpha, and the range that is worth a slider; null where all is shown. */
   alpha: { value: number; range: [low: number, high: number] } | null;
+  /** Whether these are Voronoi cells, in 3D; what is counted then are cells. */
+  cells?: boolean;
   /** How long this took. */
   milliseconds: number;
 }
@@ -120,6 +127,8 @@ export interface Model {
   /** The points as drawn, three coordinates each. */
   readonly positions: Float32Array;
   summary(): Summary;
+  /** Makes what a drawing needs and takes long. */
+  prepare?(request: DrawRequest): Promise<void>;
   draw(request: DrawRequest): Drawing;
   /** The simplex that a ray meets first in the last drawing. */
   pick(ray: Ray, apart: number): Picked | null;

@@ -65,7 +65,11 @@ export class Model2d implements Model {
     about: About,
     frame: Frame,
   ): Promise<Model2d> {
-    return new Model2d(points, await triangulator.delaunay2d(points, options), frame, about);
+    return Model2d.of(await triangulator.delaunay2d(points, options), points, about, frame);
+  }
+
+  static of(mesh: Mesh2, points: Float32Array | Float64Array, about: About, frame: Frame): Model2d {
+    return new Model2d(points, mesh, frame, about);
   }
 
   summary(): Summary {

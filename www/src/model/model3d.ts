@@ -1,11 +1,12 @@
-import type { Mesh3, RunOptions, Triangulator } from 'gdel-wasm';
+import type { Mesh3, RunOptions, Triangulator, VoronoiArrays } from 'gdel-wasm';
+import { surfaceOfCells } from '../geometry/cells';
 import { type Filter, type Kept, keep } from '../geometry/filter';
 import { circumcenter, type Measures, measure } from '../geometry/measures';
 import { FACETS, type Frame, frameOf, type Tetrahedralisation, toFrame } from '../geometry/mesh';
 import { firstHit, type Ray } from '../geometry/pick';
 import { outermost, piecesOf, trianglesOf } from '../geometry/pieces';
 import { type Heights, heightsAlong, keepOf, levelOf, type Plane } from '../geometry/plane';
-import { mapping, scaleFor } from '../geometry/scale';
+import { mapping, positionOn, scaleFor, scaleOf } from '../geometry/scale';
 import { boundaryOf, surfaceOf } from '../geometry/surface';
 import { detectUp, poseFor } from '../geometry/up';
 import { AlphaRadii } from './alpha';
@@ -14,6 +15,7 @@ import {
   cornersOf,
   type Drawing,
   type DrawRequest,
+  MAX_CELLS,
   MAX_FACETS,
   MAX_PIECES,
   type Model,
@@ -35,6 +37,7 @@ export class Model3d implements Model {
   private readonly alphas: AlphaRadii;
   private filtered: { filter: Filter; kept: Kept } | null = null;
   private drawing: Drawing | null = null;
+  private diagram: VoronoiArrays | null = null;
 
   private constructor(
     readonly points: Float32Array | Float64Array,
@@ -67,7 +70,11 @@ export class Model3d implements Model {
     frame?: Frame,
   ): Promise<Model3d> {
     const mesh = await triangulator.delaunay3d(points, options);
-    return new Model3d(points, mesh, frame ?? frameOf(points), about);
+    return Model3d.of(mesh, points, about, frame ?? frameOf(points));
+  }
+
+  static of(mesh: Mesh3, points: Float32Array | Float64Array, about: About, frame: Frame): Model3d {
+    return new Model3d(points, mesh, frame, about);
   }
 
   summary(): Summary {
@@ -98,10 +105,56 @@ export class Model3d implements Model {
     };
   }
 
+  async prepare({ cells = null }: DrawRequest): Promise<void> {
+    if (cells !== null && this.points.length / 3 <= MAX_CELLS)
+      this.diagram ??= await this.mesh.voronoi({ clip: 'hull' });
+  }
+
   draw(request: DrawRequest): Drawing {
+    const { round, cells = null } = request;
     this.drawing =
-      request.round === null ? this.drawResult(request) : this.drawRound(request, request.round);
+      round !== null
+        ? this.drawRound(request, round)
+        : cells !== null && this.diagram
+          ? this.drawCells(request, this.diagram, cells)
+          : this.drawResult(request);
     return this.drawing;
+  }
+
+  /** The cells of the points below the cutting plane, coloured by their volume. */
+  private drawCells({ plane }: DrawRequest, diagram: VoronoiArrays, apart: number): Drawing {
+    const started = performance.now();
+    const { positions, frame } = this;
+    const heights = this.heightsAlong(plane.normal);
+    const level = levelOf(plane, heights);
+    const [nx, ny, nz] = plane.normal;
+    const kept = new Uint8Array(positions.length / 3);
+    let [shown, total] = [0, 0];
+    for (let v = 0, p = 0; v < kept.length; v++, p += 3) {
+      if (diagram.cells[v] === diagram.cells[v + 1]) continue;
+      total++;
+      if (nx * positions[p] + ny * positions[p + 1] + nz * positions[p + 2] > level) continue;
+      kept[v] = 1;
+      shown++;
+    }
+    const volumes = Float32Array.from(diagram.volumes);
+    const scale = scaleOf('volume', volumes, kept);
+    const value = positionOn(scale, volumes);
+    return {
+      surface: surfaceOfCells({ diagram, frame, positions, kept, apart }, value),
+      pieces: null,
+      voronoi: null,
+      scale,
+      shown,
+      total,
+      leftOut: 0,
+      keep: keepOf(plane, heights),
+      half: keepOf({ ...plane, keep: null }, heights),
+      level,
+      alpha: null,
+      cells: true,
+      milliseconds: performance.now() - started,
+    };
   }
 
   private drawResult({ filter, plane, color, pieces }: DrawRequest): Drawing {
@@ -174,7 +227,8 @@ export class Model3d implements Model {
   }
 
   pick(ray: Ray, apart: number): Picked | null {
-    if (!this.drawing) return null;
+    // The owners of cells are points.
+    if (!this.drawing || this.drawing.cells) return null;
     const { surface, pieces } = this.drawing;
     let index = -1;
     if (surface) {

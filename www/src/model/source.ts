@@ -2,6 +2,7 @@ import { generate, generate2d, readPoints } from 'gdel-wasm';
 import bunny from '../../samples/bunny.f32.gz?url';
 import dragon from '../../samples/dragon.f32.gz?url';
 import { type About, NOTHING_ABOUT } from './model';
+import { OBJECTS } from './objects';
 
 /** 3D or 2D. */
 export type Dimension = 2 | 3;
@@ -33,10 +34,17 @@ export const DISTRIBUTIONS = {
 
 export type Distribution<D extends Dimension> = keyof (typeof DISTRIBUTIONS)[D];
 
-/** The bundled scans. */
+/** What comes with the page: two scans that are fetched, and objects that are computed. */
 export const SAMPLES = {
-  bunny: { title: 'Stanford bunny', url: bunny, points: 35_947 },
-  dragon: { title: 'Stanford dragon', url: dragon, points: 437_645 },
+  bunny: { title: 'Stanford bunny', points: 35_947, url: bunny, up: 'y' },
+  terrain: { title: 'Mountains', points: 60_000, url: null, up: 'z' },
+  sponge: { title: 'Menger sponge', points: 98_688, url: null, up: 'y' },
+  gear: { title: 'Gear', points: 50_000, url: null, up: 'y' },
+  knot: { title: 'Trefoil knot', points: 40_000, url: null, up: 'z' },
+  shell: { title: 'Sea shell', points: 45_000, url: null, up: 'y' },
+  gyroid: { title: 'Gyroid', points: 60_000, url: null, up: 'y' },
+  fullerene: { title: 'Fullerene', points: 54_000, url: null, up: 'y' },
+  dragon: { title: 'Stanford dragon', points: 437_645, url: dragon, up: 'y' },
 } as const;
 
 export type Sample = keyof typeof SAMPLES;
@@ -50,7 +58,7 @@ type Generator<D extends Dimension> = {
 };
 
 /** The formats of files that can be read, for people. */
-export const EXTENSIONS = 'PLY, OBJ, STL, XYZ, TXT, CSV, PTS, PCD, LAS, LAZ, NPY';
+export const EXTENSIONS = 'PLY, OBJ, STL, GLB, XYZ, TXT, CSV, PTS, PCD, LAS, LAZ, NPY';
 
 /** Where points come from. In 2D, the z of a file is ignored. */
 export type Source =
@@ -60,17 +68,26 @@ export type Source =
   | {
       kind: 'file';
       dimension: Dimension;
-      file: File;
-      /** The file as it is in the link, if it is small enough and somebody shared it. */
+      /** One or more, of which all points are taken together. */
+      files: readonly File[];
+      /** The file as it is in the link, if there is one, small enough, and somebody shared it. */
       packed?: string;
     }
   /** A file on a server that lets pages of others read it. */
   | { kind: 'url'; dimension: Dimension; url: string };
 
+/** The source of files that were opened together. */
+export function filesSource(files: readonly File[], dimension: Dimension): Source {
+  return { kind: 'file', dimension, files };
+}
+
 /** What to call a source. */
 export function titleOf(source: Source): string {
   if (source.kind === 'sample') return SAMPLES[source.sample].title;
-  if (source.kind === 'file') return source.file.name;
+  if (source.kind === 'file') {
+    const [{ name }, ...others] = source.files;
+    return others.length === 0 ? name : `${name} and ${others.length} more`;
+  }
   if (source.kind === 'url') return nameIn(source.url);
   if (source.dimension === 3) return DISTRIBUTIONS[3][source.distribution];
   return source.count === 0 ? 'Drawn by hand' : DISTRIBUTIONS[2][source.distribution];
@@ -97,22 +114,79 @@ export async function load(
     return { points, about: NOTHING_ABOUT };
   }
   if (source.kind === 'sample') {
-    options.onProgress({ phase: `Fetching the ${titleOf(source)}`, fraction: 0 });
-    return { points: await fetchSample(source.sample, options.signal), about: NOTHING_ABOUT };
+    const { sample } = source;
+    const about: About = { noReturn: 0, up: { axis: SAMPLES[sample].up, sure: true } };
+    if (sample === 'bunny' || sample === 'dragon') {
+      options.onProgress({ phase: `Fetching the ${titleOf(source)}`, fraction: 0 });
+      return { points: await fetchSample(sample, options.signal), about };
+    }
+    options.onProgress({ phase: 'Generating points', fraction: 0 });
+    return { points: OBJECTS[sample](), about };
   }
-  const file = source.kind === 'file' ? source.file : await download(source.url, options);
-  const phase = `Reading ${file.name}`;
-  options.onProgress({ phase, fraction: 0 });
-  const name = file.name.replace(/\.gz$/i, '');
-  const { points, noReturn } = await readPoints(await unpacked(file), {
-    name,
-    signal: options.signal,
-    onProgress: ({ fraction }) => options.onProgress({ phase, fraction }),
-  });
+  const files = source.kind === 'file' ? source.files : [await download(source.url, options)];
+  const parts: Read[] = [];
+  for (const file of files) {
+    const phase = `Reading ${file.name}`;
+    const onProgress = (fraction: number) => options.onProgress({ phase, fraction });
+    onProgress(0);
+    try {
+      parts.push(await read(file, options.signal, onProgress));
+    } catch (error) {
+      // With one file, its name goes before the message anyway.
+      if (files.length > 1 && error instanceof Error && error.name !== 'AbortError')
+        error.message = `${file.name}: ${error.message}`;
+      throw error;
+    }
+  }
+  const points = joined(parts.map((part) => part.points));
   return {
     points: source.dimension === 3 ? points : withoutZ(points),
-    about: { noReturn, up: upOf(name) },
+    about: {
+      noReturn: parts.reduce((sum, part) => sum + part.about.noReturn, 0),
+      up: parts[0].about.up,
+    },
   };
+}
+
+/** What a file holds: three coordinates per point. */
+interface Read {
+  points: Float32Array | Float64Array;
+  about: About;
+}
+
+async function read(
+  file: File,
+  signal: AbortSignal,
+  onProgress: (fraction: number) => void,
+): Promise<Read> {
+  const name = file.name.replace(/\.gz$/i, '');
+  const content = await unpacked(file);
+  if (/\.glb$/i.test(name)) {
+    const bytes = content instanceof Blob ? await content.arrayBuffer() : content;
+    const points = await (await import('./glb')).pointsOf(new Uint8Array(bytes));
+    // The format says so.
+    return { points, about: { noReturn: 0, up: { axis: 'y', sure: true } } };
+  }
+  const { points, noReturn } = await readPoints(content, {
+    name,
+    signal,
+    onProgress: ({ fraction }) => onProgress(fraction),
+  });
+  return { points, about: { noReturn, up: upOf(name) } };
+}
+
+/** Arrays one after the other, in the precision of the most precise. */
+function joined(parts: readonly (Float32Array | Float64Array)[]): Float32Array | Float64Array {
+  if (parts.length === 1) return parts[0];
+  const length = parts.reduce((sum, part) => sum + part.length, 0);
+  const isSingle = parts.every((part) => part instanceof Float32Array);
+  const all = isSingle ? new Float32Array(length) : new Float64Array(length);
+  let at = 0;
+  for (const part of parts) {
+    all.set(part, at);
+    at += part.length;
+  }
+  return all;
 }
 
 /** Scans of the land have z up; models have y, and those for printing z, unless they stand otherwise. */
@@ -132,7 +206,7 @@ function withoutZ(points: Float32Array | Float64Array): Float32Array | Float64Ar
   return flat;
 }
 
-async function fetchSample(sample: Sample, signal: AbortSignal): Promise<Float32Array> {
+async function fetchSample(sample: 'bunny' | 'dragon', signal: AbortSignal): Promise<Float32Array> {
   const { url, title } = SAMPLES[sample];
   const response = await fetch(url, { signal });
   if (!response.ok)

@@ -12,7 +12,7 @@ import { frameOf } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
 import { applyEdits, type Edit } from './edits';
 import { Live, type LiveFrame } from './live';
-import type { Drawing, DrawRequest, Picked, Summary } from './model';
+import type { Drawing, DrawRequest, Model, Picked, Summary } from './model';
 import { Model2d } from './model2d';
 import { Model3d } from './model3d';
 import { type Format, type SavedFile, save } from './save';
@@ -134,13 +134,24 @@ class ModelWorker {
     this.abort.abort();
   }
 
-  draw(request: DrawRequest): Drawing {
-    this.shown.mesh(this.current);
-    return this.current.draw(request);
+  draw(request: DrawRequest): Promise<Drawing> {
+    return named(async () => {
+      const model: Model = this.current;
+      this.shown.mesh(model);
+      await model.prepare?.(request);
+      return model.draw(request);
+    });
   }
 
   pick(ray: Ray, apart: number): Picked | null {
     return this.shown.model?.pick(ray, apart) ?? null;
+  }
+
+  /** The coordinates of a point as given. */
+  place(point: number): number[] {
+    const { points, mesh } = this.current;
+    const size = 'tetrahedra' in mesh ? 3 : 2;
+    return [...points.subarray(size * point, size * (point + 1))];
   }
 
   /** The points as drawn. */

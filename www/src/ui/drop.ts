@@ -1,6 +1,6 @@
+import { filesSource } from '../model/source';
 import type { Page } from '../page';
 import { byId } from './dom';
-import { showMessage } from './message';
 
 /** Takes files that are dropped anywhere on the page. */
 export function wireDrop(page: Page): void {
@@ -19,8 +19,8 @@ export function wireDrop(page: Page): void {
     hint.hidden = true;
     if (!holdsFiles(event)) return;
     event.preventDefault();
-    const files = event.dataTransfer!.files;
-    if (files.length > 1) showMessage('One file at a time, please.');
-    else page.run({ kind: 'file', dimension: page.settings.source.dimension, file: files[0] });
+    const files = [...event.dataTransfer!.files];
+    // A dropped folder of an application may hold none.
+    if (files.length > 0) page.run(filesSource(files, page.settings.source.dimension));
   });
 }

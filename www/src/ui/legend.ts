@@ -18,11 +18,12 @@ export const QUANTITIES: Record<ColorBy, Record<Dimension, [name: string, unit: 
 
 /** What the colours mean, and how much of the mesh is to be seen. */
 export function showLegend(
-  { scale, shown, total, leftOut, milliseconds }: Drawing,
+  { scale, shown, total, leftOut, milliseconds, cells }: Drawing,
   { map, source, layers }: Settings,
 ): void {
   byId('legend').hidden = total === 0 || !layers.simplices;
-  byId('legend-title').textContent = QUANTITIES[scale.by][source.dimension]
+  const [quantity, unit] = QUANTITIES[scale.by][source.dimension];
+  byId('legend-title').textContent = [cells ? `${quantity} of the cell` : quantity, unit]
     .filter(Boolean)
     .join(', ');
   const [low, high] = scale.domain;

@@ -1,7 +1,8 @@
 import { framesChart } from '../charts/frames';
 import type { Page, Part } from '../page';
-import { byId, count, create, duration, measured, simplices } from './dom';
+import { byId, count, create, duration, measured, simplices, things } from './dom';
 import { showLegend } from './legend';
+import { updateOf } from './update';
 
 const KEPT = 120;
 
@@ -28,7 +29,7 @@ export function live(page: Page): Part {
     button.textContent = 'Stop';
     page.live = true;
     times.hidden = false;
-    const frames: number[] = [];
+    const frames: { milliseconds: number; isUpdate: boolean }[] = [];
     page.viewer?.showPoints(null);
     page.viewer?.showHull(null);
     page.viewer?.showFacets(null);
@@ -60,21 +61,24 @@ export function live(page: Page): Part {
       await viewer.drawn();
       if (running !== run) return;
       const now = performance.now();
-      frames.push(frame.milliseconds);
+      const { milliseconds, update } = frame;
+      frames.push({ milliseconds, isUpdate: update?.restarted === null });
       if (frames.length > KEPT) frames.shift();
       if (now - charted > 400) {
         charted = now;
         byId('count').textContent =
           `${count(points)} moving points → ${simplices(frame.simplices, dimension)}`;
         byId('took').replaceChildren(
-          `${duration(frame.milliseconds)} per frame, ${measured(1000 / (now - last))} frames per second`,
+          `${duration(milliseconds)} per frame, ${measured(1000 / (now - last))} frames per second`,
         );
-        const chart = await framesChart(frames);
+        byId('backend-used').textContent = updateOf(update, dimension);
+        const chart = await framesChart(frames.map((frame) => frame.milliseconds));
+        const updates = frames.filter(({ isUpdate }) => isUpdate).length;
         times.replaceChildren(
           create(
             'p',
             { className: 'note' },
-            'Milliseconds per frame to triangulate, for the last frames',
+            `Milliseconds to triangulate, for the last ${things(frames.length, 'frame', 'frames')}, of which ${count(updates)} kept the mesh of the one before`,
           ),
           chart,
         );

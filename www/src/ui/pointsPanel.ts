@@ -1,26 +1,39 @@
 import type { Backend } from 'gdel-wasm';
-import { DISTRIBUTIONS, type Dimension, SAMPLES, type Sample } from '../model/source';
+import { DISTRIBUTIONS, type Dimension, filesSource, SAMPLES, type Sample } from '../model/source';
 import type { Page, Part } from '../page';
 import { generator } from '../settings';
 import { byId, count, create, radios } from './dom';
+
+/** The pictures of the gallery; scripts/gallery.mjs makes them. */
+const PICTURES = import.meta.glob<string>('../gallery/*.webp', {
+  eager: true,
+  query: '?url',
+  import: 'default',
+});
 
 const QUICK = [1_000, 10_000, 100_000, 1_000_000];
 
 /** The panel with the samples, the generators, the file button and the choice of backend. */
 export function pointsPanel(page: Page): Part {
-  const samples = Object.entries(SAMPLES).map(([name, { title, points }]) => {
-    const button = create(
-      'button',
-      { type: 'button' },
-      title,
-      create('small', {}, `${count(points)} points`),
-    );
+  const samples = (Object.keys(SAMPLES) as Sample[]).map((name) => {
+    const { title, points } = SAMPLES[name];
+    const picture = PICTURES[`../gallery/${name}.webp`];
+    const button = create('button', { type: 'button', title: `${title}: ${count(points)} points` });
+    if (picture) {
+      const image = create('img', { src: picture, alt: '', width: 240, height: 180 });
+      image.loading = 'lazy';
+      button.append(image, title);
+    } else {
+      button.append(title, create('small', {}, `${count(points)} points, 3 MB`));
+    }
     button.addEventListener('click', () =>
-      page.run({ kind: 'sample', dimension: 3, sample: name as Sample }),
+      page.run({ kind: 'sample', dimension: 3, sample: name }),
     );
-    return { name, button };
+    const item = create('li', {}, button);
+    item.classList.toggle('wide', !picture);
+    return { name, button, item };
   });
-  byId('samples').append(...samples.map(({ button }) => button));
+  byId('gallery').append(...samples.map(({ item }) => item));
 
   const distribution = byId<HTMLSelectElement>('distribution');
   const number = byId<HTMLInputElement>('number');
@@ -49,8 +62,7 @@ export function pointsPanel(page: Page): Part {
   const file = byId<HTMLInputElement>('file');
   byId('open').addEventListener('click', () => file.click());
   file.addEventListener('change', () => {
-    if (file.files?.[0])
-      page.run({ kind: 'file', dimension: page.settings.source.dimension, file: file.files[0] });
+    if (file.files?.length) page.run(filesSource([...file.files], page.settings.source.dimension));
     // The same file again is a change, too.
     file.value = '';
   });
@@ -74,6 +86,11 @@ export function pointsPanel(page: Page): Part {
   };
 
   return {
+    ran() {
+      // What was asked for in a link, and is the way to go on in 2D, is in sight.
+      if (page.settings.source.kind === 'generator')
+        byId<HTMLDetailsElement>('fold-generate').open = true;
+    },
     changed({ source, backend }) {
       offer(source.dimension);
       for (const { name, button } of samples) {

@@ -12,13 +12,18 @@ export function wireShare(page: Page): void {
   const button = byId('share');
   button.addEventListener('click', async () => {
     const { source } = page.settings;
-    if (source.kind === 'file') source.packed ??= (await pack(source.file)) ?? undefined;
+    if (source.kind === 'file' && source.files.length === 1)
+      source.packed ??= (await pack(source.files[0])) ?? undefined;
     const hash = toHash(page.settings);
     history.replaceState(null, '', `#${hash}`);
     try {
       await navigator.clipboard.writeText(location.href);
       button.textContent =
-        source.kind === 'file' && !source.packed ? 'Copied, without the file' : 'Link copied';
+        source.kind === 'file' && !source.packed
+          ? source.files.length > 1
+            ? 'Copied, without the files'
+            : 'Copied, without the file'
+          : 'Link copied';
     } catch {
       // No permission, or no secure page: the link is in the address bar.
       button.textContent = 'Link is in the address bar';

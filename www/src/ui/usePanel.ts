@@ -123,12 +123,13 @@ function generated({
 }
 
 function read(source: Exclude<Source, { kind: 'generator' }>): string[] {
-  const name =
+  const name = (
     source.kind === 'url'
       ? source.url
       : source.kind === 'file'
-        ? source.file.name.replaceAll("'", "\\'")
-        : `${source.sample}.ply`;
+        ? source.files[0].name
+        : `${source.sample}.ply`
+  ).replaceAll("'", "\\'");
   const flat = source.dimension === 2;
   return [
     `import { ${flat ? 'delaunay2d' : 'delaunay3d'}, readPoints }`,

@@ -1,11 +1,12 @@
 import type { FilterKind } from '../geometry/filter';
 import type { ColorBy } from '../geometry/scale';
 import { UPS } from '../geometry/up';
+import { MAX_CELLS } from '../model/model';
 import type { Dimension } from '../model/source';
 import type { Page, Part } from '../page';
 import { colorsIn, LAYERS, type Layer, type Settings } from '../settings';
 import { COLOR_MAPS, type ColorMapName } from '../view/colormap';
-import { byId, create, radios } from './dom';
+import { byId, count, create, radios } from './dom';
 import { QUANTITIES } from './legend';
 import { whyNotRecord } from './runPanel';
 
@@ -17,6 +18,7 @@ const LAYER_NAMES: Record<Dimension, Partial<Record<Layer, string>>> = {
     points: 'Points where nothing else is',
     hull: 'Convex hull',
     facets: 'Non-Delaunay facets after Phase 1',
+    voronoi: 'Voronoi cells instead of tetrahedra',
   },
   2: {
     simplices: 'Triangles, filled',
@@ -122,7 +124,13 @@ export function viewPanel(page: Page): Part {
     for (const radio of filters) radio.checked = radio.value === settings.filter;
     for (const radio of ups) radio.checked = radio.value === up;
     byId('filter-note').textContent = FILTER_NOTES[dimension][settings.filter];
-    for (const { layer, box } of layers) box.checked = settings.layers[layer];
+    const tooMany = dimension === 3 && (page.summary?.points ?? 0) > MAX_CELLS;
+    for (const { layer, box } of layers) {
+      box.checked = settings.layers[layer];
+      if (layer !== 'voronoi') continue;
+      box.disabled = tooMany;
+      box.title = tooMany ? `Of up to ${count(MAX_CELLS)} points.` : '';
+    }
   };
 
   return { changed, ran: () => changed(page.settings) };

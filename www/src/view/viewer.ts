@@ -71,6 +71,7 @@ interface Layers {
   voronoi: Mesh;
   facets: Mesh;
   outline: Mesh;
+  ruler: Mesh;
   points: Sprite | null;
 }
 
@@ -117,6 +118,10 @@ export class Viewer {
       outline: this.add(
         new Mesh(new BufferGeometry(), linesMaterial(look, look.ink, 2, float(1))),
         5,
+      ),
+      ruler: this.add(
+        new Mesh(new BufferGeometry(), linesMaterial(look, look.accent, 3, float(1))),
+        6,
       ),
       points: null,
     };
@@ -192,6 +197,11 @@ export class Viewer {
     this.replace(this.layers.outline, ends && lines(ends));
   }
 
+  /** The lines of a measurement, two ends of three coordinates each. */
+  showRuler(ends: Float32Array | null): void {
+    this.replace(this.layers.ruler, ends && lines(ends));
+  }
+
   showPoints(positions: Float32Array | null): void {
     const old = this.layers.points;
     if (old) {
@@ -220,7 +230,7 @@ export class Viewer {
   }
 
   /** Shows or hides what a layer holds, without giving it up. */
-  setVisible(layer: Exclude<keyof Layers, 'outline'>, visible: boolean): void {
+  setVisible(layer: Exclude<keyof Layers, 'outline' | 'ruler'>, visible: boolean): void {
     const object = this.layers[layer];
     if (object)
       object.visible =
@@ -299,10 +309,10 @@ export class Viewer {
     return [origin[0] + t * direction[0], origin[1] + t * direction[1]];
   }
 
-  /** Returns the place on the canvas of a 2D place. */
-  onCanvas(x: number, y: number): [x: number, y: number] {
+  /** Returns the place on the canvas of a place in the frame. */
+  onCanvas(x: number, y: number, z = 0): [x: number, y: number] {
     this.camera.updateMatrixWorld();
-    const projected = new Vector3(x, y, 0).project(this.camera);
+    const projected = this.model.localToWorld(new Vector3(x, y, z)).project(this.camera);
     return [
       ((projected.x + 1) / 2) * this.canvas.clientWidth,
       ((1 - projected.y) / 2) * this.canvas.clientHeight,
@@ -313,6 +323,15 @@ export class Viewer {
   get towardsCamera(): [number, number, number] {
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
     return direction.applyQuaternion(this.model.quaternion.clone().invert()).toArray();
+  }
+
+  /** Where the model's axes point on the screen: right, down, and towards the eye. */
+  get axes(): [right: number, down: number, near: number][] {
+    const turn = this.camera.quaternion.clone().invert().multiply(this.model.quaternion);
+    return [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].map((axis) => {
+      const { x, y, z } = axis.applyQuaternion(turn);
+      return [x, -y, z];
+    });
   }
 
   /**

@@ -1,5 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { filesSource } from '../../src/model/source';
 import { defaults, fileIn, fromHash, toHash } from '../../src/settings';
 
 test('the first view needs no more than the name of its points', () => {
@@ -103,8 +104,13 @@ test('what makes no sense in a link is left out', () => {
 
 test('a link made from a file names it', () => {
   const file = new File([], 'scan of a cat.ply');
-  const hash = toHash({ ...defaults(), source: { kind: 'file', dimension: 3, file } });
+  const hash = toHash({ ...defaults(), source: filesSource([file], 3) });
   assert.deepEqual(fileIn(`#${hash}`), { name: 'scan of a cat.ply', packed: null });
+  const source = filesSource([file, new File([], 'dog.ply')], 3);
+  assert.equal(
+    fileIn(`#${toHash({ ...defaults(), source })}`)?.name,
+    'scan of a cat.ply and 1 more',
+  );
   assert.equal(fileIn('#points=bunny'), null);
 });
 

@@ -1,0 +1,36 @@
+import type { Page, Part } from '../page';
+import { byId, count, simplices } from './dom';
+import { recall, remember } from './storage';
+
+/** Says in words, once, what this machine has just done. */
+export function firstVisit(page: Page): Part {
+  const line = byId('first');
+  const isFirst = recall('visited') === null;
+  let runs = 0;
+  return {
+    ran({ dimension, points, simplices: made, stats }) {
+      runs++;
+      line.hidden = !isFirst || runs > 1 || made === 0 || page.settings.embed;
+      if (line.hidden) return;
+      const time = inWords(stats.milliseconds);
+      line.textContent = `Your machine filled ${count(points)} points with ${simplices(made, dimension)} in ${time}, exactly.`;
+      remember('visited', '1');
+    },
+  };
+}
+
+const NUMBERS = ['two', 'three', 'four', 'five', 'six', 'seven', 'eight', 'nine', 'ten'];
+
+/** A time as people say it. */
+export function inWords(milliseconds: number): string {
+  const known: [number, string][] = [
+    [70, 'less than a tenth of a second'],
+    [180, 'a tenth of a second'],
+    [380, 'a quarter of a second'],
+    [750, 'half a second'],
+    [1500, 'about a second'],
+  ];
+  const words = known.find(([below]) => milliseconds < below)?.[1];
+  const seconds = Math.round(milliseconds / 1000);
+  return words ?? `about ${NUMBERS[seconds - 2] ?? count(seconds)} seconds`;
+}
