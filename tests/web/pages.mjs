@@ -59,15 +59,18 @@ export function testPages(open, folders) {
   test('a sandboxed frame, whose origin is that of nobody', async (t) => {
     const headers = { 'access-control-allow-origin': '*' };
     const found = await inPage(t, headers, async (page, url) => {
+      // What loads the frame may be answered before it is known that there is one.
+      const navigated = page.waitForEvent('framenavigated', {
+        predicate: (frame) => frame.parentFrame() && frame.url().startsWith(url),
+      });
       await page.evaluate((url) => {
         const frame = document.createElement('iframe');
-        frame.name = 'sandboxed';
         frame.sandbox = 'allow-scripts';
         frame.src = url;
         document.body.append(frame);
         return new Promise((resolve) => (frame.onload = resolve));
       }, url);
-      const frame = page.frame('sandboxed');
+      const frame = await navigated;
       assert.equal(await frame.evaluate(() => globalThis.origin), 'null');
       return frame.evaluate(triangulated, `${url}/gdel/index.js`);
     });
