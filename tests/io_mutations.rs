@@ -79,6 +79,12 @@ fn readers() -> Vec<Reader> {
         let read = Box::new(move |bytes| drop(format.read::<2>(bytes)));
         readers.push(Reader { name: format!("{format:?} in 2D"), read, samples });
     }
+    let samples = points.iter().filter(|(of, ..)| *of == PointFormat::E57).map(|(.., bytes)| bytes.clone()).collect();
+    let read = Box::new(|mut bytes: Vec<u8>| {
+        samples::write_checksums(&mut bytes);
+        drop(PointFormat::E57.read::<3>(bytes));
+    });
+    readers.push(Reader { name: "E57 behind its checksums".into(), read, samples });
     let [meshes, meshes2] = [samples::meshes(), samples::meshes2()];
     for &format in MeshFormat::ALL {
         let of = |samples: &[(MeshFormat, _, Vec<u8>)]| -> Vec<Vec<u8>> {

@@ -25,7 +25,7 @@ use std::{
 #[derive(Args)]
 pub(super) struct Arguments {
     /// The points: .ply, .obj, .stl, .off, .xyz, .txt, .asc, .pts, .csv, .tsv, .pcd, .las, .laz,
-    /// .npy, .node, .f32 or .f64; or `-` for standard input, with `--format`
+    /// .e57, .npy, .node, .f32 or .f64; or `-` for standard input, with `--format`
     input: PathBuf,
     /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu or .npz;
     /// its hull as .ply, .obj, .stl or .glb; may be given several times

@@ -2,7 +2,7 @@
 
 use crate::input::points::Points;
 use crate::io::{
-    FormatError, Mesh, MeshData, PointCloud, glb, las, npy, npz, obj, off, pcd, ply, raw, stl, surface::Surface,
+    FormatError, Mesh, MeshData, PointCloud, e57, glb, las, npy, npz, obj, off, pcd, ply, raw, stl, surface::Surface,
     tetgen, text, vtu,
 };
 use std::io::{self, Write};
@@ -56,6 +56,8 @@ formats! {
         Pcd: "pcd",
         /// ASPRS LAS and its compressed form LAZ.
         Las: "las" | "laz",
+        /// ASTM E57: the points of all scans, in the coordinates of the file.
+        E57: "e57",
         /// A NumPy array of shape (n, 3), for 2D points also (n, 2), of whole or floating-point
         /// numbers.
         Npy: "npy",
@@ -162,6 +164,7 @@ impl PointFormat {
             PointFormat::Off => off::read(&bytes),
             PointFormat::Pcd => pcd::read(&bytes),
             PointFormat::Las => las::read(bytes),
+            PointFormat::E57 => e57::read(&bytes),
             PointFormat::RawF32 => raw::read_f32(&bytes),
             PointFormat::RawF64 => raw::read_f64(&bytes),
             PointFormat::Text | PointFormat::Csv | PointFormat::Npy | PointFormat::Node => self.read(bytes),
@@ -170,7 +173,7 @@ impl PointFormat {
 
     /// Returns whether [`write`](Self::write) knows this format.
     pub fn is_written(self) -> bool {
-        !matches!(self, PointFormat::Stl | PointFormat::Off | PointFormat::Pcd | PointFormat::Las)
+        !matches!(self, PointFormat::Stl | PointFormat::Off | PointFormat::Pcd | PointFormat::Las | PointFormat::E57)
     }
 
     /// Writes points in this format. 2D points have two columns in text, CSV, NumPy and `.node`
@@ -190,7 +193,7 @@ impl PointFormat {
             PointFormat::Node => tetgen::write_node(to, points),
             PointFormat::RawF32 => raw::write_f32(to, points),
             PointFormat::RawF64 => raw::write_f64(to, points),
-            PointFormat::Stl | PointFormat::Off | PointFormat::Pcd | PointFormat::Las => {
+            PointFormat::Stl | PointFormat::Off | PointFormat::Pcd | PointFormat::Las | PointFormat::E57 => {
                 Err(io::ErrorKind::Unsupported.into())
             }
         }

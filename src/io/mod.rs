@@ -8,6 +8,7 @@
 //! Crates read the formats where one was found that neither panics nor allocates on a broken file's
 //! word, or that can be guarded against it; the modules that read a format themselves say why.
 
+mod e57;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod files;

@@ -50,8 +50,9 @@ impl<'a, const D: usize> From<&'a PointBuf<D>> for Points<'a, D> {
 pub struct PointCloud<const D: usize = 3> {
     /// The points, in the file's order.
     pub points: PointBuf<D>,
-    /// How many points of the file are not in `points`, because their coordinates are NaN, which is
-    /// how PCD marks "no return". Always 0 for other formats, where NaN is an error.
+    /// How many points of the file are not in `points`, because it says that they have no
+    /// coordinates: by NaN in PCD, by their state in E57. Always 0 for other formats; NaN is an
+    /// error in all but PCD.
     pub no_return: usize,
     /// How many columns of a text file were ignored: those after the coordinates. Always 0 for
     /// formats that name their columns.

@@ -6,6 +6,9 @@ mod inputs;
 mod outputs;
 mod verify;
 
+#[path = "../io/samples.rs"]
+mod samples;
+
 use std::{
     fs,
     path::Path,
@@ -142,6 +145,17 @@ fn points_without_return_are_reported() {
     let run = &stats(folder.path(), &["p.pcd"])[0];
     assert_eq!((&run["points"], &run["no_return"], &run["dimension"]), (&2.into(), &1.into(), &1.into()));
     assert!(succeeds(folder.path(), &["triangulate", "p.pcd"]).contains("1 without a return"));
+}
+
+#[test]
+fn scans_of_one_file_are_triangulated_together() {
+    let folder = folder();
+    let scans = [samples::e57_single(&samples::POINTS), samples::e57_spherical()];
+    fs::write(folder.path().join("p.E57"), samples::e57(&scans)).unwrap();
+    let run = &stats(folder.path(), &["p.E57", "--verify"])[0];
+    assert_eq!((&run["points"], &run["no_return"], &run["dimension"]), (&8.into(), &1.into(), &3.into()));
+    fs::write(folder.path().join("q.e57"), &samples::e57(&scans)[..3000]).unwrap();
+    fails(folder.path(), &["triangulate", "q.e57"], "q.e57: byte 0: not an E57 file that can be read: ");
 }
 
 #[test]

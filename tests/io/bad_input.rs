@@ -53,7 +53,7 @@ fn files_without_points_of_every_format() {
             Pcd => Some("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 0\nDATA ascii\n".into()),
             Node => Some("0 3 0 0\n".into()),
             Npy => Some(String::from_utf8_lossy(&samples::npy(&[])[10..]).into_owned()),
-            Las => None,
+            Las | E57 => None,
         };
         if format != Npy
             && let Some(file) = without_points
@@ -65,6 +65,10 @@ fn files_without_points_of_every_format() {
         }
     }
     assert_eq!(read(Npy, samples::npy(&[])).map(|cloud| cloud.points.len()), Ok(0));
+    let scans = [vec![], vec![samples::e57_single(&[])]];
+    for scans in scans {
+        assert_eq!(read(E57, samples::e57(&scans)).map(|cloud| cloud.points.len()), Ok(0));
+    }
     assert_eq!(read(Csv, "x,y,z\n").map(|cloud| cloud.points.len()), Ok(0));
     assert_eq!(read(Text, "# nothing\n").map(|cloud| cloud.points.len()), Ok(0));
     assert_eq!(read(Obj, "# nothing\n").map(|cloud| cloud.points.len()), Ok(0));

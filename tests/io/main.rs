@@ -5,6 +5,7 @@ mod samples;
 
 mod bad_input;
 mod degenerate;
+mod e57;
 mod glb;
 mod laz;
 mod meshes;

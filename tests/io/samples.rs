@@ -2,6 +2,7 @@
 //! them.
 #![allow(dead_code)]
 
+use e57::{E57Writer, Quaternion, Record, RecordDataType, RecordName, RecordValue, Translation};
 use gdel::{
     Mesh2, Mesh3,
     internals::io::{MeshFormat, PointFormat, write_ele, write_neigh, write_npz, write_vtu},
@@ -50,6 +51,8 @@ pub fn point_clouds() -> Vec<(PointFormat, &'static str, Vec<u8>)> {
         samples.push((Las, "las", las(format, false, 0)));
         samples.push((Las, "laz", las(format, true, 2)));
     }
+    samples.push((E57, "single", e57(&[e57_single(&POINTS)])));
+    samples.push((E57, "scans", e57(&[e57_scaled(), e57_spherical()])));
     samples
 }
 
@@ -254,6 +257,92 @@ pub fn las(format: u8, is_compressed: bool, extra_bytes: u16) -> Vec<u8> {
         writer.write_point(point).expect("memory");
     }
     writer.into_inner().expect("memory").into_inner()
+}
+
+/// A scan of an E57 file.
+pub struct Scan {
+    pub columns: Vec<Record>,
+    pub rows: Vec<Vec<RecordValue>>,
+    /// The rotation as x, y, z, w, and the translation.
+    pub pose: Option<([f64; 4], [f64; 3])>,
+}
+
+/// Returns a file of scans, by the crate `e57`.
+pub fn e57(scans: &[Scan]) -> Vec<u8> {
+    let mut file = Cursor::new(Vec::new());
+    let mut writer = E57Writer::new(&mut file, "file").expect("memory");
+    for Scan { columns, rows, pose } in scans {
+        let mut scan = writer.add_pointcloud("scan", columns.clone()).expect("columns");
+        scan.set_transform(pose.map(|([x, y, z, w], [u, v, t])| e57::Transform {
+            rotation: Quaternion { w, x, y, z },
+            translation: Translation { x: u, y: v, z: t },
+        }));
+        rows.iter().for_each(|row| scan.add_point(row.clone()).expect("values of the columns"));
+        scan.finalize().expect("memory");
+    }
+    writer.finalize().expect("memory");
+    drop(writer);
+    file.into_inner()
+}
+
+/// Returns columns of an E57 file, all of one type.
+pub fn columns<const N: usize>(names: [RecordName; N], data_type: &RecordDataType) -> Vec<Record> {
+    names.into_iter().map(|name| Record { name, data_type: data_type.clone() }).collect()
+}
+
+/// Returns a scan in single precision.
+pub fn e57_single(points: &[[f32; 3]]) -> Scan {
+    Scan {
+        columns: vec![Record::CARTESIAN_X_F32, Record::CARTESIAN_Y_F32, Record::CARTESIAN_Z_F32],
+        rows: points.iter().map(|p| p.map(RecordValue::Single).to_vec()).collect(),
+        pose: None,
+    }
+}
+
+/// Returns a scan of (*i* / 8, -*i*, 2 *i*), where every third point has no return, in whole numbers
+/// of 11 and 2 bits. Its pose turns *x* to *y*, *y* to *z* and *z* to *x*, and moves by (1, 2, 3).
+pub fn e57_scaled() -> Scan {
+    use RecordName::*;
+    let axis = |scale| RecordDataType::ScaledInteger { min: -1000, max: 1000, scale, offset: 0.0 };
+    let axes = [(CartesianX, 0.125), (CartesianY, -1.0), (CartesianZ, 2.0)];
+    let mut columns: Vec<Record> =
+        axes.into_iter().map(|(name, scale)| Record { name, data_type: axis(scale) }).collect();
+    columns.push(Record::CARTESIAN_INVALID_STATE);
+    columns.extend([Record::COLOR_RED_U8, Record::COLOR_GREEN_U8, Record::COLOR_BLUE_U8]);
+    let row = |i: i64| {
+        let state = if i % 3 == 2 { 1 + i % 2 } else { 0 };
+        let color = [i % 256, 255 - i % 256, 7].map(RecordValue::Integer);
+        let mut row = vec![RecordValue::ScaledInteger(i); 3];
+        row.push(RecordValue::Integer(state));
+        row.extend(color);
+        row
+    };
+    // A quaternion that is not quite of length 1, as files have it.
+    Scan { columns, rows: (0..300).map(row).collect(), pose: Some(([2.0; 4], [1.0, 2.0, 3.0])) }
+}
+
+/// Returns a scan of four points by range, azimuth and elevation, one of which has no return.
+pub fn e57_spherical() -> Scan {
+    use RecordName::*;
+    use std::f64::consts::FRAC_PI_2;
+    let mut columns = columns([SphericalRange, SphericalAzimuth, SphericalElevation], &RecordDataType::F64);
+    columns.push(Record::SPHERICAL_INVALID_STATE);
+    let rows = [([2.0, 0.0, 0.0], 0), ([3.0, FRAC_PI_2, 0.0], 0), ([9.0, 1.0, 1.0], 2), ([4.0, 1.0, -FRAC_PI_2], 0)];
+    let row = |(point, state): ([f64; 3], i64)| {
+        point.map(RecordValue::Double).into_iter().chain([RecordValue::Integer(state)]).collect()
+    };
+    Scan { columns, rows: rows.map(row).to_vec(), pose: None }
+}
+
+/// Writes the checksums of E57's pages anew: what damages a file would else never get past them.
+pub fn write_checksums(file: &mut [u8]) {
+    for page in file.as_chunks_mut::<1024>().0 {
+        let (data, checksum) = page.split_at_mut(1020);
+        let crc = !data.iter().fold(!0u32, |crc, &byte| {
+            (0..8).fold(crc ^ u32::from(byte), |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0x82f6_3b78 } else { crc >> 1 })
+        });
+        checksum.copy_from_slice(&crc.to_be_bytes());
+    }
 }
 
 /// A tetrahedron with colors, comments and all.

@@ -9,6 +9,7 @@ import { test } from 'node:test';
 import { NodeIO } from '@gltf-transform/core';
 import Delaunator from 'delaunator';
 import { abortOf } from './abort.mjs';
+import { e57 } from './e57.mjs';
 import { fingerprint } from './fingerprints.mjs';
 import { importFrom, pinned, project, root } from './package.mjs';
 
@@ -428,6 +429,22 @@ test('files are read, and what is broken is said', async () => {
   await rejects(readPoints(new Uint8Array(1000), { format: 'las' }), 'BAD_FILE');
   await rejects(readPoints(new Blob([]), { format: 'ply' }), 'BAD_FILE', /empty/);
   assert.equal((await readPoints(text.encode('1 2 3'), { format: 'xyz' })).points.length, 3);
+});
+
+test('scans of E57 are read, and what is broken is said', async () => {
+  const count = 1000;
+  const points = Array.from({ length: count }, (_, i) => [i, -i / 4, i * i]);
+  const states = points.map((_, i) => (i % 10 === 9 ? 2 : 0));
+  const file = e57(points, states);
+  const scan = await readPoints(new File([file], 'scan.E57'));
+  const returned = points.filter((_, i) => states[i] === 0);
+  assert.deepEqual(scan.points, Float32Array.from(returned.flat()));
+  assert.equal(scan.noReturn, count / 10);
+  const damaged = Uint8Array.from(file);
+  damaged[2000] ^= 1;
+  await rejects(readPoints(damaged, { format: 'e57' }), 'BAD_FILE', /point 0: .*checksum/);
+  const cut = file.subarray(0, 2048);
+  await rejects(readPoints(cut, { format: 'e57' }), 'BAD_FILE', /truncated/);
 });
 
 test('meshes and hulls are written', async () => {

@@ -91,8 +91,8 @@ export interface ReadOptions extends TaskOptions {
 }
 
 /**
- * Reads the points of a file: PLY, OBJ, STL, XYZ, TXT, ASC, PTS, CSV, TSV, PCD, LAS, LAZ, NPY, and
- * raw little-endian `f32` and `f64`.
+ * Reads the points of a file: PLY, OBJ, STL, XYZ, TXT, ASC, PTS, CSV, TSV, PCD, LAS, LAZ, E57, NPY,
+ * and raw little-endian `f32` and `f64`.
  *
  * @throws {@link GdelError} `UNKNOWN_FORMAT`; `BAD_FILE`, which says where the file is broken.
  */

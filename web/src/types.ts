@@ -201,7 +201,8 @@ export interface PointCloud {
   /** x, y, z, x, y, z, … in the precision of the file. */
   points: Coordinates;
   /**
-   * The number of points that are left out because they hold no measurement (NaN in a PCD file).
+   * The number of points that are left out because they hold no measurement: NaN in a PCD file,
+   * points that an E57 file says are invalid.
    */
   noReturn: number;
 }
