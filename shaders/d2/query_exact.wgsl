@@ -5,23 +5,10 @@
 //
 // Expects: vertices; simplices; d2/query_neighbors.
 //!include d2/query_rows
-//!include arithmetic/bits
+//!include d2/query_sizes
 
 // The side that rounding leaves open.
 const UNKNOWN: i32 = 2;
-
-// Returns whether a coordinate of this vertex was rounded to the lattice.
-fn rounded(v: u32) -> bool {
-    return vertices[v].z < 0;
-}
-
-// Returns the number of bits of the magnitudes of a row, or of one less where they are negative.
-fn size_of(r: Row) -> u32 {
-    let sign = vec2u(vec2i(r.high) >> vec2u(31));
-    let low = r.low ^ sign;
-    let high = r.high ^ sign;
-    return bits_of(vec2u(low.x | low.y, high.x | high.y));
-}
 
 // Returns the side of the edge opposite vertex k: 1 inside, −1 outside, 0 on its line, or UNKNOWN.
 fn exact_side(t: u32, k: u32, query: Query) -> i32 {

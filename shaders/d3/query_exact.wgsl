@@ -6,19 +6,10 @@
 //
 // Expects: vertices; simplices.
 //!include d3/query_rows
-//!include arithmetic/bits
-//!include d3/rounding_wide
+//!include d3/query_sizes
 
 // The side that rounding leaves open.
 const UNKNOWN: i32 = 2;
-
-// Returns the number of bits of the magnitudes of a row, or of one less where they are negative.
-fn size_of(r: Row) -> u32 {
-    let sign = vec3u(vec3i(r.high) >> vec3u(31));
-    let low = r.low ^ sign;
-    let high = r.high ^ sign;
-    return bits_of(vec2u(low.x | low.y | low.z, high.x | high.y | high.z));
-}
 
 // Returns the side of the facet opposite vertex k: 1 inside, −1 outside, 0 on its plane, or UNKNOWN.
 fn exact_side(t: u32, k: u32, query: Query) -> i32 {

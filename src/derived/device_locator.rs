@@ -5,13 +5,13 @@ use crate::{
     cpu::MeshOf,
     dimension::Dimension,
     error::Error,
-    geometry::{Euclidean, Geometry},
+    geometry::{self, Euclidean, Geometry},
     gpu::{
         Storage,
         device_edges::DeviceEdges,
         device_mesh::{DeviceMesh, MeshArrays},
         dim::Dim,
-        queries::{NOWHERE, OPEN, QueryInput, QueryPoints, words_of},
+        queries::{NOWHERE, OPEN, OPEN_RADIUS, QueryInput, QueryPoints, words_of},
     },
     input::points::Points,
     mesh::Mesh,
@@ -120,6 +120,8 @@ fn word_of(location: Location) -> i32 {
 /// those that lie nearly on a facet if they or the points have more than about 60 bits, and those
 /// on a vertex with hundreds of simplices. For the first of them the mesh is read to the host, and
 /// stays there; [`host_answers`](Self::host_answers) counts them.
+///
+/// [`circumspheres`](Self::circumspheres) computes those of all simplices from the same integers.
 ///
 /// # Examples
 ///
@@ -500,7 +502,82 @@ where
         Ok(results.buffer().clone())
     }
 
-    /// Returns how many queries the host has answered so far.
+    /// Returns the circumscribed sphere of each tetrahedron, or the circumscribed circle of each
+    /// triangle: the centre relative to the first vertex, and the radius. Blocks the thread.
+    ///
+    /// Centres are relative because they would lose their precision otherwise, where the points are
+    /// far from the origin. However flat a simplex is, the errors of each coordinate and of the
+    /// radius are at most 2⁻¹⁹ times the radius. What exceeds the range of `f32` is infinite, and what
+    /// is below its normal numbers may be 0. [`Mesh3::circumcenters`](crate::Mesh3::circumcenters)
+    /// has double precision.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{DeviceLocator, Outputs, Triangulator};
+    ///
+    /// let points = [[10.0, 0.0], [16.0, 0.0], [10.0, 8.0f64]];
+    /// if let Ok(mesh) = Triangulator::new().delaunay2d_on_device(&points) {
+    ///     let circles = DeviceLocator::new(&mesh, &points)?.circumspheres()?;
+    ///     let first = points[mesh.read(Outputs::SIMPLICES)?.triangles[0][0] as usize];
+    ///     let [x, y, radius] = circles[0].map(f64::from);
+    ///     assert!((first[0] + x - 13.0).abs() < 1e-5 && (first[1] + y - 4.0).abs() < 1e-5);
+    ///     assert!((radius - 5.0).abs() < 1e-5);
+    /// }
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::BufferTooLarge`], and the other errors of the device.
+    pub fn circumspheres(&self) -> Result<Vec<[f32; N]>, Error> {
+        pollster::block_on(self.circumspheres_async())
+    }
+
+    /// Does the same as [`circumspheres`](Self::circumspheres) without blocking the thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`circumspheres`](Self::circumspheres).
+    pub async fn circumspheres_async(&self) -> Result<Vec<[f32; N]>, Error> {
+        let (spheres, open) = self.spheres_of_device().await?;
+        let mut found = self.read_spheres(&spheres).await?;
+        if open > 0 {
+            self.finish_spheres(&mut found).await?;
+        }
+        Ok(found)
+    }
+
+    /// Returns the circumscribed spheres or circles in a buffer. Blocks the thread.
+    ///
+    /// It is an array of `f32`: four per tetrahedron (`vec4<f32>`), or three per triangle, as
+    /// [`circumspheres`](Self::circumspheres) returns them.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`circumspheres`](Self::circumspheres).
+    pub fn circumspheres_buffer(&self) -> Result<wgpu::Buffer, Error> {
+        pollster::block_on(self.circumspheres_buffer_async())
+    }
+
+    /// Does the same as [`circumspheres_buffer`](Self::circumspheres_buffer) without blocking the
+    /// thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`circumspheres`](Self::circumspheres).
+    pub async fn circumspheres_buffer_async(&self) -> Result<wgpu::Buffer, Error> {
+        let (spheres, open) = self.spheres_of_device().await?;
+        if open > 0 {
+            let mut found = self.read_spheres(&spheres).await?;
+            self.finish_spheres(&mut found).await?;
+            spheres.write(self.mesh.gpu(), 0, found.as_flattened());
+        }
+        Ok(spheres.buffer().clone())
+    }
+
+    /// Returns how many queries the host has answered so far, and how many circumscribed spheres it
+    /// has computed.
     pub fn host_answers(&self) -> usize {
         self.host_answers.load(Ordering::Relaxed)
     }
@@ -548,16 +625,18 @@ where
         gpu.with_error_scope("queries", create).await
     }
 
-    /// Returns the locator of the host, which reads the mesh the first time.
+    /// Returns the mesh on the host, which is read the first time.
+    async fn host_mesh(&self) -> Result<&MeshOf<D>, Error> {
+        if let Some(mesh) = self.on_host.get() {
+            return Ok(mesh);
+        }
+        let mesh = self.mesh.read_all().await?;
+        Ok(self.on_host.get_or_init(|| mesh))
+    }
+
+    /// Returns the locator of the host.
     async fn host_locator(&self) -> Result<Locator<'_, D, N>, Error> {
-        let mesh = match self.on_host.get() {
-            Some(mesh) => mesh,
-            None => {
-                let mesh = self.mesh.read_all().await?;
-                self.on_host.get_or_init(|| mesh)
-            }
-        };
-        Locator::new(mesh, self.points)
+        Locator::new(self.host_mesh().await?, self.points)
     }
 
     /// Locates the queries in a buffer.
@@ -577,6 +656,40 @@ where
             self.finish(Points::F32(&queries), &answers).await?;
         }
         Ok(answers)
+    }
+
+    /// Computes the circumscribed spheres, and returns how many are left to the host.
+    async fn spheres_of_device(&self) -> Result<(Storage<f32>, usize), Error> {
+        let gpu = self.mesh.gpu();
+        let create = || Storage::for_caller(gpu, "circumspheres", N * self.mesh.simplex_count());
+        let spheres = gpu.with_error_scope("circumspheres", create).await?;
+        let open = match &self.on_device {
+            Some(on_device) => on_device.circumspheres(self.mesh, &spheres).await?,
+            None => 0,
+        };
+        Ok((spheres, open))
+    }
+
+    /// Reads the circumscribed spheres.
+    async fn read_spheres(&self, spheres: &Storage<f32>) -> Result<Vec<[f32; N]>, Error> {
+        self.mesh.readback().read(self.mesh.gpu(), &spheres.cast(), 0, self.mesh.simplex_count()).await
+    }
+
+    /// Computes the circumscribed spheres that the device has left open.
+    async fn finish_spheres(&self, spheres: &mut [[f32; N]]) -> Result<(), Error> {
+        let mesh = self.host_mesh().await?;
+        let mut open = 0;
+        for (sphere, corners) in spheres.iter_mut().zip(mesh.simplices()) {
+            if sphere[D].to_bits() == OPEN_RADIUS {
+                let (center, radius) = geometry::circumsphere(&corners.map(|v| self.points.get(v as usize)));
+                for (to, x) in sphere.iter_mut().zip(center.into_iter().chain([radius])) {
+                    *to = x as f32;
+                }
+                open += 1;
+            }
+        }
+        self.host_answers.fetch_add(open, Ordering::Relaxed);
+        Ok(())
     }
 
     /// Reads queries, and checks that they are finite.

@@ -219,13 +219,23 @@ where
     vector::plus(simplex[0], circumcenter_offset(simplex))
 }
 
+/// Returns the centre of the sphere through the vertices of a simplex relative to the first one,
+/// and the radius: see [`circumcenter_offset`] and [`circumradius`].
+pub fn circumsphere<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> ([f64; D], f64)
+where
+    Euclidean: Geometry<D, N>,
+{
+    let offset = circumcenter_offset(simplex);
+    (offset, vector::norm(offset))
+}
+
 /// Returns the radius of the sphere through the vertices of a simplex, with a relative error below
 /// 2⁻³⁶.
 pub(crate) fn circumradius<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> f64
 where
     Euclidean: Geometry<D, N>,
 {
-    vector::norm(circumcenter_offset(simplex))
+    circumsphere(simplex).1
 }
 
 /// Returns the volume of a positively oriented tetrahedron or the area of a counter-clockwise

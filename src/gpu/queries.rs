@@ -35,6 +35,8 @@ pub const OPEN: u32 = constants::OPEN;
 pub const NOWHERE: u32 = constants::NOWHERE;
 /// Every simplex of this number is a place to start from.
 pub const START_STRIDE: usize = constants::START_STRIDE as usize;
+/// The bits of the radius of a sphere that is left to the host.
+pub const OPEN_RADIUS: u32 = constants::OPEN_RADIUS;
 
 /// The bits of a place along the curve.
 const KEY_BITS: u32 = 30;
@@ -127,6 +129,7 @@ pub struct QueryPoints<const D: usize> {
     settle: Kernel,
     interpolate: Kernel,
     nearest: Kernel,
+    circumspheres: Kernel,
 }
 
 impl<const D: usize> QueryPoints<D>
@@ -150,8 +153,9 @@ where
         let kernel = |name| compiler.kernel(Dimension::<D>::SHADERS.get(name), Width::Wide);
         let [vertices, starts, walk, settle, interpolate] =
             ["query_vertices", "query_starts", "query_walk", "query_settle", "query_interpolate"].map(kernel);
-        // Compiled when it is used.
-        let nearest = compiler.on_demand(Dimension::<D>::SHADERS.get("query_nearest"), Width::Wide);
+        // Compiled when they are used.
+        let [nearest, circumspheres] = ["query_nearest", "query_circumspheres"]
+            .map(|name| compiler.on_demand(Dimension::<D>::SHADERS.get(name), Width::Wide));
         let sort = Sort::new(&compiler);
         compiler.finish().await?;
 
@@ -196,7 +200,8 @@ where
             recorder.dispatch(&starts, &bound[1], groups(gpu, params.starts as usize));
             sort.record(&mut recorder, &sorted);
             recorder.submit(gpu);
-            Ok(QueryPoints { params, near, vertices: placed, starts: pairs, walk, settle, interpolate, nearest })
+            let (vertices, starts) = (placed, pairs);
+            Ok(QueryPoints { params, near, vertices, starts, walk, settle, interpolate, nearest, circumspheres })
         })
         .await
     }
@@ -311,6 +316,36 @@ where
             Ok(())
         })
         .await
+    }
+
+    /// Computes the circumcentre of each simplex relative to its first vertex, and the circumradius:
+    /// `D` + 1 numbers, of which the last is [`OPEN_RADIUS`] where they are left to the host.
+    /// Returns how many are.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`locate`](Self::locate).
+    pub async fn circumspheres(&self, mesh: &DeviceMesh<D>, results: &Storage<f32>) -> Result<usize, Error> {
+        let gpu = mesh.gpu();
+        let mut readback = mesh.readback();
+        let (submission, pending) = gpu
+            .with_error_scope("circumspheres", || {
+                let params = QueryParams { count: mesh.simplex_count() as u32, ..self.params };
+                let params = Storage::with_contents(gpu, "parameters", &[params])?;
+                let buffers = [
+                    ("params", params.buffer()),
+                    ("vertices", self.vertices.buffer()),
+                    ("simplices", mesh.simplices()),
+                    ("results", results.buffer()),
+                ];
+                let mut recorder = Recorder::new(gpu, None);
+                let bound = self.circumspheres.bind(gpu, &buffers);
+                recorder.dispatch(&self.circumspheres, &bound, groups(gpu, mesh.simplex_count()));
+                let pending = readback.copy(gpu, recorder.encoder(), &params, 0, 1);
+                Ok((recorder.submit(gpu), pending))
+            })
+            .await?;
+        Ok(counts_of(&readback.receive(gpu, &submission, pending).await?[0]).open)
     }
 
     /// Returns the parameters for queries.

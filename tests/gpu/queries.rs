@@ -2,11 +2,14 @@
 
 use crate::inputs::{inputs2, inputs3, queries};
 use gdel::{
-    Backend, DeviceLocator, Error, Interpolation, Interpolator, Location, Locator, Outputs, Points, Triangulator,
+    Backend, DeviceLocator, Error, Interpolation, Interpolator, Location, Locator, Mesh, Outputs, Points, Triangulator,
     internals::{
+        cpu::MeshOf,
         d2::generate::{Distribution2, generate2d},
         d3::generate::{Distribution3, generate3d},
-        gpu::{AdapterChoice, Gpu, Storage},
+        dimension::Dimension,
+        geometry::{Euclidean, Geometry, circumsphere},
+        gpu::{AdapterChoice, Gpu, Storage, device_mesh::MeshArrays, dim::Dim},
     },
     wgpu,
 };
@@ -288,6 +291,101 @@ fn nearest_vertices_of_many_queries_are_found_by_the_device() {
     assert_eq!(check_nearest!("2D", mesh, &points, &generate2d(Distribution2::Uniform, 20_000, 4)), 0);
 }
 
+/// Compares circumscribed spheres with those of the host in double precision, from an array and
+/// from a buffer. Returns how many the host has computed.
+fn check_spheres<const D: usize, const N: usize>(
+    gpu: &Gpu,
+    name: &str,
+    locator: &DeviceLocator<'_, D, N>,
+    simplices: &[[u32; N]],
+    points: &[[f64; D]],
+) -> usize
+where
+    Dimension<D>: Dim<D> + MeshArrays<D>,
+    MeshOf<D>: Mesh<D, N>,
+    Euclidean: Geometry<D, N>,
+{
+    let found = locator.circumspheres().unwrap();
+    let open = locator.host_answers();
+    assert_eq!(found.len(), simplices.len(), "{name}");
+    for (i, (sphere, simplex)) in found.iter().zip(simplices).enumerate() {
+        let (center, radius) = circumsphere(&simplex.map(|v| points[v as usize]));
+        let tolerance = radius / f64::from(1 << 19) + f64::from(f32::MIN_POSITIVE);
+        for (&found, expected) in sphere.iter().zip(center.into_iter().chain([radius])) {
+            // Without the range of the exponents of `f32`.
+            let is_beyond =
+                expected.abs() > 0.999 * f64::from(f32::MAX) && f64::from(found) == expected.signum() * f64::INFINITY;
+            let is_near = (f64::from(found) - expected).abs() <= tolerance;
+            assert!(is_beyond || is_near, "{name}: {i}: {sphere:?}, not {center:?} and {radius:e}");
+        }
+    }
+    let words = read(gpu, &locator.circumspheres_buffer().unwrap());
+    let expected: Vec<i32> = found.as_flattened().iter().map(|x| x.to_bits() as i32).collect();
+    assert_eq!(&words[..expected.len()], expected, "{name}");
+    assert_eq!(locator.host_answers(), 2 * open, "{name}");
+    open
+}
+
+/// Points near a plane: most of the tetrahedra are nearly flat.
+fn near_a_plane(height: f64) -> Vec<[f64; 3]> {
+    let at = |i: u32| [f64::from(i % 8), f64::from(i / 8), height * f64::from(i * i % 11)];
+    (0..64).map(at).collect()
+}
+
+#[test]
+fn circumspheres_are_those_of_the_host() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let triangulator = on(&gpu);
+    let uniform = generate3d(Distribution3::Uniform, 5_000, 3);
+    let far: Vec<[f64; 3]> = uniform.iter().map(|p| p.map(|x| (x * 1e9).round() * 1e-3 - 7e8)).collect();
+    let mut inputs = inputs3();
+    inputs.extend([
+        ("many", uniform),
+        ("far from the origin", far),
+        ("sphere", generate3d(Distribution3::Sphere, 2_000, 3)),
+        ("near a plane", near_a_plane(f64::EPSILON * 4096.0)),
+        ("nearer than the lattice", near_a_plane(1e-17)),
+    ]);
+    for (name, points) in inputs {
+        let mesh = triangulator.delaunay3d_on_device(&points).unwrap();
+        let read = mesh.read(Outputs::SIMPLICES).unwrap();
+        let locator = DeviceLocator::new(&mesh, &points).unwrap();
+        let open = check_spheres(&gpu, name, &locator, &read.tetrahedra, &points);
+        println!("{name}: {open} of {} by the host", read.tetrahedra.len());
+        match name {
+            "many" | "far from the origin" | "grid of 5³" | "near a plane" => assert_eq!(open, 0, "{name}"),
+            "nearer than the lattice" => assert!(open > 0, "{name}"),
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn circumscribed_circles_are_those_of_the_host() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let triangulator = on(&gpu);
+    let near_a_line =
+        |height: f64| (0..60).map(|i| [f64::from(i), height * f64::from(i * i % 7)]).collect::<Vec<[f64; 2]>>();
+    let mut inputs = inputs2();
+    inputs.extend([
+        ("many", generate2d(Distribution2::Uniform, 5_000, 3)),
+        ("near a line", near_a_line(f64::EPSILON * 4096.0)),
+        ("nearer than the lattice", near_a_line(1e-17)),
+    ]);
+    for (name, points) in inputs {
+        let mesh = triangulator.delaunay2d_on_device(&points).unwrap();
+        let read = mesh.read(Outputs::SIMPLICES).unwrap();
+        let locator = DeviceLocator::new(&mesh, &points).unwrap();
+        let open = check_spheres(&gpu, name, &locator, &read.triangles, &points);
+        println!("{name}: {open} of {} by the host", read.triangles.len());
+        match name {
+            "many" | "grid of 9²" | "near a line" => assert_eq!(open, 0, "{name}"),
+            "nearer than the lattice" => assert!(open > 0, "{name}"),
+            _ => {}
+        }
+    }
+}
+
 /// Executors move futures between threads.
 #[test]
 fn futures_can_be_sent() {
@@ -299,5 +397,6 @@ fn futures_can_be_sent() {
     assert_send(locator.locate_many_async(&points));
     assert_send(locator.nearest_many_async(&points));
     assert_send(locator.interpolate_many_async(&[0.0; 3], &points));
+    assert_send(locator.circumspheres_async());
     assert_send(mesh.edges_async());
 }
