@@ -4,8 +4,9 @@
 //! Points and queries are uniform and unsorted, in single precision. Prints a line of JSON with the
 //! medians over the repeats, after one run to warm up, in milliseconds: `create` is the locator,
 //! `arrays` queries and answers in host memory, `resident` queries and answers in buffers of the
-//! device, and `host` the same queries answered by the CPU from a mesh on the host, once (CPU=0
-//! leaves it out). Asserts that the answers are the same.
+//! device, `circumspheres` those of all tetrahedra in a buffer of the device, and `host` the same
+//! queries answered by the CPU from a mesh on the host, once (CPU=0 leaves it out). Asserts that the
+//! answers are the same.
 
 use gdel::{
     DeviceLocator, Locator, Outputs, Points, Triangulator,
@@ -55,6 +56,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arrays = median(repeats, || locator.locate_many(&queries).unwrap());
     let buffer = Storage::with_contents(&gpu, "queries", queries.as_flattened())?;
     let resident = median(repeats, || locator.locate_buffer(buffer.buffer()).unwrap());
+    let circumspheres = median(repeats, || locator.circumspheres_buffer().unwrap());
     let mut host = f64::NAN;
     if std::env::var("CPU").as_deref() != Ok("0") {
         let read = mesh.read(Outputs::ALL)?;
@@ -66,7 +68,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     println!(
         "{{\"adapter\":{:?},\"points\":{count},\"queries\":{asked},\"host_answers\":{},\"milliseconds\":{{\"create\":{create:.2},\
-         \"arrays\":{arrays:.2},\"resident\":{resident:.2},\"host\":{host:.0}}}}}",
+         \"arrays\":{arrays:.2},\"resident\":{resident:.2},\"circumspheres\":{circumspheres:.2},\"host\":{host:.0}}}}}",
         gpu.adapter().name,
         locator.host_answers()
     );

@@ -5,7 +5,7 @@ use super::{
     dimension::{Counts, Dimension, Triangulation, format_parser, read},
     input,
     progress::Progress,
-    triangulate::{BackendName, StatsForm, triangulate},
+    triangulate::{BackendName, StatsForm, print, triangulate},
     usage,
 };
 use clap::{
@@ -191,14 +191,17 @@ impl Common {
             let Found { result, numbers } = derive(&mesh).map_err(failure)?;
             let deriving = start.elapsed();
             drop(progress);
-            self.print(&mesh, points.len(), &numbers, &[("triangulate", triangulating), (what, deriving)])?;
-            Ok((mesh, result))
+            let times = [("triangulate", triangulating), (what, deriving)];
+            let is_read = self.print(&mesh, points.len(), &numbers, &times)?;
+            Ok::<_, Failure>(((mesh, result), is_read))
         };
         // Each run gives its memory back before the next.
         for _ in 1..self.repeat.get() {
-            run()?;
+            if !run()?.1 {
+                break;
+            }
         }
-        run()
+        Ok(run()?.0)
     }
 
     fn print<M: Triangulation<D, N>, const D: usize, const N: usize>(
@@ -207,7 +210,7 @@ impl Common {
         points: usize,
         numbers: &[(&'static str, Number)],
         times: &[(&'static str, Duration)],
-    ) -> Result<(), io::Error> {
+    ) -> Result<bool, io::Error> {
         let total = ("total", times.iter().map(|(_, time)| time).sum());
         let seconds: Vec<_> = [total].iter().chain(times).map(|&(name, time)| (name, time.as_secs_f64())).collect();
         let stats = mesh.stats();
@@ -220,14 +223,7 @@ impl Common {
             fallback: stats.fallback.as_ref(),
             seconds: &seconds,
         };
-        let mut stdout = io::stdout().lock();
-        match self.stats {
-            Some(StatsForm::Json) => {
-                serde_json::to_writer(&mut stdout, &report)?;
-                writeln!(stdout)
-            }
-            None => writeln!(stdout, "{report}"),
-        }
+        print(self.stats, &report)
     }
 }
 

@@ -13,7 +13,9 @@ use gdel::{
     Backend, Mesh2, Mesh3, Points, Triangulator,
     internals::io::{PointFormat, files::Output},
 };
+use serde::Serialize;
 use std::{
+    fmt::Display,
     io::{self, Write},
     num::NonZeroUsize,
     ops::ControlFlow,
@@ -112,7 +114,9 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
     // Each run gives its memory back before the next.
     for _ in 1..arguments.repeat.get() {
         let (mesh, total) = triangulate::<M, D, N>(points, &triangulator).map_err(failure)?;
-        report(&mesh, total, None)?;
+        if !report(&mesh, total, None)? {
+            break;
+        }
     }
     let (mesh, total) = triangulate::<M, D, N>(points, &triangulator).map_err(failure)?;
     let proof =
@@ -141,13 +145,15 @@ pub(super) fn triangulate<M: Triangulation<D, N>, const D: usize, const N: usize
     Ok((mesh, start.elapsed()))
 }
 
-fn print(form: Option<StatsForm>, report: &Report<'_>) -> Result<(), io::Error> {
-    let mut stdout = io::stdout().lock();
-    match form {
-        Some(StatsForm::Json) => {
-            serde_json::to_writer(&mut stdout, report)?;
-            writeln!(stdout)
-        }
-        None => writeln!(stdout, "{report}"),
+/// Prints what a run says about itself. Returns whether there is a reader: one who has closed
+/// standard output, as in `gdel … | head -1`, still wants the files.
+pub(super) fn print(form: Option<StatsForm>, report: &(impl Serialize + Display)) -> Result<bool, io::Error> {
+    let text = match form {
+        Some(StatsForm::Json) => serde_json::to_string(report)?,
+        None => report.to_string(),
+    };
+    match writeln!(io::stdout().lock(), "{text}") {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(false),
+        written => written.map(|()| true),
     }
 }

@@ -64,8 +64,10 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
         }
         _ => return Err(Failure::NoPoints { path: path.clone() }),
     };
-    writeln!(io::stdout().lock(), "{report}")?;
-    conclude(path, &report)
+    let printed = writeln!(io::stdout().lock(), "{report}");
+    // Also for those who do not read the report.
+    conclude(path, &report)?;
+    Ok(printed?)
 }
 
 /// Checks that the points in a mesh's file, if any, are those of the input.

@@ -88,7 +88,10 @@ where
             Format::Vtu => cells(&voronoi),
         };
         let cells = volumes.iter().filter(|&&volume| volume > 0.0).count();
-        let numbers = vec![("cells", Number::Count(cells)), (measure::<D>(), Number::Real(volumes.iter().sum()))];
+        let numbers = vec![
+            ("cells", Number::Count(cells)),
+            (measure::<D>(), Number::Real(volumes.iter().fold(0.0, |sum, volume| sum + volume))),
+        ];
         Ok(Found { result, numbers })
     })?;
     write(output, |to| match &result {

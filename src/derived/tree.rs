@@ -98,7 +98,8 @@ impl SpanningTree {
 
     /// Returns the sum of all lengths.
     pub fn total_length(&self) -> f64 {
-        self.lengths.iter().sum()
+        // The sum of an empty iterator would be −0.
+        self.lengths.iter().fold(0.0, |sum, length| sum + length)
     }
 
     /// Returns the single-linkage clusters that are left without the longest edges, as many as

@@ -272,6 +272,10 @@ fn flat_and_empty_points_have_empty_answers() {
             for key in ["inside", "with_value", "cells", "solid", "surface", "edges"] {
                 assert!(run.get(key).is_none_or(|count| count == 0), "{key} in {run}");
             }
+            for key in ["volume", "total_length"] {
+                // Not −0.
+                assert!(run.get(key).is_none_or(|sum| sum.as_f64().is_some_and(|sum| sum.to_bits() == 0)), "{run}");
+            }
         }
     }
     fs::write(path.join("empty.xyz"), "").unwrap();

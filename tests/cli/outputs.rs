@@ -215,9 +215,17 @@ fn a_full_standard_output_is_an_error_and_a_closed_one_is_not() {
     let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
     let output = command(folder.path(), &arguments).stdout(full).stderr(Stdio::piped()).spawn().unwrap();
     fails_with(output.wait_with_output().unwrap(), "standard output: No space left");
-    let (reader, writer) = std::io::pipe().unwrap();
-    drop(reader);
-    let output = command(folder.path(), &arguments).stdout(writer).stderr(Stdio::piped()).spawn().unwrap();
-    let output = output.wait_with_output().unwrap();
-    assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+    // The files are written all the same.
+    for arguments in [
+        &["triangulate", "p.xyz", "-o", "closed.vtu"][..],
+        &["triangulate", "p.xyz", "-o", "closed.npz", "--repeat", "3", "--stats", "json"],
+        &["tree", "p.xyz", "-o", "closed.csv", "--repeat", "3"],
+    ] {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let output = command(folder.path(), arguments).stdout(writer).stderr(Stdio::piped()).spawn().unwrap();
+        let output = output.wait_with_output().unwrap();
+        assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+        assert!(folder.path().join(arguments[3]).exists(), "{arguments:?}");
+    }
 }

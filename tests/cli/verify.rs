@@ -1,7 +1,7 @@
 //! The command `gdel verify`, and what is proven of the files of a mesh.
 
-use crate::{fails, folder, stats, succeeds};
-use std::{fs, path::Path};
+use crate::{command, fails, fails_with, folder, stats, succeeds};
+use std::{fs, path::Path, process::Stdio};
 
 /// Changes one number of a text file: of the line with this number the word with this one.
 fn corrupt(file: &Path, line: usize, word: usize, new: &str) {
@@ -133,6 +133,11 @@ fn verify_says_what_is_wrong_and_where() {
     fs::write(path.join("m.ele"), flipped.join("\n")).unwrap();
     fs::remove_file(path.join("m.neigh")).unwrap();
     fails(path, &["verify", "p.xyz", "m.ele"], "m.ele: not the Delaunay triangulation: orientation: tetrahedron 3");
+    // Also where nobody reads the report.
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let closed = command(path, &["verify", "p.xyz", "m.ele"]).stdout(writer).stderr(Stdio::piped()).spawn().unwrap();
+    fails_with(closed.wait_with_output().unwrap(), "orientation: tetrahedron 3");
     fs::write(path.join("m.ele"), "1 4 0\n0 0 1 2 99\n").unwrap();
     fails(path, &["verify", "p.xyz", "m.ele"], "tetrahedron 0");
 }
