@@ -30,6 +30,12 @@
 //! | Which region belongs to each point, how large is it, who are its neighbours? | [`Voronoi`] |
 //! | Which solid, or which surface, do the points describe? | [`AlphaShape`] |
 //! | What connects all points at the least length? Which clusters are there? | [`SpanningTree`] |
+//! | Which edges, facets and neighbours are there? | [`Mesh3::edges`], [`facets`](Mesh3::facets), [`vertex_neighbors`](Mesh3::vertex_neighbors) |
+//! | How large and how well shaped is each simplex? | [`Mesh3::volumes`], [`circumcenters`](Mesh3::circumcenters), [`radius_ratios`](Mesh3::radius_ratios) |
+#![cfg_attr(
+    all(feature = "gpu", not(target_arch = "wasm32")),
+    doc = "| The same for a mesh on the GPU | [`DeviceLocator`], [`DeviceMesh::edges`] |"
+)]
 //!
 //! # Features
 //!

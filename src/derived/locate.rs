@@ -71,6 +71,8 @@ impl Location {
 /// All answers are exact for all finite `f64` queries, `f32` included. Those for many queries are
 /// found by all threads, and are the same as for the queries one by one.
 ///
+#[cfg_attr(doc, doc = concat!("<div>\n", include_str!("../../docs/answers/locate.svg"), "</div>"))]
+///
 /// # Examples
 ///
 /// ```

@@ -17,6 +17,8 @@ use std::cmp::Ordering;
 /// Of several edges of exactly the same length the one with the lower vertices comes first, so the
 /// tree is unique.
 ///
+#[cfg_attr(doc, doc = concat!("<div>\n", include_str!("../../docs/answers/tree.svg"), "</div>"))]
+///
 /// # Examples
 ///
 /// ```

@@ -36,6 +36,10 @@ use values::Radii;
 /// Which simplices and faces belong to a complex is decided exactly, for all `f64` alpha. Radii
 /// that are returned have a relative error below 10⁻¹⁰, if nothing else is said.
 ///
+/// The shapes of a ring and a disk for three radii:
+///
+#[cfg_attr(doc, doc = concat!("<div>\n", include_str!("../../../docs/answers/alpha.svg"), "</div>"))]
+///
 /// # Examples
 ///
 /// ```

@@ -56,6 +56,10 @@ pub enum Interpolation {
 /// same plane or on the same line. Nearer to it than about 10⁻¹⁸ times the distances of the
 /// vertices, but not on it, interpolation is linear.
 ///
+/// Linear, Laplace and Sibson interpolation of the same values:
+///
+#[cfg_attr(doc, doc = concat!("<div>\n", include_str!("../../../docs/answers/interpolate.svg"), "</div>"))]
+///
 /// # Examples
 ///
 /// ```

@@ -61,6 +61,10 @@ pub enum Clip<const D: usize = 3> {
 /// circumcentre, however far away, makes them wrong. Facets that are empty because of a tie are
 /// left out, exactly.
 ///
+/// The cells that are bounded, those clipped to the hull, and those clipped to a box:
+///
+#[cfg_attr(doc, doc = concat!("<div>\n", include_str!("../../../docs/answers/voronoi.svg"), "</div>"))]
+///
 /// # Examples
 ///
 /// ```
