@@ -181,20 +181,20 @@ impl<M> Task<M> {
         }
     }
 
-    /// Calls `answer` with one part of the queries after the other, to each of which there are so
-    /// many answers.
+    /// Calls `answer` with one part of the queries after the other, to each of which it adds so many
+    /// answers. There is room for all of them.
     fn in_parts<const D: usize, R>(
         &self,
         queries: &Coordinates,
         each: usize,
-        answer: impl Fn(Points<'_, D>) -> Result<Vec<R>, Error>,
+        answer: impl Fn(Points<'_, D>, &mut Vec<R>) -> Result<(), Error>,
     ) -> Result<Vec<R>, Thrown> {
         let count = queries.points::<D>()?.len();
         let mut answers = room(count.saturating_mul(each))?;
         let part = count.div_ceil(PARTS).max(MIN_PART);
         for start in (0..count).step_by(part) {
             let end = (start + part).min(count);
-            answers.extend(answer(queries.part(start..end)?)?);
+            answer(queries.part(start..end)?, &mut answers)?;
             self.report(0.1 + 0.8 * end as f64 / count as f64)?;
         }
         Ok(answers)
@@ -265,7 +265,10 @@ where
     let task = Task::<M>::new::<D, N>(points, mesh, report, "locate")?;
     let queries = queries_of::<D>(queries)?;
     let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
-    let located = task.in_parts(&queries, 1, |part| locator.locate_many(part))?;
+    let located = task.in_parts(&queries, 1, |part, located| {
+        located.extend(locator.locate_many(part)?);
+        Ok(())
+    })?;
     let [mut simplices, mut facets] = [room(located.len())?, room(located.len())?];
     for location in located {
         let (simplex, facet) = match location {
@@ -309,17 +312,17 @@ where
     let task = Task::<M>::new::<D, N>(points, mesh, report, "nearest")?;
     let queries = queries_of::<D>(queries)?;
     let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
-    let nearest = task.in_parts(&queries, k, |part| match k {
-        1 => Ok(locator.nearest_many(part)?.into_iter().map(|vertex| vertex.map_or(-1, |v| v as i32)).collect()),
-        _ => {
-            let mut nearest = Vec::with_capacity(k * part.len());
-            for query in part.iter() {
-                let end = nearest.len() + k;
-                nearest.extend(locator.nearest_k(query, k)?.into_iter().map(|v| v as i32));
-                nearest.resize(end, -1);
-            }
-            Ok(nearest)
+    let nearest = task.in_parts(&queries, k, |part, nearest| {
+        if k == 1 {
+            nearest.extend(locator.nearest_many(part)?.into_iter().map(|vertex| vertex.map_or(-1, |v| v as i32)));
+            return Ok(());
         }
+        for query in part.iter() {
+            let end = nearest.len() + k;
+            nearest.extend(locator.nearest_k(query, k)?.into_iter().map(|v| v as i32));
+            nearest.resize(end, -1);
+        }
+        Ok(())
     })?;
     Ok(Int32Array::new_from_slice(&nearest))
 }
@@ -359,7 +362,10 @@ where
     };
     let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
     let interpolator = Interpolator::new(&locator, &values)?;
-    let found = task.in_parts(&queries, 1, |part| interpolator.interpolate_many(method, part))?;
+    let found = task.in_parts(&queries, 1, |part, found| {
+        found.extend(interpolator.interpolate_many(method, part)?);
+        Ok(())
+    })?;
     Ok(Float64Array::new_from_slice(&found))
 }
 
