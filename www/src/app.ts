@@ -1,8 +1,8 @@
 import * as Comlink from 'comlink';
+import { Address, haveSamePoints, wholeHash } from './address';
 import { connect } from './model/client';
 import type { Edit } from './model/edits';
 import type { Drawing, DrawRequest, Summary } from './model/model';
-import { unpack } from './model/packed';
 import { type Dimension, type Source, titleOf } from './model/source';
 import type { Progress } from './model/worker';
 import type { Page, Part } from './page';
@@ -15,7 +15,6 @@ import {
   fromHash,
   type Settings,
   type Tool,
-  toHash,
   viewOf,
 } from './settings';
 import { wireAbout } from './ui/about';
@@ -75,13 +74,11 @@ export class App implements Page {
   private lastRun = 0;
   private drawing = false;
   private drawn = '';
-  private hashTimer = 0;
   /** Whether a run comes from the browser's history. */
   private following = false;
   /** The cut while it moves by itself, from everything to where it stays; else null. */
   private sweep: number | null = null;
-  /** The files of this visit, which links and the browser's Back can only name. */
-  private readonly files = new Map<string, readonly File[]>();
+  private readonly address = new Address(() => this.settings);
   /** The view in the link that was followed here, for a file that the visitor does not have yet. */
   private awaited: { file: string; settings: Settings } | null = null;
 
@@ -113,8 +110,6 @@ export class App implements Page {
     ];
     wireKeyboard(this);
     byId('cancel').addEventListener('click', () => this.model.cancel());
-    // Before anything is written over the entry of the history that the visitor went to.
-    window.addEventListener('popstate', () => clearTimeout(this.hashTimer));
     window.addEventListener('hashchange', () => void this.followHash());
     this.tell();
     void whileBusy(this.startViewer());
@@ -136,7 +131,7 @@ export class App implements Page {
       return;
     }
     const { settings } = this;
-    const source = await this.sourceNamed(asked, settings.source.dimension);
+    const source = await this.address.sourceOf(asked, settings.source.dimension);
     if (source) {
       this.settings = { ...settings, source };
       await this.run(source, this.settings);
@@ -150,22 +145,10 @@ export class App implements Page {
     );
   }
 
-  /** The file that an address names: from the address itself, or from this visit. */
-  private async sourceNamed(
-    { name, packed }: { name: string; packed: string | null },
-    dimension: Dimension,
-  ): Promise<Source | null> {
-    const unpacked = packed ? await unpack(packed, name) : null;
-    const files = this.files.get(name) ?? (unpacked && [unpacked]);
-    return files && { kind: 'file', dimension, files, ...(packed ? { packed } : {}) };
-  }
-
   run(source: Source, settings: Partial<Settings> = {}): Promise<boolean> {
-    if (source.kind === 'file') {
-      this.files.set(titleOf(source), source.files);
-      if (this.awaited?.file === titleOf(source))
-        settings = { ...this.awaited.settings, source, ...settings };
-    }
+    this.address.keep(source);
+    if (source.kind === 'file' && this.awaited?.file === titleOf(source))
+      settings = { ...this.awaited.settings, source, ...settings };
     const { edits = [], backend = this.settings.backend } = settings;
     return whileBusy(
       this.newRun(source, { edits, ...settings }, (onProgress) =>
@@ -206,7 +189,7 @@ export class App implements Page {
         done !== this.settings.edits && run === this.lastRun;
       ) {
         done = this.settings.edits;
-        const { summary, drawing, positions, hull } = await this.model.edit(
+        const { summary, drawing, positions, colors, hull } = await this.model.edit(
           done,
           this.settings.backend,
           this.request(),
@@ -217,7 +200,7 @@ export class App implements Page {
         showResult(summary, titleOf(this.settings.source));
         showStrip(summary);
         this.positions = positions;
-        this.viewer?.showPoints(positions);
+        this.viewer?.showPoints(positions, colors);
         this.viewer?.showHull(hull);
         this.show(drawing);
         for (const part of this.parts) part.edited?.(summary);
@@ -255,7 +238,7 @@ export class App implements Page {
       const before = this.settings;
       const isNew = source !== before.source;
       if (isNew) {
-        this.leavePage();
+        if (!this.following && this.summary) this.address.leave();
         if (source.dimension !== before.source.dimension) this.left = { ...before };
         if (source.kind !== before.source.kind) before.color = colorFor(source);
         Object.assign(before, {
@@ -274,7 +257,7 @@ export class App implements Page {
       this.sweep = (isNew || run === 1) && this.opensSlowly ? 1 : null;
       await this.newMesh();
       this.change(settings);
-      this.writeHash();
+      this.address.write();
       await this.cutSlowly(run);
       return true;
     } catch (error) {
@@ -327,7 +310,7 @@ export class App implements Page {
   private tell(): void {
     document.documentElement.toggleAttribute('data-embed', this.settings.embed);
     for (const part of this.parts) part.changed?.(this.settings);
-    this.rememberInHash();
+    this.address.remember();
   }
 
   private async startViewer(): Promise<void> {
@@ -368,7 +351,7 @@ export class App implements Page {
     this.viewer.setDimension(this.summary!.dimension);
     this.viewer.pose = this.view.camera;
     this.positions = await this.model.positions();
-    this.viewer.showPoints(this.positions);
+    this.viewer.showPoints(this.positions, await this.model.colors());
     this.viewer.showHull(await this.model.hull());
     this.viewer.showFacets(await this.model.nonDelaunayFacets());
     this.look();
@@ -407,7 +390,7 @@ export class App implements Page {
 
   private show(drawing: Drawing): void {
     this.lastDrawing = drawing;
-    showLegend(drawing, this.settings);
+    showLegend(drawing, this.settings, this.summary?.colorSource != null);
     for (const part of this.parts) part.drew?.(drawing);
     if (!this.viewer) return;
     this.viewer.showSurface(drawing.surface);
@@ -428,6 +411,7 @@ export class App implements Page {
       color: color === 'phase' && !this.summary?.trace ? 'quality' : color,
       pieces: apart > 0,
       round: this.round,
+      skin: layers.skin,
       voronoi: layers.voronoi,
       cells: layers.voronoi && this.settings.source.dimension === 3 ? apart : null,
     };
@@ -447,6 +431,7 @@ export class App implements Page {
     // Facets of Voronoi cells are drawn as several triangles.
     viewer.look.edges.value = layers.edges && !this.lastDrawing?.cells ? 1 : 0;
     viewer.look.apart.value = this.round === null ? apart : Math.max(apart, 0.02);
+    viewer.look.ownColors.value = layers.skin ? 1 : 0;
     viewer.look.fill.value = layers.simplices ? 1 : 0;
     viewer.setVisible('surface', layers.simplices);
     viewer.setVisible('flat', layers.simplices || layers.edges);
@@ -464,37 +449,13 @@ export class App implements Page {
     if (!this.viewer) return;
     this.settings.camera = this.viewer.pose;
     this.tellMoved();
-    this.rememberInHash();
-  }
-
-  private rememberInHash(): void {
-    clearTimeout(this.hashTimer);
-    // Browsers allow only so many changes of the address a second.
-    this.hashTimer = window.setTimeout(() => this.writeHash(), 300);
-  }
-
-  private writeHash(): void {
-    clearTimeout(this.hashTimer);
-    history.replaceState(null, '', `#${toHash(this.settings)}`);
-  }
-
-  /** Leaves the present object in the browser's history, so that Back returns to it. */
-  private leavePage(): void {
-    if (this.following || !this.summary) return;
-    this.writeHash();
-    history.pushState(null, '', location.hash);
+    this.address.remember();
   }
 
   /** The visitor followed a link to another view of this page, or went back to one. */
   private async followHash(): Promise<void> {
-    clearTimeout(this.hashTimer);
-    const settings = fromHash(location.hash);
-    const asked = fileIn(location.hash);
-    const source = asked && (await this.sourceNamed(asked, settings.source.dimension));
-    if (source) settings.source = source;
-    const pointsOf = ({ source, edits, backend }: Settings) =>
-      JSON.stringify([source, source.kind === 'file' && titleOf(source), edits, backend]);
-    if (pointsOf(settings) === pointsOf(this.settings)) {
+    const settings = await this.address.read();
+    if (haveSamePoints(settings, this.settings)) {
       this.change({ ...settings, source: this.settings.source });
       return;
     }
@@ -540,14 +501,3 @@ export class App implements Page {
 
 /** How long a new object is shown whole, and how long the cut then moves, in milliseconds. */
 const [WHOLE, OPENING] = [500, 900];
-
-/** What the address asks for. A file on the web may also be named before the '#': `?url=`. */
-function wholeHash(): string {
-  const query = new URLSearchParams(location.search);
-  const url = query.get('url');
-  // What the visitor went on to is after the '#'.
-  if (url === null || /(^#?|&)(points|file|url)=/.test(location.hash)) return location.hash;
-  const hash = new URLSearchParams(location.hash.replace(/^#/, ''));
-  hash.set('url', url);
-  return hash.toString();
-}

@@ -16,7 +16,15 @@ import {
 import { COLOR_MAPS, type ColorMapName } from './view/colormap';
 import type { CameraPose } from './view/viewer';
 
-export const LAYERS = ['simplices', 'edges', 'points', 'hull', 'facets', 'voronoi'] as const;
+export const LAYERS = [
+  'simplices',
+  'edges',
+  'points',
+  'hull',
+  'facets',
+  'voronoi',
+  'skin',
+] as const;
 export type Layer = (typeof LAYERS)[number];
 
 /** What a click does to 2D points. */
@@ -111,6 +119,7 @@ export function defaults(dimension: Dimension = 3): Settings {
       hull: dimension === 2,
       facets: false,
       voronoi: dimension === 2,
+      skin: true,
     },
   };
 }

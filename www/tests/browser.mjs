@@ -106,6 +106,27 @@ export async function tab(page, name) {
   await page.click(`#tab-${name}`);
 }
 
+/** The share of the drawing's pixels in which red (0), green (1) or blue (2) is by far the most. */
+export async function shareOfPixels(page, channel) {
+  const picture = (await page.locator('#canvas').screenshot()).toString('base64');
+  return page.evaluate(
+    async ([picture, channel]) => {
+      const bytes = Uint8Array.from(atob(picture), (character) => character.charCodeAt(0));
+      const image = await createImageBitmap(new Blob([bytes]));
+      const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+      context.drawImage(image, 0, 0);
+      const { data } = context.getImageData(0, 0, image.width, image.height);
+      let found = 0;
+      for (let at = 0; at < data.length; at += 4) {
+        const others = [0, 1, 2].filter((other) => other !== channel);
+        if (others.every((other) => data[at + channel] > 2 * data[at + other])) found++;
+      }
+      return (4 * found) / data.length;
+    },
+    [picture, channel],
+  );
+}
+
 /** Sets a slider as a visitor's hand does. */
 export async function slide(page, id, value) {
   await page.locator(`#${id}`).evaluate((slider, value) => {

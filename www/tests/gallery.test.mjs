@@ -16,7 +16,6 @@ import {
   settled,
   shown,
   slide,
-  tab,
   text,
 } from './browser.mjs';
 
@@ -75,8 +74,7 @@ test('the panel is folded up to what was asked for', async () => {
 
 test('Voronoi cells take the place of tetrahedra, and are cut and pulled apart', async () => {
   const page = await open(browser, `${server.url}#points=ball_2000_1&keep=1`);
-  await tab(page, 'view');
-  const box = page.getByLabel('Voronoi cells instead of tetrahedra');
+  const box = page.getByLabel('Voronoi', { exact: true });
   await box.check();
   await settled(page);
   assert.match(await text(page, 'shown'), /^all 2,000 shown/);

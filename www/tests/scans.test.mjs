@@ -10,6 +10,7 @@ import { gzipSync } from 'node:zlib';
 import {
   addressOf,
   choose,
+  colorBy,
   drop,
   expectAccessible,
   gdel,
@@ -19,6 +20,7 @@ import {
   save,
   serve,
   settled,
+  shareOfPixels,
   shown,
   slide,
   tab,
@@ -69,6 +71,13 @@ function figure(up) {
 
 const ply = (points) =>
   `ply\nformat ascii 1.0\nelement vertex ${points.length}\nproperty float x\nproperty float y\nproperty float z\nend_header\n${xyz(points)}\n`;
+
+/** Points of which the right side is blue and the left one red, with what else a header names. */
+const coloredPly = (points) =>
+  ply(points.map((p) => [...p, ...(p[0] > 0 ? [10, 20, 230] : [230, 20, 10])])).replace(
+    'end_header',
+    'property uchar red\nproperty uchar green\nproperty uchar blue\nend_header',
+  );
 
 let server;
 before(async () => (server = await serve()));
@@ -126,6 +135,81 @@ describe('a scan', () => {
     assert.equal(await text(other, 'shown'), await text(page, 'shown'));
     assert.deepEqual(other.problems, []);
     await other.context().close();
+  });
+
+  test('has its own colours outside, and the quantity inside', async () => {
+    await drop(page, 'colours.ply', coloredPly(figure(1)));
+    await slide(page, 'keep', 1);
+    for (const channel of [0, 2]) {
+      const share = await shareOfPixels(page, channel);
+      assert.ok(share > 0.03, `${share} of the pixels are of channel ${channel}`);
+    }
+    await slide(page, 'apart', 0.3);
+    assert.ok((await shareOfPixels(page, 0)) > 0.02);
+    await pictureOf(page, 'scan-colours-exploded');
+    await slide(page, 'apart', 0);
+    await slide(page, 'keep', 0.5);
+    assert.match(await text(page, 'legend-title'), /^Inside: circumradius/);
+    await pictureOf(page, 'scan-colours');
+    await tab(page, 'view');
+    const skin = page.getByLabel('Outside in the file’s colours');
+    assert.ok(await skin.isChecked());
+    // What is chosen is to be seen everywhere.
+    await colorBy(page, 'volume');
+    assert.ok(!(await skin.isChecked()));
+    assert.match(await text(page, 'legend-title'), /^Volume/);
+    await slide(page, 'keep', 1);
+    assert.ok((await shareOfPixels(page, 0)) < 0.003);
+  });
+
+  test('has its own colours in the plane', async () => {
+    const flat = await open(browser, `${server.url}#dim=2`);
+    await drop(flat, 'colours.ply', coloredPly(figure(1)));
+    for (const channel of [0, 2]) assert.ok((await shareOfPixels(flat, channel)) > 0.03);
+    assert.ok(await flat.locator('#legend').isHidden());
+    await pictureOf(flat, 'scan-colours-2d');
+    assert.deepEqual(flat.problems, []);
+    await flat.context().close();
+  });
+
+  test('says what stands for its colours', async () => {
+    await tab(page, 'view');
+    const names = () => page.locator('#layers').textContent();
+    const points = figure(1);
+    const header = (...names) =>
+      [...names.map((name) => `property float ${name}`), 'end_header'].join('\n');
+    await drop(
+      page,
+      'intensity.ply',
+      ply(points.map((p) => [...p, p[0]])).replace('end_header', header('intensity')),
+    );
+    assert.match(await names(), /Outside by the file’s intensity/);
+    await drop(
+      page,
+      'normals.ply',
+      ply(points.map((p) => [...p, ...p])).replace('end_header', header('nx', 'ny', 'nz')),
+    );
+    assert.match(await names(), /Outside by the file’s normals/);
+    await drop(page, 'figure.ply', ply(points));
+    assert.match(await names(), /Outside plain/);
+  });
+
+  test('is saved with its colours', async () => {
+    await drop(page, 'colours.ply', coloredPly(figure(1)));
+    await tab(page, 'use');
+    const folder = mkdtempSync(join(tmpdir(), 'gdel-scan-'));
+    const file = readFileSync((await save(page, 'PLY', folder))[0]);
+    assert.match(file.toString('latin1'), /property uchar red/);
+    const glb = readFileSync((await save(page, 'GLB', folder))[0]);
+    rmSync(folder, { recursive: true });
+    // What is saved is read again, with its colours.
+    await drop(page, 'saved.ply', file);
+    await tab(page, 'view');
+    assert.ok(await page.getByLabel('Outside in the file’s colours').isVisible());
+    await drop(page, 'saved.glb', glb);
+    assert.ok(await page.getByLabel('Outside in the file’s colours').isVisible());
+    await slide(page, 'keep', 1);
+    assert.ok((await shareOfPixels(page, 0)) > 0.02);
   });
 
   test('may be compressed', async () => {

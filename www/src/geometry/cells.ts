@@ -56,5 +56,5 @@ export function surfaceOfCells(
       owners[at++] = point;
     }
   });
-  return { positions: corners, values, owners };
+  return { positions: corners, values, skin: new Uint8Array(12 * count), owners };
 }

@@ -1,6 +1,7 @@
 import type { Kept } from './filter';
 import { FACETS, type Tetrahedralisation } from './mesh';
 import type { Heights } from './plane';
+import { isOutside, type Outside, paint } from './skin';
 import type { Boundary } from './surface';
 
 /** Whole tetrahedra, to be drawn one by one: pulled apart, or where no neighbours are known. */
@@ -12,6 +13,11 @@ export interface Pieces {
   d: Float32Array;
   /** The tetrahedron's position on the colour scale, from 0 to 1. */
   values: Float32Array;
+  /**
+   * Red, green, blue once a vertex, 16 bytes a tetrahedron; the fourth byte of vertex k is 255 if
+   * the facet opposite has the colours of its corners, and 0 if it has that of the value.
+   */
+  skin: Uint8Array;
   /** The number of the tetrahedron in the mesh. */
   owners: Uint32Array;
 }
@@ -49,20 +55,29 @@ export function outermost(
   return queue.slice(0, end);
 }
 
-/** The given tetrahedra with their own copies of their corners. */
+/**
+ * The given tetrahedra with their own copies of their corners; facets of the outside have its
+ * colours, if it is given.
+ */
 export function piecesOf(
-  positions: Float32Array,
-  tetrahedra: Uint32Array,
+  { positions, tetrahedra, neighbors }: Tetrahedralisation,
   owners: Uint32Array,
   value: (t: number) => number,
+  outside: Outside | null,
 ): Pieces {
   const count = owners.length;
   const corners = [0, 1, 2, 3].map(() => new Float32Array(3 * count));
   const values = new Float32Array(count);
+  const skin = new Uint8Array(16 * count);
   for (let i = 0; i < count; i++) {
     const t = owners[i];
     for (let k = 0; k < 4; k++) {
-      const p = 3 * tetrahedra[4 * t + k];
+      const vertex = tetrahedra[4 * t + k];
+      const p = 3 * vertex;
+      if (outside) {
+        paint(skin, 4 * i + k, outside.colors, vertex);
+        if (!isOutside(neighbors[4 * t + k], outside)) skin[16 * i + 4 * k + 3] = 0;
+      }
       const corner = corners[k];
       corner[3 * i] = positions[p];
       corner[3 * i + 1] = positions[p + 1];
@@ -71,7 +86,7 @@ export function piecesOf(
     values[i] = value(t);
   }
   const [a, b, c, d] = corners;
-  return { a, b, c, d, values, owners };
+  return { a, b, c, d, values, skin, owners };
 }
 
 /**
@@ -90,4 +105,19 @@ export function trianglesOf({ a, b, c, d, owners }: Pieces, apart: number): Floa
     }
   }
   return triangles;
+}
+
+/** The skin of those triangles, four bytes a corner: see `Surface.skin`. */
+export function skinOf({ skin, owners }: Pieces): Uint8Array {
+  const corners = new Uint8Array(48 * owners.length);
+  for (let i = 0; i < owners.length; i++) {
+    for (let j = 0; j < 12; j++) {
+      const own = 16 * i + 4 * FACETS[j];
+      const opposite = 16 * i + 4 * Math.floor(j / 3);
+      const at = 48 * i + 4 * j;
+      for (let k = 0; k < 3; k++) corners[at + k] = skin[own + k];
+      corners[at + 3] = skin[opposite + 3];
+    }
+  }
+  return corners;
 }

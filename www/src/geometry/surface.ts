@@ -1,6 +1,7 @@
 import type { Kept } from './filter';
 import { FACETS, type Tetrahedralisation } from './mesh';
 import type { Heights } from './plane';
+import { isOutside, type Outside, paint } from './skin';
 
 /** The facets that bound the tetrahedra which a filter keeps below a level. */
 export interface Boundary {
@@ -16,6 +17,8 @@ export interface Surface {
   positions: Float32Array;
   /** The position of the triangle's tetrahedron on the colour scale, from 0 to 1, once a corner. */
   values: Float32Array;
+  /** Red, green, blue once a corner, and 255 where they count; 0 where the value does. */
+  skin: Uint8Array;
   /** The triangle's tetrahedron. */
   owners: Uint32Array;
 }
@@ -48,20 +51,25 @@ export function boundaryOf(
   return { facets: facets.slice(0, count), shown };
 }
 
-/** The triangles of some facets. */
+/** The triangles of some facets; those of the outside have its colours, if it is given. */
 export function surfaceOf(
-  { positions, tetrahedra }: Tetrahedralisation,
+  { positions, tetrahedra, neighbors }: Tetrahedralisation,
   facets: Uint32Array,
   value: (t: number) => number,
+  outside: Outside | null,
 ): Surface {
   const corners = new Float32Array(9 * facets.length);
   const values = new Float32Array(3 * facets.length);
+  const skin = new Uint8Array(12 * facets.length);
   const owners = new Uint32Array(facets.length);
   for (let i = 0; i < facets.length; i++) {
     const t = facets[i] >>> 2;
     const k = facets[i] & 3;
+    const painted = outside && isOutside(neighbors[facets[i]], outside);
     for (let j = 0; j < 3; j++) {
-      const p = 3 * tetrahedra[4 * t + FACETS[3 * k + j]];
+      const vertex = tetrahedra[4 * t + FACETS[3 * k + j]];
+      const p = 3 * vertex;
+      if (painted) paint(skin, 3 * i + j, outside.colors, vertex);
       corners[9 * i + 3 * j] = positions[p];
       corners[9 * i + 3 * j + 1] = positions[p + 1];
       corners[9 * i + 3 * j + 2] = positions[p + 2];
@@ -69,5 +77,5 @@ export function surfaceOf(
     owners[i] = t;
     values.fill(value(t), 3 * i, 3 * i + 3);
   }
-  return { positions: corners, values, owners };
+  return { positions: corners, values, skin, owners };
 }

@@ -1,4 +1,5 @@
 import type { Measures } from './measures';
+import { paint } from './skin';
 import type { Surface } from './surface';
 
 /** A 2D triangulation as the drawing code sees it. */
@@ -45,22 +46,29 @@ export function measureTriangles(points: ArrayLike<number>, triangles: Uint32Arr
   return { volume, circumradius, radiusRatio };
 }
 
-/** The given triangles as the GPU needs them, counter-clockwise with y up. */
+/**
+ * The given triangles as the GPU needs them, counter-clockwise with y up; in the colours of their
+ * points, if these are given.
+ */
 export function flatSurface(
   { positions, triangles }: Triangulation,
   owners: Uint32Array,
   value: (t: number) => number,
+  colors: Uint8Array | null,
 ): Surface {
   const corners = new Float32Array(9 * owners.length);
   const values = new Float32Array(3 * owners.length);
+  const skin = new Uint8Array(12 * owners.length);
   for (let i = 0; i < owners.length; i++) {
     const t = owners[i];
     for (let j = 0; j < 3; j++) {
-      const p = 3 * triangles[3 * t + 2 - j];
+      const vertex = triangles[3 * t + 2 - j];
+      const p = 3 * vertex;
+      if (colors) paint(skin, 3 * i + j, colors, vertex);
       corners[9 * i + 3 * j] = positions[p];
       corners[9 * i + 3 * j + 1] = positions[p + 1];
     }
     values.fill(value(t), 3 * i, 3 * i + 3);
   }
-  return { positions: corners, values, owners };
+  return { positions: corners, values, skin, owners };
 }

@@ -32,6 +32,24 @@ export function applyEdits(
   return edited.subarray(0, end);
 }
 
+/** The colours of the points after all changes, three bytes each; an added point is black. */
+export function colorsAfter(colors: Uint8Array, edits: readonly Edit[]): Uint8Array {
+  if (edits.length === 0) return colors;
+  const edited = new Uint8Array(colors.length + 3 * edits.length);
+  edited.set(colors);
+  let end = colors.length;
+  for (const edit of edits) {
+    if (edit.do === 'add') {
+      edited.fill(0, end, end + 3);
+      end += 3;
+    } else if (edit.do === 'remove' && 3 * edit.point < end) {
+      edited.copyWithin(3 * edit.point, 3 * edit.point + 3, end);
+      end -= 3;
+    }
+  }
+  return edited.subarray(0, end);
+}
+
 /** The changes with one more. A point that is moved again needs only the last place. */
 export function withEdit(edits: readonly Edit[], edit: Edit): Edit[] {
   const last = edits.at(-1);

@@ -1,4 +1,4 @@
-import type { Stats } from 'gdel-wasm';
+import type { ColorSource, Stats } from 'gdel-wasm';
 import type { Filter } from '../geometry/filter';
 import type { Frame } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
@@ -36,6 +36,8 @@ export interface Summary {
   duplicates: number;
   /** How many points the file has besides, which hold no measurement. */
   noReturn: number;
+  /** Where the points' own colours come from; null if they have none. */
+  colorSource: ColorSource | null;
   simplices: number;
   hullFacets: number;
   stats: Stats;
@@ -63,6 +65,8 @@ export interface DrawRequest {
   /** The cutting plane, in 3D only. */
   plane: Plane;
   color: ColorBy;
+  /** Whether the outside has the points' own colours, or is plain where they have none. */
+  skin: boolean;
   /** Whether the tetrahedra are pulled apart. */
   pieces: boolean;
   /** The round to look at, or null for the result. */
@@ -94,6 +98,8 @@ export interface Drawing {
   alpha: { value: number; range: [low: number, high: number] } | null;
   /** Whether these are Voronoi cells, in 3D; what is counted then are cells. */
   cells?: boolean;
+  /** The round that this is the triangulation of; null for the result. */
+  round: number | null;
   /** How long this took. */
   milliseconds: number;
 }
@@ -117,15 +123,22 @@ export interface About {
   noReturn: number;
   /** Which axis points up, or by custom does, unless the points tell otherwise. */
   up: { axis: 'y' | 'z'; sure: boolean };
+  /** The points' own colours: red, green and blue each. */
+  colors: { rgb: Uint8Array; source: ColorSource } | null;
 }
 
-export const NOTHING_ABOUT: About = { noReturn: 0, up: { axis: 'y', sure: true } };
+export const NOTHING_ABOUT: About = {
+  noReturn: 0,
+  up: { axis: 'y', sure: true },
+  colors: null,
+};
 
 /** One set of points, its mesh, and what has been worked out about it so far. */
 export interface Model {
   readonly points: Float32Array | Float64Array;
   /** The points as drawn, three coordinates each. */
   readonly positions: Float32Array;
+  readonly about: About;
   summary(): Summary;
   /** Makes what a drawing needs and takes long. */
   prepare?(request: DrawRequest): Promise<void>;

@@ -82,6 +82,7 @@ export class Model2d implements Model {
       points: this.points.length / 2,
       duplicates,
       noReturn: this.about.noReturn,
+      colorSource: this.about.colors?.source ?? null,
       simplices: mesh.triangles.length / 3,
       hullFacets: mesh.dimension === 2 ? mesh.hull.length : 0,
       stats: mesh.stats,
@@ -92,7 +93,7 @@ export class Model2d implements Model {
     };
   }
 
-  draw({ filter, color, voronoi }: DrawRequest): Drawing {
+  draw({ filter, color, skin, voronoi }: DrawRequest): Drawing {
     const started = performance.now();
     const { circumradius } = this.measured;
     const alpha = this.alphas.of(filter);
@@ -110,6 +111,7 @@ export class Model2d implements Model {
         this.drawable,
         all.slice(0, Math.min(count, MAX_FACETS)),
         mapping(scale, this.measured, null),
+        skin ? (this.about.colors?.rgb ?? null) : null,
       ),
       pieces: null,
       voronoi: voronoi
@@ -128,6 +130,7 @@ export class Model2d implements Model {
       half: 1,
       level: Infinity,
       alpha,
+      round: null,
       milliseconds: performance.now() - started,
     };
     return this.drawing;

@@ -88,6 +88,7 @@ export class Model3d implements Model {
       points: points.length / 3,
       duplicates,
       noReturn: about.noReturn,
+      colorSource: about.colors?.source ?? null,
       simplices: mesh.tetrahedra.length / 4,
       hullFacets: mesh.hull.length / 3,
       stats: mesh.stats,
@@ -153,11 +154,12 @@ export class Model3d implements Model {
       level,
       alpha: null,
       cells: true,
+      round: null,
       milliseconds: performance.now() - started,
     };
   }
 
-  private drawResult({ filter, plane, color, pieces }: DrawRequest): Drawing {
+  private drawResult({ filter, plane, color, skin, pieces }: DrawRequest): Drawing {
     const started = performance.now();
     const kept = this.keptBy(filter);
     const heights = this.heightsAlong(plane.normal);
@@ -165,28 +167,29 @@ export class Model3d implements Model {
     const boundary = boundaryOf(this.drawable, kept, heights, level);
     const scale = scaleFor(color, this.measured, kept.kept);
     const value = mapping(scale, this.measured, this.created);
-    const { tetrahedra } = this.drawable;
+    const outside = skin ? { kept: kept.kept, colors: this.about.colors?.rgb ?? null } : null;
     return {
       surface: pieces
         ? null
-        : surfaceOf(this.drawable, boundary.facets.subarray(0, MAX_FACETS), value),
+        : surfaceOf(this.drawable, boundary.facets.subarray(0, MAX_FACETS), value, outside),
       pieces: pieces
         ? piecesOf(
-            this.positions,
-            tetrahedra,
+            this.drawable,
             outermost(this.drawable, kept, heights, level, boundary, MAX_PIECES),
             value,
+            outside,
           )
         : null,
       voronoi: null,
       scale,
       shown: boundary.shown,
-      total: tetrahedra.length / 4,
+      total: kept.kept.length,
       leftOut: pieces ? 0 : Math.max(0, boundary.facets.length - MAX_FACETS),
       keep: keepOf(plane, heights),
       half: keepOf({ ...plane, keep: null }, heights),
       level,
       alpha: this.alphas.of(filter),
+      round: null,
       milliseconds: performance.now() - started,
     };
   }
@@ -196,11 +199,12 @@ export class Model3d implements Model {
     const started = performance.now();
     const { tetrahedra } = this.mesh.trace!.rounds[round];
     const measures = measure(this.points, tetrahedra);
-    const heights = heightsAlong(plane.normal, {
+    const mesh = {
       positions: this.positions,
       tetrahedra,
       neighbors: new Int32Array(tetrahedra.length).fill(-1),
-    });
+    };
+    const heights = heightsAlong(plane.normal, mesh);
     const level = levelOf(plane, heights);
     const owners = Uint32Array.from(heights.height.keys())
       .filter((t) => heights.height[t] <= level)
@@ -212,7 +216,7 @@ export class Model3d implements Model {
     );
     return {
       surface: null,
-      pieces: piecesOf(this.positions, tetrahedra, owners, mapping(scale, measures, null)),
+      pieces: piecesOf(mesh, owners, mapping(scale, measures, null), null),
       voronoi: null,
       scale,
       shown: owners.length,
@@ -222,6 +226,7 @@ export class Model3d implements Model {
       half: keepOf({ ...plane, keep: null }, heights),
       level,
       alpha: null,
+      round,
       milliseconds: performance.now() - started,
     };
   }
@@ -277,7 +282,7 @@ export class Model3d implements Model {
       const [t, k] = [facets[i] >>> 2, facets[i] & 3];
       for (let j = 0; j < 3; j++) triangles[3 * i + j] = tetrahedra[4 * t + FACETS[3 * k + j]];
     }
-    return { points: this.points, triangles };
+    return { points: this.points, colors: this.about.colors?.rgb ?? null, triangles };
   }
 
   /** The facets that were not locally Delaunay after Phase 1, nine coordinates each. */

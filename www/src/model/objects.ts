@@ -38,13 +38,16 @@ function smoothNoise(x: number, y: number): number {
   return low * (1 - v) + high * v;
 }
 
+/** The height of the lake. */
+const WATER = 0.25;
+
 /** The height of a range of mountains, in kilometres. */
 function heightAt(x: number, y: number): number {
   let height = 0;
   for (let octave = 0, scale = 0.45, size = 0.9; octave < 7; octave++, scale *= 2.03, size *= 0.47)
     height +=
       size * (1 - 2 * Math.abs(smoothNoise(x * scale + 7 * octave, y * scale - 3 * octave)));
-  return Math.max(0.25, height);
+  return Math.max(WATER, height);
 }
 
 /** A block of land with mountains around a lake, ten kilometres wide, in kilometres. */
@@ -55,6 +58,34 @@ function terrain(): Float32Array {
     const height = heightAt(x, y);
     return [x, y, next() < 0.6 ? height : BOTTOM + (height - BOTTOM) * next()];
   });
+}
+
+/** The colours of the land: a lake, meadows, woods, rock where it is steep, snow. */
+export function landColors(points: Float32Array): Uint8Array {
+  const colors = new Uint8Array(points.length);
+  for (let i = 0; i < points.length; i += 3) {
+    const [x, y, z] = points.subarray(i, i + 3);
+    const step = 0.03;
+    const slope = Math.hypot(
+      (heightAt(x + step, y) - heightAt(x - step, y)) / (2 * step),
+      (heightAt(x, y + step) - heightAt(x, y - step)) / (2 * step),
+    );
+    // The borders between them are not lines of equal height.
+    const height = z + 0.12 * smoothNoise(6 * x, 6 * y);
+    const color =
+      z < WATER + 1e-3
+        ? [64, 116, 150]
+        : height > 1.75 && slope < 2.2
+          ? [240, 243, 246]
+          : slope > 1.5 || height > 1.55
+            ? [138, 126, 113]
+            : height > 0.85
+              ? [74, 98, 62]
+              : [128, 148, 82];
+    const light = 1 + 0.08 * smoothNoise(25 * x, 25 * y);
+    for (let k = 0; k < 3; k++) colors[i + k] = Math.min(255, color[k] * light);
+  }
+  return colors;
 }
 
 /** A Menger sponge on a grid: hardly any of its spheres is unique. */

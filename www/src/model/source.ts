@@ -2,7 +2,7 @@ import { generate, generate2d, readPoints } from 'gdel-wasm';
 import bunny from '../../samples/bunny.f32.gz?url';
 import dragon from '../../samples/dragon.f32.gz?url';
 import { type About, NOTHING_ABOUT } from './model';
-import { OBJECTS } from './objects';
+import { landColors, OBJECTS } from './objects';
 
 /** 3D or 2D. */
 export type Dimension = 2 | 3;
@@ -58,7 +58,7 @@ type Generator<D extends Dimension> = {
 };
 
 /** The formats of files that can be read, for people. */
-export const EXTENSIONS = 'PLY, OBJ, STL, GLB, XYZ, TXT, CSV, PTS, PCD, LAS, LAZ, NPY';
+export const EXTENSIONS = 'PLY, OBJ, STL, GLB, XYZ, TXT, CSV, PTS, PCD, LAS, LAZ, NPY, E57';
 
 /** Where points come from. In 2D, the z of a file is ignored. */
 export type Source =
@@ -115,13 +115,15 @@ export async function load(
   }
   if (source.kind === 'sample') {
     const { sample } = source;
-    const about: About = { noReturn: 0, up: { axis: SAMPLES[sample].up, sure: true } };
+    const about: About = { ...NOTHING_ABOUT, up: { axis: SAMPLES[sample].up, sure: true } };
     if (sample === 'bunny' || sample === 'dragon') {
       options.onProgress({ phase: `Fetching the ${titleOf(source)}`, fraction: 0 });
       return { points: await fetchSample(sample, options.signal), about };
     }
     options.onProgress({ phase: 'Generating points', fraction: 0 });
-    return { points: OBJECTS[sample](), about };
+    const points = OBJECTS[sample]();
+    if (sample === 'terrain') about.colors = { rgb: landColors(points), source: 'rgb' };
+    return { points, about };
   }
   const files = source.kind === 'file' ? source.files : [await download(source.url, options)];
   const parts: Read[] = [];
@@ -144,6 +146,7 @@ export async function load(
     about: {
       noReturn: parts.reduce((sum, part) => sum + part.about.noReturn, 0),
       up: parts[0].about.up,
+      colors: colorsOf(parts),
     },
   };
 }
@@ -163,16 +166,24 @@ async function read(
   const content = await unpacked(file);
   if (/\.glb$/i.test(name)) {
     const bytes = content instanceof Blob ? await content.arrayBuffer() : content;
-    const points = await (await import('./glb')).pointsOf(new Uint8Array(bytes));
+    const { points, colors } = await (await import('./glb')).pointsOf(new Uint8Array(bytes));
     // The format says so.
-    return { points, about: { noReturn: 0, up: { axis: 'y', sure: true } } };
+    const about: About = { ...NOTHING_ABOUT, colors: colors && { rgb: colors, source: 'rgb' } };
+    return { points, about };
   }
-  const { points, noReturn } = await readPoints(content, {
+  const { points, noReturn, colors, colorSource } = await readPoints(content, {
     name,
     signal,
     onProgress: ({ fraction }) => onProgress(fraction),
   });
-  return { points, about: { noReturn, up: upOf(name) } };
+  return {
+    points,
+    about: {
+      noReturn,
+      up: upOf(name),
+      colors: colors && colorSource && { rgb: colors, source: colorSource },
+    },
+  };
 }
 
 /** Arrays one after the other, in the precision of the most precise. */
@@ -187,6 +198,21 @@ function joined(parts: readonly (Float32Array | Float64Array)[]): Float32Array |
     at += part.length;
   }
   return all;
+}
+
+/** The colours of several files: those of all if all have some, of the same kind; else none. */
+function colorsOf(parts: readonly Read[]): About['colors'] {
+  const all = parts.map(({ about }) => about.colors);
+  const first = all[0];
+  if (parts.length === 1 || !first) return first;
+  const rgb = new Uint8Array(parts.reduce((sum, { points }) => sum + points.length, 0));
+  let at = 0;
+  for (const colors of all) {
+    if (colors?.source !== first.source) return null;
+    rgb.set(colors.rgb, at);
+    at += colors.rgb.length;
+  }
+  return { rgb, source: first.source };
 }
 
 /** Scans of the land have z up; models have y, and those for printing z, unless they stand otherwise. */

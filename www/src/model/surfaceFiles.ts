@@ -1,6 +1,8 @@
 /** A surface in the units of the input: triangles of point indices, counter-clockwise from outside. */
 export interface SurfaceMesh {
   points: Float32Array | Float64Array;
+  /** Red, green and blue once a point; null if they have no colours. */
+  colors: Uint8Array | null;
   triangles: Uint32Array;
 }
 
@@ -14,7 +16,7 @@ export function surfaceFile(surface: SurfaceMesh, format: SurfaceFormat): Uint8A
 }
 
 /** Numbers the points that the triangles use anew, in the order in which they are used. */
-function compact({ points, triangles }: SurfaceMesh): SurfaceMesh {
+function compact({ points, colors, triangles }: SurfaceMesh): SurfaceMesh {
   const numbers = new Int32Array(points.length / 3).fill(-1);
   const used: number[] = [];
   const renumbered = triangles.map((point) => {
@@ -25,30 +27,41 @@ function compact({ points, triangles }: SurfaceMesh): SurfaceMesh {
     points instanceof Float32Array
       ? new Float32Array(3 * used.length)
       : new Float64Array(3 * used.length);
-  for (const [i, point] of used.entries())
+  const ownColors = colors && new Uint8Array(3 * used.length);
+  for (const [i, point] of used.entries()) {
     own.set(points.subarray(3 * point, 3 * point + 3), 3 * i);
-  return { points: own, triangles: renumbered };
+    if (colors) ownColors!.set(colors.subarray(3 * point, 3 * point + 3), 3 * i);
+  }
+  return { points: own, colors: ownColors, triangles: renumbered };
 }
 
 /** Binary, in the precision of the input. */
-function toPLY({ points, triangles }: SurfaceMesh): Uint8Array {
+function toPLY({ points, colors, triangles }: SurfaceMesh): Uint8Array {
   const single = points instanceof Float32Array;
   const type = single ? 'float' : 'double';
   const count = triangles.length / 3;
   const header = new TextEncoder().encode(
     `ply\nformat binary_little_endian 1.0\nelement vertex ${points.length / 3}\n` +
       `property ${type} x\nproperty ${type} y\nproperty ${type} z\n` +
+      (colors ? 'property uchar red\nproperty uchar green\nproperty uchar blue\n' : '') +
       `element face ${count}\nproperty list uchar int vertex_indices\nend_header\n`,
   );
   const size = single ? 4 : 8;
-  const file = new Uint8Array(header.length + size * points.length + 13 * count);
+  const file = new Uint8Array(
+    header.length + size * points.length + (colors?.length ?? 0) + 13 * count,
+  );
   file.set(header);
   const view = new DataView(file.buffer);
   let at = header.length;
-  for (const x of points) {
-    if (single) view.setFloat32(at, x, true);
-    else view.setFloat64(at, x, true);
-    at += size;
+  for (let i = 0; i < points.length; i += 3) {
+    for (let axis = 0; axis < 3; axis++) {
+      if (single) view.setFloat32(at, points[i + axis], true);
+      else view.setFloat64(at, points[i + axis], true);
+      at += size;
+    }
+    if (!colors) continue;
+    file.set(colors.subarray(i, i + 3), at);
+    at += 3;
   }
   for (let i = 0; i < triangles.length; i += 3) {
     view.setUint8(at, 3);
@@ -58,10 +71,14 @@ function toPLY({ points, triangles }: SurfaceMesh): Uint8Array {
   return file;
 }
 
-function toOBJ({ points, triangles }: SurfaceMesh): Uint8Array {
+function toOBJ({ points, colors, triangles }: SurfaceMesh): Uint8Array {
   const lines: string[] = [];
-  for (let i = 0; i < points.length; i += 3)
-    lines.push(`v ${points[i]} ${points[i + 1]} ${points[i + 2]}`);
+  for (let i = 0; i < points.length; i += 3) {
+    const [r, g, b] = colors ? [0, 1, 2].map((k) => Number((colors[i + k] / 255).toFixed(4))) : [];
+    lines.push(
+      `v ${points[i]} ${points[i + 1]} ${points[i + 2]}${colors ? ` ${r} ${g} ${b}` : ''}`,
+    );
+  }
   for (let i = 0; i < triangles.length; i += 3)
     lines.push(`f ${triangles[i] + 1} ${triangles[i + 1] + 1} ${triangles[i + 2] + 1}`);
   return new TextEncoder().encode(`${lines.join('\n')}\n`);

@@ -10,9 +10,17 @@ import {
 import type { Filter } from '../geometry/filter';
 import { frameOf } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
-import { applyEdits, type Edit } from './edits';
+import { applyEdits, colorsAfter, type Edit } from './edits';
 import { Live, type LiveFrame } from './live';
-import type { Drawing, DrawRequest, Model, Picked, Summary } from './model';
+import {
+  type About,
+  type Drawing,
+  type DrawRequest,
+  type Model,
+  NOTHING_ABOUT,
+  type Picked,
+  type Summary,
+} from './model';
 import { Model2d } from './model2d';
 import { Model3d } from './model3d';
 import { type Format, type SavedFile, save } from './save';
@@ -26,6 +34,7 @@ export interface Edited {
   summary: Summary;
   drawing: Drawing;
   positions: Float32Array;
+  colors: Uint8Array | null;
   hull: Float32Array;
 }
 
@@ -33,8 +42,11 @@ export interface Edited {
 class ModelWorker {
   private readonly triangulator = createTriangulator();
   private model: Model3d | Model2d | null = null;
-  /** The 2D points before any change by hand. */
-  private start: Float32Array | Float64Array = new Float64Array();
+  /** The 2D points before any change by hand, and what is known about them. */
+  private start: { points: Float32Array | Float64Array; about: About } = {
+    points: new Float64Array(),
+    about: NOTHING_ABOUT,
+  };
   private live: Live | null = null;
   private readonly shown = new Shown();
   private abort = new AbortController();
@@ -58,10 +70,10 @@ class ModelWorker {
               triangulator,
               applyEdits(points, edits),
               options,
-              about,
+              edited(about, edits),
               frameOf(points, 2),
             );
-      this.start = points;
+      this.start = { points, about };
       onProgress({ phase: 'Measuring', fraction: 1 });
       return this.model.summary();
     });
@@ -73,9 +85,9 @@ class ModelWorker {
       const options = { backend, signal: this.begin() };
       const model = await Model2d.make(
         await this.triangulator,
-        applyEdits(this.start, edits),
+        applyEdits(this.start.points, edits),
         options,
-        this.current.about,
+        edited(this.start.about, edits),
         this.current.frame,
       );
       this.model = model;
@@ -84,6 +96,7 @@ class ModelWorker {
         summary: model.summary(),
         drawing: model.draw(request),
         positions: model.positions,
+        colors: this.colors(),
         hull: model.hull(),
       };
     });
@@ -159,6 +172,11 @@ class ModelWorker {
     return this.current.positions;
   }
 
+  /** The points' own colours: red, green and blue each; null if they have none. */
+  colors(): Uint8Array | null {
+    return this.current.about.colors?.rgb ?? null;
+  }
+
   /** The points as given. */
   points(): Float32Array | Float64Array {
     return this.current.points;
@@ -213,6 +231,12 @@ class ModelWorker {
     if (!this.model) throw new Error('There is no mesh yet.');
     return this.model;
   }
+}
+
+/** What is known about points after changes by hand. */
+function edited(about: About, edits: readonly Edit[]): About {
+  const { colors } = about;
+  return { ...about, colors: colors && { ...colors, rgb: colorsAfter(colors.rgb, edits) } };
 }
 
 const ALL = ['neighbors', 'hull', 'duplicateOf'] as const;

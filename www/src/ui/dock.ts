@@ -1,3 +1,4 @@
+import { MAX_CELLS } from '../model/model';
 import type { Page, Part } from '../page';
 import type { Settings } from '../settings';
 import { byId, count, measured, radios } from './dom';
@@ -32,8 +33,20 @@ export function dock(page: Page): Part {
   const apart = byId<HTMLInputElement>('apart');
   apart.addEventListener('input', () => page.change({ apart: apart.valueAsNumber }));
 
-  const changed = ({ source, filter, apart: distance }: Settings) => {
+  const voronoi = byId<HTMLInputElement>('voronoi');
+  voronoi.addEventListener('change', () =>
+    page.change({ layers: { ...page.settings.layers, voronoi: voronoi.checked } }),
+  );
+
+  const changed = ({ source, filter, apart: distance, layers }: Settings) => {
     const flat = source.dimension === 2;
+    voronoi.checked = layers.voronoi;
+    voronoi.disabled = !flat && (page.summary?.points ?? 0) > MAX_CELLS;
+    voronoi.parentElement!.title = voronoi.disabled
+      ? `Voronoi cells are drawn for up to ${count(MAX_CELLS)} points.`
+      : flat
+        ? 'Draw the Voronoi diagram'
+        : 'Draw Voronoi cells instead of tetrahedra';
     box.dataset.mode = flat ? (filter === 'alpha' ? 'solid' : '') : mode;
     for (const radio of modes) radio.checked = radio.value === mode;
     apart.value = String(distance);
@@ -41,6 +54,7 @@ export function dock(page: Page): Part {
 
   return {
     changed,
+    ran: () => changed(page.settings),
     drew({ pieces, shown, keep: kept, alpha: used }) {
       keep.value = String(kept);
       alpha.value = String(used ? positionOf(used.value, used.range) : 1);

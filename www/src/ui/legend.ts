@@ -18,14 +18,18 @@ export const QUANTITIES: Record<ColorBy, Record<Dimension, [name: string, unit: 
 
 /** What the colours mean, and how much of the mesh is to be seen. */
 export function showLegend(
-  { scale, shown, total, leftOut, milliseconds, cells }: Drawing,
+  { scale, shown, total, leftOut, milliseconds, cells, round }: Drawing,
   { map, source, layers }: Settings,
+  hasColors: boolean,
 ): void {
-  byId('legend').hidden = total === 0 || !layers.simplices;
-  const [quantity, unit] = QUANTITIES[scale.by][source.dimension];
-  byId('legend-title').textContent = [cells ? `${quantity} of the cell` : quantity, unit]
-    .filter(Boolean)
-    .join(', ');
+  const { dimension } = source;
+  const isInside = layers.skin && dimension === 3 && !cells && round === null;
+  const isCovered = layers.skin && dimension === 2 && hasColors;
+  byId('legend').hidden = total === 0 || !layers.simplices || isCovered;
+  const [quantity, unit] = QUANTITIES[scale.by][dimension];
+  const name = cells ? `${quantity} of the cell` : quantity;
+  const title = isInside ? `Inside: ${name.toLowerCase()}` : name;
+  byId('legend-title').textContent = [title, unit].filter(Boolean).join(', ');
   const [low, high] = scale.domain;
   const phases = scale.kind === 'phases';
   byId('ramp').style.background = phases

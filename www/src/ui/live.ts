@@ -50,6 +50,7 @@ export function live(page: Page): Part {
         pieces: settings.apart > 0,
         round: null,
         voronoi: settings.layers.voronoi,
+        skin: settings.layers.skin,
       });
       if (running !== run) return;
       viewer.showSurface(frame.drawing.surface);
@@ -57,7 +58,7 @@ export function live(page: Page): Part {
       viewer.showVoronoi(frame.drawing.voronoi);
       viewer.showPoints(frame.positions);
       page.look();
-      showLegend(frame.drawing, settings);
+      showLegend(frame.drawing, settings, false);
       await viewer.drawn();
       if (running !== run) return;
       const now = performance.now();

@@ -64,10 +64,7 @@ async function download(
             kind: page.settings.filter,
             alpha: page.settings.alpha,
           });
-    const stem = titleOf(page.settings.source)
-      .replace(/\.[^.]*$/, '')
-      .replace(/[^\w-]+/g, '-')
-      .toLowerCase();
+    const stem = stemOf(page.settings.source);
     for (const { extension, bytes } of files) {
       const link = create('a', {
         href: URL.createObjectURL(new Blob([bytes as Uint8Array<ArrayBuffer>])),
@@ -81,6 +78,14 @@ async function download(
   } finally {
     button.disabled = false;
   }
+}
+
+/** What downloads are called, before the dot. */
+function stemOf(source: Source): string {
+  return titleOf(source)
+    .replace(/\.[^.]*$/, '')
+    .replace(/[^\w-]+/g, '-')
+    .toLowerCase();
 }
 
 /** Lines that do with the package what the page has just done. */
@@ -128,13 +133,14 @@ function read(source: Exclude<Source, { kind: 'generator' }>): string[] {
       ? source.url
       : source.kind === 'file'
         ? source.files[0].name
-        : `${source.sample}.ply`
+        : `${stemOf(source)}.node`
   ).replaceAll("'", "\\'");
   const flat = source.dimension === 2;
   return [
     `import { ${flat ? 'delaunay2d' : 'delaunay3d'}, readPoints }`,
     `  from 'gdel-wasm';`,
     ``,
+    ...(source.kind === 'sample' ? [`// From Download: TetGen`] : []),
     `const file = await fetch('${name}');`,
     `const { points${flat ? ': xyz' : ''} } = await readPoints(`,
     `  await file.blob(), { name: file.url });`,

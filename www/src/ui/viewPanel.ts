@@ -1,12 +1,12 @@
+import type { ColorSource } from 'gdel-wasm';
 import type { FilterKind } from '../geometry/filter';
 import type { ColorBy } from '../geometry/scale';
 import { UPS } from '../geometry/up';
-import { MAX_CELLS } from '../model/model';
 import type { Dimension } from '../model/source';
 import type { Page, Part } from '../page';
 import { colorsIn, LAYERS, type Layer, type Settings } from '../settings';
 import { COLOR_MAPS, type ColorMapName } from '../view/colormap';
-import { byId, count, create, radios } from './dom';
+import { byId, create, radios } from './dom';
 import { QUANTITIES } from './legend';
 import { whyNotRecord } from './runPanel';
 
@@ -14,19 +14,27 @@ import { whyNotRecord } from './runPanel';
 const LAYER_NAMES: Record<Dimension, Partial<Record<Layer, string>>> = {
   3: {
     simplices: 'Tetrahedra',
+    skin: 'Outside plain',
     edges: 'Edges',
     points: 'Points where nothing else is',
     hull: 'Convex hull',
     facets: 'Non-Delaunay facets after Phase 1',
-    voronoi: 'Voronoi cells instead of tetrahedra',
   },
   2: {
     simplices: 'Triangles, filled',
+    skin: 'Colours of the file',
     edges: 'Delaunay edges',
-    voronoi: 'Voronoi diagram',
     hull: 'Convex hull',
     points: 'Points',
   },
+};
+
+/** What the outside looks like, by where the colours come from. */
+const SKINS: Record<ColorSource | 'none', string> = {
+  rgb: 'in the file’s colours',
+  intensity: 'by the file’s intensity',
+  normals: 'by the file’s normals',
+  none: 'plain',
 };
 
 const FILTER_NOTES: Record<Dimension, Record<FilterKind, string>> = {
@@ -55,7 +63,13 @@ const NORMALS: Record<string, NonNullable<Settings['normal']>> = {
 /** The panel that says how the mesh is drawn and cut. */
 export function viewPanel(page: Page): Part {
   const color = byId<HTMLSelectElement>('color');
-  color.addEventListener('change', () => page.change({ color: color.value as ColorBy }));
+  color.addEventListener('change', () =>
+    // What was chosen is to be seen, outside as well.
+    page.change({
+      color: color.value as ColorBy,
+      layers: { ...page.settings.layers, skin: false },
+    }),
+  );
 
   const map = byId<HTMLSelectElement>('map');
   map.append(...Object.keys(COLOR_MAPS).map((value) => create('option', { value }, value)));
@@ -85,7 +99,7 @@ export function viewPanel(page: Page): Part {
     box.addEventListener('change', () =>
       page.change({ layers: { ...page.settings.layers, [layer]: box.checked } }),
     );
-    return { layer, box };
+    return { layer, box, name: create('span') };
   });
 
   let offered: Dimension | null = null;
@@ -99,11 +113,12 @@ export function viewPanel(page: Page): Part {
       ),
     );
     const names = LAYER_NAMES[dimension];
-    const offers = Object.keys(names) as Layer[];
     byId('layers').replaceChildren(
-      ...offers.map((layer) =>
-        create('label', {}, layers.find((each) => each.layer === layer)!.box, names[layer]!),
-      ),
+      ...(Object.keys(names) as Layer[]).map((layer) => {
+        const { box, name } = layers.find((each) => each.layer === layer)!;
+        name.textContent = names[layer]!;
+        return create('label', {}, box, name);
+      }),
     );
   };
 
@@ -124,12 +139,13 @@ export function viewPanel(page: Page): Part {
     for (const radio of filters) radio.checked = radio.value === settings.filter;
     for (const radio of ups) radio.checked = radio.value === up;
     byId('filter-note').textContent = FILTER_NOTES[dimension][settings.filter];
-    const tooMany = dimension === 3 && (page.summary?.points ?? 0) > MAX_CELLS;
-    for (const { layer, box } of layers) {
+    const { colorSource = null } = page.summary ?? {};
+    for (const { layer, box, name } of layers) {
       box.checked = settings.layers[layer];
-      if (layer !== 'voronoi') continue;
-      box.disabled = tooMany;
-      box.title = tooMany ? `Of up to ${count(MAX_CELLS)} points.` : '';
+      if (layer !== 'skin') continue;
+      if (dimension === 3) name.textContent = `Outside ${SKINS[colorSource ?? 'none']}`;
+      box.disabled = dimension === 2 && colorSource === null;
+      box.title = box.disabled ? 'These points have no colours of their own.' : '';
     }
   };
 

@@ -1,6 +1,6 @@
 import { GLTFExporter } from 'three/addons/exporters/GLTFExporter.js';
 import { BufferAttribute, BufferGeometry, Color, Mesh, MeshStandardMaterial } from 'three/webgpu';
-import { trianglesOf } from '../geometry/pieces';
+import { skinOf, trianglesOf } from '../geometry/pieces';
 import type { Page } from '../page';
 import { rgbOf } from './colormap';
 import { turnTo } from './viewer';
@@ -10,18 +10,23 @@ export async function toGLB({ settings, view, summary, lastDrawing }: Page): Pro
   if (!lastDrawing || !summary) throw new Error('There is nothing to see yet.');
   const { surface, pieces, scale } = lastDrawing;
   const positions = surface ? surface.positions : trianglesOf(pieces!, settings.apart);
+  const skin = surface ? surface.skin : skinOf(pieces!);
   // A piece has 12 corners for its one value; a surface has a value for every corner.
   const values = surface ? surface.values : pieces!.values;
   const each = surface ? 1 : 12;
   const map = scale.kind === 'phases' ? 'phases' : settings.map;
   const linear = new Color();
-  const palette = Array.from({ length: 256 }, (_, i) => {
-    const [r, g, b] = rgbOf(map, i / 255);
-    return linear.setRGB(r / 255, g / 255, b / 255, 'srgb').toArray();
-  });
+  const toLinear = (r: number, g: number, b: number) =>
+    linear.setRGB(r / 255, g / 255, b / 255, 'srgb').toArray();
+  const palette = Array.from({ length: 256 }, (_, i) => toLinear(...rgbOf(map, i / 255)));
   const colors = new Float32Array(positions.length);
-  for (let i = 0; i < positions.length / 3; i++)
-    colors.set(palette[Math.round(values[Math.floor(i / each)] * 255)], 3 * i);
+  for (let i = 0; i < positions.length / 3; i++) {
+    const [r, g, b, isSkin] = skin.subarray(4 * i, 4 * i + 4);
+    colors.set(
+      isSkin ? toLinear(r, g, b) : palette[Math.round(values[Math.floor(i / each)] * 255)],
+      3 * i,
+    );
+  }
 
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(positions, 3));

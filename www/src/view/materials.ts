@@ -10,6 +10,7 @@ import {
   positionGeometry,
   select,
   smoothstep,
+  sRGBTransferEOTF,
   texture,
   uniform,
   uv,
@@ -52,6 +53,8 @@ export class Look {
   readonly pointsAbove = uniform(-1e9);
   /** 1 to draw them all the same. */
   readonly pointsEverywhere = uniform(0);
+  /** 1 for points in colours of their own, where they have some. */
+  readonly ownColors = uniform(1);
   /** 1 to fill the 2D triangles, 0 for only their edges. */
   readonly fill = uniform(1);
   /** Of the Voronoi diagram, which fades where it would cover everything. */
@@ -105,31 +108,47 @@ const EDGE = vec3(0.004, 0.005, 0.008);
 const colorOf = (look: Look, value: Node<'float'>) =>
   texture(look.map, vec2(value.mul(255 / 256).add(0.5 / 256), 0.5)).rgb;
 
-/** The colour of a value under a lamp beside the camera. */
-function shaded(look: Look, value: Node<'float'>): Node<'vec3'> {
+/** A colour of the web as the lamp needs it. */
+const toLinear = (color: Node<'vec3'>) => sRGBTransferEOTF(color) as Node<'vec3'>;
+
+/** The colour of a value, or where its fourth part says so, that of the skin. */
+const painted = (look: Look, value: Node<'float'>, skin: Node<'vec4'>) =>
+  mix(colorOf(look, value), toLinear(skin.rgb), skin.a);
+
+/** A colour under a lamp beside the camera, with the edges of the triangles. */
+function shaded(look: Look, base: Node<'vec3'>): Node<'vec3'> {
   const lit = normalFlat
     .dot(vec3(0.28, 0.48, 0.83))
     .mul(0.5)
     .add(0.5);
-  const color = colorOf(look, value).mul(lit.mul(lit).mul(0.9).add(0.2));
+  const color = base.mul(lit.mul(lit).mul(0.9).add(0.2));
   return mix(color, EDGE, edgeness().mul(look.edges).mul(0.5));
 }
 
-/** For the boundary of the shown tetrahedra; reads the attribute `value`. */
+/** For the boundary of the shown tetrahedra; reads the attributes `value` and `skin`. */
 export function surfaceMaterial(look: Look): MeshBasicNodeMaterial {
   const material = new MeshBasicNodeMaterial();
-  material.colorNode = shaded(look, varying(attribute<'float'>('value', 'float')));
+  material.colorNode = shaded(look, corner(look));
   return material;
 }
 
-/** For the 2D triangles; reads the attribute `value`. */
+/** The colour of a corner, from its attributes `value` and `skin`. */
+const corner = (look: Look) =>
+  painted(
+    look,
+    varying(attribute<'float'>('value', 'float')),
+    varying(attribute<'vec4'>('skin', 'vec4')),
+  );
+
+/** For the 2D triangles; reads the attributes `value` and `skin`. */
 export function flatMaterial(look: Look): MeshBasicNodeMaterial {
   const material = new MeshBasicNodeMaterial({ transparent: true, depthWrite: false });
   const edge = edgeness().mul(look.edges);
-  const base = colorOf(look, varying(attribute<'float'>('value', 'float')));
+  const skin = varying(attribute<'vec4'>('skin', 'vec4'));
+  const base = painted(look, varying(attribute<'float'>('value', 'float')), skin);
   material.colorNode = mix(mix(look.ink, base, look.fill), look.ink, edge.mul(0.75));
-  // Pale, so that what lies above can be seen: the legend is as pale.
-  material.opacityNode = edge.mul(0.65).max(look.fill.mul(PALE));
+  // Pale, so that what lies above can be seen: the legend is as pale. Own colours are not.
+  material.opacityNode = edge.mul(0.65).max(look.fill.mul(mix(float(PALE), float(1), skin.a)));
   return material;
 }
 
@@ -172,28 +191,44 @@ export function voronoiMaterial(look: Look): MeshBasicNodeMaterial {
 }
 
 /**
- * For whole tetrahedra, one an instance; reads the instances' `a`, `b`, `c`, `d`, `value` and the
- * corner number in x.
+ * For whole tetrahedra, one an instance; reads the instances' `a`, `b`, `c`, `d`, `value`, `skinA`
+ * to `skinD`, and the corner number in x.
  */
 export function piecesMaterial(look: Look): MeshBasicNodeMaterial {
   const material = new MeshBasicNodeMaterial();
   const [a, b, c, d] = ['a', 'b', 'c', 'd'].map((name) => attribute<'vec3'>(name, 'vec3'));
-  const corner = positionGeometry.x;
-  const own = select(
-    corner.lessThan(0.5),
-    a,
-    select(corner.lessThan(1.5), b, select(corner.lessThan(2.5), c, d)),
-  );
+  const own = oneOf(positionGeometry.x, [a, b, c, d]);
   const centroid = a.add(b).add(c).add(d).mul(0.25);
   material.positionNode = own.add(centroid.mul(look.apart)).div(look.apart.add(1));
-  material.colorNode = shaded(look, varying(attribute<'float'>('value', 'float')));
+  const skins = ['A', 'B', 'C', 'D'].map((end) => attribute<'vec4'>(`skin${end}`, 'vec4'));
+  // A facet's number is that of the vertex opposite, which says whether the colours count.
+  const counts = oneOf(
+    float(vertexIndex.div(3)),
+    skins.map((skin) => skin.a),
+  );
+  const skin = varying(vec4(oneOf(positionGeometry.x, skins).rgb, counts));
+  const value = varying(attribute<'float'>('value', 'float'));
+  material.colorNode = shaded(look, painted(look, value, skin));
   return material;
+}
+
+/** The one of four that a number from 0 to 3 names. */
+function oneOf<T extends 'float' | 'vec3' | 'vec4'>(
+  number: Node<'float'>,
+  [a, b, c, d]: Node<T>[],
+): Node<T> {
+  return select(
+    number.lessThan(0.5),
+    a,
+    select(number.lessThan(1.5), b, select(number.lessThan(2.5), c, d)),
+  ) as Node<T>;
 }
 
 /** For points, as instanced sprites of a size in pixels. */
 export function pointsMaterial(
   look: Look,
   positions: InstancedBufferAttribute,
+  colors: InstancedBufferAttribute | null,
 ): PointsNodeMaterial {
   const position = instancedBufferAttribute<'vec3'>(positions, 'vec3');
   const material = new PointsNodeMaterial({
@@ -210,7 +245,9 @@ export function pointsMaterial(
     look.pointSize,
     float(0),
   );
-  material.colorNode = look.ink;
+  material.colorNode = colors
+    ? mix(look.ink, toLinear(instancedBufferAttribute<'vec4'>(colors, 'vec4').rgb), look.ownColors)
+    : look.ink;
   // Round, where there is room for it.
   const round = float(1).sub(smoothstep(0.38, 0.5, uv().sub(0.5).length()));
   material.opacityNode = look.pointOpacity.mul(

@@ -166,7 +166,7 @@ export class Viewer {
 
   showSurface(surface: Surface | null): void {
     const layer = this.dimension === 2 ? this.layers.flat : this.layers.surface;
-    this.replace(layer, surface && triangles(surface.positions, surface.values));
+    this.replace(layer, surface && triangles(surface.positions, surface));
   }
 
   showVoronoi(diagram: Voronoi | null): void {
@@ -202,7 +202,8 @@ export class Viewer {
     this.replace(this.layers.ruler, ends && lines(ends));
   }
 
-  showPoints(positions: Float32Array | null): void {
+  /** Three coordinates per point, and where they have colours, red, green and blue. */
+  showPoints(positions: Float32Array | null, colors: Uint8Array | null = null): void {
     const old = this.layers.points;
     if (old) {
       this.model.remove(old);
@@ -211,7 +212,11 @@ export class Viewer {
     }
     if (positions && positions.length > 0) {
       const points = new Sprite(
-        pointsMaterial(this.look, new InstancedBufferAttribute(positions, 3)),
+        pointsMaterial(
+          this.look,
+          new InstancedBufferAttribute(positions, 3),
+          colors && new InstancedBufferAttribute(inFours(colors), 4, true),
+        ),
       );
       points.count = positions.length / 3;
       this.look.pointSize.value = points.count < 1000 ? 4 : 1.5;
@@ -441,11 +446,29 @@ export function turnTo(up: Up): Quaternion {
   return new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(x, y, z)).invert();
 }
 
-function triangles(positions: Float32Array, values?: Float32Array): BufferGeometry | null {
+/** Colours of three bytes with a fourth: GPUs have no attributes of three. */
+function inFours(colors: Uint8Array): Uint8Array {
+  const fours = new Uint8Array((colors.length / 3) * 4);
+  for (let i = 0, at = 0; i < colors.length; i += 3, at += 4) {
+    fours[at] = colors[i];
+    fours[at + 1] = colors[i + 1];
+    fours[at + 2] = colors[i + 2];
+    fours[at + 3] = 255;
+  }
+  return fours;
+}
+
+function triangles(
+  positions: Float32Array,
+  look?: Pick<Surface, 'values' | 'skin'>,
+): BufferGeometry | null {
   if (positions.length === 0) return null;
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(positions, 3));
-  if (values) geometry.setAttribute('value', new BufferAttribute(values, 1));
+  if (look) {
+    geometry.setAttribute('value', new BufferAttribute(look.values, 1));
+    geometry.setAttribute('skin', new BufferAttribute(look.skin, 4, true));
+  }
   geometry.boundingSphere = EVERYWHERE;
   return geometry;
 }
@@ -465,7 +488,7 @@ function lines(ends: Float32Array): BufferGeometry | null {
   return geometry;
 }
 
-function instances({ a, b, c, d, values, owners }: Pieces): BufferGeometry | null {
+function instances({ a, b, c, d, values, skin, owners }: Pieces): BufferGeometry | null {
   if (owners.length === 0) return null;
   const geometry = new InstancedBufferGeometry();
   const corners = new Float32Array(36);
@@ -474,6 +497,9 @@ function instances({ a, b, c, d, values, owners }: Pieces): BufferGeometry | nul
   for (const [name, array] of Object.entries({ a, b, c, d }))
     geometry.setAttribute(name, new InstancedBufferAttribute(array, 3));
   geometry.setAttribute('value', new InstancedBufferAttribute(values, 1));
+  const skins = new InstancedInterleavedBuffer(skin, 16);
+  for (const [k, end] of ['A', 'B', 'C', 'D'].entries())
+    geometry.setAttribute(`skin${end}`, new InterleavedBufferAttribute(skins, 4, 4 * k, true));
   geometry.instanceCount = owners.length;
   geometry.boundingSphere = EVERYWHERE;
   return geometry;

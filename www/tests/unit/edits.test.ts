@@ -1,6 +1,13 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { applyEdits, type Edit, editsFromText, editsToText, withEdit } from '../../src/model/edits';
+import {
+  applyEdits,
+  colorsAfter,
+  type Edit,
+  editsFromText,
+  editsToText,
+  withEdit,
+} from '../../src/model/edits';
 
 const EDITS: Edit[] = [
   { do: 'add', at: [0.5, -2.25] },
@@ -51,4 +58,16 @@ test('what makes no sense in a link is no change', () => {
   ]) {
     assert.equal(editsFromText(text), null, text);
   }
+});
+
+test('colours stay with their points', () => {
+  const colors = Uint8Array.of(1, 1, 1, 2, 2, 2, 3, 3, 3);
+  assert.equal(colorsAfter(colors, []), colors);
+  const after = colorsAfter(colors, [
+    { do: 'move', point: 2, at: [5, 5] },
+    { do: 'add', at: [1, 1] },
+    { do: 'remove', point: 0 },
+    { do: 'remove', point: 9 },
+  ]);
+  assert.deepEqual([...after], [2, 2, 2, 3, 3, 3, 0, 0, 0]);
 });

@@ -4,9 +4,10 @@ import { keep } from '../../src/geometry/filter';
 import { facetCircumradiusSquared, measure } from '../../src/geometry/measures';
 import { FACETS, frameOf, toFrame } from '../../src/geometry/mesh';
 import { firstHit } from '../../src/geometry/pick';
-import { outermost, piecesOf, trianglesOf } from '../../src/geometry/pieces';
+import { outermost, piecesOf, skinOf, trianglesOf } from '../../src/geometry/pieces';
 import { heightsAlong, levelOf } from '../../src/geometry/plane';
 import { mapping, scaleFor } from '../../src/geometry/scale';
+import { PLAIN } from '../../src/geometry/skin';
 import { carvingRadii, solidRadius, spacingOf } from '../../src/geometry/solid';
 import { boundaryOf, surfaceOf } from '../../src/geometry/surface';
 import { closeTo } from './close';
@@ -131,7 +132,7 @@ describe('the cut', () => {
         const { facets, shown } = boundaryOf(mesh, all, heights, level);
         const below = Array.from(heights.height.keys()).filter((t) => heights.height[t] <= level);
         assert.equal(shown, below.length);
-        const surface = surfaceOf(mesh, facets, () => 0.5);
+        const surface = surfaceOf(mesh, facets, () => 0.5, null);
         const volume = below.reduce((sum, t) => sum + measures.volume[t], 0);
         // A surface that were open, or wound the wrong way somewhere, would enclose something else.
         closeTo(enclosed(surface.positions), volume * frame.scale ** 3, 4);
@@ -282,7 +283,7 @@ describe('pieces', () => {
 
   test('are closed, and all shrink alike when pulled apart', () => {
     const owners = Uint32Array.from({ length: count }, (_, t) => t);
-    const pieces = piecesOf(positions, tetrahedra, owners, () => 0);
+    const pieces = piecesOf(mesh, owners, () => 0, null);
     for (const apart of [0, 0.7]) {
       closeTo(
         enclosed(trianglesOf(pieces, apart)),
@@ -293,10 +294,60 @@ describe('pieces', () => {
   });
 });
 
+describe('the skin', () => {
+  const heights = heightsAlong([1, 0, 0], mesh);
+  /** Every point has a colour of its own. */
+  const colors = Uint8Array.from(positions, (_, i) => (17 * i) % 251);
+  const bytesOf = (values: ArrayLike<number>, at: number, length: number) =>
+    Array.from({ length }, (_, k) => values[at + k]);
+  /** The colour of the point at a corner. */
+  const colorAt = (triangles: Float32Array, corner: number) => {
+    const place = bytesOf(triangles, 3 * corner, 3).join();
+    for (let p = 0; p < positions.length; p += 3)
+      if (bytesOf(positions, p, 3).join() === place) return bytesOf(colors, p, 3);
+    assert.fail('the corner is no point');
+  };
+  const outside = { kept: all.kept, colors };
+
+  test('is on the outside and not on the cut', () => {
+    const level = levelOf({ normal: [1, 0, 0], keep: 0.5 }, heights);
+    const { facets } = boundaryOf(mesh, all, heights, level);
+    const { skin, positions: triangles } = surfaceOf(mesh, facets, () => 0, outside);
+    let cut = 0;
+    for (let corner = 0; corner < skin.length / 4; corner++) {
+      const isOutside = mesh.neighbors[facets[Math.floor(corner / 3)]] < 0;
+      assert.equal(skin[4 * corner + 3], isOutside ? 255 : 0);
+      if (isOutside) assert.deepEqual(bytesOf(skin, 4 * corner, 3), colorAt(triangles, corner));
+      else cut++;
+    }
+    assert.ok(cut > 0 && cut < skin.length / 4);
+  });
+
+  test('is plain without colours, and nowhere where nobody asks for it', () => {
+    const { facets } = boundaryOf(mesh, all, heights, Infinity);
+    const plain = surfaceOf(mesh, facets, () => 0, { kept: all.kept, colors: null }).skin;
+    for (let at = 0; at < plain.length; at += 4)
+      assert.deepEqual(bytesOf(plain, at, 4), [...PLAIN, 255]);
+    assert.ok(surfaceOf(mesh, facets, () => 0, null).skin.every((byte) => byte === 0));
+  });
+
+  test('is on the same facets of pieces', () => {
+    const owners = Uint32Array.from({ length: count }, (_, t) => t);
+    const pieces = piecesOf(mesh, owners, () => 0, outside);
+    const skin = skinOf(pieces);
+    const triangles = trianglesOf(pieces, 0);
+    for (let corner = 0; corner < skin.length / 4; corner++) {
+      const isOutside = mesh.neighbors[Math.floor(corner / 3)] < 0;
+      assert.equal(skin[4 * corner + 3], isOutside ? 255 : 0);
+      assert.deepEqual(bytesOf(skin, 4 * corner, 3), colorAt(triangles, corner));
+    }
+  });
+});
+
 test('a ray meets the nearest triangle that faces it', () => {
   const heights = heightsAlong([1, 0, 0], mesh);
   const { facets } = boundaryOf(mesh, all, heights, Infinity);
-  const { positions: triangles, owners } = surfaceOf(mesh, facets, () => 0);
+  const { positions: triangles, owners } = surfaceOf(mesh, facets, () => 0, null);
   const hit = firstHit(triangles, { origin: [5, 0.05, 0.03], direction: [-1, 0, 0] });
   const xs = [0, 3, 6].map((j) => triangles[9 * hit + j]);
   for (const x of xs) closeTo(x, SIDE * 0.5 * frame.scale, 5);

@@ -28,6 +28,7 @@ test('a link restores every setting', () => {
       hull: true,
       facets: false,
       voronoi: false,
+      skin: false,
     },
     camera: [1, -0.5, 3, 0.1, 0.2, -0.3],
     embed: true,
@@ -55,6 +56,7 @@ test('a link to 2D restores the points and what was changed by hand', () => {
       hull: false,
       facets: false,
       voronoi: true,
+      skin: true,
     },
     camera: [0, 0, 0.5, 0.1, -0.2, 0],
   } as const;

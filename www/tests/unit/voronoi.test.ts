@@ -151,6 +151,11 @@ test('triangles are measured, and turned towards the eye', () => {
   assert.deepEqual([volume[0], circumradius[0]], [6, 2.5]);
   // Inradius 1.
   closeTo(radiusRatio[0], 0.8, 6);
-  const [ax, ay, , bx, by, , cx, cy] = flatSurface(mesh, Uint32Array.of(0), () => 0).positions;
+  const [ax, ay, , bx, by, , cx, cy] = flatSurface(
+    mesh,
+    Uint32Array.of(0),
+    () => 0,
+    null,
+  ).positions;
   assert.ok((bx - ax) * (cy - ay) - (by - ay) * (cx - ax) > 0);
 });
