@@ -4,7 +4,11 @@
 //! before. Of its two readers, the one of raw values is used: the other gives up at a packet that
 //! does not complete a point.
 
-use crate::io::{FormatError, PointCloud, point_cloud::narrow};
+use crate::io::{
+    FormatError, PointCloud,
+    colors::{CHANNELS, Colors, INTENSITY, Range, Sample},
+    point_cloud::narrow,
+};
 use ::e57::{E57Reader, Error, Header, PointCloud as Scan, RecordDataType, RecordName, RecordValue};
 use glam::{DAffine3, DQuat, DVec3};
 use std::io::Cursor;
@@ -27,25 +31,30 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     check_counts(&scans, bytes.len())?;
 
     let mut points = Vec::new();
+    let mut colors = Colors::new(std::array::from_fn(|channel| channel <= INTENSITY), Range::Fractions);
     let mut no_return = 0;
     let mut is_single = true;
     for scan in &scans {
         let start = points.len() + no_return;
         let columns = Columns::find(scan).map_err(|what| FormatError::point(start, what))?;
+        let tints = Tints::find(scan);
         let pose = pose(scan).map_err(|what| FormatError::point(start, what))?;
         is_single &= pose.is_none() && columns.are_single(scan);
         let in_points = |error: Error, place| FormatError::point(place, described(&error));
         let records = reader.pointcloud_raw(scan).map_err(|error| in_points(error, start))?;
         for record in records {
             let place = points.len() + no_return;
-            let point = record.and_then(|record| columns.point(scan, &record));
-            match point.map_err(|error| in_points(error, place))? {
-                Some(point) => points.push(pose.map_or(point, |pose| pose.transform_point3(point.into()).into())),
+            let record = record.map_err(|error| in_points(error, place))?;
+            match columns.point(scan, &record).map_err(|error| in_points(error, place))? {
+                Some(point) => {
+                    points.push(pose.map_or(point, |pose| pose.transform_point3(point.into()).into()));
+                    colors.push(&tints.sample(scan, &record));
+                }
                 None => no_return += 1,
             }
         }
     }
-    Ok(PointCloud { no_return, ..PointCloud::new(narrow(points, is_single))? })
+    Ok(PointCloud { no_return, colors: colors.finish(), ..PointCloud::new(narrow(points, is_single))? })
 }
 
 /// Checks the numbers of points that the scans promise against the file's `size`. What they may
@@ -160,6 +169,54 @@ impl Columns {
             let ((sin_a, cos_a), (sin_e, cos_e)) = (libm::sincos(azimuth), libm::sincos(elevation));
             [range * cos_e * cos_a, range * cos_e * sin_a, range * sin_e]
         }))
+    }
+}
+
+/// The columns of a scan that say something about the colours of its points, with the numbers that
+/// stand for no and for full light.
+struct Tints {
+    /// Red, green, blue and intensity.
+    columns: [Option<(usize, f64, f64)>; INTENSITY + 1],
+    /// The columns that say which colours and intensities mean nothing.
+    invalid: [Option<usize>; 2],
+}
+
+impl Tints {
+    fn find(scan: &Scan) -> Self {
+        use RecordName::*;
+        let column = |name| scan.prototype.iter().position(|column| column.name == name);
+        let columns = [ColorRed, ColorGreen, ColorBlue, Intensity].map(|name| {
+            let column = column(name)?;
+            let (low, high) = match scan.prototype[column].data_type {
+                RecordDataType::Integer { min, max } => (min as f64, max as f64),
+                RecordDataType::ScaledInteger { min, max, scale, offset } => {
+                    (min as f64 * scale + offset, max as f64 * scale + offset)
+                }
+                RecordDataType::Single { min, max } => (min.unwrap_or(0.0).into(), max.map_or(1.0, f64::from)),
+                RecordDataType::Double { min, max } => (min.unwrap_or(0.0), max.unwrap_or(1.0)),
+            };
+            Some((column, low, high))
+        });
+        Tints { columns, invalid: [column(IsColorInvalid), column(IsIntensityInvalid)] }
+    }
+
+    /// Returns what a record says, as shares of full light; the intensity as it is.
+    fn sample(&self, scan: &Scan, record: &[RecordValue]) -> Sample {
+        let kind = |column: usize| &scan.prototype[column].data_type;
+        let invalid = self.invalid.map(|column| {
+            column.is_some_and(|column| record[column].to_i64(kind(column)).is_ok_and(|invalid| invalid != 0))
+        });
+        let mut sample = [f64::NAN; CHANNELS];
+        for (channel, column) in self.columns.iter().enumerate() {
+            let Some((column, low, high)) = *column else { continue };
+            let is_intensity = channel == INTENSITY;
+            if invalid[usize::from(is_intensity)] {
+                continue;
+            }
+            let Ok(value) = record[column].to_f64(kind(column)) else { continue };
+            sample[channel] = if is_intensity { value } else { ((value - low) / (high - low)).clamp(0.0, 1.0) };
+        }
+        sample
     }
 }
 

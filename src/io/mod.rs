@@ -8,6 +8,7 @@
 //! Crates read the formats where one was found that neither panics nor allocates on a broken file's
 //! word, or that can be guarded against it; the modules that read a format themselves say why.
 
+mod colors;
 mod e57;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
@@ -32,6 +33,7 @@ mod tetgen;
 mod text;
 mod vtu;
 
+pub use colors::{ColorSource, PointColors};
 pub use error::{FormatError, Position, printable};
 pub use format::{MeshFormat, PointFormat, SurfaceFormat, TableFormat};
 pub use las::panics_are_caught;

@@ -6,6 +6,7 @@
 use crate::input::points::Points;
 use crate::io::{
     FormatError, PointBuf, PointCloud,
+    colors::{CHANNELS, Colors, Range, Sample},
     surface::{MARK, Surface, padded},
     text::{fields, lines, number},
 };
@@ -13,6 +14,8 @@ use std::io::{self, Write};
 
 pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     let mut points = Vec::new();
+    let mut colors = Colors::new(std::array::from_fn(|channel| channel < 3), Range::Fractions);
+    let mut are_colored = true;
     let mut has_content = false;
     for (line, content) in lines(bytes) {
         has_content |= !content.is_empty() && !content.starts_with(b"#");
@@ -26,8 +29,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
             *x = number(word, line)?;
         }
         let mut more = 0;
+        let mut sample: Sample = [f64::NAN; CHANNELS];
         for word in words.take_while(|word| !word.starts_with(b"#")) {
-            number(word, line)?;
+            let value = number(word, line)?;
+            if let Some(channel) = sample.get_mut(more) {
+                *channel = value;
+            }
             more += 1;
         }
         // A weight, a color, or both; or a color with its opacity.
@@ -36,11 +43,17 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
             return Err(FormatError::line(line, what));
         }
         points.push(point);
+        // Four may be a color with its opacity or with a weight before it.
+        are_colored &= more == 3;
+        if are_colored {
+            colors.push(&sample);
+        }
     }
     if points.is_empty() && has_content {
         return Err(FormatError::line(1, "the file has no vertices (lines that start with `v`)"));
     }
-    PointCloud::new(PointBuf::F64(points))
+    let colors = if are_colored { colors.finish() } else { None };
+    Ok(PointCloud { colors, ..PointCloud::new(PointBuf::F64(points))? })
 }
 
 pub(super) fn write_points<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {

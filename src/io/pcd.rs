@@ -6,6 +6,7 @@
 
 use crate::io::{
     FormatError, PointCloud,
+    colors::{CHANNELS, Colors, Range, Sample, channel},
     error::quote,
     point_cloud::narrow,
     scalar::Scalar,
@@ -14,6 +15,7 @@ use crate::io::{
 
 struct Field {
     is_axis: Option<usize>,
+    tint: Option<Tint>,
     scalar: Scalar,
     count: usize,
 }
@@ -22,6 +24,50 @@ impl Field {
     /// Returns the number of bytes of its values in a point.
     fn size(&self) -> usize {
         self.scalar.size() * self.count
+    }
+}
+
+/// What a field says about a point's colour.
+#[derive(Clone, Copy)]
+enum Tint {
+    /// A number of the sample.
+    Channel(usize),
+    /// Red, green and blue in the bits of four bytes, from the third to the lowest.
+    Packed,
+}
+
+impl Tint {
+    fn of(name: &[u8], scalar: Scalar, count: usize) -> Option<Self> {
+        match name {
+            _ if count != 1 => None,
+            b"rgb" | b"rgba" => (scalar.size() == 4).then_some(Tint::Packed),
+            _ => channel(name).map(Tint::Channel),
+        }
+    }
+
+    /// Puts a value of a binary file, in `bytes`, into the sample of its point.
+    fn decode(self, scalar: Scalar, bytes: &[u8], sample: &mut Sample) {
+        match self {
+            Tint::Channel(channel) => sample[channel] = scalar.decode(bytes, false),
+            Tint::Packed => bytes.first_chunk().map_or((), |bits| unpack(u32::from_le_bytes(*bits), sample)),
+        }
+    }
+
+    /// Puts a value of a text file into the sample of its point, if it makes sense.
+    fn parse(self, scalar: Scalar, word: &[u8], sample: &mut Sample) {
+        let Some(value) = scalar.parse(word).filter(|value| value.is_finite()) else { return };
+        match self {
+            Tint::Channel(channel) => sample[channel] = value,
+            // The library declares the bits to be those of a floating-point number.
+            Tint::Packed if scalar == Scalar::F32 => unpack((value as f32).to_bits(), sample),
+            Tint::Packed => unpack(value as i64 as u32, sample),
+        }
+    }
+}
+
+fn unpack(bits: u32, sample: &mut Sample) {
+    for (x, shift) in sample.iter_mut().zip([16, 8, 0]) {
+        *x = f64::from(bits >> shift & 0xff);
     }
 }
 
@@ -124,6 +170,25 @@ impl Header {
         self.fields.iter().map(Field::size).sum()
     }
 
+    /// Begins to gather the points' colours.
+    fn colors(&self) -> Colors {
+        let mut has = [false; CHANNELS];
+        let mut range = Range::Bytes;
+        for field in &self.fields {
+            match field.tint {
+                Some(Tint::Packed) => has[..3].fill(true),
+                Some(Tint::Channel(channel)) => {
+                    has[channel] = true;
+                    if channel == 0 {
+                        range = if field.scalar.is_integer() { Range::Words } else { Range::Fractions };
+                    }
+                }
+                None => {}
+            }
+        }
+        Colors::new(has, range)
+    }
+
     fn is_single(&self) -> bool {
         self.fields.iter().filter(|f| f.is_axis.is_some()).all(|f| f.scalar.is_single())
     }
@@ -156,7 +221,7 @@ fn declare(names: &[&[u8]], sizes: &[&[u8]], kinds: &[&[u8]], counts: &[&[u8]]) 
                 return Err(format!("COUNT {} of the field {} {must}", quote(word), quote(name)));
             }
         };
-        fields.push(Field { is_axis, scalar, count });
+        fields.push(Field { is_axis, tint: Tint::of(name, scalar, count), scalar, count });
     }
     for (k, axis) in ["x", "y", "z"].iter().enumerate() {
         if fields.iter().filter(|f| f.is_axis == Some(k)).count() != 1 {
@@ -169,8 +234,9 @@ fn declare(names: &[&[u8]], sizes: &[&[u8]], kinds: &[&[u8]], counts: &[&[u8]]) 
 pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     let header = Header::parse(bytes)?;
     let data = &bytes[header.offset..];
+    let mut colors = header.colors();
     let all = match header.encoding {
-        Encoding::Ascii => read_ascii(data, &header)?,
+        Encoding::Ascii => read_ascii(data, &header, &mut colors)?,
         Encoding::Binary => {
             let size = header.points.checked_mul(header.record());
             let records = size.and_then(|size| data.get(..size)).ok_or_else(|| {
@@ -188,7 +254,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
                 start += field.size();
                 column
             });
-            decode(records, columns, header.points)
+            decode(records, columns, header.points, &mut colors)
         }
         Encoding::Compressed => {
             let (compressed, size) = compressed_block(bytes, &header)?;
@@ -200,20 +266,25 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
                 start += field.size() * header.points;
                 column
             });
-            decode(&records, columns, header.points)
+            decode(&records, columns, header.points, &mut colors)
         }
     };
     let read = all.len();
-    let points: Vec<_> = all.into_iter().filter(|p| !p.iter().any(|x| x.is_nan())).collect();
+    let points: Vec<_> = all.into_iter().filter(has_return).collect();
     let no_return = read - points.len();
-    Ok(PointCloud { no_return, ..PointCloud::new(narrow(points, header.is_single()))? })
+    Ok(PointCloud { no_return, colors: colors.finish(), ..PointCloud::new(narrow(points, header.is_single()))? })
+}
+
+/// Returns whether a point has coordinates.
+fn has_return(point: &[f64; 3]) -> bool {
+    !point.iter().any(|x| x.is_nan())
 }
 
 fn goes_on(at: fn(usize, String) -> FormatError, place: usize, points: usize) -> FormatError {
     at(place, format!("the file goes on after the {points} points that its header promises"))
 }
 
-fn read_ascii(data: &[u8], header: &Header) -> Result<Vec<[f64; 3]>, FormatError> {
+fn read_ascii(data: &[u8], header: &Header, colors: &mut Colors) -> Result<Vec<[f64; 3]>, FormatError> {
     let mut points = Vec::new();
     let mut last = header.line;
     for (line, content) in lines(data).map(|(line, content)| (line - 1 + header.line, content)) {
@@ -226,6 +297,7 @@ fn read_ascii(data: &[u8], header: &Header) -> Result<Vec<[f64; 3]>, FormatError
         last = line;
         let row: Vec<&[u8]> = fields(content).collect();
         let mut point = [0.0; 3];
+        let mut sample = [f64::NAN; CHANNELS];
         let mut at = 0;
         for field in &header.fields {
             if let Some(axis) = field.is_axis {
@@ -236,9 +308,15 @@ fn read_ascii(data: &[u8], header: &Header) -> Result<Vec<[f64; 3]>, FormatError
                 point[axis] =
                     value.ok_or_else(|| FormatError::line(line, format!("{} is not a number", quote(word))))?;
             }
+            if let (Some(tint), Some(word)) = (field.tint, row.get(at)) {
+                tint.parse(field.scalar, word, &mut sample);
+            }
             at += field.count;
         }
         points.push(point);
+        if has_return(&point) {
+            colors.push(&sample);
+        }
     }
     if points.len() < header.points {
         let what =
@@ -255,14 +333,38 @@ struct Column<'a> {
     stride: usize,
 }
 
-/// Decodes the points in `records`, which hold `count` values of each column.
-fn decode<'a>(records: &[u8], columns: impl Iterator<Item = Column<'a>>, count: usize) -> Vec<[f64; 3]> {
+impl Column<'_> {
+    /// Returns the bytes of a point's value and of what comes after it.
+    fn bytes<'r>(&self, records: &'r [u8], point: usize) -> &'r [u8] {
+        &records[self.start + point * self.stride..]
+    }
+}
+
+/// Decodes the points in `records`, which hold `count` values of each column, and the colours of
+/// those with coordinates.
+fn decode<'a>(
+    records: &[u8],
+    columns: impl Iterator<Item = Column<'a>>,
+    count: usize,
+    colors: &mut Colors,
+) -> Vec<[f64; 3]> {
     let mut points = vec![[0.0; 3]; count];
+    let mut tinted = Vec::new();
     for column in columns {
         if let Some(axis) = column.field.is_axis {
             for (i, point) in points.iter_mut().enumerate() {
-                point[axis] = column.field.scalar.decode(&records[column.start + i * column.stride..], false);
+                point[axis] = column.field.scalar.decode(column.bytes(records, i), false);
             }
+        }
+        tinted.extend(column.field.tint.map(|tint| (tint, column)));
+    }
+    if !tinted.is_empty() {
+        for (i, _) in points.iter().enumerate().filter(|(_, point)| has_return(point)) {
+            let mut sample = [f64::NAN; CHANNELS];
+            for (tint, column) in &tinted {
+                tint.decode(column.field.scalar, column.bytes(records, i), &mut sample);
+            }
+            colors.push(&sample);
         }
     }
     points

@@ -6,6 +6,7 @@
 use crate::input::points::Points;
 use crate::io::{
     FormatError, PointCloud,
+    colors::{CHANNELS, Colors, Range, Sample, channel},
     error::quote,
     point_cloud::narrow,
     scalar::Scalar,
@@ -57,30 +58,35 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
         (_, Some(second)) => return Err(FormatError::line(second.line, "a second element `vertex`")),
     };
     let is_single = vertex.coordinates_are_single()?;
+    let mut colors = vertex.colors();
     let mut data = Data { bytes, at: header.offset, encoding: header.encoding };
     let mut points = Vec::new();
     // Elements after the vertices are read too: a file that ends in them is broken, and its user
     // should know.
     for element in &header.elements {
-        let axes: Vec<Option<usize>> = element
-            .properties
-            .iter()
-            .map(|property| axis(&property.name).filter(|_| element.name == b"vertex"))
-            .collect();
+        let is_vertex = element.name == b"vertex";
+        let roles: Vec<Option<Role>> =
+            element.properties.iter().map(|property| Role::of(&property.name).filter(|_| is_vertex)).collect();
         for index in 0..element.count {
             let mut point = [0.0; 3];
-            for (property, axis) in element.properties.iter().zip(&axes) {
+            let mut sample: Sample = [f64::NAN; CHANNELS];
+            for (property, role) in element.properties.iter().zip(&roles) {
                 let ends = |data: &Data<'_>| data.ends(element, index);
-                match (property.kind, axis) {
-                    (Kind::Number(scalar), Some(axis)) => {
-                        point[*axis] = data.number(scalar)?.ok_or_else(|| ends(&data))?;
+                match (property.kind, role) {
+                    (Kind::Number(scalar), Some(role)) => {
+                        let number = data.number(scalar)?.ok_or_else(|| ends(&data))?;
+                        match *role {
+                            Role::Axis(axis) => point[axis] = number,
+                            Role::Channel(channel) => sample[channel] = number,
+                        }
                     }
                     (Kind::Number(scalar), None) => data.number(scalar)?.map(drop).ok_or_else(|| ends(&data))?,
                     (Kind::List { count, item }, _) => data.skip_list(count, item)?.ok_or_else(|| ends(&data))?,
                 }
             }
-            if element.name == b"vertex" {
+            if is_vertex {
                 points.push(point);
+                colors.push(&sample);
             }
         }
     }
@@ -88,12 +94,21 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
         let what = format!("{} goes on after all that the header promises", quote(more));
         return Err(data.error(what));
     }
-    PointCloud::new(narrow(points, is_single))
+    Ok(PointCloud { colors: colors.finish(), ..PointCloud::new(narrow(points, is_single))? })
 }
 
-/// Returns which coordinate a property of the vertices is.
-fn axis(name: &[u8]) -> Option<usize> {
-    [b"x", b"y", b"z"].iter().position(|axis| *axis == name)
+/// What a property of the vertices is.
+#[derive(Clone, Copy)]
+enum Role {
+    Axis(usize),
+    Channel(usize),
+}
+
+impl Role {
+    fn of(name: &[u8]) -> Option<Self> {
+        let axis = [b"x", b"y", b"z"].iter().position(|axis| *axis == name);
+        axis.map(Role::Axis).or_else(|| channel(name).map(Role::Channel))
+    }
 }
 
 impl Header {
@@ -202,6 +217,22 @@ impl Element {
             };
         }
         Ok(are_single)
+    }
+
+    /// Begins to gather the vertices' colours.
+    fn colors(&self) -> Colors {
+        let mut kinds = [None; CHANNELS];
+        for Property { name, kind } in &self.properties {
+            if let (Some(channel), Kind::Number(scalar)) = (channel(name), kind) {
+                kinds[channel] = Some(*scalar);
+            }
+        }
+        let range = match kinds[0] {
+            Some(Scalar::I8 | Scalar::U8) => Range::Bytes,
+            Some(Scalar::F32 | Scalar::F64) => Range::Fractions,
+            _ => Range::Words,
+        };
+        Colors::new(kinds.map(|kind| kind.is_some()), range)
     }
 }
 

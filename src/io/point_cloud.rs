@@ -1,6 +1,6 @@
 //! Points as a file gives them.
 
-use crate::io::FormatError;
+use crate::io::{FormatError, PointColors};
 use crate::{error::Error, input::points::Points};
 
 /// Owned points in the precision of their file.
@@ -59,13 +59,16 @@ pub struct PointCloud<const D: usize = 3> {
     pub ignored_columns: usize,
     /// Whether these are 2D points of a file whose *z* coordinates are not all 0.
     pub dropped_z: bool,
+    /// The points' colours, or what can stand for them; `None` if the file says nothing about any,
+    /// or the same of all points.
+    pub colors: Option<PointColors>,
 }
 
 impl<const D: usize> PointCloud<D> {
     /// Creates the cloud of all of `points`.
     pub(super) fn new(points: PointBuf<D>) -> Result<Self, FormatError> {
         match Points::from(&points).validate() {
-            Ok(()) => Ok(PointCloud { points, no_return: 0, ignored_columns: 0, dropped_z: false }),
+            Ok(()) => Ok(PointCloud { points, no_return: 0, ignored_columns: 0, dropped_z: false, colors: None }),
             Err(Error::NotFinite { index, axis, value }) => Err(FormatError::point(
                 index,
                 format!("the {axis} coordinate is {value}, which is not a finite number"),
@@ -82,6 +85,7 @@ impl<const D: usize> PointCloud<D> {
             no_return: self.no_return,
             ignored_columns: self.ignored_columns,
             dropped_z: self.dropped_z || loses_z,
+            colors: self.colors,
         }
     }
 }

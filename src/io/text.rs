@@ -1,7 +1,11 @@
 //! Points as text: XYZ, PTS and CSV, and what all readers of text share.
 
 use crate::input::points::Points;
-use crate::io::{FormatError, PointBuf, PointCloud, error::quote};
+use crate::io::{
+    FormatError, PointBuf, PointCloud,
+    colors::{CHANNELS, Colors, INTENSITY, NORMAL, Range, channel},
+    error::quote,
+};
 use std::io::{self, Write};
 
 /// Splits off the first line, without its end: `\n`, `\r\n`, or the lone `\r` of old Macintosh
@@ -89,6 +93,81 @@ struct Table<'w, const D: usize> {
     /// The column of values that is wanted, and which field of a row it is, once that is known.
     wanted: Option<(&'w str, Option<usize>)>,
     values: Vec<f64>,
+    /// The colours, once a row has been seen.
+    tints: Option<Tints>,
+}
+
+/// The fields of a row that say something about the colour of its point.
+struct Tints {
+    fields: [Option<usize>; CHANNELS],
+    /// Whether they are what fields of a row without names seem to be: then red, green and blue must
+    /// be that in every row.
+    is_guess: bool,
+    colors: Colors,
+}
+
+impl Tints {
+    fn new(fields: [Option<usize>; CHANNELS], range: Range, is_guess: bool) -> Self {
+        Tints { fields, is_guess, colors: Colors::new(fields.map(|field| field.is_some()), range) }
+    }
+
+    /// Takes the columns after the coordinates for what they are in files of scanners: an
+    /// intensity; red, green and blue, maybe after an intensity; or a normal.
+    fn guess(row: &[&[u8]], is_counted: bool) -> Self {
+        let all = |range: std::ops::Range<usize>, is: fn(f64) -> bool| {
+            row.get(range).is_some_and(|fields| fields.iter().all(|field| parse(field).is_some_and(is)))
+        };
+        let mut fields = [None; CHANNELS];
+        let mut set = |channel: usize, from: usize, count: usize| {
+            (0..count).for_each(|k| fields[channel + k] = Some(from + k));
+        };
+        let has_intensity = all(4..7, is_byte) && (is_counted || !all(3..6, is_byte));
+        if has_intensity {
+            set(INTENSITY, 3, 1);
+            set(0, 4, 3);
+        // Before colours: 0, 0, 1 may be either, and hardly any point is so dark.
+        } else if row.get(3..6).is_some_and(is_normal) {
+            set(NORMAL, 3, 3);
+        } else if all(3..6, is_byte) {
+            set(0, 3, 3);
+        } else if row.len() == 4 {
+            set(INTENSITY, 3, 1);
+        }
+        Tints::new(fields, Range::Bytes, true)
+    }
+
+    /// Adds the point of a row. Returns whether the row has what a guess says.
+    fn add(&mut self, row: &[&[u8]]) -> bool {
+        let sample = self.fields.map(|field| field.and_then(|field| parse(row.get(field)?)).unwrap_or(f64::NAN));
+        self.colors.push(&sample);
+        let [r, g, b, _, normal @ ..] = sample;
+        let is_right = match (self.fields[0], self.fields[NORMAL]) {
+            (Some(_), _) => [r, g, b].into_iter().all(is_byte),
+            (None, Some(_)) => is_unit(normal),
+            (None, None) => true,
+        };
+        is_right || !self.is_guess
+    }
+}
+
+fn is_byte(x: f64) -> bool {
+    (0.0..=255.0).contains(&x) && x.fract() == 0.0
+}
+
+/// Returns whether a vector has the length 1, as rounded as files have them, or none.
+fn is_unit(vector: [f64; 3]) -> bool {
+    let square: f64 = vector.iter().map(|x| x * x).sum();
+    square == 0.0 || (square - 1.0).abs() < 0.01
+}
+
+/// Returns whether three fields are a vector of length 1.
+fn is_normal(fields: &[&[u8]]) -> bool {
+    let mut vector = [0.0; 3];
+    for (x, field) in vector.iter_mut().zip(fields) {
+        let Some(number) = parse(field) else { return false };
+        *x = number;
+    }
+    is_unit(vector) && vector != [0.0; 3]
 }
 
 impl<'w, const D: usize> Table<'w, D> {
@@ -103,6 +182,7 @@ impl<'w, const D: usize> Table<'w, D> {
             first: None,
             is_named: false,
             is_counted: false,
+            tints: None,
         }
     }
 
@@ -157,6 +237,13 @@ impl<'w, const D: usize> Table<'w, D> {
             }
             Some(_) => {}
         }
+        let (is_counted, is_first) = (self.is_counted, self.points.is_empty());
+        if is_first && self.tints.is_none() {
+            self.tints = Some(Tints::guess(row, is_counted));
+        }
+        if self.tints.as_mut().is_some_and(|tints| !tints.add(row)) {
+            self.tints = None;
+        }
         self.points.push(point);
         Ok(())
     }
@@ -183,6 +270,13 @@ impl<'w, const D: usize> Table<'w, D> {
         self.columns = Some(std::array::from_fn(|axis| found[axis].unwrap_or(axis)));
         self.dropped = if D == 2 { found[2] } else { None };
         self.is_named = true;
+        let mut fields = [None; CHANNELS];
+        for (place, name) in row.iter().enumerate() {
+            if let Some(channel) = channel(bare(name)) {
+                fields[channel].get_or_insert(place);
+            }
+        }
+        self.tints = Some(Tints::new(fields, Range::Fractions, false));
         Ok(())
     }
 
@@ -196,7 +290,8 @@ impl<'w, const D: usize> Table<'w, D> {
         let known = self.dropped.map_or(D, |column| column + 1);
         let ignored_columns = if self.is_named { 0 } else { fields.saturating_sub(known) };
         let cloud = PointCloud::new(PointBuf::F64(self.points))?;
-        Ok((PointCloud { dropped_z: self.dropped_z, ignored_columns, ..cloud }, self.values))
+        let colors = self.tints.and_then(|tints| tints.colors.finish());
+        Ok((PointCloud { dropped_z: self.dropped_z, ignored_columns, colors, ..cloud }, self.values))
     }
 }
 

@@ -4,6 +4,7 @@
 mod samples;
 
 mod bad_input;
+mod colors;
 mod degenerate;
 mod e57;
 mod glb;

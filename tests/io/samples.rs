@@ -234,6 +234,11 @@ pub fn las_points() -> Vec<[f64; 3]> {
 
 /// LAS or LAZ with [`las_points`], which the scale of 1/8 holds exactly.
 pub fn las(format: u8, is_compressed: bool, extra_bytes: u16) -> Vec<u8> {
+    las_with(format, is_compressed, extra_bytes, |_| (0, [0; 3]))
+}
+
+/// The same, with an intensity and a colour for each point.
+pub fn las_with(format: u8, is_compressed: bool, extra_bytes: u16, look: impl Fn(u16) -> (u16, [u16; 3])) -> Vec<u8> {
     let mut builder = Builder::from((1, 4));
     builder.point_format = las::point::Format::new(format).expect("a format");
     builder.point_format.is_compressed = is_compressed;
@@ -243,13 +248,15 @@ pub fn las(format: u8, is_compressed: bool, extra_bytes: u16) -> Vec<u8> {
     let has = builder.point_format;
     let mut writer =
         las::Writer::new(Cursor::new(Vec::new()), builder.into_header().expect("a header")).expect("memory");
-    for [x, y, z] in las_points() {
+    for (i, [x, y, z]) in (0..).zip(las_points()) {
+        let (intensity, [red, green, blue]) = look(i);
         let point = Point {
+            intensity,
             x,
             y,
             z,
             gps_time: has.has_gps_time.then_some(x),
-            color: has.has_color.then(Default::default),
+            color: has.has_color.then_some(las::Color { red, green, blue }),
             nir: has.has_nir.then_some(1),
             extra_bytes: vec![9; extra_bytes.into()],
             ..Default::default()

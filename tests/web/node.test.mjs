@@ -431,6 +431,21 @@ test('files are read, and what is broken is said', async () => {
   assert.equal((await readPoints(text.encode('1 2 3'), { format: 'xyz' })).points.length, 3);
 });
 
+test('points bring their colours along, or what can stand for them', async () => {
+  const text = new TextEncoder();
+  const read = (rows) => readPoints(text.encode(rows), { format: 'xyz' });
+  const colored = await read('0 0 0 255 0 51\n1 2 3 0 102 255\n');
+  assert.deepEqual(colored.colors, Uint8Array.of(255, 0, 51, 0, 102, 255));
+  assert.equal(colored.colorSource, 'rgb');
+  const bright = await read('0 0 0 0.5\n1 2 3 0.7\n');
+  assert.deepEqual(bright.colors, Uint8Array.of(0, 0, 0, 255, 255, 255));
+  assert.equal(bright.colorSource, 'intensity');
+  assert.equal((await read('0 0 0 0 0 1\n1 2 3 0 1 0\n')).colorSource, 'normals');
+  const plain = await read('0 0 0\n1 2 3\n');
+  assert.equal(plain.colors, null);
+  assert.equal(plain.colorSource, null);
+});
+
 test('scans of E57 are read, and what is broken is said', async () => {
   const count = 1000;
   const points = Array.from({ length: count }, (_, i) => [i, -i / 4, i * i]);

@@ -49,6 +49,7 @@ export type {
   AdapterInfo,
   Backend,
   Check,
+  ColorSource,
   Distribution,
   Distribution2,
   MeshView,

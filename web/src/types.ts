@@ -205,7 +205,21 @@ export interface PointCloud {
    * points that an E57 file says are invalid.
    */
   noReturn: number;
+  /**
+   * Red, green and blue of each point, in sRGB, or what can stand for them: `colorSource` says what.
+   * `null` if the file says nothing about colours, or the same of all points.
+   */
+  colors: Uint8Array<ArrayBuffer> | null;
+  /** What `colors` are; `null` if there are none. */
+  colorSource: ColorSource | null;
 }
+
+/**
+ * What the colours of points stand for: colours that the file has; intensities, as shades of grey
+ * from the 2nd to the 98th percentile; normals, whose *x*, *y* and *z* from −1 to 1 are red, green
+ * and blue.
+ */
+export type ColorSource = 'rgb' | 'intensity' | 'normals';
 
 /** A property of a mesh, and what the verifier found about it. */
 export interface Check {

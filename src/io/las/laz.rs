@@ -4,7 +4,8 @@
 //! to chunks, because of one item: in the crate, a point's GPS time that is said to be in another
 //! sequence than the last is read by recursion, and a broken file says so a million times in a row.
 //! Of the formats that code all items in one stream, [`GpsTime`] takes the crate's place. Those
-//! that code each item in a layer of its own are read without the layers that no coordinate needs.
+//! that code each item in a layer of its own are read without the layers that neither coordinates nor
+//! colours need.
 
 use super::{gps_time::GpsTime, in_header, is_end};
 use crate::io::FormatError;
@@ -20,14 +21,13 @@ use std::{
     iter,
 };
 
-/// Decodes all points of a file, which begin at the byte `start`; `point` turns a record into a
-/// point.
-pub(super) fn decode<T>(
+/// Decodes all points of a file, which begin at the byte `start`, and hands their records to `add`.
+pub(super) fn decode(
     bytes: &[u8],
     start: usize,
     header: &Header,
-    point: impl Fn(&[u8]) -> T,
-) -> Result<Vec<T>, FormatError> {
+    mut add: impl FnMut(&[u8]),
+) -> Result<(), FormatError> {
     let size = bytes.len();
     let vlr = header.vlrs().iter().find(|vlr| is_laszip_vlr(vlr));
     let vlr = vlr.ok_or_else(|| in_header(las::Error::LasZipVlrNotFound, size))?;
@@ -40,22 +40,23 @@ pub(super) fn decode<T>(
     let is_whole = compressor == CompressorType::PointWise as u16;
     let mut chunks = if is_whole { Box::new(iter::once(u64::MAX)) } else { chunks(&mut source, &vlr)? };
 
-    let mut points = Vec::new();
+    let mut read = 0;
     let mut record = vec![0; header.point_format().len().into()];
-    while (points.len() as u64) < header.number_of_points() {
+    while (read as u64) < header.number_of_points() {
         let at = source.position() as usize;
         let count = chunks
             .next()
-            .ok_or_else(|| FormatError::byte(at, format!("the chunks of points end after {} points", points.len())))?;
+            .ok_or_else(|| FormatError::byte(at, format!("the chunks of points end after {read} points")))?;
         check_chunk(bytes, at, record.len(), layers(vlr.items()))?;
         let mut decompressor = decompressor(vlr.items(), &mut source).map_err(|error| in_header(error, size))?;
-        let left = header.number_of_points() - points.len() as u64;
+        let left = header.number_of_points() - read as u64;
         for _ in 0..count.min(left) {
-            decompressor.decompress_next(&mut record).map_err(|error| in_points(&error, points.len(), size))?;
-            points.push(point(&record));
+            decompressor.decompress_next(&mut record).map_err(|error| in_points(&error, read, size))?;
+            add(&record);
+            read += 1;
         }
     }
-    Ok(points)
+    Ok(())
 }
 
 /// Checks that the items make a record, whatever sizes the file gives them, and that the first is
@@ -157,7 +158,7 @@ fn decompressor<'a, 'b: 'a>(
     if layers(items) > 0 {
         let mut record = LayeredPointRecordDecompressor::new(source);
         record.set_fields_from(items)?;
-        record.set_selection(DecompressionSelection::xy_returns_channel().decompress_z());
+        record.set_selection(selection());
         return Ok(Box::new(record));
     }
     let mut record = SequentialPointRecordDecompressor::new(source);
@@ -183,6 +184,11 @@ fn decompressor<'a, 'b: 'a>(
         }
     }
     Ok(Box::new(record))
+}
+
+/// Returns the layers that are read: those of coordinates and colours.
+fn selection() -> DecompressionSelection {
+    DecompressionSelection::xy_returns_channel().decompress_z().decompress_intensity().decompress_rgb()
 }
 
 /// Describes an error of the decompressor after the first `read` points, in a file of `size` bytes.

@@ -7,8 +7,11 @@
 mod gps_time;
 mod laz;
 
-use crate::io::{FormatError, PointBuf, PointCloud};
-use ::las::{Header, raw};
+use crate::io::{
+    FormatError, PointBuf, PointCloud,
+    colors::{CHANNELS, Colors, INTENSITY, Range},
+};
+use ::las::{Header, point::Format, raw};
 use ::laz::LasZipError;
 use std::{
     cell::Cell,
@@ -75,18 +78,42 @@ fn point_count(header: &raw::Header) -> u64 {
 fn decode(bytes: &[u8], start: usize) -> Result<PointCloud, FormatError> {
     let header = Header::new(Cursor::new(bytes)).map_err(|error| in_header(error, bytes.len()))?;
     let axes = header.transforms();
-    // Every format's record begins with the three coordinates.
-    let point = |record: &[u8]| {
+    let rgb = rgb_at(header.point_format());
+    let mut points = Vec::new();
+    let has = std::array::from_fn(|channel| channel == INTENSITY || channel < 3 && rgb.is_some());
+    let mut colors = Colors::new(has, Range::Words);
+    // Every format's record begins with the three coordinates and the intensity.
+    let mut add = |record: &[u8]| {
         let [x, y, z] = [0, 4, 8].map(|at| i32::from_le_bytes(*record[at..].first_chunk().expect("20 bytes or more")));
-        [axes.x.direct(x), axes.y.direct(y), axes.z.direct(z)]
+        points.push([axes.x.direct(x), axes.y.direct(y), axes.z.direct(z)]);
+        let word =
+            |at: usize| record.get(at..at + 2).map_or(0.0, |word| f64::from(u16::from_le_bytes([word[0], word[1]])));
+        let mut sample = [f64::NAN; CHANNELS];
+        sample[INTENSITY] = word(12);
+        if let Some(rgb) = rgb {
+            for (k, x) in sample[..3].iter_mut().enumerate() {
+                *x = word(rgb + 2 * k);
+            }
+        }
+        colors.push(&sample);
     };
-    let points = if header.point_format().is_compressed {
-        laz::decode(bytes, start, &header, point)?
+    if header.point_format().is_compressed {
+        laz::decode(bytes, start, &header, add)?;
     } else {
         let records = bytes[start..].chunks_exact(header.point_format().len().into());
-        records.take(header.number_of_points() as usize).map(point).collect()
+        records.take(header.number_of_points() as usize).for_each(&mut add);
+    }
+    Ok(PointCloud { colors: colors.finish(), ..PointCloud::new(PointBuf::F64(points))? })
+}
+
+/// Returns the byte of a point's record at which red, green and blue begin, if it has them.
+fn rgb_at(format: &Format) -> Option<usize> {
+    let before = match (format.is_extended, format.has_gps_time) {
+        (true, _) => 30,
+        (false, true) => 28,
+        (false, false) => 20,
     };
-    PointCloud::new(PointBuf::F64(points))
+    format.has_color.then_some(before)
 }
 
 /// Describes an error of the crates in what goes before the points, in a file of `size` bytes.

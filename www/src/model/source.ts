@@ -181,7 +181,7 @@ async function read(
     about: {
       noReturn,
       up: upOf(name),
-      colors: colors && colorSource && { rgb: colors, source: colorSource },
+      colors: colors && { rgb: colors, source: colorSource! },
     },
   };
 }
@@ -202,13 +202,13 @@ function joined(parts: readonly (Float32Array | Float64Array)[]): Float32Array |
 
 /** The colours of several files: those of all if all have some, of the same kind; else none. */
 function colorsOf(parts: readonly Read[]): About['colors'] {
-  const all = parts.map(({ about }) => about.colors);
-  const first = all[0];
+  const first = parts[0].about.colors;
   if (parts.length === 1 || !first) return first;
   const rgb = new Uint8Array(parts.reduce((sum, { points }) => sum + points.length, 0));
   let at = 0;
-  for (const colors of all) {
-    if (colors?.source !== first.source) return null;
+  for (const { about } of parts) {
+    const { colors } = about;
+    if (!colors || colors.source !== first.source) return null;
     rgb.set(colors.rgb, at);
     at += colors.rgb.length;
   }

@@ -37,7 +37,16 @@ pub fn read_points(bytes: &Uint8Array, extension: &str) -> Result<JsValue, Throw
         PointBuf::F32(points) => Float32Array::new_from_slice(points.as_flattened()).into(),
         PointBuf::F64(points) => Float64Array::new_from_slice(points.as_flattened()).into(),
     };
-    Ok(object([("points", points), ("noReturn", (cloud.no_return as f64).into())]))
+    let (colors, source) = match &cloud.colors {
+        Some(colors) => (Uint8Array::new_from_slice(colors.rgb.as_flattened()).into(), colors.source.name().into()),
+        None => (JsValue::NULL, JsValue::NULL),
+    };
+    Ok(object([
+        ("points", points),
+        ("noReturn", (cloud.no_return as f64).into()),
+        ("colors", colors),
+        ("colorSource", source),
+    ]))
 }
 
 /// Returns `count` points, interleaved, of the distribution in `all` whose name is `kind`.
