@@ -244,6 +244,7 @@ export class App implements Page {
         Object.assign(before, {
           source,
           filter: filterFor(source),
+          layers: { ...before.layers, skin: true },
           ...FRESH,
         });
       }

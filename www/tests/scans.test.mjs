@@ -196,6 +196,7 @@ describe('a scan', () => {
 
   test('is saved with its colours', async () => {
     await drop(page, 'colours.ply', coloredPly(figure(1)));
+    await slide(page, 'keep', 1);
     await tab(page, 'use');
     const folder = mkdtempSync(join(tmpdir(), 'gdel-scan-'));
     const file = readFileSync((await save(page, 'PLY', folder))[0]);

@@ -60,7 +60,7 @@ function terrain(): Float32Array {
   });
 }
 
-/** The colours of the land: a lake, meadows, woods, rock where it is steep, snow. */
+/** The colours of the land: earth below; a lake, meadows, woods, rock where it is steep, snow. */
 export function landColors(points: Float32Array): Uint8Array {
   const colors = new Uint8Array(points.length);
   for (let i = 0; i < points.length; i += 3) {
@@ -73,15 +73,17 @@ export function landColors(points: Float32Array): Uint8Array {
     // The borders between them are not lines of equal height.
     const height = z + 0.12 * smoothNoise(6 * x, 6 * y);
     const color =
-      z < WATER + 1e-3
-        ? [64, 116, 150]
-        : height > 1.75 && slope < 2.2
-          ? [240, 243, 246]
-          : slope > 1.5 || height > 1.55
-            ? [138, 126, 113]
-            : height > 0.85
-              ? [74, 98, 62]
-              : [128, 148, 82];
+      z < heightAt(x, y) - 0.01
+        ? [121, 98, 77]
+        : z < WATER + 1e-3
+          ? [64, 116, 150]
+          : height > 1.75 && slope < 2.2
+            ? [240, 243, 246]
+            : slope > 1.5 || height > 1.55
+              ? [138, 126, 113]
+              : height > 0.85
+                ? [74, 98, 62]
+                : [128, 148, 82];
     const light = 1 + 0.08 * smoothNoise(25 * x, 25 * y);
     for (let k = 0; k < 3; k++) colors[i + k] = Math.min(255, color[k] * light);
   }
