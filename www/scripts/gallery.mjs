@@ -18,7 +18,7 @@ async function drawing(hash, width, height, omitBackground) {
     deviceScaleFactor: 2,
   });
   await page.addStyleTag({
-    content: `.dock, .reset, #reset { display: none !important }
+    content: `.dock, #reset, #measure { display: none !important }
       ${omitBackground ? '* { background: transparent !important }' : ''}`,
   });
   await page.evaluate(() => new Promise((done) => setTimeout(done, 1000)));
@@ -48,7 +48,7 @@ async function converted(png, width, height, type, quality) {
 }
 
 for (const name of process.argv.length > 2 ? process.argv.slice(2) : NAMES) {
-  const png = await drawing(`points=${name}&keep=1&layers=simplices`, 240, 180, true);
+  const png = await drawing(`points=${name}&keep=0.75&layers=simplices_skin`, 240, 180, true);
   const picture = await converted(png, 240, 180, 'image/webp', 0.82);
   writeFileSync(file(`src/gallery/${name}.webp`), picture);
   console.log(`src/gallery/${name}.webp: ${picture.length} bytes`);

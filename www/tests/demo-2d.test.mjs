@@ -164,7 +164,7 @@ describe('2D', () => {
     await click(page, 0.2, 0.25);
     assert.match(await text(page, 'count'), /^41 points/);
     await colorBy(page, 'circumradius');
-    await page.getByLabel('Voronoi diagram').uncheck();
+    await page.getByLabel('Voronoi', { exact: true }).uncheck();
     const link = await copied(page, '#share');
     assert.match(link, /dim=2.*disk_40_1.*edits=add_/);
     const other = await open(browser, link);
@@ -178,7 +178,7 @@ describe('2D', () => {
   test('shows the alpha complex', async () => {
     await generate(page, 'thin-circle', 400);
     await tab(page, 'view');
-    await page.getByLabel('Voronoi diagram').check();
+    await page.getByLabel('Voronoi', { exact: true }).check();
     await settled(page);
     const { total } = await shown(page);
     await choose(page, 'filter', 'alpha');
