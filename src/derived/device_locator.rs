@@ -11,13 +11,14 @@ use crate::{
         device_edges::DeviceEdges,
         device_mesh::{DeviceMesh, MeshArrays},
         dim::Dim,
-        queries::{NOWHERE, OPEN, OPEN_RADIUS, QueryInput, QueryPoints, words_of},
+        queries::{NOWHERE, OPEN, OPEN_RADIUS, QueryCounts, QueryInput, QueryPoints, words_of},
     },
     input::points::Points,
     mesh::Mesh,
-    parallel::Threads,
+    parallel::{Threads, extend},
 };
 use std::{
+    collections::VecDeque,
     fmt,
     sync::{
         OnceLock,
@@ -27,6 +28,8 @@ use std::{
 
 /// The queries that go to the device at a time.
 const BATCH: usize = 1 << 20;
+/// The batches that are on their way at a time.
+const BATCHES_AHEAD: usize = 3;
 
 /// Where points lie in a mesh, in four bytes each.
 ///
@@ -240,12 +243,28 @@ where
             queries.validate_by(Threads::All)?;
             return Ok(Locations { words: vec![NOWHERE as i32; queries.len()] });
         };
+        let gpu = self.mesh.gpu();
         let mut words = Vec::with_capacity(queries.len());
-        for start in (0..queries.len()).step_by(BATCH) {
-            let batch = queries.range(start..queries.len().min(start + BATCH));
-            let (_, answers) = self.locate_batch(on_device, queries, batch).await?;
-            let mut found = self.mesh.readback().read(self.mesh.gpu(), &answers.cast(), 0, batch.len()).await?;
-            words.append(&mut found);
+        let mut batches =
+            (0..queries.len()).step_by(BATCH).map(|start| queries.range(start..queries.len().min(start + BATCH)));
+        let mut ahead = VecDeque::new();
+        loop {
+            // While the device answers one, the host uploads the next.
+            while ahead.len() < BATCHES_AHEAD
+                && let Some(batch) = batches.next()
+            {
+                let (input, answers) = self.upload(batch).await?;
+                let count = batch.len();
+                let input = QueryInput { buffer: input.buffer(), count, doubles: words_of(batch).1 };
+                let locating = on_device.begin_locating(self.mesh, input, &answers, count).await?;
+                ahead.push_back((batch, answers, locating));
+            }
+            let Some((batch, answers, locating)) = ahead.pop_front() else { break };
+            let (counts, mut found) = locating.end(gpu).await?;
+            if self.finish_on_host(queries, batch, &counts, &answers).await? {
+                found = self.mesh.readback().read(gpu, &answers, 0, batch.len()).await?;
+            }
+            extend(Threads::All, &mut words, bytemuck::cast_slice(&found));
         }
         Ok(Locations { words })
     }
@@ -606,13 +625,26 @@ where
         let (input, answers) = self.upload(batch).await?;
         let on_input = QueryInput { buffer: input.buffer(), count: batch.len(), doubles: words_of(batch).1 };
         let counts = on_device.locate(self.mesh, on_input, &answers).await?;
+        self.finish_on_host(queries, batch, &counts, &answers).await?;
+        Ok((input, answers))
+    }
+
+    /// Does what the device has left of a batch to the host, and returns whether that was anything.
+    /// The indices of errors are those among all `queries`.
+    async fn finish_on_host(
+        &self,
+        queries: Points<'_, D>,
+        batch: Points<'_, D>,
+        counts: &QueryCounts,
+        answers: &Storage<u32>,
+    ) -> Result<bool, Error> {
         if counts.not_finite.is_some() {
             queries.validate_by(Threads::All)?;
         }
         if counts.open > 0 {
-            self.finish(batch, &answers).await?;
+            self.finish(batch, answers).await?;
         }
-        Ok((input, answers))
+        Ok(counts.open > 0)
     }
 
     /// Uploads queries, and makes room for their answers.

@@ -6,6 +6,8 @@ use bytemuck::Pod;
 
 use crate::error::Error;
 use crate::gpu::Gpu;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::parallel::{Threads, for_parts};
 
 /// A storage buffer of `T`, which kernels see as `array<T>`.
 ///
@@ -17,6 +19,13 @@ pub struct Storage<T> {
     len: usize,
     elements: PhantomData<T>,
 }
+
+/// Of more bytes than these, several threads write a part each.
+#[cfg(not(target_arch = "wasm32"))]
+const MANY_BYTES: usize = 1 << 20;
+/// The bytes that are written at a time.
+#[cfg(not(target_arch = "wasm32"))]
+const PART: usize = 1 << 12;
 
 /// The size of a buffer without elements.
 const EMPTY_BYTES: u128 = 16;
@@ -33,7 +42,7 @@ impl<T: Pod> Storage<T> {
     /// Returns [`Error::BufferTooLarge`] if the device cannot bind that much.
     /// [`Gpu::with_error_scope`] reports a lack of memory.
     pub fn new(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
-        Self::create(gpu, label, len, USAGES, false)
+        Self::create(gpu, label, len, USAGES)
     }
 
     /// Creates a buffer that can also be drawn from, for an array that the caller gets.
@@ -42,12 +51,12 @@ impl<T: Pod> Storage<T> {
     ///
     /// Returns the errors of [`Storage::new`].
     pub(crate) fn for_caller(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
-        Self::create(gpu, label, len, USAGES | wgpu::BufferUsages::INDEX | wgpu::BufferUsages::VERTEX, false)
+        Self::create(gpu, label, len, USAGES | wgpu::BufferUsages::INDEX | wgpu::BufferUsages::VERTEX)
     }
 
     /// Creates a buffer that timestamps are written to.
     pub(crate) fn for_queries(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
-        Self::create(gpu, label, len, USAGES | wgpu::BufferUsages::QUERY_RESOLVE, false)
+        Self::create(gpu, label, len, USAGES | wgpu::BufferUsages::QUERY_RESOLVE)
     }
 
     /// Creates a buffer that holds `contents`.
@@ -59,25 +68,13 @@ impl<T: Pod> Storage<T> {
         if contents.is_empty() {
             return Self::new(gpu, label, 0);
         }
-        let storage = Self::create(gpu, label, contents.len(), USAGES, true)?;
-        let bytes: &[u8] = bytemuck::cast_slice(contents);
-        storage
-            .buffer
-            .get_mapped_range_mut(..)
-            .map_err(|e| gpu.failure(&e.to_string()))?
-            .slice(..bytes.len())
-            .copy_from_slice(bytes);
-        storage.buffer.unmap();
+        // A buffer that is mapped at its creation would be filled with zeros before.
+        let storage = Self::new(gpu, label, contents.len())?;
+        storage.write(gpu, 0, contents);
         Ok(storage)
     }
 
-    fn create(
-        gpu: &Gpu,
-        label: &'static str,
-        len: usize,
-        usage: wgpu::BufferUsages,
-        mapped_at_creation: bool,
-    ) -> Result<Self, Error> {
+    fn create(gpu: &Gpu, label: &'static str, len: usize, usage: wgpu::BufferUsages) -> Result<Self, Error> {
         let limit = gpu.max_storage_bytes();
         // In 128 bits no length overflows. Sizes are multiples of 4, as copies need.
         let bytes = match len {
@@ -90,7 +87,7 @@ impl<T: Pod> Storage<T> {
             limit,
             points: None,
         })?;
-        let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation };
+        let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
         Ok(Storage { buffer: gpu.device().create_buffer(&descriptor), label, len, elements: PhantomData })
     }
 
@@ -116,7 +113,27 @@ impl<T: Pod> Storage<T> {
 
     /// Writes `contents` at element `start`, before the commands of the next submission.
     pub fn write(&self, gpu: &Gpu, start: usize, contents: &[T]) {
-        gpu.queue().write_buffer(&self.buffer, (start * size_of::<T>()) as u64, bytemuck::cast_slice(contents));
+        let offset = (start * size_of::<T>()) as u64;
+        let bytes: &[u8] = bytemuck::cast_slice(contents);
+        #[cfg(not(target_arch = "wasm32"))]
+        if bytes.len() > MANY_BYTES {
+            // Most of the time goes into page faults, since the memory that the device reads is
+            // fresh each time, so threads share the work.
+            let size = std::num::NonZero::new(bytes.len() as u64);
+            let view = size.and_then(|size| gpu.queue().write_buffer_with(&self.buffer, offset, size));
+            // Without a view, the size or the place are wrong, and the device has reported that.
+            if let Some(mut view) = view {
+                let (parts, rest) = bytes.as_chunks::<PART>();
+                let (targets, mut target_of_rest) = view.slice(..).into_chunks::<PART>();
+                target_of_rest.copy_from_slice(rest);
+                let mut copies: Vec<_> = targets.into_iter().zip(parts).map(Some).collect();
+                for_parts(Threads::All, &mut copies, |_, copies| {
+                    copies.iter_mut().filter_map(Option::take).for_each(|(target, part)| target.write(*part));
+                });
+            }
+            return;
+        }
+        gpu.queue().write_buffer(&self.buffer, offset, bytes);
     }
 
     /// Returns the number of elements.

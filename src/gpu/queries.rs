@@ -14,11 +14,12 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Compiler, Gpu, Kernel, Recorder, Storage,
+        Compiler, Gpu, Kernel, Readback, Recorder, Storage,
         device_edges::DeviceEdges,
         device_mesh::DeviceMesh,
         dim::Dim,
         primitives::sort::Sort,
+        readback::Pending,
         shader::{assert_layout, constants::common as constants},
         workgroups,
     },
@@ -219,33 +220,47 @@ where
         queries: QueryInput<'_>,
         answers: &Storage<u32>,
     ) -> Result<QueryCounts, Error> {
+        Ok(self.begin_locating(mesh, queries, answers, 0).await?.end(mesh.gpu()).await?.0)
+    }
+
+    /// Begins to do so, and to read the first `read` answers.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Gpu::with_error_scope`].
+    pub async fn begin_locating(
+        &self,
+        mesh: &DeviceMesh<D>,
+        queries: QueryInput<'_>,
+        answers: &Storage<u32>,
+        read: usize,
+    ) -> Result<Locating, Error> {
         let gpu = mesh.gpu();
         let mut readback = mesh.readback();
-        let (submission, pending) = gpu
-            .with_error_scope("queries", || {
-                let params = Storage::with_contents(gpu, "query parameters", &[self.params_of(queries)])?;
-                let undecided = Storage::<u32>::new(gpu, "undecided queries", queries.count)?;
-                let buffers = [
-                    ("params", params.buffer()),
-                    ("input", queries.buffer),
-                    ("vertices", self.vertices.buffer()),
-                    ("simplices", mesh.simplices()),
-                    ("neighbors", mesh.neighbors()),
-                    ("starts", self.starts.buffer()),
-                    ("answers", answers.buffer()),
-                    ("undecided", undecided.buffer()),
-                ];
-                let mut recorder = Recorder::new(gpu, None);
-                for kernel in [&self.walk, &self.settle] {
-                    // One invocation per query on every device: software devices end loops after
-                    // 65,535 steps, those of all loops of an invocation.
-                    recorder.dispatch(kernel, &kernel.bind(gpu, &buffers), workgroups(queries.count as u32));
-                }
-                let pending = readback.copy(gpu, recorder.encoder(), &params, 0, 1);
-                Ok((recorder.submit(gpu), pending))
-            })
-            .await?;
-        Ok(counts_of(&readback.receive(gpu, &submission, pending).await?[0]))
+        gpu.with_error_scope("queries", || {
+            let params = Storage::with_contents(gpu, "query parameters", &[self.params_of(queries)])?;
+            let undecided = Storage::<u32>::new(gpu, "undecided queries", queries.count)?;
+            let buffers = [
+                ("params", params.buffer()),
+                ("input", queries.buffer),
+                ("vertices", self.vertices.buffer()),
+                ("simplices", mesh.simplices()),
+                ("neighbors", mesh.neighbors()),
+                ("starts", self.starts.buffer()),
+                ("answers", answers.buffer()),
+                ("undecided", undecided.buffer()),
+            ];
+            let mut recorder = Recorder::new(gpu, None);
+            for kernel in [&self.walk, &self.settle] {
+                // One invocation per query on every device: software devices end loops after
+                // 65,535 steps, those of all loops of an invocation.
+                recorder.dispatch(kernel, &kernel.bind(gpu, &buffers), workgroups(queries.count as u32));
+            }
+            let counts = readback.copy(gpu, recorder.encoder(), &params, 0, 1);
+            let answers = (read > 0).then(|| readback.copy(gpu, recorder.encoder(), answers, 0, read));
+            Ok(Locating { submission: recorder.submit(gpu), counts, answers, readback })
+        })
+        .await
     }
 
     /// Finds the vertex nearest to each query, and puts it or [`OPEN`] into `answers`.
@@ -362,6 +377,31 @@ where
             (params.farthest_low[axis], params.farthest_high[axis]) = (far as u32, (far >> 32) as u32);
         }
         params
+    }
+}
+
+/// Queries that the device locates.
+#[derive(Debug)]
+pub struct Locating {
+    submission: wgpu::SubmissionIndex,
+    counts: Pending<QueryParams>,
+    answers: Option<Pending<u32>>,
+    readback: Readback,
+}
+
+impl Locating {
+    /// Waits for the counts, and for the answers that are read.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Readback::receive`].
+    pub async fn end(mut self, gpu: &Gpu) -> Result<(QueryCounts, Vec<u32>), Error> {
+        let params = self.readback.receive(gpu, &self.submission, self.counts).await?;
+        let answers = match self.answers {
+            Some(answers) => self.readback.receive(gpu, &self.submission, answers).await?,
+            None => Vec::new(),
+        };
+        Ok((counts_of(&params[0]), answers))
     }
 }
 

@@ -105,6 +105,23 @@ fn locations_of_many_queries_are_found_by_the_device_in_2d() {
     }
 }
 
+/// More batches than are on their way at a time, some of which leave queries to the host.
+#[test]
+fn locations_of_several_batches() {
+    const BATCH: usize = 1 << 20;
+    let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 4.0], [1.0, 1.5f32]];
+    let mesh = triangulator().delaunay2d_on_device(&points).unwrap();
+    let place = |i: usize| [(i % 977) as f32 / 200.0, (i % 1009) as f32 / 210.0];
+    let mut queries = Vec::from_iter((0..4 * BATCH + 77).map(place));
+    for i in [3, BATCH + 5, 4 * BATCH + 76] {
+        queries[i] = [1e30, -1e20];
+    }
+    assert_eq!(check!("batches", mesh, &points, &queries), 3);
+    queries[3 * BATCH + 1][1] = f32::NAN;
+    let error = Error::NotFinite { index: 3 * BATCH + 1, axis: 'y', value: "NaN" };
+    assert_eq!(DeviceLocator::new(&mesh, &points).unwrap().locate_many(&queries).unwrap_err(), error);
+}
+
 /// Queries and answers in buffers, with some that are left to the host.
 #[test]
 fn locations_in_buffers() {
