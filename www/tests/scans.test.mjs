@@ -172,6 +172,39 @@ describe('a scan', () => {
     await flat.context().close();
   });
 
+  test('is probed by the pointer: where it is, and from above how high', async () => {
+    /** The numbers that the tip begins with, by their names. */
+    const probe = async (page) => {
+      const { x, y, width, height } = await page.locator('#canvas').boundingBox();
+      await page.mouse.move(x + 0.5 * width, y + 0.5 * height);
+      await page.locator('#tip').waitFor();
+      const names = await page.locator('#tip dt').allTextContents();
+      const values = await page.locator('#tip dd').allTextContents();
+      return Object.fromEntries(names.map((name, i) => [name, Number(values[i])]));
+    };
+    const random = randomNumbers(3);
+    const slope = Array.from({ length: 500 }, () => [100 * random(), 100 * random()]);
+    const points = xyz(slope.map(([x, y]) => [500_000 + x, y, 2 * x + 3 * y]));
+    const flat = await open(browser, `${server.url}#dim=2`);
+    await drop(flat, 'slope.xyz', points);
+    const above = await probe(flat);
+    assert.ok(above.x > 500_020 && above.x < 500_080 && above.y > 20 && above.y < 80);
+    const expected = 2 * (above.x - 500_000) + 3 * above.y;
+    assert.ok(Math.abs(above.height - expected) < 0.5, JSON.stringify(above));
+    assert.deepEqual(flat.problems, []);
+    await flat.context().close();
+
+    await drop(page, 'hills.xyz', xyz(airborne()));
+    for (const apart of [0, 0.5]) {
+      await slide(page, 'apart', apart);
+      const { x, y, z } = await probe(page);
+      assert.ok(x > 500_000 && x < 501_000 && y > 4_000_000 && y < 4_000_600, `${x}, ${y}`);
+      assert.ok(z > -40 && z < 60, `${z}`);
+      await page.mouse.move(2, 2);
+    }
+    await slide(page, 'apart', 0);
+  });
+
   test('says what stands for its colours', async () => {
     await tab(page, 'view');
     const names = () => page.locator('#layers').textContent();

@@ -4,12 +4,26 @@ export interface Ray {
   direction: readonly [number, number, number];
 }
 
-/** The first triangle that the ray meets from its front, or -1. Nine coordinates a triangle. */
-export function firstHit(triangles: Float32Array, { origin, direction }: Ray): number {
+/** Where a ray meets a triangle. */
+export interface Hit {
+  triangle: number;
+  /** How much of each corner there is in the place: not below 0, and 1 in all. */
+  weights: [number, number, number];
+}
+
+/** The place of a hit. Nine coordinates a triangle. */
+export function placeOf(triangles: Float32Array, { triangle, weights }: Hit): number[] {
+  return [0, 1, 2].map((axis) =>
+    weights.reduce((sum, w, corner) => sum + w * triangles[9 * triangle + 3 * corner + axis], 0),
+  );
+}
+
+/** Where the ray first meets a triangle from its front, or null. Nine coordinates a triangle. */
+export function firstHit(triangles: Float32Array, { origin, direction }: Ray): Hit | null {
   const [ox, oy, oz] = origin;
   const [dx, dy, dz] = direction;
   let nearest = Infinity;
-  let hit = -1;
+  let hit: Hit | null = null;
   for (let i = 0; i < triangles.length; i += 9) {
     // Möller and Trumbore's test.
     const ax = triangles[i],
@@ -39,7 +53,8 @@ export function firstHit(triangles: Float32Array, { origin, direction }: Ray): n
     const distance = (vx * qx + vy * qy + vz * qz) / determinant;
     if (distance > 0 && distance < nearest) {
       nearest = distance;
-      hit = i / 9;
+      const [second, third] = [u / determinant, v / determinant];
+      hit = { triangle: i / 9, weights: [1 - second - third, second, third] };
     }
   }
   return hit;

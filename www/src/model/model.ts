@@ -108,6 +108,10 @@ export interface Drawing {
 export interface Picked {
   index: number;
   vertices: number[];
+  /** What the pointer is at, in the coordinates of the input. */
+  place: number[];
+  /** In 2D the height there, between those of the corners, where the points have heights. */
+  height: number | null;
   neighbors: number[];
   volume: number;
   circumradius: number;
@@ -125,12 +129,15 @@ export interface About {
   up: { axis: 'y' | 'z'; sure: boolean };
   /** The points' own colours: red, green and blue each. */
   colors: { rgb: Uint8Array; source: ColorSource } | null;
+  /** In 2D the z coordinates of the file, unless all are the same. */
+  heights: Float32Array | Float64Array | null;
 }
 
 export const NOTHING_ABOUT: About = {
   noReturn: 0,
   up: { axis: 'y', sure: true },
   colors: null,
+  heights: null,
 };
 
 /** One set of points, its mesh, and what has been worked out about it so far. */

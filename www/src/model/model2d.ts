@@ -1,7 +1,7 @@
 import type { Mesh2, RunOptions2, Triangulator } from 'gdel-wasm';
 import type { Measures } from '../geometry/measures';
 import { type Frame, toFrame } from '../geometry/mesh';
-import { firstHit, type Ray } from '../geometry/pick';
+import { firstHit, type Hit, placeOf, type Ray } from '../geometry/pick';
 import { mapping, scaleFor } from '../geometry/scale';
 import { flatSurface, measureTriangles, type Triangulation } from '../geometry/triangles';
 import { type Box, type Voronoi, voronoiEdges } from '../geometry/voronoi';
@@ -138,17 +138,27 @@ export class Model2d implements Model {
 
   pick(ray: Ray): Picked | null {
     const surface = this.drawing?.surface;
-    const hit = surface ? firstHit(surface.positions, ray) : -1;
-    return hit < 0 ? null : this.describe(surface!.owners[hit]);
+    const hit = surface && firstHit(surface.positions, ray);
+    return hit ? this.describe(surface.owners[hit.triangle], hit, surface.positions) : null;
   }
 
-  private describe(index: number): Picked {
+  /** Describes a triangle, which the pointer is at in a place of the drawing. */
+  private describe(index: number, hit: Hit, drawn: Float32Array): Picked {
     const { triangles, halfedges } = this.mesh;
     const { volume, circumradius, radiusRatio } = this.measured;
     const vertices = [...triangles.subarray(3 * index, 3 * index + 3)];
+    const { center, scale } = this.frame;
+    const { heights } = this.about;
     return {
       index,
       vertices,
+      place: placeOf(drawn, hit)
+        .slice(0, 2)
+        .map((x, axis) => center[axis] + x / scale),
+      // Corners are drawn the other way round.
+      height:
+        heights &&
+        hit.weights.reduce((sum, w, corner) => sum + w * heights[vertices[2 - corner]], 0),
       neighbors: [...halfedges.subarray(3 * index, 3 * index + 3)].map((e) =>
         e < 0 ? -1 : Math.floor(e / 3),
       ),

@@ -3,7 +3,7 @@ import { surfaceOfCells } from '../geometry/cells';
 import { type Filter, type Kept, keep } from '../geometry/filter';
 import { circumcenter, type Measures, measure } from '../geometry/measures';
 import { FACETS, type Frame, frameOf, type Tetrahedralisation, toFrame } from '../geometry/mesh';
-import { firstHit, type Ray } from '../geometry/pick';
+import { firstHit, placeOf, type Ray } from '../geometry/pick';
 import { outermost, piecesOf, trianglesOf } from '../geometry/pieces';
 import { type Heights, heightsAlong, keepOf, levelOf, type Plane } from '../geometry/plane';
 import { mapping, positionOn, scaleFor, scaleOf } from '../geometry/scale';
@@ -235,30 +235,34 @@ export class Model3d implements Model {
     // The owners of cells are points.
     if (!this.drawing || this.drawing.cells) return null;
     const { surface, pieces } = this.drawing;
-    let index = -1;
-    if (surface) {
-      const hit = firstHit(surface.positions, ray);
-      if (hit >= 0) index = surface.owners[hit];
-    } else if (pieces) {
-      const hit = firstHit(trianglesOf(pieces, apart), ray);
-      if (hit >= 0) index = pieces.owners[hit >> 2];
-    }
-    return index < 0 ? null : this.describe(index, surface ? 0 : apart);
+    const triangles = surface?.positions ?? (pieces && trianglesOf(pieces, apart));
+    const hit = triangles && firstHit(triangles, ray);
+    if (!hit) return null;
+    const place = placeOf(triangles, hit);
+    return surface
+      ? this.describe(surface.owners[hit.triangle], 0, place)
+      : this.describe(pieces!.owners[hit.triangle >> 2], apart, place);
   }
 
-  private describe(index: number, apart: number): Picked {
+  /** Describes a tetrahedron, which the pointer is at in a place of the drawing. */
+  private describe(index: number, apart: number, drawn: number[]): Picked {
     const { tetrahedra, neighbors } = this.mesh;
     const vertices = [...tetrahedra.subarray(4 * index, 4 * index + 4)];
     const corners = cornersOf(this.positions, vertices);
+    const { center, scale } = this.frame;
+    const place = [0, 0, 0];
     for (let axis = 0; axis < 3; axis++) {
       const move =
         (apart * (corners[axis] + corners[3 + axis] + corners[6 + axis] + corners[9 + axis])) / 4;
       for (let k = 0; k < 4; k++)
         corners[3 * k + axis] = (corners[3 * k + axis] + move) / (1 + apart);
+      place[axis] = center[axis] + (drawn[axis] * (1 + apart) - move) / scale;
     }
     return {
       index,
       vertices,
+      place,
+      height: null,
       neighbors: [...neighbors.subarray(4 * index, 4 * index + 4)],
       volume: this.measured.volume[index],
       circumradius: this.measured.circumradius[index],

@@ -140,10 +140,12 @@ export async function load(
       throw error;
     }
   }
-  const points = joined(parts.map((part) => part.points));
+  const all = joined(parts.map((part) => part.points));
+  const { points, heights } = source.dimension === 3 ? { points: all, heights: null } : split(all);
   return {
-    points: source.dimension === 3 ? points : withoutZ(points),
+    points,
     about: {
+      heights,
       noReturn: parts.reduce((sum, part) => sum + part.about.noReturn, 0),
       up: parts[0].about.up,
       colors: colorsOf(parts),
@@ -179,6 +181,7 @@ async function read(
   return {
     points,
     about: {
+      ...NOTHING_ABOUT,
       noReturn,
       up: upOf(name),
       colors: colors && { rgb: colors, source: colorSource! },
@@ -222,14 +225,18 @@ function upOf(name: string): About['up'] {
   return { axis: model && extension !== 'stl' ? 'y' : 'z', sure: !model };
 }
 
-function withoutZ(points: Float32Array | Float64Array): Float32Array | Float64Array {
-  const length = (points.length / 3) * 2;
-  const flat = points instanceof Float32Array ? new Float32Array(length) : new Float64Array(length);
-  for (let i = 0; i < length / 2; i++) {
-    flat[2 * i] = points[3 * i];
-    flat[2 * i + 1] = points[3 * i + 1];
+/** Points as seen from above, and their heights, unless all are the same. */
+function split(all: Float32Array | Float64Array) {
+  const count = all.length / 3;
+  const isSingle = all instanceof Float32Array;
+  const points = isSingle ? new Float32Array(2 * count) : new Float64Array(2 * count);
+  const heights = isSingle ? new Float32Array(count) : new Float64Array(count);
+  for (let i = 0; i < count; i++) {
+    points[2 * i] = all[3 * i];
+    points[2 * i + 1] = all[3 * i + 1];
+    heights[i] = all[3 * i + 2];
   }
-  return flat;
+  return { points, heights: heights.some((z) => z !== heights[0]) ? heights : null };
 }
 
 async function fetchSample(sample: 'bunny' | 'dragon', signal: AbortSignal): Promise<Float32Array> {

@@ -236,7 +236,12 @@ class ModelWorker {
 /** What is known about points after changes by hand. */
 function edited(about: About, edits: readonly Edit[]): About {
   const { colors } = about;
-  return { ...about, colors: colors && { ...colors, rgb: colorsAfter(colors.rgb, edits) } };
+  return {
+    ...about,
+    colors: colors && { ...colors, rgb: colorsAfter(colors.rgb, edits) },
+    // Points that were added have none.
+    heights: edits.length > 0 ? null : about.heights,
+  };
 }
 
 const ALL = ['neighbors', 'hull', 'duplicateOf'] as const;

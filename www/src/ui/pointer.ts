@@ -1,5 +1,4 @@
 import type { Picked } from '../model/model';
-import type { Dimension } from '../model/source';
 import type { Page, Part } from '../page';
 import { byId, count, create, measured } from './dom';
 import { CLICK } from './editor';
@@ -30,7 +29,7 @@ export function pointer(page: Page): Part {
       const picked = await page.model.pick(page.viewer.ray(x, y), page.settings.apart);
       page.viewer.showOutline(picked?.outline ?? null);
       tip.hidden = picked === null;
-      if (picked) describe(tip, picked, page.settings.source.dimension, x, y, canvas);
+      if (picked) describe(tip, picked, page, x, y);
     }
     busy = false;
   };
@@ -67,15 +66,13 @@ export function pointer(page: Page): Part {
   return { ran: hide, edited: hide };
 }
 
-function describe(
-  tip: HTMLElement,
-  picked: Picked,
-  dimension: Dimension,
-  x: number,
-  y: number,
-  canvas: HTMLElement,
-): void {
+function describe(tip: HTMLElement, picked: Picked, page: Page, x: number, y: number): void {
+  const { dimension, frame } = page.summary!;
   const rows: [string, string][] = [
+    ...picked.place.map((at, axis): [string, string] => ['xyz'[axis], located(at, frame.scale)]),
+    ...(picked.height === null
+      ? []
+      : [['height', located(picked.height, frame.scale)] as [string, string]]),
     [dimension === 3 ? 'tetrahedron' : 'triangle', count(picked.index)],
     ['vertices', picked.vertices.join(' ')],
     ['neighbours', picked.neighbors.map((n) => (n < 0 ? 'outside' : n)).join(' ')],
@@ -88,6 +85,13 @@ function describe(
     ...rows.flatMap(([name, value]) => [create('dt', {}, name), create('dd', {}, value)]),
   );
   const { offsetWidth, offsetHeight } = tip;
+  const canvas = byId('canvas');
   tip.style.left = `${Math.max(8, x + 18 + offsetWidth > canvas.clientWidth ? x - 18 - offsetWidth : x + 18)}px`;
   tip.style.top = `${Math.min(Math.max(8, y - 20), canvas.clientHeight - offsetHeight - 8)}px`;
+}
+
+/** A coordinate to a thousandth of the object's size. */
+export function located(x: number, scale: number): string {
+  const digits = Math.ceil(3 + Math.log10(scale));
+  return Math.abs(x) < 1e15 && digits <= 20 ? x.toFixed(Math.max(0, digits)) : measured(x);
 }

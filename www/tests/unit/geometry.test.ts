@@ -3,7 +3,7 @@ import { describe, test } from 'node:test';
 import { keep } from '../../src/geometry/filter';
 import { facetCircumradiusSquared, measure } from '../../src/geometry/measures';
 import { FACETS, frameOf, toFrame } from '../../src/geometry/mesh';
-import { firstHit } from '../../src/geometry/pick';
+import { firstHit, placeOf } from '../../src/geometry/pick';
 import { outermost, piecesOf, skinOf, trianglesOf } from '../../src/geometry/pieces';
 import { heightsAlong, levelOf } from '../../src/geometry/plane';
 import { mapping, scaleFor } from '../../src/geometry/scale';
@@ -349,10 +349,16 @@ test('a ray meets the nearest triangle that faces it', () => {
   const { facets } = boundaryOf(mesh, all, heights, Infinity);
   const { positions: triangles, owners } = surfaceOf(mesh, facets, () => 0, null);
   const hit = firstHit(triangles, { origin: [5, 0.05, 0.03], direction: [-1, 0, 0] });
-  const xs = [0, 3, 6].map((j) => triangles[9 * hit + j]);
+  assert.ok(hit);
+  const { triangle, weights } = hit;
+  const xs = [0, 3, 6].map((j) => triangles[9 * triangle + j]);
   for (const x of xs) closeTo(x, SIDE * 0.5 * frame.scale, 5);
-  assert.equal(owners[hit], facets[hit] >>> 2);
-  assert.equal(firstHit(triangles, { origin: [5, 2, 0], direction: [-1, 0, 0] }), -1);
+  assert.equal(owners[triangle], facets[triangle] >>> 2);
+  closeTo(weights[0] + weights[1] + weights[2], 1, 6);
+  const place = placeOf(triangles, hit);
+  for (const [axis, x] of [SIDE * 0.5 * frame.scale, 0.05, 0.03].entries())
+    closeTo(place[axis], x, 5);
+  assert.equal(firstHit(triangles, { origin: [5, 2, 0], direction: [-1, 0, 0] }), null);
 });
 
 test('scales leave out the extremes and stay within the map', () => {
