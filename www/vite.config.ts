@@ -1,5 +1,12 @@
+import { readFileSync } from 'node:fs';
 import { serwist } from '@serwist/vite';
 import { defineConfig } from 'vite';
+
+// The page links to the documents where the package says that they are.
+const { repository } = JSON.parse(
+  readFileSync(new URL('../web/package.json', import.meta.url), 'utf8'),
+);
+process.env.VITE_REPOSITORY = repository.url.replace(/^git\+|\.git$/g, '');
 
 export default defineConfig({
   // Relative addresses: the page works from any folder of any host.

@@ -2,6 +2,7 @@
 // phones; and what the dock says and does.
 
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { after, before, describe, test } from 'node:test';
 import { generate } from '../../web/dist/index.js';
 import {
@@ -55,6 +56,19 @@ describe('on a screen', () => {
     assert.equal(texts.join('').trim(), '');
     const [stage, dock] = [await box(page, '#stage'), await box(page, '#dock')];
     assert.ok(stage.y + stage.height <= dock.y + 1);
+  });
+
+  test('the documents are where the package says', async () => {
+    const { repository } = JSON.parse(
+      readFileSync(new URL('../../web/package.json', import.meta.url), 'utf8'),
+    );
+    const address = repository.url.match(/https:.*(?=\.git$)/)[0];
+    const link = page.getByRole('link', { name: 'Documents' });
+    assert.equal(await link.getAttribute('href'), `${address}#readme`);
+    await page.click('#help');
+    const readme = page.getByRole('link', { name: 'the package' });
+    assert.equal(await readme.getAttribute('href'), `${address}/blob/main/web/README.md`);
+    await page.keyboard.press('Escape');
   });
 
   test('one slider shows at a time, for what the dock is set to', async () => {
