@@ -306,7 +306,7 @@ describe('2D', () => {
       ['remove', 60],
     ]) {
       await choose(page, 'tool', tool);
-      await page.touchscreen.tap(...(await at(page, 0.12, 0.72)));
+      await page.touchscreen.tap(...(await at(page, 0.1, 0.93)));
       await settled(page);
       assert.match(await text(page, 'count'), new RegExp(`^${count} points`));
     }
