@@ -118,12 +118,17 @@ impl Colors {
         }
     }
 
+    /// Returns whether the file has no number that colours come from.
+    pub(super) fn is_empty(&self) -> bool {
+        self.rgb.is_none() && self.intensities.is_none() && self.normals.is_none()
+    }
+
     /// Adds a point.
+    #[inline]
     pub(super) fn push(&mut self, sample: &Sample) {
         let [r, g, b, intensity, normal @ ..] = *sample;
         if let Some(rgb) = &mut self.rgb {
-            // Saturates, and takes NaN for 0.
-            rgb.push([r, g, b].map(|x| (x * self.range.scale()).round() as u16));
+            rgb.push([r, g, b].map(|x| nearest(x * self.range.scale())));
         }
         if let Some(intensities) = &mut self.intensities {
             intensities.push(if intensity.is_finite() { intensity as f32 } else { 0.0 });
@@ -131,7 +136,7 @@ impl Colors {
         if let Some(normals) = &mut self.normals {
             let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
             let unit = if length > 0.0 && length.is_finite() { normal.map(|x| x / length) } else { [0.0; 3] };
-            normals.push(unit.map(|x| (127.5 + 127.5 * x).round() as u8));
+            normals.push(unit.map(|x| nearest(127.5 + 127.5 * x) as u8));
         }
     }
 
@@ -144,7 +149,7 @@ impl Colors {
         let colors = |rgb, source| Some(PointColors { rgb, source });
         if let Some(rgb) = varied(self.rgb) {
             let full = self.range.full(rgb.iter().flatten().copied().max().unwrap_or_default());
-            let byte = |x: u16| (255.0 * f64::from(x) / full).round() as u8;
+            let byte = |x: u16| nearest(255.0 * f64::from(x) / full).min(255) as u8;
             return colors(rgb.into_iter().map(|color| color.map(byte)).collect(), ColorSource::Rgb);
         }
         if let Some(intensities) = varied(self.intensities) {
@@ -152,6 +157,12 @@ impl Colors {
         }
         colors(varied(self.normals)?, ColorSource::Normals)
     }
+}
+
+/// Returns the nearest integer, the first or last of its type for what is out of its range, and 0
+/// for NaN. `f64::round` is a call of the mathematical library on most targets.
+fn nearest(x: f64) -> u16 {
+    (x + 0.5) as u16
 }
 
 /// Returns shades of grey from the 2nd to the 98th percentile of values that are not all the same.
@@ -166,7 +177,8 @@ fn greys(values: &[f32]) -> Vec<[u8; 3]> {
         low = values.iter().copied().fold(f32::INFINITY, f32::min);
         high = values.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     }
-    let grey = |x: f32| (255.0 * (f64::from(x) - f64::from(low)) / (f64::from(high) - f64::from(low))).round() as u8;
+    let grey =
+        |x: f32| nearest(255.0 * (f64::from(x) - f64::from(low)) / (f64::from(high) - f64::from(low))).min(255) as u8;
     values.iter().map(|&x| [grey(x); 3]).collect()
 }
 

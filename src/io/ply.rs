@@ -67,9 +67,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
         let is_vertex = element.name == b"vertex";
         let roles: Vec<Option<Role>> =
             element.properties.iter().map(|property| Role::of(&property.name).filter(|_| is_vertex)).collect();
+        let mut sample: Sample = [f64::NAN; CHANNELS];
         for index in 0..element.count {
             let mut point = [0.0; 3];
-            let mut sample: Sample = [f64::NAN; CHANNELS];
             for (property, role) in element.properties.iter().zip(&roles) {
                 let ends = |data: &Data<'_>| data.ends(element, index);
                 match (property.kind, role) {

@@ -138,6 +138,9 @@ impl Tints {
 
     /// Adds the point of a row. Returns whether the row has what a guess says.
     fn add(&mut self, row: &[&[u8]]) -> bool {
+        if self.colors.is_empty() {
+            return true;
+        }
         let sample = self.fields.map(|field| field.and_then(|field| parse(row.get(field)?)).unwrap_or(f64::NAN));
         self.colors.push(&sample);
         let [r, g, b, _, normal @ ..] = sample;

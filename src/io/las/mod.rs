@@ -82,13 +82,13 @@ fn decode(bytes: &[u8], start: usize) -> Result<PointCloud, FormatError> {
     let mut points = Vec::new();
     let has = std::array::from_fn(|channel| channel == INTENSITY || channel < 3 && rgb.is_some());
     let mut colors = Colors::new(has, Range::Words);
+    let mut sample = [f64::NAN; CHANNELS];
     // Every format's record begins with the three coordinates and the intensity.
     let mut add = |record: &[u8]| {
         let [x, y, z] = [0, 4, 8].map(|at| i32::from_le_bytes(*record[at..].first_chunk().expect("20 bytes or more")));
         points.push([axes.x.direct(x), axes.y.direct(y), axes.z.direct(z)]);
         let word =
             |at: usize| record.get(at..at + 2).map_or(0.0, |word| f64::from(u16::from_le_bytes([word[0], word[1]])));
-        let mut sample = [f64::NAN; CHANNELS];
         sample[INTENSITY] = word(12);
         if let Some(rgb) = rgb {
             for (k, x) in sample[..3].iter_mut().enumerate() {
