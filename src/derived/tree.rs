@@ -141,6 +141,9 @@ impl SpanningTree {
     }
 }
 
+/// The edges of a tetrahedron, of which the first three are those of a triangle.
+const EDGES: [[usize; 2]; 6] = [[1, 0], [2, 0], [2, 1], [3, 0], [3, 1], [3, 2]];
+
 /// Returns the edges of a mesh, some of them several times, without most of those that are the
 /// longest side of a triangle, which no minimum spanning tree has.
 fn candidates<const D: usize, const N: usize>(complex: &Complex<'_, D, N>) -> Vec<Candidate>
@@ -168,6 +171,9 @@ where
                     surely[j][i] = surely[i][j];
                 }
             }
+            // One bit for each of `EDGES`: nothing could predict a branch for each.
+            let mut found = 0u32;
+            let mut bit = 1;
             for i in 0..N {
                 for j in 0..i {
                     let mut is_candidate = true;
@@ -175,12 +181,16 @@ where
                         let is_longest = (squared[i][j] > surely[i][k]) & (squared[i][j] > surely[j][k]);
                         is_candidate &= is_lowest[k] & !is_longest;
                     }
-                    if is_candidate {
-                        let [v, w] = [simplex[i], simplex[j]];
-                        let length = SquaredLength::new(corners[i], corners[j]);
-                        candidates.push(Candidate { length, edge: [v.min(w), v.max(w)] });
-                    }
+                    found |= bit * u32::from(is_candidate);
+                    bit <<= 1;
                 }
+            }
+            while found != 0 {
+                let [i, j] = EDGES[found.trailing_zeros() as usize];
+                found &= found - 1;
+                let [v, w] = [simplex[i], simplex[j]];
+                let length = SquaredLength::new(corners[i], corners[j]);
+                candidates.push(Candidate { length, edge: [v.min(w), v.max(w)] });
             }
         }
         candidates

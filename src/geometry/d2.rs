@@ -19,6 +19,11 @@ impl Geometry<2, 3> for Euclidean {
         u[0] * v[1] - u[1] * v[0]
     }
 
+    #[inline(always)]
+    fn facet_determinants(&[a, b, c]: &[[f64; 2]; 3]) -> [f64; 3] {
+        [[b, c], [c, a], [a, b]].map(|facet| Self::determinant(&facet))
+    }
+
     #[inline]
     fn side(&[a, b]: &[[f64; 2]; 2], p: [f64; 2]) -> Sign {
         exact::orient2d(a, b, p)

@@ -21,6 +21,13 @@ impl Geometry<3, 4> for Euclidean {
         u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0])
     }
 
+    /// The facets share two cross products.
+    #[inline(always)]
+    fn facet_determinants(&[a, b, c, d]: &[[f64; 3]; 4]) -> [f64; 4] {
+        let (ab, cd) = (vector::cross(a, b), vector::cross(c, d));
+        [vector::dot(b, cd), -vector::dot(a, cd), vector::dot(d, ab), -vector::dot(c, ab)]
+    }
+
     #[inline]
     fn side(&[a, b, c]: &[[f64; 3]; 3], p: [f64; 3]) -> Sign {
         -exact::orient3d(a, b, c, p)

@@ -45,6 +45,10 @@ pub trait Geometry<const D: usize, const N: usize>: Copy + Send + Sync + 'static
     /// largest absolute entry of each column.
     fn determinant(rows: &[[f64; D]; D]) -> f64;
 
+    /// Returns the determinants of the rows of each facet in [`FACETS`](Self::FACETS), with the
+    /// error of [`determinant`](Self::determinant).
+    fn facet_determinants(rows: &[[f64; D]; N]) -> [f64; N];
+
     /// Returns which side of a facet a point is on, exactly: 1 on the side that the facet is
     /// clockwise from, which is the inner side of the facets in [`FACETS`](Self::FACETS), −1 on the
     /// other, 0 on the facet's plane.

@@ -56,8 +56,15 @@ impl AlphaEdges<3, 4> for Euclidean {
                 let (simplex, neighbors) = complex.row(t as usize);
                 let corners = complex.corners_of(&simplex);
                 let i = place(&simplex, v);
-                // The edges to higher vertices.
-                for j in (0..4).filter(|&j| simplex[j] > v) {
+                // The edges to higher vertices, one bit for each: nothing could predict a branch for
+                // each.
+                let mut higher = 0u32;
+                for (j, &w) in simplex.iter().enumerate() {
+                    higher |= u32::from(w > v) << j;
+                }
+                while higher != 0 {
+                    let j = higher.trailing_zeros() as usize & 3;
+                    higher &= higher - 1;
                     let (from, edge) = &mut reached[simplex[j] as usize];
                     if *from != v {
                         (*from, *edge) = (v, edges.edges.len() as u32);

@@ -153,6 +153,8 @@ where
             }
         });
         let facets = parallel::map_ranges(Threads::All, complex.simplices.len(), |range| {
+            // Two of each simplex, and a few more on the hull.
+            let mut facets = Vec::with_capacity(range.len() / 16 * 33);
             let listed = range.flat_map(|t| (0..N).filter(move |&k| is_listed(complex, t, k)).map(move |k| (t, k)));
             let own = listed.map(|(t, k)| {
                 let across = complex.across(t, k).map(|across| (across, complex.facet_towards(across, t)));
@@ -162,7 +164,8 @@ where
                 }
                 radii.facet(facet(&complex.simplices[t], k))
             });
-            own.collect::<Vec<_>>()
+            facets.extend(own);
+            facets
         });
         let facets = parallel::joined(facets);
         let simplices: Vec<f64> = simplices.into_iter().map(|(squared, _)| squared).collect();

@@ -131,8 +131,8 @@ pub struct Star {
     /// The place of the tetrahedron across the facet opposite each of them, or [`OUTSIDE`].
     across: Vec<[u32; 3]>,
     ring: Vec<u32>,
-    /// The tetrahedra with their places, by a hash of their index, with room for twice as many and
-    /// more.
+    /// The tetrahedra with their places, by a hash of their index, with room for four times as many,
+    /// so that most are found at once.
     table: Vec<(u32, u32)>,
 }
 
@@ -143,7 +143,7 @@ const OUTSIDE: u32 = u32::MAX;
 
 impl Star {
     fn fill(&mut self, complex: &Complex<'_, 3, 4>, v: u32, star: &[u32]) {
-        let mask = (2 * star.len()).next_power_of_two() - 1;
+        let mask = (4 * star.len()).next_power_of_two() - 1;
         let slot = |t: u32| (t.wrapping_mul(0x9e37_79b9) >> 7) as usize & mask;
         self.table.clear();
         self.table.resize(mask + 1, (u32::MAX, OUTSIDE));
@@ -169,7 +169,7 @@ impl Star {
         self.across.clear();
         for &t in star {
             let (simplex, neighbors) = (&complex.simplices[t as usize], &complex.neighbors[t as usize]);
-            let [_, i, j, k] = EVEN[simplex.iter().position(|&w| w == v).unwrap_or(0)];
+            let [_, i, j, k] = EVEN[place(simplex, v)];
             self.corners.push([i, j, k].map(|corner| simplex[corner]));
             self.across.push([i, j, k].map(|corner| place_of(neighbors[corner])));
         }
@@ -244,7 +244,11 @@ impl VoronoiShapes<3, 4> for Euclidean {
                     continue;
                 }
                 let mut turn = |at: usize, after: usize| {
-                    let corner = corners[at].iter().position(|&w| w == a)?;
+                    // Without a branch, which nothing could predict.
+                    let corner = usize::from(corners[at][1] == a) | usize::from(corners[at][2] == a) << 1;
+                    if *corners[at].get(corner)? != a {
+                        return None;
+                    }
                     let next = across[at][(corner + after) % 3];
                     corners[at][corner] = VISITED;
                     (next != OUTSIDE).then_some(next as usize)
