@@ -179,7 +179,9 @@ where
 
     /// Returns the place of a query; `None` if there are no simplices.
     pub(super) fn place(&self, query: [f64; D]) -> Result<Option<Place>, Error> {
-        self.start(query).map(|start| self.walk(query, start)).transpose()
+        let Some(start) = self.start(query) else { return Ok(None) };
+        let place = self.walk(query, start)?;
+        if place.beyond.is_some() { self.place_outside(query).map(Some) } else { Ok(Some(place)) }
     }
 
     /// Returns the places of queries of which consecutive ones are near each other; `None` if there
@@ -212,14 +214,8 @@ where
                     w += 1;
                     continue;
                 };
-                places[*at] = place;
-                // What facet is seen depends on where the walk started, which must not depend on
-                // other queries.
-                if place.beyond.is_some()
-                    && let Some(place) = self.place(step.query)?
-                {
-                    places[*at] = place;
-                }
+                let is_outside = place.beyond.is_some();
+                places[*at] = if is_outside { self.place_outside(step.query)? } else { place };
                 *at += 1;
                 if at < end {
                     *step = self.first_step(queries[*at], place.simplex);
@@ -276,6 +272,41 @@ where
         }
     }
 
+    /// Returns the place of a query outside the convex hull.
+    ///
+    /// Which facet sees it depends on the way. This one depends on exact signs alone: from the
+    /// nearest place to start from, it crosses the first facet that separates a simplex from the
+    /// query. Kernels walk the same way (`shaders/common/query_walk.wgsl`).
+    #[inline(never)]
+    fn place_outside(&self, query: [f64; D]) -> Result<Place, Error> {
+        let start = self.start(query).expect("a query is outside only if there are simplices");
+        let mut step = self.first_step(query, start);
+        loop {
+            let (simplex, neighbors) = self.complex.row(step.simplex);
+            let corners = self.complex.corners_of(&simplex);
+            let rows = vector::relative(&corners, query);
+            let separates = |&k: &usize| neighbors[k] != step.before && side(step.bound, &corners, &rows, k, query) < 0;
+            let Some(k) = (0..N).find(separates) else { return Err(ENDLESS) };
+            if let Some(place) = self.cross(&mut step, k, neighbors[k])? {
+                return Ok(place);
+            }
+        }
+    }
+
+    /// Continues a walk across facet `k`, or returns that it ends there, outside the hull.
+    #[inline(always)]
+    fn cross(&self, step: &mut Step<D>, k: usize, across: i32) -> Result<Option<Place>, Error> {
+        let &mut Step { simplex, left, .. } = step;
+        if across == NONE {
+            return Ok(Some(Place { simplex, beyond: Some(k), on_facet: false }));
+        }
+        if left == 0 {
+            return Err(ENDLESS);
+        }
+        *step = Step { simplex: across as usize, before: simplex as i32, left: left - 1, ..*step };
+        Ok(None)
+    }
+
     /// Returns the beginning of the walk from a simplex to a query.
     fn first_step(&self, query: [f64; D], start: usize) -> Step<D> {
         Step {
@@ -290,13 +321,13 @@ where
     /// Takes a step of a walk, from a simplex with these corners and neighbours, or returns where
     /// the walk has ended.
     ///
-    /// The walk crosses a facet that separates the current simplex from the query, the one that
+    /// The walk crosses a facet that separates the current simplex from the query, about the one that
     /// spans the largest simplex with it: that takes fewer steps than the first one, and a branch
     /// less that nothing could predict. With every step the power distance of the query to the
     /// circumsphere decreases, perturbed as the triangulation's ties are, so it ends.
     #[inline(always)]
     fn take(&self, step: &mut Step<D>, corners: &[[f64; D]; N], neighbors: &[i32; N]) -> Result<Option<Place>, Error> {
-        let &mut Step { query, bound, simplex, before, left } = step;
+        let &mut Step { query, bound, simplex, before, .. } = step;
         let determinants = Euclidean::facet_determinants(&vector::relative(corners, query));
         let (mut exit, mut least, mut is_open) = (None, -bound, false);
         for k in 0..N {
@@ -313,15 +344,7 @@ where
             (exit, on_facet) = self.exact_exit(query, corners, |k| neighbors[k] != before);
         }
         if let Some(k) = exit {
-            let across = neighbors[k];
-            if across == NONE {
-                return Ok(Some(Place { simplex, beyond: Some(k), on_facet: false }));
-            }
-            if left == 0 {
-                return Err(Error::BrokenMesh { what: "a walk over it does not end" });
-            }
-            *step = Step { simplex: across as usize, before: simplex as i32, left: left - 1, ..*step };
-            return Ok(None);
+            return self.cross(step, k, neighbors[k]);
         }
         let simplex = if on_facet { self.first_around(query, simplex) } else { simplex };
         Ok(Some(Place { simplex, beyond: None, on_facet }))
@@ -388,6 +411,9 @@ where
         around.min_by_key(|&t| sorted(t)).unwrap_or(t)
     }
 }
+
+/// Why a walk does not end.
+const ENDLESS: Error = Error::BrokenMesh { what: "a walk over it does not end" };
 
 /// The number of walks that take turns.
 const WALKS: usize = 16;
