@@ -240,3 +240,110 @@ test("a 2D mesh stays on the caller's device, or comes from there", {
   await assert.rejects(delaunay2d(points, { resident: true }), { code: 'BAD_INPUT' });
   triangulator.dispose();
 });
+
+/** Returns the sorted rows of an array, each one sorted: equal for equal sets. */
+const setOf = (array, width) =>
+  Array.from({ length: array.length / width }, (_, i) =>
+    [...array.subarray(width * i, width * (i + 1))].sort((a, b) => a - b).join(),
+  ).sort();
+
+for (const D of [3, 2]) {
+  test(`answers of a ${D}D mesh on the device are those of a mesh elsewhere`, {
+    timeout: 600_000,
+  }, async () => {
+    const gdel = await importFrom(project());
+    const device = await openDevice();
+    const triangulator = await gdel.createTriangulator({ device, backend: 'gpu' });
+    const [run, here] =
+      D === 3
+        ? [(p, o) => triangulator.delaunay3d(p, o), gdel.delaunay3d]
+        : [(p, o) => triangulator.delaunay2d(p, o), gdel.delaunay2d];
+    const generate = D === 3 ? gdel.generate : gdel.generate2d;
+    const points = await generate('uniform', 300, { seed: 3 });
+    // A duplicate, which resolves to what stands for it.
+    points.set(points.subarray(0, D), 7 * D);
+    const queries = (await generate('uniform', 100, { seed: 4 })).map((x) => 1.5 * x - 0.25);
+    const values = Float64Array.from({ length: 300 }, (_, i) => Math.sin(i));
+    const mesh = await run(points, { resident: true });
+    assert.equal(mesh.stats.backend, 'gpu');
+
+    /** Asks everything of both meshes. */
+    async function compare(points) {
+      const expected = await here(points, { backend: 'cpu' });
+      assert.deepEqual(await mesh.nearest(queries), await expected.nearest(queries));
+      assert.deepEqual(
+        await mesh.nearest(queries, { k: 3 }),
+        await expected.nearest(queries, { k: 3 }),
+      );
+      for (const method of ['linear', 'laplace', 'sibson']) {
+        const found = await mesh.interpolate(values, queries, { method });
+        const others = await expected.interpolate(values, queries, { method });
+        found.forEach((value, i) => {
+          const other = others[i];
+          assert.ok(Number.isNaN(other) ? Number.isNaN(value) : Math.abs(value - other) < 1e-12);
+        });
+        assert.ok(found.some(Number.isNaN) && !found.every(Number.isNaN));
+      }
+      const [simplices, facets] = D === 3 ? ['tetrahedra', 'facets'] : ['triangles', 'halfedges'];
+      const located = await mesh.locate(queries);
+      const others = await expected.locate(queries);
+      const read = await mesh.read(simplices);
+      const corners = (array, t) =>
+        [...array.subarray((D + 1) * t, (D + 1) * (t + 1))].sort().join();
+      located[simplices].forEach((t, i) => {
+        const other = others[simplices][i];
+        assert.equal(t < 0, other < 0);
+        assert.equal(located[facets][i] < 0, t >= 0);
+        if (t >= 0) assert.equal(corners(read, t), corners(expected[simplices], other));
+      });
+      const [topology, ofOthers] = [await mesh.topology(), await expected.topology()];
+      assert.deepEqual(topology.neighbors, ofOthers.neighbors);
+      assert.deepEqual(setOf(topology.edges, 2), setOf(ofOthers.edges, 2));
+      const sizes = (await expected.geometry()).volumes.slice().sort();
+      (await mesh.geometry()).volumes.sort().forEach((size, i) => {
+        assert.ok(Math.abs(size - sizes[i]) < 1e-12);
+      });
+      assert.ok(sizes.length > 300);
+      const volumes = await mesh.voronoi({ clip: 'box' });
+      (await expected.voronoi({ clip: 'box' })).volumes.forEach((volume, i) => {
+        assert.ok(Math.abs(volume - volumes.volumes[i]) < 1e-12);
+      });
+      const [shape, other] = [await mesh.alphaShape(), await expected.alphaShape()];
+      assert.equal(shape.alpha, other.alpha);
+      assert.deepEqual(setOf(shape.surface, D), setOf(other.surface, D));
+      const tree = await mesh.spanningTree();
+      assert.deepEqual(tree.edges, (await expected.spanningTree()).edges);
+      assert.equal(tree.clusters(5)[7], tree.clusters(5)[0]);
+    }
+    await compare(points);
+    // The arrays are read again once the points have moved.
+    const moved = points.map((x, i) => x + (i % 5) * 1e-3);
+    await mesh.update(moved);
+    await compare(moved);
+
+    await assert.rejects(mesh.locate([[Number.NaN, 0, 0].slice(0, D)]), {
+      code: 'NOT_FINITE',
+      index: 0,
+    });
+    await assert.rejects(mesh.nearest([[0]]), { code: 'BAD_INPUT' });
+    await assert.rejects(mesh.interpolate([1], queries), { code: 'BAD_INPUT' });
+    await assert.rejects(mesh.alphaShape({ alpha: -1 }), { code: 'BAD_INPUT' });
+    await assert.rejects(mesh.voronoi({ signal: AbortSignal.abort() }), { code: 'ABORTED' });
+    const reports = [];
+    await mesh.spanningTree({ onProgress: (report) => reports.push(report) });
+    assert.deepEqual(reports.at(-1), { phase: 'tree', fraction: 1 });
+
+    // What the CPU has made is on the device all the same, and flat points have empty answers.
+    const flat = await run(new Float64Array(4 * D), { resident: true });
+    assert.deepEqual(await flat.nearest(queries.subarray(0, D)), new Int32Array([-1]));
+    assert.deepEqual((await flat.alphaShape()).alpha, 0);
+    // Points from a buffer of the device.
+    const single = new Float32Array(points);
+    const buffered = await run(bufferOf(device, single), { resident: true });
+    assert.deepEqual(await buffered.nearest(single), await (await here(single)).nearest(single));
+
+    mesh.destroy();
+    await assert.rejects(mesh.nearest(queries), { code: 'DISPOSED' });
+    triangulator.dispose();
+  });
+}

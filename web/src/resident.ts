@@ -4,6 +4,8 @@ import type { Coordinates, Indices, SignedIndices } from './arrays.js';
 import { GdelError, toGdelError, toPlainError } from './errors.js';
 import type { Done } from './host.js';
 import { Memory, memoryOf } from './memory.js';
+import { Mesh3 } from './mesh.js';
+import { Mesh2 } from './mesh2.js';
 import { checkOneOf } from './options.js';
 import type { Task, Update } from './run.js';
 import type { Points, Stats, UpdateOptions } from './types.js';
@@ -141,11 +143,26 @@ export class Held {
   }
 }
 
+/** What is derived from meshes in the same way wherever they are. */
+type Answer =
+  | 'locate'
+  | 'nearest'
+  | 'interpolate'
+  | 'topology'
+  | 'geometry'
+  | 'voronoi'
+  | 'alphaShape'
+  | 'spanningTree';
+
 /**
  * A mesh in buffers of the caller's device. Later runs do not change them. They can be bound as
  * storage, vertex and index buffers, and copied from; an empty array has a buffer of 16 bytes.
+ *
+ * What is derived from it, by {@link locate} and the other methods that meshes elsewhere have, too, is
+ * computed by the CPU in a worker. The arrays are read from the device for the first answer, and kept
+ * for others until the mesh is updated or destroyed.
  */
-export class ResidentMesh<Arrays> {
+export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
   /** The arrays on the device. */
   declare readonly buffers: Readonly<Record<keyof Arrays, GpuBuffer>>;
   /** The number of triangles of the hull in 3D, of its vertices in 2D. */
@@ -162,10 +179,15 @@ export class ResidentMesh<Arrays> {
   /** Statistics of the run. */
   declare readonly stats: Stats;
   #held: Held | undefined;
+  #points: Coordinates | undefined;
+  /** What answers are derived from, once one has been asked for. */
+  #mesh: Promise<Mesh> | undefined;
   readonly #names: readonly string[];
   /** What the number of tetrahedra or triangles is called. */
   readonly #count: string;
   readonly #update: Update<Task>;
+  /** Makes a mesh of arrays in the memory of the CPU. */
+  readonly #make: (done: any) => Mesh;
   readonly #updating = new Updating();
 
   /** @internal */
@@ -174,10 +196,12 @@ export class ResidentMesh<Arrays> {
     count: string,
     done: Done<Task>,
     update: Update<Task>,
+    make: (done: any) => Mesh,
   ) {
     this.#names = names;
     this.#count = count;
     this.#update = update;
+    this.#make = make;
     this.#take(done);
   }
 
@@ -191,6 +215,8 @@ export class ResidentMesh<Arrays> {
     Object.assign(this, { buffers, hullCount, duplicateOf, dimension, stats });
     Object.assign(this, { [this.#count]: count });
     this.#held = new Held(made);
+    this.#points = result.points;
+    this.#mesh = undefined;
   }
 
   #heldNow(): Held {
@@ -246,10 +272,74 @@ export class ResidentMesh<Arrays> {
     }
   }
 
+  /** Does the same as {@link Mesh3.locate} or {@link Mesh2.locate}. */
+  locate(...args: Parameters<Mesh['locate']>) {
+    return this.#ask('locate', args);
+  }
+
+  /** Does the same as {@link Mesh3.nearest}. */
+  nearest(...args: Parameters<Mesh['nearest']>) {
+    return this.#ask('nearest', args);
+  }
+
+  /** Does the same as {@link Mesh3.interpolate}. */
+  interpolate(...args: Parameters<Mesh['interpolate']>) {
+    return this.#ask('interpolate', args);
+  }
+
+  /** Does the same as {@link Mesh3.topology}. */
+  topology(...args: Parameters<Mesh['topology']>) {
+    return this.#ask('topology', args);
+  }
+
+  /** Does the same as {@link Mesh3.geometry}. */
+  geometry(...args: Parameters<Mesh['geometry']>) {
+    return this.#ask('geometry', args);
+  }
+
+  /** Does the same as {@link Mesh3.voronoi} or {@link Mesh2.voronoi}. */
+  voronoi(...args: Parameters<Mesh['voronoi']>) {
+    return this.#ask('voronoi', args);
+  }
+
+  /** Does the same as {@link Mesh3.alphaShape}. */
+  alphaShape(...args: Parameters<Mesh['alphaShape']>) {
+    return this.#ask('alphaShape', args);
+  }
+
+  /** Does the same as {@link Mesh3.spanningTree}. */
+  spanningTree(...args: Parameters<Mesh['spanningTree']>) {
+    return this.#ask('spanningTree', args);
+  }
+
+  /** Derives something from the mesh. */
+  async #ask<Name extends Answer>(
+    name: Name,
+    args: Parameters<Mesh[Name]>,
+  ): Promise<Awaited<ReturnType<Mesh[Name]>>> {
+    this.#heldNow();
+    const mesh = (this.#mesh ??= this.#readAll());
+    // The next one tries again.
+    mesh.catch(() => {
+      if (this.#mesh === mesh) this.#mesh = undefined;
+    });
+    return ((await mesh)[name] as any)(...args);
+  }
+
+  /** Returns the mesh in the memory of the CPU. */
+  async #readAll(): Promise<Mesh> {
+    const { duplicateOf, dimension } = this;
+    const result = { duplicateOf, dimension, points: this.#points };
+    const names = this.#names.slice(0, 3) as (keyof Arrays & string)[];
+    const arrays = await Promise.all(names.map((name) => this.read(name)));
+    Object.assign(result, Object.fromEntries(names.map((name, i) => [name, arrays[i]])));
+    return this.#make({ result, place: {} });
+  }
+
   /** Frees the buffers now, rather than when the mesh is garbage. */
   destroy(): void {
     this.#held?.release();
-    this.#held = undefined;
+    this.#held = this.#points = this.#mesh = undefined;
   }
 }
 
@@ -258,7 +348,7 @@ export class ResidentMesh<Arrays> {
  * (`array<vec4u>`), `neighbors` (`array<vec4i>`), `hull` (three `u32` per triangle), and
  * `vertexTetrahedron`, the lowest tetrahedron of each point (`i32`, −1 for duplicates).
  */
-export class ResidentMesh3 extends ResidentMesh<ResidentArrays3> {
+export class ResidentMesh3 extends ResidentMesh<ResidentArrays3, Mesh3> {
   /** The number of tetrahedra. */
   declare readonly tetrahedronCount: number;
 
@@ -269,6 +359,7 @@ export class ResidentMesh3 extends ResidentMesh<ResidentArrays3> {
       'tetrahedronCount',
       done,
       update,
+      (read) => new Mesh3(read, ['neighbors', 'duplicateOf'], update as Update<any>),
     );
   }
 }
@@ -278,12 +369,18 @@ export class ResidentMesh3 extends ResidentMesh<ResidentArrays3> {
  * (three `u32` per triangle), `halfedges` (three `i32` per triangle), `hull` (`u32`), and
  * `vertexTriangle`, the lowest triangle of each point (`i32`, −1 for duplicates).
  */
-export class ResidentMesh2 extends ResidentMesh<ResidentArrays2> {
+export class ResidentMesh2 extends ResidentMesh<ResidentArrays2, Mesh2> {
   /** The number of triangles. */
   declare readonly triangleCount: number;
 
   /** @internal */
   constructor(done: Done<Task>, update: Update<Task>) {
-    super(['triangles', 'halfedges', 'hull', 'vertexTriangle'], 'triangleCount', done, update);
+    super(
+      ['triangles', 'halfedges', 'hull', 'vertexTriangle'],
+      'triangleCount',
+      done,
+      update,
+      (read) => new Mesh2(read, update as Update<any>),
+    );
   }
 }
