@@ -146,7 +146,7 @@ export function toHash(settings: Settings): string {
   for (const key of ['backend', 'color', 'map', 'filter'] as const) {
     if (settings[key] !== start[key]) hash.set(key, settings[key]);
   }
-  if (settings.alpha !== null) hash.set('alpha', String(Number(settings.alpha.toPrecision(4))));
+  if (settings.alpha !== null) hash.set('alpha', String(Number(settings.alpha.toPrecision(9))));
   if (settings.up) hash.set('up', settings.up);
   if (settings.normal) hash.set('normal', list(settings.normal));
   if (settings.keep !== null) hash.set('keep', short(settings.keep));

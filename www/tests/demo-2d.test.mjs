@@ -182,10 +182,12 @@ describe('2D', () => {
     await settled(page);
     const { total } = await shown(page);
     await choose(page, 'filter', 'alpha');
+    assert.ok(await page.locator('#alpha').isVisible());
     await slide(page, 'alpha', 0.5);
     assert.ok((await shown(page)).shown < total);
     await pictureOf(page, '2d-alpha');
     await choose(page, 'filter', 'all');
+    assert.ok(!(await page.locator('#alpha').isVisible()));
   });
 
   test('hard input is drawn and proven: circle, grid with duplicates, two lines, clusters', async () => {

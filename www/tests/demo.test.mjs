@@ -5,6 +5,7 @@ import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import {
+  addressOf,
   choose,
   colorBy,
   compare,
@@ -87,6 +88,47 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await slide(page, 'alpha', 0.3);
     assert.notEqual((await shown(page)).shown, half.shown);
     await pictureOf(page, '3d-alpha');
+  });
+
+  test('the alpha slider stops where simplices come in, and Auto is the radius that suits', async () => {
+    await generate(page, 'uniform', 12);
+    await slide(page, 'keep', 1);
+    await choose(page, 'filter', 'alpha');
+    await choose(page, 'mode', 'solid');
+    const auto = page.getByRole('button', { name: 'Auto', exact: true });
+    const isAuto = () => auto.getAttribute('aria-pressed');
+    assert.equal(await isAuto(), 'true');
+
+    // By hand, and on by single steps: each shows more tetrahedra, up to all of them.
+    await slide(page, 'alpha', 0);
+    assert.equal(await isAuto(), 'false');
+    await page.focus('#alpha');
+    let { shown: before, total } = await shown(page);
+    let steps = 0;
+    for (; (await text(page, 'alpha-value')) !== 'everything'; steps++) {
+      await page.keyboard.press('ArrowRight');
+      await settled(page);
+      const { shown: now } = await shown(page);
+      assert.ok(now > before || now === total, `${now} after ${before}`);
+      before = now;
+    }
+    assert.equal(before, total);
+    assert.ok(steps > 1 && steps <= total, `${steps} steps for ${total} tetrahedra`);
+
+    // From everything, the slider leads back to the solid.
+    await slide(page, 'alpha', 0);
+    assert.equal(await isAuto(), 'true');
+    const suiting = await text(page, 'alpha-value');
+    await slide(page, 'alpha', 0);
+    assert.equal(await isAuto(), 'false');
+    assert.match(await addressOf(page), /alpha=\d/);
+    await auto.click();
+    await settled(page);
+    assert.deepEqual([await text(page, 'alpha-value'), await isAuto()], [suiting, 'true']);
+    assert.doesNotMatch(await addressOf(page), /alpha=\d/);
+    await pictureOf(page, '3d-alpha-auto');
+    await choose(page, 'mode', 'slice');
+    await choose(page, 'filter', 'all');
   });
 
   test('tells about the tetrahedron under the pointer', async () => {

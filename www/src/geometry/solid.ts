@@ -176,6 +176,28 @@ function ascending(radii: Float32Array): Uint32Array {
 }
 
 /**
+ * Critical values for a slider, ascending: radii of simplices between two bounds, above which the
+ * next simplices come in. The slider is logarithmic, since radii span orders of magnitude: of those
+ * that are one of `count` steps apart or less, the largest one.
+ */
+export function criticalStops(
+  radii: Float32Array,
+  [low, high]: [number, number],
+  count: number,
+): Float32Array {
+  const largest = new Float32Array(count);
+  const perStep = high > low ? count / Math.log(high / low) : 0;
+  for (const radius of radii) {
+    if (!(radius <= high)) continue;
+    // One below the range is the first.
+    const step = Math.floor(Math.log(radius / low) * perStep) || 0;
+    const at = Math.max(0, Math.min(count - 1, step));
+    if (radius > largest[at]) largest[at] = radius;
+  }
+  return largest.filter((radius) => radius > 0);
+}
+
+/**
  * The typical distance between neighbouring points: the median of the shortest edges of a sample of
  * the simplices, tetrahedra or triangles. 0 without simplices.
  */

@@ -1,13 +1,17 @@
 import type { Filter, FilterKind } from '../geometry/filter';
 import type { Measures } from '../geometry/measures';
 import type { Frame } from '../geometry/mesh';
-import { carvingRadii, solidRadius, spacingOf } from '../geometry/solid';
+import { carvingRadii, criticalStops, solidRadius, spacingOf } from '../geometry/solid';
 import type { Drawing } from './model';
+
+/** As many stops of the slider as a hand can tell apart. */
+const STOPS = 1000;
 
 /** From which alpha on each simplex is shown, and which alpha suits: worked out when asked for. */
 export class AlphaRadii {
   private carving: Float32Array | null = null;
   private readonly suiting: Partial<Record<FilterKind, number>> = {};
+  private readonly stops: Partial<Record<FilterKind, Float32Array>> = {};
   private spacing: number | null = null;
 
   constructor(
@@ -28,7 +32,7 @@ export class AlphaRadii {
     return this.carving;
   }
 
-  /** The alpha of a filter, and those that are worth a slider: from the spacing to everything. */
+  /** The alpha of a filter, and the critical ones from the spacing to everything. */
   of({ kind, alpha }: Filter): Drawing['alpha'] {
     const radii = this.radii(kind);
     if (!radii) return null;
@@ -39,9 +43,11 @@ export class AlphaRadii {
       solidRadius(radii, this.measured().volume, simplices, dimension),
       bounding,
     ));
-    return {
-      value: alpha ?? suits,
-      range: [Math.min(this.spacing || suits, suits), Math.max(bounding, suits)],
-    };
+    const range: [number, number] = [
+      Math.min(this.spacing || suits, suits),
+      Math.max(bounding, suits),
+    ];
+    this.stops[kind] ??= criticalStops(radii, range, STOPS);
+    return { value: alpha ?? suits, isAuto: alpha === null, stops: this.stops[kind] };
   }
 }

@@ -94,8 +94,11 @@ export interface Drawing {
   half: number;
   /** The height of the cutting plane in the frame. Infinite if it cuts nothing. */
   level: number;
-  /** The filter's alpha, and the range that is worth a slider; null where all is shown. */
-  alpha: { value: number; range: [low: number, high: number] } | null;
+  /**
+   * The filter's alpha, whether it is the one that suits, and the critical values that are worth a
+   * slider, ascending; null where all is shown.
+   */
+  alpha: { value: number; isAuto: boolean; stops: Float32Array } | null;
   /** Whether these are Voronoi cells, in 3D; what is counted then are cells. */
   cells?: boolean;
   /** The round that this is the triangulation of; null for the result. */

@@ -23,12 +23,23 @@ export function dock(page: Page): Part {
 
   const alpha = byId<HTMLInputElement>('alpha');
   alpha.addEventListener('input', () => {
-    const range = page.lastDrawing?.alpha?.range;
-    if (alpha.valueAsNumber === 1) page.change({ filter: 'all', alpha: null });
-    else if (range) page.change({ alpha: alphaAt(alpha.valueAsNumber, range) });
+    // Each position is a critical value, where more simplices come in, and the last one everything.
+    const stops = page.lastDrawing?.alpha?.stops ?? [];
+    const at = Math.round(alpha.valueAsNumber * stops.length);
+    if (at < stops.length) page.change({ alpha: stops[at] });
+    else if (page.settings.filter !== 'all') page.change({ filter: 'all', alpha: null });
     // From all tetrahedra to those that suit; from there, the slider goes on.
-    else page.change({ filter: page.settings.source.dimension === 3 ? 'carve' : 'alpha' });
+    else if (alpha.valueAsNumber < 1) toSolid();
   });
+
+  /** Shows the solid, with the alpha that suits. */
+  const toSolid = () => {
+    const { filter, source } = page.settings;
+    const solid = source.dimension === 3 ? 'carve' : 'alpha';
+    page.change({ filter: filter === 'all' ? solid : filter, alpha: null });
+  };
+  const auto = byId<HTMLButtonElement>('alpha-auto');
+  auto.addEventListener('click', toSolid);
 
   const apart = byId<HTMLInputElement>('apart');
   apart.addEventListener('input', () => page.change({ apart: apart.valueAsNumber }));
@@ -57,7 +68,10 @@ export function dock(page: Page): Part {
     ran: () => changed(page.settings),
     drew({ pieces, shown, keep: kept, alpha: used }) {
       keep.value = String(kept);
-      alpha.value = String(used ? positionOf(used.value, used.range) : 1);
+      const stops = used?.stops.length ?? 0;
+      alpha.step = String(1 / (stops || 1000));
+      alpha.value = String(used && stops ? positionOf(used.value, used.stops) : 1);
+      auto.setAttribute('aria-pressed', String(used?.isAuto ?? false));
       byId('alpha-value').textContent = used ? `α = ${measured(used.value)}` : 'everything';
       byId('apart-note').textContent =
         pieces && pieces.owners.length < shown
@@ -67,11 +81,8 @@ export function dock(page: Page): Part {
   };
 }
 
-// The slider is logarithmic: radii span orders of magnitude.
-function alphaAt(position: number, [low, high]: [number, number]): number {
-  return low * (high / low) ** position;
-}
-
-function positionOf(value: number, [low, high]: [number, number]): number {
-  return high > low ? Math.log(value / low) / Math.log(high / low) : 0;
+/** The position of the last critical value that is not larger than alpha. */
+function positionOf(value: number, stops: Float32Array): number {
+  const after = stops.findIndex((stop) => stop > value);
+  return Math.max(0, (after < 0 ? stops.length : after) - 1) / stops.length;
 }

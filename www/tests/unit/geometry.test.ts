@@ -8,7 +8,7 @@ import { outermost, piecesOf, skinOf, trianglesOf } from '../../src/geometry/pie
 import { heightsAlong, levelOf } from '../../src/geometry/plane';
 import { mapping, scaleFor } from '../../src/geometry/scale';
 import { PLAIN } from '../../src/geometry/skin';
-import { carvingRadii, solidRadius, spacingOf } from '../../src/geometry/solid';
+import { carvingRadii, criticalStops, solidRadius, spacingOf } from '../../src/geometry/solid';
 import { boundaryOf, surfaceOf } from '../../src/geometry/surface';
 import { closeTo } from './close';
 
@@ -169,6 +169,18 @@ describe('filters', () => {
       kept.every((k) => k === 0),
       true,
     );
+  });
+
+  test('a slider stops at critical values, of which it leaves out some that are too near', () => {
+    const radii = Float32Array.of(4, 1, 2, 0.5, 2, 2.0001, 1e9, Number.NaN, Infinity);
+    // What is below the range is the first step, unless there is a larger one in it.
+    assert.deepEqual([...criticalStops(radii, [1, 16], 4)], [1, 2.0001, 4].map(Math.fround));
+    assert.deepEqual([...criticalStops(Float32Array.of(0.5), [1, 16], 4)], [0.5]);
+    const fine = criticalStops(radii, [0.25, 1e9], 1e6);
+    assert.deepEqual([...fine], [0.5, 1, 2, 2.0001, 4, 1e9].map(Math.fround));
+    assert.deepEqual([...criticalStops(new Float32Array(0), [0, 0], 10)], []);
+    assert.deepEqual([...criticalStops(Float32Array.of(3, 3), [3, 3], 10)], [3]);
+    assert.deepEqual([...criticalStops(radii, [0, 16], 4)], [4]);
   });
 
   test('carving takes nothing from outside where no facet is large, and all where every facet is', () => {
