@@ -1,12 +1,13 @@
-"""Prints SciPy's linear interpolation of x·y + z at queries: `linear.py POINTS QUERIES`, the oracle in
-tests/data/derived/linear.txt."""
+"""Prints SciPy's linear interpolation at queries: `linear.py DIMENSION POINTS QUERIES`, of x·y + z, in 2D of x·y + y,
+the oracle in tests/data/derived/linear.txt and of answers.py --equal."""
 
 import sys
 
 import numpy
 from scipy.interpolate import LinearNDInterpolator
 
-points, queries = (numpy.fromfile(path).reshape(-1, 3) for path in sys.argv[1:3])
-values = points[:, 0] * points[:, 1] + points[:, 2]
+dimension = int(sys.argv[1])
+points, queries = (numpy.fromfile(path).reshape(-1, dimension) for path in sys.argv[2:4])
+values = points[:, 0] * points[:, 1] + points[:, -1]
 for value in LinearNDInterpolator(points, values)(queries):
     print(repr(float(value)))
