@@ -424,6 +424,25 @@ test('bad input is a typed error that says what is wrong', async () => {
   assert.throws(() => square.find(0, 0, 5), { code: 'BAD_INPUT' });
   assert.equal(square.find(Number.NaN, 0), -1);
   assert.throws(() => square.neighbors(-1), { code: 'BAD_INPUT' });
+  for (const [array, i, entry] of [
+    ['tetrahedra', 3, 9],
+    ['neighbors', 0, 999],
+    ['duplicateOf', 1, 9],
+  ]) {
+    const tampered = await delaunay3d(CUBE);
+    tampered[array][i] = entry;
+    for (const ask of [
+      () => tampered.locate([[0, 0, 0]]),
+      () => tampered.nearest([[0, 0, 0]]),
+      () => tampered.interpolate(new Float64Array(9), [[0, 0, 0]]),
+      () => tampered.voronoi(),
+      () => tampered.alphaShape(),
+      () => tampered.spanningTree(),
+      () => tampered.topology(),
+      () => tampered.geometry(),
+    ])
+      await rejects(ask(), 'BAD_INPUT', /exist/);
+  }
   // The worker has survived all that.
   assert.equal((await cube.nearest([[0.9, 0.9, 0.9]]))[0], 7);
 });
