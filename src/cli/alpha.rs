@@ -24,7 +24,8 @@ pub(super) struct Arguments {
     common: Common,
     /// The radius; `auto` is the smallest for which all points belong to the solid, and this has no
     /// more components than wanted
-    #[arg(long, default_value = "auto", value_parser = clap::builder::StringValueParser::new().try_map(|text| parse_alpha(&text)))]
+    #[arg(long, default_value = "auto", allow_negative_numbers = true)]
+    #[arg(value_parser = clap::builder::StringValueParser::new().try_map(|text| parse_alpha(&text)))]
     alpha: Alpha,
     /// With `--alpha auto`: the largest number of components, 1 if not given
     #[arg(long, value_name = "N")]

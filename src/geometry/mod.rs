@@ -16,7 +16,7 @@ use crate::{
     input::points::Points,
     predicates::{
         Sign,
-        big::{Big, common_exponent, quotient},
+        big::{Big, common_exponent, precise_quotient, quotient},
         polynomial::{Polynomial, Ring, dot, exact_sign, minus},
     },
 };
@@ -346,7 +346,21 @@ where
     exact_sign(&RadiusDifference::<N> { first: face.len(), second: 0 }, &points)
 }
 
-/// Returns the smallest `f64` that is not less than the radius of a face.
+/// Returns the squared radius of a face, times the square of a power of two, as the sum of two
+/// numbers with a relative error below 2⁻⁹⁸, the larger one first. It must be far from the limits of
+/// `f64`.
+#[inline(never)]
+pub(crate) fn precise_squared_radius<const D: usize, const N: usize>(face: &[[f64; D]], scale: f64) -> [f64; 2]
+where
+    Euclidean: Geometry<D, N>,
+{
+    let exponent = common_exponent(face.as_flattened());
+    let integers: Vec<[Big; D]> = face.iter().map(|p| p.map(|x| Big::new(x, exponent))).collect();
+    let (numerator, denominator) = Euclidean::squared_radius_fraction(&integers);
+    precise_quotient(&numerator, &denominator, 2 * (exponent + libm::ilogb(scale)))
+}
+
+/// Returns the smallest `f64` that is not less than the radius of a face; infinity if that is flat.
 pub(crate) fn radius_rounded_up<const D: usize, const N: usize>(face: &[[f64; D]]) -> f64
 where
     Euclidean: Geometry<D, N>,
@@ -354,6 +368,9 @@ where
     let exponent = common_exponent(face.as_flattened());
     let integers: Vec<[Big; D]> = face.iter().map(|p| p.map(|x| Big::new(x, exponent))).collect();
     let (numerator, denominator) = Euclidean::squared_radius_fraction(&integers);
+    if denominator.sign() == 0 {
+        return f64::INFINITY;
+    }
     // The root of a number between 1/4 and 4, times a power of two: right up to a few units in the
     // last place.
     let half = ((numerator.bits() - denominator.bits()) / 2) as i32;

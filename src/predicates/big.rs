@@ -43,6 +43,21 @@ impl Big {
         self.digits.last().map_or(0, |last| 64 * self.digits.len() as i64 - i64::from(last.leading_zeros()))
     }
 
+    /// Returns the magnitude, times the power of two that makes it a number between 1/2 and 1, as the
+    /// sum of two numbers with an error below 2⁻¹⁰⁵.
+    fn leading(&self) -> [f64; 2] {
+        let [a, b, c] = std::array::from_fn(|i| self.digits.len().checked_sub(i + 1).map_or(0, |i| self.digits[i]));
+        let shift = a.leading_zeros();
+        let next = u128::from(b) << 64 | u128::from(c);
+        let top = (u128::from(a) << 64 | next >> 64) << shift | (next << 64 >> 1) >> (127 - shift);
+        // One bit less, since it is converted to a signed integer and back.
+        let top = (top >> 1) as i128;
+        let first = top as f64;
+        let rest = (top - first as i128) as f64;
+        let unit = 1.0 / (1u128 << 127) as f64;
+        [first * unit, rest * unit]
+    }
+
     /// Returns whether the magnitude is less than that of `other`.
     fn is_shorter(&self, other: &Self) -> bool {
         let digits = || self.digits.iter().rev().cmp(other.digits.iter().rev());
@@ -181,6 +196,32 @@ pub(crate) fn quotient(numerator: &Big, denominator: &Big, exponent: i32) -> f64
     if numerator.is_negative { -value } else { value }
 }
 
+/// Returns `numerator` / `denominator` · 2ᵉ as the sum of two numbers, of which the second one is at
+/// most half a unit in the last place of the first one, with a relative error below 2⁻⁹⁸. Both
+/// integers must be positive, and the result far from the limits of `f64`.
+pub(crate) fn precise_quotient(numerator: &Big, denominator: &Big, exponent: i32) -> [f64; 2] {
+    let ([n, n_rest], [d, d_rest]) = (numerator.leading(), denominator.leading());
+    let first = n / d;
+    // What is left of the numerator: the first difference is exact.
+    let [product, product_rest] = product(first, d);
+    let rest = ((n - product) - product_rest + n_rest - first * d_rest) / d;
+    let sum = first + rest;
+    let shift = i64::from(exponent) + numerator.bits() - denominator.bits();
+    [sum, rest - (sum - first)].map(|x| libm::ldexp(x, shift.clamp(-4000, 4000) as i32))
+}
+
+/// Returns a product of numbers of ordinary size as the sum of two, exactly (Dekker 1971).
+fn product(a: f64, b: f64) -> [f64; 2] {
+    let split = |x: f64| {
+        let wide = 134_217_729.0 * x;
+        let high = wide - (wide - x);
+        (high, x - high)
+    };
+    let ((a0, a1), (b0, b1)) = (split(a), split(b));
+    let product = a * b;
+    [product, a1 * b1 - (product - a0 * b0 - a1 * b0 - a0 * b1)]
+}
+
 /// Returns `x`·2ᵉ for a number between 2⁶⁴ and 2⁷⁰, or 0.
 fn scaled(x: f64, exponent: i64) -> f64 {
     let mut left = exponent.clamp(-1300, 1300);
@@ -252,6 +293,22 @@ pub(crate) mod tests {
         fn quotients_are_rounded_correctly(a in -1_000_000i64..1_000_000, b in 1i64..1_000_000, e in -900i32..900) {
             let found = quotient(&a.into(), &b.into(), e);
             prop_assert_eq!(found, scaled((a as f64 / b as f64) * 2f64.powi(66), i64::from(e) - 66));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn precise_quotients_are_precise(a in number(), b in number(), e in -300i32..300) {
+            let positive = |x: Big| if x.sign() == 0 { Big::from(3) } else { Big { is_negative: false, ..x } };
+            let (a, b) = (positive(a), positive(b));
+            let [first, rest] = precise_quotient(&a, &b, e);
+            prop_assert_eq!(first + rest, first);
+            // All of them times the same power of two.
+            let integer = |x: f64| oracle(&Big::new(x, -1074));
+            let found = (integer(first) + integer(rest)) * oracle(&b);
+            let expected = oracle(&a) << (1074 + e);
+            let error = if found > expected { found - &expected } else { &expected - found };
+            prop_assert!(error << 98 < expected);
         }
     }
 

@@ -336,6 +336,7 @@ fn wrong_usage() {
         (&["voronoi", "cube.csv", "--clip", "sphere", "-o", "o.csv"], "hull"),
         (&["voronoi", "cube.csv", "-o", "o.ply"], "o.ply: unknown extension, Voronoi cells end in .vtu, .csv, .npz"),
         (&["alpha", "cube.csv", "--alpha=-1", "-o", "o.ply"], "not negative"),
+        (&["alpha", "cube.csv", "--alpha", "-1", "-o", "o.ply"], "not negative"),
         (&["alpha", "cube.csv", "--alpha", "nan", "-o", "o.ply"], "not negative"),
         (&["alpha", "cube.csv", "--components", "0", "-o", "o.ply"], "--components"),
         (&["alpha", "cube.csv", "--alpha", "1", "--components", "2", "-o", "o.ply"], "--components needs --alpha auto"),

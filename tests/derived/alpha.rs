@@ -1,6 +1,9 @@
 //! Alpha shapes, against their definition in exact arithmetic.
 
-use crate::inputs::{inputs2, inputs3, mesh2, mesh3};
+use crate::{
+    clouds,
+    inputs::{inputs2, inputs3, mesh2, mesh3},
+};
 use gdel::{
     AlphaShape, Error, FaceClass, Interval, Mesh, Points,
     internals::{
@@ -362,12 +365,23 @@ fn check<'m, const D: usize, const N: usize, M: Mesh<D, N>>(
         }
     }
 
-    // The smallest alpha with all vertices and so many components.
-    let mut sorted = expected.radii.clone();
+    check_smallest(name, mesh, &shape, &expected.radii);
+}
+
+/// Checks the smallest alpha with all vertices and so many components.
+fn check_smallest<const D: usize, const N: usize>(
+    name: &str,
+    mesh: &impl Mesh<D, N>,
+    shape: &AlphaShape<D, N>,
+    radii: &[Fraction],
+) where
+    Euclidean: AlphaEdges<D, N>,
+{
+    let mut sorted = radii.to_vec();
     sorted.sort_by(Fraction::compare);
     for components in [0, 1, 2, 5] {
         let best = sorted.iter().find(|&radius| {
-            let is_solid: Vec<bool> = expected.radii.iter().map(|other| other.compare(radius).is_le()).collect();
+            let is_solid: Vec<bool> = radii.iter().map(|other| other.compare(radius).is_le()).collect();
             let mut is_covered: Vec<bool> = mesh.duplicate_of().iter().map(|&d| d != gdel::NONE).collect();
             for (simplex, _) in mesh.simplices().iter().zip(&is_solid).filter(|(_, is_solid)| **is_solid) {
                 simplex.iter().for_each(|&v| is_covered[v as usize] = true);
@@ -410,6 +424,28 @@ fn the_filtration_in_2d_is_that_of_the_definition() {
         let points = &points[..points.len().min(40)];
         let mesh = mesh2(points);
         check(name, &mesh, points, &|_, _| vec![]);
+    }
+}
+
+/// On a sphere all radii are the same up to the last bits, in a grid whose coordinates are rounded
+/// most of them.
+#[test]
+fn radii_that_differ_in_their_last_bits_are_told_apart() {
+    let grid = clouds::grid(4).iter().map(|p| p.map(|x| x * 0.05)).collect();
+    for (name, points) in [("sphere", generate3d(Distribution3::Sphere, 100, 1)), ("rounded grid", grid)] {
+        let mesh = mesh3(&points);
+        let shape = AlphaShape::new(&mesh, &points).unwrap();
+        let exact: Vec<[BigInt; 3]> = points.iter().map(|p| p.map(integer)).collect();
+        // Numbers of a thousand digits would take long.
+        let zeros = exact.as_flattened().iter().filter_map(BigInt::trailing_zeros).min().unwrap();
+        let exact: Vec<[BigInt; 3]> = exact.into_iter().map(|p| p.map(|x| x >> zeros)).collect();
+        let squared_radius = |t: &[u32; 4]| {
+            let Fraction(numerator, denominator) =
+                Sphere::new(t.iter().map(|&v| &exact[v as usize]).collect()).squared_radius();
+            Fraction(numerator << (2 * zeros), denominator)
+        };
+        let radii: Vec<Fraction> = mesh.tetrahedra.iter().map(squared_radius).collect();
+        check_smallest(name, &mesh, &shape, &radii);
     }
 }
 

@@ -19,10 +19,27 @@ pub(super) struct Groups {
     starts: Vec<usize>,
 }
 
+/// So few faces are compared exactly at once.
+const FEW: usize = 8;
+
+/// A bound of the relative error of the difference of two precise squared radii, generously: 2⁻⁹⁴.
+const PRECISE_MARGIN: f64 = 1.0 / (1u128 << 94) as f64;
+
 impl Groups {
-    /// Sorts faces by their rounded squared radii, and exactly where these are too close to tell,
-    /// or NaN.
-    pub(super) fn new(count: usize, squared: impl Fn(u32) -> f64, compare: impl Fn(u32, u32) -> Ordering) -> Self {
+    /// Sorts faces by their rounded squared radii, by `precise` ones (see [`precise_squared_radius`])
+    /// where these are too close to tell, and by comparing them exactly where those are, too, or the
+    /// rounded ones are NaN.
+    ///
+    /// Points on a sphere have simplices with almost the same radii. To compare two of them exactly
+    /// takes about as long as to compute one of them precisely.
+    ///
+    /// [`precise_squared_radius`]: crate::geometry::precise_squared_radius
+    pub(super) fn new(
+        count: usize,
+        squared: impl Fn(u32) -> f64,
+        precise: impl Fn(u32) -> [f64; 2] + Sync,
+        compare: impl Fn(u32, u32) -> Ordering,
+    ) -> Self {
         // Positive numbers are in the order of their bits, and NaN comes last.
         let mut keyed: Vec<(u64, u32)> = (0..count as u32).map(|i| (squared(i).to_bits(), i)).collect();
         parallel::sort(Threads::All, &mut keyed);
@@ -33,21 +50,38 @@ impl Groups {
             unknown < count || certain(f64::from_bits(a), f64::from_bits(b)).is_none()
         };
         for run in keyed.chunk_by(is_same_run) {
-            if let &[(_, face)] = run {
-                groups.push([face]);
+            if unknown < count || run.len() < FEW {
+                groups.push_compared(run.iter().map(|&(_, face)| face), &compare);
                 continue;
             }
-            // In a grid, most are equal to one of few.
-            let mut equal: Vec<Vec<u32>> = Vec::new();
-            for &(_, face) in run {
-                match equal.binary_search_by(|group| compare(group[0], face)) {
-                    Ok(place) => equal[place].push(face),
-                    Err(place) => equal.insert(place, vec![face]),
-                }
+            let mut run: Vec<([f64; 2], u32)> = run.iter().map(|&(_, face)| ([0.0; 2], face)).collect();
+            parallel::for_chunks(Threads::All, &mut run, |_, run| {
+                run.iter_mut().for_each(|(squared, face)| *squared = precise(*face));
+            });
+            parallel::sort_by(Threads::All, &mut run, |(a, i), (b, j)| {
+                a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(i.cmp(j))
+            });
+            let is_same_run = |(a, _): &([f64; 2], u32), (b, _): &([f64; 2], u32)| {
+                (b[0] - a[0]) + (b[1] - a[1]) <= PRECISE_MARGIN * b[0]
+            };
+            for run in run.chunk_by(is_same_run) {
+                groups.push_compared(run.iter().map(|&(_, face)| face), &compare);
             }
-            equal.into_iter().for_each(|group| groups.push(group));
         }
         groups
+    }
+
+    /// Adds faces of which only exact comparisons tell the order.
+    fn push_compared(&mut self, faces: impl Iterator<Item = u32>, compare: &impl Fn(u32, u32) -> Ordering) {
+        // In a grid, most are equal to one of few.
+        let mut equal: Vec<Vec<u32>> = Vec::new();
+        for face in faces {
+            match equal.binary_search_by(|group| compare(group[0], face)) {
+                Ok(place) => equal[place].push(face),
+                Err(place) => equal.insert(place, vec![face]),
+            }
+        }
+        equal.into_iter().for_each(|group| self.push(group));
     }
 
     fn push(&mut self, group: impl IntoIterator<Item = u32>) {
@@ -69,8 +103,9 @@ impl Groups {
     ) -> Option<usize> {
         let mut sets = DisjointSets::new(complex.simplices.len());
         let mut is_present = vec![false; complex.simplices.len()];
-        let mut is_covered = vec![false; complex.points().len()];
-        let mut uncovered = complex.duplicate_of.iter().filter(|&&d| d == NONE).count();
+        // Duplicates, which are vertices of nothing unless the mesh is broken, need not be covered.
+        let mut is_covered: Vec<bool> = complex.duplicate_of.iter().map(|&d| d != NONE).collect();
+        let mut uncovered = is_covered.iter().filter(|&&is_covered| !is_covered).count();
         let mut count = 0;
         for ends in self.starts.windows(2) {
             let group = &self.faces[ends[0]..ends[1]];

@@ -235,7 +235,12 @@ where
             let count = face.iter().take_while(|&&v| v != u32::MAX).count();
             (&face[..count], *squared)
         };
-        let groups = Groups::new(own.len(), |i| vertices(i).1, |i, j| self.radii.compare(vertices(i), vertices(j)));
+        let groups = Groups::new(
+            own.len(),
+            |i| vertices(i).1,
+            |i| self.radii.precise(vertices(i).0),
+            |i, j| self.radii.compare(vertices(i), vertices(j)),
+        );
         groups.firsts().map(|i| self.radius_above(vertices(i))).collect()
     }
 
@@ -321,7 +326,12 @@ where
     fn groups(&self) -> &Groups {
         self.groups.get_or_init(|| {
             let simplex = |t: u32| (&self.radii.mesh.complex.simplices[t as usize][..], self.simplices[t as usize]);
-            Groups::new(self.simplices.len(), |t| simplex(t).1, |t, u| self.radii.compare(simplex(t), simplex(u)))
+            Groups::new(
+                self.simplices.len(),
+                |t| simplex(t).1,
+                |t| self.radii.precise(simplex(t).0),
+                |t, u| self.radii.compare(simplex(t), simplex(u)),
+            )
         })
     }
 

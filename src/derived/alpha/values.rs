@@ -2,7 +2,9 @@
 
 use super::super::sorted::Sorted;
 use crate::{
-    geometry::{Euclidean, Geometry, circumcenter_offset, compare_radii, compare_radius, facet, vector},
+    geometry::{
+        Euclidean, Geometry, circumcenter_offset, compare_radii, compare_radius, facet, precise_squared_radius, vector,
+    },
     predicates::Sign,
 };
 use std::cmp::Ordering;
@@ -120,6 +122,13 @@ where
             let points: Vec<[f64; D]> = face.iter().map(|&v| self.mesh.complex.point(v)).collect();
             compare_radius::<D, N>(&points, alpha.radius)
         })
+    }
+
+    /// Returns the squared radius of a face, whose rounded one is known, as precisely as
+    /// [`precise_squared_radius`] does.
+    pub(super) fn precise(&self, face: &[u32]) -> [f64; 2] {
+        let points: Vec<[f64; D]> = face.iter().map(|&v| self.mesh.complex.point(v)).collect();
+        precise_squared_radius::<D, N>(&points, self.scale)
     }
 
     /// Compares the radii of two faces, whose rounded squares are given, exactly.
