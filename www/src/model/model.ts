@@ -6,7 +6,7 @@ import type { Pieces } from '../geometry/pieces';
 import type { Plane } from '../geometry/plane';
 import type { ColorBy, ColorScale } from '../geometry/scale';
 import type { Surface } from '../geometry/surface';
-import type { Up } from '../geometry/up';
+import type { Custom, Up } from '../geometry/up';
 import type { Voronoi } from '../geometry/voronoi';
 import type { CameraPose } from '../view/viewer';
 import type { Dimension } from './source';
@@ -125,8 +125,8 @@ export interface Picked {
 export interface About {
   /** How many points the file has besides, which hold no measurement. */
   noReturn: number;
-  /** Which axis points up, or by custom does, unless the points tell otherwise. */
-  up: { axis: 'y' | 'z'; sure: boolean };
+  /** Which axis points up. */
+  up: Custom;
   /** The points' own colours: red, green and blue each. */
   colors: { rgb: Uint8Array; source: ColorSource } | null;
   /** In 2D the z coordinates of the file, unless all are the same. */
@@ -135,7 +135,7 @@ export interface About {
 
 export const NOTHING_ABOUT: About = {
   noReturn: 0,
-  up: { axis: 'y', sure: true },
+  up: { axis: 'y', unless: 'never' },
   colors: null,
   heights: null,
 };

@@ -79,7 +79,7 @@ export class Model3d implements Model {
 
   summary(): Summary {
     const { mesh, points, frame, about } = this;
-    const up = about.up.sure ? about.up.axis : detectUp(points, mesh.hull, about.up.axis);
+    const up = detectUp(points, about.up);
     let duplicates = 0;
     for (const stand of mesh.duplicateOf) if (stand >= 0) duplicates++;
     return {

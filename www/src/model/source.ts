@@ -115,7 +115,7 @@ export async function load(
   }
   if (source.kind === 'sample') {
     const { sample } = source;
-    const about: About = { ...NOTHING_ABOUT, up: { axis: SAMPLES[sample].up, sure: true } };
+    const about: About = { ...NOTHING_ABOUT, up: { axis: SAMPLES[sample].up, unless: 'never' } };
     if (sample === 'bunny' || sample === 'dragon') {
       options.onProgress({ phase: `Fetching the ${titleOf(source)}`, fraction: 0 });
       return { points: await fetchSample(sample, options.signal), about };
@@ -218,11 +218,20 @@ function colorsOf(parts: readonly Read[]): About['colors'] {
   return { rgb, source: first.source };
 }
 
-/** Scans of the land have z up; models have y, and those for printing z, unless they stand otherwise. */
+/** By custom, models have y up, and those for printing z; surveys have z, also as text. */
+const CUSTOMS: Readonly<Record<string, About['up']>> = {
+  ...Object.fromEntries(
+    ['ply', 'obj', 'off', 'npy'].map((each) => [each, { axis: 'y', unless: 'it stands or lies' }]),
+  ),
+  stl: { axis: 'z', unless: 'it stands or lies' },
+  ...Object.fromEntries(
+    ['xyz', 'txt', 'asc', 'pts', 'csv'].map((each) => [each, { axis: 'z', unless: 'it stands' }]),
+  ),
+};
+
 function upOf(name: string): About['up'] {
   const extension = name.replace(/^.*\./, '').toLowerCase();
-  const model = ['ply', 'obj', 'stl', 'npy', 'f32', 'f64'].includes(extension);
-  return { axis: model && extension !== 'stl' ? 'y' : 'z', sure: !model };
+  return Object.hasOwn(CUSTOMS, extension) ? CUSTOMS[extension] : { axis: 'z', unless: 'never' };
 }
 
 /** Points as seen from above, and their heights, unless all are the same. */
