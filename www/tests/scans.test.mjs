@@ -250,7 +250,7 @@ describe('a scan', () => {
     await drop(page, 'figure.ply.gz', gzipSync(ply(figure(1))));
     assert.match(await text(page, 'count'), /^3,000 points/);
     await drop(page, 'no.ply.gz', Buffer.from('no gzip'));
-    assert.match(await text(page, 'message-text'), /^no\.ply\.gz: The file is no gzip file/);
+    assert.match(await text(page, 'message-text'), /^no\.ply\.gz: The file is not a gzip file/);
   });
 
   test('that cannot be read says what can', async () => {

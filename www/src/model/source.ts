@@ -258,7 +258,7 @@ async function fetchSample(sample: 'bunny' | 'dragon', signal: AbortSignal): Pro
 }
 
 /** The name of the file that an address leads to. */
-function nameIn(url: string): string {
+export function nameIn(url: string): string {
   const last = new URL(url).pathname.split('/').at(-1) ?? '';
   try {
     return decodeURIComponent(last) || url;
@@ -275,13 +275,16 @@ async function download(url: string, { signal, onProgress }: LoadOptions): Promi
   return new File([await response.blob()], name);
 }
 
+/** Whether a file of this name is compressed. */
+export const isGzipName = (name: string): boolean => /\.gz$/i.test(name);
+
 /** The content of a file, which may be compressed. */
 async function unpacked(file: File): Promise<Blob | ArrayBuffer> {
-  if (!/\.gz$/i.test(file.name)) return file;
+  if (!isGzipName(file.name)) return file;
   try {
     return await gunzip(await file.arrayBuffer());
   } catch {
-    throw new Error('the file is no gzip file, or it is damaged');
+    throw new Error('the file is not a gzip file, or it is damaged');
   }
 }
 
