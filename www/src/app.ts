@@ -17,7 +17,7 @@ import {
   type Tool,
   viewOf,
 } from './settings';
-import { wireAbout } from './ui/about';
+import { about } from './ui/about';
 import { axes } from './ui/axes';
 import { showBusy, whileBusy } from './ui/busy';
 import { comparePanel } from './ui/comparePanel';
@@ -90,7 +90,6 @@ export class App implements Page {
     wireTheme(() => this.viewer && paint(this.viewer));
     wireDrop(this);
     wireShare(this);
-    wireAbout();
     this.parts = [
       dimensionSwitch(this),
       pointsPanel(this),
@@ -106,6 +105,7 @@ export class App implements Page {
       // Before the keys of the drawing: a point that is held takes the arrow keys.
       editor(this),
       live(this),
+      about(this),
       firstVisit(this),
     ];
     wireKeyboard(this);
@@ -212,6 +212,11 @@ export class App implements Page {
     } finally {
       this.editing = false;
     }
+  }
+
+  goLive(on: boolean): void {
+    this.live = on;
+    for (const part of this.parts) part.lived?.(on);
   }
 
   record(): Promise<boolean> {

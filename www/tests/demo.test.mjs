@@ -154,7 +154,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await generate(page, 'grid', 3000);
     const note = await compare(page);
     assert.match(note, /GPU backend: left out/);
-    assert.match(note, /CPU backend: [\d,]+ tetrahedra, as many/);
+    assert.match(note, /CPU backend: [\d,]+ tetrahedra, the same number/);
     assert.match(note, /qhull-wasm: .* qhull-wasm took [\d.]+ times as long/);
     assert.equal(await page.locator('#times svg rect').count(), 2);
     const { note: verdict, passed, failed } = await prove(page);
@@ -172,6 +172,10 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
       document.querySelector('#took').textContent.includes('frames per second'),
     );
     await page.locator('#live-times svg').waitFor();
+    // What was found out about the mesh before is not said of moving points.
+    assert.equal(await text(page, 'ratio'), '');
+    assert.equal(await text(page, 'verify-here'), 'Verify');
+    assert.ok(await page.locator('#verify-here').isDisabled());
     // The first frame has none before it.
     await until(page, () =>
       /^(Mesh kept: [\d,]+ tetrahedr(on|a) inverted, [\d,]+ flips?|From scratch: )/.test(
@@ -186,6 +190,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await page.click('#live');
     await settled(page);
     assert.equal(await text(page, 'count'), before);
+    assert.ok(await page.locator('#verify-here').isEnabled());
   });
 
   test('downloads what the command line proves', async () => {
@@ -272,6 +277,8 @@ describe('without WebGPU', () => {
     assert.equal(await page.locator('#color [value=phase]:disabled').count(), 1);
     await tab(page, 'run');
     assert.ok(await page.locator('#record').isDisabled());
+    assert.ok(await page.locator('#watch').isDisabled());
+    assert.match(await text(page, 'watch-note'), /needs a GPU/);
     assert.ok(numbers(await text(page, 'count')).length > 0);
     assert.deepEqual(page.problems, []);
   });

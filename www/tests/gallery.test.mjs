@@ -137,7 +137,7 @@ test('the first visit, and no later one, says in words what was done', async () 
   const page = await open(browser, `${server.url}#points=uniform_200_1`);
   assert.match(
     await text(page, 'first'),
-    /^Your machine filled 200 points with [\d,]+ tetrahedra in .* second.*, exactly\.$/,
+    /^Your machine just turned 200 points into [\d,]+ tetrahedra in .* second.*, all of them exact\.$/,
   );
   await page.reload();
   await settled(page);

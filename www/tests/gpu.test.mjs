@@ -47,9 +47,12 @@ test('gives the same on GPU and CPU', async () => {
 });
 
 test('shows a recorded run round by round', async () => {
-  await tab(page, 'run');
-  await page.click('#record');
+  // From the story for newcomers, on the points that are open.
+  await page.click('#help');
+  await page.click('#watch');
   await settled(page);
+  assert.match(await text(page, 'count'), /^4,000 points/);
+  assert.equal(await page.getAttribute('#tab-run', 'aria-selected'), 'true');
   assert.ok(await page.locator('#recorded').isVisible());
   // What flipping leaves depends on which flips are first; now and then it is nothing.
   const repair = await text(page, 'repair');

@@ -63,7 +63,7 @@ describe('on a screen', () => {
       readFileSync(new URL('../../web/package.json', import.meta.url), 'utf8'),
     );
     const address = repository.url.match(/https:.*(?=\.git$)/)[0];
-    const link = page.getByRole('link', { name: 'Documents' });
+    const link = page.getByRole('link', { name: 'Docs' });
     assert.equal(await link.getAttribute('href'), `${address}#readme`);
     await page.click('#help');
     const readme = page.getByRole('link', { name: 'the package' });

@@ -216,15 +216,15 @@ describe('a scan', () => {
       'intensity.ply',
       ply(points.map((p) => [...p, p[0]])).replace('end_header', header('intensity')),
     );
-    assert.match(await names(), /Outside by the file’s intensity/);
+    assert.match(await names(), /Outside coloured by intensity/);
     await drop(
       page,
       'normals.ply',
       ply(points.map((p) => [...p, ...p])).replace('end_header', header('nx', 'ny', 'nz')),
     );
-    assert.match(await names(), /Outside by the file’s normals/);
+    assert.match(await names(), /Outside coloured by normals/);
     await drop(page, 'figure.ply', ply(points));
-    assert.match(await names(), /Outside plain/);
+    assert.match(await names(), /Plain outside/);
   });
 
   test('is saved with its colours', async () => {
