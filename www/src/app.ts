@@ -13,6 +13,7 @@ import {
   fileIn,
   filterFor,
   fromHash,
+  type LinkedFile,
   type Settings,
   type Tool,
   viewOf,
@@ -32,6 +33,7 @@ import { wireKeyboard } from './ui/keyboard';
 import { showLegend } from './ui/legend';
 import { live } from './ui/live';
 import { showMessage, wireMessage } from './ui/message';
+import { notes } from './ui/notes';
 import { keepOffline } from './ui/offline';
 import { pointer } from './ui/pointer';
 import { pointsPanel } from './ui/pointsPanel';
@@ -80,7 +82,7 @@ export class App implements Page {
   private sweep: number | null = null;
   private readonly address = new Address(() => this.settings);
   /** The view in the link that was followed here, for a file that the visitor does not have yet. */
-  private awaited: { file: string; settings: Settings } | null = null;
+  private awaited: { asked: LinkedFile; settings: Settings } | null = null;
 
   constructor() {
     wireMessage();
@@ -95,6 +97,7 @@ export class App implements Page {
       pointsPanel(this),
       viewPanel(this),
       dock(this),
+      notes(this),
       scaleBar(this),
       axes(this),
       ruler(this),
@@ -137,7 +140,7 @@ export class App implements Page {
       await this.run(source, this.settings);
       return;
     }
-    this.awaited = { file: asked.name, settings };
+    this.awaited = { asked, settings };
     this.settings = defaults(settings.source.dimension);
     await this.run(this.settings.source);
     showMessage(
@@ -147,8 +150,10 @@ export class App implements Page {
 
   run(source: Source, settings: Partial<Settings> = {}): Promise<boolean> {
     this.address.keep(source);
-    if (source.kind === 'file' && this.awaited?.file === titleOf(source))
+    if (source.kind === 'file' && this.awaited?.asked.name === titleOf(source)) {
+      if (this.awaited.asked.bare) source.bare = true;
       settings = { ...this.awaited.settings, source, ...settings };
+    }
     const { edits = [], backend = this.settings.backend } = settings;
     return whileBusy(
       this.newRun(source, { edits, ...settings }, (onProgress) =>

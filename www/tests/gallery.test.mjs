@@ -10,6 +10,7 @@ import {
   drop,
   dropAll,
   launch,
+  numbers,
   open,
   pictureOf,
   serve,
@@ -115,14 +116,26 @@ test('a GLB gives the vertices of its scene, each once', async () => {
     .setType('VEC3')
     .setArray(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]))
     .setBuffer(buffer);
-  const primitive = () => document.createPrimitive().setAttribute('POSITION', positions);
+  const [POINTS, TRIANGLES] = [0, 4];
+  const primitive = (mode = POINTS) =>
+    document.createPrimitive().setMode(mode).setAttribute('POSITION', positions);
   const mesh = document.createMesh().addPrimitive(primitive()).addPrimitive(primitive());
   const parent = document.createNode().setScale([100, 100, 100]);
   parent.addChild(document.createNode().setMesh(mesh).setTranslation([5, 0, 0]));
   document.createScene().addChild(parent).addChild(document.createNode().setMesh(mesh));
   const bytes = await new NodeIO().writeBinary(document);
 
+  const indices = document
+    .createAccessor()
+    .setArray(new Uint16Array([0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]))
+    .setBuffer(buffer);
+  mesh.addPrimitive(primitive(TRIANGLES).setIndices(indices));
+  const solid = await new NodeIO().writeBinary(document);
+
   const page = await open(browser, `${server.url}#points=uniform_200_1`);
+  await drop(page, 'solid.glb', solid);
+  const [points] = numbers(await text(page, 'count'));
+  assert.equal(points - 8, numbers(await text(page, 'note-text'))[0]);
   await drop(page, 'two.glb', bytes);
   assert.match(await text(page, 'count'), /^8 points/);
   assert.equal(await page.locator('input[name=up]:checked').inputValue(), 'y');

@@ -15,6 +15,7 @@ import {
   expectAccessible,
   gdel,
   launch,
+  numbers,
   open,
   pictureOf,
   save,
@@ -67,6 +68,64 @@ function figure(up) {
     points.push([above[(4 - up) % 3], above[(5 - up) % 3], above[(6 - up) % 3]]);
   }
   return points;
+}
+
+/** An angle of two plates, 80 by 40 and 60 by 40, 6 thick, as STL: 20 triangles and 12 corners. */
+function bracket() {
+  const triangles = [];
+  const [outline, depth] = [
+    [
+      [0, 0],
+      [80, 0],
+      [80, 6],
+      [6, 6],
+      [6, 60],
+      [0, 60],
+    ],
+    40,
+  ];
+  const at = (i, y) => [outline[i % 6][0], y, outline[i % 6][1]];
+  for (let i = 0; i < 6; i++) {
+    triangles.push([at(i, 0), at(i + 1, 0), at(i + 1, depth)]);
+    triangles.push([at(i, 0), at(i + 1, depth), at(i, depth)]);
+  }
+  for (const [i, j, k] of [
+    [0, 1, 2],
+    [0, 2, 3],
+    [0, 3, 4],
+    [0, 4, 5],
+  ]) {
+    triangles.push([at(i, 0), at(k, 0), at(j, 0)]);
+    triangles.push([at(i, depth), at(j, depth), at(k, depth)]);
+  }
+  return `solid\n${triangles
+    .map(
+      (corners) =>
+        `facet normal 0 0 0\nouter loop\n${corners.map((corner) => `vertex ${corner.join(' ')}\n`).join('')}endloop\nendfacet\n`,
+    )
+    .join('')}endsolid\n`;
+}
+
+/** What the triangles of a binary STL enclose. */
+function volumeOf(stl) {
+  let sum = 0;
+  for (let at = 84; at < stl.length; at += 50) {
+    const [a, b, c] = [0, 1, 2].map((k) =>
+      [0, 4, 8].map((x) => stl.readFloatLE(at + 12 + 12 * k + x)),
+    );
+    sum +=
+      a[0] * (b[1] * c[2] - b[2] * c[1]) -
+      a[1] * (b[0] * c[2] - b[2] * c[0]) +
+      a[2] * (b[0] * c[1] - b[1] * c[0]);
+  }
+  return sum / 6;
+}
+
+/** The link to a small file, once that is packed. */
+async function linkWithData(page) {
+  await addressOf(page);
+  await until(page, () => location.hash.includes('data='));
+  return page.url();
 }
 
 const ply = (points) =>
@@ -260,12 +319,44 @@ describe('a scan', () => {
     assert.equal(await text(page, 'message-text'), 'nothing.ply: The file is empty.');
   });
 
+  test('of CAD is filled on its large faces, says so, and can be had without', async () => {
+    await drop(page, 'bracket.stl', bracket());
+    assert.match(
+      await text(page, 'note-text'),
+      /^[\d,]+ of the points were put on the large faces/,
+    );
+    const [points] = numbers(await text(page, 'count'));
+    const [added] = numbers(await text(page, 'note-text'));
+    assert.equal(points - added, 12);
+    assert.equal(await page.locator('input[name=up]:checked').inputValue(), 'z');
+    await pictureOf(page, 'scan-cad');
+    // The solid is the bracket, not its hull: a sixth of the box around it.
+    await slide(page, 'keep', 1);
+    await tab(page, 'use');
+    const folder = mkdtempSync(join(tmpdir(), 'gdel-scan-'));
+    const [saved] = await save(page, 'STL', folder);
+    const volume = volumeOf(readFileSync(saved)) / (80 * 40 * 60);
+    rmSync(folder, { recursive: true });
+    assert.ok(Math.abs(volume - 0.167) < 0.02, `${volume} of the box`);
+
+    await page.getByRole('button', { name: 'Corners only' }).click();
+    await settled(page);
+    assert.match(await text(page, 'count'), /^12 points/);
+    const other = await open(browser, await linkWithData(page));
+    assert.match(await text(other, 'count'), /^12 points/);
+    await other.getByRole('button', { name: 'Put points on them' }).click();
+    await settled(other);
+    assert.equal(numbers(await text(other, 'count'))[0], points);
+    assert.deepEqual(other.problems, []);
+    await other.context().close();
+  });
+
   test('tells of the points that hold no measurement', async () => {
     const points = figure(1).map((point, i) => (i % 3 ? point : ['nan', 'nan', 'nan']));
     const header = `# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 60\nHEIGHT 50\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 3000\nDATA ascii\n`;
     await drop(page, 'organised.pcd', header + xyz(points));
     assert.match(await text(page, 'count'), /^2,000 points/);
-    assert.match(await text(page, 'left-out'), /^1,000 points without a measurement/);
+    assert.match(await text(page, 'note-text'), /^1,000 points without a measurement/);
   });
 
   test('is saved as GLB in its own units and place', async () => {
@@ -315,11 +406,7 @@ describe('a scan', () => {
           .map((p) => p.map((x) => x.toFixed(3))),
       ),
     );
-    // The points are compressed after the name is there.
-    await addressOf(page);
-    await until(page, () => location.hash.includes('data='));
-    const link = page.url();
-    const other = await open(browser, link);
+    const other = await open(browser, await linkWithData(page));
     assert.equal(await text(other, 'name'), 'small cat.xyz');
     assert.equal(await text(other, 'shown'), await text(page, 'shown'));
     assert.deepEqual(other.problems, []);

@@ -36,6 +36,8 @@ export interface Summary {
   duplicates: number;
   /** How many points the file has besides, which hold no measurement. */
   noReturn: number;
+  /** How many points there are on the faces of a coarse model, and whether they are among these. */
+  onFaces: About['onFaces'];
   /** Where the points' own colours come from; null if they have none. */
   colorSource: ColorSource | null;
   simplices: number;
@@ -125,6 +127,8 @@ export interface Picked {
 export interface About {
   /** How many points the file has besides, which hold no measurement. */
   noReturn: number;
+  /** How many points there are on the faces of a coarse model, and whether they are among these. */
+  onFaces: { points: number; taken: boolean } | null;
   /** Which axis points up. */
   up: Custom;
   /** The points' own colours: red, green and blue each. */
@@ -135,6 +139,7 @@ export interface About {
 
 export const NOTHING_ABOUT: About = {
   noReturn: 0,
+  onFaces: null,
   up: { axis: 'y', unless: 'never' },
   colors: null,
   heights: null,

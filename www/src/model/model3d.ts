@@ -88,6 +88,7 @@ export class Model3d implements Model {
       points: points.length / 3,
       duplicates,
       noReturn: about.noReturn,
+      onFaces: about.onFaces,
       colorSource: about.colors?.source ?? null,
       simplices: mesh.tetrahedra.length / 4,
       hullFacets: mesh.hull.length / 3,

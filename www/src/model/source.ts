@@ -1,6 +1,8 @@
 import { generate, generate2d, readPoints } from 'gdel-wasm';
 import bunny from '../../samples/bunny.f32.gz?url';
 import dragon from '../../samples/dragon.f32.gz?url';
+import { MANY_CORNERS, pointsOnFaces } from '../geometry/faces';
+import { facesOf } from './faceFiles';
 import { type About, NOTHING_ABOUT } from './model';
 import { landColors, OBJECTS } from './objects';
 
@@ -60,7 +62,10 @@ type Generator<D extends Dimension> = {
 /** The formats of files that can be read, for people. */
 export const EXTENSIONS = 'PLY, OBJ, STL, GLB, XYZ, TXT, CSV, PTS, PCD, LAS, LAZ, NPY, E57';
 
-/** Where points come from. In 2D, the z of a file is ignored. */
+/**
+ * Where points come from. In 2D, the z of a file is ignored. Of a coarse model, points on its faces
+ * are taken besides its corners, unless these are to stay bare.
+ */
 export type Source =
   | { kind: 'sample'; dimension: 3; sample: Sample }
   | Generator<2>
@@ -70,11 +75,12 @@ export type Source =
       dimension: Dimension;
       /** One or more, of which all points are taken together. */
       files: readonly File[];
+      bare?: true;
       /** The file as it is in the link, if there is one, small enough, and somebody shared it. */
       packed?: string;
     }
   /** A file on a server that lets pages of others read it. */
-  | { kind: 'url'; dimension: Dimension; url: string };
+  | { kind: 'url'; dimension: Dimension; url: string; bare?: true };
 
 /** The source of files that were opened together. */
 export function filesSource(files: readonly File[], dimension: Dimension): Source {
@@ -132,7 +138,8 @@ export async function load(
     const onProgress = (fraction: number) => options.onProgress({ phase, fraction });
     onProgress(0);
     try {
-      parts.push(await read(file, options.signal, onProgress));
+      const part = await read(file, options.signal, onProgress);
+      parts.push(source.dimension === 3 ? await withFaces(part, source.bare) : part);
     } catch (error) {
       // With one file, its name goes before the message anyway.
       if (files.length > 1 && error instanceof Error && error.name !== 'AbortError')
@@ -147,6 +154,7 @@ export async function load(
     about: {
       heights,
       noReturn: parts.reduce((sum, part) => sum + part.about.noReturn, 0),
+      onFaces: onFacesOf(parts),
       up: parts[0].about.up,
       colors: colorsOf(parts),
     },
@@ -157,6 +165,8 @@ export async function load(
 interface Read {
   points: Float32Array | Float64Array;
   about: About;
+  /** The corners of the triangles that the points belong to, nine coordinates each; null without. */
+  faces(): Promise<Float64Array | null> | Float64Array | null;
 }
 
 async function read(
@@ -168,10 +178,10 @@ async function read(
   const content = await unpacked(file);
   if (/\.glb$/i.test(name)) {
     const bytes = content instanceof Blob ? await content.arrayBuffer() : content;
-    const { points, colors } = await (await import('./glb')).pointsOf(new Uint8Array(bytes));
-    // The format says so.
+    const { points, colors, faces } = await (await import('./glb')).pointsOf(new Uint8Array(bytes));
+    // That y is up, the format says.
     const about: About = { ...NOTHING_ABOUT, colors: colors && { rgb: colors, source: 'rgb' } };
-    return { points, about };
+    return { points, about, faces };
   }
   const { points, noReturn, colors, colorSource } = await readPoints(content, {
     name,
@@ -186,7 +196,33 @@ async function read(
       up: upOf(name),
       colors: colors && { rgb: colors, source: colorSource! },
     },
+    faces: async () =>
+      facesOf(name, content instanceof Blob ? await content.arrayBuffer() : content),
   };
+}
+
+/** Adds points on the faces of a coarse model, of which the corners alone tell little. */
+async function withFaces(part: Read, bare = false): Promise<Read> {
+  const { points, about } = part;
+  const corners = points.length / 3;
+  // Colours are those of corners.
+  if (corners >= MANY_CORNERS || about.colors) return part;
+  const faces = await part.faces();
+  const more = faces ? pointsOnFaces(faces, corners) : new Float64Array();
+  if (more.length === 0) return part;
+  return {
+    ...part,
+    points: bare
+      ? points
+      : joined([points, points instanceof Float32Array ? Float32Array.from(more) : more]),
+    about: { ...about, onFaces: { points: more.length / 3, taken: !bare } },
+  };
+}
+
+function onFacesOf(parts: readonly Read[]): About['onFaces'] {
+  const coarse = parts.flatMap(({ about }) => about.onFaces ?? []);
+  const points = coarse.reduce((sum, { points }) => sum + points, 0);
+  return coarse.length > 0 ? { points, taken: coarse[0].taken } : null;
 }
 
 /** Arrays one after the other, in the precision of the most precise. */

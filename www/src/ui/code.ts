@@ -1,17 +1,17 @@
 import type { Edit } from '../model/edits';
+import type { Summary } from '../model/model';
 import { isGzipName, nameIn, type Source, titleOf } from '../model/source';
 import type { Settings } from '../settings';
 
 /** Returns the lines that do with the package what the page has just done, on exactly this input. */
-export function codeFor({
-  source,
-  backend,
-  edits,
-}: Pick<Settings, 'source' | 'backend' | 'edits'>): string {
+export function codeFor(
+  { source, backend, edits }: Pick<Settings, 'source' | 'backend' | 'edits'>,
+  summary: Pick<Summary, 'onFaces'> | null = null,
+): string {
   const flat = source.dimension === 2;
   const triangulate = flat ? 'delaunay2d' : 'delaunay3d';
   const options = backend === 'auto' ? '' : `, { backend: '${backend}' }`;
-  const { uses, lines } = pointsOf(source);
+  const { uses, lines } = pointsOf(source, summary?.onFaces?.taken ?? false);
   return [
     `// npm install gdel-wasm`,
     `import { ${[triangulate, ...uses].join(', ')} }`,
@@ -44,7 +44,7 @@ interface Lines {
   lines: string[];
 }
 
-function pointsOf(source: Source): Lines {
+function pointsOf(source: Source, hasMore: boolean): Lines {
   if (source.kind === 'generator') {
     const { distribution, count, seed } = source;
     const make = source.dimension === 2 ? 'generate2d' : 'generate';
@@ -63,7 +63,7 @@ function pointsOf(source: Source): Lines {
       : source.kind === 'file'
         ? source.files.map(({ name }) => ({ name, address: addressOf(name) }))
         : [];
-  const isReadable = addresses.every(({ name }) => !/\.glb(\.gz)?$/i.test(name));
+  const isReadable = !hasMore && addresses.every(({ name }) => !/\.glb(\.gz)?$/i.test(name));
   if (addresses.length === 1 && isReadable) return readOne(addresses[0], flat);
   if (addresses.length > 1 && isReadable && !addresses.some(({ name }) => isGzipName(name)))
     return readAll(

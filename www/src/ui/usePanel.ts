@@ -30,7 +30,7 @@ export function usePanel(page: Page): Part {
     setTimeout(() => (copy.textContent = 'Copy'), 2500);
   });
   return {
-    changed: () => (byId('code').textContent = codeFor(page.settings)),
+    changed: () => (byId('code').textContent = codeFor(page.settings, page.summary)),
     showed: () => byId('use').hidden || void describeMachine(page),
   };
 }

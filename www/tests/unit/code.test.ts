@@ -112,6 +112,13 @@ describe('the code on the page', () => {
     assert.deepEqual([...flat.coords], [0, 0, 1, 0, 0, 1, 0, 0]);
   });
 
+  test('reads the page’s own file where points were put on faces', () => {
+    const onFaces = { points: 9, taken: true };
+    assert.match(codeFor(settings(file('part.stl')), { onFaces }), /TetGen\n.*\n {2}'part\.node'/);
+    const bare = codeFor(settings(file('part.stl')), { onFaces: { ...onFaces, taken: false } });
+    assert.match(bare, /'part\.stl'/);
+  });
+
   test('reads the page’s own file where the package cannot read the one that was opened', async () => {
     const { node } = await (
       await delaunay3d([
