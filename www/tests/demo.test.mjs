@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, describe, test } from 'node:test';
+import { before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import {
   choose,
@@ -10,11 +10,9 @@ import {
   compare,
   copied,
   drop,
-  expectAccessible,
   expectAccessiblePanels,
   gdel,
   generate,
-  launch,
   numbers,
   open,
   openOnPhone,
@@ -22,7 +20,6 @@ import {
   prove,
   request,
   save,
-  serve,
   settled,
   shown,
   slide,
@@ -30,22 +27,17 @@ import {
   text,
   until,
 } from './browser.mjs';
+import { site } from './site.mjs';
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
 const bunny = readFileSync(join(root, 'tests/data/bunny.ply'));
 
-let server;
-before(async () => (server = await serve()));
-after(() => server.close());
-
 describe('drawing with WebGPU, triangulating on the CPU', () => {
-  let browser;
+  const here = site();
   let page;
   before(async () => {
-    browser = await launch();
-    page = await open(browser, server.url);
+    page = await open(here.browser, here.url);
   });
-  after(() => browser.close());
 
   test('shows the bunny at once, carved and cut', async () => {
     assert.match(await text(page, 'count'), /^35,947 points → 246,218 tetrahedra$/);
@@ -142,7 +134,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await choose(page, 'normal', 'Y');
     const link = await copied(page, '#share');
     assert.match(link, /thin-sphere_2000/);
-    const other = await open(browser, link);
+    const other = await open(here.browser, link);
     for (const id of ['shown', 'count', 'legend-title', 'legend-low', 'legend-high']) {
       assert.equal(await text(other, id), await text(page, id), id);
     }
@@ -239,31 +231,38 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
 
   for (const colorScheme of ['light', 'dark']) {
     test(`has no accessibility faults, ${colorScheme}`, async () => {
-      const page = await open(browser, server.url, { colorScheme, reducedMotion: 'reduce' });
+      const page = await open(here.browser, here.url, { colorScheme, reducedMotion: 'reduce' });
       await expectAccessiblePanels(page, `3d-${colorScheme}`);
+      await page.context().close();
+    });
+
+    test(`has no accessibility faults on a phone, ${colorScheme}`, async () => {
+      const page = await openOnPhone(here.browser, `${here.url}#points=ball_500_1`, {
+        colorScheme,
+      });
+      await expectAccessiblePanels(page, `3d-phone-${colorScheme}`);
       await page.context().close();
     });
   }
 
   test('fits a phone', async () => {
-    const page = await openOnPhone(browser, server.url);
+    const page = await openOnPhone(here.browser, here.url);
     await pictureOf(page, '3d-phone');
     await page.touchscreen.tap(215, 340);
     await page.locator('#tip').waitFor();
+    await pictureOf(page, '3d-phone-tip');
+    // What it says would lie under the sheet.
     await tab(page, 'view');
-    await expectAccessible(page);
-    await pictureOf(page, '3d-phone-view');
+    assert.ok(await page.locator('#tip').isHidden());
     await page.context().close();
   });
 });
 
 describe('without WebGPU', () => {
-  let browser;
-  before(async () => (browser = await launch({ webgpu: false })));
-  after(() => browser.close());
+  const here = site({ webgpu: false });
 
   test('works on the CPU, draws with WebGL, and says so', async () => {
-    const page = await open(browser, server.url);
+    const page = await open(here.browser, here.url);
     assert.match(await text(page, 'backend-used'), /^On the CPU: /);
     assert.equal((await shown(page)).total, 246_218);
     await tab(page, 'use');

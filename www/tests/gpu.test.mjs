@@ -1,35 +1,17 @@
 // The GPU backend in the page, on Chromium's software rasteriser.
 
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import {
-  choose,
-  colorBy,
-  launch,
-  open,
-  pictureOf,
-  serve,
-  settled,
-  shown,
-  slide,
-  tab,
-  text,
-} from './browser.mjs';
+import { before, test } from 'node:test';
+import { choose, colorBy, open, pictureOf, settled, shown, slide, tab, text } from './browser.mjs';
+import { site } from './site.mjs';
 
 // The rasteriser takes long to compile the kernels.
 const hang = 900_000;
 
-let server;
-let browser;
+const here = site();
 let page;
 before(async () => {
-  server = await serve();
-  browser = await launch();
-  page = await open(browser, `${server.url}#points=sphere_4000_1`, { hang });
-});
-after(async () => {
-  await browser.close();
-  await server.close();
+  page = await open(here.browser, `${here.url}#points=sphere_4000_1`, { hang });
 });
 
 /** What the page says of the present mesh, which comes from this backend. */
@@ -80,7 +62,7 @@ test('shows a recorded run round by round', async () => {
 });
 
 test('shows what happened in 2D', async () => {
-  const page = await open(browser, `${server.url}#dim=2&points=uniform_500_1&backend=gpu`, {
+  const page = await open(here.browser, `${here.url}#dim=2&points=uniform_500_1&backend=gpu`, {
     hang,
   });
   const onGpu = await countOn(page, 'GPU');

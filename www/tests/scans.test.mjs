@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, describe, test } from 'node:test';
+import { before, describe, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import {
   addressOf,
@@ -14,12 +14,10 @@ import {
   drop,
   expectAccessible,
   gdel,
-  launch,
   numbers,
   open,
   pictureOf,
   save,
-  serve,
   settled,
   shareOfPixels,
   shown,
@@ -28,6 +26,7 @@ import {
   text,
   until,
 } from './browser.mjs';
+import { site } from './site.mjs';
 
 /** The same numbers everywhere, from 0 to 1. */
 function randomNumbers(seed) {
@@ -138,18 +137,12 @@ const coloredPly = (points) =>
     'property uchar red\nproperty uchar green\nproperty uchar blue\nend_header',
   );
 
-let server;
-before(async () => (server = await serve()));
-after(() => server.close());
-
 describe('a scan', () => {
-  let browser;
+  const here = site();
   let page;
   before(async () => {
-    browser = await launch();
-    page = await open(browser, `${server.url}#points=uniform_200_1`);
+    page = await open(here.browser, `${here.url}#points=uniform_200_1`);
   });
-  after(() => browser.close());
 
   test('from the air is framed and cut without its birds', async () => {
     await drop(page, 'hills.xyz', xyz(airborne()));
@@ -187,8 +180,9 @@ describe('a scan', () => {
   test('is named, and a link to it says which file it needs', async () => {
     await drop(page, 'my cat.ply', ply(figure(1)));
     assert.equal(await text(page, 'name'), 'my cat.ply');
+    assert.equal(await page.title(), 'my cat.ply · gdel');
     await slide(page, 'keep', 0.25);
-    const other = await open(browser, await addressOf(page));
+    const other = await open(here.browser, await addressOf(page));
     assert.match(await text(other, 'message-text'), /“my cat\.ply”.*Open the same file/);
     await drop(other, 'my cat.ply', ply(figure(1)));
     assert.equal(await text(other, 'shown'), await text(page, 'shown'));
@@ -222,7 +216,7 @@ describe('a scan', () => {
   });
 
   test('has its own colours in the plane', async () => {
-    const flat = await open(browser, `${server.url}#dim=2`);
+    const flat = await open(here.browser, `${here.url}#dim=2`);
     await drop(flat, 'colours.ply', coloredPly(figure(1)));
     for (const channel of [0, 2]) assert.ok((await shareOfPixels(flat, channel)) > 0.03);
     assert.ok(await flat.locator('#legend').isHidden());
@@ -244,7 +238,7 @@ describe('a scan', () => {
     const random = randomNumbers(3);
     const slope = Array.from({ length: 500 }, () => [100 * random(), 100 * random()]);
     const points = xyz(slope.map(([x, y]) => [500_000 + x, y, 2 * x + 3 * y]));
-    const flat = await open(browser, `${server.url}#dim=2`);
+    const flat = await open(here.browser, `${here.url}#dim=2`);
     await drop(flat, 'slope.xyz', points);
     const above = await probe(flat);
     assert.ok(above.x > 500_020 && above.x < 500_080 && above.y > 20 && above.y < 80);
@@ -323,7 +317,7 @@ describe('a scan', () => {
     await drop(page, 'bracket.stl', bracket());
     assert.match(
       await text(page, 'note-text'),
-      /^[\d,]+ of the points were put on the large faces/,
+      /^[\d,]+ points were put on the model’s large faces/,
     );
     const [points] = numbers(await text(page, 'count'));
     const [added] = numbers(await text(page, 'note-text'));
@@ -342,7 +336,7 @@ describe('a scan', () => {
     await page.getByRole('button', { name: 'Corners only' }).click();
     await settled(page);
     assert.match(await text(page, 'count'), /^12 points/);
-    const other = await open(browser, await linkWithData(page));
+    const other = await open(here.browser, await linkWithData(page));
     assert.match(await text(other, 'count'), /^12 points/);
     await other.getByRole('button', { name: 'Put points on them' }).click();
     await settled(other);
@@ -406,7 +400,7 @@ describe('a scan', () => {
           .map((p) => p.map((x) => x.toFixed(3))),
       ),
     );
-    const other = await open(browser, await linkWithData(page));
+    const other = await open(here.browser, await linkWithData(page));
     assert.equal(await text(other, 'name'), 'small cat.xyz');
     assert.equal(await text(other, 'shown'), await text(page, 'shown'));
     assert.deepEqual(other.problems, []);
@@ -421,7 +415,7 @@ describe('a scan', () => {
     await new Promise((resolve) => files.listen(0, '127.0.0.1', resolve));
     const url = `http://127.0.0.1:${files.address().port}/web%20cat.xyz`;
     try {
-      const other = await open(browser, `${server.url}?url=${encodeURIComponent(url)}#embed`);
+      const other = await open(here.browser, `${here.url}?url=${encodeURIComponent(url)}#embed`);
       assert.equal(await text(other, 'name'), 'web cat.xyz');
       assert.match(await text(other, 'count'), /^3,000 points/);
       assert.ok(await other.locator('#panel').isHidden());
@@ -457,8 +451,8 @@ describe('a scan', () => {
   });
 
   test('is shown whole, then cut, where motion is welcome', async () => {
-    const still = await open(browser, `${server.url}#points=uniform_200_1`);
-    const moving = await open(browser, `${server.url}#points=uniform_200_1`, {
+    const still = await open(here.browser, `${here.url}#points=uniform_200_1`);
+    const moving = await open(here.browser, `${here.url}#points=uniform_200_1`, {
       reducedMotion: 'no-preference',
     });
     assert.equal(await text(moving, 'shown'), await text(still, 'shown'));
@@ -472,12 +466,10 @@ describe('a scan', () => {
 });
 
 describe('in difficult surroundings', () => {
-  let browser;
-  before(async () => (browser = await launch()));
-  after(() => browser.close());
+  const here = site();
 
   test('works where the browser stores nothing', async () => {
-    const page = await open(browser, `${server.url}#points=uniform_200_1`, {}, (context) =>
+    const page = await open(here.browser, `${here.url}#points=uniform_200_1`, {}, (context) =>
       context.addInitScript(() =>
         Object.defineProperty(window, 'localStorage', {
           get() {
@@ -498,11 +490,11 @@ describe('in difficult surroundings', () => {
     const outer = createServer((_, response) => {
       response.setHeader('content-type', 'text/html');
       response.end(
-        `<iframe sandbox="allow-scripts" width="1200" height="800" src="${server.url}#points=uniform_200_1"></iframe>`,
+        `<iframe sandbox="allow-scripts" width="1200" height="800" src="${here.url}#points=uniform_200_1&embed=1"></iframe>`,
       );
     });
     await new Promise((resolve) => outer.listen(0, '127.0.0.1', resolve));
-    const context = await browser.newContext({ reducedMotion: 'reduce' });
+    const context = await here.browser.newContext({ reducedMotion: 'reduce' });
     try {
       const page = await context.newPage();
       await page.goto(`http://127.0.0.1:${outer.address().port}`);
@@ -510,6 +502,11 @@ describe('in difficult surroundings', () => {
       await frame.locator('#count', { hasText: '200 points' }).waitFor();
       await frame.locator('#stage[aria-busy="false"]').waitFor();
       assert.ok(await frame.locator('#message').isHidden());
+      assert.ok(await frame.locator('#panel').isHidden());
+      const all = await frame.locator('#shown').textContent();
+      await frame.locator('#keep').press('Home');
+      await frame.locator('#shown', { hasText: /^0 of/ }).waitFor();
+      assert.match(all, /^[1-9]/);
     } finally {
       await context.close();
       outer.close();
@@ -517,7 +514,7 @@ describe('in difficult surroundings', () => {
   });
 
   test('says in words that the connection is gone', async () => {
-    const page = await open(browser, `${server.url}#points=uniform_200_1`);
+    const page = await open(here.browser, `${here.url}#points=uniform_200_1`);
     await page.context().setOffline(true);
     await tab(page, 'points');
     await page.getByRole('button', { name: 'Stanford dragon' }).click();
