@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import {
   choose,
@@ -46,10 +46,9 @@ async function press(page, key) {
 }
 
 describe('2D', () => {
-  const here = site();
   let page;
-  before(async () => {
-    page = await open(here.browser, `${here.url}#dim=2`);
+  const here = site({}, async ({ browser, url }) => {
+    page = await open(browser, `${url}#dim=2`);
   });
 
   test('shows triangles with their Voronoi diagram at once', async () => {
@@ -107,9 +106,17 @@ describe('2D', () => {
     await page.click('#undo');
     await settled(page);
     assert.equal(await text(page, 'count'), '5 points → 4 triangles');
+    await page.click('#redo');
+    await settled(page);
+    assert.equal(await text(page, 'count'), '5 points → 3 triangles');
+    await page.click('#undo');
+    await settled(page);
+    assert.ok(await page.locator('#redo').isEnabled());
     await choose(page, 'tool', 'remove');
     await click(page, 0.5, 0.52);
     assert.equal(await text(page, 'count'), '4 points → 2 triangles');
+    // After another change, there is nothing to bring back.
+    assert.ok(await page.locator('#redo').isDisabled());
   });
 
   test('points are added, moved and removed with the keys', async () => {
@@ -122,7 +129,11 @@ describe('2D', () => {
     const before = page.url();
     for (let i = 0; i < 6; i++) await press(page, 'ArrowLeft');
     await until(page, (before) => location.href !== before, before);
-    for (const key of ['Space', 'Control+z', 'Delete']) await press(page, key);
+    await press(page, 'Space');
+    for (const key of ['Control+z', 'Control+Shift+z', 'Control+z', 'Control+y', 'Control+z'])
+      await press(page, key);
+    assert.equal(await text(page, 'count'), '5 points → 4 triangles');
+    await press(page, 'Delete');
     assert.equal(await text(page, 'count'), '4 points → 2 triangles');
     // Without a point in hand, they move the view.
     const still = await text(page, 'count');

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import {
   choose,
@@ -33,10 +33,9 @@ const root = fileURLToPath(new URL('../../', import.meta.url));
 const bunny = readFileSync(join(root, 'tests/data/bunny.ply'));
 
 describe('drawing with WebGPU, triangulating on the CPU', () => {
-  const here = site();
   let page;
-  before(async () => {
-    page = await open(here.browser, here.url);
+  const here = site({}, async ({ browser, url }) => {
+    page = await open(browser, url);
   });
 
   test('shows the bunny at once, carved and cut', async () => {

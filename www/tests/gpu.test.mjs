@@ -1,17 +1,16 @@
 // The GPU backend in the page, on Chromium's software rasteriser.
 
 import assert from 'node:assert/strict';
-import { before, test } from 'node:test';
+import { test } from 'node:test';
 import { choose, colorBy, open, pictureOf, settled, shown, slide, tab, text } from './browser.mjs';
 import { site } from './site.mjs';
 
 // The rasteriser takes long to compile the kernels.
 const hang = 900_000;
 
-const here = site();
 let page;
-before(async () => {
-  page = await open(here.browser, `${here.url}#points=sphere_4000_1`, { hang });
+const here = site({}, async ({ browser, url }) => {
+  page = await open(browser, `${url}#points=sphere_4000_1`, { hang });
 });
 
 /** What the page says of the present mesh, which comes from this backend. */

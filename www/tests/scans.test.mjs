@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import {
   addressOf,
@@ -26,84 +26,17 @@ import {
   text,
   until,
 } from './browser.mjs';
+import {
+  airborne,
+  bracket,
+  coloredPly,
+  figure,
+  ply,
+  randomNumbers,
+  terrestrial,
+  xyz,
+} from './models.mjs';
 import { site } from './site.mjs';
-
-/** The same numbers everywhere, from 0 to 1. */
-function randomNumbers(seed) {
-  let state = seed;
-  return () => {
-    state = (state * 48271) % 2147483647;
-    return state / 2147483647;
-  };
-}
-
-const xyz = (points) => points.map((point) => point.join(' ')).join('\n');
-
-/** Hills with z up, far from the origin, as they are seen from a plane: with a few birds. */
-function airborne() {
-  const random = randomNumbers(1);
-  const points = [];
-  for (let i = 0; i < 8000; i++) {
-    const [x, y] = [1000 * random(), 600 * random()];
-    const z = 30 * Math.sin(x / 150) * Math.cos(y / 120) + random();
-    points.push([500_000 + x, 4_000_000 + y, z]);
-  }
-  for (let i = 0; i < 40; i++)
-    points.push([500_000 + 1000 * random(), 4_000_000 + 600 * random(), 20_000 * random()]);
-  return points;
-}
-
-/** A half ball with its flat side below, where up is an axis from 0 to 2. */
-function figure(up) {
-  const random = randomNumbers(2);
-  const points = [];
-  while (points.length < 3000) {
-    const p = [0, 1, 2].map(() => 2 * random() - 1);
-    const radius = Math.hypot(...p);
-    if (radius > 1) continue;
-    // Half of the points on the round side, half on the flat one.
-    const above = points.length % 2 ? p.map((x) => x / radius) : [p[0], 0, p[2]];
-    above[1] = Math.abs(above[1]);
-    points.push([above[(4 - up) % 3], above[(5 - up) % 3], above[(6 - up) % 3]]);
-  }
-  return points;
-}
-
-/** An angle of two plates, 80 by 40 and 60 by 40, 6 thick, as STL: 20 triangles and 12 corners. */
-function bracket() {
-  const triangles = [];
-  const [outline, depth] = [
-    [
-      [0, 0],
-      [80, 0],
-      [80, 6],
-      [6, 6],
-      [6, 60],
-      [0, 60],
-    ],
-    40,
-  ];
-  const at = (i, y) => [outline[i % 6][0], y, outline[i % 6][1]];
-  for (let i = 0; i < 6; i++) {
-    triangles.push([at(i, 0), at(i + 1, 0), at(i + 1, depth)]);
-    triangles.push([at(i, 0), at(i + 1, depth), at(i, depth)]);
-  }
-  for (const [i, j, k] of [
-    [0, 1, 2],
-    [0, 2, 3],
-    [0, 3, 4],
-    [0, 4, 5],
-  ]) {
-    triangles.push([at(i, 0), at(k, 0), at(j, 0)]);
-    triangles.push([at(i, depth), at(j, depth), at(k, depth)]);
-  }
-  return `solid\n${triangles
-    .map(
-      (corners) =>
-        `facet normal 0 0 0\nouter loop\n${corners.map((corner) => `vertex ${corner.join(' ')}\n`).join('')}endloop\nendfacet\n`,
-    )
-    .join('')}endsolid\n`;
-}
 
 /** What the triangles of a binary STL enclose. */
 function volumeOf(stl) {
@@ -127,21 +60,10 @@ async function linkWithData(page) {
   return page.url();
 }
 
-const ply = (points) =>
-  `ply\nformat ascii 1.0\nelement vertex ${points.length}\nproperty float x\nproperty float y\nproperty float z\nend_header\n${xyz(points)}\n`;
-
-/** Points of which the right side is blue and the left one red, with what else a header names. */
-const coloredPly = (points) =>
-  ply(points.map((p) => [...p, ...(p[0] > 0 ? [10, 20, 230] : [230, 20, 10])])).replace(
-    'end_header',
-    'property uchar red\nproperty uchar green\nproperty uchar blue\nend_header',
-  );
-
 describe('a scan', () => {
-  const here = site();
   let page;
-  before(async () => {
-    page = await open(here.browser, `${here.url}#points=uniform_200_1`);
+  const here = site({}, async ({ browser, url }) => {
+    page = await open(browser, `${url}#points=uniform_200_1`);
   });
 
   test('from the air is framed and cut without its birds', async () => {
@@ -151,6 +73,18 @@ describe('a scan', () => {
     const share = counts.shown / counts.total;
     assert.ok(share > 0.25 && share < 0.75, `${counts.shown} of ${counts.total} shown`);
     await pictureOf(page, 'scan-airborne');
+  });
+
+  test('from a tripod shows the street, not what is a kilometre away', async () => {
+    const street = terrestrial();
+    await drop(page, 'street.pts', `${street.length}\n${xyz(street)}`);
+    assert.equal(await page.locator('input[name=up]:checked').inputValue(), 'z');
+    const bar = Number(await text(page, 'scale-length'));
+    assert.ok(bar >= 5 && bar <= 20, `a bar of ${bar} metres`);
+    const counts = await shown(page);
+    const share = counts.shown / counts.total;
+    assert.ok(share > 0.25 && share < 0.75, `${counts.shown} of ${counts.total} shown`);
+    await pictureOf(page, 'scan-terrestrial');
   });
 
   test('stands upright, whichever axis is up', async () => {
@@ -528,7 +462,11 @@ describe('in difficult surroundings', () => {
     await until(page, () =>
       document.querySelector('#message-text').textContent.startsWith('GLB could not be loaded.'),
     );
-    // What is there still works.
+    // What is there still works, and ends the message.
+    const folder = mkdtempSync(join(tmpdir(), 'gdel-scan-'));
+    await save(page, 'OBJ', folder);
+    rmSync(folder, { recursive: true });
+    assert.ok(await page.locator('#message').isHidden());
     await tab(page, 'points');
     await choose(page, 'dimension', '2');
     await page.context().close();
