@@ -11,6 +11,7 @@ import { launchChromium, launchFirefox } from '../../tests/web/browsers.mjs';
 import { dist, project, root } from '../../tests/web/package.mjs';
 import { serve } from '../../tests/web/server.mjs';
 import {
+  drop,
   generate,
   launch,
   open,
@@ -18,6 +19,7 @@ import {
   settled,
   slide,
 } from '../../www/tests/browser.mjs';
+import { airborne, xyz } from '../../www/tests/models.mjs';
 
 const rows = [];
 
@@ -40,6 +42,24 @@ const times = async (count, measure) => {
   for (let i = 0; i < count; i++) found.push(await measure());
   return found;
 };
+
+/** How long a dropped scan is not to be seen yet once its mesh is there. */
+async function pictureTimes(page) {
+  await page.evaluate(() => {
+    const on = (id, mark) =>
+      new MutationObserver(mark).observe(document.getElementById(id), {
+        attributes: id === 'stage',
+        childList: true,
+      });
+    on('count', () => (globalThis.meshed = performance.now()));
+    on('stage', () => (globalThis.shown = performance.now()));
+  });
+  const scan = xyz(airborne(110_000));
+  return times(5, async () => {
+    await drop(page, 'hills.xyz', scan);
+    return page.evaluate(() => shown - meshed);
+  });
+}
 
 async function benchPage() {
   const server = await servePage();
@@ -71,6 +91,7 @@ async function benchPage() {
       cuts.push(parseFloat(await page.locator('#shown').getAttribute('title')));
     }
     report('cut through 1 M points', cuts, 500);
+    report('picture of a scan of 110,000 points, from its mesh on', await pictureTimes(page), 1000);
   } finally {
     await browser.close();
     await server.close();

@@ -5,6 +5,7 @@
 import { writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { launch, open, serve } from '../tests/browser.mjs';
+import { converted } from './converted.mjs';
 
 const NAMES = ['bunny', 'terrain', 'sponge', 'gear', 'knot', 'shell', 'gyroid', 'fullerene'];
 const file = (path) => fileURLToPath(new URL(`../${path}`, import.meta.url));
@@ -27,34 +28,17 @@ async function drawing(hash, width, height, omitBackground) {
   return png;
 }
 
-/** A picture in another size and format. */
-async function converted(png, width, height, type, quality) {
-  const page = await browser.newPage();
-  const data = await page.evaluate(
-    async ([png, width, height, type, quality]) => {
-      const image = await createImageBitmap(await (await fetch(png)).blob(), {
-        resizeWidth: width,
-        resizeHeight: height,
-        resizeQuality: 'high',
-      });
-      const canvas = Object.assign(document.createElement('canvas'), { width, height });
-      canvas.getContext('2d').drawImage(image, 0, 0);
-      return canvas.toDataURL(type, quality);
-    },
-    [`data:image/png;base64,${png.toString('base64')}`, width, height, type, quality],
-  );
-  await page.close();
-  return Buffer.from(data.split(',')[1], 'base64');
-}
-
 for (const name of process.argv.length > 2 ? process.argv.slice(2) : NAMES) {
   const png = await drawing(`points=${name}&keep=0.75&layers=simplices_skin`, 240, 180, true);
-  const picture = await converted(png, 240, 180, 'image/webp', 0.82);
+  const picture = await converted(browser, png, 240, 180, 'image/webp', 0.82);
   writeFileSync(file(`src/gallery/${name}.webp`), picture);
   console.log(`src/gallery/${name}.webp: ${picture.length} bytes`);
 }
 const preview = await drawing('points=bunny', 1200, 630, false);
-writeFileSync(file('public/preview.jpg'), await converted(preview, 1200, 630, 'image/jpeg', 0.85));
+writeFileSync(
+  file('public/preview.jpg'),
+  await converted(browser, preview, 1200, 630, 'image/jpeg', 0.85),
+);
 const page = await browser.newPage({ viewport: { width: 512, height: 512 } });
 await page.goto(`${server.url}icon.svg`);
 writeFileSync(file('public/icon-512.png'), await page.screenshot({ omitBackground: true }));

@@ -1,6 +1,6 @@
 import { unpack } from './model/packed';
 import { type Dimension, type Source, titleOf } from './model/source';
-import { fileIn, fromHash, type Settings, toHash } from './settings';
+import { fileIn, fromHash, type LinkedFile, type Settings, toHash } from './settings';
 
 /** What the address says, and the files that it can only name. */
 export class Address {
@@ -47,12 +47,12 @@ export class Address {
 
   /** The file that an address names: from the address itself, or from this visit. */
   async sourceOf(
-    { name, packed }: { name: string; packed: string | null },
+    { name, packed, ...bare }: LinkedFile,
     dimension: Dimension,
   ): Promise<Source | null> {
     const unpacked = packed ? await unpack(packed, name) : null;
     const files = this.files.get(name) ?? (unpacked && [unpacked]);
-    return files && { kind: 'file', dimension, files, ...(packed ? { packed } : {}) };
+    return files && { kind: 'file', dimension, files, ...bare, ...(packed ? { packed } : {}) };
   }
 }
 

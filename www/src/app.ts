@@ -2,7 +2,7 @@ import * as Comlink from 'comlink';
 import { Address, haveSamePoints, wholeHash } from './address';
 import { connect } from './model/client';
 import type { Edit } from './model/edits';
-import type { Drawing, DrawRequest, Summary } from './model/model';
+import type { Drawing, Summary } from './model/model';
 import { type Dimension, type Source, titleOf } from './model/source';
 import type { Progress } from './model/worker';
 import type { Page, Part } from './page';
@@ -13,15 +13,17 @@ import {
   fileIn,
   filterFor,
   fromHash,
+  type LinkedFile,
   type Settings,
   type Tool,
   viewOf,
 } from './settings';
-import { wireAbout } from './ui/about';
+import { Stage } from './stage';
+import { about } from './ui/about';
 import { axes } from './ui/axes';
 import { showBusy, whileBusy } from './ui/busy';
 import { comparePanel } from './ui/comparePanel';
-import { complaint, complaintAbout } from './ui/complaint';
+import { complaint } from './ui/complaint';
 import { dimensionSwitch } from './ui/dimension';
 import { dock } from './ui/dock';
 import { byId } from './ui/dom';
@@ -32,6 +34,7 @@ import { wireKeyboard } from './ui/keyboard';
 import { showLegend } from './ui/legend';
 import { live } from './ui/live';
 import { showMessage, wireMessage } from './ui/message';
+import { notes } from './ui/notes';
 import { keepOffline } from './ui/offline';
 import { pointer } from './ui/pointer';
 import { pointsPanel } from './ui/pointsPanel';
@@ -58,29 +61,35 @@ export class App implements Page {
       'The part of the page that triangulates could not be started. Check your connection, then reload the page.',
     ),
   );
-  viewer: Viewer | null = null;
   summary: Summary | null = null;
-  lastDrawing: Drawing | null = null;
   live = false;
-  positions: Float32Array | null = null;
   hasGpu: boolean | null = null;
   tool: Tool = 'move';
   private readonly parts: Part[];
   /** What was there when the visitor left for the other dimension. */
   private left: Settings | null = null;
   private editing = false;
-  private round: number | null = null;
   /** Counts the runs: what an earlier one still says is no longer of interest. */
   private lastRun = 0;
-  private drawing = false;
-  private drawn = '';
   /** Whether a run comes from the browser's history. */
   private following = false;
-  /** The cut while it moves by itself, from everything to where it stays; else null. */
-  private sweep: number | null = null;
+  private readonly stage: Stage = new Stage(this, {
+    drew: (drawing) => {
+      showLegend(drawing, this.settings, this.summary?.colorSource != null);
+      for (const part of this.parts) part.drew?.(drawing);
+    },
+    moved: () => {
+      for (const part of this.parts) part.moved?.();
+    },
+    turned: (camera) => {
+      this.settings.camera = camera;
+      for (const part of this.parts) part.moved?.();
+      this.address.remember();
+    },
+  });
   private readonly address = new Address(() => this.settings);
   /** The view in the link that was followed here, for a file that the visitor does not have yet. */
-  private awaited: { file: string; settings: Settings } | null = null;
+  private awaited: { asked: LinkedFile; settings: Settings } | null = null;
 
   constructor() {
     wireMessage();
@@ -90,12 +99,12 @@ export class App implements Page {
     wireTheme(() => this.viewer && paint(this.viewer));
     wireDrop(this);
     wireShare(this);
-    wireAbout();
     this.parts = [
       dimensionSwitch(this),
       pointsPanel(this),
       viewPanel(this),
       dock(this),
+      notes(this),
       scaleBar(this),
       axes(this),
       ruler(this),
@@ -106,13 +115,14 @@ export class App implements Page {
       // Before the keys of the drawing: a point that is held takes the arrow keys.
       editor(this),
       live(this),
+      about(this),
       firstVisit(this),
     ];
     wireKeyboard(this);
     byId('cancel').addEventListener('click', () => this.model.cancel());
     window.addEventListener('hashchange', () => void this.followHash());
     this.tell();
-    void whileBusy(this.startViewer());
+    void whileBusy(this.stage.start());
     void whileBusy(this.start()).then(keepOffline);
     void whileBusy(this.askForGpu());
   }
@@ -137,7 +147,7 @@ export class App implements Page {
       await this.run(source, this.settings);
       return;
     }
-    this.awaited = { file: asked.name, settings };
+    this.awaited = { asked, settings };
     this.settings = defaults(settings.source.dimension);
     await this.run(this.settings.source);
     showMessage(
@@ -147,8 +157,10 @@ export class App implements Page {
 
   run(source: Source, settings: Partial<Settings> = {}): Promise<boolean> {
     this.address.keep(source);
-    if (source.kind === 'file' && this.awaited?.file === titleOf(source))
+    if (source.kind === 'file' && this.awaited?.asked.name === titleOf(source)) {
+      if (this.awaited.asked.bare) source.bare = true;
       settings = { ...this.awaited.settings, source, ...settings };
+    }
     const { edits = [], backend = this.settings.backend } = settings;
     return whileBusy(
       this.newRun(source, { edits, ...settings }, (onProgress) =>
@@ -189,29 +201,27 @@ export class App implements Page {
         done !== this.settings.edits && run === this.lastRun;
       ) {
         done = this.settings.edits;
-        const { summary, drawing, positions, colors, hull } = await this.model.edit(
-          done,
-          this.settings.backend,
-          this.request(),
-        );
+        const edited = await this.model.edit(done, this.settings.backend, this.stage.request());
         if (run !== this.lastRun) return;
+        const { summary } = edited;
         this.summary = summary;
-        this.drawn = JSON.stringify(this.request());
         showResult(summary, titleOf(this.settings.source));
         showStrip(summary);
-        this.positions = positions;
-        this.viewer?.showPoints(positions, colors);
-        this.viewer?.showHull(hull);
-        this.show(drawing);
+        this.stage.showEdited(edited);
         for (const part of this.parts) part.edited?.(summary);
       }
       this.tell();
-      await this.onScreen();
+      await this.stage.onScreen();
     } catch (error) {
       if (run === this.lastRun) showMessage(complaint(this.settings.source, error));
     } finally {
       this.editing = false;
     }
+  }
+
+  goLive(on: boolean): void {
+    this.live = on;
+    for (const part of this.parts) part.lived?.(on);
   }
 
   record(): Promise<boolean> {
@@ -250,16 +260,13 @@ export class App implements Page {
       }
       Object.assign(before, settings);
       this.summary = summary;
-      this.round = null;
-      this.drawn = '';
       showResult(summary, titleOf(this.settings.source));
       showStrip(summary);
       for (const part of this.parts) part.ran?.(summary);
-      this.sweep = (isNew || run === 1) && this.opensSlowly ? 1 : null;
-      await this.newMesh();
+      await this.stage.newMesh(isNew || run === 1);
       this.change(settings);
       this.address.write();
-      await this.cutSlowly(run);
+      await this.stage.open();
       return true;
     } catch (error) {
       if (isLast()) {
@@ -285,14 +292,13 @@ export class App implements Page {
     }
     if (settings.camera !== undefined && this.viewer) this.viewer.pose = this.view.camera;
     this.tell();
-    void this.draw();
+    void this.stage.draw();
   }
 
   restore(): void {
     showResult(this.summary!, titleOf(this.settings.source));
     showStrip(this.summary!);
-    this.drawn = '';
-    void whileBusy(this.newMesh().then(() => this.draw()));
+    void whileBusy(this.stage.again());
   }
 
   private get canRecord(): boolean {
@@ -300,12 +306,7 @@ export class App implements Page {
   }
 
   showRound(round: number | null): void {
-    this.round = round;
-    void this.draw();
-  }
-
-  private tellMoved(): void {
-    for (const part of this.parts) part.moved?.();
+    this.stage.showRound(round);
   }
 
   private tell(): void {
@@ -314,143 +315,24 @@ export class App implements Page {
     this.address.remember();
   }
 
-  private async startViewer(): Promise<void> {
-    let Viewer: typeof import('./view/viewer').Viewer;
-    try {
-      ({ Viewer } = await import('./view/viewer'));
-    } catch (error) {
-      showMessage(complaintAbout('The drawing', error));
-      return;
-    }
-    try {
-      this.viewer = await Viewer.create(
-        byId<HTMLCanvasElement>('canvas'),
-        () => this.cameraMoved(),
-        () => this.tellMoved(),
-        () =>
-          showMessage(
-            'The GPU was reset, and the drawing is lost. Reload the page to get it back.',
-          ),
-      );
-    } catch {
-      showMessage(
-        'This browser can draw neither with WebGPU nor with WebGL 2. Triangulating and downloading still work.',
-      );
-      return;
-    }
-    paint(this.viewer);
-    if (!this.summary) return;
-    this.sweep = this.opensSlowly ? 1 : null;
-    await this.newMesh();
-    await this.draw();
-    await this.cutSlowly(this.lastRun);
-  }
-
-  /** Gives the viewer what stays the same for a mesh, however it is cut. */
-  private async newMesh(): Promise<void> {
-    if (!this.viewer) return;
-    this.viewer.setDimension(this.summary!.dimension);
-    this.viewer.pose = this.view.camera;
-    this.positions = await this.model.positions();
-    this.viewer.showPoints(this.positions, await this.model.colors());
-    this.viewer.showHull(await this.model.hull());
-    this.viewer.showFacets(await this.model.nonDelaunayFacets());
-    this.look();
-  }
-
-  /**
-   * Draws what the settings say. Of settings that change while a drawing is made, only the last are
-   * drawn.
-   */
-  private draw(): Promise<void> {
-    this.look();
-    return whileBusy(this.followSettings().then(() => this.onScreen()));
-  }
-
-  /** Resolves once the browser shows what the viewer was given. */
-  private async onScreen(): Promise<void> {
-    await this.viewer?.drawn();
-  }
-
-  private async followSettings(): Promise<void> {
-    if (this.drawing || this.live || !this.viewer || !this.summary) return;
-    this.drawing = true;
-    try {
-      for (
-        let request = this.request();
-        JSON.stringify(request) !== this.drawn;
-        request = this.request()
-      ) {
-        this.drawn = JSON.stringify(request);
-        this.show(await this.model.draw(request));
-      }
-    } finally {
-      this.drawing = false;
-    }
-  }
-
-  private show(drawing: Drawing): void {
-    this.lastDrawing = drawing;
-    showLegend(drawing, this.settings, this.summary?.colorSource != null);
-    for (const part of this.parts) part.drew?.(drawing);
-    if (!this.viewer) return;
-    this.viewer.showSurface(drawing.surface);
-    this.viewer.showPieces(drawing.pieces);
-    this.viewer.showVoronoi(drawing.voronoi);
-    const { planeNormal, pointsAbove } = this.viewer.look;
-    planeNormal.value.set(...this.view.normal);
-    pointsAbove.value = Math.min(drawing.level, 1e9);
-    this.look();
-  }
-
-  private request(): DrawRequest {
-    const { filter, alpha, keep, color, apart, layers } = this.settings;
-    return {
-      filter: { kind: filter, alpha },
-      plane: { normal: this.view.normal, keep: this.sweep ?? keep },
-      // Only a recorded run tells the phases.
-      color: color === 'phase' && !this.summary?.trace ? 'quality' : color,
-      pieces: apart > 0,
-      round: this.round,
-      skin: layers.skin,
-      voronoi: layers.voronoi,
-      cells: layers.voronoi && this.settings.source.dimension === 3 ? apart : null,
-    };
-  }
-
   get view(): ReturnType<typeof viewOf> {
     return viewOf(this.settings, this.summary);
   }
 
-  look(): void {
-    const { viewer } = this;
-    if (!viewer) return;
-    const { layers, map, color, apart, source } = this.settings;
-    const flat = source.dimension === 2;
-    viewer.setUp(this.view.up);
-    viewer.setColorMap(color === 'phase' && this.summary?.trace ? 'phases' : map);
-    // Facets of Voronoi cells are drawn as several triangles.
-    viewer.look.edges.value = layers.edges && !this.lastDrawing?.cells ? 1 : 0;
-    viewer.look.apart.value = this.round === null ? apart : Math.max(apart, 0.02);
-    viewer.look.ownColors.value = layers.skin ? 1 : 0;
-    viewer.look.fill.value = layers.simplices ? 1 : 0;
-    viewer.setVisible('surface', layers.simplices);
-    viewer.setVisible('flat', layers.simplices || layers.edges);
-    viewer.setVisible('pieces', layers.simplices);
-    viewer.setVisible('voronoi', layers.voronoi);
-    viewer.setVisible('hull', layers.hull);
-    viewer.setVisible('hullEdges', layers.hull);
-    viewer.setVisible('facets', layers.facets);
-    viewer.setVisible('points', layers.points);
-    viewer.look.pointsEverywhere.value =
-      layers.simplices && !flat && this.summary?.dimension === 3 ? 0 : 1;
+  get viewer(): Viewer | null {
+    return this.stage.viewer;
   }
 
-  private cameraMoved(): void {
-    if (!this.viewer) return;
-    this.settings.camera = this.viewer.pose;
-    this.tellMoved();
-    this.address.remember();
+  get lastDrawing(): Drawing | null {
+    return this.stage.lastDrawing;
+  }
+
+  get positions(): Float32Array | null {
+    return this.stage.positions;
+  }
+
+  look(): void {
+    this.stage.look();
   }
 
   /** The visitor followed a link to another view of this page, or went back to one. */
@@ -467,38 +349,4 @@ export class App implements Page {
       this.following = false;
     }
   }
-
-  /** Whether a new object is shown whole before it is cut. */
-  private get opensSlowly(): boolean {
-    return (
-      this.summary!.dimension === 3 &&
-      this.settings.keep === null &&
-      !matchMedia('(prefers-reduced-motion: reduce)').matches
-    );
-  }
-
-  /**
-   * Cuts an object that is shown whole, along the side that faces the camera, unless the visitor
-   * cuts it or goes on to something else.
-   */
-  private async cutSlowly(run: number): Promise<void> {
-    if (this.sweep === null || !this.viewer) return;
-    await this.draw();
-    const started = performance.now();
-    for (
-      let at = 0;
-      at < 1 && run === this.lastRun && this.settings.keep === null;
-      at = (performance.now() - started - WHOLE) / OPENING
-    ) {
-      const eased = Math.max(0, at) ** 2 * (3 - 2 * Math.max(0, at));
-      this.sweep = 1 + eased * ((this.lastDrawing?.half ?? 1) - 1);
-      await this.draw();
-    }
-    if (run !== this.lastRun) return;
-    this.sweep = null;
-    await this.draw();
-  }
 }
-
-/** How long a new object is shown whole, and how long the cut then moves, in milliseconds. */
-const [WHOLE, OPENING] = [500, 900];

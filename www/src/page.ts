@@ -16,7 +16,9 @@ export interface Page {
   /** How the points are looked at and cut, chosen or not. */
   readonly view: ReturnType<typeof viewOf>;
   /** Whether points move: then the live mode draws, not the page. */
-  live: boolean;
+  readonly live: boolean;
+  /** Starts or ends the time in which points move. */
+  goLive(on: boolean): void;
   /** Whether there is a GPU to triangulate on; null until that is known. */
   readonly hasGpu: boolean | null;
   /** What is on the screen; null before anything is. */
@@ -60,6 +62,8 @@ export interface Part {
   edited?(summary: Summary): void;
   /** Settings have changed. */
   changed?(settings: Settings): void;
+  /** Points begin to move, or no longer do: what was found out about the mesh is not about them. */
+  lived?(on: boolean): void;
   /** There is a new drawing. */
   drew?(drawing: Drawing): void;
   /** The camera has moved, or the drawing has another size. */

@@ -137,6 +137,7 @@ export function toHash(settings: Settings): string {
   if (source.kind === 'file') hash.set('file', titleOf(source));
   if (source.kind === 'file' && source.packed) hash.set('data', source.packed);
   if (source.kind === 'url') hash.set('url', source.url);
+  if ('bare' in source) hash.set('bare', '1');
   if (settings.embed) hash.set('embed', '1');
   if (source.kind === 'generator')
     hash.set('points', [source.distribution, source.count, source.seed].join('_'));
@@ -171,7 +172,7 @@ export function fromHash(hash: string): Settings {
 
   const url = addressFrom(given.get('url'));
   settings.source = url
-    ? { kind: 'url', dimension, url }
+    ? { kind: 'url', dimension, url, ...bareIn(given) }
     : (sourceFrom(given.get('points'), dimension) ?? settings.source);
   settings.embed = given.has('embed');
   if (dimension === 2) settings.edits = editsFromText(given.get('edits') ?? '') ?? [];
@@ -202,12 +203,23 @@ export function fromHash(hash: string): Settings {
   return settings;
 }
 
-/** The file that a link was made from: its name, and its content if it is in the link. */
-export function fileIn(hash: string): { name: string; packed: string | null } | null {
+/** The file that a link was made from. */
+export interface LinkedFile {
+  name: string;
+  /** Its content, if that is in the link. */
+  packed: string | null;
+  bare?: true;
+}
+
+export function fileIn(hash: string): LinkedFile | null {
   const given = new URLSearchParams(hash.replace(/^#/, ''));
   const name = given.get('file');
-  return name === null ? null : { name, packed: given.get('data') };
+  return name === null ? null : { name, packed: given.get('data'), ...bareIn(given) };
 }
+
+/** Whether a link asks for a model without points on its faces. */
+const bareIn = (given: URLSearchParams): { bare?: true } =>
+  given.has('bare') ? { bare: true } : {};
 
 /** Returns the quantities that exist in a dimension. */
 export function colorsIn(dimension: Dimension): ColorBy[] {

@@ -2,26 +2,18 @@
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { launch, open, serve } from './browser.mjs';
+import { open } from './browser.mjs';
+import { site } from './site.mjs';
 
 const dist = fileURLToPath(new URL('../dist/', import.meta.url));
 
-let server;
-let browser;
-before(async () => {
-  server = await serve();
-  browser = await launch();
-});
-after(async () => {
-  await browser.close();
-  await server.close();
-});
+const here = site();
 
 test('the first view takes less than 500 kB', async () => {
-  const page = await open(browser, server.url);
+  const page = await open(here.browser, here.url);
   const counted = [...page.files].filter((path) => !/bunny|viewer|three/.test(path));
   const kilobytes = (path) =>
     gzipSync(readFileSync(dist + (path === '/' ? 'index.html' : path.slice(1)))).length / 1e3;

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import {
   choose,
@@ -13,13 +13,11 @@ import {
   expectAccessiblePanels,
   gdel,
   generate,
-  launch,
   open,
   openOnPhone,
   pictureOf,
   prove,
   save,
-  serve,
   settled,
   shown,
   slide,
@@ -27,12 +25,9 @@ import {
   text,
   until,
 } from './browser.mjs';
+import { site } from './site.mjs';
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
-
-let server;
-before(async () => (server = await serve()));
-after(() => server.close());
 
 /** A place on the canvas, as a share of its width and height. */
 async function at(page, x, y) {
@@ -51,13 +46,10 @@ async function press(page, key) {
 }
 
 describe('2D', () => {
-  let browser;
   let page;
-  before(async () => {
-    browser = await launch();
-    page = await open(browser, `${server.url}#dim=2`);
+  const here = site({}, async ({ browser, url }) => {
+    page = await open(browser, `${url}#dim=2`);
   });
-  after(() => browser.close());
 
   test('shows triangles with their Voronoi diagram at once', async () => {
     assert.match(await text(page, 'count'), /^200 points → \d+ triangles$/);
@@ -114,9 +106,17 @@ describe('2D', () => {
     await page.click('#undo');
     await settled(page);
     assert.equal(await text(page, 'count'), '5 points → 4 triangles');
+    await page.click('#redo');
+    await settled(page);
+    assert.equal(await text(page, 'count'), '5 points → 3 triangles');
+    await page.click('#undo');
+    await settled(page);
+    assert.ok(await page.locator('#redo').isEnabled());
     await choose(page, 'tool', 'remove');
     await click(page, 0.5, 0.52);
     assert.equal(await text(page, 'count'), '4 points → 2 triangles');
+    // After another change, there is nothing to bring back.
+    assert.ok(await page.locator('#redo').isDisabled());
   });
 
   test('points are added, moved and removed with the keys', async () => {
@@ -129,7 +129,11 @@ describe('2D', () => {
     const before = page.url();
     for (let i = 0; i < 6; i++) await press(page, 'ArrowLeft');
     await until(page, (before) => location.href !== before, before);
-    for (const key of ['Space', 'Control+z', 'Delete']) await press(page, key);
+    await press(page, 'Space');
+    for (const key of ['Control+z', 'Control+Shift+z', 'Control+z', 'Control+y', 'Control+z'])
+      await press(page, key);
+    assert.equal(await text(page, 'count'), '5 points → 4 triangles');
+    await press(page, 'Delete');
     assert.equal(await text(page, 'count'), '4 points → 2 triangles');
     // Without a point in hand, they move the view.
     const still = await text(page, 'count');
@@ -167,7 +171,7 @@ describe('2D', () => {
     await page.getByLabel('Voronoi', { exact: true }).uncheck();
     const link = await copied(page, '#share');
     assert.match(link, /dim=2.*disk_40_1.*edits=add_/);
-    const other = await open(browser, link);
+    const other = await open(here.browser, link);
     for (const id of ['shown', 'count', 'legend-title', 'legend-low', 'legend-high']) {
       assert.equal(await text(other, id), await text(page, id), id);
     }
@@ -205,7 +209,7 @@ describe('2D', () => {
     const note = await compare(page);
     assert.match(
       note,
-      /CPU backend: ([\d,]+) triangles, as many\. delaunator: \1 triangles, as many\. delaunator took/,
+      /CPU backend: ([\d,]+) triangles, the same number\. delaunator: \1 triangles, the same number\. delaunator took/,
     );
     await pictureOf(page, '2d-compare');
   });
@@ -289,7 +293,7 @@ describe('2D', () => {
 
   for (const colorScheme of ['light', 'dark']) {
     test(`has no accessibility faults, ${colorScheme}`, async () => {
-      const page = await open(browser, `${server.url}#dim=2`, {
+      const page = await open(here.browser, `${here.url}#dim=2`, {
         colorScheme,
         reducedMotion: 'reduce',
       });
@@ -298,8 +302,16 @@ describe('2D', () => {
     });
   }
 
+  test('has no accessibility faults on a phone', async () => {
+    const page = await openOnPhone(here.browser, `${here.url}#dim=2&points=uniform_60_1`, {
+      colorScheme: 'dark',
+    });
+    await expectAccessiblePanels(page, '2d-phone-dark');
+    await page.context().close();
+  });
+
   test('works on a phone by touch', async () => {
-    const page = await openOnPhone(browser, `${server.url}#dim=2&points=uniform_60_1`);
+    const page = await openOnPhone(here.browser, `${here.url}#dim=2&points=uniform_60_1`);
     await page.touchscreen.tap(...(await at(page, 0.5, 0.6)));
     await page.locator('#tip').waitFor();
     await pictureOf(page, '2d-phone');

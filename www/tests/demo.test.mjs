@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import {
   addressOf,
@@ -11,11 +11,9 @@ import {
   compare,
   copied,
   drop,
-  expectAccessible,
   expectAccessiblePanels,
   gdel,
   generate,
-  launch,
   numbers,
   open,
   openOnPhone,
@@ -23,7 +21,6 @@ import {
   prove,
   request,
   save,
-  serve,
   settled,
   shown,
   slide,
@@ -31,22 +28,16 @@ import {
   text,
   until,
 } from './browser.mjs';
+import { site } from './site.mjs';
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
 const bunny = readFileSync(join(root, 'tests/data/bunny.ply'));
 
-let server;
-before(async () => (server = await serve()));
-after(() => server.close());
-
 describe('drawing with WebGPU, triangulating on the CPU', () => {
-  let browser;
   let page;
-  before(async () => {
-    browser = await launch();
-    page = await open(browser, server.url);
+  const here = site({}, async ({ browser, url }) => {
+    page = await open(browser, url);
   });
-  after(() => browser.close());
 
   test('shows the bunny at once, carved and cut', async () => {
     assert.match(await text(page, 'count'), /^35,947 points → 246,218 tetrahedra$/);
@@ -184,7 +175,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await choose(page, 'normal', 'Y');
     const link = await copied(page, '#share');
     assert.match(link, /thin-sphere_2000/);
-    const other = await open(browser, link);
+    const other = await open(here.browser, link);
     for (const id of ['shown', 'count', 'legend-title', 'legend-low', 'legend-high']) {
       assert.equal(await text(other, id), await text(page, id), id);
     }
@@ -196,7 +187,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await generate(page, 'grid', 3000);
     const note = await compare(page);
     assert.match(note, /GPU backend: left out/);
-    assert.match(note, /CPU backend: [\d,]+ tetrahedra, as many/);
+    assert.match(note, /CPU backend: [\d,]+ tetrahedra, the same number/);
     assert.match(note, /qhull-wasm: .* qhull-wasm took [\d.]+ times as long/);
     assert.equal(await page.locator('#times svg rect').count(), 2);
     const { note: verdict, passed, failed } = await prove(page);
@@ -214,6 +205,10 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
       document.querySelector('#took').textContent.includes('frames per second'),
     );
     await page.locator('#live-times svg').waitFor();
+    // What was found out about the mesh before is not said of moving points.
+    assert.equal(await text(page, 'ratio'), '');
+    assert.equal(await text(page, 'verify-here'), 'Verify');
+    assert.ok(await page.locator('#verify-here').isDisabled());
     // The first frame has none before it.
     await until(page, () =>
       /^(Mesh kept: [\d,]+ tetrahedr(on|a) inverted, [\d,]+ flips?|From scratch: )/.test(
@@ -228,6 +223,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await page.click('#live');
     await settled(page);
     assert.equal(await text(page, 'count'), before);
+    assert.ok(await page.locator('#verify-here').isEnabled());
   });
 
   test('downloads what the command line proves', async () => {
@@ -276,31 +272,38 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
 
   for (const colorScheme of ['light', 'dark']) {
     test(`has no accessibility faults, ${colorScheme}`, async () => {
-      const page = await open(browser, server.url, { colorScheme, reducedMotion: 'reduce' });
+      const page = await open(here.browser, here.url, { colorScheme, reducedMotion: 'reduce' });
       await expectAccessiblePanels(page, `3d-${colorScheme}`);
+      await page.context().close();
+    });
+
+    test(`has no accessibility faults on a phone, ${colorScheme}`, async () => {
+      const page = await openOnPhone(here.browser, `${here.url}#points=ball_500_1`, {
+        colorScheme,
+      });
+      await expectAccessiblePanels(page, `3d-phone-${colorScheme}`);
       await page.context().close();
     });
   }
 
   test('fits a phone', async () => {
-    const page = await openOnPhone(browser, server.url);
+    const page = await openOnPhone(here.browser, here.url);
     await pictureOf(page, '3d-phone');
     await page.touchscreen.tap(215, 340);
     await page.locator('#tip').waitFor();
+    await pictureOf(page, '3d-phone-tip');
+    // What it says would lie under the sheet.
     await tab(page, 'view');
-    await expectAccessible(page);
-    await pictureOf(page, '3d-phone-view');
+    assert.ok(await page.locator('#tip').isHidden());
     await page.context().close();
   });
 });
 
 describe('without WebGPU', () => {
-  let browser;
-  before(async () => (browser = await launch({ webgpu: false })));
-  after(() => browser.close());
+  const here = site({ webgpu: false });
 
   test('works on the CPU, draws with WebGL, and says so', async () => {
-    const page = await open(browser, server.url);
+    const page = await open(here.browser, here.url);
     assert.match(await text(page, 'backend-used'), /^On the CPU: /);
     assert.equal((await shown(page)).total, 246_218);
     await tab(page, 'use');
@@ -314,6 +317,8 @@ describe('without WebGPU', () => {
     assert.equal(await page.locator('#color [value=phase]:disabled').count(), 1);
     await tab(page, 'run');
     assert.ok(await page.locator('#record').isDisabled());
+    assert.ok(await page.locator('#watch').isDisabled());
+    assert.match(await text(page, 'watch-note'), /needs a GPU/);
     assert.ok(numbers(await text(page, 'count')).length > 0);
     assert.deepEqual(page.problems, []);
   });

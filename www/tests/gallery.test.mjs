@@ -2,38 +2,29 @@
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { Document, NodeIO } from '@gltf-transform/core';
 import {
   addressOf,
   drop,
   dropAll,
-  launch,
+  numbers,
   open,
   pictureOf,
-  serve,
   settled,
   shown,
   slide,
   text,
 } from './browser.mjs';
+import { site } from './site.mjs';
 
 const dist = fileURLToPath(new URL('../dist/', import.meta.url));
 
-let server;
-let browser;
-before(async () => {
-  server = await serve();
-  browser = await launch();
-});
-after(async () => {
-  await browser.close();
-  await server.close();
-});
+const here = site();
 
 test('the gallery has eight objects with pictures, and shows them', async () => {
-  const page = await open(browser, `${server.url}#points=uniform_200_1`);
+  const page = await open(here.browser, `${here.url}#points=uniform_200_1`);
   const pictures = page.locator('#gallery img');
   assert.equal(await pictures.count(), 8);
   for (const picture of await pictures.all()) {
@@ -57,23 +48,23 @@ test('the gallery has eight objects with pictures, and shows them', async () => 
 });
 
 test('the panel is folded up to what was asked for', async () => {
-  const context = await browser.newContext({ serviceWorkers: 'block' });
+  const context = await here.browser.newContext({ serviceWorkers: 'block' });
   const page = await context.newPage();
-  await page.goto(`${server.url}#points=bunny`);
+  await page.goto(`${here.url}#points=bunny`);
   await settled(page);
   for (const fold of ['generate', 'live', 'backend'])
     assert.equal(await page.locator(`#fold-${fold}`).getAttribute('open'), null, fold);
   await page.locator('#fold-generate summary').press('Enter');
   await page.locator('#distribution').waitFor();
   await page.goto('about:blank');
-  await page.goto(`${server.url}#points=sphere_300_1`);
+  await page.goto(`${here.url}#points=sphere_300_1`);
   await settled(page);
   assert.notEqual(await page.locator('#fold-generate').getAttribute('open'), null);
   await context.close();
 });
 
 test('Voronoi cells take the place of tetrahedra, and are cut and pulled apart', async () => {
-  const page = await open(browser, `${server.url}#points=ball_2000_1&keep=1`);
+  const page = await open(here.browser, `${here.url}#points=ball_2000_1&keep=1`);
   const box = page.getByLabel('Voronoi', { exact: true });
   await box.check();
   await settled(page);
@@ -93,7 +84,7 @@ test('Voronoi cells take the place of tetrahedra, and are cut and pulled apart',
 });
 
 test('several files are one cloud', async () => {
-  const page = await open(browser, `${server.url}#points=uniform_200_1`);
+  const page = await open(here.browser, `${here.url}#points=uniform_200_1`);
   const half = (x) => '0 0 0\n1 0 0\n0 1 0\n0 0 1\n'.replaceAll('0 ', `${x} `);
   await dropAll(page, { 'left.xyz': half(0), 'right.xyz': half(5) });
   assert.match(await text(page, 'count'), /^8 points/);
@@ -115,14 +106,26 @@ test('a GLB gives the vertices of its scene, each once', async () => {
     .setType('VEC3')
     .setArray(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]))
     .setBuffer(buffer);
-  const primitive = () => document.createPrimitive().setAttribute('POSITION', positions);
+  const [POINTS, TRIANGLES] = [0, 4];
+  const primitive = (mode = POINTS) =>
+    document.createPrimitive().setMode(mode).setAttribute('POSITION', positions);
   const mesh = document.createMesh().addPrimitive(primitive()).addPrimitive(primitive());
   const parent = document.createNode().setScale([100, 100, 100]);
   parent.addChild(document.createNode().setMesh(mesh).setTranslation([5, 0, 0]));
   document.createScene().addChild(parent).addChild(document.createNode().setMesh(mesh));
   const bytes = await new NodeIO().writeBinary(document);
 
-  const page = await open(browser, `${server.url}#points=uniform_200_1`);
+  const indices = document
+    .createAccessor()
+    .setArray(new Uint16Array([0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]))
+    .setBuffer(buffer);
+  mesh.addPrimitive(primitive(TRIANGLES).setIndices(indices));
+  const solid = await new NodeIO().writeBinary(document);
+
+  const page = await open(here.browser, `${here.url}#points=uniform_200_1`);
+  await drop(page, 'solid.glb', solid);
+  const [points] = numbers(await text(page, 'count'));
+  assert.equal(points - 8, numbers(await text(page, 'note-text'))[0]);
   await drop(page, 'two.glb', bytes);
   assert.match(await text(page, 'count'), /^8 points/);
   assert.equal(await page.locator('input[name=up]:checked').inputValue(), 'y');
@@ -134,10 +137,10 @@ test('a GLB gives the vertices of its scene, each once', async () => {
 });
 
 test('the first visit, and no later one, says in words what was done', async () => {
-  const page = await open(browser, `${server.url}#points=uniform_200_1`);
+  const page = await open(here.browser, `${here.url}#points=uniform_200_1`);
   assert.match(
     await text(page, 'first'),
-    /^Your machine filled 200 points with [\d,]+ tetrahedra in .* second.*, exactly\.$/,
+    /^Your machine just turned 200 points into [\d,]+ tetrahedra in .* second.*, all of them exact\.$/,
   );
   await page.reload();
   await settled(page);
@@ -146,7 +149,7 @@ test('the first visit, and no later one, says in words what was done', async () 
 });
 
 test('after the first visit the page opens without a connection', async () => {
-  const page = await open(browser, `${server.url}#points=knot`, { serviceWorkers: 'allow' });
+  const page = await open(here.browser, `${here.url}#points=knot`, { serviceWorkers: 'allow' });
   // Everything is kept once the worker is in charge.
   await page.evaluate(() => navigator.serviceWorker.ready);
   await page.context().setOffline(true);
@@ -161,7 +164,7 @@ test('after the first visit the page opens without a connection', async () => {
 });
 
 test('links have a preview, and the page can be installed', async () => {
-  const page = await open(browser, `${server.url}#points=uniform_200_1`);
+  const page = await open(here.browser, `${here.url}#points=uniform_200_1`);
   const image = await page.locator('meta[property="og:image"]').getAttribute('content');
   const size = await page.evaluate(async (src) => {
     const image = Object.assign(new Image(), { src });

@@ -1,35 +1,16 @@
 // The GPU backend in the page, on Chromium's software rasteriser.
 
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import {
-  choose,
-  colorBy,
-  launch,
-  open,
-  pictureOf,
-  serve,
-  settled,
-  shown,
-  slide,
-  tab,
-  text,
-} from './browser.mjs';
+import { test } from 'node:test';
+import { choose, colorBy, open, pictureOf, settled, shown, slide, tab, text } from './browser.mjs';
+import { site } from './site.mjs';
 
 // The rasteriser takes long to compile the kernels.
 const hang = 900_000;
 
-let server;
-let browser;
 let page;
-before(async () => {
-  server = await serve();
-  browser = await launch();
-  page = await open(browser, `${server.url}#points=sphere_4000_1`, { hang });
-});
-after(async () => {
-  await browser.close();
-  await server.close();
+const here = site({}, async ({ browser, url }) => {
+  page = await open(browser, `${url}#points=sphere_4000_1`, { hang });
 });
 
 /** What the page says of the present mesh, which comes from this backend. */
@@ -47,9 +28,12 @@ test('gives the same on GPU and CPU', async () => {
 });
 
 test('shows a recorded run round by round', async () => {
-  await tab(page, 'run');
-  await page.click('#record');
+  // From the story for newcomers, on the points that are open.
+  await page.click('#help');
+  await page.click('#watch');
   await settled(page);
+  assert.match(await text(page, 'count'), /^4,000 points/);
+  assert.equal(await page.getAttribute('#tab-run', 'aria-selected'), 'true');
   assert.ok(await page.locator('#recorded').isVisible());
   // What flipping leaves depends on which flips are first; now and then it is nothing.
   const repair = await text(page, 'repair');
@@ -77,7 +61,7 @@ test('shows a recorded run round by round', async () => {
 });
 
 test('shows what happened in 2D', async () => {
-  const page = await open(browser, `${server.url}#dim=2&points=uniform_500_1&backend=gpu`, {
+  const page = await open(here.browser, `${here.url}#dim=2&points=uniform_500_1&backend=gpu`, {
     hang,
   });
   const onGpu = await countOn(page, 'GPU');

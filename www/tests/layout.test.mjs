@@ -9,11 +9,9 @@ import {
   choose,
   drop,
   expectAccessible,
-  launch,
   open,
   openOnPhone,
   pictureOf,
-  serve,
   settled,
   shown,
   slide,
@@ -21,17 +19,9 @@ import {
   text,
   until,
 } from './browser.mjs';
+import { site } from './site.mjs';
 
-let server;
-let browser;
-before(async () => {
-  server = await serve();
-  browser = await launch();
-});
-after(async () => {
-  await browser.close();
-  await server.close();
-});
+const here = site();
 
 const box = (page, selector) => page.locator(selector).boundingBox();
 
@@ -48,7 +38,7 @@ async function expectReachable(page, selector) {
 
 describe('on a screen', () => {
   let page;
-  before(async () => (page = await open(browser, `${server.url}#points=ball_500_1`)));
+  before(async () => (page = await open(here.browser, `${here.url}#points=ball_500_1`)));
   after(() => page.context().close());
 
   test('no text lies on the model', async () => {
@@ -63,7 +53,7 @@ describe('on a screen', () => {
       readFileSync(new URL('../../web/package.json', import.meta.url), 'utf8'),
     );
     const address = repository.url.match(/https:.*(?=\.git$)/)[0];
-    const link = page.getByRole('link', { name: 'Documents' });
+    const link = page.getByRole('link', { name: 'Docs' });
     assert.equal(await link.getAttribute('href'), `${address}#readme`);
     await page.click('#help');
     const readme = page.getByRole('link', { name: 'the package' });
@@ -118,7 +108,7 @@ describe('on a screen', () => {
   });
 
   test('the tetrahedron under the pointer has its empty sphere', async () => {
-    await page.goto(`${server.url}#points=ball_500_2`);
+    await page.goto(`${here.url}#points=ball_500_2`);
     await settled(page);
     const { x, y, width, height } = await box(page, '#stage');
     const bare = await page.locator('#canvas').screenshot();
@@ -168,7 +158,7 @@ describe('on a screen', () => {
 
 test('the distance between two points is that in the file', async () => {
   const points = await generate('ball', 500, { seed: 1 });
-  const page = await open(browser, `${server.url}#points=ball_500_1`);
+  const page = await open(here.browser, `${here.url}#points=ball_500_1`);
   await page.click('#measure');
   const { width, height } = await page.locator('#canvas').boundingBox();
   const said = () => text(page, 'measured');
@@ -190,13 +180,13 @@ test('the distance between two points is that in the file', async () => {
 });
 
 test('an empty sheet says what to do', async () => {
-  const page = await open(browser, `${server.url}#dim=2&points=uniform_0_1`);
+  const page = await open(here.browser, `${here.url}#dim=2&points=uniform_0_1`);
   assert.match(await text(page, 'count'), /^No points yet: click/);
   await page.context().close();
 });
 
 test('nothing in the dock or the panel lies over another, however wide the window', async () => {
-  const page = await open(browser, `${server.url}#points=ball_500_1`);
+  const page = await open(here.browser, `${here.url}#points=ball_500_1`);
   for (const width of [1600, 1280, 1080, 900, 800]) {
     await page.setViewportSize({ width, height: 800 });
     const boxes = await page
@@ -229,7 +219,7 @@ test('nothing in the dock or the panel lies over another, however wide the windo
 });
 
 test('on a phone the panel is a sheet of three heights', async () => {
-  const page = await openOnPhone(browser, `${server.url}#points=ball_500_1`);
+  const page = await openOnPhone(here.browser, `${here.url}#points=ball_500_1`);
   const height = async () => (await box(page, '#panel')).height;
   const low = await height();
   for (const selector of ['#canvas', '#verify-here', '#keep', '#handle', '#tab-use'])
@@ -252,10 +242,13 @@ test('on a phone the panel is a sheet of three heights', async () => {
 
 for (const dimension of [2, 3]) {
   test(`a phone on its side shows the drawing and its tools, ${dimension}D`, async () => {
-    const page = await openOnPhone(browser, `${server.url}#dim=${dimension}&points=uniform_300_1`, {
-      width: 844,
-      height: 390,
-    });
+    const page = await openOnPhone(
+      here.browser,
+      `${here.url}#dim=${dimension}&points=uniform_300_1`,
+      {
+        viewport: { width: 844, height: 390 },
+      },
+    );
     const [stage, dock] = [await box(page, '#stage'), await box(page, '#dock')];
     assert.ok(stage.height > 150, `the drawing is ${stage.height} pixels high`);
     assert.ok(dock.y + dock.height <= 390.5);

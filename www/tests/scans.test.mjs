@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import {
   addressOf,
@@ -14,11 +14,10 @@ import {
   drop,
   expectAccessible,
   gdel,
-  launch,
+  numbers,
   open,
   pictureOf,
   save,
-  serve,
   settled,
   shareOfPixels,
   shown,
@@ -27,70 +26,45 @@ import {
   text,
   until,
 } from './browser.mjs';
+import {
+  airborne,
+  bracket,
+  coloredPly,
+  figure,
+  ply,
+  randomNumbers,
+  terrestrial,
+  xyz,
+} from './models.mjs';
+import { site } from './site.mjs';
 
-/** The same numbers everywhere, from 0 to 1. */
-function randomNumbers(seed) {
-  let state = seed;
-  return () => {
-    state = (state * 48271) % 2147483647;
-    return state / 2147483647;
-  };
-}
-
-const xyz = (points) => points.map((point) => point.join(' ')).join('\n');
-
-/** Hills with z up, far from the origin, as they are seen from a plane: with a few birds. */
-function airborne() {
-  const random = randomNumbers(1);
-  const points = [];
-  for (let i = 0; i < 8000; i++) {
-    const [x, y] = [1000 * random(), 600 * random()];
-    const z = 30 * Math.sin(x / 150) * Math.cos(y / 120) + random();
-    points.push([500_000 + x, 4_000_000 + y, z]);
+/** What the triangles of a binary STL enclose. */
+function volumeOf(stl) {
+  let sum = 0;
+  for (let at = 84; at < stl.length; at += 50) {
+    const [a, b, c] = [0, 1, 2].map((k) =>
+      [0, 4, 8].map((x) => stl.readFloatLE(at + 12 + 12 * k + x)),
+    );
+    sum +=
+      a[0] * (b[1] * c[2] - b[2] * c[1]) -
+      a[1] * (b[0] * c[2] - b[2] * c[0]) +
+      a[2] * (b[0] * c[1] - b[1] * c[0]);
   }
-  for (let i = 0; i < 40; i++)
-    points.push([500_000 + 1000 * random(), 4_000_000 + 600 * random(), 20_000 * random()]);
-  return points;
+  return sum / 6;
 }
 
-/** A half ball with its flat side below, where up is an axis from 0 to 2. */
-function figure(up) {
-  const random = randomNumbers(2);
-  const points = [];
-  while (points.length < 3000) {
-    const p = [0, 1, 2].map(() => 2 * random() - 1);
-    const radius = Math.hypot(...p);
-    if (radius > 1) continue;
-    // Half of the points on the round side, half on the flat one.
-    const above = points.length % 2 ? p.map((x) => x / radius) : [p[0], 0, p[2]];
-    above[1] = Math.abs(above[1]);
-    points.push([above[(4 - up) % 3], above[(5 - up) % 3], above[(6 - up) % 3]]);
-  }
-  return points;
+/** The link to a small file, once that is packed. */
+async function linkWithData(page) {
+  await addressOf(page);
+  await until(page, () => location.hash.includes('data='));
+  return page.url();
 }
-
-const ply = (points) =>
-  `ply\nformat ascii 1.0\nelement vertex ${points.length}\nproperty float x\nproperty float y\nproperty float z\nend_header\n${xyz(points)}\n`;
-
-/** Points of which the right side is blue and the left one red, with what else a header names. */
-const coloredPly = (points) =>
-  ply(points.map((p) => [...p, ...(p[0] > 0 ? [10, 20, 230] : [230, 20, 10])])).replace(
-    'end_header',
-    'property uchar red\nproperty uchar green\nproperty uchar blue\nend_header',
-  );
-
-let server;
-before(async () => (server = await serve()));
-after(() => server.close());
 
 describe('a scan', () => {
-  let browser;
   let page;
-  before(async () => {
-    browser = await launch();
-    page = await open(browser, `${server.url}#points=uniform_200_1`);
+  const here = site({}, async ({ browser, url }) => {
+    page = await open(browser, `${url}#points=uniform_200_1`);
   });
-  after(() => browser.close());
 
   test('from the air is framed and cut without its birds', async () => {
     await drop(page, 'hills.xyz', xyz(airborne()));
@@ -99,6 +73,18 @@ describe('a scan', () => {
     const share = counts.shown / counts.total;
     assert.ok(share > 0.25 && share < 0.75, `${counts.shown} of ${counts.total} shown`);
     await pictureOf(page, 'scan-airborne');
+  });
+
+  test('from a tripod shows the street, not what is a kilometre away', async () => {
+    const street = terrestrial();
+    await drop(page, 'street.pts', `${street.length}\n${xyz(street)}`);
+    assert.equal(await page.locator('input[name=up]:checked').inputValue(), 'z');
+    const bar = Number(await text(page, 'scale-length'));
+    assert.ok(bar >= 5 && bar <= 20, `a bar of ${bar} metres`);
+    const counts = await shown(page);
+    const share = counts.shown / counts.total;
+    assert.ok(share > 0.25 && share < 0.75, `${counts.shown} of ${counts.total} shown`);
+    await pictureOf(page, 'scan-terrestrial');
   });
 
   test('stands upright, whichever axis is up', async () => {
@@ -128,8 +114,9 @@ describe('a scan', () => {
   test('is named, and a link to it says which file it needs', async () => {
     await drop(page, 'my cat.ply', ply(figure(1)));
     assert.equal(await text(page, 'name'), 'my cat.ply');
+    assert.equal(await page.title(), 'my cat.ply · gdel');
     await slide(page, 'keep', 0.25);
-    const other = await open(browser, await addressOf(page));
+    const other = await open(here.browser, await addressOf(page));
     assert.match(await text(other, 'message-text'), /“my cat\.ply”.*Open the same file/);
     await drop(other, 'my cat.ply', ply(figure(1)));
     assert.equal(await text(other, 'shown'), await text(page, 'shown'));
@@ -163,7 +150,7 @@ describe('a scan', () => {
   });
 
   test('has its own colours in the plane', async () => {
-    const flat = await open(browser, `${server.url}#dim=2`);
+    const flat = await open(here.browser, `${here.url}#dim=2`);
     await drop(flat, 'colours.ply', coloredPly(figure(1)));
     for (const channel of [0, 2]) assert.ok((await shareOfPixels(flat, channel)) > 0.03);
     assert.ok(await flat.locator('#legend').isHidden());
@@ -185,7 +172,7 @@ describe('a scan', () => {
     const random = randomNumbers(3);
     const slope = Array.from({ length: 500 }, () => [100 * random(), 100 * random()]);
     const points = xyz(slope.map(([x, y]) => [500_000 + x, y, 2 * x + 3 * y]));
-    const flat = await open(browser, `${server.url}#dim=2`);
+    const flat = await open(here.browser, `${here.url}#dim=2`);
     await drop(flat, 'slope.xyz', points);
     const above = await probe(flat);
     assert.ok(above.x > 500_020 && above.x < 500_080 && above.y > 20 && above.y < 80);
@@ -216,15 +203,15 @@ describe('a scan', () => {
       'intensity.ply',
       ply(points.map((p) => [...p, p[0]])).replace('end_header', header('intensity')),
     );
-    assert.match(await names(), /Outside by the file’s intensity/);
+    assert.match(await names(), /Outside coloured by intensity/);
     await drop(
       page,
       'normals.ply',
       ply(points.map((p) => [...p, ...p])).replace('end_header', header('nx', 'ny', 'nz')),
     );
-    assert.match(await names(), /Outside by the file’s normals/);
+    assert.match(await names(), /Outside coloured by normals/);
     await drop(page, 'figure.ply', ply(points));
-    assert.match(await names(), /Outside plain/);
+    assert.match(await names(), /Plain outside/);
   });
 
   test('is saved with its colours', async () => {
@@ -250,7 +237,7 @@ describe('a scan', () => {
     await drop(page, 'figure.ply.gz', gzipSync(ply(figure(1))));
     assert.match(await text(page, 'count'), /^3,000 points/);
     await drop(page, 'no.ply.gz', Buffer.from('no gzip'));
-    assert.match(await text(page, 'message-text'), /^no\.ply\.gz: The file is no gzip file/);
+    assert.match(await text(page, 'message-text'), /^no\.ply\.gz: The file is not a gzip file/);
   });
 
   test('that cannot be read says what can', async () => {
@@ -260,12 +247,44 @@ describe('a scan', () => {
     assert.equal(await text(page, 'message-text'), 'nothing.ply: The file is empty.');
   });
 
+  test('of CAD is filled on its large faces, says so, and can be had without', async () => {
+    await drop(page, 'bracket.stl', bracket());
+    assert.match(
+      await text(page, 'note-text'),
+      /^[\d,]+ points were put on the model’s large faces/,
+    );
+    const [points] = numbers(await text(page, 'count'));
+    const [added] = numbers(await text(page, 'note-text'));
+    assert.equal(points - added, 12);
+    assert.equal(await page.locator('input[name=up]:checked').inputValue(), 'z');
+    await pictureOf(page, 'scan-cad');
+    // The solid is the bracket, not its hull: a sixth of the box around it.
+    await slide(page, 'keep', 1);
+    await tab(page, 'use');
+    const folder = mkdtempSync(join(tmpdir(), 'gdel-scan-'));
+    const [saved] = await save(page, 'STL', folder);
+    const volume = volumeOf(readFileSync(saved)) / (80 * 40 * 60);
+    rmSync(folder, { recursive: true });
+    assert.ok(Math.abs(volume - 0.167) < 0.02, `${volume} of the box`);
+
+    await page.getByRole('button', { name: 'Corners only' }).click();
+    await settled(page);
+    assert.match(await text(page, 'count'), /^12 points/);
+    const other = await open(here.browser, await linkWithData(page));
+    assert.match(await text(other, 'count'), /^12 points/);
+    await other.getByRole('button', { name: 'Put points on them' }).click();
+    await settled(other);
+    assert.equal(numbers(await text(other, 'count'))[0], points);
+    assert.deepEqual(other.problems, []);
+    await other.context().close();
+  });
+
   test('tells of the points that hold no measurement', async () => {
     const points = figure(1).map((point, i) => (i % 3 ? point : ['nan', 'nan', 'nan']));
     const header = `# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 60\nHEIGHT 50\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 3000\nDATA ascii\n`;
     await drop(page, 'organised.pcd', header + xyz(points));
     assert.match(await text(page, 'count'), /^2,000 points/);
-    assert.match(await text(page, 'left-out'), /^1,000 points without a measurement/);
+    assert.match(await text(page, 'note-text'), /^1,000 points without a measurement/);
   });
 
   test('is saved as GLB in its own units and place', async () => {
@@ -315,11 +334,7 @@ describe('a scan', () => {
           .map((p) => p.map((x) => x.toFixed(3))),
       ),
     );
-    // The points are compressed after the name is there.
-    await addressOf(page);
-    await until(page, () => location.hash.includes('data='));
-    const link = page.url();
-    const other = await open(browser, link);
+    const other = await open(here.browser, await linkWithData(page));
     assert.equal(await text(other, 'name'), 'small cat.xyz');
     assert.equal(await text(other, 'shown'), await text(page, 'shown'));
     assert.deepEqual(other.problems, []);
@@ -334,7 +349,7 @@ describe('a scan', () => {
     await new Promise((resolve) => files.listen(0, '127.0.0.1', resolve));
     const url = `http://127.0.0.1:${files.address().port}/web%20cat.xyz`;
     try {
-      const other = await open(browser, `${server.url}?url=${encodeURIComponent(url)}#embed`);
+      const other = await open(here.browser, `${here.url}?url=${encodeURIComponent(url)}#embed`);
       assert.equal(await text(other, 'name'), 'web cat.xyz');
       assert.match(await text(other, 'count'), /^3,000 points/);
       assert.ok(await other.locator('#panel').isHidden());
@@ -370,8 +385,8 @@ describe('a scan', () => {
   });
 
   test('is shown whole, then cut, where motion is welcome', async () => {
-    const still = await open(browser, `${server.url}#points=uniform_200_1`);
-    const moving = await open(browser, `${server.url}#points=uniform_200_1`, {
+    const still = await open(here.browser, `${here.url}#points=uniform_200_1`);
+    const moving = await open(here.browser, `${here.url}#points=uniform_200_1`, {
       reducedMotion: 'no-preference',
     });
     assert.equal(await text(moving, 'shown'), await text(still, 'shown'));
@@ -385,12 +400,10 @@ describe('a scan', () => {
 });
 
 describe('in difficult surroundings', () => {
-  let browser;
-  before(async () => (browser = await launch()));
-  after(() => browser.close());
+  const here = site();
 
   test('works where the browser stores nothing', async () => {
-    const page = await open(browser, `${server.url}#points=uniform_200_1`, {}, (context) =>
+    const page = await open(here.browser, `${here.url}#points=uniform_200_1`, {}, (context) =>
       context.addInitScript(() =>
         Object.defineProperty(window, 'localStorage', {
           get() {
@@ -411,11 +424,11 @@ describe('in difficult surroundings', () => {
     const outer = createServer((_, response) => {
       response.setHeader('content-type', 'text/html');
       response.end(
-        `<iframe sandbox="allow-scripts" width="1200" height="800" src="${server.url}#points=uniform_200_1"></iframe>`,
+        `<iframe sandbox="allow-scripts" width="1200" height="800" src="${here.url}#points=uniform_200_1&embed=1"></iframe>`,
       );
     });
     await new Promise((resolve) => outer.listen(0, '127.0.0.1', resolve));
-    const context = await browser.newContext({ reducedMotion: 'reduce' });
+    const context = await here.browser.newContext({ reducedMotion: 'reduce' });
     try {
       const page = await context.newPage();
       await page.goto(`http://127.0.0.1:${outer.address().port}`);
@@ -423,6 +436,11 @@ describe('in difficult surroundings', () => {
       await frame.locator('#count', { hasText: '200 points' }).waitFor();
       await frame.locator('#stage[aria-busy="false"]').waitFor();
       assert.ok(await frame.locator('#message').isHidden());
+      assert.ok(await frame.locator('#panel').isHidden());
+      const all = await frame.locator('#shown').textContent();
+      await frame.locator('#keep').press('Home');
+      await frame.locator('#shown', { hasText: /^0 of/ }).waitFor();
+      assert.match(all, /^[1-9]/);
     } finally {
       await context.close();
       outer.close();
@@ -430,7 +448,7 @@ describe('in difficult surroundings', () => {
   });
 
   test('says in words that the connection is gone', async () => {
-    const page = await open(browser, `${server.url}#points=uniform_200_1`);
+    const page = await open(here.browser, `${here.url}#points=uniform_200_1`);
     await page.context().setOffline(true);
     await tab(page, 'points');
     await page.getByRole('button', { name: 'Stanford dragon' }).click();
@@ -444,7 +462,11 @@ describe('in difficult surroundings', () => {
     await until(page, () =>
       document.querySelector('#message-text').textContent.startsWith('GLB could not be loaded.'),
     );
-    // What is there still works.
+    // What is there still works, and ends the message.
+    const folder = mkdtempSync(join(tmpdir(), 'gdel-scan-'));
+    await save(page, 'OBJ', folder);
+    rmSync(folder, { recursive: true });
+    assert.ok(await page.locator('#message').isHidden());
     await tab(page, 'points');
     await choose(page, 'dimension', '2');
     await page.context().close();

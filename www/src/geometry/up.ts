@@ -1,4 +1,4 @@
-import { rangeAlong, Sample } from './range';
+import { Sample } from './range';
 
 /** The axis of the input that points up on the screen. */
 export type Up = 'x' | 'y' | 'z' | '-x' | '-y' | '-z';
@@ -34,67 +34,89 @@ export function fromScreen(up: Up, vector: Vector): [number, number, number] {
 }
 
 /** An extent that is so much smaller than the others makes a thin object: land, a relief, a plate. */
-const THIN = 0.3;
+const THIN = 0.2;
 
-/** Facets of the hull within 14° of an axis make its flat side. */
-const LEVEL = 0.97;
+/** The share of points beyond the ends of an object: noise, birds. */
+const BEYOND = 0.001;
 
-/** A flat side on which something stands is at least this share of the hull. */
-const FOOT = 0.06;
+/** What is so near to an end of an object stands on it, as a share of the largest extent. */
+const NEAR = 0.01;
 
-/**
- * Guesses which axis points up. Thin objects lie. Others stand on the largest flat side of their
- * hull, unless that is hardly flatter than the side on which they would stand by custom.
- *
- * @param hull three point indices a triangle, counter-clockwise as seen from outside
- */
-export function detectUp(
-  points: ArrayLike<number>,
-  hull: ArrayLike<number>,
-  custom: 'y' | 'z',
-): Up {
-  const axes = ['x', 'y', 'z'] as const;
-  const extents = axes.map((_, axis) => {
-    const [low, high] = rangeAlong(points, axis, 3);
-    return high - low;
-  });
-  const thinnest = extents.indexOf(Math.min(...extents));
-  if (extents.every((extent, axis) => axis === thinnest || extents[thinnest] < THIN * extent))
-    return axes[thinnest];
+/** How wide a foot is, as a share of the side that it is on: a nose is smaller. */
+const WIDE = 0.15;
 
-  const flat = flatSides(points, hull);
-  const below = (up: Up) => flat[opposite(up)];
-  // Of two ends that are equally flat, it stands on the lower one.
-  const sides = [custom, ...UPS].sort((a, b) => below(b) - below(a));
-  const [best] = sides;
-  if (below(best) <= FOOT || below(best) <= 1.5 * below(custom)) return custom;
-  const positive = best.replace('-', '') as Up;
-  return below(positive) * 1.25 > below(best) ? positive : best;
+/** How much larger than the foot by custom another one is that counts. */
+const LARGER = 1.5;
+
+/** So many points are looked at. */
+const ENOUGH = 200_000;
+
+/** Which axis points up by custom, and what of the points may speak against it. */
+export interface Custom {
+  axis: 'y' | 'z';
+  /** A model that is thin lies; what is thin in a survey may be a wall. */
+  unless: 'never' | 'it stands' | 'it stands or lies';
 }
 
-const opposite = (up: Up) => (up.startsWith('-') ? up.slice(1) : `-${up}`) as Up;
+/**
+ * Guesses which axis points up. Thin objects lie. Others stand on the end where most points touch
+ * the ground, spread out: on feet or on a flat side. By custom, where nothing speaks clearly
+ * against it.
+ */
+export function detectUp(points: ArrayLike<number>, { axis: custom, unless }: Custom): Up {
+  const axes = ['x', 'y', 'z'] as const;
+  const count = points.length / 3;
+  if (count === 0 || unless === 'never') return custom;
+  const ranges = axes.map((_, axis) => {
+    const sample = new Sample(count, (i) => points[3 * i + axis]);
+    return [sample.quantile(BEYOND), sample.quantile(1 - BEYOND)] as const;
+  });
+  const extents = ranges.map(([low, high]) => high - low);
+  const thinnest = extents.indexOf(Math.min(...extents));
+  if (extents.every((extent, axis) => axis === thinnest || extents[thinnest] < THIN * extent))
+    return unless === 'it stands or lies' ? axes[thinnest] : custom;
 
-/** The share of the hull's area that faces along each axis. */
-function flatSides(points: ArrayLike<number>, hull: ArrayLike<number>): Record<Up, number> {
-  const sides = { x: 0, y: 0, z: 0, '-x': 0, '-y': 0, '-z': 0 };
-  let total = 0;
-  for (let i = 0; i < hull.length; i += 3) {
-    const [p, q, r] = [3 * hull[i], 3 * hull[i + 1], 3 * hull[i + 2]];
-    const [u, v] = [q, r].map((s) => [0, 1, 2].map((axis) => points[s + axis] - points[p + axis]));
-    const normal = [
-      u[1] * v[2] - u[2] * v[1],
-      u[2] * v[0] - u[0] * v[2],
-      u[0] * v[1] - u[1] * v[0],
-    ];
-    const area = Math.hypot(...normal);
-    total += area;
-    for (const [axis, name] of (['x', 'y', 'z'] as const).entries()) {
-      if (normal[axis] > LEVEL * area) sides[name] += area;
-      if (normal[axis] < -LEVEL * area) sides[`-${name}`] += area;
+  const foot = feet(points, ranges);
+  // Of two ends that are equally fit to stand on, it stands on the lower one.
+  const sides = [custom, ...UPS].sort((a, b) => foot[b] - foot[a]);
+  const [best] = sides;
+  if (foot[best] <= LARGER * foot[custom]) return custom;
+  const positive = best.replace('-', '') as Up;
+  return foot[positive] * 1.25 > foot[best] ? positive : best;
+}
+
+/**
+ * How fit an object is to stand so that an axis points up: how many of the points are at its lower
+ * end, times how far they spread there; 0 where they do not.
+ */
+function feet(
+  points: ArrayLike<number>,
+  ranges: readonly (readonly [low: number, high: number])[],
+): Record<Up, number> {
+  const extents = ranges.map(([low, high]) => high - low);
+  const near = NEAR * Math.max(...extents);
+  const step = 3 * Math.ceil(points.length / 3 / ENOUGH);
+  const found = { x: 0, y: 0, z: 0, '-x': 0, '-y': 0, '-z': 0 };
+  for (const up of UPS) {
+    const axis = 'xyz'.indexOf(up.at(-1)!);
+    const others = [0, 1, 2].filter((other) => other !== axis);
+    const [low, high] = ranges[axis];
+    const [from, to] = up.startsWith('-') ? [high - near, high] : [low, low + near];
+    const spread = others.map(() => [Infinity, -Infinity]);
+    let count = 0;
+    for (let i = 0; i < points.length; i += step) {
+      if (points[i + axis] < from || points[i + axis] > to) continue;
+      count++;
+      for (const [k, other] of others.entries()) {
+        const x = Math.min(ranges[other][1], Math.max(ranges[other][0], points[i + other]));
+        spread[k] = [Math.min(spread[k][0], x), Math.max(spread[k][1], x)];
+      }
     }
+    const sides = spread.map(([low, high]) => Math.max(0, high - low));
+    const share = (sides[0] / extents[others[0]]) * (sides[1] / extents[others[1]]);
+    if (share > WIDE) found[up] = count * share;
   }
-  for (const up of UPS) sides[up] /= total || 1;
-  return sides;
+  return found;
 }
 
 /** The axis of the input, level with the ground, that faces a viewer in this direction most. */

@@ -1,10 +1,12 @@
-import { type Material, type Primitive, type vec4, WebIO } from '@gltf-transform/core';
+import { type Accessor, type Material, Primitive, type vec4, WebIO } from '@gltf-transform/core';
 
 /** What a binary glTF file holds: three coordinates per vertex, and red, green and blue. */
 export interface GlbPoints {
   points: Float32Array;
   /** Null where no mesh has any, or all have the same. */
   colors: Uint8Array | null;
+  /** The corners of all triangles, nine coordinates each. */
+  faces(): Float64Array;
 }
 
 /**
@@ -15,17 +17,21 @@ export async function pointsOf(bytes: Uint8Array): Promise<GlbPoints> {
   const document = await new WebIO().readBinary(bytes);
   const coordinates: number[] = [];
   const colors: number[] = [];
+  const drawn: { primitive: Primitive; start: number }[] = [];
   const pictures = new Map<Material, Promise<ImageData | null>>();
   for (const node of document.getRoot().listNodes()) {
     const primitives = node.getMesh()?.listPrimitives() ?? [];
     if (primitives.length === 0) continue;
     const m = node.getWorldMatrix();
-    const seen = new Set();
+    /** Where vertices begin, which primitives with different materials often share. */
+    const starts = new Map<Accessor, number>();
     for (const primitive of primitives) {
       const positions = primitive.getAttribute('POSITION');
-      // Primitives with different materials often share their vertices.
-      if (!positions || seen.has(positions)) continue;
-      seen.add(positions);
+      if (!positions) continue;
+      const start = starts.get(positions) ?? coordinates.length;
+      drawn.push({ primitive, start });
+      if (starts.has(positions)) continue;
+      starts.set(positions, start);
       const colorAt = await colorsOf(primitive, pictures);
       const p = [0, 0, 0];
       for (let i = 0; i < positions.getCount(); i++) {
@@ -40,7 +46,25 @@ export async function pointsOf(bytes: Uint8Array): Promise<GlbPoints> {
   return {
     points: Float32Array.from(coordinates),
     colors: hasColors ? Uint8Array.from(colors) : null,
+    faces: () =>
+      Float64Array.from(
+        drawn.flatMap(({ primitive, start }) =>
+          cornersOf(primitive).flatMap((vertex) =>
+            coordinates.slice(start + 3 * vertex, start + 3 * vertex + 3),
+          ),
+        ),
+      ),
   };
+}
+
+/** The vertices of a primitive's triangles, three each; none if it has no list of them. */
+function cornersOf(primitive: Primitive): number[] {
+  if (primitive.getMode() !== Primitive.Mode.TRIANGLES) return [];
+  const count = primitive.getAttribute('POSITION')!.getCount();
+  const indices =
+    primitive.getIndices()?.getArray() ?? Uint32Array.from({ length: count }, (_, i) => i);
+  const corners = [...indices].slice(0, indices.length - (indices.length % 3));
+  return corners.every((vertex) => vertex < count) ? corners : [];
 }
 
 /** From a vertex to its colour. */

@@ -6,7 +6,7 @@ import type { Pieces } from '../geometry/pieces';
 import type { Plane } from '../geometry/plane';
 import type { ColorBy, ColorScale } from '../geometry/scale';
 import type { Surface } from '../geometry/surface';
-import type { Up } from '../geometry/up';
+import type { Custom, Up } from '../geometry/up';
 import type { Voronoi } from '../geometry/voronoi';
 import type { CameraPose } from '../view/viewer';
 import type { Dimension } from './source';
@@ -36,6 +36,8 @@ export interface Summary {
   duplicates: number;
   /** How many points the file has besides, which hold no measurement. */
   noReturn: number;
+  /** How many points there are on the faces of a coarse model, and whether they are among these. */
+  onFaces: About['onFaces'];
   /** Where the points' own colours come from; null if they have none. */
   colorSource: ColorSource | null;
   simplices: number;
@@ -128,8 +130,10 @@ export interface Picked {
 export interface About {
   /** How many points the file has besides, which hold no measurement. */
   noReturn: number;
-  /** Which axis points up, or by custom does, unless the points tell otherwise. */
-  up: { axis: 'y' | 'z'; sure: boolean };
+  /** How many points there are on the faces of a coarse model, and whether they are among these. */
+  onFaces: { points: number; taken: boolean } | null;
+  /** Which axis points up. */
+  up: Custom;
   /** The points' own colours: red, green and blue each. */
   colors: { rgb: Uint8Array; source: ColorSource } | null;
   /** In 2D the z coordinates of the file, unless all are the same. */
@@ -138,7 +142,8 @@ export interface About {
 
 export const NOTHING_ABOUT: About = {
   noReturn: 0,
-  up: { axis: 'y', sure: true },
+  onFaces: null,
+  up: { axis: 'y', unless: 'never' },
   colors: null,
   heights: null,
 };

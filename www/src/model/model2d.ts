@@ -81,6 +81,7 @@ export class Model2d implements Model {
       affineDimension: mesh.dimension,
       points: this.points.length / 2,
       duplicates,
+      onFaces: null,
       noReturn: this.about.noReturn,
       colorSource: this.about.colors?.source ?? null,
       simplices: mesh.triangles.length / 3,

@@ -79,7 +79,7 @@ export class Model3d implements Model {
 
   summary(): Summary {
     const { mesh, points, frame, about } = this;
-    const up = about.up.sure ? about.up.axis : detectUp(points, mesh.hull, about.up.axis);
+    const up = detectUp(points, about.up);
     let duplicates = 0;
     for (const stand of mesh.duplicateOf) if (stand >= 0) duplicates++;
     return {
@@ -88,6 +88,7 @@ export class Model3d implements Model {
       points: points.length / 3,
       duplicates,
       noReturn: about.noReturn,
+      onFaces: about.onFaces,
       colorSource: about.colors?.source ?? null,
       simplices: mesh.tetrahedra.length / 4,
       hullFacets: mesh.hull.length / 3,

@@ -1,6 +1,8 @@
 import { generate, generate2d, readPoints } from 'gdel-wasm';
 import bunny from '../../samples/bunny.f32.gz?url';
 import dragon from '../../samples/dragon.f32.gz?url';
+import { MANY_CORNERS, pointsOnFaces } from '../geometry/faces';
+import { facesOf } from './faceFiles';
 import { type About, NOTHING_ABOUT } from './model';
 import { landColors, OBJECTS } from './objects';
 
@@ -60,7 +62,10 @@ type Generator<D extends Dimension> = {
 /** The formats of files that can be read, for people. */
 export const EXTENSIONS = 'PLY, OBJ, STL, GLB, XYZ, TXT, CSV, PTS, PCD, LAS, LAZ, NPY, E57';
 
-/** Where points come from. In 2D, the z of a file is ignored. */
+/**
+ * Where points come from. In 2D, the z of a file is ignored. Of a coarse model, points on its faces
+ * are taken besides its corners, unless these are to stay bare.
+ */
 export type Source =
   | { kind: 'sample'; dimension: 3; sample: Sample }
   | Generator<2>
@@ -70,11 +75,12 @@ export type Source =
       dimension: Dimension;
       /** One or more, of which all points are taken together. */
       files: readonly File[];
+      bare?: true;
       /** The file as it is in the link, if there is one, small enough, and somebody shared it. */
       packed?: string;
     }
   /** A file on a server that lets pages of others read it. */
-  | { kind: 'url'; dimension: Dimension; url: string };
+  | { kind: 'url'; dimension: Dimension; url: string; bare?: true };
 
 /** The source of files that were opened together. */
 export function filesSource(files: readonly File[], dimension: Dimension): Source {
@@ -115,7 +121,7 @@ export async function load(
   }
   if (source.kind === 'sample') {
     const { sample } = source;
-    const about: About = { ...NOTHING_ABOUT, up: { axis: SAMPLES[sample].up, sure: true } };
+    const about: About = { ...NOTHING_ABOUT, up: { axis: SAMPLES[sample].up, unless: 'never' } };
     if (sample === 'bunny' || sample === 'dragon') {
       options.onProgress({ phase: `Fetching the ${titleOf(source)}`, fraction: 0 });
       return { points: await fetchSample(sample, options.signal), about };
@@ -132,7 +138,8 @@ export async function load(
     const onProgress = (fraction: number) => options.onProgress({ phase, fraction });
     onProgress(0);
     try {
-      parts.push(await read(file, options.signal, onProgress));
+      const part = await read(file, options.signal, onProgress);
+      parts.push(source.dimension === 3 ? await withFaces(part, source.bare) : part);
     } catch (error) {
       // With one file, its name goes before the message anyway.
       if (files.length > 1 && error instanceof Error && error.name !== 'AbortError')
@@ -147,6 +154,7 @@ export async function load(
     about: {
       heights,
       noReturn: parts.reduce((sum, part) => sum + part.about.noReturn, 0),
+      onFaces: onFacesOf(parts),
       up: parts[0].about.up,
       colors: colorsOf(parts),
     },
@@ -157,6 +165,8 @@ export async function load(
 interface Read {
   points: Float32Array | Float64Array;
   about: About;
+  /** The corners of the triangles that the points belong to, nine coordinates each; null without. */
+  faces(): Promise<Float64Array | null> | Float64Array | null;
 }
 
 async function read(
@@ -168,10 +178,10 @@ async function read(
   const content = await unpacked(file);
   if (/\.glb$/i.test(name)) {
     const bytes = content instanceof Blob ? await content.arrayBuffer() : content;
-    const { points, colors } = await (await import('./glb')).pointsOf(new Uint8Array(bytes));
-    // The format says so.
+    const { points, colors, faces } = await (await import('./glb')).pointsOf(new Uint8Array(bytes));
+    // That y is up, the format says.
     const about: About = { ...NOTHING_ABOUT, colors: colors && { rgb: colors, source: 'rgb' } };
-    return { points, about };
+    return { points, about, faces };
   }
   const { points, noReturn, colors, colorSource } = await readPoints(content, {
     name,
@@ -186,7 +196,33 @@ async function read(
       up: upOf(name),
       colors: colors && { rgb: colors, source: colorSource! },
     },
+    faces: async () =>
+      facesOf(name, content instanceof Blob ? await content.arrayBuffer() : content),
   };
+}
+
+/** Adds points on the faces of a coarse model, of which the corners alone tell little. */
+async function withFaces(part: Read, bare = false): Promise<Read> {
+  const { points, about } = part;
+  const corners = points.length / 3;
+  // Colours are those of corners.
+  if (corners >= MANY_CORNERS || about.colors) return part;
+  const faces = await part.faces();
+  const more = faces ? pointsOnFaces(faces, corners) : new Float64Array();
+  if (more.length === 0) return part;
+  return {
+    ...part,
+    points: bare
+      ? points
+      : joined([points, points instanceof Float32Array ? Float32Array.from(more) : more]),
+    about: { ...about, onFaces: { points: more.length / 3, taken: !bare } },
+  };
+}
+
+function onFacesOf(parts: readonly Read[]): About['onFaces'] {
+  const coarse = parts.flatMap(({ about }) => about.onFaces ?? []);
+  const points = coarse.reduce((sum, { points }) => sum + points, 0);
+  return coarse.length > 0 ? { points, taken: coarse[0].taken } : null;
 }
 
 /** Arrays one after the other, in the precision of the most precise. */
@@ -218,11 +254,20 @@ function colorsOf(parts: readonly Read[]): About['colors'] {
   return { rgb, source: first.source };
 }
 
-/** Scans of the land have z up; models have y, and those for printing z, unless they stand otherwise. */
+/** By custom, models have y up, and those for printing z; surveys have z, also as text. */
+const CUSTOMS: Readonly<Record<string, About['up']>> = {
+  ...Object.fromEntries(
+    ['ply', 'obj', 'off', 'npy'].map((each) => [each, { axis: 'y', unless: 'it stands or lies' }]),
+  ),
+  stl: { axis: 'z', unless: 'it stands or lies' },
+  ...Object.fromEntries(
+    ['xyz', 'txt', 'asc', 'pts', 'csv'].map((each) => [each, { axis: 'z', unless: 'it stands' }]),
+  ),
+};
+
 function upOf(name: string): About['up'] {
   const extension = name.replace(/^.*\./, '').toLowerCase();
-  const model = ['ply', 'obj', 'stl', 'npy', 'f32', 'f64'].includes(extension);
-  return { axis: model && extension !== 'stl' ? 'y' : 'z', sure: !model };
+  return Object.hasOwn(CUSTOMS, extension) ? CUSTOMS[extension] : { axis: 'z', unless: 'never' };
 }
 
 /** Points as seen from above, and their heights, unless all are the same. */
@@ -249,7 +294,7 @@ async function fetchSample(sample: 'bunny' | 'dragon', signal: AbortSignal): Pro
 }
 
 /** The name of the file that an address leads to. */
-function nameIn(url: string): string {
+export function nameIn(url: string): string {
   const last = new URL(url).pathname.split('/').at(-1) ?? '';
   try {
     return decodeURIComponent(last) || url;
@@ -266,13 +311,16 @@ async function download(url: string, { signal, onProgress }: LoadOptions): Promi
   return new File([await response.blob()], name);
 }
 
+/** Whether a file of this name is compressed. */
+export const isGzipName = (name: string): boolean => /\.gz$/i.test(name);
+
 /** The content of a file, which may be compressed. */
 async function unpacked(file: File): Promise<Blob | ArrayBuffer> {
-  if (!/\.gz$/i.test(file.name)) return file;
+  if (!isGzipName(file.name)) return file;
   try {
     return await gunzip(await file.arrayBuffer());
   } catch {
-    throw new Error('the file is no gzip file, or it is damaged');
+    throw new Error('the file is not a gzip file, or it is damaged');
   }
 }
 

@@ -11,6 +11,7 @@ export function comparePanel(page: Page): Part {
     byId(id).addEventListener('click', () => void prove(page));
   const forget = () => {
     abort?.abort();
+    proof++;
     byId('times').replaceChildren();
     byId('times-note').textContent = '';
     byId('verdicts').replaceChildren();
@@ -18,10 +19,24 @@ export function comparePanel(page: Page): Part {
     byId('verify-here').textContent = 'Verify';
     byId('ratio').textContent = '';
   };
-  return { ran: forget, edited: forget };
+  return {
+    ran: forget,
+    edited: forget,
+    lived(on) {
+      forget();
+      for (const id of ['compare-run', 'verify-run', 'verify-here']) {
+        const button = byId<HTMLButtonElement>(id);
+        button.disabled = on;
+        button.title = on ? 'Not while the points move.' : '';
+      }
+    },
+  };
 }
 
 let abort: AbortController | null = null;
+
+/** Counts the meshes and the proofs: what is found out about an earlier mesh is not said of the next. */
+let proof = 0;
 
 async function compare(page: Page): Promise<void> {
   const button = byId<HTMLButtonElement>('compare-run');
@@ -43,7 +58,7 @@ async function compare(page: Page): Promise<void> {
   };
   const agree = (name: string, found: number) =>
     found === expected
-      ? `${name}: ${simplices(found, dimension)}, as many.`
+      ? `${name}: ${simplices(found, dimension)}, the same number.`
       : `${name}: ${simplices(found, dimension)}, not ${count(expected)}.`;
 
   button.textContent = 'Stop';
@@ -110,7 +125,7 @@ const CHECKS: Record<string, string> = {
   vertices: 'Every distinct point is a vertex',
   orientation: 'No cell is flat or turned inside out',
   facets: 'No facet belongs to more than two cells',
-  neighbors: 'The neighbours fit',
+  neighbors: 'Neighbours name each other',
   delaunay: 'No circumsphere has a point inside',
   'canonical-ties': 'Ties are broken by the order of the points',
   hull: 'The hull bounds the cells',
@@ -129,12 +144,14 @@ async function prove(page: Page): Promise<void> {
   const buttons = ['verify-run', 'verify-here'].map((id) => byId<HTMLButtonElement>(id));
   const here = buttons[1];
   const note = byId('verify-note');
+  const mine = ++proof;
   for (const button of buttons) button.disabled = true;
   here.textContent = 'Checking …';
   note.textContent = 'Checking …';
   const started = performance.now();
   try {
     const checks = await page.model.verify();
+    if (mine !== proof) return;
     byId('verdicts').replaceChildren(
       ...checks.map(({ name, passed, detail }) => {
         const verdict = create('li', { className: passed ? 'pass' : 'fail' });
@@ -153,9 +170,10 @@ async function prove(page: Page): Promise<void> {
     here.textContent = all ? '✓ Proven' : '✕ Not proven';
     note.textContent = `${all ? 'Proven' : 'Not proven'} in ${duration(performance.now() - started)}.`;
   } catch (error) {
+    if (mine !== proof) return;
     here.textContent = 'Verify';
     note.textContent = (error as Error).message;
   } finally {
-    for (const button of buttons) button.disabled = false;
+    for (const button of buttons) button.disabled = page.live;
   }
 }

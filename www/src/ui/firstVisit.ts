@@ -13,7 +13,7 @@ export function firstVisit(page: Page): Part {
       line.hidden = !isFirst || runs > 1 || made === 0 || page.settings.embed;
       if (line.hidden) return;
       const time = inWords(stats.milliseconds);
-      line.textContent = `Your machine filled ${count(points)} points with ${simplices(made, dimension)} in ${time}, exactly.`;
+      line.textContent = `Your machine just turned ${count(points)} points into ${simplices(made, dimension)} in ${time}, all of them exact.`;
       remember('visited', '1');
     },
   };

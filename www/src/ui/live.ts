@@ -18,7 +18,7 @@ export function live(page: Page): Part {
 
   const stop = () => {
     running = 0;
-    page.live = false;
+    if (page.live) page.goLive(false);
     button.setAttribute('aria-pressed', 'false');
     button.textContent = 'Start';
   };
@@ -27,7 +27,7 @@ export function live(page: Page): Part {
     const run = (running = performance.now());
     button.setAttribute('aria-pressed', 'true');
     button.textContent = 'Stop';
-    page.live = true;
+    page.goLive(true);
     times.hidden = false;
     const frames: { milliseconds: number; isUpdate: boolean }[] = [];
     page.viewer?.showPoints(null);

@@ -63,7 +63,7 @@ export function pointer(page: Page): Part {
     asked = { x: event.offsetX, y: event.offsetY };
     void ask();
   });
-  return { ran: hide, edited: hide };
+  return { ran: hide, edited: hide, showed: hide };
 }
 
 function describe(tip: HTMLElement, picked: Picked, page: Page, x: number, y: number): void {

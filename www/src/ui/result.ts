@@ -20,15 +20,6 @@ export function showResult(summary: Summary, name: string): void {
   byId('backend-used').textContent = backendOf(summary.stats);
   // The line may be too short for the reason.
   byId('backend-used').title = backendOf(summary.stats);
-  byId('left-out').textContent = leftOut(summary);
-}
-
-/** Says which of the file's points are not in the mesh. */
-function leftOut({ noReturn }: Summary): string {
-  if (noReturn === 0) return '';
-  return noReturn === 1
-    ? 'One point without a measurement is left out'
-    : `${count(noReturn)} points without a measurement are left out`;
 }
 
 const FLAT = ['all in one place', 'all on one line', 'all in one plane'];

@@ -73,7 +73,7 @@ function showFigures({
     ['Flips', gpu && gpu.flips23 + gpu.flips32],
     ['Failed vertices', gpu?.failedVertices],
     ['Stars built for them', splay?.built],
-    ['Stars pulled in besides', splay?.pulled],
+    ['Stars pulled in as well', splay?.pulled],
     ['Signs decided by exact integers', exact.integer],
     ['by expansions', exact.expansion],
     ['by the symbolic perturbation', exact.symbolic],
@@ -93,8 +93,14 @@ export function whyNotRecord({ summary, hasGpu }: Page): string | null {
   if (hasGpu === false)
     return 'Runs are recorded on the GPU, and this browser offers none through WebGPU.';
   if (summary.points > MAX_POINTS_TO_RECORD)
-    return `Runs of up to ${count(MAX_POINTS_TO_RECORD)} points can be recorded to see where.`;
+    return `Runs of up to ${count(MAX_POINTS_TO_RECORD)} points can be recorded.`;
   return null;
+}
+
+/** Records a run of a few points on which much happens. Resolves to whether it did. */
+export async function recordFew(page: Page): Promise<boolean> {
+  const few = { kind: 'generator', dimension: 3, distribution: 'thin-sphere' } as const;
+  return (await page.run({ ...few, count: 3_000, seed: 1 })) && (await page.record());
 }
 
 function showRepair(page: Page): void {
@@ -107,9 +113,9 @@ function showRepair(page: Page): void {
   byId('recorded').hidden = trace === null;
   if (!trace) {
     byId('repair').textContent =
-      'Phase 1 flips in parallel on the GPU and gets stuck in a few places. There, Phase 2 splays stars. ' +
+      'Phase 1 flips in parallel on the GPU and gets stuck in a few places, which Phase 2 repairs by splaying stars. ' +
       (why ??
-        'Recorded, a run shows where, and how it came about round by round. That takes several times as long.');
+        'A recorded run shows these places, and every round on the way there. It takes several times as long.');
     return;
   }
   byId('repair').textContent = repairOf(trace, page.summary!);
@@ -147,18 +153,7 @@ function stepMode(page: Page): (summary: Summary) => void {
     }, 700);
   });
   byId('record').addEventListener('click', () => page.record());
-  byId('record-few').addEventListener('click', async () => {
-    if (
-      await page.run({
-        kind: 'generator',
-        dimension: 3,
-        distribution: 'thin-sphere',
-        count: 3_000,
-        seed: 1,
-      })
-    )
-      await page.record();
-  });
+  byId('record-few').addEventListener('click', () => recordFew(page));
 
   return ({ trace }) => {
     stop();

@@ -1,6 +1,6 @@
 import { FORMATS, type Format, type SavedFile } from '../model/save';
-import { type Source, titleOf } from '../model/source';
 import type { Page, Part } from '../page';
+import { codeFor, stemOf } from './code';
 import { complaintAbout } from './complaint';
 import { byId, count, create } from './dom';
 import { showMessage } from './message';
@@ -30,7 +30,7 @@ export function usePanel(page: Page): Part {
     setTimeout(() => (copy.textContent = 'Copy'), 2500);
   });
   return {
-    changed: () => (byId('code').textContent = codeFor(page)),
+    changed: () => (byId('code').textContent = codeFor(page.settings, page.summary)),
     showed: () => byId('use').hidden || void describeMachine(page),
   };
 }
@@ -79,87 +79,6 @@ async function download(
     button.disabled = false;
   }
 }
-
-/** What downloads are called, before the dot. */
-function stemOf(source: Source): string {
-  return titleOf(source)
-    .replace(/\.[^.]*$/, '')
-    .replace(/[^\w-]+/g, '-')
-    .toLowerCase();
-}
-
-/** Lines that do with the package what the page has just done. */
-function codeFor({ settings: { source, backend, edits } }: Page): string {
-  const flat = source.dimension === 2;
-  const options = backend === 'auto' ? '' : `, { backend: '${backend}' }`;
-  return [
-    `// npm install gdel-wasm`,
-    ...(edits.length > 0 ? EDITED : source.kind === 'generator' ? generated(source) : read(source)),
-    `const mesh = await ${flat ? 'delaunay2d' : 'delaunay3d'}(points${options});`,
-    ``,
-    ...(flat ? RESULTS[2] : RESULTS[3]),
-    `mesh.stats;      // backend, phases, rounds`,
-    ``,
-    `const vtu = await mesh.toVTU();`,
-  ].join('\n');
-}
-
-const EDITED = [
-  `import { delaunay2d } from 'gdel-wasm';`,
-  ``,
-  `const points = [[0, 0], [1, 0], [0, 1]];`,
-];
-
-function generated({
-  dimension,
-  distribution,
-  count,
-  seed,
-}: Source & { kind: 'generator' }): string[] {
-  const [triangulate, make] =
-    dimension === 2 ? ['delaunay2d', 'generate2d'] : ['delaunay3d', 'generate'];
-  return [
-    `import { ${triangulate}, ${make} }`,
-    `  from 'gdel-wasm';`,
-    ``,
-    `const points = await ${make}(`,
-    `  '${distribution}', ${count}, { seed: ${seed} });`,
-  ];
-}
-
-function read(source: Exclude<Source, { kind: 'generator' }>): string[] {
-  const name = (
-    source.kind === 'url'
-      ? source.url
-      : source.kind === 'file'
-        ? source.files[0].name
-        : `${stemOf(source)}.node`
-  ).replaceAll("'", "\\'");
-  const flat = source.dimension === 2;
-  return [
-    `import { ${flat ? 'delaunay2d' : 'delaunay3d'}, readPoints }`,
-    `  from 'gdel-wasm';`,
-    ``,
-    ...(source.kind === 'sample' ? [`// From Download: TetGen`] : []),
-    `const file = await fetch('${name}');`,
-    `const { points${flat ? ': xyz' : ''} } = await readPoints(`,
-    `  await file.blob(), { name: file.url });`,
-    ...(flat ? [`const points = xyz.filter((_, i) => i % 3 < 2);`] : []),
-  ];
-}
-
-const RESULTS = {
-  3: [
-    `mesh.tetrahedra; // 4 point indices each`,
-    `mesh.neighbors;  // 4 each, -1 is outside`,
-    `mesh.hull;       // 3 indices per triangle`,
-  ],
-  2: [
-    `mesh.triangles;  // 3 point indices each`,
-    `mesh.halfedges;  // 3 each, -1 is outside`,
-    `mesh.hull;       // indices in order`,
-  ],
-};
 
 const bytes = (n: number) =>
   n < 2 ** 20 ? `${count(n / 2 ** 10)} KiB` : `${count(Math.floor(n / 2 ** 20))} MiB`;

@@ -14,9 +14,9 @@ import { whyNotRecord } from './runPanel';
 const LAYER_NAMES: Record<Dimension, Partial<Record<Layer, string>>> = {
   3: {
     simplices: 'Tetrahedra',
-    skin: 'Outside plain',
+    skin: 'Plain outside',
     edges: 'Edges',
-    points: 'Points where nothing else is',
+    points: 'Points that are cut away',
     hull: 'Convex hull',
     facets: 'Non-Delaunay facets after Phase 1',
   },
@@ -31,17 +31,16 @@ const LAYER_NAMES: Record<Dimension, Partial<Record<Layer, string>>> = {
 
 /** What the outside looks like, by where the colours come from. */
 const SKINS: Record<ColorSource | 'none', string> = {
-  rgb: 'in the file’s colours',
-  intensity: 'by the file’s intensity',
-  normals: 'by the file’s normals',
-  none: 'plain',
+  rgb: 'Outside in the file’s colours',
+  intensity: 'Outside coloured by intensity',
+  normals: 'Outside coloured by normals',
+  none: 'Plain outside',
 };
 
 const FILTER_NOTES: Record<Dimension, Record<FilterKind, string>> = {
   3: {
     all: 'Every tetrahedron. Together they fill the convex hull.',
-    carve:
-      'Carved from outside with a ball of radius α. Of a scanned surface, this leaves the solid.',
+    carve: 'Carved from outside with a ball of radius α. Of a scanned surface, the solid remains.',
     alpha: 'Only tetrahedra with a circumradius of at most α.',
   },
   2: {
@@ -143,7 +142,7 @@ export function viewPanel(page: Page): Part {
     for (const { layer, box, name } of layers) {
       box.checked = settings.layers[layer];
       if (layer !== 'skin') continue;
-      if (dimension === 3) name.textContent = `Outside ${SKINS[colorSource ?? 'none']}`;
+      if (dimension === 3) name.textContent = SKINS[colorSource ?? 'none'];
       box.disabled = dimension === 2 && colorSource === null;
       box.title = box.disabled ? 'These points have no colours of their own.' : '';
     }

@@ -10,6 +10,7 @@ import { mapping, scaleFor } from '../../src/geometry/scale';
 import { PLAIN } from '../../src/geometry/skin';
 import { carvingRadii, criticalStops, solidRadius, spacingOf } from '../../src/geometry/solid';
 import { boundaryOf, surfaceOf } from '../../src/geometry/surface';
+import { AlphaRadii } from '../../src/model/alpha';
 import { closeTo } from './close';
 
 const SIDE = 4;
@@ -233,6 +234,24 @@ describe('filters', () => {
     volumes.fill(0.01);
     const ramp = radii.map((_, t) => 1 + t / 1000);
     closeTo(solidRadius(ramp, volumes, simplices, 3), 2 * 1.588, 1);
+  });
+
+  test('the slider runs from the spacing to what bounds the object, not beyond', () => {
+    const alphas = new AlphaRadii(
+      points,
+      tetrahedra,
+      neighbors,
+      3,
+      frameOf(points),
+      () => measures,
+    );
+    const { value, range } = alphas.of({ kind: 'carve', alpha: null })!;
+    closeTo(value, Math.SQRT1_2, 1);
+    // The spacing, 1, is larger than that here.
+    assert.equal(range[0], value);
+    assert.ok(range[1] >= SIDE / 2 && range[1] <= (SIDE / 2) * Math.sqrt(3), `${range[1]}`);
+    assert.equal(alphas.of({ kind: 'carve', alpha: 1.5 })!.value, 1.5);
+    assert.equal(alphas.of({ kind: 'all', alpha: null }), null);
   });
 
   test('the spacing is an edge of the grid', () => {

@@ -3,7 +3,7 @@ import { describe, test } from 'node:test';
 import { frameOf } from '../../src/geometry/mesh';
 import { heightsAlong, keepOf, levelOf } from '../../src/geometry/plane';
 import { Sample } from '../../src/geometry/range';
-import { axisFacing, detectUp, fromScreen, toScreen, UPS } from '../../src/geometry/up';
+import { axisFacing, detectUp, fromScreen, toScreen, UPS, type Up } from '../../src/geometry/up';
 import { closeTo } from './close';
 
 /** The same points everywhere. */
@@ -15,22 +15,37 @@ function randomNumbers(seed: number): () => number {
   };
 }
 
-/** The corners and some points of a box, and the twelve triangles of its hull. */
-function box(extents: readonly number[]) {
+/** The corners of a box. */
+function box(extents: readonly number[]): number[] {
   const points: number[] = [];
   for (let corner = 0; corner < 8; corner++)
     for (const axis of [0, 1, 2]) points.push((corner >> axis) & 1 ? extents[axis] : 0);
-  // prettier-ignore
-  const hull = [
-    0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3,
-    5, 3, 7, 5,
-  ];
-  return { points, hull };
+  return points;
 }
+
+/** Points on ellipsoids, each given by its middle and its radii, with y up; turned so that `up` is. */
+function figure(up: Up, ellipsoids: readonly (readonly number[])[]): number[] {
+  const random = randomNumbers(7);
+  const points: number[] = [];
+  for (const [x, y, z, a, b, c] of ellipsoids) {
+    for (let i = 0; i < 1000; i++) {
+      const [angle, height] = [2 * Math.PI * random(), 2 * random() - 1];
+      const radius = Math.sqrt(1 - height * height);
+      // Nothing is below the ground.
+      const above = Math.max(0, y + b * height);
+      const [right, near] = [a * radius * Math.cos(angle), c * radius * Math.sin(angle)];
+      points.push(...fromScreen(up, [x + right, above, z + near]));
+    }
+  }
+  return points;
+}
+
+const MODEL = { axis: 'y', unless: 'it stands or lies' } as const;
+const SURVEY = { axis: 'z', unless: 'it stands' } as const;
 
 describe('the frame', () => {
   test('is the bounding box of points without outliers', () => {
-    const { center, scale } = frameOf(box([2, 4, 4]).points);
+    const { center, scale } = frameOf(box([2, 4, 4]));
     assert.deepEqual(center, [1, 2, 2]);
     closeTo(scale, 1 / 3, 9);
   });
@@ -114,48 +129,51 @@ describe('up', () => {
     }
   });
 
-  test('of land is across it, whatever the format says', () => {
+  test('of land is across it, whatever the format says, but not of a wall in a survey', () => {
     for (const [axis, up] of ['x', 'y', 'z'].entries()) {
       const extents = [10, 12, 14];
       extents[axis] = 1;
-      const { points, hull } = box(extents);
-      assert.equal(detectUp(points, hull, 'y'), up);
+      assert.equal(detectUp(box(extents), MODEL), up);
+      assert.equal(detectUp(box(extents), SURVEY), 'z');
     }
   });
 
   test('of a box is that of custom', () => {
-    const { points, hull } = box([1, 1, 1]);
-    assert.equal(detectUp(points, hull, 'y'), 'y');
-    assert.equal(detectUp(points, hull, 'z'), 'z');
+    assert.equal(detectUp(box([1, 1, 1]), MODEL), 'y');
+    assert.equal(detectUp(box([1, 1, 1]), SURVEY), 'z');
+    assert.equal(detectUp([], SURVEY), 'z');
+    assert.equal(detectUp([1, 2, 3], MODEL), 'y');
   });
 
   test('of a figure with a flat foot is opposite to the foot', () => {
-    for (const up of UPS) {
-      // A half ball: the foot is its flat side.
-      const points: number[] = [];
-      const hull: number[] = [];
-      const steps = 24;
-      const at = (ring: number, step: number) => ring * steps + (step % steps);
-      for (let ring = 0; ring < 6; ring++) {
-        for (let step = 0; step < steps; step++) {
-          const [a, e] = [(2 * Math.PI * step) / steps, (ring * Math.PI) / 12];
-          const [x, y, z] = [Math.cos(a) * Math.cos(e), Math.sin(e), -Math.sin(a) * Math.cos(e)];
-          points.push(...fromScreen(up, [x, y, z]));
-        }
-      }
-      for (let step = 0; step < steps; step++) {
-        for (let ring = 0; ring < 5; ring++) {
-          const [p, q] = [at(ring, step), at(ring, step + 1)];
-          const [r, s] = [at(ring + 1, step), at(ring + 1, step + 1)];
-          hull.push(p, q, r, q, s, r);
-        }
-        if (step > 0) {
-          hull.push(at(0, 0), at(0, step + 1), at(0, step));
-          hull.push(at(5, 0), at(5, step), at(5, step + 1));
-        }
-      }
-      assert.equal(detectUp(points, hull, 'y'), up);
-    }
+    for (const up of UPS)
+      for (const custom of [MODEL, SURVEY])
+        assert.equal(detectUp(figure(up, [[0, 0, 0, 1, 1, 1]]), custom), up);
+  });
+
+  test('of a figure on two feet is that of custom, however flat a triangle on its belly is', () => {
+    // Head, belly, hands that reach forward, and small feet.
+    const [head, belly] = [
+      [0, 1.75, 0, 0.12, 0.15, 0.12],
+      [0, 1.1, 0, 0.35, 0.5, 0.28],
+    ];
+    const hands = [-0.7, 0.7].map((x) => [x, 1.3, 0.25, 0.07, 0.07, 0.05]);
+    const feet = [-0.2, 0.2].map((x) => [x, 0.02, 0.05, 0.08, 0.08, 0.2]);
+    const man = [head, belly, ...hands, ...feet];
+    assert.equal(detectUp(figure('y', man), MODEL), 'y');
+    assert.equal(detectUp(figure('z', man), MODEL), 'z');
+  });
+
+  test('does not follow dirt below the foot', () => {
+    const points = figure('z', [[0, 0, 0, 1, 1, 1]]);
+    for (let i = 0; i < 1000; i++) points.push(...points.slice(3 * i, 3 * i + 3));
+    points.push(0, 0, -0.4);
+    assert.equal(detectUp(points, MODEL), 'z');
+  });
+
+  test('is what a format says for certain', () => {
+    const points = figure('y', [[0, 0, 0, 1, 1, 1]]);
+    assert.equal(detectUp(points, { axis: 'z', unless: 'never' }), 'z');
   });
 });
 

@@ -36,6 +36,14 @@ test('a link restores every setting', () => {
   assert.deepEqual(fromHash(toHash(settings as never)), settings);
 });
 
+test('a link to a model without points on its faces says so', () => {
+  const source = { kind: 'url', dimension: 3, url: 'https://a.org/b.stl', bare: true } as const;
+  assert.deepEqual(fromHash(toHash({ ...defaults(), source, filter: 'carve' })).source, source);
+  const file = { ...filesSource([new File([], 'b.stl')], 3), bare: true } as const;
+  const hash = toHash({ ...defaults(), source: file as never });
+  assert.deepEqual(fileIn(hash), { name: 'b.stl', packed: null, bare: true });
+});
+
 test('a link to 2D restores the points and what was changed by hand', () => {
   assert.deepEqual(fromHash('#dim=2'), defaults(2));
   const settings = {

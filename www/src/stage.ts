@@ -1,0 +1,241 @@
+import type { Drawing, DrawRequest } from './model/model';
+import type { Edited } from './model/worker';
+import type { Page } from './page';
+import { whileBusy } from './ui/busy';
+import { complaintAbout } from './ui/complaint';
+import { byId } from './ui/dom';
+import { showMessage } from './ui/message';
+import { paint } from './ui/theme';
+import type { CameraPose, Viewer } from './view/viewer';
+
+/** How long a new object is shown whole, and how long the cut then moves, in milliseconds. */
+const [WHOLE, OPENING] = [500, 900];
+
+/** What the stage tells the page. */
+export interface StageEvents {
+  /** There is a new drawing. */
+  drew(drawing: Drawing): void;
+  /** The camera has moved, by hand or not, or the drawing has another size. */
+  moved(): void;
+  /** The visitor has moved the camera. */
+  turned(camera: CameraPose): void;
+}
+
+/** The drawing: gives the viewer what mesh and settings say. */
+export class Stage {
+  /** Null until three.js is there, and where the browser cannot draw. */
+  viewer: Viewer | null = null;
+  lastDrawing: Drawing | null = null;
+  /** The points as drawn; null before there are any. */
+  positions: Float32Array | null = null;
+  private round: number | null = null;
+  private drawing = false;
+  /** What the last drawing was asked to show; empty where the next one has to be made in any case. */
+  private drawn = '';
+  /** Counts the meshes: the opening of an earlier one ends. */
+  private meshes = 0;
+  /** The cut while it moves by itself, from everything to where it stays; else null. */
+  private sweep: number | null = null;
+
+  constructor(
+    private readonly page: Page,
+    private readonly events: StageEvents,
+  ) {}
+
+  /** Loads the viewer, and shows what there is by then. */
+  async start(): Promise<void> {
+    let loaded: typeof import('./view/viewer');
+    try {
+      loaded = await import('./view/viewer');
+    } catch (error) {
+      showMessage(complaintAbout('The drawing', error));
+      return;
+    }
+    try {
+      this.viewer = await loaded.Viewer.create(
+        byId<HTMLCanvasElement>('canvas'),
+        () => this.viewer && this.events.turned(this.viewer.pose),
+        () => this.events.moved(),
+        () =>
+          showMessage(
+            'The GPU was reset, and the drawing is lost. Reload the page to get it back.',
+          ),
+      );
+    } catch {
+      showMessage(
+        'This browser can draw neither with WebGPU nor with WebGL 2. Triangulating and downloading still work.',
+      );
+      return;
+    }
+    paint(this.viewer);
+    if (!this.page.summary) return;
+    await this.newMesh(true);
+    await this.draw();
+    await this.open();
+  }
+
+  /**
+   * Gives the viewer what stays the same for a mesh, however it is cut. Of a new object, the first
+   * drawing shows all, and {@link open} cuts it.
+   */
+  async newMesh(isNewObject: boolean): Promise<void> {
+    this.meshes++;
+    this.round = null;
+    this.sweep = isNewObject && this.opensSlowly ? 1 : null;
+    await this.giveMesh();
+  }
+
+  /** Shows the mesh again, after the live mode. */
+  async again(): Promise<void> {
+    await this.giveMesh();
+    await this.draw();
+  }
+
+  private async giveMesh(): Promise<void> {
+    this.drawn = '';
+    const { viewer, page } = this;
+    if (!viewer) return;
+    viewer.setDimension(page.summary!.dimension);
+    viewer.pose = page.view.camera;
+    this.positions = await page.model.positions();
+    viewer.showPoints(this.positions, await page.model.colors());
+    viewer.showHull(await page.model.hull());
+    viewer.showFacets(await page.model.nonDelaunayFacets());
+    this.look();
+  }
+
+  /** Shows the mesh of points that were changed by hand. */
+  showEdited({ drawing, positions, colors, hull }: Edited): void {
+    this.drawn = JSON.stringify(this.request());
+    this.positions = positions;
+    this.viewer?.showPoints(positions, colors);
+    this.viewer?.showHull(hull);
+    this.show(drawing);
+  }
+
+  /** Shows the triangulation after a round of the trace; null for the result. */
+  showRound(round: number | null): void {
+    this.round = round;
+    void this.draw();
+  }
+
+  /**
+   * Draws what the settings say. Of settings that change while a drawing is made, only the last are
+   * drawn.
+   */
+  draw(): Promise<void> {
+    this.look();
+    return whileBusy(this.followSettings().then(() => this.onScreen()));
+  }
+
+  /** Resolves once the browser shows what the viewer was given. */
+  async onScreen(): Promise<void> {
+    await this.viewer?.drawn();
+  }
+
+  private async followSettings(): Promise<void> {
+    const { page } = this;
+    if (this.drawing || page.live || !this.viewer || !page.summary) return;
+    this.drawing = true;
+    try {
+      for (
+        let request = this.request();
+        JSON.stringify(request) !== this.drawn;
+        request = this.request()
+      ) {
+        this.drawn = JSON.stringify(request);
+        this.show(await page.model.draw(request));
+      }
+    } finally {
+      this.drawing = false;
+    }
+  }
+
+  private show(drawing: Drawing): void {
+    this.lastDrawing = drawing;
+    this.events.drew(drawing);
+    if (!this.viewer) return;
+    this.viewer.showSurface(drawing.surface);
+    this.viewer.showPieces(drawing.pieces);
+    this.viewer.showVoronoi(drawing.voronoi);
+    const { planeNormal, pointsAbove } = this.viewer.look;
+    planeNormal.value.set(...this.page.view.normal);
+    pointsAbove.value = Math.min(drawing.level, 1e9);
+    this.look();
+  }
+
+  /** What the settings ask for. */
+  request(): DrawRequest {
+    const { settings, summary, view } = this.page;
+    const { filter, alpha, keep, color, apart, layers, source } = settings;
+    return {
+      filter: { kind: filter, alpha },
+      plane: { normal: view.normal, keep: this.sweep ?? keep },
+      // Only a recorded run tells the phases.
+      color: color === 'phase' && !summary?.trace ? 'quality' : color,
+      pieces: apart > 0,
+      round: this.round,
+      skin: layers.skin,
+      voronoi: layers.voronoi,
+      cells: layers.voronoi && source.dimension === 3 ? apart : null,
+    };
+  }
+
+  /** Shows and hides layers as the settings say, after other things were given to the viewer. */
+  look(): void {
+    const { viewer } = this;
+    if (!viewer) return;
+    const { settings, summary, view } = this.page;
+    const { layers, map, color, apart, source } = settings;
+    const flat = source.dimension === 2;
+    viewer.setUp(view.up);
+    viewer.setColorMap(color === 'phase' && summary?.trace ? 'phases' : map);
+    // Facets of Voronoi cells are drawn as several triangles.
+    viewer.look.edges.value = layers.edges && !this.lastDrawing?.cells ? 1 : 0;
+    viewer.look.apart.value = this.round === null ? apart : Math.max(apart, 0.02);
+    viewer.look.ownColors.value = layers.skin ? 1 : 0;
+    viewer.look.fill.value = layers.simplices ? 1 : 0;
+    viewer.setVisible('surface', layers.simplices);
+    viewer.setVisible('flat', layers.simplices || layers.edges);
+    viewer.setVisible('pieces', layers.simplices);
+    viewer.setVisible('voronoi', layers.voronoi);
+    viewer.setVisible('hull', layers.hull);
+    viewer.setVisible('hullEdges', layers.hull);
+    viewer.setVisible('facets', layers.facets);
+    viewer.setVisible('points', layers.points);
+    viewer.look.pointsEverywhere.value =
+      layers.simplices && !flat && summary?.dimension === 3 ? 0 : 1;
+  }
+
+  /** Whether a new object is shown whole before it is cut. */
+  private get opensSlowly(): boolean {
+    return (
+      this.page.summary!.dimension === 3 &&
+      this.page.settings.keep === null &&
+      !matchMedia('(prefers-reduced-motion: reduce)').matches
+    );
+  }
+
+  /**
+   * Cuts an object that is shown whole, along the side that faces the camera, unless the visitor
+   * cuts it or goes on to something else.
+   */
+  async open(): Promise<void> {
+    if (this.sweep === null || !this.viewer) return;
+    const { meshes } = this;
+    await this.draw();
+    const started = performance.now();
+    for (
+      let at = 0;
+      at < 1 && meshes === this.meshes && this.page.settings.keep === null;
+      at = (performance.now() - started - WHOLE) / OPENING
+    ) {
+      const eased = Math.max(0, at) ** 2 * (3 - 2 * Math.max(0, at));
+      this.sweep = 1 + eased * ((this.lastDrawing?.half ?? 1) - 1);
+      await this.draw();
+    }
+    if (meshes !== this.meshes) return;
+    this.sweep = null;
+    await this.draw();
+  }
+}

@@ -1,0 +1,138 @@
+// The code that the page shows does what the page did: it is run, with the files in place of the
+// server.
+
+import assert from 'node:assert/strict';
+import { describe, test } from 'node:test';
+import { gzipSync } from 'node:zlib';
+import * as gdel from 'gdel-wasm';
+import { applyEdits, type Edit } from '../../src/model/edits';
+import type { Source } from '../../src/model/source';
+import { codeFor } from '../../src/ui/code';
+
+const NAME = "it's a \\ cat #1.xyz";
+const { delaunay2d, delaunay3d, generate, generate2d } = gdel;
+
+/** Runs code with these files on its server, and returns its points and its mesh. */
+async function run(code: string, files: Record<string, string | Uint8Array> = {}) {
+  const fetchFile = async (address: string) => {
+    const { pathname } = new URL(address, 'http://server/');
+    const content = files[decodeURIComponent(pathname.slice(1))];
+    assert.ok(content !== undefined, `${address} is asked for`);
+    return new Response(content as BodyInit);
+  };
+  const [, names] = /^import \{ (.*) \}\n {2}from 'gdel-wasm';$/m.exec(code)!;
+  const body = code.replace(/^import .*\n.*;$/m, '');
+  const make = new Function(
+    'gdel',
+    'fetch',
+    `return (async () => { const { ${names} } = gdel; ${body}\nreturn { mesh, vtu }; })()`,
+  );
+  const { mesh, vtu } = await make(gdel, fetchFile);
+  assert.ok(vtu.length > 0);
+  return mesh;
+}
+
+const settings = (source: Source, edits: readonly Edit[] = []) => ({
+  source,
+  edits,
+  backend: 'cpu' as const,
+});
+const file = (name: string, dimension: 2 | 3 = 3): Source => ({
+  kind: 'file',
+  dimension,
+  files: [new File([], name)],
+});
+
+describe('the code on the page', () => {
+  const xyz = '0 0 0\n1 0 0\n0 1 0\n0 0 1\n0.1 0.2 0.7\n';
+
+  test('generates the same points', async () => {
+    for (const distribution of ['uniform', 'thin-sphere'] as const) {
+      const source = { kind: 'generator', dimension: 3, distribution, count: 60, seed: 5 } as const;
+      const mesh = await run(codeFor(settings(source)));
+      const expected = await delaunay3d(await generate(distribution, 60, { seed: 5 }));
+      assert.deepEqual(mesh.tetrahedra, expected.tetrahedra);
+    }
+  });
+
+  test('changes them as they were changed by hand', async () => {
+    const edits: Edit[] = [
+      { do: 'add', at: [0.5, -2.25] },
+      { do: 'move', point: 99, at: [7, 8] },
+      { do: 'move', point: 0, at: [1e-7, 8] },
+      { do: 'remove', point: 3 },
+    ];
+    for (const count of [0, 20]) {
+      const source: Source = {
+        kind: 'generator',
+        dimension: 2,
+        distribution: 'disk',
+        count,
+        seed: 1,
+      };
+      const all = count > 0 ? edits : [0, 1, 2].map((i) => ({ ...edits[0], at: [i, i * i] }));
+      const mesh = await run(codeFor(settings(source, all as Edit[])));
+      const before = count > 0 ? await generate2d('disk', count, { seed: 1 }) : new Float64Array();
+      const expected = await delaunay2d(applyEdits(before, all as Edit[]));
+      assert.deepEqual(mesh.triangles, expected.triangles);
+    }
+  });
+
+  test('reads a file of any name, compressed or not, in space and in the plane', async () => {
+    const { tetrahedra } = await run(codeFor(settings(file(NAME))), { [NAME]: xyz });
+    assert.equal(tetrahedra.length, 4 * 4);
+    const name = `${NAME}.gz`;
+    const zipped = { [name]: gzipSync(xyz) };
+    const mesh = await run(codeFor(settings(file(name))), zipped);
+    assert.deepEqual(mesh.tetrahedra, tetrahedra);
+    for (const [each, files] of [
+      [NAME, { [NAME]: xyz }],
+      [name, zipped],
+    ] as const) {
+      const flat = await run(codeFor(settings(file(each, 2))), files);
+      assert.deepEqual([...flat.coords], [0, 0, 1, 0, 0, 1, 0, 0, 0.1, 0.2]);
+    }
+  });
+
+  test('fetches what is on the web', async () => {
+    const source: Source = { kind: 'url', dimension: 3, url: 'http://server/a/cat.xyz?key=1' };
+    const { tetrahedra } = await run(codeFor(settings(source)), { 'a/cat.xyz': xyz });
+    assert.equal(tetrahedra.length, 4 * 4);
+  });
+
+  test('reads several files as one cloud', async () => {
+    const source: Source = {
+      kind: 'file',
+      dimension: 3,
+      files: [new File([], 'left.xyz'), new File([], 'right.xyz')],
+    };
+    const files = { 'left.xyz': '0 0 0\n1 0 0\n', 'right.xyz': '0 1 0\n0 0 1\n' };
+    assert.equal((await run(codeFor(settings(source)), files)).tetrahedra.length, 4);
+    const flat = await run(codeFor(settings({ ...source, dimension: 2 })), files);
+    assert.deepEqual([...flat.coords], [0, 0, 1, 0, 0, 1, 0, 0]);
+  });
+
+  test('reads the page’s own file where points were put on faces', () => {
+    const onFaces = { points: 9, taken: true };
+    assert.match(codeFor(settings(file('part.stl')), { onFaces }), /TetGen\n.*\n {2}'part\.node'/);
+    const bare = codeFor(settings(file('part.stl')), { onFaces: { ...onFaces, taken: false } });
+    assert.match(bare, /'part\.stl'/);
+  });
+
+  test('reads the page’s own file where the package cannot read the one that was opened', async () => {
+    const { node } = await (
+      await delaunay3d([
+        [0, 0, 0],
+        [1, 0, 0],
+        [0, 1, 0],
+        [0, 0, 1 / 3],
+      ])
+    ).toTetGen();
+    const code = codeFor(settings(file('my cat.glb')));
+    assert.match(code, /\/\/ From Download: TetGen/);
+    assert.equal((await run(code, { 'my-cat.node': node })).tetrahedra.length, 4);
+    const flat = await run(codeFor(settings(file('my cat.glb', 2))), { 'my-cat.node': node });
+    assert.equal(flat.triangles.length, 3);
+    assert.equal(flat.duplicateOf.length, 4);
+  });
+});
