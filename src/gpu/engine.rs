@@ -154,6 +154,8 @@ where
     pub(crate) resident: bool,
     /// For a mesh whose points have moved, what is known of it.
     pub(crate) moved: Option<Moved<'a, D>>,
+    /// The field `duplicate_of` of a mesh without duplicates, once it is prepared.
+    pub(crate) duplicate_of: Vec<i32>,
     /// Receives the statistics.
     pub(crate) stats: &'a mut Stats,
     /// Times the phases.
@@ -174,10 +176,18 @@ where
         }
     }
 
+    /// Prepares what takes memory for each point, while the device is at work.
+    pub(crate) fn prepare(&mut self) {
+        self.duplicate_of = parallel::filled(Threads::All, self.points.len(), NONE);
+    }
+
     /// Returns the points that Phase 1 did not insert although they are not duplicates, each with
     /// the vertex at the same place of the lattice, and the field `duplicate_of` of the mesh.
     pub(crate) fn missing(&mut self, merged: &[[u32; 2]]) -> (Vec<[u32; 2]>, Vec<i32>) {
-        let mut duplicate_of = parallel::filled(Threads::All, self.points.len(), NONE);
+        if self.duplicate_of.is_empty() {
+            self.prepare();
+        }
+        let mut duplicate_of = std::mem::take(&mut self.duplicate_of);
         let mut missing = missing_points(self.points, merged, &mut duplicate_of);
         if let Some(moved) = &mut self.moved {
             // The mesh lacks what was a duplicate. The vertex of its place then is still one.
@@ -395,6 +405,7 @@ where
             adapter: &gpu.adapter().name,
             resident: settings.sparse || resident,
             moved,
+            duplicate_of: Vec::new(),
             stats: &mut stats,
             stopwatch,
         };

@@ -30,7 +30,7 @@ where
 
 /// Points that are looked at for a large first simplex: enough for one that most points lie in, and
 /// so few that looking takes no time.
-const SAMPLE: usize = 4096;
+const SAMPLE: usize = 1024;
 
 /// Returns a first simplex for `count` points of a lattice, as large as a sample of them gives.
 ///

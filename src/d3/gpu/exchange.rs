@@ -74,24 +74,31 @@ pub(crate) struct Device<'a> {
 }
 
 impl<'a> Device<'a> {
-    /// Ends the run, and gathers what splaying begins with.
+    /// Ends the run, and gathers what splaying begins with. The host does `meanwhile` before it waits
+    /// for the device.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub(crate) async fn end(run: Run<'a, 3>) -> Result<(Self, Result<Begun, Aborted>), Error> {
+    pub(crate) async fn end(
+        run: Run<'a, 3>,
+        meanwhile: impl FnOnce(),
+    ) -> Result<(Self, Result<Begun, Aborted>), Error> {
         let gather = Gathering { first: 1, patched: 0 };
         let (gpu, points) = (run.gpu(), run.control().0.infinite as usize);
         let workgroups = run.workgroups();
         run.buffers().own.gathering.write(gpu, 0, &[gather]);
-        let (ended, submission, (gathering, failed, uncertain)) = run
-            .end(|copies, stages, memory| {
-                let gathering = Gathering3::record(copies, stages, memory, workgroups);
-                let aliases = memory.bound.finish.aliases();
-                let (failed, uncertain) = (&aliases.failed, &aliases.uncertain);
-                (gathering, Ahead::copy(copies, failed), Ahead::copy(copies, uncertain))
-            })
-            .await?;
+        let record = |copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>| {
+            let gathering = Gathering3::record(copies, stages, memory, workgroups);
+            let aliases = memory.bound.finish.aliases();
+            let (failed, uncertain) = (&aliases.failed, &aliases.uncertain);
+            (gathering, Ahead::copy(copies, failed), Ahead::copy(copies, uncertain))
+        };
+        let prepare = || {
+            meanwhile();
+            Region::new(points, Threads::All)
+        };
+        let (ended, submission, (gathering, failed, uncertain), region) = run.end(record, prepare).await?;
         let (failed_len, uncertain_len) = (ended.counters.failed as usize, ended.counters.uncertain as usize);
         let mut device = Device { ended };
         let gathered = device.receive(&submission, gathering).await?;
@@ -101,7 +108,7 @@ impl<'a> Device<'a> {
         failed.sort_unstable();
         let mut uncertain: Vec<u32> = uncertain.into_iter().map(|Active { tet, .. }| tet).collect();
         uncertain.sort_unstable();
-        Ok((device, begin(points, gathered, failed, uncertain)))
+        Ok((device, begin(region, gathered, failed, uncertain)))
     }
 
     /// Receives what is gathered, and reads the rest of it if there is more than was read ahead.
@@ -128,9 +135,9 @@ impl<'a> Device<'a> {
             rest = Some(submitted.await?);
         }
         let mut gathered = Gathered {
-            tetrahedra: copied.receive(tetrahedra.first).await?,
-            neighbors: copied.receive(neighbors.first).await?,
-            slots: copied.receive(slots.first).await?,
+            tetrahedra: copied.receive(tetrahedra.first.first(count)).await?,
+            neighbors: copied.receive(neighbors.first.first(count)).await?,
+            slots: copied.receive(slots.first.first(count)).await?,
         };
         if let Some((submission, (tetrahedra, neighbors, slots))) = rest {
             copied.submission = submission;
@@ -138,9 +145,6 @@ impl<'a> Device<'a> {
             gathered.neighbors.extend(copied.receive(neighbors).await?);
             gathered.slots.extend(copied.receive(slots).await?);
         }
-        gathered.tetrahedra.truncate(count);
-        gathered.neighbors.truncate(count);
-        gathered.slots.truncate(count);
         Ok(gathered)
     }
 
@@ -152,12 +156,11 @@ impl<'a> Device<'a> {
         len: usize,
     ) -> Result<Vec<T>, Error> {
         let Ended { gpu, kernels, stats, .. } = &mut self.ended;
-        let mut list = kernels.readback.receive(gpu, submission, ahead.first).await?;
+        let mut list = kernels.readback.receive(gpu, submission, ahead.first.first(len)).await?;
         if len > list.len() {
             stats.submits += 1;
             list.extend(kernels.readback.read(gpu, &ahead.source, list.len(), len - list.len()).await?);
         }
-        list.truncate(len);
         Ok(list)
     }
 
@@ -269,9 +272,10 @@ impl<'a> Device<'a> {
     }
 }
 
-/// Returns the region of what was gathered first, and the doubts by its numbers.
-fn begin(points: usize, gathered: Gathered, failed: Vec<u32>, uncertain: Vec<u32>) -> Result<Begun, Aborted> {
-    let mut region = Region::new(points, Threads::All);
+/// Adds what was gathered first to a region that has nothing yet. Returns it with the doubts by its
+/// numbers.
+fn begin(mut region: Region, gathered: Gathered, failed: Vec<u32>, uncertain: Vec<u32>) -> Result<Begun, Aborted> {
+    let infinite = region.infinite();
     let first = region.next();
     // Both are in the order of the mesh.
     let mut slots = (first..).zip(&gathered.slots);
@@ -279,7 +283,7 @@ fn begin(points: usize, gathered: Gathered, failed: Vec<u32>, uncertain: Vec<u32
     let uncertain: Option<Vec<u32>> = uncertain.into_iter().map(number).collect();
     let uncertain = uncertain.ok_or(Aborted::Inconsistent("an uncertain tetrahedron was not gathered"))?;
     let corners = uncertain.iter().flat_map(|&t| gathered.tetrahedra[(t - first) as usize]);
-    let stars: Vec<u32> = corners.filter(|&v| v != points as u32).chain(failed.iter().copied()).collect();
+    let stars: Vec<u32> = corners.filter(|&v| v != infinite).chain(failed.iter().copied()).collect();
     region.add(stars, gathered, Threads::All)?;
     Ok(Begun { region, doubts: Doubts { failed, uncertain, missing: Vec::new() } })
 }

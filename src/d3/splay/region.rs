@@ -99,6 +99,11 @@ impl Region {
         self.mesh.tetrahedra.len() as u32
     }
 
+    /// Returns the vertex at infinity, which is the number of vertices.
+    pub(in crate::d3) fn infinite(&self) -> u32 {
+        self.mesh.infinite
+    }
+
     /// Returns the vertices of a tetrahedron of the region.
     pub fn tetrahedron(&self, t: u32) -> [u32; 4] {
         self.mesh.vertices(t)

@@ -117,6 +117,11 @@ const FEW_LIMIT: u32 = 4;
 /// input takes, and so few that a run is not far beyond them when it is found to be slow.
 const FEW_ITERATIONS: u32 = 128;
 
+/// The flip iterations that are recorded at first where points have moved, a dispatch per pass: a
+/// million points that moved by a hundredth of their spacing take so many until few simplices are
+/// active.
+const MOVED_ITERATIONS: u32 = 16;
+
 /// Votes are cleared when the lowest bid is so high: a quarter of the numbers that are left by then
 /// suffices for all rounds that may be submitted before.
 const CLEAR_VOTES_FROM: u32 = 1 << 30;
@@ -357,6 +362,7 @@ where
         let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
         self.counters = counters_in(&words);
         self.has_moved = true;
+        self.iterations = Iterations::new(MOVED_ITERATIONS);
         self.stats.start_points = 0;
         let Counters { inverted, violated, .. } = self.counters;
         Ok((inverted < MAX_SIMPLICES).then_some([inverted as usize, violated as usize]))
@@ -417,7 +423,9 @@ where
     /// than the device can hold; [`Error::DeviceLost`] and [`Error::Gpu`].
     pub async fn advance(&mut self) -> Result<bool, Error> {
         let gpu = self.gpu;
-        while self.submitted.len() < self.settings.batches.max(1) as usize {
+        // One batch of flips is as a rule enough for points that have moved.
+        let batches = if self.has_moved { 1 } else { self.settings.batches.max(1) as usize };
+        while self.submitted.len() < batches {
             let batch = gpu.with_error_scope("Phase 1", || self.submit_batch()).await?;
             self.submitted.push_back(batch);
             self.stats.submits += 1;
@@ -583,27 +591,28 @@ where
         stats
     }
 
-    /// Makes the mesh and reads it back.
+    /// Makes the mesh and reads it back. The host does `meanwhile` before it waits for the device.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub async fn finish(self) -> Result<Phase1Output<D>, Error> {
-        let (mut ended, _, ()) = self.end(|_, _, _| ()).await?;
+    pub async fn finish(self, meanwhile: impl FnOnce()) -> Result<Phase1Output<D>, Error> {
+        let (mut ended, _, (), ()) = self.end(|_, _, _| (), meanwhile).await?;
         let (result, merged) = ended.read().await?;
         Ok(Phase1Output { result, merged, stats: ended.release() })
     }
 
     /// Makes the mesh and leaves it on the device. `more` records what the same submission is to do
-    /// with it.
+    /// with it; the host does `meanwhile` before it waits for that.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub(crate) async fn end<T>(
+    pub(crate) async fn end<T, U>(
         mut self,
         more: impl FnOnce(&mut Copies<'_>, &Stages, &Memory<D>) -> T,
-    ) -> Result<(Ended<'a, D>, wgpu::SubmissionIndex, T), Error> {
+        meanwhile: impl FnOnce() -> U,
+    ) -> Result<(Ended<'a, D>, wgpu::SubmissionIndex, T, U), Error> {
         let gpu = self.gpu;
         let workgroups = self.workgroups();
         let profiler = self.profiler.take();
@@ -621,6 +630,7 @@ where
                 Ok((copies.recorder.submit(gpu), counters, finite, more))
             })
             .await?;
+        let prepared = meanwhile();
         // What was submitted beyond the end had nothing to do, and came before.
         for Batch { submission, counters, .. } in std::mem::take(&mut self.submitted) {
             self.kernels.readback.receive(gpu, &submission, counters).await?;
@@ -633,7 +643,7 @@ where
         self.stats.counters = counters;
         let Run { kernels, points, memory, read_before, stats, clock, .. } = self;
         let ended = Ended { kernels, gpu, memory, points, counters, finite, workgroups, read_before, stats, clock };
-        Ok((ended, submission, more))
+        Ok((ended, submission, more, prepared))
     }
 }
 
@@ -731,6 +741,6 @@ where
     ) -> Result<Phase1Output<D>, Error> {
         let mut run = Run::new(self, gpu, input, *settings, profiler).await?;
         while run.advance().await? {}
-        run.finish().await
+        run.finish(|| ()).await
     }
 }
