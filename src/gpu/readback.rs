@@ -45,6 +45,11 @@ pub struct Pending<T> {
 }
 
 impl<T> Pending<T> {
+    /// Returns the number of elements that are received.
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
     /// Returns the same, of which no more than the first `len` elements are received.
     pub(crate) fn first(self, len: usize) -> Self {
         Pending { len: self.len.min(len), ..self }

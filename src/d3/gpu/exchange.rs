@@ -25,6 +25,12 @@ use bytemuck::Pod;
 /// gathered of a million uniform points, and 1.2 MB.
 const AHEAD: usize = 1 << 15;
 
+/// The same where points have moved, which leaves more to splaying.
+const AHEAD_OF_MOVED: usize = 1 << 17;
+
+/// The tetrahedra that are read for each further star: as a rule more than it has.
+const PER_STAR: usize = 32;
+
 /// A list of which the first elements are being read.
 struct Ahead<T> {
     source: Storage<T>,
@@ -32,8 +38,8 @@ struct Ahead<T> {
 }
 
 impl<T: Pod> Ahead<T> {
-    fn copy(copies: &mut Copies<'_>, source: &Storage<T>) -> Self {
-        Ahead { source: source.clone(), first: copies.copy(source, AHEAD.min(source.len())) }
+    fn copy(copies: &mut Copies<'_>, source: &Storage<T>, len: usize) -> Self {
+        Ahead { source: source.clone(), first: copies.copy(source, len.min(source.len())) }
     }
 }
 
@@ -47,15 +53,15 @@ struct Gathering3 {
 
 impl Gathering3 {
     /// Records gathering, and that its result is read.
-    fn record(copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>, workgroups: u32) -> Self {
+    fn record(copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>, ahead: usize, workgroups: u32) -> Self {
         let bound = &memory.bound.finish;
         stages.finish.record(&mut copies.recorder, bound, &bound.gather, workgroups);
         let (aliases, own) = (bound.aliases(), &memory.buffers.own);
         Gathering3 {
             count: copies.copy_from(bound.gather_sums(), GROUPS, 1),
-            tetrahedra: Ahead::copy(copies, &aliases.gathered_tetrahedra),
-            neighbors: Ahead::copy(copies, &aliases.gathered_neighbors),
-            slots: Ahead::copy(copies, &own.gathered_slots),
+            tetrahedra: Ahead::copy(copies, &aliases.gathered_tetrahedra, ahead),
+            neighbors: Ahead::copy(copies, &aliases.gathered_neighbors, ahead),
+            slots: Ahead::copy(copies, &own.gathered_slots, ahead),
         }
     }
 }
@@ -88,11 +94,12 @@ impl<'a> Device<'a> {
         let (gpu, points) = (run.gpu(), run.control().0.infinite as usize);
         let workgroups = run.workgroups();
         run.buffers().own.gathering.write(gpu, 0, &[gather]);
+        let ahead = if run.has_moved() { AHEAD_OF_MOVED } else { AHEAD };
         let record = |copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>| {
-            let gathering = Gathering3::record(copies, stages, memory, workgroups);
+            let gathering = Gathering3::record(copies, stages, memory, ahead, workgroups);
             let aliases = memory.bound.finish.aliases();
             let (failed, uncertain) = (&aliases.failed, &aliases.uncertain);
-            (gathering, Ahead::copy(copies, failed), Ahead::copy(copies, uncertain))
+            (gathering, Ahead::copy(copies, failed, AHEAD), Ahead::copy(copies, uncertain, AHEAD))
         };
         let prepare = || {
             meanwhile();
@@ -119,16 +126,17 @@ impl<'a> Device<'a> {
         let mut copied = Copied { readback: &mut kernels.readback, gpu, submission: submission.clone() };
         let count = copied.receive(count).await?[0] as usize;
         let mut rest = None;
-        if count > AHEAD {
+        let ahead = tetrahedra.first.len();
+        if count > ahead {
             stats.submits += 1;
             let readback = &mut *copied.readback;
             let submitted = gpu.with_error_scope("gathered stars", || {
                 let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, None) };
-                let len = count - AHEAD;
+                let len = count - ahead;
                 let lists = (
-                    copies.copy_from(&tetrahedra.source, AHEAD, len),
-                    copies.copy_from(&neighbors.source, AHEAD, len),
-                    copies.copy_from(&slots.source, AHEAD, len),
+                    copies.copy_from(&tetrahedra.source, ahead, len),
+                    copies.copy_from(&neighbors.source, ahead, len),
+                    copies.copy_from(&slots.source, ahead, len),
                 );
                 Ok((copies.recorder.submit(gpu), lists))
             });
@@ -175,13 +183,14 @@ impl<'a> Device<'a> {
         let gpu: &Gpu = gpu;
         let own = &memory.buffers.own;
         let mut wanted = vec![0u32; own.wanted.len()];
+        let ahead = vertices.len().saturating_mul(PER_STAR).min(AHEAD);
         vertices.iter().for_each(|&v| wanted[v as usize / 32] |= 1 << (v % 32));
         let (submission, gathering) = gpu
             .with_error_scope("gathering stars", || {
                 own.wanted.write(gpu, 0, &wanted);
                 own.gathering.write(gpu, 0, &[Gathering { first, patched: 0 }]);
                 let mut copies = Copies { readback: &mut kernels.readback, gpu, recorder: Recorder::new(gpu, None) };
-                let gathering = Gathering3::record(&mut copies, &kernels.stages, memory, *workgroups);
+                let gathering = Gathering3::record(&mut copies, &kernels.stages, memory, ahead, *workgroups);
                 stats.dispatches += copies.recorder.dispatches();
                 stats.submits += 1;
                 Ok((copies.recorder.submit(gpu), gathering))
