@@ -191,8 +191,8 @@ where
         let mut missing = missing_points(self.points, merged, &mut duplicate_of);
         if let Some(moved) = &mut self.moved {
             // The mesh lacks what was a duplicate. The vertex of its place then is still one.
-            missing = std::mem::take(&mut moved.duplicates);
-            missing.retain(|&[v, _]| duplicate_of[v as usize] == NONE);
+            let parted = moved.duplicates.iter().filter(|&&[v, _]| duplicate_of[v as usize] == NONE);
+            missing = parted.copied().collect();
             moved.update.inserted = missing.len();
         }
         (missing, duplicate_of)

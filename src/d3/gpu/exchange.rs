@@ -21,12 +21,17 @@ use crate::{
 };
 use bytemuck::Pod;
 
-/// How many elements of a list are read before it is known how many there are: enough for what is
-/// gathered of a million uniform points, and 1.2 MB.
+/// The most elements of a list that are read before it is known how many there are: enough for what
+/// is gathered of a million uniform points, and 1.2 MB.
 const AHEAD: usize = 1 << 15;
 
 /// The same where points have moved, which leaves more to splaying.
 const AHEAD_OF_MOVED: usize = 1 << 17;
+
+/// Returns how many elements of a list are read ahead for so many points.
+fn ahead(points: usize, has_moved: bool) -> usize {
+    if has_moved { (points / 4).min(AHEAD_OF_MOVED) } else { (points / 16).min(AHEAD) }
+}
 
 /// The tetrahedra that are read for each further star: as a rule more than it has.
 const PER_STAR: usize = 32;
@@ -94,12 +99,12 @@ impl<'a> Device<'a> {
         let (gpu, points) = (run.gpu(), run.control().0.infinite as usize);
         let workgroups = run.workgroups();
         run.buffers().own.gathering.write(gpu, 0, &[gather]);
-        let ahead = if run.has_moved() { AHEAD_OF_MOVED } else { AHEAD };
+        let ahead = ahead(points, run.has_moved());
         let record = |copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>| {
             let gathering = Gathering3::record(copies, stages, memory, ahead, workgroups);
             let aliases = memory.bound.finish.aliases();
             let (failed, uncertain) = (&aliases.failed, &aliases.uncertain);
-            (gathering, Ahead::copy(copies, failed, AHEAD), Ahead::copy(copies, uncertain, AHEAD))
+            (gathering, Ahead::copy(copies, failed, ahead), Ahead::copy(copies, uncertain, ahead))
         };
         let prepare = || {
             meanwhile();

@@ -34,7 +34,7 @@ use rustc_hash::FxHashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The number of unsettled tetrahedra that a thread takes at a time.
-const TETRAHEDRON_GRAIN: usize = 16;
+const TETRAHEDRON_GRAIN: usize = 64;
 
 /// Returns how many of `len` stars a thread takes at a time. A star takes up to a tenth of a
 /// millisecond, so that of a few hundred each is worth handing over.
