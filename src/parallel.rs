@@ -229,6 +229,14 @@ pub(crate) fn with_threads<R: Send>(
     }
 }
 
+/// Frees memory in many pieces, by another thread if there is one.
+pub(crate) fn dispose<T: Send + 'static>(garbage: T) {
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
+    rayon::spawn(move || drop(garbage));
+    #[cfg(not(all(feature = "threads", not(target_arch = "wasm32"))))]
+    drop(garbage);
+}
+
 /// Runs `own` in the calling thread and the `others` in threads of the pool, at the same time as
 /// far as these are free, and returns the results.
 pub(crate) fn beside<S, R: Send>(own: impl FnOnce() -> S, others: Vec<impl FnOnce() -> R + Send>) -> (S, Vec<R>) {

@@ -10,6 +10,12 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     }
     let inserted = atomicLoad(&control.inserted);
     let waiting = control.infinite - inserted - control.merged;
+    let is_far = atomicLoad(&control.inverted) > control.moved_inverted
+        || atomicLoad(&control.violated) > control.moved_violated;
+    if control.moved_simplices != 0 && is_far {
+        // The host will see that, and have the points inserted.
+        atomicStore(&control.active_len[control.iteration & 1], 0u);
+    }
     let unchecked = atomicLoad(&control.active_len[control.iteration & 1]);
     let flips = atomicLoad(&control.flips_23) + atomicLoad(&control.flips_32) + atomicLoad(&control.flips_22);
     control.log[control.round % LOGGED] = array(inserted, unchecked, flips, control.iterations, control.few_done);

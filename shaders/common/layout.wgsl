@@ -34,6 +34,8 @@ struct Control {
     moved_simplices: u32,
     moved_ghosts: u32,
     moved_spread: u32,
+    moved_inverted: u32,
+    moved_violated: u32,
 
     iteration: u32,
     link_iteration: u32,

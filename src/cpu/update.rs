@@ -76,6 +76,13 @@ impl Limits {
         }
     }
 
+    /// Returns the most inverted and the most changed of so many simplices that [`check`](Self::check)
+    /// lets pass.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn most(&self, simplices: f64) -> [u32; 2] {
+        [self.inverted, self.changed].map(|share| (FEW + share * simplices) as u32)
+    }
+
     /// Returns why it does not pay to repair so much of so many simplices by one thread.
     pub(crate) fn check(&self, inverted: f64, changed: f64, simplices: f64) -> Result<(), Restart> {
         if inverted > FEW + self.inverted * simplices {

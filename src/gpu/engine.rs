@@ -129,8 +129,8 @@ pub(crate) struct Moved<'a, const D: usize>
 where
     Dimension<D>: Dim<D>,
 {
-    /// Its field `duplicate_of`.
-    pub(crate) duplicate_of: &'a [i32],
+    /// Its duplicates, each with the vertex that stands for it.
+    pub(crate) duplicates: Vec<[u32; 2]>,
     /// The vertices of a simplex that is positively oriented where the points are now.
     pub(crate) spanning: Corners<D>,
     /// Receives what was done.
@@ -154,6 +154,8 @@ where
     pub(crate) resident: bool,
     /// For a mesh whose points have moved, what is known of it.
     pub(crate) moved: Option<Moved<'a, D>>,
+    /// The field `duplicate_of` of a mesh without duplicates, once it is prepared.
+    pub(crate) duplicate_of: Vec<i32>,
     /// Receives the statistics.
     pub(crate) stats: &'a mut Stats,
     /// Times the phases.
@@ -174,16 +176,23 @@ where
         }
     }
 
+    /// Prepares what takes memory for each point, while the device is at work.
+    pub(crate) fn prepare(&mut self) {
+        self.duplicate_of = parallel::filled(Threads::All, self.points.len(), NONE);
+    }
+
     /// Returns the points that Phase 1 did not insert although they are not duplicates, each with
     /// the vertex at the same place of the lattice, and the field `duplicate_of` of the mesh.
     pub(crate) fn missing(&mut self, merged: &[[u32; 2]]) -> (Vec<[u32; 2]>, Vec<i32>) {
-        let mut duplicate_of = parallel::filled(Threads::All, self.points.len(), NONE);
+        if self.duplicate_of.is_empty() {
+            self.prepare();
+        }
+        let mut duplicate_of = std::mem::take(&mut self.duplicate_of);
         let mut missing = missing_points(self.points, merged, &mut duplicate_of);
         if let Some(moved) = &mut self.moved {
             // The mesh lacks what was a duplicate. The vertex of its place then is still one.
-            let parted = (0..).zip(moved.duplicate_of.iter().zip(&duplicate_of));
-            let parted = parted.filter(|&(_, (&before, &now))| before != NONE && now == NONE);
-            missing = parted.map(|(v, (&before, _))| [v, before as u32]).collect();
+            let parted = moved.duplicates.iter().filter(|&&[v, _]| duplicate_of[v as usize] == NONE);
+            missing = parted.copied().collect();
             moved.update.inserted = missing.len();
         }
         (missing, duplicate_of)
@@ -395,6 +404,7 @@ where
             adapter: &gpu.adapter().name,
             resident: settings.sparse || resident,
             moved,
+            duplicate_of: Vec::new(),
             stats: &mut stats,
             stopwatch,
         };
@@ -441,12 +451,14 @@ where
 async fn take<'a, const D: usize>(
     run: &mut Run<'_, D>,
     input: &Input<'_, D>,
-    mesh: &'a DeviceMesh<D>,
+    mesh: &DeviceMesh<D>,
     update: &'a mut UpdateStats,
 ) -> Result<Option<Moved<'a, D>>, Error>
 where
     Dimension<D>: Complete<D>,
 {
+    // The device orders the points now.
+    let duplicates = duplicates(mesh.duplicate_of());
     let restarted = if usize::from(mesh.dimension()) != D {
         Err(Restart::Degenerate)
     } else if !mesh.gpu().is_same(run.gpu()) {
@@ -458,14 +470,14 @@ where
                 (update.inverted, update.not_locally_delaunay) = (inverted, changed);
                 let pays = run.settings().limits.check(inverted as f64, changed as f64, mesh.simplex_count() as f64);
                 match pays {
-                    Ok(()) => check_duplicates(mesh.duplicate_of(), &run.read_merged().await?),
+                    Ok(()) => check_duplicates(mesh, &duplicates, &run.read_merged().await?),
                     Err(why) => Err(why),
                 }
             }
         }
     };
     match restarted {
-        Ok(()) => Ok(Some(Moved { duplicate_of: mesh.duplicate_of(), spanning: input.start.first, update })),
+        Ok(()) => Ok(Some(Moved { duplicates, spanning: input.start.first, update })),
         Err(why) => {
             update.restarted = Some(why);
             run.forget(input);
@@ -474,15 +486,28 @@ where
     }
 }
 
+/// Returns the duplicates, each with the vertex that stands for it.
+fn duplicates(duplicate_of: &[i32]) -> Vec<[u32; 2]> {
+    let parts = parallel::map_ranges(Threads::All, duplicate_of.len(), |range| {
+        let of_range = range.clone().zip(&duplicate_of[range]);
+        let duplicates = of_range.filter(|&(_, &first)| first != NONE);
+        duplicates.map(|(v, &first)| [v as u32, first as u32]).collect::<Vec<_>>()
+    });
+    parallel::joined(parts)
+}
+
 /// Returns why a mesh cannot be repaired that had these duplicates, where these points are at the
 /// same places of the lattice now.
-fn check_duplicates(duplicate_of: &[i32], merged: &[[u32; 2]]) -> Result<(), Restart> {
-    if merged.iter().any(|&[v, _]| duplicate_of[v as usize] == NONE) {
+fn check_duplicates<const D: usize>(
+    mesh: &DeviceMesh<D>,
+    duplicates: &[[u32; 2]],
+    merged: &[[u32; 2]],
+) -> Result<(), Restart> {
+    if merged.iter().any(|&[v, _]| mesh.duplicate_of()[v as usize] == NONE) {
         return Err(Restart::Coincident);
     }
     // All of these were duplicates.
-    let before = duplicate_of.iter().filter(|&&first| first != NONE).count();
-    if before - merged.len() > duplicate_of.len() / PARTED {
+    if duplicates.len() - merged.len() > mesh.point_count() / PARTED {
         return Err(Restart::Parted);
     }
     Ok(())

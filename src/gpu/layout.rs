@@ -251,6 +251,10 @@ pub struct Params {
     pub moved_ghosts: u32,
     /// By how much the slots of these are spread: the unused slots per 1,024 that are used.
     pub moved_spread: u32,
+    /// With more inverted simplices than this, nothing is flipped: the points are inserted after all.
+    pub moved_inverted: u32,
+    /// The same for facets that are not locally Delaunay.
+    pub moved_violated: u32,
 }
 assert_layout!(Params);
 

@@ -20,6 +20,10 @@ const PIECE: u64 = 32 << 20;
 /// The pieces that are on their way at a time.
 const PIECES_AHEAD: usize = 4;
 
+/// From how many bytes on threads share a copy.
+#[cfg(not(target_arch = "wasm32"))]
+const SHARED_FROM: usize = 1 << 20;
+
 /// A pool of staging buffers. Clones share it.
 ///
 /// A readback has two halves, so that the next batch of commands can run while the host waits:
@@ -38,6 +42,18 @@ pub struct Pending<T> {
     staged: Staged,
     len: usize,
     elements: std::marker::PhantomData<T>,
+}
+
+impl<T> Pending<T> {
+    /// Returns the number of elements that are received.
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Returns the same, of which no more than the first `len` elements are received.
+    pub(crate) fn first(self, len: usize) -> Self {
+        Pending { len: self.len.min(len), ..self }
+    }
 }
 
 /// A staging buffer that is about to be mapped.
@@ -242,7 +258,8 @@ impl Target for &mut [u8] {
     #[cfg(not(target_arch = "wasm32"))]
     fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView) {
         let target = &mut self[start as usize..(start + len) as usize];
-        for_chunks(Threads::All, target, |at, chunk| chunk.copy_from_slice(&piece[at..at + chunk.len()]));
+        let threads = if target.len() < SHARED_FROM { Threads::One } else { Threads::All };
+        for_chunks(threads, target, |at, chunk| chunk.copy_from_slice(&piece[at..at + chunk.len()]));
     }
 
     #[cfg(target_arch = "wasm32")]
@@ -289,7 +306,7 @@ fn copied<T: Pod>(view: &wgpu::BufferView, len: usize) -> Vec<T> {
     let words = js_sys::Uint32Array::new_with_byte_offset_and_length(
         &bytes.buffer(),
         bytes.byte_offset(),
-        bytes.byte_length() / 4,
+        (bytes.byte_length() / 4).min((with_room(len) * size_of::<T>()).div_ceil(4) as u32),
     );
     let cast = bytemuck::allocation::try_cast_vec(words.to_vec());
     let mut result: Vec<T> = cast.unwrap_or_else(|(_, words)| bytemuck::allocation::pod_collect_to_vec(&words));

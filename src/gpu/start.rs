@@ -59,13 +59,12 @@ where
     Dimension<D>: Dim<D>,
 {
     let sample = || (0..count).step_by(stride);
+    // To find where a point is takes longer than all that follows.
+    let places: Vec<[f64; D]> = sample().map(|i| position(i).map(|x| x as f64)).collect();
     let mut first = Vec::with_capacity(D + 1);
     let mut chosen = Vec::with_capacity(D);
     for _ in 0..=D {
-        let measured = sample().map(|i| {
-            let p = position(i).map(|x| x as f64);
-            (<Dimension<D>>::spread(&chosen, p), i, p)
-        });
+        let measured = sample().zip(&places).map(|(i, &p)| (<Dimension<D>>::spread(&chosen, p), i, p));
         let (_, i, p) = measured.max_by(|(m, ..), (n, ..)| m.total_cmp(n))?;
         first.push(i);
         chosen.push(p);

@@ -1,20 +1,25 @@
 //! What the kernels of a round have to know of what the last one left.
 
 use crate::dimension::Dimension;
-use crate::gpu::layout::{LOGGED, NONE};
+use crate::gpu::layout::{LOGGED, NONE, Params};
 
 use crate::reference::State;
 use crate::reference::dim::ReferenceDim;
 
-/// Begins an insertion round, and decides whether the list of waiting points is compacted. One
+/// Begins an insertion round, and decides whether the list of waiting points is compacted, and
+/// whether so much is wrong with a mesh whose points have moved that nothing is flipped. One
 /// invocation.
 pub fn begin_round<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: ReferenceDim<D>,
 {
     let waiting = state.params.infinite - state.counters.inserted - state.counters.merged;
-    let progress = state.counters.progress();
     let counters = &mut state.counters;
+    let Params { moved_simplices, moved_inverted, moved_violated, .. } = state.params;
+    if moved_simplices != 0 && (counters.inverted > moved_inverted || counters.violated > moved_violated) {
+        counters.active_len[counters.iteration as usize & 1] = 0;
+    }
+    let progress = counters.progress();
     counters.log[counters.round as usize % LOGGED] = progress;
     counters.round += 1;
     counters.first_node = counters.next_node;

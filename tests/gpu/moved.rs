@@ -12,7 +12,7 @@ use gdel::internals::{
         start::first_simplex,
     },
     input::{lattice::Width, points::Points},
-    reference::{State, Vertex, dim::Kernels},
+    reference::{self, State, Vertex, dim::Kernels},
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -136,6 +136,34 @@ where
         let from = positions::<D>(300, 1_000_000);
         assert!(signs_are_right(width, &from, &displaced(&from, 50_000)) > 3);
     }
+}
+
+/// Nothing is flipped of a mesh of which more is wrong than the parameters allow.
+fn meshes_with_too_many_wrong_simplices_are_left<const D: usize>()
+where
+    Dimension<D>: Kernels<D> + Own<D> + MeshArrays<D> + Incremental<D>,
+    MeshOf<D>: Sync,
+{
+    let from = positions::<D>(300, 1_000_000);
+    let taken = taken(Width::Wide, &from, &displaced(&from, 50_000));
+    let all = taken.counters.active_len[0];
+    assert!(all > 0);
+    for (moved_inverted, moved_violated, active) in [(u32::MAX, u32::MAX, all), (0, u32::MAX, 0), (u32::MAX, 0, 0)] {
+        let mut state = taken.clone();
+        state.params = Params { moved_inverted, moved_violated, ..state.params };
+        Device::new(Width::Wide, &state).equal("begin_round", &mut state, reference::begin_round);
+        assert_eq!(state.counters.active_len[0], active, "at most {moved_inverted} and {moved_violated}");
+    }
+}
+
+#[test]
+fn tetrahedra_are_left_where_too_many_are_wrong() {
+    meshes_with_too_many_wrong_simplices_are_left::<3>();
+}
+
+#[test]
+fn triangles_are_left_where_too_many_are_wrong() {
+    meshes_with_too_many_wrong_simplices_are_left::<2>();
 }
 
 #[test]

@@ -44,7 +44,7 @@ impl Complete<2> for Dimension<2> {
     }
 
     async fn complete(run: Run<'_, 2>, mut near: Near<'_, 2>, _tracer: ()) -> Result<Result<Made<2>, Fallback>, Error> {
-        let (mut ended, _, ()) = run.end(|_, _, _| ()).await?;
+        let (mut ended, _, (), ()) = run.end(|_, _, _| (), || near.prepare()).await?;
         if near.moved.is_some() && ended.counters.failed > 0 {
             // Triangles are still inverted.
             near.stats.gpu = Some(ended.release().summary(near.adapter));

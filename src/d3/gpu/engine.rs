@@ -56,7 +56,8 @@ impl Complete<3> for Dimension<3> {
         // In wasm, one thread would splay and copy the whole mesh, in memory of its own.
         #[cfg(not(target_arch = "wasm32"))]
         if !near.resident {
-            let output = run.finish().await?;
+            let mut near = near;
+            let output = run.finish(|| near.prepare()).await?;
             return whole::complete(output, near, tracer);
         }
         complete_on_device(run, near, tracer).await
@@ -70,7 +71,7 @@ async fn complete_on_device(
     mut tracer: Option<Tracer>,
 ) -> Result<Result<Made<3>, Fallback>, Error> {
     let count = near.points.len();
-    let (mut device, begun) = Device::end(run).await?;
+    let (mut device, begun) = Device::end(run, || near.prepare()).await?;
     near.end_of_phase1(&device.ended.stats);
     let (missing, duplicate_of) = near.missing(&device.ended.read_merged().await?);
     let Near { points, lattice, options, adapter, moved, stats, stopwatch, .. } = near;

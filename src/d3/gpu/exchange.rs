@@ -21,9 +21,20 @@ use crate::{
 };
 use bytemuck::Pod;
 
-/// How many elements of a list are read before it is known how many there are: enough for what is
-/// gathered of a million uniform points, and 1.2 MB.
+/// The most elements of a list that are read before it is known how many there are: enough for what
+/// is gathered of a million uniform points, and 1.2 MB.
 const AHEAD: usize = 1 << 15;
+
+/// The same where points have moved, which leaves more to splaying.
+const AHEAD_OF_MOVED: usize = 1 << 17;
+
+/// Returns how many elements of a list are read ahead for so many points.
+fn ahead(points: usize, has_moved: bool) -> usize {
+    if has_moved { (points / 4).min(AHEAD_OF_MOVED) } else { (points / 16).min(AHEAD) }
+}
+
+/// The tetrahedra that are read for each further star: as a rule more than it has.
+const PER_STAR: usize = 32;
 
 /// A list of which the first elements are being read.
 struct Ahead<T> {
@@ -32,8 +43,8 @@ struct Ahead<T> {
 }
 
 impl<T: Pod> Ahead<T> {
-    fn copy(copies: &mut Copies<'_>, source: &Storage<T>) -> Self {
-        Ahead { source: source.clone(), first: copies.copy(source, AHEAD.min(source.len())) }
+    fn copy(copies: &mut Copies<'_>, source: &Storage<T>, len: usize) -> Self {
+        Ahead { source: source.clone(), first: copies.copy(source, len.min(source.len())) }
     }
 }
 
@@ -47,15 +58,15 @@ struct Gathering3 {
 
 impl Gathering3 {
     /// Records gathering, and that its result is read.
-    fn record(copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>, workgroups: u32) -> Self {
+    fn record(copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>, ahead: usize, workgroups: u32) -> Self {
         let bound = &memory.bound.finish;
         stages.finish.record(&mut copies.recorder, bound, &bound.gather, workgroups);
         let (aliases, own) = (bound.aliases(), &memory.buffers.own);
         Gathering3 {
             count: copies.copy_from(bound.gather_sums(), GROUPS, 1),
-            tetrahedra: Ahead::copy(copies, &aliases.gathered_tetrahedra),
-            neighbors: Ahead::copy(copies, &aliases.gathered_neighbors),
-            slots: Ahead::copy(copies, &own.gathered_slots),
+            tetrahedra: Ahead::copy(copies, &aliases.gathered_tetrahedra, ahead),
+            neighbors: Ahead::copy(copies, &aliases.gathered_neighbors, ahead),
+            slots: Ahead::copy(copies, &own.gathered_slots, ahead),
         }
     }
 }
@@ -74,24 +85,32 @@ pub(crate) struct Device<'a> {
 }
 
 impl<'a> Device<'a> {
-    /// Ends the run, and gathers what splaying begins with.
+    /// Ends the run, and gathers what splaying begins with. The host does `meanwhile` before it waits
+    /// for the device.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub(crate) async fn end(run: Run<'a, 3>) -> Result<(Self, Result<Begun, Aborted>), Error> {
+    pub(crate) async fn end(
+        run: Run<'a, 3>,
+        meanwhile: impl FnOnce(),
+    ) -> Result<(Self, Result<Begun, Aborted>), Error> {
         let gather = Gathering { first: 1, patched: 0 };
         let (gpu, points) = (run.gpu(), run.control().0.infinite as usize);
         let workgroups = run.workgroups();
         run.buffers().own.gathering.write(gpu, 0, &[gather]);
-        let (ended, submission, (gathering, failed, uncertain)) = run
-            .end(|copies, stages, memory| {
-                let gathering = Gathering3::record(copies, stages, memory, workgroups);
-                let aliases = memory.bound.finish.aliases();
-                let (failed, uncertain) = (&aliases.failed, &aliases.uncertain);
-                (gathering, Ahead::copy(copies, failed), Ahead::copy(copies, uncertain))
-            })
-            .await?;
+        let ahead = ahead(points, run.has_moved());
+        let record = |copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>| {
+            let gathering = Gathering3::record(copies, stages, memory, ahead, workgroups);
+            let aliases = memory.bound.finish.aliases();
+            let (failed, uncertain) = (&aliases.failed, &aliases.uncertain);
+            (gathering, Ahead::copy(copies, failed, ahead), Ahead::copy(copies, uncertain, ahead))
+        };
+        let prepare = || {
+            meanwhile();
+            Region::new(points, Threads::All)
+        };
+        let (ended, submission, (gathering, failed, uncertain), region) = run.end(record, prepare).await?;
         let (failed_len, uncertain_len) = (ended.counters.failed as usize, ended.counters.uncertain as usize);
         let mut device = Device { ended };
         let gathered = device.receive(&submission, gathering).await?;
@@ -101,7 +120,7 @@ impl<'a> Device<'a> {
         failed.sort_unstable();
         let mut uncertain: Vec<u32> = uncertain.into_iter().map(|Active { tet, .. }| tet).collect();
         uncertain.sort_unstable();
-        Ok((device, begin(points, gathered, failed, uncertain)))
+        Ok((device, begin(region, gathered, failed, uncertain)))
     }
 
     /// Receives what is gathered, and reads the rest of it if there is more than was read ahead.
@@ -112,25 +131,26 @@ impl<'a> Device<'a> {
         let mut copied = Copied { readback: &mut kernels.readback, gpu, submission: submission.clone() };
         let count = copied.receive(count).await?[0] as usize;
         let mut rest = None;
-        if count > AHEAD {
+        let ahead = tetrahedra.first.len();
+        if count > ahead {
             stats.submits += 1;
             let readback = &mut *copied.readback;
             let submitted = gpu.with_error_scope("gathered stars", || {
                 let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, None) };
-                let len = count - AHEAD;
+                let len = count - ahead;
                 let lists = (
-                    copies.copy_from(&tetrahedra.source, AHEAD, len),
-                    copies.copy_from(&neighbors.source, AHEAD, len),
-                    copies.copy_from(&slots.source, AHEAD, len),
+                    copies.copy_from(&tetrahedra.source, ahead, len),
+                    copies.copy_from(&neighbors.source, ahead, len),
+                    copies.copy_from(&slots.source, ahead, len),
                 );
                 Ok((copies.recorder.submit(gpu), lists))
             });
             rest = Some(submitted.await?);
         }
         let mut gathered = Gathered {
-            tetrahedra: copied.receive(tetrahedra.first).await?,
-            neighbors: copied.receive(neighbors.first).await?,
-            slots: copied.receive(slots.first).await?,
+            tetrahedra: copied.receive(tetrahedra.first.first(count)).await?,
+            neighbors: copied.receive(neighbors.first.first(count)).await?,
+            slots: copied.receive(slots.first.first(count)).await?,
         };
         if let Some((submission, (tetrahedra, neighbors, slots))) = rest {
             copied.submission = submission;
@@ -138,9 +158,6 @@ impl<'a> Device<'a> {
             gathered.neighbors.extend(copied.receive(neighbors).await?);
             gathered.slots.extend(copied.receive(slots).await?);
         }
-        gathered.tetrahedra.truncate(count);
-        gathered.neighbors.truncate(count);
-        gathered.slots.truncate(count);
         Ok(gathered)
     }
 
@@ -152,12 +169,11 @@ impl<'a> Device<'a> {
         len: usize,
     ) -> Result<Vec<T>, Error> {
         let Ended { gpu, kernels, stats, .. } = &mut self.ended;
-        let mut list = kernels.readback.receive(gpu, submission, ahead.first).await?;
+        let mut list = kernels.readback.receive(gpu, submission, ahead.first.first(len)).await?;
         if len > list.len() {
             stats.submits += 1;
             list.extend(kernels.readback.read(gpu, &ahead.source, list.len(), len - list.len()).await?);
         }
-        list.truncate(len);
         Ok(list)
     }
 
@@ -172,13 +188,14 @@ impl<'a> Device<'a> {
         let gpu: &Gpu = gpu;
         let own = &memory.buffers.own;
         let mut wanted = vec![0u32; own.wanted.len()];
+        let ahead = vertices.len().saturating_mul(PER_STAR).min(AHEAD);
         vertices.iter().for_each(|&v| wanted[v as usize / 32] |= 1 << (v % 32));
         let (submission, gathering) = gpu
             .with_error_scope("gathering stars", || {
                 own.wanted.write(gpu, 0, &wanted);
                 own.gathering.write(gpu, 0, &[Gathering { first, patched: 0 }]);
                 let mut copies = Copies { readback: &mut kernels.readback, gpu, recorder: Recorder::new(gpu, None) };
-                let gathering = Gathering3::record(&mut copies, &kernels.stages, memory, *workgroups);
+                let gathering = Gathering3::record(&mut copies, &kernels.stages, memory, ahead, *workgroups);
                 stats.dispatches += copies.recorder.dispatches();
                 stats.submits += 1;
                 Ok((copies.recorder.submit(gpu), gathering))
@@ -269,9 +286,10 @@ impl<'a> Device<'a> {
     }
 }
 
-/// Returns the region of what was gathered first, and the doubts by its numbers.
-fn begin(points: usize, gathered: Gathered, failed: Vec<u32>, uncertain: Vec<u32>) -> Result<Begun, Aborted> {
-    let mut region = Region::new(points, Threads::All);
+/// Adds what was gathered first to a region that has nothing yet. Returns it with the doubts by its
+/// numbers.
+fn begin(mut region: Region, gathered: Gathered, failed: Vec<u32>, uncertain: Vec<u32>) -> Result<Begun, Aborted> {
+    let infinite = region.infinite();
     let first = region.next();
     // Both are in the order of the mesh.
     let mut slots = (first..).zip(&gathered.slots);
@@ -279,7 +297,7 @@ fn begin(points: usize, gathered: Gathered, failed: Vec<u32>, uncertain: Vec<u32
     let uncertain: Option<Vec<u32>> = uncertain.into_iter().map(number).collect();
     let uncertain = uncertain.ok_or(Aborted::Inconsistent("an uncertain tetrahedron was not gathered"))?;
     let corners = uncertain.iter().flat_map(|&t| gathered.tetrahedra[(t - first) as usize]);
-    let stars: Vec<u32> = corners.filter(|&v| v != points as u32).chain(failed.iter().copied()).collect();
+    let stars: Vec<u32> = corners.filter(|&v| v != infinite).chain(failed.iter().copied()).collect();
     region.add(stars, gathered, Threads::All)?;
     Ok(Begun { region, doubts: Doubts { failed, uncertain, missing: Vec::new() } })
 }

@@ -7,6 +7,7 @@ use crate::d3::splay::{
     predicates::StarPredicates,
     region::Region,
     star::{Changes, LinkFinder, Star, Triangle},
+    vertex_set::VertexSet,
 };
 use crate::{
     index::NO_INDEX,
@@ -17,8 +18,8 @@ use rustc_hash::FxHashSet;
 /// The triangulation as far as it is here, and what is known about it.
 pub(super) struct Known {
     pub(super) region: Region,
-    /// For each vertex, whether it belongs to a tetrahedron or facet that has failed.
-    pub(super) failed: Vec<bool>,
+    /// The vertices of tetrahedra and facets that have failed.
+    pub(super) failed: VertexSet,
     /// The finite tetrahedra that are not positively oriented.
     pub(super) inverted: FxHashSet<u32>,
 }
@@ -47,13 +48,13 @@ impl Known {
     ) -> Result<(Star, Origin), Aborted> {
         let mut star = links.star(&self.region.mesh, v, self.region.incident[v as usize])?;
         let is_oriented = self.is_oriented(predicates, &star);
-        if is_oriented && !self.failed[v as usize] {
+        if is_oriented && !self.failed.has(v) {
             return Ok((star, Origin::Pulled));
         }
         // Triangles that the triangulation has, but the star no longer has.
         let mut removed = Vec::new();
         // All other edges are locally Delaunay.
-        let may_fail = |v: u32| v == predicates.infinite() || self.failed[v as usize];
+        let may_fail = |v: u32| v == predicates.infinite() || self.failed.has(v);
         let flips = is_oriented.then(|| flip_flop(&mut star, predicates, may_fail, &mut removed)).flatten();
         if flips.is_none() {
             removed.extend(star.used().filter(|t| t.tetrahedron != NO_INDEX));

@@ -30,22 +30,27 @@ use crate::{
     parallel::{self, Threads},
     stats::SplayStats,
 };
+use rustc_hash::FxHashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The number of stars that a thread takes at a time.
-const STAR_GRAIN: usize = 4;
 /// The number of unsettled tetrahedra that a thread takes at a time.
 const TETRAHEDRON_GRAIN: usize = 64;
+
+/// Returns how many of `len` stars a thread takes at a time. A star takes up to a tenth of a
+/// millisecond, so that of a few hundred each is worth handing over.
+fn star_grain(len: usize) -> usize {
+    (len / 1024).clamp(1, 4)
+}
 
 /// The stars, on their way to consistency.
 pub(super) struct Splaying {
     pub(super) known: Known,
     pub(super) threads: Threads,
     /// In a round, each star is changed by one thread only.
-    stars: Vec<Mutex<Star>>,
-    /// For each vertex, its place in `stars` plus 1, or 0.
-    star_of: Vec<u32>,
-    ledger: Ledger,
+    pub(super) stars: Vec<Mutex<Star>>,
+    /// The place in `stars` of each vertex that has one.
+    star_of: FxHashMap<u32, u32>,
+    pub(super) ledger: Ledger,
     /// The tetrahedra that are unsettled.
     unsettled: Vec<Key>,
     /// What a round is to do, while stars are missing for it.
@@ -79,7 +84,7 @@ impl Splaying {
             known,
             threads,
             stars: Vec::new(),
-            star_of: vec![0; infinite as usize + 1],
+            star_of: FxHashMap::default(),
             ledger: Ledger::new(infinite, threads),
             unsettled: Vec::new(),
             requests: Vec::new(),
@@ -128,7 +133,7 @@ impl Splaying {
                 self.stats.checks += self.unsettled.len();
                 self.requests = self.requests(predicates)?;
             }
-            let pulled = self.requests.iter().map(|r| r.vertex).filter(|&v| self.star_of[v as usize] == 0);
+            let pulled = self.requests.iter().map(|r| r.vertex).filter(|v| !self.star_of.contains_key(v));
             let lacking = self.known.region.lacking(pulled);
             if !lacking.is_empty() {
                 return Ok(lacking);
@@ -165,12 +170,13 @@ impl Splaying {
 
     /// Makes the stars of these vertices, which have failed, convex.
     fn make_convex(&self, predicates: &StarPredicates<'_>, vertices: &[u32]) -> Result<Vec<BatchResult>, Aborted> {
-        let results = predicates.shared(self.threads, vertices.len(), STAR_GRAIN, |predicates, range| {
-            let (mut links, mut entries) = (LinkFinder::default(), Vec::new());
-            let star = |&v: &u32| self.known.convex_star(predicates, &mut links, v, &mut entries);
-            let stars = vertices[range].iter().map(star).collect::<Result<Vec<_>, _>>()?;
-            Ok(BatchResult { stars, entries: self.ledger.sorted(entries), insertions: 0 })
-        });
+        let results =
+            predicates.shared(self.threads, vertices.len(), star_grain(vertices.len()), |predicates, range| {
+                let (mut links, mut entries) = (LinkFinder::default(), Vec::new());
+                let star = |&v: &u32| self.known.convex_star(predicates, &mut links, v, &mut entries);
+                let stars = vertices[range].iter().map(star).collect::<Result<Vec<_>, _>>()?;
+                Ok(BatchResult { stars, entries: self.ledger.sorted(entries), insertions: 0 })
+            });
         results.into_iter().collect()
     }
 
@@ -184,7 +190,7 @@ impl Splaying {
                     Origin::FromPoints => self.stats.from_points += 1,
                 }
                 self.stats.built += usize::from(origin != Origin::Pulled);
-                self.star_of[star.vertex as usize] = self.stars.len() as u32 + 1;
+                self.star_of.insert(star.vertex, self.stars.len() as u32);
                 self.stars.push(Mutex::new(star));
             }
             self.stats.insertions += insertions;
@@ -194,8 +200,8 @@ impl Splaying {
 
     /// Returns the star of a vertex, if it has been built.
     fn star(&self, v: u32) -> Option<MutexGuard<'_, Star>> {
-        let place = (self.star_of[v as usize] as usize).checked_sub(1)?;
-        Some(self.stars[place].lock().unwrap_or_else(PoisonError::into_inner))
+        let &place = self.star_of.get(&v)?;
+        Some(self.stars[place as usize].lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// Returns the requests for all unsettled tetrahedra, sorted by vertex.
@@ -243,25 +249,26 @@ impl Splaying {
         predicates: &StarPredicates<'_>,
         requests: &[&[Request]],
     ) -> Result<Vec<BatchResult>, Aborted> {
-        let results = predicates.shared(self.threads, requests.len(), STAR_GRAIN, |predicates, range| {
-            let (mut links, mut changes) = (LinkFinder::default(), Changes::default());
-            let (mut stars, mut entries, mut insertions) = (Vec::new(), Vec::new(), 0);
-            for requests in &requests[range] {
-                let v = requests[0].vertex;
-                let mut widen = |star: &mut Star, entries: &mut Vec<Entry>| {
-                    self.widen(predicates, star, requests, &mut changes, entries)
-                };
-                match self.star(v) {
-                    Some(mut star) => insertions += widen(&mut star, &mut entries)?,
-                    None => {
-                        let (mut star, origin) = self.known.convex_star(predicates, &mut links, v, &mut entries)?;
-                        insertions += widen(&mut star, &mut entries)?;
-                        stars.push((star, origin));
+        let results =
+            predicates.shared(self.threads, requests.len(), star_grain(requests.len()), |predicates, range| {
+                let (mut links, mut changes) = (LinkFinder::default(), Changes::default());
+                let (mut stars, mut entries, mut insertions) = (Vec::new(), Vec::new(), 0);
+                for requests in &requests[range] {
+                    let v = requests[0].vertex;
+                    let mut widen = |star: &mut Star, entries: &mut Vec<Entry>| {
+                        self.widen(predicates, star, requests, &mut changes, entries)
+                    };
+                    match self.star(v) {
+                        Some(mut star) => insertions += widen(&mut star, &mut entries)?,
+                        None => {
+                            let (mut star, origin) = self.known.convex_star(predicates, &mut links, v, &mut entries)?;
+                            insertions += widen(&mut star, &mut entries)?;
+                            stars.push((star, origin));
+                        }
                     }
                 }
-            }
-            Ok(BatchResult { stars, entries: self.ledger.sorted(entries), insertions })
-        });
+                Ok(BatchResult { stars, entries: self.ledger.sorted(entries), insertions })
+            });
         results.into_iter().collect()
     }
 

@@ -18,6 +18,9 @@ pub(super) type Key = [u32; 4];
 /// The number of parts of the ledger, each of which is updated by one thread at a time.
 const PARTS: usize = 16;
 
+/// From how many entries on it is worth that threads share them.
+const SHARED_FROM: usize = 1 << 11;
+
 /// Which stars have a tetrahedron.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Held {
@@ -192,7 +195,9 @@ impl Ledger {
     /// some stars of their vertices, but not in all.
     pub(super) fn enter(&mut self, entries: &[Entries]) -> Result<Vec<Key>, Aborted> {
         let infinite = self.infinite;
-        let unsettled = parallel::map_mut(self.threads, &mut self.parts, |i, held_by_key| {
+        let len: usize = entries.iter().map(|entries| entries.sorted.len()).sum();
+        let threads = if len < SHARED_FROM { Threads::One } else { self.threads };
+        let unsettled = parallel::map_mut(threads, &mut self.parts, |i, held_by_key| {
             let mut touched = Vec::new();
             for entry in entries.iter().flat_map(|entries| entries.of_part(i)) {
                 let key = entry.key;
@@ -223,7 +228,9 @@ impl Ledger {
     /// of those to remove, and those to add.
     pub(super) fn difference(&mut self) -> Result<(Vec<u32>, Vec<Key>), Aborted> {
         let infinite = self.infinite;
-        let parts = parallel::map_mut(self.threads, &mut self.parts, |_, held_by_key| {
+        let len: usize = self.parts.iter().map(FxHashMap::len).sum();
+        let threads = if len < SHARED_FROM { Threads::One } else { self.threads };
+        let parts = parallel::map_mut(threads, &mut self.parts, |_, held_by_key| {
             let (mut remove, mut add) = (Vec::new(), Vec::new());
             for (&key, held) in held_by_key.iter() {
                 match (held.by, held.tetrahedron) {

@@ -20,6 +20,7 @@ mod peel;
 pub(in crate::d3) mod predicates;
 mod region;
 mod star;
+mod vertex_set;
 
 use crate::{
     d3::triangulation::{Triangulation3, state},
@@ -34,6 +35,7 @@ use consistency::Splaying;
 use predicates::StarPredicates;
 pub use region::{Gathered, KEEP, Patch, Region};
 use rustc_hash::FxHashSet;
+use vertex_set::VertexSet;
 
 /// The result of Phase 1: a triangulation that is nearly Delaunay, and where it may not be.
 /// A tetrahedron that is not `uncertain` is taken to be positively oriented, and its facets to be
@@ -243,8 +245,8 @@ impl Splay {
         failed.retain(|&v| v != infinite);
         failed.sort_unstable();
         failed.dedup();
-        let mut has_failed = vec![false; infinite as usize + 1];
-        failed.iter().for_each(|&v| has_failed[v as usize] = true);
+        let mut has_failed = VertexSet::new(infinite as usize);
+        failed.iter().for_each(|&v| has_failed.insert(v));
 
         let stars = Splaying::new(Known { region, failed: has_failed, inverted }, threads);
         let mut splay = Splay { stars, spanning, is_delaunay, free, missing, evaluations: 0 };
@@ -299,7 +301,8 @@ impl Splay {
     /// Returns the region, of the Delaunay triangulation when nothing is lacking any more, and what
     /// splaying did.
     pub fn finish(self) -> (Region, SplayStats) {
-        let Splaying { known: Known { region, .. }, mut stats, .. } = self.stars;
+        let Splaying { known: Known { region, .. }, mut stats, stars, ledger, .. } = self.stars;
+        parallel::dispose((stars, ledger));
         stats.signs = self.evaluations;
         [stats.gathers, stats.gathered] = region.gathers;
         (region, stats)

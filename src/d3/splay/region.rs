@@ -7,7 +7,7 @@
 
 use crate::{
     d3::{
-        splay::Aborted,
+        splay::{Aborted, vertex_set::VertexSet},
         triangulation::{Triangulation3, state},
     },
     index::NO_INDEX,
@@ -69,7 +69,7 @@ pub struct Region {
 #[derive(Debug, Clone)]
 enum Complete {
     All,
-    Those(Vec<bool>),
+    Those(VertexSet),
 }
 
 impl Region {
@@ -82,7 +82,7 @@ impl Region {
         Region {
             mesh: Triangulation3::new(outside, vec![[OUTSIDE; 4]], infinite),
             incident: parallel::filled(threads, vertices, NO_INDEX),
-            complete: Complete::Those(vec![false; vertices]),
+            complete: Complete::Those(VertexSet::new(vertices)),
             given: Vec::new(),
             gathers: [0; 2],
         }
@@ -99,6 +99,11 @@ impl Region {
         self.mesh.tetrahedra.len() as u32
     }
 
+    /// Returns the vertex at infinity, which is the number of vertices.
+    pub(in crate::d3) fn infinite(&self) -> u32 {
+        self.mesh.infinite
+    }
+
     /// Returns the vertices of a tetrahedron of the region.
     pub fn tetrahedron(&self, t: u32) -> [u32; 4] {
         self.mesh.vertices(t)
@@ -113,7 +118,7 @@ impl Region {
     pub(super) fn has_star(&self, v: u32) -> bool {
         match &self.complete {
             Complete::All => true,
-            Complete::Those(complete) => complete[v as usize],
+            Complete::Those(complete) => complete.has(v),
         }
     }
 
@@ -163,8 +168,9 @@ impl Region {
                 }
             }
         });
-        // What came earlier did not know of this.
-        let back = parallel::map_ranges(threads, neighbors.len(), |range| {
+        // What came earlier, if anything, did not know of this.
+        let len = if first > 1 { neighbors.len() } else { 0 };
+        let back = parallel::map_ranges(threads, len, |range| {
             let facets = range.flat_map(|t| (0..4).map(move |k| (neighbors[t][k], 4 * (first + t) + k)));
             let to_earlier = |across: u32| across >> 2 != OUTSIDE && ((across >> 2) as usize) < first;
             facets.filter(|&(across, _)| to_earlier(across)).collect::<Vec<_>>()
@@ -184,7 +190,10 @@ impl Region {
         given.push((first, gathered));
         if let Complete::Those(complete) = complete {
             for v in vertices {
-                *complete.get_mut(v as usize).ok_or(DO_NOT_FIT)? = true;
+                if v >= infinite {
+                    return Err(DO_NOT_FIT);
+                }
+                complete.insert(v);
             }
         }
         Ok(())

@@ -117,6 +117,10 @@ const FEW_LIMIT: u32 = 4;
 /// input takes, and so few that a run is not far beyond them when it is found to be slow.
 const FEW_ITERATIONS: u32 = 128;
 
+/// The flip iterations that are recorded at first where points have moved, a dispatch per pass: a
+/// million points that moved by a five-hundredth of their spacing take so many.
+const MOVED_ITERATIONS: u32 = 12;
+
 /// Votes are cleared when the lowest bid is so high: a quarter of the numbers that are left by then
 /// suffices for all rounds that may be submitted before.
 const CLEAR_VOTES_FROM: u32 = 1 << 30;
@@ -285,6 +289,11 @@ where
         self.gpu
     }
 
+    /// Returns whether the run goes on from a mesh whose points have moved.
+    pub(crate) fn has_moved(&self) -> bool {
+        self.has_moved
+    }
+
     /// Returns the settings.
     pub(crate) fn settings(&self) -> &Settings<D> {
         &self.settings
@@ -315,7 +324,9 @@ where
     /// those that are not positively oriented, and that of facets that are not locally Delaunay;
     /// `None` if the arrays of the mesh do not fit each other.
     ///
-    /// The flips that follow repair what they can. [`Run::forget`] has the points inserted instead.
+    /// The flips that follow repair what they can. The first of them are submitted with it; the device
+    /// leaves them out beyond [`Limits`](crate::cpu::update::Limits). [`Run::forget`] has the points
+    /// inserted instead.
     ///
     /// # Errors
     ///
@@ -338,6 +349,7 @@ where
                 self.params.blocks_before = 0;
                 self.params.moved_simplices = simplices as u32;
                 self.params.moved_ghosts = hull as u32;
+                [self.params.moved_inverted, self.params.moved_violated] = self.settings.limits.most(simplices as f64);
                 self.params.moved_spread = (u64::from(free) * 1024 / u64::from(all.max(1))).min(MAX_SPREAD) as u32;
                 let buffers = &self.memory.buffers;
                 buffers.control.write(gpu, 0, bytemuck::cast_slice(&[self.params]));
@@ -349,15 +361,17 @@ where
                 stages.moved.record(gpu, &mut recorder, buffers, arrays, workgroups);
                 self.stats.dispatches += recorder.dispatches();
                 self.stats.submits += 1;
-                self.stats.stalls += 1;
                 let counters = self.read_counters(recorder.encoder());
                 Ok((recorder.submit(gpu), counters))
             })
             .await?;
+        self.has_moved = true;
+        self.iterations = Iterations::new(MOVED_ITERATIONS);
+        self.inserted_at_most = self.params.infinite;
+        self.stats.start_points = 0;
+        self.submit().await?;
         let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
         self.counters = counters_in(&words);
-        self.has_moved = true;
-        self.stats.start_points = 0;
         let Counters { inverted, violated, .. } = self.counters;
         Ok((inverted < MAX_SIMPLICES).then_some([inverted as usize, violated as usize]))
     }
@@ -416,17 +430,16 @@ where
     /// [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when there are more tetrahedra
     /// than the device can hold; [`Error::DeviceLost`] and [`Error::Gpu`].
     pub async fn advance(&mut self) -> Result<bool, Error> {
-        let gpu = self.gpu;
-        while self.submitted.len() < self.settings.batches.max(1) as usize {
-            let batch = gpu.with_error_scope("Phase 1", || self.submit_batch()).await?;
-            self.submitted.push_back(batch);
-            self.stats.submits += 1;
+        // One batch of flips is as a rule enough for points that have moved.
+        let batches = if self.has_moved { 1 } else { self.settings.batches.max(1) as usize };
+        while self.submitted.len() < batches {
+            self.submit().await?;
         }
         let Some(Batch { submission, counters, recorded, rounds }) = self.submitted.pop_front() else {
             return Ok(false);
         };
         self.stats.stalls += usize::from(self.submitted.is_empty());
-        let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
+        let words = self.kernels.readback.receive(self.gpu, &submission, counters).await?;
         let before = std::mem::replace(&mut self.counters, counters_in(&words));
         let read = self.counters;
         let time = self.round_clock.lap() / rounds;
@@ -465,6 +478,14 @@ where
         }
         self.iterations.plan_exact(read.exact.wrapping_sub(before.exact), read.visits.wrapping_sub(before.visits));
         Ok(self.waiting() > 0 || self.active() > 0)
+    }
+
+    /// Submits a batch.
+    async fn submit(&mut self) -> Result<(), Error> {
+        let batch = self.gpu.with_error_scope("Phase 1", || self.submit_batch()).await?;
+        self.submitted.push_back(batch);
+        self.stats.submits += 1;
+        Ok(())
     }
 
     fn submit_batch(&mut self) -> Result<Batch, Error> {
@@ -583,27 +604,28 @@ where
         stats
     }
 
-    /// Makes the mesh and reads it back.
+    /// Makes the mesh and reads it back. The host does `meanwhile` before it waits for the device.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub async fn finish(self) -> Result<Phase1Output<D>, Error> {
-        let (mut ended, _, ()) = self.end(|_, _, _| ()).await?;
+    pub async fn finish(self, meanwhile: impl FnOnce()) -> Result<Phase1Output<D>, Error> {
+        let (mut ended, _, (), ()) = self.end(|_, _, _| (), meanwhile).await?;
         let (result, merged) = ended.read().await?;
         Ok(Phase1Output { result, merged, stats: ended.release() })
     }
 
     /// Makes the mesh and leaves it on the device. `more` records what the same submission is to do
-    /// with it.
+    /// with it; the host does `meanwhile` before it waits for that.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub(crate) async fn end<T>(
+    pub(crate) async fn end<T, U>(
         mut self,
         more: impl FnOnce(&mut Copies<'_>, &Stages, &Memory<D>) -> T,
-    ) -> Result<(Ended<'a, D>, wgpu::SubmissionIndex, T), Error> {
+        meanwhile: impl FnOnce() -> U,
+    ) -> Result<(Ended<'a, D>, wgpu::SubmissionIndex, T, U), Error> {
         let gpu = self.gpu;
         let workgroups = self.workgroups();
         let profiler = self.profiler.take();
@@ -621,6 +643,7 @@ where
                 Ok((copies.recorder.submit(gpu), counters, finite, more))
             })
             .await?;
+        let prepared = meanwhile();
         // What was submitted beyond the end had nothing to do, and came before.
         for Batch { submission, counters, .. } in std::mem::take(&mut self.submitted) {
             self.kernels.readback.receive(gpu, &submission, counters).await?;
@@ -633,7 +656,7 @@ where
         self.stats.counters = counters;
         let Run { kernels, points, memory, read_before, stats, clock, .. } = self;
         let ended = Ended { kernels, gpu, memory, points, counters, finite, workgroups, read_before, stats, clock };
-        Ok((ended, submission, more))
+        Ok((ended, submission, more, prepared))
     }
 }
 
@@ -731,6 +754,6 @@ where
     ) -> Result<Phase1Output<D>, Error> {
         let mut run = Run::new(self, gpu, input, *settings, profiler).await?;
         while run.advance().await? {}
-        run.finish().await
+        run.finish(|| ()).await
     }
 }
