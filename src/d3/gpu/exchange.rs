@@ -25,12 +25,15 @@ use bytemuck::Pod;
 /// is gathered of a million uniform points, and 1.2 MB.
 const AHEAD: usize = 1 << 15;
 
-/// The same where points have moved, which leaves more to splaying.
+/// The fewest: less takes no less time.
+const LEAST_AHEAD: usize = 1 << 13;
+
+/// As [`AHEAD`] where points have moved, which leaves more to splaying.
 const AHEAD_OF_MOVED: usize = 1 << 17;
 
 /// Returns how many elements of a list are read ahead for so many points.
 fn ahead(points: usize, has_moved: bool) -> usize {
-    if has_moved { (points / 4).min(AHEAD_OF_MOVED) } else { (points / 16).min(AHEAD) }
+    if has_moved { (points / 4).clamp(LEAST_AHEAD, AHEAD_OF_MOVED) } else { (points / 16).clamp(LEAST_AHEAD, AHEAD) }
 }
 
 /// The tetrahedra that are read for each further star: as a rule more than it has.
@@ -188,7 +191,7 @@ impl<'a> Device<'a> {
         let gpu: &Gpu = gpu;
         let own = &memory.buffers.own;
         let mut wanted = vec![0u32; own.wanted.len()];
-        let ahead = vertices.len().saturating_mul(PER_STAR).min(AHEAD);
+        let ahead = vertices.len().saturating_mul(PER_STAR).clamp(LEAST_AHEAD, AHEAD);
         vertices.iter().for_each(|&v| wanted[v as usize / 32] |= 1 << (v % 32));
         let (submission, gathering) = gpu
             .with_error_scope("gathering stars", || {
