@@ -1,5 +1,6 @@
 import * as Comlink from 'comlink';
 import { Address, haveSamePoints, wholeHash } from './address';
+import { Cutting } from './cutting';
 import { connect } from './model/client';
 import type { Edit } from './model/edits';
 import type { Drawing, DrawRequest, Summary } from './model/model';
@@ -69,6 +70,7 @@ export class App implements Page {
   /** What was there when the visitor left for the other dimension. */
   private left: Settings | null = null;
   private editing = false;
+  private readonly cutting = new Cutting(this.model);
   private round: number | null = null;
   /** Counts the runs: what an earlier one still says is no longer of interest. */
   private lastRun = 0;
@@ -250,6 +252,7 @@ export class App implements Page {
       }
       Object.assign(before, settings);
       this.summary = summary;
+      this.cutting.forget();
       this.round = null;
       this.drawn = '';
       showResult(summary, titleOf(this.settings.source));
@@ -364,7 +367,21 @@ export class App implements Page {
    */
   private draw(): Promise<void> {
     this.look();
+    this.moveCut();
     return whileBusy(this.followSettings().then(() => this.onScreen()));
+  }
+
+  /** Cuts the mesh on the GPU, if it is there, before the worker knows what is to be seen. */
+  private moveCut(): void {
+    const level = this.cutting.levelOf(this.request().plane);
+    if (level !== null) this.viewer?.moveCut(level);
+  }
+
+  /** Brings the mesh to the GPU, which from then on cuts it by itself. */
+  private async cutOnGpu(): Promise<void> {
+    const device = this.viewer?.device;
+    if (device && (await this.cutting.begin(device, () => this.lastDrawing?.cut)))
+      await this.followSettings();
   }
 
   /** Resolves once the browser shows what the viewer was given. */
@@ -382,7 +399,10 @@ export class App implements Page {
         request = this.request()
       ) {
         this.drawn = JSON.stringify(request);
-        this.show(await this.model.draw(request));
+        const drawing = await this.model.draw(request);
+        if (request.onGpu && drawing.cut && !(await this.cutting.follow(drawing.cut)))
+          this.cutting.forget();
+        else this.show(drawing);
       }
     } finally {
       this.drawing = false;
@@ -394,12 +414,20 @@ export class App implements Page {
     showLegend(drawing, this.settings, this.summary?.colorSource != null);
     for (const part of this.parts) part.drew?.(drawing);
     if (!this.viewer) return;
-    this.viewer.showSurface(drawing.surface);
+    const { cut } = drawing;
+    const onGpu = cut && !drawing.surface ? this.cutting.ready : null;
+    // The plane may have moved on meanwhile.
+    const level = (onGpu && this.cutting.levelOf(this.request().plane)) ?? drawing.level;
+    if (onGpu) this.viewer.showCut(onGpu, level, cut!.skin);
+    else this.viewer.showSurface(drawing.surface);
+    this.cutting.free();
+    if (cut && !onGpu) void this.cutOnGpu();
+    byId('stage').dataset.cut = this.viewer.cutBy;
     this.viewer.showPieces(drawing.pieces);
     this.viewer.showVoronoi(drawing.voronoi);
     const { planeNormal, pointsAbove } = this.viewer.look;
     planeNormal.value.set(...this.view.normal);
-    pointsAbove.value = Math.min(drawing.level, 1e9);
+    pointsAbove.value = Math.min(level, 1e9);
     this.look();
   }
 
@@ -415,6 +443,7 @@ export class App implements Page {
       skin: layers.skin,
       voronoi: layers.voronoi,
       cells: layers.voronoi && this.settings.source.dimension === 3 ? apart : null,
+      onGpu: this.cutting.ready !== null,
     };
   }
 
@@ -435,6 +464,7 @@ export class App implements Page {
     viewer.look.ownColors.value = layers.skin ? 1 : 0;
     viewer.look.fill.value = layers.simplices ? 1 : 0;
     viewer.setVisible('surface', layers.simplices);
+    viewer.setVisible('cut', layers.simplices);
     viewer.setVisible('flat', layers.simplices || layers.edges);
     viewer.setVisible('pieces', layers.simplices);
     viewer.setVisible('voronoi', layers.voronoi);
