@@ -31,6 +31,8 @@ export class Cut {
   private readonly uniforms: GPUBuffer;
   private readonly bindings: GPUBindGroup;
   private readonly own: GPUBuffer[];
+  /** What is listed; null if that is out of date. */
+  private listed: { level: number; skin: boolean } | null = null;
 
   private constructor(
     private readonly device: GPUDevice,
@@ -56,7 +58,7 @@ export class Cut {
     });
   }
 
-  /** Resolves to null where the device has no room for the mesh. */
+  /** Resolves to null where the device has no room for the mesh, or does not take the kernels. */
   static async create(device: GPUDevice, size: Size): Promise<Cut | null> {
     const { maxBufferSize, maxStorageBufferBindingSize, maxStorageBuffersPerShaderStage } =
       device.limits;
@@ -66,7 +68,8 @@ export class Cut {
       4 * size.most <= largest &&
       maxStorageBuffersPerShaderStage >= BINDINGS.length;
     if (!fits) return null;
-    const pipelines = await pipelinesOf(device);
+    const pipelines = await pipelinesOf(device).catch(() => null);
+    if (!pipelines) return null;
     device.pushErrorScope('out-of-memory');
     device.pushErrorScope('validation');
     const parts = {} as Record<CutPart, GPUBuffer>;
@@ -109,10 +112,16 @@ export class Cut {
     this.dispatch(encoder, this.pipelines.measure);
     this.device.queue.submit([encoder.finish()]);
     for (const spare of Object.values(spares)) spare.destroy();
+    this.listed = null;
   }
 
-  /** Lists the facets of what is kept below this height; those of the outside marked, or not. */
+  /**
+   * Lists the facets of what is kept below this height, unless it has; those of the outside marked,
+   * or not.
+   */
   at(level: number, skin: boolean): void {
+    if (this.listed?.level === level && this.listed.skin === skin) return;
+    this.listed = { level, skin };
     const { queue } = this.device;
     this.setUniforms(level, skin);
     queue.writeBuffer(this.draw, 0, Uint32Array.of(0, 1, 0, 0));

@@ -93,8 +93,8 @@ export class Viewer {
   /** Whether the camera is being placed by the page. */
   private placing = false;
   private dimension: Dimension = 3;
-  /** The mesh that the GPU cuts, and how; whether it has yet. */
-  private cut: { mesh: Cut; level: number; skin: boolean; isDone: boolean } | null = null;
+  /** The mesh that the GPU cuts, and how. */
+  private cut: { mesh: Cut; level: number; skin: boolean } | null = null;
   private readonly layers: Layers;
 
   private constructor(
@@ -200,13 +200,13 @@ export class Viewer {
       this.layers.cut = this.add(this.cutLayer(mesh));
       this.layers.cut.visible = true;
     }
-    this.cut = { mesh, level, skin, isDone: false };
+    this.cut = { mesh, level, skin };
     this.render();
   }
 
   /** Moves the plane, if what is shown is what the GPU finds. */
   moveCut(level: number): void {
-    if (!this.cut || this.cut.level === level) return;
+    if (!this.cut) return;
     this.showCut(this.cut.mesh, level, this.cut.skin);
     this.look.pointsAbove.value = Math.min(level, 1e9);
   }
@@ -440,10 +440,7 @@ export class Viewer {
     this.frame ||= requestAnimationFrame(() => {
       this.frame = 0;
       if (this.dimension === 2) this.thinOut();
-      if (this.cut && !this.cut.isDone) {
-        this.cut.isDone = true;
-        this.cut.mesh.at(this.cut.level, this.cut.skin);
-      }
+      this.cut?.mesh.at(this.cut.level, this.cut.skin);
       this.renderer.render(this.scene, this.camera);
     });
   }
