@@ -321,7 +321,7 @@ export class Model3d implements Model {
       case 'filtered':
         return filterBytes(kept.kept.subarray(from, to), kept.rim.subarray(from, to));
       case 'values':
-        return Float32Array.from({ length: to - from }, (_, i) => value(from + i));
+        return valuesOf(value, from, to);
       case 'positions':
         return positions.slice(3 * from, 3 * to);
       case 'colors':
@@ -391,6 +391,17 @@ export class Model3d implements Model {
       this.heights = heightsAlong(normal, this.drawable);
     return this.heights!;
   }
+}
+
+/** The positions of some tetrahedra on the colour scale. */
+function valuesOf(
+  value: (t: number) => number,
+  from: number,
+  to: number,
+): Float32Array<ArrayBuffer> {
+  const values = new Float32Array(to - from);
+  for (let i = 0; i < values.length; i++) values[i] = value(from + i);
+  return values;
 }
 
 /** How large a sphere may be, in units of the frame, to be drawn with its tetrahedron. */
