@@ -22,8 +22,8 @@ export class Cutting {
   /** What is not shown any more from the next drawing on. */
   private old: Cut[] = [];
   private isBusy = false;
-  /** Whether there is no room for the mesh. */
-  private isTooLarge = false;
+  /** Whether there is no room for the mesh, or it cannot be had. */
+  private isRefused = false;
   /** Counts the meshes: what is still on its way for an earlier one is of no use. */
   private meshes = 0;
 
@@ -40,7 +40,7 @@ export class Cutting {
     if (this.cut) this.old.push(this.cut);
     this.cut = this.of = null;
     this.has = {};
-    this.isBusy = this.isTooLarge = false;
+    this.isBusy = this.isRefused = false;
   }
 
   /** Frees the memory of meshes that were forgotten, once something else is shown. */
@@ -53,12 +53,18 @@ export class Cutting {
    * Resolves to whether this has completed it.
    */
   async begin(device: GPUDevice, latest: () => CutOf | undefined): Promise<boolean> {
-    if (this.isBusy || this.isTooLarge || this.ready) return false;
+    if (this.isBusy || this.isRefused || this.ready) return false;
     const { meshes } = this;
     this.isBusy = true;
-    const completed = await this.load(device, latest);
-    if (meshes === this.meshes) this.isBusy = false;
-    return completed;
+    try {
+      return await this.load(device, latest);
+    } catch {
+      // The worker goes on cutting.
+      if (meshes === this.meshes) this.isRefused = true;
+      return false;
+    } finally {
+      if (meshes === this.meshes) this.isBusy = false;
+    }
   }
 
   private async load(device: GPUDevice, latest: () => CutOf | undefined): Promise<boolean> {
@@ -73,7 +79,7 @@ export class Cutting {
         return false;
       }
       this.cut = cut;
-      this.isTooLarge = !cut;
+      this.isRefused = !cut;
     }
     const { cut } = this;
     while (of && cut) {

@@ -291,6 +291,22 @@ test('no tetrahedra, and no room', async () => {
   device.destroy();
 });
 
+test('a worker that does not answer is no error', async () => {
+  const model = await modelOf(await generate('uniform', 100));
+  const device = await openDevice();
+  let asked = 0;
+  const cutting = new page.Cutting({
+    cutPart: () => {
+      asked++;
+      throw new Error('gone');
+    },
+  });
+  const { cut: of } = model.draw(REQUEST);
+  for (let i = 0; i < 2; i++) assert.equal(await cutting.begin(device, () => of), false);
+  assert.deepEqual([asked, cutting.ready], [1, null]);
+  device.destroy();
+});
+
 test('what changes on the way to the GPU is taken over', async () => {
   const model = await modelOf(await generate('uniform', 300));
   const other = await modelOf(await generate('uniform', 200));
