@@ -1,3 +1,4 @@
+import { Cutting } from './cutting';
 import type { Drawing, DrawRequest } from './model/model';
 import type { Edited } from './model/worker';
 import type { Page } from './page';
@@ -28,6 +29,7 @@ export class Stage {
   lastDrawing: Drawing | null = null;
   /** The points as drawn; null before there are any. */
   positions: Float32Array | null = null;
+  private readonly cutting: Cutting;
   private round: number | null = null;
   private drawing = false;
   /** What the last drawing was asked to show; empty where the next one has to be made in any case. */
@@ -40,7 +42,9 @@ export class Stage {
   constructor(
     private readonly page: Page,
     private readonly events: StageEvents,
-  ) {}
+  ) {
+    this.cutting = new Cutting(page.model);
+  }
 
   /** Loads the viewer, and shows what there is by then. */
   async start(): Promise<void> {
@@ -80,6 +84,7 @@ export class Stage {
    */
   async newMesh(isNewObject: boolean): Promise<void> {
     this.meshes++;
+    this.cutting.forget();
     this.round = null;
     this.sweep = isNewObject && this.opensSlowly ? 1 : null;
     await this.giveMesh();
@@ -125,7 +130,21 @@ export class Stage {
    */
   draw(): Promise<void> {
     this.look();
+    this.moveCut();
     return whileBusy(this.followSettings().then(() => this.onScreen()));
+  }
+
+  /** Cuts the mesh on the GPU, if it is there, before the worker knows what is to be seen. */
+  private moveCut(): void {
+    const level = this.cutting.levelOf(this.request().plane);
+    if (level !== null) this.viewer?.moveCut(level);
+  }
+
+  /** Brings the mesh to the GPU, which from then on cuts it by itself. */
+  private async cutOnGpu(): Promise<void> {
+    const device = this.viewer?.device;
+    if (device && (await this.cutting.begin(device, () => this.lastDrawing?.cut)))
+      await this.followSettings();
   }
 
   /** Resolves once the browser shows what the viewer was given. */
@@ -144,7 +163,10 @@ export class Stage {
         request = this.request()
       ) {
         this.drawn = JSON.stringify(request);
-        this.show(await page.model.draw(request));
+        const drawing = await page.model.draw(request);
+        if (request.onGpu && drawing.cut && !(await this.cutting.follow(drawing.cut)))
+          this.cutting.forget();
+        else this.show(drawing);
       }
     } finally {
       this.drawing = false;
@@ -155,12 +177,20 @@ export class Stage {
     this.lastDrawing = drawing;
     this.events.drew(drawing);
     if (!this.viewer) return;
-    this.viewer.showSurface(drawing.surface);
+    const { cut } = drawing;
+    const onGpu = cut && !drawing.surface ? this.cutting.ready : null;
+    // The plane may have moved on meanwhile.
+    const level = (onGpu && this.cutting.levelOf(this.request().plane)) ?? drawing.level;
+    if (onGpu) this.viewer.showCut(onGpu, level, cut!.skin);
+    else this.viewer.showSurface(drawing.surface);
+    this.cutting.free();
+    if (cut && !onGpu) void this.cutOnGpu();
+    byId('stage').dataset.cut = this.viewer.cutBy;
     this.viewer.showPieces(drawing.pieces);
     this.viewer.showVoronoi(drawing.voronoi);
     const { planeNormal, pointsAbove } = this.viewer.look;
     planeNormal.value.set(...this.page.view.normal);
-    pointsAbove.value = Math.min(drawing.level, 1e9);
+    pointsAbove.value = Math.min(level, 1e9);
     this.look();
   }
 
@@ -178,6 +208,7 @@ export class Stage {
       skin: layers.skin,
       voronoi: layers.voronoi,
       cells: layers.voronoi && source.dimension === 3 ? apart : null,
+      onGpu: this.cutting.ready !== null,
     };
   }
 
@@ -196,6 +227,7 @@ export class Stage {
     viewer.look.ownColors.value = layers.skin ? 1 : 0;
     viewer.look.fill.value = layers.simplices ? 1 : 0;
     viewer.setVisible('surface', layers.simplices);
+    viewer.setVisible('cut', layers.simplices);
     viewer.setVisible('flat', layers.simplices || layers.edges);
     viewer.setVisible('pieces', layers.simplices);
     viewer.setVisible('voronoi', layers.voronoi);

@@ -75,14 +75,17 @@ export function heightsAlong(
  */
 const OFF = 0.35;
 
+/** How a plane's height follows from how much it leaves. */
+type Spread = Pick<Heights, 'extent' | 'middle'>;
+
 /** How much of the extent a plane leaves. */
-export function keepOf({ keep }: Plane, { extent: [low, high], middle }: Heights): number {
+export function keepOf({ keep }: Plane, { extent: [low, high], middle }: Spread): number {
   if (keep !== null) return keep;
   return high > low ? Math.min(1 - OFF, Math.max(OFF, (middle - low) / (high - low))) : 1;
 }
 
 /** How high the plane lies. Infinite where it cuts nothing, or everything. */
-export function levelOf(plane: Plane, heights: Heights): number {
+export function levelOf(plane: Plane, heights: Spread): number {
   const keep = keepOf(plane, heights);
   const [low, high] = heights.extent;
   if (keep >= 1) return Infinity;

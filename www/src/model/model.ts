@@ -1,4 +1,5 @@
 import type { ColorSource, Stats } from 'gdel-wasm';
+import type { CutOf, CutPart } from '../geometry/cut';
 import type { Filter } from '../geometry/filter';
 import type { Frame } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
@@ -77,11 +78,16 @@ export interface DrawRequest {
   voronoi: boolean;
   /** In 3D how far apart Voronoi cells are drawn instead of tetrahedra; null or missing for these. */
   cells?: number | null;
+  /** Whether the GPU that draws finds the surface of a cut mesh by itself, so that none is made. */
+  onGpu?: boolean;
 }
 
 /** What to draw, and what the legend says. */
 export interface Drawing {
+  /** Null where the GPU finds it, too: see {@link DrawRequest.onGpu}. */
   surface: Surface | null;
+  /** What the GPU needs to find the surface by itself; missing where it cannot. */
+  cut?: CutOf;
   pieces: Pieces | null;
   voronoi: Voronoi | null;
   scale: ColorScale;
@@ -162,6 +168,18 @@ export interface Model {
   pick(ray: Ray, apart: number): Picked | null;
   /** The corners of the hull's facets as drawn, three coordinates each. */
   hull(): Float32Array;
+  /** The surface of the last drawing, also where the GPU finds it by itself. */
+  drawnSurface?(): Surface | null;
+  /**
+   * Some items of a part of the mesh for the GPU, in memory of their own; null if something else is
+   * in that part by now.
+   */
+  cutPart?(
+    part: CutPart,
+    contents: string,
+    from: number,
+    to: number,
+  ): ArrayBufferView<ArrayBuffer> | null;
 }
 
 /** The points with these indices, three coordinates each. */

@@ -1,13 +1,14 @@
 import type { Mesh3, RunOptions, Triangulator, VoronoiArrays } from 'gdel-wasm';
 import { surfaceOfCells } from '../geometry/cells';
+import { type CutOf, type CutPart, colorBytes, filterBytes, inOrder } from '../geometry/cut';
 import { type Filter, type Kept, keep } from '../geometry/filter';
 import { circumcenter, type Measures, measure } from '../geometry/measures';
 import { FACETS, type Frame, frameOf, type Tetrahedralisation, toFrame } from '../geometry/mesh';
 import { firstHit, placeOf, type Ray } from '../geometry/pick';
 import { outermost, piecesOf, trianglesOf } from '../geometry/pieces';
 import { type Heights, heightsAlong, keepOf, levelOf, type Plane } from '../geometry/plane';
-import { mapping, positionOn, scaleFor, scaleOf } from '../geometry/scale';
-import { boundaryOf, surfaceOf } from '../geometry/surface';
+import { type ColorScale, mapping, positionOn, scaleFor, scaleOf } from '../geometry/scale';
+import { boundaryOf, type Surface, surfaceOf } from '../geometry/surface';
 import { detectUp, poseFor } from '../geometry/up';
 import { AlphaRadii } from './alpha';
 import {
@@ -24,6 +25,9 @@ import {
 } from './model';
 import type { SurfaceMesh } from './surfaceFiles';
 
+/** Counts the models, which tells what belongs to which. */
+let models = 0;
+
 /** The corners of a tetrahedron's edges. */
 const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
 
@@ -37,6 +41,16 @@ export class Model3d implements Model {
   private readonly alphas: AlphaRadii;
   private filtered: { filter: Filter; kept: Kept } | null = null;
   private drawing: Drawing | null = null;
+  /** What the last drawing consists of, where that is a cut mesh. */
+  private last: {
+    cut: CutOf;
+    kept: Kept;
+    heights: Heights;
+    value: (t: number) => number;
+    /** Makes the surface. */
+    surface: () => Surface;
+  } | null = null;
+  private readonly number = models++;
   private diagram: VoronoiArrays | null = null;
 
   private constructor(
@@ -114,6 +128,7 @@ export class Model3d implements Model {
 
   draw(request: DrawRequest): Drawing {
     const { round, cells = null } = request;
+    this.last = null;
     this.drawing =
       round !== null
         ? this.drawRound(request, round)
@@ -160,7 +175,8 @@ export class Model3d implements Model {
     };
   }
 
-  private drawResult({ filter, plane, color, skin, pieces }: DrawRequest): Drawing {
+  private drawResult(request: DrawRequest): Drawing {
+    const { filter, plane, color, skin, pieces, onGpu = false } = request;
     const started = performance.now();
     const kept = this.keptBy(filter);
     const heights = this.heightsAlong(plane.normal);
@@ -169,10 +185,13 @@ export class Model3d implements Model {
     const scale = scaleFor(color, this.measured, kept.kept);
     const value = mapping(scale, this.measured, this.created);
     const outside = skin ? { kept: kept.kept, colors: this.about.colors?.rgb ?? null } : null;
+    const surface = () =>
+      surfaceOf(this.drawable, boundary.facets.subarray(0, MAX_FACETS), value, outside);
+    const cut = this.cutOf(request, scale, heights);
+    if (!pieces) this.last = { cut, kept, heights, value, surface };
     return {
-      surface: pieces
-        ? null
-        : surfaceOf(this.drawable, boundary.facets.subarray(0, MAX_FACETS), value, outside),
+      surface: pieces || onGpu ? null : surface(),
+      ...(pieces ? {} : { cut }),
       pieces: pieces
         ? piecesOf(
             this.drawable,
@@ -235,7 +254,8 @@ export class Model3d implements Model {
   pick(ray: Ray, apart: number): Picked | null {
     // The owners of cells are points.
     if (!this.drawing || this.drawing.cells) return null;
-    const { surface, pieces } = this.drawing;
+    const { pieces } = this.drawing;
+    const surface = this.drawnSurface();
     const triangles = surface?.positions ?? (pieces && trianglesOf(pieces, apart));
     const hit = triangles && firstHit(triangles, ray);
     if (!hit) return null;
@@ -277,6 +297,62 @@ export class Model3d implements Model {
     return cornersOf(this.positions, this.mesh.hull);
   }
 
+  drawnSurface(): Surface | null {
+    const { drawing, last } = this;
+    if (drawing && last) drawing.surface ??= last.surface();
+    return drawing?.surface ?? null;
+  }
+
+  cutPart(
+    part: CutPart,
+    contents: string,
+    from: number,
+    to: number,
+  ): ArrayBufferView<ArrayBuffer> | null {
+    const { last, mesh, positions } = this;
+    if (last?.cut.parts[part] !== contents) return null;
+    const { kept, heights, value } = last;
+    switch (part) {
+      case 'tetrahedra':
+        return mesh.tetrahedra.slice(4 * from, 4 * to);
+      case 'neighbors':
+        return mesh.neighbors.slice(4 * from, 4 * to);
+      case 'heights':
+        return inOrder(heights.height.subarray(from, to));
+      case 'filtered':
+        return filterBytes(kept.kept.subarray(from, to), kept.rim.subarray(from, to));
+      case 'values':
+        return valuesOf(value, from, to);
+      case 'positions':
+        return positions.slice(3 * from, 3 * to);
+      case 'colors':
+        return colorBytes(this.about.colors?.rgb ?? null, from, to);
+    }
+  }
+
+  private cutOf(
+    { filter, skin }: DrawRequest,
+    scale: ColorScale,
+    { normal, extent, middle }: Heights,
+  ): CutOf {
+    const mesh = `mesh ${this.number}`;
+    return {
+      tetrahedra: this.mesh.tetrahedra.length / 4,
+      points: this.positions.length / 3,
+      parts: {
+        tetrahedra: mesh,
+        neighbors: mesh,
+        positions: mesh,
+        colors: mesh,
+        heights: `${mesh} along ${normal}`,
+        filtered: `${mesh} filtered ${JSON.stringify(filter)}`,
+        values: `${mesh} on ${JSON.stringify(scale)}`,
+      },
+      heights: { normal, extent, middle },
+      skin,
+    };
+  }
+
   /** The surface of what a filter keeps, uncut, in the units of the input. */
   surface(filter: Filter): SurfaceMesh {
     const heights = this.heights ?? this.heightsAlong([0, 0, 1]);
@@ -316,6 +392,17 @@ export class Model3d implements Model {
       this.heights = heightsAlong(normal, this.drawable);
     return this.heights!;
   }
+}
+
+/** The positions of some tetrahedra on the colour scale. */
+function valuesOf(
+  value: (t: number) => number,
+  from: number,
+  to: number,
+): Float32Array<ArrayBuffer> {
+  const values = new Float32Array(to - from);
+  for (let i = 0; i < values.length; i++) values[i] = value(from + i);
+  return values;
 }
 
 /** How large a sphere may be, in units of the frame, to be drawn with its tetrahedron. */

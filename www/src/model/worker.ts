@@ -7,9 +7,11 @@ import {
   verify,
   verify2d,
 } from 'gdel-wasm';
+import type { CutPart } from '../geometry/cut';
 import type { Filter } from '../geometry/filter';
 import { frameOf } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
+import type { Surface } from '../geometry/surface';
 import { applyEdits, colorsAfter, type Edit } from './edits';
 import { Live, type LiveFrame } from './live';
 import {
@@ -158,6 +160,22 @@ class ModelWorker {
 
   pick(ray: Ray, apart: number): Picked | null {
     return this.shown.model?.pick(ray, apart) ?? null;
+  }
+
+  /** The surface that is shown, where the GPU finds it by itself. */
+  drawnSurface(): Surface | null {
+    return this.shown.model?.drawnSurface?.() ?? null;
+  }
+
+  /** Some items of a part of the mesh for the GPU: see {@link Model.cutPart}. */
+  cutPart(
+    part: CutPart,
+    contents: string,
+    from: number,
+    to: number,
+  ): ArrayBufferView<ArrayBuffer> | null {
+    const items = (this.model as Model | null)?.cutPart?.(part, contents, from, to);
+    return items ? Comlink.transfer(items, [items.buffer]) : null;
   }
 
   /** The coordinates of a point as given. */

@@ -100,6 +100,10 @@ async function describeMachine({ model, viewer }: Page): Promise<void> {
     ['Large inputs', fallback ? `CPU backend: ${fallback}` : 'GPU backend'],
     ['Work is done', thread === 'worker' ? 'in a worker' : `in the page’s worker: ${whyThread}`],
     ['Drawing', viewer ? viewer.api : 'none'],
+    [
+      'The cut is found',
+      viewer?.cutBy === 'GPU' ? 'on the GPU that draws' : 'in the page’s worker',
+    ],
   ];
   const limits = (await navigator.gpu?.requestAdapter())?.limits;
   if (limits)

@@ -6,9 +6,12 @@ import { rgbOf } from './colormap';
 import { turnTo } from './viewer';
 
 /** What the page shows, as a binary glTF file: the surface with its colours. */
-export async function toGLB({ settings, view, summary, lastDrawing }: Page): Promise<Uint8Array> {
+export async function toGLB(page: Page): Promise<Uint8Array> {
+  const { settings, view, summary, lastDrawing, model } = page;
   if (!lastDrawing || !summary) throw new Error('There is nothing to see yet.');
-  const { surface, pieces, scale } = lastDrawing;
+  const { pieces, scale } = lastDrawing;
+  const surface = lastDrawing.surface ?? (pieces ? null : await model.drawnSurface());
+  if (!surface && !pieces) throw new Error('There is nothing to see yet.');
   const positions = surface ? surface.positions : trianglesOf(pieces!, settings.apart);
   const skin = surface ? surface.skin : skinOf(pieces!);
   // A piece has 12 corners for its one value; a surface has a value for every corner.

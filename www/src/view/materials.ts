@@ -11,7 +11,9 @@ import {
   select,
   smoothstep,
   sRGBTransferEOTF,
+  storage,
   texture,
+  uint,
   uniform,
   uv,
   varying,
@@ -31,10 +33,13 @@ import {
   PointsNodeMaterial,
   RGBAFormat,
   SRGBColorSpace,
+  type StorageBufferAttribute,
   UnsignedByteType,
   Vector2,
   Vector3,
 } from 'three/webgpu';
+import { OUTSIDE } from '../geometry/cut';
+import { FACETS } from '../geometry/mesh';
 import { type ColorMapName, texels } from './colormap';
 
 /**
@@ -130,6 +135,50 @@ export function surfaceMaterial(look: Look): MeshBasicNodeMaterial {
   const material = new MeshBasicNodeMaterial();
   material.colorNode = shaded(look, corner(look));
   return material;
+}
+
+/** Which of its tetrahedron's corners a facet's are: two bits each, in the order of {@link FACETS}. */
+const CORNERS = FACETS.reduce((bits, corner, i) => bits | (corner << (2 * i)), 0);
+
+/** The buffers of a `Cut`, as three.js holds them. */
+export type CutAttributes = Record<
+  'facets' | 'tetrahedra' | 'positions' | 'values' | 'colors',
+  StorageBufferAttribute
+>;
+
+/** For the facets that a `Cut` lists: each vertex finds its data by its number. */
+export function cutMaterial(look: Look, attributes: CutAttributes): MeshBasicNodeMaterial {
+  const numbers = (name: keyof CutAttributes) =>
+    storage(attributes[name], 'uint', 0).toReadOnly() as ArrayNode<'uint'>;
+  const floats = (name: keyof CutAttributes) =>
+    storage(attributes[name], 'float', 0).toReadOnly() as ArrayNode<'float'>;
+  const listed = numbers('facets').element(vertexIndex.div(3));
+  const facet = listed.bitAnd(uint(~OUTSIDE >>> 0));
+  const corner = uint(CORNERS)
+    .shiftRight(facet.bitAnd(uint(3)).mul(3).add(vertexIndex.mod(3)).mul(2))
+    .bitAnd(uint(3));
+  const tetrahedron = facet.shiftRight(uint(2));
+  const vertex = numbers('tetrahedra').element(tetrahedron.mul(4).add(corner)).toVar();
+  const coordinates = floats('positions');
+  const x = vertex.mul(3);
+  const material = new MeshBasicNodeMaterial();
+  material.positionNode = vec3(
+    coordinates.element(x),
+    coordinates.element(x.add(1)),
+    coordinates.element(x.add(2)),
+  );
+  const color = numbers('colors').element(vertex);
+  const byte = (k: number) => float(color.shiftRight(uint(8 * k)).bitAnd(uint(255))).div(255);
+  const counts = select(listed.equal(facet), float(0), float(1));
+  const skin = varying(vec4(byte(0), byte(1), byte(2), counts));
+  const value = varying(floats('values').element(tetrahedron));
+  material.colorNode = shaded(look, painted(look, value, skin));
+  return material;
+}
+
+/** What is in a storage buffer, by number. */
+interface ArrayNode<T extends 'uint' | 'float'> {
+  element(index: Node<'uint'>): Node<T>;
 }
 
 /** The colour of a corner, from its attributes `value` and `skin`. */

@@ -5,6 +5,7 @@ import {
   BufferGeometry,
   Color,
   Group,
+  IndirectStorageBufferAttribute,
   InstancedBufferAttribute,
   InstancedBufferGeometry,
   InstancedInterleavedBuffer,
@@ -21,6 +22,7 @@ import {
   Sphere,
   Spherical,
   Sprite,
+  StorageBufferAttribute,
   TOUCH,
   Vector2,
   Vector3,
@@ -34,8 +36,11 @@ import { fromScreen, HALF_VIEW, type Up } from '../geometry/up';
 import type { Voronoi } from '../geometry/voronoi';
 import type { Dimension } from '../model/source';
 import type { ColorMapName } from './colormap';
+import type { Cut } from './cut';
 import {
   accentMaterial,
+  type CutAttributes,
+  cutMaterial,
   flatMaterial,
   hullMaterial,
   Look,
@@ -64,6 +69,7 @@ const EVERYWHERE = new Sphere(new Vector3(), Infinity);
 /** What can be shown and hidden. The hull and the surface have one layer for 3D and one for 2D. */
 interface Layers {
   surface: Mesh;
+  cut: Mesh | null;
   flat: Mesh;
   pieces: Mesh;
   hull: Mesh;
@@ -87,6 +93,8 @@ export class Viewer {
   /** Whether the camera is being placed by the page. */
   private placing = false;
   private dimension: Dimension = 3;
+  /** The mesh that the GPU cuts, and how. */
+  private cut: { mesh: Cut; level: number; skin: boolean } | null = null;
   private readonly layers: Layers;
 
   private constructor(
@@ -106,6 +114,7 @@ export class Viewer {
     const { look } = this;
     this.layers = {
       surface: this.add(new Mesh(new BufferGeometry(), surfaceMaterial(look))),
+      cut: null,
       flat: this.add(new Mesh(new BufferGeometry(), flatMaterial(look))),
       pieces: this.add(new Mesh(new BufferGeometry(), piecesMaterial(look))),
       voronoi: this.add(new Mesh(new BufferGeometry(), voronoiMaterial(look)), 1),
@@ -136,7 +145,12 @@ export class Viewer {
     onSize: () => void,
     onLost: () => void,
   ): Promise<Viewer> {
-    const renderer = new WebGPURenderer({ canvas, antialias: true, alpha: true });
+    const renderer = new WebGPURenderer({
+      canvas,
+      antialias: true,
+      alpha: true,
+      requiredLimits: await limitsForMeshes(),
+    });
     renderer.onDeviceLost = onLost;
     await renderer.init();
     return new Viewer(renderer, canvas, onCamera, onSize);
@@ -147,9 +161,17 @@ export class Viewer {
     return 'isWebGPUBackend' in this.renderer.backend ? 'WebGPU' : 'WebGL 2';
   }
 
+  /** The device that draws, if it can cut meshes by itself. */
+  get device(): GPUDevice | null {
+    const { backend } = this.renderer;
+    const device = 'device' in backend ? (backend.device as GPUDevice | null) : null;
+    return device?.features.has('core-features-and-limits') ? device : null;
+  }
+
   /** Switches to 3D or 2D, and removes what was shown. */
   setDimension(dimension: Dimension): void {
     if (dimension === this.dimension) return;
+    this.hideCut();
     this.dimension = dimension;
     const flat = dimension === 2;
     for (const layer of Object.values<Mesh | Sprite | null>(this.layers as never))
@@ -164,9 +186,67 @@ export class Viewer {
     this.resize();
   }
 
+  /** Shows triangles, or nothing; no longer those that the GPU finds. */
   showSurface(surface: Surface | null): void {
+    this.hideCut();
     const layer = this.dimension === 2 ? this.layers.flat : this.layers.surface;
     this.replace(layer, surface && triangles(surface.positions, surface));
+  }
+
+  /** Shows what the GPU finds below a level, on the next frame, and with `skin` what is outside. */
+  showCut(mesh: Cut, level: number, skin: boolean): void {
+    if (this.cut?.mesh !== mesh) {
+      this.showSurface(null);
+      this.layers.cut = this.add(this.cutLayer(mesh));
+      this.layers.cut.visible = true;
+    }
+    this.cut = { mesh, level, skin };
+    this.render();
+  }
+
+  /** Moves the plane, if what is shown is what the GPU finds. */
+  moveCut(level: number): void {
+    if (!this.cut) return;
+    this.showCut(this.cut.mesh, level, this.cut.skin);
+    this.look.pointsAbove.value = Math.min(level, 1e9);
+  }
+
+  /** Who finds the surface that is shown. */
+  get cutBy(): 'GPU' | 'worker' {
+    return this.cut ? 'GPU' : 'worker';
+  }
+
+  private hideCut(): void {
+    const { cut } = this.layers;
+    this.cut = this.layers.cut = null;
+    if (!cut) return;
+    this.model.remove(cut);
+    cut.geometry.dispose();
+    (cut.material as Material).dispose();
+  }
+
+  private cutLayer(mesh: Cut): Mesh {
+    /** Names a buffer for three.js, which would otherwise upload an array for it. */
+    const named = <T extends StorageBufferAttribute>(attribute: T, buffer: GPUBuffer) => {
+      (this.renderer.backend as unknown as { get(of: object): { buffer: GPUBuffer } }).get(
+        attribute,
+      ).buffer = buffer;
+      return attribute;
+    };
+    const { facets, parts } = mesh;
+    const { tetrahedra, positions, values, colors } = parts;
+    const attributes = Object.entries({ facets, tetrahedra, positions, values, colors }).map(
+      ([name, buffer]) => [name, named(new StorageBufferAttribute(new Uint32Array(1), 1), buffer)],
+    );
+    const geometry = new BufferGeometry();
+    // What three.js asks geometries for: the material does without.
+    geometry.setAttribute('position', new InstancedBufferAttribute(new Float32Array(3), 3));
+    geometry.setIndirect(
+      named(new IndirectStorageBufferAttribute(new Uint32Array(4), 4), mesh.draw),
+    );
+    geometry.boundingSphere = EVERYWHERE;
+    const material = cutMaterial(this.look, Object.fromEntries(attributes) as CutAttributes);
+    return new Mesh(geometry, material);
   }
 
   showVoronoi(diagram: Voronoi | null): void {
@@ -360,6 +440,7 @@ export class Viewer {
     this.frame ||= requestAnimationFrame(() => {
       this.frame = 0;
       if (this.dimension === 2) this.thinOut();
+      this.cut?.mesh.at(this.cut.level, this.cut.skin);
       this.renderer.render(this.scene, this.camera);
     });
   }
@@ -433,6 +514,18 @@ export class Viewer {
     this.onSize();
     this.render();
   }
+}
+
+/**
+ * The largest buffers that a device can have here: by themselves, devices allow smaller ones than
+ * large meshes need.
+ */
+async function limitsForMeshes(): Promise<Record<string, number>> {
+  const options = { featureLevel: 'compatibility' } as GPURequestAdapterOptions;
+  const adapter = await navigator.gpu?.requestAdapter(options);
+  if (!adapter) return {};
+  const { maxBufferSize, maxStorageBufferBindingSize } = adapter.limits;
+  return { maxBufferSize, maxStorageBufferBindingSize };
 }
 
 /** The turn that takes the input's axes to those of the screen. */
