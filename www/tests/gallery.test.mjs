@@ -50,6 +50,8 @@ test('the gallery has eight objects with pictures, and shows them', async () => 
 test('the panel is folded up to what was asked for', async () => {
   const context = await here.browser.newContext({ serviceWorkers: 'block' });
   const page = await context.newPage();
+  // A page that opens with a moving cut takes long on a busy machine.
+  page.setDefaultTimeout(300_000);
   await page.goto(`${here.url}#points=bunny`);
   await settled(page);
   for (const fold of ['generate', 'live', 'backend'])
