@@ -157,7 +157,7 @@ pub trait Mesh<const D: usize, const N: usize>: sealed::Sealed {
     fn opposites(&self) -> Cow<'_, [[i32; N]]>;
 
     /// Returns for each point the one that stands for it, or [`NONE`](crate::NONE) if it is a
-    /// vertex itself.
+    /// vertex itself; for points that were [removed](crate::Triangulator::remove), these themselves.
     fn duplicate_of(&self) -> &[i32];
 }
 

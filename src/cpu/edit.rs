@@ -15,7 +15,7 @@
 use crate::{
     backend::Backend,
     cpu::{
-        Grow, Incremental, Insert, MIN_SHARED, MeshOf,
+        Grow, Incremental, Insert, MIN_SHARED, MeshOf, delaunay,
         sparse::{Patch, Row, Sparse},
         update::{Limits, Update},
     },
@@ -238,7 +238,7 @@ pub struct Used<const D: usize> {
 impl<const D: usize> Used<D> {
     /// Returns the used ones of these points, given the field `duplicate_of` of their mesh; `None` if
     /// all are.
-    pub(crate) fn of(points: Points<'_, D>, duplicate_of: &[i32]) -> Option<Self> {
+    pub fn of(points: Points<'_, D>, duplicate_of: &[i32]) -> Option<Self> {
         let is_unused = |i: u32| duplicate_of.get(i as usize) == Some(&(i as i32));
         let all = points.len();
         if !(0..all as u32).any(is_unused) {
@@ -263,6 +263,29 @@ impl<const D: usize> Used<D> {
         mesh.rename(&self.names);
         mesh.set_input(duplicate_of, mesh.dimension());
     }
+}
+
+/// Triangulates the used points by the CPU engine, as [`Triangulator`](crate::Triangulator) does by
+/// any.
+///
+/// # Errors
+///
+/// Returns the errors of [`delaunay`](crate::cpu::delaunay).
+pub fn delaunay_of_used<const D: usize>(
+    points: Points<'_, D>,
+    used: Option<&Used<D>>,
+    update: UpdateStats,
+    options: &Options,
+) -> Result<MeshOf<D>, Error>
+where
+    Dimension<D>: Incremental<D>,
+{
+    let mut mesh = delaunay(used.map_or(points, Used::points), options)?;
+    if let Some(used) = used {
+        used.restore(&mut mesh);
+    }
+    mesh.stats_mut().update = Some(update);
+    Ok(mesh)
 }
 
 /// Checks that the points with these indices can be removed from a mesh with this field

@@ -340,22 +340,28 @@ function tasks2d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
   return { handlers, memory, dispose };
 }
 
-/** Meshes in the memory of the CPU whose points move. */
+/** Meshes in the memory of the CPU whose points move, come and go. */
 function updateTasks(module: WebAssembly.Module): ModuleTasks {
   const { glue, memory } = instantiate('update', module);
   const task =
-    (update: (args: Tasks['update3d']['args'], report: Report) => any) =>
-    async (args: Tasks['update3d']['args'], control: Control) => {
+    <Args extends Tasks['update3d']['args']>(update: (args: Args, report: Report) => any) =>
+    async (args: Args, control: Control) => {
       const started = performance.now();
       control.onBlocking();
       const mesh = update(args, reporting(control));
-      return { ...mesh, points: args.points, stats: statsOf(mesh.stats, started, memory) };
+      return { points: args.points, ...mesh, stats: statsOf(mesh.stats, started, memory) };
     };
   const handlers: Handlers = {
     update3d: task(({ points, moved, outputs }, report) =>
       withEmpty(glue.update3d(points, moved, outputsOf(glue, outputs), report)),
     ),
     update2d: task(({ points, moved }, report) => glue.update2d(points, moved, report)),
+    edit3d: task(({ points, before, moved, removed, outputs }: Tasks['edit3d']['args'], report) =>
+      withEmpty(glue.edit3d(points, before, moved, removed, outputsOf(glue, outputs), report)),
+    ),
+    edit2d: task(({ points, before, moved, removed }: Tasks['edit2d']['args'], report) =>
+      glue.edit2d(points, before, moved, removed, report),
+    ),
   };
   return { handlers, memory, dispose() {} };
 }
