@@ -5,11 +5,10 @@ use gdel::{
     internals::{
         Options, Winding,
         cpu::{
-            MeshOf,
+            Incremental, Insert, MeshOf,
             edit::{Edit, Used, delaunay_of_used, edit},
             sparse::Sparse,
             update::{Limits, update},
-            Incremental, Insert,
         },
         dimension::Dimension,
         mesh::MeshInfo,
