@@ -472,7 +472,9 @@ where
             }
         }
         order.push(v);
-        let small = Small::new(self.points, self.lattice, order)?;
+        let Some(small) = Small::new::<N>(self.points, self.lattice, order)? else {
+            return Ok(Err(Restart::Broken));
+        };
         let Some(cavity) = small.cavity::<N>() else { return Ok(Err(Restart::Broken)) };
 
         let infinite = self.sparse.infinite();
@@ -576,18 +578,25 @@ where
     Dimension<D>: Incremental<D>,
 {
     /// Triangulates these vertices except for the last one. The first `D + 1` are positively
-    /// oriented.
-    fn new(points: Points<'p, D>, lattice: &Lattice<D>, names: Vec<u32>) -> Result<Self, Error> {
+    /// oriented. Returns `None` if two of them are equal.
+    fn new<const N: usize>(points: Points<'p, D>, lattice: &Lattice<D>, names: Vec<u32>) -> Result<Option<Self>, Error>
+    where
+        Dimension<D>: Edit<D, N>,
+    {
         let context = PredicateContext::new(points, lattice, names.clone());
         let mut triangulation = <Dimension<D> as Incremental<D>>::Triangulation::initial(names.len() as u32);
         let mut scratch = triangulation.scratch();
         let mut last = 0;
         for p in D as u32 + 1..names.len() as u32 - 1 {
             let start = triangulation.locate(&context, p, last);
+            let is_there = |&v: &u32| v < p && context.point(v) == context.point(p);
+            if triangulation.simplex(start).iter().any(is_there) {
+                return Ok(None);
+            }
             last = triangulation.insert(&context, p, start, &mut scratch)?.expect("nobody disturbs the only thread");
         }
         triangulation.finish(scratch);
-        Ok(Small { triangulation, context, names, last })
+        Ok(Some(Small { triangulation, context, names, last }))
     }
 
     /// Returns the simplices in conflict with the last vertex; `None` if there are none.

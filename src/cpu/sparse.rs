@@ -114,7 +114,7 @@ where
             free: Vec::new(),
             hull: Vec::new(),
             filled: Vec::new(),
-            fuel: FUEL * (count + FUEL),
+            fuel: FUEL.saturating_mul(count + FUEL),
             is_broken: false,
         };
         let infinite = vertices.len() as u32;
@@ -135,7 +135,7 @@ where
     /// the mesh, as far as it has been looked at, a triangulation.
     pub(crate) fn is_sound(&mut self) -> bool {
         let state = self.state.get_mut();
-        state.fuel = FUEL * (self.count as usize + FUEL);
+        state.fuel = FUEL.saturating_mul(self.count as usize + FUEL);
         let filled = std::mem::take(&mut state.filled);
         let is_positive = |t: u32| {
             let slot = self.with(t, |slot| *slot);
