@@ -22,4 +22,5 @@ mod meshes;
 mod moving;
 mod predicates;
 mod threads;
+mod timing_tmp;
 mod typescript;

@@ -24,16 +24,16 @@ import type { AccessorOptions, Points, Stats, TaskOptions, UpdateOptions } from 
 import { Updating } from './updating.js';
 
 /** A mesh in typed arrays, of either dimension. */
-export abstract class Mesh<T extends Task> {
+export abstract class Mesh {
   /** Statistics of the run. */
   declare readonly stats: Stats;
   declare readonly hull: Indices;
   declare readonly dimension: number;
-  readonly #update: Update<T>;
+  readonly #update: Update<Task>;
   readonly #updating = new Updating();
 
   /** @internal */
-  constructor(done: Done<T>, update: Update<T>) {
+  constructor(done: Done<Task>, update: Update<Task>) {
     this.#update = update;
     this._take(done);
   }
@@ -43,7 +43,7 @@ export abstract class Mesh<T extends Task> {
    *
    * @internal
    */
-  abstract _take(done: Done<T>): void;
+  abstract _take(done: Done<Task>): void;
 
   /**
    * Returns what everything is derived from.
@@ -64,7 +64,7 @@ export abstract class Mesh<T extends Task> {
       const moved = { ...mesh, hull, dimension };
       const done = await this.#update(points, options, moved, stats, edit && { ...edit, before });
       const { kept, ...result } = done.result as typeof done.result & { kept?: Indices };
-      this._take({ ...done, result } as Done<T>);
+      this._take({ ...done, result } as Done<Task>);
       return kept;
     });
   }

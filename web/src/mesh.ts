@@ -30,7 +30,7 @@ export interface Locations3 {
 /**
  * A 3D Delaunay triangulation in typed arrays. All vertices are indices of the input points.
  */
-export class Mesh3 extends Mesh<'delaunay3d'> {
+export class Mesh3 extends Mesh {
   /**
    * Four vertices per tetrahedron, positively oriented: det(b − a, c − a, d − a) > 0. No
    * tetrahedron is flat.

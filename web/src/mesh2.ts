@@ -29,7 +29,7 @@ export interface Locations2 {
  *
  * In files the triangles are counter-clockwise if the y axis points up, as other programs expect.
  */
-export class Mesh2 extends Mesh<'delaunay2d'> {
+export class Mesh2 extends Mesh {
   /**
    * Three vertices per triangle, counter-clockwise if the y axis points down: det(b − a, c − a) <
    * 0. No triangle is flat.

@@ -139,7 +139,7 @@ export function updating<T extends Task>(
       const job = await prepare(maker, kind, points, all);
       return start(maker, kind, job, { outputs, moved });
     }
-    checkArrays({ ...moved, ...edit });
+    checkArrays({ ...moved, points: edit?.before });
     const job = await prepare(maker, kind, points, all);
     let [update, milliseconds] = [ELSEWHERE, 0];
     if (edit || stats.backend === 'cpu') {
