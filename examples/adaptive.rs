@@ -34,7 +34,7 @@ fn main() -> Result<(), Error> {
             changes += 1;
             from_scratch += u32::from(mesh.stats.update.is_some_and(|update| update.restarted.is_some()));
         };
-        for piece in removed.chunks(8) {
+        for piece in removed.chunks(4) {
             triangulator.remove(&mut mesh, &points, piece)?;
             note(&mesh);
         }

@@ -53,6 +53,8 @@ pub trait Edit<const D: usize, const N: usize>: Update<D, Triangulation: Slots<N
 
     /// The maximum number of simplices.
     const MAX_SIMPLICES: usize;
+    /// The number of uniform points that are inserted in the time in which one is removed.
+    const REMOVAL: f64;
 
     /// Returns the number of simplices of a mesh.
     fn count(mesh: &Self::Mesh) -> usize;
@@ -161,14 +163,15 @@ where
             return Ok(Some(Again::new(Restart::Broken, duplicate_of)));
         }
     };
-    let few = |count: usize| {
+    let few = |removed: usize, inserted: usize| {
+        let count = Dimension::<D>::REMOVAL * removed as f64 + inserted as f64;
         let threads = parallel::count(threads) as f64;
-        let pays = limits.check_points(count as f64, points.len() as f64 / threads);
+        let pays = limits.check_points(count, points.len() as f64 / threads);
         pays.and(if usize::from(mesh.dimension()) == D { Ok(()) } else { Err(Restart::Degenerate) })
     };
     let new = points.len() - known;
     let context = PredicateContext::of_input(points, &lattice);
-    let changed = match few(vertices.len() + heirs.len() + new) {
+    let changed = match few(vertices.len(), heirs.len() + new) {
         // The indices that are removed were duplicates.
         _ if vertices.is_empty() && new == 0 => Ok(None),
         Err(why) => Err(why),

@@ -39,6 +39,9 @@ const SAMPLE: usize = 256;
 /// So much it always pays to repair.
 const FEW: f64 = 8.0;
 
+/// So many points it always pays to insert.
+const FEW_POINTS: f64 = 64.0;
+
 /// What it pays to repair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
@@ -46,7 +49,8 @@ pub struct Limits {
     pub inverted: f64,
     /// The number of facets that are not locally Delaunay, by that of simplices.
     pub changed: f64,
-    /// The number of points that are inserted or removed, by that of all for each thread.
+    /// The number of points that are inserted, by that of all for each thread. One that is removed
+    /// counts several times.
     pub points: f64,
     /// The number of threads.
     pub threads: usize,
@@ -63,8 +67,8 @@ impl Limits {
     /// triangulate from scratch before they have checked the mesh.
     pub fn measured(dimension: usize) -> Self {
         match dimension {
-            2 => Limits { inverted: 0.003, changed: 0.06, points: 0.06, threads: 3 },
-            _ => Limits { inverted: 0.001, changed: 0.075, points: 0.06, threads: 3 },
+            2 => Limits { inverted: 0.003, changed: 0.06, points: 0.045, threads: 3 },
+            _ => Limits { inverted: 0.001, changed: 0.075, points: 0.045, threads: 3 },
         }
     }
 
@@ -92,9 +96,9 @@ impl Limits {
 }
 
 impl Limits {
-    /// Returns why it does not pay to insert or remove so many of so many points by one thread.
+    /// Returns why it does not pay to insert so many of so many points by one thread.
     pub(crate) fn check_points(&self, count: f64, points: f64) -> Result<(), Restart> {
-        if count > FEW + self.points * points { Err(Restart::Points) } else { Ok(()) }
+        if count > FEW_POINTS + self.points * points { Err(Restart::Points) } else { Ok(()) }
     }
 }
 

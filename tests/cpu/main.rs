@@ -22,5 +22,4 @@ mod meshes;
 mod moving;
 mod predicates;
 mod threads;
-mod timing_tmp;
 mod typescript;

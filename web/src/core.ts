@@ -343,25 +343,22 @@ function tasks2d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
 /** Meshes in the memory of the CPU whose points move, come and go. */
 function updateTasks(module: WebAssembly.Module): ModuleTasks {
   const { glue, memory } = instantiate('update', module);
-  const task =
-    <Args extends Tasks['update3d']['args']>(update: (args: Args, report: Report) => any) =>
-    async (args: Args, control: Control) => {
+  const handlers: Handlers = {
+    async change({ dimension, points, before, moved, removed, outputs }, control) {
       const started = performance.now();
       control.onBlocking();
-      const mesh = update(args, reporting(control));
-      return { points: args.points, ...mesh, stats: statsOf(mesh.stats, started, memory) };
-    };
-  const handlers: Handlers = {
-    update3d: task(({ points, moved, outputs }, report) =>
-      withEmpty(glue.update3d(points, moved, outputsOf(glue, outputs), report)),
-    ),
-    update2d: task(({ points, moved }, report) => glue.update2d(points, moved, report)),
-    edit3d: task(({ points, before, moved, removed, outputs }: Tasks['edit3d']['args'], report) =>
-      withEmpty(glue.edit3d(points, before, moved, removed, outputsOf(glue, outputs), report)),
-    ),
-    edit2d: task(({ points, before, moved, removed }: Tasks['edit2d']['args'], report) =>
-      glue.edit2d(points, before, moved, removed, report),
-    ),
+      const mesh = glue.change(
+        dimension,
+        points,
+        before,
+        moved,
+        removed,
+        outputsOf(glue, outputs),
+        reporting(control),
+      );
+      if (dimension === 3) withEmpty(mesh);
+      return { points, ...mesh, stats: statsOf(mesh.stats, started, memory) };
+    },
   };
   return { handlers, memory, dispose() {} };
 }

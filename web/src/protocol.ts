@@ -114,21 +114,14 @@ export interface Tasks {
       stats: CoreStats;
     };
   };
-  update3d: {
-    args: { points: Coordinates; moved: MovedMesh; outputs: readonly Output[] };
-    result: Tasks['delaunay3d']['result'] & Restarted;
-  };
-  update2d: {
-    args: { points: Coordinates; moved: MovedMesh; outputs: readonly Output[] };
-    result: Tasks['delaunay2d']['result'] & Restarted;
-  };
-  edit3d: {
-    args: Tasks['update3d']['args'] & Edit;
-    result: Tasks['update3d']['result'] & Kept;
-  };
-  edit2d: {
-    args: Tasks['update2d']['args'] & Edit;
-    result: Tasks['update2d']['result'] & Kept;
+  change: {
+    args: {
+      dimension: 2 | 3;
+      points: Coordinates;
+      moved: MovedMesh;
+      outputs: readonly Output[];
+    } & Partial<Edit>;
+    result: Tasks['delaunay3d' | 'delaunay2d']['result'] & Restarted & Kept;
   };
   generate: { args: { kind: string; count: number; seed: bigint }; result: Doubles };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };

@@ -37,24 +37,18 @@ export type Task = 'delaunay3d' | 'delaunay2d';
 /** A dimension. Each constant names its own files alone, so that bundlers leave out the others. */
 interface Kind<T extends Task> {
   task: T;
-  update: 'update3d' | 'update2d';
-  edit: 'edit3d' | 'edit2d';
   asset: WasmAsset;
   dimension: 2 | 3;
 }
 
 export const IN_3D: Kind<'delaunay3d'> = {
   task: 'delaunay3d',
-  update: 'update3d',
-  edit: 'edit3d',
   asset: wasm3d,
   dimension: 3,
 };
 
 export const IN_2D: Kind<'delaunay2d'> = {
   task: 'delaunay2d',
-  update: 'update2d',
-  edit: 'edit2d',
   asset: wasm2d,
   dimension: 2,
 };
@@ -144,9 +138,10 @@ export function updating<T extends Task>(
     let [update, milliseconds] = [ELSEWHERE, 0];
     if (edit || stats.backend === 'cpu') {
       const { sending, options } = job;
-      const args = { ...edit, points: job.args.points, moved: moved as MovedMesh, outputs };
-      const task = edit ? kind.edit : kind.update;
-      const done = await maker.host.run(wasmUpdate, task, args as never, sending, options);
+      const { points } = job.args;
+      const { dimension } = kind;
+      const args = { ...edit, dimension, points, moved: moved as MovedMesh, outputs };
+      const done = await maker.host.run(wasmUpdate, 'change', args, sending, options);
       const { result } = done;
       if (!result.update) return done as unknown as Done<T>;
       update = result.update;

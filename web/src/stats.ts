@@ -20,7 +20,7 @@ export interface Stats {
   gpu: GpuStats | null;
   /** What star splaying did after that; 3D only. */
   splay: SplayStats | null;
-  /** What `Triangulator::update` did, if it made the mesh. */
+  /** What `Triangulator::update`, `insert` or `remove` did, if that made the mesh. */
   update: UpdateStats | null;
 }
 
@@ -170,7 +170,9 @@ export interface UpdateStats {
   reinserted: number;
   /** The number of vertices that were removed because their points were. */
   removed: number;
-  /** The number of points that were inserted: new ones, and those that are no duplicates any more. */
+  /**
+   * The number of points that were inserted: new ones, and those that are no duplicates any more.
+   */
   inserted: number;
   /** Whether a mesh on the device was read for that, changed by the host, and uploaded. */
   onHost: boolean;

@@ -1,7 +1,7 @@
 //! Meshes in the memory of the CPU whose points move, come and go.
 
 use gdel::{
-    Backend, Error, Mesh2, Mesh3, Points,
+    Error, Mesh2, Mesh3,
     internals::{
         Options, Winding,
         cpu::{
@@ -15,9 +15,12 @@ use gdel::{
     },
     stats::UpdateStats,
 };
-use js_sys::{Function, Uint32Array};
+use js_sys::{Float64Array, Function, Uint32Array};
 use std::sync::Arc;
-use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+use wasm_bindgen::{
+    JsCast,
+    prelude::{JsValue, wasm_bindgen},
+};
 
 use crate::{
     arrays::{
@@ -30,141 +33,108 @@ use crate::{
     run::{reporting, statistics},
 };
 
-/// Returns the 3D mesh of points, given the one of the points where they were. If these have to be
-/// triangulated from scratch, and all are used, the result has only the statistics of the attempt, as
-/// `update`.
+/// Returns the mesh of points of 2 or 3 dimensions, given the one of the points where they were; in 2D
+/// in delaunator's orientation. If these have to be triangulated from scratch, and all are used, the
+/// result has only the statistics of the attempt, as `update`.
+///
+/// With the points `before`, it is the mesh of these, of those in `points`, which follow them, and
+/// without those with the indices in the array `removed`. If there is none, no index of it is unused any
+/// more, and the result has what the indices were, as `kept`. The result has the points as well.
 #[wasm_bindgen]
-pub fn update3d(points: JsValue, moved: JsValue, outputs: Outputs, report: Function) -> Result<JsValue, Thrown> {
-    let coordinates = Coordinates::new(&points)?;
-    let points = coordinates.points()?;
-    let before = Mesh3::from(CallerMesh::new(&moved, "tetrahedra", "neighbors")?);
-    let options = options(report);
-    let (mesh, stats) = update::<3>(&before, points, &options, Limits::measured(3))?;
-    let mesh = mesh.map_or_else(|| of_used(points, &before.duplicate_of, stats, &options), |mesh| Ok(Some(mesh)))?;
-    drop(before);
-    Ok(mesh.map_or_else(|| restarted(&stats), |mesh| mesh3(mesh, outputs)))
-}
-
-/// Does the same in 2D, in delaunator's orientation.
-#[wasm_bindgen]
-pub fn update2d(points: JsValue, moved: JsValue, report: Function) -> Result<JsValue, Thrown> {
-    let coordinates = Coordinates::new(&points)?;
-    let points = coordinates.points()?;
-    let before = Mesh2::from(CallerMesh::new(&moved, "triangles", "halfedges")?);
-    let options = Options { winding: Winding::Clockwise, ..options(report) };
-    let (mesh, stats) = update::<2>(&before, points, &options, Limits::measured(2))?;
-    let mesh = mesh.map_or_else(|| of_used(points, &before.duplicate_of, stats, &options), |mesh| Ok(Some(mesh)))?;
-    drop(before);
-    Ok(mesh.map_or_else(|| restarted(&stats), |mesh| mesh2(mesh, true)))
-}
-
-/// Returns the mesh of the points that are used; `None` if all are.
-fn of_used<const D: usize>(
-    points: Points<'_, D>,
-    duplicate_of: &[i32],
-    stats: UpdateStats,
-    options: &Options,
-) -> Result<Option<MeshOf<D>>, Error>
-where
-    Dimension<D>: Incremental<D>,
-{
-    let used = Used::of(points, duplicate_of);
-    used.map(|used| delaunay_of_used(points, Some(&used), stats, options)).transpose()
-}
-
-/// Returns the 3D mesh of the points `before`, those in `points`, which follow them, and without those
-/// with the indices in `removed`. If these are not given, no index of it is unused any more, and the
-/// result has what the indices were, as `kept`. The result has the points as well.
-#[wasm_bindgen]
-pub fn edit3d(
+pub fn change(
+    dimension: u32,
     points: JsValue,
     before: JsValue,
     moved: JsValue,
-    removed: Option<Vec<f64>>,
+    removed: JsValue,
     outputs: Outputs,
     report: Function,
 ) -> Result<JsValue, Thrown> {
-    let mut mesh = Mesh3::from(CallerMesh::new(&moved, "tetrahedra", "neighbors")?);
-    let extra = edited::<3, 4>(&mut mesh, &points, &before, removed, &options(report), Mesh3::compact)?;
-    Ok(extra.added_to(mesh3(mesh, outputs)))
-}
-
-/// Does the same in 2D, in delaunator's orientation.
-#[wasm_bindgen]
-pub fn edit2d(
-    points: JsValue,
-    before: JsValue,
-    moved: JsValue,
-    removed: Option<Vec<f64>>,
-    report: Function,
-) -> Result<JsValue, Thrown> {
+    let options = Options { on_progress: Some(Arc::new(reporting(report))), ..Options::default() };
+    if dimension == 3 {
+        let mut mesh = Mesh3::from(CallerMesh::new(&moved, "tetrahedra", "neighbors")?);
+        let changed = changed::<3, 4>(&mut mesh, &points, &before, &removed, &options, Mesh3::compact)?;
+        return Ok(changed.of(|| mesh3(mesh, outputs)));
+    }
+    let options = Options { winding: Winding::Clockwise, ..options };
     let mut mesh = Mesh2::from(CallerMesh::new(&moved, "triangles", "halfedges")?);
-    let options = Options { winding: Winding::Clockwise, ..options(report) };
-    let extra = edited::<2, 3>(&mut mesh, &points, &before, removed, &options, Mesh2::compact)?;
-    Ok(extra.added_to(mesh2(mesh, true)))
+    let changed = changed::<2, 3>(&mut mesh, &points, &before, &removed, &options, Mesh2::compact)?;
+    Ok(changed.of(|| mesh2(mesh, true)))
 }
 
-/// What the result of a change has besides the mesh.
-struct Extra {
-    points: Coordinates,
-    kept: Option<Vec<u32>>,
+/// What has become of a mesh.
+enum Changed {
+    /// It is that of the points where they are now.
+    Moved,
+    /// The points are to be triangulated from scratch.
+    Restarted(UpdateStats),
+    /// It is that of these points. They were numbered in this way before if some were dropped.
+    Edited(Coordinates, Option<Vec<u32>>),
 }
 
-impl Extra {
-    /// Returns a mesh that has it as well.
-    fn added_to(self, mesh: JsValue) -> JsValue {
-        set(&mesh, "points", self.points.into_js());
-        if let Some(kept) = self.kept {
-            set(&mesh, "kept", Uint32Array::new_from_slice(&kept));
+impl Changed {
+    /// Returns it with the mesh.
+    fn of(self, mesh: impl FnOnce() -> JsValue) -> JsValue {
+        match self {
+            Changed::Moved => mesh(),
+            Changed::Restarted(stats) => object([("update", statistics(&stats))]),
+            Changed::Edited(points, kept) => {
+                let mesh = mesh();
+                set(&mesh, "points", points.into_js());
+                if let Some(kept) = kept {
+                    set(&mesh, "kept", Uint32Array::new_from_slice(&kept));
+                }
+                mesh
+            }
         }
-        mesh
     }
 }
 
 /// Changes a mesh as its caller wants.
-fn edited<const D: usize, const N: usize>(
+fn changed<const D: usize, const N: usize>(
     mesh: &mut MeshOf<D>,
     points: &JsValue,
     before: &JsValue,
-    removed: Option<Vec<f64>>,
+    removed: &JsValue,
     options: &Options,
     compact: fn(&mut MeshOf<D>) -> Vec<u32>,
-) -> Result<Extra, Thrown>
+) -> Result<Changed, Thrown>
 where
     Dimension<D>: Edit<D, N>,
     for<'m, 'p> Sparse<'m, 'p, D, N>: Insert<D>,
 {
     let new = Coordinates::new(points)?;
+    if before.is_undefined() {
+        let points = new.points::<D>()?;
+        let (followed, stats) = update::<D>(mesh, points, options, Limits::measured(D))?;
+        *mesh = match (followed, Used::of(points, mesh.duplicate_of())) {
+            (Some(followed), _) => followed,
+            (None, used @ Some(_)) => delaunay_of_used(points, used.as_ref(), stats, options)?,
+            (None, None) => return Ok(Changed::Restarted(stats)),
+        };
+        return Ok(Changed::Moved);
+    }
     // The index in an error is that among the new ones.
     new.points::<D>()?.validate()?;
     let mut coordinates = Coordinates::new(before)?;
-    let known = mesh.duplicate_of().len();
-    if coordinates.points::<D>()?.len() != known {
-        return Err(Error::PointCount { points: coordinates.points::<D>()?.len(), expected: known }.into());
+    let (known, expected) = (coordinates.points::<D>()?.len(), mesh.duplicate_of().len());
+    if known != expected {
+        return Err(Error::PointCount { points: known, expected }.into());
     }
-    let Some(removed) = removed else {
+    let Some(removed) = removed.dyn_ref::<Float64Array>() else {
         let kept = compact(mesh);
-        let points = coordinates.select::<D>(&kept);
         mesh.stats_mut().update = Some(UpdateStats::default());
-        return Ok(Extra { points, kept: Some(kept) });
+        return Ok(Changed::Edited(coordinates.select::<D>(&kept), Some(kept)));
     };
     let index = |i: f64| match i as u32 {
         index if f64::from(index) == i => Ok(index),
         _ => Err(error("BAD_INPUT", &format!("{i} is not the index of a point"))),
     };
-    let removed: Vec<u32> = removed.into_iter().map(index).collect::<Result<_, _>>()?;
+    let removed: Vec<u32> = removed.to_vec().into_iter().map(index).collect::<Result<_, _>>()?;
     coordinates.append(new);
     let points = coordinates.points::<D>()?;
     if let Some(again) = edit::<D, N>(mesh, points, &removed, options, Limits::measured(D))? {
         *mesh = delaunay_of_used(points, again.used(points).as_ref(), again.update, options)?;
     }
-    Ok(Extra { points: coordinates, kept: None })
-}
-
-fn options(report: Function) -> Options {
-    Options { on_progress: Some(Arc::new(reporting(report))), ..Options::default() }
-}
-
-fn restarted(stats: &UpdateStats) -> JsValue {
-    object([("update", statistics(stats))])
+    Ok(Changed::Edited(coordinates, None))
 }
