@@ -5,6 +5,8 @@
 //! All of it is generic over the number `D` of coordinates; [`Incremental`] and [`Insert`] are what
 //! the dimensions supply.
 
+pub mod edit;
+pub mod sparse;
 pub mod update;
 mod workers;
 

@@ -142,6 +142,14 @@ pub enum Error {
         /// The number of points of the mesh.
         expected: usize,
     },
+    /// A point cannot be removed from a mesh.
+    #[error("point {index} cannot be removed: {why}")]
+    BadIndex {
+        /// The index of the point.
+        index: u32,
+        /// Why: there is none, it was removed before, or it is given twice.
+        why: &'static str,
+    },
     /// There is not one value per point.
     #[error("there are {values} values for {points} points")]
     ValueCount {
@@ -191,7 +199,8 @@ impl Error {
             TooManyPoints { .. } | TooManySimplices { .. } => true,
             NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
             OutOfMemory { .. } | Threads { .. } | Cancelled => false,
-            PointCount { .. } | ValueCount { .. } | EmptyBox { .. } | BadAlpha | BrokenMesh { .. } => false,
+            PointCount { .. } | BadIndex { .. } | ValueCount { .. } | EmptyBox { .. } => false,
+            BadAlpha | BrokenMesh { .. } => false,
         }
     }
 }

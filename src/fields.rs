@@ -11,6 +11,8 @@ pub enum Value<'a> {
     Null,
     /// A number.
     Number(f64),
+    /// `true` or `false`.
+    Bool(bool),
     /// A string.
     Text(Cow<'a, str>),
     /// An array.
@@ -136,6 +138,16 @@ impl Field for Duration {
 
     fn name(_: &str) -> String {
         "milliseconds".to_owned()
+    }
+}
+
+impl Field for bool {
+    fn value(&self) -> Value<'_> {
+        Value::Bool(*self)
+    }
+
+    fn typescript() -> Option<String> {
+        Some("boolean".to_owned())
     }
 }
 

@@ -157,7 +157,7 @@ pub trait Mesh<const D: usize, const N: usize>: sealed::Sealed {
     fn opposites(&self) -> Cow<'_, [[i32; N]]>;
 
     /// Returns for each point the one that stands for it, or [`NONE`](crate::NONE) if it is a
-    /// vertex itself.
+    /// vertex itself; for points that were [removed](crate::Triangulator::remove), these themselves.
     fn duplicate_of(&self) -> &[i32];
 }
 
@@ -197,6 +197,12 @@ pub fn canonical<const N: usize>(simplices: &[[u32; N]]) -> Vec<[u32; N]> {
 pub trait MeshInfo {
     /// Sets what the mesh says of its points.
     fn set_input(&mut self, duplicate_of: Vec<i32>, dimension: u8);
+
+    /// Returns for each point the one that stands for it.
+    fn duplicate_of(&self) -> &[i32];
+
+    /// Makes vertex *v* `names[v]`, and leaves what has no name.
+    fn rename(&mut self, names: &[u32]);
 
     /// Returns the number of points that are duplicates.
     fn duplicates(&self) -> usize;
@@ -239,6 +245,17 @@ macro_rules! common_methods {
                 (self.duplicate_of, self.dimension) = (duplicate_of, dimension);
             }
 
+            fn duplicate_of(&self) -> &[i32] {
+                &self.duplicate_of
+            }
+
+            fn rename(&mut self, names: &[u32]) {
+                let hull: &mut [u32] = bytemuck::cast_slice_mut(&mut self.hull);
+                for v in self.$simplices.as_flattened_mut().iter_mut().chain(hull) {
+                    *v = names.get(*v as usize).copied().unwrap_or(*v);
+                }
+            }
+
             fn duplicates(&self) -> usize {
                 self.duplicate_count()
             }
@@ -274,7 +291,17 @@ macro_rules! common_methods {
             ///
             /// Panics if there is no point `i`.
             pub fn is_duplicate(&self, i: u32) -> bool {
-                self.duplicate_of[i as usize] != $crate::index::NONE
+                self.duplicate_of[i as usize] != $crate::index::NONE && !self.is_unused(i)
+            }
+
+            /// Returns whether point `i` was [removed](crate::Triangulator::remove), so that it is no
+            /// vertex, and stands for nothing. It is then its own duplicate in `duplicate_of`.
+            ///
+            /// # Panics
+            ///
+            /// Panics if there is no point `i`.
+            pub fn is_unused(&self, i: u32) -> bool {
+                self.duplicate_of[i as usize] == i as i32
             }
 
             /// Returns the vertex that stands for point `i`: `i` itself unless it is a duplicate.
@@ -288,7 +315,45 @@ macro_rules! common_methods {
 
             /// Returns the number of points that are duplicates.
             pub fn duplicate_count(&self) -> usize {
-                self.duplicate_of.iter().filter(|&&d| d != $crate::index::NONE).count()
+                (0..self.duplicate_of.len() as u32).filter(|&i| self.is_duplicate(i)).count()
+            }
+
+            /// Returns the number of points that were [removed](crate::Triangulator::remove).
+            pub fn unused_count(&self) -> usize {
+                (0..self.duplicate_of.len() as u32).filter(|&i| self.is_unused(i)).count()
+            }
+
+            /// Makes the mesh one of the points that were not
+            /// [removed](crate::Triangulator::remove), numbered in their order. Returns what their
+            /// indices were, with which the caller does the same to the points, and to values that
+            /// belong to them.
+            ///
+            /// # Examples
+            ///
+            /// ```
+            /// use gdel::{Backend, Triangulator};
+            ///
+            /// let points = [[0.0, 0.0], [0.5, 0.5], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0f64]];
+            /// let triangulator = Triangulator::new().backend(Backend::Cpu);
+            /// let mut mesh = triangulator.delaunay2d(&points)?;
+            /// triangulator.remove(&mut mesh, &points, &[1])?;
+            /// assert_eq!((mesh.unused_count(), mesh.hull.as_slice()), (1, &[0, 2, 3, 4][..]));
+            ///
+            /// let kept = mesh.compact();
+            /// assert_eq!(kept, [0, 2, 3, 4]);
+            /// let points: Vec<_> = kept.iter().map(|&i| points[i as usize]).collect();
+            /// assert_eq!((mesh.unused_count(), mesh.hull.as_slice()), (0, &[0, 1, 2, 3][..]));
+            /// assert!(gdel::verify2d(&points, &mesh)?.passed());
+            /// # Ok::<(), gdel::Error>(())
+            /// ```
+            pub fn compact(&mut self) -> Vec<u32> {
+                let kept: Vec<u32> = (0..self.duplicate_of.len() as u32).filter(|&i| !self.is_unused(i)).collect();
+                let mut places = vec![$crate::index::NO_INDEX; self.duplicate_of.len()];
+                (0..).zip(&kept).for_each(|(place, &i)| places[i as usize] = place);
+                $crate::mesh::MeshInfo::rename(self, &places);
+                let place = |first: i32| places.get(first as usize).map_or(first, |&place| place as i32);
+                self.duplicate_of = kept.iter().map(|&i| place(self.duplicate_of[i as usize])).collect();
+                kept
             }
         }
     };

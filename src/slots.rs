@@ -165,6 +165,23 @@ pub(crate) fn reserve<const N: usize>(
         .map_err(|_| Error::OutOfMemory { simplices: slots })
 }
 
+/// Reserves memory for so many more simplices of a mesh, and for some that may follow.
+///
+/// # Errors
+///
+/// Returns [`Error::OutOfMemory`].
+pub(crate) fn reserve_more<const N: usize>(
+    simplices: &mut Vec<[u32; N]>,
+    neighbors: &mut Vec<[i32; N]>,
+    more: usize,
+) -> Result<(), Error> {
+    let all = simplices.len() + more;
+    simplices
+        .try_reserve(more)
+        .and_then(|()| neighbors.try_reserve(all.saturating_sub(neighbors.len())))
+        .map_err(|_| Error::OutOfMemory { simplices: all })
+}
+
 /// Appends an unused slot to fewer than `limit` ones, and returns its number.
 ///
 /// # Errors

@@ -44,7 +44,9 @@ with_fields! {
         pub gpu: Option<GpuStats>,
         /// What star splaying did after that; 3D only.
         pub splay: Option<SplayStats>,
-        /// What [`Triangulator::update`](crate::Triangulator::update) did, if it made the mesh.
+        /// What [`Triangulator::update`](crate::Triangulator::update),
+        /// [`insert`](crate::Triangulator::insert) or [`remove`](crate::Triangulator::remove) did, if
+        /// that made the mesh.
         pub update: Option<UpdateStats>,
         /// The intermediate triangulations, if [`Triangulator::trace`](crate::Triangulator::trace)
         /// requested them.
@@ -380,7 +382,7 @@ with_fields! {
 }
 
 with_fields! {
-    /// What an update of a mesh to points that have moved did.
+    /// What was done to make a mesh from the one before, after points have moved, come or gone.
     ///
     /// # Examples
     ///
@@ -409,8 +411,13 @@ with_fields! {
         pub stars: usize,
         /// The number of vertices that were removed and inserted again where they are now; 2D only.
         pub reinserted: usize,
-        /// The number of points that were inserted because they are no duplicates any more.
+        /// The number of vertices that were removed because their points were.
+        pub removed: usize,
+        /// The number of points that were inserted: new ones, and those that are no duplicates any
+        /// more.
         pub inserted: usize,
+        /// Whether a mesh on the device was read for that, changed by the host, and uploaded.
+        pub on_host: bool,
         /// Why the points were triangulated from scratch, if they were.
         pub restarted: Option<Restart>,
     }
@@ -463,6 +470,9 @@ pub enum Restart {
     /// The arrays of the mesh are not those of a triangulation of as many points.
     #[error("the mesh is not a triangulation")]
     Broken,
+    /// More points come or go than it pays to insert or remove one by one.
+    #[error("too many points come or go")]
+    Points,
 }
 
 impl Restart {
@@ -478,6 +488,7 @@ impl Restart {
             Restart::Parted => "parted",
             Restart::Elsewhere => "elsewhere",
             Restart::Broken => "broken",
+            Restart::Points => "points",
         }
     }
 }

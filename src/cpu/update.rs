@@ -39,6 +39,9 @@ const SAMPLE: usize = 256;
 /// So much it always pays to repair.
 const FEW: f64 = 8.0;
 
+/// So many points it always pays to insert.
+const FEW_POINTS: f64 = 64.0;
+
 /// What it pays to repair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
@@ -46,13 +49,17 @@ pub struct Limits {
     pub inverted: f64,
     /// The number of facets that are not locally Delaunay, by that of simplices.
     pub changed: f64,
+    /// The number of points that are inserted, by that of all for each thread. One that is removed
+    /// counts several times.
+    pub points: f64,
     /// The number of threads.
     pub threads: usize,
 }
 
 impl Limits {
     /// Everything, so that tests see what the repair can do.
-    pub const NONE: Limits = Limits { inverted: f64::INFINITY, changed: f64::INFINITY, threads: usize::MAX };
+    pub const NONE: Limits =
+        Limits { inverted: f64::INFINITY, changed: f64::INFINITY, points: f64::INFINITY, threads: usize::MAX };
 
     /// Returns the limits beyond which one thread triangulates faster from scratch in `dimension`
     /// dimensions: what uniform points have that move by 1 % of their mean spacing in 3D, and by
@@ -60,8 +67,8 @@ impl Limits {
     /// triangulate from scratch before they have checked the mesh.
     pub fn measured(dimension: usize) -> Self {
         match dimension {
-            2 => Limits { inverted: 0.003, changed: 0.06, threads: 3 },
-            _ => Limits { inverted: 0.001, changed: 0.075, threads: 3 },
+            2 => Limits { inverted: 0.003, changed: 0.06, points: 0.045, threads: 3 },
+            _ => Limits { inverted: 0.001, changed: 0.075, points: 0.045, threads: 3 },
         }
     }
 
@@ -71,8 +78,8 @@ impl Limits {
     /// one inverted triangle in ten is left by the flips.
     pub fn on_device(dimension: usize) -> Self {
         match dimension {
-            2 => Limits { inverted: 0.0, changed: 0.06, threads: usize::MAX },
-            _ => Limits { inverted: 0.001, changed: 0.12, threads: usize::MAX },
+            2 => Limits { inverted: 0.0, changed: 0.06, threads: usize::MAX, ..Limits::NONE },
+            _ => Limits { inverted: 0.001, changed: 0.12, threads: usize::MAX, ..Limits::NONE },
         }
     }
 
@@ -92,6 +99,13 @@ impl Limits {
         } else {
             Ok(())
         }
+    }
+}
+
+impl Limits {
+    /// Returns why it does not pay to insert so many of so many points by one thread.
+    pub(crate) fn check_points(&self, count: f64, points: f64) -> Result<(), Restart> {
+        if count > FEW_POINTS + self.points * points { Err(Restart::Points) } else { Ok(()) }
     }
 }
 
@@ -316,11 +330,14 @@ where
 }
 
 /// Returns the points that are no duplicates any more, each with the vertex that it duplicated; and
-/// what the others duplicate. `None` if duplicates of duplicates are given.
+/// what the others duplicate, those that are unused themselves. `None` if duplicates of duplicates are given.
 fn parted<const D: usize>(duplicate_of: &[i32], points: Points<'_, D>) -> Option<(Vec<[u32; 2]>, Vec<i32>)> {
     let mut merged = Vec::new();
+    let mut duplicates = vec![NONE; points.len()];
     for (i, &first) in (0..).zip(duplicate_of) {
-        if first != NONE {
+        if first == i {
+            duplicates[i as usize] = i;
+        } else if first != NONE {
             // The lowest index stands for a point.
             if first < 0 || first >= i || duplicate_of[first as usize] != NONE {
                 return None;
@@ -328,7 +345,6 @@ fn parted<const D: usize>(duplicate_of: &[i32], points: Points<'_, D>) -> Option
             merged.push([i as u32, first as u32]);
         }
     }
-    let mut duplicates = vec![NONE; points.len()];
     let missing = missing_points(points, &merged, &mut duplicates);
     Some((missing, duplicates))
 }

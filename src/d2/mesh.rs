@@ -43,7 +43,8 @@ pub struct Mesh2 {
     /// distinct points in ascending order of x, or of y where all x are equal.
     pub hull: Vec<u32>,
     /// One entry per point: the lowest index of a point with the same coordinates, which stands for
-    /// this one in the mesh; [`NONE`](crate::NONE) for points that are vertices themselves.
+    /// this one in the mesh; [`NONE`](crate::NONE) for points that are vertices themselves. Points
+    /// that were [removed](crate::Triangulator::remove) are unused, and their own duplicates.
     pub duplicate_of: Vec<i32>,
     /// The affine dimension of the input: 2; or 1 or 0 if all points are collinear or equal, in
     /// which case there are no triangles. No points at all have dimension 0.

@@ -1,6 +1,7 @@
 //! 2D Delaunay triangulations. The folder mirrors [`d3`](crate::d3) file by file.
 
 mod cpu;
+mod edit;
 pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;

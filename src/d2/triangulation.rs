@@ -26,6 +26,38 @@ const fn edge_of_halfedge(clockwise: bool) -> [usize; 3] {
     if clockwise { [1, 0, 2] } else { [2, 0, 1] }
 }
 
+/// Returns the vertices of a triangle of a mesh of this orientation, counter-clockwise.
+pub(super) fn vertices_of_mesh(triangle: [u32; 3], winding: Winding) -> [u32; 3] {
+    vertex_order(winding == Winding::Clockwise).map(|k| triangle[k])
+}
+
+/// Returns the vertices of a counter-clockwise triangle as a mesh of this orientation has them.
+pub(super) fn vertices_to_mesh(triangle: [u32; 3], winding: Winding) -> [u32; 3] {
+    vertices_of_mesh(triangle, winding)
+}
+
+/// Returns what is across the edges of a triangle of a mesh of this orientation, given its
+/// half-edges; [`NO_INDEX`] outside the hull.
+pub(super) fn edges_of_mesh(halfedges: [i32; 3], winding: Winding) -> [u32; 3] {
+    let mut edges = [NO_INDEX; 3];
+    for (k, edge) in edge_of_halfedge(winding == Winding::Clockwise).into_iter().enumerate() {
+        if halfedges[k] != NONE {
+            edges[edge] = Triangulation2::edge_of_halfedge(halfedges[k] as u32, winding);
+        }
+    }
+    edges
+}
+
+/// Returns the half-edges of a triangle, given what is across its edges: the inverse of
+/// [`edges_of_mesh`].
+pub(super) fn edges_to_mesh(edges: [u32; 3], winding: Winding) -> [i32; 3] {
+    let is_clockwise = winding == Winding::Clockwise;
+    edge_of_halfedge(is_clockwise).map(|k| match edges[k] {
+        NO_INDEX => NONE,
+        across => (across as usize / 4 * 3 + halfedge_of_edge(is_clockwise)[across as usize % 4]) as i32,
+    })
+}
+
 /// A 2D triangulation: triangles, and *ghosts*, which join the edges of the hull to one infinite
 /// vertex.
 ///
@@ -175,6 +207,7 @@ impl Triangulation2 {
         names: &[u32],
         threads: Threads,
     ) -> (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>) {
+        let winding = if CLOCKWISE { Winding::Clockwise } else { Winding::CounterClockwise };
         let slots = self.triangles.len();
         let ghosts = parallel::map_ranges(threads, slots, |range| {
             (range.start as u32..range.end as u32).filter(|&t| self.is_ghost(t)).collect::<Vec<_>>()
@@ -219,10 +252,7 @@ impl Triangulation2 {
         let mut halfedges: Vec<[i32; 3]> = bytemuck::cast_vec(neighbors);
         parallel::for_chunks(threads, &mut halfedges, |_, chunk| {
             for edges in chunk {
-                *edges = edge_of_halfedge(CLOCKWISE).map(|k| match edges[k] as u32 {
-                    NO_INDEX => NONE,
-                    across => (across as usize / 4 * 3 + halfedge_of_edge(CLOCKWISE)[across as usize % 4]) as i32,
-                });
+                *edges = edges_to_mesh(edges.map(|across| across as u32), winding);
             }
         });
         (triangles, halfedges, hull)

@@ -68,7 +68,8 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
     }
 }
 
-/// Checks that `mesh`, whoever computed it, is the Delaunay triangulation of `points`.
+/// Checks that `mesh`, whoever computed it, is the Delaunay triangulation of `points`, except for
+/// those that it states to be [unused](Mesh2::is_unused).
 ///
 /// ```
 /// use gdel::{MeshView2, verify2d};
@@ -84,7 +85,7 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
 /// Returns the errors of [`verify3d`](crate::d3::verify::verify3d).
 pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView2<'m>>) -> Result<Report, Error> {
     let mesh = mesh.into();
-    let input = Input::new(points.into(), dimension_2d)?;
+    let input = Input::new(points.into(), mesh.duplicate_of, dimension_2d)?;
     let mut report = input.report(mesh.dimension, mesh.duplicate_of);
     report.counts.facets = mesh.triangles.len();
     let indices = check_indices(mesh.triangles, input.points.len()).into();

@@ -113,7 +113,8 @@ impl<P: Places> EdgeMap<P> {
                 self.table.extend([((b, c), 4 * t + 1), ((c, a), 4 * t + 2), ((a, b), 4 * t + 3)]);
             }
             for (&Facet { corners: [a, b, c], beyond }, t) in facets.iter().zip(tetrahedra) {
-                let across = |edge| self.table[&edge];
+                // Only what is no triangulation has edges without another side.
+                let across = |edge| self.table.get(&edge).copied().unwrap_or(0);
                 link(t, [beyond, across((c, b)), across((a, c)), across((b, a))]);
             }
         }

@@ -51,7 +51,8 @@ pub struct Mesh3 {
     /// The triangles of the convex hull's boundary, counter-clockwise as seen from outside.
     pub hull: Vec<[u32; 3]>,
     /// One entry per point: the lowest index of a point with the same coordinates, which stands for
-    /// this one in the mesh; [`NONE`] for points that are vertices themselves.
+    /// this one in the mesh; [`NONE`] for points that are vertices themselves. Points
+    /// that were [removed](crate::Triangulator::remove) are unused, and their own duplicates.
     pub duplicate_of: Vec<i32>,
     /// The affine dimension of the input: 3; or 2, 1 or 0 if all points are coplanar, collinear or
     /// equal, in which case there are no tetrahedra. No points at all have dimension 0.

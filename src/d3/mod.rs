@@ -2,6 +2,7 @@
 
 mod adjacency;
 mod cpu;
+mod edit;
 pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;

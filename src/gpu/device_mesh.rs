@@ -166,6 +166,8 @@ pub struct DeviceMesh<const D: usize> {
     readback: Readback,
     arrays: DeviceArrays,
     duplicate_of: Vec<i32>,
+    /// Whether some points are unused: their own duplicates.
+    has_unused: bool,
     dimension: u8,
     stats: Stats,
 }
@@ -230,6 +232,11 @@ impl<const D: usize> DeviceMesh<D> {
     /// Returns how the mesh was computed.
     pub fn stats(&self) -> &Stats {
         &self.stats
+    }
+
+    /// Returns whether points were removed that are still counted.
+    pub(crate) fn has_unused(&self) -> bool {
+        self.has_unused
     }
 
     /// Returns the device.
@@ -330,7 +337,8 @@ where
     /// input and of the run.
     pub(crate) fn new(gpu: &Gpu, readback: &Readback, arrays: DeviceArrays, mesh: MeshOf<D>) -> Self {
         let (duplicate_of, dimension, stats) = mesh.into_info();
-        DeviceMesh { gpu: gpu.clone(), readback: readback.clone(), arrays, duplicate_of, dimension, stats }
+        let (gpu, readback) = (gpu.clone(), readback.clone());
+        DeviceMesh { gpu, readback, arrays, duplicate_of, has_unused: false, dimension, stats }
     }
 
     /// Uploads a mesh that the host has made.
@@ -353,7 +361,9 @@ where
                 Ok(arrays)
             })
             .await?;
-        Ok(DeviceMesh::new(gpu, &Readback::default(), arrays, mesh))
+        let mut mesh = DeviceMesh::new(gpu, &Readback::default(), arrays, mesh);
+        mesh.has_unused = (0..).zip(&mesh.duplicate_of).any(|(i, &first)| first == i);
+        Ok(mesh)
     }
 
     /// Reads all arrays, and frees those on the device.
@@ -375,7 +385,6 @@ where
     /// # Errors
     ///
     /// Returns the errors of `read`.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) async fn read_all(&self) -> Result<MeshOf<D>, Error> {
         let mut mesh = MeshOf::<D>::default();
         self.read_arrays(Outputs::ALL, &mut mesh).await?;

@@ -330,6 +330,121 @@ impl Triangulator {
         mesh.follow_async(self, points.into()).await
     }
 
+    /// Inserts points into a mesh. Blocks the thread.
+    ///
+    /// `points` are all points: first those of the mesh, as they were, then the new ones. The mesh is
+    /// that of a run from scratch, except for the order of its simplices: also where new points lie
+    /// outside the hull, equal others, or are the first that do not lie in a plane.
+    ///
+    /// A few points cost what changes around them, and one look at the coordinates of all. Where more
+    /// come than it pays to insert one by one (with one thread, about one in twenty), the points are
+    /// triangulated from scratch by the backend, and
+    /// [`Stats::update`](crate::stats::Stats::update) says why. The mesh has to be that of its points:
+    /// only what is near the new ones is checked. A mesh on the device is read, changed by the host,
+    /// and uploaded.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Backend, Triangulator};
+    ///
+    /// let mut points = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0f64]];
+    /// let triangulator = Triangulator::new().backend(Backend::Cpu);
+    /// let mut mesh = triangulator.delaunay2d(&points)?;
+    /// // The middle of the largest triangle, five times.
+    /// for _ in 0..5 {
+    ///     let areas: Vec<f64> = mesh.areas(&points).collect();
+    ///     let largest = (0..areas.len()).max_by(|&s, &t| areas[s].total_cmp(&areas[t])).unwrap();
+    ///     let corners = mesh.triangles[largest].map(|v| points[v as usize]);
+    ///     points.push([0, 1].map(|axis| corners.iter().map(|p| p[axis]).sum::<f64>() / 3.0));
+    ///     triangulator.insert(&mut mesh, &points)?;
+    /// }
+    /// assert_eq!(mesh.canonical(), gdel::delaunay2d(&points)?.canonical());
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::delaunay3d`], and [`Error::PointCount`] if there are
+    /// fewer points than the mesh has. After an error the mesh is what it was before.
+    pub fn insert<'a, M: Moving>(&self, mesh: &mut M, points: impl Into<M::Points<'a>>) -> Result<(), Error> {
+        mesh.edit(self, points.into(), &[])
+    }
+
+    /// Does the same as [`insert`](Triangulator::insert), and waits for the GPU without blocking the
+    /// thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::insert`].
+    pub async fn insert_async<'a, M: Moving>(
+        &self,
+        mesh: &mut M,
+        points: impl Into<M::Points<'a>>,
+    ) -> Result<(), Error> {
+        mesh.edit_async(self, points.into(), &[]).await
+    }
+
+    /// Removes the points with these indices from a mesh, which is one of `points`. Blocks the thread.
+    ///
+    /// The mesh is that of a run from scratch on the points that are left, except for the order of its
+    /// simplices; if the removed point stood for others, the lowest of these takes its place. All
+    /// points keep their indices. Those that were removed are *unused*: in
+    /// [`duplicate_of`](Mesh3::duplicate_of) they are their own duplicates, and nothing depends on
+    /// their coordinates any more, except that they have to be finite. Later calls of
+    /// [`update`](Triangulator::update), [`insert`](Triangulator::insert) and `remove` leave them
+    /// unused. [`Mesh3::compact`] drops them.
+    ///
+    /// What it costs, and when it is done from scratch, is as for [`insert`](Triangulator::insert),
+    /// where one point that is removed counts for 3 that are inserted, or 12 in 2D.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Backend, Triangulator, stats::Restart};
+    ///
+    /// let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0], [2.0, 1.0f64]];
+    /// let triangulator = Triangulator::new().backend(Backend::Cpu);
+    /// let mut mesh = triangulator.delaunay2d(&points)?;
+    /// triangulator.remove(&mut mesh, &points, &[4])?;
+    /// assert_eq!((mesh.triangles.len(), mesh.is_unused(4)), (2, true));
+    /// assert_eq!(mesh.stats.update.map(|update| (update.removed, update.restarted)), Some((1, None)));
+    /// // What is left has no triangles.
+    /// triangulator.remove(&mut mesh, &points, &[0, 1])?;
+    /// assert_eq!((mesh.triangles.len(), mesh.dimension, mesh.hull.as_slice()), (0, 1, &[3, 2][..]));
+    /// assert_eq!(mesh.stats.update.and_then(|update| update.restarted), Some(Restart::Degenerate));
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::delaunay3d`], [`Error::PointCount`] if the mesh is not
+    /// one of as many points, and [`Error::BadIndex`] if an index is not below their number, is given
+    /// twice, or was removed before. After an error the mesh is what it was before.
+    pub fn remove<'a, M: Moving>(
+        &self,
+        mesh: &mut M,
+        points: impl Into<M::Points<'a>>,
+        indices: &[u32],
+    ) -> Result<(), Error> {
+        mesh.edit(self, mesh.as_many(points.into())?, indices)
+    }
+
+    /// Does the same as [`remove`](Triangulator::remove), and waits for the GPU without blocking the
+    /// thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::remove`].
+    pub async fn remove_async<'a, M: Moving>(
+        &self,
+        mesh: &mut M,
+        points: impl Into<M::Points<'a>>,
+        indices: &[u32],
+    ) -> Result<(), Error> {
+        mesh.edit_async(self, mesh.as_many(points.into())?, indices).await
+    }
+
     /// Returns the 3D Delaunay triangulation of `points` as a mesh that stays on the device, which
     /// is opened whatever the backend is. Blocks the thread.
     ///
@@ -423,7 +538,8 @@ impl Triangulator {
     /// Returns the errors of `update3d_of_buffer`.
     #[cfg(feature = "gpu")]
     pub async fn update3d_of_buffer_async(&self, mesh: &mut DeviceMesh3, points: &wgpu::Buffer) -> Result<(), Error> {
-        self.device.update_of_buffer(mesh, points, &self.options).await
+        let points = self.device.read_points(points).await?;
+        mesh.follow_async(self, (&points).into()).await
     }
 
     /// Does the same in 2D, with two coordinates per point.
@@ -443,7 +559,8 @@ impl Triangulator {
     /// Returns the errors of `update3d_of_buffer`.
     #[cfg(feature = "gpu")]
     pub async fn update2d_of_buffer_async(&self, mesh: &mut DeviceMesh2, points: &wgpu::Buffer) -> Result<(), Error> {
-        self.device.update_of_buffer(mesh, points, &self.options).await
+        let points = self.device.read_points(points).await?;
+        mesh.follow_async(self, (&points).into()).await
     }
 
     /// Does the same in 2D, with two coordinates per point.

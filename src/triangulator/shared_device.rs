@@ -345,22 +345,8 @@ impl SharedDevice {
         Ok(())
     }
 
-    /// Makes `mesh` that of the points in a buffer of the device, which have moved.
-    pub(super) async fn update_of_buffer<const D: usize>(
-        &self,
-        mesh: &mut DeviceMesh<D>,
-        points: &wgpu::Buffer,
-        options: &Options,
-    ) -> Result<(), Error>
-    where
-        Dimension<D>: Choice<D>,
-    {
-        let points = self.read_points::<D>(points).await?;
-        self.update(mesh, Points::F32(&points), options).await
-    }
-
     /// Reads points, which the host needs for the lattice and for exact predicates.
-    async fn read_points<const D: usize>(&self, points: &wgpu::Buffer) -> Result<Vec<[f32; D]>, Error> {
+    pub(super) async fn read_points<const D: usize>(&self, points: &wgpu::Buffer) -> Result<Vec<[f32; D]>, Error> {
         let bytes = points.size();
         let point_bytes = (D * size_of::<f32>()) as u64;
         if !bytes.is_multiple_of(point_bytes) {

@@ -3,7 +3,7 @@
 use crate::verify::report::{Check, Defect, Findings, Report};
 use crate::{
     error::Error,
-    index::NONE,
+    index::{NO_INDEX, NONE},
     input::points::Points,
     parallel::{self, Threads},
     predicates::{orient2d, orient3d},
@@ -14,17 +14,23 @@ use std::cmp::Ordering;
 pub(crate) struct Input<const D: usize> {
     /// The exact coordinates, duplicates included.
     pub(crate) points: Vec<[f64; D]>,
-    /// For each point the lowest index with the same coordinates.
+    /// For each point the lowest index with the same coordinates; [`NO_INDEX`] for points that are
+    /// unused.
     representative: Vec<u32>,
-    /// The number of points without duplicates.
+    /// The number of points without duplicates and unused ones.
     pub(crate) distinct: usize,
     /// The affine dimension, 0 to D.
     pub(crate) dimension: u8,
 }
 
 impl<const D: usize> Input<D> {
-    /// Derives what follows from the points; `affine_dimension` computes their dimension.
-    pub(crate) fn new(points: Points<'_, D>, affine_dimension: fn(&[[f64; D]]) -> u8) -> Result<Self, Error> {
+    /// Derives what follows from the points except for those that the mesh states to be unused, as their
+    /// own duplicates; `affine_dimension` computes their dimension.
+    pub(crate) fn new(
+        points: Points<'_, D>,
+        duplicate_of: Option<&[i32]>,
+        affine_dimension: fn(&[[f64; D]]) -> u8,
+    ) -> Result<Self, Error> {
         points.validate_by(Threads::All)?;
         let limit = i32::MAX as usize;
         if points.len() > limit {
@@ -32,9 +38,16 @@ impl<const D: usize> Input<D> {
         }
         // Adding zero turns −0 into 0, which is the same coordinate.
         let points: Vec<[f64; D]> = points.iter().map(|p| p.map(|x| x + 0.0)).collect();
-        let representative = representatives(&points);
+        let stated = duplicate_of.unwrap_or_default();
+        let is_used = |i: u32| stated.get(i as usize) != Some(&(i as i32));
+        let used: Vec<u32> = (0..points.len() as u32).filter(|&i| is_used(i)).collect();
+        let dimension = if used.len() == points.len() {
+            affine_dimension(&points)
+        } else {
+            affine_dimension(&used.iter().map(|&i| points[i as usize]).collect::<Vec<_>>())
+        };
+        let representative = representatives(&points, used);
         let distinct = (0u32..).zip(&representative).filter(|&(i, &r)| r == i).count();
-        let dimension = affine_dimension(&points);
         Ok(Input { points, representative, distinct, dimension })
     }
 
@@ -43,6 +56,7 @@ impl<const D: usize> Input<D> {
         let mut report = Report { dimension: self.dimension, ..Report::default() };
         report.counts.points = self.points.len();
         report.counts.distinct_points = self.distinct;
+        report.counts.unused_points = self.representative.iter().filter(|&&r| r == NO_INDEX).count();
         report.decide(Check::Dimension, || dimension.map(|d| self.check_dimension(d)));
         report.decide(Check::Duplicates, || duplicate_of.map(|d| self.check_duplicates(d)));
         report
@@ -65,7 +79,11 @@ impl<const D: usize> Input<D> {
             return findings;
         }
         for (i, (&stated, &representative)) in stated.iter().zip(&self.representative).enumerate() {
-            let expected = if representative as usize == i { NONE } else { representative as i32 };
+            let expected = match representative {
+                NO_INDEX => i as i32,
+                representative if representative as usize == i => NONE,
+                representative => representative as i32,
+            };
             if stated != expected {
                 findings.add(|| {
                     let detail = format!("the mesh states {stated} as the point that stands for it, not {expected}");
@@ -91,11 +109,11 @@ impl<const D: usize> Input<D> {
                 used[v as usize] = true;
                 let representative = self.representative[v as usize];
                 if representative != v {
-                    findings.add(|| {
-                        let detail =
-                            format!("vertex {v} is a duplicate of point {representative}, which stands for it");
-                        blame(t, detail)
-                    });
+                    let detail = || match representative {
+                        NO_INDEX => format!("vertex {v} is a point that the mesh states to be unused"),
+                        first => format!("vertex {v} is a duplicate of point {first}, which stands for it"),
+                    };
+                    findings.add(|| blame(t, detail()));
                 }
             }
         }
@@ -123,12 +141,13 @@ fn compare<const D: usize>(a: &[f64; D], b: &[f64; D]) -> Ordering {
     a.iter().zip(b).map(|(x, y)| x.total_cmp(y)).find(|&order| order != Ordering::Equal).unwrap_or(Ordering::Equal)
 }
 
-fn representatives<const D: usize>(points: &[[f64; D]]) -> Vec<u32> {
+/// Returns for each point the lowest index with the same coordinates among those in `order`;
+/// [`NO_INDEX`] for those that are not.
+fn representatives<const D: usize>(points: &[[f64; D]], mut order: Vec<u32>) -> Vec<u32> {
     let coordinates = |i: u32| points[i as usize];
-    let mut order: Vec<u32> = (0..points.len() as u32).collect();
     let by_place = |&i: &u32, &j: &u32| compare(&coordinates(i), &coordinates(j)).then(i.cmp(&j));
     parallel::sort_by(Threads::All, &mut order, by_place);
-    let mut representative = vec![0; points.len()];
+    let mut representative = vec![NO_INDEX; points.len()];
     for equal in order.chunk_by(|&i, &j| coordinates(i) == coordinates(j)) {
         for &i in equal {
             representative[i as usize] = equal[0];

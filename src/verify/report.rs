@@ -268,8 +268,10 @@ impl From<Option<Findings>> for Outcome {
 pub struct Counts {
     /// Points, duplicates included.
     pub points: usize,
-    /// Points without duplicates.
+    /// Points without duplicates and unused ones.
     pub distinct_points: usize,
+    /// Points that the mesh states to be unused, which are not looked at.
+    pub unused_points: usize,
     /// Points that are corners of tetrahedra, or of triangles in 2D.
     pub vertices: usize,
     /// Edges.

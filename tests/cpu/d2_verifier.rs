@@ -76,7 +76,6 @@ fn other_arrays(broken: &mut BrokenMeshes) {
     broken.changed(duplicates, "duplicate not stated", &doubled, Point(9), |m| m.duplicate_of[9] = -1);
     broken.changed(duplicates, "duplicate of another point", &doubled, Point(10), |m| m.duplicate_of[10] = 2);
     broken.changed(duplicates, "duplicate of none", &doubled, Point(10), |m| m.duplicate_of[10] = i32::MIN);
-    broken.changed(duplicates, "duplicate of itself", &doubled, Point(2), |m| m.duplicate_of[2] = 2);
     broken.changed(duplicates, "duplicates of too few points", &doubled, Mesh, |m| m.duplicate_of.truncate(9));
 
     let halfedges = Check::Neighbors;

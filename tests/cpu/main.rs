@@ -3,6 +3,8 @@
 mod broken;
 #[path = "../shared/clouds.rs"]
 mod clouds;
+#[path = "../shared/degenerate.rs"]
+mod degenerate;
 #[path = "../shared/motions.rs"]
 mod motions;
 mod oracle;
@@ -12,6 +14,7 @@ mod d2_canonical;
 mod d2_verifier;
 mod d3_canonical;
 mod d3_verifier;
+mod editing;
 mod fingerprints;
 mod generate;
 mod inputs;

@@ -10,4 +10,5 @@ mod interpolate;
 mod locate;
 mod nearest;
 mod tree;
+mod unused;
 mod voronoi;

@@ -8,6 +8,7 @@ mod d2_trouble;
 mod d3;
 #[path = "../shared/degenerate.rs"]
 mod degenerate;
+mod editing;
 #[path = "../shared/motions.rs"]
 mod motions;
 mod moving;

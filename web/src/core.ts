@@ -340,22 +340,25 @@ function tasks2d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
   return { handlers, memory, dispose };
 }
 
-/** Meshes in the memory of the CPU whose points move. */
+/** Meshes in the memory of the CPU whose points move, come and go. */
 function updateTasks(module: WebAssembly.Module): ModuleTasks {
   const { glue, memory } = instantiate('update', module);
-  const task =
-    (update: (args: Tasks['update3d']['args'], report: Report) => any) =>
-    async (args: Tasks['update3d']['args'], control: Control) => {
+  const handlers: Handlers = {
+    async change({ dimension, points, before, moved, removed, outputs }, control) {
       const started = performance.now();
       control.onBlocking();
-      const mesh = update(args, reporting(control));
-      return { ...mesh, points: args.points, stats: statsOf(mesh.stats, started, memory) };
-    };
-  const handlers: Handlers = {
-    update3d: task(({ points, moved, outputs }, report) =>
-      withEmpty(glue.update3d(points, moved, outputsOf(glue, outputs), report)),
-    ),
-    update2d: task(({ points, moved }, report) => glue.update2d(points, moved, report)),
+      const mesh = glue.change(
+        dimension,
+        points,
+        before,
+        moved,
+        removed,
+        outputsOf(glue, outputs),
+        reporting(control),
+      );
+      if (dimension === 3) withEmpty(mesh);
+      return { points, ...mesh, stats: statsOf(mesh.stats, started, memory) };
+    },
   };
   return { handlers, memory, dispose() {} };
 }

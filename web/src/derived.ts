@@ -274,7 +274,8 @@ export class SpanningTree {
 
   /**
    * Returns for each point the number of its single-linkage cluster, if the longest edges are left
-   * out so that there are `count` clusters, as far as there are points enough.
+   * out so that there are `count` clusters, as far as there are points enough; 2³² − 1 for points
+   * that were removed.
    */
   clusters(count: number): Indices {
     checkCount('the number of clusters', count);
@@ -283,7 +284,7 @@ export class SpanningTree {
 
   /**
    * Returns for each point the number of its single-linkage cluster, if the edges that are longer
-   * than `distance` are left out.
+   * than `distance` are left out; 2³² − 1 for points that were removed.
    */
   clustersWithin(distance: number): Indices {
     if (typeof distance !== 'number' || Number.isNaN(distance))
@@ -312,7 +313,8 @@ export class SpanningTree {
     let count = 0;
     for (let i = 0; i < parent.length; i++) {
       const first = find(i);
-      labels[i] = first === i ? count++ : labels[first]!;
+      // A point that was removed is its own duplicate, and has no cluster.
+      labels[i] = duplicateOf[i] === i ? -1 : first === i ? count++ : labels[first]!;
     }
     return labels;
   }

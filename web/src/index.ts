@@ -7,6 +7,7 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 
 export type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
+export type { Mesh } from './changing.js';
 export { Delaunator } from './delaunator.js';
 export {
   type AlphaOptions,

@@ -1,20 +1,8 @@
-import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
+import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
+import { Mesh } from './changing.js';
 import {
-  type AlphaOptions,
-  type AlphaShape,
-  alphaShape,
-  type Geometry,
-  geometry,
-  type InterpolateOptions,
-  interpolate,
   locate,
-  type NearestOptions,
-  nearest,
   type Source,
-  type SpanningTree,
-  spanningTree,
-  type Topology,
-  topology,
   type VoronoiArrays,
   type VoronoiOptions,
   voronoi,
@@ -23,16 +11,7 @@ import { GdelError } from './errors.js';
 import type { Done } from './host.js';
 import type { Update } from './run.js';
 import { write } from './tools.js';
-import type {
-  AccessorOptions,
-  Output,
-  Points,
-  Stats,
-  TaskOptions,
-  Trace,
-  UpdateOptions,
-} from './types.js';
-import { Updating } from './updating.js';
+import type { Output, Points, TaskOptions, Trace } from './types.js';
 
 /** Where points are in a 3D mesh. */
 export interface Locations3 {
@@ -51,7 +30,7 @@ export interface Locations3 {
 /**
  * A 3D Delaunay triangulation in typed arrays. All vertices are indices of the input points.
  */
-export class Mesh3 {
+export class Mesh3 extends Mesh {
   /**
    * Four vertices per tetrahedron, positively oriented: det(b − a, c − a, d − a) > 0. No
    * tetrahedron is flat.
@@ -79,48 +58,18 @@ export class Mesh3 {
    * transferred.
    */
   declare readonly points: Coordinates;
-  /** Statistics of the run. */
-  declare readonly stats: Stats;
   /** The intermediate triangulations, if `outputs` has `'trace'` and the GPU computed the mesh. */
   declare readonly trace?: Trace;
   readonly #outputs: readonly Output[];
-  readonly #update: Update<'delaunay3d'>;
-  readonly #updating = new Updating();
-
   /** @internal */
   constructor(done: Done<'delaunay3d'>, outputs: readonly Output[], update: Update<'delaunay3d'>) {
+    super(done, update);
     this.#outputs = outputs;
-    this.#update = update;
-    this.#take(done);
   }
 
-  /** Takes over what a run has made. */
-  #take({ result, place }: Done<'delaunay3d'>): void {
+  /** @internal */
+  _take({ result, place }: Done<'delaunay3d'>): void {
     Object.assign(this, { trace: undefined }, result, { stats: { ...result.stats, ...place } });
-  }
-
-  /**
-   * Moves the points of the mesh: it becomes the mesh of as many other points, the same as a run from
-   * scratch makes of them, except for the order of its tetrahedra. Where little has changed, that is
-   * faster; {@link UpdateStats}, in `stats.update`, say what was done.
-   *
-   * What triangulated the points does it: its backend, and its worker. The arrays of the mesh are
-   * replaced by new ones when the promise is fulfilled. Until then, and if it is rejected, the mesh is
-   * what it was.
-   *
-   * @throws {@link GdelError} `BAD_INPUT` for another number of points, if the mesh is being updated,
-   * or if `outputs` lacked `'neighbors'` or `'duplicateOf'`; and what `delaunay3d` is rejected with.
-   */
-  update(points: Points, options?: UpdateOptions): Promise<void>;
-  update<T>(
-    points: ArrayLike<T>,
-    options: UpdateOptions & Pick<AccessorOptions<T>, 'point'>,
-  ): Promise<void>;
-  update(points: unknown, options?: UpdateOptions): Promise<void> {
-    return this.#updating.run(async () => {
-      const moved = { ...this.#source().mesh, dimension: this.dimension };
-      this.#take(await this.#update(points, options, moved, this.stats));
-    });
   }
 
   /**
@@ -130,58 +79,13 @@ export class Mesh3 {
    * @throws {@link GdelError} `NOT_FINITE` with the `index` of a query, `BAD_INPUT`.
    */
   async locate(queries: Points, options?: TaskOptions): Promise<Locations3> {
-    const { simplices, facets } = await locate(this.#source(), queries, options);
+    const { simplices, facets } = await locate(this._source(), queries, options);
     return { tetrahedra: simplices, facets };
-  }
-
-  /**
-   * Returns the vertex that is nearest to each query point, exactly: of several at the same distance
-   * the one with the lowest index; −1 if the mesh has no tetrahedra. With `k`, the `k` nearest ones, nearest
-   * first, and −1 where there are not so many.
-   */
-  async nearest(queries: Points, options?: NearestOptions): Promise<SignedIndices> {
-    return nearest(this.#source(), queries, options);
-  }
-
-  /**
-   * Returns the interpolated value at each query point, NaN outside the hull.
-   *
-   * @param values One number per point of the mesh; those of duplicates are not used.
-   */
-  async interpolate(
-    values: ArrayLike<number>,
-    queries: Points,
-    options?: InterpolateOptions,
-  ): Promise<Doubles> {
-    return interpolate(this.#source(), values, queries, options);
-  }
-
-  /** Returns the edges, the facets, the neighbours of each vertex and a simplex of each. */
-  async topology(options?: TaskOptions): Promise<Topology> {
-    return topology(this.#source(), options);
-  }
-
-  /** Returns circumcentres, radii, volumes, quality and angles of the simplices. */
-  async geometry(options?: TaskOptions): Promise<Geometry> {
-    return geometry(this.#source(), options);
   }
 
   /** Returns the Voronoi diagram of the vertices. */
   async voronoi(options?: VoronoiOptions): Promise<VoronoiArrays> {
-    return voronoi(this.#source(), options);
-  }
-
-  /**
-   * Returns the alpha shape for a radius: the tetrahedra whose circumspheres have this radius or less,
-   * and their boundary.
-   */
-  async alphaShape(options?: AlphaOptions): Promise<AlphaShape> {
-    return alphaShape(this.#source(), options);
-  }
-
-  /** Returns the Euclidean minimum spanning tree of the vertices, with single-linkage clusters. */
-  async spanningTree(options?: TaskOptions): Promise<SpanningTree> {
-    return spanningTree(this.#source(), options);
+    return voronoi(this._source(), options);
   }
 
   /**
@@ -227,8 +131,8 @@ export class Mesh3 {
     return (await this.#write('npz', ['neighbors'], options)).npz!;
   }
 
-  /** Returns what everything is derived from. */
-  #source(): Source {
+  /** @internal */
+  _source(): Source {
     const missing = (['neighbors', 'duplicateOf'] as const).find((o) => !this.#outputs.includes(o));
     if (missing)
       throw new GdelError(

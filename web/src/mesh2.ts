@@ -1,30 +1,11 @@
-import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
-import {
-  type AlphaOptions,
-  type AlphaShape,
-  alphaShape,
-  type Geometry,
-  geometry,
-  type InterpolateOptions,
-  interpolate,
-  locate,
-  type NearestOptions,
-  nearest,
-  type Source,
-  type SpanningTree,
-  spanningTree,
-  type Topology,
-  topology,
-  type VoronoiOptions,
-  voronoi,
-} from './derived.js';
+import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
+import { Mesh } from './changing.js';
+import { locate, type Source, type VoronoiOptions, voronoi } from './derived.js';
 import type { Done } from './host.js';
 import { bad, optionsOf } from './options.js';
 import { findNearest, Rings, stripes } from './plane.js';
-import type { Update } from './run.js';
 import { write2d } from './tools.js';
-import type { AccessorOptions, Points, Stats, TaskOptions, UpdateOptions } from './types.js';
-import { Updating } from './updating.js';
+import type { Points, TaskOptions } from './types.js';
 import { Voronoi2 } from './voronoi2.js';
 
 /** Where points are in a 2D mesh. */
@@ -48,7 +29,7 @@ export interface Locations2 {
  *
  * In files the triangles are counter-clockwise if the y axis points up, as other programs expect.
  */
-export class Mesh2 {
+export class Mesh2 extends Mesh {
   /**
    * Three vertices per triangle, counter-clockwise if the y axis points down: det(b − a, c − a) <
    * 0. No triangle is flat.
@@ -76,43 +57,13 @@ export class Mesh2 {
   declare readonly dimension: 0 | 1 | 2;
   /** The coordinates x, y, x, y, …: a copy of the input, or its buffer if that was transferred. */
   declare readonly coords: Coordinates;
-  /** Statistics of the run. */
-  declare readonly stats: Stats;
-  #rings: Rings | undefined;
-  readonly #update: Update<'delaunay2d'>;
-  readonly #updating = new Updating();
+  /** The vertices around each vertex of these triangles. */
+  #rings: [Indices, Rings] | undefined;
 
   /** @internal */
-  constructor(done: Done<'delaunay2d'>, update: Update<'delaunay2d'>) {
-    this.#update = update;
-    this.#take(done);
-  }
-
-  /** Takes over what a run has made. */
-  #take({ result, place }: Done<'delaunay2d'>): void {
+  _take({ result, place }: Done<'delaunay2d'>): void {
     const { points: coords, stats, ...arrays } = result;
     Object.assign(this, arrays, { coords, stats: { ...stats, ...place } });
-    this.#rings = undefined;
-  }
-
-  /**
-   * Moves the points of the mesh: it becomes the mesh of as many other points, the same as a run from
-   * scratch makes of them, except for the order of its triangles. See {@link Mesh3.update}.
-   *
-   * @throws {@link GdelError} `BAD_INPUT` for another number of points, or if the mesh is being
-   * updated; and what `delaunay2d` is rejected with.
-   */
-  update(points: Points, options?: UpdateOptions): Promise<void>;
-  update<T>(
-    points: ArrayLike<T>,
-    options: UpdateOptions & Pick<AccessorOptions<T>, 'point'>,
-  ): Promise<void>;
-  update(points: unknown, options?: UpdateOptions): Promise<void> {
-    return this.#updating.run(async () => {
-      const { hull, dimension } = this;
-      const moved = { ...this.#source().mesh, hull, dimension };
-      this.#take(await this.#update(points, options, moved, this.stats));
-    });
   }
 
   /**
@@ -122,30 +73,8 @@ export class Mesh2 {
    * @throws {@link GdelError} `NOT_FINITE` with the `index` of a query, `BAD_INPUT`.
    */
   async locate(queries: Points, options?: TaskOptions): Promise<Locations2> {
-    const { simplices, facets } = await locate(this.#source(), queries, options);
+    const { simplices, facets } = await locate(this._source(), queries, options);
     return { triangles: simplices, halfedges: facets };
-  }
-
-  /**
-   * Returns the vertex that is nearest to each query point, exactly: of several at the same distance
-   * the one with the lowest index; −1 if the mesh has no triangles. With `k`, the `k` nearest ones, nearest
-   * first, and −1 where there are not so many.
-   */
-  async nearest(queries: Points, options?: NearestOptions): Promise<SignedIndices> {
-    return nearest(this.#source(), queries, options);
-  }
-
-  /**
-   * Returns the interpolated value at each query point, NaN outside the hull.
-   *
-   * @param values One number per point of the mesh; those of duplicates are not used.
-   */
-  async interpolate(
-    values: ArrayLike<number>,
-    queries: Points,
-    options?: InterpolateOptions,
-  ): Promise<Doubles> {
-    return interpolate(this.#source(), values, queries, options);
   }
 
   /**
@@ -153,35 +82,12 @@ export class Mesh2 {
    * a box that is given.
    */
   async voronoi(options?: VoronoiOptions): Promise<Voronoi2> {
-    let arrays = await voronoi(this.#source(), options);
+    let arrays = await voronoi(this._source(), options);
     const { clip } = optionsOf(options);
     if (this.triangles.length === 0 && clip !== undefined && typeof clip !== 'string')
       arrays = stripes(this, [clip[0]!, clip[1]!, clip[2]!, clip[3]!]);
     const find = (x: number, y: number, start: number) => this.find(x, y, start);
     return new Voronoi2(arrays, this.triangles.length / 3, this.duplicateOf, find);
-  }
-
-  /**
-   * Returns the alpha shape for a radius: the triangles whose circumcircles have this radius or less,
-   * and their boundary.
-   */
-  async alphaShape(options?: AlphaOptions): Promise<AlphaShape> {
-    return alphaShape(this.#source(), options);
-  }
-
-  /** Returns the edges, the neighbours of each vertex and a triangle of each. */
-  async topology(options?: TaskOptions): Promise<Topology> {
-    return topology(this.#source(), options);
-  }
-
-  /** Returns circumcentres, radii, areas, quality and angles of the triangles. */
-  async geometry(options?: TaskOptions): Promise<Geometry> {
-    return geometry(this.#source(), options);
-  }
-
-  /** Returns the Euclidean minimum spanning tree of the vertices, with single-linkage clusters. */
-  async spanningTree(options?: TaskOptions): Promise<SpanningTree> {
-    return spanningTree(this.#source(), options);
   }
 
   /**
@@ -195,17 +101,18 @@ export class Mesh2 {
     const { length } = this.duplicateOf;
     if (!Number.isInteger(start) || start < 0 || (start > 0 && start >= length))
       throw bad('the start', 'the index of a point', start);
-    if (length === 0 || !Number.isFinite(x) || !Number.isFinite(y)) return -1;
-    const duplicateOf = this.duplicateOf[start]!;
-    const vertex = duplicateOf < 0 ? start : duplicateOf;
-    return findNearest(this, (this.#rings ??= new Rings(this)), [x, y], vertex);
+    if (this.hull.length === 0 || !Number.isFinite(x) || !Number.isFinite(y)) return -1;
+    const first = this.duplicateOf[start]!;
+    // One that was removed is nowhere.
+    const vertex = first < 0 ? start : first === start ? this.hull[0]! : first;
+    return findNearest(this, this.#ringsNow(), [x, y], vertex);
   }
 
   /** Returns the points that point `i` has an edge to; none for a duplicate. */
   neighbors(i: number): number[] {
     if (!Number.isInteger(i) || i < 0 || i >= this.duplicateOf.length)
       throw bad('the point', 'the index of a point', i);
-    return (this.#rings ??= new Rings(this)).of(i);
+    return this.#ringsNow().of(i);
   }
 
   /**
@@ -256,10 +163,15 @@ export class Mesh2 {
     return (await this.#write('npz', options)).npz!;
   }
 
-  /** Returns what everything is derived from. */
-  #source(): Source {
+  /** @internal */
+  _source(): Source {
     const { triangles, halfedges, duplicateOf, coords: points } = this;
     return { dimension: 2, points, mesh: { triangles, halfedges, duplicateOf } };
+  }
+
+  #ringsNow(): Rings {
+    if (this.#rings?.[0] !== this.triangles) this.#rings = [this.triangles, new Rings(this)];
+    return this.#rings[1];
   }
 
   #write(format: string, options: TaskOptions | undefined): Promise<Record<string, Bytes>> {

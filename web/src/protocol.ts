@@ -4,6 +4,7 @@ import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arra
 import type { AlphaShape, Geometry, Topology, VoronoiArrays } from './derived.js';
 import type { PlainError } from './errors.js';
 import type { Held, MadeResident } from './resident.js';
+import type { Edit } from './run.js';
 import type { UpdateStats } from './stats.js';
 import type {
   Backend,
@@ -47,6 +48,11 @@ export interface MovedMesh extends DerivedMesh {
   /** In 2D. */
   hull?: Indices;
   dimension: number;
+}
+
+/** What the points that are left were numbered before, if some were dropped. */
+interface Kept {
+  kept?: Indices;
 }
 
 /** What the result of an update has instead of arrays if the points are to be triangulated anew. */
@@ -108,13 +114,14 @@ export interface Tasks {
       stats: CoreStats;
     };
   };
-  update3d: {
-    args: { points: Coordinates; moved: MovedMesh; outputs: readonly Output[] };
-    result: Tasks['delaunay3d']['result'] & Restarted;
-  };
-  update2d: {
-    args: { points: Coordinates; moved: MovedMesh; outputs: readonly Output[] };
-    result: Tasks['delaunay2d']['result'] & Restarted;
+  change: {
+    args: {
+      dimension: 2 | 3;
+      points: Coordinates;
+      moved: MovedMesh;
+      outputs: readonly Output[];
+    } & Partial<Edit>;
+    result: Tasks['delaunay3d' | 'delaunay2d']['result'] & Restarted & Kept;
   };
   generate: { args: { kind: string; count: number; seed: bigint }; result: Doubles };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };

@@ -1,6 +1,7 @@
 // Runs on points: triangulations from scratch, and updates of meshes whose points have moved.
 
 import { wasm2d, wasm3d, wasmUpdate } from '#assets';
+import type { Coordinates } from './arrays.js';
 import { GdelError } from './errors.js';
 import { type Done, Host, type Sending } from './host.js';
 import { memoryOf } from './memory.js';
@@ -36,21 +37,18 @@ export type Task = 'delaunay3d' | 'delaunay2d';
 /** A dimension. Each constant names its own files alone, so that bundlers leave out the others. */
 interface Kind<T extends Task> {
   task: T;
-  update: 'update3d' | 'update2d';
   asset: WasmAsset;
   dimension: 2 | 3;
 }
 
 export const IN_3D: Kind<'delaunay3d'> = {
   task: 'delaunay3d',
-  update: 'update3d',
   asset: wasm3d,
   dimension: 3,
 };
 
 export const IN_2D: Kind<'delaunay2d'> = {
   task: 'delaunay2d',
-  update: 'update2d',
   asset: wasm2d,
   dimension: 2,
 };
@@ -86,12 +84,21 @@ export async function triangulate<T extends Task>(
   return start(maker, kind, await prepare(maker, kind, points, options), { outputs });
 }
 
-/** Makes a mesh of points that have moved, from the mesh before and its statistics. */
+/** What becomes of a mesh whose points stay where they are. */
+export interface Edit {
+  /** Its points, which new ones follow. */
+  before: Coordinates;
+  /** The points that it loses; without these, it loses what is unused. */
+  removed?: ArrayLike<number> | undefined;
+}
+
+/** Makes a mesh of points that have moved, or are new, from the mesh before and its statistics. */
 export type Update<T extends Task> = (
   points: unknown,
   options: UpdateOptions | undefined,
   moved: MovedMesh | Held,
   stats: Stats,
+  edit?: Edit,
 ) => Promise<Done<T>>;
 
 /** The statistics of an update that could not go on from the mesh, which the GPU does not have. */
@@ -101,7 +108,9 @@ const ELSEWHERE: UpdateStats = {
   flips: 0,
   stars: 0,
   reinserted: 0,
+  removed: 0,
   inserted: 0,
+  onHost: false,
   restarted: 'elsewhere',
 };
 
@@ -118,19 +127,21 @@ export function updating<T extends Task>(
 ): Update<T> {
   const { backend, resident } = optionsOf(made);
   let key = 0;
-  return async (points, given, moved, stats) => {
+  return async (points, given, moved, stats, edit) => {
     const all = { ...optionsOf(given), backend, resident, reuse: undefined };
     if (resident) {
       const job = await prepare(maker, kind, points, all);
       return start(maker, kind, job, { outputs, moved });
     }
-    checkArrays(moved);
+    checkArrays({ ...moved, points: edit?.before });
     const job = await prepare(maker, kind, points, all);
     let [update, milliseconds] = [ELSEWHERE, 0];
-    if (stats.backend === 'cpu') {
+    if (edit || stats.backend === 'cpu') {
       const { sending, options } = job;
-      const args = { points: job.args.points, moved: moved as MovedMesh, outputs };
-      const done = await maker.host.run(wasmUpdate, kind.update, args, sending, options);
+      const { points } = job.args;
+      const { dimension } = kind;
+      const args = { ...edit, dimension, points, moved: moved as MovedMesh, outputs };
+      const done = await maker.host.run(wasmUpdate, 'change', args, sending, options);
       const { result } = done;
       if (!result.update) return done as unknown as Done<T>;
       update = result.update;

@@ -20,7 +20,7 @@ export interface Stats {
   gpu: GpuStats | null;
   /** What star splaying did after that; 3D only. */
   splay: SplayStats | null;
-  /** What `Triangulator::update` did, if it made the mesh. */
+  /** What `Triangulator::update`, `insert` or `remove` did, if that made the mesh. */
   update: UpdateStats | null;
 }
 
@@ -156,7 +156,7 @@ export interface SplayStats {
   gathered: number;
 }
 
-/** What an update of a mesh to points that have moved did. */
+/** What was done to make a mesh from the one before, after points have moved, come or gone. */
 export interface UpdateStats {
   /** The number of tetrahedra, or triangles in 2D, that were flat or inverted at the new points. */
   inverted: number;
@@ -168,8 +168,14 @@ export interface UpdateStats {
   stars: number;
   /** The number of vertices that were removed and inserted again where they are now; 2D only. */
   reinserted: number;
-  /** The number of points that were inserted because they are no duplicates any more. */
+  /** The number of vertices that were removed because their points were. */
+  removed: number;
+  /**
+   * The number of points that were inserted: new ones, and those that are no duplicates any more.
+   */
   inserted: number;
+  /** Whether a mesh on the device was read for that, changed by the host, and uploaded. */
+  onHost: boolean;
   /** Why the points were triangulated from scratch, if they were. */
   restarted: string | null;
 }

@@ -245,6 +245,8 @@ export interface Report {
   counts: {
     points: number;
     distinctPoints: number;
+    /** Those that the mesh states to be unused, which are not looked at. */
+    unusedPoints: number;
     vertices: number;
     edges: number;
     facets: number;
@@ -267,6 +269,8 @@ export interface Report2 extends Omit<Report, 'counts'> {
   counts: {
     points: number;
     distinctPoints: number;
+    /** Those that the mesh states to be unused, which are not looked at. */
+    unusedPoints: number;
     vertices: number;
     edges: number;
     triangles: number;

@@ -4,12 +4,12 @@ import { GdelError } from './errors.js';
 export class Updating {
   #isRunning = false;
 
-  async run(update: () => Promise<void>): Promise<void> {
+  async run<R>(update: () => Promise<R>): Promise<R> {
     if (this.#isRunning)
       throw new GdelError('BAD_INPUT', 'the mesh is being updated: await that first');
     this.#isRunning = true;
     try {
-      await update();
+      return await update();
     } finally {
       this.#isRunning = false;
     }

@@ -148,7 +148,7 @@ describe('the GPU and the worker', () => {
       open(browser, server.url, {}, withoutKernels),
     ]);
     // Their opacity depends on when the fonts have come.
-    for (const page of pages) await layer(page, 'Points where nothing else is', false);
+    for (const page of pages) await layer(page, 'Points that are cut away', false);
   });
   after(() => Promise.all(pages.map((page) => page.context().close())));
 

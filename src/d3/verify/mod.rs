@@ -64,7 +64,8 @@ impl<'a> From<&'a Mesh3> for MeshView3<'a> {
     }
 }
 
-/// Checks that `mesh`, whoever computed it, is the Delaunay triangulation of `points`.
+/// Checks that `mesh`, whoever computed it, is the Delaunay triangulation of `points`, except for
+/// those that it states to be [unused](Mesh3::is_unused).
 ///
 /// ```
 /// use gdel::{MeshView3, verify3d};
@@ -82,7 +83,7 @@ impl<'a> From<&'a Mesh3> for MeshView3<'a> {
 /// in the [`Report`].
 pub fn verify3d<'p, 'm>(points: impl Into<Points3<'p>>, mesh: impl Into<MeshView3<'m>>) -> Result<Report, Error> {
     let mesh = mesh.into();
-    let input = Input::new(points.into(), dimension_3d)?;
+    let input = Input::new(points.into(), mesh.duplicate_of, dimension_3d)?;
     let mut report = input.report(mesh.dimension, mesh.duplicate_of);
     report.counts.tetrahedra = mesh.tetrahedra.len();
     let indices = complex::check_indices(mesh.tetrahedra, input.points.len()).into();

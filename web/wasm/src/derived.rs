@@ -5,6 +5,7 @@ use gdel::{
     AlphaShape, Clip, Csr, Error, Interpolation, Interpolator, Location, Locator, Mesh, Mesh2, Mesh3, Points,
     SpanningTree, Voronoi,
     internals::{
+        cpu::edit::Used,
         derived::{AlphaEdges, StolenMeasures, VoronoiShapes},
         geometry::{Euclidean, Geometry},
     },
@@ -395,7 +396,8 @@ where
 {
     let task = Task::<M>::new::<D, N>(points, mesh, report, "voronoi")?;
     let points = task.points.points::<D>()?;
-    let clip = match (clip, points.bounds()) {
+    let used = Used::of(points, task.mesh.duplicate_of());
+    let clip = match (clip, used.as_ref().map_or(points, Used::points).bounds()) {
         ("hull", _) => Clip::Hull,
         // Flat points, whose box may have no inside, have no cells.
         ("box", Some(bounds)) if !task.mesh.simplices().is_empty() => Clip::Box(bounds),

@@ -42,6 +42,39 @@ impl Coordinates {
         }
     }
 
+    /// Appends more, in double precision if either is.
+    #[cfg(feature = "update")]
+    pub(crate) fn append(&mut self, more: Coordinates) {
+        match (&mut *self, more) {
+            (Coordinates::F32(values), Coordinates::F32(more)) => values.extend(more),
+            (Coordinates::F64(values), Coordinates::F64(more)) => values.extend(more),
+            (Coordinates::F64(values), Coordinates::F32(more)) => values.extend(more.into_iter().map(f64::from)),
+            (Coordinates::F32(_), Coordinates::F64(more)) if more.is_empty() => {}
+            (Coordinates::F32(values), Coordinates::F64(more)) => {
+                *self = Coordinates::F64(values.iter().map(|&x| f64::from(x)).chain(more).collect());
+            }
+        }
+    }
+
+    /// Returns the points with these indices.
+    #[cfg(feature = "update")]
+    pub(crate) fn select<const D: usize>(&self, indices: &[u32]) -> Coordinates {
+        let all = indices.iter().flat_map(|&i| D * i as usize..D * (i as usize + 1));
+        match self {
+            Coordinates::F32(values) => Coordinates::F32(all.map(|i| values[i]).collect()),
+            Coordinates::F64(values) => Coordinates::F64(all.map(|i| values[i]).collect()),
+        }
+    }
+
+    /// Returns the coordinates as the array of JavaScript that has their precision.
+    #[cfg(feature = "update")]
+    pub(crate) fn into_js(self) -> JsValue {
+        match self {
+            Coordinates::F32(values) => Float32Array::new_from_slice(&values).into(),
+            Coordinates::F64(values) => Float64Array::new_from_slice(&values).into(),
+        }
+    }
+
     /// Returns the coordinates as points.
     pub(crate) fn points<const D: usize>(&self) -> Result<Points<'_, D>, Error> {
         match self {

@@ -35,6 +35,7 @@ fn copy(value: Value<'_>) -> JsValue {
     match value {
         Value::Omitted | Value::Null => JsValue::NULL,
         Value::Number(number) => number.into(),
+        Value::Bool(is_true) => is_true.into(),
         Value::Text(text) => (&*text).into(),
         Value::List(values) => values.into_iter().map(copy).collect::<Array>().into(),
         Value::Object(fields) => {

@@ -1,16 +1,26 @@
-//! Meshes in the memory of the CPU whose points move.
+//! Meshes in the memory of the CPU whose points move, come and go.
 
 use gdel::{
-    Mesh2, Mesh3,
+    Error, Mesh2, Mesh3,
     internals::{
         Options, Winding,
-        cpu::update::{Limits, update},
+        cpu::{
+            Incremental, Insert, MeshOf,
+            edit::{Edit, Used, delaunay_of_used, edit},
+            sparse::Sparse,
+            update::{Limits, update},
+        },
+        dimension::Dimension,
+        mesh::MeshInfo,
     },
     stats::UpdateStats,
 };
-use js_sys::Function;
+use js_sys::{Float64Array, Function, Uint32Array};
 use std::sync::Arc;
-use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+use wasm_bindgen::{
+    JsCast,
+    prelude::{JsValue, wasm_bindgen},
+};
 
 use crate::{
     arrays::{
@@ -18,37 +28,113 @@ use crate::{
         d3::{Outputs, mesh3},
     },
     mesh::CallerMesh,
-    objects::{Thrown, object},
+    objects::{Thrown, error, object, set},
     points::Coordinates,
     run::{reporting, statistics},
 };
 
-/// Returns the 3D mesh of points, given the one of the points where they were. If these have to be
-/// triangulated from scratch, the result has only the statistics of the attempt, as `update`.
+/// Returns the mesh of points of 2 or 3 dimensions, given the one of the points where they were; in 2D
+/// in delaunator's orientation. If these have to be triangulated from scratch, and all are used, the
+/// result has only the statistics of the attempt, as `update`.
+///
+/// With the points `before`, it is the mesh of these, of those in `points`, which follow them, and
+/// without those with the indices in the array `removed`. If there is none, no index of it is unused any
+/// more, and the result has what the indices were, as `kept`. The result has the points as well.
 #[wasm_bindgen]
-pub fn update3d(points: JsValue, moved: JsValue, outputs: Outputs, report: Function) -> Result<JsValue, Thrown> {
-    let coordinates = Coordinates::new(&points)?;
-    let before = Mesh3::from(CallerMesh::new(&moved, "tetrahedra", "neighbors")?);
-    let (mesh, stats) = update::<3>(&before, coordinates.points()?, &options(report), Limits::measured(3))?;
-    drop(before);
-    Ok(mesh.map_or_else(|| restarted(&stats), |mesh| mesh3(mesh, outputs)))
+pub fn change(
+    dimension: u32,
+    points: JsValue,
+    before: JsValue,
+    moved: JsValue,
+    removed: JsValue,
+    outputs: Outputs,
+    report: Function,
+) -> Result<JsValue, Thrown> {
+    let options = Options { on_progress: Some(Arc::new(reporting(report))), ..Options::default() };
+    if dimension == 3 {
+        let mut mesh = Mesh3::from(CallerMesh::new(&moved, "tetrahedra", "neighbors")?);
+        let changed = changed::<3, 4>(&mut mesh, &points, &before, &removed, &options, Mesh3::compact)?;
+        return Ok(changed.of(|| mesh3(mesh, outputs)));
+    }
+    let options = Options { winding: Winding::Clockwise, ..options };
+    let mut mesh = Mesh2::from(CallerMesh::new(&moved, "triangles", "halfedges")?);
+    let changed = changed::<2, 3>(&mut mesh, &points, &before, &removed, &options, Mesh2::compact)?;
+    Ok(changed.of(|| mesh2(mesh, true)))
 }
 
-/// Does the same in 2D, in delaunator's orientation.
-#[wasm_bindgen]
-pub fn update2d(points: JsValue, moved: JsValue, report: Function) -> Result<JsValue, Thrown> {
-    let coordinates = Coordinates::new(&points)?;
-    let before = Mesh2::from(CallerMesh::new(&moved, "triangles", "halfedges")?);
-    let options = Options { winding: Winding::Clockwise, ..options(report) };
-    let (mesh, stats) = update::<2>(&before, coordinates.points()?, &options, Limits::measured(2))?;
-    drop(before);
-    Ok(mesh.map_or_else(|| restarted(&stats), |mesh| mesh2(mesh, true)))
+/// What has become of a mesh.
+enum Changed {
+    /// It is that of the points where they are now.
+    Moved,
+    /// The points are to be triangulated from scratch.
+    Restarted(UpdateStats),
+    /// It is that of these points. They were numbered in this way before if some were dropped.
+    Edited(Coordinates, Option<Vec<u32>>),
 }
 
-fn options(report: Function) -> Options {
-    Options { on_progress: Some(Arc::new(reporting(report))), ..Options::default() }
+impl Changed {
+    /// Returns it with the mesh.
+    fn of(self, mesh: impl FnOnce() -> JsValue) -> JsValue {
+        match self {
+            Changed::Moved => mesh(),
+            Changed::Restarted(stats) => object([("update", statistics(&stats))]),
+            Changed::Edited(points, kept) => {
+                let mesh = mesh();
+                set(&mesh, "points", points.into_js());
+                if let Some(kept) = kept {
+                    set(&mesh, "kept", Uint32Array::new_from_slice(&kept));
+                }
+                mesh
+            }
+        }
+    }
 }
 
-fn restarted(stats: &UpdateStats) -> JsValue {
-    object([("update", statistics(stats))])
+/// Changes a mesh as its caller wants.
+fn changed<const D: usize, const N: usize>(
+    mesh: &mut MeshOf<D>,
+    points: &JsValue,
+    before: &JsValue,
+    removed: &JsValue,
+    options: &Options,
+    compact: fn(&mut MeshOf<D>) -> Vec<u32>,
+) -> Result<Changed, Thrown>
+where
+    Dimension<D>: Edit<D, N>,
+    for<'m, 'p> Sparse<'m, 'p, D, N>: Insert<D>,
+{
+    let new = Coordinates::new(points)?;
+    if before.is_undefined() {
+        let points = new.points::<D>()?;
+        let (followed, stats) = update::<D>(mesh, points, options, Limits::measured(D))?;
+        *mesh = match (followed, Used::of(points, mesh.duplicate_of())) {
+            (Some(followed), _) => followed,
+            (None, used @ Some(_)) => delaunay_of_used(points, used.as_ref(), stats, options)?,
+            (None, None) => return Ok(Changed::Restarted(stats)),
+        };
+        return Ok(Changed::Moved);
+    }
+    // The index in an error is that among the new ones.
+    new.points::<D>()?.validate()?;
+    let mut coordinates = Coordinates::new(before)?;
+    let (known, expected) = (coordinates.points::<D>()?.len(), mesh.duplicate_of().len());
+    if known != expected {
+        return Err(Error::PointCount { points: known, expected }.into());
+    }
+    let Some(removed) = removed.dyn_ref::<Float64Array>() else {
+        let kept = compact(mesh);
+        mesh.stats_mut().update = Some(UpdateStats::default());
+        return Ok(Changed::Edited(coordinates.select::<D>(&kept), Some(kept)));
+    };
+    let index = |i: f64| match i as u32 {
+        index if f64::from(index) == i => Ok(index),
+        _ => Err(error("BAD_INPUT", &format!("{i} is not the index of a point"))),
+    };
+    let removed: Vec<u32> = removed.to_vec().into_iter().map(index).collect::<Result<_, _>>()?;
+    coordinates.append(new);
+    let points = coordinates.points::<D>()?;
+    if let Some(again) = edit::<D, N>(mesh, points, &removed, options, Limits::measured(D))? {
+        *mesh = delaunay_of_used(points, again.used(points).as_ref(), again.update, options)?;
+    }
+    Ok(Changed::Edited(coordinates, None))
 }

@@ -65,6 +65,7 @@ pub fn verify2d(points: &JsValue, mesh: &JsValue) -> Result<JsValue, Thrown> {
         [
             ("points", counts.points),
             ("distinctPoints", counts.distinct_points),
+            ("unusedPoints", counts.unused_points),
             ("vertices", counts.vertices),
             ("edges", counts.edges),
             ("triangles", counts.facets),

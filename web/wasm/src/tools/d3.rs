@@ -51,6 +51,7 @@ pub fn verify3d(points: &JsValue, mesh: &JsValue) -> Result<JsValue, Thrown> {
         [
             ("points", counts.points),
             ("distinctPoints", counts.distinct_points),
+            ("unusedPoints", counts.unused_points),
             ("vertices", counts.vertices),
             ("edges", counts.edges),
             ("facets", counts.facets),

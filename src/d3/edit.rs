@@ -1,0 +1,89 @@
+//! Tetrahedra whose vertices come and go.
+
+use crate::{
+    cpu::{
+        edit::Edit,
+        sparse::{Patch, Row},
+    },
+    d3::{
+        Mesh3, insert,
+        mesh::FACETS,
+        triangulation::{MAX_TETRAHEDRA, Triangulation3},
+    },
+    dimension::Dimension,
+    error::Error,
+    index::{NO_INDEX, NONE},
+    options::Winding,
+    predicates::filter::PredicateContext3,
+    slots,
+};
+use rustc_hash::FxHashSet;
+
+impl Edit<3, 4> for Dimension<3> {
+    type Hull = Vec<[u32; 3]>;
+
+    const MAX_SIMPLICES: usize = MAX_TETRAHEDRA;
+    const REMOVAL: f64 = 3.0;
+
+    fn count(mesh: &Mesh3) -> usize {
+        mesh.tetrahedra.len()
+    }
+
+    fn row(mesh: &Mesh3, _winding: Winding, t: u32) -> Option<Row<4>> {
+        let mut row = [NO_INDEX; 4];
+        for (across, &u) in row.iter_mut().zip(mesh.neighbors.get(t as usize)?) {
+            if u != NONE {
+                let back = mesh.neighbors.get(u as usize)?;
+                *across = 4 * u as u32 + back.iter().position(|&back| back == t as i32)? as u32;
+            }
+        }
+        Some((*mesh.tetrahedra.get(t as usize)?, row))
+    }
+
+    fn ghost(simplex: [u32; 4], k: usize, infinite: u32) -> [u32; 4] {
+        let [a, b, c] = FACETS[k].map(|i| simplex[i]);
+        [a, b, c, infinite]
+    }
+
+    fn is_positive(vertices: &PredicateContext3<'_>, [a, b, c, d]: [u32; 4]) -> bool {
+        vertices.orient3d(a, b, c, d) > 0
+    }
+
+    fn in_conflict(triangulation: &Triangulation3, vertices: &PredicateContext3<'_>, v: u32, t: u32) -> bool {
+        insert::in_conflict(triangulation, &vertices.at(v), t)
+    }
+
+    fn hull(
+        mesh: &Mesh3,
+        removed: &FxHashSet<[u32; 4]>,
+        added: Vec<[u32; 4]>,
+        infinite: u32,
+        _winding: Winding,
+    ) -> Option<Vec<[u32; 3]>> {
+        let is_kept = |&&[a, b, c]: &&[u32; 3]| {
+            let mut ghost = [a, b, c, infinite];
+            ghost.sort_unstable();
+            !removed.contains(&ghost)
+        };
+        let kept = mesh.hull.iter().filter(is_kept).copied();
+        Some(kept.chain(added.into_iter().map(|[a, b, c, _]| [a, b, c])).collect())
+    }
+
+    fn apply(mesh: &mut Mesh3, Patch { count, rows, hull }: Patch<4, Vec<[u32; 3]>>, _winding: Winding) {
+        let room = count.max(mesh.tetrahedra.len());
+        mesh.tetrahedra.resize(room, [0; 4]);
+        mesh.neighbors.resize(room, [NONE; 4]);
+        for (t, (vertices, across)) in rows {
+            mesh.tetrahedra[t as usize] = vertices;
+            mesh.neighbors[t as usize] = across.map(|f| if f == NO_INDEX { NONE } else { (f / 4) as i32 });
+        }
+        mesh.tetrahedra.truncate(count);
+        mesh.neighbors.truncate(count);
+        mesh.hull = hull.unwrap_or_else(|| std::mem::take(&mut mesh.hull));
+    }
+
+    fn reserve(mesh: &mut Mesh3, tetrahedra: usize) -> Result<(), Error> {
+        let more = tetrahedra.saturating_sub(mesh.tetrahedra.len());
+        slots::reserve_more(&mut mesh.tetrahedra, &mut mesh.neighbors, more)
+    }
+}

@@ -1,0 +1,180 @@
+// What meshes of both dimensions have in common: they change with their points, and answer questions.
+
+import type { Doubles, Indices, SignedIndices } from './arrays.js';
+import {
+  type AlphaOptions,
+  type AlphaShape,
+  alphaShape,
+  type Geometry,
+  geometry,
+  type InterpolateOptions,
+  interpolate,
+  type NearestOptions,
+  nearest,
+  type Source,
+  type SpanningTree,
+  spanningTree,
+  type Topology,
+  topology,
+} from './derived.js';
+import type { Done } from './host.js';
+import { bad } from './options.js';
+import type { Edit, Task, Update } from './run.js';
+import type { AccessorOptions, Points, Stats, TaskOptions, UpdateOptions } from './types.js';
+import { Updating } from './updating.js';
+
+/** A mesh in typed arrays, of either dimension. */
+export abstract class Mesh {
+  /** Statistics of the run. */
+  declare readonly stats: Stats;
+  declare readonly hull: Indices;
+  declare readonly dimension: number;
+  readonly #update: Update<Task>;
+  readonly #updating = new Updating();
+
+  /** @internal */
+  constructor(done: Done<Task>, update: Update<Task>) {
+    this.#update = update;
+    this._take(done);
+  }
+
+  /**
+   * Takes over what a run has made.
+   *
+   * @internal
+   */
+  abstract _take(done: Done<Task>): void;
+
+  /**
+   * Returns what everything is derived from.
+   *
+   * @internal
+   */
+  abstract _source(): Source;
+
+  /** Has the mesh replaced. `edit` says what is removed; without it, the points have moved. */
+  #change(
+    points: unknown,
+    options: UpdateOptions | undefined,
+    edit?: Omit<Edit, 'before'>,
+  ): Promise<Indices | undefined> {
+    return this.#updating.run(async () => {
+      const { points: before, mesh } = this._source();
+      const { hull, dimension, stats } = this;
+      const moved = { ...mesh, hull, dimension };
+      const done = await this.#update(points, options, moved, stats, edit && { ...edit, before });
+      const { kept, ...result } = done.result as typeof done.result & { kept?: Indices };
+      this._take({ ...done, result } as Done<Task>);
+      return kept;
+    });
+  }
+
+  /**
+   * Moves the points of the mesh: it becomes the mesh of as many other points, the same as a run from
+   * scratch makes of them, except for the order of its simplices. Where little has changed, that is
+   * faster; {@link UpdateStats}, in `stats.update`, say what was done.
+   *
+   * What triangulated the points does it: its backend, and its worker. The arrays of the mesh are
+   * replaced by new ones when the promise is fulfilled. Until then, and if it is rejected, the mesh is
+   * what it was.
+   *
+   * @throws {@link GdelError} `BAD_INPUT` for another number of points, if the mesh is being changed,
+   * or if `outputs` lacked `'neighbors'` or `'duplicateOf'`; and what a run is rejected with.
+   */
+  update(points: Points, options?: UpdateOptions): Promise<void>;
+  update<P>(
+    points: ArrayLike<P>,
+    options: UpdateOptions & Pick<AccessorOptions<P>, 'point'>,
+  ): Promise<void>;
+  async update(points: unknown, options?: UpdateOptions): Promise<void> {
+    await this.#change(points, options);
+  }
+
+  /**
+   * Adds points to the mesh, after those that it has. It becomes the same as a run from scratch makes of
+   * all, except for the order of its simplices: also if new points lie outside the hull, equal others,
+   * or are the first that are not flat. A few points take little more than copies of the arrays. The CPU
+   * does it; else as for {@link update}.
+   *
+   * @throws {@link GdelError} as {@link update}; the `index` in `NOT_FINITE` is among the new points.
+   */
+  insert(points: Points, options?: UpdateOptions): Promise<void>;
+  insert<P>(
+    points: ArrayLike<P>,
+    options: UpdateOptions & Pick<AccessorOptions<P>, 'point'>,
+  ): Promise<void>;
+  async insert(points: unknown, options?: UpdateOptions): Promise<void> {
+    await this.#change(points, options, { removed: new Float64Array(0) });
+  }
+
+  /**
+   * Removes the points with these indices. The mesh becomes that of the others, which keep their
+   * indices; if a removed point stood for others, the lowest of these takes its place. The removed ones
+   * are *unused*: in `duplicateOf` they are their own duplicates. Later changes leave them so, until
+   * {@link compact} drops them. The CPU does it; else as for {@link update}.
+   *
+   * @throws {@link GdelError} as {@link update}; `BAD_INPUT` for an index that is none, is given twice,
+   * or was removed before.
+   */
+  async remove(indices: ArrayLike<number>, options?: TaskOptions): Promise<void> {
+    if (!Array.isArray(indices) && !ArrayBuffer.isView(indices))
+      throw bad('the indices', 'an array', indices);
+    const removed = Float64Array.from(indices, (i) => (typeof i === 'number' ? i : Number.NaN));
+    await this.#change([], options, { removed });
+  }
+
+  /**
+   * Drops the points that were removed, so that the mesh numbers the others in their order. Returns
+   * what their indices were, for values that belong to them.
+   *
+   * @throws {@link GdelError} as {@link update}.
+   */
+  async compact(options?: TaskOptions): Promise<Indices> {
+    return (await this.#change([], options, {}))!;
+  }
+
+  /**
+   * Returns the vertex that is nearest to each query point, exactly: of several at the same distance
+   * the one with the lowest index; −1 if the mesh has no simplices. With `k`, the `k` nearest ones, nearest
+   * first, and −1 where there are not so many.
+   */
+  async nearest(queries: Points, options?: NearestOptions): Promise<SignedIndices> {
+    return nearest(this._source(), queries, options);
+  }
+
+  /**
+   * Returns the interpolated value at each query point, NaN outside the hull.
+   *
+   * @param values One number per point of the mesh; those of duplicates and removed points are not used.
+   */
+  async interpolate(
+    values: ArrayLike<number>,
+    queries: Points,
+    options?: InterpolateOptions,
+  ): Promise<Doubles> {
+    return interpolate(this._source(), values, queries, options);
+  }
+
+  /**
+   * Returns the alpha shape for a radius: the simplices whose circumspheres have this radius or less,
+   * and their boundary.
+   */
+  async alphaShape(options?: AlphaOptions): Promise<AlphaShape> {
+    return alphaShape(this._source(), options);
+  }
+
+  /** Returns the edges, the facets, the neighbours of each vertex and a simplex of each. */
+  async topology(options?: TaskOptions): Promise<Topology> {
+    return topology(this._source(), options);
+  }
+
+  /** Returns circumcentres, radii, volumes or areas, quality and angles of the simplices. */
+  async geometry(options?: TaskOptions): Promise<Geometry> {
+    return geometry(this._source(), options);
+  }
+
+  /** Returns the Euclidean minimum spanning tree of the vertices, with single-linkage clusters. */
+  async spanningTree(options?: TaskOptions): Promise<SpanningTree> {
+    return spanningTree(this._source(), options);
+  }
+}
