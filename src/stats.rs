@@ -95,7 +95,8 @@ impl Default for Stats {
 /// [`Phase1`](Phase::Phase1), [`Readback`](Phase::Readback), then [`Splay`](Phase::Splay) in 3D or
 /// [`Check`](Phase::Check) and [`Flip`](Phase::Flip) in 2D, and [`Finish`](Phase::Finish). An update
 /// by the CPU has [`Check`](Phase::Check), [`Flip`](Phase::Flip), [`Splay`](Phase::Splay) in 3D, and
-/// [`Finish`](Phase::Finish); one by the GPU has the phases of a run there.
+/// [`Finish`](Phase::Finish); one by the GPU has the phases of a run there. Where points come and go,
+/// they are those of the CPU, with [`Readback`](Phase::Readback) before for a mesh on the device.
 ///
 /// # Examples
 ///
@@ -109,7 +110,7 @@ impl Default for Stats {
 pub enum Phase {
     /// Validating the points, ordering them along a Hilbert curve, and finding duplicates.
     Sort,
-    /// Inserting the points one by one.
+    /// Inserting the points one by one; where points come and go, removing others before.
     Insert,
     /// Validating the points and fitting the integer lattice.
     Lattice,

@@ -324,11 +324,9 @@ where
 
     fn neighbors(&self, t: u32) -> [u32; N] {
         let mut neighbors = self.with(t, |slot| slot.neighbors);
-        for s in 0..N {
-            if neighbors[s] == NO_INDEX {
-                neighbors[s] = self.around(t, s);
-                self.with(t, |slot| slot.neighbors[s] = neighbors[s]);
-            }
+        for (s, neighbor) in neighbors.iter_mut().enumerate().filter(|(_, neighbor)| **neighbor == NO_INDEX) {
+            *neighbor = self.around(t, s);
+            self.with(t, |slot| slot.neighbors[s] = *neighbor);
         }
         neighbors
     }
