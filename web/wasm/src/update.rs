@@ -5,7 +5,7 @@ use gdel::{
     internals::{
         Options, Winding,
         cpu::{
-            Incremental, Insert, MeshOf,
+            Insert, MeshOf,
             edit::{Edit, Used, delaunay_of_used, edit},
             sparse::Sparse,
             update::{Limits, update},
