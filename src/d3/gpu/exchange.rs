@@ -26,7 +26,7 @@ use bytemuck::Pod;
 const AHEAD: usize = 1 << 15;
 
 /// The fewest: less takes no less time.
-const LEAST_AHEAD: usize = 1 << 13;
+const LEAST_AHEAD: usize = 1 << 14;
 
 /// As [`AHEAD`] where points have moved, which leaves more to splaying.
 const AHEAD_OF_MOVED: usize = 1 << 17;
