@@ -236,7 +236,7 @@ describe('filters', () => {
     closeTo(solidRadius(ramp, volumes, simplices, 3), 2 * 1.588, 1);
   });
 
-  test('the slider runs from the spacing to what bounds the object, not beyond', () => {
+  test('the slider stops at critical values from the spacing to what bounds the object, not beyond', () => {
     const alphas = new AlphaRadii(
       points,
       tetrahedra,
@@ -245,12 +245,17 @@ describe('filters', () => {
       frameOf(points),
       () => measures,
     );
-    const { value, range } = alphas.of({ kind: 'carve', alpha: null })!;
+    const { value, isAuto, stops } = alphas.of({ kind: 'carve', alpha: null })!;
     closeTo(value, Math.SQRT1_2, 1);
-    // The spacing, 1, is larger than that here.
-    assert.equal(range[0], value);
-    assert.ok(range[1] >= SIDE / 2 && range[1] <= (SIDE / 2) * Math.sqrt(3), `${range[1]}`);
-    assert.equal(alphas.of({ kind: 'carve', alpha: 1.5 })!.value, 1.5);
+    assert.ok(isAuto);
+    // The spacing, 1, is larger than what suits here, from which on there are stops then.
+    assert.ok(stops[0] <= 1, `${stops[0]}`);
+    assert.ok(stops.every((stop, i) => i === 0 || stop > stops[i - 1]));
+    assert.ok(stops[stops.length - 1] <= (SIDE / 2) * Math.sqrt(3), `${stops}`);
+    const radii = new Set(alphas.radii('carve'));
+    assert.ok(stops.every((stop) => radii.has(stop)));
+    const chosen = alphas.of({ kind: 'carve', alpha: 1.5 })!;
+    assert.deepEqual([chosen.value, chosen.isAuto], [1.5, false]);
     assert.equal(alphas.of({ kind: 'all', alpha: null }), null);
   });
 
