@@ -3,38 +3,15 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { abortOf } from './abort.mjs';
+import { dimensionsOf, rejectsOf } from './dimensions.mjs';
 import { canonical, move, randomFrom } from './moving.mjs';
 import { importFrom, project } from './package.mjs';
 
 const gdel = await importFrom(project());
-const { createTriangulator, delaunay2d, delaunay3d, GdelError } = gdel;
+const { createTriangulator, delaunay3d } = gdel;
 
-/** What differs between the dimensions. */
-const DIMENSIONS = {
-  3: {
-    triangulate: delaunay3d,
-    blocking: () => gdel.load3d().then(() => gdel.delaunay3dSync),
-    generate: gdel.generate,
-    verify: gdel.verify,
-    arrays: ['tetrahedra', 'neighbors', 'hull', 'duplicateOf', 'points'],
-  },
-  2: {
-    triangulate: delaunay2d,
-    blocking: () => gdel.load2d().then(() => gdel.delaunay2dSync),
-    generate: gdel.generate2d,
-    verify: gdel.verify2d,
-    arrays: ['triangles', 'halfedges', 'hull', 'duplicateOf', 'coords'],
-  },
-};
-
-async function rejects(promise, code, message) {
-  await assert.rejects(promise, (error) => {
-    assert.ok(error instanceof GdelError, String(error));
-    assert.equal(error.code, code, error.message);
-    if (message) assert.match(error.message, message);
-    return true;
-  });
-}
+const DIMENSIONS = dimensionsOf(gdel);
+const rejects = rejectsOf(gdel);
 
 for (const [key, { triangulate, blocking, generate, verify, arrays }] of Object.entries(
   DIMENSIONS,
