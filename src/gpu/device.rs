@@ -7,9 +7,20 @@ use std::{
 
 use crate::{
     error::Error,
-    gpu::{Kernel, MAX_WORKGROUPS},
+    gpu::{Kernel, MAX_WORKGROUPS, WORKGROUP, workgroups},
     input::lattice::Width,
 };
+
+/// The most items for an invocation of a software device. Such devices end loops after 65,535 steps,
+/// those of all loops of an invocation, of which a slot takes up to some dozens, and a point, of which
+/// there is one for eight slots, some hundreds.
+const MAX_SOFTWARE_ITEMS: u32 = 1 << 10;
+
+/// Returns the most workgroups for `items` items on a software device.
+fn software_workgroups(items: u32) -> u32 {
+    let busy = 2 * std::thread::available_parallelism().map_or(2, |n| n.get() as u32);
+    busy.max(items.div_ceil(WORKGROUP * MAX_SOFTWARE_ITEMS))
+}
 
 /// Which adapter to open. Browsers offer only the default.
 ///
@@ -181,13 +192,16 @@ impl Gpu {
         &self.adapter
     }
 
-    /// Returns the maximum number of workgroups for a kernel that strides. On a CPU each one costs
-    /// time even if it finds nothing to do, and more of them than keep its cores busy gain nothing.
-    pub(crate) fn max_workgroups(&self) -> u32 {
-        match self.adapter.software {
-            true => 2 * std::thread::available_parallelism().map_or(2, |n| n.get() as u32),
+    /// Returns the workgroups for `items` items, for a kernel that strides. On a CPU each one costs
+    /// time even if it finds nothing to do, and more of them than keep its cores busy gain nothing, as
+    /// long as an invocation does not get too many items.
+    pub(crate) fn workgroups(&self, items: usize) -> u32 {
+        let items = u32::try_from(items).unwrap_or(u32::MAX);
+        let most = match self.adapter.software {
+            true => software_workgroups(items),
             false => MAX_WORKGROUPS,
-        }
+        };
+        workgroups(items).min(most)
     }
 
     /// Returns the size of the largest storage buffer that this device can bind, in bytes.
@@ -289,6 +303,20 @@ async fn choose(instance: &wgpu::Instance, choice: &AdapterChoice) -> Result<wgp
         AdapterChoice::Name(part) => {
             let wanted = part.to_lowercase();
             matching(enumerate(instance).await, part.clone(), &|_, name| name.to_lowercase().contains(&wanted))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A triangulation of 850,000 points by four workgroups was wrong: their loops ended early.
+    #[test]
+    fn no_invocation_of_a_software_device_gets_too_many_items() {
+        for items in [0, 1, 100_000, 7_000_000, u32::MAX] {
+            let invocations = u64::from(software_workgroups(items)) * u64::from(WORKGROUP);
+            assert!(u64::from(items) <= invocations * u64::from(MAX_SOFTWARE_ITEMS), "{items}");
         }
     }
 }

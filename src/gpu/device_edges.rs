@@ -132,7 +132,6 @@ where
         let [mark, write, turn, rings] = ["edges_mark", "edges_write", "edges_turn", "edges_rings"].map(kernel);
         let (scan, sort) = (Scan::new(&compiler), Sort::new(&compiler));
         compiler.finish().await?;
-        let groups = |items: usize| workgroups(items as u32).min(gpu.max_workgroups());
 
         let (listed, offsets, submission, total) = gpu
             .with_error_scope("edges", || {
@@ -171,15 +170,15 @@ where
                 ];
                 let bits = usize::BITS - points.leading_zeros();
                 let mut recorder = Recorder::new(gpu, None);
-                recorder.dispatch(&write, &write.bind(gpu, &buffers), groups(simplices));
+                recorder.dispatch(&write, &write.bind(gpu, &buffers), gpu.workgroups(simplices));
                 let first = sort.bind(gpu, &mut pairs, &mut scratch, bits)?;
                 sort.record(&mut recorder, &first);
-                recorder.dispatch(&turn, &turn.bind(gpu, &[("pairs", pairs.buffer())]), groups(2 * count));
+                recorder.dispatch(&turn, &turn.bind(gpu, &[("pairs", pairs.buffer())]), gpu.workgroups(2 * count));
                 let second = sort.bind(gpu, &mut pairs, &mut scratch, bits)?;
                 sort.record(&mut recorder, &second);
                 let buffers =
                     [("pairs", pairs.buffer()), ("ring_offsets", ring_offsets.buffer()), ("ring", ring.buffer())];
-                recorder.dispatch(&rings, &rings.bind(gpu, &buffers), groups((2 * count).max(points + 1)));
+                recorder.dispatch(&rings, &rings.bind(gpu, &buffers), gpu.workgroups((2 * count).max(points + 1)));
                 recorder.submit(gpu);
                 Ok((edges.cast(), ring_offsets, ring))
             })

@@ -197,8 +197,8 @@ where
             let bound = [&vertices, &starts].map(|kernel| kernel.bind(gpu, &buffers));
             let sorted = sort.bind(gpu, &mut pairs, &mut scratch, KEY_BITS)?;
             let mut recorder = Recorder::new(gpu, None);
-            recorder.dispatch(&vertices, &bound[0], groups(gpu, points.len()));
-            recorder.dispatch(&starts, &bound[1], groups(gpu, params.starts as usize));
+            recorder.dispatch(&vertices, &bound[0], gpu.workgroups(points.len()));
+            recorder.dispatch(&starts, &bound[1], gpu.workgroups(params.starts as usize));
             sort.record(&mut recorder, &sorted);
             recorder.submit(gpu);
             let (vertices, starts) = (placed, pairs);
@@ -326,7 +326,7 @@ where
                 ("results", results.buffer()),
             ];
             let mut recorder = Recorder::new(gpu, None);
-            recorder.dispatch(&self.interpolate, &self.interpolate.bind(gpu, &buffers), groups(gpu, queries.count));
+            recorder.dispatch(&self.interpolate, &self.interpolate.bind(gpu, &buffers), gpu.workgroups(queries.count));
             recorder.submit(gpu);
             Ok(())
         })
@@ -355,7 +355,7 @@ where
                 ];
                 let mut recorder = Recorder::new(gpu, None);
                 let bound = self.circumspheres.bind(gpu, &buffers);
-                recorder.dispatch(&self.circumspheres, &bound, groups(gpu, mesh.simplex_count()));
+                recorder.dispatch(&self.circumspheres, &bound, gpu.workgroups(mesh.simplex_count()));
                 let pending = readback.copy(gpu, recorder.encoder(), &params, 0, 1);
                 Ok((recorder.submit(gpu), pending))
             })
@@ -410,11 +410,6 @@ fn counts_of(params: &QueryParams) -> QueryCounts {
     let &QueryParams { not_finite, undecided, open, .. } = params;
     let not_finite = (not_finite != u32::MAX).then_some(not_finite as usize);
     QueryCounts { not_finite, undecided: undecided as usize, open: open as usize }
-}
-
-/// Returns the workgroups for so many items.
-fn groups(gpu: &Gpu, items: usize) -> u32 {
-    workgroups(items as u32).min(gpu.max_workgroups())
 }
 
 /// Returns the bits of coordinates, and whether they are of type `f64`.

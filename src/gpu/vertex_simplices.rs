@@ -2,7 +2,7 @@
 
 use crate::{
     dimension::Dimension,
-    gpu::{Compiler, Gpu, Kernel, Recorder, device_mesh::DeviceArrays, dim::Dim, workgroups},
+    gpu::{Compiler, Gpu, Kernel, Recorder, device_mesh::DeviceArrays, dim::Dim},
     input::lattice::Width,
 };
 
@@ -26,10 +26,9 @@ impl VertexSimplices {
     /// Records that they find the simplices of the points in the simplices that `arrays` have.
     pub(crate) fn record(&self, gpu: &Gpu, recorder: &mut Recorder<'_>, arrays: &DeviceArrays) {
         let buffers = [("corners", arrays.simplices.buffer()), ("vertex_simplices", arrays.vertex_simplices.buffer())];
-        let groups = |items: usize| workgroups(items as u32).min(gpu.max_workgroups());
-        recorder.dispatch(&self.clear, &self.clear.bind(gpu, &buffers), groups(arrays.vertex_simplices.len()));
+        recorder.dispatch(&self.clear, &self.clear.bind(gpu, &buffers), gpu.workgroups(arrays.vertex_simplices.len()));
         if !arrays.simplices.is_empty() {
-            recorder.dispatch(&self.minimum, &self.minimum.bind(gpu, &buffers), groups(arrays.simplices.len()));
+            recorder.dispatch(&self.minimum, &self.minimum.bind(gpu, &buffers), gpu.workgroups(arrays.simplices.len()));
         }
     }
 }

@@ -156,6 +156,41 @@ where
     }
 }
 
+/// Tetrahedra with facets that could not be flipped are listed once more, and once each.
+#[test]
+fn what_could_not_be_flipped_is_checked_again() {
+    let from = positions::<3>(300, 1_000_000);
+    for width in [Width::Narrow, Width::Wide] {
+        let mut state = taken(width, &from, &displaced(&from, 50_000));
+        let listed = state.active[0][..state.counters.active_len[0] as usize].to_vec();
+        assert!(listed.len() > 100);
+        // Of every third one, a facet could not be flipped and others are still to be checked; of the
+        // next ones nothing is, and of the rest the list knows nothing any more.
+        for (i, active) in listed.iter().enumerate() {
+            let flags = &mut state.status[active.tet as usize].flags;
+            *flags = *flags & !CHECK | [0x21, 0x60, 0][i % 3];
+        }
+        let left: Vec<_> = listed.iter().copied().step_by(3).collect();
+        state.active[0][..left.len()].copy_from_slice(&left);
+        state.counters.active_len[0] = left.len() as u32;
+        let before = state.clone();
+        let device = Device::new(width, &state);
+        device.run("moved_again");
+        let state = device.download(&state);
+        let mut again: Vec<u32> =
+            state.active[0][..state.counters.active_len[0] as usize].iter().map(|active| active.tet).collect();
+        assert_eq!(again[..left.len()], left.iter().map(|active| active.tet).collect::<Vec<_>>());
+        let mut expected: Vec<u32> = listed.iter().enumerate().filter(|(i, _)| i % 3 < 2).map(|(_, a)| a.tet).collect();
+        again.sort_unstable();
+        expected.sort_unstable();
+        assert_eq!(again, expected);
+        for (i, active) in listed.iter().enumerate() {
+            let [was, is] = [&before, &state].map(|state| state.status[active.tet as usize].flags);
+            assert_eq!((is & 0xff, is >> 8), ([0x3, 0x6, 0][i % 3], was >> 8));
+        }
+    }
+}
+
 #[test]
 fn tetrahedra_are_left_where_too_many_are_wrong() {
     meshes_with_too_many_wrong_simplices_are_left::<3>();

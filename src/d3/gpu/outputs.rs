@@ -17,7 +17,6 @@ use crate::{
         primitives::scan::{GROUPS, Scan},
         shader::{self, assert_layout},
         vertex_simplices::VertexSimplices,
-        workgroups,
     },
     input::lattice::Width,
     mesh,
@@ -121,9 +120,8 @@ impl OutputStage {
                 // The count is what the parameters of the scan are, too.
                 let scan = self.scan.bind(gpu, &params.cast(), mesh.marks, mesh.numbers)?;
                 let mut recorder = Recorder::new(gpu, None);
-                let groups = |items: u32| workgroups(items).min(gpu.max_workgroups());
                 let run = |recorder: &mut Recorder<'_>, kernel: &Kernel, items: u32| {
-                    recorder.dispatch(kernel, &kernel.bind(gpu, &buffers), groups(items));
+                    recorder.dispatch(kernel, &kernel.bind(gpu, &buffers), gpu.workgroups(items as usize));
                 };
                 run(&mut recorder, &self.mark, count);
                 self.scan.record(&mut recorder, &scan);

@@ -47,7 +47,8 @@ impl Known {
         entries: &mut Vec<Entry>,
     ) -> Result<(Star, Origin), Aborted> {
         let mut star = links.star(&self.region.mesh, v, self.region.incident[v as usize])?;
-        let is_oriented = self.is_oriented(predicates, &star);
+        let is_oriented =
+            self.is_oriented(predicates, &star) && (self.inverted.is_empty() || star.winds_once(predicates));
         if is_oriented && !self.failed.has(v) {
             return Ok((star, Origin::Pulled));
         }

@@ -173,6 +173,33 @@ impl Star {
         self.triangles.iter().filter(|t| t.is_used())
     }
 
+    /// Returns whether the tetrahedra, which are positively oriented, surely go around the vertex once.
+    ///
+    /// Where a triangulation has inverted tetrahedra, others may go around a vertex twice: in each
+    /// direction from it there are two.
+    pub(super) fn winds_once(&self, predicates: &StarPredicates<'_>) -> bool {
+        let count = |p: u32| -> Option<usize> {
+            let mut count = 0;
+            for &Triangle { vertices: [a, b, c], .. } in self.used() {
+                let mut is_within = true;
+                for (a, b) in [(a, b), (b, c), (c, a)] {
+                    match predicates.orient([self.vertex, a, b, p]) {
+                        0 => return None,
+                        sign => is_within &= sign > 0,
+                    }
+                    if !is_within {
+                        break;
+                    }
+                }
+                count += usize::from(is_within);
+            }
+            Some(count)
+        };
+        // Where a direction meets an edge, another one decides.
+        let directions = predicates.spanning().into_iter().filter(|&p| p != self.vertex && !self.has(p));
+        directions.filter_map(count).next() == Some(1)
+    }
+
     /// Returns whether a vertex is on the link. Faster than a walk to it.
     pub(super) fn has(&self, v: u32) -> bool {
         self.used().any(|t| t.vertices.contains(&v))
@@ -338,5 +365,38 @@ impl Star {
     /// Sets the triangle at which walks start.
     pub(super) fn set_recent(&mut self, t: u32) {
         self.recent = t;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{input::lattice::Lattice, predicates::filter::PredicateContext};
+
+    /// Returns the star of the origin whose link has two poles, and six vertices around it that go
+    /// round so many times.
+    fn star_of_turns(turns: u32, test: impl Fn(&StarPredicates<'_>, &Star)) {
+        let mut points = vec![[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+        points.extend((0..6).map(|k| {
+            let (sin, cos) = (f64::from(k * turns) * std::f64::consts::TAU / 6.0).sin_cos();
+            let radius = 1.0 + f64::from(k) / 8.0;
+            [radius * cos, radius * sin, f64::from(k) / 64.0]
+        }));
+        // A spanning tetrahedron, in whose directions there are no edges.
+        points.extend([[9.0, 1.0, 2.0], [-8.0, 3.0, 1.0], [1.0, -7.0, 4.0], [2.0, 3.0, -9.0]]);
+        let lattice = Lattice::fit((&points).into());
+        let vertices = PredicateContext::new((&points).into(), &lattice, (0..points.len() as u32).collect());
+        let predicates = StarPredicates::new(&vertices, points.len() as u32, [9, 10, 11, 12]);
+        let around = (0..6).map(|k| [3 + k, 3 + (k + 1) % 6]);
+        let triangles = around.flat_map(|[a, b]| [Triangle::new([1, a, b]), Triangle::new([2, b, a])]).collect();
+        let star = Star { triangles, ..Star::default() };
+        assert!(star.used().all(|t| predicates.orient(star.tetrahedron(t.vertices)) > 0));
+        test(&predicates, &star);
+    }
+
+    #[test]
+    fn a_star_that_goes_round_twice_is_recognized() {
+        star_of_turns(1, |predicates, star| assert!(star.winds_once(predicates)));
+        star_of_turns(2, |predicates, star| assert!(!star.winds_once(predicates)));
     }
 }

@@ -17,6 +17,8 @@ pub(crate) struct Flip {
     /// In a dimension that can find the active simplices by looking at all slots (§4.2).
     compact: Option<Kernel>,
     clear_votes: Kernel,
+    /// In a dimension in which a flip beside an inverted simplex may have to wait for another one.
+    again: Option<Kernel>,
     /// In a dimension that takes iterations of few simplices in one workgroup. It has all of the
     /// exact arithmetic and is by far the slowest to compile.
     few: Option<Kernel>,
@@ -31,6 +33,7 @@ pub(crate) struct BoundFlip {
     link: wgpu::BindGroup,
     compact: Option<wgpu::BindGroup>,
     clear_votes: wgpu::BindGroup,
+    again: Option<wgpu::BindGroup>,
     few: Option<wgpu::BindGroup>,
 }
 
@@ -57,6 +60,7 @@ impl Flip {
         let kernel = |name| compiler.kernel(Dimension::<D>::SHADERS.get(name), width);
         let optional = |name| Dimension::<D>::SHADERS.find(name).map(|shader| compiler.kernel(shader, width));
         let compact = Dimension::<D>::SHADERS.find("flip_compact");
+        let again = Dimension::<D>::SHADERS.find("moved_again");
         let few = Dimension::<D>::SHADERS.find("flip_few");
         Flip {
             check: kernel("flip_check"),
@@ -65,6 +69,7 @@ impl Flip {
             link: kernel("flip_link"),
             compact: compact.map(|shader| compiler.on_demand(shader, width)),
             clear_votes: compiler.on_demand(Dimension::<D>::SHADERS.get("clear_votes"), width),
+            again: again.map(|shader| compiler.on_demand(shader, width)),
             few: few.map(|shader| compiler.deferred(shader, width)),
         }
     }
@@ -82,6 +87,7 @@ impl Flip {
             link: self.link.bind(gpu, &buffers),
             compact: self.compact.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
             clear_votes: self.clear_votes.bind(gpu, &buffers),
+            again: self.again.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
             few: self.few.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
         }
     }
@@ -117,6 +123,14 @@ impl Flip {
         if let Some((kernel, bindings)) = self.few.as_ref().zip(bound.few.as_ref()).filter(|_| plan.takes_few) {
             recorder.stage("flip: few");
             recorder.dispatch(kernel, bindings, 1);
+        }
+    }
+
+    /// Records that what could not be flipped is to be checked again, in a dimension that may need it.
+    pub(crate) fn record_again(&self, recorder: &mut Recorder<'_>, bound: &BoundFlip, workgroups: u32) {
+        if let Some((kernel, bindings)) = self.again.as_ref().zip(bound.again.as_ref()) {
+            recorder.stage("flip: again");
+            recorder.dispatch(kernel, bindings, workgroups);
         }
     }
 

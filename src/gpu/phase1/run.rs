@@ -22,7 +22,6 @@ use crate::{
         points::{PointBuffers, PointInput},
         primitives::scan::GROUPS,
         start::{Start, StartMesh},
-        workgroups,
     },
     input::{lattice::Lattice, points::Points},
     options::Winding,
@@ -120,6 +119,10 @@ const FEW_ITERATIONS: u32 = 128;
 /// The flip iterations that are recorded at first where points have moved, a dispatch per pass: a
 /// million points that moved by a five-hundredth of their spacing take so many.
 const MOVED_ITERATIONS: u32 = 12;
+
+/// The flip iterations that are recorded, a dispatch per pass, for what could not be flipped before:
+/// most of it cannot be flipped now, either, and leaves the list in the first one.
+const AGAIN_ITERATIONS: u32 = 4;
 
 /// Votes are cleared when the lowest bid is so high: a quarter of the numbers that are left by then
 /// suffices for all rounds that may be submitted before.
@@ -544,7 +547,11 @@ where
         let takes_few = self.params.few > 0;
         let plan = FlipPlan { iterations, exact_every: self.iterations.exact_every(), compacts, takes_few };
         stages.flip.record(recorder, &bound.flip, plan, workgroups);
-        if !self.has_moved {
+        if self.has_moved {
+            stages.flip.record_again(recorder, &bound.flip, workgroups);
+            let plan = FlipPlan { iterations: plan.iterations.min(AGAIN_ITERATIONS), ..plan };
+            stages.flip.record(recorder, &bound.flip, plan, workgroups);
+        } else {
             stages.relocate.record(recorder, &bound.relocate, workgroups);
         }
     }
@@ -556,8 +563,8 @@ where
 
     /// Returns the workgroups of a kernel with an invocation per slot.
     pub(crate) fn workgroups(&self) -> u32 {
-        let max = self.settings.workgroups.min(self.gpu.max_workgroups());
-        workgroups(self.params.blocks.saturating_mul(BLOCK)).min(max)
+        let slots = self.params.blocks.saturating_mul(BLOCK);
+        self.gpu.workgroups(slots as usize).min(self.settings.workgroups)
     }
 
     /// Adds slots to the tail.
