@@ -73,10 +73,4 @@ impl<const D: usize> Cell<D> {
         self.centroid = [f64::NAN; D];
         self.is_bounded = true;
     }
-
-    /// Appends a facet without its measures.
-    pub(super) fn push(&mut self, corners: impl IntoIterator<Item = u32>, neighbor: i32) {
-        self.facets.push(corners);
-        self.neighbors.push(neighbor);
-    }
 }

@@ -337,59 +337,80 @@ where
 
     /// Finds the cell of point `i`.
     fn find_cell(&self, i: u32, worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
-        worker.cell.clear();
+        let Worker { cell, relative, star: scratch, polytope } = worker;
+        cell.clear();
         let star = self.stars.of(i);
         if star.is_empty() {
             return;
         }
         let site = self.locator.complex.point(i);
-        worker.relative.clear();
-        worker.relative.extend(star.iter().map(|&t| vector::minus(self.vertices[t as usize], site)));
-        self.find_facets(i, star, worker);
-        if self.is_whole(i) {
-            let Worker { cell, relative, .. } = worker;
-            cell.vertices.extend_from_slice(relative);
+        cell.vertices.extend(star.iter().map(|&t| self.vertices[t as usize]));
+        relative.clear();
+        relative.extend(cell.vertices.iter().map(|&vertex| vector::minus(vertex, site)));
+        let mut moment = self.find_facets(i, star, relative, cell, scratch);
+        if self.is_whole(i, &cell.vertices) {
             cell.simplices.extend(star.iter().map(|&t| t as i32));
             cell.is_bounded = !self.on_hull[i as usize];
         } else {
-            self.clip_cell(i, worker);
+            moment = self.clip_cell(i, cell, polytope);
         }
-        measure::<D, N>(worker, site);
-        // No longer relative to the site.
-        let Cell { vertices, simplices, .. } = &mut worker.cell;
-        for (vertex, &t) in vertices.iter_mut().zip(&*simplices) {
-            *vertex = if t == NONE { vector::plus(*vertex, site) } else { self.vertices[t as usize] };
+        if !cell.is_bounded {
+            cell.volume = f64::INFINITY;
+        } else if cell.volume > 0.0 {
+            cell.centroid = vector::plus(site, vector::times(1.0 / cell.volume, moment));
         }
     }
 
-    /// Returns whether clipping leaves the cell of vertex `v` as it is.
-    fn is_whole(&self, v: u32) -> bool {
+    /// Returns whether clipping leaves the cell of vertex `v`, with these vertices, as it is.
+    fn is_whole(&self, v: u32, vertices: &[[f64; D]]) -> bool {
         match self.clip {
             Clip::None => true,
             Clip::Hull => self.hull_facets_of_cells.of(v).is_empty(),
             Clip::Box([low, high]) => {
                 let is_within = |p: [f64; D]| (0..D).all(|axis| low[axis] <= p[axis] && p[axis] <= high[axis]);
-                !self.on_hull[v as usize] && self.stars.of(v).iter().all(|&t| is_within(self.vertices[t as usize]))
+                !self.on_hull[v as usize] && vertices.iter().all(|&vertex| is_within(vertex))
             }
         }
     }
 
-    /// Finds the facets of the cell of vertex `v` before it is clipped, as places in its star.
-    fn find_facets(&self, v: u32, star: &[u32], worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
-        let Worker { cell, is_open, relative, star: scratch, .. } = worker;
+    /// Finds the facets of the cell of vertex `v` before it is clipped, as places in its star, and
+    /// their measures. Returns the integral of the coordinates over the cell. `relative` has the
+    /// circumcentres of the star, relative to *v*.
+    fn find_facets(
+        &self,
+        v: u32,
+        star: &[u32],
+        relative: &[[f64; D]],
+        cell: &mut Cell<D>,
+        scratch: &mut Star,
+    ) -> [f64; D] {
+        let mut moment = [0.0; D];
+        // If only so many vertices of a facet were distinct that it has no area, rounding could not
+        // give it this one for each of its vertices: their errors are far smaller.
+        let squared_reach = relative.iter().fold(0.0, |max, &p| vector::squared_norm(p).max(max));
+        let greatest = if D == 2 { squared_reach.sqrt() } else { squared_reach };
+        let tiny = greatest * (1.0 / (1u64 << 28) as f64) + f64::MIN_POSITIVE;
+        let Cell { facets, neighbors, areas, volume, .. } = cell;
         let complex = &self.locator.complex;
-        is_open.clear();
-        <Euclidean as VoronoiShapes<D, N>>::for_rings(complex, v, star, scratch, |a, ring, is_closed| {
-            if self.is_facet(star, relative, ring, is_closed, [v, a]) {
-                cell.push(ring.iter().copied(), a as i32);
-                is_open.push(!is_closed);
+        <Euclidean as VoronoiShapes<D, N>>::push_rings(complex, v, star, scratch, facets, |a, ring, is_closed| {
+            let measures = Euclidean::facet_measures(relative, ring);
+            let is_facet = measures.area > tiny * ring.len() as f64
+                || self.is_facet(star, relative, ring, is_closed, [v, a]);
+            if is_facet {
+                neighbors.push(a as i32);
+                areas.push(if is_closed { measures.area } else { f64::INFINITY });
+                *volume += measures.volume;
+                moment = vector::plus(moment, measures.moment);
             }
+            is_facet
         });
+        moment
     }
 
     /// Returns whether the facet that is dual to an edge has an area, in 2D a length. It has none
     /// if ties make so many of its vertices coincide that at most two are left, in 2D one.
     /// `relative` has the circumcentres of the star, relative to *v*.
+    #[cold]
     fn is_facet(&self, star: &[u32], relative: &[[f64; D]], ring: &[u32], is_closed: bool, [v, a]: [u32; 2]) -> bool {
         let complex = &self.locator.complex;
         let are_distinct = |&[t, u]: &[u32; 2]| {
@@ -433,9 +454,14 @@ where
     }
 
     /// Makes the cell of vertex `v` from the box, or that around the hull, by clipping it with the
-    /// bisectors of the cell's facets, which it replaces, and with the facets of the hull.
-    fn clip_cell(&self, v: u32, worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
-        let Worker { cell, is_open, corners: facet_corners, polytope, .. } = worker;
+    /// bisectors of the cell's facets, which it replaces, and with the facets of the hull. Returns
+    /// the integral of the coordinates over the cell.
+    fn clip_cell(
+        &self,
+        v: u32,
+        cell: &mut Cell<D>,
+        polytope: &mut <Euclidean as VoronoiShapes<D, N>>::Polytope,
+    ) -> [f64; D] {
         let complex = &self.locator.complex;
         let site = complex.point(v);
         let bounds = match self.clip {
@@ -457,19 +483,22 @@ where
             }
         }
         cell.clear();
-        is_open.clear();
         let vertices = polytope.vertices();
+        let mut moment = [0.0; D];
         polytope.for_facets(|corners, name| {
-            facet_corners.clear();
-            facet_corners.extend(corners.iter().map(|&v| vertices[v as usize]));
+            let measures = Euclidean::facet_measures(vertices, corners);
             // Where a bisector only touches the rest of the cell, nothing is left of the facet.
-            if Euclidean::facet_measures(facet_corners).area > 0.0 {
-                cell.push(corners.iter().copied(), name);
-                is_open.push(false);
+            if measures.area > 0.0 {
+                cell.facets.push(corners.iter().copied());
+                cell.neighbors.push(name);
+                cell.areas.push(measures.area);
+                cell.volume += measures.volume;
+                moment = vector::plus(moment, measures.moment);
             }
         });
-        cell.vertices.extend(vertices);
+        cell.vertices.extend(vertices.iter().map(|&vertex| vector::plus(vertex, site)));
         cell.simplices.resize(cell.vertices.len(), NONE);
+        moment
     }
 }
 
@@ -477,48 +506,14 @@ where
 #[derive(Debug)]
 struct Worker<const D: usize, P> {
     cell: Cell<D>,
-    /// Whether each facet of the cell is unbounded.
-    is_open: Vec<bool>,
     /// The circumcentres of the star, relative to its vertex.
     relative: Vec<[f64; D]>,
     star: Star,
-    /// The corners of a facet.
-    corners: Vec<[f64; D]>,
     polytope: P,
 }
 
 impl<const D: usize, P: Default> Default for Worker<D, P> {
     fn default() -> Self {
-        Worker {
-            cell: Cell::default(),
-            is_open: Vec::new(),
-            relative: Vec::new(),
-            star: Star::default(),
-            corners: Vec::new(),
-            polytope: P::default(),
-        }
-    }
-}
-
-/// Fills in the measures of a cell, whose vertices are relative to its site.
-fn measure<const D: usize, const N: usize>(
-    Worker { cell, is_open, corners, .. }: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>,
-    site: [f64; D],
-) where
-    Euclidean: VoronoiShapes<D, N>,
-{
-    let mut moment = [0.0; D];
-    for (f, &is_open) in (0..).zip(&*is_open) {
-        corners.clear();
-        corners.extend(cell.facets.of(f).iter().map(|&v| cell.vertices[v as usize]));
-        let measures = Euclidean::facet_measures(corners);
-        cell.areas.push(if is_open { f64::INFINITY } else { measures.area });
-        cell.volume += measures.volume;
-        moment = vector::plus(moment, measures.moment);
-    }
-    if !cell.is_bounded {
-        cell.volume = f64::INFINITY;
-    } else if cell.volume > 0.0 {
-        cell.centroid = vector::plus(site, vector::times(1.0 / cell.volume, moment));
+        Worker { cell: Cell::default(), relative: Vec::new(), star: Star::default(), polytope: P::default() }
     }
 }
