@@ -6,7 +6,7 @@ mod polytope;
 mod shapes;
 
 pub use cell::Cell;
-use shapes::Star;
+use shapes::{Row, Star};
 pub use shapes::VoronoiShapes;
 pub(super) use shapes::{THIRD, place, ring};
 
@@ -24,6 +24,9 @@ use polytope::Polytope;
 
 /// The number of cells that is worth handing to another thread.
 const GRAIN: usize = 1 << 8;
+
+/// The number of cells for which what they need is gathered at once.
+const BLOCK: usize = 16;
 
 /// What a Voronoi diagram is clipped to.
 ///
@@ -206,7 +209,8 @@ where
     /// ```
     pub fn cell(&self, i: u32) -> Cell<D> {
         let mut worker = Worker::default();
-        self.find_cell(i, &mut worker);
+        worker.block.gather(self, &[i]);
+        self.find_cell(i, 0, &mut worker);
         worker.cell
     }
 
@@ -228,11 +232,15 @@ where
         let order = order_along_curve(self.locator.complex.points(), self.locator.key);
         let results = parallel::map_grains(Threads::All, order.len(), GRAIN, |range| {
             let mut worker = Worker::default();
-            let results = order[range].iter().map(|&i| {
-                self.find_cell(i, &mut worker);
-                f(i, &worker.cell)
-            });
-            results.collect::<Vec<_>>()
+            let mut results = Vec::with_capacity(range.len());
+            for block in order[range].chunks(BLOCK) {
+                worker.block.gather(self, block);
+                for (place, &i) in (0..).zip(block) {
+                    self.find_cell(i, place, &mut worker);
+                    results.push(f(i, &worker.cell));
+                }
+            }
+            results
         });
         let mut sorted: Vec<Option<R>> = order.iter().map(|_| None).collect();
         for (&i, result) in order.iter().zip(results.into_iter().flatten()) {
@@ -335,20 +343,22 @@ where
         diagram
     }
 
-    /// Finds the cell of point `i`.
-    fn find_cell(&self, i: u32, worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
-        let Worker { cell, relative, star: scratch, polytope } = worker;
+    /// Finds the cell of point `i`, which is at this place in the worker's block.
+    fn find_cell(&self, i: u32, place: u32, worker: &mut Worker<D, N, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
+        let Worker { block, cell, relative, star: scratch, polytope } = worker;
         cell.clear();
-        let star = self.stars.of(i);
+        let star = block.stars.of(place);
         if star.is_empty() {
             return;
         }
-        let site = self.locator.complex.point(i);
-        cell.vertices.extend(star.iter().map(|&t| self.vertices[t as usize]));
+        let site = block.sites[place as usize];
+        let range = block.stars.offsets[place as usize]..block.stars.offsets[place as usize + 1];
+        let (vertices, rows) = (&block.vertices[range.clone()], &block.rows[range]);
         relative.clear();
-        relative.extend(cell.vertices.iter().map(|&vertex| vector::minus(vertex, site)));
-        let mut moment = self.find_facets(i, star, relative, cell, scratch);
-        if self.is_whole(i, &cell.vertices) {
+        relative.extend(vertices.iter().map(|&vertex| vector::minus(vertex, site)));
+        let mut moment = self.find_facets(i, star, rows, relative, cell, scratch);
+        if self.is_whole(i, vertices) {
+            cell.vertices.extend_from_slice(vertices);
             cell.simplices.extend(star.iter().map(|&t| t as i32));
             cell.is_bounded = !self.on_hull[i as usize];
         } else {
@@ -380,6 +390,7 @@ where
         &self,
         v: u32,
         star: &[u32],
+        rows: &[Row<N>],
         relative: &[[f64; D]],
         cell: &mut Cell<D>,
         scratch: &mut Star,
@@ -391,8 +402,7 @@ where
         let greatest = if D == 2 { squared_reach.sqrt() } else { squared_reach };
         let tiny = greatest * (1.0 / (1u64 << 28) as f64) + f64::MIN_POSITIVE;
         let Cell { facets, neighbors, areas, volume, .. } = cell;
-        let complex = &self.locator.complex;
-        <Euclidean as VoronoiShapes<D, N>>::push_rings(complex, v, star, scratch, facets, |a, ring, is_closed| {
+        <Euclidean as VoronoiShapes<D, N>>::push_rings(v, star, rows, scratch, facets, |a, ring, is_closed| {
             let measures = Euclidean::facet_measures(relative, ring);
             let is_facet = measures.area > tiny * ring.len() as f64
                 || self.is_facet(star, relative, ring, is_closed, [v, a]);
@@ -504,7 +514,8 @@ where
 
 /// Lists that one cell leaves to the next.
 #[derive(Debug)]
-struct Worker<const D: usize, P> {
+struct Worker<const D: usize, const N: usize, P> {
+    block: Block<D, N>,
     cell: Cell<D>,
     /// The circumcentres of the star, relative to its vertex.
     relative: Vec<[f64; D]>,
@@ -512,8 +523,47 @@ struct Worker<const D: usize, P> {
     polytope: P,
 }
 
-impl<const D: usize, P: Default> Default for Worker<D, P> {
+impl<const D: usize, const N: usize, P: Default> Default for Worker<D, N, P> {
     fn default() -> Self {
-        Worker { cell: Cell::default(), relative: Vec::new(), star: Star::default(), polytope: P::default() }
+        Worker {
+            block: Block::default(),
+            cell: Cell::default(),
+            relative: Vec::new(),
+            star: Star::default(),
+            polytope: P::default(),
+        }
+    }
+}
+
+/// What the cells of a few points are made from. It is far apart in memory, and gathered in loops
+/// whose iterations do not wait for each other.
+#[derive(Debug, Default)]
+struct Block<const D: usize, const N: usize> {
+    sites: Vec<[f64; D]>,
+    /// Where each star is in the list of all.
+    ranges: Vec<[usize; 2]>,
+    stars: Csr,
+    /// The circumcentre of each simplex of the stars.
+    vertices: Vec<[f64; D]>,
+    /// The row of each simplex of the stars.
+    rows: Vec<Row<N>>,
+}
+
+impl<const D: usize, const N: usize> Block<D, N> {
+    fn gather(&mut self, voronoi: &Voronoi<'_, D, N>, points: &[u32]) {
+        let Block { sites, ranges, stars, vertices, rows } = self;
+        let (complex, offsets) = (&voronoi.locator.complex, &voronoi.stars.offsets);
+        sites.clear();
+        sites.extend(points.iter().map(|&i| complex.point(i)));
+        ranges.clear();
+        ranges.extend(points.iter().map(|&i| [offsets[i as usize], offsets[i as usize + 1]]));
+        stars.clear();
+        for &[start, end] in &*ranges {
+            stars.push(voronoi.stars.indices[start..end].iter().copied());
+        }
+        vertices.clear();
+        vertices.extend(stars.indices.iter().map(|&t| voronoi.vertices[t as usize]));
+        rows.clear();
+        rows.extend(stars.indices.iter().map(|&t| complex.row(t as usize)));
     }
 }

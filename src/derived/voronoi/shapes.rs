@@ -22,21 +22,24 @@ pub struct FacetMeasures<const D: usize> {
     pub(crate) moment: [f64; D],
 }
 
+/// The vertices of a simplex and its neighbours.
+pub type Row<const N: usize> = ([u32; N], [i32; N]);
+
 /// What differs between the dimensions in Voronoi cells.
 #[doc(hidden)]
 pub trait VoronoiShapes<const D: usize, const N: usize>: Geometry<D, N> {
     /// The shape of a cell while it is clipped.
     type Polytope: Polytope<D>;
 
-    /// Appends to `rings` the rings around the edges from vertex *v*, as places in its star, that
-    /// `is_wanted`, which is called with the edge's other vertex *a*, the simplices around the edge,
+    /// Appends to `rings` the rings around the edges from vertex *v*, as places in its star, whose
+    /// simplices have these rows, that `is_wanted`, which is called with the edge's other vertex *a*, the simplices around the edge,
     /// and whether they close a ring, or in 2D whether there are two. They are counter-clockwise as
     /// seen from *a* in 3D, and from right to left as seen from *v* in 2D, where the neighbours come
     /// counter-clockwise, on the hull from the first.
     fn push_rings(
-        complex: &Complex<'_, D, N>,
         v: u32,
         star: &[u32],
+        rows: &[Row<N>],
         scratch: &mut Star,
         rings: &mut Csr,
         is_wanted: impl FnMut(u32, &[u32], bool) -> bool,
@@ -57,9 +60,9 @@ impl VoronoiShapes<2, 3> for Euclidean {
     type Polytope = Polygon<2>;
 
     fn push_rings(
-        complex: &Complex<'_, 2, 3>,
         v: u32,
         star: &[u32],
+        rows: &[Row<3>],
         _: &mut Star,
         rings: &mut Csr,
         mut is_wanted: impl FnMut(u32, &[u32], bool) -> bool,
@@ -72,21 +75,17 @@ impl VoronoiShapes<2, 3> for Euclidean {
         // Of a counter-clockwise triangle (v, a, b), the next one is across (v, b), opposite a, and
         // the one before opposite b.
         let corner = |place: u32, after: usize| {
-            let t = star[place as usize] as usize;
-            let corner = complex.simplices[t].iter().position(|&w| w == v).unwrap_or(0);
-            (t, (corner + after) % 3)
+            let (simplex, neighbors) = &rows[place as usize];
+            let corner = (simplex.iter().position(|&w| w == v).unwrap_or(0) + after) % 3;
+            (simplex[corner], neighbors[corner])
         };
         let across = |place: u32, after: usize| {
-            let (t, corner) = corner(place, after);
-            let across = complex.across(t, corner)?;
+            let (_, across) = corner(place, after);
             // A star is in ascending order. Only a broken mesh has other triangles around the
             // vertex.
             star.binary_search(&(across as u32)).ok().map(|place| place as u32)
         };
-        let vertex = |place: u32, after: usize| {
-            let (t, corner) = corner(place, after);
-            complex.simplices[t][corner]
-        };
+        let vertex = |place: u32, after: usize| corner(place, after).0;
         let mut first = 0;
         // Only a broken mesh needs the limits.
         for _ in 0..star.len() {
@@ -156,13 +155,12 @@ const OUTSIDE: u32 = u32::MAX;
 
 impl Star {
     /// Fills in the star of vertex *v*. Returns whether anything is outside.
-    fn fill(&mut self, complex: &Complex<'_, 3, 4>, v: u32, star: &[u32]) -> bool {
+    fn fill(&mut self, v: u32, star: &[u32], rows: &[Row<4>]) -> bool {
         let Star { corners, across, next, table } = self;
         corners.clear();
         across.clear();
-        for &t in star {
-            let (simplex, neighbors) = complex.row(t as usize);
-            let [_, i, j, k] = EVEN[place(&simplex, v)];
+        for (simplex, neighbors) in rows {
+            let [_, i, j, k] = EVEN[place(simplex, v)];
             corners.push([i, j, k].map(|corner| simplex[corner]));
             across.push([i, j, k].map(|corner| neighbors[corner]));
         }
@@ -252,14 +250,14 @@ impl VoronoiShapes<3, 4> for Euclidean {
     type Polytope = Polyhedron;
 
     fn push_rings(
-        complex: &Complex<'_, 3, 4>,
         v: u32,
         star: &[u32],
+        rows: &[Row<4>],
         scratch: &mut Star,
         rings: &mut Csr,
         mut is_wanted: impl FnMut(u32, &[u32], bool) -> bool,
     ) {
-        let is_open = scratch.fill(complex, v, star);
+        let is_open = scratch.fill(v, star, rows);
         let Star { corners, next, .. } = scratch;
         let next = next.as_flattened_mut();
         // Rings that are not closed, from their first tetrahedra.
