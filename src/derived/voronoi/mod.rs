@@ -26,7 +26,7 @@ use polytope::Polytope;
 const GRAIN: usize = 1 << 8;
 
 /// The number of cells for which what they need is gathered at once.
-const BLOCK: usize = 16;
+const BLOCK: usize = 32;
 
 /// What a Voronoi diagram is clipped to.
 ///
