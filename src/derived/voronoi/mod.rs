@@ -25,7 +25,8 @@ use polytope::Polytope;
 /// The number of cells that is worth handing to another thread.
 const GRAIN: usize = 1 << 8;
 
-/// The number of cells for which what they need is gathered at once.
+/// The number of cells or simplices for which what they need is gathered at once: it is far apart
+/// in memory, and the iterations of a loop that only reads it do not wait for each other.
 const BLOCK: usize = 32;
 
 /// What a Voronoi diagram is clipped to.
@@ -165,8 +166,13 @@ where
         let stars = Csr::stars(&complex.simplices, complex.points().len());
         let mut vertices = vec![[0.0; D]; complex.simplices.len()];
         parallel::for_chunks(Threads::All, &mut vertices, |start, chunk| {
-            for (vertex, t) in chunk.iter_mut().zip(start..) {
-                *vertex = circumcenter(&complex.corners(t));
+            let mut corners = Vec::new();
+            for (block, simplices) in chunk.chunks_mut(BLOCK).zip(complex.simplices[start..].chunks(BLOCK)) {
+                corners.clear();
+                corners.extend(simplices.iter().map(|simplex| complex.corners_of(simplex)));
+                for (vertex, corners) in block.iter_mut().zip(&corners) {
+                    *vertex = circumcenter(corners);
+                }
             }
         });
         let mut on_hull = vec![false; complex.points().len()];
@@ -229,7 +235,7 @@ where
     /// ```
     pub fn map_cells<R: Send>(&self, f: impl Fn(u32, &Cell<D>) -> R + Sync) -> Vec<R> {
         // Cells that come one after the other share simplices, which are then at hand.
-        let order = order_along_curve(self.locator.complex.points(), self.locator.key);
+        let mut order = order_along_curve(self.locator.complex.points(), self.locator.key);
         let results = parallel::map_grains(Threads::All, order.len(), GRAIN, |range| {
             let mut worker = Worker::default();
             let mut results = Vec::with_capacity(range.len());
@@ -242,12 +248,20 @@ where
             }
             results
         });
-        let mut sorted: Vec<Option<R>> = order.iter().map(|_| None).collect();
-        for (&i, result) in order.iter().zip(results.into_iter().flatten()) {
-            sorted[i as usize] = Some(result);
+        let joined = results.into_iter().reduce(|mut joined, part| {
+            joined.extend(part);
+            joined
+        });
+        let mut results = joined.unwrap_or_default();
+        // Each swap moves one result to the place of its point.
+        for place in 0..results.len() {
+            while order[place] as usize != place {
+                let i = order[place] as usize;
+                results.swap(place, i);
+                order.swap(place, i);
+            }
         }
-        // There is one for each point.
-        sorted.into_iter().flatten().collect()
+        results
     }
 
     /// Returns the volume of each point's cell, its area in 2D: infinite for unbounded cells, 0 for
@@ -535,8 +549,7 @@ impl<const D: usize, const N: usize, P: Default> Default for Worker<D, N, P> {
     }
 }
 
-/// What the cells of a few points are made from. It is far apart in memory, and gathered in loops
-/// whose iterations do not wait for each other.
+/// What the cells of a few points are made from.
 #[derive(Debug, Default)]
 struct Block<const D: usize, const N: usize> {
     sites: Vec<[f64; D]>,
