@@ -6,8 +6,8 @@ mod polytope;
 mod shapes;
 
 pub use cell::Cell;
-use shapes::{Row, Star};
 pub use shapes::VoronoiShapes;
+use shapes::{Row, Star};
 pub(super) use shapes::{THIRD, place, ring};
 
 use super::{Locator, queries::order_along_curve};
@@ -410,16 +410,18 @@ where
         scratch: &mut Star,
     ) -> [f64; D] {
         let mut moment = [0.0; D];
-        // If only so many vertices of a facet were distinct that it has no area, rounding could not
-        // give it this one for each of its vertices: their errors are far smaller.
-        let squared_reach = relative.iter().fold(0.0, |max, &p| vector::squared_norm(p).max(max));
-        let greatest = if D == 2 { squared_reach.sqrt() } else { squared_reach };
-        let tiny = greatest * (1.0 / (1u64 << 28) as f64) + f64::MIN_POSITIVE;
+        let reach = relative.iter().fold(0.0, |max, &p| vector::squared_norm(p).max(max)).sqrt();
+        // Far more than the errors of all these, which are below 2⁻³⁷ times the circumradius, and
+        // what rounding to coordinates costs.
+        let site = self.locator.complex.point(v);
+        let error = reach * (1.0 / (1u64 << 30) as f64) + vector::norm(site) * (1.0 / (1u64 << 48) as f64);
+        // More than what errors can make of an area or length of 0, for each vertex of the facet.
+        let tiny = if D == 2 { error } else { error * reach } + f64::MIN_POSITIVE;
         let Cell { facets, neighbors, areas, volume, .. } = cell;
         <Euclidean as VoronoiShapes<D, N>>::push_rings(v, star, rows, scratch, facets, |a, ring, is_closed| {
             let measures = Euclidean::facet_measures(relative, ring);
             let is_facet = measures.area > tiny * ring.len() as f64
-                || self.is_facet(star, relative, ring, is_closed, [v, a]);
+                || self.is_facet(star, relative, error, ring, is_closed, [v, a]);
             if is_facet {
                 neighbors.push(a as i32);
                 areas.push(if is_closed { measures.area } else { f64::INFINITY });
@@ -435,12 +437,19 @@ where
     /// if ties make so many of its vertices coincide that at most two are left, in 2D one.
     /// `relative` has the circumcentres of the star, relative to *v*.
     #[cold]
-    fn is_facet(&self, star: &[u32], relative: &[[f64; D]], ring: &[u32], is_closed: bool, [v, a]: [u32; 2]) -> bool {
+    fn is_facet(
+        &self,
+        star: &[u32],
+        relative: &[[f64; D]],
+        error: f64,
+        ring: &[u32],
+        is_closed: bool,
+        [v, a]: [u32; 2],
+    ) -> bool {
         let complex = &self.locator.complex;
         let are_distinct = |&[t, u]: &[u32; 2]| {
             let [p, q] = [t, u].map(|place| relative[place as usize]);
-            // Far more than the errors of both.
-            if vector::squared_norm(vector::minus(p, q)) > vector::squared_norm(p) * (1.0 / (1u64 << 60) as f64) {
+            if vector::squared_norm(vector::minus(p, q)) > error * error {
                 return true;
             }
             let [t, u] = [t, u].map(|place| star[place as usize] as usize);
