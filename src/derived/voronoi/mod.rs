@@ -503,9 +503,15 @@ where
         };
         // Relative to the site.
         polytope.reset(bounds.map(|corner| vector::minus(corner, site)), NONE);
-        for &neighbor in &cell.neighbors {
+        let bisector = |&neighbor: &i32| {
             let to = vector::minus(complex.point(neighbor as u32), site);
-            polytope.clip(to, 0.5 * vector::squared_norm(to), neighbor);
+            (0.5 * vector::squared_norm(to), to, neighbor)
+        };
+        let mut bisectors: Vec<_> = cell.neighbors.iter().map(bisector).collect();
+        // The nearest ones first: what these leave, the others cut less of.
+        bisectors.sort_unstable_by(|(one, ..), (other, ..)| one.total_cmp(other));
+        for (offset, normal, neighbor) in bisectors {
+            polytope.clip(normal, offset, neighbor);
         }
         if self.clip == Clip::Hull {
             for &f in self.hull_facets_of_cells.of(v) {
