@@ -165,7 +165,7 @@ impl Star {
             across.push([i, j, k].map(|corner| neighbors[corner]));
         }
         // So large that few overwrite each other.
-        let bits = (32 * star.len()).next_power_of_two().ilog2().min(31);
+        let bits = (8 * star.len()).next_power_of_two().ilog2().clamp(10, 31);
         let slot = |t: u32| (t.wrapping_mul(0x9e37_79b9) >> (32 - bits)) as usize;
         if table.len() < 1 << bits {
             table.resize(1 << bits, OUTSIDE);
