@@ -188,7 +188,7 @@ impl Star {
                 }
                 match corners.get(place as usize) {
                     // Without a branch, which nothing could predict.
-                    Some(others) => row[k] = place * 4 | u32::from(others[1] == a) | u32::from(others[2] == a) << 1,
+                    Some(others) => row[k] = (place * 4) | u32::from(others[1] == a) | (u32::from(others[2] == a) << 1),
                     None => is_open = true,
                 }
             }
