@@ -1,6 +1,12 @@
 //! One Voronoi cell.
 
-use crate::{index::NONE, mesh::Csr};
+use crate::{
+    index::{NO_INDEX, NONE},
+    mesh::Csr,
+};
+
+/// The largest number of neighbours for which comparing each with all is faster than to sort them.
+const RANKED: usize = 48;
 
 /// A cell of a Voronoi diagram: a convex polyhedron, or a polygon in 2D.
 ///
@@ -57,10 +63,22 @@ impl<const D: usize> Cell<D> {
 
     /// Returns the points with which the cell shares a facet, in ascending order.
     pub fn neighbors(&self) -> Vec<u32> {
-        let mut neighbors: Vec<u32> = self.neighbors.iter().filter(|&&v| v != NONE).map(|&v| v as u32).collect();
-        neighbors.sort_unstable();
-        neighbors.dedup();
-        neighbors
+        let listed = self.neighbors.as_slice();
+        if listed.len() > RANKED {
+            let mut sorted: Vec<u32> = listed.iter().filter(|&&v| v != NONE).map(|&v| v as u32).collect();
+            sorted.sort_unstable();
+            sorted.dedup();
+            return sorted;
+        }
+        // Each goes where the number of lower ones says, without branches, which nothing could
+        // predict. What equals another one leaves a gap.
+        let mut sorted = vec![NO_INDEX; listed.len()];
+        for &v in listed {
+            let rank: u32 = listed.iter().map(|&w| u32::from(w < v)).sum();
+            sorted[rank as usize] = v as u32;
+        }
+        sorted.retain(|&v| v != NO_INDEX);
+        sorted
     }
 
     pub(super) fn clear(&mut self) {
@@ -72,11 +90,5 @@ impl<const D: usize> Cell<D> {
         self.volume = 0.0;
         self.centroid = [f64::NAN; D];
         self.is_bounded = true;
-    }
-
-    /// Appends a facet without its measures.
-    pub(super) fn push(&mut self, corners: impl IntoIterator<Item = u32>, neighbor: i32) {
-        self.facets.push(corners);
-        self.neighbors.push(neighbor);
     }
 }

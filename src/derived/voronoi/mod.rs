@@ -6,8 +6,8 @@ mod polytope;
 mod shapes;
 
 pub use cell::Cell;
-use shapes::Star;
 pub use shapes::VoronoiShapes;
+use shapes::{Row, Star};
 pub(super) use shapes::{THIRD, place, ring};
 
 use super::{Locator, queries::order_along_curve};
@@ -24,6 +24,10 @@ use polytope::Polytope;
 
 /// The number of cells that is worth handing to another thread.
 const GRAIN: usize = 1 << 8;
+
+/// The number of cells or simplices for which what they need is gathered at once: it is far apart
+/// in memory, and the iterations of a loop that only reads it do not wait for each other.
+const BLOCK: usize = 32;
 
 /// What a Voronoi diagram is clipped to.
 ///
@@ -162,8 +166,13 @@ where
         let stars = Csr::stars(&complex.simplices, complex.points().len());
         let mut vertices = vec![[0.0; D]; complex.simplices.len()];
         parallel::for_chunks(Threads::All, &mut vertices, |start, chunk| {
-            for (vertex, t) in chunk.iter_mut().zip(start..) {
-                *vertex = circumcenter(&complex.corners(t));
+            let mut corners = Vec::new();
+            for (block, simplices) in chunk.chunks_mut(BLOCK).zip(complex.simplices[start..].chunks(BLOCK)) {
+                corners.clear();
+                corners.extend(simplices.iter().map(|simplex| complex.corners_of(simplex)));
+                for (vertex, corners) in block.iter_mut().zip(&corners) {
+                    *vertex = circumcenter(corners);
+                }
             }
         });
         let mut on_hull = vec![false; complex.points().len()];
@@ -206,7 +215,8 @@ where
     /// ```
     pub fn cell(&self, i: u32) -> Cell<D> {
         let mut worker = Worker::default();
-        self.find_cell(i, &mut worker);
+        worker.block.gather(self, &[i]);
+        self.find_cell(i, 0, &mut worker);
         worker.cell
     }
 
@@ -225,21 +235,33 @@ where
     /// ```
     pub fn map_cells<R: Send>(&self, f: impl Fn(u32, &Cell<D>) -> R + Sync) -> Vec<R> {
         // Cells that come one after the other share simplices, which are then at hand.
-        let order = order_along_curve(self.locator.complex.points(), self.locator.key);
+        let mut order = order_along_curve(self.locator.complex.points(), self.locator.key);
         let results = parallel::map_grains(Threads::All, order.len(), GRAIN, |range| {
             let mut worker = Worker::default();
-            let results = order[range].iter().map(|&i| {
-                self.find_cell(i, &mut worker);
-                f(i, &worker.cell)
-            });
-            results.collect::<Vec<_>>()
+            let mut results = Vec::with_capacity(range.len());
+            for block in order[range].chunks(BLOCK) {
+                worker.block.gather(self, block);
+                for (place, &i) in (0..).zip(block) {
+                    self.find_cell(i, place, &mut worker);
+                    results.push(f(i, &worker.cell));
+                }
+            }
+            results
         });
-        let mut sorted: Vec<Option<R>> = order.iter().map(|_| None).collect();
-        for (&i, result) in order.iter().zip(results.into_iter().flatten()) {
-            sorted[i as usize] = Some(result);
+        let joined = results.into_iter().reduce(|mut joined, part| {
+            joined.extend(part);
+            joined
+        });
+        let mut results = joined.unwrap_or_default();
+        // Each swap moves one result to the place of its point.
+        for place in 0..results.len() {
+            while order[place] as usize != place {
+                let i = order[place] as usize;
+                results.swap(place, i);
+                order.swap(place, i);
+            }
         }
-        // There is one for each point.
-        sorted.into_iter().flatten().collect()
+        results
     }
 
     /// Returns the volume of each point's cell, its area in 2D: infinite for unbounded cells, 0 for
@@ -335,67 +357,99 @@ where
         diagram
     }
 
-    /// Finds the cell of point `i`.
-    fn find_cell(&self, i: u32, worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
-        worker.cell.clear();
-        let star = self.stars.of(i);
+    /// Finds the cell of point `i`, which is at this place in the worker's block.
+    fn find_cell(&self, i: u32, place: u32, worker: &mut Worker<D, N, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
+        let Worker { block, cell, relative, star: scratch, polytope } = worker;
+        cell.clear();
+        let star = block.stars.of(place);
         if star.is_empty() {
             return;
         }
-        let site = self.locator.complex.point(i);
-        worker.relative.clear();
-        worker.relative.extend(star.iter().map(|&t| vector::minus(self.vertices[t as usize], site)));
-        self.find_facets(i, star, worker);
-        if self.is_whole(i) {
-            let Worker { cell, relative, .. } = worker;
-            cell.vertices.extend_from_slice(relative);
+        let site = block.sites[place as usize];
+        let range = block.stars.offsets[place as usize]..block.stars.offsets[place as usize + 1];
+        let (vertices, rows) = (&block.vertices[range.clone()], &block.rows[range]);
+        relative.clear();
+        relative.extend(vertices.iter().map(|&vertex| vector::minus(vertex, site)));
+        let mut moment = self.find_facets(i, star, rows, relative, cell, scratch);
+        if self.is_whole(i, vertices) {
+            cell.vertices.extend_from_slice(vertices);
             cell.simplices.extend(star.iter().map(|&t| t as i32));
             cell.is_bounded = !self.on_hull[i as usize];
         } else {
-            self.clip_cell(i, worker);
+            moment = self.clip_cell(i, cell, polytope);
         }
-        measure::<D, N>(worker, site);
-        // No longer relative to the site.
-        let Cell { vertices, simplices, .. } = &mut worker.cell;
-        for (vertex, &t) in vertices.iter_mut().zip(&*simplices) {
-            *vertex = if t == NONE { vector::plus(*vertex, site) } else { self.vertices[t as usize] };
+        if !cell.is_bounded {
+            cell.volume = f64::INFINITY;
+        } else if cell.volume > 0.0 {
+            cell.centroid = vector::plus(site, vector::times(1.0 / cell.volume, moment));
         }
     }
 
-    /// Returns whether clipping leaves the cell of vertex `v` as it is.
-    fn is_whole(&self, v: u32) -> bool {
+    /// Returns whether clipping leaves the cell of vertex `v`, with these vertices, as it is.
+    fn is_whole(&self, v: u32, vertices: &[[f64; D]]) -> bool {
         match self.clip {
             Clip::None => true,
             Clip::Hull => self.hull_facets_of_cells.of(v).is_empty(),
             Clip::Box([low, high]) => {
                 let is_within = |p: [f64; D]| (0..D).all(|axis| low[axis] <= p[axis] && p[axis] <= high[axis]);
-                !self.on_hull[v as usize] && self.stars.of(v).iter().all(|&t| is_within(self.vertices[t as usize]))
+                !self.on_hull[v as usize] && vertices.iter().all(|&vertex| is_within(vertex))
             }
         }
     }
 
-    /// Finds the facets of the cell of vertex `v` before it is clipped, as places in its star.
-    fn find_facets(&self, v: u32, star: &[u32], worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
-        let Worker { cell, is_open, relative, star: scratch, .. } = worker;
-        let complex = &self.locator.complex;
-        is_open.clear();
-        <Euclidean as VoronoiShapes<D, N>>::for_rings(complex, v, star, scratch, |a, ring, is_closed| {
-            if self.is_facet(star, relative, ring, is_closed, [v, a]) {
-                cell.push(ring.iter().copied(), a as i32);
-                is_open.push(!is_closed);
+    /// Finds the facets of the cell of vertex `v` before it is clipped, as places in its star, and
+    /// their measures. Returns the integral of the coordinates over the cell. `relative` has the
+    /// circumcentres of the star, relative to *v*.
+    fn find_facets(
+        &self,
+        v: u32,
+        star: &[u32],
+        rows: &[Row<N>],
+        relative: &[[f64; D]],
+        cell: &mut Cell<D>,
+        scratch: &mut Star,
+    ) -> [f64; D] {
+        let mut moment = [0.0; D];
+        let reach = relative.iter().fold(0.0, |max, &p| vector::squared_norm(p).max(max)).sqrt();
+        // Far more than the errors of all these, which are below 2⁻³⁷ times the circumradius, and
+        // what rounding to coordinates costs.
+        let site = self.locator.complex.point(v);
+        let error = reach * (1.0 / (1u64 << 30) as f64) + vector::norm(site) * (1.0 / (1u64 << 48) as f64);
+        // More than what errors can make of an area or length of 0, for each vertex of the facet.
+        let tiny = if D == 2 { error } else { error * reach } + f64::MIN_POSITIVE;
+        let Cell { facets, neighbors, areas, volume, .. } = cell;
+        <Euclidean as VoronoiShapes<D, N>>::push_rings(v, star, rows, scratch, facets, |a, ring, is_closed| {
+            let measures = Euclidean::facet_measures(relative, ring);
+            let is_facet = measures.area > tiny * ring.len() as f64
+                || self.is_facet(star, relative, error, ring, is_closed, [v, a]);
+            if is_facet {
+                neighbors.push(a as i32);
+                areas.push(if is_closed { measures.area } else { f64::INFINITY });
+                *volume += measures.volume;
+                moment = vector::plus(moment, measures.moment);
             }
+            is_facet
         });
+        moment
     }
 
     /// Returns whether the facet that is dual to an edge has an area, in 2D a length. It has none
     /// if ties make so many of its vertices coincide that at most two are left, in 2D one.
     /// `relative` has the circumcentres of the star, relative to *v*.
-    fn is_facet(&self, star: &[u32], relative: &[[f64; D]], ring: &[u32], is_closed: bool, [v, a]: [u32; 2]) -> bool {
+    #[cold]
+    fn is_facet(
+        &self,
+        star: &[u32],
+        relative: &[[f64; D]],
+        error: f64,
+        ring: &[u32],
+        is_closed: bool,
+        [v, a]: [u32; 2],
+    ) -> bool {
         let complex = &self.locator.complex;
         let are_distinct = |&[t, u]: &[u32; 2]| {
             let [p, q] = [t, u].map(|place| relative[place as usize]);
-            // Far more than the errors of both.
-            if vector::squared_norm(vector::minus(p, q)) > vector::squared_norm(p) * (1.0 / (1u64 << 60) as f64) {
+            if vector::squared_norm(vector::minus(p, q)) > error * error {
                 return true;
             }
             let [t, u] = [t, u].map(|place| star[place as usize] as usize);
@@ -433,9 +487,14 @@ where
     }
 
     /// Makes the cell of vertex `v` from the box, or that around the hull, by clipping it with the
-    /// bisectors of the cell's facets, which it replaces, and with the facets of the hull.
-    fn clip_cell(&self, v: u32, worker: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
-        let Worker { cell, is_open, corners: facet_corners, polytope, .. } = worker;
+    /// bisectors of the cell's facets, which it replaces, and with the facets of the hull. Returns
+    /// the integral of the coordinates over the cell.
+    fn clip_cell(
+        &self,
+        v: u32,
+        cell: &mut Cell<D>,
+        polytope: &mut <Euclidean as VoronoiShapes<D, N>>::Polytope,
+    ) -> [f64; D] {
         let complex = &self.locator.complex;
         let site = complex.point(v);
         let bounds = match self.clip {
@@ -444,9 +503,15 @@ where
         };
         // Relative to the site.
         polytope.reset(bounds.map(|corner| vector::minus(corner, site)), NONE);
-        for &neighbor in &cell.neighbors {
+        let bisector = |&neighbor: &i32| {
             let to = vector::minus(complex.point(neighbor as u32), site);
-            polytope.clip(to, 0.5 * vector::squared_norm(to), neighbor);
+            (0.5 * vector::squared_norm(to), to, neighbor)
+        };
+        let mut bisectors: Vec<_> = cell.neighbors.iter().map(bisector).collect();
+        // The nearest ones first: what these leave, the others cut less of.
+        bisectors.sort_unstable_by(|(one, ..), (other, ..)| one.total_cmp(other));
+        for (offset, normal, neighbor) in bisectors {
+            polytope.clip(normal, offset, neighbor);
         }
         if self.clip == Clip::Hull {
             for &f in self.hull_facets_of_cells.of(v) {
@@ -457,68 +522,76 @@ where
             }
         }
         cell.clear();
-        is_open.clear();
         let vertices = polytope.vertices();
+        let mut moment = [0.0; D];
         polytope.for_facets(|corners, name| {
-            facet_corners.clear();
-            facet_corners.extend(corners.iter().map(|&v| vertices[v as usize]));
+            let measures = Euclidean::facet_measures(vertices, corners);
             // Where a bisector only touches the rest of the cell, nothing is left of the facet.
-            if Euclidean::facet_measures(facet_corners).area > 0.0 {
-                cell.push(corners.iter().copied(), name);
-                is_open.push(false);
+            if measures.area > 0.0 {
+                cell.facets.push(corners.iter().copied());
+                cell.neighbors.push(name);
+                cell.areas.push(measures.area);
+                cell.volume += measures.volume;
+                moment = vector::plus(moment, measures.moment);
             }
         });
-        cell.vertices.extend(vertices);
+        cell.vertices.extend(vertices.iter().map(|&vertex| vector::plus(vertex, site)));
         cell.simplices.resize(cell.vertices.len(), NONE);
+        moment
     }
 }
 
 /// Lists that one cell leaves to the next.
 #[derive(Debug)]
-struct Worker<const D: usize, P> {
+struct Worker<const D: usize, const N: usize, P> {
+    block: Block<D, N>,
     cell: Cell<D>,
-    /// Whether each facet of the cell is unbounded.
-    is_open: Vec<bool>,
     /// The circumcentres of the star, relative to its vertex.
     relative: Vec<[f64; D]>,
     star: Star,
-    /// The corners of a facet.
-    corners: Vec<[f64; D]>,
     polytope: P,
 }
 
-impl<const D: usize, P: Default> Default for Worker<D, P> {
+impl<const D: usize, const N: usize, P: Default> Default for Worker<D, N, P> {
     fn default() -> Self {
         Worker {
+            block: Block::default(),
             cell: Cell::default(),
-            is_open: Vec::new(),
             relative: Vec::new(),
             star: Star::default(),
-            corners: Vec::new(),
             polytope: P::default(),
         }
     }
 }
 
-/// Fills in the measures of a cell, whose vertices are relative to its site.
-fn measure<const D: usize, const N: usize>(
-    Worker { cell, is_open, corners, .. }: &mut Worker<D, <Euclidean as VoronoiShapes<D, N>>::Polytope>,
-    site: [f64; D],
-) where
-    Euclidean: VoronoiShapes<D, N>,
-{
-    let mut moment = [0.0; D];
-    for (f, &is_open) in (0..).zip(&*is_open) {
-        corners.clear();
-        corners.extend(cell.facets.of(f).iter().map(|&v| cell.vertices[v as usize]));
-        let measures = Euclidean::facet_measures(corners);
-        cell.areas.push(if is_open { f64::INFINITY } else { measures.area });
-        cell.volume += measures.volume;
-        moment = vector::plus(moment, measures.moment);
-    }
-    if !cell.is_bounded {
-        cell.volume = f64::INFINITY;
-    } else if cell.volume > 0.0 {
-        cell.centroid = vector::plus(site, vector::times(1.0 / cell.volume, moment));
+/// What the cells of a few points are made from.
+#[derive(Debug, Default)]
+struct Block<const D: usize, const N: usize> {
+    sites: Vec<[f64; D]>,
+    /// Where each star is in the list of all.
+    ranges: Vec<[usize; 2]>,
+    stars: Csr,
+    /// The circumcentre of each simplex of the stars.
+    vertices: Vec<[f64; D]>,
+    /// The row of each simplex of the stars.
+    rows: Vec<Row<N>>,
+}
+
+impl<const D: usize, const N: usize> Block<D, N> {
+    fn gather(&mut self, voronoi: &Voronoi<'_, D, N>, points: &[u32]) {
+        let Block { sites, ranges, stars, vertices, rows } = self;
+        let (complex, offsets) = (&voronoi.locator.complex, &voronoi.stars.offsets);
+        sites.clear();
+        sites.extend(points.iter().map(|&i| complex.point(i)));
+        ranges.clear();
+        ranges.extend(points.iter().map(|&i| [offsets[i as usize], offsets[i as usize + 1]]));
+        stars.clear();
+        for &[start, end] in &*ranges {
+            stars.push(voronoi.stars.indices[start..end].iter().copied());
+        }
+        vertices.clear();
+        vertices.extend(stars.indices.iter().map(|&t| voronoi.vertices[t as usize]));
+        rows.clear();
+        rows.extend(stars.indices.iter().map(|&t| complex.row(t as usize)));
     }
 }

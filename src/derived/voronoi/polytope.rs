@@ -118,139 +118,120 @@ impl Polytope<2> for Polygon<2> {
 }
 
 /// A convex polyhedron.
-#[derive(Debug, Default)]
+///
+/// Three faces meet in each vertex; where more would, several vertices are at the same place. Edge
+/// *k* of a vertex is the one that is not part of its face *k*.
+#[derive(Debug, Default, Clone)]
 pub struct Polyhedron {
     vertices: Vec<[f64; 3]>,
-    faces: Faces,
-    scratch: Scratch,
+    /// The faces around each vertex, counter-clockwise as seen from outside.
+    faces: Vec<[u32; 3]>,
+    /// The vertices at the other ends of the edges of each vertex.
+    across: Vec<[u32; 3]>,
+    /// The names of the faces.
+    names: Vec<i32>,
+    /// The value x·normal − offset of each vertex.
+    values: Vec<f64>,
+    /// The vertices that a plane cuts off, in ascending order.
+    removed: Vec<u32>,
+    /// For each vertex that is cut off the new ones on its edges.
+    cuts: Vec<[u32; 3]>,
 }
 
-/// The corners of faces, counter-clockwise as seen from outside, face after face.
-#[derive(Debug, Default)]
-struct Faces {
-    corners: Vec<u32>,
-    /// Where each face ends in `corners`, and its name.
-    ends: Vec<(usize, i32)>,
-}
-
-impl Faces {
-    fn clear(&mut self) {
-        self.corners.clear();
-        self.ends.clear();
+impl Polyhedron {
+    /// Returns the number of a face of vertex `v`.
+    fn number(&self, v: u32, face: u32) -> usize {
+        let faces = self.faces[v as usize];
+        usize::from(faces[1] == face) | usize::from(faces[2] == face) << 1
     }
 
-    /// Ends the face that the last corners belong to, if there are any.
-    fn end(&mut self, name: i32) {
-        if self.corners.len() > self.ends.last().map_or(0, |&(end, _)| end) {
-            self.ends.push((self.corners.len(), name));
-        }
-    }
-
-    fn iter(&self) -> impl Iterator<Item = (&[u32], i32)> {
-        let mut start = 0;
-        self.ends.iter().map(move |&(end, name)| {
-            let corners = &self.corners[start..end];
-            start = end;
-            (corners, name)
-        })
+    /// Makes `to` the other end of the edge that leads from the other end of edge `k` of vertex `v`
+    /// to `v`.
+    fn redirect(&mut self, v: u32, k: usize, to: u32) {
+        // Around that vertex, the two faces of the edge are in the other order.
+        let other = self.across[v as usize][k];
+        let number = self.number(other, self.faces[v as usize][(k + 2) % 3]);
+        self.across[other as usize][(number + 2) % 3] = to;
     }
 }
-
-/// Lists that one clipping leaves to the next.
-#[derive(Debug, Default)]
-struct Scratch {
-    vertices: Vec<[f64; 3]>,
-    faces: Faces,
-    /// The value x·normal − offset of each old vertex, and its new index.
-    values: Vec<(f64, u32)>,
-    /// The edges that are cut, lower vertex first, and the new vertices.
-    cuts: Vec<([u32; 2], u32)>,
-    /// The new vertices of a face, in its order, and whether the face leaves what remains there.
-    crossings: Vec<(u32, bool)>,
-    /// For each new vertex, counted from the first, the next one around the new face.
-    next: Vec<u32>,
-}
-
-/// No next vertex, or none any more.
-const DONE: u32 = u32::MAX;
 
 impl Polytope<3> for Polyhedron {
     fn reset(&mut self, bounds: [[f64; 3]; 2], side: i32) {
         self.vertices.clear();
-        // Bit k of the index is set at the upper end of axis k.
-        self.vertices.extend((0..8).map(|i| std::array::from_fn(|axis| bounds[i >> axis & 1][axis])));
         self.faces.clear();
-        for face in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
-            self.faces.corners.extend(face);
-            self.faces.end(side);
+        self.across.clear();
+        for i in 0..8u32 {
+            // Bit k of the index is set at the upper end of axis k.
+            let bits = [0, 1, 2].map(|axis| i >> axis & 1);
+            self.vertices.push(std::array::from_fn(|axis| bounds[bits[axis] as usize][axis]));
+            // From one vertex to the next the order is reversed.
+            let axes = if i.count_ones() % 2 == 1 { [0, 1, 2] } else { [0, 2, 1] };
+            self.faces.push(axes.map(|axis| 2 * axis as u32 + bits[axis]));
+            self.across.push(axes.map(|axis| i ^ 1 << axis));
         }
+        self.names.clear();
+        self.names.resize(6, side);
     }
 
     fn clip(&mut self, normal: [f64; 3], offset: f64, name: i32) {
-        let Scratch { vertices, faces, values, cuts, crossings, next } = &mut self.scratch;
-        values.clear();
-        values.extend(self.vertices.iter().map(|&p| (vector::dot(p, normal) - offset, 0)));
-        if values.iter().all(|&(value, _)| value <= 0.0) {
+        self.values.clear();
+        self.values.extend(self.vertices.iter().map(|&p| vector::dot(p, normal) - offset));
+        if self.values.iter().all(|&value| value <= 0.0) {
             return;
         }
-        vertices.clear();
-        for (value, p) in values.iter_mut().zip(&self.vertices) {
-            if value.0 <= 0.0 {
-                value.1 = vertices.len() as u32;
-                vertices.push(*p);
+        let old = self.vertices.len();
+        let remains = |values: &[f64], v: u32| values[v as usize] <= 0.0;
+        self.removed.clear();
+        self.removed.extend((0..old as u32).filter(|&v| !remains(&self.values, v)));
+        self.cuts.resize(old, [0; 3]);
+        let face = self.names.len() as u32;
+        self.names.push(name);
+        // A vertex on each edge that is cut, in place of the one that is not on its side.
+        for i in 0..self.removed.len() {
+            let v = self.removed[i];
+            let (faces, across) = (self.faces[v as usize], self.across[v as usize]);
+            for k in 0..3 {
+                let other = across[k];
+                if remains(&self.values, other) {
+                    let new = self.vertices.len() as u32;
+                    let [p, q] = [other, v].map(|v| self.vertices[v as usize]);
+                    let [s, t] = [other, v].map(|v| self.values[v as usize]);
+                    self.redirect(v, k, new);
+                    self.vertices.push(cut(p, q, s, t));
+                    self.faces.push([face, faces[(k + 1) % 3], faces[(k + 2) % 3]]);
+                    self.across.push([other, 0, 0]);
+                    self.cuts[v as usize][k] = new;
+                }
             }
         }
-        let first_new = vertices.len() as u32;
-        faces.clear();
-        cuts.clear();
-        next.clear();
-        for (corners, name) in self.faces.iter() {
-            crossings.clear();
-            for (i, &a) in corners.iter().enumerate() {
-                let b = if i + 1 < corners.len() { corners[i + 1] } else { corners[0] };
-                let ((s, new), (t, _)) = (values[a as usize], values[b as usize]);
-                if s <= 0.0 {
-                    faces.corners.push(new);
-                }
-                if (s <= 0.0) == (t <= 0.0) {
-                    continue;
-                }
-                let edge = [a.min(b), a.max(b)];
-                let new = match cuts.iter().find(|(cut, _)| *cut == edge) {
-                    Some(&(_, new)) => new,
-                    None => {
-                        let [p, q] = [a, b].map(|v| self.vertices[v as usize]);
-                        vertices.push(if s <= 0.0 { cut(p, q, s, t) } else { cut(q, p, t, s) });
-                        let new = vertices.len() as u32 - 1;
-                        cuts.push((edge, new));
-                        next.push(DONE);
-                        new
+        // The edges of the new face, each of which ends where the boundary of another face comes
+        // back from what is cut off.
+        for i in 0..self.removed.len() {
+            let v = self.removed[i];
+            for k in 0..3 {
+                if remains(&self.values, self.across[v as usize][k]) {
+                    let turning = self.faces[v as usize][(k + 2) % 3];
+                    let (mut at, mut edge) = (v, (k + 1) % 3);
+                    while !remains(&self.values, self.across[at as usize][edge]) {
+                        at = self.across[at as usize][edge];
+                        edge = (self.number(at, turning) + 2) % 3;
                     }
-                };
-                faces.corners.push(new);
-                crossings.push((new, s <= 0.0));
-            }
-            // From where the face leaves to where it comes back there is a new edge, which the new
-            // face has in the other direction.
-            for (i, &(leave, leaves)) in crossings.iter().enumerate() {
-                if leaves {
-                    let (back, _) = crossings[(i + 1) % crossings.len()];
-                    next[(back - first_new) as usize] = leave;
+                    let [from, to] = [self.cuts[v as usize][k], self.cuts[at as usize][edge]];
+                    self.across[from as usize][1] = to;
+                    self.across[to as usize][2] = from;
                 }
             }
-            faces.end(name);
         }
-        // One face, or several if rounding parted what is cut off.
-        for start in 0..next.len() {
-            let mut at = start;
-            while next[at] != DONE {
-                faces.corners.push(first_new + at as u32);
-                at = (std::mem::replace(&mut next[at], DONE) - first_new) as usize;
+        // The last vertices take the places of those that are cut off.
+        while let Some(v) = self.removed.pop() {
+            let last = self.vertices.len() as u32 - 1;
+            if v != last {
+                (0..3).for_each(|k| self.redirect(last, k, v));
             }
-            faces.end(name);
+            self.vertices.swap_remove(v as usize);
+            self.faces.swap_remove(v as usize);
+            self.across.swap_remove(v as usize);
         }
-        std::mem::swap(&mut self.vertices, vertices);
-        std::mem::swap(&mut self.faces, faces);
     }
 
     fn vertices(&self) -> &[[f64; 3]] {
@@ -258,8 +239,22 @@ impl Polytope<3> for Polyhedron {
     }
 
     fn for_facets(&self, mut visit: impl FnMut(&[u32], i32)) {
-        for (corners, name) in self.faces.iter() {
-            visit(corners, name);
+        let mut is_visited = vec![[false; 3]; self.vertices.len()];
+        let mut corners = Vec::new();
+        for v in 0..self.vertices.len() as u32 {
+            for k in 0..3 {
+                let face = self.faces[v as usize][k];
+                corners.clear();
+                let (mut at, mut number) = (v, k);
+                while !std::mem::replace(&mut is_visited[at as usize][number], true) {
+                    corners.push(at);
+                    at = self.across[at as usize][(number + 1) % 3];
+                    number = self.number(at, face);
+                }
+                if !corners.is_empty() {
+                    visit(&corners, self.names[face as usize]);
+                }
+            }
         }
     }
 }
@@ -312,10 +307,7 @@ mod tests {
             space.reset([[-1.0; 3], [1.0; 3]], -1);
             plane.reset([[-1.0; 2], [1.0; 2]], -1);
             let clipped = |space: &Polyhedron, normal: [f64; 3], offset: f64| {
-                let mut copy = Polyhedron::default();
-                copy.vertices.clone_from(&space.vertices);
-                copy.faces.corners.clone_from(&space.faces.corners);
-                copy.faces.ends.clone_from(&space.faces.ends);
+                let mut copy = space.clone();
                 copy.clip(normal, offset, 7);
                 copy
             };

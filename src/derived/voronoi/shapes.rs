@@ -7,6 +7,7 @@ use super::{
 use crate::{
     geometry::{Euclidean, Geometry, vector},
     index::NONE,
+    mesh::Csr,
 };
 
 /// The measures of a facet.
@@ -21,22 +22,27 @@ pub struct FacetMeasures<const D: usize> {
     pub(crate) moment: [f64; D],
 }
 
+/// The vertices of a simplex and its neighbours.
+pub type Row<const N: usize> = ([u32; N], [i32; N]);
+
 /// What differs between the dimensions in Voronoi cells.
 #[doc(hidden)]
 pub trait VoronoiShapes<const D: usize, const N: usize>: Geometry<D, N> {
     /// The shape of a cell while it is clipped.
     type Polytope: Polytope<D>;
 
-    /// Calls `visit` with each neighbour *a* of vertex *v*, the simplices around the edge between
-    /// both as places in the star of *v*, and whether they close a ring, or in 2D whether there are
-    /// two. They are counter-clockwise as seen from *a* in 3D, and from right to left as seen from
-    /// *v* in 2D, where the neighbours come counter-clockwise, on the hull from the first.
-    fn for_rings(
-        complex: &Complex<'_, D, N>,
+    /// Appends to `rings` the rings around the edges from vertex *v*, as places in its star, whose
+    /// simplices have these rows, that `is_wanted`, which is called with the edge's other vertex *a*, the simplices around the edge,
+    /// and whether they close a ring, or in 2D whether there are two. They are counter-clockwise as
+    /// seen from *a* in 3D, and from right to left as seen from *v* in 2D, where the neighbours come
+    /// counter-clockwise, on the hull from the first.
+    fn push_rings(
         v: u32,
         star: &[u32],
+        rows: &[Row<N>],
         scratch: &mut Star,
-        visit: impl FnMut(u32, &[u32], bool),
+        rings: &mut Csr,
+        is_wanted: impl FnMut(u32, &[u32], bool) -> bool,
     );
 
     /// The number of Voronoi edges, or vertices in 2D, that a bounded facet has at least.
@@ -46,38 +52,40 @@ pub trait VoronoiShapes<const D: usize, const N: usize>: Geometry<D, N> {
     /// facet.
     fn plane(facet: &[[f64; D]; D]) -> ([f64; D], f64);
 
-    /// Returns the measures of a facet.
-    fn facet_measures(corners: &[[f64; D]]) -> FacetMeasures<D>;
+    /// Returns the measures of a facet, whose corners are places in a list.
+    fn facet_measures(vertices: &[[f64; D]], corners: &[u32]) -> FacetMeasures<D>;
 }
 
 impl VoronoiShapes<2, 3> for Euclidean {
     type Polytope = Polygon<2>;
 
-    fn for_rings(
-        complex: &Complex<'_, 2, 3>,
+    fn push_rings(
         v: u32,
         star: &[u32],
+        rows: &[Row<3>],
         _: &mut Star,
-        mut visit: impl FnMut(u32, &[u32], bool),
+        rings: &mut Csr,
+        mut is_wanted: impl FnMut(u32, &[u32], bool) -> bool,
     ) {
+        let mut visit = |a: u32, ring: &[u32], is_closed: bool| {
+            if is_wanted(a, ring, is_closed) {
+                rings.push(ring.iter().copied());
+            }
+        };
         // Of a counter-clockwise triangle (v, a, b), the next one is across (v, b), opposite a, and
         // the one before opposite b.
         let corner = |place: u32, after: usize| {
-            let t = star[place as usize] as usize;
-            let corner = complex.simplices[t].iter().position(|&w| w == v).unwrap_or(0);
-            (t, (corner + after) % 3)
+            let (simplex, neighbors) = &rows[place as usize];
+            let corner = (simplex.iter().position(|&w| w == v).unwrap_or(0) + after) % 3;
+            (simplex[corner], neighbors[corner])
         };
         let across = |place: u32, after: usize| {
-            let (t, corner) = corner(place, after);
-            let across = complex.across(t, corner)?;
+            let (_, across) = corner(place, after);
             // A star is in ascending order. Only a broken mesh has other triangles around the
             // vertex.
             star.binary_search(&(across as u32)).ok().map(|place| place as u32)
         };
-        let vertex = |place: u32, after: usize| {
-            let (t, corner) = corner(place, after);
-            complex.simplices[t][corner]
-        };
+        let vertex = |place: u32, after: usize| corner(place, after).0;
         let mut first = 0;
         // Only a broken mesh needs the limits.
         for _ in 0..star.len() {
@@ -114,8 +122,9 @@ impl VoronoiShapes<2, 3> for Euclidean {
         (normal, vector::dot(normal, a))
     }
 
-    fn facet_measures(corners: &[[f64; 2]]) -> FacetMeasures<2> {
+    fn facet_measures(vertices: &[[f64; 2]], corners: &[u32]) -> FacetMeasures<2> {
         let &[p, q] = corners else { return FacetMeasures { area: 0.0, volume: 0.0, moment: [0.0; 2] } };
+        let [p, q] = [p, q].map(|corner| vertices[corner as usize]);
         let volume = 0.5 * (p[0] * q[1] - p[1] * q[0]);
         let moment = vector::times(volume / 3.0, vector::plus(p, q));
         FacetMeasures { area: vector::norm(vector::minus(q, p)), volume, moment }
@@ -123,56 +132,69 @@ impl VoronoiShapes<2, 3> for Euclidean {
 }
 
 /// The star of a vertex in 3D, with places in it instead of indices of the mesh.
+///
+/// Corner *k* of the tetrahedron at place *p*, with *k* below 3, has the number 4·*p* + *k*.
 #[derive(Debug, Default)]
 pub struct Star {
-    /// The other vertices *a*, *b*, *c* of each tetrahedron, so that (v, a, b, c) is positive;
-    /// [`VISITED`] when the ring around the edge to one is.
+    /// The other vertices *a*, *b*, *c* of each tetrahedron, so that (v, a, b, c) is positive.
     corners: Vec<[u32; 3]>,
-    /// The place of the tetrahedron across the facet opposite each of them, or [`OUTSIDE`].
-    across: Vec<[u32; 3]>,
-    ring: Vec<u32>,
-    /// The tetrahedra with their places, by a hash of their index, with room for four times as many,
-    /// so that most are found at once.
-    table: Vec<(u32, u32)>,
+    /// The tetrahedra across the facets opposite them.
+    across: Vec<[i32; 3]>,
+    /// For each corner that of the next tetrahedron counter-clockwise around the edge to it; or
+    /// [`OUTSIDE`], or [`VISITED`]. Those with *k* = 3 are none.
+    next: Vec<[u32; 4]>,
+    /// Places in stars by a hash of the tetrahedron's index. What it says has to be checked: others
+    /// overwrite it, and it is not cleared.
+    table: Vec<u32>,
 }
 
-/// No vertex any more.
-const VISITED: u32 = u32::MAX;
-/// No place in the star: outside the hull.
+/// No corner any more.
+const VISITED: u32 = u32::MAX - 1;
+/// No place in the star, or corner of it: outside the hull.
 const OUTSIDE: u32 = u32::MAX;
 
 impl Star {
-    fn fill(&mut self, complex: &Complex<'_, 3, 4>, v: u32, star: &[u32]) {
-        let mask = (4 * star.len()).next_power_of_two() - 1;
-        let slot = |t: u32| (t.wrapping_mul(0x9e37_79b9) >> 7) as usize & mask;
-        self.table.clear();
-        self.table.resize(mask + 1, (u32::MAX, OUTSIDE));
-        for (place, &t) in (0..).zip(star) {
-            let mut at = slot(t);
-            while self.table[at].1 != OUTSIDE {
-                at = (at + 1) & mask;
-            }
-            self.table[at] = (t, place);
-        }
-        let place_of = |t: i32| {
-            if t == NONE {
-                return OUTSIDE;
-            }
-            let mut at = slot(t as u32);
-            // What is not there ends at an empty slot, which says `OUTSIDE`.
-            while self.table[at].0 != t as u32 && self.table[at].1 != OUTSIDE {
-                at = (at + 1) & mask;
-            }
-            self.table[at].1
-        };
-        self.corners.clear();
-        self.across.clear();
-        for &t in star {
-            let (simplex, neighbors) = (&complex.simplices[t as usize], &complex.neighbors[t as usize]);
+    /// Fills in the star of vertex *v*. Returns whether anything is outside.
+    fn fill(&mut self, v: u32, star: &[u32], rows: &[Row<4>]) -> bool {
+        let Star { corners, across, next, table } = self;
+        corners.clear();
+        across.clear();
+        for (simplex, neighbors) in rows {
             let [_, i, j, k] = EVEN[place(simplex, v)];
-            self.corners.push([i, j, k].map(|corner| simplex[corner]));
-            self.across.push([i, j, k].map(|corner| place_of(neighbors[corner])));
+            corners.push([i, j, k].map(|corner| simplex[corner]));
+            across.push([i, j, k].map(|corner| neighbors[corner]));
         }
+        // So large that few overwrite each other.
+        let bits = (8 * star.len()).next_power_of_two().ilog2().clamp(10, 31);
+        let slot = |t: u32| (t.wrapping_mul(0x9e37_79b9) >> (32 - bits)) as usize;
+        if table.len() < 1 << bits {
+            table.resize(1 << bits, OUTSIDE);
+        }
+        for (place, &t) in (0..).zip(star) {
+            table[slot(t)] = place;
+        }
+        let mut is_open = false;
+        next.clear();
+        for (corners_here, across) in corners.iter().zip(&*across) {
+            let mut row = [OUTSIDE; 4];
+            for (k, &a) in corners_here.iter().enumerate() {
+                // Of a positive tetrahedron (v, a, b, c), the next one counter-clockwise is across
+                // (v, a, c).
+                let t = across[(k + 1) % 3] as u32;
+                let mut place = table[slot(t)];
+                if star.get(place as usize) != Some(&t) {
+                    // A star is in ascending order.
+                    place = star.binary_search(&t).map_or(OUTSIDE, |place| place as u32);
+                }
+                match corners.get(place as usize) {
+                    // Without a branch, which nothing could predict.
+                    Some(others) => row[k] = (place * 4) | u32::from(others[1] == a) | (u32::from(others[2] == a) << 1),
+                    None => is_open = true,
+                }
+            }
+            next.push(row);
+        }
+        is_open
     }
 }
 
@@ -227,58 +249,33 @@ pub(crate) const THIRD: [[usize; 4]; 4] = [[4, 2, 3, 1], [3, 4, 0, 2], [1, 3, 4,
 impl VoronoiShapes<3, 4> for Euclidean {
     type Polytope = Polyhedron;
 
-    fn for_rings(
-        complex: &Complex<'_, 3, 4>,
+    fn push_rings(
         v: u32,
         star: &[u32],
+        rows: &[Row<4>],
         scratch: &mut Star,
-        mut visit: impl FnMut(u32, &[u32], bool),
+        rings: &mut Csr,
+        mut is_wanted: impl FnMut(u32, &[u32], bool) -> bool,
     ) {
-        scratch.fill(complex, v, star);
-        let Star { corners, across, ring, .. } = scratch;
-        for start in 0..star.len() {
-            for corner in 0..3 {
-                let a = corners[start][corner];
-                // Each ring once: from the first of its tetrahedra.
-                if a == VISITED {
-                    continue;
+        let is_open = scratch.fill(v, star, rows);
+        let Star { corners, next, .. } = scratch;
+        let next = next.as_flattened_mut();
+        // Rings that are not closed, from their first tetrahedra.
+        if is_open {
+            let mut is_first = vec![true; next.len()];
+            for &corner in &*next {
+                if let Some(is_first) = is_first.get_mut(corner as usize) {
+                    *is_first = false;
                 }
-                let mut turn = |at: usize, after: usize| {
-                    // Without a branch, which nothing could predict.
-                    let corner = usize::from(corners[at][1] == a) | usize::from(corners[at][2] == a) << 1;
-                    if *corners[at].get(corner)? != a {
-                        return None;
-                    }
-                    let next = across[at][(corner + after) % 3];
-                    corners[at][corner] = VISITED;
-                    (next != OUTSIDE).then_some(next as usize)
-                };
-                ring.clear();
-                // Of a positive tetrahedron (v, a, b, c), the next one counter-clockwise is across
-                // (v, a, c), and the one before across (v, a, b).
-                let before = across[start][(corner + 2) % 3];
-                let mut at = start;
-                let is_closed = loop {
-                    ring.push(at as u32);
-                    match turn(at, 1) {
-                        Some(next) if next == start => break true,
-                        // Only a broken mesh needs the limit.
-                        Some(next) if ring.len() < star.len() => at = next,
-                        _ => break false,
-                    }
-                };
-                if !is_closed {
-                    // Clockwise from the first one, as counter-clockwise in the other direction.
-                    let forward = ring.len();
-                    let mut at = (before != OUTSIDE).then_some(before as usize);
-                    while let Some(place) = at.filter(|_| ring.len() < star.len()) {
-                        ring.push(place as u32);
-                        at = turn(place, 2);
-                    }
-                    ring[forward..].reverse();
-                    ring.rotate_left(forward);
-                }
-                visit(a, ring, is_closed);
+            }
+            for (start, _) in is_first.iter().enumerate().filter(|&(corner, &is_first)| is_first && corner % 4 < 3) {
+                push_ring(corners, next, start, rings, &mut is_wanted);
+            }
+        }
+        for start in 0..next.len() {
+            // Each ring once: from the first of its tetrahedra.
+            if start % 4 < 3 && next[start] != VISITED {
+                push_ring(corners, next, start, rings, &mut is_wanted);
             }
         }
     }
@@ -290,20 +287,52 @@ impl VoronoiShapes<3, 4> for Euclidean {
         (normal, vector::dot(normal, a))
     }
 
-    fn facet_measures(corners: &[[f64; 3]]) -> FacetMeasures<3> {
+    fn facet_measures(vertices: &[[f64; 3]], corners: &[u32]) -> FacetMeasures<3> {
         let mut normal = [0.0; 3];
         let (mut volume, mut moment) = (0.0, [0.0; 3]);
-        if let &[first, ref others @ ..] = corners {
-            for pair in others.windows(2) {
-                let (u, v) = (vector::minus(pair[0], first), vector::minus(pair[1], first));
+        if let &[first, second, ref others @ ..] = corners {
+            let first = vertices[first as usize];
+            let mut u = vector::minus(vertices[second as usize], first);
+            for &corner in others {
+                let v = vector::minus(vertices[corner as usize], first);
                 let twice = vector::cross(u, v);
-                let share = vector::dot(first, twice) / 6.0;
+                let share = vector::dot(first, twice);
                 normal = vector::plus(normal, twice);
                 volume += share;
-                let corners = vector::plus(first, vector::plus(pair[0], pair[1]));
-                moment = vector::plus(moment, vector::times(share / 4.0, corners));
+                moment = vector::plus(moment, vector::times(share, vector::plus(u, v)));
+                u = v;
             }
+            // The centre of a tetrahedron with one corner at the origin.
+            let from_first = vector::times(3.0 * volume, first);
+            moment = vector::times(1.0 / 24.0, vector::plus(moment, from_first));
         }
-        FacetMeasures { area: 0.5 * vector::norm(normal), volume, moment }
+        FacetMeasures { area: 0.5 * vector::norm(normal), volume: volume / 6.0, moment }
+    }
+}
+
+/// Appends the ring that begins at a corner of a star.
+#[inline(always)]
+fn push_ring(
+    corners: &[[u32; 3]],
+    next: &mut [u32],
+    start: usize,
+    rings: &mut Csr,
+    is_wanted: &mut impl FnMut(u32, &[u32], bool) -> bool,
+) {
+    let first = rings.indices.len();
+    let mut at = start;
+    let is_closed = loop {
+        rings.indices.push(at as u32 / 4);
+        // In a broken mesh, a ring may lead into itself elsewhere than where it began.
+        match std::mem::replace(&mut next[at], VISITED) as usize {
+            to if to == start => break true,
+            to if to >= next.len() => break false,
+            to => at = to,
+        }
+    };
+    if is_wanted(corners[start / 4][start % 4], &rings.indices[first..], is_closed) {
+        rings.offsets.push(rings.indices.len());
+    } else {
+        rings.indices.truncate(first);
     }
 }
