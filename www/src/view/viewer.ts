@@ -95,6 +95,8 @@ export class Viewer {
   private placing = false;
   private dimension: Dimension = 3;
   private pointCount = 0;
+  /** Whether nothing was to be seen in the last picture; null before there is one. */
+  private isEmpty: boolean | null = null;
   /** The mesh that the GPU cuts, and how. */
   private cut: { mesh: Cut; level: number; skin: boolean } | null = null;
   private readonly layers: Layers;
@@ -455,6 +457,10 @@ export class Viewer {
   render(): void {
     this.frame ||= requestAnimationFrame(() => {
       this.frame = 0;
+      const wasEmpty = this.isEmpty;
+      this.isEmpty = !this.model.children.some(({ visible }) => visible);
+      // The first picture of nothing is drawn: it prepares what all need.
+      if (wasEmpty && this.isEmpty) return;
       if (this.dimension === 2) this.thinOut();
       this.cut?.mesh.at(this.cut.level, this.cut.skin);
       this.renderer.render(this.scene, this.camera);
