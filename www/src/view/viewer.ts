@@ -523,6 +523,7 @@ export class Viewer {
     layer: Object3D & { geometry: BufferGeometry; material: Material | Material[] },
     geometry: BufferGeometry | null,
   ) {
+    if (!geometry && !layer.geometry.hasAttribute('position')) return;
     layer.geometry.dispose();
     layer.geometry = geometry ?? new BufferGeometry();
     layer.visible = geometry !== null;
