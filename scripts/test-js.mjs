@@ -18,7 +18,14 @@ import { packInto, root } from '../tests/web/package.mjs';
 const HANG = 40 * 60_000;
 
 /** The files that take longest come first, so that none of them is left over at the end. */
-const SLOW = ['www/tests/demo', 'www/tests/demo-2d', 'www/tests/gpu', 'tests/web/chromium'];
+const SLOW = [
+  'www/tests/demo',
+  'www/tests/demo-2d',
+  'www/tests/gpu',
+  'www/tests/scans',
+  'www/tests/gpu-cut',
+  'tests/web/chromium',
+];
 
 function allFiles() {
   const files = ['tests/web', 'www/tests'].flatMap((folder) =>

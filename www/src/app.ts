@@ -221,6 +221,7 @@ export class App implements Page {
 
   goLive(on: boolean): void {
     this.live = on;
+    if (on) this.stage.catchUp();
     for (const part of this.parts) part.lived?.(on);
   }
 
@@ -290,7 +291,7 @@ export class App implements Page {
     ) {
       void this.record();
     }
-    if (settings.camera !== undefined && this.viewer) this.viewer.pose = this.view.camera;
+    if (settings.camera !== undefined) this.stage.place();
     this.tell();
     void this.stage.draw();
   }

@@ -12,6 +12,9 @@ import type { CameraPose, Viewer } from './view/viewer';
 /** How long a new object is shown whole, and how long the cut then moves, in milliseconds. */
 const [WHOLE, OPENING] = [500, 900];
 
+/** What stays the same for a mesh, however it is cut. */
+type MeshParts = Pick<Edited, 'positions' | 'colors' | 'hull'> & { facets: Float32Array | null };
+
 /** What the stage tells the page. */
 export interface StageEvents {
   /** There is a new drawing. */
@@ -29,6 +32,11 @@ export class Stage {
   lastDrawing: Drawing | null = null;
   /** The points as drawn; null before there are any. */
   positions: Float32Array | null = null;
+  /**
+   * Of a mesh that is not shown yet: the viewer gets it with the first drawing, and shows what was
+   * there before until then.
+   */
+  private waiting: MeshParts | null = null;
   private readonly cutting: Cutting;
   private round: number | null = null;
   private drawing = false;
@@ -79,43 +87,65 @@ export class Stage {
   }
 
   /**
-   * Gives the viewer what stays the same for a mesh, however it is cut. Of a new object, the first
-   * drawing shows all, and {@link open} cuts it.
+   * Has the next drawing be of a new mesh. Of a new object, the first drawing shows all, and
+   * {@link open} cuts it.
    */
   async newMesh(isNewObject: boolean): Promise<void> {
     this.meshes++;
     this.cutting.forget();
     this.round = null;
     this.sweep = isNewObject && this.opensSlowly ? 1 : null;
-    await this.giveMesh();
+    await this.fetchMesh();
   }
 
   /** Shows the mesh again, after the live mode. */
   async again(): Promise<void> {
-    await this.giveMesh();
+    await this.fetchMesh();
     await this.draw();
   }
 
-  private async giveMesh(): Promise<void> {
+  private async fetchMesh(): Promise<void> {
     this.drawn = '';
-    const { viewer, page } = this;
-    if (!viewer) return;
-    viewer.setDimension(page.summary!.dimension);
-    viewer.pose = page.view.camera;
-    this.positions = await page.model.positions();
-    viewer.showPoints(this.positions, await page.model.colors());
-    viewer.showHull(await page.model.hull());
-    viewer.showFacets(await page.model.nonDelaunayFacets());
-    this.look();
+    if (!this.viewer) return;
+    const { meshes } = this;
+    const { model } = this.page;
+    const [positions, colors, hull, facets] = await Promise.all([
+      model.positions(),
+      model.colors(),
+      model.hull(),
+      model.nonDelaunayFacets(),
+    ]);
+    if (meshes === this.meshes) this.waiting = { positions, colors, hull, facets };
+  }
+
+  /** Gives the viewer the mesh that waits for its first drawing. */
+  catchUp(): void {
+    const { waiting, viewer } = this;
+    if (!waiting || !viewer) return;
+    this.waiting = null;
+    viewer.setDimension(this.page.summary!.dimension);
+    this.place();
+    this.give(waiting);
   }
 
   /** Shows the mesh of points that were changed by hand. */
-  showEdited({ drawing, positions, colors, hull }: Edited): void {
+  showEdited({ drawing, ...parts }: Edited): void {
     this.drawn = JSON.stringify(this.request());
+    if (this.waiting) Object.assign(this.waiting, parts);
+    else this.give({ ...parts, facets: null });
+    this.show(drawing);
+  }
+
+  private give({ positions, colors, hull, facets }: MeshParts): void {
     this.positions = positions;
     this.viewer?.showPoints(positions, colors);
     this.viewer?.showHull(hull);
-    this.show(drawing);
+    this.viewer?.showFacets(facets);
+  }
+
+  /** Places the camera as the settings say. */
+  place(): void {
+    if (this.viewer && !this.waiting) this.viewer.pose = this.page.view.camera;
   }
 
   /** Shows the triangulation after a round of the trace; null for the result. */
@@ -177,6 +207,7 @@ export class Stage {
     this.lastDrawing = drawing;
     this.events.drew(drawing);
     if (!this.viewer) return;
+    this.catchUp();
     const { cut } = drawing;
     const onGpu = cut && !drawing.surface ? this.cutting.ready : null;
     // The plane may have moved on meanwhile.
@@ -184,7 +215,7 @@ export class Stage {
     if (onGpu) this.viewer.showCut(onGpu, level, cut!.skin);
     else this.viewer.showSurface(drawing.surface);
     this.cutting.free();
-    if (cut && !onGpu) void this.cutOnGpu();
+    if (cut && !onGpu) void this.onScreen().then(() => this.cutOnGpu());
     byId('stage').dataset.cut = this.viewer.cutBy;
     this.viewer.showPieces(drawing.pieces);
     this.viewer.showVoronoi(drawing.voronoi);
@@ -215,7 +246,7 @@ export class Stage {
   /** Shows and hides layers as the settings say, after other things were given to the viewer. */
   look(): void {
     const { viewer } = this;
-    if (!viewer) return;
+    if (!viewer || this.waiting) return;
     const { settings, summary, view } = this.page;
     const { layers, map, color, apart, source } = settings;
     const flat = source.dimension === 2;

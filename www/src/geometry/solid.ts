@@ -45,60 +45,71 @@ export function carvingRadii(
   neighbors: Int32Array,
 ): Float32Array {
   const count = tetrahedra.length / 4;
-  const radii = new Float32Array(count);
+  const widths = facetWidths(points, tetrahedra);
   // The best way to each tetrahedron so far, as an interval; and a chain of tetrahedra for each
-  // interval.
+  // interval, in pairs of a tetrahedron and the next pair.
   const best = new Int32Array(count).fill(-1);
-  const done = new Uint8Array(count);
   const first = new Int32Array(intervalOf(Infinity) + 1).fill(-1);
-  let tetrahedronOf = new Int32Array(1 << 16);
-  let next = new Int32Array(1 << 16);
+  let chain = new Int32Array(1 << 17);
   let end = 0;
+  // Those that are reached and whose neighbours are not looked at yet.
+  const reached = new Int32Array(count);
 
-  const width = (t: number, k: number) => {
-    const v = 4 * t;
-    const squared = facetCircumradiusSquared(
-      points,
-      tetrahedra[v + FACETS[3 * k]],
-      tetrahedra[v + FACETS[3 * k + 1]],
-      tetrahedra[v + FACETS[3 * k + 2]],
-    );
-    return intervalOf(Math.sqrt(squared));
-  };
-  const reach = (t: number, interval: number) => {
-    if (interval <= best[t]) return;
+  const wait = (t: number, interval: number) => {
     best[t] = interval;
-    if (end === next.length) {
-      const [longer, longerNext] = [new Int32Array(2 * end), new Int32Array(2 * end)];
-      longer.set(tetrahedronOf);
-      longerNext.set(next);
-      [tetrahedronOf, next] = [longer, longerNext];
+    if (end === chain.length) {
+      const longer = new Int32Array(2 * end);
+      longer.set(chain);
+      chain = longer;
     }
-    tetrahedronOf[end] = t;
-    next[end] = first[interval];
-    first[interval] = end++;
+    chain[end] = t;
+    chain[end + 1] = first[interval];
+    first[interval] = end;
+    end += 2;
   };
 
-  for (let t = 0; t < count; t++) {
-    for (let k = 0; k < 4; k++) if (neighbors[4 * t + k] < 0) reach(t, width(t, k));
+  for (let f = 0; f < neighbors.length; f++) {
+    if (neighbors[f] < 0 && widths[f] > best[f >> 2]) wait(f >> 2, widths[f]);
   }
   for (let interval = first.length - 1; interval >= 0; interval--) {
-    const radius = first[interval] < 0 ? 0 : endOf(interval);
-    while (first[interval] >= 0) {
-      const entry = first[interval];
-      first[interval] = next[entry];
-      const t = tetrahedronOf[entry];
-      if (done[t]) continue;
-      done[t] = 1;
-      radii[t] = radius;
-      for (let k = 0; k < 4; k++) {
-        const u = neighbors[4 * t + k];
-        // The facet is looked at only where it could help.
-        if (u >= 0 && !done[u] && best[u] < interval) reach(u, Math.min(interval, width(t, k)));
+    for (let pair = first[interval]; pair >= 0; pair = chain[pair + 1]) {
+      // It may have been reached on a better way since.
+      if (best[chain[pair]] !== interval) continue;
+      let top = 0;
+      reached[top++] = chain[pair];
+      while (top > 0) {
+        const t = reached[--top];
+        for (let f = 4 * t; f < 4 * t + 4; f++) {
+          const u = neighbors[f];
+          if (u < 0 || best[u] >= interval) continue;
+          if (widths[f] >= interval) {
+            best[u] = interval;
+            reached[top++] = u;
+          } else if (widths[f] > best[u]) wait(u, widths[f]);
+        }
       }
     }
   }
+  const radii = new Float32Array(count);
+  for (let t = 0; t < count; t++) radii[t] = endOf(best[t]);
   return radii;
+}
+
+/** The circumradius of every facet, as an interval. Worked out in a row: memory is slow at random. */
+function facetWidths(points: ArrayLike<number>, tetrahedra: Uint32Array): Uint32Array {
+  const widths = new Uint32Array(tetrahedra.length);
+  for (let v = 0; v < widths.length; v += 4) {
+    for (let k = 0; k < 4; k++) {
+      const squared = facetCircumradiusSquared(
+        points,
+        tetrahedra[v + FACETS[3 * k]],
+        tetrahedra[v + FACETS[3 * k + 1]],
+        tetrahedra[v + FACETS[3 * k + 2]],
+      );
+      widths[v + k] = intervalOf(Math.sqrt(squared));
+    }
+  }
+  return widths;
 }
 
 /**

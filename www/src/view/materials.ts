@@ -3,7 +3,6 @@ import {
   cameraProjectionMatrix,
   Fn,
   float,
-  instancedBufferAttribute,
   mix,
   modelViewMatrix,
   normalFlat,
@@ -15,7 +14,6 @@ import {
   texture,
   uint,
   uniform,
-  uv,
   varying,
   vec2,
   vec3,
@@ -26,11 +24,9 @@ import {
   Color,
   DataTexture,
   DoubleSide,
-  type InstancedBufferAttribute,
   LinearFilter,
   MeshBasicNodeMaterial,
   type Node,
-  PointsNodeMaterial,
   RGBAFormat,
   SRGBColorSpace,
   type StorageBufferAttribute,
@@ -168,12 +164,17 @@ export function cutMaterial(look: Look, attributes: CutAttributes): MeshBasicNod
     coordinates.element(x.add(2)),
   );
   const color = numbers('colors').element(vertex);
-  const byte = (k: number) => float(color.shiftRight(uint(8 * k)).bitAnd(uint(255))).div(255);
   const counts = select(listed.equal(facet), float(0), float(1));
-  const skin = varying(vec4(byte(0), byte(1), byte(2), counts));
+  const skin = varying(vec4(bytesOf(color), counts));
   const value = varying(floats('values').element(tetrahedron));
   material.colorNode = shaded(look, painted(look, value, skin));
   return material;
+}
+
+/** A colour whose red, green and blue are the lower bytes of a number. */
+function bytesOf(color: Node<'uint'>): Node<'vec3'> {
+  const byte = (k: number) => float(color.shiftRight(uint(8 * k)).bitAnd(uint(255))).div(255);
+  return vec3(byte(0), byte(1), byte(2));
 }
 
 /** What is in a storage buffer, by number. */
@@ -273,32 +274,57 @@ function oneOf<T extends 'float' | 'vec3' | 'vec4'>(
   ) as Node<T>;
 }
 
-/** For points, as instanced sprites of a size in pixels. */
-export function pointsMaterial(
-  look: Look,
-  positions: InstancedBufferAttribute,
-  colors: InstancedBufferAttribute | null,
-): PointsNodeMaterial {
-  const position = instancedBufferAttribute<'vec3'>(positions, 'vec3');
-  const material = new PointsNodeMaterial({
-    sizeAttenuation: false,
-    transparent: true,
-    depthWrite: false,
-  });
-  material.positionNode = position;
-  material.sizeNode = select(
-    position
+/** Where a point is, and its colour if it has one of its own: see {@link pointsMaterial}. */
+export interface PointNodes {
+  place: Node<'vec3'>;
+  color: Node<'vec3'> | null;
+}
+
+/** Points in two buffers, of which six vertices in a row read the same one. */
+export function storedPoints(
+  places: StorageBufferAttribute,
+  colors: StorageBufferAttribute | null,
+): PointNodes {
+  const point = vertexIndex.div(6);
+  const coordinates = storage(places, 'float', 0).toReadOnly() as ArrayNode<'float'>;
+  const at = (k: number) => coordinates.element(point.mul(3).add(k));
+  const bytes = colors && (storage(colors, 'uint', 0).toReadOnly() as ArrayNode<'uint'>);
+  return { place: vec3(at(0), at(1), at(2)), color: bytes && bytesOf(bytes.element(point)) };
+}
+
+/** Points that are instances of six vertices, with the attributes `place` and `color`. */
+export function instancedPoints(hasColors: boolean): PointNodes {
+  return {
+    place: attribute<'vec3'>('place', 'vec3'),
+    color: hasColors ? attribute<'vec4'>('color', 'vec4').rgb : null,
+  };
+}
+
+/** At which corner of a square each vertex of its two triangles is: 1 for the far side. */
+const SQUARE = { x: 0b010110, y: 0b110100 };
+
+/** For points, as squares of a size in pixels. */
+export function pointsMaterial(look: Look, { place, color }: PointNodes): MeshBasicNodeMaterial {
+  const material = new MeshBasicNodeMaterial({ transparent: true, depthWrite: false });
+  const side = (bits: number) =>
+    float(uint(bits).shiftRight(vertexIndex.mod(6)).bitAnd(uint(1)))
+      .mul(2)
+      .sub(1);
+  const corner = vec2(side(SQUARE.x), side(SQUARE.y));
+  const size = select(
+    place
       .dot(look.planeNormal)
       .greaterThan(look.pointsAbove)
       .or(look.pointsEverywhere.greaterThan(0)),
     look.pointSize,
     float(0),
   );
-  material.colorNode = colors
-    ? mix(look.ink, toLinear(instancedBufferAttribute<'vec4'>(colors, 'vec4').rgb), look.ownColors)
-    : look.ink;
+  const middle = cameraProjectionMatrix.mul(modelViewMatrix.mul(vec4(place, 1)));
+  const offset = corner.mul(size).div(look.size).mul(middle.w);
+  material.vertexNode = vec4(middle.xy.add(offset), middle.z, middle.w);
+  material.colorNode = color ? mix(look.ink, toLinear(varying(color)), look.ownColors) : look.ink;
   // Round, where there is room for it.
-  const round = float(1).sub(smoothstep(0.38, 0.5, uv().sub(0.5).length()));
+  const round = float(1).sub(smoothstep(0.76, 1, varying(corner).length()));
   material.opacityNode = look.pointOpacity.mul(
     select(look.pointSize.greaterThan(3), round, float(1)),
   );

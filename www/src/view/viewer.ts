@@ -21,7 +21,6 @@ import {
   Scene,
   Sphere,
   Spherical,
-  Sprite,
   StorageBufferAttribute,
   TOUCH,
   Vector2,
@@ -43,10 +42,12 @@ import {
   cutMaterial,
   flatMaterial,
   hullMaterial,
+  instancedPoints,
   Look,
   linesMaterial,
   piecesMaterial,
   pointsMaterial,
+  storedPoints,
   surfaceMaterial,
   voronoiMaterial,
 } from './materials';
@@ -78,7 +79,7 @@ interface Layers {
   facets: Mesh;
   outline: Mesh;
   ruler: Mesh;
-  points: Sprite | null;
+  points: Mesh | null;
 }
 
 /** Draws a mesh into a canvas, and only when something changed. */
@@ -93,6 +94,9 @@ export class Viewer {
   /** Whether the camera is being placed by the page. */
   private placing = false;
   private dimension: Dimension = 3;
+  private pointCount = 0;
+  /** Whether nothing was to be seen in the last picture; null before there is one. */
+  private isEmpty: boolean | null = null;
   /** The mesh that the GPU cuts, and how. */
   private cut: { mesh: Cut; level: number; skin: boolean } | null = null;
   private readonly layers: Layers;
@@ -174,8 +178,8 @@ export class Viewer {
     this.hideCut();
     this.dimension = dimension;
     const flat = dimension === 2;
-    for (const layer of Object.values<Mesh | Sprite | null>(this.layers as never))
-      if (layer instanceof Mesh) this.replace(layer, null);
+    for (const layer of Object.values<Mesh | null>(this.layers as never))
+      if (layer) this.replace(layer, null);
     this.showPoints(null);
     this.controls.enableRotate = !flat;
     this.controls.zoomToCursor = flat;
@@ -219,10 +223,7 @@ export class Viewer {
   private hideCut(): void {
     const { cut } = this.layers;
     this.cut = this.layers.cut = null;
-    if (!cut) return;
-    this.model.remove(cut);
-    cut.geometry.dispose();
-    (cut.material as Material).dispose();
+    if (cut) this.drop(cut);
   }
 
   private cutLayer(mesh: Cut): Mesh {
@@ -286,40 +287,57 @@ export class Viewer {
   showPoints(positions: Float32Array | null, colors: Uint8Array | null = null): void {
     const old = this.layers.points;
     if (old) {
-      this.model.remove(old);
-      old.material.dispose();
+      this.drop(old);
       this.layers.points = null;
     }
-    if (positions && positions.length > 0) {
-      const points = new Sprite(
-        pointsMaterial(
-          this.look,
-          new InstancedBufferAttribute(positions, 3),
-          colors && new InstancedBufferAttribute(inFours(colors), 4, true),
-        ),
-      );
-      points.count = positions.length / 3;
-      this.look.pointSize.value = points.count < 1000 ? 4 : 1.5;
+    this.pointCount = positions ? positions.length / 3 : 0;
+    if (positions && this.pointCount > 0) {
+      const points = this.add(this.pointsLayer(positions, colors && inFours(colors)), 1);
+      const count = this.pointCount;
+      this.look.pointSize.value = count < 1000 ? 4 : 1.5;
       // Many points on a small canvas would cover everything.
       const { clientWidth, clientHeight } = this.canvas;
       this.look.pointOpacity.value = Math.min(
         0.5,
-        Math.max(0.04, 0.068 * Math.sqrt((clientWidth * clientHeight) / points.count)),
+        Math.max(0.04, 0.068 * Math.sqrt((clientWidth * clientHeight) / count)),
       );
-      points.renderOrder = 1;
-      points.frustumCulled = false;
-      this.model.add(points);
+      points.visible = true;
       this.layers.points = points;
     }
     this.render();
+  }
+
+  /**
+   * Points as triangles. An instance for each would leave GPUs idle, which work on many vertices of
+   * an instance at once: so there is none where vertices can read the buffers by themselves.
+   */
+  private pointsLayer(positions: Float32Array, colors: Uint8Array | null): Mesh {
+    const { device, look } = this;
+    const count = positions.length / 3;
+    const geometry = new InstancedBufferGeometry();
+    geometry.boundingSphere = EVERYWHERE;
+    if (!device || positions.byteLength > device.limits.maxStorageBufferBindingSize) {
+      geometry.setAttribute('place', new InstancedBufferAttribute(positions, 3));
+      if (colors) geometry.setAttribute('color', new InstancedBufferAttribute(colors, 4, true));
+      geometry.setDrawRange(0, 6);
+      geometry.instanceCount = count;
+      return new Mesh(geometry, pointsMaterial(look, instancedPoints(colors !== null)));
+    }
+    const places = new StorageBufferAttribute(positions, 1);
+    const bytes = colors && new StorageBufferAttribute(new Uint32Array(colors.buffer), 1);
+    // With the geometry, the buffers are freed.
+    geometry.setAttribute('place', places);
+    if (bytes) geometry.setAttribute('color', bytes);
+    geometry.setDrawRange(0, 6 * count);
+    geometry.instanceCount = 1;
+    return new Mesh(geometry, pointsMaterial(look, storedPoints(places, bytes)));
   }
 
   /** Shows or hides what a layer holds, without giving it up. */
   setVisible(layer: Exclude<keyof Layers, 'outline' | 'ruler'>, visible: boolean): void {
     const object = this.layers[layer];
     if (object)
-      object.visible =
-        visible && (object instanceof Sprite || object.geometry.hasAttribute('position'));
+      object.visible = visible && (layer === 'points' || object.geometry.hasAttribute('position'));
     this.render();
   }
 
@@ -439,6 +457,10 @@ export class Viewer {
   render(): void {
     this.frame ||= requestAnimationFrame(() => {
       this.frame = 0;
+      const wasEmpty = this.isEmpty;
+      this.isEmpty = !this.model.children.some(({ visible }) => visible);
+      // The first picture of nothing is drawn: it prepares what all need.
+      if (wasEmpty && this.isEmpty) return;
       if (this.dimension === 2) this.thinOut();
       this.cut?.mesh.at(this.cut.level, this.cut.skin);
       this.renderer.render(this.scene, this.camera);
@@ -474,7 +496,7 @@ export class Viewer {
    * come back near by.
    */
   private thinOut(): void {
-    const count = this.layers.points?.count ?? 1;
+    const count = Math.max(1, this.pointCount);
     // In pixels, of points spread over the unit circle.
     const apart = (this.canvas.clientHeight / this.seen[1]) * Math.sqrt(Math.PI / count);
     const { pointSize, pointOpacity, voronoiOpacity } = this.look;
@@ -491,10 +513,17 @@ export class Viewer {
     return object;
   }
 
+  private drop(layer: Mesh): void {
+    this.model.remove(layer);
+    layer.geometry.dispose();
+    (layer.material as Material).dispose();
+  }
+
   private replace(
     layer: Object3D & { geometry: BufferGeometry; material: Material | Material[] },
     geometry: BufferGeometry | null,
   ) {
+    if (!geometry && !layer.geometry.hasAttribute('position')) return;
     layer.geometry.dispose();
     layer.geometry = geometry ?? new BufferGeometry();
     layer.visible = geometry !== null;
