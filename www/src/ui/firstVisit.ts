@@ -26,7 +26,8 @@ export function inWords(milliseconds: number): string {
   const known: [number, string][] = [
     [70, 'less than a tenth of a second'],
     [180, 'a tenth of a second'],
-    [380, 'a quarter of a second'],
+    [290, 'a quarter of a second'],
+    [410, 'a third of a second'],
     [750, 'half a second'],
     [1500, 'about a second'],
   ];

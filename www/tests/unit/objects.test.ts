@@ -30,6 +30,8 @@ test('there are 60 atoms in a fullerene, each with three bonds', () => {
 test('a time in words', () => {
   assert.equal(inWords(12), 'less than a tenth of a second');
   assert.equal(inWords(120), 'a tenth of a second');
+  assert.equal(inWords(240), 'a quarter of a second');
+  assert.equal(inWords(323), 'a third of a second');
   assert.equal(inWords(1100), 'about a second');
   assert.equal(inWords(2600), 'about three seconds');
   assert.equal(inWords(61_000), 'about 61 seconds');
