@@ -298,6 +298,42 @@ fn too_much_work_aborts() {
     }
 }
 
+/// Where there are inverted tetrahedra, a triangulation can have the others twice: between two facets of a
+/// tetrahedron and what is across, there may be two more of the same vertices, of which one is inverted.
+#[test]
+fn tetrahedra_that_are_there_twice_are_removed() {
+    let points = inputs::uniform(200, 5);
+    let lattice = Lattice::fit((&points).into());
+    let indices: Vec<u32> = (0..points.len() as u32).collect();
+    let vertices = PredicateContext::<3>::new((&points).into(), &lattice, indices.clone());
+    let answer = exact(&points, &indices);
+    let mut near = near(points.len() as u32, &answer);
+    let mesh = near.triangulation;
+    let infinite = mesh.infinite();
+    let (mut tetrahedra, mut neighbors) = (mesh.tetrahedra().to_vec(), mesh.neighbors().to_vec());
+    let inside = (0..tetrahedra.len()).find(|&t| {
+        let across = neighbors[t].iter().map(|&across| tetrahedra[across as usize / 4]);
+        !tetrahedra[t].contains(&infinite) && across.into_iter().all(|v| !v.contains(&infinite))
+    });
+    let t = inside.expect("a tetrahedron that is not at the hull");
+    let [inverted, double] = [0, 1].map(|more| (tetrahedra.len() + more) as u32);
+    let [a, b, c, d] = tetrahedra[t];
+    // The facets opposite to c and d: from t to the inverted one, from there by its other two facets to
+    // the double, and on to what was across.
+    tetrahedra.extend([[b, a, c, d], [a, b, c, d]]);
+    let beyond = [neighbors[t][2], neighbors[t][3]];
+    neighbors.push([4 * double + 1, 4 * double, 4 * t as u32 + 2, 4 * t as u32 + 3]);
+    neighbors.push([4 * inverted + 1, 4 * inverted, beyond[0], beyond[1]]);
+    for (k, across) in (2..4).zip(beyond) {
+        neighbors[t][k as usize] = 4 * inverted + k;
+        neighbors[across as usize / 4][across as usize % 4] = 4 * double + k;
+    }
+    near.triangulation = Triangulation3::new(tetrahedra, neighbors, infinite);
+    near.uncertain = vec![inverted];
+    let stats = check("a tetrahedron twice", &vertices, near, &answer);
+    assert_eq!((stats.removed, stats.added), (2, 0));
+}
+
 #[test]
 fn what_is_not_a_triangulation_aborts() {
     let points = inputs::uniform(200, 22);

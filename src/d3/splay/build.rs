@@ -22,6 +22,8 @@ pub(super) struct Known {
     pub(super) failed: VertexSet,
     /// The finite tetrahedra that are not positively oriented.
     pub(super) inverted: FxHashSet<u32>,
+    /// Their vertices.
+    pub(super) inverted_at: VertexSet,
 }
 
 /// How a star was made convex.
@@ -47,8 +49,8 @@ impl Known {
         entries: &mut Vec<Entry>,
     ) -> Result<(Star, Origin), Aborted> {
         let mut star = links.star(&self.region.mesh, v, self.region.incident[v as usize])?;
-        let is_oriented =
-            self.is_oriented(predicates, &star) && (self.inverted.is_empty() || star.winds_once(predicates));
+        let may_wind = || star.used().any(|t| t.vertices.iter().any(|&v| self.inverted_at.has(v)));
+        let is_oriented = self.is_oriented(predicates, &star) && (!may_wind() || star.winds_once(predicates));
         if is_oriented && !self.failed.has(v) {
             return Ok((star, Origin::Pulled));
         }
@@ -64,8 +66,9 @@ impl Known {
             points.dedup();
             star = Star::from_points(predicates, v, points.into_iter(), &mut Changes::default())?;
         }
-        let added = recognize(&mut star, &mut removed);
+        let (added, doubles) = recognize(&mut star, &mut removed);
         entries.extend(Entry::changes(&star, &removed, &added));
+        entries.extend(doubles.iter().map(|t| Entry::double(&star, t)));
         Ok((star, flips.map_or(Origin::FromPoints, Origin::Flipped)))
     }
 
@@ -80,8 +83,9 @@ impl Known {
 }
 
 /// Finds the triangles of a star that the triangulation has after all, records their tetrahedra,
-/// and takes them out of `removed`. Returns the slots of the others, which have none.
-fn recognize(star: &mut Star, removed: &mut Vec<Triangle>) -> Vec<u32> {
+/// and takes them out of `removed`. Returns the slots of the others, which have none, and the
+/// triangles of the triangulation that it has more than once, but for the first of each.
+fn recognize(star: &mut Star, removed: &mut Vec<Triangle>) -> (Vec<u32>, Vec<Triangle>) {
     // The corners are not sorted, which would confuse an inverted tetrahedron with a new one.
     let rotated = |[a, b, c]: [u32; 3]| match a.min(b).min(c) {
         least if least == a => [a, b, c],
@@ -90,6 +94,18 @@ fn recognize(star: &mut Star, removed: &mut Vec<Triangle>) -> Vec<u32> {
     };
     removed.iter_mut().for_each(|t| t.vertices = rotated(t.vertices));
     parallel::sort_records(Threads::One, removed);
+    let mut doubles = Vec::new();
+    removed.dedup_by(|double, first| {
+        let are_same = double.vertices == first.vertices;
+        if are_same {
+            // All stars keep the same one.
+            if double.tetrahedron < first.tetrahedron {
+                std::mem::swap(double, first);
+            }
+            doubles.push(*double);
+        }
+        are_same
+    });
     let mut added = Vec::new();
     for (i, t) in star.triangles.iter_mut().enumerate().filter(|(_, t)| t.is_used() && t.tetrahedron == NO_INDEX) {
         match removed.binary_search_by_key(&rotated(t.vertices), |t| t.vertices) {
@@ -100,5 +116,5 @@ fn recognize(star: &mut Star, removed: &mut Vec<Triangle>) -> Vec<u32> {
         }
     }
     removed.retain(|t| t.tetrahedron != NO_INDEX);
-    added
+    (added, doubles)
 }

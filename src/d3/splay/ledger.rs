@@ -53,6 +53,9 @@ pub(super) enum Event {
     Lost(u32),
     /// Its vertices were inserted into the star.
     Tried,
+    /// The triangulation has it once more, in this slot: where it has inverted tetrahedra, it may have
+    /// the others twice.
+    Double(u32),
 }
 
 /// Entries, grouped by the part of the ledger that they belong to, and in each group those of a
@@ -73,6 +76,8 @@ impl Entries {
 /// The tetrahedra that differ, in some star, from the triangulation.
 pub(super) struct Ledger {
     parts: Vec<FxHashMap<Key, Held>>,
+    /// The slots of tetrahedra that the triangulation has more than once, but for the first of each.
+    doubles: Vec<u32>,
     infinite: u32,
     threads: Threads,
 }
@@ -126,6 +131,7 @@ impl Held {
                 self.never |= bit;
             }
             Event::Tried if has => {}
+            Event::Double(_) => {}
             Event::Tried => self.never |= bit,
         }
         Ok(())
@@ -136,6 +142,12 @@ impl Entry {
     /// Creates the entry for a star into which the vertices of a tetrahedron have been inserted.
     pub(super) fn tried(key: Key, vertex: u32) -> Self {
         Entry { key, vertex, event: Event::Tried }
+    }
+
+    /// Creates the entry for a triangle of a star that the triangulation has more than once.
+    pub(super) fn double(star: &Star, triangle: &Triangle) -> Self {
+        let key = key(star.tetrahedron(triangle.vertices));
+        Entry { key, vertex: star.vertex, event: Event::Double(triangle.tetrahedron) }
     }
 
     /// Returns the entries for a star that has lost the triangles `removed`, and gained those in
@@ -154,7 +166,7 @@ impl Ledger {
             Threads::One => 1,
             Threads::All => PARTS,
         };
-        Ledger { parts: vec![FxHashMap::default(); parts], infinite, threads }
+        Ledger { parts: vec![FxHashMap::default(); parts], doubles: Vec::new(), infinite, threads }
     }
 
     /// Returns which stars have a tetrahedron, if it was entered.
@@ -197,11 +209,15 @@ impl Ledger {
         let infinite = self.infinite;
         let len: usize = entries.iter().map(|entries| entries.sorted.len()).sum();
         let threads = if len < SHARED_FROM { Threads::One } else { self.threads };
-        let unsettled = parallel::map_mut(threads, &mut self.parts, |i, held_by_key| {
-            let mut touched = Vec::new();
+        let results = parallel::map_mut(threads, &mut self.parts, |i, held_by_key| {
+            let (mut touched, mut doubles) = (Vec::new(), Vec::new());
             for entry in entries.iter().flat_map(|entries| entries.of_part(i)) {
                 let key = entry.key;
                 let held = match entry.event {
+                    Event::Double(slot) => {
+                        doubles.push(slot);
+                        continue;
+                    }
                     Event::Lost(NO_INDEX) | Event::Tried => held_by_key.get_mut(&key).ok_or(UNKNOWN)?,
                     Event::Lost(tetrahedron) => {
                         held_by_key.entry(key).or_insert(Held::new(all(key, infinite), tetrahedron))
@@ -219,9 +235,15 @@ impl Ledger {
                     held.by != 0 && held.by != all(*key, infinite)
                 })
             });
-            Ok(touched)
+            Ok((touched, doubles))
         });
-        Ok(unsettled.into_iter().collect::<Result<Vec<_>, Aborted>>()?.concat())
+        let mut unsettled = Vec::new();
+        for result in results {
+            let (touched, doubles) = result?;
+            unsettled.extend(touched);
+            self.doubles.extend(doubles);
+        }
+        Ok(unsettled)
     }
 
     /// Returns the tetrahedra on which the consistent stars and the triangulation differ: the slots
@@ -248,8 +270,10 @@ impl Ledger {
             remove.extend(slots);
             add.extend(keys);
         }
-        // The order in the hash tables is arbitrary.
+        remove.extend(&self.doubles);
+        // The order in the hash tables is arbitrary, and each star has its doubles.
         remove.sort_unstable();
+        remove.dedup();
         parallel::sort_records(Threads::One, &mut add);
         Ok((remove, add))
     }

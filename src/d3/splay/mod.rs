@@ -248,7 +248,10 @@ impl Splay {
         let mut has_failed = VertexSet::new(infinite as usize);
         failed.iter().for_each(|&v| has_failed.insert(v));
 
-        let stars = Splaying::new(Known { region, failed: has_failed, inverted }, threads);
+        let mut inverted_at = VertexSet::new(infinite as usize);
+        let corners = inverted.iter().flat_map(|&t| region.mesh.vertices(t));
+        corners.filter(|&v| v != infinite).for_each(|v| inverted_at.insert(v));
+        let stars = Splaying::new(Known { region, failed: has_failed, inverted, inverted_at }, threads);
         let mut splay = Splay { stars, spanning, is_delaunay, free, missing, evaluations: 0 };
         let limited = limited(&predicates, 0, terms);
         splay.stars.begin(&predicates, &failed, &limited)?;
