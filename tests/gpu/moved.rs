@@ -175,6 +175,7 @@ fn what_could_not_be_flipped_is_checked_again() {
         state.counters.active_len[0] = left.len() as u32;
         let before = state.clone();
         let device = Device::new(width, &state);
+        device.upload(&state);
         device.run("moved_again");
         let state = device.download(&state);
         let mut again: Vec<u32> =
