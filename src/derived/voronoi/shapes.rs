@@ -31,11 +31,11 @@ pub trait VoronoiShapes<const D: usize, const N: usize>: Geometry<D, N> {
     /// The shape of a cell while it is clipped.
     type Polytope: Polytope<D>;
 
-    /// Appends to `rings` the rings around the edges from vertex *v*, as places in its star, whose
-    /// simplices have these rows, that `is_wanted`, which is called with the edge's other vertex *a*, the simplices around the edge,
-    /// and whether they close a ring, or in 2D whether there are two. They are counter-clockwise as
-    /// seen from *a* in 3D, and from right to left as seen from *v* in 2D, where the neighbours come
-    /// counter-clockwise, on the hull from the first.
+    /// Appends to `rings` the simplices around each edge from vertex *v* for which `is_wanted`
+    /// returns true, as places in its star, whose simplices have these rows. `is_wanted` gets the
+    /// edge's other vertex *a*, the places, and whether they close a ring, or in 2D whether there are
+    /// two. They are counter-clockwise as seen from *a* in 3D, and from right to left as seen from *v*
+    /// in 2D, where the neighbours come counter-clockwise, on the hull from the first.
     fn push_rings(
         v: u32,
         star: &[u32],
