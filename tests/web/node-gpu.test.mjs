@@ -68,7 +68,7 @@ test("a mesh stays on the caller's device", { timeout: 600_000 }, async () => {
   const { createTriangulator, delaunay3d, generate, ResidentMesh3 } = await importFrom(project());
   const device = await openDevice();
   const triangulator = await createTriangulator({ device, backend: 'gpu' });
-  assert.equal(triangulator.info.thread, 'caller');
+  assert.equal(triangulator.info.thread, 'worker');
   const points = await generate('uniform', 300, { seed: 3 });
   const expected = await delaunay3d(points, { backend: 'cpu' });
   const print = fingerprint(expected.tetrahedra);

@@ -1,6 +1,7 @@
 // A place where tasks run, one at a time: a worker or the calling thread.
 
 import { allInThisRealm } from './arrays.js';
+import type { Device } from './device.js';
 import type { PlainError } from './errors.js';
 import type { FromWorker, ModuleName, TaskName, Tasks } from './protocol.js';
 import type { Loaded, WorkerThread } from './runtime.js';
@@ -26,25 +27,36 @@ export interface Connection extends Place {
     transfer: ArrayBuffer[],
     stop: Stop,
   ): Promise<Tasks[T]['result']>;
+  /** Frees a mesh that stays on the device of the caller. */
+  free(name: ModuleName, key: number): void;
   close(): void;
 }
 
-/** Runs tasks in a worker. */
-export function workerConnection({ value: thread, whyInlined }: Loaded<WorkerThread>): Connection {
+type TaskCode = typeof import('./core.js');
+
+/** Runs tasks in a worker, and lets it use a device. */
+export function workerConnection(
+  { value: thread, whyInlined }: Loaded<WorkerThread>,
+  code?: TaskCode,
+  device?: Device,
+): Connection {
   let next = 0;
   let isAlive = true;
   let pending:
     | { id: number; handle: (message: FromWorker) => void; fail: (error: PlainError) => void }
     | undefined;
   thread.keepAlive(false);
-  thread.onMessage((message) => {
-    if (message.type !== 'ready' && message.id === pending?.id) pending.handle(message);
-  });
-  thread.onError((error) => {
+  const fail = (error: Error) => {
     isAlive = false;
     const message = `the worker failed: ${error.message}`;
     pending?.fail({ code: 'INTERNAL', message, fatal: true });
+  };
+  const served = device && code?.serveDevice(device, (...args) => thread.post(...args), fail);
+  thread.onMessage((message) => {
+    if (message.type === 'calls') void served!.take(message.calls);
+    else if (message.type !== 'ready' && message.id === pending?.id) pending.handle(message);
   });
+  thread.onError(fail);
 
   return {
     thread: 'worker',
@@ -54,9 +66,11 @@ export function workerConnection({ value: thread, whyInlined }: Loaded<WorkerThr
       return isAlive;
     },
     load: (name, module) => thread.post({ type: 'load', name, module }, []),
+    free: (name, key) => thread.post({ type: 'free', name, key }, []),
     close() {
       isAlive = false;
       thread.terminate();
+      served?.end();
       const message = 'the triangulator was disposed of';
       pending?.fail({ code: 'DISPOSED', message, fatal: false });
     },
@@ -80,8 +94,12 @@ export function workerConnection({ value: thread, whyInlined }: Loaded<WorkerThr
           fail: reject,
           handle(message) {
             if (message.type === 'progress') stop.report(message.progress);
-            else if (message.type === 'done') resolve(allInThisRealm(message.result));
-            else if (message.type === 'failed') reject(allInThisRealm(message.error));
+            else if (message.type === 'done') {
+              const result: any = allInThisRealm(message.result);
+              if (result.resident)
+                result.resident.buffers = served!.handOver(result.resident.buffers);
+              resolve(result);
+            } else if (message.type === 'failed') reject(allInThisRealm(message.error));
             else if (message.type === 'blocking') {
               isBlocking = true;
               if (stop.isStopped) end();
@@ -104,7 +122,7 @@ export function workerConnection({ value: thread, whyInlined }: Loaded<WorkerThr
  * can come from its own callback or, while the GPU works, from anywhere.
  */
 export function callerConnection(
-  { makeCore }: typeof import('./core.js'),
+  { makeCore }: TaskCode,
   gpu: object | undefined,
   whyThread: string,
 ): Connection {
@@ -123,6 +141,7 @@ export function callerConnection(
         onBlocking() {},
         isAborted: () => stop.isStopped,
       }),
+    free: (name, key) => cores.get(name)!.free(key),
     close() {
       for (const core of cores.values()) core.dispose();
     },

@@ -8,6 +8,8 @@ import type { Control, CoreInfo, CoreStats, ModuleName, TaskName, Tasks } from '
 import type { MadeResident } from './resident.js';
 import type { AdapterInfo, Backend, Output } from './types.js';
 
+export { serveDevice } from './calls.js';
+
 /** The shortest time between two progress reports, since each is a message to the page. */
 const PROGRESS_MILLISECONDS = 20;
 
@@ -16,6 +18,7 @@ interface ModuleTasks {
   handlers: Handlers;
   memory: WebAssembly.Memory;
   dispose(): void;
+  free?(key: number): void;
 }
 
 const TASKS: Record<ModuleName, (module: WebAssembly.Module, gpu?: object) => ModuleTasks> = {
@@ -39,10 +42,12 @@ export interface Core {
     control: Control,
   ): Promise<Tasks[T]['result']>;
   dispose(): void;
+  /** Frees a mesh that stays on the caller's device. */
+  free(key: number): void;
 }
 
 export function makeCore(name: ModuleName, module: WebAssembly.Module, gpu?: object): Core {
-  const { handlers, memory, dispose } = TASKS[name](module, gpu);
+  const { handlers, memory, dispose, free } = TASKS[name](module, gpu);
   return {
     async run(task, args, control) {
       let last = -Infinity;
@@ -66,6 +71,7 @@ export function makeCore(name: ModuleName, module: WebAssembly.Module, gpu?: obj
       }
     },
     dispose,
+    free: (key) => free?.(key),
   };
 }
 
@@ -121,6 +127,13 @@ const reporting =
     return control.isAborted();
   };
 
+/** A mesh on the device. */
+interface WasmMesh {
+  read(array: number, memory: (bytes: number) => Uint8Array): Promise<Uint8Array<ArrayBuffer>>;
+  update(triangulator: object, points: Coordinates, backend: string, report: Report): Promise<any>;
+  free(): void;
+}
+
 /** The arrays of meshes on the device, by their numbers. */
 const ARRAYS = {
   d3: ['tetrahedra', 'neighbors', 'hull'],
@@ -139,8 +152,10 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
   const triangulator = new glue.WasmTriangulator();
   let looking: Promise<AdapterInfo> | undefined;
   const memoryThreads = new MemoryThreads();
+  /** The meshes on the device, by their keys. */
+  const meshes = new Map<number, WasmMesh>();
   /** The mesh of the last run, if that was an update of arrays: the next one goes on from it. */
-  let kept: (MadeResident & { key: number }) | undefined;
+  let kept: MadeResident | undefined;
   /** Of the simplices: there are 6.8 per uniform point in 3D, and less than 2 per point in 2D. */
   let bytesPerCoordinate = name === 'd3' ? (7 * 16) / 3 : (2 * 12) / 2;
 
@@ -212,17 +227,23 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
       memoryThreads.serve(ready, large, Math.ceil(bytesPerCoordinate * points.length));
     const report = reporting(control);
     const chosen = info?.backend === 'cpu' ? 'cpu' : backend;
-    // A mesh of an instance that broke is of no use to this one.
-    const { constructor } = moved?.mesh ?? {};
-    const isHere = constructor === (name === 'd3' ? glue.WasmMesh3 : glue.WasmMesh2);
+    // A mesh of an instance that broke is of no use to this one, and not known here.
+    const before = meshes.get(moved ?? key!);
     const run = (onDevice: boolean) => triangulate(chosen, onDevice, ready.take, report);
+    const runOrUpdate = async (onDevice: boolean) => {
+      const made = await (before?.update(triangulator, points, chosen, report) ?? run(onDevice));
+      if (made.resident) {
+        const { mesh, ...resident } = made.resident;
+        made.resident = { ...resident, key: Math.random() };
+        meshes.set(made.resident.key, mesh);
+      }
+      return made;
+    };
     let mesh: any;
     try {
       if (isOnGpu && key !== undefined) {
-        const before = key === kept?.key ? kept.mesh : undefined;
         try {
-          mesh = await (before?.update(triangulator, points, chosen, report) ?? run(true));
-          mesh = await keep(mesh, outputs!, ready);
+          mesh = await keep(await runOrUpdate(true), outputs!, ready);
         } catch (error) {
           // The CPU takes over from a device that failed, without which nothing can be kept.
           if (backend === 'gpu' || !isOfGpu(error)) throw error;
@@ -230,9 +251,7 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
         }
       } else {
         drop();
-        mesh = isHere
-          ? await moved!.use((mesh) => mesh.update(triangulator, points, chosen, report))
-          : await run(resident ?? false);
+        mesh = await runOrUpdate(resident ?? false);
       }
     } finally {
       memoryThreads.release();
@@ -253,15 +272,22 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
 
   /** Frees what the device keeps. */
   function drop(): void {
-    for (const buffer of kept?.buffers ?? []) (buffer as { destroy(): void }).destroy();
-    kept?.mesh.free();
+    if (!kept) return;
+    for (const buffer of kept.buffers) (buffer as { destroy(): void }).destroy();
+    free(kept.key);
     kept = undefined;
+  }
+
+  function free(key: number): void {
+    meshes.get(key)?.free();
+    meshes.delete(key);
   }
 
   /** Returns the arrays of a mesh on the device, which keeps it. */
   async function keep(made: any, outputs: readonly string[], { take }: Memory): Promise<any> {
     const resident = made.resident as MadeResident;
-    const { mesh, dimension, duplicateOf } = resident;
+    const { dimension, duplicateOf, key } = resident;
+    const mesh = meshes.get(key)!;
     const arrays = ARRAYS[name].map(async (array, i) => {
       if (i > 0 && !outputs.includes(array)) return [];
       const { buffer, length } = await mesh.read(i, take);
@@ -269,9 +295,9 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
     });
     const read = Object.fromEntries((await Promise.all(arrays)).flat());
     drop();
-    kept = { ...resident, key: Math.random() };
+    kept = resident;
     if (outputs.includes('duplicateOf')) read.duplicateOf = duplicateOf;
-    return { ...read, dimension, stats: made.stats, key: kept.key };
+    return { ...read, dimension, stats: made.stats, key };
   }
 
   const dispose = () => {
@@ -279,11 +305,11 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
     memoryThreads.end();
     if (!(gpu as Gpu | undefined)?.isGiven) void triangulator.close();
   };
-  return { glue, memory, triangulator, choose, run, dispose };
+  return { glue, memory, triangulator, choose, run, dispose, free };
 }
 
 function tasks3d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
-  const { glue, memory, triangulator, choose, run, dispose } = instance('d3', module, gpu);
+  const { glue, memory, triangulator, choose, run, ...rest } = instance('d3', module, gpu);
 
   const handlers: Handlers = {
     async open({ backend }) {
@@ -309,7 +335,7 @@ function tasks3d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
       return withEmpty(mesh);
     },
   };
-  return { handlers, memory, dispose };
+  return { handlers, memory, ...rest };
 }
 
 function outputsOf(glue: any, outputs: readonly Output[]): any {
@@ -326,7 +352,7 @@ function withEmpty(mesh: any): any {
 }
 
 function tasks2d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
-  const { glue, memory, triangulator, run, dispose } = instance('d2', module, gpu);
+  const { glue, memory, triangulator, run, ...rest } = instance('d2', module, gpu);
 
   const handlers: Handlers = {
     delaunay2d(args, control) {
@@ -337,7 +363,7 @@ function tasks2d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
       );
     },
   };
-  return { handlers, memory, dispose };
+  return { handlers, memory, ...rest };
 }
 
 /** Meshes in the memory of the CPU whose points move, come and go. */

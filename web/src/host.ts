@@ -5,6 +5,7 @@
 import { taskCode, workerCode } from '#assets';
 import { type Coordinates, isDetached } from './arrays.js';
 import { type Connection, callerConnection, workerConnection } from './connection.js';
+import { type Device, gpuOf } from './device.js';
 import { GdelError, giveBack, type PlainError, toGdelError } from './errors.js';
 import { compiled } from './modules.js';
 import type { TaskName, Tasks } from './protocol.js';
@@ -17,6 +18,7 @@ const WARM_MILLISECONDS = 100;
 
 export interface HostOptions {
   gpu?: object | undefined;
+  device?: Device | undefined;
   worker?: boolean | undefined;
 }
 
@@ -24,6 +26,8 @@ export interface HostOptions {
 export interface Done<T extends TaskName> {
   result: Tasks[T]['result'];
   place: Place;
+  /** Frees a mesh that stays on the caller's device. */
+  free?(key: number): void;
 }
 
 /** What the arguments of a task were made of. */
@@ -35,6 +39,7 @@ export interface Sending {
 
 export class Host {
   readonly #gpu: object | undefined;
+  readonly #device: Device | undefined;
   #connection: Promise<Connection> | undefined;
   /** A worker that waits for the first one to be ended. */
   #spare: Promise<Connection> | undefined;
@@ -45,8 +50,9 @@ export class Host {
   #last: Promise<unknown> = Promise.resolve();
   #disposed = false;
 
-  constructor({ gpu, worker }: HostOptions = {}) {
-    this.#gpu = gpu;
+  constructor({ gpu, device, worker }: HostOptions = {}) {
+    this.#gpu = device ? gpuOf(device) : gpu;
+    this.#device = device;
     if (gpu) this.#noWorker = 'a GPU object cannot be sent to another thread';
     else if (worker === false) this.#noWorker = 'the option worker is false';
   }
@@ -98,7 +104,8 @@ export class Host {
     try {
       const result = await connection.run(asset.name, task, args, transfer, stop);
       const { thread, whyThread } = connection;
-      return { result, place: { thread, whyThread, whyInlined } };
+      const free = (key: number) => connection.free(asset.name, key);
+      return { result, place: { thread, whyThread, whyInlined }, free };
     } catch (thrown) {
       if ((thrown as PlainError).fatal) this.#drop(connection);
       throw thrown;
@@ -153,8 +160,7 @@ export class Host {
   /** Starts the second worker, and hands it the module that is in use. */
   #warm(asset: WasmAsset): void {
     if (this.#disposed || this.#spare) return;
-    this.#spare = startWorker(workerCode).then(async (thread) => {
-      const connection = workerConnection(thread);
+    this.#spare = this.#start().then(async (connection) => {
       await this.#load(connection, asset);
       return connection;
     });
@@ -162,10 +168,20 @@ export class Host {
     this.#spare.catch(() => {});
   }
 
+  /** Starts a worker. */
+  async #start(): Promise<Connection> {
+    const device = this.#device;
+    return workerConnection(
+      await startWorker(workerCode),
+      device && (await loadCode(taskCode)),
+      device,
+    );
+  }
+
   async #open(): Promise<Connection> {
     if (this.#noWorker === null) {
       try {
-        return workerConnection(await startWorker(workerCode));
+        return await this.#start();
       } catch (error) {
         if (error instanceof GdelError) throw error;
         this.#noWorker = messageOf(error);

@@ -30,7 +30,7 @@ export class Memory {
   }
 
   /** Returns memory for an array: what is ready if it is hardly larger, else fresh memory. */
-  readonly take = (bytes: number): Uint8Array => {
+  readonly take = (bytes: number): Uint8Array<ArrayBuffer> => {
     const at = this.#ready.findIndex((b) => b.byteLength >= bytes && b.byteLength <= 1.25 * bytes);
     const [found] = at < 0 ? [] : this.#ready.splice(at, 1);
     if (found) this.readyBytes += bytes;

@@ -3,12 +3,10 @@
 import { type Coordinates, inThisRealm, isArrayBuffer, isDetached, kindOf } from './arrays.js';
 import { GdelError } from './errors.js';
 import { bad, nameOf } from './options.js';
+import { Slice } from './slices.js';
 
 /** The largest number of points that can be triangulated. */
 const MAX_POINTS = 2 ** 27;
-
-/** How long a conversion or a copy may block the thread before it yields. */
-const SLICE_MILLISECONDS = 8;
 
 /** The number of coordinates after which a conversion or a copy can yield. */
 const SLICE_LENGTH = 2 ** 18;
@@ -33,7 +31,7 @@ export function coordinatesNow(points: unknown, conversion: Conversion): Coordin
 }
 
 /**
- * Returns the coordinates, giving way to other events after each slice of 8 ms. What is small is
+ * Returns the coordinates, giving way to other events after each slice. What is small is
  * copied before this returns.
  */
 export async function coordinatesInSlices(
@@ -42,28 +40,14 @@ export async function coordinatesInSlices(
   throwIfAborted: () => void,
 ): Promise<Coordinates> {
   const steps = conversionOf(points, conversion);
-  let since = performance.now();
+  const slice = new Slice();
   for (;;) {
     const { done, value } = steps.next();
     if (done) return value;
-    if (performance.now() - since <= SLICE_MILLISECONDS) continue;
-    await yieldToEvents();
+    if (!slice.isOver) continue;
+    await slice.next();
     throwIfAborted();
-    since = performance.now();
   }
-}
-
-/** Yields to waiting events. Continues sooner than a timer, which browsers delay. */
-function yieldToEvents(): Promise<void> {
-  return new Promise((resolve) => {
-    if (typeof MessageChannel !== 'function') return setTimeout(resolve);
-    const { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => {
-      port1.close();
-      resolve();
-    };
-    port2.postMessage(null);
-  });
 }
 
 /** Converts in steps, between which other events can be handled. */

@@ -2,8 +2,9 @@
 
 import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
 import type { AlphaShape, Geometry, Topology, VoronoiArrays } from './derived.js';
+import type { DeviceInfo } from './device.js';
 import type { PlainError } from './errors.js';
-import type { Held, MadeResident } from './resident.js';
+import type { MadeResident } from './resident.js';
 import type { Edit } from './run.js';
 import type { UpdateStats } from './stats.js';
 import type {
@@ -71,8 +72,8 @@ export interface Tasks {
       resident?: boolean;
       /** Memory for the arrays. */
       spare?: ArrayBuffer[];
-      /** The mesh on the device of the points where they were, if they have moved. */
-      moved?: Held;
+      /** The key of the mesh on the device of the points where they were, if they have moved. */
+      moved?: number;
       /** For an update of what the GPU has made: the key of the last one, 0 for the first. */
       key?: number;
     };
@@ -97,7 +98,7 @@ export interface Tasks {
       backend: Backend;
       resident?: boolean;
       spare?: ArrayBuffer[];
-      moved?: Held;
+      moved?: number;
       key?: number;
       outputs?: readonly string[];
     };
@@ -165,8 +166,20 @@ export interface Control {
   isAborted(): boolean;
 }
 
+/**
+ * A call that wgpu makes on a device of the calling thread: the number of an object, the method, its
+ * arguments, in which `{ remote: number }` stands for an object, and the number of what it returns.
+ */
+export type Call = [object: number, method: string, args: any[], id: number];
+
 export type ToWorker =
+  /** The device that the modules use which come later. */
+  | { type: 'device'; info: DeviceInfo }
+  /** What a call has returned as a promise; for the number 0, how the device was lost. */
+  | { type: 'answer'; id: number; value: unknown; error: string | undefined }
   | { type: 'load'; name: ModuleName; module: WebAssembly.Module }
+  /** Frees a mesh that stays on the device. */
+  | { type: 'free'; name: ModuleName; key: number }
   | {
       type: 'run';
       id: number;
@@ -180,6 +193,7 @@ export type ToWorker =
 
 export type FromWorker =
   | { type: 'ready' }
+  | { type: 'calls'; calls: Call[] }
   | { type: 'progress'; id: number; progress: Progress }
   | { type: 'blocking'; id: number }
   | { type: 'done'; id: number; result: Tasks[TaskName]['result'] }

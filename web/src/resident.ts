@@ -1,13 +1,15 @@
 // Meshes that stay on the caller's device, and points that come from it.
 
 import type { Coordinates, Indices, SignedIndices } from './arrays.js';
-import { GdelError, toGdelError, toPlainError } from './errors.js';
+import type { Buffer, Device } from './device.js';
+import { GdelError } from './errors.js';
 import type { Done } from './host.js';
 import { Memory, memoryOf } from './memory.js';
 import { Mesh3 } from './mesh.js';
 import { Mesh2 } from './mesh2.js';
 import { checkOneOf } from './options.js';
 import type { Task, Update } from './run.js';
+import { copyInSlices } from './slices.js';
 import type { Points, Stats, UpdateOptions } from './types.js';
 import { Updating } from './updating.js';
 
@@ -32,62 +34,36 @@ export interface ResidentArrays2 {
   vertexTriangle: SignedIndices;
 }
 
-/** What is used of a `GPUBuffer`. */
-interface Buffer {
-  size: number;
-  mapAsync(mode: number): Promise<void>;
-  getMappedRange(): ArrayBuffer;
-  destroy(): void;
-}
-
-/** What is used of a `GPUDevice`. */
-export interface Device {
-  features: object;
-  limits: object;
-  adapterInfo?: object;
-  queue: { submit(commands: object[]): void };
-  createBuffer(descriptor: object): Buffer;
-  createCommandEncoder(): {
-    copyBufferToBuffer(from: object, at: number, to: object, start: number, size: number): void;
-    finish(): object;
-  };
-  pushErrorScope(filter: string): void;
-  popErrorScope(): Promise<{ message: string } | null>;
-}
-
-/** Returns a GPU object for wgpu, which asks for a device and gets this one. */
-export function gpuOf(device: Device): object {
-  const { features, limits, adapterInfo } = device;
-  const none = { vendor: '', architecture: '', device: '', description: '' };
-  const adapter = {
-    features,
-    limits,
-    info: adapterInfo ?? none,
-    requestDevice: async () => device,
-  };
-  return { isGiven: true, requestAdapter: async () => adapter };
-}
-
 /** Returns whether a value works as a `GPUBuffer`. */
 export function isBuffer(value: unknown): value is Buffer {
   return typeof (value as Buffer | undefined)?.mapAsync === 'function';
 }
 
-/** Copies the points in a buffer, of the usage `COPY_SRC`, as they are when this is called. */
-export async function coordinatesOf(device: Device, points: Buffer): Promise<Coordinates> {
+/**
+ * Copies the first bytes of a buffer, of the usage `COPY_SRC`, as they are when this is called, into
+ * what `take` returns.
+ */
+export async function bytesOf(
+  device: Device,
+  source: Buffer,
+  size: number,
+  take = (bytes: number): Uint8Array<ArrayBuffer> => new Uint8Array(bytes),
+): Promise<Uint8Array<ArrayBuffer>> {
   device.pushErrorScope('validation');
   // MAP_READ and COPY_DST.
-  const staging = device.createBuffer({ size: points.size, usage: 9 });
+  const staging = device.createBuffer({ size, usage: 9 });
   const encoder = device.createCommandEncoder();
-  encoder.copyBufferToBuffer(points, 0, staging, 0, points.size);
+  encoder.copyBufferToBuffer(source, 0, staging, 0, size);
   device.queue.submit([encoder.finish()]);
   const error = await device.popErrorScope();
-  if (error) throw new GdelError('BAD_INPUT', `the buffer of points: ${error.message}`);
+  if (error) throw new GdelError('BAD_INPUT', `the buffer cannot be copied: ${error.message}`);
   try {
     await staging.mapAsync(1);
-    return new Float32Array(staging.getMappedRange().slice(0));
+    const bytes = take(size);
+    await copyInSlices(staging.getMappedRange(), bytes);
+    return bytes;
   } catch (error) {
-    throw new GdelError('DEVICE_LOST', `the points could not be read: ${String(error)}`);
+    throw new GdelError('DEVICE_LOST', `a buffer could not be read: ${String(error)}`);
   } finally {
     staging.destroy();
   }
@@ -95,41 +71,30 @@ export async function coordinatesOf(device: Device, points: Buffer): Promise<Coo
 
 /** What runs in both dimensions return of a mesh on the device. */
 export interface MadeResident {
-  buffers: object[];
+  buffers: Buffer[];
   counts: [number, number];
   duplicateOf: SignedIndices;
   dimension: 0 | 1 | 2 | 3;
-  mesh: WasmMesh;
-}
-
-/** A mesh on the device, in an instance of a WebAssembly module. */
-interface WasmMesh {
-  read(array: number, memory: (bytes: number) => Uint8Array): Promise<Uint8Array<ArrayBuffer>>;
-  update(
-    triangulator: object,
-    points: Coordinates,
-    backend: string,
-    report: (phase: string, fraction: number) => boolean,
-  ): Promise<any>;
-  free(): void;
+  /** Under which the instance of the WebAssembly module that made it has it. */
+  key: number;
 }
 
 /** A mesh on the device that lasts until nobody needs it: runs and readers, too. */
 export class Held {
-  readonly mesh: WasmMesh;
-  readonly #buffers: object[];
+  readonly resident: MadeResident;
+  readonly #free: Done<Task>['free'];
   #users = 1;
 
-  constructor({ mesh, buffers }: MadeResident) {
-    this.mesh = mesh;
-    this.#buffers = buffers;
+  constructor({ result, free }: Done<Task>) {
+    this.resident = result.resident!;
+    this.#free = free;
   }
 
   /** Does something with the mesh, which lasts until that is done. */
-  async use<R>(work: (mesh: WasmMesh) => Promise<R>): Promise<R> {
+  async use<R>(work: () => Promise<R>): Promise<R> {
     this.#users++;
     try {
-      return await work(this.mesh);
+      return await work();
     } finally {
       this.release();
     }
@@ -138,8 +103,8 @@ export class Held {
   /** Says that its owner does not need it any more. */
   release(): void {
     if (--this.#users > 0) return;
-    for (const buffer of this.#buffers) (buffer as Buffer).destroy();
-    this.mesh.free();
+    for (const buffer of this.resident.buffers) buffer.destroy();
+    this.#free!(this.resident.key);
   }
 }
 
@@ -185,6 +150,7 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
   readonly #names: readonly string[];
   /** What the number of tetrahedra or triangles is called. */
   readonly #count: string;
+  readonly #device: Device;
   readonly #update: Update<Task>;
   /** Makes a mesh of arrays in the memory of the CPU. */
   readonly #make: (done: any) => Mesh;
@@ -196,17 +162,20 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
     count: string,
     done: Done<Task>,
     update: Update<Task>,
+    device: Device,
     make: (done: any) => Mesh,
   ) {
     this.#names = names;
     this.#count = count;
     this.#update = update;
+    this.#device = device;
     this.#make = make;
     this.#take(done);
   }
 
   /** Takes over what a run has made. */
-  #take({ result, place }: Done<Task>): void {
+  #take(done: Done<Task>): void {
+    const { result, place } = done;
     const made = result.resident!;
     const { counts, duplicateOf, dimension } = made;
     const stats = { ...result.stats, ...place };
@@ -214,7 +183,7 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
     const [count, hullCount] = counts;
     Object.assign(this, { buffers, hullCount, duplicateOf, dimension, stats });
     Object.assign(this, { [this.#count]: count });
-    this.#held = new Held(made);
+    this.#held = new Held(done);
     this.#points = result.points;
     this.#mesh = undefined;
   }
@@ -239,9 +208,9 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
   update(points: Points | GpuBuffer, options?: UpdateOptions): Promise<void> {
     return this.#updating.run(async () => {
       const held = this.#heldNow();
-      const done = await this.#update(points, options, held, this.stats);
+      const done = await held.use(() => this.#update(points, options, held, this.stats));
       if (this.#held !== held) {
-        new Held(done.result.resident!).release();
+        new Held(done).release();
         this.#heldNow();
       }
       this.#take(done);
@@ -262,14 +231,15 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
     checkOneOf('array', array, this.#names);
     const held = this.#heldNow();
     const i = this.#names.indexOf(array);
-    try {
-      const { take } = new Memory(reuse && memoryOf([reuse]));
-      const { buffer, length } = await held.use((mesh) => mesh.read(i, take));
-      // Every other array has −1 where there is nothing.
-      return new (i % 2 ? Int32Array : Uint32Array)(buffer, 0, length / 4) as Arrays[Name];
-    } catch (thrown) {
-      throw toGdelError(toPlainError(thrown, 0));
-    }
+    const { buffers, counts, duplicateOf } = held.resident;
+    const [count, hullCount] = counts;
+    const source = buffers[i]!;
+    // An empty array has a buffer all the same.
+    const size = [count, count, hullCount, duplicateOf.length][i]! && source.size;
+    const { take } = new Memory(reuse && memoryOf([reuse]));
+    const { buffer } = await held.use(() => bytesOf(this.#device, source, size, take));
+    // Every other array has −1 where there is nothing.
+    return new (i % 2 ? Int32Array : Uint32Array)(buffer, 0, size / 4) as Arrays[Name];
   }
 
   /** Does the same as {@link Mesh3.locate} or {@link Mesh2.locate}. */
@@ -353,12 +323,13 @@ export class ResidentMesh3 extends ResidentMesh<ResidentArrays3, Mesh3> {
   declare readonly tetrahedronCount: number;
 
   /** @internal */
-  constructor(done: Done<Task>, update: Update<Task>) {
+  constructor(done: Done<Task>, update: Update<Task>, device: Device) {
     super(
       ['tetrahedra', 'neighbors', 'hull', 'vertexTetrahedron'],
       'tetrahedronCount',
       done,
       update,
+      device,
       (read) => new Mesh3(read, ['neighbors', 'duplicateOf'], update as Update<any>),
     );
   }
@@ -374,12 +345,13 @@ export class ResidentMesh2 extends ResidentMesh<ResidentArrays2, Mesh2> {
   declare readonly triangleCount: number;
 
   /** @internal */
-  constructor(done: Done<Task>, update: Update<Task>) {
+  constructor(done: Done<Task>, update: Update<Task>, device: Device) {
     super(
       ['triangles', 'halfedges', 'hull', 'vertexTriangle'],
       'triangleCount',
       done,
       update,
+      device,
       (read) => new Mesh2(read, update as Update<any>),
     );
   }

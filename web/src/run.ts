@@ -2,6 +2,7 @@
 
 import { wasm2d, wasm3d, wasmUpdate } from '#assets';
 import type { Coordinates } from './arrays.js';
+import type { Device } from './device.js';
 import { GdelError } from './errors.js';
 import { type Done, Host, type Sending } from './host.js';
 import { memoryOf } from './memory.js';
@@ -16,7 +17,7 @@ import {
 } from './options.js';
 import { coordinatesInSlices } from './points.js';
 import type { MovedMesh, Tasks } from './protocol.js';
-import { coordinatesOf, type Device, type Held, isBuffer } from './resident.js';
+import { bytesOf, type Held, isBuffer } from './resident.js';
 import type { WasmAsset } from './runtime.js';
 import type { UpdateStats } from './stats.js';
 import { throwIfAborted } from './stop.js';
@@ -131,7 +132,9 @@ export function updating<T extends Task>(
     const all = { ...optionsOf(given), backend, resident, reuse: undefined };
     if (resident) {
       const job = await prepare(maker, kind, points, all);
-      return start(maker, kind, job, { outputs, moved });
+      const done = await start(maker, kind, job, { outputs, moved: (moved as Held).resident.key });
+      done.result.stats.update ??= ELSEWHERE;
+      return done;
     }
     checkArrays({ ...moved, points: edit?.before });
     const job = await prepare(maker, kind, points, all);
@@ -205,7 +208,8 @@ async function prepare(
   checkFunction('point', checked.point);
   const point = checked.point as AccessorOptions<unknown>['point'] | undefined;
   if (device && isBuffer(points)) {
-    points = await coordinatesOf(device, points);
+    const { buffer } = await bytesOf(device, points, points.size);
+    points = new Float32Array(buffer);
     transfer = true;
   }
   const coordinates = await coordinatesInSlices(points, { dimension, transfer, point }, () =>

@@ -1,9 +1,10 @@
 import { wasm3d } from '#assets';
+import type { Device } from './device.js';
 import { Host } from './host.js';
 import { Mesh3 } from './mesh.js';
 import { Mesh2 } from './mesh2.js';
 import { bad, checkBoolean, checkOneOf, optionsOf, outputsOf } from './options.js';
-import { type Device, type GpuBuffer, gpuOf, ResidentMesh2, ResidentMesh3 } from './resident.js';
+import { type GpuBuffer, ResidentMesh2, ResidentMesh3 } from './resident.js';
 import {
   type AnyOptions,
   BACKENDS,
@@ -95,7 +96,7 @@ export async function createTriangulator(options?: TriangulatorOptions): Promise
   } = optionsOf(options) as TriangulatorOptions & {
     device?: Device;
   };
-  let { gpu } = optionsOf(options);
+  const { gpu } = optionsOf(options);
   checkOneOf('backend', backend, BACKENDS);
   checkBoolean('worker', worker);
   const { requestAdapter } = (gpu ?? {}) as { requestAdapter?: unknown };
@@ -105,9 +106,8 @@ export async function createTriangulator(options?: TriangulatorOptions): Promise
     if (typeof device?.createBuffer !== 'function')
       throw bad('the option device', 'a GPUDevice', device);
     if (gpu) throw bad('the option gpu', 'left out beside the option device', gpu);
-    gpu = gpuOf(device);
   }
-  const host = new Host({ gpu, worker });
+  const host = new Host({ gpu, device, worker });
   try {
     if (backend !== 'cpu') {
       const { result, place } = await host.run(wasm3d, 'open', { backend }, { transfer: [] }, {});
@@ -167,7 +167,9 @@ async function triangulate3d(
   const outputs = outputsOf(optionsOf(options));
   const done = await triangulate(maker, IN_3D, points, options, outputs);
   const update = updating(maker, IN_3D, options, outputs);
-  return done.result.resident ? new ResidentMesh3(done, update) : new Mesh3(done, outputs, update);
+  return done.result.resident
+    ? new ResidentMesh3(done, update, maker.device!)
+    : new Mesh3(done, outputs, update);
 }
 
 async function triangulate2d(
@@ -177,5 +179,7 @@ async function triangulate2d(
 ): Promise<Mesh2 | ResidentMesh2> {
   const done = await triangulate(maker, IN_2D, points, options);
   const update = updating(maker, IN_2D, options);
-  return done.result.resident ? new ResidentMesh2(done, update) : new Mesh2(done, update);
+  return done.result.resident
+    ? new ResidentMesh2(done, update, maker.device!)
+    : new Mesh2(done, update);
 }

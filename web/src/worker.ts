@@ -5,6 +5,7 @@ import { builtin } from './builtin.js';
 import { type Core, makeCore } from './core.js';
 import type { PlainError } from './errors.js';
 import type { FromWorker, ModuleName, ToWorker } from './protocol.js';
+import { remoteGpu } from './remote.js';
 
 /** The port to whoever started this worker. */
 interface Port {
@@ -13,9 +14,12 @@ interface Port {
 }
 
 /** Returns the core of a module, or why there is none. */
-function coreOf({ name, module }: ToWorker & { type: 'load' }): Core | PlainError {
+function coreOf(
+  { name, module }: ToWorker & { type: 'load' },
+  gpu: object | undefined,
+): Core | PlainError {
   try {
-    return makeCore(name, module);
+    return makeCore(name, module, gpu);
   } catch (error) {
     return error as PlainError;
   }
@@ -26,6 +30,8 @@ function serve(port: Port): void {
   /** The modules that were sent, instantiated or not. */
   const cores = new Map<ModuleName, Core | PlainError>();
   const aborted = new Set<number>();
+  /** The caller's device, if the modules are to use that. */
+  let device: ReturnType<typeof remoteGpu> | undefined;
 
   async function run({ id, module, task, args, isWatched }: ToWorker & { type: 'run' }) {
     try {
@@ -51,11 +57,17 @@ function serve(port: Port): void {
 
   port.listen((message) => {
     if (message.type === 'load') {
-      cores.set(message.name, coreOf(message));
+      cores.set(message.name, coreOf(message, device?.gpu));
     } else if (message.type === 'run') {
       void run(message);
-    } else {
+    } else if (message.type === 'abort') {
       aborted.add(message.id);
+    } else if (message.type === 'answer') {
+      device!.answer(message.id, message.value, message.error);
+    } else if (message.type === 'free') {
+      (cores.get(message.name) as Core).free(message.key);
+    } else {
+      device = remoteGpu(message.info, port.post);
     }
   });
   port.post({ type: 'ready' }, []);

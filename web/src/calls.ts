@@ -1,0 +1,164 @@
+// The calls that wgpu makes in a worker (`remote.ts`), made on the caller's device in the thread that
+// has it: in slices, between which that thread handles other events.
+
+import type { Buffer, Device } from './device.js';
+import type { Call, ToWorker } from './protocol.js';
+import { copyInSlices, Slice, STEP_BYTES } from './slices.js';
+
+/** Somebody's error scope, which is closed and opened again around every pause. */
+interface Scope {
+  filter: string;
+  /** What it has caught. */
+  errors: Promise<{ message: string } | null>[];
+}
+
+/** The calls of one worker. */
+export interface Served {
+  /** Makes these calls after those that came before. */
+  take(calls: Call[]): Promise<void>;
+  /** Returns the buffers that a result names. They outlast the worker. */
+  handOver(buffers: object[]): object[];
+  /** Makes no more calls, and frees what nobody else has. */
+  end(): void;
+}
+
+/** Returns the numbers and texts that an object has, by getters of its class. */
+function attributesOf(object: any): object {
+  const attributes: Record<string, unknown> = {};
+  for (const name in object)
+    if (typeof object[name] !== 'object') attributes[name] = object[name];
+  return attributes;
+}
+
+/**
+ * Lets a worker use a device. A call that throws is a bug, and reported by `fail`: what goes wrong on
+ * a device comes as the error of a scope, or of a promise.
+ */
+export function serveDevice(
+  device: Device,
+  post: (message: ToWorker, transfer: ArrayBuffer[]) => void,
+  fail: (error: Error) => void,
+): Served {
+  const { features, limits, adapterInfo, lost, queue } = device;
+  const objects = new Map<number, any>([
+    [0, device],
+    [1, queue],
+  ]);
+  const handedOver = new Set<number>();
+  const waiting: Call[] = [];
+  const scopes: Scope[] = [];
+  let isBusy = false;
+  let isEnded = false;
+
+  const answer = (id: number, value: unknown, error?: string) => {
+    if (isEnded) return;
+    post({ type: 'answer', id, value, error }, value instanceof ArrayBuffer ? [value] : []);
+  };
+  const info = {
+    features: new Set(features),
+    limits: attributesOf(limits),
+    adapterInfo: adapterInfo && attributesOf(adapterInfo),
+  };
+  post({ type: 'device', info }, []);
+  void lost.then(({ reason, message }) => answer(0, { reason, message }));
+
+  /** Replaces what stands for objects by these. */
+  function own(value: any): any {
+    if (typeof value !== 'object' || value === null || ArrayBuffer.isView(value)) return value;
+    if (Array.isArray(value)) return value.map(own);
+    if ('remote' in value) return objects.get(value.remote);
+    return Object.fromEntries(Object.entries(value).map(([key, item]) => [key, own(item)]));
+  }
+
+  // The device has one stack of scopes for everybody. Between two slices there is none of ours on it,
+  // or others would close it in place of theirs.
+  const open = () => scopes.forEach(({ filter }) => device.pushErrorScope(filter));
+  const close = () => [...scopes].reverse().forEach(({ errors }) => errors.push(popped()));
+  const popped = () => device.popErrorScope().catch(() => null);
+
+  async function closeScope(id: number): Promise<void> {
+    const { errors } = scopes.pop()!;
+    errors.push(popped());
+    const error = (await Promise.all(errors)).find(Boolean);
+    // wgpu tells errors apart by the names of their classes.
+    const { name } = error?.constructor ?? {};
+    answer(id, error ? { message: error.message, constructor: { name } } : null);
+  }
+
+  async function map(id: number, buffer: Buffer, mode: number, at: number, size: number) {
+    try {
+      await buffer.mapAsync(mode, at, size);
+      const bytes = new Uint8Array(size);
+      await copyInSlices(buffer.getMappedRange(at, size), bytes);
+      answer(id, bytes.buffer);
+    } catch (error) {
+      answer(id, undefined, String(error));
+    }
+  }
+
+  async function makeCalls(): Promise<void> {
+    const slice = new Slice();
+    const pause = async () => {
+      close();
+      await slice.next();
+      open();
+    };
+    open();
+    for (let i = 0; i < waiting.length && !isEnded; i++) {
+      if (slice.isOver) await pause();
+      const [object, method, sent, id] = waiting[i]!;
+      const args = own(sent);
+      if (method === 'pushErrorScope') {
+        scopes.push({ filter: args[0], errors: [] });
+        device.pushErrorScope(args[0]);
+      } else if (method === 'popErrorScope') {
+        void closeScope(id);
+      } else if (method === 'mapAsync') {
+        void map(id, objects.get(object), args[0], args[1], args[2]);
+      } else if (method === 'writeBuffer') {
+        const [buffer, offset, bytes] = args as [object, number, Uint8Array];
+        for (let at = 0; at < bytes.length && !isEnded; at += STEP_BYTES) {
+          if (slice.isOver) await pause();
+          const size = Math.min(STEP_BYTES, bytes.length - at);
+          queue.writeBuffer(buffer, offset + at, bytes, at, size);
+        }
+      } else if (method === 'free') {
+        objects.delete(object);
+        handedOver.delete(object);
+      } else {
+        const made = objects.get(object)[method](...args);
+        if (method === 'onSubmittedWorkDone') made.then(() => answer(id, null));
+        else if (made) objects.set(id, made);
+      }
+    }
+  }
+
+  return {
+    async take(calls) {
+      waiting.push(...calls);
+      if (isBusy) return;
+      isBusy = true;
+      try {
+        await makeCalls();
+      } catch (error) {
+        fail(error as Error);
+      } finally {
+        close();
+        waiting.length = 0;
+        isBusy = false;
+      }
+    },
+    handOver: (buffers) =>
+      (buffers as { remote: number }[]).map(({ remote }) => {
+        handedOver.add(remote);
+        return objects.get(remote);
+      }),
+    end() {
+      isEnded = true;
+      waiting.length = 0;
+      for (const [id, object] of objects)
+        if (object !== device && !handedOver.has(id)) object.destroy?.();
+      objects.clear();
+    },
+  };
+}

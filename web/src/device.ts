@@ -1,0 +1,45 @@
+// The caller's device, for wgpu in the calling thread and in a worker.
+
+/** What is used of a `GPUBuffer`. */
+export interface Buffer {
+  size: number;
+  mapAsync(mode: number, at?: number, size?: number): Promise<void>;
+  getMappedRange(at?: number, size?: number): ArrayBuffer;
+  destroy(): void;
+}
+
+/** What wgpu is told of a device. */
+export interface DeviceInfo {
+  features: Iterable<string>;
+  limits: object;
+  adapterInfo?: object | undefined;
+}
+
+/** What is used of a `GPUDevice`. */
+export interface Device extends DeviceInfo {
+  lost: Promise<{ reason: string; message: string }>;
+  queue: {
+    submit(commands: object[]): void;
+    writeBuffer(buffer: object, at: number, data: Uint8Array, start: number, size: number): void;
+  };
+  createBuffer(descriptor: object): Buffer;
+  createCommandEncoder(): {
+    copyBufferToBuffer(from: object, at: number, to: object, start: number, size: number): void;
+    finish(): object;
+  };
+  pushErrorScope(filter: string): void;
+  popErrorScope(): Promise<{ message: string } | null>;
+}
+
+/** Returns a GPU object for wgpu, which asks for a device and gets this one. */
+export function gpuOf(device: DeviceInfo): object {
+  const { features, limits, adapterInfo } = device;
+  const none = { vendor: '', architecture: '', device: '', description: '' };
+  const adapter = {
+    features,
+    limits,
+    info: adapterInfo ?? none,
+    requestDevice: async () => device,
+  };
+  return { isGiven: true, requestAdapter: async () => adapter };
+}
