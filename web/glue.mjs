@@ -64,6 +64,33 @@ export function importNames(files) {
 }
 
 /**
+ * What wgpu imports to draw, with long lists of names. Nothing here draws. wgpu only tries what a canvas
+ * can do, once it has one; where there is none, it goes on without.
+ */
+const DRAWS = /enum_Gpu(Texture|StorageTexture|Sampler)|\.(getContext|(un)?configure)\(/;
+const CANVAS = /new OffscreenCanvas/;
+const NOT_DRAWN = `
+  function doesNotDraw() { throw new Error('gdel does not draw'); }
+  function noCanvas() { return handleError(doesNotDraw, []); }`;
+
+/** Returns the text of an import. */
+const importText = (text) =>
+  DRAWS.test(text) ? 'doesNotDraw' : CANVAS.test(text) ? 'noCanvas' : text;
+
+/** An expression for engines that lack what ES 2022 has. */
+const FOR_OLD_ENGINES = /typeof FinalizationRegistry === "undefined" \? [^:]*:[^:]*:[^:]*: /;
+/** Statements for engines without `encodeInto`, which is as old, and for the declarations of `using`. */
+const UNUSED = /^if \((!\("encodeInto" in|Symbol\.dispose)/;
+
+/** Shorter texts: for what describes values in messages, and what takes modules in several ways. */
+const SHORTER = {
+  debugString: 'const debugString = String;',
+  initSync: `function initSync({ module }) {
+    return __wbg_finalize_init(new WebAssembly.Instance(module, ${IMPORTS}()), module);
+  }`,
+};
+
+/**
  * Returns the text of an ES module that holds the glue of all modules in `files`, names to paths.
  * Classes and imports that differ between modules are chosen by the free variable
  * {@link MODULE}; imports have the names of {@link importNames}. At its end it assigns all exports to
@@ -76,15 +103,18 @@ function join(files) {
   const exported = new Set(['initSync']);
   for (const [module, file] of Object.entries(files)) {
     for (const statement of parse(file)) {
-      if (ts.isExportDeclaration(statement)) continue;
-      const text = statement.getText().replace(/^export /, '');
-      if (text !== statement.getText()) exported.add(statement.name.text);
+      const whole = statement.getText();
+      if (ts.isExportDeclaration(statement) || UNUSED.test(whole)) continue;
+      const isExported = whole.startsWith('export ');
+      if (isExported) exported.add(statement.name.text);
+      const text = whole.replace(/^export /, '').replace(FOR_OLD_ENGINES, '');
       if (statement.name?.text !== IMPORTS) {
-        declarations.add(statement.name?.text ?? text, text, module);
+        const name = statement.name?.text ?? text;
+        declarations.add(name, SHORTER[name] ?? text, module);
         continue;
       }
-      for (const property of importsOf(statement).properties)
-        imports.add(names.get(property.name.getText()), property.initializer.getText(), module);
+      for (const { name, initializer } of importsOf(statement).properties)
+        imports.add(names.get(name.getText()), importText(initializer.getText()), module);
     }
   }
   const property = (name, value) => `${name}: ${value}`;
@@ -94,6 +124,7 @@ function join(files) {
       (_, text) => text,
       (name, choice) => `const ${name} = ${choice};`,
     ),
+    NOT_DRAWN,
     `function ${IMPORTS}() { return { '${from}': { ${properties.join(', ')} } }; }`,
     `glue = { ${[...exported].join(', ')} };`,
   ].join('\n');

@@ -25,8 +25,7 @@ export interface Served {
 /** Returns the numbers and texts that an object has, by getters of its class. */
 function attributesOf(object: any): object {
   const attributes: Record<string, unknown> = {};
-  for (const name in object)
-    if (typeof object[name] !== 'object') attributes[name] = object[name];
+  for (const name in object) if (typeof object[name] !== 'object') attributes[name] = object[name];
   return attributes;
 }
 
@@ -72,8 +71,12 @@ export function serveDevice(
 
   // The device has one stack of scopes for everybody. Between two slices there is none of ours on it,
   // or others would close it in place of theirs.
-  const open = () => scopes.forEach(({ filter }) => device.pushErrorScope(filter));
-  const close = () => [...scopes].reverse().forEach(({ errors }) => errors.push(popped()));
+  const open = () => {
+    for (const { filter } of scopes) device.pushErrorScope(filter);
+  };
+  const close = () => {
+    for (const { errors } of [...scopes].reverse()) errors.push(popped());
+  };
   const popped = () => device.popErrorScope().catch(() => null);
 
   async function closeScope(id: number): Promise<void> {
@@ -127,8 +130,7 @@ export function serveDevice(
         handedOver.delete(object);
       } else {
         const made = objects.get(object)[method](...args);
-        if (method === 'onSubmittedWorkDone') made.then(() => answer(id, null));
-        else if (made) objects.set(id, made);
+        if (made) objects.set(id, made);
       }
     }
   }

@@ -17,6 +17,7 @@ const PROGRESS_MILLISECONDS = 20;
 interface ModuleTasks {
   handlers: Handlers;
   memory: WebAssembly.Memory;
+  table?: WebAssembly.Table;
   dispose(): void;
   free?(key: number): void;
 }
@@ -42,12 +43,14 @@ export interface Core {
     control: Control,
   ): Promise<Tasks[T]['result']>;
   dispose(): void;
+  /** What the instance of a module that uses a device refers to. */
+  table: WebAssembly.Table | undefined;
   /** Frees a mesh that stays on the caller's device. */
   free(key: number): void;
 }
 
 export function makeCore(name: ModuleName, module: WebAssembly.Module, gpu?: object): Core {
-  const { handlers, memory, dispose, free } = TASKS[name](module, gpu);
+  const { handlers, memory, table, dispose, free } = TASKS[name](module, gpu);
   return {
     async run(task, args, control) {
       let last = -Infinity;
@@ -71,6 +74,7 @@ export function makeCore(name: ModuleName, module: WebAssembly.Module, gpu?: obj
       }
     },
     dispose,
+    table,
     free: (key) => free?.(key),
   };
 }
@@ -105,10 +109,11 @@ function instantiate(
   name: ModuleName,
   module: WebAssembly.Module,
   scope: object = globalThis,
-): { glue: any; memory: WebAssembly.Memory } {
+): { glue: any; memory: WebAssembly.Memory; table: WebAssembly.Table } {
   try {
     const glue = makeGlue(name, scope);
-    return { glue, memory: glue.initSync({ module }).memory };
+    const { memory, __wbindgen_externrefs: table } = glue.initSync({ module });
+    return { glue, memory, table };
   } catch (error) {
     const why = `WebAssembly cannot be started: ${String(error)}`;
     if (error instanceof RangeError) throw { code: 'OUT_OF_MEMORY', message: why, fatal: true };
@@ -148,7 +153,7 @@ type RunArgs = Tasks['delaunay2d']['args'];
 
 /** What 3D and 2D tasks share: an instance, its triangulator, and the choice of the backend. */
 function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | undefined) {
-  const { glue, memory } = instantiate(name, module, gpu ? scopeWith(gpu) : globalThis);
+  const { glue, memory, table } = instantiate(name, module, gpu ? scopeWith(gpu) : globalThis);
   const triangulator = new glue.WasmTriangulator();
   let looking: Promise<AdapterInfo> | undefined;
   const memoryThreads = new MemoryThreads();
@@ -305,7 +310,7 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
     memoryThreads.end();
     if (!(gpu as Gpu | undefined)?.isGiven) void triangulator.close();
   };
-  return { glue, memory, triangulator, choose, run, dispose, free };
+  return { glue, memory, table, triangulator, choose, run, dispose, free };
 }
 
 function tasks3d(module: WebAssembly.Module, gpu?: object): ModuleTasks {

@@ -2,13 +2,12 @@
 // which has the device, makes the same calls in the same order (`calls.ts`).
 
 import { type DeviceInfo, gpuOf } from './device.js';
-import type { Call, FromWorker } from './protocol.js';
+import type { Call, FromWorker, ToWorker } from './protocol.js';
 
-/** The methods that wgpu calls: those that return an object, a promise, and nothing. */
+/** The methods that are called: those that return an object, those that return a promise, and others. */
 const MAKES = /^(create|begin|finish)/;
-const PROMISES = /^(mapAsync|popErrorScope|onSubmittedWorkDone)$/;
-const RETURNS_NOTHING =
-  /^(set|dispatch|end$|copy|clear|write|submit|push|resolve|unmap|destroy|getMapped)/;
+const PROMISES = /^(mapAsync|pop)/;
+const OTHERS = /^(set|dispatch|end|copy|clear|write|submit|push|unmap|destroy|getMapped)/;
 
 /** The most calls in a message: reading it does not block the calling thread for long. */
 const MOST_CALLS = 500;
@@ -30,7 +29,8 @@ export function remoteGpu(
   const waiting = new Map<number, (value: any, error?: string) => void>();
   /** Copies of the buffers that are mapped. */
   const mapped = new Map<number, ArrayBuffer>();
-  const garbage = new FinalizationRegistry((id: number) => call(id, 'free', []));
+  /** The objects that the calling thread keeps for this one. */
+  const kept = new Set<number>();
 
   function send(): void {
     if (calls.length > 0) post({ type: 'calls', calls }, transfer);
@@ -49,7 +49,7 @@ export function remoteGpu(
     });
   }
 
-  function call(object: number, method: string, args: any[]): unknown {
+  function call(object: number, method: string, args: any[]) {
     // wgpu maps what it looks at, and no more.
     if (method === 'getMappedRange') return mapped.get(object);
     if (method === 'unmap') mapped.delete(object);
@@ -61,32 +61,48 @@ export function remoteGpu(
     const id = ++last;
     calls.push([object, method, args, id]);
     const isPromise = PROMISES.test(method);
-    const promise = isPromise ? answerTo(id, object) : undefined;
     // The device begins while this thread goes on.
     if (isPromise || method === 'submit' || calls.length >= MOST_CALLS) send();
     else if (calls.length === 1) queueMicrotask(send);
-    return MAKES.test(method) ? objectOf(id) : promise;
+    if (isPromise) return answerTo(id, object);
+    if (!MAKES.test(method)) return;
+    kept.add(id);
+    return objectOf(id);
   }
 
   const methods = new Proxy({} as any, {
     get: (_, name, { remote }: Remote) =>
-      [MAKES, PROMISES, RETURNS_NOTHING].some((methods) => methods.test(String(name)))
+      [MAKES, PROMISES, OTHERS].some((methods) => methods.test(String(name)))
         ? (...args: unknown[]) => call(remote, String(name), args)
-        : // wgpu passes the label of an encoder on.
+        : // wgpu passes the label of an encoder on, which nothing here looks at.
           name === 'label'
           ? ''
           : undefined,
   });
 
   function objectOf(id: number): Remote {
-    const object: Remote = Object.assign(Object.create(methods), { remote: id });
-    garbage.register(object, id);
-    return object;
+    return Object.assign(Object.create(methods), { remote: id });
   }
 
   const device = Object.assign(objectOf(0), { ...info, queue: objectOf(1), lost: answerTo(0, 0) });
   return {
     gpu: gpuOf(device),
-    answer: (id: number, value: unknown, error?: string) => waiting.get(id)?.(value, error),
+    /**
+     * Has the calling thread forget what is in none of these tables, in which instances of WebAssembly
+     * have what they refer to. It cannot wait for the garbage of this thread to be collected: that
+     * takes little memory here, and the buffers much of the device.
+     */
+    sweep(tables: WebAssembly.Table[]): void {
+      const held = new Set<number>();
+      for (const table of tables)
+        for (let i = 0; i < table.length; i++) held.add(table.get(i)?.remote);
+      for (const id of kept) {
+        if (held.has(id)) continue;
+        kept.delete(id);
+        call(id, 'free', []);
+      }
+    },
+    answer: ({ id, value, error }: ToWorker & { type: 'answer' }) =>
+      waiting.get(id)?.(value, error),
   };
 }

@@ -1,7 +1,10 @@
 // Work in slices, between which the thread handles other events.
 
-/** How long a slice is. With the step that goes beyond it, the thread is not blocked for 8 ms. */
-const SLICE_MILLISECONDS = 4;
+/**
+ * How long a slice is. The step that goes beyond it can take several milliseconds, such as a
+ * submission to a device, and the thread is not to be blocked for more than 8.
+ */
+const SLICE_MILLISECONDS = 2;
 
 /** The bytes that are copied or written at a time. */
 export const STEP_BYTES = 2 ** 20;

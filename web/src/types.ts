@@ -111,8 +111,8 @@ export interface TriangulatorOptions {
   gpu?: object | undefined;
   /**
    * A `GPUDevice` to use. It remains the caller's, and allows the option `resident` and points in a
-   * `GPUBuffer`. Runs take place in the calling thread. WebGPU's default limits suffice; larger
-   * buffers allow larger inputs.
+   * `GPUBuffer`. The calling thread makes the calls on it, in slices of a few milliseconds; all else
+   * is done in the worker. WebGPU's default limits suffice; larger buffers allow larger inputs.
    */
   device?: object | undefined;
   /** Whether to work in a worker, default true. */

@@ -52,6 +52,7 @@ function serve(port: Port): void {
       port.post({ type: 'failed', id, error }, buffersOf(error.points));
     } finally {
       aborted.delete(id);
+      device?.sweep([...cores.values()].flatMap((core) => (core as Core).table ?? []));
     }
   }
 
@@ -63,7 +64,7 @@ function serve(port: Port): void {
     } else if (message.type === 'abort') {
       aborted.add(message.id);
     } else if (message.type === 'answer') {
-      device!.answer(message.id, message.value, message.error);
+      device!.answer(message);
     } else if (message.type === 'free') {
       (cores.get(message.name) as Core).free(message.key);
     } else {
