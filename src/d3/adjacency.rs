@@ -1,36 +1,145 @@
-//! Adjacencies among new tetrahedra: each directed edge of a cavity's boundary belongs to one
-//! facet, and its reverse to the adjacent facet.
+//! The vertices of a cavity, and adjacencies among the new tetrahedra in it: each directed edge of
+//! its boundary belongs to one facet, and its reverse to the adjacent facet.
 
-use crate::slots::Places;
+use crate::{
+    predicates::filter::{NO_ROW, PredicatesAt, Row},
+    slots::{Places, Slots},
+};
 use std::collections::HashMap;
 
-/// Boundaries of more vertices than this use a hash table instead of the matrix, which has 64²
-/// entries, or 16 KiB: it fits into a level-1 cache.
-const MATRIX: usize = 64;
+/// Cavities of more vertices than places have no more rows, and use a hash table instead of the
+/// matrix, which has 64² entries, or 16 KiB: it fits into a level-1 cache.
+const PLACES: usize = 1 << BITS;
+const BITS: u32 = 6;
+const EDGES: usize = PLACES * PLACES;
+/// The place of all vertices for which there is no other.
+const LAST: usize = PLACES - 1;
 
 /// A facet of a cavity.
 #[derive(Clone, Copy)]
 pub(crate) struct Facet {
-    /// Counter-clockwise as seen from outside the cavity; an infinite vertex comes last. What links
-    /// facets replaces them.
+    /// Counter-clockwise as seen from outside the cavity; an infinite vertex comes last.
     pub(crate) corners: [u32; 3],
     /// The tetrahedron outside the cavity: 4·(tetrahedron) + (facet as it is numbered there).
     pub(crate) beyond: u32,
+    pub(crate) places: FacetPlaces,
 }
 
-/// Finds the facets on both sides of every edge of a closed surface.
-pub(crate) struct EdgeMap<P> {
+impl Facet {
+    /// Returns the facet (b, c, a) for (a, b, c).
+    pub(crate) fn rotate(self) -> Self {
+        let [a, b, c] = self.corners;
+        Facet { corners: [b, c, a], beyond: self.beyond, places: self.places.rotate() }
+    }
+}
+
+/// The places of a facet's corners, of [`BITS`] bits each: the first in the lowest.
+#[derive(Clone, Copy)]
+pub(crate) struct FacetPlaces(u32);
+
+impl FacetPlaces {
+    #[inline]
+    pub(crate) fn new([a, b, c]: [u32; 3]) -> Self {
+        FacetPlaces(a | b << BITS | c << (2 * BITS))
+    }
+
+    #[inline]
+    fn get(self, k: u32) -> usize {
+        (self.0 >> (k * BITS)) as usize % PLACES
+    }
+
+    /// Returns the places of (b, c, a).
+    #[inline]
+    fn rotate(self) -> Self {
+        FacetPlaces(self.0 >> BITS | (self.0 << (2 * BITS) & (PLACES as u32 - 1) << (2 * BITS)))
+    }
+
+    /// Returns the places of (a, b, d), (b, c, d) and (c, a, d), where `d` is that of d.
+    #[inline]
+    pub(crate) fn around(self, d: u32) -> [Self; 3] {
+        let [ab, bc, ca] = self.edges();
+        [ab, bc, ca].map(|edge| FacetPlaces(edge as u32 | d << (2 * BITS)))
+    }
+
+    /// Returns the places of (c, b, a).
+    #[inline]
+    fn reversed(self) -> Self {
+        let middle = self.0 & (PLACES as u32 - 1) << BITS;
+        FacetPlaces((self.0 >> (2 * BITS)) | middle | (self.0 % PLACES as u32) << (2 * BITS))
+    }
+
+    /// Returns numbers of the edges from a to b, b to c, and c to a.
+    #[inline]
+    fn edges(self) -> [usize; 3] {
+        [self.0, self.0 >> BITS, self.0 >> (2 * BITS) | self.0 << BITS].map(|x| x as usize % EDGES)
+    }
+}
+
+/// The vertices of a cavity, with their places and rows.
+pub(crate) struct CavityVertices<P> {
     /// The place of each mesh vertex in `vertices`, valid only if the vertex there is the same. So
     /// nothing needs clearing.
     place: P,
-    /// The vertices of the boundary, so many.
-    vertices: [u32; MATRIX],
+    vertices: [u32; PLACES],
+    rows: [Row; PLACES],
     count: usize,
-    /// Entry (i, j) belongs to the directed edge from the *i*-th to the *j*-th vertex of the
-    /// boundary. Every edge that is looked up has been entered, because the surface is closed, so
-    /// nothing needs clearing here either.
-    matrix: Box<[u32; MATRIX * MATRIX]>,
-    /// The same map from directed edges, for larger boundaries.
+    /// Whether there are more vertices than places.
+    is_large: bool,
+}
+
+impl<P: Places> CavityVertices<P> {
+    /// Creates the list with a table of the mesh's vertices, the infinite one included.
+    pub(crate) fn new(place: P) -> Self {
+        CavityVertices { place, vertices: [0; PLACES], rows: [NO_ROW; PLACES], count: 0, is_large: false }
+    }
+
+    pub(crate) fn clear(&mut self) {
+        (self.count, self.is_large) = (0, false);
+    }
+
+    /// Returns the place of `v` if it has one. The masks here and elsewhere have no effect except
+    /// that they spare the bounds checks.
+    #[inline]
+    pub(crate) fn place(&self, v: u32) -> Option<u32> {
+        let place = self.place.place(v) as usize;
+        (place < self.count && self.vertices[place % PLACES] == v).then_some(place as u32)
+    }
+
+    /// Appends `v`, which has no place, and which the caller has claimed. Returns its place.
+    #[inline]
+    pub(crate) fn push(&mut self, v: u32, here: &PredicatesAt<'_, '_, 3>) -> u32 {
+        let place = self.count;
+        self.place.set_place(v, place as u32);
+        if place == LAST {
+            self.is_large = true;
+        } else {
+            self.vertices[place % PLACES] = v;
+            self.rows[place % PLACES] = here.row(v);
+            self.count += 1;
+        }
+        place as u32
+    }
+
+    /// Returns the rows of the vertices at these places.
+    #[inline]
+    pub(crate) fn rows(&self, places: FacetPlaces) -> [&Row; 3] {
+        [0, 1, 2].map(|k| &self.rows[places.get(k)])
+    }
+
+    /// Returns whether there are more vertices than places, so that some have the same place.
+    #[inline]
+    pub(crate) fn is_large(&self) -> bool {
+        self.is_large
+    }
+}
+
+/// Finds the facets on both sides of every edge of a closed surface.
+pub(crate) struct EdgeMap {
+    /// Entry (i, j) belongs to the directed edge between the vertices with these places. Every edge
+    /// that is looked up has been entered, because the surface is closed, so nothing needs clearing
+    /// here either.
+    matrix: Box<[u32; EDGES]>,
+    /// The same map from directed edges, for larger cavities.
     table: HashMap<(u32, u32), u32, std::hash::BuildHasherDefault<EdgeHasher>>,
 }
 
@@ -50,73 +159,44 @@ impl std::hash::Hasher for EdgeHasher {
     }
 }
 
-/// Returns the matrix entry of an edge. The mask has no effect except that it spares the bounds
-/// check.
-fn cell(from: u32, to: u32) -> usize {
-    (from as usize * MATRIX + to as usize) & (MATRIX * MATRIX - 1)
-}
+impl EdgeMap {
+    pub(crate) fn new() -> Self {
+        EdgeMap { matrix: Box::new([0; EDGES]), table: HashMap::default() }
+    }
 
-impl<P: Places> EdgeMap<P> {
-    /// Creates a map with a table of the mesh's vertices, the infinite one included.
-    pub(crate) fn new(place: P) -> Self {
-        EdgeMap {
-            place,
-            vertices: [0; MATRIX],
-            count: 0,
-            matrix: Box::new([0; MATRIX * MATRIX]),
-            table: HashMap::default(),
+    /// Fills a cavity with tetrahedra of the vertex `p` and each of its `facets`, in the slots
+    /// `new`.
+    pub(crate) fn fill(&mut self, slots: &mut impl Slots<4>, p: u32, facets: &[Facet], new: &[u32], is_large: bool) {
+        if is_large {
+            return self.fill_large(slots, p, facets, new);
+        }
+        let matrix = &mut *self.matrix;
+        for (&Facet { corners: [a, b, c], beyond, places }, &t) in facets.iter().zip(new) {
+            slots.set_simplex(t, [p, a, b, c]);
+            slots.set_neighbor(beyond, 4 * t);
+            let [ab, bc, ca] = places.edges();
+            matrix[bc] = 4 * t + 1;
+            matrix[ca] = 4 * t + 2;
+            matrix[ab] = 4 * t + 3;
+        }
+        for (&Facet { beyond, places, .. }, &t) in facets.iter().zip(new) {
+            let [cb, ba, ac] = places.reversed().edges();
+            slots.set_neighbors(t, [beyond, matrix[cb], matrix[ac], matrix[ba]]);
         }
     }
 
-    /// Returns the place of `v` in `vertices`, where it is appended if it is new. The masks have no
-    /// effect except that they spare the bounds checks.
-    #[inline]
-    fn place_of(&mut self, v: u32) -> u32 {
-        let place = self.place.place(v);
-        if (place as usize) < self.count && self.vertices[place as usize % MATRIX] == v {
-            return place;
+    #[cold]
+    fn fill_large(&mut self, slots: &mut impl Slots<4>, p: u32, facets: &[Facet], new: &[u32]) {
+        self.table.clear();
+        for (&Facet { corners: [a, b, c], beyond, .. }, &t) in facets.iter().zip(new) {
+            slots.set_simplex(t, [p, a, b, c]);
+            slots.set_neighbor(beyond, 4 * t);
+            self.table.extend([((b, c), 4 * t + 1), ((c, a), 4 * t + 2), ((a, b), 4 * t + 3)]);
         }
-        let place = self.count as u32;
-        self.place.set_place(v, place);
-        self.vertices[self.count % MATRIX] = v;
-        self.count += 1;
-        place
-    }
-
-    /// Calls `link(t, neighbors)` for the tetrahedron `t` on each facet of a closed surface, as
-    /// listed in `tetrahedra`. Its first vertex is the same for all, and the others are the corners
-    /// of the facet; so its neighbours are first what is beyond the facet, then those across the
-    /// edges opposite the corners.
-    pub(crate) fn link_all(
-        &mut self,
-        facets: &mut [Facet],
-        tetrahedra: impl Iterator<Item = u32> + Clone,
-        mut link: impl FnMut(u32, [u32; 4]),
-    ) {
-        // A triangulated sphere of *F* facets has *F*/2 + 2 vertices.
-        if facets.len() / 2 + 2 <= MATRIX {
-            self.count = 0;
-            for (facet, t) in facets.iter_mut().zip(tetrahedra.clone()) {
-                let [a, b, c] = facet.corners;
-                let [i, j, k] = [self.place_of(a), self.place_of(b), self.place_of(c)];
-                self.matrix[cell(j, k)] = 4 * t + 1;
-                self.matrix[cell(k, i)] = 4 * t + 2;
-                self.matrix[cell(i, j)] = 4 * t + 3;
-                facet.corners = [i, j, k];
-            }
-            for (&Facet { corners: [i, j, k], beyond }, t) in facets.iter().zip(tetrahedra) {
-                link(t, [beyond, self.matrix[cell(k, j)], self.matrix[cell(i, k)], self.matrix[cell(j, i)]]);
-            }
-        } else {
-            self.table.clear();
-            for (&Facet { corners: [a, b, c], .. }, t) in facets.iter().zip(tetrahedra.clone()) {
-                self.table.extend([((b, c), 4 * t + 1), ((c, a), 4 * t + 2), ((a, b), 4 * t + 3)]);
-            }
-            for (&Facet { corners: [a, b, c], beyond }, t) in facets.iter().zip(tetrahedra) {
-                // Only what is no triangulation has edges without another side.
-                let across = |edge| self.table.get(&edge).copied().unwrap_or(0);
-                link(t, [beyond, across((c, b)), across((a, c)), across((b, a))]);
-            }
+        for (&Facet { corners: [a, b, c], beyond, .. }, &t) in facets.iter().zip(new) {
+            // Only what is no triangulation has edges without another side.
+            let across = |edge| self.table.get(&edge).copied().unwrap_or(0);
+            slots.set_neighbors(t, [beyond, across((c, b)), across((a, c)), across((b, a))]);
         }
     }
 }

@@ -9,7 +9,7 @@
 use crate::{
     cpu::Insert,
     d3::{
-        adjacency::{EdgeMap, Facet},
+        adjacency::{CavityVertices, EdgeMap, Facet, FacetPlaces},
         mesh::FACETS,
         triangulation::{MAX_TETRAHEDRA, state},
     },
@@ -27,14 +27,35 @@ pub struct Scratch<P> {
     conflict: Vec<u32>,
     /// The facets of the cavity.
     boundary: Vec<Facet>,
+    /// The tetrahedra that are marked as not in conflict.
+    beyond: Vec<u32>,
     /// Unused slots; the last are for the new tetrahedra.
     free: Vec<u32>,
-    edges: EdgeMap<P>,
+    vertices: CavityVertices<P>,
+    edges: EdgeMap,
 }
 
 /// The [`FACETS`] of a tetrahedron, beginning so that its last vertex, which may be infinite, comes
 /// last.
 const CAVITY_FACETS: [[usize; 3]; 4] = [[1, 2, 3], [2, 0, 3], [0, 1, 3], [0, 2, 1]];
+
+/// Where the corners of facet *k* of a tetrahedron are among its vertices, if they are (a, b, c),
+/// counter-clockwise as seen from the other side: by whether vertex *k* + 1 (mod 4) is a, b or c. The
+/// fourth row has no meaning.
+const ORDERS: [[[u8; 3]; 4]; 4] = {
+    let mut orders = [[[0; 3]; 4]; 4];
+    let mut k = 0;
+    while k < 4 {
+        // From the other side, the facet is as clockwise as in FACETS[k] it is counter-clockwise.
+        let [x, mut y, mut z] = [(k + 1) as u8 % 4, (k + 2) as u8 % 4, (k + 3) as u8 % 4];
+        if k % 2 == 0 {
+            (y, z) = (z, y);
+        }
+        orders[k] = [[x, y, z], [z, x, y], [y, z, x], [0; 3]];
+        k += 1;
+    }
+    orders
+};
 
 /// A walk among tetrahedra that other threads change ends after this many: it may go in circles.
 const MAX_STEPS: usize = 1 << 14;
@@ -45,7 +66,14 @@ impl<S: MarkedSlots<4>> Insert<3> for S {
     const REPORT: usize = 1 << 12;
 
     fn scratch(&self) -> Self::Scratch {
-        Scratch { conflict: Vec::new(), boundary: Vec::new(), free: Vec::new(), edges: EdgeMap::new(self.places()) }
+        Scratch {
+            conflict: Vec::new(),
+            boundary: Vec::new(),
+            beyond: Vec::new(),
+            free: Vec::new(),
+            vertices: CavityVertices::new(self.places()),
+            edges: EdgeMap::new(),
+        }
     }
 
     fn locate(&self, vertices: &PredicateContext3<'_>, p: u32, start: u32) -> u32 {
@@ -93,19 +121,14 @@ impl<S: MarkedSlots<4>> Insert<3> for S {
             undo_marks(self, scratch);
             return Ok(None);
         }
-        let Scratch { conflict, boundary, free, edges } = scratch;
+        let Scratch { conflict, boundary, beyond, free, vertices, edges, .. } = scratch;
+        beyond.drain(..).for_each(|t| mark(self, t, state::UNKNOWN));
         free.append(conflict);
         while free.len() < boundary.len() {
             free.push(self.push()?);
         }
         let rest = free.len() - boundary.len();
-        let new = free[rest..].iter().copied();
-        for (&Facet { corners: [a, b, c], beyond }, t) in boundary.iter().zip(new.clone()) {
-            self.set_simplex(t, [p, a, b, c]);
-            mark(self, beyond >> 2, state::UNKNOWN);
-            self.set_neighbor(beyond, 4 * t);
-        }
-        edges.link_all(boundary, new, |t, neighbors| self.set_neighbors(t, neighbors));
+        edges.fill(self, p, boundary, &free[rest..], vertices.is_large());
         let last = free[free.len() - 1];
         free.truncate(rest);
         Ok(Some(last))
@@ -134,7 +157,7 @@ fn mark(slots: &mut impl MarkedSlots<4>, t: u32, state: u32) {
 /// The circumsphere of a ghost is the half-space beyond its facet and, in the facet's plane, the
 /// circumdisc of the facet: the part of the plane inside the circumsphere of the tetrahedron on the
 /// other side of the facet.
-#[inline]
+#[inline(always)]
 pub(crate) fn in_conflict(slots: &impl MarkedSlots<4>, here: &PredicatesAt<'_, '_, 3>, t: u32) -> bool {
     let v = corners(slots, t);
     if v[3] != slots.infinite() {
@@ -160,52 +183,132 @@ fn can_begin(slots: &mut impl MarkedSlots<4>, vertices: &PredicateContext3<'_>, 
 
 /// Marks and lists the tetrahedra in conflict with the vertex `here`, and the facets around them,
 /// breadth-first. Returns whether all their vertices could be claimed.
+#[inline(never)]
 fn find_cavity<S: MarkedSlots<4>>(
     slots: &mut S,
     here: &PredicatesAt<'_, '_, 3>,
     start: u32,
     scratch: &mut Scratch<S::Places>,
 ) -> bool {
-    let Scratch { conflict, boundary, .. } = scratch;
+    let Scratch { conflict, boundary, beyond, vertices, .. } = scratch;
     boundary.clear();
+    vertices.clear();
+    let (corners, around) = (corners(slots, start), slots.neighbors(start));
+    let places = corners.map(|v| vertices.push(v, here));
+    for (facet, beyond) in CAVITY_FACETS.iter().zip(around) {
+        let corners_of = |all: [u32; 4]| facet.map(|k| all[k]);
+        boundary.push(Facet { corners: corners_of(corners), beyond, places: FacetPlaces::new(corners_of(places)) });
+    }
     conflict.push(start);
     mark(slots, start, state::CONFLICT);
-    let mut next = 0;
-    while let Some(&t) = conflict.get(next) {
+    // The facets before `next` have been looked at, and those before `kept` are the cavity's so far.
+    let (mut next, mut kept) = (0, 0);
+    while let Some(&Facet { beyond: across, places, .. }) = boundary.get(next) {
+        let facet = next;
         next += 1;
-        let corners_of_t = corners(slots, t);
-        let around = slots.neighbors(t);
-        for k in 0..4 {
-            let beyond = around[k];
-            let other = beyond >> 2;
-            let first = slots.first(other);
-            match first & state::MASK {
-                state::CONFLICT => continue,
-                state::UNKNOWN if in_conflict(slots, here, other) => {
-                    if S::SHARED && !slots.claim(corners(slots, other)[beyond as usize & 3]) {
-                        return false;
-                    }
+        let (other, k) = (across >> 2, across as usize & 3);
+        let [first, apex] = slots.first_and(other, k);
+        let apex = apex & !state::MASK;
+        match first & state::MASK {
+            state::CONFLICT => continue,
+            state::UNKNOWN => {
+                let is_in_conflict = if boundary[facet].corners[2] == slots.infinite() {
+                    test_and_mark(slots, here, other, beyond)
+                } else {
+                    let (det, is_certain) = here.insphere_of_rows(vertices.rows(places), apex);
+                    if is_certain { det > 0.0 } else { test_again(slots, here, det, boundary, facet, vertices, beyond) }
+                };
+                if is_in_conflict {
+                    let place = match vertices.place(apex) {
+                        Some(place) => place,
+                        None if S::SHARED && !slots.claim(apex) => return false,
+                        None => vertices.push(apex, here),
+                    };
                     slots.set_first(other, first | state::CONFLICT);
                     conflict.push(other);
+                    // The three other facets of the tetrahedron replace this one.
+                    let Facet { corners: [a, b, c], places, .. } = boundary[facet];
+                    let [_, x] = slots.first_and(other, (k + 1) % 4);
+                    let x = x & !state::MASK;
+                    let order = ORDERS[k][usize::from(x == b) + 2 * usize::from(x == c)];
+                    let [beyond_a, beyond_b, beyond_c] = slots.some_neighbors(other, order);
+                    let [abd, bcd, cad] = places.around(place);
+                    boundary.extend([
+                        Facet { corners: [a, b, apex], beyond: beyond_c, places: abd },
+                        Facet { corners: [b, c, apex], beyond: beyond_a, places: bcd },
+                        Facet { corners: [c, a, apex], beyond: beyond_b, places: cad },
+                    ]);
+                    if c == slots.infinite() {
+                        bring_last(boundary);
+                    }
                     continue;
                 }
-                state::UNKNOWN => slots.set_first(other, first | state::BEYOND),
-                _ => {}
             }
-            // The mask has no effect except that it spares the bounds check.
-            boundary.push(Facet { corners: CAVITY_FACETS[k].map(|i| corners_of_t[i & 3]), beyond });
+            _ => {}
         }
+        boundary[kept] = boundary[facet];
+        kept += 1;
     }
+    boundary.truncate(kept);
     true
+}
+
+/// In the last two facets, (b, c, d) and (c, a, d), brings c to the end.
+#[cold]
+fn bring_last(facets: &mut [Facet]) {
+    if let [.., bcd, cad] = facets {
+        (*bcd, *cad) = (bcd.rotate().rotate(), cad.rotate());
+    }
+}
+
+/// Returns whether tetrahedron `other` is in conflict with the vertex `here`. If not, marks it, lest
+/// this is asked again.
+#[cold]
+#[inline(never)]
+fn test_and_mark(
+    slots: &mut impl MarkedSlots<4>,
+    here: &PredicatesAt<'_, '_, 3>,
+    other: u32,
+    beyond: &mut Vec<u32>,
+) -> bool {
+    let is_in_conflict = in_conflict(slots, here, other);
+    if !is_in_conflict {
+        mark(slots, other, state::BEYOND);
+        beyond.push(other);
+    }
+    is_in_conflict
+}
+
+/// Does the same for what is beyond a facet, from the value `det` of its in-sphere determinant, which
+/// does not decide.
+#[inline(never)]
+fn test_again<S: MarkedSlots<4>>(
+    slots: &mut S,
+    here: &PredicatesAt<'_, '_, 3>,
+    det: f64,
+    boundary: &[Facet],
+    facet: usize,
+    vertices: &CavityVertices<S::Places>,
+    beyond: &mut Vec<u32>,
+) -> bool {
+    let Facet { beyond: across, places, .. } = boundary[facet];
+    let (other, k) = (across >> 2, across as usize & 3);
+    // The apex is infinite, or a row is missing.
+    if det.is_nan() {
+        return test_and_mark(slots, here, other, beyond);
+    }
+    let is_in_conflict = here.insphere_again(det, vertices.rows(places), corners(slots, other), k) > 0;
+    if !is_in_conflict {
+        mark(slots, other, state::BEYOND);
+        beyond.push(other);
+    }
+    is_in_conflict
 }
 
 /// Removes the marks of a cavity that is not filled.
 #[cold]
 fn undo_marks<S: MarkedSlots<4>>(slots: &mut S, scratch: &mut Scratch<S::Places>) {
-    for t in scratch.conflict.drain(..) {
+    for t in scratch.conflict.drain(..).chain(scratch.beyond.drain(..)) {
         mark(slots, t, state::UNKNOWN);
-    }
-    for facet in &scratch.boundary {
-        mark(slots, facet.beyond >> 2, state::UNKNOWN);
     }
 }

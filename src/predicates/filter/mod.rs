@@ -4,6 +4,8 @@
 mod d2;
 mod d3;
 
+pub(crate) use d3::{NO_ROW, Row};
+
 use crate::{
     input::{
         lattice::{Lattice, Width},
@@ -27,12 +29,14 @@ const EPSILON: f64 = f64::EPSILON / 2.0;
 
 /// By dimension: the bounds of `orient2d` and `incircle`, and of `orient3d` and `insphere`
 /// (*Adaptive precision floating-point arithmetic*, 1997, §4), which include the rounding of the
-/// differences.
+/// differences. That of `insphere` has 512·ε² instead of his 224·ε²: its products may be summed in
+/// another order, with 121·ε² instead of less for second-order terms, and its permanent is rounded
+/// up to 12 times, 192·ε².
 const ERROR_BOUNDS: [ErrorBounds; 4] = [
     ErrorBounds { orientation: 0.0, in_sphere: 0.0 },
     ErrorBounds { orientation: 0.0, in_sphere: 0.0 },
     ErrorBounds { orientation: (3.0 + 16.0 * EPSILON) * EPSILON, in_sphere: (10.0 + 96.0 * EPSILON) * EPSILON },
-    ErrorBounds { orientation: (7.0 + 56.0 * EPSILON) * EPSILON, in_sphere: (16.0 + 224.0 * EPSILON) * EPSILON },
+    ErrorBounds { orientation: (7.0 + 56.0 * EPSILON) * EPSILON, in_sphere: (16.0 + 512.0 * EPSILON) * EPSILON },
 ];
 
 /// Wide lattice coordinates have so many bits more than stored coordinates have before the point.
