@@ -87,9 +87,14 @@ pub fn jumping<const D: usize>() -> Steps<D> {
 
 /// Returns points of which three become equal to others, stay so, and part again.
 pub fn meeting<const D: usize>() -> Steps<D> {
-    let points = uniform::<D>(300, 6);
+    let mut points = uniform::<D>(300, 6);
     let mut met = points.clone();
-    (met[7], met[100], met[200]) = (met[30], met[30], met[2]);
+    // From nearby, as points do that move in small steps.
+    for (i, other, distance) in [(7, 30, 0.01), (100, 30, 0.02), (200, 2, 0.03)] {
+        met[i] = met[other];
+        points[i] = met[other];
+        points[i][0] += distance;
+    }
     vec![points.clone(), met.clone(), met, points]
 }
 
