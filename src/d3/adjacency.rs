@@ -180,8 +180,9 @@ impl EdgeMap {
             matrix[ab] = 4 * t + 3;
         }
         for (&Facet { beyond, places, .. }, &t) in facets.iter().zip(new) {
-            let [cb, ba, ac] = places.reversed().edges();
-            slots.set_neighbors(t, [beyond, matrix[cb], matrix[ac], matrix[ba]]);
+            // From c to b, b to a, and a to c.
+            let [beside_a, beside_c, beside_b] = places.reversed().edges().map(|edge| matrix[edge]);
+            slots.set_neighbors(t, [beyond, beside_a, beside_b, beside_c]);
         }
     }
 

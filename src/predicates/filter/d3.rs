@@ -95,21 +95,17 @@ impl PredicateContext3<'_> {
         if det.abs() > self.orientation_bound {
             return if det > 0.0 { 1 } else { -1 };
         }
-        self.orient3d_unfiltered(vertices, det)
+        self.orient3d_unfiltered(vertices, u, v, w, det)
     }
 
-    /// Computes the differences again: to pass them on would cost the others more.
-    #[cold]
     #[inline(never)]
-    fn orient3d_unfiltered(&self, [a, b, c, d]: [u32; 4], det: f64) -> Sign {
-        let pd = self.coordinate(d);
-        let [u, v, w] = [a, b, c].map(|v| minus(self.coordinate(v), pd));
+    fn orient3d_unfiltered(&self, vertices: [u32; 4], u: [f64; 3], v: [f64; 3], w: [f64; 3], det: f64) -> Sign {
         let perm = |i: usize, j: usize| (v[i] * w[j]).abs() + (v[j] * w[i]).abs();
         let permanent = u[0].abs() * perm(1, 2) + u[1].abs() * perm(2, 0) + u[2].abs() * perm(0, 1);
         if det.abs() > ERROR_BOUNDS[3].orientation * permanent + UNDERFLOW {
             return if det > 0.0 { 1 } else { -1 };
         }
-        self.orient3d_exact([a, b, c, d])
+        self.orient3d_exact(vertices)
     }
 
     fn orient3d_exact(&self, vertices: [u32; 4]) -> Sign {
