@@ -106,7 +106,8 @@ impl<P: Places> CavityVertices<P> {
     }
 
     /// Appends `v`, which has no place, and which the caller has claimed. Returns its place.
-    #[inline]
+    #[cfg_attr(not(target_arch = "wasm32"), inline)]
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
     pub(crate) fn push(&mut self, v: u32, here: &PredicatesAt<'_, '_, 3>) -> u32 {
         let place = self.count;
         self.place.set_place(v, place as u32);

@@ -157,7 +157,7 @@ fn mark(slots: &mut impl MarkedSlots<4>, t: u32, state: u32) {
 /// The circumsphere of a ghost is the half-space beyond its facet and, in the facet's plane, the
 /// circumdisc of the facet: the part of the plane inside the circumsphere of the tetrahedron on the
 /// other side of the facet.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(crate) fn in_conflict(slots: &impl MarkedSlots<4>, here: &PredicatesAt<'_, '_, 3>, t: u32) -> bool {
     let v = corners(slots, t);
     if v[3] != slots.infinite() {
@@ -212,11 +212,14 @@ fn find_cavity<S: MarkedSlots<4>>(
         match first & state::MASK {
             state::CONFLICT => continue,
             state::UNKNOWN => {
-                let is_in_conflict = if boundary[facet].corners[2] == slots.infinite() {
-                    test_and_mark(slots, here, other, beyond)
+                let (det, is_certain) = if boundary[facet].corners[2] == slots.infinite() {
+                    (f64::NAN, false)
                 } else {
-                    let (det, is_certain) = here.insphere_of_rows(vertices.rows(places), apex);
-                    if is_certain { det > 0.0 } else { test_again(slots, here, det, boundary, facet, vertices, beyond) }
+                    here.insphere_of_rows(vertices.rows(places), apex)
+                };
+                let is_in_conflict = match is_certain {
+                    true => det > 0.0,
+                    false => test_again(slots, here, det, boundary[facet], vertices, beyond),
                 };
                 if is_in_conflict {
                     let place = match vertices.place(apex) {
@@ -261,43 +264,24 @@ fn bring_last(facets: &mut [Facet]) {
     }
 }
 
-/// Returns whether tetrahedron `other` is in conflict with the vertex `here`. If not, marks it, lest
-/// this is asked again.
-#[cold]
-#[inline(never)]
-fn test_and_mark(
-    slots: &mut impl MarkedSlots<4>,
-    here: &PredicatesAt<'_, '_, 3>,
-    other: u32,
-    beyond: &mut Vec<u32>,
-) -> bool {
-    let is_in_conflict = in_conflict(slots, here, other);
-    if !is_in_conflict {
-        mark(slots, other, state::BEYOND);
-        beyond.push(other);
-    }
-    is_in_conflict
-}
-
-/// Does the same for what is beyond a facet, from the value `det` of its in-sphere determinant, which
-/// does not decide.
+/// Returns whether what is beyond a facet is in conflict with the vertex `here`, from the value `det`
+/// of its in-sphere determinant, which does not decide. If not, marks it, lest this is asked again.
 #[inline(never)]
 fn test_again<S: MarkedSlots<4>>(
     slots: &mut S,
     here: &PredicatesAt<'_, '_, 3>,
     det: f64,
-    boundary: &[Facet],
-    facet: usize,
+    facet: Facet,
     vertices: &CavityVertices<S::Places>,
     beyond: &mut Vec<u32>,
 ) -> bool {
-    let Facet { beyond: across, places, .. } = boundary[facet];
-    let (other, k) = (across >> 2, across as usize & 3);
-    // The apex is infinite, or a row is missing.
-    if det.is_nan() {
-        return test_and_mark(slots, here, other, beyond);
-    }
-    let is_in_conflict = here.insphere_again(det, vertices.rows(places), corners(slots, other), k) > 0;
+    let (other, k) = (facet.beyond >> 2, facet.beyond as usize & 3);
+    // A vertex is infinite, or a row is missing.
+    let is_in_conflict = if det.is_nan() {
+        in_conflict(slots, here, other)
+    } else {
+        here.insphere_again(det, vertices.rows(facet.places), corners(slots, other), k) > 0
+    };
     if !is_in_conflict {
         mark(slots, other, state::BEYOND);
         beyond.push(other);

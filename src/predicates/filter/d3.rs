@@ -36,7 +36,8 @@ impl PredicatesAt<'_, '_, 3> {
     }
 
     /// Returns the row of vertex `v`.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
     pub(crate) fn row(&self, v: u32) -> Row {
         self.stored.get(v as usize).map_or(NO_ROW, |&p| {
             let [x, y, z] = minus(p, self.place);
@@ -144,7 +145,9 @@ impl PredicateContext3<'_> {
     }
 
     /// Returns the sign, from the differences to the last vertex.
-    #[inline(always)]
+    // In the package, one copy is enough: insertion takes rows.
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
     fn insphere_of(&self, vertices: [u32; 5], [a, b, c, d]: [[f64; 3]; 4]) -> Sign {
         let lifts = [a, b, c, d].map(lift);
         let det = insphere_determinant([a, b, c, d], lifts);
@@ -268,6 +271,7 @@ fn plus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 }
 
 /// Returns whether the value of an in-sphere determinant of these rows has its sign.
+#[cfg_attr(target_arch = "wasm32", inline(never))]
 fn is_insphere_certain(det: f64, rows: [&Row; 4]) -> bool {
     det.abs() > ERROR_BOUNDS[3].in_sphere * insphere_permanent(rows) + UNDERFLOW
 }
