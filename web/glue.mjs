@@ -45,22 +45,30 @@ function parse(file) {
 /** Returns the object with the imports, which is the first thing that their function declares. */
 const importsOf = ({ body }) => body.statements[0].declarationList.declarations[0].initializer;
 
+/** What calls a closure, of which there are several in each module. */
+const CLOSURE = /\bwasm_bindgen__convert__closures\w+/g;
+
 /**
  * Returns short names for what the modules in `files`, names to paths, import, and a name for the
  * module from which: one that says which names these are, so that JavaScript and WebAssembly of
- * different versions do not fit. The names of wasm-bindgen end in hashes, and there are so many that
- * they take 3 kB of the 3D module and of the JavaScript, compressed.
+ * different versions do not fit; and short names for what they export to call closures. The names of
+ * wasm-bindgen end in hashes, and there are so many that they take 3 kB of the 3D module and of the
+ * JavaScript, compressed.
  */
 export function importNames(files) {
   const functions = Object.values(files).flatMap((file) =>
     parse(file).filter(({ name }) => name?.text === IMPORTS),
   );
+  const texts = Object.values(files).map((file) => readFileSync(file, 'utf8'));
+  const closures = [...new Set(texts.flatMap((text) => text.match(CLOSURE) ?? []))].sort();
   const found = functions.flatMap((declaration) =>
     importsOf(declaration).properties.map(({ name }) => name.getText()),
   );
   const sorted = [...new Set(found)].sort();
   const hash = createHash('sha256').update(sorted.join()).digest('hex').slice(0, 8);
-  return { module: hash, names: new Map(sorted.map((name, i) => [name, `_${i.toString(36)}`])) };
+  const shortened = (names, prefix) =>
+    new Map(names.map((name, i) => [name, `${prefix}${i.toString(36)}`]));
+  return { module: hash, names: shortened(sorted, '_'), exported: shortened(closures, 'closure') };
 }
 
 /**
@@ -97,24 +105,29 @@ const SHORTER = {
  * the free variable `glue`.
  */
 function join(files) {
-  const { module: from, names } = importNames(files);
+  const { module: from, names, exported: closures } = importNames(files);
   const declarations = new Variants();
   const imports = new Variants();
   const exported = new Set(['initSync']);
   for (const [module, file] of Object.entries(files)) {
     for (const statement of parse(file)) {
-      const whole = statement.getText();
+      // The functions in JavaScript that call these have the same names.
+      const whole = statement.getText().replace(CLOSURE, (name) => closures.get(name));
       if (ts.isExportDeclaration(statement) || UNUSED.test(whole)) continue;
       const isExported = whole.startsWith('export ');
       if (isExported) exported.add(statement.name.text);
       const text = whole.replace(/^export /, '').replace(FOR_OLD_ENGINES, '');
       if (statement.name?.text !== IMPORTS) {
-        const name = statement.name?.text ?? text;
+        const name = /^function (\w+)/.exec(text)?.[1] ?? statement.name?.text ?? text;
         declarations.add(name, SHORTER[name] ?? text, module);
         continue;
       }
       for (const { name, initializer } of importsOf(statement).properties)
-        imports.add(names.get(name.getText()), importText(initializer.getText()), module);
+        imports.add(
+          names.get(name.getText()),
+          importText(initializer.getText().replace(CLOSURE, (name) => closures.get(name))),
+          module,
+        );
     }
   }
   const property = (name, value) => `${name}: ${value}`;

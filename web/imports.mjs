@@ -1,6 +1,7 @@
-// Renames what a wasm module imports, in its binary format.
+// Renames what a wasm module imports and exports, in its binary format.
 
 const SECTION_IMPORT = 2;
+const SECTION_EXPORT = 7;
 const KIND_FUNCTION = 0;
 
 /** Reads a module of WebAssembly's binary format from its byte `at` on. */
@@ -40,25 +41,25 @@ const withLength = (bytes) => Buffer.concat([encoded(bytes.length), bytes]);
 
 /**
  * Returns a wasm module, of which all imports are functions, with the names in `names` for them, from
- * the module `from`.
+ * the module `from`, and with those in `exported` for what it exports, where there are any.
  */
-export function renameImports(module, { module: from, names }) {
+export function renameImports(module, { module: from, names, exported }) {
   // The first eight bytes are the format's name and version.
   const reader = new Reader(module, 8);
   const parts = [module.subarray(0, 8)];
   while (reader.at < module.length) {
     const id = reader.byte();
     const content = reader.take(reader.number());
-    parts.push(
-      Buffer.from([id]),
-      withLength(id === SECTION_IMPORT ? renamed(content, from, names) : content),
-    );
+    let renamed = content;
+    if (id === SECTION_IMPORT) renamed = renamedImports(content, from, names);
+    if (id === SECTION_EXPORT) renamed = renamedExports(content, exported);
+    parts.push(Buffer.from([id]), withLength(renamed));
   }
   return Buffer.concat(parts);
 }
 
 /** Returns the section of imports: their number, and for each its module, name, kind and type. */
-function renamed(section, from, names) {
+function renamedImports(section, from, names) {
   const reader = new Reader(section, 0);
   const count = reader.number();
   const parts = [encoded(count)];
@@ -74,6 +75,19 @@ function renamed(section, from, names) {
       Buffer.from([KIND_FUNCTION]),
       type,
     );
+  }
+  return Buffer.concat(parts);
+}
+
+/** Returns the section of exports: their number, and for each its name, kind and index. */
+function renamedExports(section, names) {
+  const reader = new Reader(section, 0);
+  const count = reader.number();
+  const parts = [encoded(count)];
+  for (let i = 0; i < count; i++) {
+    const name = reader.take(reader.number()).toString();
+    parts.push(withLength(Buffer.from(names.get(name) ?? name)));
+    parts.push(Buffer.from([reader.byte()]), encoded(reader.number()));
   }
   return Buffer.concat(parts);
 }

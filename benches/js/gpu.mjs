@@ -3,9 +3,10 @@
 //
 //   node benches/js/gpu.mjs [--package FOLDER] [--webgpu FOLDER] \
 //     [--points 100000,1000000] [--kind uniform] [--runs 5] [--native GDEL]
-//     [--outputs neighbors,hull,duplicateOf] [--resident] [--reuse]
+//     [--outputs neighbors,hull,duplicateOf] [--resident [--here]] [--reuse]
 //
-// With --resident, the mesh stays on a device that the script opens; --outputs '' leaves the
+// With --resident, the mesh stays on a device that the script opens; --here computes in the calling
+// thread as well, instead of in a worker whose calls are sent there. --outputs '' leaves the
 // tetrahedra alone. With --reuse, each mesh takes the memory of the one before.
 //
 // To run it on another machine, carry this file, web/dist and node_modules/webgpu there; of the
@@ -31,6 +32,7 @@ const { values } = parseArgs({
     native: { type: 'string' },
     outputs: { type: 'string', default: 'neighbors,hull,duplicateOf' },
     resident: { type: 'boolean', default: false },
+    here: { type: 'boolean', default: false },
     reuse: { type: 'boolean', default: false },
   },
 });
@@ -55,7 +57,7 @@ const gpu = create([]);
 globalThis.gpu = gpu;
 const { resident } = values;
 const triangulator = await createTriangulator({
-  ...(resident ? { device: await deviceOf(gpu) } : { gpu }),
+  ...(resident ? { device: await deviceOf(gpu), worker: !values.here } : { gpu }),
   backend: 'gpu',
 });
 const outputs = values.outputs.split(',').filter(Boolean);

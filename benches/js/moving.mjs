@@ -2,10 +2,11 @@
 // dimension and displacement, with the medians in milliseconds.
 //
 //   node benches/js/moving.mjs [--package FOLDER] [--webgpu FOLDER] [--points 30000] [--steps 9]
-//     [--backend gpu] [--dimensions 3,2]
+//     [--backend gpu] [--dimensions 3,2] [--here]
 //
 // With the backend `gpu`, the meshes stay on a device that the script opens through the npm package
-// `webgpu` (Dawn); with `cpu`, they are arrays, which a worker updates. Displacements are normally
+// `webgpu` (Dawn); --here computes in the calling thread as well, as a page's own worker does, instead
+// of in a worker whose calls are sent there. With `cpu`, they are arrays, which a worker updates. Displacements are normally
 // distributed, and given as shares of the mean spacing of the points. benches/js/gpu.mjs says what
 // another machine needs.
 
@@ -25,6 +26,7 @@ const { values } = parseArgs({
     steps: { type: 'string', default: '9' },
     backend: { type: 'string', default: 'gpu' },
     dimensions: { type: 'string', default: '3,2' },
+    here: { type: 'boolean', default: false },
   },
 });
 const load = (folder, file) => import(pathToFileURL(join(resolve(folder), file)));
@@ -53,7 +55,7 @@ async function timed(work) {
 }
 
 const device = resident ? await openDevice() : undefined;
-const triangulator = await createTriangulator({ device, backend });
+const triangulator = await createTriangulator({ device, backend, worker: !values.here });
 
 for (const dimension of values.dimensions.split(',').map(Number)) {
   const name = dimension === 3 ? 'tetrahedra' : 'triangles';

@@ -8,9 +8,10 @@ import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { setFlagsFromString } from 'node:v8';
 import { runInNewContext } from 'node:vm';
+import { build } from 'esbuild';
 import { fingerprint } from './fingerprints.mjs';
 import { canonical } from './moving.mjs';
-import { dist, importFrom, project } from './package.mjs';
+import { dist, importFrom, project, root } from './package.mjs';
 
 const swiftshader = '/usr/lib/chromium/vk_swiftshader_icd.json';
 if (!process.env.VK_DRIVER_FILES && existsSync(swiftshader))
@@ -180,7 +181,7 @@ function notedDevice({ milliseconds = 0 } = {}) {
     limits: { maxBufferSize: 8, other: {} },
     lost: new Promise(() => {}),
     queue: {
-      writeBuffer: (_, at, data, start, size) => notes.push(['write', at, data[start], size]),
+      writeBuffer: ({ size }, at, data) => notes.push(['write', size, at, data]),
     },
     work(what) {
       const end = performance.now() + milliseconds;
@@ -249,34 +250,164 @@ test('calls are made in order and in slices, between which no scope is open', as
   assert.equal(answers.find(({ id }) => id === 21).value, null);
 });
 
-test('objects are named by numbers, and what is large comes in pieces', async () => {
+test('objects are named by numbers', async () => {
   const { notes, messages, served } = notedDevice();
-  const bytes = new Uint8Array(2.5 * 2 ** 20).map((_, i) => i >> 20);
+  const bytes = new Uint8Array(8).fill(3);
   await served.take([
     [0, 'createBuffer', [{ size: 4 }], 2],
     [0, 'createBuffer', [{ size: 5 }], 3],
     [0, 'createBuffer', [{ size: 6 }], 4],
-    [1, 'writeBuffer', [{ remote: 2 }, 16, bytes, 0, bytes.length], 5],
+    [1, 'writeBuffer', [{ remote: 2 }, 16, bytes], 5],
     [0, 'work', [{ entries: [{ buffer: { remote: 3 } }] }], 6],
     [2, 'mapAsync', [1, 7, 3_000_000], 7],
     [4, 'free', [], 8],
   ]);
-  const piece = 2 ** 20;
-  assert.deepEqual(notes.slice(0, 3), [
-    ['write', 16, 0, piece],
-    ['write', 16 + piece, 1, piece],
-    ['write', 16 + 2 * piece, 2, piece / 2],
-  ]);
-  assert.equal(notes[3].entries[0].buffer.size, 5);
+  assert.deepEqual(notes[0], ['write', 4, 16, bytes]);
+  assert.equal(notes[1].entries[0].buffer.size, 5);
   while (answersOf(messages).length === 0) await new Promise(setImmediate);
   assert.deepEqual(new Uint8Array(answersOf(messages)[0].value), new Uint8Array(3_000_000).fill(7));
 
   // What a result names outlasts the worker.
   assert.equal(served.handOver([{ remote: 3 }])[0].size, 5);
   served.end();
-  assert.deepEqual(notes.slice(4), [['destroy', 4]]);
+  assert.deepEqual(notes.slice(2), [['destroy', 4]]);
   await served.take([[0, 'work', ['late'], 9]]);
-  assert.equal(notes.length, 5);
+  assert.equal(notes.length, 3);
+});
+
+test('a dispatch is three calls', async () => {
+  const { device, notes, served } = notedDevice();
+  device.beginComputePass = () => ({
+    setPipeline: ({ size }) => notes.push(['pipeline', size]),
+    setBindGroup: (group, { size }) => notes.push(['bindings', group, size]),
+    dispatchWorkgroups: (count) => notes.push(['dispatch', count]),
+  });
+  await served.take([
+    [0, 'createBuffer', [{ size: 4 }], 2],
+    [0, 'createBuffer', [{ size: 5 }], 3],
+    [0, 'beginComputePass', [], 4],
+    [4, 2, 3, 70],
+  ]);
+  assert.deepEqual(notes, [
+    ['pipeline', 4],
+    ['bindings', 0, 5],
+    ['dispatch', 70],
+  ]);
+});
+
+test('what is mapped comes after the errors of the scopes before', async () => {
+  const { device, messages, served } = notedDevice();
+  let tell;
+  device.popErrorScope = () => {
+    device.depth--;
+    return new Promise((resolve) => (tell ??= resolve));
+  };
+  await served.take([
+    [0, 'createBuffer', [{ size: 4 }], 2],
+    [0, 'pushErrorScope', ['validation'], 3],
+    [0, 'popErrorScope', [], 4],
+    [2, 'mapAsync', [1, 0, 4], 5],
+  ]);
+  for (let turn = 0; turn < 9; turn++) await new Promise(setImmediate);
+  assert.deepEqual(answersOf(messages), []);
+  tell({ message: 'lost', constructor: { name: 'GPUInternalError' } });
+  while (answersOf(messages).length < 2) await new Promise(setImmediate);
+  assert.deepEqual(
+    answersOf(messages).map(({ id }) => id),
+    [4, 5],
+  );
+});
+
+/** Returns the GPU object that wgpu gets in a worker, its device, and what it posts. */
+async function remoteDevice() {
+  const entry = join(root, 'web/src/remote.ts');
+  const built = await build({ entryPoints: [entry], bundle: true, write: false, format: 'esm' });
+  const url = `data:text/javascript;base64,${Buffer.from(built.outputFiles[0].contents).toString('base64')}`;
+  const { remoteGpu } = await import(url);
+  const posted = [];
+  const info = { features: new Set(), limits: {}, adapterInfo: undefined };
+  const remote = remoteGpu(info, (message, transfer) => posted.push({ ...message, transfer }));
+  const device = await (await remote.gpu.requestAdapter()).requestDevice();
+  const calls = () => posted.splice(0).flatMap((message) => message.calls);
+  return { remote, device, posted, calls };
+}
+
+test('the worker sends a dispatch as one call, and what is large in pieces', async () => {
+  const { device, posted, calls } = await remoteDevice();
+  const [pipeline, bindings] = [{ remote: 70 }, { remote: 71 }];
+  const encoder = device.createCommandEncoder({ label: 'gdel' });
+  const pass = encoder.beginComputePass();
+  pass.setPipeline(pipeline);
+  pass.setBindGroup(0, bindings);
+  pass.dispatchWorkgroups(5, 1, 1);
+  pass.dispatchWorkgroups(6, 1, 1);
+  device.queue.submit([encoder.finish()]);
+  const sent = calls();
+  assert.deepEqual(sent.slice(2, 4), [
+    [pass.remote, 70, 71, 5],
+    [pass.remote, 70, 71, 6],
+  ]);
+  assert.deepEqual(
+    sent.map(([, method]) => method).filter((method) => typeof method === 'string'),
+    ['createCommandEncoder', 'beginComputePass', 'finish', 'submit'],
+  );
+
+  const piece = 2 ** 20;
+  const bytes = new Uint8Array(2.5 * piece).map((_, i) => i >> 20);
+  device.queue.writeBuffer({ remote: 9 }, 16, bytes);
+  await undefined;
+  // Each piece is written while the next one is copied.
+  assert.deepEqual(
+    posted.map(({ transfer }) => transfer.length),
+    [1, 1, 1],
+  );
+  const written = calls().map(([object, method, [, at, data]]) => [object, method, at, data.length]);
+  assert.deepEqual(written, [
+    [1, 'writeBuffer', 16, piece],
+    [1, 'writeBuffer', 16 + piece, piece],
+    [1, 'writeBuffer', 16 + 2 * piece, piece / 2],
+  ]);
+  assert.equal(bytes.length, 2.5 * piece);
+});
+
+test('nobody waits for the errors of a scope in which nothing is created, and none is lost', async () => {
+  const { remote, device, calls } = await remoteDevice();
+  const error = { message: 'out of memory', constructor: { name: 'GPUOutOfMemoryError' } };
+  const scope = (work) => {
+    device.pushErrorScope('validation');
+    work();
+    const popped = device.popErrorScope();
+    const [id] = calls().flatMap(([, method, , id]) => (method === 'popErrorScope' ? [id] : []));
+    return { popped, answer: (value) => remote.answer({ id, value }) };
+  };
+  const submit = () => device.queue.submit([]);
+  const create = () => device.createBuffer({ size: 4 });
+
+  const using = scope(submit);
+  assert.equal(await using.popped, null);
+  const creating = scope(create);
+  const seen = [];
+  void creating.popped.then((value) => seen.push(value));
+  using.answer(error);
+  await new Promise(setImmediate);
+  assert.deepEqual(seen, []);
+  // The next scope has the error of the one before.
+  creating.answer(null);
+  assert.equal(await creating.popped, error);
+  const next = scope(create);
+  next.answer(null);
+  assert.equal(await next.popped, null);
+
+  // So does what is mapped.
+  const late = scope(submit);
+  assert.equal(await late.popped, null);
+  const mapping = create().mapAsync(1, 0, 4);
+  const [, , , id] = calls().find(([, method]) => method === 'mapAsync');
+  late.answer(error);
+  remote.answer({ id, value: new ArrayBuffer(4) });
+  await assert.rejects(mapping, error);
+  const last = scope(submit);
+  assert.equal(await last.popped, null);
 });
 
 test('a call that throws ends the worker', async () => {

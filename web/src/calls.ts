@@ -3,7 +3,7 @@
 
 import type { Buffer, Device } from './device.js';
 import type { Call, ToWorker } from './protocol.js';
-import { copyInSlices, Slice, STEP_BYTES } from './slices.js';
+import { copyInSlices, Slice } from './slices.js';
 
 /** Somebody's error scope, which is closed and opened again around every pause. */
 interface Scope {
@@ -46,6 +46,8 @@ export function serveDevice(
   const handedOver = new Set<number>();
   const waiting: Call[] = [];
   const scopes: Scope[] = [];
+  /** Fulfilled when the scopes that were closed have been answered. */
+  let closed: Promise<unknown> = Promise.resolve();
   let isBusy = false;
   let isEnded = false;
 
@@ -89,10 +91,12 @@ export function serveDevice(
   }
 
   async function map(id: number, buffer: Buffer, mode: number, at: number, size: number) {
+    const before = closed;
     try {
       await buffer.mapAsync(mode, at, size);
       const bytes = new Uint8Array(size);
       await copyInSlices(buffer.getMappedRange(at, size), bytes);
+      await before;
       answer(id, bytes.buffer);
     } catch (error) {
       answer(id, undefined, String(error));
@@ -110,21 +114,21 @@ export function serveDevice(
     for (let i = 0; i < waiting.length && !isEnded; i++) {
       if (slice.isOver) await pause();
       const [object, method, sent, id] = waiting[i]!;
+      if (typeof method === 'number') {
+        const pass = objects.get(object);
+        pass.setPipeline(objects.get(method));
+        pass.setBindGroup(0, objects.get(sent));
+        pass.dispatchWorkgroups(id);
+        continue;
+      }
       const args = own(sent);
       if (method === 'pushErrorScope') {
         scopes.push({ filter: args[0], errors: [] });
         device.pushErrorScope(args[0]);
       } else if (method === 'popErrorScope') {
-        void closeScope(id);
+        closed = Promise.all([closed, closeScope(id)]);
       } else if (method === 'mapAsync') {
         void map(id, objects.get(object), args[0], args[1], args[2]);
-      } else if (method === 'writeBuffer') {
-        const [buffer, offset, bytes] = args as [object, number, Uint8Array];
-        for (let at = 0; at < bytes.length && !isEnded; at += STEP_BYTES) {
-          if (slice.isOver) await pause();
-          const size = Math.min(STEP_BYTES, bytes.length - at);
-          queue.writeBuffer(buffer, offset + at, bytes, at, size);
-        }
       } else if (method === 'free') {
         objects.delete(object);
         handedOver.delete(object);

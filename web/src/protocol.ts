@@ -168,9 +168,11 @@ export interface Control {
 
 /**
  * A call that wgpu makes on a device of the calling thread: the number of an object, the method, its
- * arguments, in which `{ remote: number }` stands for an object, and the number of what it returns.
+ * arguments, in which `{ remote: number }` stands for an object, and the number of what it returns. Or
+ * a dispatch, which is nearly all calls: the numbers of the pass, of the pipeline and of its bindings,
+ * and the workgroups.
  */
-export type Call = [object: number, method: string, args: any[], id: number];
+export type Call = [object: number, method: string | number, args: any, id: number];
 
 export type ToWorker =
   /** The device that the modules use which come later. */

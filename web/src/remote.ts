@@ -3,14 +3,7 @@
 
 import { type DeviceInfo, gpuOf } from './device.js';
 import type { Call, FromWorker, ToWorker } from './protocol.js';
-
-/** The methods that are called: those that return an object, those that return a promise, and others. */
-const MAKES = /^(create|begin|finish)/;
-const PROMISES = /^(mapAsync|pop)/;
-const OTHERS = /^(set|dispatch|end|copy|clear|write|submit|push|unmap|destroy|getMapped)/;
-
-/** The most calls in a message: reading it does not block the calling thread for long. */
-const MOST_CALLS = 500;
+import { STEP_BYTES } from './slices.js';
 
 /** An object of the calling thread. Its methods are no properties of its own, and not sent with it. */
 interface Remote {
@@ -26,11 +19,18 @@ export function remoteGpu(
   let transfer: ArrayBuffer[] = [];
   // The device and its queue are 0 and 1.
   let last = 1;
-  const waiting = new Map<number, (value: any, error?: string) => void>();
+  const waiting = new Map<number, ((value: any) => void)[]>();
   /** Copies of the buffers that are mapped. */
   const mapped = new Map<number, ArrayBuffer>();
   /** The objects that the calling thread keeps for this one. */
   const kept = new Set<number>();
+  /** The pass of the next dispatch, its pipeline and its bindings. */
+  let dispatch: number[] = [];
+  /** How many objects had been created when each of the open error scopes was opened, and now. */
+  const scopes: number[] = [];
+  let created = 0;
+  /** The error of a scope for which nobody waited. */
+  let late: { message: string } | null = null;
 
   function send(): void {
     if (calls.length > 0) post({ type: 'calls', calls }, transfer);
@@ -38,53 +38,88 @@ export function remoteGpu(
     transfer = [];
   }
 
-  function answerTo(id: number, object: number): Promise<unknown> {
-    return new Promise((resolve, reject) => {
-      waiting.set(id, (value, error) => {
-        waiting.delete(id);
-        if (value instanceof ArrayBuffer) mapped.set(object, value);
-        if (error === undefined) resolve(value);
-        else reject(new Error(error));
-      });
-    });
+  function add(call: Call): void {
+    if (calls.push(call) === 1) queueMicrotask(send);
+  }
+
+  function answerTo(id: number): Promise<any> {
+    return new Promise((...settle) => waiting.set(id, settle));
+  }
+
+  function takeLate() {
+    const error = late;
+    late = null;
+    return error;
   }
 
   function call(object: number, method: string, args: any[]) {
     // wgpu maps what it looks at, and no more.
     if (method === 'getMappedRange') return mapped.get(object);
     if (method === 'unmap') mapped.delete(object);
-    if (method === 'writeBuffer') {
-      // It is a view of WebAssembly's memory.
-      args[2] = args[2].slice();
-      transfer.push(args[2].buffer);
+    // A kernel has one group of bindings. What is set for a dispatch goes with it.
+    if (method === 'setPipeline') dispatch = [object, args[0].remote];
+    else if (method === 'setBindGroup') dispatch[2] = args[1].remote;
+    else if (method === 'dispatchWorkgroups') add([...dispatch, args[0]] as Call);
+    else if (method === 'writeBuffer') write(args);
+    else return callByName(object, method, args);
+  }
+
+  /** Writes a view of WebAssembly's memory, in pieces: one is written while the next is copied. */
+  function write([buffer, offset, bytes]: any[]): void {
+    for (let at = 0; at < bytes.length; ) {
+      const piece = bytes.slice(at, at + STEP_BYTES);
+      transfer.push(piece.buffer);
+      add([1, 'writeBuffer', [buffer, offset + at, piece], 0]);
+      at += piece.length;
+      if (at < bytes.length) send();
     }
+  }
+
+  function callByName(object: number, method: string, args: any[]) {
     const id = ++last;
-    calls.push([object, method, args, id]);
-    const isPromise = PROMISES.test(method);
+    add([object, method, args, id]);
+    if (method === 'pushErrorScope') scopes.push(created);
     // The device begins while this thread goes on.
-    if (isPromise || method === 'submit' || calls.length >= MOST_CALLS) send();
-    else if (calls.length === 1) queueMicrotask(send);
-    if (isPromise) return answerTo(id, object);
-    if (!MAKES.test(method)) return;
+    if (/^(submit|map|pop)/.test(method)) send();
+    if (method === 'mapAsync') {
+      // The errors of the scopes before have come by then.
+      return answerTo(id).then((bytes) => {
+        mapped.set(object, bytes);
+        const error = takeLate();
+        if (error) throw error;
+      });
+    }
+    if (method === 'popErrorScope') {
+      const answer = answerTo(id).then((error) => (late ??= error));
+      // Where nothing was created, memory cannot have been lacking, and nobody waits for an answer: the
+      // next scope has the error, or what is mapped.
+      return scopes.pop() === created ? Promise.resolve(takeLate()) : answer.then(takeLate);
+    }
+    // The others return nothing.
+    if (!/^(create|begin|finish)/.test(method)) return;
+    // What records commands has no memory of the device.
+    if (object === 0 && method !== 'createCommandEncoder') created++;
     kept.add(id);
     return objectOf(id);
   }
 
   const methods = new Proxy({} as any, {
-    get: (_, name, { remote }: Remote) =>
-      [MAKES, PROMISES, OTHERS].some((methods) => methods.test(String(name)))
-        ? (...args: unknown[]) => call(remote, String(name), args)
-        : // wgpu passes the label of an encoder on, which nothing here looks at.
-          name === 'label'
-          ? ''
-          : undefined,
+    get(known, name: string) {
+      // wgpu passes the label of an encoder on, which nothing here looks at. What has no `then` can be
+      // what a promise is fulfilled with. All else that is asked for is a method.
+      if (name === 'label') return '';
+      if (name !== 'then')
+        return (known[name] ??= function (this: Remote, ...args: any[]) {
+          return call(this.remote, name, args);
+        });
+    },
   });
 
   function objectOf(id: number): Remote {
     return Object.assign(Object.create(methods), { remote: id });
   }
 
-  const device = Object.assign(objectOf(0), { ...info, queue: objectOf(1), lost: answerTo(0, 0) });
+  const device = Object.assign(objectOf(0), info, { queue: objectOf(1), lost: answerTo(0) });
   return {
     gpu: gpuOf(device),
     /**
@@ -96,13 +131,11 @@ export function remoteGpu(
       const held = new Set<number>();
       for (const table of tables)
         for (let i = 0; i < table.length; i++) held.add(table.get(i)?.remote);
-      for (const id of kept) {
-        if (held.has(id)) continue;
-        kept.delete(id);
-        call(id, 'free', []);
-      }
+      for (const id of kept) if (!held.has(id) && kept.delete(id)) add([id, 'free', [], 0]);
     },
-    answer: ({ id, value, error }: ToWorker & { type: 'answer' }) =>
-      waiting.get(id)?.(value, error),
+    answer({ id, value, error }: ToWorker & { type: 'answer' }): void {
+      waiting.get(id)![error ? 1 : 0]!(error ?? value);
+      waiting.delete(id);
+    },
   };
 }

@@ -34,9 +34,7 @@ export interface Loaded<T> {
 const HANG_MILLISECONDS = 60_000;
 
 export const messageOf = (error: unknown): string =>
-  error instanceof Error || (typeof error === 'object' && error && 'message' in error)
-    ? String(error.message)
-    : String(error);
+  String((error as Partial<Error> | null | undefined)?.message ?? error);
 
 /**
  * Tries the file of an asset and then its copy. Why the file failed is told: by the result, or by
@@ -158,7 +156,7 @@ function whenReady(thread: WorkerThread): Promise<WorkerThread> {
   return new Promise<WorkerThread>((resolve, reject) => {
     const timer = setTimeout(() => {
       const seconds = HANG_MILLISECONDS / 1000;
-      const message = `the worker was started, but has not answered for ${seconds} s. The option worker: false does without`;
+      const message = `the worker has not answered for ${seconds} s. The option worker: false does without`;
       fail(new GdelError('LOAD_FAILED', message));
     }, HANG_MILLISECONDS);
     const fail = (error: Error) => {

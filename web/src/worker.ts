@@ -82,14 +82,10 @@ interface Scope {
 
 const scope = globalThis as unknown as Scope;
 const port = builtin('node:worker_threads')?.parentPort;
-if (port) {
-  serve({
-    post: (message, transfer) => port.postMessage(message, transfer),
-    listen: (handler) => port.on('message', handler),
-  });
-} else {
-  serve({
-    post: (message, transfer) => scope.postMessage(message, transfer),
-    listen: (handler) => scope.addEventListener('message', ({ data }) => handler(data)),
-  });
-}
+serve({
+  post: (message, transfer) => (port ?? scope).postMessage(message, transfer),
+  listen(handler) {
+    if (port) port.on('message', handler);
+    else scope.addEventListener('message', ({ data }) => handler(data));
+  },
+});
