@@ -168,6 +168,8 @@ pub struct DeviceMesh<const D: usize> {
     duplicate_of: Vec<i32>,
     /// Whether some points are unused: their own duplicates.
     has_unused: bool,
+    /// The vertices of the first simplex of the run that made the mesh, if it was one of the device.
+    first: Vec<u32>,
     dimension: u8,
     stats: Stats,
 }
@@ -248,6 +250,17 @@ impl<const D: usize> DeviceMesh<D> {
     #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn readback(&self) -> Readback {
         self.readback.clone()
+    }
+
+    /// Returns the vertices of a simplex that was positively oriented and large where the points were;
+    /// none if no such simplex is known.
+    pub(crate) fn first(&self) -> &[u32] {
+        &self.first
+    }
+
+    /// Sets what [`first`](Self::first) returns.
+    pub(crate) fn set_first(&mut self, vertices: &[u32]) {
+        self.first = vertices.to_vec();
     }
 
     pub(crate) fn stats_mut(&mut self) -> &mut Stats {
@@ -338,7 +351,7 @@ where
     pub(crate) fn new(gpu: &Gpu, readback: &Readback, arrays: DeviceArrays, mesh: MeshOf<D>) -> Self {
         let (duplicate_of, dimension, stats) = mesh.into_info();
         let (gpu, readback) = (gpu.clone(), readback.clone());
-        DeviceMesh { gpu, readback, arrays, duplicate_of, has_unused: false, dimension, stats }
+        DeviceMesh { gpu, readback, arrays, duplicate_of, has_unused: false, first: Vec::new(), dimension, stats }
     }
 
     /// Uploads a mesh that the host has made.

@@ -15,7 +15,7 @@ use crate::{
         device_mesh::{DeviceMesh, MeshArrays},
         dim::{Corners, Dim},
         phase1::{Finish, Input, Phase1, Phase1Stats, Run, Settings},
-        start::first_simplex,
+        start::{Start, first_simplex},
     },
     index::NONE,
     input::{
@@ -356,7 +356,14 @@ where
     ) -> Result<Result<Made<D>, Restart>, Error> {
         let lattice = Lattice::fit_by(Threads::All, points)?;
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
-        let Some(start) = first_simplex(lattice.width(), points.len(), position) else {
+        // Points that had moved too far before will do so again, as a rule.
+        let stays = |mesh: &&DeviceMesh<D>| mesh.stats().update.is_none_or(|update| update.restarted.is_none());
+        let repaired = moved.as_ref().map(|&(mesh, _)| mesh).filter(stays);
+        let first = repaired.map(DeviceMesh::first).filter(|first| !first.is_empty());
+        let start = first
+            .and_then(|first| Start::of(lattice.width(), first, position))
+            .or_else(|| first_simplex(lattice.width(), points.len(), position));
+        let Some(start) = start else {
             if let Some((_, update)) = moved {
                 update.restarted = Some(Restart::Degenerate);
             }
@@ -373,7 +380,7 @@ where
             (settings.rounds, settings.batches, settings.start_points) = (1, 1, Some(0));
         }
         let (gpu, phase1) = self.kernels(lattice.width()).await?;
-        let input = Input { points, lattice: &lattice, start, has_moved: moved.is_some() };
+        let input = Input { points, lattice: &lattice, start, starts_later: repaired.is_some() };
         let mut run = Run::new(phase1, gpu, input, settings, None).await?;
         let mut moved = match moved {
             Some((mesh, update)) => take(&mut run, &input, mesh, update).await?,
@@ -411,6 +418,9 @@ where
         match Dimension::<D>::complete(run, near, tracer).await? {
             Ok(mut made) => {
                 *made.stats_mut() = stats;
+                if let Made::Device(mesh) = &mut made {
+                    mesh.set_first(input.start.first.as_ref());
+                }
                 Ok(Ok(made))
             }
             Err(Fallback::Splaying) if has_moved => Ok(Err(Restart::Changed)),

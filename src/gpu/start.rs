@@ -28,6 +28,31 @@ where
     pub interior_point: [i64; D],
 }
 
+impl<const D: usize> Start<D>
+where
+    Dimension<D>: Dim<D>,
+{
+    /// Returns the simplex of these vertices with a point inside it, if it is positively oriented and
+    /// the lattice has such a point.
+    pub(crate) fn of(width: Width, vertices: &[u32], position: impl Fn(usize) -> [i64; D]) -> Option<Self> {
+        let corners: Vec<[i64; D]> = vertices.iter().map(|&v| position(v as usize)).collect();
+        let interior_point: [i64; D] = std::array::from_fn(|axis| {
+            let sum: i128 = corners.iter().map(|q| i128::from(q[axis])).sum();
+            (sum / (D as i128 + 1)) as i64
+        });
+        let is_inside = (0..=D).all(|k| {
+            let mut corners = corners.clone();
+            corners[k] = interior_point;
+            <Dimension<D>>::orient(width, &corners) > 0
+        });
+        is_inside.then(|| {
+            let mut first = Corners::<D>::zeroed();
+            first.as_mut().copy_from_slice(vertices);
+            Start { first, interior_point }
+        })
+    }
+}
+
 /// Points that are looked at for a large first simplex: enough for one that most points lie in, and
 /// so few that looking takes no time.
 const SAMPLE: usize = 4096;
@@ -81,21 +106,8 @@ where
     if orient(&first) < 0 {
         first.swap(0, 1);
     }
-    let corners: Vec<[i64; D]> = first.iter().map(|&i| position(i)).collect();
-    let interior_point: [i64; D] = std::array::from_fn(|axis| {
-        let sum: i128 = corners.iter().map(|q| i128::from(q[axis])).sum();
-        (sum / (D as i128 + 1)) as i64
-    });
-    let is_inside = (0..=D).all(|k| {
-        let mut corners = corners.clone();
-        corners[k] = interior_point;
-        <Dimension<D>>::orient(width, &corners) > 0
-    });
-    is_inside.then(|| {
-        let mut vertices = Corners::<D>::zeroed();
-        vertices.as_mut().iter_mut().zip(first).for_each(|(v, i)| *v = i as u32);
-        Start { first: vertices, interior_point }
-    })
+    let vertices: Vec<u32> = first.into_iter().map(|i| i as u32).collect();
+    Start::of(width, &vertices, position)
 }
 
 /// The simplices that Phase 1 starts with: the Delaunay triangulation of some of the points, or of
@@ -103,7 +115,7 @@ where
 ///
 /// The CPU engine makes it while the device orders the points. The first rounds of the device would
 /// insert as many points, and take longer.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct StartMesh {
     /// The points, by place in the input, each with one of its simplices.
     pub points: Vec<[u32; 2]>,

@@ -42,8 +42,9 @@ where
     pub lattice: &'a Lattice<D>,
     /// The first simplex, by input indices.
     pub start: Start<D>,
-    /// Whether there may be no insertion of points: [`Run::take`] comes next.
-    pub has_moved: bool,
+    /// Whether as a rule no points are inserted, because [`Run::take`] comes next: then what they
+    /// would be inserted into is made only by [`Run::forget`].
+    pub starts_later: bool,
 }
 
 /// The output of a run.
@@ -220,9 +221,9 @@ where
         let history = wanted.clamp(MIN_HISTORY, bindable.max(MIN_HISTORY)) as u32;
         // What is kept is lost if the run fails.
         let Kept { points: mut point_buffers, memory: kept } = std::mem::take(&mut kernels.kept);
-        let Input { points: input, lattice, start: first, has_moved } = input;
+        let Input { points: input, lattice, start: first, starts_later } = input;
         let start_points = settings.start_points(count);
-        let triangulate = || match has_moved {
+        let triangulate = || match starts_later {
             true => StartMesh::of_first(&first),
             false => StartMesh::new(input, lattice, &first, start_points),
         };
@@ -381,8 +382,12 @@ where
 
     /// Forgets the mesh that was taken: all points of the input wait to be inserted.
     pub(crate) fn forget(&mut self, input: &Input<'_, D>) {
-        let Input { points, lattice, start, .. } = input;
-        self.begin_with(StartMesh::new(*points, lattice, start, self.settings.start_points(points.len())));
+        let Input { points, lattice, start, starts_later } = input;
+        let start = match starts_later {
+            true => StartMesh::new(*points, lattice, start, self.settings.start_points(points.len())),
+            false => std::mem::take(&mut self.start),
+        };
+        self.begin_with(start);
     }
 
     /// Has all points of the input wait to be inserted into `start`.

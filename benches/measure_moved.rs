@@ -1,0 +1,170 @@
+//! Times meshes that follow their points, in a program that does nothing else:
+//! `cargo bench --bench measure_moved -- [DIMENSION] [POINTS] [SHARE] [STEPS]`.
+//!
+//! All points move, each time by a normal distribution of SHARE (0.002) times their mean spacing; the
+//! mesh stays on the device. Prints a line of JSON: the median of the last STEPS (15) of two updates
+//! more, in milliseconds, and all of them; the same for as many runs from scratch; and how many of the
+//! updates began anew. With EDIT=1, one in a thousand points of a mesh in the memory of the host is
+//! inserted, and then removed, by the CPU backend.
+
+use gdel::{Backend, DeviceMesh2, DeviceMesh3, Error, Mesh2, Mesh3, Moving, Triangulator, stats::Stats};
+use rand::{RngExt, SeedableRng, rngs::StdRng};
+use std::{array, env, error, f64::consts::TAU, time::Instant};
+
+/// The runs before those that are timed.
+const TO_WARM_UP: usize = 2;
+
+/// The arguments.
+struct Task {
+    points: usize,
+    share: f64,
+    steps: usize,
+}
+
+/// What a task does to meshes of `D` dimensions.
+trait Follow<const D: usize>: Moving {
+    fn scratch(triangulator: &Triangulator, points: &[[f64; D]]) -> Result<Self, Error>;
+    fn update(&mut self, triangulator: &Triangulator, points: &[[f64; D]]) -> Result<(), Error>;
+    fn insert(&mut self, triangulator: &Triangulator, points: &[[f64; D]]) -> Result<(), Error>;
+    fn remove(&mut self, triangulator: &Triangulator, points: &[[f64; D]], removed: &[u32]) -> Result<(), Error>;
+    fn stats(&self) -> &Stats;
+}
+
+macro_rules! follow {
+    ($D:literal, $mesh:ident, $scratch:ident, $stats:expr) => {
+        impl Follow<$D> for $mesh {
+            fn scratch(triangulator: &Triangulator, points: &[[f64; $D]]) -> Result<Self, Error> {
+                triangulator.$scratch(points)
+            }
+
+            fn update(&mut self, triangulator: &Triangulator, points: &[[f64; $D]]) -> Result<(), Error> {
+                triangulator.update(self, points)
+            }
+
+            fn insert(&mut self, triangulator: &Triangulator, points: &[[f64; $D]]) -> Result<(), Error> {
+                triangulator.insert(self, points)
+            }
+
+            fn remove(
+                &mut self,
+                triangulator: &Triangulator,
+                points: &[[f64; $D]],
+                removed: &[u32],
+            ) -> Result<(), Error> {
+                triangulator.remove(self, points, removed)
+            }
+
+            fn stats(&self) -> &Stats {
+                let stats: fn(&$mesh) -> &Stats = $stats;
+                stats(self)
+            }
+        }
+    };
+}
+follow!(3, Mesh3, delaunay3d, |mesh| &mesh.stats);
+follow!(2, Mesh2, delaunay2d, |mesh| &mesh.stats);
+follow!(3, DeviceMesh3, delaunay3d_on_device, DeviceMesh3::stats);
+follow!(2, DeviceMesh2, delaunay2d_on_device, DeviceMesh2::stats);
+
+fn main() -> Result<(), Box<dyn error::Error>> {
+    // `cargo bench` adds `--bench`.
+    let arguments: Vec<String> = env::args().skip(1).filter(|argument| argument != "--bench").collect();
+    let argument = |i: usize, default: &str| arguments.get(i).cloned().unwrap_or(default.to_owned());
+    let task = Task {
+        points: argument(1, "100000").parse()?,
+        share: argument(2, "0.002").parse()?,
+        steps: argument(3, "15").parse()?,
+    };
+    let edits = env::var("EDIT").is_ok_and(|edit| edit == "1");
+    match (argument(0, "3").as_str(), edits) {
+        ("2", true) => edit::<2, Mesh2>(&task),
+        ("2", false) => follow::<2, DeviceMesh2>(&task),
+        (_, true) => edit::<3, Mesh3>(&task),
+        (_, false) => follow::<3, DeviceMesh3>(&task),
+    }?;
+    Ok(())
+}
+
+fn follow<const D: usize, M: Follow<D>>(task: &Task) -> Result<(), Error> {
+    let Task { points, share, steps } = *task;
+    let mut random = StdRng::seed_from_u64(1);
+    let mut at = uniform::<D>(&mut random, points);
+    let displacement = share * (points as f64).powf(-1.0 / D as f64);
+    let triangulator = Triangulator::new().backend(Backend::Gpu);
+    let mut mesh = M::scratch(&triangulator, &at)?;
+    let (mut updates, mut scratches, mut anew) = (Vec::new(), Vec::new(), Vec::new());
+    for _ in 0..TO_WARM_UP + steps {
+        for x in at.as_flattened_mut() {
+            *x += displacement * gaussian(&mut random);
+        }
+        let began = Instant::now();
+        mesh.update(&triangulator, &at)?;
+        updates.push(milliseconds(began));
+
+        anew.extend(mesh.stats().update.and_then(|update| update.restarted).map(|why| why.name()));
+    }
+    for _ in 0..TO_WARM_UP + steps {
+        let began = Instant::now();
+        M::scratch(&triangulator, &at)?;
+        scratches.push(milliseconds(began));
+    }
+    println!(
+        "{{\"dimension\":{D},\"points\":{points},\"share\":{share},\"update\":{},\"scratch\":{},\"anew\":{anew:?}}}",
+        times(updates),
+        times(scratches),
+    );
+    Ok(())
+}
+
+fn edit<const D: usize, M: Follow<D>>(task: &Task) -> Result<(), Error> {
+    let Task { points, steps, .. } = *task;
+    let mut random = StdRng::seed_from_u64(1);
+    let at = uniform::<D>(&mut random, points);
+    let few = points / 1_000;
+    let triangulator = Triangulator::new().backend(Backend::Cpu);
+    let (mut inserts, mut removes, mut scratches) = (Vec::new(), Vec::new(), Vec::new());
+    for _ in 0..TO_WARM_UP + steps {
+        let began = Instant::now();
+        let mut mesh = M::scratch(&triangulator, &at)?;
+        scratches.push(milliseconds(began));
+        let all = [at.clone(), uniform(&mut random, few)].concat();
+        let began = Instant::now();
+        mesh.insert(&triangulator, &all)?;
+        inserts.push(milliseconds(began));
+        let removed: Vec<u32> = (points as u32..all.len() as u32).collect();
+        let began = Instant::now();
+        mesh.remove(&triangulator, &all, &removed)?;
+        removes.push(milliseconds(began));
+    }
+    println!(
+        "{{\"dimension\":{D},\"points\":{points},\"edited\":{few},\"insert\":{},\"remove\":{},\"scratch\":{}}}",
+        times(inserts),
+        times(removes),
+        times(scratches),
+    );
+    Ok(())
+}
+
+fn uniform<const D: usize>(random: &mut StdRng, count: usize) -> Vec<[f64; D]> {
+    (0..count).map(|_| array::from_fn(|_| random.random())).collect()
+}
+
+/// Returns a normally distributed number.
+fn gaussian(random: &mut StdRng) -> f64 {
+    let (u, v) = (1.0 - random.random::<f64>(), random.random::<f64>());
+    (-2.0 * u.ln()).sqrt() * (TAU * v).cos()
+}
+
+fn milliseconds(began: Instant) -> f64 {
+    1e3 * began.elapsed().as_secs_f64()
+}
+
+/// Returns the median of the times after those to warm up, and these times.
+fn times(all: Vec<f64>) -> String {
+    let timed: Vec<f64> = all.into_iter().skip(TO_WARM_UP).collect();
+    let mut sorted = timed.clone();
+    sorted.sort_by(f64::total_cmp);
+    let median = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
+    let timed: Vec<String> = timed.iter().map(|ms| format!("{ms:.2}")).collect();
+    format!("{{\"median\":{median:.2},\"all\":[{}]}}", timed.join(","))
+}
