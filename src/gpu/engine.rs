@@ -40,6 +40,9 @@ pub mod progress {
     pub const FINISH: f64 = 0.95;
 }
 
+/// Up to so many points, one thread looks through what the host has of each.
+const FEW_POINTS: usize = 1 << 18;
+
 /// How a dimension's engine completes what Phase 1 leaves.
 #[expect(async_fn_in_trait, reason = "only this crate implements it, and no caller is generic over threads")]
 pub trait Complete<const D: usize>: Finish<D> + MeshArrays<D>
@@ -498,7 +501,13 @@ where
 
 /// Returns the duplicates, each with the vertex that stands for it.
 fn duplicates(duplicate_of: &[i32]) -> Vec<[u32; 2]> {
-    let parts = parallel::map_ranges(Threads::All, duplicate_of.len(), |range| {
+    // Few points are looked at before another thread has woken up.
+    let threads = if duplicate_of.len() < FEW_POINTS { Threads::One } else { Threads::All };
+    let parts = parallel::map_ranges(threads, duplicate_of.len(), |range| {
+        // Mostly there are none, which a loop without branches finds out sooner.
+        if !duplicate_of[range.clone()].iter().fold(false, |any, &first| any | (first != NONE)) {
+            return Vec::new();
+        }
         let of_range = range.clone().zip(&duplicate_of[range]);
         let duplicates = of_range.filter(|&(_, &first)| first != NONE);
         duplicates.map(|(v, &first)| [v as u32, first as u32]).collect::<Vec<_>>()

@@ -15,6 +15,9 @@ use crate::{
     parallel::{self, Threads},
 };
 
+/// So many points are looked at before threads share the rest: most inputs are of one kind.
+const FEW: usize = 16;
+
 /// Number of bits that the lattice coordinates of an input need.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Width {
@@ -121,8 +124,11 @@ impl<const D: usize> Lattice<D> {
         };
         let narrow = lattice(Width::Narrow);
         let is_exact = |p| !narrow.rounds(p);
-        let exact = parallel::map_ranges(threads, points.len(), |range| points.range(range).iter().all(is_exact));
-        Ok(if exact.into_iter().all(|exact| exact) { narrow } else { lattice(Width::Wide) })
+        let all_exact = |range| points.range(range).iter().all(is_exact);
+        // Other threads need not wake up where one of the first points decides.
+        let is_narrow = all_exact(0..points.len().min(FEW))
+            && parallel::map_ranges(threads, points.len(), all_exact).into_iter().all(|exact| exact);
+        Ok(if is_narrow { narrow } else { lattice(Width::Wide) })
     }
 
     fn with_exponents(width: Width, exponents: [i32; D], varies: [bool; D], bounds: [[f64; D]; 2]) -> Self {

@@ -145,6 +145,42 @@ fn triangles_that_go_round_twice_are_noticed() {
     assert_eq!((updates[0].inverted, updates[0].restarted), (0, Some(Restart::Stuck)));
 }
 
+/// Each step leaves tens of vertices to splaying, which gave up most of such steps once.
+#[test]
+fn steps_of_many_points_are_repairs() {
+    let updates = follow3(motions::drifting(12_000, 0.01, 5));
+    assert!(updates.iter().map(|update| update.stars).sum::<usize>() > 100, "{updates:?}");
+    repaired(&updates);
+}
+
+/// After a step that was too far, the next one is prepared for being so, too.
+macro_rules! begins_anew_until_steps_are_short {
+    ($name:ident, $D:literal, $triangulate:ident, $points:ident, $same:path) => {
+        #[test]
+        fn $name() {
+            let mut points = motions::uniform::<$D>(2000, 14);
+            let triangulator = Triangulator::new().backend(Backend::Gpu);
+            let mut mesh = triangulator.$triangulate(&points).expect("triangulates");
+            for (seed, share) in (1..).zip([1e-4, 0.5, 0.5, 3.0, 1e-4, 0.5, 1e-4, 1e-4]) {
+                points = motions::jitter(&points, share, seed);
+                triangulator.update(&mut mesh, &points).expect("updates");
+                let update = mesh.stats().update.expect("the mesh was updated");
+                assert_eq!(update.restarted.is_some(), share > 0.1, "{seed}: {update:?}");
+                assert_eq!(mesh.stats().fallback, None);
+                $same($points::from(&points), &mesh.read(Outputs::ALL).expect("reads"));
+            }
+        }
+    };
+}
+begins_anew_until_steps_are_short!(begins_anew_until_steps_are_short3, 3, delaunay3d_on_device, Points3, same);
+begins_anew_until_steps_are_short!(
+    begins_anew_until_steps_are_short2,
+    2,
+    delaunay2d_on_device,
+    Points2,
+    crate::d2::same
+);
+
 fn on_device(points: &[[f64; 3]]) -> (Triangulator, DeviceMesh3) {
     let triangulator = Triangulator::new().backend(Backend::Gpu);
     let mesh = triangulator.delaunay3d_on_device(points).expect("triangulates");

@@ -275,24 +275,52 @@ test('objects are named by numbers', async () => {
   assert.equal(notes.length, 3);
 });
 
-test('a dispatch is three calls', async () => {
-  const { device, notes, served } = notedDevice();
+test('a dispatch is three calls, and waits for its pipeline', async () => {
+  const { device, notes, messages, served } = notedDevice();
   device.beginComputePass = () => ({
     setPipeline: ({ size }) => notes.push(['pipeline', size]),
     setBindGroup: (group, { size }) => notes.push(['bindings', group, size]),
     dispatchWorkgroups: (count) => notes.push(['dispatch', count]),
   });
-  await served.take([
-    [0, 'createBuffer', [{ size: 4 }], 2],
-    [0, 'createBuffer', [{ size: 5 }], 3],
-    [0, 'beginComputePass', [], 4],
-    [4, 2, 3, 70],
+  const compiling = [];
+  device.createComputePipelineAsync = ({ size }) =>
+    new Promise((resolve, reject) => compiling.push({ make: () => resolve({ size }), reject }));
+  const taken = served.take([
+    [0, 'pushErrorScope', ['validation'], 2],
+    [0, 'createComputePipeline', [{ size: 4 }], 3],
+    [0, 'createComputePipeline', [{ size: 6 }], 4],
+    [0, 'popErrorScope', [], 5],
+    [0, 'createBuffer', [{ size: 5 }], 6],
+    [0, 'beginComputePass', [], 7],
+    [7, 3, 6, 70],
   ]);
+  for (let turn = 0; turn < 9; turn++) await new Promise(setImmediate);
+  assert.deepEqual([device.depth, notes.length, compiling.length], [0, 0, 2]);
+  compiling[0].make();
+  await taken;
   assert.deepEqual(notes, [
     ['pipeline', 4],
     ['bindings', 0, 5],
     ['dispatch', 70],
   ]);
+  // A scope knows when its pipelines are compiled, and has their errors.
+  assert.deepEqual(answersOf(messages), []);
+  compiling[1].reject(new Error('too large'));
+  while (answersOf(messages).length === 0) await new Promise(setImmediate);
+  const { value } = answersOf(messages)[0];
+  assert.deepEqual(value, { message: 'too large', constructor: { name: 'GPUValidationError' } });
+});
+
+test('a worker that is ended in a pause makes no more calls, and closes no scope of others', async () => {
+  const { device, notes, failures, served } = notedDevice({ milliseconds: 3 });
+  const taken = served.take([
+    [0, 'pushErrorScope', ['validation'], 2],
+    [0, 'work', [1], 3],
+    [0, 'work', [2], 4],
+  ]);
+  served.end();
+  await taken;
+  assert.deepEqual([notes, failures, device.depth], [[1], [], 0]);
 });
 
 test('what is mapped comes after the errors of the scopes before', async () => {

@@ -73,11 +73,14 @@ export function serveDevice(
 
   // The device has one stack of scopes for everybody. Between two slices there is none of ours on it,
   // or others would close it in place of theirs.
+  let isOpen = false;
   const open = () => {
     for (const { filter } of scopes) device.pushErrorScope(filter);
+    isOpen = true;
   };
   const close = () => {
-    for (const { errors } of [...scopes].reverse()) errors.push(popped());
+    if (isOpen) for (const { errors } of [...scopes].reverse()) errors.push(popped());
+    isOpen = false;
   };
   const popped = () => device.popErrorScope().catch(() => null);
 
@@ -105,18 +108,30 @@ export function serveDevice(
 
   async function makeCalls(): Promise<void> {
     const slice = new Slice();
-    const pause = async () => {
+    /** Handles other events, until there is `what`. Then the scopes are to be opened again. */
+    const pause = async (what?: Promise<unknown>) => {
       close();
+      await what;
       await slice.next();
-      open();
     };
     open();
     for (let i = 0; i < waiting.length && !isEnded; i++) {
-      if (slice.isOver) await pause();
+      if (slice.isOver) {
+        await pause();
+        if (isEnded) return;
+        open();
+      }
       const [object, method, sent, id] = waiting[i]!;
       if (typeof method === 'number') {
         const pass = objects.get(object);
-        pass.setPipeline(objects.get(method));
+        let pipeline = objects.get(method);
+        if (pipeline instanceof Promise) {
+          await pause(pipeline.catch(() => {}));
+          if (isEnded) return;
+          open();
+          pipeline = objects.get(method);
+        }
+        pass.setPipeline(pipeline);
         pass.setBindGroup(0, objects.get(sent));
         pass.dispatchWorkgroups(id);
         continue;
@@ -127,6 +142,19 @@ export function serveDevice(
         device.pushErrorScope(args[0]);
       } else if (method === 'popErrorScope') {
         closed = Promise.all([closed, closeScope(id)]);
+      } else if (method === 'createComputePipeline') {
+        // Some devices compile in the call, which takes up to seconds, and others when they first carry
+        // commands out. This way, threads of the device compile side by side.
+        const pipeline = device.createComputePipelineAsync(args[0]);
+        objects.set(id, pipeline);
+        const failed = pipeline.then(
+          (made) => {
+            if (objects.has(id)) objects.set(id, made);
+            return null;
+          },
+          ({ message }) => ({ message, constructor: { name: 'GPUValidationError' } }),
+        );
+        scopes.at(-1)?.errors.push(failed);
       } else if (method === 'mapAsync') {
         void map(id, objects.get(object), args[0], args[1], args[2]);
       } else if (method === 'free') {

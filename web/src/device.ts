@@ -23,6 +23,7 @@ export interface Device extends DeviceInfo {
     writeBuffer(buffer: object, at: number, data: Uint8Array, start: number, size: number): void;
   };
   createBuffer(descriptor: object): Buffer;
+  createComputePipelineAsync(descriptor: object): Promise<object>;
   createCommandEncoder(): {
     copyBufferToBuffer(from: object, at: number, to: object, start: number, size: number): void;
     finish(): object;
