@@ -477,7 +477,7 @@ where
     } else if !mesh.gpu().is_same(run.gpu()) {
         Err(Restart::Elsewhere)
     } else {
-        match run.take(mesh).await? {
+        match run.take(mesh, input.starts_later).await? {
             None => Err(Restart::Broken),
             Some([inverted, changed]) => {
                 (update.inverted, update.not_locally_delaunay) = (inverted, changed);

