@@ -54,12 +54,19 @@ pub struct Limits {
     pub points: f64,
     /// The number of threads.
     pub threads: usize,
+    /// The number of updates in a row that may begin anew before only every fourth looks at the mesh.
+    pub attempts: u32,
 }
 
 impl Limits {
     /// Everything, so that tests see what the repair can do.
-    pub const NONE: Limits =
-        Limits { inverted: f64::INFINITY, changed: f64::INFINITY, points: f64::INFINITY, threads: usize::MAX };
+    pub const NONE: Limits = Limits {
+        inverted: f64::INFINITY,
+        changed: f64::INFINITY,
+        points: f64::INFINITY,
+        threads: usize::MAX,
+        attempts: u32::MAX,
+    };
 
     /// Returns the limits beyond which one thread triangulates faster from scratch in `dimension`
     /// dimensions: what uniform points have that move by 1 % of their mean spacing in 3D, and by
@@ -67,8 +74,8 @@ impl Limits {
     /// triangulate from scratch before they have checked the mesh.
     pub fn measured(dimension: usize) -> Self {
         match dimension {
-            2 => Limits { inverted: 0.003, changed: 0.06, points: 0.045, threads: 3 },
-            _ => Limits { inverted: 0.001, changed: 0.075, points: 0.045, threads: 3 },
+            2 => Limits { inverted: 0.003, changed: 0.06, points: 0.045, threads: 3, ..Limits::NONE },
+            _ => Limits { inverted: 0.001, changed: 0.075, points: 0.045, threads: 3, ..Limits::NONE },
         }
     }
 
@@ -78,8 +85,8 @@ impl Limits {
     /// one inverted triangle in ten is left by the flips.
     pub fn on_device(dimension: usize) -> Self {
         match dimension {
-            2 => Limits { inverted: 0.0, changed: 0.06, threads: usize::MAX, ..Limits::NONE },
-            _ => Limits { inverted: 0.001, changed: 0.12, threads: usize::MAX, ..Limits::NONE },
+            2 => Limits { inverted: 0.0, changed: 0.06, attempts: 2, ..Limits::NONE },
+            _ => Limits { inverted: 0.001, changed: 0.12, attempts: 2, ..Limits::NONE },
         }
     }
 
@@ -88,6 +95,13 @@ impl Limits {
     #[cfg(feature = "gpu")]
     pub(crate) fn most(&self, simplices: f64) -> [u32; 2] {
         [self.inverted, self.changed].map(|share| (FEW + share * simplices) as u32)
+    }
+
+    /// Returns whether an update looks at a mesh, after so many in a row that began anew: to look at what
+    /// has moved too far takes a device a tenth of a run from scratch.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn looks_after(&self, begun_anew: u32) -> bool {
+        begun_anew < self.attempts || begun_anew.is_multiple_of(4)
     }
 
     /// Returns why it does not pay to repair so much of so many simplices by one thread.

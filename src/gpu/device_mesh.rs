@@ -170,6 +170,8 @@ pub struct DeviceMesh<const D: usize> {
     has_unused: bool,
     /// The vertices of the first simplex of the run that made the mesh, if it was one of the device.
     first: Vec<u32>,
+    /// The updates in a row up to this mesh that began anew.
+    begun_anew: u32,
     dimension: u8,
     stats: Stats,
 }
@@ -263,6 +265,17 @@ impl<const D: usize> DeviceMesh<D> {
         self.first = vertices.to_vec();
     }
 
+    /// Returns how many updates in a row up to this mesh began anew.
+    pub(crate) fn begun_anew(&self) -> u32 {
+        self.begun_anew
+    }
+
+    /// Takes note of the mesh of which this one is an update.
+    pub(crate) fn follows(&mut self, before: &Self) {
+        let has_begun_anew = self.stats.update.is_some_and(|update| update.restarted.is_some());
+        self.begun_anew = if has_begun_anew { before.begun_anew.saturating_add(1) } else { 0 };
+    }
+
     pub(crate) fn stats_mut(&mut self) -> &mut Stats {
         &mut self.stats
     }
@@ -351,7 +364,17 @@ where
     pub(crate) fn new(gpu: &Gpu, readback: &Readback, arrays: DeviceArrays, mesh: MeshOf<D>) -> Self {
         let (duplicate_of, dimension, stats) = mesh.into_info();
         let (gpu, readback) = (gpu.clone(), readback.clone());
-        DeviceMesh { gpu, readback, arrays, duplicate_of, has_unused: false, first: Vec::new(), dimension, stats }
+        DeviceMesh {
+            gpu,
+            readback,
+            arrays,
+            duplicate_of,
+            has_unused: false,
+            first: Vec::new(),
+            begun_anew: 0,
+            dimension,
+            stats,
+        }
     }
 
     /// Uploads a mesh that the host has made.

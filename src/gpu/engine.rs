@@ -325,7 +325,10 @@ where
             return Err(Error::PointCount { points: points.len(), expected: mesh.point_count() });
         }
         let mut update = moved.map(|_| UpdateStats::default());
-        let mut from = moved;
+        let mut from = moved.filter(|mesh| self.settings.limits.looks_after(mesh.begun_anew()));
+        if let Some((mesh, update)) = moved.zip(update.as_mut()).filter(|_| from.is_none()) {
+            update.restarted = mesh.stats().update.and_then(|update| update.restarted);
+        }
         let mut made = loop {
             let before = from.zip(update.as_mut());
             match self.attempt(points, options, resident, before, &mut stopwatch).await? {
@@ -345,6 +348,9 @@ where
             }
             stats.update = Some(*update);
         }
+        if let (Made::Device(mesh), Some(before)) = (&mut made, moved) {
+            mesh.follows(before);
+        }
         Ok(made)
     }
 
@@ -360,7 +366,7 @@ where
         let lattice = Lattice::fit_by(Threads::All, points)?;
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         // Points that had moved too far before will do so again, as a rule.
-        let stays = |mesh: &&DeviceMesh<D>| mesh.stats().update.is_none_or(|update| update.restarted.is_none());
+        let stays = |mesh: &&DeviceMesh<D>| mesh.begun_anew() == 0;
         let repaired = moved.as_ref().map(|&(mesh, _)| mesh).filter(stays);
         let first = repaired.map(DeviceMesh::first).filter(|first| !first.is_empty());
         let start = first
