@@ -93,17 +93,21 @@ fn follow<const D: usize, M: Follow<D>>(task: &Task) -> Result<(), Error> {
     let triangulator = Triangulator::new().backend(Backend::Gpu);
     let mut mesh = M::scratch(&triangulator, &at)?;
     let (mut updates, mut scratches, mut anew) = (Vec::new(), Vec::new(), Vec::new());
-    for _ in 0..TO_WARM_UP + steps {
+    let mut displace = |at: &mut [[f64; D]]| {
         for x in at.as_flattened_mut() {
             *x += displacement * gaussian(&mut random);
         }
+    };
+    for _ in 0..TO_WARM_UP + steps {
+        displace(&mut at);
         let began = Instant::now();
         mesh.update(&triangulator, &at)?;
         updates.push(milliseconds(began));
-
         anew.extend(mesh.stats().update.and_then(|update| update.restarted).map(|why| why.name()));
     }
     for _ in 0..TO_WARM_UP + steps {
+        // The device has as long a pause before.
+        displace(&mut at);
         let began = Instant::now();
         M::scratch(&triangulator, &at)?;
         scratches.push(milliseconds(began));
