@@ -389,7 +389,12 @@ test('the worker sends a dispatch as one call, and what is large in pieces', asy
     posted.map(({ transfer }) => transfer.length),
     [1, 1, 1],
   );
-  const written = calls().map(([object, method, [, at, data]]) => [object, method, at, data.length]);
+  const written = calls().map(([object, method, [, at, data]]) => [
+    object,
+    method,
+    at,
+    data.length,
+  ]);
   assert.deepEqual(written, [
     [1, 'writeBuffer', 16, piece],
     [1, 'writeBuffer', 16 + piece, piece],
