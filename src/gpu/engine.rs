@@ -370,7 +370,7 @@ where
         let repaired = moved.as_ref().map(|&(mesh, _)| mesh).filter(stays);
         let first = repaired.map(DeviceMesh::first).filter(|first| !first.is_empty());
         let start = first
-            .and_then(|first| Start::of(lattice.width(), first, position))
+            .and_then(|first| Start::of(lattice.width(), first, &position))
             .or_else(|| first_simplex(lattice.width(), points.len(), position));
         let Some(start) = start else {
             if let Some((_, update)) = moved {
@@ -510,10 +510,6 @@ fn duplicates(duplicate_of: &[i32]) -> Vec<[u32; 2]> {
     // Few points are looked at before another thread has woken up.
     let threads = if duplicate_of.len() < FEW_POINTS { Threads::One } else { Threads::All };
     let parts = parallel::map_ranges(threads, duplicate_of.len(), |range| {
-        // Mostly there are none, which a loop without branches finds out sooner.
-        if !duplicate_of[range.clone()].iter().fold(false, |any, &first| any | (first != NONE)) {
-            return Vec::new();
-        }
         let of_range = range.clone().zip(&duplicate_of[range]);
         let duplicates = of_range.filter(|&(_, &first)| first != NONE);
         duplicates.map(|(v, &first)| [v as u32, first as u32]).collect::<Vec<_>>()

@@ -218,15 +218,15 @@ impl Readback {
         staged: Staged,
         take: impl FnOnce(&wgpu::BufferView) -> R,
     ) -> Result<R, Error> {
-        let Staged { staging, mapped_bytes, mut mapped } = staged;
-        let result = match received_soon(gpu, &mut mapped) {
+        let Staged { staging, mapped_bytes, mapped } = staged;
+        #[cfg(not(target_arch = "wasm32"))]
+        let (mapped, result) = wait(gpu, submission, mapped)?;
+        // Browsers call back by themselves.
+        #[cfg(target_arch = "wasm32")]
+        let (result, _) = (None, submission);
+        let result = match result {
             Some(result) => Ok(result),
-            None => {
-                // Browsers call back by themselves and ignore this.
-                let wait = wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout: None };
-                gpu.device().poll(wait).map_err(|e| gpu.failure(&e.to_string()))?;
-                mapped.await
-            }
+            None => mapped.await,
         };
         match result {
             Ok(Ok(())) => {}
@@ -294,29 +294,27 @@ impl Target for js_sys::Uint8Array {
     }
 }
 
-/// Returns what is received before the host has to sleep.
+/// Waits until the device has carried out `submission`, and returns what was sent then, unless the
+/// receiver still has it.
 #[cfg(not(target_arch = "wasm32"))]
-fn received_soon<T>(gpu: &Gpu, receiver: &mut oneshot::Receiver<T>) -> Option<T> {
-    // A software device needs the processors itself.
-    if gpu.adapter().software {
-        return None;
-    }
+fn wait<T>(
+    gpu: &Gpu,
+    submission: &wgpu::SubmissionIndex,
+    mut receiver: oneshot::Receiver<T>,
+) -> Result<(oneshot::Receiver<T>, Option<T>), Error> {
     let began = Instant::now();
-    while began.elapsed() < SPIN {
-        // Failures are for the one who waits.
+    // A software device needs the processors itself.
+    while !gpu.adapter().software && began.elapsed() < SPIN {
+        // Failures are for the wait below.
         let _ = gpu.device().poll(wgpu::PollType::Poll);
         if let Ok(Some(received)) = receiver.try_recv() {
-            return Some(received);
+            return Ok((receiver, Some(received)));
         }
         std::hint::spin_loop();
     }
-    None
-}
-
-/// Returns nothing: browsers call back by themselves.
-#[cfg(target_arch = "wasm32")]
-fn received_soon<T>(_gpu: &Gpu, _receiver: &mut oneshot::Receiver<T>) -> Option<T> {
-    None
+    let wait = wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout: None };
+    gpu.device().poll(wait).map_err(|e| gpu.failure(&e.to_string()))?;
+    Ok((receiver, None))
 }
 
 /// Returns how many elements are given room when `len` are read, so that Phase 2 need not move the

@@ -34,7 +34,7 @@ where
 {
     /// Returns the simplex of these vertices with a point inside it, if it is positively oriented and
     /// the lattice has such a point.
-    pub(crate) fn of(width: Width, vertices: &[u32], position: impl Fn(usize) -> [i64; D]) -> Option<Self> {
+    pub(crate) fn of(width: Width, vertices: &[u32], position: &dyn Fn(usize) -> [i64; D]) -> Option<Self> {
         let corners: Vec<[i64; D]> = vertices.iter().map(|&v| position(v as usize)).collect();
         let interior_point: [i64; D] = std::array::from_fn(|axis| {
             let sum: i128 = corners.iter().map(|q| i128::from(q[axis])).sum();

@@ -70,7 +70,7 @@ test('Voronoi cells take the place of tetrahedra, and are cut and pulled apart',
   const box = page.getByLabel('Voronoi', { exact: true });
   await box.check();
   await settled(page);
-  assert.match(await text(page, 'shown'), /^all 2,000 shown/);
+  await page.locator('#shown', { hasText: /^all 2,000 shown/ }).waitFor();
   assert.match(await text(page, 'legend-title'), /^Volume of the cell/);
   await slide(page, 'keep', 0.5);
   const { shown: kept, total } = await shown(page);
