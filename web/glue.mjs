@@ -68,7 +68,7 @@ export function importNames(files) {
   const hash = createHash('sha256').update(sorted.join()).digest('hex').slice(0, 8);
   const shortened = (names, prefix) =>
     new Map(names.map((name, i) => [name, `${prefix}${i.toString(36)}`]));
-  return { module: hash, names: shortened(sorted, '_'), exported: shortened(closures, 'closure') };
+  return { module: hash, names: shortened(sorted, '_'), exported: shortened(closures, 'c') };
 }
 
 /**

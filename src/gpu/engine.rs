@@ -325,9 +325,13 @@ where
             return Err(Error::PointCount { points: points.len(), expected: mesh.point_count() });
         }
         let mut update = moved.map(|_| UpdateStats::default());
-        let mut from = moved.filter(|mesh| self.settings.limits.looks_after(mesh.begun_anew()));
-        if let Some((mesh, update)) = moved.zip(update.as_mut()).filter(|_| from.is_none()) {
-            update.restarted = mesh.stats().update.and_then(|update| update.restarted);
+        let mut from = moved;
+        // The package has no room for that.
+        if !cfg!(target_arch = "wasm32") {
+            from = moved.filter(|mesh| self.settings.limits.looks_after(mesh.begun_anew()));
+            if let Some((mesh, update)) = moved.zip(update.as_mut()).filter(|_| from.is_none()) {
+                update.restarted = mesh.stats().update.and_then(|update| update.restarted);
+            }
         }
         let mut made = loop {
             let before = from.zip(update.as_mut());
@@ -348,7 +352,7 @@ where
             }
             stats.update = Some(*update);
         }
-        if let (Made::Device(mesh), Some(before)) = (&mut made, moved) {
+        if let (Made::Device(mesh), Some(before), false) = (&mut made, moved, cfg!(target_arch = "wasm32")) {
             mesh.follows(before);
         }
         Ok(made)
@@ -366,9 +370,11 @@ where
         let lattice = Lattice::fit_by(Threads::All, points)?;
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         // Points that had moved too far before will do so again, as a rule.
-        let stays = |mesh: &&DeviceMesh<D>| mesh.begun_anew() == 0;
+        let stays = |mesh: &&DeviceMesh<D>| cfg!(target_arch = "wasm32") || mesh.begun_anew() == 0;
         let repaired = moved.as_ref().map(|&(mesh, _)| mesh).filter(stays);
-        let first = repaired.map(DeviceMesh::first).filter(|first| !first.is_empty());
+        // The package has no room for more code: there the simplex is looked for.
+        let first =
+            repaired.filter(|_| !cfg!(target_arch = "wasm32")).map(DeviceMesh::first).filter(|first| !first.is_empty());
         let start = first
             .and_then(|first| Start::of(lattice.width(), first, &position))
             .or_else(|| first_simplex(lattice.width(), points.len(), position));

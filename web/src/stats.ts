@@ -177,7 +177,7 @@ export interface UpdateStats {
   /** Whether a mesh on the device was read for that, changed by the host, and uploaded. */
   onHost: boolean;
   /**
-   * Why the points were triangulated from scratch, if they were. On the device, after two such
+   * Why the points were triangulated from scratch, if they were. Natively on a device, after two such
    * updates in a row, only every fourth looks at the mesh; the others have the reason of the one
    * before.
    */
