@@ -3,11 +3,11 @@
 //!
 //! All points move, each time by a normal distribution of SHARE (0.002) times their mean spacing; the
 //! mesh stays on the device. Prints a line of JSON: the median of the last STEPS (15) of two updates
-//! more, in milliseconds, and all of them; the same for as many runs from scratch; and how many of the
-//! updates began anew. With EDIT=1, one in a thousand points of a mesh in the memory of the host is
+//! more, in milliseconds, and all of them; the same for as many runs from scratch; and why updates began
+//! anew. With EDIT=1, one in a thousand points of a mesh in the memory of the host is
 //! inserted, and then removed, by the CPU backend.
 
-use gdel::{Backend, DeviceMesh2, DeviceMesh3, Error, Mesh2, Mesh3, Moving, Triangulator, stats::Stats};
+use gdel::{Backend, DeviceMesh, Error, Moving, Triangulator};
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 use std::{array, env, error, f64::consts::TAU, time::Instant};
 
@@ -21,51 +21,6 @@ struct Task {
     steps: usize,
 }
 
-/// What a task does to meshes of `D` dimensions.
-trait Follow<const D: usize>: Moving {
-    fn scratch(triangulator: &Triangulator, points: &[[f64; D]]) -> Result<Self, Error>;
-    fn update(&mut self, triangulator: &Triangulator, points: &[[f64; D]]) -> Result<(), Error>;
-    fn insert(&mut self, triangulator: &Triangulator, points: &[[f64; D]]) -> Result<(), Error>;
-    fn remove(&mut self, triangulator: &Triangulator, points: &[[f64; D]], removed: &[u32]) -> Result<(), Error>;
-    fn stats(&self) -> &Stats;
-}
-
-macro_rules! follow {
-    ($D:literal, $mesh:ident, $scratch:ident, $stats:expr) => {
-        impl Follow<$D> for $mesh {
-            fn scratch(triangulator: &Triangulator, points: &[[f64; $D]]) -> Result<Self, Error> {
-                triangulator.$scratch(points)
-            }
-
-            fn update(&mut self, triangulator: &Triangulator, points: &[[f64; $D]]) -> Result<(), Error> {
-                triangulator.update(self, points)
-            }
-
-            fn insert(&mut self, triangulator: &Triangulator, points: &[[f64; $D]]) -> Result<(), Error> {
-                triangulator.insert(self, points)
-            }
-
-            fn remove(
-                &mut self,
-                triangulator: &Triangulator,
-                points: &[[f64; $D]],
-                removed: &[u32],
-            ) -> Result<(), Error> {
-                triangulator.remove(self, points, removed)
-            }
-
-            fn stats(&self) -> &Stats {
-                let stats: fn(&$mesh) -> &Stats = $stats;
-                stats(self)
-            }
-        }
-    };
-}
-follow!(3, Mesh3, delaunay3d, |mesh| &mesh.stats);
-follow!(2, Mesh2, delaunay2d, |mesh| &mesh.stats);
-follow!(3, DeviceMesh3, delaunay3d_on_device, DeviceMesh3::stats);
-follow!(2, DeviceMesh2, delaunay2d_on_device, DeviceMesh2::stats);
-
 fn main() -> Result<(), Box<dyn error::Error>> {
     // `cargo bench` adds `--bench`.
     let arguments: Vec<String> = env::args().skip(1).filter(|argument| argument != "--bench").collect();
@@ -77,21 +32,31 @@ fn main() -> Result<(), Box<dyn error::Error>> {
     };
     let edits = env::var("EDIT").is_ok_and(|edit| edit == "1");
     match (argument(0, "3").as_str(), edits) {
-        ("2", true) => edit::<2, Mesh2>(&task),
-        ("2", false) => follow::<2, DeviceMesh2>(&task),
-        (_, true) => edit::<3, Mesh3>(&task),
-        (_, false) => follow::<3, DeviceMesh3>(&task),
+        ("2", true) => edit(&task, |triangulator, points: &[[f64; 2]]| triangulator.delaunay2d(points)),
+        ("2", false) => {
+            follow::<2>(&task, |triangulator, points: &[[f64; 2]]| triangulator.delaunay2d_on_device(points))
+        }
+        (_, true) => edit(&task, |triangulator, points: &[[f64; 3]]| triangulator.delaunay3d(points)),
+        (_, false) => follow::<3>(&task, |triangulator, points: &[[f64; 3]]| triangulator.delaunay3d_on_device(points)),
     }?;
     Ok(())
 }
 
-fn follow<const D: usize, M: Follow<D>>(task: &Task) -> Result<(), Error> {
+/// Times updates of a mesh on the device, which `scratch` makes.
+fn follow<const D: usize>(
+    task: &Task,
+    scratch: impl Fn(&Triangulator, &[[f64; D]]) -> Result<DeviceMesh<D>, Error>,
+) -> Result<(), Error>
+where
+    DeviceMesh<D>: Moving,
+    for<'a> <DeviceMesh<D> as Moving>::Points<'a>: From<&'a [[f64; D]]>,
+{
     let Task { points, share, steps } = *task;
     let mut random = StdRng::seed_from_u64(1);
     let mut at = uniform::<D>(&mut random, points);
     let displacement = share * (points as f64).powf(-1.0 / D as f64);
     let triangulator = Triangulator::new().backend(Backend::Gpu);
-    let mut mesh = M::scratch(&triangulator, &at)?;
+    let mut mesh = scratch(&triangulator, &at)?;
     let (mut updates, mut scratches, mut anew) = (Vec::new(), Vec::new(), Vec::new());
     let mut displace = |at: &mut [[f64; D]]| {
         for x in at.as_flattened_mut() {
@@ -101,7 +66,7 @@ fn follow<const D: usize, M: Follow<D>>(task: &Task) -> Result<(), Error> {
     for _ in 0..TO_WARM_UP + steps {
         displace(&mut at);
         let began = Instant::now();
-        mesh.update(&triangulator, &at)?;
+        triangulator.update(&mut mesh, &at[..])?;
         updates.push(milliseconds(began));
         anew.extend(mesh.stats().update.and_then(|update| update.restarted).map(|why| why.name()));
     }
@@ -109,7 +74,7 @@ fn follow<const D: usize, M: Follow<D>>(task: &Task) -> Result<(), Error> {
         // The device has as long a pause before.
         displace(&mut at);
         let began = Instant::now();
-        M::scratch(&triangulator, &at)?;
+        scratch(&triangulator, &at)?;
         scratches.push(milliseconds(began));
     }
     println!(
@@ -120,7 +85,14 @@ fn follow<const D: usize, M: Follow<D>>(task: &Task) -> Result<(), Error> {
     Ok(())
 }
 
-fn edit<const D: usize, M: Follow<D>>(task: &Task) -> Result<(), Error> {
+/// Times insertion into a mesh in the memory of the host, which `scratch` makes, and removal.
+fn edit<const D: usize, M: Moving>(
+    task: &Task,
+    scratch: impl Fn(&Triangulator, &[[f64; D]]) -> Result<M, Error>,
+) -> Result<(), Error>
+where
+    for<'a> M::Points<'a>: From<&'a [[f64; D]]>,
+{
     let Task { points, steps, .. } = *task;
     let mut random = StdRng::seed_from_u64(1);
     let at = uniform::<D>(&mut random, points);
@@ -129,15 +101,15 @@ fn edit<const D: usize, M: Follow<D>>(task: &Task) -> Result<(), Error> {
     let (mut inserts, mut removes, mut scratches) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..TO_WARM_UP + steps {
         let began = Instant::now();
-        let mut mesh = M::scratch(&triangulator, &at)?;
+        let mut mesh = scratch(&triangulator, &at)?;
         scratches.push(milliseconds(began));
         let all = [at.clone(), uniform(&mut random, few)].concat();
         let began = Instant::now();
-        mesh.insert(&triangulator, &all)?;
+        triangulator.insert(&mut mesh, &all[..])?;
         inserts.push(milliseconds(began));
         let removed: Vec<u32> = (points as u32..all.len() as u32).collect();
         let began = Instant::now();
-        mesh.remove(&triangulator, &all, &removed)?;
+        triangulator.remove(&mut mesh, &all[..], &removed)?;
         removes.push(milliseconds(began));
     }
     println!(

@@ -5,8 +5,8 @@
 //     [--points 100000,1000000] [--kind uniform] [--runs 5] [--native GDEL]
 //     [--outputs neighbors,hull,duplicateOf] [--resident [--here]] [--reuse]
 //
-// With --resident, the mesh stays on a device that the script opens; --here computes in the calling
-// thread as well, instead of in a worker whose calls are sent there. --outputs '' leaves the
+// With --resident, the mesh stays on a device that the script opens; with --here, the calling thread
+// computes as well, instead of a worker that sends it the calls. --outputs '' leaves the
 // tetrahedra alone. With --reuse, each mesh takes the memory of the one before.
 //
 // To run it on another machine, carry this file, web/dist and node_modules/webgpu there; of the

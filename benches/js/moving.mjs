@@ -5,10 +5,10 @@
 //     [--backend gpu] [--dimensions 3,2] [--here]
 //
 // With the backend `gpu`, the meshes stay on a device that the script opens through the npm package
-// `webgpu` (Dawn); --here computes in the calling thread as well, as a page's own worker does, instead
-// of in a worker whose calls are sent there. With `cpu`, they are arrays, which a worker updates. Displacements are normally
-// distributed, and given as shares of the mean spacing of the points. benches/js/gpu.mjs says what
-// another machine needs.
+// `webgpu` (Dawn); with `cpu`, they are arrays, which a worker updates. With --here, the thread that has
+// the device computes, too, as a page's worker does that opens a device of its own; otherwise another
+// worker sends it the calls. Displacements are normally distributed, and given as shares of the mean
+// spacing of the points. benches/js/gpu.mjs says what another machine needs.
 
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';

@@ -40,9 +40,6 @@ pub mod progress {
     pub const FINISH: f64 = 0.95;
 }
 
-/// Up to so many points, one thread looks through what the host has of each.
-const FEW_POINTS: usize = 1 << 18;
-
 /// How a dimension's engine completes what Phase 1 leaves.
 #[expect(async_fn_in_trait, reason = "only this crate implements it, and no caller is generic over threads")]
 pub trait Complete<const D: usize>: Finish<D> + MeshArrays<D>
@@ -326,7 +323,7 @@ where
         }
         let mut update = moved.map(|_| UpdateStats::default());
         let mut from = moved;
-        // The package has no room for that.
+        // The package has no room for the code.
         if !cfg!(target_arch = "wasm32") {
             from = moved.filter(|mesh| self.settings.limits.looks_after(mesh.begun_anew()));
             if let Some((mesh, update)) = moved.zip(update.as_mut()).filter(|_| from.is_none()) {
@@ -352,7 +349,7 @@ where
             }
             stats.update = Some(*update);
         }
-        if let (Made::Device(mesh), Some(before), false) = (&mut made, moved, cfg!(target_arch = "wasm32")) {
+        if let (Made::Device(mesh), Some(before)) = (&mut made, moved) {
             mesh.follows(before);
         }
         Ok(made)
@@ -370,11 +367,9 @@ where
         let lattice = Lattice::fit_by(Threads::All, points)?;
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         // Points that had moved too far before will do so again, as a rule.
-        let stays = |mesh: &&DeviceMesh<D>| cfg!(target_arch = "wasm32") || mesh.begun_anew() == 0;
+        let stays = |mesh: &&DeviceMesh<D>| mesh.begun_anew() == 0;
         let repaired = moved.as_ref().map(|&(mesh, _)| mesh).filter(stays);
-        // The package has no room for more code: there the simplex is looked for.
-        let first =
-            repaired.filter(|_| !cfg!(target_arch = "wasm32")).map(DeviceMesh::first).filter(|first| !first.is_empty());
+        let first = repaired.map(DeviceMesh::first).filter(|first| !first.is_empty());
         let start = first
             .and_then(|first| Start::of(lattice.width(), first, &position))
             .or_else(|| first_simplex(lattice.width(), points.len(), position));
@@ -513,9 +508,7 @@ where
 
 /// Returns the duplicates, each with the vertex that stands for it.
 fn duplicates(duplicate_of: &[i32]) -> Vec<[u32; 2]> {
-    // Few points are looked at before another thread has woken up.
-    let threads = if duplicate_of.len() < FEW_POINTS { Threads::One } else { Threads::All };
-    let parts = parallel::map_ranges(threads, duplicate_of.len(), |range| {
+    let parts = parallel::map_ranges(Threads::All, duplicate_of.len(), |range| {
         let of_range = range.clone().zip(&duplicate_of[range]);
         let duplicates = of_range.filter(|&(_, &first)| first != NONE);
         duplicates.map(|(v, &first)| [v as u32, first as u32]).collect::<Vec<_>>()

@@ -26,8 +26,8 @@ const PIECES_AHEAD: usize = 4;
 #[cfg(not(target_arch = "wasm32"))]
 const SHARED_FROM: usize = 1 << 20;
 
-/// How long the host asks for a result again and again before it sleeps until there is one: most
-/// results of small runs are there by then, and to be woken takes up to 0.1 ms.
+/// How long the host asks for a result before it sleeps until there is one: most results of small
+/// runs are there by then, and to be woken takes up to 0.1 ms.
 #[cfg(not(target_arch = "wasm32"))]
 const SPIN: Duration = Duration::from_micros(300);
 
@@ -219,16 +219,8 @@ impl Readback {
         take: impl FnOnce(&wgpu::BufferView) -> R,
     ) -> Result<R, Error> {
         let Staged { staging, mapped_bytes, mapped } = staged;
-        #[cfg(not(target_arch = "wasm32"))]
-        let (mapped, result) = wait(gpu, submission, mapped)?;
-        // Browsers call back by themselves.
-        #[cfg(target_arch = "wasm32")]
-        let (result, _) = (None, submission);
-        let result = match result {
-            Some(result) => Ok(result),
-            None => mapped.await,
-        };
-        match result {
+        wait(gpu, submission)?;
+        match mapped.await {
             Ok(Ok(())) => {}
             Ok(Err(e)) => return Err(gpu.failure(&e.to_string())),
             Err(oneshot::Canceled) => return Err(gpu.failure("a readback was never carried out")),
@@ -294,27 +286,26 @@ impl Target for js_sys::Uint8Array {
     }
 }
 
-/// Waits until the device has carried out `submission`, and returns what was sent then, unless the
-/// receiver still has it.
+/// Waits until the device has carried out `submission`: busily at first.
 #[cfg(not(target_arch = "wasm32"))]
-fn wait<T>(
-    gpu: &Gpu,
-    submission: &wgpu::SubmissionIndex,
-    mut receiver: oneshot::Receiver<T>,
-) -> Result<(oneshot::Receiver<T>, Option<T>), Error> {
+fn wait(gpu: &Gpu, submission: &wgpu::SubmissionIndex) -> Result<(), Error> {
     let began = Instant::now();
-    // A software device needs the processors itself.
-    while !gpu.adapter().software && began.elapsed() < SPIN {
-        // Failures are for the wait below.
-        let _ = gpu.device().poll(wgpu::PollType::Poll);
-        if let Ok(Some(received)) = receiver.try_recv() {
-            return Ok((receiver, Some(received)));
+    loop {
+        // A software device needs the processors itself.
+        let is_busy = !gpu.adapter().software && began.elapsed() < SPIN;
+        let timeout = is_busy.then_some(Duration::ZERO);
+        let wait = wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout };
+        match gpu.device().poll(wait) {
+            Err(wgpu::PollError::Timeout) if is_busy => std::hint::spin_loop(),
+            result => return result.map(drop).map_err(|e| gpu.failure(&e.to_string())),
         }
-        std::hint::spin_loop();
     }
-    let wait = wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout: None };
-    gpu.device().poll(wait).map_err(|e| gpu.failure(&e.to_string()))?;
-    Ok((receiver, None))
+}
+
+/// Does nothing: browsers call back by themselves.
+#[cfg(target_arch = "wasm32")]
+fn wait(_gpu: &Gpu, _submission: &wgpu::SubmissionIndex) -> Result<(), Error> {
+    Ok(())
 }
 
 /// Returns how many elements are given room when `len` are read, so that Phase 2 need not move the

@@ -133,7 +133,6 @@ impl StartMesh {
     /// Triangulates `wanted` of the points, evenly spaced in the input, beside the corners of the
     /// first simplex. What the lattice does not represent is left out; where that leaves too little,
     /// or where the simplices are too many, the first simplex has to do.
-    #[cfg_attr(target_arch = "wasm32", inline(never))]
     pub fn new<const D: usize>(points: Points<'_, D>, lattice: &Lattice<D>, start: &Start<D>, wanted: usize) -> Self
     where
         Dimension<D>: Dim<D>,

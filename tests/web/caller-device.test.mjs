@@ -276,7 +276,7 @@ test('objects are named by numbers', async () => {
 });
 
 test('a dispatch is three calls, and waits for its pipeline', async () => {
-  const { device, notes, messages, served } = notedDevice();
+  const { device, notes, messages, failures, served } = notedDevice();
   device.beginComputePass = () => ({
     setPipeline: ({ size }) => notes.push(['pipeline', size]),
     setBindGroup: (group, { size }) => notes.push(['bindings', group, size]),
@@ -293,34 +293,52 @@ test('a dispatch is three calls, and waits for its pipeline', async () => {
     [0, 'createBuffer', [{ size: 5 }], 6],
     [0, 'beginComputePass', [], 7],
     [7, 3, 6, 70],
+    [7, 4, 6, 71],
+    [0, 'work', ['after'], 8],
   ]);
+  while (compiling.length < 2) await new Promise(setImmediate);
   for (let turn = 0; turn < 9; turn++) await new Promise(setImmediate);
   assert.deepEqual([device.depth, notes.length, compiling.length], [0, 0, 2]);
   compiling[0].make();
-  await taken;
-  assert.deepEqual(notes, [
+  while (notes.length === 0) await new Promise(setImmediate);
+  const first = [
     ['pipeline', 4],
     ['bindings', 0, 5],
     ['dispatch', 70],
-  ]);
-  // A scope knows when its pipelines are compiled, and has their errors.
+  ];
+  assert.deepEqual(notes, first);
+  // A scope knows when its pipelines are compiled, and has their errors. The calls go on.
   assert.deepEqual(answersOf(messages), []);
   compiling[1].reject(new Error('too large'));
+  await taken;
+  assert.deepEqual([notes, failures], [[...first, 'after'], []]);
   while (answersOf(messages).length === 0) await new Promise(setImmediate);
   const { value } = answersOf(messages)[0];
   assert.deepEqual(value, { message: 'too large', constructor: { name: 'GPUValidationError' } });
 });
 
 test('a worker that is ended in a pause makes no more calls, and closes no scope of others', async () => {
-  const { device, notes, failures, served } = notedDevice({ milliseconds: 3 });
+  const { device, notes, failures, served } = notedDevice();
+  let make;
+  device.createComputePipelineAsync = () => new Promise((resolve) => (make = resolve));
+  let isMade = false;
+  const { createBuffer } = device;
+  device.createBuffer = (descriptor) => {
+    isMade = true;
+    return createBuffer(descriptor);
+  };
   const taken = served.take([
-    [0, 'pushErrorScope', ['validation'], 2],
-    [0, 'work', [1], 3],
-    [0, 'work', [2], 4],
+    [0, 'createComputePipeline', [{}], 2],
+    [0, 'pushErrorScope', ['validation'], 3],
+    [0, 'createBuffer', [{ size: 4 }], 4],
+    [4, 2, 4, 70],
+    [0, 'work', [1], 5],
   ]);
+  while (!isMade) await new Promise(setImmediate);
   served.end();
+  make({});
   await taken;
-  assert.deepEqual([notes, failures, device.depth], [[1], [], 0]);
+  assert.deepEqual([notes, failures, device.depth], [[['destroy', 4]], [], 0]);
 });
 
 test('what is mapped comes after the errors of the scopes before', async () => {

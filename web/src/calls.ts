@@ -108,7 +108,7 @@ export function serveDevice(
 
   async function makeCalls(): Promise<void> {
     const slice = new Slice();
-    /** Handles other events, until there is `what`. Then the scopes are to be opened again. */
+    /** Handles other events, until there is `what`. The caller opens the scopes again. */
     const pause = async (what?: Promise<unknown>) => {
       close();
       await what;
@@ -124,13 +124,14 @@ export function serveDevice(
       const [object, method, sent, id] = waiting[i]!;
       if (typeof method === 'number') {
         const pass = objects.get(object);
-        let pipeline = objects.get(method);
-        if (pipeline instanceof Promise) {
-          await pause(pipeline.catch(() => {}));
+        if (objects.get(method) instanceof Promise) {
+          await pause(objects.get(method));
           if (isEnded) return;
           open();
-          pipeline = objects.get(method);
         }
+        const pipeline = objects.get(method);
+        // If it could not be compiled, the scope in which it was created has the error.
+        if (pipeline === null) continue;
         pass.setPipeline(pipeline);
         pass.setBindGroup(0, objects.get(sent));
         pass.dispatchWorkgroups(id);
@@ -145,15 +146,20 @@ export function serveDevice(
       } else if (method === 'createComputePipeline') {
         // Some devices compile in the call, which takes up to seconds, and others when they first carry
         // commands out. This way, threads of the device compile side by side.
-        const pipeline = device.createComputePipelineAsync(args[0]);
-        objects.set(id, pipeline);
-        const failed = pipeline.then(
-          (made) => {
-            if (objects.has(id)) objects.set(id, made);
+        const compiled = (pipeline: object | null) => {
+          if (objects.has(id)) objects.set(id, pipeline);
+        };
+        const failed = device.createComputePipelineAsync(args[0]).then(
+          (pipeline) => {
+            compiled(pipeline);
             return null;
           },
-          ({ message }) => ({ message, constructor: { name: 'GPUValidationError' } }),
+          ({ message }) => {
+            compiled(null);
+            return { message, constructor: { name: 'GPUValidationError' } };
+          },
         );
+        objects.set(id, failed);
         scopes.at(-1)?.errors.push(failed);
       } else if (method === 'mapAsync') {
         void map(id, objects.get(object), args[0], args[1], args[2]);

@@ -298,7 +298,7 @@ fn begin(mut region: Region, gathered: Gathered, failed: Vec<u32>, uncertain: Ve
     let mut slots = (first..).zip(&gathered.slots);
     let number = |slot: u32| slots.find(|&(_, &s)| s == slot).map(|(number, _)| number);
     let uncertain: Option<Vec<u32>> = uncertain.into_iter().map(number).collect();
-    let uncertain = uncertain.ok_or(Aborted::Inconsistent("an uncertain tetrahedron is missing"))?;
+    let uncertain = uncertain.ok_or(Aborted::Inconsistent("an uncertain tetrahedron was not gathered"))?;
     let corners = uncertain.iter().flat_map(|&t| gathered.tetrahedra[(t - first) as usize]);
     let stars: Vec<u32> = corners.filter(|&v| v != infinite).chain(failed.iter().copied()).collect();
     region.add(stars, gathered, Threads::All)?;

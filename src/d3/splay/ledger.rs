@@ -120,7 +120,7 @@ impl Held {
 
     /// Applies an event of the star with this bit.
     fn enter(&mut self, bit: u8, event: Event) -> Result<(), Aborted> {
-        const HAS: Aborted = Aborted::Inconsistent("a star gains or loses a tetrahedron twice");
+        const HAS: Aborted = Aborted::Inconsistent("a star gains what it has, or loses what it has not");
         let has = self.by & bit != 0;
         match event {
             Event::Gained if has || self.never & bit != 0 => return Err(HAS),
@@ -279,7 +279,7 @@ impl Ledger {
     }
 }
 
-const UNKNOWN: Aborted = Aborted::Inconsistent("a star has an unknown tetrahedron");
+const UNKNOWN: Aborted = Aborted::Inconsistent("a star has a tetrahedron that nobody entered");
 
 /// Returns the bits of all stars in which a tetrahedron should be: those of its finite vertices.
 fn all(key: Key, infinite: u32) -> u8 {

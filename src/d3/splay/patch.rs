@@ -62,7 +62,7 @@ pub(super) fn patch(
     let checked = predicates.shared(threads, filled.len(), TETRAHEDRON_GRAIN, |predicates, range| {
         filled[range].iter().try_for_each(|&t| {
             if predicates.orient(mesh.vertices(t)) <= 0 {
-                return Err(Aborted::Inconsistent("the patch has an inverted tetrahedron"));
+                return Err(Aborted::Inconsistent("the patch has a tetrahedron that is not positively oriented"));
             }
             let is_delaunay = (0..4).all(|k| is_locally_delaunay(mesh, predicates, t, k));
             if is_delaunay { Ok(()) } else { Err(Aborted::Inconsistent("the patch is not Delaunay")) }

@@ -140,7 +140,7 @@ impl Region {
         gathered: Gathered,
         threads: Threads,
     ) -> Result<(), Aborted> {
-        const DO_NOT_FIT: Aborted = Aborted::Inconsistent("gathered tetrahedra do not fit");
+        const DO_NOT_FIT: Aborted = Aborted::Inconsistent("gathered tetrahedra do not fit what is there");
         let Region { mesh, incident, complete, given, gathers } = self;
         let Gathered { tetrahedra, neighbors, slots } = &gathered;
         let first = mesh.tetrahedra.len();

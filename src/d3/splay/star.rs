@@ -79,7 +79,7 @@ impl LinkFinder {
     fn visit(&mut self, mesh: &Triangulation3, t: u32, vertex: u32) -> Result<(), Aborted> {
         if let Entry::Vacant(entry) = self.place.entry(t) {
             let corner = mesh.vertices(t).iter().position(|&v| v == vertex);
-            let corner = corner.ok_or(Aborted::Inconsistent("a link leaves its star"))?;
+            let corner = corner.ok_or(Aborted::Inconsistent("a link leads to a tetrahedron without its vertex"))?;
             entry.insert(self.around.len() as u32);
             self.around.push((t, corner));
         }
@@ -272,7 +272,7 @@ impl Star {
         start: u32,
         changes: &mut Changes,
     ) -> Result<(), Aborted> {
-        const CONVEX: Aborted = Aborted::Inconsistent("a star is not convex");
+        const CONVEX: Aborted = Aborted::Inconsistent("a point sees a star as if it were not convex");
         self.epoch += 1;
         let (visible, hidden) = (2 * self.epoch, 2 * self.epoch + 1);
         let Changes { removed, added, visible: list, horizon } = changes;

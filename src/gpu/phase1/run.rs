@@ -377,7 +377,7 @@ where
         self.iterations = Iterations::new(MOVED_ITERATIONS);
         self.inserted_at_most = self.params.infinite;
         self.stats.start_points = 0;
-        if cfg!(target_arch = "wasm32") || flips_at_once {
+        if flips_at_once {
             self.submit().await?;
         }
         let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
