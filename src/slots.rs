@@ -122,9 +122,6 @@ pub trait MarkedSlots<const N: usize>: Slots<N> {
     /// Returns what stands for the first vertex and for vertex `k` of simplex `t`.
     fn first_and(&self, t: u32, k: usize) -> [u32; 2];
 
-    /// Returns the neighbours of simplex `t` across three facets.
-    fn some_neighbors(&self, t: u32, facets: [u8; 3]) -> [u32; 3];
-
     /// Takes a slot back that is not used any more.
     fn discard(&mut self, t: u32);
 

@@ -49,10 +49,16 @@ const remapped = Object.entries(sources).map(
 );
 const given =
   process.env.CARGO_ENCODED_RUSTFLAGS?.split('\x1f') ?? process.env.RUSTFLAGS?.split(/\s+/) ?? [];
-const CARGO_ENCODED_RUSTFLAGS = [...given, ...remapped].filter(Boolean).join('\x1f');
-const env = { ...process.env, PATH, CARGO_ENCODED_RUSTFLAGS };
-const run = (command, args) =>
-  execFileSync(command, args, { cwd: root, stdio: ['ignore', 'inherit', 'inherit'], env });
+/** What functions may grow to by inlining: that of `opt-level = "s"`. */
+const INLINE = '-Cllvm-args=-inline-threshold=50';
+const flags = (...more) => [...given, ...remapped, ...more].filter(Boolean).join('\x1f');
+const env = { ...process.env, PATH };
+const run = (command, args, more) =>
+  execFileSync(command, args, {
+    cwd: root,
+    stdio: ['ignore', 'inherit', 'inherit'],
+    env: { ...env, ...more },
+  });
 
 function buildWasm() {
   for (const name of Object.keys(MODULES)) {
@@ -61,7 +67,10 @@ function buildWasm() {
     const to = ['--out-dir', pkg(name), '--out-name', 'gdel'];
     const args = ['build', '--mode', 'no-install', ...packing, ...to, join(web, 'wasm')];
     const cargo = ['--locked', '--features', name];
-    run('wasm-pack', ['--log-level', 'warn', ...args, '--', ...cargo]);
+    // The largest module inlines what says that it is to be inlined, and little else: 2.5 % less
+    // gzipped, at the same speed. The others would be up to 8 % slower.
+    const CARGO_ENCODED_RUSTFLAGS = name === 'd3' ? flags(INLINE) : flags();
+    run('wasm-pack', ['--log-level', 'warn', ...args, '--', ...cargo], { CARGO_ENCODED_RUSTFLAGS });
   }
 }
 

@@ -385,11 +385,6 @@ where
         [simplex[0], simplex[k % N]]
     }
 
-    fn some_neighbors(&self, t: u32, facets: [u8; 3]) -> [u32; 3] {
-        let neighbors = self.neighbors(t);
-        facets.map(|k| neighbors[usize::from(k) % N])
-    }
-
     fn discard(&mut self, t: u32) {
         self.with(t, |slot| (slot.simplex, slot.has_changed) = ([NO_INDEX; N], true));
         self.state.get_mut().free.push(t);

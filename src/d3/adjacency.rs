@@ -2,7 +2,8 @@
 //! its boundary belongs to one facet, and its reverse to the adjacent facet.
 
 use crate::{
-    predicates::filter::{NO_ROW, PredicatesAt, Row},
+    d3::insert::corners_from_inside,
+    predicates::filter::{PredicatesAt, Row},
     slots::{Places, Slots},
 };
 use std::collections::HashMap;
@@ -18,19 +19,11 @@ const LAST: usize = PLACES - 1;
 /// A facet of a cavity.
 #[derive(Clone, Copy)]
 pub(crate) struct Facet {
-    /// Counter-clockwise as seen from outside the cavity; an infinite vertex comes last.
-    pub(crate) corners: [u32; 3],
     /// The tetrahedron outside the cavity: 4·(tetrahedron) + (facet as it is numbered there).
     pub(crate) beyond: u32,
+    /// The places of its corners, counter-clockwise as seen from outside the cavity; an infinite vertex
+    /// comes last.
     pub(crate) places: FacetPlaces,
-}
-
-impl Facet {
-    /// Returns the facet (b, c, a) for (a, b, c).
-    pub(crate) fn rotate(self) -> Self {
-        let [a, b, c] = self.corners;
-        Facet { corners: [b, c, a], beyond: self.beyond, places: self.places.rotate() }
-    }
 }
 
 /// The places of a facet's corners, of [`BITS`] bits each: the first in the lowest.
@@ -46,19 +39,6 @@ impl FacetPlaces {
     #[inline]
     fn get(self, k: u32) -> usize {
         (self.0 >> (k * BITS)) as usize % PLACES
-    }
-
-    /// Returns the places of (b, c, a).
-    #[inline]
-    fn rotate(self) -> Self {
-        FacetPlaces(self.0 >> BITS | (self.0 << (2 * BITS) & (PLACES as u32 - 1) << (2 * BITS)))
-    }
-
-    /// Returns the places of (a, b, d), (b, c, d) and (c, a, d), where `d` is that of d.
-    #[inline]
-    pub(crate) fn around(self, d: u32) -> [Self; 3] {
-        let [ab, bc, ca] = self.edges();
-        [ab, bc, ca].map(|edge| FacetPlaces(edge as u32 | d << (2 * BITS)))
     }
 
     /// Returns the places of (c, b, a).
@@ -90,33 +70,36 @@ pub(crate) struct CavityVertices<P> {
 impl<P: Places> CavityVertices<P> {
     /// Creates the list with a table of the mesh's vertices, the infinite one included.
     pub(crate) fn new(place: P) -> Self {
-        CavityVertices { place, vertices: [0; PLACES], rows: [NO_ROW; PLACES], count: 0, is_large: false }
+        CavityVertices { place, vertices: [0; PLACES], rows: [Row::NONE; PLACES], count: 0, is_large: false }
     }
 
     pub(crate) fn clear(&mut self) {
         (self.count, self.is_large) = (0, false);
     }
 
-    /// Returns the place of `v` if it has one. The masks here and elsewhere have no effect except
-    /// that they spare the bounds checks.
+    /// Returns the place of `v`, which has been given one; the last if there was none left. The masks
+    /// here and elsewhere have no effect except that they spare the bounds checks.
     #[inline]
-    pub(crate) fn place(&self, v: u32) -> Option<u32> {
-        let place = self.place.place(v) as usize;
-        (place < self.count && self.vertices[place % PLACES] == v).then_some(place as u32)
+    pub(crate) fn place_of(&self, v: u32) -> u32 {
+        self.place.place(v) % PLACES as u32
     }
 
-    /// Appends `v`, which has no place, and which the caller has claimed. Returns its place.
-    #[cfg_attr(not(target_arch = "wasm32"), inline)]
-    #[cfg_attr(target_arch = "wasm32", inline(never))]
-    pub(crate) fn push(&mut self, v: u32, here: &PredicatesAt<'_, '_, 3>) -> u32 {
-        let place = self.count;
+    /// Gives `v`, which the caller has claimed, a place if it has none, and returns its place.
+    ///
+    /// Whether it has one cannot be predicted, and a wrong prediction takes longer than to write
+    /// once more what is there. So there is no branch.
+    #[inline]
+    pub(crate) fn give_place(&mut self, v: u32, here: &PredicatesAt<'_, '_, 3>) -> u32 {
+        let known = self.place_of(v) as usize;
+        let is_new = (known >= self.count) | (self.vertices[known % PLACES] != v);
+        let place = if is_new { self.count } else { known };
         self.place.set_place(v, place as u32);
         if place == LAST {
             self.is_large = true;
         } else {
             self.vertices[place % PLACES] = v;
             self.rows[place % PLACES] = here.row(v);
-            self.count += 1;
+            self.count += usize::from(is_new);
         }
         place as u32
     }
@@ -127,10 +110,10 @@ impl<P: Places> CavityVertices<P> {
         [0, 1, 2].map(|k| &self.rows[places.get(k)])
     }
 
-    /// Returns whether there are more vertices than places, so that some have the same place.
+    /// Returns the vertices at these places.
     #[inline]
-    pub(crate) fn is_large(&self) -> bool {
-        self.is_large
+    fn at(&self, places: FacetPlaces) -> [u32; 3] {
+        [0, 1, 2].map(|k| self.vertices[places.get(k)])
     }
 }
 
@@ -167,12 +150,20 @@ impl EdgeMap {
 
     /// Fills a cavity with tetrahedra of the vertex `p` and each of its `facets`, in the slots
     /// `new`.
-    pub(crate) fn fill(&mut self, slots: &mut impl Slots<4>, p: u32, facets: &[Facet], new: &[u32], is_large: bool) {
-        if is_large {
+    pub(crate) fn fill<P: Places>(
+        &mut self,
+        slots: &mut impl Slots<4>,
+        p: u32,
+        facets: &[Facet],
+        new: &[u32],
+        vertices: &CavityVertices<P>,
+    ) {
+        if vertices.is_large {
             return self.fill_large(slots, p, facets, new);
         }
         let matrix = &mut *self.matrix;
-        for (&Facet { corners: [a, b, c], beyond, places }, &t) in facets.iter().zip(new) {
+        for (&Facet { beyond, places }, &t) in facets.iter().zip(new) {
+            let [a, b, c] = vertices.at(places);
             slots.set_simplex(t, [p, a, b, c]);
             slots.set_neighbor(beyond, 4 * t);
             let [ab, bc, ca] = places.edges();
@@ -180,22 +171,25 @@ impl EdgeMap {
             matrix[ca] = 4 * t + 2;
             matrix[ab] = 4 * t + 3;
         }
-        for (&Facet { beyond, places, .. }, &t) in facets.iter().zip(new) {
+        for (&Facet { beyond, places }, &t) in facets.iter().zip(new) {
             // From c to b, b to a, and a to c.
             let [beside_a, beside_c, beside_b] = places.reversed().edges().map(|edge| matrix[edge]);
             slots.set_neighbors(t, [beyond, beside_a, beside_b, beside_c]);
         }
     }
 
+    /// The same where vertices share a place: the tetrahedra outside have the corners.
     #[cold]
     fn fill_large(&mut self, slots: &mut impl Slots<4>, p: u32, facets: &[Facet], new: &[u32]) {
         self.table.clear();
-        for (&Facet { corners: [a, b, c], beyond, .. }, &t) in facets.iter().zip(new) {
+        for (&Facet { beyond, .. }, &t) in facets.iter().zip(new) {
+            let [a, b, c] = corners_from_inside(slots, beyond);
             slots.set_simplex(t, [p, a, b, c]);
             slots.set_neighbor(beyond, 4 * t);
             self.table.extend([((b, c), 4 * t + 1), ((c, a), 4 * t + 2), ((a, b), 4 * t + 3)]);
         }
-        for (&Facet { corners: [a, b, c], beyond, .. }, &t) in facets.iter().zip(new) {
+        for (&Facet { beyond, .. }, &t) in facets.iter().zip(new) {
+            let [a, b, c] = corners_from_inside(slots, beyond);
             // Only what is no triangulation has edges without another side.
             let across = |edge| self.table.get(&edge).copied().unwrap_or(0);
             slots.set_neighbors(t, [beyond, across((c, b)), across((a, c)), across((b, a))]);

@@ -15,8 +15,9 @@ use crate::{
     },
     error::Error,
     predicates::filter::{PredicateContext3, PredicatesAt},
-    slots::MarkedSlots,
+    slots::{MarkedSlots, Slots},
 };
+use std::array;
 
 /// The maximum number of points: none of the usual inputs has 8 tetrahedra per point.
 pub(crate) const MAX_POINTS: usize = MAX_TETRAHEDRA / 8;
@@ -39,23 +40,19 @@ pub struct Scratch<P> {
 /// last.
 const CAVITY_FACETS: [[usize; 3]; 4] = [[1, 2, 3], [2, 0, 3], [0, 1, 3], [0, 2, 1]];
 
-/// Where the corners of facet *k* of a tetrahedron are among its vertices, if they are (a, b, c),
-/// counter-clockwise as seen from the other side: by whether vertex *k* + 1 (mod 4) is a, b or c. The
-/// fourth row has no meaning.
-const ORDERS: [[[u8; 3]; 4]; 4] = {
-    let mut orders = [[[0; 3]; 4]; 4];
-    let mut k = 0;
-    while k < 4 {
-        // From the other side, the facet is as clockwise as in FACETS[k] it is counter-clockwise.
-        let [x, mut y, mut z] = [(k + 1) as u8 % 4, (k + 2) as u8 % 4, (k + 3) as u8 % 4];
-        if k % 2 == 0 {
-            (y, z) = (z, y);
-        }
-        orders[k] = [[x, y, z], [z, x, y], [y, z, x], [0; 3]];
-        k += 1;
-    }
-    orders
-};
+/// So many facets of a cavity are looked at before anything is done about what was found: whether
+/// what is beyond a facet is in conflict cannot be predicted, and a branch on it would throw away
+/// what a processor has begun with the next facets, which in most cases has to be done anyway.
+const BATCH: usize = 32;
+
+/// Returns the corners of a facet, counter-clockwise as seen from the tetrahedron that it belongs to;
+/// an infinite vertex comes last.
+pub(crate) fn corners_from_inside(slots: &impl Slots<4>, facet: u32) -> [u32; 3] {
+    let mut v = slots.simplex(facet >> 2);
+    v[0] &= !state::MASK;
+    let [a, b, c] = CAVITY_FACETS[facet as usize & 3].map(|k| v[k]);
+    [b, a, c]
+}
 
 /// A walk among tetrahedra that other threads change ends after this many: it may go in circles.
 const MAX_STEPS: usize = 1 << 14;
@@ -82,31 +79,26 @@ impl<S: MarkedSlots<4>> Insert<3> for S {
         let here = vertices.at(p);
         let mut came_through = 4;
         let mut steps = 0;
-        'walk: loop {
+        loop {
             let v = corners(self, t);
             if v[3] == self.infinite() || (S::SHARED && steps == MAX_STEPS) {
                 return t;
             }
             steps += 1;
-            for (k, facet) in FACETS.iter().enumerate() {
-                if k == came_through {
-                    continue;
-                }
-                let [a, b, c] = facet.map(|i| v[i]);
-                if here.orient3d(a, b, c) > 0 {
-                    let across = self.neighbors(t)[k];
-                    t = across >> 2;
-                    came_through = across as usize & 3;
-                    continue 'walk;
-                }
+            // All facets at once: a branch for each would often be predicted wrongly.
+            let k = here.facet_towards(v).unwrap_or_else(|| {
+                let is_beyond = |[a, b, c]: [usize; 3]| here.orient3d(v[a], v[b], v[c]) > 0;
+                (0..4).find(|&k| k != came_through && is_beyond(FACETS[k])).unwrap_or(4)
+            });
+            if k == 4 || k == came_through {
+                return t;
             }
-            return t;
+            let across = self.neighbors(t)[k];
+            t = across >> 2;
+            came_through = across as usize & 3;
         }
     }
 
-    // In the package, two copies, for the CPU engine and for splaying, are too large. Natively each
-    // is faster with its own.
-    #[cfg_attr(target_arch = "wasm32", inline(never))]
     fn insert(
         &mut self,
         vertices: &PredicateContext3<'_>,
@@ -128,7 +120,7 @@ impl<S: MarkedSlots<4>> Insert<3> for S {
             free.push(self.push()?);
         }
         let rest = free.len() - boundary.len();
-        edges.fill(self, p, boundary, &free[rest..], vertices.is_large());
+        edges.fill(self, p, boundary, &free[rest..], vertices);
         let last = free[free.len() - 1];
         free.truncate(rest);
         Ok(Some(last))
@@ -157,7 +149,7 @@ fn mark(slots: &mut impl MarkedSlots<4>, t: u32, state: u32) {
 /// The circumsphere of a ghost is the half-space beyond its facet and, in the facet's plane, the
 /// circumdisc of the facet: the part of the plane inside the circumsphere of the tetrahedron on the
 /// other side of the facet.
-#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+#[inline(always)]
 pub(crate) fn in_conflict(slots: &impl MarkedSlots<4>, here: &PredicatesAt<'_, '_, 3>, t: u32) -> bool {
     let v = corners(slots, t);
     if v[3] != slots.infinite() {
@@ -193,75 +185,87 @@ fn find_cavity<S: MarkedSlots<4>>(
     let Scratch { conflict, boundary, beyond, vertices, .. } = scratch;
     boundary.clear();
     vertices.clear();
-    let (corners, around) = (corners(slots, start), slots.neighbors(start));
-    let places = corners.map(|v| vertices.push(v, here));
-    for (facet, beyond) in CAVITY_FACETS.iter().zip(around) {
-        let corners_of = |all: [u32; 4]| facet.map(|k| all[k]);
-        boundary.push(Facet { corners: corners_of(corners), beyond, places: FacetPlaces::new(corners_of(places)) });
+    for v in corners(slots, start) {
+        vertices.give_place(v, here);
     }
+    boundary.extend(facets(slots, start, vertices));
     conflict.push(start);
     mark(slots, start, state::CONFLICT);
     // The facets before `next` have been looked at, and those before `kept` are the cavity's so far.
     let (mut next, mut kept) = (0, 0);
-    while let Some(&Facet { beyond: across, places, .. }) = boundary.get(next) {
-        let facet = next;
-        next += 1;
-        let (other, k) = (across >> 2, across as usize & 3);
-        let [first, apex] = slots.first_and(other, k);
-        let apex = apex & !state::MASK;
-        match first & state::MASK {
-            state::CONFLICT => continue,
-            state::UNKNOWN => {
-                let (det, is_certain) = if boundary[facet].corners[2] == slots.infinite() {
-                    (f64::NAN, false)
-                } else {
-                    here.insphere_of_rows(vertices.rows(places), apex)
-                };
-                let is_in_conflict = match is_certain {
-                    true => det > 0.0,
-                    false => test_again(slots, here, det, boundary[facet], vertices, beyond),
-                };
-                if is_in_conflict {
-                    let place = match vertices.place(apex) {
-                        Some(place) => place,
-                        None if S::SHARED && !slots.claim(apex) => return false,
-                        None => vertices.push(apex, here),
-                    };
-                    slots.set_first(other, first | state::CONFLICT);
-                    conflict.push(other);
-                    // The three other facets of the tetrahedron replace this one.
-                    let Facet { corners: [a, b, c], places, .. } = boundary[facet];
-                    let [_, x] = slots.first_and(other, (k + 1) % 4);
-                    let x = x & !state::MASK;
-                    let order = ORDERS[k][usize::from(x == b) + 2 * usize::from(x == c)];
-                    let [beyond_a, beyond_b, beyond_c] = slots.some_neighbors(other, order);
-                    let [abd, bcd, cad] = places.around(place);
-                    boundary.extend([
-                        Facet { corners: [a, b, apex], beyond: beyond_c, places: abd },
-                        Facet { corners: [b, c, apex], beyond: beyond_a, places: bcd },
-                        Facet { corners: [c, a, apex], beyond: beyond_b, places: cad },
-                    ]);
-                    if c == slots.infinite() {
-                        bring_last(boundary);
+    while next < boundary.len() {
+        let end = boundary.len().min(next + BATCH);
+        let (mut found, mut count) = ([0; BATCH], 0);
+        for i in next..end {
+            let facet = boundary[i];
+            let (other, k) = (facet.beyond >> 2, facet.beyond as usize & 3);
+            let [first, apex] = slots.first_and(other, k);
+            let state = first & state::MASK;
+            if state == state::CONFLICT {
+                continue;
+            }
+            let mut is_in_conflict = false;
+            if state == state::UNKNOWN {
+                let (det, is_certain) = here.insphere_of_rows(vertices.rows(facet.places), apex & !state::MASK);
+                is_in_conflict = det > 0.0;
+                if !is_certain {
+                    // What takes long to decide is decided once: it is not left to the end of the batch.
+                    is_in_conflict = test_again(slots, here, det, facet, vertices, beyond);
+                    if is_in_conflict {
+                        if !take_in(slots, here, facet.beyond, (conflict, boundary, vertices)) {
+                            return false;
+                        }
+                        continue;
                     }
-                    continue;
                 }
             }
-            _ => {}
+            // It goes into both lists, of which one gets longer.
+            (boundary[kept], found[count % BATCH]) = (facet, facet.beyond);
+            kept += usize::from(!is_in_conflict);
+            count += usize::from(is_in_conflict);
         }
-        boundary[kept] = boundary[facet];
-        kept += 1;
+        next = end;
+        for &facet in found.iter().take(count) {
+            // It may have been found through two facets.
+            let [first, _] = slots.first_and(facet >> 2, 0);
+            if first & state::MASK != state::CONFLICT && !take_in(slots, here, facet, (conflict, boundary, vertices)) {
+                return false;
+            }
+        }
     }
     boundary.truncate(kept);
     true
 }
 
-/// In the last two facets, (b, c, d) and (c, a, d), brings c to the end.
-#[cold]
-fn bring_last(facets: &mut [Facet]) {
-    if let [.., bcd, cad] = facets {
-        (*bcd, *cad) = (bcd.rotate().rotate(), cad.rotate());
+/// Takes the tetrahedron beyond a facet, which is in conflict with the vertex `here`, into the cavity.
+/// Returns whether its vertex could be claimed.
+#[inline(always)]
+fn take_in<S: MarkedSlots<4>>(
+    slots: &mut S,
+    here: &PredicatesAt<'_, '_, 3>,
+    facet: u32,
+    (conflict, boundary, vertices): (&mut Vec<u32>, &mut Vec<Facet>, &mut CavityVertices<S::Places>),
+) -> bool {
+    let (t, k) = (facet >> 2, facet as usize & 3);
+    let [_, apex] = slots.first_and(t, k);
+    let apex = apex & !state::MASK;
+    if S::SHARED && !slots.claim(apex) {
+        return false;
     }
+    mark(slots, t, state::CONFLICT);
+    conflict.push(t);
+    vertices.give_place(apex, here);
+    // The facet that leads back is not one of the cavity.
+    boundary.extend(facets(slots, t, vertices));
+    boundary.swap_remove(boundary.len() - 4 + k);
+    true
+}
+
+/// Returns the facets of tetrahedron `t`, whose vertices have places.
+#[inline]
+fn facets<S: MarkedSlots<4>>(slots: &S, t: u32, vertices: &CavityVertices<S::Places>) -> [Facet; 4] {
+    let (places, around) = (corners(slots, t).map(|v| vertices.place_of(v)), slots.neighbors(t));
+    array::from_fn(|k| Facet { beyond: around[k], places: FacetPlaces::new(CAVITY_FACETS[k].map(|i| places[i])) })
 }
 
 /// Returns whether what is beyond a facet is in conflict with the vertex `here`, from the value `det`

@@ -229,12 +229,6 @@ impl MarkedSlots<4> for Triangulation3 {
         [vertices[0], vertices[k % 4]]
     }
 
-    #[inline]
-    fn some_neighbors(&self, t: u32, facets: [u8; 3]) -> [u32; 3] {
-        let neighbors = &self.neighbors[t as usize];
-        facets.map(|k| neighbors[usize::from(k) % 4])
-    }
-
     /// Marks the slot.
     fn discard(&mut self, t: u32) {
         self.set_state(t, state::FREE);

@@ -322,13 +322,9 @@ where
             return Err(Error::PointCount { points: points.len(), expected: mesh.point_count() });
         }
         let mut update = moved.map(|_| UpdateStats::default());
-        let mut from = moved;
-        // The package has no room for the code.
-        if !cfg!(target_arch = "wasm32") {
-            from = moved.filter(|mesh| self.settings.limits.looks_after(mesh.begun_anew()));
-            if let Some((mesh, update)) = moved.zip(update.as_mut()).filter(|_| from.is_none()) {
-                update.restarted = mesh.stats().update.and_then(|update| update.restarted);
-            }
+        let mut from = moved.filter(|mesh| self.settings.limits.looks_after(mesh.begun_anew()));
+        if let Some((mesh, update)) = moved.zip(update.as_mut()).filter(|_| from.is_none()) {
+            update.restarted = mesh.stats().update.and_then(|update| update.restarted);
         }
         let mut made = loop {
             let before = from.zip(update.as_mut());

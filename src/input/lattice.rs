@@ -125,9 +125,8 @@ impl<const D: usize> Lattice<D> {
         let narrow = lattice(Width::Narrow);
         let is_exact = |p| !narrow.rounds(p);
         let all_exact = |range| points.range(range).iter().all(is_exact);
-        // Other threads, which WebAssembly does not have, need not wake up where one of the first points
-        // decides.
-        let is_narrow = (cfg!(target_arch = "wasm32") || all_exact(0..points.len().min(FEW)))
+        // Other threads need not wake up where one of the first points decides.
+        let is_narrow = all_exact(0..points.len().min(FEW))
             && parallel::map_ranges(threads, points.len(), all_exact).into_iter().all(|exact| exact);
         Ok(if is_narrow { narrow } else { lattice(Width::Wide) })
     }

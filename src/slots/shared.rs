@@ -327,12 +327,6 @@ impl<'a, const N: usize> MarkedSlots<N> for Worker<'a, N> {
         [0, k % N].map(|k| words[k].load(Relaxed))
     }
 
-    #[inline]
-    fn some_neighbors(&self, t: u32, facets: [u8; 3]) -> [u32; 3] {
-        let words = &self.neighbors[t as usize];
-        facets.map(|k| words[usize::from(k) % N].load(Relaxed))
-    }
-
     fn discard(&mut self, t: u32) {
         self.unused.push(t);
     }

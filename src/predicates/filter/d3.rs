@@ -5,13 +5,39 @@ use crate::predicates::filter::{
 };
 use crate::predicates::{Sign, exact, integer, symbolic};
 
-/// A point lifted to the paraboloid, as a row of the in-sphere determinant: its difference to a
-/// given vertex, and the square of its distance.
-pub(crate) type Row = [f64; 4];
+/// A point lifted to the paraboloid, as a row of the in-sphere determinant: its difference (x, y, z)
+/// to a given vertex, and the square *l* of its distance.
+///
+/// They are stored as x, y, z, x, l, l, y, and nothing: all pairs that [`minors`] takes are in it, so
+/// that none needs to be put together for each test.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+pub(crate) struct Row([f64; 8]);
 
-/// Stands for the row of a vertex whose coordinates are not stored, or which is infinite. It makes
-/// determinants NaN, so that no filter decides.
-pub(crate) const NO_ROW: Row = [f64::NAN; 4];
+impl Row {
+    /// Stands for the row of a vertex whose coordinates are not stored, or which is infinite. It
+    /// makes determinants NaN, so that no filter decides.
+    pub(crate) const NONE: Row = Row([f64::NAN; 8]);
+
+    #[inline(always)]
+    fn new([x, y, z]: [f64; 3]) -> Self {
+        let l = lift([x, y, z]);
+        Row([x, y, z, x, l, l, y, 0.0])
+    }
+
+    /// Returns x, y, z and l.
+    #[inline(always)]
+    fn columns(&self) -> [f64; 4] {
+        let [x, y, z, _, l, ..] = self.0;
+        [x, y, z, l]
+    }
+
+    /// Returns the numbers from the `k`-th on.
+    #[inline(always)]
+    fn pair(&self, k: usize) -> [f64; 2] {
+        [self.0[k], self.0[k + 1]]
+    }
+}
 
 impl PredicatesAt<'_, '_, 3> {
     /// Returns the context's `orient3d` with the vertex as d.
@@ -25,6 +51,33 @@ impl PredicatesAt<'_, '_, 3> {
         self.context.orient3d_of(vertices, u, v, w)
     }
 
+    /// Returns the facet of a positively oriented tetrahedron beyond which the vertex is, 4 if there
+    /// is none, or `None` if floating point does not decide that. Of several facets, that with the
+    /// greatest determinant is chosen: on average, walks are shorter by it.
+    ///
+    /// The determinants are those of [`orient3d`](Self::orient3d), expanded by another column, so
+    /// that they have minors in common; the bound of their errors is the same.
+    #[inline]
+    pub(crate) fn facet_towards(&self, tetrahedron: [u32; 4]) -> Option<usize> {
+        if self.stored.is_empty() {
+            return None;
+        }
+        let [a, b, c, d] = tetrahedron.map(|v| minus(self.stored[v as usize], self.place));
+        let minor = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - q[0] * p[1];
+        let (ab, bc, cd) = (minor(a, b), minor(b, c), minor(c, d));
+        let (ac, bd, ad) = (minor(a, c), minor(b, d), minor(a, d));
+        let dets = [
+            (c[2] * bd - b[2] * cd) - d[2] * bc,
+            (a[2] * cd - c[2] * ad) + d[2] * ac,
+            (b[2] * ad - a[2] * bd) - d[2] * ab,
+            (a[2] * bc - b[2] * ac) + c[2] * ab,
+        ];
+        let greater = |k: usize, l: usize| if dets[k] > dets[l] { k } else { l };
+        let k = greater(greater(0, 1), greater(2, 3));
+        let det = greatest(dets);
+        if det.abs() > self.context.orientation_bound { Some(if det > 0.0 { k } else { 4 }) } else { None }
+    }
+
     /// Returns the context's `insphere` with the vertex as e.
     #[inline(always)]
     pub(crate) fn insphere(&self, [a, b, c, d]: [u32; 4]) -> Sign {
@@ -36,13 +89,9 @@ impl PredicatesAt<'_, '_, 3> {
     }
 
     /// Returns the row of vertex `v`.
-    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    #[cfg_attr(target_arch = "wasm32", inline(never))]
+    #[inline(always)]
     pub(crate) fn row(&self, v: u32) -> Row {
-        self.stored.get(v as usize).map_or(NO_ROW, |&p| {
-            let [x, y, z] = minus(p, self.place);
-            [x, y, z, lift([x, y, z])]
-        })
+        self.stored.get(v as usize).map_or(Row::NONE, |&p| Row::new(minus(p, self.place)))
     }
 
     /// Returns the value of the determinant of [`insphere`](Self::insphere) from the rows of a, b and
@@ -53,11 +102,10 @@ impl PredicatesAt<'_, '_, 3> {
     #[inline(always)]
     pub(crate) fn insphere_of_rows(&self, [a, b, c]: [&Row; 3], d: u32) -> (f64, bool) {
         let Some(&p) = self.stored.get(d as usize) else { return (f64::NAN, false) };
-        let [x, y, z] = minus(p, self.place);
-        let d = [x, y, z, lift([x, y, z])];
+        let d = Row::new(minus(p, self.place));
         let det = lifted_determinant(a, b, c, &d);
         let is_certain = det.abs() > self.context.in_sphere_bound
-            || det * det > squared_bound(greatest([a, b, c, &d].map(|row| row[3])));
+            || det * det > squared_bound(greatest([a, b, c, &d].map(|row| row.0[4])));
         (det, is_certain)
     }
 
@@ -145,9 +193,7 @@ impl PredicateContext3<'_> {
     }
 
     /// Returns the sign, from the differences to the last vertex.
-    // In the package, one copy is enough: insertion takes rows.
-    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    #[cfg_attr(target_arch = "wasm32", inline(never))]
+    #[inline(always)]
     fn insphere_of(&self, vertices: [u32; 5], [a, b, c, d]: [[f64; 3]; 4]) -> Sign {
         let lifts = [a, b, c, d].map(lift);
         let det = insphere_determinant([a, b, c, d], lifts);
@@ -159,7 +205,7 @@ impl PredicateContext3<'_> {
 
     #[inline(never)]
     fn insphere_unfiltered(&self, vertices: [u32; 5], [a, b, c, d]: [[f64; 3]; 4], det: f64) -> Sign {
-        let rows = [a, b, c, d].map(|p| [p[0], p[1], p[2], lift(p)]);
+        let rows = [a, b, c, d].map(Row::new);
         if is_insphere_certain(det, rows.each_ref()) {
             return if det > 0.0 { 1 } else { -1 };
         }
@@ -242,22 +288,19 @@ fn insphere_determinant([a, b, c, d]: [[f64; 3]; 4], lifts: [f64; 4]) -> f64 {
 /// times the permanent.
 #[inline(always)]
 fn lifted_determinant(a: &Row, b: &Row, c: &Row, d: &Row) -> f64 {
-    let [xy_zl, xz_yl, xl_yz] = minors(a, b);
-    let [zl_xy, yl_xz, yz_xl] = minors(d, c).map(|[x, y]| [y, x]);
-    let [p, q] = minus(plus(times(xy_zl, zl_xy), times(xl_yz, yz_xl)), times(xz_yl, yl_xz));
+    let [ab_yz_zx, ab_xl_yl, ab_zl_xy] = minors(a, b);
+    let [dc_yz_zx, dc_xl_yl, [zl, xy]] = minors(d, c);
+    let [p, q] = plus(plus(times(ab_yz_zx, dc_xl_yl), times(ab_xl_yl, dc_yz_zx)), times(ab_zl_xy, [xy, zl]));
     p + q
 }
 
-/// Returns the minors of two rows, by their columns.
+/// Returns the minors of two rows, by their columns, in pairs of which the first two have each
+/// other's complements.
 #[inline(always)]
 fn minors(a: &Row, b: &Row) -> [[f64; 2]; 3] {
-    let (a_xy, a_zl, a_lz) = ([a[0], a[1]], [a[2], a[3]], [a[3], a[2]]);
-    let (b_xy, b_yx, b_zl, b_lz) = ([b[0], b[1]], [b[1], b[0]], [b[2], b[3]], [b[3], b[2]]);
-    let ([xy, yx], [zl, lz]) = (times(a_xy, b_yx), times(a_zl, b_lz));
-    let xy_zl = minus([xy, zl], [yx, lz]);
-    let xz_yl = minus(times(a_xy, b_zl), times(a_zl, b_xy));
-    let xl_yz = minus(times(a_xy, b_lz), times(a_lz, b_xy));
-    [xy_zl, xz_yl, xl_yz]
+    let minors = |j: usize, k: usize| minus(times(a.pair(j), b.pair(k)), times(a.pair(k), b.pair(j)));
+    let [xy, yz, zx, ll, ly] = [0, 1, 2, 4, 5];
+    [minors(yz, zx), minors(xy, ll), minors(zx, ly)]
 }
 
 #[inline(always)]
@@ -271,13 +314,13 @@ fn plus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 }
 
 /// Returns whether the value of an in-sphere determinant of these rows has its sign.
-#[cfg_attr(target_arch = "wasm32", inline(never))]
 fn is_insphere_certain(det: f64, rows: [&Row; 4]) -> bool {
     det.abs() > ERROR_BOUNDS[3].in_sphere * insphere_permanent(rows) + UNDERFLOW
 }
 
-fn insphere_permanent([a, b, c, d]: [&Row; 4]) -> f64 {
-    let minor = |p: &Row, q: &Row| (p[0] * q[1]).abs() + (q[0] * p[1]).abs();
+fn insphere_permanent(rows: [&Row; 4]) -> f64 {
+    let [a, b, c, d] = rows.map(Row::columns);
+    let minor = |p: [f64; 4], q: [f64; 4]| (p[0] * q[1]).abs() + (q[0] * p[1]).abs();
     let (ab, bc, cd, da) = (minor(a, b), minor(b, c), minor(c, d), minor(d, a));
     let (ac, bd) = (minor(a, c), minor(b, d));
     let [az, bz, cz, dz] = [a, b, c, d].map(|p| p[2].abs());

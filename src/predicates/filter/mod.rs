@@ -4,7 +4,7 @@
 mod d2;
 mod d3;
 
-pub(crate) use d3::{NO_ROW, Row};
+pub(crate) use d3::Row;
 
 use crate::{
     input::{
