@@ -419,7 +419,7 @@ with_fields! {
         pub inserted: usize,
         /// Whether a mesh on the device was read for that, changed by the host, and uploaded.
         pub on_host: bool,
-        /// Why the points were triangulated from scratch, if they were. Natively on a device, after two such
+        /// Why the points were triangulated from scratch, if they were. On a device, after two such
         /// updates in a row, only every fourth looks at the mesh; the others have the reason of the one
         /// before.
         pub restarted: Option<Restart>,

@@ -177,9 +177,9 @@ export interface UpdateStats {
   /** Whether a mesh on the device was read for that, changed by the host, and uploaded. */
   onHost: boolean;
   /**
-   * Why the points were triangulated from scratch, if they were. Natively on a device, after two
-   * such updates in a row, only every fourth looks at the mesh; the others have the reason of the
-   * one before.
+   * Why the points were triangulated from scratch, if they were. On a device, after two such
+   * updates in a row, only every fourth looks at the mesh; the others have the reason of the one
+   * before.
    */
   restarted: string | null;
 }
