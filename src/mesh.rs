@@ -2,6 +2,7 @@
 
 use crate::{
     index::{NO_INDEX, NONE},
+    parallel::Threads,
     stats::Stats,
 };
 use std::borrow::Cow;
@@ -202,7 +203,7 @@ pub trait MeshInfo {
     fn duplicate_of(&self) -> &[i32];
 
     /// Makes vertex *v* `names[v]`, and leaves what has no name.
-    fn rename(&mut self, names: &[u32]);
+    fn rename(&mut self, threads: Threads, names: &[u32]);
 
     /// Returns the number of points that are duplicates.
     fn duplicates(&self) -> usize;
@@ -249,11 +250,14 @@ macro_rules! common_methods {
                 &self.duplicate_of
             }
 
-            fn rename(&mut self, names: &[u32]) {
-                let hull: &mut [u32] = bytemuck::cast_slice_mut(&mut self.hull);
-                for v in self.$simplices.as_flattened_mut().iter_mut().chain(hull) {
-                    *v = names.get(*v as usize).copied().unwrap_or(*v);
-                }
+            fn rename(&mut self, threads: $crate::parallel::Threads, names: &[u32]) {
+                let rename = |_: usize, vertices: &mut [u32]| {
+                    for v in vertices {
+                        *v = names.get(*v as usize).copied().unwrap_or(*v);
+                    }
+                };
+                $crate::parallel::for_chunks(threads, self.$simplices.as_flattened_mut(), rename);
+                $crate::parallel::for_chunks(threads, bytemuck::cast_slice_mut(&mut self.hull), rename);
             }
 
             fn duplicates(&self) -> usize {
@@ -350,7 +354,7 @@ macro_rules! common_methods {
                 let kept: Vec<u32> = (0..self.duplicate_of.len() as u32).filter(|&i| !self.is_unused(i)).collect();
                 let mut places = vec![$crate::index::NO_INDEX; self.duplicate_of.len()];
                 (0..).zip(&kept).for_each(|(place, &i)| places[i as usize] = place);
-                $crate::mesh::MeshInfo::rename(self, &places);
+                $crate::mesh::MeshInfo::rename(self, $crate::parallel::Threads::All, &places);
                 let place = |first: i32| places.get(first as usize).map_or(first, |&place| place as i32);
                 self.duplicate_of = kept.iter().map(|&i| place(self.duplicate_of[i as usize])).collect();
                 kept

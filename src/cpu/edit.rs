@@ -64,6 +64,10 @@ pub trait Edit<const D: usize, const N: usize>: Update<D, Triangulation: Slots<N
     /// there, or its neighbours are not.
     fn row(mesh: &Self::Mesh, winding: Winding, t: u32) -> Option<Row<N>>;
 
+    /// Returns the vertices of the simplex that facet `across` belongs to, as [`row`](Self::row) has
+    /// them, if `facet` is across that facet.
+    fn beyond(mesh: &Self::Mesh, winding: Winding, facet: u32, across: u32) -> Option<[u32; N]>;
+
     /// Returns the ghost on the facet opposite corner `k`, the infinite vertex last.
     fn ghost(simplex: [u32; N], k: usize, infinite: u32) -> [u32; N];
 
@@ -176,6 +180,9 @@ where
         _ if vertices.is_empty() && new == 0 => Ok(None),
         Err(why) => Err(why),
         Ok(()) => {
+            let Some(vertices) = in_order(threads, points, &lattice, &vertices) else {
+                return Ok(Some(Again::new(Restart::Broken, duplicate_of)));
+            };
             let order = order_of_new(threads, points, &lattice, known, &mut duplicate_of);
             stats.phases.push((Phase::Sort, stopwatch.lap()));
             let sparse = Sparse::new(mesh, &context, options.winding);
@@ -257,14 +264,23 @@ impl<const D: usize> Used<D> {
         Points::F64(&self.points)
     }
 
-    /// Makes the mesh of these points that of all points.
-    pub fn restore(&self, mesh: &mut impl MeshInfo) {
+    /// Makes the mesh of these points that of all points, with at most so many threads.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::Threads`].
+    pub fn restore(&self, mesh: &mut (impl MeshInfo + Send), threads: Option<NonZeroUsize>) -> Result<(), Error> {
         let mut duplicate_of: Vec<i32> = (0..self.all as i32).collect();
         for (&name, &first) in self.names.iter().zip(mesh.duplicate_of()) {
             duplicate_of[name as usize] = if first == NONE { NONE } else { self.names[first as usize] as i32 };
         }
-        mesh.rename(&self.names);
+        let threads = if self.all < MIN_SHARED { Some(NonZeroUsize::MIN) } else { threads };
+        parallel::with_threads(threads, |threads| {
+            mesh.rename(threads, &self.names);
+            Ok(())
+        })?;
         mesh.set_input(duplicate_of, mesh.dimension());
+        Ok(())
     }
 }
 
@@ -285,7 +301,7 @@ where
 {
     let mut mesh = delaunay(used.map_or(points, Used::points), options)?;
     if let Some(used) = used {
-        used.restore(&mut mesh);
+        used.restore(&mut mesh, options.threads)?;
     }
     mesh.stats_mut().update = Some(update);
     Ok(mesh)
@@ -355,6 +371,22 @@ impl Plan {
         plan.duplicate_of = duplicate_of;
         Ok(plan)
     }
+}
+
+/// Returns these points in an order in which each is near the one before; `None` if two are equal.
+fn in_order<const D: usize>(
+    threads: Threads,
+    points: Points<'_, D>,
+    lattice: &Lattice<D>,
+    indices: &[u32],
+) -> Option<Vec<u32>>
+where
+    Dimension<D>: Incremental<D>,
+{
+    let points: Vec<[f64; D]> = indices.iter().map(|&i| points.get(i as usize)).collect();
+    let Distinct { order, .. } =
+        insertion_order(threads, Points::F64(&points), lattice, Dimension::<D>::CURVE, Order::Brio);
+    (order.len() == indices.len()).then(|| order.into_iter().map(|i| indices[i as usize]).collect())
 }
 
 /// Returns the new points in an order in which each is near the one before, without those that

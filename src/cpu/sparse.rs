@@ -187,11 +187,10 @@ where
             return None;
         }
         for (k, across) in neighbors.into_iter().enumerate().filter(|&(_, across)| across != NO_INDEX) {
-            let (other, back) = Dimension::<D>::row(self.mesh, self.winding, across >> 2)?;
-            let l = (across & 3) as usize;
+            let other = Dimension::<D>::beyond(self.mesh, self.winding, 4 * t + k as u32, across)?;
             // The same facet, seen from the other side.
             let is_shared = (0..N).all(|i| i == k || other.contains(&simplex[i]));
-            if back[l] != 4 * t + k as u32 || !is_shared || simplex.contains(&other[l]) {
+            if !is_shared || simplex.contains(&other[(across & 3) as usize]) {
                 return None;
             }
         }

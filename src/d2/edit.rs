@@ -37,6 +37,11 @@ impl Edit<2, 3> for Dimension<2> {
         halfedges.into_iter().all(is_there).then(row)
     }
 
+    fn beyond(mesh: &Mesh2, winding: Winding, facet: u32, across: u32) -> Option<[u32; 3]> {
+        let (triangle, edges) = Self::row(mesh, winding, across >> 2)?;
+        (edges.get(across as usize & 3) == Some(&facet)).then_some(triangle)
+    }
+
     fn ghost(triangle: [u32; 3], k: usize, infinite: u32) -> [u32; 3] {
         let [from, to] = edge_of(triangle, k);
         [to, from, infinite]

@@ -40,6 +40,14 @@ impl Edit<3, 4> for Dimension<3> {
         Some((*mesh.tetrahedra.get(t as usize)?, row))
     }
 
+    /// Without the row, which takes as many accesses for each of its facets.
+    fn beyond(mesh: &Mesh3, _winding: Winding, facet: u32, across: u32) -> Option<[u32; 4]> {
+        let [t, u] = [facet, across].map(|facet| facet >> 2);
+        let back = mesh.neighbors.get(u as usize)?[across as usize & 3];
+        let place = mesh.neighbors.get(t as usize)?.iter().position(|&v| v == u as i32)?;
+        if back == t as i32 && place == facet as usize & 3 { mesh.tetrahedra.get(u as usize).copied() } else { None }
+    }
+
     fn ghost(simplex: [u32; 4], k: usize, infinite: u32) -> [u32; 4] {
         let [a, b, c] = FACETS[k].map(|i| simplex[i]);
         [a, b, c, infinite]

@@ -82,12 +82,17 @@ fn checked<const D: usize>(points: Points<'_, D>, expected: usize) -> Result<Poi
 }
 
 /// Returns the mesh of all points, given that of those that are used, if not all are.
-fn restored<const D: usize, M: MeshInfo>(mut made: M, used: Option<Used<D>>, update: UpdateStats) -> M {
+fn restored<const D: usize, M: MeshInfo + Send>(
+    triangulator: &Triangulator,
+    mut made: M,
+    used: Option<Used<D>>,
+    update: UpdateStats,
+) -> Result<M, Error> {
     if let Some(used) = used {
-        used.restore(&mut made);
+        used.restore(&mut made, triangulator.options.threads)?;
     }
     made.stats_mut().update = Some(update);
-    made
+    Ok(made)
 }
 
 /// Implements it for a mesh in the memory of the host.
@@ -107,7 +112,7 @@ macro_rules! on_host {
                     None => {
                         let used = Used::of(points, &self.duplicate_of);
                         let made = triangulator.$scratch(used.as_ref().map_or(points, Used::points))?;
-                        restored(made, used, stats)
+                        restored(triangulator, made, used, stats)?
                     }
                 };
                 Ok(())
@@ -124,7 +129,7 @@ macro_rules! on_host {
                     None => {
                         let used = Used::of(points, &self.duplicate_of);
                         let made = triangulator.$scratch_async(used.as_ref().map_or(points, Used::points)).await?;
-                        restored(made, used, stats)
+                        restored(triangulator, made, used, stats)?
                     }
                 };
                 Ok(())
@@ -140,7 +145,7 @@ macro_rules! on_host {
                 if let Some(again) = edit::<$D, $N>(self, points, removed, &triangulator.options, limits)? {
                     let used = again.used(points);
                     let made = triangulator.$scratch(used.as_ref().map_or(points, Used::points))?;
-                    *self = restored(made, used, again.update);
+                    *self = restored(triangulator, made, used, again.update)?;
                 }
                 Ok(())
             }
@@ -155,7 +160,7 @@ macro_rules! on_host {
                 if let Some(again) = edit::<$D, $N>(self, points, removed, &triangulator.options, limits)? {
                     let used = again.used(points);
                     let made = triangulator.$scratch_async(used.as_ref().map_or(points, Used::points)).await?;
-                    *self = restored(made, used, again.update);
+                    *self = restored(triangulator, made, used, again.update)?;
                 }
                 Ok(())
             }
@@ -242,7 +247,8 @@ macro_rules! on_device {
                         }
                         Some(used) => {
                             let made = triangulator.$scratch_async(used.points()).await?;
-                            self.changed_by_host(restored(made, Some(used), again.update), read).await?
+                            let made = restored(triangulator, made, Some(used), again.update)?;
+                            self.changed_by_host(made, read).await?
                         }
                     },
                 };

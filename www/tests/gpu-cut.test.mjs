@@ -89,24 +89,28 @@ const trianglesDrawn = (page) =>
     return new Uint32Array(staging.getMappedRange())[0] / 3;
   });
 
-/** How many triangles the page saves of what it shows: the worker's. */
-async function trianglesSaved(page) {
+/** What the page saves of what it shows. */
+async function saved(page, format) {
   const folder = mkdtempSync(join(tmpdir(), 'gdel-cut-'));
   try {
     await tab(page, 'use');
-    const file = readFileSync((await save(page, 'GLB', folder))[0]);
-    const { meshes, accessors } = JSON.parse(file.toString('utf8', 20, 20 + file.readUInt32LE(12)));
-    return accessors[meshes[0].primitives[0].attributes.POSITION].count / 3;
+    const file = readFileSync((await save(page, format, folder))[0]);
+    await tab(page, 'view');
+    return file;
   } finally {
     rmSync(folder, { recursive: true });
   }
 }
 
-/** The drawing without what lies over it. */
-const drawing = (page) =>
-  page
-    .locator('#canvas')
-    .screenshot({ animations: 'disabled', style: '#stage > :not(canvas) { visibility: hidden }' });
+/** How many triangles the page saves of what it shows: the worker's. */
+async function trianglesSaved(page) {
+  const file = await saved(page, 'GLB');
+  const { meshes, accessors } = JSON.parse(file.toString('utf8', 20, 20 + file.readUInt32LE(12)));
+  return accessors[meshes[0].primitives[0].attributes.POSITION].count / 3;
+}
+
+/** The drawing as the page draws it now: the browser may show it later. */
+const drawing = (page) => saved(page, 'PNG');
 
 /**
  * The share of the pixels in which two pictures may differ: where two triangles are equally far
