@@ -202,7 +202,7 @@ pub trait MeshInfo {
     /// Returns for each point the one that stands for it.
     fn duplicate_of(&self) -> &[i32];
 
-    /// Makes vertex *v* `names[v]`, and leaves what has no name.
+    /// Makes vertex *v* `names[v]`, and leaves what has no name, by `threads`.
     fn rename(&mut self, threads: Threads, names: &[u32]);
 
     /// Returns the number of points that are duplicates.

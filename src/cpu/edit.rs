@@ -175,14 +175,13 @@ where
     };
     let new = points.len() - known;
     let context = PredicateContext::of_input(points, &lattice);
-    let changed = match few(vertices.len(), heirs.len() + new) {
+    let ordered = few(vertices.len(), heirs.len() + new)
+        .and_then(|()| in_order(threads, points, &lattice, &vertices).ok_or(Restart::Broken));
+    let changed = match ordered {
         // The indices that are removed were duplicates.
         _ if vertices.is_empty() && new == 0 => Ok(None),
         Err(why) => Err(why),
-        Ok(()) => {
-            let Some(vertices) = in_order(threads, points, &lattice, &vertices) else {
-                return Ok(Some(Again::new(Restart::Broken, duplicate_of)));
-            };
+        Ok(vertices) => {
             let order = order_of_new(threads, points, &lattice, known, &mut duplicate_of);
             stats.phases.push((Phase::Sort, stopwatch.lap()));
             let sparse = Sparse::new(mesh, &context, options.winding);

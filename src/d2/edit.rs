@@ -23,7 +23,7 @@ impl Edit<2, 3> for Dimension<2> {
     type Hull = Vec<u32>;
 
     const MAX_SIMPLICES: usize = MAX_TRIANGLES;
-    const REMOVAL: f64 = 2.0;
+    const REMOVAL: f64 = 1.4;
 
     fn count(mesh: &Mesh2) -> usize {
         mesh.triangles.len()

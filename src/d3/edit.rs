@@ -23,7 +23,7 @@ impl Edit<3, 4> for Dimension<3> {
     type Hull = Vec<[u32; 3]>;
 
     const MAX_SIMPLICES: usize = MAX_TETRAHEDRA;
-    const REMOVAL: f64 = 2.0;
+    const REMOVAL: f64 = 1.2;
 
     fn count(mesh: &Mesh3) -> usize {
         mesh.tetrahedra.len()

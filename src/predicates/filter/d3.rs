@@ -362,6 +362,17 @@ mod tests {
             prop_assert!(!is_certain || from_det == parity * sign, "{det} for {order:?}, {sign}");
             prop_assert_eq!(here.insphere_again(det, rows.each_ref(), order, 3), parity * sign);
         }
+        // With vertex 4 in the place of its corner k, a tetrahedron is inverted if that is beyond facet k.
+        let tetrahedron = if vertices.orient3d(0, 1, 2, 3) > 0 { [0, 1, 2, 3] } else { [1, 0, 2, 3] };
+        let is_beyond = |k: usize| {
+            let [a, b, c, d] = std::array::from_fn(|i| p(if i == k { 4 } else { tetrahedron[i] }));
+            exact::orient3d(a, b, c, d) < 0
+        };
+        match here.facet_towards(tetrahedron) {
+            Some(4) => prop_assert!(!(0..4).any(is_beyond)),
+            Some(k) => prop_assert!(is_beyond(k), "{k}"),
+            None => {}
+        }
         Ok(())
     }
 
