@@ -7,10 +7,12 @@ use naga::{
     valid::{Capabilities, ValidationFlags, Validator},
 };
 
-use crate::sources::File;
+use crate::{parts, sources::File};
 
 /// What every WebGPU device supports.
 const MAX_STORAGE_BUFFERS: usize = 8;
+/// What devices need to support for arrays in parts.
+pub const MAX_STORAGE_BUFFERS_IN_PARTS: usize = 32;
 const MAX_INVOCATIONS: u32 = 256;
 const MAX_WORKGROUP_BYTES: u32 = 16_384;
 /// The constant that the host takes for the size of all workgroups.
@@ -34,6 +36,33 @@ pub struct Structure {
     pub size: u32,
     /// The members, with the bytes before each.
     pub members: Vec<(String, u32)>,
+}
+
+/// Returns the WGSL of the shader that these files make up for arrays in parts, validated, if it has such
+/// arrays.
+///
+/// # Errors
+///
+/// Says what is wrong.
+pub fn in_parts(parts: &[&File]) -> Result<Option<String>, String> {
+    let wgsl: String = parts.iter().map(|file| file.code()).collect();
+    let path = kernel(parts).path();
+    let parse = |wgsl: &str| {
+        naga::front::wgsl::parse_str(wgsl)
+            .map_err(|e| format!("{path}, in parts: {}", e.emit_to_string_with_path(wgsl, "assembled")))
+    };
+    let Some(text) = parts::in_parts(&wgsl, &parse(&wgsl)?).map_err(|what| format!("{path}: {what}"))? else {
+        return Ok(None);
+    };
+    let module = parse(&text)?;
+    Validator::new(ValidationFlags::all(), Capabilities::empty())
+        .validate(&module)
+        .map_err(|e| format!("{path}, in parts: {}", e.emit_to_string_with_path(&text, "assembled")))?;
+    let buffers = module.global_variables.iter().filter(|(_, variable)| variable.binding.is_some()).count();
+    if buffers > MAX_STORAGE_BUFFERS_IN_PARTS {
+        return Err(format!("{path}: {buffers} storage buffers are too many, in parts"));
+    }
+    Ok(Some(text))
 }
 
 /// Validates the shader that these files make up.

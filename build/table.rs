@@ -9,7 +9,8 @@ use std::{
 };
 
 use crate::{
-    check::{Reflection, Structure, check},
+    check::{self, Reflection, Structure, check},
+    parts,
     sources::{File, Sources},
 };
 
@@ -24,6 +25,9 @@ const CONTROL: (&str, &str, &str) = ("Control", "iteration", "free");
 /// Kernels that modules of WebAssembly do without: those of experiments, which are optional, and those
 /// for queries, which only native programs ask.
 const NATIVE: [&str; 3] = ["flip_compact", "query_", "edges_"];
+/// Kernels of 3D that there are only for whole arrays: those that look at the mesh of the caller, and
+/// that of iterations in one workgroup, of which a run with so many points has few.
+const WHOLE: [&str; 3] = ["flip_few", "query_", "edges_"];
 
 /// A shader in all its forms.
 struct Shader<'a> {
@@ -79,10 +83,27 @@ pub fn write() -> Result<(), String> {
         let is_native = |name: &str| NATIVE.iter().any(|native| name.split('/').any(|part| part.starts_with(native)));
         tables.iter_mut().for_each(|table| table.retain(|shader| !is_native(&shader.name)));
     }
+    let in_parts = if is_downloaded { BTreeMap::new() } else { in_parts(&tables)? };
     let sources = if is_downloaded { &shortened(&sources, &tables)? } else { &sources };
-    let module = module(sources, &tables, &declarations).expect("strings can be written to");
+    let module = module(sources, &tables, &declarations, &in_parts).expect("strings can be written to");
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it")).join("shaders.rs");
     fs::write(&out, module).map_err(|e| format!("{}: {e}", out.display()))
+}
+
+/// Returns the WGSL of the kernels of 3D with arrays in parts, for each width, by name.
+fn in_parts(tables: &[Vec<Shader<'_>>; 3]) -> Result<BTreeMap<String, [String; 2]>, String> {
+    let mut texts = BTreeMap::new();
+    let has_parts = |shader: &&Shader<'_>| {
+        let name = shader.name.rsplit('/').next().unwrap_or_default();
+        !WHOLE.iter().any(|whole| name.starts_with(whole))
+    };
+    for shader in tables[1..].iter().flatten().filter(has_parts) {
+        let [narrow, wide] = shader.parts.each_ref().map(|parts| check::in_parts(parts));
+        if let (Some(narrow), Some(wide)) = (narrow?, wide?) {
+            texts.insert(shader.name.clone(), [narrow, wide]);
+        }
+    }
+    Ok(texts)
 }
 
 /// Returns the sources with short names, with which the shaders are validated once more.
@@ -151,6 +172,7 @@ fn module(
     sources: &Sources,
     tables: &[Vec<Shader<'_>>; 3],
     declarations: &Declarations,
+    in_parts: &BTreeMap<String, [String; 2]>,
 ) -> Result<String, std::fmt::Error> {
     let mut text = String::new();
     for file in sources.files() {
@@ -165,12 +187,32 @@ fn module(
                 let constants: Vec<_> = parts.iter().map(|file| constant(file)).collect();
                 constants.join(", ")
             });
-            writeln!(
-                text,
-                "Shader {{ name: {name:?}, narrow: &[{narrow}], wide: &[{wide}], variables: &{variables:?} }},"
-            )?;
+            write!(text, "Shader {{ name: {name:?}, narrow: &[{narrow}], wide: &[{wide}], variables: &{variables:?}")?;
+            if !in_parts.is_empty() {
+                let texts = in_parts.get(name).filter(|_| own.is_some_and(|own| std::ptr::eq(own, d3)));
+                write!(text, ", in_parts: {texts:?}")?;
+            }
+            writeln!(text, " }},")?;
         }
         writeln!(text, "]);")?;
+    }
+    if !in_parts.is_empty() {
+        let (buffers, unit) = (check::MAX_STORAGE_BUFFERS_IN_PARTS, parts::UNIT);
+        let (arrays, stride, parts) = (parts::ARRAYS, parts::STRIDE, parts::PARTS);
+        writeln!(text, "/// The arrays that can be in parts.\nconst ARRAYS_IN_PARTS: &[&str] = &{arrays:?};")?;
+        writeln!(text, "/// The most parts of an array.\npub(crate) const PARTS: u32 = {parts};")?;
+        writeln!(
+            text,
+            "/// From the binding of a part to that of the next one.\npub(crate) const PART_STRIDE: u32 = {stride};"
+        )?;
+        writeln!(
+            text,
+            "/// The bytes that sizes of parts are multiples of.\npub(crate) const PART_UNIT: u64 = {unit};"
+        )?;
+        writeln!(
+            text,
+            "/// The storage buffers of a kernel with arrays in parts, at most.\npub(crate) const BUFFERS_IN_PARTS: u32 = {buffers};"
+        )?;
     }
     write_constants(&mut text, declarations)?;
     write_layouts(&mut text, declarations)?;

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use bytemuck::Pod;
 
 use crate::error::Error;
-use crate::gpu::Gpu;
+use crate::gpu::{Binding, Gpu, Parts};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::parallel::{Threads, for_parts};
 
@@ -15,10 +15,17 @@ use crate::parallel::{Threads, for_parts};
 #[derive(Debug, Clone)]
 pub struct Storage<T> {
     buffer: wgpu::Buffer,
+    /// The buffers of an array in parts, after the first.
+    more: More,
     label: &'static str,
     len: usize,
     elements: PhantomData<T>,
 }
+
+#[cfg(not(target_arch = "wasm32"))]
+type More = Vec<wgpu::Buffer>;
+#[cfg(target_arch = "wasm32")]
+type More = [wgpu::Buffer; 0];
 
 /// Of more bytes than these, several threads write a part each.
 #[cfg(not(target_arch = "wasm32"))]
@@ -43,6 +50,29 @@ impl<T: Pod> Storage<T> {
     /// [`Gpu::with_error_scope`] reports a lack of memory.
     pub fn new(gpu: &Gpu, label: &'static str, len: usize) -> Result<Self, Error> {
         Self::create(gpu, label, len, USAGES)
+    }
+
+    /// Creates an array that is in parts, if they are given, and otherwise in one buffer.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::BufferTooLarge`] if there are too few parts, and those of [`Storage::new`].
+    pub(crate) fn in_parts(gpu: &Gpu, label: &'static str, len: usize, parts: Option<Parts>) -> Result<Self, Error> {
+        let Some(parts) = parts else { return Self::new(gpu, label, len) };
+        let per_part = usize::try_from(parts.bytes()).unwrap_or(usize::MAX) / size_of::<T>();
+        if len.div_ceil(per_part) as u64 > parts.limit() / parts.bytes() {
+            let bytes = len as u128 * size_of::<T>() as u128;
+            return Err(Error::BufferTooLarge { label, bytes, limit: parts.limit(), points: None });
+        }
+        #[cfg_attr(target_arch = "wasm32", expect(unused_mut, reason = "there are no parts"))]
+        let mut storage = Self::new(gpu, label, len.min(per_part))?;
+        #[cfg(not(target_arch = "wasm32"))]
+        while storage.len < len {
+            let part = Self::new(gpu, label, (len - storage.len).min(per_part))?;
+            storage.len += part.len;
+            storage.more.push(part.buffer);
+        }
+        Ok(storage)
     }
 
     /// Creates a buffer that can also be drawn from, for an array that the caller gets.
@@ -88,7 +118,8 @@ impl<T: Pod> Storage<T> {
             points: None,
         })?;
         let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
-        Ok(Storage { buffer: gpu.device().create_buffer(&descriptor), label, len, elements: PhantomData })
+        let buffer = gpu.device().create_buffer(&descriptor);
+        Ok(Storage { buffer, more: More::default(), label, len, elements: PhantomData })
     }
 
     /// Makes room for `len` elements: at least half as many again as there are now, if the device
@@ -106,12 +137,13 @@ impl<T: Pod> Storage<T> {
         let bindable = usize::try_from(gpu.max_storage_bytes()).unwrap_or(usize::MAX) / size_of::<T>().max(1);
         let amortised = self.len.saturating_add(self.len / 2).min(bindable);
         let larger = Self::new(gpu, self.label, len.max(amortised))?;
-        encoder.copy_buffer_to_buffer(&self.buffer, 0, &larger.buffer, 0, self.buffer.size());
+        self.record_copy(encoder, 0, &larger, 0, self.bytes());
         *self = larger;
         Ok(())
     }
 
-    /// Writes `contents` at element `start`, before the commands of the next submission.
+    /// Writes `contents` at element `start`, before the commands of the next submission. Of an array in
+    /// parts, only the first one is written to.
     pub fn write(&self, gpu: &Gpu, start: usize, contents: &[T]) {
         let offset = (start * size_of::<T>()) as u64;
         let bytes: &[u8] = bytemuck::cast_slice(contents);
@@ -148,17 +180,66 @@ impl<T: Pod> Storage<T> {
 
     /// Returns the size on the device, in bytes.
     pub fn bytes(&self) -> u64 {
-        self.buffer.size()
+        self.buffers().map(wgpu::Buffer::size).sum()
     }
 
     /// Returns the same buffer as elements of another type.
     pub fn cast<U: Pod>(&self) -> Storage<U> {
         let len = self.len * size_of::<T>() / size_of::<U>();
-        Storage { buffer: self.buffer.clone(), label: self.label, len, elements: PhantomData }
+        let (buffer, more) = (self.buffer.clone(), self.more.clone());
+        Storage { buffer, more, label: self.label, len, elements: PhantomData }
     }
 
-    /// Returns the buffer.
+    /// Returns the buffer, or the first one of an array in parts.
     pub fn buffer(&self) -> &wgpu::Buffer {
         &self.buffer
+    }
+
+    /// Returns the buffers of the parts, or the only one.
+    fn buffers(&self) -> impl Iterator<Item = &wgpu::Buffer> {
+        std::iter::once(&self.buffer).chain(&self.more)
+    }
+
+    /// Returns the buffers of the parts, or the only one, under the name that the array has in
+    /// shaders.
+    pub(crate) fn bindings(&self, name: &'static str) -> impl Iterator<Item = Binding<'_>> {
+        self.buffers().map(move |buffer| (name, buffer))
+    }
+
+    /// Returns in which buffer byte `at` is, where there, and how many bytes follow in it.
+    pub(crate) fn place(&self, mut at: u64) -> (&wgpu::Buffer, u64, u64) {
+        let mut buffer = &self.buffer;
+        for next in &self.more {
+            if at < buffer.size() {
+                break;
+            }
+            at -= buffer.size();
+            buffer = next;
+        }
+        (buffer, at, buffer.size() - at)
+    }
+
+    /// Records that everything is zero.
+    pub(crate) fn record_clear(&self, encoder: &mut wgpu::CommandEncoder) {
+        self.buffers().for_each(|buffer| encoder.clear_buffer(buffer, 0, None));
+    }
+
+    /// Records a copy of so many bytes, from byte `from` of this array to byte `to` of `target`.
+    pub(crate) fn record_copy(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        from: u64,
+        target: &Storage<T>,
+        to: u64,
+        bytes: u64,
+    ) {
+        let mut done = 0;
+        while done < bytes {
+            let (source, source_at, source_left) = self.place(from + done);
+            let (destination, at, left) = target.place(to + done);
+            let copied = (bytes - done).min(source_left).min(left);
+            encoder.copy_buffer_to_buffer(source, source_at, destination, at, copied);
+            done += copied;
+        }
     }
 }

@@ -138,6 +138,10 @@ impl Gpu {
             required_limits: wgpu::Limits {
                 max_buffer_size: limits.max_buffer_size,
                 max_storage_buffer_binding_size: limits.max_storage_buffer_binding_size,
+                #[cfg(not(target_arch = "wasm32"))]
+                max_storage_buffers_per_shader_stage: limits
+                    .max_storage_buffers_per_shader_stage
+                    .min(crate::gpu::shader::BUFFERS_IN_PARTS),
                 ..wgpu::Limits::default()
             },
             ..Default::default()

@@ -211,6 +211,10 @@ where
     /// The kernels for points on the narrow lattice, compiled when such points first come, because
     /// compiling takes long.
     narrow: Option<Phase1<D>>,
+    /// The kernels for large arrays in parts, for points of one width, since the last input that needed
+    /// them.
+    #[cfg(not(target_arch = "wasm32"))]
+    in_parts: Option<(Width, Phase1<D>)>,
     settings: Settings<D>,
 }
 
@@ -225,7 +229,14 @@ where
     /// Returns the errors of [`Gpu::with_error_scope`].
     pub async fn new(gpu: Gpu) -> Result<Self, Error> {
         let wide = Phase1::new(&gpu, Width::Wide).await?;
-        Ok(GpuEngine { gpu, wide, narrow: None, settings: Settings::default() })
+        Ok(GpuEngine {
+            gpu,
+            wide,
+            narrow: None,
+            #[cfg(not(target_arch = "wasm32"))]
+            in_parts: None,
+            settings: Settings::default(),
+        })
     }
 
     /// Returns when also the kernels are compiled that a first run does without.
@@ -385,7 +396,7 @@ where
             // What is traced is the triangulation after each round.
             (settings.rounds, settings.batches, settings.start_points) = (1, 1, Some(0));
         }
-        let (gpu, phase1) = self.kernels(lattice.width()).await?;
+        let (gpu, phase1) = self.kernels(lattice.width(), points.len()).await?;
         let input = Input { points, lattice: &lattice, start, starts_later: repaired.is_some() };
         let mut run = Run::new(phase1, gpu, input, settings, None).await?;
         let mut moved = match moved {
@@ -435,10 +446,26 @@ where
         }
     }
 
-    /// Returns the device with the kernels for points of this width, compiled if they are not, and
-    /// gives the buffers of the other ones back, because points of the other width are unlikely to
+    /// Returns the device with the kernels for so many points of this width, compiled if they are not,
+    /// and gives the buffers of the other ones back, because points of another kind are unlikely to
     /// come soon.
-    async fn kernels(&mut self, width: Width) -> Result<(&Gpu, &mut Phase1<D>), Error> {
+    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "there are no arrays in parts"))]
+    async fn kernels(&mut self, width: Width, points: usize) -> Result<(&Gpu, &mut Phase1<D>), Error> {
+        #[cfg(not(target_arch = "wasm32"))]
+        if let Some(parts) = self.settings.parts(&self.gpu, points) {
+            self.wide.release();
+            self.narrow.iter_mut().for_each(Phase1::release);
+            let kept = self.in_parts.take().filter(|(of, kept)| *of == width && kept.parts == Some(parts));
+            let kernels = match kept {
+                Some(kept) => kept,
+                None => (width, Phase1::in_parts(&self.gpu, width, Some(parts)).await?),
+            };
+            return Ok((&self.gpu, &mut self.in_parts.insert(kernels).1));
+        }
+        #[cfg(not(target_arch = "wasm32"))]
+        if let Some((_, in_parts)) = &mut self.in_parts {
+            in_parts.release();
+        }
         let phase1 = match width {
             Width::Narrow => {
                 self.wide.release();

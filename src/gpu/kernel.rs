@@ -1,11 +1,13 @@
 //! Compute pipelines.
 
 #[cfg(not(target_arch = "wasm32"))]
+use crate::gpu::shader::{PART_STRIDE, PARTS};
+#[cfg(not(target_arch = "wasm32"))]
 use crate::parallel::{self, Threads};
 use crate::{
     error::Error,
     gpu::{
-        Gpu,
+        Gpu, Parts,
         shader::{Shader, Variable},
     },
     input::lattice::Width,
@@ -15,25 +17,63 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
+/// The size of the buffer for a part that there is not: no element in a shader is larger.
+const EMPTY_BYTES: u64 = 48;
+
 /// A buffer under the name that it has in shaders.
 pub type Binding<'a> = (&'static str, &'a wgpu::Buffer);
+
+/// A storage buffer of a shader, or a part of one.
+#[derive(Debug, Clone, Copy)]
+struct Bound {
+    name: &'static str,
+    binding: u32,
+    /// Which part it is.
+    part: usize,
+    /// Whether it is the last one.
+    is_last: bool,
+    read_only: bool,
+}
+
+/// Returns the storage buffers of a shader, with each part of those that are in parts.
+fn bound(shader: &'static Shader, parts: Option<Parts>) -> Vec<Bound> {
+    let whole = |&(name, binding, read_only): &Variable| Bound { name, binding, part: 0, is_last: true, read_only };
+    #[cfg(not(target_arch = "wasm32"))]
+    if parts.is_some() {
+        let of_variable = |variable: &Variable| {
+            let count = if shader.has_in_parts(variable.0) { PARTS } else { 1 };
+            let whole = whole(variable);
+            (0..count).map(move |k| Bound {
+                binding: whole.binding + k * PART_STRIDE,
+                part: k as usize,
+                is_last: k + 1 == count,
+                ..whole
+            })
+        };
+        return shader.variables().iter().flat_map(of_variable).collect();
+    }
+    _ = parts;
+    shader.variables().iter().map(whole).collect()
+}
 
 /// A compute pipeline with one bind group.
 #[derive(Debug, Clone)]
 pub struct Kernel {
     label: String,
-    /// The storage buffers and their bindings.
-    variables: Vec<(&'static str, u32)>,
+    variables: Vec<Bound>,
     layout: wgpu::BindGroupLayout,
     device: wgpu::Device,
     /// What the pipeline is compiled from, if it was not compiled at once.
     shader: Option<(&'static Shader, Width)>,
+    /// The size of the parts of its large arrays, if these are in parts.
+    parts: Option<Parts>,
     pipeline: Arc<OnceLock<wgpu::ComputePipeline>>,
 }
 
 impl Kernel {
-    fn new(gpu: &Gpu, shader: &'static Shader, width: Width) -> Self {
-        let entry = |&(_, binding, read_only): &Variable| wgpu::BindGroupLayoutEntry {
+    fn new(gpu: &Gpu, shader: &'static Shader, width: Width, parts: Option<Parts>) -> Self {
+        let variables = bound(shader, parts);
+        let entry = |&Bound { binding, read_only, .. }: &Bound| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: wgpu::ShaderStages::COMPUTE,
             ty: wgpu::BindingType::Buffer {
@@ -45,14 +85,15 @@ impl Kernel {
         };
         let layout = gpu.device().create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(shader.name()),
-            entries: &shader.variables().iter().map(entry).collect::<Vec<_>>(),
+            entries: &variables.iter().map(entry).collect::<Vec<_>>(),
         });
         Kernel {
             label: shader.name().to_owned(),
-            variables: shader.variables().iter().map(|&(name, binding, _)| (name, binding)).collect(),
+            variables,
             layout,
             device: gpu.device().clone(),
             shader: Some((shader, width)),
+            parts,
             pipeline: Arc::default(),
         }
     }
@@ -70,32 +111,53 @@ impl Kernel {
         let pipeline = compile(gpu.device(), label, wgsl, None, constants);
         Kernel {
             label: label.to_owned(),
-            variables: variables.iter().copied().zip(0..).collect(),
+            variables: variables
+                .iter()
+                .zip(0..)
+                .map(|(&name, binding)| Bound { name, binding, part: 0, is_last: true, read_only: false })
+                .collect(),
             layout: pipeline.get_bind_group_layout(0),
             device: gpu.device().clone(),
             shader: None,
+            parts: None,
             pipeline: Arc::new(OnceLock::from(pipeline)),
         }
     }
 
-    /// Binds each variable of the shader to the buffer of the same name. There may be buffers that
-    /// the shader does not use.
+    /// Binds each variable of the shader to the buffer of the same name, where it is in parts to the
+    /// buffers in their order. There may be buffers that the shader does not use.
     ///
     /// # Panics
     ///
-    /// Panics if there is not exactly one buffer for a variable: a mistake in this crate.
+    /// Panics if there is no buffer for a variable, or there are too many: a mistake in this crate.
     pub fn bind(&self, gpu: &Gpu, buffers: &[Binding<'_>]) -> wgpu::BindGroup {
-        let entry = |&(variable, binding): &(&str, u32)| {
-            let mut named = buffers.iter().filter(|(name, _)| *name == variable);
-            let (Some((_, buffer)), None) = (named.next(), named.next()) else {
-                panic!("kernel {}: not exactly one buffer is named {variable}", self.label);
-            };
-            wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() }
+        let of_variable = |&Bound { name, part, is_last, .. }: &Bound| {
+            let mut named = buffers.iter().filter(|(other, _)| *other == name).skip(part);
+            let buffer = named.next().map(|&(_, buffer)| buffer);
+            let is_complete = (part > 0 || buffer.is_some()) && !(is_last && named.next().is_some());
+            assert!(is_complete, "kernel {}: not exactly one buffer is named {name}", self.label);
+            buffer
         };
+        let found: Vec<Option<&wgpu::Buffer>> = self.variables.iter().map(of_variable).collect();
+        // What stands for parts that there are not is never looked at.
+        let missing = found.iter().filter(|buffer| buffer.is_none()).count();
+        let descriptor = wgpu::BufferDescriptor {
+            label: Some("no part"),
+            size: EMPTY_BYTES,
+            usage: wgpu::BufferUsages::STORAGE,
+            mapped_at_creation: false,
+        };
+        let missing: Vec<wgpu::Buffer> = (0..missing).map(|_| gpu.device().create_buffer(&descriptor)).collect();
+        let mut missing = missing.iter();
+        let buffers = found.into_iter().map(|buffer| buffer.or_else(|| missing.next()));
+        let entries = self.variables.iter().zip(buffers).map(|(variable, buffer)| wgpu::BindGroupEntry {
+            binding: variable.binding,
+            resource: buffer.expect("there is one for each that is missing").as_entire_binding(),
+        });
         gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&self.label),
             layout: &self.layout,
-            entries: &self.variables.iter().map(entry).collect::<Vec<_>>(),
+            entries: &entries.collect::<Vec<_>>(),
         })
     }
 
@@ -109,6 +171,11 @@ impl Kernel {
     pub fn pipeline(&self) -> &wgpu::ComputePipeline {
         self.pipeline.get_or_init(|| {
             let (shader, width) = self.shader.expect("what is not a shader was compiled at once");
+            #[cfg(not(target_arch = "wasm32"))]
+            if let Some((parts, wgsl)) = self.parts.zip(shader.wgsl_in_parts(width)) {
+                let constants = [("PART", f64::from(parts.units()))];
+                return compile(&self.device, &self.label, wgsl, Some(&self.layout), &constants);
+            }
             compile(&self.device, &self.label, &shader.wgsl(width), Some(&self.layout), &[])
         })
     }
@@ -157,12 +224,25 @@ pub struct Compiler<'a> {
     deferred: RefCell<Vec<Kernel>>,
     /// Whether the device keeps the kernels.
     kept: bool,
+    /// The parts of large arrays, if these are in parts.
+    parts: Option<Parts>,
 }
 
 impl<'a> Compiler<'a> {
     /// Starts without any kernels.
     pub fn new(gpu: &'a Gpu) -> Self {
-        Compiler { gpu, kernels: RefCell::default(), deferred: RefCell::default(), kept: false }
+        Self::in_parts(gpu, None)
+    }
+
+    /// Starts without any kernels. The large arrays of those that it creates are in parts, if these
+    /// are given.
+    pub(crate) fn in_parts(gpu: &'a Gpu, parts: Option<Parts>) -> Self {
+        Compiler { gpu, kernels: RefCell::default(), deferred: RefCell::default(), kept: false, parts }
+    }
+
+    /// Returns whether large arrays are in parts.
+    pub(crate) fn is_in_parts(&self) -> bool {
+        self.parts.is_some()
     }
 
     /// Starts without any kernels. The device keeps them, so that they are compiled only once.
@@ -188,9 +268,10 @@ impl<'a> Compiler<'a> {
 
     /// Creates the kernel of a shader that few runs need. It is compiled when it is used.
     pub fn on_demand(&self, shader: &'static Shader, width: Width) -> Kernel {
+        let new = || Kernel::new(self.gpu, shader, width, self.parts);
         match self.kept {
-            true => self.gpu.kept_kernel(shader.name(), width, || Kernel::new(self.gpu, shader, width)),
-            false => Kernel::new(self.gpu, shader, width),
+            true => self.gpu.kept_kernel(shader.name(), width, new),
+            false => new(),
         }
     }
 

@@ -2,7 +2,8 @@
 //!
 //! Everything here works natively (Vulkan, Metal, DirectX 12) and in browsers (WebGPU) alike,
 //! within the limits that every WebGPU device has: 8 storage buffers per stage, 256 invocations and
-//! 16 KiB of workgroup memory, 65,535 workgroups per dimension. Only larger buffers are requested.
+//! 16 KiB of workgroup memory, 65,535 workgroups per dimension. Only larger buffers are requested, and
+//! natively more of them, for [`Parts`].
 //!
 //! * [`Gpu`] is a device with its queue, the caller's or one opened on demand.
 //! * [`shader`] has the WGSL of `shaders/`; [`Kernel`] is one compute pipeline made of it.
@@ -22,6 +23,7 @@ pub mod engine;
 pub(crate) mod iterations;
 mod kernel;
 pub mod layout;
+pub(crate) mod parts;
 pub mod phase1;
 pub mod points;
 pub mod primitives;
@@ -37,6 +39,7 @@ pub(crate) mod vertex_simplices;
 pub use buffers::Storage;
 pub use device::{AdapterChoice, AdapterSummary, Gpu, adapters};
 pub use kernel::{Binding, Compiler, Deferred, Kernel};
+pub use parts::Parts;
 pub use profiler::Profiler;
 pub use readback::{Pending, Readback};
 pub use recorder::Recorder;

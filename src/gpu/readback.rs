@@ -46,7 +46,7 @@ pub struct Readback {
 #[derive(Debug)]
 #[must_use = "a readback does nothing until it is received"]
 pub struct Pending<T> {
-    staged: Staged,
+    staged: Pieces,
     len: usize,
     elements: std::marker::PhantomData<T>,
 }
@@ -62,6 +62,12 @@ impl<T> Pending<T> {
         Pending { len: self.len.min(len), ..self }
     }
 }
+
+/// What is read of an array: a piece of each of its parts. In WebAssembly it has only one.
+#[cfg(not(target_arch = "wasm32"))]
+type Pieces = Vec<Staged>;
+#[cfg(target_arch = "wasm32")]
+type Pieces = Staged;
 
 /// A staging buffer that is about to be mapped.
 #[derive(Debug)]
@@ -92,9 +98,24 @@ impl Readback {
         start: usize,
         len: usize,
     ) -> Pending<T> {
+        self.count += 1;
         // In 64 bits, which `usize` need not have.
         let bytes_of = |elements: usize| (elements as u64 * size_of::<T>() as u64).next_multiple_of(4);
         let offset = start as u64 * size_of::<T>() as u64;
+        #[cfg(not(target_arch = "wasm32"))]
+        let staged = {
+            let (mut pieces, mut done) = (Vec::new(), 0);
+            loop {
+                let (buffer, at, left) = source.place(offset + done);
+                let bytes = (bytes_of(len) - done).min(left);
+                pieces.push(self.stage(gpu, encoder, buffer, at, bytes, bytes));
+                done += bytes;
+                if bytes == 0 || done == bytes_of(len) {
+                    break pieces;
+                }
+            }
+        };
+        #[cfg(target_arch = "wasm32")]
         let staged = self.stage(gpu, encoder, source.buffer(), offset, bytes_of(len), bytes_of(with_room(len)));
         Pending { staged, len, elements: std::marker::PhantomData }
     }
@@ -111,6 +132,23 @@ impl Readback {
         pending: Pending<T>,
     ) -> Result<Vec<T>, Error> {
         let len = pending.len;
+        #[cfg(not(target_arch = "wasm32"))]
+        {
+            let mut result: Vec<T> = bytemuck::zeroed_vec(with_room(len));
+            result.truncate(len);
+            let mut target: &mut [u8] = bytemuck::cast_slice_mut(&mut result);
+            let mut done = 0;
+            for piece in pending.staged {
+                let take = |view: &wgpu::BufferView| {
+                    let bytes = (target.bytes() - done).min(view.len() as u64);
+                    target.take(done, bytes, view);
+                    done += bytes;
+                };
+                self.unstage(gpu, submission, piece, take).await?;
+            }
+            Ok(result)
+        }
+        #[cfg(target_arch = "wasm32")]
         self.unstage(gpu, submission, pending.staged, |view| if len == 0 { Vec::new() } else { copied(view, len) })
             .await
     }
@@ -158,6 +196,7 @@ impl Readback {
             while ahead.len() < PIECES_AHEAD
                 && let Some((i, start, len)) = pieces.next()
             {
+                self.count += 1;
                 // The answer of a scope takes a while in browsers, so it is awaited with the piece.
                 let scope = ErrorScope::open(gpu, "readback");
                 let mut encoder = gpu.device().create_command_encoder(&Default::default());
@@ -204,7 +243,6 @@ impl Readback {
             // The receiver may be gone when a run was cancelled.
             let _ = sender.send(result);
         });
-        self.count += 1;
         self.bytes += bytes;
         Staged { staging, mapped_bytes, mapped }
     }
@@ -312,16 +350,6 @@ fn wait(_gpu: &Gpu, _submission: &wgpu::SubmissionIndex) -> Result<(), Error> {
 /// whole to add a few tetrahedra.
 fn with_room(len: usize) -> usize {
     len + len / 64
-}
-
-/// Copies `len` elements from the bytes of a mapped buffer.
-#[cfg(not(target_arch = "wasm32"))]
-fn copied<T: Pod>(view: &wgpu::BufferView, len: usize) -> Vec<T> {
-    let mut result = bytemuck::zeroed_vec(with_room(len));
-    result.truncate(len);
-    let mut target: &mut [u8] = bytemuck::cast_slice_mut(&mut result);
-    target.take(0, target.bytes(), view);
-    result
 }
 
 /// Copies `len` elements from the bytes of a mapped buffer, which lie outside of the memory of

@@ -24,6 +24,9 @@ pub struct Shader {
     narrow: &'static [&'static str],
     wide: &'static [&'static str],
     variables: &'static [Variable],
+    /// The WGSL for each width with arrays in parts, if it has such arrays.
+    #[cfg(not(target_arch = "wasm32"))]
+    in_parts: Option<[&'static str; 2]>,
 }
 
 /// The name of a storage buffer, its binding in group 0, and whether it is only read.
@@ -59,6 +62,21 @@ impl Shader {
     /// Returns the storage buffers.
     pub fn variables(&self) -> &'static [Variable] {
         self.variables
+    }
+
+    /// Returns whether this variable is an array that is in parts in [`Shader::wgsl_in_parts`].
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn has_in_parts(&self, variable: &str) -> bool {
+        self.in_parts.is_some() && ARRAYS_IN_PARTS.contains(&variable)
+    }
+
+    /// Returns the WGSL with large arrays in parts, if it has such arrays.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn wgsl_in_parts(&self, width: Width) -> Option<&'static str> {
+        self.in_parts.map(|[narrow, wide]| match width {
+            Width::Narrow => narrow,
+            Width::Wide => wide,
+        })
     }
 
     /// Assembles the WGSL.

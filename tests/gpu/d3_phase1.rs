@@ -12,7 +12,7 @@ use gdel::internals::reference::d3::{self, predicates::Vertex};
 use gdel::internals::{
     d3::gpu::vertex,
     gpu::{
-        AdapterChoice, Gpu,
+        AdapterChoice, Gpu, Parts,
         layout::{Counters, Pick},
         phase1::{Input, Phase1, Phase1Output, Run, Settings},
     },
@@ -213,6 +213,26 @@ fn a_first_run_does_without_the_kernel_that_takes_longest_to_compile() {
     for points in [inputs::two_lines(Width::Narrow, 100), inputs::uniform(Width::Wide, 1000)] {
         let second = run_and_validate(&gpu, &mut kernels, &points, Settings::default());
         assert!(second.few_done > 0, "{second:?}");
+    }
+}
+
+/// Arrays that are larger than one binding are in parts, here of a few blocks of slots: accesses go
+/// across their borders, the history ends with them, and buffers grow by parts.
+#[test]
+fn arrays_in_parts() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let settings = Settings { rounds: 1, batches: 1, ..Settings::default() };
+    let tight = Settings { points_per_tail_block: 1 << 20, history: 0, ..Settings::default() };
+    for (points, settings, blocks_per_part) in [
+        (inputs::uniform(Width::Narrow, 1000), settings, 400),
+        (inputs::uniform(Width::Wide, 1000), Settings { batches: 2, ..settings }, 300),
+        (inputs::two_lines(Width::Narrow, 100), tight, 130),
+    ] {
+        let parts = Parts::with_bytes(&gpu, 8 * 16 * blocks_per_part).expect("lavapipe binds 32 buffers");
+        let mut kernels = [Width::Narrow, Width::Wide]
+            .map(|width| block_on(Phase1::in_parts(&gpu, width, Some(parts))).expect("they compile"));
+        let counters = run_and_validate(&gpu, &mut kernels, &points, settings);
+        assert_eq!(counters.few_done, 0, "{counters:?}");
     }
 }
 

@@ -84,7 +84,7 @@ where
             counts: Storage::with_contents(gpu, "counts", &[InputCounts::default()]).unwrap(),
         };
         let Params { blocks, history, start_points, .. } = state.params;
-        let sizes = Sizes { blocks, history, start_points: start_points as usize };
+        let sizes = Sizes { blocks, history, start_points: start_points as usize, parts: None };
         let buffers = Buffers::new(gpu, points, sizes).unwrap();
         Device { kernels, buffers, more: Vec::new() }
     }

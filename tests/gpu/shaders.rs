@@ -15,7 +15,7 @@ use gdel::internals::{
 };
 use pollster::block_on;
 
-const SIZES: Sizes = Sizes { blocks: 1, history: 1, start_points: 1 };
+const SIZES: Sizes = Sizes { blocks: 1, history: 1, start_points: 1, parts: None };
 
 fn points(gpu: &Gpu) -> DevicePoints {
     DevicePoints {

@@ -1,10 +1,16 @@
 //! The GPU engine on the inputs that make other codes fail.
 
-use crate::{agree, clouds, degenerate, same, triangulate};
+use crate::{agree, clouds, degenerate, motions, open, same, triangulate};
 use gdel::{
-    internals::d3::generate::{Distribution3, generate3d},
+    Error, Outputs,
+    internals::{
+        Options,
+        d3::generate::{Distribution3, generate3d},
+        gpu::phase1::Settings,
+    },
     stats::Fallback,
 };
+use pollster::block_on;
 use proptest::prelude::*;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -28,6 +34,37 @@ fn twenty_thousand_uniform_points() {
 fn five_thousand_points_on_a_sphere_in_single_precision() {
     let points = generate3d(Distribution3::Sphere, 5_000, 1);
     agree(&points.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>());
+}
+
+/// Arrays that are larger than one binding are in parts: here of 60,000 slots.
+#[test]
+fn arrays_in_parts() {
+    let mut engine = open();
+    let options = Options::default();
+    let parts = Settings { part_bytes: Some(60_000 * 16), ..Settings::default() };
+    let uniform = generate3d(Distribution3::Uniform, 20_000, 3);
+    for points in [&uniform, &generate3d(Distribution3::Sphere, 3_000, 1), &clouds::shuffled(&clouds::grid(20), 1)] {
+        for sparse in [false, true] {
+            engine.set_settings(Settings { sparse, ..parts });
+            let mesh = block_on(engine.triangulate(points.into(), &options)).expect("triangulates");
+            assert_eq!(mesh.stats.fallback, None);
+            same(points, &mesh);
+        }
+    }
+
+    // A mesh that follows its points.
+    let moved = motions::displaced(20_000, 0.002);
+    let mesh = block_on(engine.triangulate_on_device((&moved[0]).into(), &options)).expect("triangulates");
+    let mesh = block_on(engine.update_on_device(&mesh, (&moved[1]).into(), &options)).expect("updates");
+    assert_eq!(mesh.stats().update.map(|update| update.restarted), Some(None));
+    same(&moved[1], &mesh.read(Outputs::ALL).expect("reads"));
+
+    // Four parts are too few.
+    engine.set_settings(Settings { part_bytes: Some(40_000 * 16), ..parts });
+    let error = block_on(engine.triangulate((&uniform).into(), &options)).expect_err("it does not fit");
+    assert!(matches!(error, Error::BufferTooLarge { points: Some(18_000..20_000), .. }), "{error}");
+    engine.set_settings(Settings::default());
+    same(&uniform, &block_on(engine.triangulate((&uniform).into(), &options)).expect("triangulates"));
 }
 
 #[test]

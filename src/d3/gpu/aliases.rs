@@ -57,13 +57,12 @@ impl phase1::Aliases<3> for Aliases {
     }
 
     fn bindings(&self) -> Vec<Binding<'_>> {
-        vec![
-            ("mesh_tetrahedra", self.tets.buffer()),
-            ("mesh_neighbors", self.neighbors.buffer()),
-            ("uncertain", self.uncertain.buffer()),
-            ("failed_points", self.failed.buffer()),
-            ("gathered_tetrahedra", self.gathered_tetrahedra.buffer()),
-            ("gathered_neighbors", self.gathered_neighbors.buffer()),
-        ]
+        let mut bindings = vec![("failed_points", self.failed.buffer())];
+        bindings.extend(self.tets.bindings("mesh_tetrahedra"));
+        bindings.extend(self.neighbors.bindings("mesh_neighbors"));
+        bindings.extend(self.uncertain.bindings("uncertain"));
+        bindings.extend(self.gathered_tetrahedra.bindings("gathered_tetrahedra"));
+        bindings.extend(self.gathered_neighbors.bindings("gathered_neighbors"));
+        bindings
     }
 }

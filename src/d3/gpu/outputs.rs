@@ -106,10 +106,8 @@ impl OutputStage {
                 let arrays = DeviceArrays::new(gpu, 4, finite, 3 * hull, points)?;
                 let params = Storage::with_contents(gpu, "parameters of the mesh", &[mesh.params])?;
                 let hull_len = Storage::<u32>::new(gpu, "facets of the hull", 1)?;
-                let buffers = [
+                let mut buffers = vec![
                     ("outputs", params.buffer()),
-                    ("mesh_tetrahedra", mesh.tetrahedra.buffer()),
-                    ("mesh_neighbors", mesh.neighbors.buffer()),
                     ("marks", mesh.marks.buffer()),
                     ("numbers", mesh.numbers.buffer()),
                     ("out_tetrahedra", arrays.simplices.buffer()),
@@ -117,6 +115,8 @@ impl OutputStage {
                     ("out_hull", arrays.hull.buffer()),
                     ("hull_len", hull_len.buffer()),
                 ];
+                buffers.extend(mesh.tetrahedra.bindings("mesh_tetrahedra"));
+                buffers.extend(mesh.neighbors.bindings("mesh_neighbors"));
                 // The count is what the parameters of the scan are, too.
                 let scan = self.scan.bind(gpu, &params.cast(), mesh.marks, mesh.numbers)?;
                 let mut recorder = Recorder::new(gpu, None);

@@ -4,7 +4,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Binding, Gpu, Recorder, Storage,
+        Binding, Gpu, Parts, Recorder, Storage,
         dim::{Dim, Flip, OwnBuffers},
         layout::{Active, BLOCK, FREE_START, PARAM_WORDS, Status, Waiting},
         points::DevicePoints,
@@ -69,6 +69,8 @@ pub struct Sizes {
     pub history: u32,
     /// The points that the CPU engine triangulates first, at most.
     pub start_points: usize,
+    /// The parts of the large arrays, if they are in parts.
+    pub parts: Option<Parts>,
 }
 
 /// Returns the bytes of the largest of the buffers: with 16 bytes per slot, several have this size,
@@ -92,17 +94,17 @@ where
     ///
     /// Returns [`Error::BufferTooLarge`].
     pub fn new(gpu: &Gpu, points: DevicePoints, sizes: Sizes) -> Result<Self, Error> {
-        let Sizes { blocks, history, start_points } = sizes;
+        let Sizes { blocks, history, start_points, parts } = sizes;
         let count = points.pairs.len();
         let slots = slots(blocks);
         Ok(Buffers {
             control: Storage::new(gpu, "control", FREE_START + blocks as usize)?,
-            simplices: Storage::new(gpu, Dimension::<D>::SIMPLICES, slots)?,
-            neighbors: Storage::new(gpu, "neighbours", slots)?,
-            status: Storage::new(gpu, "status", slots)?,
-            active: Storage::new(gpu, "active list", 2 * slots)?,
-            messages: Storage::new(gpu, "messages", slots)?,
-            history: Storage::new(gpu, "history", history as usize)?,
+            simplices: Storage::in_parts(gpu, Dimension::<D>::SIMPLICES, slots, parts)?,
+            neighbors: Storage::in_parts(gpu, "neighbours", slots, parts)?,
+            status: Storage::in_parts(gpu, "status", slots, parts)?,
+            active: Storage::in_parts(gpu, "active list", 2 * slots, parts)?,
+            messages: Storage::in_parts(gpu, "messages", slots, parts)?,
+            history: Storage::in_parts(gpu, "history", history as usize, parts)?,
             waiting: Storage::new(gpu, "waiting points", 2 * count)?,
             scores: Storage::new(gpu, "scores", count)?,
             start_points: Storage::new(gpu, "points of the start", start_points)?,
@@ -126,30 +128,33 @@ where
     /// # Errors
     ///
     /// Returns [`Error::BufferTooLarge`].
-    pub fn with_blocks(&self, gpu: &Gpu, recorder: &mut Recorder<'_>, blocks: u32) -> Result<Self, Error> {
+    pub fn with_blocks(
+        &self,
+        gpu: &Gpu,
+        recorder: &mut Recorder<'_>,
+        blocks: u32,
+        parts: Option<Parts>,
+    ) -> Result<Self, Error> {
         let slots = slots(blocks);
         let old_half = self.active.bytes() / 2;
         let mut larger = self.clone();
         larger.control = Storage::new(gpu, "control", FREE_START + blocks as usize)?;
-        larger.messages = Storage::new(gpu, "messages", slots)?;
-        larger.simplices = Storage::new(gpu, Dimension::<D>::SIMPLICES, slots)?;
-        larger.neighbors = Storage::new(gpu, "neighbours", slots)?;
-        larger.status = Storage::new(gpu, "status", slots)?;
-        larger.active = Storage::new(gpu, "active list", 2 * slots)?;
+        larger.messages = Storage::in_parts(gpu, "messages", slots, parts)?;
+        larger.simplices = Storage::in_parts(gpu, Dimension::<D>::SIMPLICES, slots, parts)?;
+        larger.neighbors = Storage::in_parts(gpu, "neighbours", slots, parts)?;
+        larger.status = Storage::in_parts(gpu, "status", slots, parts)?;
+        larger.active = Storage::in_parts(gpu, "active list", 2 * slots, parts)?;
         larger.marks = Storage::new(gpu, "marks", slots)?;
         larger.numbers = Storage::new(gpu, "numbers of simplices", slots)?;
         let encoder = recorder.encoder();
-        let mut copy = |from: &wgpu::Buffer, at: u64, to: &wgpu::Buffer, start: u64, bytes: u64| {
-            encoder.copy_buffer_to_buffer(from, at, to, start, bytes);
-        };
         // All but the parameters, which the host writes anew.
         let counters = (PARAM_WORDS * size_of::<u32>()) as u64;
-        copy(self.control.buffer(), counters, larger.control.buffer(), counters, self.control.bytes() - counters);
-        copy(self.simplices.buffer(), 0, larger.simplices.buffer(), 0, self.simplices.bytes());
-        copy(self.neighbors.buffer(), 0, larger.neighbors.buffer(), 0, self.neighbors.bytes());
-        copy(self.status.buffer(), 0, larger.status.buffer(), 0, self.status.bytes());
-        copy(self.active.buffer(), 0, larger.active.buffer(), 0, old_half);
-        copy(self.active.buffer(), old_half, larger.active.buffer(), larger.active.bytes() / 2, old_half);
+        self.control.record_copy(encoder, counters, &larger.control, counters, self.control.bytes() - counters);
+        self.simplices.record_copy(encoder, 0, &larger.simplices, 0, self.simplices.bytes());
+        self.neighbors.record_copy(encoder, 0, &larger.neighbors, 0, self.neighbors.bytes());
+        self.status.record_copy(encoder, 0, &larger.status, 0, self.status.bytes());
+        self.active.record_copy(encoder, 0, &larger.active, 0, old_half);
+        self.active.record_copy(encoder, old_half, &larger.active, larger.active.bytes() / 2, old_half);
         larger.own = self.own.with_blocks(gpu, encoder, blocks)?;
         Ok(larger)
     }
@@ -158,9 +163,9 @@ where
     /// and what the dimension adds.
     pub fn record_clear(&self, recorder: &mut Recorder<'_>) {
         let encoder = recorder.encoder();
-        encoder.clear_buffer(self.simplices.buffer(), 0, None);
-        encoder.clear_buffer(self.status.buffer(), 0, None);
-        encoder.clear_buffer(self.start_near.buffer(), 0, None);
+        self.simplices.record_clear(encoder);
+        self.status.record_clear(encoder);
+        self.start_near.record_clear(encoder);
         self.own.record_clear(encoder);
     }
 
@@ -175,16 +180,6 @@ where
             ("counts", self.points.counts.buffer()),
             ("merged_into", self.points.merged_into.buffer()),
             ("vertex_of", self.points.vertex_of.buffer()),
-            ("simplices", self.simplices.buffer()),
-            ("neighbors", self.neighbors.buffer()),
-            ("status", self.status.buffer()),
-            ("actives", self.active.buffer()),
-            // Scores and points are picked before there are messages, and messages pass between
-            // commit and link, after the list of entries that the check leaves undecided. Each has
-            // an element per slot.
-            ("messages", self.messages.buffer()),
-            ("picks", self.messages.buffer()),
-            ("history", self.history.buffer()),
             ("waiting", self.waiting.buffer()),
             ("scores", self.scores.buffer()),
             ("start_points", self.start_points.buffer()),
@@ -194,6 +189,15 @@ where
             ("marks", self.marks.buffer()),
             ("numbers", self.numbers.buffer()),
         ]);
+        bindings.extend(self.simplices.bindings("simplices"));
+        bindings.extend(self.neighbors.bindings("neighbors"));
+        bindings.extend(self.status.bindings("status"));
+        bindings.extend(self.active.bindings("actives"));
+        // Scores and points are picked before there are messages, and messages pass between commit and
+        // link, after the list of entries that the check leaves undecided. Each has an element per slot.
+        bindings.extend(self.messages.bindings("messages"));
+        bindings.extend(self.messages.bindings("picks"));
+        bindings.extend(self.history.bindings("history"));
         bindings
     }
 

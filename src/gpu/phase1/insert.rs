@@ -115,7 +115,7 @@ impl Insert {
     ) where
         Dimension<D>: Dim<D>,
     {
-        recorder.encoder().clear_buffer(b.messages.buffer(), 0, None);
+        b.messages.record_clear(recorder.encoder());
         self.record_begin(recorder, bound);
         recorder.stage("pick");
         recorder.dispatch(&self.pick_score, &bound.pick_score, workgroups);

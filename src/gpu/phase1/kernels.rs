@@ -4,7 +4,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Compiler, Deferred, Gpu, Readback,
+        Compiler, Deferred, Gpu, Parts, Readback,
         phase1::{finish::Finish, memory::Kept, stages::Stages},
         points::PointStage,
     },
@@ -23,6 +23,8 @@ where
     pub(crate) outputs: <Dimension<D> as Finish<D>>::Outputs,
     pub(crate) readback: Readback,
     pub(crate) kept: Kept<D>,
+    /// The parts of the large arrays, if they are in parts.
+    pub(crate) parts: Option<Parts>,
     deferred: Deferred,
 }
 
@@ -37,7 +39,16 @@ where
     ///
     /// Returns the errors of [`Compiler::finish`].
     pub async fn new(gpu: &Gpu, width: Width) -> Result<Self, Error> {
-        let (phase1, compiler) = Self::uncompiled(gpu, width);
+        Self::in_parts(gpu, width, None).await
+    }
+
+    /// The same for large arrays in parts, if they are given.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Phase1::new`].
+    pub async fn in_parts(gpu: &Gpu, width: Width, parts: Option<Parts>) -> Result<Self, Error> {
+        let (phase1, compiler) = Self::uncompiled(gpu, width, parts);
         #[cfg(not(target_arch = "wasm32"))]
         phase1.deferred.start(gpu);
         compiler.finish().await?;
@@ -50,19 +61,20 @@ where
     ///
     /// Those of [`Phase1::new`].
     pub async fn of_first_run(gpu: &Gpu, width: Width) -> Result<Self, Error> {
-        let (phase1, compiler) = Self::uncompiled(gpu, width);
+        let (phase1, compiler) = Self::uncompiled(gpu, width, None);
         compiler.finish().await?;
         Ok(phase1)
     }
 
-    fn uncompiled(gpu: &Gpu, width: Width) -> (Self, Compiler<'_>) {
-        let compiler = Compiler::new(gpu);
+    fn uncompiled(gpu: &Gpu, width: Width, parts: Option<Parts>) -> (Self, Compiler<'_>) {
+        let compiler = Compiler::in_parts(gpu, parts);
         let phase1 = Phase1 {
             points: PointStage::new(&compiler),
             stages: Stages::new::<D>(&compiler, width),
             outputs: Dimension::<D>::outputs(&compiler),
             readback: Readback::default(),
             kept: Kept::default(),
+            parts,
             deferred: compiler.take_deferred(),
         };
         (phase1, compiler)

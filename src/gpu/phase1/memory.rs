@@ -4,7 +4,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Gpu, Recorder,
+        Gpu, Parts, Recorder,
         phase1::{
             buffers::{Buffers, Sizes},
             finish::Finish,
@@ -79,8 +79,9 @@ where
         gpu: &Gpu,
         recorder: &mut Recorder<'_>,
         blocks: u32,
+        parts: Option<Parts>,
     ) -> Result<Self, Error> {
-        Memory::bind(stages, gpu, self.buffers.with_blocks(gpu, recorder, blocks)?)
+        Memory::bind(stages, gpu, self.buffers.with_blocks(gpu, recorder, blocks, parts)?)
     }
 
     /// Returns the bytes that it takes, without the points.

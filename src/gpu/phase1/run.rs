@@ -9,6 +9,7 @@ use crate::{
         dim::{Dim, Flip},
         iterations::{Iterations, Known},
         layout::{BLOCK, COUNTER_WORDS, Counters, LOGGED, NONE, PARAM_WORDS, Params, SLOTS_FULL},
+        parts,
         phase1::{
             buffers::{Buffers, Sizes, largest_bytes},
             finish::{BoundFinish, Copies, Finish},
@@ -136,24 +137,8 @@ const MAX_SIMPLICES: u32 = 1 << 30;
 /// 1,024 fits 32 bits.
 const MAX_SPREAD: u64 = 1 << 20;
 
-/// Blocks in the tail for no points: so many that few points do not need many steps to grow.
-const MIN_TAIL_BLOCKS: u32 = 64;
-
 /// Nodes of the history, however few the points are.
 const MIN_HISTORY: u64 = 64;
-
-/// Returns the blocks that are added to the tail at a time.
-fn tail_blocks<const D: usize>(points: u32, settings: &Settings<D>) -> u32 {
-    MIN_TAIL_BLOCKS + points / settings.points_per_tail_block.max(1)
-}
-
-/// Returns the blocks for so many points, with the first tail.
-fn first_blocks<const D: usize>(points: u32, settings: &Settings<D>) -> u32
-where
-    Dimension<D>: Dim<D>,
-{
-    Dimension::<D>::blocks(points, tail_blocks(points, settings))
-}
 
 /// Returns from how many active simplices on the next ones are found by looking at all slots.
 fn compact_from<const D: usize>(blocks: u32, settings: &Settings<D>) -> u32 {
@@ -165,7 +150,7 @@ fn max_points<const D: usize>(limit: u64, settings: &Settings<D>) -> usize
 where
     Dimension<D>: Dim<D>,
 {
-    let fits = |points: &u32| largest_bytes(first_blocks(*points, settings)) <= limit.into();
+    let fits = |points: &u32| largest_bytes(settings.first_blocks(*points)) <= limit.into();
     let (mut fitting, mut too_many) = (0, Dimension::<D>::MAX_POINTS as u32 + 1);
     while too_many - fitting > 1 {
         let middle = fitting + (too_many - fitting) / 2;
@@ -210,13 +195,14 @@ where
             return Err(Error::TooManyPoints { points: count, limit: Self::MAX_POINTS });
         }
         let points = count as u32;
-        let blocks = first_blocks(points, &settings);
-        let (bytes, limit) = (largest_bytes(blocks), gpu.max_storage_bytes());
+        let blocks = settings.first_blocks(points);
+        let parts = kernels.parts;
+        let (bytes, limit) = (largest_bytes(blocks), parts::limit(gpu, parts));
         if bytes > limit.into() {
             let points = Some(max_points(limit, &settings));
             return Err(Error::BufferTooLarge { label: Dimension::<D>::SIMPLICES, bytes, limit, points });
         }
-        let bindable = gpu.max_storage_bytes() / size_of::<Flip<D>>() as u64;
+        let bindable = limit / size_of::<Flip<D>>() as u64;
         let wanted = u64::from(settings.history) * u64::from(points);
         let history = wanted.clamp(MIN_HISTORY, bindable.max(MIN_HISTORY)) as u32;
         // What is kept is lost if the run fails.
@@ -237,7 +223,10 @@ where
             device.vertices.write(gpu, count * words.len(), &words);
             let dispatches = recorder.dispatches();
             recorder.submit(gpu);
-            Ok((Memory::new(&kernels.stages, gpu, kept, device, Sizes { blocks, history, start_points })?, dispatches))
+            Ok((
+                Memory::new(&kernels.stages, gpu, kept, device, Sizes { blocks, history, start_points, parts })?,
+                dispatches,
+            ))
         };
         let (mut start, (memory, dispatches)) = gpu
             .with_error_scope("Phase 1", || {
@@ -348,7 +337,7 @@ where
             .with_error_scope("the mesh of points that have moved", || {
                 let mut recorder = Recorder::new(gpu, profiler);
                 // A sixteenth of the slots is left to flips.
-                let blocks = (all + all / 16).div_ceil(BLOCK) + tail_blocks(self.params.infinite, &self.settings);
+                let blocks = (all + all / 16).div_ceil(BLOCK) + self.settings.tail_blocks(self.params.infinite);
                 if D == 3 && blocks > self.params.blocks {
                     self.grow_to(&mut recorder, blocks)?;
                 }
@@ -580,7 +569,7 @@ where
 
     /// Adds slots to the tail.
     fn grow(&mut self, recorder: &mut Recorder<'_>) -> Result<(), Error> {
-        let more = tail_blocks(self.params.infinite, &self.settings);
+        let more = self.settings.tail_blocks(self.params.infinite);
         self.grow_to(recorder, self.params.blocks.saturating_add(more))
     }
 
@@ -591,7 +580,8 @@ where
         if blocks <= before {
             return Err(Error::TooManySimplices { limit: MAX_SIMPLICES as usize });
         }
-        let (bytes, limit) = (largest_bytes(blocks), self.gpu.max_storage_bytes());
+        let parts = self.kernels.parts;
+        let (bytes, limit) = (largest_bytes(blocks), parts::limit(self.gpu, parts));
         if bytes > limit.into() {
             // Points that lie like these.
             let points = u128::from(self.params.infinite) * u128::from(limit) / bytes;
@@ -599,7 +589,7 @@ where
             return Err(Error::BufferTooLarge { label: Dimension::<D>::SIMPLICES, bytes, limit, points });
         }
         let stages = &self.kernels.stages;
-        self.memory = self.memory.with_blocks(stages, self.gpu, recorder, blocks)?;
+        self.memory = self.memory.with_blocks(stages, self.gpu, recorder, blocks, parts)?;
         (self.params.blocks_before, self.params.blocks) = (before, blocks);
         self.params.compact_from = compact_from(blocks, &self.settings);
         self.rounds_before_growth = self.rounds_submitted;

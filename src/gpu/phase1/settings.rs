@@ -1,5 +1,7 @@
 //! Settings for Phase 1.
 
+#[cfg(not(target_arch = "wasm32"))]
+use crate::gpu::{Gpu, Parts, phase1::buffers::largest_bytes};
 use crate::{
     cpu::update::Limits,
     dimension::Dimension,
@@ -57,6 +59,9 @@ pub struct Settings<const D: usize> {
     /// of the mesh, also of one that the host wants to have. It saves most of the host's memory;
     /// where many threads splay and copy, it is faster to read the whole mesh before splaying.
     pub sparse: bool,
+    /// 3D only: the size of the parts of large arrays, in bytes; `None` to have them in parts where
+    /// there are too many points for one buffer, which then are as large as the device can bind.
+    pub part_bytes: Option<u64>,
     /// 2D only: the orientation of the mesh.
     pub winding: Winding,
     /// How much of a mesh whose points have moved it pays to repair.
@@ -84,13 +89,30 @@ where
             flips_per_iteration: 256,
             sort: true,
             sparse: cfg!(target_arch = "wasm32"),
+            part_bytes: None,
             winding: Winding::CounterClockwise,
             limits: Limits::on_device(D),
         }
     }
 }
 
+/// Blocks in the tail for no points: so many that few points do not need many steps to grow.
+const MIN_TAIL_BLOCKS: u32 = 64;
+
 impl<const D: usize> Settings<D> {
+    /// Returns the blocks that are added to the tail at a time.
+    pub(crate) fn tail_blocks(&self, points: u32) -> u32 {
+        MIN_TAIL_BLOCKS + points / self.points_per_tail_block.max(1)
+    }
+
+    /// Returns the blocks for so many points, with the first tail.
+    pub(crate) fn first_blocks(&self, points: u32) -> u32
+    where
+        Dimension<D>: Dim<D>,
+    {
+        Dimension::<D>::blocks(points, self.tail_blocks(points))
+    }
+
     /// Returns how many of `count` points the CPU engine triangulates first. The corners of the
     /// first simplex are always among them.
     pub(crate) fn start_points(&self, count: usize) -> usize
@@ -98,6 +120,27 @@ impl<const D: usize> Settings<D> {
         Dimension<D>: Dim<D>,
     {
         self.start_points.map_or_else(|| Dimension::<D>::start_points(count), |n| n as usize).max(D + 1)
+    }
+
+    /// Returns the parts that large arrays are in for so many points; `None` if each is in one buffer.
+    ///
+    /// That leaves room for an eighth more slots, which a run may ask for.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn parts(&self, gpu: &Gpu, points: usize) -> Option<Parts>
+    where
+        Dimension<D>: Dim<D>,
+    {
+        let points = u32::try_from(points).ok().filter(|&points| points as usize <= Dimension::<D>::MAX_POINTS)?;
+        if D != 3 {
+            return None;
+        }
+        match self.part_bytes {
+            Some(bytes) => Parts::with_bytes(gpu, bytes),
+            None => {
+                let bytes = largest_bytes(self.first_blocks(points));
+                Parts::of(gpu).filter(|_| bytes + bytes / 8 > gpu.max_storage_bytes().into())
+            }
+        }
     }
 
     /// Returns whether the flips of a run wait for each other, so that the CPU engine finishes
