@@ -3,8 +3,8 @@
 //! on coordinates rounded to `f32`.
 //!
 //! The variables PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE, SLOTS_PER_ACTIVE,
-//! WORKGROUPS, FEW, START (the points that the CPU engine triangulates first), ROUNDS, BATCHES and
-//! SEED change the settings. Prints a line of JSON: medians over the repeats, after a second of runs
+//! WORKGROUPS, FEW, START (the points that the CPU engine triangulates first), ROUNDS, BATCHES, HISTORY,
+//! TAIL (points per block of the tail), PART (the mebibytes of a part of large arrays) and SEED change the settings. Prints a line of JSON: medians over the repeats, after a second of runs
 //! to warm up, since a device raises its clock slowly; and the stages of one more run, which is
 //! slower because each dispatch is timed.
 
@@ -48,6 +48,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         start_points: std::env::var("START").ok().and_then(|value| value.parse().ok()),
         rounds: option("ROUNDS", defaults.rounds),
         batches: option("BATCHES", defaults.batches),
+        history: option("HISTORY", defaults.history),
+        points_per_tail_block: option("TAIL", defaults.points_per_tail_block),
+        part_bytes: std::env::var("PART").ok().and_then(|value| value.parse().ok()).map(|part: u64| part << 20),
         ..defaults
     };
 
@@ -66,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let input = Input { points: (&points).into(), lattice: &lattice, start, starts_later: false };
 
     let clock = std::time::Instant::now();
-    let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
+    let mut phase1 = block_on(Phase1::in_parts(&gpu, lattice.width(), settings.parts(&gpu, count)))?;
     let pipelines_ms = clock.elapsed().as_secs_f64() * 1e3;
     block_on(phase1.finish_compiling(&gpu))?;
     let mut runs: Vec<Phase1Output<3>> = Vec::new();

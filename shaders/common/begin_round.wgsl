@@ -1,6 +1,7 @@
 // Begins an insertion round: what the kernels of the round have to know of what the last one left.
 // One invocation.
 //!include common/layout
+//!include common/chunks
 @group(0) @binding(0) var<storage, read_write> control: Control;
 
 @compute @workgroup_size(WORKGROUP)
@@ -29,6 +30,8 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     atomicStore(&control.overflow, 0u);
     // To compact the list costs about as much as to walk it once more.
     atomicStore(&control.kept, 0u);
+    atomicStore(&control.taken[PICK_CHUNKS], 0u);
+    atomicStore(&control.taken[SPLIT_CHUNKS], 0u);
     control.entries_before = 0;
     if waiting < control.entries / 4 * 3 {
         control.entries_before = control.entries;

@@ -13,6 +13,7 @@
 //
 // Expects: control, simplices, neighbors, status, actives, messages, history.
 //!include common/bids
+//!include common/chunks
 //!include common/history
 //!include {dim}/flip_commit
 
@@ -36,7 +37,9 @@ fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     let list = half_of(bids.iteration);
     let round = Round(control.round, control.first_node);
     let room = round.first_node + control.history;
-    for (var start = group * COMMIT_STEP; start < entries; start += groups * COMMIT_STEP) {
+    var start = group * COMMIT_STEP;
+    while start < entries {
+        let ahead = chunk_ahead(COMMIT_CHUNKS, start, COMMIT_STEP, groups, entries, local);
         if local == 0 {
             atomicStore(&winners_len, 0u);
             atomicStore(&held_here, 0u);
@@ -88,9 +91,10 @@ fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
                 actives[list + i].outcome = end_flip(proposal_of(actives[list + i]), thirds[j]);
             }
         }
-        workgroupBarrier();
+        start = next_chunk(ahead, local);
     }
     if local == 0 && group == 0 {
+        atomicStore(&control.taken[CHECK_CHUNKS], 0u);
         control.link_iteration = bids.iteration;
         control.link_bid_base = bids.base;
         atomicStore(&control.undecided, 0u);

@@ -10,6 +10,7 @@
 //
 // Expects: control, neighbors, status, actives, messages.
 //!include common/bids
+//!include common/chunks
 //!include {dim}/flip_link
 
 var<workgroup> wanted: atomic<u32>;
@@ -47,7 +48,9 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
     let list = half_of(bids.iteration);
     let next = half_of(bids.iteration + 1);
     let mark = changed_mark(bids);
-    for (var start = group * WORKGROUP; start < entries; start += groups * WORKGROUP) {
+    var start = group * WORKGROUP;
+    while start < entries {
+        let ahead = chunk_ahead(LINK_CHUNKS, start, WORKGROUP, groups, entries, local);
         if local == 0 {
             atomicStore(&wanted, 0u);
             atomicStore(&done_len, 0u);
@@ -90,12 +93,13 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
             let outer = outer_facet(j % OUTER_FACETS, done[flip].count);
             join(done[flip].slots[outer.x], outer.y, mark);
         }
-        workgroupBarrier();
+        start = next_chunk(ahead, local);
     }
     workgroupBarrier();
     if local == 0 && entries != 0 {
         add_flips();
         if group == 0 {
+            atomicStore(&control.taken[COMMIT_CHUNKS], 0u);
             control.iteration = bids.iteration + 1;
             control.bid_base = next_bid_base(bids);
         }

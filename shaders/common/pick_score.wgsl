@@ -11,6 +11,7 @@
 @group(0) @binding(4) var<storage, read_write> picks: array<array<atomic<u32>, 4>>;
 @group(0) @binding(5) var<storage, read_write> scores: array<u32>;
 //!include common/waiting
+//!include common/chunks
 //!include {dim}/pick_score
 
 // The entries of the list as it was; 0 if it stays as it is.
@@ -41,7 +42,9 @@ fn main(
     let entries = select(before, workgroupUniformLoad(&entries_here), before == 0);
     let list = waiting_list();
     let source = select(other_waiting_list(), list, before == 0);
-    for (var start = group.x * WORKGROUP; start < entries; start += groups.x * WORKGROUP) {
+    var start = group.x * WORKGROUP;
+    while start < entries {
+        let ahead = chunk_ahead(PICK_CHUNKS, start, WORKGROUP, groups.x, entries, local);
         var entry = Waiting(NONE, NONE);
         if start + local < entries {
             entry = waiting[source + start + local];
@@ -73,5 +76,6 @@ fn main(
                 atomicMax(&picks[entry.tet][0], score);
             }
         }
+        start = next_chunk(ahead, local);
     }
 }

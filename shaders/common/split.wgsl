@@ -15,6 +15,7 @@
 //!include {dim}/split
 //!include common/bids
 //!include common/waiting
+//!include common/chunks
 
 var<workgroup> wanted: atomic<u32>;
 var<workgroup> splits: atomic<u32>;
@@ -34,7 +35,9 @@ fn main(
     let half = control.iteration & 1;
     let list = half_of(control.iteration);
     let first = waiting_list();
-    for (var start = group.x * WORKGROUP; start < entries; start += groups.x * WORKGROUP) {
+    var start = group.x * WORKGROUP;
+    while start < entries {
+        let ahead = chunk_ahead(SPLIT_CHUNKS, start, WORKGROUP, groups.x, entries, local);
         if local == 0 {
             atomicStore(&wanted, 0u);
             atomicStore(&splits, 0u);
@@ -87,5 +90,6 @@ fn main(
             }
             take_slots(p);
         }
+        start = next_chunk(ahead, local);
     }
 }

@@ -9,49 +9,60 @@
 // Expects: control, vertices, simplices, neighbors, status, actives.
 //!include d2/signs
 //!include common/bids
+//!include common/chunks
 //!include common/moved_slots
 
 var<workgroup> exact_here: atomic<u32>;
 
+// Checks the edges of the triangle of entry i, which is at `at`.
+fn check_edges(at: u32, i: u32, bids: Bids) {
+    let t = actives[at].tet;
+    let tri = simplices[t].xyz;
+    var check = status[t].made.x & CHECK;
+    var flip = 0u;
+    var u = NONE;
+    for (var k = 0u; k < 3 && flip == 0; k++) {
+        if ((check >> k) & 1) == 0 {
+            continue;
+        }
+        let across = neighbors[t][k];
+        u = across >> 2;
+        let edge = across & 3;
+        // Where both sides are to check an edge, the lower one does.
+        let theirs = u < t && ((status[u].made.x >> edge) & 1) != 0;
+        var violated = false;
+        if !theirs {
+            let e = simplices[u][edge];
+            if control.moved_simplices == 0 || ((status[t].made.x | status[u].made.x) & INVERTED) == 0 {
+                violated = inside(tri, e);
+            } else if e != tri[k] {
+                violated = orient(vec3u(tri[(k + 1) % 3], e, tri[k])) > 0 && orient(vec3u(tri[(k + 2) % 3], tri[k], e)) > 0;
+            }
+        }
+        if violated {
+            flip = (FLIP_22 << KIND_SHIFT) | (k << FACET_SHIFT);
+        } else {
+            check &= ~(1u << k);
+        }
+    }
+    actives[at].outcome = flip | check;
+    if flip != 0 {
+        let bid = bid_of(i, bids);
+        atomicMax(&status[t].vote, bid);
+        atomicMax(&status[u].vote, bid);
+    }
+}
+
 // Checks `entries` entries, of which workgroup `group` of `groups` takes its share.
 fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     let list = half_of(bids.iteration);
-    for (var i = group * WORKGROUP + local; i < entries; i += groups * WORKGROUP) {
-        let t = actives[list + i].tet;
-        let tri = simplices[t].xyz;
-        var check = status[t].made.x & CHECK;
-        var flip = 0u;
-        var u = NONE;
-        for (var k = 0u; k < 3 && flip == 0; k++) {
-            if ((check >> k) & 1) == 0 {
-                continue;
-            }
-            let across = neighbors[t][k];
-            u = across >> 2;
-            let edge = across & 3;
-            // Where both sides are to check an edge, the lower one does.
-            let theirs = u < t && ((status[u].made.x >> edge) & 1) != 0;
-            var violated = false;
-            if !theirs {
-                let e = simplices[u][edge];
-                if control.moved_simplices == 0 || ((status[t].made.x | status[u].made.x) & INVERTED) == 0 {
-                    violated = inside(tri, e);
-                } else if e != tri[k] {
-                    violated = orient(vec3u(tri[(k + 1) % 3], e, tri[k])) > 0 && orient(vec3u(tri[(k + 2) % 3], tri[k], e)) > 0;
-                }
-            }
-            if violated {
-                flip = (FLIP_22 << KIND_SHIFT) | (k << FACET_SHIFT);
-            } else {
-                check &= ~(1u << k);
-            }
+    var start = group * WORKGROUP;
+    while start < entries {
+        let ahead = chunk_ahead(CHECK_CHUNKS, start, WORKGROUP, groups, entries, local);
+        if start + local < entries {
+            check_edges(list + start + local, start + local, bids);
         }
-        actives[list + i].outcome = flip | check;
-        if flip != 0 {
-            let bid = bid_of(i, bids);
-            atomicMax(&status[t].vote, bid);
-            atomicMax(&status[u].vote, bid);
-        }
+        start = next_chunk(ahead, local);
     }
     if local == 0 {
         atomicStore(&exact_here, 0u);
@@ -66,6 +77,7 @@ fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
         atomicAdd(&control.exact, atomicLoad(&exact_here));
     }
     if local == 0 && group == 0 && entries != 0 {
+        atomicStore(&control.taken[LINK_CHUNKS], 0u);
         control.iterations += 1;
         control.visits += entries;
     }

@@ -4,6 +4,7 @@
 //
 // Expects: control, simplices, neighbors, status, actives, messages; orient and conflict.
 //!include d3/check_facets
+//!include common/chunks
 
 var<workgroup> undecided_here: atomic<u32>;
 var<workgroup> first_undecided: u32;
@@ -12,8 +13,10 @@ var<workgroup> first_undecided: u32;
 fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     let list = half_of(bids.iteration);
     let lanes = sharing(entries, groups);
-    let step = groups * WORKGROUP / lanes;
-    for (var start = group * WORKGROUP / lanes; start < entries; start += step) {
+    let chunk = WORKGROUP / lanes;
+    var start = group * chunk;
+    while start < entries {
+        let ahead = chunk_ahead(CHECK_CHUNKS, start, chunk, groups, entries, local);
         if local == 0 {
             atomicStore(&undecided_here, 0u);
         }
@@ -32,8 +35,10 @@ fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
         if place != NONE {
             messages[first_undecided + place].x = i;
         }
+        start = next_chunk(ahead, local);
     }
     if local == 0 && group == 0 && entries != 0 {
+        atomicStore(&control.taken[LINK_CHUNKS], 0u);
         control.iterations += 1;
         control.visits += entries;
     }

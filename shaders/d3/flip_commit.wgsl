@@ -4,7 +4,11 @@
 //!include common/moved_slots
 
 // How often a flip looks for a free slot in four blocks of the tail.
-const TAIL_TRIES: u32 = 4;
+const TAIL_TRIES: u32 = 6;
+// How often it does so near the vertex's place in the tail, since what lies together in space should do
+// so in memory: among so many blocks at first, then among 16 times as many each time.
+const NEAR_TRIES: u32 = 2;
+const TAIL_WINDOW: u32 = 16;
 
 // Takes a slot of a block that had these free places. Returns NONE if other flips were faster.
 fn take_from(block: u32, free: u32) -> u32 {
@@ -26,6 +30,8 @@ fn take_from(block: u32, free: u32) -> u32 {
 // a long wait.
 fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
     let tail = control.blocks - control.infinite - 1;
+    // Infinity has no place, and one of two vertices of the ring is finite.
+    let place = min(ring.x, ring.y) / max(control.infinite / max(tail, 1u), 1u);
     let seed = scramble(t, iteration, 31);
     var blocks = vec4u(ring, d);
     var last = e;
@@ -49,7 +55,9 @@ fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
         if tail == 0 {
             break;
         }
-        blocks = control.infinite + 1 + (vec4u(seed) + (4 * i + vec4u(0, 1, 2, 3)) * 0x9e3779b9u) % tail;
+        let window = select(tail, min(TAIL_WINDOW << (4 * i), tail), i < NEAR_TRIES);
+        let tries = (vec4u(seed) + (4 * i + vec4u(0, 1, 2, 3)) * 0x9e3779b9u) % window;
+        blocks = control.infinite + 1 + (place + tries) % tail;
         last = blocks.w;
     }
     return slot;

@@ -70,7 +70,9 @@ pub struct AdapterSummary {
     /// Whether it computes on the CPU: its results are correct, but it is slower than the CPU
     /// backend.
     pub software: bool,
-    /// The largest buffer that a kernel can use, in bytes, which limits the size of the input.
+    /// The largest buffer that a kernel can use, in bytes, which limits the size of the input: in 3D to one
+    /// point per 136 bytes. Where a kernel can use 32 buffers, which native adapters usually allow, large
+    /// arrays consist of four, and so many times as many points fit.
     pub max_storage_buffer_bytes: u64,
     /// Whether stages can be timed on the device.
     pub timestamps: bool,
@@ -271,7 +273,9 @@ impl<'a> ErrorScope<'a> {
         // The scopes are a stack.
         let [c, b, a] = [c, b, a].map(wgpu::ErrorScopeGuard::pop);
         async move {
-            if let Some(report) = a.await.or(b.await).or(c.await) {
+            // What lacks memory is not valid, either.
+            let [a, b, c] = [a.await, b.await, c.await];
+            if let Some(report) = c.or(a).or(b) {
                 return Err(match report {
                     wgpu::Error::OutOfMemory { .. } => Error::OutOfDeviceMemory { what },
                     error => gpu.failure(&error.to_string()),

@@ -179,6 +179,9 @@ pub struct Counters {
     pub violated: u32,
     /// Points for which the walk to their simplex of the start took too many steps.
     pub long_walks: u32,
+    /// The entries of lists that workgroups have taken in turn, in the passes of this flip iteration and
+    /// of this round.
+    pub taken: [u32; 5],
     /// What the rounds have done: entry *r* modulo [`LOGGED`] is the state after round *r*, as
     /// [`Counters::progress`] returns it.
     pub log: [[u32; 5]; LOGGED],

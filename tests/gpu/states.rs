@@ -91,7 +91,7 @@ where
     let active = read(gpu, &b.active);
     let (even, odd) = active.split_at(active.len() / 2);
     let waiting = read(gpu, &b.waiting)[waiting_range(like)].to_vec();
-    let Counters { exact, failed, .. } = like.counters;
+    let Counters { exact, failed, taken, .. } = like.counters;
     State {
         simplices: read(gpu, &b.simplices),
         neighbors: read(gpu, &b.neighbors),
@@ -102,7 +102,7 @@ where
         waiting,
         scores: read(gpu, &b.scores),
         own: Dimension::<D>::read(gpu, b),
-        counters: Counters { exact, failed, ..read_counters(gpu, &b.control) },
+        counters: Counters { exact, failed, taken, ..read_counters(gpu, &b.control) },
         ..like.clone()
     }
 }

@@ -126,7 +126,7 @@ impl<const D: usize> Settings<D> {
     ///
     /// That leaves room for an eighth more slots, which a run may ask for.
     #[cfg(not(target_arch = "wasm32"))]
-    pub(crate) fn parts(&self, gpu: &Gpu, points: usize) -> Option<Parts>
+    pub fn parts(&self, gpu: &Gpu, points: usize) -> Option<Parts>
     where
         Dimension<D>: Dim<D>,
     {

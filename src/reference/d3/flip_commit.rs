@@ -76,11 +76,18 @@ fn flip_of(state: &State<3>, i: usize) -> Option<Flip> {
 /// Takes a free slot: from the block of a vertex of the flip, else from one of a few blocks of the
 /// tail.
 fn free_slot(state: &mut State<3>, flip: &Flip) -> Option<u32> {
-    const PROBES: u32 = 16;
+    const TRIES: u32 = 6;
+    const NEAR_TRIES: u32 = 2;
+    const WINDOW: u32 = 16;
     let tail = state.params.blocks - state.params.infinite - 1;
     let seed = scramble(flip.old[0], state.counters.iteration, 31);
-    let in_tail = (0..if tail == 0 { 0 } else { PROBES })
-        .map(|probe| state.params.infinite + 1 + seed.wrapping_add(probe.wrapping_mul(0x9e37_79b9)) % tail);
+    let infinite = state.params.infinite;
+    let place = flip.ring[0].min(flip.ring[1]) / (infinite / tail.max(1)).max(1);
+    let in_tail = (0..if tail == 0 { 0 } else { 4 * TRIES }).map(|probe| {
+        let near = probe / 4;
+        let window = if near < NEAR_TRIES { (WINDOW << (4 * near)).min(tail) } else { tail };
+        infinite + 1 + (place + seed.wrapping_add(probe.wrapping_mul(0x9e37_79b9)) % window) % tail
+    });
     let blocks = flip.ring.into_iter().chain([flip.d, flip.e]).chain(in_tail);
     for block in blocks {
         let free = &mut state.own.free[block as usize];

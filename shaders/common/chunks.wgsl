@@ -1,0 +1,37 @@
+// Chunks of a long list, of which each workgroup takes the next one when it is done with its last.
+//
+// So all workgroups are at about the same place of the list at any time: they look at simplices that
+// are near each other in memory, as they are in space, and what they list for the next iteration is
+// in about the same order. If chunks were dealt out beforehand, the faster workgroups would run ahead,
+// and after a few iterations the list would be in no order at all.
+//
+// Expects: control.
+
+// The passes that take chunks, by their number in `control.taken`.
+const CHECK_CHUNKS: u32 = 0;
+const COMMIT_CHUNKS: u32 = 1;
+const LINK_CHUNKS: u32 = 2;
+const PICK_CHUNKS: u32 = 3;
+const SPLIT_CHUNKS: u32 = 4;
+
+// Lists of so many chunks per workgroup are long.
+const MANY_CHUNKS: u32 = 4;
+
+var<workgroup> chunk_here: u32;
+
+// Returns where the chunk starts that comes after the one at `start`; only to the first invocation
+// of a workgroup. To be asked for early, since the answer takes a while.
+fn chunk_ahead(pass_number: u32, start: u32, chunk: u32, groups: u32, entries: u32, local: u32) -> u32 {
+    if local != 0 || entries / chunk < MANY_CHUNKS * groups {
+        return start + groups * chunk;
+    }
+    return groups * chunk + atomicAdd(&control.taken[pass_number], chunk);
+}
+
+// Returns the same to all invocations. All of the workgroup must call it.
+fn next_chunk(ahead: u32, local: u32) -> u32 {
+    if local == 0 {
+        chunk_here = ahead;
+    }
+    return workgroupUniformLoad(&chunk_here);
+}
