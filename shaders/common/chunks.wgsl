@@ -19,17 +19,26 @@ const MANY_CHUNKS: u32 = 4;
 
 var<workgroup> chunk_here: u32;
 
-// Returns where the chunk starts that comes after the one at `start`; only to the first invocation
-// of a workgroup. To be asked for early, since the answer takes a while.
-fn chunk_ahead(pass_number: u32, start: u32, chunk: u32, groups: u32, entries: u32, local: u32) -> u32 {
-    if local != 0 || entries / chunk < MANY_CHUNKS * groups {
-        return start + groups * chunk;
+// Returns whether a list of so many entries is long.
+fn is_long(entries: u32, chunk: u32, groups: u32) -> bool {
+    return entries / chunk >= MANY_CHUNKS * groups;
+}
+
+// Takes the next chunk of a long list, and returns where it starts; only to the first invocation of a
+// workgroup. To be asked for early, since the answer takes a while.
+fn chunk_ahead(pass_number: u32, long: bool, chunk: u32, groups: u32, local: u32) -> u32 {
+    if !long || local != 0 {
+        return 0;
     }
     return groups * chunk + atomicAdd(&control.taken[pass_number], chunk);
 }
 
-// Returns the same to all invocations. All of the workgroup must call it.
-fn next_chunk(ahead: u32, local: u32) -> u32 {
+// Returns where the chunk starts that comes after the one at `start`: what chunk_ahead has returned, if
+// the list is long. All of the workgroup must call it, which waits for each other then.
+fn next_chunk(start: u32, ahead: u32, long: bool, chunk: u32, groups: u32, local: u32) -> u32 {
+    if !long {
+        return start + groups * chunk;
+    }
     if local == 0 {
         chunk_here = ahead;
     }

@@ -37,9 +37,13 @@ fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     let list = half_of(bids.iteration);
     let round = Round(control.round, control.first_node);
     let room = round.first_node + control.history;
-    var start = group * COMMIT_STEP;
+    // Each workgroup looks at more than in the other passes. If all of them took part in a long list, less
+    // of what they look at would be in the caches.
+    let long = is_long(entries, COMMIT_STEP, groups);
+    let taking = select(groups, (groups + 1) / 2, long);
+    var start = select(entries, group * COMMIT_STEP, group < taking);
     while start < entries {
-        let ahead = chunk_ahead(COMMIT_CHUNKS, start, COMMIT_STEP, groups, entries, local);
+        let ahead = chunk_ahead(COMMIT_CHUNKS, long, COMMIT_STEP, taking, local);
         if local == 0 {
             atomicStore(&winners_len, 0u);
             atomicStore(&held_here, 0u);
@@ -91,7 +95,8 @@ fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
                 actives[list + i].outcome = end_flip(proposal_of(actives[list + i]), thirds[j]);
             }
         }
-        start = next_chunk(ahead, local);
+        workgroupBarrier();
+        start = next_chunk(start, ahead, long, COMMIT_STEP, taking, local);
     }
     if local == 0 && group == 0 {
         atomicStore(&control.taken[CHECK_CHUNKS], 0u);

@@ -48,9 +48,10 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
     let list = half_of(bids.iteration);
     let next = half_of(bids.iteration + 1);
     let mark = changed_mark(bids);
+    let long = is_long(entries, WORKGROUP, groups);
     var start = group * WORKGROUP;
     while start < entries {
-        let ahead = chunk_ahead(LINK_CHUNKS, start, WORKGROUP, groups, entries, local);
+        let ahead = chunk_ahead(LINK_CHUNKS, long, WORKGROUP, groups, local);
         if local == 0 {
             atomicStore(&wanted, 0u);
             atomicStore(&done_len, 0u);
@@ -93,7 +94,8 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
             let outer = outer_facet(j % OUTER_FACETS, done[flip].count);
             join(done[flip].slots[outer.x], outer.y, mark);
         }
-        start = next_chunk(ahead, local);
+        workgroupBarrier();
+        start = next_chunk(start, ahead, long, WORKGROUP, groups, local);
     }
     workgroupBarrier();
     if local == 0 && entries != 0 {

@@ -42,9 +42,10 @@ fn main(
     let entries = select(before, workgroupUniformLoad(&entries_here), before == 0);
     let list = waiting_list();
     let source = select(other_waiting_list(), list, before == 0);
+    let long = is_long(entries, WORKGROUP, groups.x);
     var start = group.x * WORKGROUP;
     while start < entries {
-        let ahead = chunk_ahead(PICK_CHUNKS, start, WORKGROUP, groups.x, entries, local);
+        let ahead = chunk_ahead(PICK_CHUNKS, long, WORKGROUP, groups.x, local);
         var entry = Waiting(NONE, NONE);
         if start + local < entries {
             entry = waiting[source + start + local];
@@ -76,6 +77,6 @@ fn main(
                 atomicMax(&picks[entry.tet][0], score);
             }
         }
-        start = next_chunk(ahead, local);
+        start = next_chunk(start, ahead, long, WORKGROUP, groups.x, local);
     }
 }

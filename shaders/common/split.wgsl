@@ -35,9 +35,10 @@ fn main(
     let half = control.iteration & 1;
     let list = half_of(control.iteration);
     let first = waiting_list();
+    let long = is_long(entries, WORKGROUP, groups.x);
     var start = group.x * WORKGROUP;
     while start < entries {
-        let ahead = chunk_ahead(SPLIT_CHUNKS, start, WORKGROUP, groups.x, entries, local);
+        let ahead = chunk_ahead(SPLIT_CHUNKS, long, WORKGROUP, groups.x, local);
         if local == 0 {
             atomicStore(&wanted, 0u);
             atomicStore(&splits, 0u);
@@ -90,6 +91,6 @@ fn main(
             }
             take_slots(p);
         }
-        start = next_chunk(ahead, local);
+        start = next_chunk(start, ahead, long, WORKGROUP, groups.x, local);
     }
 }

@@ -56,13 +56,14 @@ fn check_edges(at: u32, i: u32, bids: Bids) {
 // Checks `entries` entries, of which workgroup `group` of `groups` takes its share.
 fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     let list = half_of(bids.iteration);
+    let long = is_long(entries, WORKGROUP, groups);
     var start = group * WORKGROUP;
     while start < entries {
-        let ahead = chunk_ahead(CHECK_CHUNKS, start, WORKGROUP, groups, entries, local);
+        let ahead = chunk_ahead(CHECK_CHUNKS, long, WORKGROUP, groups, local);
         if start + local < entries {
             check_edges(list + start + local, start + local, bids);
         }
-        start = next_chunk(ahead, local);
+        start = next_chunk(start, ahead, long, WORKGROUP, groups, local);
     }
     if local == 0 {
         atomicStore(&exact_here, 0u);

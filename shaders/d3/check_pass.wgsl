@@ -14,9 +14,10 @@ fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     let list = half_of(bids.iteration);
     let lanes = sharing(entries, groups);
     let chunk = WORKGROUP / lanes;
+    let long = is_long(entries, chunk, groups);
     var start = group * chunk;
     while start < entries {
-        let ahead = chunk_ahead(CHECK_CHUNKS, start, chunk, groups, entries, local);
+        let ahead = chunk_ahead(CHECK_CHUNKS, long, chunk, groups, local);
         if local == 0 {
             atomicStore(&undecided_here, 0u);
         }
@@ -35,7 +36,7 @@ fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
         if place != NONE {
             messages[first_undecided + place].x = i;
         }
-        start = next_chunk(ahead, local);
+        start = next_chunk(start, ahead, long, chunk, groups, local);
     }
     if local == 0 && group == 0 && entries != 0 {
         atomicStore(&control.taken[LINK_CHUNKS], 0u);

@@ -112,9 +112,7 @@ impl Flip {
                 recorder.dispatch(kernel, bindings, workgroups);
             }
             recorder.stage("flip: commit");
-            // Each takes twice as many entries at a time as in the other passes: with as many workgroups,
-            // less of what they look at would be in the caches.
-            recorder.dispatch(&self.commit, &bound.commit, workgroups.div_ceil(2));
+            recorder.dispatch(&self.commit, &bound.commit, workgroups);
             recorder.stage("flip: link");
             recorder.dispatch(&self.link, &bound.link, workgroups);
             if let Some((kernel, bindings)) = compact {
