@@ -66,6 +66,7 @@ pub struct Kernel {
     /// What the pipeline is compiled from, if it was not compiled at once.
     shader: Option<(&'static Shader, Width)>,
     /// The size of the parts of its large arrays, if these are in parts.
+    #[cfg(not(target_arch = "wasm32"))]
     parts: Option<Parts>,
     pipeline: Arc<OnceLock<wgpu::ComputePipeline>>,
 }
@@ -93,6 +94,7 @@ impl Kernel {
             layout,
             device: gpu.device().clone(),
             shader: Some((shader, width)),
+            #[cfg(not(target_arch = "wasm32"))]
             parts,
             pipeline: Arc::default(),
         }
@@ -119,6 +121,7 @@ impl Kernel {
             layout: pipeline.get_bind_group_layout(0),
             device: gpu.device().clone(),
             shader: None,
+            #[cfg(not(target_arch = "wasm32"))]
             parts: None,
             pipeline: Arc::new(OnceLock::from(pipeline)),
         }
