@@ -4,7 +4,7 @@
 //! that chooses the part. WGSL has no references to elements that could be passed on, so there is a
 //! function for each form of access: what is done, and the path from the element on.
 
-use std::{collections::BTreeMap, fmt::Write};
+use std::collections::BTreeMap;
 
 use naga::{AddressSpace, Handle, Module, Scalar, ScalarKind, Type, TypeInner, VectorSize};
 
@@ -48,7 +48,7 @@ pub fn in_parts(wgsl: &str, module: &Module) -> Result<Option<String>, String> {
             && ARRAYS.contains(&name)
             && let TypeInner::Array { base, stride, .. } = module.types[variable.ty].inner
         {
-            if UNIT % stride != 0 {
+            if !UNIT.is_multiple_of(stride) {
                 return Err(format!("`{name}` has elements of {stride} bytes"));
             }
             arrays.insert(name.to_owned(), (base, UNIT / stride));
@@ -62,7 +62,7 @@ pub fn in_parts(wgsl: &str, module: &Module) -> Result<Option<String>, String> {
     for line in wgsl.lines() {
         match rewriter.declaration(line) {
             Some(parts) => text.push_str(&parts),
-            None => writeln!(text, "{}", rewriter.rewrite(line)?).expect("strings can be written to"),
+            None => text.push_str(&(rewriter.rewrite(line)? + "\n")),
         }
     }
     rewriter.functions.values().for_each(|function| text.push_str(function));
@@ -76,6 +76,19 @@ enum Access<'a> {
     Store,
     /// The function of this name is called.
     Atomic(&'a str),
+}
+
+/// An element of an array, or a part of it.
+struct Place<'a> {
+    array: &'a str,
+    /// Its type.
+    ty: Handle<Type>,
+    /// The path to it from the array, with parameters for the indices after the first.
+    path: String,
+    /// The same, for the name of a function.
+    label: String,
+    /// The indices.
+    indices: Vec<String>,
 }
 
 struct Rewriter<'a> {
@@ -95,10 +108,7 @@ impl Rewriter<'_> {
         let (name, ty) = rest.split_once(':')?;
         self.arrays.contains_key(name).then(|| {
             let binding: u32 = binding.parse().expect("bindings are numbers");
-            let part = |k: u32| {
-                let number = if k == 0 { String::new() } else { format!("_{k}") };
-                format!("@group(0)@binding({}){space}>{name}{number}:{ty}\n", binding + k * STRIDE)
-            };
+            let part = |k| format!("@group(0)@binding({}){space}>{}:{ty}\n", binding + k * STRIDE, part_name(name, k));
             (0..PARTS).map(part).collect()
         })
     }
@@ -135,107 +145,91 @@ impl Rewriter<'_> {
         (rest.starts_with('[') && self.arrays.contains_key(name)).then_some(name)
     }
 
-    /// Appends the call for the access that `code` begins with, for the atomic function that is called
-    /// with it if there is one. Returns what follows.
-    fn access<'b>(&mut self, code: &'b str, atomic: Option<&str>, text: &mut String) -> Result<&'b str, String> {
-        let name = self.array_of(code).expect("it begins with an element");
-        let (mut ty, per_unit) = self.arrays[name];
-        let (index, mut rest) = brackets(&code[name.len()..]);
-        let mut arguments = vec![self.rewrite(index)?];
-        let (mut path, mut label) = (String::new(), String::new());
+    /// Returns the place that `code` begins with, and what follows.
+    fn place<'b>(&mut self, code: &'b str) -> Result<(Place<'b>, &'b str), String> {
+        let array = self.array_of(code).expect("it begins with an element");
+        let (index, mut rest) = brackets(&code[array.len()..]);
+        let indices = vec![self.rewrite(index)?];
+        let mut place = Place { array, ty: self.arrays[array].0, path: String::new(), label: String::new(), indices };
         loop {
             if rest.starts_with('[') {
                 let (index, after) = brackets(rest);
-                ty = self.element(ty).ok_or_else(|| format!("`{name}` has no such element: {code}"))?;
-                write!(path, "[i{}]", arguments.len()).expect("strings can be written to");
-                label.push_str("_at");
-                arguments.push(self.rewrite(index)?);
+                place.ty = self.element(place.ty).ok_or_else(|| format!("there is no such element: {code}"))?;
+                place.path.push_str(&format!("[i{}]", place.indices.len()));
+                place.label.push_str("_at");
+                place.indices.push(self.rewrite(index)?);
                 rest = after;
             } else if let Some(after) = rest.strip_prefix('.') {
                 let len = after.find(|c| !is_of_word(c)).unwrap_or(after.len());
                 let (member, after) = after.split_at(len);
                 // Several components at once are taken from what is loaded.
-                let Some(of_member) = self.member(ty, member) else { break };
-                ty = of_member;
-                write!(path, ".{member}").expect("strings can be written to");
-                write!(label, "_{member}").expect("strings can be written to");
+                let Some(ty) = self.member(place.ty, member) else { return Ok((place, rest)) };
+                place.ty = ty;
+                place.path.push_str(&format!(".{member}"));
+                place.label.push_str(&format!("_{member}"));
                 rest = after;
             } else {
-                break;
+                return Ok((place, rest));
             }
         }
-        let access = match atomic {
-            Some(function) => Access::Atomic(function),
-            None if rest.starts_with('=') && !rest.starts_with("==") => Access::Store,
-            None => Access::Load,
-        };
-        let assigns = |operator: &&str| rest.strip_prefix(*operator).is_some_and(|after| after.starts_with('='));
-        if access == Access::Load && ["+", "-", "*", "/", "%", "&", "|", "^", "<<", ">>"].iter().any(|o| assigns(o)) {
-            return Err(format!("an assignment with an operator: {code}"));
-        }
-        if access == Access::Store {
-            let (value, after) =
-                rest[1..].split_once(';').ok_or_else(|| format!("a statement of several lines: {code}"))?;
-            arguments.push(self.rewrite(value)?);
-            rest = after;
-        } else if let Access::Atomic(_) = access {
+    }
+
+    /// Appends the call for the access that `code` begins with, for the atomic function that is called
+    /// with it if there is one. Returns what follows.
+    fn access<'b>(&mut self, code: &'b str, atomic: Option<&str>, text: &mut String) -> Result<&'b str, String> {
+        const OPERATORS: [&str; 10] = ["+", "-", "*", "/", "%", "&", "|", "^", "<<", ">>"];
+        let (place, rest) = self.place(code)?;
+        let (access, value, rest) = if let Some(function) = atomic {
             let inside = format!("({rest}");
             let (more, _) = brackets(&inside);
-            rest = &rest[more.len() + 1..];
-            let more = more.strip_prefix(',').map(|more| self.rewrite(more)).transpose()?;
-            arguments.extend(more);
-        }
+            let value = more.strip_prefix(',').map(|value| self.rewrite(value)).transpose()?;
+            (Access::Atomic(function), value, &rest[more.len() + 1..])
+        } else if rest.starts_with('=') && !rest.starts_with("==") {
+            let statement = rest[1..].split_once(';');
+            let (value, after) = statement.ok_or_else(|| format!("a statement of several lines: {code}"))?;
+            (Access::Store, Some(self.rewrite(value)?), after)
+        } else if OPERATORS.iter().any(|o| rest.strip_prefix(o).is_some_and(|after| after.starts_with('='))) {
+            return Err(format!("an assignment with an operator: {code}"));
+        } else {
+            (Access::Load, None, rest)
+        };
+        let function = self.function(&access, &place);
+        let arguments: Vec<String> = place.indices.into_iter().chain(value).collect();
         let end = if access == Access::Store { ";" } else { "" };
-        let function = self.function(&access, name, per_unit, ty, &path, &label, arguments.len());
-        write!(text, "{function}({}){end}", arguments.join(",")).expect("strings can be written to");
+        text.push_str(&format!("{function}({}){end}", arguments.join(",")));
         Ok(rest)
     }
 
-    /// Returns the name of the function for an access with so many arguments, and adds it if it is
-    /// new.
-    #[expect(clippy::too_many_arguments, reason = "they are what an access consists of")]
-    fn function(
-        &mut self,
-        access: &Access<'_>,
-        name: &str,
-        per_unit: u32,
-        ty: Handle<Type>,
-        path: &str,
-        label: &str,
-        arguments: usize,
-    ) -> String {
-        let (verb, with_value) = match access {
-            Access::Load => ("load", false),
-            Access::Store => ("store", true),
-            Access::Atomic(function) => (*function, *function != "atomicLoad"),
+    /// Returns the name of the function for an access, and adds it if it is new.
+    fn function(&mut self, access: &Access<'_>, place: &Place<'_>) -> String {
+        let Place { array, ty, path, label, indices } = place;
+        let (verb, takes_value, returns) = match access {
+            Access::Load => ("load", false, true),
+            Access::Store => ("store", true, false),
+            Access::Atomic(function) => (*function, *function != "atomicLoad", *function != "atomicStore"),
         };
-        let ty = self.type_name(ty);
-        let function = format!("{verb}_{name}{label}");
-        let indices = arguments - usize::from(with_value);
-        let mut parameters: Vec<String> = (0..indices).map(|i| format!("i{i}:u32")).collect();
-        if with_value {
+        let ty = self.type_name(*ty);
+        let function = format!("{verb}_{array}{label}");
+        let mut parameters: Vec<String> = (0..indices.len()).map(|i| format!("i{i}:u32")).collect();
+        if takes_value {
             parameters.push(format!("value:{ty}"));
         }
-        let result = match access {
-            Access::Load => format!("->{ty}"),
-            Access::Atomic(function) if *function != "atomicStore" => format!("->{ty}"),
-            _ => String::new(),
+        let result = if returns { format!("->{ty}") } else { String::new() };
+        let per_unit = self.arrays[*array].1;
+        let of_part = |k: u32| {
+            let place = format!("{}[i0-{}u*PART]{path}", part_name(array, k), k * per_unit);
+            let done = match access {
+                Access::Load => format!("return {place};"),
+                Access::Store => format!("{place}=value;return;"),
+                Access::Atomic(_) => {
+                    let value = if takes_value { ",value" } else { "" };
+                    let call = format!("{verb}(&{place}{value});");
+                    if returns { format!("return {call}") } else { format!("{call}return;") }
+                }
+            };
+            if k + 1 == PARTS { done } else { format!("if i0<{}u*PART{{{done}}}\n", (k + 1) * per_unit) }
         };
-        let body: String = (0..PARTS)
-            .map(|k| {
-                let number = if k == 0 { String::new() } else { format!("_{k}") };
-                let place = format!("{name}{number}[i0-{}u*PART]{path}", k * per_unit);
-                let done = match access {
-                    Access::Load => format!("return {place};"),
-                    Access::Store => format!("{place}=value;return;"),
-                    Access::Atomic("atomicStore") => format!("atomicStore(&{place},value);return;"),
-                    Access::Atomic("atomicLoad") => format!("return atomicLoad(&{place});"),
-                    Access::Atomic(function) => format!("return {function}(&{place},value);"),
-                };
-                let is_last = k + 1 == PARTS;
-                if is_last { done } else { format!("if i0<{}u*PART{{{done}}}\n", (k + 1) * per_unit) }
-            })
-            .collect();
+        let body: String = (0..PARTS).map(of_part).collect();
         let text = format!("fn {function}({}){result}{{\n{body}\n}}\n", parameters.join(","));
         self.functions.entry(function.clone()).or_insert(text);
         function
@@ -289,6 +283,11 @@ impl Rewriter<'_> {
             _ => name.clone().unwrap_or_default(),
         }
     }
+}
+
+/// Returns the name of part `k` of an array.
+fn part_name(array: &str, k: u32) -> String {
+    if k == 0 { array.to_owned() } else { format!("{array}_{k}") }
 }
 
 fn is_of_word(c: char) -> bool {
