@@ -4,8 +4,8 @@
 //! All points move, each time by a normal distribution of SHARE (0.002) times their mean spacing; the
 //! mesh stays on the device. Prints a line of JSON: the median of the last STEPS (15) of two updates
 //! more, in milliseconds, and all of them; the same for as many runs from scratch; and why updates began
-//! anew. With EDIT=1, one in a thousand points of a mesh in the memory of the host is
-//! inserted, and then removed, by the CPU backend.
+//! anew. With EDIT, as many points as one in EDIT (1000) of a mesh in the memory of the host
+//! are inserted, and then removed, by the CPU backend.
 
 use gdel::{Backend, DeviceMesh, Error, Moving, Triangulator};
 use rand::{RngExt, SeedableRng, rngs::StdRng};
@@ -30,14 +30,14 @@ fn main() -> Result<(), Box<dyn error::Error>> {
         share: argument(2, "0.002").parse()?,
         steps: argument(3, "15").parse()?,
     };
-    let edits = env::var("EDIT").is_ok_and(|edit| edit == "1");
+    let edits = env::var("EDIT").ok().map(|edit| edit.parse::<usize>()).transpose()?;
     match (argument(0, "3").as_str(), edits) {
-        ("2", true) => edit(&task, |triangulator, points: &[[f64; 2]]| triangulator.delaunay2d(points)),
-        ("2", false) => {
+        ("2", Some(share)) => edit(&task, share, |triangulator, points: &[[f64; 2]]| triangulator.delaunay2d(points)),
+        ("2", None) => {
             follow::<2>(&task, |triangulator, points: &[[f64; 2]]| triangulator.delaunay2d_on_device(points))
         }
-        (_, true) => edit(&task, |triangulator, points: &[[f64; 3]]| triangulator.delaunay3d(points)),
-        (_, false) => follow::<3>(&task, |triangulator, points: &[[f64; 3]]| triangulator.delaunay3d_on_device(points)),
+        (_, Some(share)) => edit(&task, share, |triangulator, points: &[[f64; 3]]| triangulator.delaunay3d(points)),
+        (_, None) => follow::<3>(&task, |triangulator, points: &[[f64; 3]]| triangulator.delaunay3d_on_device(points)),
     }?;
     Ok(())
 }
@@ -85,9 +85,11 @@ where
     Ok(())
 }
 
-/// Times insertion into a mesh in the memory of the host, which `scratch` makes, and removal.
+/// Times insertion into a mesh in the memory of the host, which `scratch` makes, and removal, of one in
+/// `share` points.
 fn edit<const D: usize, M: Moving>(
     task: &Task,
+    share: usize,
     scratch: impl Fn(&Triangulator, &[[f64; D]]) -> Result<M, Error>,
 ) -> Result<(), Error>
 where
@@ -96,7 +98,7 @@ where
     let Task { points, steps, .. } = *task;
     let mut random = StdRng::seed_from_u64(1);
     let at = uniform::<D>(&mut random, points);
-    let few = points / 1_000;
+    let few = points / share.max(1);
     let triangulator = Triangulator::new().backend(Backend::Cpu);
     let (mut inserts, mut removes, mut scratches) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..TO_WARM_UP + steps {

@@ -169,8 +169,7 @@ where
     };
     let few = |removed: usize, inserted: usize| {
         let count = Dimension::<D>::REMOVAL * removed as f64 + inserted as f64;
-        let threads = parallel::count(threads) as f64;
-        let pays = limits.check_points(count, points.len() as f64 / threads);
+        let pays = limits.check_points(count, points.len() as f64, parallel::count(threads));
         pays.and(if usize::from(mesh.dimension()) == D { Ok(()) } else { Err(Restart::Degenerate) })
     };
     let new = points.len() - known;
