@@ -210,9 +210,9 @@ for (const [key, { triangulate, blocking, generate, verify, arrays }] of Object.
 
   test(`${D}D: a change can be aborted, and reports its progress`, async () => {
     const points = await generate('uniform', 20_000, { seed: 11 });
-    const mesh = await triangulate(points.slice(0, 19_300 * D));
+    const mesh = await triangulate(points.slice(0, 19_580 * D));
     const before = arraysOf(mesh);
-    const start = (options) => mesh.insert(points.slice(19_300 * D), options);
+    const start = (options) => mesh.insert(points.slice(19_580 * D), options);
     assert.deepEqual(await abortOf(start), { code: 'ABORTED', atOnce: true });
     await rejects(mesh.remove([1], { signal: AbortSignal.abort() }), 'ABORTED');
     assert.ok(arraysOf(mesh).every((array, i) => array === before[i]));
