@@ -5,6 +5,9 @@
 // in about the same order. If chunks were dealt out beforehand, the faster workgroups would run ahead,
 // and after a few iterations the list would be in no order at all.
 //
+// Each pass of a flip iteration sets the counter of another pass back to 0, from which no workgroup
+// takes at that time; begin_round does so for the passes of a round.
+//
 // Expects: control.
 
 // The passes that take chunks, by their number in `control.taken`.

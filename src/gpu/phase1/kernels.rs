@@ -42,7 +42,8 @@ where
         Self::in_parts(gpu, width, None).await
     }
 
-    /// The same for large arrays in parts, if they are given.
+    /// Compiles the kernels as [`Phase1::new`] does, for large arrays in these parts, or each in one
+    /// buffer.
     ///
     /// # Errors
     ///

@@ -124,7 +124,7 @@ impl<const D: usize> Settings<D> {
 
     /// Returns the parts that large arrays are in for so many points; `None` if each is in one buffer.
     ///
-    /// That leaves room for an eighth more slots, which a run may ask for.
+    /// One buffer has to have room for an eighth more slots, because a run may ask for more.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn parts(&self, gpu: &Gpu, points: usize) -> Option<Parts>
     where
