@@ -17,7 +17,7 @@
 //!include common/history
 //!include {dim}/flip_commit
 
-// The entries among which a workgroup collects winners.
+// The entries among which a workgroup collects winners, if there are enough for all workgroups.
 const COMMIT_STEP: u32 = 2 * WORKGROUP;
 
 // The entries that won, counted from the first one in the lower 16 bits; in the upper ones, the
@@ -41,15 +41,19 @@ fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     // of what they look at would be in the caches.
     let long = is_long(entries, COMMIT_STEP, groups);
     let taking = select(groups, (groups + 1) / 2, long);
-    var start = select(entries, group * COMMIT_STEP, group < taking);
+    // Of a short list, no invocation looks at two entries one after the other.
+    let step = select(COMMIT_STEP, WORKGROUP, entries <= groups * WORKGROUP);
+    var start = select(entries, group * step, group < taking);
     while start < entries {
-        let ahead = chunk_ahead(COMMIT_CHUNKS, long, COMMIT_STEP, taking, local);
+        let ahead = chunk_ahead(COMMIT_CHUNKS, long, step, taking, local);
+        var taken = 0u;
         if local == 0 {
+            taken = atomicLoad(&control.next_node);
             atomicStore(&winners_len, 0u);
             atomicStore(&held_here, 0u);
         }
         workgroupBarrier();
-        let end = min(start + COMMIT_STEP, entries);
+        let end = min(start + step, entries);
         for (var i = start + local; i < end; i += WORKGROUP) {
             let proposal = proposal_of(actives[list + i]);
             if proposal.kind != 0 && has_won(proposal, bid_of(i, bids)) {
@@ -66,7 +70,7 @@ fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
             // The counter is not raised far beyond the end, so that it never overflows.
             let wanted = atomicLoad(&held_here);
             first_here = room;
-            if wanted != 0 && atomicLoad(&control.next_node) < room {
+            if wanted != 0 && taken < room {
                 first_here = atomicAdd(&control.next_node, wanted);
             }
         }
@@ -96,7 +100,7 @@ fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
             }
         }
         workgroupBarrier();
-        start = next_chunk(start, ahead, long, COMMIT_STEP, taking, local);
+        start = next_chunk(start, ahead, long, step, taking, local);
     }
     if local == 0 && group == 0 {
         atomicStore(&control.taken[CHECK_CHUNKS], 0u);

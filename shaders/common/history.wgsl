@@ -9,9 +9,9 @@ struct Round {
     first_node: u32,
 }
 
-// Makes the node that made simplex t, or t's place in the list of first nodes, point to `node`.
-fn link_node(t: u32, node: u32, round: Round) {
-    let made = status[t].made;
+// Makes the node that made simplex t, which `made` of its status names, or t's place in the list of first
+// nodes, point to `node`.
+fn link_node(t: u32, made: vec2u, node: u32, round: Round) {
     if made.x >> HELD_SHIFT == round.number {
         let last = made.y;
         if last >> 2 >= round.first_node {

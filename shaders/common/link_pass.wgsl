@@ -74,9 +74,20 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
         let count = select(0u, changed.count, lists);
         var at = atomicAdd(&wanted, count);
         workgroupBarrier();
+        // Where the list goes on is asked for early, since the answer takes a while.
+        var first = 0u;
         if local == 0 {
-            given = atomicAdd(&control.active_len[(bids.iteration + 1) & 1], atomicLoad(&wanted));
             done_here = atomicLoad(&done_len);
+            first = atomicAdd(&control.active_len[(bids.iteration + 1) & 1], atomicLoad(&wanted));
+        }
+        let facets = OUTER_FACETS * workgroupUniformLoad(&done_here);
+        for (var j = local; j < facets; j += WORKGROUP) {
+            let flip = j / OUTER_FACETS;
+            let outer = outer_facet(j % OUTER_FACETS, done[flip].count);
+            join(done[flip].slots[outer.x], outer.y, mark);
+        }
+        if local == 0 {
+            given = first;
         }
         at += workgroupUniformLoad(&given) + next;
         if count > 0 {
@@ -88,13 +99,6 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
         if count > 2 {
             actives[at + 2] = Active(changed.slots.z, 0);
         }
-        let facets = OUTER_FACETS * workgroupUniformLoad(&done_here);
-        for (var j = local; j < facets; j += WORKGROUP) {
-            let flip = j / OUTER_FACETS;
-            let outer = outer_facet(j % OUTER_FACETS, done[flip].count);
-            join(done[flip].slots[outer.x], outer.y, mark);
-        }
-        workgroupBarrier();
         start = next_chunk(start, ahead, long, WORKGROUP, groups, local);
     }
     workgroupBarrier();

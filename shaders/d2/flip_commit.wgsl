@@ -23,15 +23,19 @@ fn proposal_of(entry: Active) -> Proposal {
     return proposal;
 }
 
-// Returns whether a proposal has won both of its triangles with this bid.
+// Returns whether a proposal has won both of its triangles with this bid. The loads do not wait for each
+// other.
 fn has_won(p: Proposal, bid: u32) -> bool {
-    return atomicLoad(&status[p.t].vote) == bid && atomicLoad(&status[p.u].vote) == bid;
+    let t = atomicLoad(&status[p.t].vote);
+    let u = atomicLoad(&status[p.u].vote);
+    return ((t ^ bid) | (u ^ bid)) == 0;
 }
 
 // Returns whether waiting points may lie in the triangles of a proposal.
 fn is_held(p: Proposal, round: u32) -> bool {
-    return status[p.t].made.x >> HELD_SHIFT == round
-        || status[p.u].made.x >> HELD_SHIFT == round;
+    let t = status[p.t].made.x >> HELD_SHIFT;
+    let u = status[p.u].made.x >> HELD_SHIFT;
+    return min(t ^ round, u ^ round) == 0;
 }
 
 // Begins a flip: writes history and status. `node` is its number in the history, NONE where no
@@ -39,17 +43,18 @@ fn is_held(p: Proposal, round: u32) -> bool {
 fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: Round) -> u32 {
     let t = flip.t;
     let u = flip.u;
+    let made_t = status[t].made;
+    let made_u = status[u].made;
     if node != NONE {
-        link_node(t, node, round);
-        link_node(u, node, round);
+        link_node(t, made_t, node, round);
+        link_node(u, made_u, node, round);
         let d = simplices[t][flip.k];
         let e = simplices[u][neighbors[t][flip.k] & 3];
         history[node - round.first_node] = EdgeFlip(vec2u(e, d), vec2u(t, u), vec2u(NONE));
     }
     let mark = changed_mark(bids);
     // The inner edge is locally Delaunay, unless the flip was one of an inverted triangle.
-    let before = status[t].made.x | status[u].made.x;
-    let was_inverted = control.moved_simplices != 0 && (before & INVERTED) != 0;
+    let was_inverted = control.moved_simplices != 0 && ((made_t.x | made_u.x) & INVERTED) != 0;
     let flags = select(round.number << HELD_SHIFT, 0u, node == NONE) | select(6u, 7u, was_inverted);
     let last = select(node << 2, 0u, node == NONE);
     renew(t, flags, mark, last);

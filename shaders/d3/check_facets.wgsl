@@ -50,11 +50,12 @@ fn check_facet(t: u32, tet: vec4u, k: u32) -> u32 {
     let u = across >> 2;
     let face = across & 3;
     var found = 1u << k;
+    // Loaded before it is known to be needed, so that it does not wait for what comes first.
+    let e = simplices[u][face];
     // Where both sides are to check a facet, the lower one does.
     if u < t && ((status[u].made.x >> face) & 1) != 0 {
         return found;
     }
-    let e = simplices[u][face];
     let has_moved = control.moved_simplices != 0;
     var violated = 1;
     if !has_moved || ((status[t].made.x | status[u].made.x) & INVERTED) == 0 {

@@ -93,17 +93,21 @@ fn proposal_of(entry: Active) -> Proposal {
     return proposal;
 }
 
-// Returns whether a proposal has won all of its tetrahedra with this bid.
+// Returns whether a proposal has won all of its tetrahedra with this bid. The loads do not wait for each
+// other.
 fn has_won(p: Proposal, bid: u32) -> bool {
-    return atomicLoad(&status[p.t].vote) == bid && atomicLoad(&status[p.u].vote) == bid
-        && atomicLoad(&status[p.w].vote) == bid;
+    let t = atomicLoad(&status[p.t].vote);
+    let u = atomicLoad(&status[p.u].vote);
+    let w = atomicLoad(&status[p.w].vote);
+    return ((t ^ bid) | (u ^ bid) | (w ^ bid)) == 0;
 }
 
 // Returns whether waiting points may lie in the tetrahedra of a proposal.
 fn is_held(p: Proposal, round: u32) -> bool {
-    return status[p.t].made.x >> HELD_SHIFT == round
-        || status[p.u].made.x >> HELD_SHIFT == round
-        || status[p.w].made.x >> HELD_SHIFT == round;
+    let t = status[p.t].made.x >> HELD_SHIFT;
+    let u = status[p.u].made.x >> HELD_SHIFT;
+    let w = status[p.w].made.x >> HELD_SHIFT;
+    return min(min(t ^ round, u ^ round), w ^ round) == 0;
 }
 
 // Begins a flip: takes the slot of the third tetrahedron, and writes history and status. `node` is
@@ -113,6 +117,9 @@ fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: Round) -> u32 {
     let kind = flip.kind;
     let t = flip.t;
     let u = flip.u;
+    let made_t = status[t].made;
+    let made_u = status[u].made;
+    let made_w = status[flip.w].made;
     // As FlipNode has it: the ring and the ends of the edge.
     var ring = vec3u(simplices[t][flip.c.x], simplices[t][flip.c.y], simplices[t][flip.c.z]);
     var d = simplices[t][flip.k];
@@ -128,10 +135,10 @@ fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: Round) -> u32 {
     }
     if third != NONE {
         if node != NONE {
-            link_node(t, node, round);
-            link_node(u, node, round);
+            link_node(t, made_t, node, round);
+            link_node(u, made_u, node, round);
             if kind == FLIP_32 {
-                link_node(third, node, round);
+                link_node(third, made_w, node, round);
             }
             history[node - round.first_node] = FlipNode(ring, d, vec3u(t, u, third), e, vec3u(NONE), kind);
         }
@@ -140,7 +147,7 @@ fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: Round) -> u32 {
         let last = select(node << 2, 0u, node == NONE);
         let step = select(1u, 0u, node == NONE);
         // The inner facets are locally Delaunay, unless the flip was one of an inverted tetrahedron.
-        let before = status[t].made.x | status[u].made.x | status[flip.w].made.x;
+        let before = made_t.x | made_u.x | made_w.x;
         let was_inverted = control.moved_simplices != 0 && (before & INVERTED) != 0;
         let check = select(select(0x7u, 0xcu, kind == FLIP_23), CHECK, was_inverted);
         renew(t, flags | check, mark, last);

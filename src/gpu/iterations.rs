@@ -21,16 +21,34 @@ const EXACT_EVERY: [(u32, u64); 3] = [(8, 1024), (4, 16), (2, 3)];
 /// In every how many iterations exact checks follow when nothing is known.
 const FIRST_EXACT_EVERY: u32 = 4;
 
+/// How many more to record than the same round of the run before needed.
+const REPEATED_MARGIN: u32 = 1;
+/// A run repeats the one before while the points that are inserted differ by at most one in so many.
+const SAME_SHARE: u32 = 16;
+
 /// The flip iterations of a run. An iteration that finds nothing to do costs microseconds, a flip
 /// that has to wait for the next round may cost failed vertices.
 #[derive(Debug)]
 pub(crate) struct Iterations {
     /// To record for a round of which nothing is known.
     first: u32,
-    /// To record for a round.
+    /// To record for a round by the rounds before it.
     planned: u32,
     /// Exact checks follow the filter in every so many iterations of a round.
     exact_every: u32,
+    /// What this run has needed so far.
+    needed: Needed,
+    /// What the run before needed, as long as this one repeats it.
+    before: Option<Needed>,
+}
+
+/// What a run needed, for the next one of as many points: as a rule, these lie alike.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Needed {
+    /// The points that were inserted by the end of each round, and the iterations that it needed.
+    rounds: Vec<[u32; 2]>,
+    /// In every how many iterations exact checks followed the filter after the first round.
+    exact_every: Option<u32>,
 }
 
 /// What is known of a round that was carried out.
@@ -74,9 +92,16 @@ impl Known {
 }
 
 impl Iterations {
-    /// Creates the plan of a run's first round, for which `first` iterations are recorded.
-    pub(crate) fn new(first: u32) -> Self {
-        Iterations { first, planned: first, exact_every: FIRST_EXACT_EVERY }
+    /// Creates the plan of a run's first round by what the run before needed, or with `first` iterations
+    /// if there was none of as many points.
+    pub(crate) fn new(first: u32, before: Option<Needed>) -> Self {
+        let exact_every = before.as_ref().and_then(|before| before.exact_every).unwrap_or(FIRST_EXACT_EVERY);
+        Iterations { first, planned: first, exact_every, needed: Needed::default(), before }
+    }
+
+    /// Takes what the run has needed.
+    pub(crate) fn take_needed(&mut self) -> Needed {
+        std::mem::take(&mut self.needed)
     }
 
     /// Plans a round by the one before the last one.
@@ -84,6 +109,11 @@ impl Iterations {
         let Known { used, recorded, inserted, waiting, is_few, .. } = known;
         // A round that took all of its iterations has left flips to the next one.
         let needed = if used >= recorded { used + used / 4 } else { used };
+        let repeats = |[before, _]: [u32; 2]| before.abs_diff(inserted) <= before / SAME_SHARE;
+        if !self.before(self.needed.rounds.len() as u32).is_some_and(repeats) {
+            self.before = None;
+        }
+        self.needed.rounds.push([inserted, needed]);
         let wanted = match waiting {
             _ if recorded == 0 => self.planned.max(MIN_PLANNED),
             _ if is_few => 0,
@@ -100,11 +130,22 @@ impl Iterations {
         let (exact, visits) = (u64::from(exact), u64::from(visits));
         self.exact_every =
             EXACT_EVERY.iter().find(|(_, for_one)| exact * for_one <= visits).map_or(1, |&(every, _)| every);
+        self.needed.exact_every.get_or_insert(self.exact_every);
     }
 
-    /// Returns how many iterations to record for a round.
-    pub(crate) fn planned(&self) -> u32 {
-        self.planned
+    /// Returns how many iterations to record for a round, by its number.
+    pub(crate) fn planned(&self, round: u32) -> u32 {
+        match self.before(round) {
+            Some([_, 0]) => 0,
+            Some([_, needed]) => (needed + REPEATED_MARGIN).min(MAX_PLANNED),
+            None => self.planned,
+        }
+    }
+
+    /// Returns the points inserted by the end of a round of the run before, and the iterations that it
+    /// needed, as long as this run repeats it.
+    fn before(&self, round: u32) -> Option<[u32; 2]> {
+        self.before.as_ref()?.rounds.get(round as usize).copied()
     }
 
     /// Returns in every how many iterations exact checks follow the filter; only 3D has them apart.
@@ -183,12 +224,12 @@ mod tests {
     #[test]
     fn planned_iterations_are_those_that_rounds_take() {
         for (name, points, mut inserted, rounds) in MEASURED {
-            let mut iterations = Iterations::new(Dimension::<3>::FIRST_ITERATIONS);
+            let mut iterations = Iterations::new(Dimension::<3>::FIRST_ITERATIONS, None);
             // The next round is recorded before the last one is known.
-            let mut recorded = iterations.planned();
+            let mut recorded = iterations.planned(0);
             let (mut lacking, mut idle) = (0, 0);
-            for &(added, needed) in rounds {
-                let planned = iterations.planned();
+            for (round, &(added, needed)) in (0..).zip(rounds) {
+                let planned = iterations.planned(round + 1);
                 (inserted, lacking) = (inserted + added, lacking + needed.saturating_sub(recorded) * (added / 1000));
                 idle += recorded.saturating_sub(needed);
                 let used = needed.min(recorded);
@@ -199,6 +240,47 @@ mod tests {
             println!("{name}: {lacking} lacking, weighted by thousands of points, {idle} idle");
             assert!(lacking <= points / 300, "{name}: {lacking} lacking");
             assert!(idle <= 12 * rounds.len() as u32, "{name}: {idle} idle");
+        }
+    }
+
+    /// Returns how many iterations were recorded for the rounds of a measured input, each before the one
+    /// that comes before it was known.
+    fn recorded(iterations: &mut Iterations, points: u32, mut inserted: u32, rounds: Rounds) -> Vec<u32> {
+        let mut recorded = vec![iterations.planned(0)];
+        for (round, &(added, needed)) in (0..).zip(rounds) {
+            recorded.push(iterations.planned(round + 1));
+            let used = needed.min(recorded[round as usize]);
+            let inserted_before = inserted;
+            inserted += added;
+            let waiting = points.saturating_sub(inserted);
+            let recorded = recorded[round as usize];
+            iterations.plan(Known { used, recorded, inserted_before, inserted, waiting, is_few: false });
+        }
+        recorded.truncate(rounds.len());
+        recorded
+    }
+
+    /// A run that repeats others gets what they needed; one that does not forgets them when it is known what
+    /// its first round inserted.
+    #[test]
+    fn repeated_runs_are_planned_by_those_before() {
+        let first = Dimension::<3>::FIRST_ITERATIONS;
+        for (name, points, inserted, rounds) in MEASURED {
+            let needed: Vec<u32> = rounds.iter().map(|&(_, needed)| needed).collect();
+            let mut before = None;
+            for _ in 0..4 {
+                let mut iterations = Iterations::new(first, before);
+                recorded(&mut iterations, points, inserted, rounds);
+                before = Some(iterations.take_needed());
+            }
+            let repeated = recorded(&mut Iterations::new(first, before.clone()), points, inserted, rounds);
+            let margins: Vec<u32> = repeated.iter().zip(&needed).map(|(repeated, needed)| repeated - needed).collect();
+            assert!(margins.iter().all(|&margin| margin == REPEATED_MARGIN), "{name}: {margins:?} more than needed");
+
+            let (other, points, inserted, rounds) = MEASURED[0];
+            let mut after = Iterations::new(first, before);
+            recorded(&mut after, points, inserted, &rounds[..1]);
+            assert_eq!(after.before.is_some(), name == other, "{other} after {name}");
         }
     }
 }

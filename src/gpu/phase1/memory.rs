@@ -5,6 +5,7 @@ use crate::{
     error::Error,
     gpu::{
         Gpu, Parts, Recorder,
+        iterations::Needed,
         phase1::{
             buffers::{Buffers, Sizes},
             finish::Finish,
@@ -32,6 +33,8 @@ where
 {
     pub(crate) points: Option<PointBuffers>,
     pub(crate) memory: Option<Memory<D>>,
+    /// The number of points of the last run that inserted them, and the flip iterations that it needed.
+    pub(crate) needed: Option<(u32, Needed)>,
 }
 
 impl<const D: usize> Default for Kept<D>
@@ -39,7 +42,7 @@ where
     Dimension<D>: Finish<D>,
 {
     fn default() -> Self {
-        Kept { points: None, memory: None }
+        Kept { points: None, memory: None, needed: None }
     }
 }
 

@@ -7,7 +7,7 @@ use crate::{
         Gpu, Pending, Profiler, Recorder,
         device_mesh::DeviceMesh,
         dim::{Dim, Flip},
-        iterations::{Iterations, Known},
+        iterations::{Iterations, Known, Needed},
         layout::{BLOCK, COUNTER_WORDS, Counters, LOGGED, NONE, PARAM_WORDS, Params, SLOTS_FULL},
         parts,
         phase1::{
@@ -92,6 +92,8 @@ where
     /// Those of them that were submitted before slots were added.
     rounds_before_growth: u32,
     iterations: Iterations,
+    /// What the run before that inserted as many points needed.
+    before: Option<Needed>,
     stats: Phase1Stats,
     clock: Stopwatch,
     round_clock: Stopwatch,
@@ -101,9 +103,8 @@ where
 struct Batch {
     submission: wgpu::SubmissionIndex,
     counters: Pending<u32>,
-    rounds: u32,
-    /// The flip iterations that were recorded for the last round, a dispatch per pass.
-    recorded: u32,
+    /// The flip iterations that were recorded for each round, a dispatch per pass.
+    recorded: Vec<u32>,
 }
 
 /// How many points a round inserts per point that is inserted, as a rule at most: hardly more of
@@ -206,7 +207,8 @@ where
         let wanted = u64::from(settings.history) * u64::from(points);
         let history = wanted.clamp(MIN_HISTORY, bindable.max(MIN_HISTORY)) as u32;
         // What is kept is lost if the run fails.
-        let Kept { points: mut point_buffers, memory: kept } = std::mem::take(&mut kernels.kept);
+        let Kept { points: mut point_buffers, memory: kept, needed } = std::mem::take(&mut kernels.kept);
+        let before = needed.filter(|(of, _)| *of == points).map(|(_, needed)| needed);
         let Input { points: input, lattice, start: first, starts_later } = input;
         let start_points = settings.start_points(count);
         let triangulate = || match starts_later {
@@ -271,7 +273,8 @@ where
             has_moved: false,
             rounds_submitted: 0,
             rounds_before_growth: 0,
-            iterations: Iterations::new(Dimension::<D>::FIRST_ITERATIONS),
+            iterations: Iterations::new(Dimension::<D>::FIRST_ITERATIONS, before.clone()),
+            before,
             clock,
             round_clock,
         })
@@ -363,7 +366,7 @@ where
             })
             .await?;
         self.has_moved = true;
-        self.iterations = Iterations::new(MOVED_ITERATIONS);
+        self.iterations = Iterations::new(MOVED_ITERATIONS, None);
         self.inserted_at_most = self.params.infinite;
         self.stats.start_points = 0;
         if flips_at_once {
@@ -398,7 +401,7 @@ where
         };
         let long_walks = self.counters.long_walks;
         self.counters = Counters { long_walks, ..first_counters(self.params.infinite) };
-        self.iterations = Iterations::new(Dimension::<D>::FIRST_ITERATIONS);
+        self.iterations = Iterations::new(Dimension::<D>::FIRST_ITERATIONS, self.before.clone());
         self.submitted.clear();
         (self.rounds_submitted, self.rounds_before_growth) = (0, 0);
         self.inserted_at_most = self.params.start_points;
@@ -438,14 +441,14 @@ where
         while self.submitted.len() < batches {
             self.submit().await?;
         }
-        let Some(Batch { submission, counters, recorded, rounds }) = self.submitted.pop_front() else {
+        let Some(Batch { submission, counters, recorded }) = self.submitted.pop_front() else {
             return Ok(false);
         };
         self.stats.stalls += usize::from(self.submitted.is_empty());
         let words = self.kernels.readback.receive(self.gpu, &submission, counters).await?;
         let before = std::mem::replace(&mut self.counters, counters_in(&words));
         let read = self.counters;
-        let time = self.round_clock.lap() / rounds;
+        let time = self.round_clock.lap() / recorded.len() as u32;
         if read.long_walks > 0 && self.start.points.len() > D + 1 {
             // A point may lie in no simplex of the start, which the host and the device see with
             // different perturbations. It lies in one of those around the first simplex.
@@ -453,7 +456,7 @@ where
             return Ok(true);
         }
         let mut last = before.progress();
-        for round in before.round + 1..=read.round {
+        for (round, recorded) in (before.round + 1..).zip(recorded) {
             // The state after the last round of a batch is that which was read.
             let is_last = round == read.round;
             let now = if is_last { read.progress() } else { read.log[round as usize % LOGGED] };
@@ -467,13 +470,11 @@ where
                 iterations: used,
                 time,
             });
-            if is_last {
-                let waiting = self.waiting();
-                let left = waiting.saturating_mul(D as u32 + 1).saturating_add(active);
-                let is_few = left <= self.params.few_limit;
-                let used = used - (few - few_before);
-                self.iterations.plan(Known { used, recorded, inserted_before, inserted, waiting, is_few });
-            }
+            let waiting = self.params.infinite - inserted - read.merged;
+            let left = waiting.saturating_mul(D as u32 + 1).saturating_add(active);
+            let is_few = left <= self.params.few_limit;
+            let used = used - (few - few_before);
+            self.iterations.plan(Known { used, recorded, inserted_before, inserted, waiting, is_few });
             if inserted == inserted_before && inserted + read.merged < self.params.infinite {
                 return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
             }
@@ -516,23 +517,23 @@ where
                 flip.record_clear_votes(&mut recorder, bound, self.workgroups());
             }
         }
-        let (mut rounds, mut recorded, mut are_few) = (0, 0, true);
-        let limit = self.settings.rounds.clamp(1, LOGGED as u32);
-        while rounds < limit || (self.settings.batches > 1 && are_few && rounds < LOGGED as u32) {
+        let (mut recorded, mut are_few) = (Vec::new(), true);
+        let limit = (self.settings.rounds as usize).clamp(1, LOGGED);
+        while recorded.len() < limit || (self.settings.batches > 1 && are_few && recorded.len() < LOGGED) {
             // All flips of the first rounds of few points are few.
             let active = self.inserted_at_most.saturating_mul(GROWTH * (D as u32 + 1));
             are_few = active <= self.params.few_limit;
-            recorded = if are_few { 0 } else { self.iterations.planned() };
+            let iterations = if are_few { 0 } else { self.iterations.planned(self.rounds_submitted) };
             self.inserted_at_most = self.inserted_at_most.saturating_mul(1 + GROWTH);
-            self.record_round(&mut recorder, recorded);
-            rounds += 1;
+            self.record_round(&mut recorder, iterations);
+            self.rounds_submitted += 1;
+            recorded.push(iterations);
         }
-        self.rounds_submitted += rounds;
         self.stats.dispatches += recorder.dispatches();
         let counters = self.read_counters(recorder.encoder());
         let submission = recorder.submit(gpu);
         self.profiler = profiler;
-        Ok(Batch { submission, counters, recorded, rounds })
+        Ok(Batch { submission, counters, recorded })
     }
 
     fn record_round(&self, recorder: &mut Recorder<'_>, iterations: u32) {
@@ -599,16 +600,26 @@ where
         Ok(())
     }
 
+    /// Takes what the next run that inserts as many points is to know.
+    fn needed(&mut self) -> Option<(u32, Needed)> {
+        let needed = match self.has_moved {
+            true => self.before.take()?,
+            false => self.iterations.take_needed(),
+        };
+        Some((self.params.infinite, needed))
+    }
+
     /// Ends the run without a mesh, and keeps its buffers for the next one. Returns what it did as
     /// far as that is known.
-    pub fn abandon(self) -> Phase1Stats {
+    pub fn abandon(mut self) -> Phase1Stats {
+        let needed = self.needed();
         let Run { kernels, points, memory, read_before, counters, mut stats, mut clock, .. } = self;
         stats.time = clock.lap();
         stats.counters = counters;
         stats.readbacks = kernels.readback.count() - read_before.0;
         stats.bytes_read = kernels.readback.bytes() - read_before.1;
         stats.bytes = memory.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
-        kernels.kept = Kept { points, memory: Some(memory) };
+        kernels.kept = Kept { points, memory: Some(memory), needed };
         stats
     }
 
@@ -662,8 +673,9 @@ where
         let counters = counters_in(&words);
         self.stats.time = self.clock.lap();
         self.stats.counters = counters;
+        let needed = self.needed();
         let Run { kernels, points, memory, read_before, stats, clock, .. } = self;
-        let ended = Ended { kernels, gpu, memory, points, counters, finite, workgroups, read_before, stats, clock };
+        let ended = Ended { kernels, gpu, memory, points, needed, counters, finite, workgroups, read_before, stats, clock };
         Ok((ended, submission, more, prepared))
     }
 }
@@ -677,6 +689,7 @@ where
     pub(crate) gpu: &'a Gpu,
     pub(crate) memory: Memory<D>,
     points: Option<PointBuffers>,
+    needed: Option<(u32, Needed)>,
     pub(crate) counters: Counters,
     /// The number of finite simplices.
     pub(crate) finite: usize,
@@ -729,11 +742,11 @@ where
 
     /// Keeps the buffers for the next run. Returns what this one did.
     pub(crate) fn release(self) -> Phase1Stats {
-        let Ended { kernels, points, memory, read_before, mut stats, .. } = self;
+        let Ended { kernels, points, memory, needed, read_before, mut stats, .. } = self;
         stats.readbacks = kernels.readback.count() - read_before.0;
         stats.bytes_read = kernels.readback.bytes() - read_before.1;
         stats.bytes = memory.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
-        kernels.kept = Kept { points, memory: Some(memory) };
+        kernels.kept = Kept { points, memory: Some(memory), needed };
         stats
     }
 }
