@@ -237,6 +237,31 @@ pub(crate) fn dispose<T: Send + 'static>(garbage: T) {
     drop(garbage);
 }
 
+/// What a thread of the pool makes while the calling one does something else.
+#[cfg(not(target_arch = "wasm32"))]
+#[derive(Debug)]
+pub(crate) struct Ahead<T>(std::sync::mpsc::Receiver<T>);
+
+#[cfg(not(target_arch = "wasm32"))]
+impl<T: Send + 'static> Ahead<T> {
+    /// Has a thread begin, as soon as one is free.
+    pub(crate) fn begin(make: impl FnOnce() -> T + Send + 'static) -> Self {
+        let (sender, receiver) = std::sync::mpsc::channel();
+        // Nobody may be interested any more.
+        #[cfg(feature = "threads")]
+        rayon::spawn(move || _ = sender.send(make()));
+        #[cfg(not(feature = "threads"))]
+        let _ = (sender, make);
+        Ahead(receiver)
+    }
+
+    /// Returns what was made, if the thread is done. It is not waited for, because the calling thread
+    /// may be the one that is to make it.
+    pub(crate) fn take(&self) -> Option<T> {
+        self.0.try_recv().ok()
+    }
+}
+
 /// Runs `own` in the calling thread and the `others` in threads of the pool, at the same time as
 /// far as these are free, and returns the results.
 pub(crate) fn beside<S, R: Send>(own: impl FnOnce() -> S, others: Vec<impl FnOnce() -> R + Send>) -> (S, Vec<R>) {

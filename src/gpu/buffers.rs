@@ -196,7 +196,7 @@ impl<T: Pod> Storage<T> {
     }
 
     /// Returns the buffers of the parts, or the only one.
-    fn buffers(&self) -> impl Iterator<Item = &wgpu::Buffer> {
+    pub(crate) fn buffers(&self) -> impl Iterator<Item = &wgpu::Buffer> {
         std::iter::once(&self.buffer).chain(&self.more)
     }
 

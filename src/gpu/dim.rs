@@ -46,6 +46,8 @@ pub trait Dim<const D: usize>: Incremental<D> + Debug + Copy + Send + Sync + 'st
     const MAX_POINTS: usize;
     /// The default of [`Settings::history`](crate::gpu::phase1::Settings::history).
     const HISTORY: u32;
+    /// How many simplices a mesh has per point, as a rule at most.
+    const MESH_PER_POINT: usize;
     /// The flip iterations to record for a round of which nothing is known: enough for most inputs
     /// while each round inserts several times as many points as the one before.
     const FIRST_ITERATIONS: u32;

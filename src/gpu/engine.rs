@@ -403,6 +403,11 @@ where
             Some((mesh, update)) => take(&mut run, &input, mesh, update).await?,
             None => None,
         };
+        let resident = settings.sparse || resident;
+        #[cfg(not(target_arch = "wasm32"))]
+        if !resident {
+            run.prepare_room();
+        }
         let mut more = moved.is_none() || run.active() > 0;
         while more {
             more = run.advance().await?;
@@ -426,7 +431,7 @@ where
             lattice: &lattice,
             options,
             adapter: &gpu.adapter().name,
-            resident: settings.sparse || resident,
+            resident,
             moved,
             duplicate_of: Vec::new(),
             stats: &mut stats,

@@ -41,6 +41,8 @@ pub use device::{AdapterChoice, AdapterSummary, Gpu, adapters};
 pub use kernel::{Binding, Compiler, Deferred, Kernel};
 pub use parts::Parts;
 pub use profiler::Profiler;
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) use readback::Room;
 pub use readback::{Pending, Readback};
 pub use recorder::Recorder;
 

@@ -12,7 +12,7 @@ use std::{
 use crate::error::Error;
 use crate::gpu::{Gpu, Storage, device::ErrorScope};
 #[cfg(not(target_arch = "wasm32"))]
-use crate::parallel::{Threads, for_chunks};
+use crate::parallel::{Ahead, Threads, for_chunks};
 
 /// The most bytes of a large array that are on their way in one staging buffer: so many that a
 /// submission per piece costs nothing, and so few that copying out of one piece begins while most
@@ -25,6 +25,10 @@ const PIECES_AHEAD: usize = 4;
 /// From how many bytes on threads share a copy.
 #[cfg(not(target_arch = "wasm32"))]
 const SHARED_FROM: usize = 1 << 20;
+
+/// The size of a page of memory, or less.
+#[cfg(not(target_arch = "wasm32"))]
+const PAGE: usize = 1 << 12;
 
 /// How long the host asks for a result before it sleeps until there is one: most results of small
 /// runs are there by then, and to be woken takes up to 0.1 ms.
@@ -77,6 +81,36 @@ struct Staged {
     /// them, up to the room that was.
     mapped_bytes: u64,
     mapped: oneshot::Receiver<Result<(), wgpu::BufferAsyncError>>,
+}
+
+/// Memory for a large result, which the system provides while the device is at work: that takes longer
+/// than to copy the result.
+#[cfg(not(target_arch = "wasm32"))]
+#[derive(Debug)]
+pub(crate) struct Room<T>(Ahead<Vec<T>>);
+
+#[cfg(not(target_arch = "wasm32"))]
+impl<T: Pod + Send> Room<T> {
+    /// Has threads look for room for about `len` elements; `None` if that does not pay.
+    pub(crate) fn ahead(len: usize) -> Option<Self> {
+        let len = with_room(len);
+        let pays = len.checked_mul(size_of::<T>())? >= SHARED_FROM;
+        let touched = move || {
+            let mut list: Vec<T> = bytemuck::zeroed_vec(len);
+            // The system provides a page when it is first written to.
+            for_chunks(Threads::All, &mut list, |_, chunk| {
+                let pages = chunk.chunks_mut(PAGE / size_of::<T>());
+                pages.for_each(|page| page[0] = std::hint::black_box(T::zeroed()));
+            });
+            list
+        };
+        pays.then(|| Room(Ahead::begin(touched)))
+    }
+
+    /// Returns the room, empty if it is not there yet.
+    pub(crate) fn take(self) -> Vec<T> {
+        self.0.take().unwrap_or_default()
+    }
 }
 
 /// Where the bytes of a buffer go.
@@ -210,6 +244,60 @@ impl Readback {
             self.unstage(gpu, &submission, staged, |view| target.take(start, len, view)).await?;
         }
         Ok(reads.into_iter().map(|(_, target)| target).collect())
+    }
+
+    /// Reads the first `len` elements of two large arrays, into the memory of `rooms` as far as it suffices.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Readback::receive`] and [`Gpu::with_error_scope`].
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) async fn read_arrays<T: Pod>(
+        &mut self,
+        gpu: &Gpu,
+        arrays: &[Storage<T>; 2],
+        rooms: [Vec<T>; 2],
+        len: usize,
+    ) -> Result<[Vec<T>; 2], Error> {
+        let mut lists = rooms.map(|room| fitted(room, len));
+        let mut reads = Vec::new();
+        for (array, list) in arrays.iter().zip(&mut lists) {
+            let mut rest: &mut [u8] = bytemuck::cast_slice_mut(list);
+            for buffer in array.buffers() {
+                let bytes = usize::try_from(buffer.size()).unwrap_or(usize::MAX).min(rest.len());
+                let (target, others) = rest.split_at_mut(bytes);
+                reads.push((buffer, target));
+                rest = others;
+            }
+        }
+        self.read_into(gpu, reads).await?;
+        Ok(lists)
+    }
+
+    /// Reads the first `len` elements of two large arrays.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Readback::receive`] and [`Gpu::with_error_scope`].
+    #[cfg(target_arch = "wasm32")]
+    pub(crate) async fn read_arrays<T: Pod>(
+        &mut self,
+        gpu: &Gpu,
+        arrays: &[Storage<T>; 2],
+        _rooms: [Vec<T>; 2],
+        len: usize,
+    ) -> Result<[Vec<T>; 2], Error> {
+        let [first, second] = gpu
+            .with_error_scope("readback", || {
+                // The host takes the first array while the device sends the second one.
+                Ok(arrays.each_ref().map(|array| {
+                    let mut encoder = gpu.device().create_command_encoder(&Default::default());
+                    let pending = self.copy(gpu, &mut encoder, array, 0, len);
+                    (gpu.queue().submit([encoder.finish()]), pending)
+                }))
+            })
+            .await?;
+        Ok([self.receive(gpu, &first.0, first.1).await?, self.receive(gpu, &second.0, second.1).await?])
     }
 
     /// Returns how many readbacks were recorded.
@@ -346,6 +434,21 @@ fn wait(_gpu: &Gpu, _submission: &wgpu::SubmissionIndex) -> Result<(), Error> {
     Ok(())
 }
 
+/// Returns a list of `len` elements, whatever they are, and some room: in the memory of `list`, of which no
+/// more is kept than that.
+#[cfg(not(target_arch = "wasm32"))]
+fn fitted<T: Pod>(mut list: Vec<T>, len: usize) -> Vec<T> {
+    let wanted = with_room(len);
+    if list.is_empty() {
+        list = bytemuck::zeroed_vec(wanted);
+    } else {
+        list.resize(wanted, T::zeroed());
+        list.shrink_to(with_room(wanted));
+    }
+    list.truncate(len);
+    list
+}
+
 /// Returns how many elements are given room when `len` are read, so that Phase 2 need not move the
 /// whole to add a few tetrahedra.
 fn with_room(len: usize) -> usize {
@@ -367,4 +470,35 @@ fn copied<T: Pod>(view: &wgpu::BufferView, len: usize) -> Vec<T> {
     let mut result: Vec<T> = cast.unwrap_or_else(|(_, words)| bytemuck::allocation::pod_collect_to_vec(&words));
     result.truncate(len);
     result
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_have_their_length_whatever_room_there_was() {
+        for room in [0, 1, 1000, 1015, 2000] {
+            for len in [0, 1, 1000] {
+                let list = fitted(vec![[7u32; 4]; room], len);
+                assert_eq!(list.len(), len, "room for {room}");
+                assert!(list.capacity() >= with_room(len), "room for {room}, {len} elements");
+                assert!(list.capacity() <= with_room(with_room(len)).max(1), "room for {room}, {len} elements");
+            }
+        }
+    }
+
+    #[test]
+    fn room_is_for_large_results() {
+        assert!(Room::<u32>::ahead(1000).is_none());
+        assert!(Room::<[u32; 4]>::ahead(usize::MAX / 2).is_none());
+        let room = Room::<[u32; 4]>::ahead(SHARED_FROM).expect("it is large");
+        let room = loop {
+            match room.0.take() {
+                Some(room) => break room,
+                None => std::thread::yield_now(),
+            }
+        };
+        assert!(room.len() >= SHARED_FROM);
+    }
 }

@@ -48,8 +48,8 @@ impl phase1::Aliases<2> for Aliases {
         }
     }
 
-    fn simplices(&self) -> &Storage<[u32; 3]> {
-        &self.triangles
+    fn arrays(&self) -> [Storage<[u32; 3]>; 2] {
+        [self.triangles.clone(), self.halfedges.cast()]
     }
 
     fn bindings(&self) -> Vec<Binding<'_>> {

@@ -29,6 +29,7 @@ impl Dim<2> for Dimension<2> {
     /// There are two slots per point, and some.
     const MAX_POINTS: usize = 500_000_000;
     const HISTORY: u32 = 2;
+    const MESH_PER_POINT: usize = 2;
     const FIRST_ITERATIONS: u32 = 30;
 
     fn blocks(points: u32, _tail: u32) -> u32 {

@@ -35,21 +35,18 @@ pub struct NearMesh {
     pub uncertain: Option<Vec<UncertainTest>>,
 }
 
-/// The readbacks that follow that of the triangles.
-pub struct Reading {
-    halfedges: Pending<[i32; 3]>,
-    open: Open<Pending<[u32; 2]>, Pending<UncertainTest>>,
-}
+/// The readbacks beside those of the triangles and their half-edges.
+pub type Reading = Open<Pending<[u32; 2]>, Pending<UncertainTest>>;
 
 /// What the host has to see of any mesh.
-pub(crate) struct Open<H, U> {
+pub struct Open<H, U> {
     /// [`Mesh::hull`].
     pub(crate) hull: H,
     /// [`NearMesh::uncertain`].
     pub(crate) uncertain: Option<U>,
 }
 
-impl Open<Pending<[u32; 2]>, Pending<UncertainTest>> {
+impl Reading {
     /// Records the readbacks.
     pub(crate) fn copy(copies: &mut Copies<'_>, b: &Buffers<2>, aliases: &Aliases, counters: &Counters) -> Self {
         let tests = counters.uncertain as usize;
@@ -104,19 +101,18 @@ impl Finish<2> for Dimension<2> {
         finite
     }
 
-    fn copy(copies: &mut Copies<'_>, b: &Buffers<2>, aliases: &Aliases, len: usize, counters: &Counters) -> Reading {
-        let halfedges = copies.copy(&aliases.halfedges, len);
-        Reading { halfedges, open: Open::copy(copies, b, aliases, counters) }
+    fn copy(copies: &mut Copies<'_>, b: &Buffers<2>, aliases: &Aliases, counters: &Counters) -> Reading {
+        Open::copy(copies, b, aliases, counters)
     }
 
     async fn receive(
         copied: &mut Copied<'_>,
         reading: Reading,
-        triangles: Vec<[u32; 3]>,
+        [triangles, halfedges]: [Vec<[u32; 3]>; 2],
         _finite: usize,
     ) -> Result<NearMesh, Error> {
-        let halfedges = copied.receive(reading.halfedges).await?;
-        let Open { hull, uncertain } = reading.open.receive(copied).await?;
+        let Open { hull, uncertain } = reading.receive(copied).await?;
+        let halfedges = bytemuck::cast_vec(halfedges);
         Ok(NearMesh { mesh: Mesh { triangles, halfedges, hull }, uncertain })
     }
 }

@@ -52,8 +52,8 @@ impl phase1::Aliases<3> for Aliases {
         }
     }
 
-    fn simplices(&self) -> &Storage<[u32; 4]> {
-        &self.tets
+    fn arrays(&self) -> [Storage<[u32; 4]>; 2] {
+        [self.tets.clone(), self.neighbors.clone()]
     }
 
     fn bindings(&self) -> Vec<Binding<'_>> {

@@ -8,7 +8,7 @@ use crate::{
     gpu::{
         Compiler, Pending,
         layout::{Active, Counters},
-        phase1::{Buffers, Copied, Copies, Finish, Slot, Step},
+        phase1::{Buffers, Copied, Copies, Finish, Step},
     },
 };
 
@@ -36,9 +36,8 @@ pub struct NearMesh {
     pub uncertain: Vec<[u32; 2]>,
 }
 
-/// The readbacks that follow that of the tetrahedra.
+/// The readbacks beside those of the tetrahedra and their neighbours.
 pub struct Reading {
-    neighbors: Pending<Slot>,
     tet_of: Pending<u32>,
     failed: Pending<u32>,
     uncertain: Pending<Active>,
@@ -81,9 +80,8 @@ impl Finish<3> for Dimension<3> {
         finite + counters.ghosts as usize
     }
 
-    fn copy(copies: &mut Copies<'_>, b: &Buffers<3>, aliases: &Aliases, len: usize, counters: &Counters) -> Reading {
+    fn copy(copies: &mut Copies<'_>, b: &Buffers<3>, aliases: &Aliases, counters: &Counters) -> Reading {
         Reading {
-            neighbors: copies.copy(&aliases.neighbors, len),
             tet_of: copies.copy(&b.own.tet_of, b.own.tet_of.len()),
             failed: copies.copy(&aliases.failed, counters.failed as usize),
             uncertain: copies.copy(&aliases.uncertain, counters.uncertain as usize),
@@ -93,10 +91,9 @@ impl Finish<3> for Dimension<3> {
     async fn receive(
         copied: &mut Copied<'_>,
         reading: Reading,
-        tets: Vec<[u32; 4]>,
+        [tets, neighbors]: [Vec<[u32; 4]>; 2],
         finite: usize,
     ) -> Result<NearMesh, Error> {
-        let neighbors = copied.receive(reading.neighbors).await?;
         let mut tet_of = copied.receive(reading.tet_of).await?;
         let mut failed = copied.receive(reading.failed).await?;
         let uncertain = copied.receive(reading.uncertain).await?;

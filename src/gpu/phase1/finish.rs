@@ -49,7 +49,7 @@ where
 {
     /// The names of the buffers of the rounds that the end writes over.
     type Aliases: Aliases<D>;
-    /// The readbacks that follow that of the simplices.
+    /// The readbacks beside those of the simplices and their neighbours.
     type Reading;
     /// The mesh, and what is to be repaired or checked of it.
     type Result: Debug + Clone + PartialEq;
@@ -69,17 +69,11 @@ where
     /// Returns the number of simplices that the mesh has, of which `finite` are finite.
     fn mesh_len(finite: usize, counters: &Counters) -> usize;
 
-    /// Records the readbacks of all but the simplices, of which there are `len`.
-    fn copy(
-        copies: &mut Copies<'_>,
-        b: &Buffers<D>,
-        aliases: &Self::Aliases,
-        len: usize,
-        counters: &Counters,
-    ) -> Self::Reading;
+    /// Records the readbacks of all but the simplices and their neighbours.
+    fn copy(copies: &mut Copies<'_>, b: &Buffers<D>, aliases: &Self::Aliases, counters: &Counters) -> Self::Reading;
 
-    /// Receives these readbacks and returns the result with the `simplices`, of which `finite` are
-    /// finite.
+    /// Receives these readbacks and returns the result with the simplices, of which `finite` are finite, and
+    /// their neighbours.
     ///
     /// # Errors
     ///
@@ -87,7 +81,7 @@ where
     async fn receive(
         copied: &mut Copied<'_>,
         reading: Self::Reading,
-        simplices: Vec<Corners<D>>,
+        arrays: [Vec<Corners<D>>; 2],
         finite: usize,
     ) -> Result<Self::Result, Error>;
 }
@@ -100,8 +94,8 @@ where
     /// Returns the second lives of these buffers.
     fn new(b: &Buffers<D>) -> Self;
 
-    /// Returns the simplices of the mesh.
-    fn simplices(&self) -> &Storage<Corners<D>>;
+    /// Returns the simplices of the mesh, and their neighbours.
+    fn arrays(&self) -> [Storage<Corners<D>>; 2];
 
     /// Returns the buffers under the names that they have in shaders.
     fn bindings(&self) -> Vec<Binding<'_>>;
@@ -238,9 +232,7 @@ impl<const D: usize> BoundFinish<D>
 where
     Dimension<D>: Finish<D>,
 {
-    /// The submissions that [`BoundFinish::read`] takes.
-    pub(crate) const SUBMITS: usize = 2;
-    /// How often it waits while the device has nothing to do: for the second of them.
+    /// How often [`BoundFinish::read`] waits while the device has nothing to do: for the last submission.
     pub(crate) const STALLS: usize = 1;
 
     /// Returns the sums of the scan; their entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS)
@@ -261,7 +253,8 @@ where
 
     /// Reads the mesh back, of which `finite` simplices are finite, and, if any point was merged,
     /// which one stands for each
-    /// ([`DevicePoints::merged_into`](crate::gpu::points::DevicePoints::merged_into)).
+    /// ([`DevicePoints::merged_into`](crate::gpu::points::DevicePoints::merged_into)). There are `rooms` for
+    /// the simplices and for their neighbours. Returns the number of submissions as well.
     ///
     /// # Errors
     ///
@@ -273,23 +266,23 @@ where
         b: &Buffers<D>,
         finite: usize,
         counters: &Counters,
-    ) -> Result<(<Dimension<D> as Finish<D>>::Result, Vec<u32>), Error> {
+        rooms: [Vec<Corners<D>>; 2],
+    ) -> Result<(<Dimension<D> as Finish<D>>::Result, Vec<u32>, usize), Error> {
         let len = Dimension::<D>::mesh_len(finite, counters);
         let merged_len = if counters.merged > 0 { b.points.merged_into.len() } else { 0 };
-        let (first, simplices, second, reading, merged) = gpu
+        let (submission, reading, merged) = gpu
             .with_error_scope("the result of Phase 1", || {
-                // The host takes the simplices while the device sends the rest.
                 let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, None) };
-                let simplices = copies.copy(self.aliases.simplices(), len);
-                let first = std::mem::replace(&mut copies.recorder, Recorder::new(gpu, None)).submit(gpu);
-                let reading = Dimension::<D>::copy(&mut copies, b, &self.aliases, len, counters);
+                let reading = Dimension::<D>::copy(&mut copies, b, &self.aliases, counters);
                 let merged = copies.copy(&b.points.merged_into, merged_len);
-                Ok((first, simplices, copies.recorder.submit(gpu), reading, merged))
+                Ok((copies.recorder.submit(gpu), reading, merged))
             })
             .await?;
-        let simplices = readback.receive(gpu, &first, simplices).await?;
-        let mut copied = Copied { readback, gpu, submission: second };
-        let result = Dimension::<D>::receive(&mut copied, reading, simplices, finite).await?;
-        Ok((result, copied.receive(merged).await?))
+        let before = readback.count();
+        let arrays = readback.read_arrays(gpu, &self.aliases.arrays(), rooms, len).await?;
+        let submissions = 1 + readback.count() - before;
+        let mut copied = Copied { readback, gpu, submission };
+        let result = Dimension::<D>::receive(&mut copied, reading, arrays, finite).await?;
+        Ok((result, copied.receive(merged).await?, submissions))
     }
 }

@@ -1,12 +1,14 @@
 //! A run of Phase 1: what the host records ahead, and what it reads back.
 
+#[cfg(not(target_arch = "wasm32"))]
+use crate::gpu::Room;
 use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
         Gpu, Pending, Profiler, Recorder,
         device_mesh::DeviceMesh,
-        dim::{Dim, Flip},
+        dim::{Corners, Dim, Flip},
         iterations::{Iterations, Known, Needed},
         layout::{BLOCK, COUNTER_WORDS, Counters, LOGGED, NONE, PARAM_WORDS, Params, SLOTS_FULL},
         parts,
@@ -94,10 +96,17 @@ where
     iterations: Iterations,
     /// What the run before that inserted as many points needed.
     before: Option<Needed>,
+    /// Memory for the simplices and their neighbours, if the host is to have them.
+    #[cfg(not(target_arch = "wasm32"))]
+    rooms: Rooms<D>,
     stats: Phase1Stats,
     clock: Stopwatch,
     round_clock: Stopwatch,
 }
+
+/// Memory for the simplices of a mesh, and for their neighbours.
+#[cfg(not(target_arch = "wasm32"))]
+type Rooms<const D: usize> = [Option<Room<Corners<D>>>; 2];
 
 /// Rounds that were submitted together.
 struct Batch {
@@ -275,9 +284,18 @@ where
             rounds_before_growth: 0,
             iterations: Iterations::new(Dimension::<D>::FIRST_ITERATIONS, before.clone()),
             before,
+            #[cfg(not(target_arch = "wasm32"))]
+            rooms: [None, None],
             clock,
             round_clock,
         })
+    }
+
+    /// Has threads look for memory for the mesh, which the host is to read as a whole.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn prepare_room(&mut self) {
+        let len = self.params.infinite as usize * Dimension::<D>::MESH_PER_POINT;
+        self.rooms = [Room::ahead(len), Room::ahead(len)];
     }
 
     /// Returns the device.
@@ -674,8 +692,21 @@ where
         self.stats.time = self.clock.lap();
         self.stats.counters = counters;
         let needed = self.needed();
-        let Run { kernels, points, memory, read_before, stats, clock, .. } = self;
-        let ended = Ended { kernels, gpu, memory, points, needed, counters, finite, workgroups, read_before, stats, clock };
+        let ended = Ended {
+            gpu,
+            needed,
+            counters,
+            finite,
+            workgroups,
+            kernels: self.kernels,
+            memory: self.memory,
+            points: self.points,
+            #[cfg(not(target_arch = "wasm32"))]
+            rooms: self.rooms,
+            read_before: self.read_before,
+            stats: self.stats,
+            clock: self.clock,
+        };
         Ok((ended, submission, more, prepared))
     }
 }
@@ -694,6 +725,8 @@ where
     /// The number of finite simplices.
     pub(crate) finite: usize,
     pub(crate) workgroups: u32,
+    #[cfg(not(target_arch = "wasm32"))]
+    rooms: Rooms<D>,
     read_before: (usize, u64),
     pub(crate) stats: Phase1Stats,
     clock: Stopwatch,
@@ -717,10 +750,15 @@ where
     pub(crate) async fn read(&mut self) -> Result<(<Dimension<D> as Finish<D>>::Result, Vec<[u32; 2]>), Error> {
         let (readback, memory) = (&mut self.kernels.readback, &self.memory);
         self.clock.lap();
+        #[cfg(not(target_arch = "wasm32"))]
+        let rooms = std::mem::take(&mut self.rooms).map(|room| room.map_or_else(Vec::new, Room::take));
+        #[cfg(target_arch = "wasm32")]
+        let rooms = Default::default();
         let bound = &memory.bound.finish;
-        let (result, merged) = bound.read(self.gpu, readback, &memory.buffers, self.finite, &self.counters).await?;
+        let (result, merged, submissions) =
+            bound.read(self.gpu, readback, &memory.buffers, self.finite, &self.counters, rooms).await?;
         self.stats.readback_time += self.clock.lap();
-        self.stats.submits += BoundFinish::<D>::SUBMITS;
+        self.stats.submits += submissions;
         self.stats.stalls += BoundFinish::<D>::STALLS;
         Ok((result, pairs(merged)))
     }
