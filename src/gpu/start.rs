@@ -9,7 +9,7 @@ use crate::dimension::Dimension;
 use crate::error::Error;
 use crate::gpu::dim::{Corners, Dim};
 use crate::index::NO_INDEX;
-use crate::input::lattice::{Lattice, Width};
+use crate::input::lattice::{Coordinate, Lattice, Width};
 use crate::input::order::{Distinct, Order, insertion_order, mix};
 use crate::input::points::Points;
 use crate::options::Options;
@@ -131,8 +131,8 @@ type Grown<const D: usize> = <Dimension<D> as Incremental<D>>::Triangulation;
 
 impl StartMesh {
     /// Triangulates `wanted` of the points, evenly spaced in the input, beside the corners of the
-    /// first simplex. What the lattice does not represent is left out; where that leaves too little,
-    /// or where the simplices are too many, the first simplex has to do.
+    /// first simplex. Where that is no triangulation of their places on the lattice, to which some are
+    /// rounded, or where the simplices are too many, the first simplex has to do.
     pub fn new<const D: usize>(points: Points<'_, D>, lattice: &Lattice<D>, start: &Start<D>, wanted: usize) -> Self
     where
         Dimension<D>: Dim<D>,
@@ -165,8 +165,7 @@ impl StartMesh {
         Dimension<D>: Dim<D>,
     {
         let first = start.first.as_ref();
-        let is_exact = |&i: &u32| lattice.coordinates(points.get(i as usize)).iter().all(|c| c.exact);
-        if wanted <= first.len() || !first.iter().all(is_exact) {
+        if wanted <= first.len() {
             return None;
         }
         let wanted = (wanted - first.len()).min(points.len());
@@ -179,7 +178,6 @@ impl StartMesh {
         }));
         sample.sort_unstable();
         sample.dedup();
-        sample.retain(is_exact);
         let Triangulated { triangulation, vertices } = match points {
             Points::F32(p) => triangulate_few(Points::F32(&taken(p, &sample))),
             Points::F64(p) => triangulate_few(Points::F64(&taken(p, &sample))),
@@ -193,7 +191,27 @@ impl StartMesh {
         }
         let mesh = Self::of_triangulation(triangulation, vertices.iter().map(|&i| sample[i as usize]));
         let slots = mesh.points.len() * Dimension::<D>::SLOTS_PER_POINT as usize;
-        (mesh.simplices.len() <= slots).then_some(mesh)
+        (mesh.simplices.len() <= slots && mesh.is_on_lattice(points, lattice, start)).then_some(mesh)
+    }
+
+    /// Returns whether the simplices are positively oriented on the lattice, to which points may be
+    /// rounded. Where none is, flat ones do not matter, since the device's perturbation orients them.
+    fn is_on_lattice<const D: usize>(&self, points: Points<'_, D>, lattice: &Lattice<D>, start: &Start<D>) -> bool
+    where
+        Dimension<D>: Dim<D>,
+    {
+        let places = self.points.iter().map(|&[i, _]| lattice.coordinates(points.get(i as usize)));
+        let places: Vec<[Coordinate; D]> = places.collect();
+        if places.as_flattened().iter().all(|c| c.exact) {
+            return true;
+        }
+        self.simplices.iter().all(|[corners, _]| {
+            let place = |&v: &u32| places.get(v as usize).map_or(start.interior_point, |place| place.map(|c| c.value));
+            let corners = &corners[..=D];
+            let orientation = Dimension::<D>::orient(lattice.width(), &corners.iter().map(place).collect::<Vec<_>>());
+            // The point inside stands for infinity, which is on the other side.
+            if corners.contains(&NO_INDEX) { orientation < 0 } else { orientation > 0 }
+        })
     }
 
     fn of_triangulation<const D: usize>(triangulation: impl Grow<D>, points: impl Iterator<Item = u32>) -> Self {

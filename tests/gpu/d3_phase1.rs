@@ -114,9 +114,9 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, se
         assert_eq!(points.positions[p as usize], points.positions[q as usize]);
         assert!(p > q);
     }
-    // One for each batch of rounds, and a few at the end.
+    // One for each batch of rounds, and a few at the end, one for each of the up to four parts of two arrays.
     let batches = stats.rounds.len();
-    assert!(stats.readbacks <= batches + 10, "{}: {} readbacks in {batches} rounds", points.name, stats.readbacks);
+    assert!(stats.readbacks <= batches + 16, "{}: {} readbacks in {batches} rounds", points.name, stats.readbacks);
     let distinct: BTreeSet<[u32; 4]> = output.tets.iter().copied().collect();
     assert_eq!(distinct.len(), output.tets.len());
     stats.counters

@@ -69,6 +69,9 @@ fn phase_1_starts_with_points_that_the_cpu_has_triangulated() {
         mesh.stats.gpu.expect("the GPU worked").start_points
     };
     assert!((90..=100).contains(&start_points(&points)));
+    // None of these is a point of the lattice.
+    let rounded: Vec<[f64; 3]> = points.iter().map(|p| p.map(|x| x / 3.0)).collect();
+    assert!((90..=100).contains(&start_points(&rounded)));
     let twice: Vec<[f64; 3]> = points.iter().flat_map(|&p| [p; 200]).take(20_000).collect();
     assert_eq!(start_points(&twice), 4);
 }
