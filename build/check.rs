@@ -65,12 +65,12 @@ pub fn in_parts(parts: &[&File]) -> Result<Option<String>, String> {
     Ok(Some(text))
 }
 
-/// Validates the shader that these files make up.
+/// Validates the shader that these files make up, for devices with these capabilities beside those of WebGPU.
 ///
 /// # Errors
 ///
 /// Says what is wrong, and in which line of which file.
-pub fn check(parts: &[&File]) -> Result<Reflection, String> {
+pub fn check(parts: &[&File], capabilities: Capabilities) -> Result<Reflection, String> {
     let wgsl: String = parts.iter().map(|file| file.code()).collect();
     let places: Vec<_> = parts.iter().flat_map(|file| file.line_numbers().map(|line| (file.path(), line))).collect();
     let describe = |location: Option<naga::SourceLocation>, emitted: String| {
@@ -80,7 +80,7 @@ pub fn check(parts: &[&File]) -> Result<Reflection, String> {
     };
     let module = naga::front::wgsl::parse_str(&wgsl)
         .map_err(|e| describe(e.location(&wgsl), e.emit_to_string_with_path(&wgsl, "assembled")))?;
-    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+    let info = Validator::new(ValidationFlags::all(), capabilities)
         .validate(&module)
         .map_err(|e| describe(e.location(&wgsl), e.emit_to_string_with_path(&wgsl, "assembled")))?;
     let reject = |what: String| Err(format!("{}: {what}", kernel(parts).path()));

@@ -8,6 +8,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use naga::valid::Capabilities;
+
 use crate::{
     check::{self, Reflection, Structure, check},
     parts,
@@ -28,6 +30,9 @@ const NATIVE: [&str; 3] = ["flip_compact", "query_", "edges_"];
 /// Kernels of 3D that there are only for whole arrays: those that look at the mesh of the caller, and
 /// that of iterations in one workgroup, of which a run with so many points has few.
 const WHOLE: [&str; 3] = ["flip_few", "query_", "edges_"];
+
+/// The file with the products of limbs, and that which takes its place on devices with 64-bit integers.
+const MULTIPLY: [&str; 2] = ["arithmetic/multiply", "arithmetic/multiply_int64"];
 
 /// A shader in all its forms.
 struct Shader<'a> {
@@ -84,6 +89,9 @@ pub fn write() -> Result<(), String> {
         tables.iter_mut().for_each(|table| table.retain(|shader| !is_native(&shader.name)));
     }
     let in_parts = if is_downloaded { BTreeMap::new() } else { in_parts(&tables)? };
+    if !is_downloaded {
+        check_int64(&sources, &tables)?;
+    }
     let sources = if is_downloaded { &shortened(&sources, &tables)? } else { &sources };
     let module = module(sources, &tables, &declarations, &in_parts).expect("strings can be written to");
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it")).join("shaders.rs");
@@ -106,13 +114,26 @@ fn in_parts(tables: &[Vec<Shader<'_>>; 3]) -> Result<BTreeMap<String, [String; 2
     Ok(texts)
 }
 
+/// Validates the shaders for devices with 64-bit integers.
+fn check_int64(sources: &Sources, tables: &[Vec<Shader<'_>>; 3]) -> Result<(), String> {
+    let [portable, int64] = MULTIPLY.map(|name| sources.get(name).expect("there is such a file"));
+    for parts in tables.iter().flatten().flat_map(|shader| &shader.parts) {
+        if parts.iter().any(|file| file.name == portable.name) {
+            let mut parts = parts.clone();
+            parts.iter_mut().filter(|file| file.name == portable.name).for_each(|file| *file = int64);
+            check(&parts, Capabilities::SHADER_INT64)?;
+        }
+    }
+    Ok(())
+}
+
 /// Returns the sources with short names, with which the shaders are validated once more.
 fn shortened(sources: &Sources, tables: &[Vec<Shader<'_>>; 3]) -> Result<Sources, String> {
     let short = sources.shortened();
     for parts in tables.iter().flatten().flat_map(|shader| &shader.parts) {
         let parts: Vec<&File> =
             parts.iter().map(|file| short.get(&file.name).expect("it has the same files")).collect();
-        check(&parts)?;
+        check(&parts, Capabilities::empty())?;
     }
     Ok(short)
 }
@@ -125,11 +146,11 @@ impl Declarations {
     /// Validates a shader.
     fn add<'a>(&mut self, name: String, parts: [Vec<&'a File>; 2]) -> Result<Shader<'a>, String> {
         let [narrow, wide] = &parts;
-        let reflection = check(narrow)?;
+        let reflection = check(narrow, Capabilities::empty())?;
         let variables = reflection.variables.clone();
         self.declare(narrow, reflection)?;
         if narrow.iter().map(|file| &file.name).ne(wide.iter().map(|file| &file.name)) {
-            let reflection = check(wide)?;
+            let reflection = check(wide, Capabilities::empty())?;
             if reflection.variables != variables {
                 return Err(format!("shaders/{name}: it uses other buffers for wide coordinates than for narrow ones"));
             }

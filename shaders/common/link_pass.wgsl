@@ -24,8 +24,8 @@ var<workgroup> flips: array<atomic<u32>, 4>;
 
 // The slots to check next: those of a flip, or one that no flip changed.
 struct Changed {
-    count: u32,
     slots: vec3u,
+    count: u32,
 }
 
 fn join(t: u32, face: u32, mark: u32) {
@@ -57,7 +57,7 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
             atomicStore(&done_len, 0u);
         }
         workgroupBarrier();
-        var changed = Changed(0, vec3u(0));
+        var changed = Changed(vec3u(0), 0);
         if start + local < entries {
             let entry = actives[list + start + local];
             if (entry.outcome & DONE) != 0 {
@@ -68,7 +68,7 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
                 // Otherwise the flip that changed this simplex lists it.
                 let flags = status[entry.tet].made.x;
                 status[entry.tet].made.x = (flags & ~0xffu) | (entry.outcome & 0xff);
-                changed = Changed(select(0u, 1u, (entry.outcome & CHECK) != 0), vec3u(entry.tet, 0, 0));
+                changed = Changed(vec3u(entry.tet, 0, 0), select(0u, 1u, (entry.outcome & CHECK) != 0));
             }
         }
         let count = select(0u, changed.count, lists);

@@ -9,7 +9,7 @@ fn lists_next(entries: u32) -> bool {
 
 // Returns the triangles of a flip that was carried out.
 fn changed_by(entry: Active) -> Changed {
-    return Changed(2, vec3u(entry.tet, neighbors[entry.tet].x >> 2, 0));
+    return Changed(vec3u(entry.tet, neighbors[entry.tet].x >> 2, 0), 2);
 }
 
 // The outer edges of a flip.

@@ -16,16 +16,16 @@ fn check_exact_pass(group: u32, groups: u32, local: u32, bids: Bids) {
         atomicStore(&exact_here, 0u);
     }
     let undecided = workgroupUniformLoad(&open_here);
-    let lanes = sharing(undecided, groups);
-    let step = groups * WORKGROUP / lanes;
-    for (var start = group * WORKGROUP / lanes; start < undecided; start += step) {
-        let j = start + local / lanes;
+    let chunk = checked_together(undecided, groups);
+    for (var start = group * chunk; start < undecided; start += groups * chunk) {
+        let j = start + local;
+        let has_entry = local < chunk && j < undecided;
         var i = 0u;
-        if j < undecided {
+        if has_entry {
             i = messages[j].x;
         }
         // No sign is undecided here.
-        _ = check_facets(j < undecided, i, list + i, bids, local, lanes);
+        _ = check_facets(has_entry, i, list + i, bids, local);
         workgroupBarrier();
     }
     if exact_signs != 0 {

@@ -1,8 +1,9 @@
-// Checks the facets of an active tetrahedron (§3.1, §4.2).
+// Checks the facets of active tetrahedra (§3.1, §4.2).
 //
-// One invocation looks at all facets of its entry of the active list, until one can be flipped.
-// Where there are so few entries that most of the device would idle, four invocations share one:
-// each looks at one facet, and the first puts together what they found. The outcome is the same.
+// A workgroup lists the facets that are to be checked of its entries of the active list, and shares them
+// out: entries have one to four of them, so that with an entry for each invocation most would wait for the
+// few that have more to do. Of what is found out about the facets of an entry, its invocation takes
+// the first that can be flipped.
 //
 // Expects: control, simplices, neighbors, status, actives; orient and conflict of d3/signs or
 // d3/signs_filtered.
@@ -21,11 +22,15 @@ const UNDECIDED: u32 = 0x4000;
 // Nothing is to be found out after a flip or an undecided sign.
 const ENOUGH: u32 = UNDECIDED | (3u << KIND_SHIFT);
 
-var<workgroup> found_here: array<u32, WORKGROUP>;
+// The facets to be checked, 4·tetrahedron + facet, those of an entry in a row; then what is found out
+// about each.
+var<workgroup> facets_here: array<u32, 4 * WORKGROUP>;
+var<workgroup> facets_len: atomic<u32>;
 
-// Returns how many invocations share an entry, by the number of entries.
-fn sharing(entries: u32, groups: u32) -> u32 {
-    return select(1u, 4u, entries <= groups * 64);
+// Returns how many entries a workgroup looks at together, by their number: fewer where most of the device
+// would idle otherwise.
+fn checked_together(entries: u32, groups: u32) -> u32 {
+    return select(WORKGROUP, WORKGROUP / 4, entries <= groups * (WORKGROUP / 4));
 }
 
 // Returns whether the vertices opposite to the facet k of t, across which u lies, already have an
@@ -103,34 +108,41 @@ fn check_facet(t: u32, tet: vec4u, k: u32) -> u32 {
 
 // Checks the facets of the tetrahedron of entry i, which is at `at`, and bids for the tetrahedra
 // that its flip would change. Returns false if a sign is undecided: then everything is still to be
-// checked. `lanes` invocations in a row share an entry, and the first of them learns this. All of
-// the workgroup must call it, also those that have no entry, and not write found_here again before
-// a barrier.
-fn check_facets(has_entry: bool, i: u32, at: u32, bids: Bids, local: u32, lanes: u32) -> bool {
-    let lane = local % lanes;
-    var found = 0u;
+// checked. All of the workgroup must call it, also those that have no entry, and not again before a
+// barrier.
+fn check_facets(has_entry: bool, i: u32, at: u32, bids: Bids, local: u32) -> bool {
+    if local == 0 {
+        atomicStore(&facets_len, 0u);
+    }
+    workgroupBarrier();
     var t = NONE;
     var flags = 0u;
+    var first = 0u;
+    var end = 0u;
     if has_entry {
         t = actives[at].tet;
-        let tet = simplices[t];
         flags = status[t].made.x;
-        for (var k = lane; k < 4 && (found & ENOUGH) == 0; k += lanes) {
-            if ((flags >> k) & 1) != 0 {
-                found |= check_facet(t, tet, k);
-            }
+        var left = flags & CHECK;
+        first = atomicAdd(&facets_len, countOneBits(left));
+        end = first;
+        while left != 0 {
+            facets_here[end] = 4 * t + firstTrailingBit(left);
+            left &= left - 1;
+            end += 1;
         }
     }
-    if lanes > 1 {
-        found_here[local] = found;
-        workgroupBarrier();
-        if lane == 0 {
-            for (var other = 1u; other < lanes && (found & ENOUGH) == 0; other++) {
-                found |= found_here[local + other];
-            }
-        }
+    workgroupBarrier();
+    let len = atomicLoad(&facets_len);
+    for (var j = local; j < len; j += WORKGROUP) {
+        let tet = facets_here[j] >> 2;
+        facets_here[j] = check_facet(tet, simplices[tet], facets_here[j] & 3);
     }
-    if has_entry && lane == 0 {
+    workgroupBarrier();
+    var found = 0u;
+    for (var j = first; j < end && (found & ENOUGH) == 0; j++) {
+        found |= facets_here[j];
+    }
+    if has_entry {
         if (found & UNDECIDED) != 0 {
             actives[at].outcome = flags & 0xff;
         } else {

@@ -12,8 +12,7 @@ var<workgroup> first_undecided: u32;
 // Checks `entries` entries, of which workgroup `group` of `groups` takes its share.
 fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     let list = half_of(bids.iteration);
-    let lanes = sharing(entries, groups);
-    let chunk = WORKGROUP / lanes;
+    let chunk = checked_together(entries, groups);
     let long = is_long(entries, chunk, groups);
     var start = group * chunk;
     while start < entries {
@@ -22,10 +21,10 @@ fn check_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
             atomicStore(&undecided_here, 0u);
         }
         workgroupBarrier();
-        let i = start + local / lanes;
+        let i = start + local;
         var place = NONE;
-        let decided = check_facets(i < entries, i, list + i, bids, local, lanes);
-        if !decided && local % lanes == 0 {
+        let decided = check_facets(local < chunk && i < entries, i, list + i, bids, local);
+        if !decided {
             place = atomicAdd(&undecided_here, 1u);
         }
         workgroupBarrier();

@@ -11,11 +11,11 @@ fn lists_next(entries: u32) -> bool {
 fn changed_by(entry: Active) -> Changed {
     let inner = neighbors[entry.tet];
     if (entry.outcome & 3) == FLIP_23 {
-        return Changed(3, vec3u(entry.tet, inner.x >> 2, inner.y >> 2));
+        return Changed(vec3u(entry.tet, inner.x >> 2, inner.y >> 2), 3);
     }
     let slot = (entry.outcome & ~DONE) >> SLOT_SHIFT;
     atomicOr(&control.free[slot / BLOCK], 1u << (slot % BLOCK));
-    return Changed(2, vec3u(entry.tet, inner.w >> 2, 0));
+    return Changed(vec3u(entry.tet, inner.w >> 2, 0), 2);
 }
 
 // The outer facets of a flip.

@@ -95,6 +95,10 @@ impl AdapterSummary {
     }
 }
 
+/// The features that are used where an adapter has them: to time stages, and, natively, for faster exact
+/// arithmetic.
+const FEATURES: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::SHADER_INT64);
+
 /// Returns the adapters of this machine, in the order that [`AdapterChoice::Index`] counts.
 pub async fn adapters() -> Vec<AdapterSummary> {
     enumerate(&instance()).await.iter().map(AdapterSummary::of).collect()
@@ -136,7 +140,7 @@ impl Gpu {
         let limits = adapter.limits();
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("gdel"),
-            required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+            required_features: adapter.features() & FEATURES,
             required_limits: wgpu::Limits {
                 max_buffer_size: limits.max_buffer_size,
                 max_storage_buffer_binding_size: limits.max_storage_buffer_binding_size,

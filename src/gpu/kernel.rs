@@ -1,7 +1,7 @@
 //! Compute pipelines.
 
 #[cfg(not(target_arch = "wasm32"))]
-use crate::gpu::shader::{PART_STRIDE, PARTS};
+use crate::gpu::shader::{PART_STRIDE, PARTS, with_int64};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::parallel::{self, Threads};
 use crate::{
@@ -177,10 +177,22 @@ impl Kernel {
             #[cfg(not(target_arch = "wasm32"))]
             if let Some((parts, wgsl)) = self.parts.zip(shader.wgsl_in_parts(width)) {
                 let constants = [("PART", f64::from(parts.units()))];
-                return compile(&self.device, &self.label, wgsl, Some(&self.layout), &constants);
+                return self.compile(wgsl, &constants);
             }
-            compile(&self.device, &self.label, &shader.wgsl(width), Some(&self.layout), &[])
+            self.compile(&shader.wgsl(width), &[])
         })
+    }
+
+    #[cfg(not(target_arch = "wasm32"))]
+    fn compile(&self, wgsl: &str, constants: &[(&str, f64)]) -> wgpu::ComputePipeline {
+        let has_int64 = self.device.features().contains(wgpu::Features::SHADER_INT64);
+        let wgsl = if has_int64 { &*with_int64(wgsl) } else { wgsl };
+        compile(&self.device, &self.label, wgsl, Some(&self.layout), constants)
+    }
+
+    #[cfg(target_arch = "wasm32")]
+    fn compile(&self, wgsl: &str, constants: &[(&str, f64)]) -> wgpu::ComputePipeline {
+        compile(&self.device, &self.label, wgsl, Some(&self.layout), constants)
     }
 }
 

@@ -32,6 +32,13 @@ pub struct Shader {
 /// The name of a storage buffer, its binding in group 0, and whether it is only read.
 pub type Variable = (&'static str, u32, bool);
 
+/// Returns the WGSL of a kernel for a device with 64-bit integers, which make products in exact arithmetic
+/// from two words at once.
+#[cfg(not(target_arch = "wasm32"))]
+pub fn with_int64(wgsl: &str) -> String {
+    wgsl.replace(ARITHMETIC_MULTIPLY, ARITHMETIC_MULTIPLY_INT64)
+}
+
 impl Shaders {
     /// Returns the kernel of this name, which is that of its file.
     ///
@@ -85,5 +92,29 @@ impl Shader {
             Width::Narrow => self.narrow.concat(),
             Width::Wide => self.wide.concat(),
         }
+    }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+
+    /// Every kernel with products has them in the form for 64-bit integers, with arrays in parts, too.
+    #[test]
+    fn products_are_replaced_in_every_form() {
+        let mut replaced = [0, 0];
+        for shader in [&D2, &D3, &COMMON].into_iter().flat_map(Shaders::iter) {
+            for width in [Width::Narrow, Width::Wide] {
+                let texts = [Some(shader.wgsl(width)), shader.wgsl_in_parts(width).map(str::to_owned)];
+                for (wgsl, replaced) in texts.into_iter().zip(&mut replaced) {
+                    let has_products = |wgsl: &String| wgsl.contains("multiply_add");
+                    if let Some(wgsl) = wgsl.filter(has_products) {
+                        assert!(with_int64(&wgsl).contains("u64("), "{}", shader.name());
+                        *replaced += 1;
+                    }
+                }
+            }
+        }
+        assert!(replaced[0] > 10 && replaced[1] > 2, "{replaced:?}");
     }
 }

@@ -29,12 +29,17 @@ fn on_the_gpu(kernel: &SignKernel, width: Width, cases: &[Case]) -> Vec<[i32; 5]
 }
 
 fn check(width: Width) {
-    let kernel = SignKernel::new(width, KERNEL, &["vertices", "indices", "signs"]);
+    for kernel in SignKernel::all(width, KERNEL, &["vertices", "indices", "signs"]) {
+        check_kernel(&kernel, width);
+    }
+}
+
+fn check_kernel(kernel: &SignKernel, width: Width) {
     for &family in FAMILIES {
         let cases = cases(family, width, 20_000);
         let mut zeros = [0, 0];
         let mut decided = [0, 0];
-        for (case, signs) in cases.iter().zip(on_the_gpu(&kernel, width, &cases)) {
+        for (case, signs) in cases.iter().zip(on_the_gpu(kernel, width, &cases)) {
             let [exact_orient, orient, circle, orient_filter, circle_filter] = signs.map(|s| s as Sign);
             let positions = case.map(|v| v.position);
             let [expected_orient, expected_circle] = [exact_orientation(&positions), exact_in_circumsphere(&positions)];

@@ -24,13 +24,18 @@ fn on_the_gpu(kernel: &SignKernel, width: Width, cases: &[Case]) -> Vec<[i32; 7]
 }
 
 fn check(width: Width) {
-    let kernel = SignKernel::new(width, KERNEL, &["vertices", "signs"]);
+    for kernel in SignKernel::all(width, KERNEL, &["vertices", "signs"]) {
+        check_kernel(&kernel, width);
+    }
+}
+
+fn check_kernel(kernel: &SignKernel, width: Width) {
     for &family in FAMILIES {
         let cases = cases(family, width, 10_000);
         let mut zeros = [0, 0];
         let mut decided = [0, 0];
         let mut refined = [0, 0];
-        for (case, signs) in cases.iter().zip(on_the_gpu(&kernel, width, &cases)) {
+        for (case, signs) in cases.iter().zip(on_the_gpu(kernel, width, &cases)) {
             let signs = signs.map(|s| s as Sign);
             let four = [case[0], case[1], case[2], case[3]];
             let interior = Vertex { index: u32::MAX, ..case[4] };

@@ -4,7 +4,7 @@ use crate::assemble::assemble;
 use crate::oracle;
 use bytemuck::Pod;
 use gdel::internals::{
-    gpu::{AdapterChoice, Binding, Gpu, Kernel, Readback, Recorder, Storage, workgroups},
+    gpu::{AdapterChoice, Binding, Gpu, Kernel, Readback, Recorder, Storage, shader::with_int64, workgroups},
     input::lattice::Width,
     predicates::Sign,
 };
@@ -18,13 +18,21 @@ pub struct SignKernel {
 }
 
 impl SignKernel {
-    /// Compiles a kernel that includes shaders and has these buffers.
-    pub fn new(width: Width, text: &str, variables: &[&'static str]) -> Self {
+    /// Compiles a kernel that includes shaders and has these buffers: for any device, and for one with
+    /// 64-bit integers, if this is one.
+    pub fn all(width: Width, text: &str, variables: &[&'static str]) -> Vec<Self> {
         let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("the tests need a GPU or lavapipe");
-        let wgsl = assemble(text, width);
-        let compile = || Ok(Kernel::from_wgsl(&gpu, "predicates", &wgsl, variables, &[]));
-        let kernel = block_on(gpu.with_error_scope("test", compile)).unwrap();
-        SignKernel { gpu, kernel }
+        let portable = assemble(text, width);
+        let int64 = with_int64(&portable);
+        assert_ne!(portable, int64);
+        let has_int64 = gpu.device().features().contains(wgpu::Features::SHADER_INT64);
+        let forms = if has_int64 { vec![portable, int64] } else { vec![portable] };
+        let compiled = |wgsl: String| {
+            let compile = || Ok(Kernel::from_wgsl(&gpu, "predicates", &wgsl, variables, &[]));
+            let kernel = block_on(gpu.with_error_scope("test", compile)).unwrap();
+            SignKernel { gpu: gpu.clone(), kernel }
+        };
+        forms.into_iter().map(compiled).collect()
     }
 
     /// The signs of so many cases, which these buffers hold.
