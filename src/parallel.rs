@@ -1,6 +1,8 @@
 //! Work on slices, shared among the machine's threads if it has several.
 
 use crate::error::Error;
+#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+use std::sync::{Arc, Mutex, PoisonError};
 use std::{cmp::Ordering, num::NonZeroUsize, ops::Range};
 
 #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
@@ -238,27 +240,27 @@ pub(crate) fn dispose<T: Send + 'static>(garbage: T) {
 }
 
 /// What a thread of the pool makes while the calling one does something else.
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
 #[derive(Debug)]
-pub(crate) struct Ahead<T>(std::sync::mpsc::Receiver<T>);
+pub(crate) struct Ahead<T>(Arc<Mutex<Option<T>>>);
 
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
 impl<T: Send + 'static> Ahead<T> {
     /// Has a thread begin, as soon as one is free.
     pub(crate) fn begin(make: impl FnOnce() -> T + Send + 'static) -> Self {
-        let (sender, receiver) = std::sync::mpsc::channel();
-        // Nobody may be interested any more.
-        #[cfg(feature = "threads")]
-        rayon::spawn(move || _ = sender.send(make()));
-        #[cfg(not(feature = "threads"))]
-        let _ = (sender, make);
-        Ahead(receiver)
+        let made = Arc::new(Mutex::new(None));
+        let slot = Arc::clone(&made);
+        rayon::spawn(move || {
+            let result = make();
+            *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+        });
+        Ahead(made)
     }
 
     /// Returns what was made, if the thread is done. It is not waited for, because the calling thread
     /// may be the one that is to make it.
     pub(crate) fn take(&self) -> Option<T> {
-        self.0.try_recv().ok()
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 }
 
