@@ -1,14 +1,14 @@
 //! A run of Phase 1: what the host records ahead, and what it reads back.
 
 #[cfg(not(target_arch = "wasm32"))]
-use crate::gpu::Room;
+use crate::gpu::{Room, dim::Corners};
 use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
         Gpu, Pending, Profiler, Recorder,
         device_mesh::DeviceMesh,
-        dim::{Corners, Dim, Flip},
+        dim::{Dim, Flip},
         iterations::{Iterations, Known, Needed},
         layout::{BLOCK, COUNTER_WORDS, Counters, LOGGED, NONE, PARAM_WORDS, Params, SLOTS_FULL},
         parts,
