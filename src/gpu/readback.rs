@@ -96,7 +96,8 @@ impl<T: Pod + Send> Room<T> {
         let len = with_room(len);
         let pays = len.checked_mul(size_of::<T>())? >= SHARED_FROM;
         let touched = move || {
-            let mut list: Vec<T> = bytemuck::zeroed_vec(len);
+            // Where there is no such memory, that is found out when it is needed.
+            let mut list: Vec<T> = bytemuck::try_zeroed_vec(len).unwrap_or_default();
             // The system provides a page when it is first written to.
             for_chunks(Threads::All, &mut list, |_, chunk| {
                 let pages = chunk.chunks_mut(PAGE / size_of::<T>());
