@@ -86,7 +86,8 @@ impl Triangulator {
     /// Creates a triangulator that uses an existing device, for example that of a renderer.
     ///
     /// The limits of the device are taken as they are: WebGPU's defaults suffice, larger buffers
-    /// allow larger inputs. [`Backend::Auto`] uses the device even if it is software. Its handlers
+    /// allow larger inputs. Where it has the feature `SHADER_INT64`, exact signs take less time.
+    /// [`Backend::Auto`] uses the device even if it is software. Its handlers
     /// for errors and loss remain the caller's, so that losing it is reported as [`Error::Gpu`].
     ///
     /// # Examples
