@@ -49,8 +49,8 @@ const remapped = Object.entries(sources).map(
 );
 const given =
   process.env.CARGO_ENCODED_RUSTFLAGS?.split('\x1f') ?? process.env.RUSTFLAGS?.split(/\s+/) ?? [];
-/** What functions may grow to by inlining: that of `opt-level = "s"`. */
-const INLINE = '-Cllvm-args=-inline-threshold=50';
+/** What functions may grow to by inlining: less than by `opt-level = "s"`, which is 50. */
+const INLINE = '-Cllvm-args=-inline-threshold=45';
 const flags = (...more) => [...given, ...remapped, ...more].filter(Boolean).join('\x1f');
 const env = { ...process.env, PATH };
 const run = (command, args, more) =>
