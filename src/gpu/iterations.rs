@@ -42,13 +42,63 @@ pub(crate) struct Iterations {
     before: Option<Needed>,
 }
 
-/// What a run needed, for the next one of as many points: as a rule, these lie alike.
+/// What a run needed, for the next one of as many points: as a rule, these lie alike. In WebAssembly nothing is
+/// kept: the package is as large as it may be without.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Needed {
     /// The points that were inserted by the end of each round, and the iterations that it needed.
+    #[cfg(not(target_arch = "wasm32"))]
     rounds: Vec<[u32; 2]>,
     /// In every how many iterations exact checks followed the filter after the first round.
+    #[cfg(not(target_arch = "wasm32"))]
     exact_every: Option<u32>,
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+impl Needed {
+    /// Adds a round, by the points that were inserted by its end and the iterations that it needed.
+    fn add(&mut self, inserted: u32, needed: u32) {
+        self.rounds.push([inserted, needed]);
+    }
+
+    /// Returns the same of a round of this number, if there was one.
+    fn of_round(&self, round: usize) -> Option<[u32; 2]> {
+        self.rounds.get(round).copied()
+    }
+
+    /// Returns the number of rounds.
+    fn len(&self) -> usize {
+        self.rounds.len()
+    }
+
+    /// Keeps how often exact checks follow the filter, if it is the first time.
+    fn keep_exact_every(&mut self, exact_every: u32) {
+        self.exact_every.get_or_insert(exact_every);
+    }
+
+    /// Returns how often exact checks followed the filter after the first round.
+    fn exact_every(&self) -> Option<u32> {
+        self.exact_every
+    }
+}
+
+#[cfg(target_arch = "wasm32")]
+impl Needed {
+    fn add(&mut self, _inserted: u32, _needed: u32) {}
+
+    fn of_round(&self, _round: usize) -> Option<[u32; 2]> {
+        None
+    }
+
+    fn len(&self) -> usize {
+        0
+    }
+
+    fn keep_exact_every(&mut self, _exact_every: u32) {}
+
+    fn exact_every(&self) -> Option<u32> {
+        None
+    }
 }
 
 /// What is known of a round that was carried out.
@@ -95,7 +145,7 @@ impl Iterations {
     /// Creates the plan of a run's first round by what the run before needed, or with `first` iterations
     /// if there was none of as many points.
     pub(crate) fn new(first: u32, before: Option<Needed>) -> Self {
-        let exact_every = before.as_ref().and_then(|before| before.exact_every).unwrap_or(FIRST_EXACT_EVERY);
+        let exact_every = before.as_ref().and_then(Needed::exact_every).unwrap_or(FIRST_EXACT_EVERY);
         Iterations { first, planned: first, exact_every, needed: Needed::default(), before }
     }
 
@@ -110,10 +160,10 @@ impl Iterations {
         // A round that took all of its iterations has left flips to the next one.
         let needed = if used >= recorded { used + used / 4 } else { used };
         let repeats = |[before, _]: [u32; 2]| before.abs_diff(inserted) <= before / SAME_SHARE;
-        if !self.before(self.needed.rounds.len() as u32).is_some_and(repeats) {
+        if !self.before(self.needed.len()).is_some_and(repeats) {
             self.before = None;
         }
-        self.needed.rounds.push([inserted, needed]);
+        self.needed.add(inserted, needed);
         let wanted = match waiting {
             _ if recorded == 0 => self.planned.max(MIN_PLANNED),
             _ if is_few => 0,
@@ -130,12 +180,12 @@ impl Iterations {
         let (exact, visits) = (u64::from(exact), u64::from(visits));
         self.exact_every =
             EXACT_EVERY.iter().find(|(_, for_one)| exact * for_one <= visits).map_or(1, |&(every, _)| every);
-        self.needed.exact_every.get_or_insert(self.exact_every);
+        self.needed.keep_exact_every(self.exact_every);
     }
 
     /// Returns how many iterations to record for a round, by its number.
     pub(crate) fn planned(&self, round: u32) -> u32 {
-        match self.before(round) {
+        match self.before(round as usize) {
             Some([_, 0]) => 0,
             Some([_, needed]) => (needed + REPEATED_MARGIN).min(MAX_PLANNED),
             None => self.planned,
@@ -144,8 +194,8 @@ impl Iterations {
 
     /// Returns the points inserted by the end of a round of the run before, and the iterations that it
     /// needed, as long as this run repeats it.
-    fn before(&self, round: u32) -> Option<[u32; 2]> {
-        self.before.as_ref()?.rounds.get(round as usize).copied()
+    fn before(&self, round: usize) -> Option<[u32; 2]> {
+        self.before.as_ref()?.of_round(round)
     }
 
     /// Returns in every how many iterations exact checks follow the filter; only 3D has them apart.
