@@ -1,5 +1,5 @@
 // Checks the facets of each active simplex (§4.4, §5.6). In 2D, one invocation per entry of the
-// active list; in 3D one or four, which check as far as the filter decides and list the undecided
+// active list; in 3D one per facet, which check as far as the filter decides and list the undecided
 // entries for flip_check_exact.
 //!include {dim}/simplex
 @group(0) @binding(0) var<storage, read_write> control: Control;

@@ -1,5 +1,5 @@
-// Checks the facets of the active tetrahedra that the filter did not decide (§4.4). One or four
-// invocations per entry of their list.
+// Checks the facets of the active tetrahedra that the filter did not decide (§4.4). One
+// invocation per facet of the entries of their list.
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read> vertices: array<VertexWords>;
 @group(0) @binding(2) var<storage, read> simplices: array<vec4u>;

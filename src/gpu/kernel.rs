@@ -183,15 +183,12 @@ impl Kernel {
         })
     }
 
-    #[cfg(not(target_arch = "wasm32"))]
     fn compile(&self, wgsl: &str, constants: &[(&str, f64)]) -> wgpu::ComputePipeline {
-        let has_int64 = self.device.features().contains(wgpu::Features::SHADER_INT64);
-        let wgsl = if has_int64 { &*with_int64(wgsl) } else { wgsl };
-        compile(&self.device, &self.label, wgsl, Some(&self.layout), constants)
-    }
-
-    #[cfg(target_arch = "wasm32")]
-    fn compile(&self, wgsl: &str, constants: &[(&str, f64)]) -> wgpu::ComputePipeline {
+        #[cfg(not(target_arch = "wasm32"))]
+        let wgsl = match self.device.features().contains(wgpu::Features::SHADER_INT64) {
+            true => &*with_int64(wgsl),
+            false => wgsl,
+        };
         compile(&self.device, &self.label, wgsl, Some(&self.layout), constants)
     }
 }

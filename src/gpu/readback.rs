@@ -247,12 +247,13 @@ impl Readback {
         Ok(reads.into_iter().map(|(_, target)| target).collect())
     }
 
-    /// Reads the first `len` elements of two large arrays, into the memory of `rooms` as far as it suffices.
+    /// Reads the first `len` elements of two large arrays: natively in pieces, and into the memory of `rooms`
+    /// as far as it suffices.
     ///
     /// # Errors
     ///
     /// Returns the errors of [`Readback::receive`] and [`Gpu::with_error_scope`].
-    #[cfg(not(target_arch = "wasm32"))]
+    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "there is no memory ahead"))]
     pub(crate) async fn read_arrays<T: Pod>(
         &mut self,
         gpu: &Gpu,
@@ -260,45 +261,35 @@ impl Readback {
         rooms: [Vec<T>; 2],
         len: usize,
     ) -> Result<[Vec<T>; 2], Error> {
-        let mut lists = rooms.map(|room| fitted(room, len));
-        let mut reads = Vec::new();
-        for (array, list) in arrays.iter().zip(&mut lists) {
-            let mut rest: &mut [u8] = bytemuck::cast_slice_mut(list);
-            for buffer in array.buffers() {
-                let bytes = usize::try_from(buffer.size()).unwrap_or(usize::MAX).min(rest.len());
-                let (target, others) = rest.split_at_mut(bytes);
-                reads.push((buffer, target));
-                rest = others;
+        #[cfg(not(target_arch = "wasm32"))]
+        {
+            let mut lists = rooms.map(|room| fitted(room, len));
+            let mut reads = Vec::new();
+            for (array, list) in arrays.iter().zip(&mut lists) {
+                let mut rest: &mut [u8] = bytemuck::cast_slice_mut(list);
+                for buffer in array.buffers() {
+                    let bytes = usize::try_from(buffer.size()).unwrap_or(usize::MAX).min(rest.len());
+                    let (target, others) = rest.split_at_mut(bytes);
+                    reads.push((buffer, target));
+                    rest = others;
+                }
             }
+            self.read_into(gpu, reads).await?;
+            Ok(lists)
         }
-        self.read_into(gpu, reads).await?;
-        Ok(lists)
-    }
-
-    /// Reads the first `len` elements of two large arrays.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`Readback::receive`] and [`Gpu::with_error_scope`].
-    #[cfg(target_arch = "wasm32")]
-    pub(crate) async fn read_arrays<T: Pod>(
-        &mut self,
-        gpu: &Gpu,
-        arrays: &[Storage<T>; 2],
-        _rooms: [Vec<T>; 2],
-        len: usize,
-    ) -> Result<[Vec<T>; 2], Error> {
-        let [first, second] = gpu
-            .with_error_scope("readback", || {
+        #[cfg(target_arch = "wasm32")]
+        {
+            let record = || {
                 // The host takes the first array while the device sends the second one.
                 Ok(arrays.each_ref().map(|array| {
                     let mut encoder = gpu.device().create_command_encoder(&Default::default());
                     let pending = self.copy(gpu, &mut encoder, array, 0, len);
                     (gpu.queue().submit([encoder.finish()]), pending)
                 }))
-            })
-            .await?;
-        Ok([self.receive(gpu, &first.0, first.1).await?, self.receive(gpu, &second.0, second.1).await?])
+            };
+            let [first, second] = gpu.with_error_scope("readback", record).await?;
+            Ok([self.receive(gpu, &first.0, first.1).await?, self.receive(gpu, &second.0, second.1).await?])
+        }
     }
 
     /// Returns how many readbacks were recorded.
