@@ -234,7 +234,9 @@ fn arrays_in_parts() {
         (inputs::uniform(Width::Wide, 1000), Settings { batches: 2, ..settings }, 300),
         (inputs::two_lines(Width::Narrow, 100), tight, 130),
     ] {
-        let parts = Parts::with_bytes(&gpu, 8 * 16 * blocks_per_part).expect("lavapipe binds 32 buffers");
+        let bytes = 8 * 16 * blocks_per_part;
+        let parts = Parts::with_bytes(&gpu, bytes).expect("lavapipe binds 32 buffers");
+        let settings = Settings { part_bytes: Some(bytes), ..settings };
         let mut kernels = [Width::Narrow, Width::Wide]
             .map(|width| block_on(Phase1::in_parts(&gpu, width, Some(parts))).expect("they compile"));
         let counters = run_and_validate(&gpu, &mut kernels, &points, settings);
