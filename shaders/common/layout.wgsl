@@ -4,6 +4,8 @@
 
 const NONE: u32 = 0xffffffff;
 const BLOCK: u32 = 8;
+// The free slots of a block, if all are.
+const ALL_FREE: u32 = 0xff;
 // The sort key of a point that was merged into another: it goes behind all vertices.
 const MERGED_KEY: u32 = 0xffffffff;
 

@@ -61,7 +61,7 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
         if start + local < entries {
             let entry = actives[list + start + local];
             if (entry.outcome & DONE) != 0 {
-                atomicAdd(&flips[entry.outcome & 3], 1u);
+                atomicAdd(&flips[kind_of(entry.outcome)], 1u);
                 changed = changed_by(entry);
                 done[atomicAdd(&done_len, 1u)] = changed;
             } else if atomicLoad(&status[entry.tet].vote) != mark {

@@ -88,5 +88,5 @@ fn end_flip(flip: Proposal, u: u32) -> u32 {
     neighbors[u] = vec4u(4 * t, beyond_u.x, beyond_t.x, 0);
     messages[t] = vec4u(replaced(replaced(vec3u(NONE), kb, 4 * t + 1), ka, 4 * u + 2), 0);
     messages[u] = vec4u(replaced(replaced(vec3u(NONE), fb, 4 * t + 2), fa, 4 * u + 1), 0);
-    return DONE | FLIP_22;
+    return DONE;
 }

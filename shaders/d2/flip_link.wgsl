@@ -7,6 +7,11 @@ fn lists_next(entries: u32) -> bool {
     return true;
 }
 
+// Returns the kind of a flip that was carried out.
+fn kind_of(outcome: u32) -> u32 {
+    return FLIP_22;
+}
+
 // Returns the triangles of a flip that was carried out.
 fn changed_by(entry: Active) -> Changed {
     return Changed(vec3u(entry.tet, neighbors[entry.tet].x >> 2, 0), 2);

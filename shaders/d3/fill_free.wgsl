@@ -5,6 +5,6 @@
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     for (var b = control.blocks_before + id.x; b < control.blocks; b += groups.x * WORKGROUP) {
-        atomicStore(&control.free[b], 0xffu);
+        atomicStore(&control.free[b], ALL_FREE);
     }
 }

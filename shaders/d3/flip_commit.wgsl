@@ -3,8 +3,11 @@
 // Expects: control, simplices, neighbors, status, messages, history; common/bids, common/history.
 //!include common/moved_slots
 
-// How often a flip looks for a free slot in four blocks of the tail.
-const TAIL_TRIES: u32 = 6;
+// How often a flip looks for a free slot in the blocks of other vertices: those before and behind its own
+// ones on the curve.
+const BESIDE_TRIES: u32 = 2;
+// How often it looks for one in four blocks of the tail.
+const TAIL_TRIES: u32 = 12;
 // How often it does so near the vertex's place in the tail, since what lies together in space should do
 // so in memory: among so many blocks at first, then among 16 times as many each time.
 const NEAR_TRIES: u32 = 2;
@@ -25,9 +28,9 @@ fn take_from(block: u32, free: u32) -> u32 {
     return slot;
 }
 
-// Takes a free slot from the block of a vertex of the flip, else from one of a few blocks of the
-// tail. Returns NONE if there is none. Several blocks are looked at together, because each look is
-// a long wait.
+// Takes a free slot from the block of a vertex of the flip or of one beside it, else from one of a few
+// blocks of the tail. Returns NONE if there is none. Several blocks are looked at together, because
+// each look is a long wait.
 fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
     let tail = control.blocks - control.infinite - 1;
     // Infinity has no place, and one of two vertices of the ring is finite.
@@ -36,29 +39,38 @@ fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
     var blocks = vec4u(ring, d);
     var last = e;
     var slot = NONE;
-    for (var i = 0u; i <= TAIL_TRIES && slot == NONE; i++) {
+    for (var i = 0u; i <= BESIDE_TRIES + TAIL_TRIES && slot == NONE; i++) {
+        // The slots of vertices that are not inserted yet are all free, and not for others.
+        let reserved = select(0u, ALL_FREE, i > 0 && i <= BESIDE_TRIES);
         let x = atomicLoad(&control.free[blocks.x]);
         let y = atomicLoad(&control.free[blocks.y]);
         let z = atomicLoad(&control.free[blocks.z]);
         let w = atomicLoad(&control.free[blocks.w]);
         var block = last;
         var places = atomicLoad(&control.free[last]);
-        block = select(block, blocks.w, w != 0);
-        places = select(places, w, w != 0);
-        block = select(block, blocks.z, z != 0);
-        places = select(places, z, z != 0);
-        block = select(block, blocks.y, y != 0);
-        places = select(places, y, y != 0);
-        block = select(block, blocks.x, x != 0);
-        places = select(places, x, x != 0);
+        places = select(places, 0u, places == reserved);
+        block = select(block, blocks.w, w != 0 && w != reserved);
+        places = select(places, w, w != 0 && w != reserved);
+        block = select(block, blocks.z, z != 0 && z != reserved);
+        places = select(places, z, z != 0 && z != reserved);
+        block = select(block, blocks.y, y != 0 && y != reserved);
+        places = select(places, y, y != 0 && y != reserved);
+        block = select(block, blocks.x, x != 0 && x != reserved);
+        places = select(places, x, x != 0 && x != reserved);
         slot = take_from(block, places);
-        if tail == 0 {
+        if i < BESIDE_TRIES {
+            let beside = select(0xffffffffu, 1u, i == 0);
+            blocks = min(vec4u(ring, d) + beside, vec4u(control.infinite));
+            last = min(e + beside, control.infinite);
+        } else if tail == 0 {
             break;
+        } else {
+            let k = i - BESIDE_TRIES;
+            let window = select(tail, min(TAIL_WINDOW << (4 * k), tail), k < NEAR_TRIES);
+            let tries = (vec4u(seed) + (4 * k + vec4u(0, 1, 2, 3)) * 0x9e3779b9u) % window;
+            blocks = control.infinite + 1 + (place + tries) % tail;
+            last = blocks.w;
         }
-        let window = select(tail, min(TAIL_WINDOW << (4 * i), tail), i < NEAR_TRIES);
-        let tries = (vec4u(seed) + (4 * i + vec4u(0, 1, 2, 3)) * 0x9e3779b9u) % window;
-        blocks = control.infinite + 1 + (place + tries) % tail;
-        last = blocks.w;
     }
     return slot;
 }
@@ -170,7 +182,7 @@ fn end_flip(flip: Proposal, third: u32) -> u32 {
     let x = vec3u(simplices[t][c.x], simplices[t][c.y], simplices[t][c.z]);
     let d = simplices[t][flip.k];
     let e = simplices[u][neighbors[t][flip.k] & 3];
-    var freed = 0u;
+    var left = DONE_23;
     if kind == FLIP_23 {
         // (x_i, x_i+1, d, e): face 0 leads to the next of the three, face 1 to the one before,
         // faces 2 and 3 are the old facets with e and with d.
@@ -204,7 +216,7 @@ fn end_flip(flip: Proposal, third: u32) -> u32 {
         messages[t] = replaced(replaced(vec4u(NONE), pt.x, 4 * t + 2), pt.y, 4 * u + 1);
         messages[u] = replaced(replaced(vec4u(NONE), pu.x, 4 * t), pu.y, 4 * u);
         messages[third] = replaced(replaced(vec4u(NONE), pw.x, 4 * t + 1), pw.y, 4 * u + 2);
-        freed = third;
+        left = third << SLOT_SHIFT;
     }
-    return DONE | (freed << SLOT_SHIFT) | kind;
+    return DONE | left;
 }

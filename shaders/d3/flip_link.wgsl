@@ -7,10 +7,15 @@ fn lists_next(entries: u32) -> bool {
     return entries < control.compact_from;
 }
 
+// Returns the kind of a flip that was carried out.
+fn kind_of(outcome: u32) -> u32 {
+    return select(FLIP_32, FLIP_23, (outcome & DONE_23) != 0);
+}
+
 // Returns the tetrahedra of a flip that was carried out. A 3-2 flip gives back a slot.
 fn changed_by(entry: Active) -> Changed {
     let inner = neighbors[entry.tet];
-    if (entry.outcome & 3) == FLIP_23 {
+    if (entry.outcome & DONE_23) != 0 {
         return Changed(vec3u(entry.tet, inner.x >> 2, inner.y >> 2), 3);
     }
     let slot = (entry.outcome & ~DONE) >> SLOT_SHIFT;

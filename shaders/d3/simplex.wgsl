@@ -8,7 +8,10 @@ const SLOTS_PER_POINT: u32 = BLOCK;
 const EDGE_SHIFT: u32 = 12;
 const FLIP_23: u32 = 1;
 const FLIP_32: u32 = 2;
-const SLOT_SHIFT: u32 = 2;
+// In what a flip that was carried out leaves: bit 0 of a 2-3 flip, and the slot that a 3-2 flip gives back,
+// which has 30 bits.
+const DONE_23: u32 = 1;
+const SLOT_SHIFT: u32 = 1;
 
 // Its parts take 16 bytes each, so that they are written and read as a whole.
 struct FlipNode {

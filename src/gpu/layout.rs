@@ -28,6 +28,8 @@ pub const NONE: u32 = common::NONE;
 
 /// Slots in a block.
 pub const BLOCK: u32 = common::BLOCK;
+/// The free slots of a block, if all are.
+pub const ALL_FREE: u32 = common::ALL_FREE;
 
 /// The status of a tetrahedron.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
@@ -64,8 +66,8 @@ pub struct Active {
     pub tet: u32,
     /// What the current flip iteration found: the facets still to check (bits 0–3), the facets that
     /// cannot be flipped (bits 4–7), the kind of the proposed flip (bits 8–9), its facet (bits
-    /// 10–11) and edge (bits 12–13). A flip that was carried out leaves its kind, and the slot that
-    /// a 3-2 flip gives back from bit 4 on, below [`DONE`].
+    /// 10–11) and edge (bits 12–13). A flip that was carried out leaves [`DONE`], and in 3D
+    /// [`DONE_23`] or the slot that a 3-2 flip gives back.
     pub outcome: u32,
 }
 assert_layout!(Active);
@@ -82,6 +84,8 @@ pub const FLIP_23: u32 = d3::FLIP_23;
 pub const FLIP_32: u32 = d3::FLIP_32;
 /// The flip was carried out.
 pub const DONE: u32 = common::DONE;
+/// It was a flip of two tetrahedra into three.
+pub const DONE_23: u32 = d3::DONE_23;
 /// Where the slot that was given back is in [`Active::outcome`], with [`DONE`].
 pub const SLOT_SHIFT: u32 = d3::SLOT_SHIFT;
 

@@ -42,9 +42,9 @@ pub trait ReferenceDim<const D: usize>: Dim<D> {
     /// Returns the nodes that changed the simplices of a flip later.
     fn next_nodes(flip: &mut Self::Flip) -> &mut [u32];
 
-    /// Returns which facets of the first simplex that a flip of this kind made lead to the others
+    /// Returns which facets of the first simplex that a flip with this outcome made lead to the others
     /// that it made, and which facets of each of them are outer ones.
-    fn made_by(kind: u32) -> (&'static [usize], Range<usize>);
+    fn made_by(outcome: u32) -> (&'static [usize], Range<usize>);
 
     /// Counts a flip that was carried out, and frees the slot that it gave back.
     fn count_flip(own: &mut Self::OwnState, counters: &mut Counters, outcome: u32);

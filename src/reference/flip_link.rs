@@ -34,7 +34,7 @@ where
                 }
             }
         } else {
-            let (inner, outer) = Dimension::<D>::made_by(outcome & 3);
+            let (inner, outer) = Dimension::<D>::made_by(outcome);
             let others: Vec<u32> = inner.iter().map(|&k| state.across(t, k).0).collect();
             for t in std::iter::once(t).chain(others) {
                 for face in outer.clone() {

@@ -10,7 +10,7 @@ use crate::{
         device_mesh::DeviceMesh,
         dim::{Dim, Flip},
         iterations::{Iterations, Known, Needed},
-        layout::{BLOCK, COUNTER_WORDS, Counters, LOGGED, NONE, PARAM_WORDS, Params, SLOTS_FULL},
+        layout::{BLOCK, COUNTER_WORDS, Counters, DONE, LOGGED, NONE, PARAM_WORDS, Params, SLOT_SHIFT, SLOTS_FULL},
         parts,
         phase1::{
             buffers::{Buffers, Sizes, largest_bytes},
@@ -142,6 +142,7 @@ const CLEAR_VOTES_FROM: u32 = 1 << 30;
 
 /// Simplices are numbered in 30 bits.
 const MAX_SIMPLICES: u32 = 1 << 30;
+const _: () = assert!(DONE >> SLOT_SHIFT >= MAX_SIMPLICES, "a flip notes the slot that it gives back");
 
 /// The most unused slots per 1,024 simplices of a mesh that is taken: so few that their product with
 /// 1,024 fits 32 bits.

@@ -1,6 +1,6 @@
 //! Carrying out an edge flip (§5.6).
 
-use crate::d2::gpu::layout::{EdgeFlip, FLIP_22};
+use crate::d2::gpu::layout::EdgeFlip;
 use crate::gpu::layout::{Active, DONE, FACET_SHIFT, KIND_SHIFT, NONE};
 
 use crate::reference::State;
@@ -34,5 +34,5 @@ pub(super) fn commit(state: &mut State<2>, i: usize) {
     state.neighbors[u as usize] = slot([4 * t, near_u[fa], near_t[ka]]);
     state.messages[t as usize] = slot(replaced(replaced([NONE; 3], kb, 4 * t + 1), ka, 4 * u + 2));
     state.messages[u as usize] = slot(replaced(replaced([NONE; 3], fb, 4 * t + 2), fa, 4 * u + 1));
-    state.active[half][i].outcome = DONE | FLIP_22;
+    state.active[half][i].outcome = DONE;
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::d3::mesh::FACETS;
 use crate::dimension::Dimension;
-use crate::gpu::layout::{BLOCK, Counters, DONE, FLIP_23, FlipNode, SLOT_SHIFT};
+use crate::gpu::layout::{ALL_FREE, BLOCK, Counters, DONE, DONE_23, FLIP_23, FlipNode, SLOT_SHIFT};
 use crate::input::lattice::Width;
 use crate::predicates::Sign;
 
@@ -63,12 +63,12 @@ impl ReferenceDim<3> for Dimension<3> {
         &mut flip.next
     }
 
-    fn made_by(kind: u32) -> (&'static [usize], Range<usize>) {
-        if kind == FLIP_23 { (&[0, 1], 2..4) } else { (&[3], 0..3) }
+    fn made_by(outcome: u32) -> (&'static [usize], Range<usize>) {
+        if outcome & DONE_23 != 0 { (&[0, 1], 2..4) } else { (&[3], 0..3) }
     }
 
     fn count_flip(own: &mut OwnState, counters: &mut Counters, outcome: u32) {
-        if outcome & 3 == FLIP_23 {
+        if outcome & DONE_23 != 0 {
             counters.flips_23 += 1;
         } else {
             let slot = (outcome & !DONE) >> SLOT_SHIFT;
@@ -116,11 +116,11 @@ pub struct OwnState {
 
 impl dim::OwnState for OwnState {
     fn new(points: usize, blocks: u32) -> Self {
-        OwnState { free: vec![0xff; blocks as usize], failed: vec![0; points] }
+        OwnState { free: vec![ALL_FREE; blocks as usize], failed: vec![0; points] }
     }
 
     fn grow(&mut self, blocks: u32) {
-        self.free.resize(blocks as usize, 0xff);
+        self.free.resize(blocks as usize, ALL_FREE);
     }
 
     fn occupy(&mut self, vertex: u32, slots: u32) {

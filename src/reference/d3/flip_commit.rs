@@ -2,7 +2,8 @@
 
 use crate::d3::mesh::FACETS;
 use crate::gpu::layout::{
-    BLOCK, DONE, EDGE_SHIFT, FACET_SHIFT, FLIP_23, FLIP_32, FlipNode, KIND_SHIFT, NONE, SLOT_SHIFT, SLOTS_FULL,
+    ALL_FREE, BLOCK, DONE, DONE_23, EDGE_SHIFT, FACET_SHIFT, FLIP_23, FLIP_32, FlipNode, KIND_SHIFT, NONE, SLOT_SHIFT,
+    SLOTS_FULL,
 };
 
 use crate::reference::State;
@@ -48,7 +49,7 @@ pub(super) fn commit(state: &mut State<3>, i: usize) {
     }
     let freed = if flip.kind == FLIP_23 { two_to_three(state, &flip, tets) } else { three_to_two(state, &flip) };
     let half = state.half();
-    state.active[half][i].outcome = DONE | freed << SLOT_SHIFT | flip.kind;
+    state.active[half][i].outcome = DONE | if flip.kind == FLIP_23 { DONE_23 } else { freed << SLOT_SHIFT };
 }
 
 /// Returns the flip that entry `i` of the active list proposes.
@@ -73,10 +74,10 @@ fn flip_of(state: &State<3>, i: usize) -> Option<Flip> {
     })
 }
 
-/// Takes a free slot: from the block of a vertex of the flip, else from one of a few blocks of the
-/// tail.
+/// Takes a free slot: from the block of a vertex of the flip or of one beside it, else from one of a few
+/// blocks of the tail.
 fn free_slot(state: &mut State<3>, flip: &Flip) -> Option<u32> {
-    const TRIES: u32 = 6;
+    const TRIES: u32 = 12;
     const NEAR_TRIES: u32 = 2;
     const WINDOW: u32 = 16;
     let tail = state.params.blocks - state.params.infinite - 1;
@@ -88,10 +89,14 @@ fn free_slot(state: &mut State<3>, flip: &Flip) -> Option<u32> {
         let window = if near < NEAR_TRIES { (WINDOW << (4 * near)).min(tail) } else { tail };
         infinite + 1 + (place + seed.wrapping_add(probe.wrapping_mul(0x9e37_79b9)) % window) % tail
     });
-    let blocks = flip.ring.into_iter().chain([flip.d, flip.e]).chain(in_tail);
-    for block in blocks {
+    let own = || flip.ring.into_iter().chain([flip.d, flip.e]);
+    let beside = |by: u32| own().map(move |v| v.wrapping_add(by).min(infinite));
+    let of_others = beside(1).chain(beside(u32::MAX)).map(|block| (block, true));
+    let of_flip = own().map(|block| (block, false));
+    for (block, is_beside) in of_flip.chain(of_others).chain(in_tail.map(|block| (block, false))) {
         let free = &mut state.own.free[block as usize];
-        if *free != 0 {
+        // The slots of vertices that are not inserted yet are all free, and not for others.
+        if *free != 0 && !(is_beside && *free == ALL_FREE) {
             let place = free.trailing_zeros();
             *free &= !(1 << place);
             return Some(block * BLOCK + place);
