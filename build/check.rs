@@ -10,9 +10,7 @@ use naga::{
 use crate::{parts, sources::File};
 
 /// What every WebGPU device supports.
-const MAX_STORAGE_BUFFERS: usize = 8;
-/// What devices need to support for arrays in parts.
-pub const MAX_STORAGE_BUFFERS_IN_PARTS: usize = 32;
+pub const MAX_STORAGE_BUFFERS: usize = 8;
 const MAX_INVOCATIONS: u32 = 256;
 const MAX_WORKGROUP_BYTES: u32 = 16_384;
 /// The constant that the host takes for the size of all workgroups.
@@ -58,10 +56,6 @@ pub fn in_parts(parts: &[&File]) -> Result<Option<String>, String> {
     Validator::new(ValidationFlags::all(), Capabilities::empty())
         .validate(&module)
         .map_err(|e| format!("{path}, in parts: {}", e.emit_to_string_with_path(&text, "assembled")))?;
-    let buffers = module.global_variables.iter().filter(|(_, variable)| variable.binding.is_some()).count();
-    if buffers > MAX_STORAGE_BUFFERS_IN_PARTS {
-        return Err(format!("{path}: {buffers} storage buffers are too many, in parts"));
-    }
     Ok(Some(text))
 }
 

@@ -8,25 +8,33 @@ use std::collections::BTreeMap;
 
 use naga::{AddressSpace, Handle, Module, Scalar, ScalarKind, Type, TypeInner, VectorSize};
 
-/// The arrays that have an element of 16 bytes per slot, or more.
-pub const ARRAYS: [&str; 12] = [
+/// The arrays that have an element per slot, or more than 16 bytes per point.
+pub const ARRAYS: [&str; 20] = [
     "actives",
     "gathered_neighbors",
+    "gathered_slots",
     "gathered_tetrahedra",
     "history",
+    "input",
+    "marks",
     "mesh_neighbors",
     "mesh_tetrahedra",
     "messages",
     "neighbors",
+    "numbers",
+    "offsets",
     "picks",
+    "region_numbers",
     "simplices",
     "status",
     "uncertain",
+    "values",
+    "vertices",
 ];
 
-/// The parts of each array. With all of them a kernel has no more than 32 storage buffers, which
-/// devices for more points than one part holds have, and software devices, too.
-pub const PARTS: u32 = 4;
+/// The parts of each array, at most: as many slots as a facet can be numbered in. Lines for part `k`
+/// begin with `/*k*/`, and are left out where there are fewer.
+pub const PARTS: u32 = 8;
 
 /// Part `k` of an array with binding `b` has binding `b + k * STRIDE`.
 pub const STRIDE: u32 = 16;
@@ -108,8 +116,9 @@ impl Rewriter<'_> {
         let (name, ty) = rest.split_once(':')?;
         self.arrays.contains_key(name).then(|| {
             let binding: u32 = binding.parse().expect("bindings are numbers");
-            let part = |k| format!("@group(0)@binding({}){space}>{}:{ty}\n", binding + k * STRIDE, part_name(name, k));
-            (0..PARTS).map(part).collect()
+            let declared =
+                |k| format!("@group(0)@binding({}){space}>{}:{ty}\n", binding + k * STRIDE, part_name(name, k));
+            (0..PARTS).map(|k| of_part(k, &declared(k))).collect()
         })
     }
 
@@ -216,7 +225,7 @@ impl Rewriter<'_> {
         }
         let result = if returns { format!("->{ty}") } else { String::new() };
         let per_unit = self.arrays[*array].1;
-        let of_part = |k: u32| {
+        let in_part = |k: u32| {
             let place = format!("{}[i0-{}u*PART]{path}", part_name(array, k), k * per_unit);
             let done = match access {
                 Access::Load => format!("return {place};"),
@@ -227,9 +236,10 @@ impl Rewriter<'_> {
                     if returns { format!("return {call}") } else { format!("{call}return;") }
                 }
             };
-            if k + 1 == PARTS { done } else { format!("if i0<{}u*PART{{{done}}}\n", (k + 1) * per_unit) }
+            // From the last one on, so that those that are left out are not missed.
+            if k == 0 { done } else { of_part(k, &format!("if i0>={}u*PART{{{done}}}\n", k * per_unit)) }
         };
-        let body: String = (0..PARTS).map(of_part).collect();
+        let body: String = (0..PARTS).rev().map(in_part).collect();
         let text = format!("fn {function}({}){result}{{\n{body}\n}}\n", parameters.join(","));
         self.functions.entry(function.clone()).or_insert(text);
         function
@@ -288,6 +298,11 @@ impl Rewriter<'_> {
 /// Returns the name of part `k` of an array.
 fn part_name(array: &str, k: u32) -> String {
     if k == 0 { array.to_owned() } else { format!("{array}_{k}") }
+}
+
+/// Returns a line that there is only if there are more than `k` parts.
+fn of_part(k: u32, line: &str) -> String {
+    if k == 0 { line.to_owned() } else { format!("/*{k}*/{line}") }
 }
 
 fn is_of_word(c: char) -> bool {

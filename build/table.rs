@@ -210,7 +210,7 @@ fn module(
             });
             write!(text, "Shader {{ name: {name:?}, narrow: &[{narrow}], wide: &[{wide}], variables: &{variables:?}")?;
             if !in_parts.is_empty() {
-                let texts = in_parts.get(name).filter(|_| own.is_some_and(|own| std::ptr::eq(own, d3)));
+                let texts = in_parts.get(name).filter(|_| own.is_none_or(|own| std::ptr::eq(own, d3)));
                 write!(text, ", in_parts: {texts:?}")?;
             }
             writeln!(text, " }},")?;
@@ -218,7 +218,7 @@ fn module(
         writeln!(text, "]);")?;
     }
     if !in_parts.is_empty() {
-        let (buffers, unit) = (check::MAX_STORAGE_BUFFERS_IN_PARTS, parts::UNIT);
+        let (buffers, unit) = (check::MAX_STORAGE_BUFFERS, parts::UNIT);
         let (arrays, stride, parts) = (parts::ARRAYS, parts::STRIDE, parts::PARTS);
         writeln!(text, "/// The arrays that can be in parts.\nconst ARRAYS_IN_PARTS: &[&str] = &{arrays:?};")?;
         writeln!(text, "/// The most parts of an array.\npub(crate) const PARTS: u32 = {parts};")?;
@@ -232,7 +232,7 @@ fn module(
         )?;
         writeln!(
             text,
-            "/// The storage buffers of a kernel with arrays in parts, at most.\npub(crate) const BUFFERS_IN_PARTS: u32 = {buffers};"
+            "/// The storage buffers of a kernel, at most.\npub(crate) const MAX_BUFFERS: u32 = {buffers};"
         )?;
     }
     write_constants(&mut text, declarations)?;

@@ -142,30 +142,16 @@ impl<T: Pod> Storage<T> {
         Ok(())
     }
 
-    /// Writes `contents` at element `start`, before the commands of the next submission. Of an array in
-    /// parts, only the first one is written to.
+    /// Writes `contents` at element `start`, before the commands of the next submission.
     pub fn write(&self, gpu: &Gpu, start: usize, contents: &[T]) {
-        let offset = (start * size_of::<T>()) as u64;
-        let bytes: &[u8] = bytemuck::cast_slice(contents);
-        #[cfg(not(target_arch = "wasm32"))]
-        if bytes.len() > MANY_BYTES {
-            // Most of the time goes into page faults, since the memory that the device reads is
-            // fresh each time, so threads share the work.
-            let size = std::num::NonZero::new(bytes.len() as u64);
-            let view = size.and_then(|size| gpu.queue().write_buffer_with(&self.buffer, offset, size));
-            // Without a view, the size or the place are wrong, and the device has reported that.
-            if let Some(mut view) = view {
-                let (parts, rest) = bytes.as_chunks::<PART>();
-                let (targets, mut target_of_rest) = view.slice(..).into_chunks::<PART>();
-                target_of_rest.copy_from_slice(rest);
-                let mut copies: Vec<_> = targets.into_iter().zip(parts).map(Some).collect();
-                for_parts(Threads::All, &mut copies, |_, copies| {
-                    copies.iter_mut().filter_map(Option::take).for_each(|(target, part)| target.write(*part));
-                });
-            }
-            return;
+        let mut at = (start * size_of::<T>()) as u64;
+        let mut bytes: &[u8] = bytemuck::cast_slice(contents);
+        while !bytes.is_empty() {
+            let (buffer, offset, left) = self.place(at);
+            let (part, rest) = bytes.split_at(bytes.len().min(left as usize));
+            write(gpu, buffer, offset, part);
+            (at, bytes) = (at + part.len() as u64, rest);
         }
-        gpu.queue().write_buffer(&self.buffer, offset, bytes);
     }
 
     /// Returns the number of elements.
@@ -242,4 +228,27 @@ impl<T: Pod> Storage<T> {
             done += copied;
         }
     }
+}
+
+/// Writes to a buffer, before the commands of the next submission.
+fn write(gpu: &Gpu, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) {
+    #[cfg(not(target_arch = "wasm32"))]
+    if bytes.len() > MANY_BYTES {
+        // Most of the time goes into page faults, since the memory that the device reads is
+        // fresh each time, so threads share the work.
+        let size = std::num::NonZero::new(bytes.len() as u64);
+        let view = size.and_then(|size| gpu.queue().write_buffer_with(buffer, offset, size));
+        // Without a view, the size or the place are wrong, and the device has reported that.
+        if let Some(mut view) = view {
+            let (parts, rest) = bytes.as_chunks::<PART>();
+            let (targets, mut target_of_rest) = view.slice(..).into_chunks::<PART>();
+            target_of_rest.copy_from_slice(rest);
+            let mut copies: Vec<_> = targets.into_iter().zip(parts).map(Some).collect();
+            for_parts(Threads::All, &mut copies, |_, copies| {
+                copies.iter_mut().filter_map(Option::take).for_each(|(target, part)| target.write(*part));
+            });
+        }
+        return;
+    }
+    gpu.queue().write_buffer(buffer, offset, bytes);
 }

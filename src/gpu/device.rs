@@ -7,7 +7,7 @@ use std::{
 
 use crate::{
     error::Error,
-    gpu::{Kernel, MAX_WORKGROUPS, WORKGROUP, workgroups},
+    gpu::{Kernel, MAX_WORKGROUPS, WORKGROUP, parts, workgroups},
     input::lattice::Width,
 };
 
@@ -15,6 +15,9 @@ use crate::{
 /// those of all loops of an invocation, of which a slot takes up to some dozens, and a point, of which
 /// there is one for eight slots, some hundreds.
 const MAX_SOFTWARE_ITEMS: u32 = 1 << 10;
+
+/// The bytes of device memory that are allocated at a time, for buffers that are not larger.
+const MEMORY_BLOCK: u64 = 256 << 20;
 
 /// Returns the most workgroups for `items` items on a software device.
 fn software_workgroups(items: u32) -> u32 {
@@ -144,11 +147,13 @@ impl Gpu {
             required_limits: wgpu::Limits {
                 max_buffer_size: limits.max_buffer_size,
                 max_storage_buffer_binding_size: limits.max_storage_buffer_binding_size,
-                #[cfg(not(target_arch = "wasm32"))]
-                max_storage_buffers_per_shader_stage: limits
-                    .max_storage_buffers_per_shader_stage
-                    .min(crate::gpu::shader::BUFFERS_IN_PARTS),
-                ..wgpu::Limits::default()
+                ..parts::limits(&limits)
+            },
+            // A mesh that is replaced goes while the device holds the next one. The allocator gives blocks
+            // without buffers back to the driver, which takes as long to provide another one as an
+            // update: few blocks of the largest size that it knows stay in use.
+            memory_hints: wgpu::MemoryHints::Manual {
+                suballocated_device_memory_block_size: MEMORY_BLOCK..MEMORY_BLOCK,
             },
             ..Default::default()
         };

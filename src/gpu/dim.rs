@@ -13,7 +13,7 @@ use crate::{
     cpu::Incremental,
     dimension::Dimension,
     error::Error,
-    gpu::{Binding, Gpu, shader::Shaders},
+    gpu::{Binding, Gpu, Parts, shader::Shaders},
     input::lattice::Width,
     predicates::Sign,
 };
@@ -96,14 +96,20 @@ pub trait OwnBuffers: Debug + Clone {
     /// # Errors
     ///
     /// Returns [`Error::BufferTooLarge`].
-    fn new(gpu: &Gpu, points: usize, blocks: u32) -> Result<Self, Error>;
+    fn new(gpu: &Gpu, points: usize, blocks: u32, parts: Option<Parts>) -> Result<Self, Error>;
 
     /// Returns larger ones with the same contents, for `blocks` blocks.
     ///
     /// # Errors
     ///
     /// Returns [`Error::BufferTooLarge`].
-    fn with_blocks(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, blocks: u32) -> Result<Self, Error>;
+    fn with_blocks(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        blocks: u32,
+        parts: Option<Parts>,
+    ) -> Result<Self, Error>;
 
     /// Records that what must be zero in the beginning is.
     fn record_clear(&self, encoder: &mut wgpu::CommandEncoder);
@@ -117,11 +123,17 @@ pub trait OwnBuffers: Debug + Clone {
 
 /// No buffers.
 impl OwnBuffers for () {
-    fn new(_gpu: &Gpu, _points: usize, _blocks: u32) -> Result<Self, Error> {
+    fn new(_gpu: &Gpu, _points: usize, _blocks: u32, _parts: Option<Parts>) -> Result<Self, Error> {
         Ok(())
     }
 
-    fn with_blocks(&self, _gpu: &Gpu, _encoder: &mut wgpu::CommandEncoder, _blocks: u32) -> Result<Self, Error> {
+    fn with_blocks(
+        &self,
+        _gpu: &Gpu,
+        _encoder: &mut wgpu::CommandEncoder,
+        _blocks: u32,
+        _parts: Option<Parts>,
+    ) -> Result<Self, Error> {
         Ok(())
     }
 

@@ -1,7 +1,7 @@
 //! Compute pipelines.
 
 #[cfg(not(target_arch = "wasm32"))]
-use crate::gpu::shader::{PART_STRIDE, PARTS, with_int64};
+use crate::gpu::shader::{PART_STRIDE, with_int64};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::parallel::{self, Threads};
 use crate::{
@@ -39,9 +39,9 @@ struct Bound {
 fn bound(shader: &'static Shader, parts: Option<Parts>) -> Vec<Bound> {
     let whole = |&(name, binding, read_only): &Variable| Bound { name, binding, part: 0, is_last: true, read_only };
     #[cfg(not(target_arch = "wasm32"))]
-    if parts.is_some() {
+    if let Some(parts) = parts {
         let of_variable = |variable: &Variable| {
-            let count = if shader.has_in_parts(variable.0) { PARTS } else { 1 };
+            let count = if shader.has_in_parts(variable.0) { parts.count() } else { 1 };
             let whole = whole(variable);
             (0..count).map(move |k| Bound {
                 binding: whole.binding + k * PART_STRIDE,
@@ -175,9 +175,10 @@ impl Kernel {
         self.pipeline.get_or_init(|| {
             let (shader, width) = self.shader.expect("what is not a shader was compiled at once");
             #[cfg(not(target_arch = "wasm32"))]
-            if let Some((parts, wgsl)) = self.parts.zip(shader.wgsl_in_parts(width)) {
-                let constants = [("PART", f64::from(parts.units()))];
-                return self.compile(wgsl, &constants);
+            if let Some(parts) = self.parts
+                && let Some(wgsl) = shader.wgsl_in_parts(width, parts.count())
+            {
+                return self.compile(&wgsl, &[("PART", f64::from(parts.units()))]);
             }
             self.compile(&shader.wgsl(width), &[])
         })
@@ -252,9 +253,9 @@ impl<'a> Compiler<'a> {
         Compiler { gpu, kernels: RefCell::default(), deferred: RefCell::default(), kept: false, parts }
     }
 
-    /// Returns whether large arrays are in parts.
-    pub(crate) fn is_in_parts(&self) -> bool {
-        self.parts.is_some()
+    /// Returns the parts of large arrays, if these are in parts.
+    pub(crate) fn parts(&self) -> Option<Parts> {
+        self.parts
     }
 
     /// Starts without any kernels. The device keeps them, so that they are compiled only once.

@@ -2,11 +2,12 @@
 //!
 //! An array with 16 bytes per slot exceeds the 2 GiB of one binding from 15.8 million points on.
 //! Then each large array consists of several buffers, and runs use kernels that choose the part by
-//! the index: `build/parts.rs` makes these of the others, of which they differ in nothing else.
+//! the index: `build/parts.rs` makes these of the others, of which they differ in nothing else. How
+//! many parts there can be depends on how many buffers the device binds.
 
 use crate::gpu::Gpu;
 #[cfg(not(target_arch = "wasm32"))]
-use crate::gpu::shader::{BUFFERS_IN_PARTS, PART_UNIT, PARTS};
+use crate::gpu::shader::{MAX_BUFFERS, PART_UNIT, PARTS};
 
 /// How large the parts of large arrays are. In WebAssembly, which has no memory for so many points,
 /// there are none.
@@ -14,6 +15,8 @@ use crate::gpu::shader::{BUFFERS_IN_PARTS, PART_UNIT, PARTS};
 pub struct Parts {
     /// In units of [`PART_UNIT`] bytes.
     units: u32,
+    /// How many parts an array has, at most.
+    count: u32,
     #[cfg(target_arch = "wasm32")]
     never: std::convert::Infallible,
 }
@@ -29,8 +32,13 @@ impl Parts {
     /// bind too few buffers.
     pub fn with_bytes(gpu: &Gpu, bytes: u64) -> Option<Self> {
         let units = u32::try_from(bytes / PART_UNIT).unwrap_or(u32::MAX);
-        let binds = gpu.device().limits().max_storage_buffers_per_shader_stage >= BUFFERS_IN_PARTS;
-        (binds && units > 0).then_some(Parts { units })
+        let count = buffers(&gpu.device().limits()) / MAX_BUFFERS;
+        (count > 1 && units > 0).then_some(Parts { units, count })
+    }
+
+    /// Returns how many parts an array has, at most.
+    pub(crate) fn count(self) -> u32 {
+        self.count
     }
 
     /// Returns the size of a part, in units.
@@ -45,7 +53,7 @@ impl Parts {
 
     /// Returns the size of the largest array, in bytes.
     pub(crate) fn limit(self) -> u64 {
-        u64::from(PARTS) * self.bytes()
+        u64::from(self.count) * self.bytes()
     }
 }
 
@@ -58,6 +66,29 @@ impl Parts {
     pub(crate) fn limit(self) -> u64 {
         match self.never {}
     }
+}
+
+/// Returns how many storage buffers a kernel of a device with these limits can bind, as far as arrays in
+/// parts need them.
+#[cfg(not(target_arch = "wasm32"))]
+fn buffers(limits: &wgpu::Limits) -> u32 {
+    let and_others = limits.max_buffers_and_acceleration_structures_per_shader_stage;
+    limits.max_storage_buffers_per_shader_stage.min(and_others).min(MAX_BUFFERS * PARTS)
+}
+
+/// Returns the limits to open a device with, of an adapter with these `limits`: the defaults of WebGPU, and
+/// the buffers that arrays in parts need.
+pub(crate) fn limits(limits: &wgpu::Limits) -> wgpu::Limits {
+    let defaults = wgpu::Limits::default();
+    #[cfg(not(target_arch = "wasm32"))]
+    let defaults = wgpu::Limits {
+        max_storage_buffers_per_shader_stage: buffers(limits),
+        max_buffers_and_acceleration_structures_per_shader_stage: buffers(limits)
+            .max(defaults.max_buffers_and_acceleration_structures_per_shader_stage),
+        ..defaults
+    };
+    _ = limits;
+    defaults
 }
 
 /// Returns the size of the largest array that can be in parts, in bytes.

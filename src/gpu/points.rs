@@ -19,7 +19,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Compiler, Gpu, Kernel, Recorder, Storage,
+        Compiler, Gpu, Kernel, Parts, Recorder, Storage,
         dim::Dim,
         shader::{assert_layout, constants::common as constants},
         workgroups,
@@ -88,6 +88,8 @@ pub struct PointStage<const D: usize> {
     keys: Kernel,
     gather: Kernel,
     sort: Sort,
+    /// The parts of the large arrays, if they are in parts.
+    parts: Option<Parts>,
 }
 
 /// What is to become vertices.
@@ -145,6 +147,7 @@ where
             keys: kernel("points_keys"),
             gather: kernel("points_gather"),
             sort: Sort::new(compiler),
+            parts: compiler.parts(),
         }
     }
 
@@ -214,7 +217,7 @@ where
             return Err(Error::TooManyPoints { points: n, limit: LIMIT });
         }
         let params = Storage::new(gpu, "point parameters", 1)?;
-        let input = Storage::<u32>::new(gpu, "input points", words)?;
+        let input = Storage::<u32>::in_parts(gpu, "input points", words, self.parts)?;
         let table = Storage::<u32>::new(gpu, "table of points", (2 * n.max(1)).next_power_of_two())?;
         let slots = Storage::<u32>::new(gpu, "slots of points", n)?;
         let mut pairs = Storage::new(gpu, "sort pairs", n)?;
@@ -222,10 +225,9 @@ where
         let merged_into = Storage::new(gpu, "merged points", n)?;
         let counts = Storage::new(gpu, "point counts", 1)?;
         let vertex_words = Dimension::<D>::vertex_words(width);
-        let vertices = Storage::new(gpu, "vertices", (n + 1) * vertex_words)?;
-        let buffers = [
+        let vertices = Storage::in_parts(gpu, "vertices", (n + 1) * vertex_words, self.parts)?;
+        let mut buffers = vec![
             ("params", params.buffer()),
-            ("input", input.buffer()),
             ("table", table.buffer()),
             // Nothing looks into the table any more when the vertices are known.
             ("slots", slots.buffer()),
@@ -233,8 +235,9 @@ where
             ("pairs", pairs.buffer()),
             ("merged_into", merged_into.buffer()),
             ("counts", counts.buffer()),
-            ("vertices", vertices.buffer()),
         ];
+        buffers.extend(input.bindings("input"));
+        buffers.extend(vertices.bindings("vertices"));
         let [merge, keys, gather] = [&self.merge, &self.keys, &self.gather].map(|kernel| kernel.bind(gpu, &buffers));
         // An even number of passes: the pairs end up where they were.
         let sort = self.sort.bind(gpu, &mut pairs, &mut scratch, KEY_BITS)?;

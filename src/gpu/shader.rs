@@ -77,13 +77,16 @@ impl Shader {
         self.in_parts.is_some() && ARRAYS_IN_PARTS.contains(&variable)
     }
 
-    /// Returns the WGSL with large arrays in parts, if it has such arrays.
+    /// Returns the WGSL with large arrays in so many parts, if it has such arrays.
     #[cfg(not(target_arch = "wasm32"))]
-    pub(crate) fn wgsl_in_parts(&self, width: Width) -> Option<&'static str> {
-        self.in_parts.map(|[narrow, wide]| match width {
+    pub(crate) fn wgsl_in_parts(&self, width: Width, parts: u32) -> Option<String> {
+        let [narrow, wide] = self.in_parts?;
+        let of_all = match width {
             Width::Narrow => narrow,
             Width::Wide => wide,
-        })
+        };
+        let is_of_part = |line: &&str| (parts..PARTS).all(|k| !line.starts_with(&format!("/*{k}*/")));
+        Some(of_all.split_inclusive('\n').filter(is_of_part).collect())
     }
 
     /// Assembles the WGSL.
@@ -105,7 +108,7 @@ mod tests {
         let mut replaced = [0, 0];
         for shader in [&D2, &D3, &COMMON].into_iter().flat_map(Shaders::iter) {
             for width in [Width::Narrow, Width::Wide] {
-                let texts = [Some(shader.wgsl(width)), shader.wgsl_in_parts(width).map(str::to_owned)];
+                let texts = [Some(shader.wgsl(width)), shader.wgsl_in_parts(width, PARTS)];
                 for (wgsl, replaced) in texts.into_iter().zip(&mut replaced) {
                     let has_products = |wgsl: &String| wgsl.contains("multiply_add");
                     if let Some(wgsl) = wgsl.filter(has_products) {

@@ -2,7 +2,7 @@
 
 use crate::{
     error::Error,
-    gpu::{Binding, Gpu, Storage, dim, layout::BLOCK, shader::assert_layout},
+    gpu::{Binding, Gpu, Parts, Storage, dim, layout::BLOCK, shader::assert_layout},
 };
 use bytemuck::{Pod, Zeroable};
 
@@ -36,24 +36,30 @@ pub struct OwnBuffers {
 }
 
 impl dim::OwnBuffers for OwnBuffers {
-    fn new(gpu: &Gpu, points: usize, blocks: u32) -> Result<Self, Error> {
+    fn new(gpu: &Gpu, points: usize, blocks: u32, parts: Option<Parts>) -> Result<Self, Error> {
         let slots = blocks as usize * BLOCK as usize;
         Ok(OwnBuffers {
             failed: Storage::new(gpu, "failed vertices", points)?,
             tet_of: Storage::new(gpu, "tetrahedra of points", points + 1)?,
             wanted: Storage::new(gpu, "wanted stars", points.div_ceil(32))?,
             gathering: Storage::new(gpu, "gathering", 1)?,
-            region_numbers: Storage::new(gpu, "numbers of gathered tetrahedra", slots)?,
-            gathered_slots: Storage::new(gpu, "slots of gathered tetrahedra", slots)?,
+            region_numbers: Storage::in_parts(gpu, "numbers of gathered tetrahedra", slots, parts)?,
+            gathered_slots: Storage::in_parts(gpu, "slots of gathered tetrahedra", slots, parts)?,
         })
     }
 
-    fn with_blocks(&self, gpu: &Gpu, _encoder: &mut wgpu::CommandEncoder, blocks: u32) -> Result<Self, Error> {
+    fn with_blocks(
+        &self,
+        gpu: &Gpu,
+        _encoder: &mut wgpu::CommandEncoder,
+        blocks: u32,
+        parts: Option<Parts>,
+    ) -> Result<Self, Error> {
         let slots = blocks as usize * BLOCK as usize;
         // Nothing was gathered yet.
         Ok(OwnBuffers {
-            region_numbers: Storage::new(gpu, "numbers of gathered tetrahedra", slots)?,
-            gathered_slots: Storage::new(gpu, "slots of gathered tetrahedra", slots)?,
+            region_numbers: Storage::in_parts(gpu, "numbers of gathered tetrahedra", slots, parts)?,
+            gathered_slots: Storage::in_parts(gpu, "slots of gathered tetrahedra", slots, parts)?,
             ..self.clone()
         })
     }
@@ -66,14 +72,15 @@ impl dim::OwnBuffers for OwnBuffers {
     }
 
     fn bindings(&self) -> Vec<Binding<'_>> {
-        vec![
+        let mut bindings = vec![
             ("failed", self.failed.buffer()),
             ("tet_of", self.tet_of.buffer()),
             ("wanted", self.wanted.buffer()),
             ("gathering", self.gathering.buffer()),
-            ("region_numbers", self.region_numbers.buffer()),
-            ("gathered_slots", self.gathered_slots.buffer()),
-        ]
+        ];
+        bindings.extend(self.region_numbers.bindings("region_numbers"));
+        bindings.extend(self.gathered_slots.bindings("gathered_slots"));
+        bindings
     }
 
     fn bytes(&self) -> u64 {

@@ -108,8 +108,6 @@ impl OutputStage {
                 let hull_len = Storage::<u32>::new(gpu, "facets of the hull", 1)?;
                 let mut buffers = vec![
                     ("outputs", params.buffer()),
-                    ("marks", mesh.marks.buffer()),
-                    ("numbers", mesh.numbers.buffer()),
                     ("out_tetrahedra", arrays.simplices.buffer()),
                     ("out_neighbors", arrays.neighbors.buffer()),
                     ("out_hull", arrays.hull.buffer()),
@@ -117,6 +115,8 @@ impl OutputStage {
                 ];
                 buffers.extend(mesh.tetrahedra.bindings("mesh_tetrahedra"));
                 buffers.extend(mesh.neighbors.bindings("mesh_neighbors"));
+                buffers.extend(mesh.marks.bindings("marks"));
+                buffers.extend(mesh.numbers.bindings("numbers"));
                 // The count is what the parameters of the scan are, too.
                 let scan = self.scan.bind(gpu, &params.cast(), mesh.marks, mesh.numbers)?;
                 let mut recorder = Recorder::new(gpu, None);

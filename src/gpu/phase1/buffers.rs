@@ -16,7 +16,7 @@ pub type Slot = [u32; 4];
 
 /// The buffers that the stages share; [`layout`](crate::gpu::layout) explains them.
 ///
-/// Besides its coordinates and their sorting, a point takes about 980 bytes in 3D: 8.5 slots of 88
+/// Besides its coordinates and their sorting, a point takes about 1,050 bytes in 3D: 8.5 slots of 96
 /// bytes each, 4 nodes of the history of 48, and some words. In 2D it takes about 250 bytes: 2
 /// slots of 88 bytes each, 2 nodes of the history of 24, and some words.
 #[derive(Debug, Clone)]
@@ -115,9 +115,9 @@ where
             )?,
             start_vertices: Storage::new(gpu, "vertices of the start", start_points)?,
             start_near: Storage::new(gpu, "simplices near vertices", start_points)?,
-            marks: Storage::new(gpu, "marks", slots)?,
-            numbers: Storage::new(gpu, "numbers of simplices", slots)?,
-            own: OwnBuffers::new(gpu, count, blocks)?,
+            marks: Storage::in_parts(gpu, "marks", slots, parts)?,
+            numbers: Storage::in_parts(gpu, "numbers of simplices", slots, parts)?,
+            own: OwnBuffers::new(gpu, count, blocks, parts)?,
             points,
         })
     }
@@ -144,8 +144,8 @@ where
         larger.neighbors = Storage::in_parts(gpu, "neighbours", slots, parts)?;
         larger.status = Storage::in_parts(gpu, "status", slots, parts)?;
         larger.active = Storage::in_parts(gpu, "active list", 2 * slots, parts)?;
-        larger.marks = Storage::new(gpu, "marks", slots)?;
-        larger.numbers = Storage::new(gpu, "numbers of simplices", slots)?;
+        larger.marks = Storage::in_parts(gpu, "marks", slots, parts)?;
+        larger.numbers = Storage::in_parts(gpu, "numbers of simplices", slots, parts)?;
         let encoder = recorder.encoder();
         // All but the parameters, which the host writes anew.
         let counters = (PARAM_WORDS * size_of::<u32>()) as u64;
@@ -155,7 +155,7 @@ where
         self.status.record_copy(encoder, 0, &larger.status, 0, self.status.bytes());
         self.active.record_copy(encoder, 0, &larger.active, 0, old_half);
         self.active.record_copy(encoder, old_half, &larger.active, larger.active.bytes() / 2, old_half);
-        larger.own = self.own.with_blocks(gpu, encoder, blocks)?;
+        larger.own = self.own.with_blocks(gpu, encoder, blocks, parts)?;
         Ok(larger)
     }
 
@@ -175,7 +175,6 @@ where
         let mut bindings = self.own.bindings();
         bindings.extend([
             ("control", self.control.buffer()),
-            ("vertices", self.points.vertices.buffer()),
             ("pairs", self.points.pairs.buffer()),
             ("counts", self.points.counts.buffer()),
             ("merged_into", self.points.merged_into.buffer()),
@@ -186,9 +185,10 @@ where
             ("start_simplices", self.start_simplices.buffer()),
             ("start_vertices", self.start_vertices.buffer()),
             ("start_near", self.start_near.buffer()),
-            ("marks", self.marks.buffer()),
-            ("numbers", self.numbers.buffer()),
         ]);
+        bindings.extend(self.points.vertices.bindings("vertices"));
+        bindings.extend(self.marks.bindings("marks"));
+        bindings.extend(self.numbers.bindings("numbers"));
         bindings.extend(self.simplices.bindings("simplices"));
         bindings.extend(self.neighbors.bindings("neighbors"));
         bindings.extend(self.status.bindings("status"));

@@ -61,7 +61,7 @@ impl Flip {
         let optional = |name| Dimension::<D>::SHADERS.find(name).map(|shader| compiler.kernel(shader, width));
         let compact = Dimension::<D>::SHADERS.find("flip_compact");
         let again = Dimension::<D>::SHADERS.find("moved_again");
-        let few = Dimension::<D>::SHADERS.find("flip_few").filter(|_| !compiler.is_in_parts());
+        let few = Dimension::<D>::SHADERS.find("flip_few").filter(|_| compiler.parts().is_none());
         Flip {
             check: kernel("flip_check"),
             check_exact: optional("flip_check_exact"),

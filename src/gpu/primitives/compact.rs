@@ -43,12 +43,8 @@ impl Compact {
     ) -> Result<BoundCompact, Error> {
         let offsets = Storage::new(gpu, "compaction offsets", marks.len())?;
         let scan = self.scan.bind(gpu, params, marks, &offsets)?;
-        let buffers = [
-            ("params", params.buffer()),
-            ("marks", marks.buffer()),
-            ("offsets", offsets.buffer()),
-            ("kept", kept.buffer()),
-        ];
+        let mut buffers = vec![("params", params.buffer()), ("offsets", offsets.buffer()), ("kept", kept.buffer())];
+        buffers.extend(marks.bindings("marks"));
         let scatter = self.scatter.bind(gpu, &buffers);
         Ok(BoundCompact { scan, scatter, workgroups: workgroups(marks.len() as u32) })
     }

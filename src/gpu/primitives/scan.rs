@@ -66,12 +66,9 @@ impl Scan {
         offsets: &Storage<u32>,
     ) -> Result<BoundScan, Error> {
         let sums = Storage::new(gpu, "scan sums", GROUPS + 1)?;
-        let buffers = [
-            ("params", params.buffer()),
-            ("values", values.buffer()),
-            ("sums", sums.buffer()),
-            ("offsets", offsets.buffer()),
-        ];
+        let mut buffers = vec![("params", params.buffer()), ("sums", sums.buffer())];
+        buffers.extend(values.bindings("values"));
+        buffers.extend(offsets.bindings("offsets"));
         let bindings = [&self.reduce, &self.sums, &self.parts].map(|kernel| kernel.bind(gpu, &buffers));
         let groups = values.len().div_ceil(STEP).clamp(1, GROUPS) as u32;
         Ok(BoundScan { sums, bindings, groups })
