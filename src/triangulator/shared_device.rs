@@ -17,6 +17,7 @@ use crate::{
     input::points::{Points, Points2, Points3},
     mesh::MeshInfo,
     options::Options,
+    parallel,
     stats::{Fallback, Phase, Restart, UpdateStats},
 };
 use async_lock::Mutex;
@@ -341,7 +342,8 @@ impl SharedDevice {
         check_count(points, Some(mesh))?;
         let mut made = self.run(points, options, &ToDevice { device: self, moved: Some(mesh) }).await?;
         made.stats_mut().update.get_or_insert_with(elsewhere);
-        *mesh = made;
+        // Its lists of points are large, and freeing them takes longer than some updates.
+        parallel::dispose(std::mem::replace(mesh, made));
         Ok(())
     }
 
