@@ -231,11 +231,15 @@ pub(crate) fn with_threads<R: Send>(
     }
 }
 
-/// Frees memory in many pieces, by another thread if there is one.
+/// Frees memory in many pieces, by another thread.
+#[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
 pub(crate) fn dispose<T: Send + 'static>(garbage: T) {
-    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
     rayon::spawn(move || drop(garbage));
-    #[cfg(not(all(feature = "threads", not(target_arch = "wasm32"))))]
+}
+
+/// Frees memory: there is no other thread.
+#[cfg(not(all(feature = "threads", not(target_arch = "wasm32"))))]
+pub(crate) fn dispose<T>(garbage: T) {
     drop(garbage);
 }
 

@@ -22,6 +22,17 @@ pub struct Storage<T> {
     elements: PhantomData<T>,
 }
 
+/// The name of an array in shaders, its first buffer, and the others.
+pub(crate) type Named<'a> = (&'static str, &'a wgpu::Buffer, &'a [wgpu::Buffer]);
+
+/// Appends the bindings of these arrays.
+pub(crate) fn append_bindings<'a>(bindings: &mut Vec<Binding<'a>>, arrays: &[Named<'a>]) {
+    for &(name, first, more) in arrays {
+        bindings.push((name, first));
+        bindings.extend(more.iter().map(|buffer| (name, buffer)));
+    }
+}
+
 #[cfg(not(target_arch = "wasm32"))]
 type More = Vec<wgpu::Buffer>;
 #[cfg(target_arch = "wasm32")]
@@ -144,8 +155,16 @@ impl<T: Pod> Storage<T> {
 
     /// Writes `contents` at element `start`, before the commands of the next submission.
     pub fn write(&self, gpu: &Gpu, start: usize, contents: &[T]) {
-        let mut at = (start * size_of::<T>()) as u64;
-        let mut bytes: &[u8] = bytemuck::cast_slice(contents);
+        let at = (start * size_of::<T>()) as u64;
+        let bytes: &[u8] = bytemuck::cast_slice(contents);
+        #[cfg(target_arch = "wasm32")]
+        gpu.queue().write_buffer(&self.buffer, at, bytes);
+        #[cfg(not(target_arch = "wasm32"))]
+        self.write_bytes(gpu, at, bytes);
+    }
+
+    #[cfg(not(target_arch = "wasm32"))]
+    fn write_bytes(&self, gpu: &Gpu, mut at: u64, mut bytes: &[u8]) {
         while !bytes.is_empty() {
             let (buffer, offset, left) = self.place(at);
             let (part, rest) = bytes.split_at(bytes.len().min(left as usize));
@@ -186,10 +205,10 @@ impl<T: Pod> Storage<T> {
         std::iter::once(&self.buffer).chain(&self.more)
     }
 
-    /// Returns the buffers of the parts, or the only one, under the name that the array has in
-    /// shaders.
-    pub(crate) fn bindings(&self, name: &'static str) -> impl Iterator<Item = Binding<'_>> {
-        self.buffers().map(move |buffer| (name, buffer))
+    /// Returns the name that the array has in shaders, with the buffers of the parts, or the only one,
+    /// for [`append_bindings`].
+    pub(crate) fn named(&self, name: &'static str) -> Named<'_> {
+        (name, &self.buffer, &self.more)
     }
 
     /// Returns in which buffer byte `at` is, where there, and how many bytes follow in it.
@@ -231,8 +250,8 @@ impl<T: Pod> Storage<T> {
 }
 
 /// Writes to a buffer, before the commands of the next submission.
+#[cfg(not(target_arch = "wasm32"))]
 fn write(gpu: &Gpu, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) {
-    #[cfg(not(target_arch = "wasm32"))]
     if bytes.len() > MANY_BYTES {
         // Most of the time goes into page faults, since the memory that the device reads is
         // fresh each time, so threads share the work.

@@ -37,6 +37,7 @@ pub mod start;
 pub(crate) mod vertex_simplices;
 
 pub use buffers::Storage;
+pub(crate) use buffers::append_bindings;
 pub use device::{AdapterChoice, AdapterSummary, Gpu, adapters};
 pub use kernel::{Binding, Compiler, Deferred, Kernel};
 pub use parts::Parts;

@@ -19,7 +19,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Compiler, Gpu, Kernel, Parts, Recorder, Storage,
+        Compiler, Gpu, Kernel, Parts, Recorder, Storage, append_bindings,
         dim::Dim,
         shader::{assert_layout, constants::common as constants},
         workgroups,
@@ -236,8 +236,7 @@ where
             ("merged_into", merged_into.buffer()),
             ("counts", counts.buffer()),
         ];
-        buffers.extend(input.bindings("input"));
-        buffers.extend(vertices.bindings("vertices"));
+        append_bindings(&mut buffers, &[input.named("input"), vertices.named("vertices")]);
         let [merge, keys, gather] = [&self.merge, &self.keys, &self.gather].map(|kernel| kernel.bind(gpu, &buffers));
         // An even number of passes: the pairs end up where they were.
         let sort = self.sort.bind(gpu, &mut pairs, &mut scratch, KEY_BITS)?;

@@ -9,7 +9,7 @@
 //! | `scores` | the scores of waiting points | the list of failed vertices |
 
 use crate::gpu::{
-    Binding, Storage,
+    Binding, Storage, append_bindings,
     layout::{Active, Status},
     phase1::{self, Buffers, Slot},
 };
@@ -58,11 +58,16 @@ impl phase1::Aliases<3> for Aliases {
 
     fn bindings(&self) -> Vec<Binding<'_>> {
         let mut bindings = vec![("failed_points", self.failed.buffer())];
-        bindings.extend(self.tets.bindings("mesh_tetrahedra"));
-        bindings.extend(self.neighbors.bindings("mesh_neighbors"));
-        bindings.extend(self.uncertain.bindings("uncertain"));
-        bindings.extend(self.gathered_tetrahedra.bindings("gathered_tetrahedra"));
-        bindings.extend(self.gathered_neighbors.bindings("gathered_neighbors"));
+        append_bindings(
+            &mut bindings,
+            &[
+                self.tets.named("mesh_tetrahedra"),
+                self.neighbors.named("mesh_neighbors"),
+                self.uncertain.named("uncertain"),
+                self.gathered_tetrahedra.named("gathered_tetrahedra"),
+                self.gathered_neighbors.named("gathered_neighbors"),
+            ],
+        );
         bindings
     }
 }

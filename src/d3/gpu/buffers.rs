@@ -2,7 +2,7 @@
 
 use crate::{
     error::Error,
-    gpu::{Binding, Gpu, Parts, Storage, dim, layout::BLOCK, shader::assert_layout},
+    gpu::{Binding, Gpu, Parts, Storage, append_bindings, dim, layout::BLOCK, shader::assert_layout},
 };
 use bytemuck::{Pod, Zeroable};
 
@@ -78,8 +78,10 @@ impl dim::OwnBuffers for OwnBuffers {
             ("wanted", self.wanted.buffer()),
             ("gathering", self.gathering.buffer()),
         ];
-        bindings.extend(self.region_numbers.bindings("region_numbers"));
-        bindings.extend(self.gathered_slots.bindings("gathered_slots"));
+        append_bindings(
+            &mut bindings,
+            &[self.region_numbers.named("region_numbers"), self.gathered_slots.named("gathered_slots")],
+        );
         bindings
     }
 

@@ -11,7 +11,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Compiler, Gpu, Kernel, Readback, Recorder, Storage,
+        Compiler, Gpu, Kernel, Readback, Recorder, Storage, append_bindings,
         device_mesh::{DeviceArrays, MeshArrays, Outputs, with_len},
         phase1::Slot,
         primitives::scan::{GROUPS, Scan},
@@ -113,10 +113,15 @@ impl OutputStage {
                     ("out_hull", arrays.hull.buffer()),
                     ("hull_len", hull_len.buffer()),
                 ];
-                buffers.extend(mesh.tetrahedra.bindings("mesh_tetrahedra"));
-                buffers.extend(mesh.neighbors.bindings("mesh_neighbors"));
-                buffers.extend(mesh.marks.bindings("marks"));
-                buffers.extend(mesh.numbers.bindings("numbers"));
+                append_bindings(
+                    &mut buffers,
+                    &[
+                        mesh.tetrahedra.named("mesh_tetrahedra"),
+                        mesh.neighbors.named("mesh_neighbors"),
+                        mesh.marks.named("marks"),
+                        mesh.numbers.named("numbers"),
+                    ],
+                );
                 // The count is what the parameters of the scan are, too.
                 let scan = self.scan.bind(gpu, &params.cast(), mesh.marks, mesh.numbers)?;
                 let mut recorder = Recorder::new(gpu, None);

@@ -4,7 +4,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Binding, Gpu, Parts, Recorder, Storage,
+        Binding, Gpu, Parts, Recorder, Storage, append_bindings,
         dim::{Dim, Flip, OwnBuffers},
         layout::{Active, BLOCK, FREE_START, PARAM_WORDS, Status, Waiting},
         points::DevicePoints,
@@ -186,18 +186,23 @@ where
             ("start_vertices", self.start_vertices.buffer()),
             ("start_near", self.start_near.buffer()),
         ]);
-        bindings.extend(self.points.vertices.bindings("vertices"));
-        bindings.extend(self.marks.bindings("marks"));
-        bindings.extend(self.numbers.bindings("numbers"));
-        bindings.extend(self.simplices.bindings("simplices"));
-        bindings.extend(self.neighbors.bindings("neighbors"));
-        bindings.extend(self.status.bindings("status"));
-        bindings.extend(self.active.bindings("actives"));
-        // Scores and points are picked before there are messages, and messages pass between commit and
-        // link, after the list of entries that the check leaves undecided. Each has an element per slot.
-        bindings.extend(self.messages.bindings("messages"));
-        bindings.extend(self.messages.bindings("picks"));
-        bindings.extend(self.history.bindings("history"));
+        append_bindings(
+            &mut bindings,
+            &[
+                self.points.vertices.named("vertices"),
+                self.marks.named("marks"),
+                self.numbers.named("numbers"),
+                self.simplices.named("simplices"),
+                self.neighbors.named("neighbors"),
+                self.status.named("status"),
+                self.active.named("actives"),
+                // Scores and points are picked before there are messages, and messages pass between commit and
+                // link, after the list of entries that the check leaves undecided. Each has an element per slot.
+                self.messages.named("messages"),
+                self.messages.named("picks"),
+                self.history.named("history"),
+            ],
+        );
         bindings
     }
 

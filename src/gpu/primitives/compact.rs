@@ -3,7 +3,7 @@
 use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
 use crate::{
     error::Error,
-    gpu::{Compiler, Gpu, Kernel, Recorder, Storage, shader, workgroups},
+    gpu::{Compiler, Gpu, Kernel, Recorder, Storage, append_bindings, shader, workgroups},
     input::lattice::Width,
 };
 
@@ -44,7 +44,7 @@ impl Compact {
         let offsets = Storage::new(gpu, "compaction offsets", marks.len())?;
         let scan = self.scan.bind(gpu, params, marks, &offsets)?;
         let mut buffers = vec![("params", params.buffer()), ("offsets", offsets.buffer()), ("kept", kept.buffer())];
-        buffers.extend(marks.bindings("marks"));
+        append_bindings(&mut buffers, &[marks.named("marks")]);
         let scatter = self.scatter.bind(gpu, &buffers);
         Ok(BoundCompact { scan, scatter, workgroups: workgroups(marks.len() as u32) })
     }

@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use crate::{
     error::Error,
     gpu::{
-        Compiler, Gpu, Kernel, Recorder, Storage,
+        Compiler, Gpu, Kernel, Recorder, Storage, append_bindings,
         shader::{self, assert_layout, constants::primitives as constants},
     },
     input::lattice::Width,
@@ -67,8 +67,7 @@ impl Scan {
     ) -> Result<BoundScan, Error> {
         let sums = Storage::new(gpu, "scan sums", GROUPS + 1)?;
         let mut buffers = vec![("params", params.buffer()), ("sums", sums.buffer())];
-        buffers.extend(values.bindings("values"));
-        buffers.extend(offsets.bindings("offsets"));
+        append_bindings(&mut buffers, &[values.named("values"), offsets.named("offsets")]);
         let bindings = [&self.reduce, &self.sums, &self.parts].map(|kernel| kernel.bind(gpu, &buffers));
         let groups = values.len().div_ceil(STEP).clamp(1, GROUPS) as u32;
         Ok(BoundScan { sums, bindings, groups })
