@@ -140,6 +140,11 @@ const AGAIN_ITERATIONS: u32 = 4;
 /// suffices for all rounds that may be submitted before.
 const CLEAR_VOTES_FROM: u32 = 1 << 30;
 
+/// Nodes of the history are numbered in 30 bits, over all rounds. In WebAssembly there is no memory for so
+/// many points.
+#[cfg(not(target_arch = "wasm32"))]
+const MAX_NODES: u32 = 1 << 30;
+
 /// Simplices are numbered in 30 bits.
 const MAX_SIMPLICES: u32 = 1 << 30;
 const _: () = assert!(DONE >> SLOT_SHIFT >= MAX_SIMPLICES, "a flip notes the slot that it gives back");
@@ -473,6 +478,16 @@ where
             // different perturbations. It lies in one of those around the first simplex.
             self.begin_with(StartMesh::of_first(&self.first));
             return Ok(true);
+        }
+        #[cfg(not(target_arch = "wasm32"))]
+        if read.next_node > MAX_NODES {
+            let bytes_of = |nodes: u32| u64::from(nodes) * size_of::<Flip<D>>() as u64;
+            return Err(Error::BufferTooLarge {
+                label: "history",
+                bytes: bytes_of(read.next_node).into(),
+                limit: bytes_of(MAX_NODES),
+                points: None,
+            });
         }
         let mut last = before.progress();
         for (round, recorded) in (before.round + 1..).zip(recorded) {
