@@ -21,7 +21,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let flips = atomicLoad(&control.flips_23) + atomicLoad(&control.flips_32) + atomicLoad(&control.flips_22);
     control.log[control.round % LOGGED] = array(inserted, unchecked, flips, control.iterations, control.few_done);
     control.round += 1;
-    control.first_node = atomicLoad(&control.next_node);
+    atomicStore(&control.next_node, 0u);
     // In a small triangulation every flip that waits costs failed vertices in the end.
     control.min_active = select(min(control.max_min_active, inserted >> 10), NONE, control.insert_all != 0);
     if waiting == 0 {

@@ -35,8 +35,9 @@ var<workgroup> first_here: u32;
 // Commits the flips of `entries` entries, of which workgroup `group` of `groups` takes its share.
 fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     let list = half_of(bids.iteration);
-    let round = Round(control.round, control.first_node);
-    let room = round.first_node + control.history;
+    // Read once, because the compiler cannot know that no store changes them.
+    let round = control.round;
+    let room = control.history;
     // Each workgroup looks at more than in the other passes. If all of them took part in a long list, less
     // of what they look at would be in the caches.
     let long = is_long(entries, COMMIT_STEP, groups);
@@ -58,7 +59,7 @@ fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
             let proposal = proposal_of(actives[list + i]);
             if proposal.kind != 0 && has_won(proposal, bid_of(i, bids)) {
                 var number = 0u;
-                if is_held(proposal, round.number) {
+                if is_held(proposal, round) {
                     number = atomicAdd(&held_here, 1u) + 1;
                 }
                 winners[atomicAdd(&winners_len, 1u)] = (i - start) | (number << 16);

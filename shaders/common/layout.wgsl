@@ -50,7 +50,6 @@ struct Control {
     active_len: array<atomic<u32>, 2>,
     round: u32,
     next_node: atomic<u32>,
-    first_node: u32,
     inserted: atomic<u32>,
     flips_23: atomic<u32>,
     flips_32: atomic<u32>,

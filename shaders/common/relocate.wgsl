@@ -13,17 +13,16 @@
 fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     let entries = control.entries;
     let list = waiting_list();
-    let first_node = control.first_node;
     for (var i = id.x; i < entries; i += groups.x * WORKGROUP) {
         let entry = waiting[list + i];
         if entry.tet == NONE {
             continue;
         }
-        let start = status[entry.tet].first;
-        var next = select(start, NONE, start < first_node);
+        // NONE if there is no first node.
+        var next = status[entry.tet].first - 1;
         var t = entry.tet;
         while next != NONE {
-            let step = follow(next - first_node, entry.point);
+            let step = follow(next, entry.point);
             t = step.x;
             next = step.y;
         }

@@ -84,6 +84,8 @@ fn main(
                     neighbors[u][face] = 4 * slot + k;
                 }
                 atomicStore(&status[slot].flags, 1u << k);
+                status[slot].last = 0;
+                status[slot].first = 0;
                 if k > 0 || listed == 0 {
                     actives[at] = Active(slot, 0);
                     at += 1;

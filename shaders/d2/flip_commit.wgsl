@@ -40,7 +40,7 @@ fn is_held(p: Proposal, round: u32) -> bool {
 
 // Begins a flip: writes history and status. `node` is its number in the history, NONE where no
 // waiting point can lie in its triangles. Returns the second triangle.
-fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: Round) -> u32 {
+fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: u32) -> u32 {
     let t = flip.t;
     let u = flip.u;
     let made_t = status[t].made;
@@ -50,13 +50,13 @@ fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: Round) -> u32 {
         link_node(u, made_u, node, round);
         let d = simplices[t][flip.k];
         let e = simplices[u][neighbors[t][flip.k] & 3];
-        history[node - round.first_node] = EdgeFlip(vec2u(e, d), vec2u(t, u), vec2u(NONE));
+        history[node] = EdgeFlip(vec2u(e, d), vec2u(t, u), vec2u(NONE));
     }
     let mark = changed_mark(bids);
     // The inner edge is locally Delaunay, unless the flip was one of an inverted triangle.
     let was_inverted = control.moved_simplices != 0 && ((made_t.x | made_u.x) & INVERTED) != 0;
-    let flags = select(round.number << HELD_SHIFT, 0u, node == NONE) | select(6u, 7u, was_inverted);
-    let last = select(node << 2, 0u, node == NONE);
+    let flags = select(round << HELD_SHIFT, 0u, node == NONE) | select(6u, 7u, was_inverted);
+    let last = select((node + 1) << 2, 0u, node == NONE);
     renew(t, flags, mark, last);
     renew(u, flags, mark, last + select(1u, 0u, node == NONE));
     return u;

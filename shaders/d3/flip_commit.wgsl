@@ -125,7 +125,7 @@ fn is_held(p: Proposal, round: u32) -> bool {
 // Begins a flip: takes the slot of the third tetrahedron, and writes history and status. `node` is
 // its number in the history, NONE where no waiting point can lie in its tetrahedra. Returns the
 // third tetrahedron; NONE if there is no slot.
-fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: Round) -> u32 {
+fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: u32) -> u32 {
     let kind = flip.kind;
     let t = flip.t;
     let u = flip.u;
@@ -152,11 +152,11 @@ fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: Round) -> u32 {
             if kind == FLIP_32 {
                 link_node(third, made_w, node, round);
             }
-            history[node - round.first_node] = FlipNode(ring, d, vec3u(t, u, third), e, vec3u(NONE), kind);
+            history[node] = FlipNode(ring, d, vec3u(t, u, third), e, vec3u(NONE), kind);
         }
         let mark = changed_mark(bids);
-        let flags = select(round.number << HELD_SHIFT, 0u, node == NONE);
-        let last = select(node << 2, 0u, node == NONE);
+        let flags = select(round << HELD_SHIFT, 0u, node == NONE);
+        let last = select((node + 1) << 2, 0u, node == NONE);
         let step = select(1u, 0u, node == NONE);
         // The inner facets are locally Delaunay, unless the flip was one of an inverted tetrahedron.
         let before = made_t.x | made_u.x | made_w.x;

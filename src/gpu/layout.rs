@@ -39,14 +39,14 @@ pub struct Status {
     /// some. Facets that were found not locally Delaunay but not flippable (bits 4–7). The
     /// insertion round in which waiting points may lie inside (bits 16–31).
     pub flags: u32,
-    /// The node of the history that made this tetrahedron, times 4, plus which of its tetrahedra it
-    /// is.
+    /// The node of the history that made this tetrahedron, plus 1, times 4, plus which of its
+    /// tetrahedra it is; 0 if no flip of the round did, or no waiting point may lie inside.
     pub last: u32,
     /// The highest bid for this tetrahedron. The bids of a flip iteration are above all those of
     /// the ones before it.
     pub vote: u32,
-    /// The first node of the round that changed the tetrahedron in this slot as it was when the
-    /// round began.
+    /// The first node of the round that changed the tetrahedron in this slot as it was after the
+    /// splits, plus 1; 0 if there is none. Valid where waiting points lay in it then.
     pub first: u32,
 }
 assert_layout!(Status);
@@ -133,10 +133,8 @@ pub struct Counters {
     pub active_len: [u32; 2],
     /// The insertion round, from 1.
     pub round: u32,
-    /// Nodes of the history are numbered through all rounds: this is the next number.
+    /// Nodes of the history in this round. It may be larger than their room.
     pub next_node: u32,
-    /// The number of the first node of this round.
-    pub first_node: u32,
     /// Points inserted so far, the first four included.
     pub inserted: u32,
     /// 2-3 flips so far.

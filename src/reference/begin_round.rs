@@ -22,7 +22,7 @@ where
     let progress = counters.progress();
     counters.log[counters.round as usize % LOGGED] = progress;
     counters.round += 1;
-    counters.first_node = counters.next_node;
+    counters.next_node = 0;
     let few = state.params.max_min_active.min(counters.inserted >> 10);
     counters.min_active = match (waiting, state.params.insert_all) {
         (0, _) => 0,

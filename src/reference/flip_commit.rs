@@ -46,7 +46,7 @@ where
             return Some(NONE);
         }
         let node = self.counters.next_node;
-        if node - self.counters.first_node >= self.params.history {
+        if node >= self.params.history {
             self.counters.overflow |= HISTORY_FULL;
             return None;
         }
@@ -61,18 +61,17 @@ where
         if node == NONE {
             return;
         }
-        let first = self.counters.first_node;
-        self.history[(node - first) as usize] = flip;
+        self.history[node as usize] = flip;
         for &t in old {
             let last = self.status[t as usize].last;
             if !self.is_held(t) {
                 continue;
             }
-            if last >> 2 >= first {
-                let before = &mut self.history[((last >> 2) - first) as usize];
-                Dimension::<D>::next_nodes(before)[(last & 3) as usize] = node;
+            if last == 0 {
+                self.status[t as usize].first = node + 1;
             } else {
-                self.status[t as usize].first = node;
+                let before = &mut self.history[(last >> 2) as usize - 1];
+                Dimension::<D>::next_nodes(before)[(last & 3) as usize] = node;
             }
         }
     }
@@ -81,7 +80,7 @@ where
     /// it has now: simplex `place` of the flip with this node.
     pub(super) fn mark_changed(&mut self, t: u32, check: u32, node: u32, place: usize) {
         let held = if node == NONE { 0 } else { self.counters.round << HELD_SHIFT };
-        let last = if node == NONE { 0 } else { node << 2 | place as u32 };
+        let last = if node == NONE { 0 } else { (node + 1) << 2 | place as u32 };
         let vote = self.bids().changed_mark();
         let first = self.status[t as usize].first;
         self.status[t as usize] = Status { flags: held | check, vote, last, first };

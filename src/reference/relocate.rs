@@ -12,16 +12,15 @@ pub fn relocate<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: ReferenceDim<D>,
 {
-    let first_node = state.counters.first_node;
     for i in 0..state.waiting.len() {
         let Waiting { point: p, tet: mut t } = state.waiting[i];
         if t == NONE {
             continue;
         }
-        let start = state.status[t as usize].first;
-        let mut next = if start >= first_node { start } else { NONE };
+        // `NONE` if there is no first node.
+        let mut next = state.status[t as usize].first.wrapping_sub(1);
         while next != NONE {
-            let flip = &state.history[(next - first_node) as usize];
+            let flip = &state.history[next as usize];
             (t, next) = Dimension::<D>::descend(flip, p, |corners| state.orient(corners));
         }
         state.waiting[i].tet = t;

@@ -53,7 +53,8 @@ where
                 state.neighbors[u as usize][face as usize] = 4 * child + k;
             }
             // The vote is left alone: only its iteration makes it valid.
-            state.status[child as usize] = Status { flags: 1 << k, ..state.status[child as usize] };
+            let status = &mut state.status[child as usize];
+            *status = Status { flags: 1 << k, vote: status.vote, ..Status::default() };
             if k > 0 || !was_active {
                 state.append(state.half(), child);
             }

@@ -86,7 +86,7 @@ where
             history: vec![Flip::<D>::default(); history as usize],
             waiting: vec![Waiting { point: NONE, tet: NONE }; infinite as usize],
             scores: vec![0; infinite as usize],
-            counters: Counters { first_node: 1, next_node: 1, bid_base: 1, entries: infinite, ..Counters::default() },
+            counters: Counters { bid_base: 1, entries: infinite, ..Counters::default() },
             own: OwnState::new(infinite as usize, blocks),
             points,
         }

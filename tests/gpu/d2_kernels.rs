@@ -22,11 +22,11 @@ type State = reference::State<2>;
 
 /// What the choice of numbers in the history leaves the same: the flips by their edges.
 fn flips(state: &State) -> BTreeSet<Vec<u32>> {
-    let nodes = (state.counters.next_node - state.counters.first_node) as usize;
+    let nodes = state.counters.next_node as usize;
     let flips = state.history[..nodes].iter().map(|node| {
         let next = node.next.map(|next| match next {
             NONE => [NONE; 2],
-            next => state.history[(next - state.counters.first_node) as usize].edge,
+            next => state.history[next as usize].edge,
         });
         [node.edge, node.triangles, next[0], next[1]].concat()
     });

@@ -31,12 +31,12 @@ fn essence(state: &State) -> (BTreeSet<Vec<u32>>, BTreeSet<Vec<u32>>) {
         }
         record
     });
-    let nodes = (state.counters.next_node - state.counters.first_node) as usize;
+    let nodes = state.counters.next_node as usize;
     let flips = state.history[..nodes].iter().map(|node| {
         let mut record = [&node.ring[..], &[node.d, node.e, node.kind]].concat();
         record.extend(node.next.map(|next| match next {
             NONE => NONE,
-            next => state.history[(next - state.counters.first_node) as usize].ring[0],
+            next => state.history[next as usize].ring[0],
         }));
         record
     });

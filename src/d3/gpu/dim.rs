@@ -26,8 +26,8 @@ impl Dim<3> for Dimension<3> {
     const SIMPLICES: &'static str = "tetrahedra";
     const NARROW_WORDS: usize = 4;
     const SHADERS: &'static Shaders = &shader::D3;
-    /// Nodes of the history are numbered in 30 bits, over all rounds: these points make 0.7 · 2³⁰.
-    const MAX_POINTS: usize = 70_000_000;
+    /// There are eight slots per point, and some. So many were verified.
+    const MAX_POINTS: usize = 118_000_000;
     /// Uniform points take 3.1 nodes per point in the round that takes most.
     const HISTORY: u32 = 4;
     const MESH_PER_POINT: usize = 7;

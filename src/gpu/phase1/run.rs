@@ -140,10 +140,8 @@ const AGAIN_ITERATIONS: u32 = 4;
 /// suffices for all rounds that may be submitted before.
 const CLEAR_VOTES_FROM: u32 = 1 << 30;
 
-/// Nodes of the history are numbered in 30 bits, over all rounds. In WebAssembly there is no memory for so
-/// many points.
-#[cfg(not(target_arch = "wasm32"))]
-const MAX_NODES: u32 = 1 << 30;
+/// The status of a simplex has 30 bits for the number of a node, plus 1.
+const MAX_NODES: u64 = (1 << 30) - 1;
 
 /// Simplices are numbered in 30 bits.
 const MAX_SIMPLICES: u32 = 1 << 30;
@@ -177,7 +175,7 @@ where
 
 /// Returns the counters before the first round, where so many points wait.
 fn first_counters(waiting: u32) -> Counters {
-    Counters { first_node: 1, next_node: 1, bid_base: 1, entries: waiting, ..Counters::default() }
+    Counters { bid_base: 1, entries: waiting, ..Counters::default() }
 }
 
 /// Returns the counters in the words that were read back.
@@ -218,7 +216,7 @@ where
             let points = Some(max_points(limit, &settings));
             return Err(Error::BufferTooLarge { label: Dimension::<D>::SIMPLICES, bytes, limit, points });
         }
-        let bindable = limit / size_of::<Flip<D>>() as u64;
+        let bindable = MAX_NODES.min(limit / size_of::<Flip<D>>() as u64);
         let wanted = u64::from(settings.history) * u64::from(points);
         let history = wanted.clamp(MIN_HISTORY, bindable.max(MIN_HISTORY)) as u32;
         // What is kept is lost if the run fails.
@@ -478,16 +476,6 @@ where
             // different perturbations. It lies in one of those around the first simplex.
             self.begin_with(StartMesh::of_first(&self.first));
             return Ok(true);
-        }
-        #[cfg(not(target_arch = "wasm32"))]
-        if read.next_node > MAX_NODES {
-            let bytes_of = |nodes: u32| u64::from(nodes) * size_of::<Flip<D>>() as u64;
-            return Err(Error::BufferTooLarge {
-                label: "history",
-                bytes: bytes_of(read.next_node).into(),
-                limit: bytes_of(MAX_NODES),
-                points: None,
-            });
         }
         let mut last = before.progress();
         for (round, recorded) in (before.round + 1..).zip(recorded) {
