@@ -22,6 +22,9 @@ pub enum Threads {
 /// instructions.
 const CHUNK: usize = 1 << 13;
 
+/// As many keys one thread sorts sooner than several.
+const SORTED_BY_ONE: usize = 1 << 17;
+
 /// Calls `work` with every chunk of `items` and the index of its first element.
 pub(crate) fn for_chunks<T: Send>(threads: Threads, items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
     #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
@@ -124,7 +127,7 @@ pub(crate) fn sort<T: Ord + Send>(threads: Threads, items: &mut [T]) {
 /// Sorts entries by their upper halves; those with equal ones stay in their order. The lower halves
 /// must be in ascending order.
 pub(crate) fn sort_keyed(threads: Threads, entries: &mut Vec<u64>) {
-    if count(threads) > 1 && threads == Threads::All {
+    if count(threads) > 1 && threads == Threads::All && entries.len() > SORTED_BY_ONE {
         return sort(threads, entries);
     }
     // A radix sort from the lowest digit.
@@ -148,6 +151,13 @@ pub(crate) fn sort_keyed(threads: Threads, entries: &mut Vec<u64>) {
         }
         std::mem::swap(entries, &mut others);
     }
+}
+
+/// Sorts items by a key; those with equal keys stay in their order.
+pub(crate) fn sort_by_key<T: Copy>(threads: Threads, items: &mut Vec<T>, key: impl Fn(&T) -> u32) {
+    let mut order: Vec<u64> = (0..).zip(&*items).map(|(i, item)| u64::from(key(item)) << 32 | i).collect();
+    sort_keyed(threads, &mut order);
+    *items = order.into_iter().map(|entry| items[entry as u32 as usize]).collect();
 }
 
 /// Sorts items of several numbers, of which equal ones are indistinguishable. A sort is large, so that there is one for all of

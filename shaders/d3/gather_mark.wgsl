@@ -12,10 +12,7 @@
 // The number of each tetrahedron that was gathered, or 0.
 @group(0) @binding(5) var<storage, read_write> region_numbers: array<u32>;
 @group(0) @binding(6) var<storage, read_write> marks: array<u32>;
-
-fn is_wanted(v: u32) -> bool {
-    return v != control.infinite && ((wanted[v >> 5] >> (v & 31)) & 1) != 0;
-}
+//!include d3/wanted
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
@@ -26,8 +23,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         }
         var mark = 0u;
         if t < len && region_numbers[t] == 0 {
-            let tet = mesh_tetrahedra[t];
-            mark = select(0u, 1u, is_wanted(tet.x) || is_wanted(tet.y) || is_wanted(tet.z) || is_wanted(tet.w));
+            mark = u32(has_wanted(mesh_tetrahedra[t]));
         }
         marks[t] = mark;
     }

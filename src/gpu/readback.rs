@@ -65,6 +65,14 @@ impl<T> Pending<T> {
     pub(crate) fn first(self, len: usize) -> Self {
         Pending { len: self.len.min(len), ..self }
     }
+
+    /// Returns the same and the elements of `other` behind, which a later submission may contain.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn then(mut self, other: Self) -> Self {
+        self.len += other.len;
+        self.staged.extend(other.staged);
+        self
+    }
 }
 
 /// What is read of an array: a piece of each of its parts. In WebAssembly it has only one.

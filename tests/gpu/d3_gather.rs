@@ -57,6 +57,7 @@ fn parts_are_gathered_and_written_back() {
     let [gathered_tetrahedra, gathered_neighbors] = ["gathered tetrahedra", "gathered neighbours"].map(slots_of_4);
     let [marks, numbers, region_numbers, gathered_slots] = ["marks", "numbers", "region", "slots"].map(words);
     let wanted = Storage::<u32>::new(gpu, "wanted", mesh.wanted.len()).unwrap();
+    let wider = Storage::<u32>::new(gpu, "wider", mesh.wanted.len()).unwrap();
     let gathering = Storage::<Gathering>::new(gpu, "gathering", 1).unwrap();
     tetrahedra.write(gpu, 0, &mesh.tetrahedra);
     neighbors.write(gpu, 0, &mesh.neighbors);
@@ -80,16 +81,24 @@ fn parts_are_gathered_and_written_back() {
             ("marks", marks.buffer()),
             ("numbers", numbers.buffer()),
             ("wanted", wanted.buffer()),
+            ("wider", wider.buffer()),
             ("gathering", gathering.buffer()),
         ];
         kernels.run(Dimension::<3>::SHADERS.get(name), &buffers);
     };
 
     let mut first = 1;
-    for stars in [3, 40, 1, 0] {
+    for (stars, rings) in [(3, 0), (1, 1), (40, 0), (1, 2), (0, 1)] {
         let vertices: Vec<u32> = (0..stars).map(|_| rng.random_range(0..POINTS)).collect();
         mesh.want(&vertices);
         wanted.write(gpu, 0, &mesh.wanted);
+        for _ in 0..rings {
+            wider.write(gpu, 0, &vec![0; mesh.wanted.len()]);
+            run("gather_widen");
+            mesh.wanted = gather::gather_widen(&mesh);
+            assert_eq!(read(gpu, &wider), mesh.wanted);
+            wanted.write(gpu, 0, &mesh.wanted);
+        }
         gathering.write(gpu, 0, &[Gathering { first, patched: 0 }]);
         run("gather_mark");
         let marked = gather::gather_mark(&mesh);
@@ -105,7 +114,7 @@ fn parts_are_gathered_and_written_back() {
         assert_eq!(read(gpu, &gathered_slots)[..listed.len()], listed);
         assert_eq!(read(gpu, &region_numbers)[..mesh.region_numbers.len()], mesh.region_numbers);
         run("gather_copy");
-        let Gathered { tetrahedra, neighbors, slots } = gather::gather_copy(&mesh, listed);
+        let Gathered { tetrahedra, neighbors, slots, .. } = gather::gather_copy(&mesh, listed);
         assert_eq!(read(gpu, &gathered_tetrahedra)[..slots.len()], tetrahedra);
         assert_eq!(read(gpu, &gathered_neighbors)[..slots.len()], neighbors);
         assert!(slots.len() >= stars, "{stars} stars have {} tetrahedra", slots.len());

@@ -6,7 +6,7 @@ use crate::{
             buffers::Gathering,
             outputs::{Made, OutputParams, SlotMesh},
         },
-        splay::{Aborted, Doubts, Gathered, Patch, Region},
+        splay::{Aborted, Doubts, Gathered, Patch, Region, rings},
     },
     error::Error,
     gpu::{
@@ -150,18 +150,19 @@ impl<'a> Device<'a> {
             });
             rest = Some(submitted.await?);
         }
-        let mut gathered = Gathered {
-            tetrahedra: copied.receive(tetrahedra.first.first(count)).await?,
-            neighbors: copied.receive(neighbors.first.first(count)).await?,
-            slots: copied.receive(slots.first.first(count)).await?,
+        let (more_tetrahedra, more_neighbors, more_slots) = match rest {
+            Some((submission, (tetrahedra, neighbors, slots))) => {
+                copied.submission = submission;
+                (Some(tetrahedra), Some(neighbors), Some(slots))
+            }
+            None => (None, None, None),
         };
-        if let Some((submission, (tetrahedra, neighbors, slots))) = rest {
-            copied.submission = submission;
-            gathered.tetrahedra.extend(copied.receive(tetrahedra).await?);
-            gathered.neighbors.extend(copied.receive(neighbors).await?);
-            gathered.slots.extend(copied.receive(slots).await?);
-        }
-        Ok(gathered)
+        Ok(Gathered {
+            tetrahedra: copied.receive_both(tetrahedra.first.first(count), more_tetrahedra).await?,
+            neighbors: copied.receive_both(neighbors.first.first(count), more_neighbors).await?,
+            slots: copied.receive_both(slots.first.first(count), more_slots).await?,
+            rings: 0,
+        })
     }
 
     /// Receives a list, and reads the rest of it if it has more than was read ahead.
@@ -180,8 +181,8 @@ impl<'a> Device<'a> {
         Ok(list)
     }
 
-    /// Returns the tetrahedra at `vertices` that it has not returned before, and numbers them from
-    /// `first` on.
+    /// Returns the tetrahedra at `vertices` that it has not returned before, and those [`rings`] around,
+    /// and numbers them from `first` on.
     ///
     /// # Errors
     ///
@@ -192,19 +193,26 @@ impl<'a> Device<'a> {
         let own = &memory.buffers.own;
         let mut wanted = vec![0u32; own.wanted.len()];
         let ahead = vertices.len().saturating_mul(PER_STAR).clamp(LEAST_AHEAD, AHEAD);
+        let rings = rings(vertices.len());
         vertices.iter().for_each(|&v| wanted[v as usize / 32] |= 1 << (v % 32));
         let (submission, gathering) = gpu
             .with_error_scope("gathering stars", || {
                 own.wanted.write(gpu, 0, &wanted);
                 own.gathering.write(gpu, 0, &[Gathering { first, patched: 0 }]);
                 let mut copies = Copies { readback: &mut kernels.readback, gpu, recorder: Recorder::new(gpu, None) };
+                for _ in 0..rings {
+                    let bound = &memory.bound.finish;
+                    own.wider.record_clear(copies.recorder.encoder());
+                    kernels.stages.finish.record(&mut copies.recorder, bound, &bound.widen, *workgroups);
+                    own.wider.record_copy(copies.recorder.encoder(), 0, &own.wanted, 0, own.wider.bytes());
+                }
                 let gathering = Gathering3::record(&mut copies, &kernels.stages, memory, ahead, *workgroups);
                 stats.dispatches += copies.recorder.dispatches();
                 stats.submits += 1;
                 Ok((copies.recorder.submit(gpu), gathering))
             })
             .await?;
-        self.receive(&submission, gathering).await
+        Ok(Gathered { rings, ..self.receive(&submission, gathering).await? })
     }
 
     /// Writes back what splaying has changed.

@@ -70,6 +70,7 @@ impl Finish<3> for Dimension<3> {
         Step::Kernel("gather_number"),
         Step::Kernel("gather_copy"),
     ];
+    const WIDEN: &'static [Step<&'static str>] = &[Step::Stage("widen"), Step::Kernel("gather_widen")];
     const PATCH: &'static [Step<&'static str>] = &[Step::Stage("patch"), Step::Kernel("patch")];
 
     fn outputs(compiler: &Compiler<'_>) -> OutputStage {

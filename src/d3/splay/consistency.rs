@@ -61,7 +61,7 @@ pub(super) struct Splaying {
 }
 
 /// What the star of a vertex has to do about an unsettled tetrahedron.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy)]
 struct Request {
     vertex: u32,
     /// The point whose insertion removes the tetrahedron, or [`NO_INDEX`] to insert its vertices.
@@ -133,8 +133,8 @@ impl Splaying {
                 self.stats.checks += self.unsettled.len();
                 self.requests = self.requests(predicates)?;
             }
-            let pulled = self.requests.iter().map(|r| r.vertex).filter(|v| !self.star_of.contains_key(v));
-            let lacking = self.known.region.lacking(pulled);
+            let pulled = self.requests.chunk_by(|r, s| r.vertex == s.vertex).map(|requests| requests[0].vertex);
+            let lacking = self.known.region.lacking(pulled.filter(|v| !self.star_of.contains_key(v)));
             if !lacking.is_empty() {
                 return Ok(lacking);
             }
@@ -182,6 +182,9 @@ impl Splaying {
 
     /// Adds the stars, counts what was done, and passes on the entries.
     fn adopt(&mut self, results: Vec<BatchResult>, entries: &mut Vec<Entries>) {
+        let more = results.iter().map(|result| result.stars.len()).sum();
+        self.stars.reserve(more);
+        self.star_of.reserve(more);
         for BatchResult { stars, entries: more, insertions } in results {
             for (star, origin) in stars {
                 match origin {
@@ -213,7 +216,7 @@ impl Splaying {
             Ok(requests)
         });
         let mut requests = requests.into_iter().collect::<Result<Vec<_>, Aborted>>()?.concat();
-        parallel::sort_records(self.threads, &mut requests);
+        parallel::sort_by_key(self.threads, &mut requests, |request| request.vertex);
         Ok(requests)
     }
 

@@ -272,9 +272,9 @@ impl Ledger {
         }
         remove.extend(&self.doubles);
         // The order in the hash tables is arbitrary, and each star has its doubles.
-        remove.sort_unstable();
+        parallel::sort(self.threads, &mut remove);
         remove.dedup();
-        parallel::sort_records(Threads::One, &mut add);
+        parallel::sort_records(self.threads, &mut add);
         Ok((remove, add))
     }
 }
@@ -288,6 +288,10 @@ fn all(key: Key, infinite: u32) -> u8 {
 
 /// Returns the part of the ledger to which a tetrahedron belongs.
 fn part(key: Key, parts: usize) -> usize {
-    let mixed = key.iter().fold(0u32, |mixed, &v| (mixed.rotate_left(9) ^ v).wrapping_mul(0x9e37_79b9));
-    (mixed >> 16) as usize % parts
+    (mixed(&key) >> 16) as usize % parts
+}
+
+/// Returns a number that differs for most lists of vertices.
+pub(super) fn mixed(vertices: &[u32]) -> u32 {
+    vertices.iter().fold(0, |mixed, &v| (mixed.rotate_left(9) ^ v).wrapping_mul(0x9e37_79b9))
 }

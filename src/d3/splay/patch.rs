@@ -6,7 +6,11 @@
 //! fills them once. And if every facet of T⁺ is locally Delaunay, as the facets elsewhere are, the
 //! whole is Delaunay. All of this is checked.
 
-use crate::d3::splay::{Aborted, Stop, TETRAHEDRON_GRAIN, ledger::Key, predicates::StarPredicates};
+use crate::d3::splay::{
+    Aborted, Stop, TETRAHEDRON_GRAIN,
+    ledger::{Key, mixed},
+    predicates::StarPredicates,
+};
 use crate::{
     d3::{
         mesh::FACETS,
@@ -53,10 +57,17 @@ pub(super) fn patch(
         mesh.tetrahedra[slot as usize] = v;
         facets.extend((0..4).map(|k| facet(v, k, 4 * slot + k as u32)));
     }
-    parallel::sort_records(threads, &mut facets);
-    for same in facets.chunk_by(|f, g| f[..3] == g[..3]) {
-        let &[[.., f], [.., g]] = same else { return Err(UNMATCHED.into()) };
-        mesh.join(f, g);
+    let key = |facet: &[u32; 4]| mixed(&facet[..3]);
+    parallel::sort_by_key(threads, &mut facets, key);
+    // Others may have the same key.
+    for facets in facets.chunk_by(|f, g| key(f) == key(g)) {
+        for f in facets {
+            let mut others = facets.iter().filter(|g| g[..3] == f[..3] && g[3] != f[3]);
+            match (others.next(), others.next()) {
+                (Some(g), None) => mesh.join(f[3], g[3]),
+                _ => return Err(UNMATCHED.into()),
+            }
+        }
     }
     let mesh = &*mesh;
     let checked = predicates.shared(threads, filled.len(), TETRAHEDRON_GRAIN, |predicates, range| {

@@ -32,6 +32,18 @@ pub struct Gathered {
     pub neighbors: Vec<[u32; 4]>,
     /// Where each is in the triangulation.
     pub slots: Vec<u32>,
+    /// How many rings of vertices around those that were asked for have their whole stars here, too.
+    pub rings: usize,
+}
+
+/// Returns how many rings to gather around so many vertices. Splaying goes on from the vertices that it asked
+/// for to those around them, and to gather again takes the device longer than to gather more.
+pub fn rings(vertices: usize) -> usize {
+    match vertices {
+        0..=32 => 2,
+        33..=256 => 1,
+        _ => 0,
+    }
 }
 
 /// What splaying changed in a region, for the triangulation that the region is a part of.
@@ -129,7 +141,7 @@ impl Region {
     }
 
     /// Adds what was gathered, numbered from [`next`](Region::next) on. Now the region has the
-    /// stars of `vertices`. `threads` share the work.
+    /// stars of `vertices`, and of those in the rings around them. `threads` share the work.
     ///
     /// # Errors
     ///
@@ -142,7 +154,7 @@ impl Region {
     ) -> Result<(), Aborted> {
         const DO_NOT_FIT: Aborted = Aborted::Inconsistent("gathered tetrahedra do not fit what is there");
         let Region { mesh, incident, complete, given, gathers } = self;
-        let Gathered { tetrahedra, neighbors, slots } = &gathered;
+        let Gathered { tetrahedra, neighbors, slots, rings } = &gathered;
         let first = mesh.tetrahedra.len();
         let infinite = mesh.infinite;
         *gathers = [gathers[0] + 1, gathers[1] + slots.len()];
@@ -172,31 +184,45 @@ impl Region {
         // What came earlier, if anything, did not know of this.
         let len = if first > 1 { neighbors.len() } else { 0 };
         let back = parallel::map_ranges(threads, len, |range| {
-            let facets = range.flat_map(|t| (0..4).map(move |k| (neighbors[t][k], 4 * (first + t) + k)));
+            let facets = range.flat_map(|t| (0..4).map(move |k| (neighbors[t][k], (4 * (first + t) + k) as u32)));
             let to_earlier = |across: u32| across >> 2 != OUTSIDE && ((across >> 2) as usize) < first;
-            facets.filter(|&(across, _)| to_earlier(across)).collect::<Vec<_>>()
+            let earlier = facets.filter(|&(across, _)| to_earlier(across));
+            let fits = |across: u32| mesh.neighbors[across as usize / 4][across as usize % 4] >> 2 == OUTSIDE;
+            earlier.map(|(across, facet)| fits(across).then_some((across, facet))).collect::<Option<Vec<_>>>()
         });
-        for (across, facet) in back.into_iter().flatten() {
-            let (t, k) = (across as usize / 4, across as usize % 4);
-            if mesh.neighbors[t][k] >> 2 != OUTSIDE {
-                return Err(DO_NOT_FIT);
-            }
-            mesh.neighbors[t][k] = facet as u32;
-            if let Some((first, given)) = given.iter_mut().rfind(|(first, _)| *first <= t)
-                && let Some(neighbors) = given.neighbors.get_mut(t - *first)
-            {
-                neighbors[k] = facet as u32;
-            }
+        let back = parallel::joined(back.into_iter().collect::<Option<Vec<_>>>().ok_or(DO_NOT_FIT)?);
+        let lists = given.iter_mut().map(|(first, given)| (*first, &mut given.neighbors[..]));
+        for (first, list) in lists.chain([(0, &mut mesh.neighbors[..])]) {
+            // Every thread looks at all of these, too. Tetrahedra before its part wrap around.
+            parallel::for_parts(sharing, list, |start, part| {
+                for &(across, facet) in &back {
+                    if let Some(neighbors) = part.get_mut((across as usize / 4).wrapping_sub(first + start)) {
+                        neighbors[across as usize % 4] = facet;
+                    }
+                }
+            });
         }
-        given.push((first, gathered));
+        let is_mutual =
+            |&(across, facet): &(u32, u32)| mesh.neighbors[across as usize / 4][across as usize % 4] == facet;
+        if parallel::map_ranges(threads, back.len(), |range| back[range].iter().all(is_mutual)).contains(&false) {
+            return Err(DO_NOT_FIT);
+        }
         if let Complete::Those(complete) = complete {
+            let mut more = VertexSet::new(infinite as usize);
             for v in vertices {
                 if v >= infinite {
                     return Err(DO_NOT_FIT);
                 }
-                complete.insert(v);
+                more.insert(v);
             }
+            for _ in 0..*rings {
+                let inner = more.clone();
+                let around = tetrahedra.iter().filter(|tet| tet.iter().any(|&v| inner.has(v)));
+                around.flatten().filter(|&&v| v < infinite).for_each(|&v| more.insert(v));
+            }
+            complete.insert_all(&more);
         }
+        given.push((first, gathered));
         Ok(())
     }
 
@@ -265,7 +291,14 @@ impl Region {
             }
             patch
         });
-        let mut patch = Patch { len: next as usize, ..Patch::default() };
+        let changed = parts.iter().map(|part| part.slots.len()).sum();
+        let mut patch = Patch {
+            slots: Vec::with_capacity(changed),
+            tetrahedra: Vec::with_capacity(changed),
+            neighbors: Vec::with_capacity(changed),
+            len: next as usize,
+            more: [0; 2],
+        };
         for part in parts {
             patch.slots.extend(part.slots);
             patch.tetrahedra.extend(part.tetrahedra);

@@ -74,16 +74,21 @@ pub(super) struct LinkFinder {
 impl LinkFinder {
     /// Tables larger than this are replaced, because clearing them takes longer than most stars do.
     const MAX_TO_CLEAR: usize = 1 << 10;
+    /// The tetrahedra for which there is room from the start.
+    const ROOM: usize = 56;
 
-    /// Adds tetrahedron `t` to `around`, if it is new.
-    fn visit(&mut self, mesh: &Triangulation3, t: u32, vertex: u32) -> Result<(), Aborted> {
-        if let Entry::Vacant(entry) = self.place.entry(t) {
-            let corner = mesh.vertices(t).iter().position(|&v| v == vertex);
-            let corner = corner.ok_or(Aborted::Inconsistent("a link leads to a tetrahedron without its vertex"))?;
-            entry.insert(self.around.len() as u32);
-            self.around.push((t, corner));
+    /// Adds tetrahedron `t` to `around`, if it is new. Returns its place there.
+    fn visit(&mut self, mesh: &Triangulation3, t: u32, vertex: u32) -> Result<u32, Aborted> {
+        match self.place.entry(t) {
+            Entry::Occupied(entry) => Ok(*entry.get()),
+            Entry::Vacant(entry) => {
+                let corner = mesh.vertices(t).iter().position(|&v| v == vertex);
+                let corner = corner.ok_or(Aborted::Inconsistent("a link leads to a tetrahedron without its vertex"))?;
+                let place = *entry.insert(self.around.len() as u32);
+                self.around.push((t, corner));
+                Ok(place)
+            }
         }
-        Ok(())
     }
 
     /// Returns the star of `vertex` in the triangulation, given one of its tetrahedra, `start`.
@@ -96,29 +101,22 @@ impl LinkFinder {
             self.place = FxHashMap::default();
         }
         self.place.clear();
+        // Most stars have no more, and growing a table takes longer than the star.
+        self.place.reserve(Self::ROOM);
         self.visit(mesh, start, vertex)?;
-        let mut next = 0;
-        while let Some(&(t, corner)) = self.around.get(next) {
-            next += 1;
-            for k in FACETS[corner] {
-                let across = mesh.neighbors[t as usize][k] >> 2;
-                self.visit(mesh, across, vertex)?;
-            }
-        }
-        let mut triangles = Vec::with_capacity(self.around.len() + self.around.len() / 2);
-        for &(t, corner) in &self.around {
-            let v = mesh.vertices(t);
-            let facet = FACETS[corner];
-            let neighbors = facet.map(|k| {
-                let across = mesh.neighbors[t as usize][k];
-                let place = self.place[&(across >> 2)];
+        let mut triangles = Vec::with_capacity(Self::ROOM);
+        while let Some(&(t, corner)) = self.around.get(triangles.len()) {
+            let (v, across) = (mesh.vertices(t), mesh.neighbors[t as usize]);
+            let mut triangle = Triangle { tetrahedron: t, ..Triangle::new(FACETS[corner].map(|k| v[k])) };
+            for (neighbor, k) in triangle.neighbors.iter_mut().zip(FACETS[corner]) {
+                let place = self.visit(mesh, across[k] >> 2, vertex)?;
                 let corner = self.around[place as usize].1;
-                let edge = FACETS[corner].iter().position(|&f| f == (across & 3) as usize);
+                let edge = FACETS[corner].iter().position(|&f| f == (across[k] & 3) as usize);
                 // If it were the corner itself, the facet would not have the vertex, which the
                 // visit rules out.
-                4 * place + edge.unwrap_or(0) as u32
-            });
-            triangles.push(Triangle { neighbors, tetrahedron: t, ..Triangle::new(facet.map(|k| v[k])) });
+                *neighbor = 4 * place + edge.unwrap_or(0) as u32;
+            }
+            triangles.push(triangle);
         }
         Ok(Star { vertex, triangles, free: Vec::new(), recent: 0, epoch: 0 })
     }

@@ -60,6 +60,8 @@ where
     const STEPS: &'static [Step<&'static str>];
     /// The steps that gather parts of the mesh.
     const GATHER: &'static [Step<&'static str>];
+    /// The steps that find what lies around the parts that are wanted.
+    const WIDEN: &'static [Step<&'static str>];
     /// The steps that write changed parts back.
     const PATCH: &'static [Step<&'static str>];
 
@@ -136,6 +138,35 @@ impl Copied<'_> {
     pub async fn receive<T: Pod>(&mut self, pending: Pending<T>) -> Result<Vec<T>, Error> {
         self.readback.receive(self.gpu, &self.submission, pending).await
     }
+
+    /// Waits for a readback and, if there is one, for that of the elements behind, which the submission or an
+    /// earlier one contains.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Readback::receive`].
+    pub(crate) async fn receive_both<T: Pod>(
+        &mut self,
+        first: Pending<T>,
+        others: Option<Pending<T>>,
+    ) -> Result<Vec<T>, Error> {
+        #[cfg(not(target_arch = "wasm32"))]
+        {
+            let pending = match others {
+                Some(others) => first.then(others),
+                None => first,
+            };
+            self.receive(pending).await
+        }
+        #[cfg(target_arch = "wasm32")]
+        {
+            let mut list = self.receive(first).await?;
+            if let Some(others) = others {
+                list.extend(self.receive(others).await?);
+            }
+            Ok(list)
+        }
+    }
 }
 
 /// The kernels of the end of Phase 1.
@@ -143,6 +174,7 @@ impl Copied<'_> {
 pub(crate) struct FinishStage {
     steps: Vec<Step<Kernel>>,
     gather: Vec<Step<Kernel>>,
+    widen: Vec<Step<Kernel>>,
     patch: Vec<Step<Kernel>>,
     scan: Scan,
 }
@@ -157,6 +189,8 @@ where
     pub(crate) steps: BoundSteps,
     /// Gathers what is wanted.
     pub(crate) gather: BoundSteps,
+    /// Finds what lies around it.
+    pub(crate) widen: BoundSteps,
     /// Writes changed parts back.
     pub(crate) patch: BoundSteps,
     scan: BoundScan,
@@ -178,6 +212,7 @@ impl FinishStage {
         FinishStage {
             steps: kernels(Dimension::<D>::STEPS),
             gather: kernels(Dimension::<D>::GATHER),
+            widen: kernels(Dimension::<D>::WIDEN),
             patch: kernels(Dimension::<D>::PATCH),
             scan: Scan::new(compiler),
         }
@@ -203,8 +238,9 @@ impl FinishStage {
         buffers.push(("gather_sums", gather_scan.sums().buffer()));
         let bind = |kernel: &Kernel| (kernel.clone(), kernel.bind(gpu, &buffers));
         let bind = |steps: &[Step<Kernel>]| steps.iter().map(|step| step.map(bind)).collect();
-        let [steps, gather, patch] = [&self.steps, &self.gather, &self.patch].map(|steps| bind(steps));
-        Ok(BoundFinish { steps, gather, patch, scan, gather_scan, aliases })
+        let steps = [&self.steps, &self.gather, &self.widen, &self.patch];
+        let [steps, gather, widen, patch] = steps.map(|steps| bind(steps));
+        Ok(BoundFinish { steps, gather, widen, patch, scan, gather_scan, aliases })
     }
 
     /// Records these steps of `bound`.
@@ -251,10 +287,8 @@ where
         &self.aliases
     }
 
-    /// Reads the mesh back, of which `finite` simplices are finite, and, if any point was merged,
-    /// which one stands for each
-    /// ([`DevicePoints::merged_into`](crate::gpu::points::DevicePoints::merged_into)). There are `rooms` for
-    /// the simplices and for their neighbours. Returns the number of submissions as well.
+    /// Reads the mesh back, of which `finite` simplices are finite. There are `rooms` for the simplices and
+    /// for their neighbours. Returns the number of submissions as well.
     ///
     /// # Errors
     ///
@@ -267,15 +301,13 @@ where
         finite: usize,
         counters: &Counters,
         rooms: [Vec<Corners<D>>; 2],
-    ) -> Result<(<Dimension<D> as Finish<D>>::Result, Vec<u32>, usize), Error> {
+    ) -> Result<(<Dimension<D> as Finish<D>>::Result, usize), Error> {
         let len = Dimension::<D>::mesh_len(finite, counters);
-        let merged_len = if counters.merged > 0 { b.points.merged_into.len() } else { 0 };
-        let (submission, reading, merged) = gpu
+        let (submission, reading) = gpu
             .with_error_scope("the result of Phase 1", || {
                 let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, None) };
                 let reading = Dimension::<D>::copy(&mut copies, b, &self.aliases, counters);
-                let merged = copies.copy(&b.points.merged_into, merged_len);
-                Ok((copies.recorder.submit(gpu), reading, merged))
+                Ok((copies.recorder.submit(gpu), reading))
             })
             .await?;
         let before = readback.count();
@@ -283,6 +315,6 @@ where
         let submissions = 1 + readback.count() - before;
         let mut copied = Copied { readback, gpu, submission };
         let result = Dimension::<D>::receive(&mut copied, reading, arrays, finite).await?;
-        Ok((result, copied.receive(merged).await?, submissions))
+        Ok((result, submissions))
     }
 }

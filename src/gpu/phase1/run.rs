@@ -28,7 +28,7 @@ use crate::{
     },
     input::{lattice::Lattice, points::Points},
     options::Winding,
-    parallel,
+    parallel::{self, Threads},
     stats::{Round, Stopwatch},
 };
 use std::collections::VecDeque;
@@ -670,7 +670,8 @@ where
         let gpu = self.gpu;
         let workgroups = self.workgroups();
         let profiler = self.profiler.take();
-        let (submission, counters, finite, more) = gpu
+        let is_merged = self.counters.merged > 0;
+        let (submission, counters, finite, merged, more) = gpu
             .with_error_scope("the end of Phase 1", || {
                 let (stages, memory, readback) = (&self.kernels.stages, &self.memory, &mut self.kernels.readback);
                 let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, profiler) };
@@ -679,9 +680,11 @@ where
                 let more = more(&mut copies, stages, memory);
                 let finite = copies.copy_from(bound.sums(), GROUPS, 1);
                 let counters = copies.copy_from(&memory.buffers.control, PARAM_WORDS, COUNTER_WORDS);
+                let merged_into = &memory.buffers.points.merged_into;
+                let merged = is_merged.then(|| copies.copy(merged_into, merged_into.len()));
                 self.stats.dispatches += copies.recorder.dispatches();
                 self.stats.submits += 1;
-                Ok((copies.recorder.submit(gpu), counters, finite, more))
+                Ok((copies.recorder.submit(gpu), counters, finite, merged, more))
             })
             .await?;
         let prepared = meanwhile();
@@ -693,6 +696,7 @@ where
         let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
         let finite = self.kernels.readback.receive(gpu, &submission, finite).await?[0] as usize;
         let counters = counters_in(&words);
+        debug_assert_eq!(is_merged, counters.merged > 0, "points are merged before the first round");
         self.stats.time = self.clock.lap();
         self.stats.counters = counters;
         let needed = self.needed();
@@ -701,6 +705,7 @@ where
             needed,
             counters,
             finite,
+            merged: merged.map(|merged| (submission.clone(), merged)),
             workgroups,
             kernels: self.kernels,
             memory: self.memory,
@@ -728,6 +733,8 @@ where
     pub(crate) counters: Counters,
     /// The number of finite simplices.
     pub(crate) finite: usize,
+    /// Which points are merged into others, if any are.
+    merged: Option<(wgpu::SubmissionIndex, Pending<u32>)>,
     pub(crate) workgroups: u32,
     #[cfg(not(target_arch = "wasm32"))]
     rooms: Rooms<D>,
@@ -759,12 +766,13 @@ where
         #[cfg(target_arch = "wasm32")]
         let rooms = Default::default();
         let bound = &memory.bound.finish;
-        let (result, merged, submissions) =
+        let (result, submissions) =
             bound.read(self.gpu, readback, &memory.buffers, self.finite, &self.counters, rooms).await?;
+        let merged = self.read_merged().await?;
         self.stats.readback_time += self.clock.lap();
         self.stats.submits += submissions;
         self.stats.stalls += BoundFinish::<D>::STALLS;
-        Ok((result, pairs(merged)))
+        Ok((result, merged))
     }
 
     /// Reads the points that are vertices of no simplex.
@@ -773,13 +781,12 @@ where
     ///
     /// Those of [`Run::advance`].
     pub(crate) async fn read_merged(&mut self) -> Result<Vec<[u32; 2]>, Error> {
-        if self.counters.merged == 0 {
-            return Ok(Vec::new());
+        match self.merged.take() {
+            Some((submission, merged)) => {
+                Ok(pairs(self.kernels.readback.receive(self.gpu, &submission, merged).await?))
+            }
+            None => Ok(Vec::new()),
         }
-        let merged_into = &self.memory.buffers.points.merged_into;
-        self.stats.submits += 1;
-        self.stats.stalls += 1;
-        Ok(pairs(self.kernels.readback.read(self.gpu, merged_into, 0, merged_into.len()).await?))
     }
 
     /// Keeps the buffers for the next run. Returns what this one did.
@@ -795,8 +802,10 @@ where
 
 /// Returns the points that are merged into others, each with the other one.
 fn pairs(merged_into: Vec<u32>) -> Vec<[u32; 2]> {
-    let merged = (0..).zip(merged_into).filter(|&(_, other)| other != NONE);
-    merged.map(|(point, other)| [point, other]).collect()
+    parallel::joined(parallel::map_ranges(Threads::All, merged_into.len(), |range| {
+        let merged = range.filter(|&point| merged_into[point] != NONE);
+        merged.map(|point| [point as u32, merged_into[point]]).collect::<Vec<_>>()
+    }))
 }
 
 impl<const D: usize> Phase1<D>

@@ -25,12 +25,18 @@ impl Mesh {
         Mesh { tetrahedra, neighbors, infinite, wanted, region_numbers }
     }
 
-    /// Gathers the tetrahedra at `vertices` that were not gathered before, numbered from `first` on.
-    pub fn gather(&mut self, vertices: &[u32], first: u32) -> Gathered {
+    /// Gathers the tetrahedra at `vertices` that were not gathered before, and so many rings around,
+    /// numbered from `first` on.
+    pub fn gather(&mut self, vertices: &[u32], rings: usize, first: u32) -> Gathered {
         self.want(vertices);
+        (0..rings).for_each(|_| self.wanted = gather_widen(self));
         let marks = gather_mark(self);
         let slots = gather_number(self, &marks, first);
-        gather_copy(self, slots)
+        Gathered { rings, ..gather_copy(self, slots) }
+    }
+
+    fn has_wanted(&self, tet: &[u32; 4]) -> bool {
+        tet.iter().any(|&v| v != self.infinite && self.wanted[v as usize / 32] >> (v % 32) & 1 != 0)
     }
 
     /// Sets the wanted vertices.
@@ -40,12 +46,22 @@ impl Mesh {
     }
 }
 
+/// Returns the vertices of the tetrahedra that have a wanted vertex, a bit for each. One invocation per
+/// slot.
+pub fn gather_widen(mesh: &Mesh) -> Vec<u32> {
+    let mut wider = vec![0; mesh.wanted.len()];
+    let around = mesh.tetrahedra.iter().filter(|tet| mesh.has_wanted(tet));
+    for &v in around.flatten().filter(|&&v| v != mesh.infinite) {
+        wider[v as usize / 32] |= 1 << (v % 32);
+    }
+    wider
+}
+
 /// Marks the tetrahedra that have a wanted vertex and were not gathered before. One invocation per
 /// slot.
 pub fn gather_mark(mesh: &Mesh) -> Vec<u32> {
-    let is_wanted = |&v: &u32| v != mesh.infinite && mesh.wanted[v as usize / 32] >> (v % 32) & 1 != 0;
     let slots = mesh.tetrahedra.iter().zip(&mesh.region_numbers);
-    slots.map(|(tet, &number)| u32::from(number == 0 && tet.iter().any(is_wanted))).collect()
+    slots.map(|(tet, &number)| u32::from(number == 0 && mesh.has_wanted(tet))).collect()
 }
 
 /// Numbers the marked tetrahedra from `first` on, in the order of their slots, and lists them. One
@@ -64,6 +80,7 @@ pub fn gather_copy(mesh: &Mesh, slots: Vec<u32>) -> Gathered {
         tetrahedra: slots.iter().map(|&t| mesh.tetrahedra[t as usize]).collect(),
         neighbors: slots.iter().map(|&t| mesh.neighbors[t as usize].map(renumbered)).collect(),
         slots,
+        rings: 0,
     }
 }
 
