@@ -6,7 +6,7 @@ use crate::{
             buffers::Gathering,
             outputs::{Made, OutputParams, SlotMesh},
         },
-        splay::{Aborted, Doubts, Gathered, Patch, Region, rings},
+        splay::{Aborted, Doubts, Gathered, Patch, Region, gathers_around},
     },
     error::Error,
     gpu::{
@@ -161,7 +161,7 @@ impl<'a> Device<'a> {
             tetrahedra: copied.receive_both(tetrahedra.first.first(count), more_tetrahedra).await?,
             neighbors: copied.receive_both(neighbors.first.first(count), more_neighbors).await?,
             slots: copied.receive_both(slots.first.first(count), more_slots).await?,
-            rings: 0,
+            is_wide: false,
         })
     }
 
@@ -181,8 +181,8 @@ impl<'a> Device<'a> {
         Ok(list)
     }
 
-    /// Returns the tetrahedra at `vertices` that it has not returned before, and those [`rings`] around,
-    /// and numbers them from `first` on.
+    /// Returns the tetrahedra at `vertices` that it has not returned before, and around them where that
+    /// [pays](gathers_around), and numbers them from `first` on.
     ///
     /// # Errors
     ///
@@ -193,14 +193,14 @@ impl<'a> Device<'a> {
         let own = &memory.buffers.own;
         let mut wanted = vec![0u32; own.wanted.len()];
         let ahead = vertices.len().saturating_mul(PER_STAR).clamp(LEAST_AHEAD, AHEAD);
-        let rings = rings(vertices.len());
+        let is_wide = gathers_around(vertices.len());
         vertices.iter().for_each(|&v| wanted[v as usize / 32] |= 1 << (v % 32));
         let (submission, gathering) = gpu
             .with_error_scope("gathering stars", || {
                 own.wanted.write(gpu, 0, &wanted);
                 own.gathering.write(gpu, 0, &[Gathering { first, patched: 0 }]);
                 let mut copies = Copies { readback: &mut kernels.readback, gpu, recorder: Recorder::new(gpu, None) };
-                for _ in 0..rings {
+                if is_wide {
                     let bound = &memory.bound.finish;
                     own.wider.record_clear(copies.recorder.encoder());
                     kernels.stages.finish.record(&mut copies.recorder, bound, &bound.widen, *workgroups);
@@ -212,7 +212,7 @@ impl<'a> Device<'a> {
                 Ok((copies.recorder.submit(gpu), gathering))
             })
             .await?;
-        Ok(Gathered { rings, ..self.receive(&submission, gathering).await? })
+        Ok(Gathered { is_wide, ..self.receive(&submission, gathering).await? })
     }
 
     /// Writes back what splaying has changed.

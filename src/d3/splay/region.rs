@@ -32,18 +32,15 @@ pub struct Gathered {
     pub neighbors: Vec<[u32; 4]>,
     /// Where each is in the triangulation.
     pub slots: Vec<u32>,
-    /// How many rings of vertices around those that were asked for have their whole stars here, too.
-    pub rings: usize,
+    /// Whether the stars of the vertices around those that were asked for are here, too.
+    pub is_wide: bool,
 }
 
-/// Returns how many rings to gather around so many vertices. Splaying goes on from the vertices that it asked
-/// for to those around them, and to gather again takes the device longer than to gather more.
-pub fn rings(vertices: usize) -> usize {
-    match vertices {
-        0..=32 => 2,
-        33..=256 => 1,
-        _ => 0,
-    }
+/// Returns whether to gather the stars around those of so many vertices, too. Splaying goes on from the
+/// vertices that it asked for to those around them, and to gather again takes longer than to gather a few
+/// more.
+pub fn gathers_around(vertices: usize) -> bool {
+    vertices <= 64
 }
 
 /// What splaying changed in a region, for the triangulation that the region is a part of.
@@ -61,6 +58,29 @@ pub struct Patch {
     pub more: [isize; 2],
 }
 
+impl Gathered {
+    /// Adds others, which begin with number `len`. What is missing before has no slot.
+    fn append(&mut self, len: usize, others: Gathered, threads: Threads) {
+        if self.slots.is_empty() && len == 0 {
+            *self = others;
+            return;
+        }
+        self.tetrahedra.resize(len, [OUTSIDE; 4]);
+        self.neighbors.resize(len, [OUTSIDE; 4]);
+        self.slots.resize(len, NO_INDEX);
+        parallel::extend(threads, &mut self.tetrahedra, &others.tetrahedra);
+        parallel::extend(threads, &mut self.neighbors, &others.neighbors);
+        parallel::extend(threads, &mut self.slots, &others.slots);
+    }
+
+    /// Returns the vertices and neighbours of the tetrahedron with a number of the region, if it was
+    /// gathered.
+    fn of(&self, number: usize) -> Option<(&[u32; 4], &[u32; 4])> {
+        let i = number.wrapping_sub(1);
+        (*self.slots.get(i)? != NO_INDEX).then_some((&self.tetrahedra[i], &self.neighbors[i]))
+    }
+}
+
 /// A part of a triangulation.
 #[derive(Debug, Clone)]
 pub struct Region {
@@ -70,9 +90,8 @@ pub struct Region {
     pub(super) incident: Vec<u32>,
     /// The vertices of which the region has the whole star.
     complete: Complete,
-    /// The tetrahedra as they were gathered, each time with the number of the first. Those that
-    /// splaying adds are in none of them.
-    given: Vec<(usize, Gathered)>,
+    /// The tetrahedra as they were gathered, from number 1 on. Those that splaying adds have no slot here.
+    given: Gathered,
     /// How often tetrahedra were gathered, and how many.
     pub(super) gathers: [usize; 2],
 }
@@ -95,7 +114,7 @@ impl Region {
             mesh: Triangulation3::new(outside, vec![[OUTSIDE; 4]], infinite),
             incident: parallel::filled(threads, vertices, NO_INDEX),
             complete: Complete::Those(VertexSet::new(vertices)),
-            given: Vec::new(),
+            given: Gathered::default(),
             gathers: [0; 2],
         }
     }
@@ -103,7 +122,7 @@ impl Region {
     /// Creates the region that is a whole triangulation, with a tetrahedron at each vertex, a ghost
     /// if there is one.
     pub(super) fn whole(mesh: Triangulation3, incident: Vec<u32>) -> Self {
-        Region { mesh, incident, complete: Complete::All, given: Vec::new(), gathers: [0; 2] }
+        Region { mesh, incident, complete: Complete::All, given: Gathered::default(), gathers: [0; 2] }
     }
 
     /// Returns the number of the next tetrahedron.
@@ -141,7 +160,7 @@ impl Region {
     }
 
     /// Adds what was gathered, numbered from [`next`](Region::next) on. Now the region has the
-    /// stars of `vertices`, and of those in the rings around them. `threads` share the work.
+    /// stars of `vertices`, and of those around them if it is wide. `threads` share the work.
     ///
     /// # Errors
     ///
@@ -154,7 +173,7 @@ impl Region {
     ) -> Result<(), Aborted> {
         const DO_NOT_FIT: Aborted = Aborted::Inconsistent("gathered tetrahedra do not fit what is there");
         let Region { mesh, incident, complete, given, gathers } = self;
-        let Gathered { tetrahedra, neighbors, slots, rings } = &gathered;
+        let Gathered { tetrahedra, neighbors, slots, is_wide } = &gathered;
         let first = mesh.tetrahedra.len();
         let infinite = mesh.infinite;
         *gathers = [gathers[0] + 1, gathers[1] + slots.len()];
@@ -191,9 +210,8 @@ impl Region {
             earlier.map(|(across, facet)| fits(across).then_some((across, facet))).collect::<Option<Vec<_>>>()
         });
         let back = parallel::joined(back.into_iter().collect::<Option<Vec<_>>>().ok_or(DO_NOT_FIT)?);
-        let lists = given.iter_mut().map(|(first, given)| (*first, &mut given.neighbors[..]));
-        for (first, list) in lists.chain([(0, &mut mesh.neighbors[..])]) {
-            // Every thread looks at all of these, too. Tetrahedra before its part wrap around.
+        for (first, list) in [(0, &mut mesh.neighbors), (1, &mut given.neighbors)] {
+            // Every thread looks at all of these, too.
             parallel::for_parts(sharing, list, |start, part| {
                 for &(across, facet) in &back {
                     if let Some(neighbors) = part.get_mut((across as usize / 4).wrapping_sub(first + start)) {
@@ -207,22 +225,24 @@ impl Region {
         if parallel::map_ranges(threads, back.len(), |range| back[range].iter().all(is_mutual)).contains(&false) {
             return Err(DO_NOT_FIT);
         }
+        let is_wide = *is_wide;
+        given.append(first - 1, gathered, threads);
         if let Complete::Those(complete) = complete {
-            let mut more = VertexSet::new(infinite as usize);
-            for v in vertices {
-                if v >= infinite {
-                    return Err(DO_NOT_FIT);
-                }
-                more.insert(v);
+            let mut wanted = Vec::from_iter(vertices);
+            if wanted.iter().any(|&v| v >= infinite) {
+                return Err(DO_NOT_FIT);
             }
-            for _ in 0..*rings {
-                let inner = more.clone();
-                let around = tetrahedra.iter().filter(|tet| tet.iter().any(|&v| inner.has(v)));
-                around.flatten().filter(|&&v| v < infinite).for_each(|&v| more.insert(v));
+            if is_wide {
+                let mut has = VertexSet::new(infinite as usize);
+                wanted.iter().for_each(|&v| has.insert(v));
+                let around = parallel::map_ranges(threads, given.tetrahedra.len(), |range| {
+                    let at_one = given.tetrahedra[range].iter().filter(|tet| tet.iter().any(|&v| has.has(v)));
+                    at_one.flatten().copied().filter(|&v| v < infinite).collect::<Vec<_>>()
+                });
+                wanted.extend(around.into_iter().flatten());
             }
-            complete.insert_all(&more);
+            wanted.into_iter().for_each(|v| complete.insert(v));
         }
-        given.push((first, gathered));
         Ok(())
     }
 
@@ -253,9 +273,7 @@ impl Region {
         // What splaying added is in no slot yet. Numbers of slots stay below 2³⁰ if those of the
         // region do, of which no more are added than the triangulation may have.
         let mut slots = vec![NO_INDEX; mesh.tetrahedra.len()];
-        for (first, given) in given {
-            slots[*first..][..given.slots.len()].copy_from_slice(&given.slots);
-        }
+        slots[1..][..given.slots.len()].copy_from_slice(&given.slots);
         let mut next = len as u32;
         for (t, slot) in (0..).zip(&mut slots).skip(1) {
             if *slot == NO_INDEX && mesh.state(t) != state::FREE {
@@ -267,9 +285,7 @@ impl Region {
             let mut patch = Patch::default();
             for t in range {
                 let (v, across) = (mesh.tetrahedra[t], mesh.neighbors[t]);
-                let given = given.iter().rfind(|(first, _)| *first <= t).and_then(|(first, given)| {
-                    Some((given.tetrahedra.get(t - first)?, given.neighbors.get(t - first)?))
-                });
+                let given = given.of(t);
                 let is_given = given == Some((&v, &across));
                 if slots[t] == NO_INDEX || is_given {
                     continue;

@@ -18,11 +18,6 @@ impl VertexSet {
         self.words[v as usize / 64] |= 1 << (v % 64);
     }
 
-    /// Adds the vertices of another set, of the same triangulation.
-    pub(super) fn insert_all(&mut self, other: &VertexSet) {
-        self.words.iter_mut().zip(&other.words).for_each(|(word, other)| *word |= other);
-    }
-
     /// Returns whether it has a vertex, and not that at infinity.
     pub(super) fn has(&self, v: u32) -> bool {
         self.words.get(v as usize / 64).is_some_and(|word| word >> (v % 64) & 1 != 0)

@@ -25,14 +25,16 @@ impl Mesh {
         Mesh { tetrahedra, neighbors, infinite, wanted, region_numbers }
     }
 
-    /// Gathers the tetrahedra at `vertices` that were not gathered before, and so many rings around,
-    /// numbered from `first` on.
-    pub fn gather(&mut self, vertices: &[u32], rings: usize, first: u32) -> Gathered {
+    /// Gathers the tetrahedra at `vertices` that were not gathered before, and those around them if it
+    /// `is_wide`, numbered from `first` on.
+    pub fn gather(&mut self, vertices: &[u32], is_wide: bool, first: u32) -> Gathered {
         self.want(vertices);
-        (0..rings).for_each(|_| self.wanted = gather_widen(self));
+        if is_wide {
+            self.wanted = gather_widen(self);
+        }
         let marks = gather_mark(self);
         let slots = gather_number(self, &marks, first);
-        Gathered { rings, ..gather_copy(self, slots) }
+        Gathered { is_wide, ..gather_copy(self, slots) }
     }
 
     fn has_wanted(&self, tet: &[u32; 4]) -> bool {
@@ -80,7 +82,7 @@ pub fn gather_copy(mesh: &Mesh, slots: Vec<u32>) -> Gathered {
         tetrahedra: slots.iter().map(|&t| mesh.tetrahedra[t as usize]).collect(),
         neighbors: slots.iter().map(|&t| mesh.neighbors[t as usize].map(renumbered)).collect(),
         slots,
-        rings: 0,
+        is_wide: false,
     }
 }
 
