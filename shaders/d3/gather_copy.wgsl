@@ -1,14 +1,17 @@
-// Copies the listed tetrahedra, with their neighbours by the numbers that these have, or 0. One
-// invocation per tetrahedron.
+// Copies the listed tetrahedra, with their neighbours by the numbers that these have, or 0, and notes
+// for which of its vertices each is the tetrahedron of the vertex. One invocation per tetrahedron.
 //!include common/layout
-@group(0) @binding(0) var<storage, read> gathered_slots: array<u32>;
-// The last entry is how many are listed.
-@group(0) @binding(1) var<storage, read> gather_sums: array<u32>;
+//!include d3/gathering
+@group(0) @binding(0) var<storage, read_write> gathered_slots: array<u32>;
+// How many are listed.
+@group(0) @binding(1) var<storage, read> gathered_len: u32;
 @group(0) @binding(2) var<storage, read> region_numbers: array<u32>;
 @group(0) @binding(3) var<storage, read> mesh_tetrahedra: array<vec4u>;
 @group(0) @binding(4) var<storage, read> mesh_neighbors: array<vec4u>;
-@group(0) @binding(5) var<storage, read_write> gathered_tetrahedra: array<vec4u>;
-@group(0) @binding(6) var<storage, read_write> gathered_neighbors: array<vec4u>;
+// One more than the tetrahedron of each point.
+@group(0) @binding(5) var<storage, read> tet_of: array<u32>;
+@group(0) @binding(6) var<storage, read_write> gathered_tetrahedra: array<vec4u>;
+@group(0) @binding(7) var<storage, read_write> gathered_neighbors: array<vec4u>;
 
 fn renumbered(across: u32) -> u32 {
     return 4 * region_numbers[across >> 2] + (across & 3);
@@ -16,11 +19,16 @@ fn renumbered(across: u32) -> u32 {
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let count = gather_sums[arrayLength(&gather_sums) - 1];
-    for (var i = id.x; i < count; i += groups.x * WORKGROUP) {
+    for (var i = id.x; i < gathered_len; i += groups.x * WORKGROUP) {
         let t = gathered_slots[i];
         let near = mesh_neighbors[t];
-        gathered_tetrahedra[i] = mesh_tetrahedra[t];
+        let tet = mesh_tetrahedra[t];
+        var incident = 0u;
+        for (var k = 0u; k < 4; k++) {
+            incident |= select(0u, 1u << k, tet_of[tet[k]] == t + 1);
+        }
+        gathered_slots[i] = t | (incident << INCIDENT_SHIFT);
+        gathered_tetrahedra[i] = tet;
         gathered_neighbors[i] = vec4u(renumbered(near.x), renumbered(near.y), renumbered(near.z), renumbered(near.w));
     }
 }

@@ -8,10 +8,10 @@ use gdel::internals::{
     },
     dimension::Dimension,
     gpu::{
-        Compiler, Recorder, Storage,
+        Storage,
         dim::Dim,
         layout::{BLOCK, COUNTER_WORDS, Counters, FREE_START, PARAM_WORDS, Params},
-        primitives::scan::{GROUPS, Scan, ScanParams},
+        primitives::scan::GROUPS,
     },
     input::lattice::Width,
     reference::d3::gather::{self, Mesh},
@@ -55,68 +55,54 @@ fn parts_are_gathered_and_written_back() {
     let slots_of_4 = |label| Storage::<[u32; 4]>::new(gpu, label, slots).unwrap();
     let [tetrahedra, neighbors] = ["tetrahedra", "neighbors"].map(slots_of_4);
     let [gathered_tetrahedra, gathered_neighbors] = ["gathered tetrahedra", "gathered neighbours"].map(slots_of_4);
-    let [marks, numbers, region_numbers, gathered_slots] = ["marks", "numbers", "region", "slots"].map(words);
+    let [region_numbers, gathered_slots] = ["region", "slots"].map(words);
     let wanted = Storage::<u32>::new(gpu, "wanted", mesh.wanted.len()).unwrap();
-    let wider = Storage::<u32>::new(gpu, "wider", mesh.wanted.len()).unwrap();
     let gathering = Storage::<Gathering>::new(gpu, "gathering", 1).unwrap();
     tetrahedra.write(gpu, 0, &mesh.tetrahedra);
     neighbors.write(gpu, 0, &mesh.neighbors);
     // What an earlier run left does not matter.
     region_numbers.write(gpu, 0, &vec![9; slots]);
-    let compiler = Compiler::new(gpu);
-    let scan = Scan::new(&compiler);
-    let count = Storage::with_contents(gpu, "count", &[ScanParams { count: slots as u32 }]).unwrap();
-    let bound = scan.bind(gpu, &count, &marks, &numbers).unwrap();
+    let gathered_len = Storage::<u32>::new(gpu, "gathered", 1).unwrap();
+    let tet_of = Storage::with_contents(gpu, "tetrahedra of points", &mesh.tet_of).unwrap();
     let run = |name: &str| {
         let buffers = [
             ("control", control.buffer()),
             ("sums", sums.buffer()),
-            ("gather_sums", bound.sums().buffer()),
+            ("gathered_len", gathered_len.buffer()),
+            ("tet_of", tet_of.buffer()),
             ("mesh_tetrahedra", tetrahedra.buffer()),
             ("mesh_neighbors", neighbors.buffer()),
             ("gathered_tetrahedra", gathered_tetrahedra.buffer()),
             ("gathered_neighbors", gathered_neighbors.buffer()),
             ("gathered_slots", gathered_slots.buffer()),
             ("region_numbers", region_numbers.buffer()),
-            ("marks", marks.buffer()),
-            ("numbers", numbers.buffer()),
             ("wanted", wanted.buffer()),
-            ("wider", wider.buffer()),
             ("gathering", gathering.buffer()),
         ];
         kernels.run(Dimension::<3>::SHADERS.get(name), &buffers);
     };
 
     let mut first = 1;
-    for (stars, is_wide) in [(3, false), (1, true), (40, false), (1, true), (0, true)] {
+    for stars in [3, 40, 1, 0] {
         let vertices: Vec<u32> = (0..stars).map(|_| rng.random_range(0..POINTS)).collect();
         mesh.want(&vertices);
         wanted.write(gpu, 0, &mesh.wanted);
-        if is_wide {
-            wider.write(gpu, 0, &vec![0; mesh.wanted.len()]);
-            run("gather_widen");
-            mesh.wanted = gather::gather_widen(&mesh);
-            assert_eq!(read(gpu, &wider), mesh.wanted);
-            wanted.write(gpu, 0, &mesh.wanted);
-        }
         gathering.write(gpu, 0, &[Gathering { first, patched: 0 }]);
-        run("gather_mark");
-        let marked = gather::gather_mark(&mesh);
-        assert_eq!(read(gpu, &marks)[..marked.len()], marked);
-        assert!(read(gpu, &marks)[marked.len()..].iter().all(|&mark| mark == 0), "beyond the mesh");
-        let mut recorder = Recorder::new(gpu, None);
-        scan.record(&mut recorder, &bound);
-        recorder.submit(gpu);
-        run("gather_number");
-        let listed = gather::gather_number(&mut mesh, &marked, first);
-        let total = read(gpu, bound.sums())[GROUPS];
-        assert_eq!(total as usize, listed.len());
-        assert_eq!(read(gpu, &gathered_slots)[..listed.len()], listed);
+        gathered_len.write(gpu, 0, &[0]);
+        run("gather_list");
+        let total = read(gpu, &gathered_len)[0];
+        let listed = read(gpu, &gathered_slots)[..total as usize].to_vec();
+        let mut sorted = listed.clone();
+        sorted.sort_unstable();
+        assert_eq!(sorted, gather::gather_list(&mut mesh, first));
+        // The kernel lists them in another order.
+        listed.iter().zip(first..).for_each(|(&t, number)| mesh.region_numbers[t as usize] = number);
         assert_eq!(read(gpu, &region_numbers)[..mesh.region_numbers.len()], mesh.region_numbers);
         run("gather_copy");
-        let Gathered { tetrahedra, neighbors, slots, .. } = gather::gather_copy(&mesh, listed);
+        let Gathered { tetrahedra, neighbors, slots } = gather::gather_copy(&mesh, listed);
         assert_eq!(read(gpu, &gathered_tetrahedra)[..slots.len()], tetrahedra);
         assert_eq!(read(gpu, &gathered_neighbors)[..slots.len()], neighbors);
+        assert_eq!(read(gpu, &gathered_slots)[..slots.len()], slots);
         assert!(slots.len() >= stars, "{stars} stars have {} tetrahedra", slots.len());
         first += total;
     }

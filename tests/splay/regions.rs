@@ -5,7 +5,7 @@ use crate::{inputs, verified};
 use gdel::{
     internals::{
         d3::{
-            splay::{Doubts, NearDelaunay3, Patch, Region, Splay, Stop, Terms, gathers_around},
+            splay::{Doubts, NearDelaunay3, Patch, Region, Splay, Stop, Terms},
             triangulation::Triangulation3,
         },
         index::NO_INDEX,
@@ -32,7 +32,7 @@ pub fn elsewhere(near: NearDelaunay3) -> Elsewhere {
     let mut wanted: Vec<u32> = uncertain.iter().flat_map(corners).chain(failed.iter().copied()).collect();
     wanted.retain(|&v| v != infinite);
     let mut region = Region::new(infinite as usize, Threads::All);
-    let gathered = mesh.gather(&wanted, false, region.next());
+    let gathered = mesh.gather(&wanted, region.next());
     region.add(wanted, gathered, Threads::All).unwrap();
     let uncertain = uncertain.iter().map(|&t| mesh.region_numbers[t as usize]).collect();
     // A vertex that is not missing: as if each were at the place of the one before it.
@@ -52,7 +52,7 @@ pub fn patch(name: &str, vertices: &PredicateContext3<'_>, elsewhere: Elsewhere)
             if lacking.is_empty() {
                 return Ok(splay.finish());
             }
-            let gathered = mesh.gather(&lacking, gathers_around(lacking.len()), splay.region().next());
+            let gathered = mesh.gather(&lacking, splay.region().next());
             splay.add(lacking, gathered)?;
         }
     };
@@ -83,6 +83,6 @@ fn only_what_is_needed_is_gathered() {
     let (mesh, patch, stats) = patch("one flip", &vertices, elsewhere(near));
     assert!(stats.removed > 0 && stats.added > 0, "{stats:?}");
     let gathered = mesh.region_numbers.iter().filter(|&&number| number != 0).count();
-    assert!(gathered < 1_000 && patch.slots.len() < 50, "{gathered} gathered, {} patched", patch.slots.len());
+    assert!(gathered < 500 && patch.slots.len() < 50, "{gathered} gathered, {} patched", patch.slots.len());
     assert!(patch.len.abs_diff(tetrahedra) < 5);
 }

@@ -91,7 +91,6 @@ impl Finish<2> for Dimension<2> {
 
     /// Nothing is gathered: the host sees the whole mesh, or none of it.
     const GATHER: &'static [Step<&'static str>] = &[];
-    const WIDEN: &'static [Step<&'static str>] = &[];
     const PATCH: &'static [Step<&'static str>] = &[];
 
     fn outputs(compiler: &Compiler<'_>) -> OutputStage {

@@ -27,14 +27,15 @@ pub struct OwnBuffers {
     pub tet_of: Storage<u32>,
     /// For each point, a bit that says whether its star is wanted.
     pub wanted: Storage<u32>,
-    /// The same for the vertices around these.
-    pub wider: Storage<u32>,
     /// What is asked for.
     pub gathering: Storage<Gathering>,
     /// For each tetrahedron of the mesh, the number under which it was gathered, or 0.
     pub region_numbers: Storage<u32>,
-    /// Where the gathered tetrahedra are in the mesh; then the slots of the patch.
+    /// Where the gathered tetrahedra are in the mesh, as [`Gathered::slots`](crate::d3::splay::Gathered::slots)
+    /// has it; then the slots of the patch.
     pub gathered_slots: Storage<u32>,
+    /// How many are gathered.
+    pub gathered_len: Storage<u32>,
 }
 
 impl dim::OwnBuffers for OwnBuffers {
@@ -44,10 +45,10 @@ impl dim::OwnBuffers for OwnBuffers {
             failed: Storage::new(gpu, "failed vertices", points)?,
             tet_of: Storage::new(gpu, "tetrahedra of points", points + 1)?,
             wanted: Storage::new(gpu, "wanted stars", points.div_ceil(32))?,
-            wider: Storage::new(gpu, "stars around", points.div_ceil(32))?,
             gathering: Storage::new(gpu, "gathering", 1)?,
             region_numbers: Storage::in_parts(gpu, "numbers of gathered tetrahedra", slots, parts)?,
             gathered_slots: Storage::in_parts(gpu, "slots of gathered tetrahedra", slots, parts)?,
+            gathered_len: Storage::new(gpu, "number of gathered tetrahedra", 1)?,
         })
     }
 
@@ -79,8 +80,8 @@ impl dim::OwnBuffers for OwnBuffers {
             ("failed", self.failed.buffer()),
             ("tet_of", self.tet_of.buffer()),
             ("wanted", self.wanted.buffer()),
-            ("wider", self.wider.buffer()),
             ("gathering", self.gathering.buffer()),
+            ("gathered_len", self.gathered_len.buffer()),
         ];
         append_bindings(
             &mut bindings,
@@ -90,8 +91,8 @@ impl dim::OwnBuffers for OwnBuffers {
     }
 
     fn bytes(&self) -> u64 {
-        let OwnBuffers { failed, tet_of, wanted, wider, gathering, region_numbers, gathered_slots } = self;
-        let points = failed.bytes() + tet_of.bytes() + wanted.bytes() + wider.bytes() + gathering.bytes();
-        points + region_numbers.bytes() + gathered_slots.bytes()
+        let OwnBuffers { failed, tet_of, wanted, gathering, region_numbers, gathered_slots, gathered_len } = self;
+        let points = failed.bytes() + tet_of.bytes() + wanted.bytes() + gathering.bytes();
+        points + region_numbers.bytes() + gathered_slots.bytes() + gathered_len.bytes()
     }
 }

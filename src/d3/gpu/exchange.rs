@@ -6,7 +6,7 @@ use crate::{
             buffers::Gathering,
             outputs::{Made, OutputParams, SlotMesh},
         },
-        splay::{Aborted, Doubts, Gathered, Patch, Region, gathers_around},
+        splay::{Aborted, Doubts, Gathered, INCIDENT_SHIFT, Patch, Region, SLOT},
     },
     error::Error,
     gpu::{
@@ -14,9 +14,10 @@ use crate::{
         device_mesh::DeviceArrays,
         layout::Active,
         phase1::{Copied, Copies, Ended, Memory, Run, Slot, Stages},
-        primitives::scan::GROUPS,
+        shader::constants::d3,
         workgroups,
     },
+    index::NO_INDEX,
     parallel::Threads,
 };
 use bytemuck::Pod;
@@ -35,6 +36,8 @@ const AHEAD_OF_MOVED: usize = 1 << 17;
 fn ahead(points: usize, has_moved: bool) -> usize {
     if has_moved { (points / 4).clamp(LEAST_AHEAD, AHEAD_OF_MOVED) } else { (points / 16).clamp(LEAST_AHEAD, AHEAD) }
 }
+
+const _: () = assert!(INCIDENT_SHIFT == d3::INCIDENT_SHIFT);
 
 /// The tetrahedra that are read for each further star: as a rule more than it has.
 const PER_STAR: usize = 32;
@@ -62,11 +65,12 @@ struct Gathering3 {
 impl Gathering3 {
     /// Records gathering, and that its result is read.
     fn record(copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>, ahead: usize, workgroups: u32) -> Self {
-        let bound = &memory.bound.finish;
+        let (bound, own) = (&memory.bound.finish, &memory.buffers.own);
+        own.gathered_len.record_clear(copies.recorder.encoder());
         stages.finish.record(&mut copies.recorder, bound, &bound.gather, workgroups);
-        let (aliases, own) = (bound.aliases(), &memory.buffers.own);
+        let aliases = bound.aliases();
         Gathering3 {
-            count: copies.copy_from(bound.gather_sums(), GROUPS, 1),
+            count: copies.copy(&own.gathered_len, 1),
             tetrahedra: Ahead::copy(copies, &aliases.gathered_tetrahedra, ahead),
             neighbors: Ahead::copy(copies, &aliases.gathered_neighbors, ahead),
             slots: Ahead::copy(copies, &own.gathered_slots, ahead),
@@ -114,6 +118,9 @@ impl<'a> Device<'a> {
             Region::new(points, Threads::All)
         };
         let (ended, submission, (gathering, failed, uncertain), region) = run.end(record, prepare).await?;
+        if ended.len() > SLOT as usize {
+            return Err(Error::TooManySimplices { limit: SLOT as usize });
+        }
         let (failed_len, uncertain_len) = (ended.counters.failed as usize, ended.counters.uncertain as usize);
         let mut device = Device { ended };
         let gathered = device.receive(&submission, gathering).await?;
@@ -161,7 +168,6 @@ impl<'a> Device<'a> {
             tetrahedra: copied.receive_both(tetrahedra.first.first(count), more_tetrahedra).await?,
             neighbors: copied.receive_both(neighbors.first.first(count), more_neighbors).await?,
             slots: copied.receive_both(slots.first.first(count), more_slots).await?,
-            is_wide: false,
         })
     }
 
@@ -181,8 +187,8 @@ impl<'a> Device<'a> {
         Ok(list)
     }
 
-    /// Returns the tetrahedra at `vertices` that it has not returned before, and around them where that
-    /// [pays](gathers_around), and numbers them from `first` on.
+    /// Returns the tetrahedra at `vertices` that it has not returned before, and numbers them from
+    /// `first` on.
     ///
     /// # Errors
     ///
@@ -193,26 +199,19 @@ impl<'a> Device<'a> {
         let own = &memory.buffers.own;
         let mut wanted = vec![0u32; own.wanted.len()];
         let ahead = vertices.len().saturating_mul(PER_STAR).clamp(LEAST_AHEAD, AHEAD);
-        let is_wide = gathers_around(vertices.len());
         vertices.iter().for_each(|&v| wanted[v as usize / 32] |= 1 << (v % 32));
         let (submission, gathering) = gpu
             .with_error_scope("gathering stars", || {
                 own.wanted.write(gpu, 0, &wanted);
                 own.gathering.write(gpu, 0, &[Gathering { first, patched: 0 }]);
                 let mut copies = Copies { readback: &mut kernels.readback, gpu, recorder: Recorder::new(gpu, None) };
-                if is_wide {
-                    let bound = &memory.bound.finish;
-                    own.wider.record_clear(copies.recorder.encoder());
-                    kernels.stages.finish.record(&mut copies.recorder, bound, &bound.widen, *workgroups);
-                    own.wider.record_copy(copies.recorder.encoder(), 0, &own.wanted, 0, own.wider.bytes());
-                }
                 let gathering = Gathering3::record(&mut copies, &kernels.stages, memory, ahead, *workgroups);
                 stats.dispatches += copies.recorder.dispatches();
                 stats.submits += 1;
                 Ok((copies.recorder.submit(gpu), gathering))
             })
             .await?;
-        Ok(Gathered { is_wide, ..self.receive(&submission, gathering).await? })
+        self.receive(&submission, gathering).await
     }
 
     /// Writes back what splaying has changed.
@@ -302,11 +301,16 @@ impl<'a> Device<'a> {
 fn begin(mut region: Region, gathered: Gathered, failed: Vec<u32>, uncertain: Vec<u32>) -> Result<Begun, Aborted> {
     let infinite = region.infinite();
     let first = region.next();
-    // Both are in the order of the mesh.
-    let mut slots = (first..).zip(&gathered.slots);
-    let number = |slot: u32| slots.find(|&(_, &s)| s == slot).map(|(number, _)| number);
-    let uncertain: Option<Vec<u32>> = uncertain.into_iter().map(number).collect();
-    let uncertain = uncertain.ok_or(Aborted::Inconsistent("an uncertain tetrahedron was not gathered"))?;
+    let mut numbers = vec![NO_INDEX; uncertain.len()];
+    for (number, word) in (first..).zip(&gathered.slots).filter(|_| !uncertain.is_empty()) {
+        if let Ok(i) = uncertain.binary_search(&(word & SLOT)) {
+            numbers[i] = number;
+        }
+    }
+    if numbers.contains(&NO_INDEX) {
+        return Err(Aborted::Inconsistent("an uncertain tetrahedron was not gathered"));
+    }
+    let uncertain = numbers;
     let corners = uncertain.iter().flat_map(|&t| gathered.tetrahedra[(t - first) as usize]);
     let stars: Vec<u32> = corners.filter(|&v| v != infinite).chain(failed.iter().copied()).collect();
     region.add(stars, gathered, Threads::All)?;

@@ -62,15 +62,9 @@ impl Finish<3> for Dimension<3> {
         Step::Kernel("certify"),
     ];
 
-    /// The stars that are wanted, numbered in the order of the mesh.
-    const GATHER: &'static [Step<&'static str>] = &[
-        Step::Stage("gather"),
-        Step::Kernel("gather_mark"),
-        Step::ScanGathered,
-        Step::Kernel("gather_number"),
-        Step::Kernel("gather_copy"),
-    ];
-    const WIDEN: &'static [Step<&'static str>] = &[Step::Stage("widen"), Step::Kernel("gather_widen")];
+    /// The stars that are wanted.
+    const GATHER: &'static [Step<&'static str>] =
+        &[Step::Stage("gather"), Step::Kernel("gather_list"), Step::Kernel("gather_copy")];
     const PATCH: &'static [Step<&'static str>] = &[Step::Stage("patch"), Step::Kernel("patch")];
 
     fn outputs(compiler: &Compiler<'_>) -> OutputStage {

@@ -33,7 +33,7 @@ use crate::{
 use build::Known;
 use consistency::Splaying;
 use predicates::StarPredicates;
-pub use region::{Gathered, KEEP, Patch, Region, gathers_around};
+pub use region::{Gathered, INCIDENT_SHIFT, KEEP, Patch, Region, SLOT};
 use rustc_hash::FxHashSet;
 use vertex_set::VertexSet;
 

@@ -17,10 +17,16 @@ use crate::{
 /// The number of every tetrahedron that is not in the region.
 const OUTSIDE: u32 = 0;
 
+/// The bits of the slot, in [`Gathered::slots`].
+pub const SLOT: u32 = (1 << INCIDENT_SHIFT) - 1;
+
+/// Where the vertices start, in [`Gathered::slots`], of which it is the tetrahedron.
+pub const INCIDENT_SHIFT: u32 = 28;
+
 /// An entry of [`Patch::neighbors`]: what is there stays as it is.
 pub const KEEP: u32 = u32::MAX;
 
-/// From how many gathered tetrahedra on it is worth that each thread looks at all of them.
+/// From how many facets on it is worth that each thread looks at all of them.
 const SHARED_FROM: usize = 1 << 12;
 
 /// Tetrahedra of a triangulation, numbered in this order.
@@ -30,17 +36,9 @@ pub struct Gathered {
     pub tetrahedra: Vec<[u32; 4]>,
     /// The neighbours of each, 4·number + facet; below 4 where the neighbour has not been gathered.
     pub neighbors: Vec<[u32; 4]>,
-    /// Where each is in the triangulation.
+    /// Where each is in the triangulation ([`SLOT`]); bit [`INCIDENT_SHIFT`] + *k* says that it is the
+    /// tetrahedron of its vertex *k*. Every vertex has one, a ghost if it has any.
     pub slots: Vec<u32>,
-    /// Whether the stars of the vertices around those that were asked for are here, too.
-    pub is_wide: bool,
-}
-
-/// Returns whether to gather the stars around those of so many vertices, too. Splaying goes on from the
-/// vertices that it asked for to those around them, and to gather again takes longer than to gather a few
-/// more.
-pub fn gathers_around(vertices: usize) -> bool {
-    vertices <= 64
 }
 
 /// What splaying changed in a region, for the triangulation that the region is a part of.
@@ -59,9 +57,9 @@ pub struct Patch {
 }
 
 impl Gathered {
-    /// Adds others, which begin with number `len`. What is missing before has no slot.
+    /// Adds others behind the first `len`. What is missing before has no slot.
     fn append(&mut self, len: usize, others: Gathered, threads: Threads) {
-        if self.slots.is_empty() && len == 0 {
+        if len == 0 && self.slots.capacity() == 0 {
             *self = others;
             return;
         }
@@ -81,12 +79,19 @@ impl Gathered {
     }
 }
 
+/// Returns an empty list with room for so many items, if there is memory.
+fn with_room<T>(len: usize) -> Vec<T> {
+    let mut list = Vec::new();
+    // Where there is none, the list grows when it has to.
+    let _ = list.try_reserve_exact(len);
+    list
+}
+
 /// A part of a triangulation.
 #[derive(Debug, Clone)]
 pub struct Region {
     pub(super) mesh: Triangulation3,
-    /// A tetrahedron of each vertex, if the region has any; a ghost if there is one in a star that
-    /// was asked for.
+    /// A tetrahedron of each vertex whose star the region has, a ghost if there is one.
     pub(super) incident: Vec<u32>,
     /// The vertices of which the region has the whole star.
     complete: Complete,
@@ -108,13 +113,17 @@ impl Region {
     /// work.
     pub fn new(vertices: usize, threads: Threads) -> Self {
         let infinite = vertices as u32;
+        // Memory that is not used costs nothing natively, and lists that need not grow are not copied.
+        let room = if cfg!(target_arch = "wasm32") { 0 } else { vertices / 2 };
         // What is outside looks like a tetrahedron that is not there. Nothing depends on it.
-        let outside = vec![[infinite | state::FREE, infinite, infinite, infinite]];
+        let mut mesh = Triangulation3::new(with_room(room), with_room(room), infinite);
+        mesh.tetrahedra.push([infinite | state::FREE, infinite, infinite, infinite]);
+        mesh.neighbors.push([OUTSIDE; 4]);
         Region {
-            mesh: Triangulation3::new(outside, vec![[OUTSIDE; 4]], infinite),
+            mesh,
             incident: parallel::filled(threads, vertices, NO_INDEX),
             complete: Complete::Those(VertexSet::new(vertices)),
-            given: Gathered::default(),
+            given: Gathered { tetrahedra: with_room(room), neighbors: with_room(room), slots: with_room(room) },
             gathers: [0; 2],
         }
     }
@@ -160,7 +169,7 @@ impl Region {
     }
 
     /// Adds what was gathered, numbered from [`next`](Region::next) on. Now the region has the
-    /// stars of `vertices`, and of those around them if it is wide. `threads` share the work.
+    /// stars of `vertices`. `threads` share the work.
     ///
     /// # Errors
     ///
@@ -168,12 +177,13 @@ impl Region {
     pub fn add(
         &mut self,
         vertices: impl IntoIterator<Item = u32>,
-        gathered: Gathered,
+        mut gathered: Gathered,
         threads: Threads,
     ) -> Result<(), Aborted> {
         const DO_NOT_FIT: Aborted = Aborted::Inconsistent("gathered tetrahedra do not fit what is there");
         let Region { mesh, incident, complete, given, gathers } = self;
-        let Gathered { tetrahedra, neighbors, slots, is_wide } = &gathered;
+        let Gathered { tetrahedra, neighbors, slots } = &mut gathered;
+        let (tetrahedra, neighbors) = (&*tetrahedra, &*neighbors);
         let first = mesh.tetrahedra.len();
         let infinite = mesh.infinite;
         *gathers = [gathers[0] + 1, gathers[1] + slots.len()];
@@ -184,22 +194,16 @@ impl Region {
         }
         parallel::extend(threads, &mut mesh.tetrahedra, tetrahedra);
         parallel::extend(threads, &mut mesh.neighbors, neighbors);
-        // Every thread looks at all tetrahedra for the vertices of its own, so that nothing depends on
-        // their order.
-        let sharing = if tetrahedra.len() < SHARED_FROM { Threads::One } else { threads };
-        parallel::for_parts(sharing, incident, |start, part| {
-            for (t, v) in (first as u32..).zip(tetrahedra) {
-                let is_ghost = v[3] == infinite;
-                for &v in &v[..if is_ghost { 3 } else { 4 }] {
-                    // Vertices before the part wrap around.
-                    if let Some(incident) = part.get_mut((v as usize).wrapping_sub(start))
-                        && (is_ghost || *incident == NO_INDEX)
-                    {
-                        *incident = t;
-                    }
+        for ((t, v), word) in (first as u32..).zip(tetrahedra).zip(slots) {
+            let of = *word >> INCIDENT_SHIFT;
+            *word &= SLOT;
+            for (_, &v) in v.iter().enumerate().filter(|(k, _)| of >> k & 1 != 0) {
+                // There is none of infinity.
+                if let Some(incident) = incident.get_mut(v as usize) {
+                    *incident = t;
                 }
             }
-        });
+        }
         // What came earlier, if anything, did not know of this.
         let len = if first > 1 { neighbors.len() } else { 0 };
         let back = parallel::map_ranges(threads, len, |range| {
@@ -211,7 +215,8 @@ impl Region {
         });
         let back = parallel::joined(back.into_iter().collect::<Option<Vec<_>>>().ok_or(DO_NOT_FIT)?);
         for (first, list) in [(0, &mut mesh.neighbors), (1, &mut given.neighbors)] {
-            // Every thread looks at all of these, too.
+            // Every thread looks at all of these, so that it has those of its own.
+            let sharing = if back.len() < SHARED_FROM { Threads::One } else { threads };
             parallel::for_parts(sharing, list, |start, part| {
                 for &(across, facet) in &back {
                     if let Some(neighbors) = part.get_mut((across as usize / 4).wrapping_sub(first + start)) {
@@ -225,23 +230,14 @@ impl Region {
         if parallel::map_ranges(threads, back.len(), |range| back[range].iter().all(is_mutual)).contains(&false) {
             return Err(DO_NOT_FIT);
         }
-        let is_wide = *is_wide;
         given.append(first - 1, gathered, threads);
         if let Complete::Those(complete) = complete {
-            let mut wanted = Vec::from_iter(vertices);
-            if wanted.iter().any(|&v| v >= infinite) {
-                return Err(DO_NOT_FIT);
+            for v in vertices {
+                if v >= infinite {
+                    return Err(DO_NOT_FIT);
+                }
+                complete.insert(v);
             }
-            if is_wide {
-                let mut has = VertexSet::new(infinite as usize);
-                wanted.iter().for_each(|&v| has.insert(v));
-                let around = parallel::map_ranges(threads, given.tetrahedra.len(), |range| {
-                    let at_one = given.tetrahedra[range].iter().filter(|tet| tet.iter().any(|&v| has.has(v)));
-                    at_one.flatten().copied().filter(|&v| v < infinite).collect::<Vec<_>>()
-                });
-                wanted.extend(around.into_iter().flatten());
-            }
-            wanted.into_iter().for_each(|v| complete.insert(v));
         }
         Ok(())
     }

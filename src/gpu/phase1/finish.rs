@@ -26,8 +26,6 @@ pub enum Step<K> {
     Kernel(K),
     /// Numbers the simplices of the mesh by a scan of [`Buffers::marks`].
     Scan,
-    /// Numbers what is gathered of the mesh in the same way, with sums of its own.
-    ScanGathered,
 }
 
 impl<K> Step<K> {
@@ -36,7 +34,6 @@ impl<K> Step<K> {
             Step::Stage(name) => Step::Stage(name),
             Step::Kernel(k) => Step::Kernel(kernel(k)),
             Step::Scan => Step::Scan,
-            Step::ScanGathered => Step::ScanGathered,
         }
     }
 }
@@ -60,8 +57,6 @@ where
     const STEPS: &'static [Step<&'static str>];
     /// The steps that gather parts of the mesh.
     const GATHER: &'static [Step<&'static str>];
-    /// The steps that find what lies around the parts that are wanted.
-    const WIDEN: &'static [Step<&'static str>];
     /// The steps that write changed parts back.
     const PATCH: &'static [Step<&'static str>];
 
@@ -174,7 +169,6 @@ impl Copied<'_> {
 pub(crate) struct FinishStage {
     steps: Vec<Step<Kernel>>,
     gather: Vec<Step<Kernel>>,
-    widen: Vec<Step<Kernel>>,
     patch: Vec<Step<Kernel>>,
     scan: Scan,
 }
@@ -189,12 +183,9 @@ where
     pub(crate) steps: BoundSteps,
     /// Gathers what is wanted.
     pub(crate) gather: BoundSteps,
-    /// Finds what lies around it.
-    pub(crate) widen: BoundSteps,
     /// Writes changed parts back.
     pub(crate) patch: BoundSteps,
     scan: BoundScan,
-    gather_scan: BoundScan,
     aliases: <Dimension<D> as Finish<D>>::Aliases,
 }
 
@@ -212,7 +203,6 @@ impl FinishStage {
         FinishStage {
             steps: kernels(Dimension::<D>::STEPS),
             gather: kernels(Dimension::<D>::GATHER),
-            widen: kernels(Dimension::<D>::WIDEN),
             patch: kernels(Dimension::<D>::PATCH),
             scan: Scan::new(compiler),
         }
@@ -230,17 +220,14 @@ impl FinishStage {
         let count = ScanParams { count: b.simplices.len() as u32 };
         let params = Storage::with_contents(gpu, "scan parameters", &[count])?;
         let scan = self.scan.bind(gpu, &params, &b.marks, &b.numbers)?;
-        let gather_scan = self.scan.bind(gpu, &params, &b.marks, &b.numbers)?;
         let aliases = <Dimension<D> as Finish<D>>::Aliases::new(b);
         let mut buffers = b.bindings();
         buffers.extend(aliases.bindings());
         buffers.push(("sums", scan.sums().buffer()));
-        buffers.push(("gather_sums", gather_scan.sums().buffer()));
         let bind = |kernel: &Kernel| (kernel.clone(), kernel.bind(gpu, &buffers));
         let bind = |steps: &[Step<Kernel>]| steps.iter().map(|step| step.map(bind)).collect();
-        let steps = [&self.steps, &self.gather, &self.widen, &self.patch];
-        let [steps, gather, widen, patch] = steps.map(|steps| bind(steps));
-        Ok(BoundFinish { steps, gather, widen, patch, scan, gather_scan, aliases })
+        let [steps, gather, patch] = [&self.steps, &self.gather, &self.patch].map(|steps| bind(steps));
+        Ok(BoundFinish { steps, gather, patch, scan, aliases })
     }
 
     /// Records these steps of `bound`.
@@ -258,7 +245,6 @@ impl FinishStage {
                 Step::Stage(name) => recorder.stage(name),
                 Step::Kernel((kernel, bindings)) => recorder.dispatch(kernel, bindings, workgroups),
                 Step::Scan => self.scan.record(recorder, &bound.scan),
-                Step::ScanGathered => self.scan.record(recorder, &bound.gather_scan),
             }
         }
     }
@@ -275,11 +261,6 @@ where
     /// is the number of finite simplices.
     pub(crate) fn sums(&self) -> &Storage<u32> {
         self.scan.sums()
-    }
-
-    /// Returns the sums of the scan of what is gathered; the same entry is how many simplices are.
-    pub(crate) fn gather_sums(&self) -> &Storage<u32> {
-        self.gather_scan.sums()
     }
 
     /// Returns the names that buffers have at the end.

@@ -1,6 +1,6 @@
 //! Gathering tetrahedra of the mesh, and writing changed ones back.
 
-use crate::d3::splay::{Gathered, KEEP, Patch};
+use crate::d3::splay::{Gathered, INCIDENT_SHIFT, KEEP, Patch};
 
 /// The mesh at the end of Phase 1, and which of its tetrahedra have been gathered.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -13,6 +13,8 @@ pub struct Mesh {
     pub infinite: u32,
     /// A bit per point.
     pub wanted: Vec<u32>,
+    /// One more than the tetrahedron of each point, a ghost if it has any; infinity comes last.
+    pub tet_of: Vec<u32>,
     /// The number of each tetrahedron that was gathered, or 0.
     pub region_numbers: Vec<u32>,
 }
@@ -22,23 +24,20 @@ impl Mesh {
     pub fn new(tetrahedra: Vec<[u32; 4]>, neighbors: Vec<[u32; 4]>, infinite: u32) -> Self {
         let region_numbers = vec![0; tetrahedra.len()];
         let wanted = vec![0; (infinite as usize).div_ceil(32).max(1)];
-        Mesh { tetrahedra, neighbors, infinite, wanted, region_numbers }
-    }
-
-    /// Gathers the tetrahedra at `vertices` that were not gathered before, and those around them if it
-    /// `is_wide`, numbered from `first` on.
-    pub fn gather(&mut self, vertices: &[u32], is_wide: bool, first: u32) -> Gathered {
-        self.want(vertices);
-        if is_wide {
-            self.wanted = gather_widen(self);
+        let mut tet_of = vec![0; infinite as usize + 1];
+        let (ghosts, finite): (Vec<u32>, _) =
+            (0..tetrahedra.len() as u32).partition(|&t| tetrahedra[t as usize].contains(&infinite));
+        for t in finite.into_iter().chain(ghosts) {
+            tetrahedra[t as usize].iter().for_each(|&v| tet_of[v as usize] = t + 1);
         }
-        let marks = gather_mark(self);
-        let slots = gather_number(self, &marks, first);
-        Gathered { is_wide, ..gather_copy(self, slots) }
+        Mesh { tetrahedra, neighbors, infinite, wanted, tet_of, region_numbers }
     }
 
-    fn has_wanted(&self, tet: &[u32; 4]) -> bool {
-        tet.iter().any(|&v| v != self.infinite && self.wanted[v as usize / 32] >> (v % 32) & 1 != 0)
+    /// Gathers the tetrahedra at `vertices` that were not gathered before, numbered from `first` on.
+    pub fn gather(&mut self, vertices: &[u32], first: u32) -> Gathered {
+        self.want(vertices);
+        let slots = gather_list(self, first);
+        gather_copy(self, slots)
     }
 
     /// Sets the wanted vertices.
@@ -48,41 +47,29 @@ impl Mesh {
     }
 }
 
-/// Returns the vertices of the tetrahedra that have a wanted vertex, a bit for each. One invocation per
-/// slot.
-pub fn gather_widen(mesh: &Mesh) -> Vec<u32> {
-    let mut wider = vec![0; mesh.wanted.len()];
-    let around = mesh.tetrahedra.iter().filter(|tet| mesh.has_wanted(tet));
-    for &v in around.flatten().filter(|&&v| v != mesh.infinite) {
-        wider[v as usize / 32] |= 1 << (v % 32);
-    }
-    wider
+/// Lists the tetrahedra that have a wanted vertex and were not gathered before, and numbers them from
+/// `first` on: in the order of their slots, where the kernel has none. One invocation per tetrahedron.
+pub fn gather_list(mesh: &mut Mesh, first: u32) -> Vec<u32> {
+    let is_wanted = |&v: &u32| v != mesh.infinite && mesh.wanted[v as usize / 32] >> (v % 32) & 1 != 0;
+    let slots = (0..).zip(mesh.tetrahedra.iter().zip(&mesh.region_numbers));
+    let listed = slots.filter(|(_, (tet, number))| **number == 0 && tet.iter().any(is_wanted));
+    let listed: Vec<u32> = listed.map(|(t, _)| t).collect();
+    listed.iter().zip(first..).for_each(|(&t, number)| mesh.region_numbers[t as usize] = number);
+    listed
 }
 
-/// Marks the tetrahedra that have a wanted vertex and were not gathered before. One invocation per
-/// slot.
-pub fn gather_mark(mesh: &Mesh) -> Vec<u32> {
-    let slots = mesh.tetrahedra.iter().zip(&mesh.region_numbers);
-    slots.map(|(tet, &number)| u32::from(number == 0 && mesh.has_wanted(tet))).collect()
-}
-
-/// Numbers the marked tetrahedra from `first` on, in the order of their slots, and lists them. One
-/// invocation per slot.
-pub fn gather_number(mesh: &mut Mesh, marks: &[u32], first: u32) -> Vec<u32> {
-    let slots: Vec<u32> = (0..).zip(marks).filter(|&(_, &mark)| mark != 0).map(|(t, _)| t).collect();
-    slots.iter().zip(first..).for_each(|(&t, number)| mesh.region_numbers[t as usize] = number);
-    slots
-}
-
-/// Copies the listed tetrahedra, with their neighbours by the numbers that these have, or 0. One
-/// invocation per tetrahedron.
+/// Copies the listed tetrahedra, with their neighbours by the numbers that these have, or 0, and notes
+/// for which of its vertices each is the tetrahedron of the vertex. One invocation per tetrahedron.
 pub fn gather_copy(mesh: &Mesh, slots: Vec<u32>) -> Gathered {
     let renumbered = |across: u32| 4 * mesh.region_numbers[across as usize / 4] + across % 4;
+    let incident = |t: u32| -> u32 {
+        let vertices = (0..).zip(mesh.tetrahedra[t as usize]);
+        vertices.filter(|&(_, v)| mesh.tet_of[v as usize] == t + 1).map(|(k, _)| 1 << k).sum()
+    };
     Gathered {
         tetrahedra: slots.iter().map(|&t| mesh.tetrahedra[t as usize]).collect(),
         neighbors: slots.iter().map(|&t| mesh.neighbors[t as usize].map(renumbered)).collect(),
-        slots,
-        is_wide: false,
+        slots: slots.into_iter().map(|t| t | incident(t) << INCIDENT_SHIFT).collect(),
     }
 }
 
