@@ -22,6 +22,9 @@ pub enum Threads {
 /// instructions.
 const CHUNK: usize = 1 << 13;
 
+/// Fewer keys than this are compared.
+const FEW: usize = 256;
+
 /// As many keys one thread sorts sooner than several.
 const SORTED_BY_ONE: usize = 1 << 17;
 
@@ -124,40 +127,55 @@ pub(crate) fn sort<T: Ord + Send>(threads: Threads, items: &mut [T]) {
     items.sort_unstable();
 }
 
-/// Sorts entries by their upper halves; those with equal ones stay in their order. The lower halves
-/// must be in ascending order.
-pub(crate) fn sort_keyed(threads: Threads, entries: &mut Vec<u64>) {
+/// Sorts entries by their upper halves; those with equal ones stay in their order, or come in that of
+/// their lower halves.
+pub(crate) fn sort_keyed(threads: Threads, entries: &mut [u64]) {
     if count(threads) > 1 && threads == Threads::All && entries.len() > SORTED_BY_ONE {
         return sort(threads, entries);
+    }
+    if entries.len() < FEW {
+        return sort_indirectly(entries, &|i, j| i.cmp(&j));
     }
     // A radix sort from the lowest digit.
     const DIGIT: u32 = 11;
     let digit = |entry: u64, shift: u32| (entry >> shift) as usize & ((1 << DIGIT) - 1);
     let mut others = vec![0; entries.len()];
+    let (mut from, mut to) = (&mut *entries, &mut others[..]);
+    let mut is_moved = false;
     for shift in [32, 32 + DIGIT, 32 + 2 * DIGIT] {
         let mut starts = [0usize; 1 << DIGIT];
-        entries.iter().for_each(|&entry| starts[digit(entry, shift)] += 1);
-        if starts.contains(&entries.len()) {
+        from.iter().for_each(|&entry| starts[digit(entry, shift)] += 1);
+        if starts.contains(&from.len()) {
             continue;
         }
         let mut before = 0;
         for start in &mut starts {
             before += std::mem::replace(start, before);
         }
-        for &entry in &*entries {
+        for &entry in &*from {
             let start = &mut starts[digit(entry, shift)];
-            others[*start] = entry;
+            to[*start] = entry;
             *start += 1;
         }
-        std::mem::swap(entries, &mut others);
+        (from, to) = (to, from);
+        is_moved = !is_moved;
+    }
+    if is_moved {
+        entries.copy_from_slice(&others);
     }
 }
 
-/// Sorts items by a key; those with equal keys stay in their order.
-pub(crate) fn sort_by_key<T: Copy>(threads: Threads, items: &mut Vec<T>, key: impl Fn(&T) -> u32) {
-    let mut order: Vec<u64> = (0..).zip(&*items).map(|(i, item)| u64::from(key(item)) << 32 | i).collect();
-    sort_keyed(threads, &mut order);
-    *items = order.into_iter().map(|entry| items[entry as u32 as usize]).collect();
+/// Sorts items by the keys that belong to them; those with equal keys stay in their order.
+pub(crate) fn sort_by_keys<T: Copy>(threads: Threads, items: &mut Vec<T>, keys: Vec<u32>) {
+    *items = order_of(threads, keys).into_iter().map(|i| items[i as usize]).collect();
+}
+
+/// Returns the indices of keys in ascending order of these; those of equal keys are ascending.
+#[inline(never)]
+pub(crate) fn order_of(threads: Threads, keys: Vec<u32>) -> Vec<u32> {
+    let mut keyed: Vec<u64> = (0..).zip(keys).map(|(i, key)| u64::from(key) << 32 | i).collect();
+    sort_keyed(threads, &mut keyed);
+    keyed.into_iter().map(|entry| entry as u32).collect()
 }
 
 /// Sorts items of several numbers, of which equal ones are indistinguishable. A sort is large, so that there is one for all of

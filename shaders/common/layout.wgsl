@@ -71,6 +71,7 @@ struct Control {
     inverted: atomic<u32>,
     violated: atomic<u32>,
     long_walks: atomic<u32>,
+    gathered: atomic<u32>,
     taken: array<atomic<u32>, 5>,
     log: array<array<u32, 5>, LOGGED>,
 

@@ -2,9 +2,8 @@
 // for which of its vertices each is the tetrahedron of the vertex. One invocation per tetrahedron.
 //!include common/layout
 //!include d3/gathering
-@group(0) @binding(0) var<storage, read_write> gathered_slots: array<u32>;
-// How many are listed.
-@group(0) @binding(1) var<storage, read> gathered_len: u32;
+@group(0) @binding(0) var<storage, read_write> control: Control;
+@group(0) @binding(1) var<storage, read_write> gathered_slots: array<u32>;
 @group(0) @binding(2) var<storage, read> region_numbers: array<u32>;
 @group(0) @binding(3) var<storage, read> mesh_tetrahedra: array<vec4u>;
 @group(0) @binding(4) var<storage, read> mesh_neighbors: array<vec4u>;
@@ -19,7 +18,8 @@ fn renumbered(across: u32) -> u32 {
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    for (var i = id.x; i < gathered_len; i += groups.x * WORKGROUP) {
+    let count = atomicLoad(&control.gathered);
+    for (var i = id.x; i < count; i += groups.x * WORKGROUP) {
         let t = gathered_slots[i];
         let near = mesh_neighbors[t];
         let tet = mesh_tetrahedra[t];

@@ -12,8 +12,6 @@
 // The number of each tetrahedron that was gathered, or 0.
 @group(0) @binding(5) var<storage, read_write> region_numbers: array<u32>;
 @group(0) @binding(6) var<storage, read_write> gathered_slots: array<u32>;
-// How many are listed.
-@group(0) @binding(7) var<storage, read_write> gathered_len: atomic<u32>;
 
 var<workgroup> ghosts: u32;
 // The tetrahedra of the workgroup at hand that are listed, and the place of the first of them.
@@ -54,7 +52,7 @@ fn main(
         workgroupBarrier();
         // One atomic operation on the counter per workgroup: nearly all may be listed.
         if local == 0 && atomicLoad(&listed) != 0 {
-            start_here = atomicAdd(&gathered_len, atomicLoad(&listed));
+            start_here = atomicAdd(&control.gathered, atomicLoad(&listed));
         }
         workgroupBarrier();
         if place != NONE {

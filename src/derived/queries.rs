@@ -126,7 +126,7 @@ pub(crate) fn order_along_curve<const D: usize, const N: usize>(points: Points<'
 where
     Euclidean: Geometry<D, N>,
 {
-    sorted_by(places(points, key))
+    parallel::order_of(Threads::All, places(points, key))
 }
 
 /// Returns the places of points along the curve.
@@ -137,11 +137,4 @@ where
     parallel::joined(parallel::map_ranges(Threads::All, points.len(), |range| {
         range.map(|i| key.of::<N>(points.get(i))).collect::<Vec<_>>()
     }))
-}
-
-/// Returns the indices of places in ascending order of these.
-pub(crate) fn sorted_by(places: Vec<u32>) -> Vec<u32> {
-    let mut keyed: Vec<u64> = (0..).zip(places).map(|(i, place)| u64::from(place) << 32 | i).collect();
-    parallel::sort_keyed(Threads::All, &mut keyed);
-    keyed.into_iter().map(|entry| entry as u32).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::{
     complex::{Complex, Coordinates},
-    queries::{CurveKey, order_along_curve, sorted_by},
+    queries::{CurveKey, order_along_curve},
 };
 use crate::{
     geometry::{Euclidean, Geometry},
@@ -39,7 +39,7 @@ where
             let ranks = complex.simplices[t].map(|v| ranks[v as usize]);
             ranks.into_iter().fold(u32::MAX, u32::min)
         });
-        let simplices = sorted_by(firsts);
+        let simplices = parallel::order_of(Threads::All, firsts);
         let places = inverse(&simplices);
         let rank_or_none = |i: i32, ranks: &[u32]| if i == NONE { NONE } else { ranks[i as usize] as i32 };
         let sorted = Complex {

@@ -181,6 +181,8 @@ pub struct Counters {
     pub violated: u32,
     /// Points for which the walk to their simplex of the start took too many steps.
     pub long_walks: u32,
+    /// Tetrahedra of the mesh that are gathered at a time, at the end.
+    pub gathered: u32,
     /// The entries of lists that workgroups have taken in turn, in the passes of this flip iteration and
     /// of this round.
     pub taken: [u32; 5],

@@ -146,7 +146,7 @@ fn sort_runs<const D: usize>(
             for entry in run.iter_mut() {
                 *entry = key(*entry as u32, done);
             }
-            run.sort_unstable();
+            parallel::sort_keyed(Threads::One, run);
             push_runs(run, start, done + key_bits.min(bits - done), &mut runs);
             continue;
         }
@@ -203,7 +203,7 @@ pub(crate) fn missing_points<const D: usize>(
 fn shuffled(order: impl Iterator<Item = u32>, seed: u64) -> Vec<u32> {
     let key = |i: u32| mix(u64::from(i) ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 32;
     let mut keyed: Vec<u64> = order.map(|i| key(i) << 32 | u64::from(i)).collect();
-    keyed.sort_unstable();
+    parallel::sort_keyed(Threads::One, &mut keyed);
     keyed.into_iter().map(|entry| entry as u32).collect()
 }
 

@@ -18,7 +18,14 @@ use crate::predicates::{Sign, exact};
 #[inline]
 pub fn break_tie<const N: usize>(indices: [u32; N], mut orient: impl FnMut(usize) -> Sign) -> Sign {
     let mut order: [usize; N] = std::array::from_fn(|k| k);
-    order.sort_unstable_by_key(|&k| indices[k]);
+    // By insertion: the standard library's sorts would be compiled for lists of any length.
+    for i in 1..N {
+        let mut j = i;
+        while j > 0 && indices[order[j - 1]] > indices[order[j]] {
+            order.swap(j - 1, j);
+            j -= 1;
+        }
+    }
     // Raising the last argument's height moves it outside.
     let cofactor = |k: usize| if (N - k) % 2 == 1 { -orient(k) } else { orient(k) };
     order.into_iter().map(cofactor).find(|&sign| sign != 0).unwrap_or(0)

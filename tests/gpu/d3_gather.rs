@@ -62,13 +62,11 @@ fn parts_are_gathered_and_written_back() {
     neighbors.write(gpu, 0, &mesh.neighbors);
     // What an earlier run left does not matter.
     region_numbers.write(gpu, 0, &vec![9; slots]);
-    let gathered_len = Storage::<u32>::new(gpu, "gathered", 1).unwrap();
     let tet_of = Storage::with_contents(gpu, "tetrahedra of points", &mesh.tet_of).unwrap();
     let run = |name: &str| {
         let buffers = [
             ("control", control.buffer()),
             ("sums", sums.buffer()),
-            ("gathered_len", gathered_len.buffer()),
             ("tet_of", tet_of.buffer()),
             ("mesh_tetrahedra", tetrahedra.buffer()),
             ("mesh_neighbors", neighbors.buffer()),
@@ -88,9 +86,10 @@ fn parts_are_gathered_and_written_back() {
         mesh.want(&vertices);
         wanted.write(gpu, 0, &mesh.wanted);
         gathering.write(gpu, 0, &[Gathering { first, patched: 0 }]);
-        gathered_len.write(gpu, 0, &[0]);
+        control.write(gpu, PARAM_WORDS, &bytemuck::cast_slice(&[counters])[..COUNTER_WORDS]);
         run("gather_list");
-        let total = read(gpu, &gathered_len)[0];
+        let after = &read(gpu, &control)[PARAM_WORDS..][..COUNTER_WORDS];
+        let total = bytemuck::from_bytes::<Counters>(bytemuck::cast_slice(after)).gathered;
         let listed = read(gpu, &gathered_slots)[..total as usize].to_vec();
         let mut sorted = listed.clone();
         sorted.sort_unstable();

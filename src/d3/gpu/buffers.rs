@@ -34,8 +34,6 @@ pub struct OwnBuffers {
     /// Where the gathered tetrahedra are in the mesh, as [`Gathered::slots`](crate::d3::splay::Gathered::slots)
     /// has it; then the slots of the patch.
     pub gathered_slots: Storage<u32>,
-    /// How many are gathered.
-    pub gathered_len: Storage<u32>,
 }
 
 impl dim::OwnBuffers for OwnBuffers {
@@ -48,7 +46,6 @@ impl dim::OwnBuffers for OwnBuffers {
             gathering: Storage::new(gpu, "gathering", 1)?,
             region_numbers: Storage::in_parts(gpu, "numbers of gathered tetrahedra", slots, parts)?,
             gathered_slots: Storage::in_parts(gpu, "slots of gathered tetrahedra", slots, parts)?,
-            gathered_len: Storage::new(gpu, "number of gathered tetrahedra", 1)?,
         })
     }
 
@@ -81,7 +78,6 @@ impl dim::OwnBuffers for OwnBuffers {
             ("tet_of", self.tet_of.buffer()),
             ("wanted", self.wanted.buffer()),
             ("gathering", self.gathering.buffer()),
-            ("gathered_len", self.gathered_len.buffer()),
         ];
         append_bindings(
             &mut bindings,
@@ -91,8 +87,8 @@ impl dim::OwnBuffers for OwnBuffers {
     }
 
     fn bytes(&self) -> u64 {
-        let OwnBuffers { failed, tet_of, wanted, gathering, region_numbers, gathered_slots, gathered_len } = self;
+        let OwnBuffers { failed, tet_of, wanted, gathering, region_numbers, gathered_slots } = self;
         let points = failed.bytes() + tet_of.bytes() + wanted.bytes() + gathering.bytes();
-        points + region_numbers.bytes() + gathered_slots.bytes() + gathered_len.bytes()
+        points + region_numbers.bytes() + gathered_slots.bytes()
     }
 }

@@ -12,7 +12,7 @@ use crate::{
     gpu::{
         Gpu, Pending, Recorder, Storage,
         device_mesh::DeviceArrays,
-        layout::Active,
+        layout::{Active, Counters, PARAM_WORDS},
         phase1::{Copied, Copies, Ended, Memory, Run, Slot, Stages},
         shader::constants::d3,
         workgroups,
@@ -38,6 +38,9 @@ fn ahead(points: usize, has_moved: bool) -> usize {
 }
 
 const _: () = assert!(INCIDENT_SHIFT == d3::INCIDENT_SHIFT);
+
+/// Where the number of gathered tetrahedra is, in words of the control buffer.
+const GATHERED: usize = PARAM_WORDS + std::mem::offset_of!(Counters, gathered) / 4;
 
 /// The tetrahedra that are read for each further star: as a rule more than it has.
 const PER_STAR: usize = 32;
@@ -66,11 +69,12 @@ impl Gathering3 {
     /// Records gathering, and that its result is read.
     fn record(copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>, ahead: usize, workgroups: u32) -> Self {
         let (bound, own) = (&memory.bound.finish, &memory.buffers.own);
-        own.gathered_len.record_clear(copies.recorder.encoder());
+        let control = &memory.buffers.control;
+        copies.recorder.encoder().clear_buffer(control.buffer(), 4 * GATHERED as u64, Some(4));
         stages.finish.record(&mut copies.recorder, bound, &bound.gather, workgroups);
         let aliases = bound.aliases();
         Gathering3 {
-            count: copies.copy(&own.gathered_len, 1),
+            count: copies.copy_from(control, GATHERED, 1),
             tetrahedra: Ahead::copy(copies, &aliases.gathered_tetrahedra, ahead),
             neighbors: Ahead::copy(copies, &aliases.gathered_neighbors, ahead),
             slots: Ahead::copy(copies, &own.gathered_slots, ahead),
@@ -157,18 +161,35 @@ impl<'a> Device<'a> {
             });
             rest = Some(submitted.await?);
         }
-        let (more_tetrahedra, more_neighbors, more_slots) = match rest {
-            Some((submission, (tetrahedra, neighbors, slots))) => {
+        let (tetrahedra, neighbors, slots) =
+            (tetrahedra.first.first(count), neighbors.first.first(count), slots.first.first(count));
+        // Natively both go to the same list, without a copy.
+        #[cfg(not(target_arch = "wasm32"))]
+        let (tetrahedra, neighbors, slots) = match rest {
+            Some((submission, more)) => {
                 copied.submission = submission;
-                (Some(tetrahedra), Some(neighbors), Some(slots))
+                (tetrahedra.then(more.0), neighbors.then(more.1), slots.then(more.2))
             }
-            None => (None, None, None),
+            None => (tetrahedra, neighbors, slots),
         };
-        Ok(Gathered {
-            tetrahedra: copied.receive_both(tetrahedra.first.first(count), more_tetrahedra).await?,
-            neighbors: copied.receive_both(neighbors.first.first(count), more_neighbors).await?,
-            slots: copied.receive_both(slots.first.first(count), more_slots).await?,
-        })
+        let gathered = Gathered {
+            tetrahedra: copied.receive(tetrahedra).await?,
+            neighbors: copied.receive(neighbors).await?,
+            slots: copied.receive(slots).await?,
+        };
+        #[cfg(target_arch = "wasm32")]
+        let gathered = match rest {
+            Some((submission, more)) => {
+                copied.submission = submission;
+                let mut all = gathered;
+                all.tetrahedra.extend(copied.receive(more.0).await?);
+                all.neighbors.extend(copied.receive(more.1).await?);
+                all.slots.extend(copied.receive(more.2).await?);
+                all
+            }
+            None => gathered,
+        };
+        Ok(gathered)
     }
 
     /// Receives a list, and reads the rest of it if it has more than was read ahead.

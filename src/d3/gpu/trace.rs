@@ -7,10 +7,10 @@ use crate::{
     },
     error::Error,
     gpu::{Gpu, Readback, phase1::Run},
+    parallel::{self, Threads},
     predicates::filter::PredicateContext3,
     stats::Trace,
 };
-use rustc_hash::FxHashSet;
 
 /// Collects a [`Trace`].
 #[derive(Debug, Default)]
@@ -69,8 +69,9 @@ impl Tracer {
             v.sort_unstable();
             v
         };
-        let before: FxHashSet<[u32; 4]> = self.trace.rounds.last().into_iter().flatten().copied().map(sorted).collect();
-        self.trace.splayed = tetrahedra.iter().map(|&v| !before.contains(&sorted(v))).collect();
+        let mut before: Vec<[u32; 4]> = self.trace.rounds.last().into_iter().flatten().copied().map(sorted).collect();
+        parallel::sort_records(Threads::One, &mut before);
+        self.trace.splayed = tetrahedra.iter().map(|&v| before.binary_search(&sorted(v)).is_err()).collect();
         self.trace
     }
 }

@@ -13,15 +13,14 @@ use crate::{
     index::NO_INDEX,
     parallel::{self, Threads},
 };
-use rustc_hash::FxHashSet;
 
 /// The triangulation as far as it is here, and what is known about it.
 pub(super) struct Known {
     pub(super) region: Region,
     /// The vertices of tetrahedra and facets that have failed.
     pub(super) failed: VertexSet,
-    /// The finite tetrahedra that are not positively oriented.
-    pub(super) inverted: FxHashSet<u32>,
+    /// The finite tetrahedra that are not positively oriented, ascending.
+    pub(super) inverted: Vec<u32>,
     /// Their vertices.
     pub(super) inverted_at: VertexSet,
 }
@@ -77,7 +76,7 @@ impl Known {
     fn is_oriented(&self, predicates: &StarPredicates<'_>, star: &Star) -> bool {
         star.used().all(|t| match t.vertices.contains(&predicates.infinite()) {
             true => predicates.orient(star.tetrahedron(t.vertices)) > 0,
-            false => !self.inverted.contains(&t.tetrahedron),
+            false => self.inverted.binary_search(&t.tetrahedron).is_err(),
         })
     }
 }

@@ -216,7 +216,8 @@ impl Splaying {
             Ok(requests)
         });
         let mut requests = requests.into_iter().collect::<Result<Vec<_>, Aborted>>()?.concat();
-        parallel::sort_by_key(self.threads, &mut requests, |request| request.vertex);
+        let vertices = requests.iter().map(|request| request.vertex).collect();
+        parallel::sort_by_keys(self.threads, &mut requests, vertices);
         Ok(requests)
     }
 

@@ -13,7 +13,7 @@ use crate::{
     index::NO_INDEX,
     predicates::filter::{PredicateContext3, PredicatesAt},
 };
-use rustc_hash::FxHashSet;
+use rustc_hash::FxHashMap;
 
 /// Inserts those of the `missing` vertices, each with a vertex near it or with [`NO_INDEX`], of which
 /// the region has the whole cavity; the others remain. Returns vertices whose stars they need.
@@ -60,12 +60,13 @@ fn cavity(region: &Region, vertices: &PredicateContext3<'_>, p: u32, start: u32)
     let (mesh, here) = (&region.mesh, vertices.at(p));
     let start = walk(region, &here, start)?;
     let (mut cavity, mut next) = (vec![start], 0);
-    let mut seen = FxHashSet::from_iter([start]);
+    // A map like those of the stars: a set would be compiled for itself.
+    let mut seen = FxHashMap::from_iter([(start, 0u32)]);
     let mut wanted = Vec::new();
     while let Some(&t) = cavity.get(next) {
         next += 1;
         for other in mesh.neighbors[t as usize].map(|across| across >> 2) {
-            if !seen.insert(other) && !region.is_outside(other) {
+            if seen.insert(other, 0).is_some() && !region.is_outside(other) {
                 continue;
             }
             // A ghost's conflicts can be those of the tetrahedron under it.

@@ -34,7 +34,6 @@ use build::Known;
 use consistency::Splaying;
 use predicates::StarPredicates;
 pub use region::{Gathered, INCIDENT_SHIFT, KEEP, Patch, Region, SLOT};
-use rustc_hash::FxHashSet;
 use vertex_set::VertexSet;
 
 /// The result of Phase 1: a triangulation that is nearly Delaunay, and where it may not be.
@@ -227,7 +226,7 @@ impl Splay {
         parallel::sort(threads, &mut suspect);
         suspect.dedup();
         let mesh = &region.mesh;
-        let mut inverted = FxHashSet::default();
+        let mut inverted = Vec::new();
         for (more_failed, more_inverted) in
             predicates.shared(threads, suspect.len(), TETRAHEDRON_GRAIN, |predicates, range| {
                 let (mut failed, mut inverted) = (Vec::new(), Vec::new());

@@ -58,7 +58,8 @@ pub(super) fn patch(
         facets.extend((0..4).map(|k| facet(v, k, 4 * slot + k as u32)));
     }
     let key = |facet: &[u32; 4]| mixed(&facet[..3]);
-    parallel::sort_by_key(threads, &mut facets, key);
+    let keys = facets.iter().map(key).collect();
+    parallel::sort_by_keys(threads, &mut facets, keys);
     // Others may have the same key.
     for facets in facets.chunk_by(|f, g| key(f) == key(g)) {
         for f in facets {

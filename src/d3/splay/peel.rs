@@ -65,12 +65,13 @@ pub(super) fn peel(
 
 /// For each facet of a flat tetrahedron, whether a ghost in its place, on that facet, would not be
 /// inverted.
-type Sides = [bool; 4];
+type Sides = u32;
 
 /// Returns the sides of flat tetrahedron `t`.
 fn sides(mesh: &Triangulation3, predicates: &StarPredicates<'_>, t: u32) -> Sides {
     let v = mesh.vertices(t);
-    std::array::from_fn(|k| predicates.orient(replaced(v, k, mesh.infinite)) >= 0)
+    let is_outer = |&k: &usize| predicates.orient(replaced(v, k, mesh.infinite)) >= 0;
+    (0..4).filter(is_outer).map(|k| 1 << k).sum()
 }
 
 /// Peels one flat tetrahedron, and lists the new ghosts, if it lies under one or two facets of the
@@ -97,7 +98,7 @@ fn peel_one(
     // The corners of t at which the ghost's corners are, and the ghost with x in place of corner i.
     let in_t: [usize; 3] = std::array::from_fn(|i| v.iter().position(|&w| w == g[i]).unwrap_or(x));
     let moved = |i: usize| replaced(g, i, v[x]);
-    let fits = |i: usize| sides[in_t[i]];
+    let fits = |i: usize| sides >> in_t[i] & 1 != 0;
     match y {
         None => {
             if !(0..3).all(fits) || mesh.is_ghost(incident[v[x] as usize]) {

@@ -26,6 +26,12 @@ pub const INCIDENT_SHIFT: u32 = 28;
 /// An entry of [`Patch::neighbors`]: what is there stays as it is.
 pub const KEEP: u32 = u32::MAX;
 
+/// A region has room for half a tetrahedron per vertex, of which as a rule one in so many is used.
+const USED: usize = 16;
+
+/// The number of tetrahedra that a thread takes at a time to find what has changed.
+const PATCH_GRAIN: usize = 1 << 11;
+
 /// From how many facets on it is worth that each thread looks at all of them.
 const SHARED_FROM: usize = 1 << 12;
 
@@ -80,10 +86,14 @@ impl Gathered {
 }
 
 /// Returns an empty list with room for so many items, if there is memory.
-fn with_room<T>(len: usize) -> Vec<T> {
+fn with_room<T: Clone>(len: usize, nothing: T) -> Vec<T> {
     let mut list = Vec::new();
     // Where there is none, the list grows when it has to.
-    let _ = list.try_reserve_exact(len);
+    if list.try_reserve_exact(len).is_ok() {
+        // The system provides what is used as a rule now, while the device is at work.
+        list.resize(len / USED, nothing);
+        list.clear();
+    }
     list
 }
 
@@ -116,14 +126,18 @@ impl Region {
         // Memory that is not used costs nothing natively, and lists that need not grow are not copied.
         let room = if cfg!(target_arch = "wasm32") { 0 } else { vertices / 2 };
         // What is outside looks like a tetrahedron that is not there. Nothing depends on it.
-        let mut mesh = Triangulation3::new(with_room(room), with_room(room), infinite);
+        let mut mesh = Triangulation3::new(with_room(room, [0; 4]), with_room(room, [0; 4]), infinite);
         mesh.tetrahedra.push([infinite | state::FREE, infinite, infinite, infinite]);
         mesh.neighbors.push([OUTSIDE; 4]);
         Region {
             mesh,
             incident: parallel::filled(threads, vertices, NO_INDEX),
             complete: Complete::Those(VertexSet::new(vertices)),
-            given: Gathered { tetrahedra: with_room(room), neighbors: with_room(room), slots: with_room(room) },
+            given: Gathered {
+                tetrahedra: with_room(room, [0; 4]),
+                neighbors: with_room(room, [0; 4]),
+                slots: with_room(room, 0),
+            },
             gathers: [0; 2],
         }
     }
@@ -206,28 +220,30 @@ impl Region {
         }
         // What came earlier, if anything, did not know of this.
         let len = if first > 1 { neighbors.len() } else { 0 };
-        let back = parallel::map_ranges(threads, len, |range| {
-            let facets = range.flat_map(|t| (0..4).map(move |k| (neighbors[t][k], (4 * (first + t) + k) as u32)));
+        let back = parallel::joined(parallel::map_ranges(threads, len, |range| {
+            let facets = range.flat_map(|t| (0..4).map(move |k| [neighbors[t][k], (4 * (first + t) + k) as u32]));
             let to_earlier = |across: u32| across >> 2 != OUTSIDE && ((across >> 2) as usize) < first;
-            let earlier = facets.filter(|&(across, _)| to_earlier(across));
-            let fits = |across: u32| mesh.neighbors[across as usize / 4][across as usize % 4] >> 2 == OUTSIDE;
-            earlier.map(|(across, facet)| fits(across).then_some((across, facet))).collect::<Option<Vec<_>>>()
-        });
-        let back = parallel::joined(back.into_iter().collect::<Option<Vec<_>>>().ok_or(DO_NOT_FIT)?);
+            facets.filter(|&[across, _]| to_earlier(across)).collect::<Vec<_>>()
+        }));
+        let all = |mesh: &Triangulation3, is: &(dyn Fn(u32, u32) -> bool + Sync)| {
+            let is = |&[across, facet]: &[u32; 2]| is(mesh.neighbors[across as usize / 4][across as usize % 4], facet);
+            !parallel::map_ranges(threads, back.len(), |range| back[range].iter().all(is)).contains(&false)
+        };
+        if !all(mesh, &|neighbor, _| neighbor >> 2 == OUTSIDE) {
+            return Err(DO_NOT_FIT);
+        }
         for (first, list) in [(0, &mut mesh.neighbors), (1, &mut given.neighbors)] {
             // Every thread looks at all of these, so that it has those of its own.
             let sharing = if back.len() < SHARED_FROM { Threads::One } else { threads };
             parallel::for_parts(sharing, list, |start, part| {
-                for &(across, facet) in &back {
+                for &[across, facet] in &back {
                     if let Some(neighbors) = part.get_mut((across as usize / 4).wrapping_sub(first + start)) {
                         neighbors[across as usize % 4] = facet;
                     }
                 }
             });
         }
-        let is_mutual =
-            |&(across, facet): &(u32, u32)| mesh.neighbors[across as usize / 4][across as usize % 4] == facet;
-        if parallel::map_ranges(threads, back.len(), |range| back[range].iter().all(is_mutual)).contains(&false) {
+        if !all(mesh, &|neighbor, facet| neighbor == facet) {
             return Err(DO_NOT_FIT);
         }
         given.append(first - 1, gathered, threads);
@@ -277,7 +293,7 @@ impl Region {
                 next += 1;
             }
         }
-        let parts = parallel::map_ranges(threads, mesh.tetrahedra.len(), |range| {
+        let parts = parallel::map_grains(threads, mesh.tetrahedra.len(), PATCH_GRAIN, |range| {
             let mut patch = Patch::default();
             for t in range {
                 let (v, across) = (mesh.tetrahedra[t], mesh.neighbors[t]);

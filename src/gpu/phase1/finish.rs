@@ -133,35 +133,6 @@ impl Copied<'_> {
     pub async fn receive<T: Pod>(&mut self, pending: Pending<T>) -> Result<Vec<T>, Error> {
         self.readback.receive(self.gpu, &self.submission, pending).await
     }
-
-    /// Waits for a readback and, if there is one, for that of the elements behind, which the submission or an
-    /// earlier one contains.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`Readback::receive`].
-    pub(crate) async fn receive_both<T: Pod>(
-        &mut self,
-        first: Pending<T>,
-        others: Option<Pending<T>>,
-    ) -> Result<Vec<T>, Error> {
-        #[cfg(not(target_arch = "wasm32"))]
-        {
-            let pending = match others {
-                Some(others) => first.then(others),
-                None => first,
-            };
-            self.receive(pending).await
-        }
-        #[cfg(target_arch = "wasm32")]
-        {
-            let mut list = self.receive(first).await?;
-            if let Some(others) = others {
-                list.extend(self.receive(others).await?);
-            }
-            Ok(list)
-        }
-    }
 }
 
 /// The kernels of the end of Phase 1.
