@@ -705,7 +705,8 @@ where
             needed,
             counters,
             finite,
-            merged: merged.map(|merged| (submission.clone(), merged)),
+            merging: merged.map(|merged| (submission.clone(), merged)),
+            merged: Vec::new(),
             workgroups,
             kernels: self.kernels,
             memory: self.memory,
@@ -733,8 +734,10 @@ where
     pub(crate) counters: Counters,
     /// The number of finite simplices.
     pub(crate) finite: usize,
-    /// Which points are merged into others, if any are.
-    merged: Option<(wgpu::SubmissionIndex, Pending<u32>)>,
+    /// Which points are merged into others, if any are and nobody has asked yet.
+    merging: Option<(wgpu::SubmissionIndex, Pending<u32>)>,
+    /// The same, since somebody has asked.
+    merged: Vec<[u32; 2]>,
     pub(crate) workgroups: u32,
     #[cfg(not(target_arch = "wasm32"))]
     rooms: Rooms<D>,
@@ -781,12 +784,10 @@ where
     ///
     /// Those of [`Run::advance`].
     pub(crate) async fn read_merged(&mut self) -> Result<Vec<[u32; 2]>, Error> {
-        match self.merged.take() {
-            Some((submission, merged)) => {
-                Ok(pairs(self.kernels.readback.receive(self.gpu, &submission, merged).await?))
-            }
-            None => Ok(Vec::new()),
+        if let Some((submission, merged)) = self.merging.take() {
+            self.merged = pairs(self.kernels.readback.receive(self.gpu, &submission, merged).await?);
         }
+        Ok(self.merged.clone())
     }
 
     /// Keeps the buffers for the next run. Returns what this one did.
