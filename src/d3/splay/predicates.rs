@@ -17,7 +17,7 @@ use crate::{
     parallel::{self, Threads},
     predicates::{
         Sign,
-        filter::{PredicateContext, PredicateContext3},
+        filter::{PredicateContext, PredicateContext3, Rows},
     },
 };
 use std::{cell::Cell, ops::Range};
@@ -29,12 +29,14 @@ pub(in crate::d3) struct StarPredicates<'a> {
     /// The vertices of the spanning tetrahedron.
     spanning: [u32; 4],
     evaluations: Cell<u64>,
+    /// Rows of vertices around the first one of the predicates, which stars evaluate at their own.
+    rows: Rows,
 }
 
 impl<'a> StarPredicates<'a> {
     /// Creates the predicates. The four vertices `spanning` must not be coplanar.
     pub(in crate::d3) fn new(context: &'a PredicateContext3<'a>, infinite: u32, spanning: [u32; 4]) -> Self {
-        StarPredicates { context, infinite, spanning, evaluations: Cell::new(0) }
+        StarPredicates { context, infinite, spanning, evaluations: Cell::new(0), rows: Rows::new() }
     }
 
     /// Splits 0 … `len` into ranges of `grain` elements and returns the results of `work` for each,
@@ -83,7 +85,7 @@ impl<'a> StarPredicates<'a> {
     /// infinity with three collinear vertices.
     pub(in crate::d3) fn orient(&self, t: [u32; 4]) -> Sign {
         self.evaluations.set(self.evaluations.get() + 1);
-        let orient = |[a, b, c, d]: [u32; 4]| self.context.orient3d(a, b, c, d);
+        let orient = |t: [u32; 4]| self.context.orient3d_around(&self.rows, t);
         match t.iter().position(|&v| v == self.infinite) {
             None => orient(t),
             Some(k) => {
@@ -102,7 +104,7 @@ impl<'a> StarPredicates<'a> {
             return if t.contains(&e) { -1 } else { -self.infinite_above(t) };
         }
         match t.iter().position(|&v| v == self.infinite) {
-            None => self.context.insphere(t, e),
+            None => self.context.insphere_around(&self.rows, t, e),
             // Exchanging two of the five vertices changes the sign.
             Some(k) => self.infinite_above(replaced(t, k, e)),
         }
@@ -111,11 +113,10 @@ impl<'a> StarPredicates<'a> {
     /// Returns a positive sign if infinity lies above the hyperplane of the positively oriented,
     /// finite `t`. That is always so, except that the lean decides if `t` is flat.
     fn infinite_above(&self, t: [u32; 4]) -> Sign {
-        let [a, b, c, d] = t;
-        match self.context.orient3d(a, b, c, d) {
+        match self.context.orient3d_around(&self.rows, t) {
             0 => {
                 let others = self.spanning.into_iter().filter(|w| !t.contains(w));
-                others.map(|w| self.context.insphere(t, w)).find(|&sign| sign != 0).unwrap_or(0)
+                others.map(|w| self.context.insphere_around(&self.rows, t, w)).find(|&sign| sign != 0).unwrap_or(0)
             }
             sign => sign,
         }

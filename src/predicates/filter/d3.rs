@@ -3,7 +3,11 @@
 use crate::predicates::filter::{
     EPSILON, ERROR_BOUNDS, ExactStage, PredicateContext3, PredicatesAt, UNDERFLOW, greatest, minus,
 };
-use crate::predicates::{Sign, exact, integer, symbolic};
+use crate::{
+    index::NO_INDEX,
+    predicates::{Sign, exact, integer, symbolic},
+};
+use std::cell::Cell;
 
 /// A point lifted to the paraboloid, as a row of the in-sphere determinant: its difference (x, y, z)
 /// to a given vertex, and the square *l* of its distance.
@@ -36,6 +40,51 @@ impl Row {
     #[inline(always)]
     fn pair(&self, k: usize) -> [f64; 2] {
         [self.0[k], self.0[k + 1]]
+    }
+}
+
+/// Rows of the determinants of vertices around another one, computed when they are first needed: a star
+/// evaluates its predicates for few vertices.
+pub(crate) struct Rows {
+    /// The vertex in the middle of the last one that was computed, and where it is.
+    middle: Cell<(u32, [f64; 3])>,
+    /// The vertex in the middle and the other one, for each place.
+    keys: [Cell<[u32; 2]>; PLACES],
+    /// The differences, and the square of the distance.
+    rows: [Cell<[f64; 4]>; PLACES],
+}
+
+/// How many rows there is room for, more than most stars have vertices; a power of two.
+const PLACES: usize = 128;
+
+impl Rows {
+    /// Creates the list without a row.
+    pub(crate) fn new() -> Self {
+        Rows {
+            middle: Cell::new((NO_INDEX, [0.0; 3])),
+            keys: [const { Cell::new([NO_INDEX; 2]) }; PLACES],
+            rows: [const { Cell::new([0.0; 4]) }; PLACES],
+        }
+    }
+
+    /// Returns the row of `v` around the vertex `at`.
+    #[inline(always)]
+    fn row(&self, context: &PredicateContext3<'_>, at: u32, v: u32) -> [f64; 4] {
+        let place = (v.wrapping_mul(0x9e37_79b9) >> (u32::BITS - PLACES.ilog2())) as usize % PLACES;
+        if self.keys[place].get() != [at, v] {
+            self.compute(context, at, v, place);
+        }
+        self.rows[place].get()
+    }
+
+    #[inline(never)]
+    fn compute(&self, context: &PredicateContext3<'_>, at: u32, v: u32, place: usize) {
+        if self.middle.get().0 != at {
+            self.middle.set((at, context.computed(at)));
+        }
+        let p @ [x, y, z] = minus(context.computed(v), self.middle.get().1);
+        self.rows[place].set([x, y, z, lift(p)]);
+        self.keys[place].set([at, v]);
     }
 }
 
@@ -128,6 +177,30 @@ impl PredicateContext3<'_> {
         self.at(d).orient3d(a, b, c)
     }
 
+    /// Returns [`orient3d`](Self::orient3d), from `rows` if coordinates are not stored.
+    #[inline]
+    pub(crate) fn orient3d_around(&self, rows: &Rows, [at, b, c, d]: [u32; 4]) -> Sign {
+        if !self.coordinates.is_empty() {
+            return self.orient3d(at, b, c, d);
+        }
+        let [u, v, w] = [b, c, d].map(|v| {
+            let [x, y, z, _] = rows.row(self, at, v);
+            [x, y, z]
+        });
+        // Four vertices in turn are an odd permutation.
+        -self.orient3d_of([b, c, d, at], u, v, w)
+    }
+
+    /// Returns [`insphere`](Self::insphere), from `rows` if coordinates are not stored.
+    #[inline]
+    pub(crate) fn insphere_around(&self, rows: &Rows, [at, b, c, d]: [u32; 4], e: u32) -> Sign {
+        if !self.coordinates.is_empty() {
+            return self.insphere([at, b, c, d], e);
+        }
+        // Exchanging two vertices changes the sign.
+        -self.insphere_lifted([e, b, c, d, at], [e, b, c, d].map(|v| rows.row(self, at, v)))
+    }
+
     #[inline(never)]
     fn orient3d_computed(&self, vertices: [u32; 4]) -> Sign {
         let [pa, pb, pc, pd] = vertices.map(|v| self.computed(v));
@@ -194,8 +267,15 @@ impl PredicateContext3<'_> {
 
     /// Returns the sign, from the differences to the last vertex.
     #[inline(always)]
-    fn insphere_of(&self, vertices: [u32; 5], [a, b, c, d]: [[f64; 3]; 4]) -> Sign {
-        let lifts = [a, b, c, d].map(lift);
+    fn insphere_of(&self, vertices: [u32; 5], differences: [[f64; 3]; 4]) -> Sign {
+        self.insphere_lifted(vertices, differences.map(|p @ [x, y, z]| [x, y, z, lift(p)]))
+    }
+
+    /// Returns the sign, from the differences to the last vertex and the squares of the distances.
+    #[inline(always)]
+    fn insphere_lifted(&self, vertices: [u32; 5], rows: [[f64; 4]; 4]) -> Sign {
+        let lifts = rows.map(|[_, _, _, l]| l);
+        let [a, b, c, d] = rows.map(|[x, y, z, _]| [x, y, z]);
         let det = insphere_determinant([a, b, c, d], lifts);
         if det.abs() > self.in_sphere_bound || det * det > squared_bound(greatest(lifts)) {
             return if det > 0.0 { 1 } else { -1 };
@@ -361,6 +441,13 @@ mod tests {
             let from_det = if det > 0.0 { 1 } else { -1 };
             prop_assert!(!is_certain || from_det == parity * sign, "{det} for {order:?}, {sign}");
             prop_assert_eq!(here.insphere_again(det, rows.each_ref(), order, 3), parity * sign);
+        }
+        // From rows that are computed when they are needed, around one vertex after another.
+        let (computed, rows) = (PredicateContext3::of_input(points.into(), &lattice), Rows::new());
+        for k in [0, 1, 2, 3, 4, 0] {
+            let [a, b, c, d, e] = [0, 1, 2, 3, 4].map(|i| (i + k) % 5);
+            prop_assert_eq!(computed.orient3d_around(&rows, [a, b, c, d]), computed.orient3d(a, b, c, d));
+            prop_assert_eq!(computed.insphere_around(&rows, [a, b, c, d], e), computed.insphere([a, b, c, d], e));
         }
         // With vertex 4 in the place of its corner k, a tetrahedron is inverted if that is beyond facet k.
         let tetrahedron = if vertices.orient3d(0, 1, 2, 3) > 0 { [0, 1, 2, 3] } else { [1, 0, 2, 3] };

@@ -4,7 +4,7 @@
 mod d2;
 mod d3;
 
-pub(crate) use d3::Row;
+pub(crate) use d3::{Row, Rows};
 
 use crate::{
     input::{
