@@ -296,6 +296,20 @@ impl<T: Send + 'static> Ahead<T> {
     }
 }
 
+/// Does two pieces of work, at the same time if `threads` share them, and returns both results.
+pub(crate) fn both<S: Send, R: Send>(
+    threads: Threads,
+    one: impl FnOnce() -> S + Send,
+    other: impl FnOnce() -> R + Send,
+) -> (S, R) {
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
+    if threads == Threads::All {
+        return rayon::join(one, other);
+    }
+    let _ = threads;
+    (one(), other())
+}
+
 /// Runs `own` in the calling thread and the `others` in threads of the pool, at the same time as
 /// far as these are free, and returns the results.
 pub(crate) fn beside<S, R: Send>(own: impl FnOnce() -> S, others: Vec<impl FnOnce() -> R + Send>) -> (S, Vec<R>) {

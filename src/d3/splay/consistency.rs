@@ -66,7 +66,8 @@ struct Request {
     vertex: u32,
     /// The point whose insertion removes the tetrahedron, or [`NO_INDEX`] to insert its vertices.
     witness: u32,
-    tetrahedron: Key,
+    /// The place of the tetrahedron among those that are unsettled.
+    tetrahedron: u32,
 }
 
 /// What a thread did to the stars that it took.
@@ -106,14 +107,12 @@ impl Splaying {
     ) -> Result<(), Stop> {
         report(0.0)?;
         let batch_len = self.batch_len();
-        let mut entries = Vec::new();
+        let mut results = Vec::new();
         for (i, batch) in failed.chunks(batch_len).enumerate() {
-            let results = self.make_convex(predicates, batch)?;
-            self.adopt(results, &mut entries);
+            results.extend(self.make_convex(predicates, batch)?);
             report(0.5 * (i * batch_len + batch.len()) as f64 / failed.len() as f64)?;
         }
-        self.unsettled = self.ledger.enter(&entries)?;
-        Ok(())
+        Ok(self.adopt(results)?)
     }
 
     /// Makes all stars consistent, as far as the region has the stars that this takes. Returns the
@@ -132,24 +131,26 @@ impl Splaying {
                 self.stats.rounds += 1;
                 self.stats.checks += self.unsettled.len();
                 self.requests = self.requests(predicates)?;
+                let pulled = self.requests.chunk_by(|r, s| r.vertex == s.vertex).map(|requests| requests[0].vertex);
+                let lacking = self.known.region.lacking(pulled.filter(|v| !self.star_of.contains_key(v)));
+                if !lacking.is_empty() {
+                    return Ok(lacking);
+                }
             }
-            let pulled = self.requests.chunk_by(|r, s| r.vertex == s.vertex).map(|requests| requests[0].vertex);
-            let lacking = self.known.region.lacking(pulled.filter(|v| !self.star_of.contains_key(v)));
-            if !lacking.is_empty() {
-                return Ok(lacking);
-            }
-            let mut entries = Vec::new();
+            let mut results = Vec::new();
             let requests = std::mem::take(&mut self.requests);
-            let requests: Vec<&[Request]> = requests.chunk_by(|r, s| r.vertex == s.vertex).collect();
+            let mut requests: Vec<&[Request]> = requests.chunk_by(|r, s| r.vertex == s.vertex).collect();
+            // Stars that are near each other have tetrahedra and points in common.
+            let places = requests.iter().map(|r| self.known.region.incident[r[0].vertex as usize]).collect();
+            parallel::sort_by_keys(self.threads, &mut requests, places);
             for batch in requests.chunks(self.batch_len()) {
-                let results = self.widen_stars(predicates, batch)?;
-                self.adopt(results, &mut entries);
+                results.extend(self.widen_stars(predicates, batch)?);
                 report(self.share)?;
             }
             // Rounds become smaller. Their number is not known, so each counts for a quarter of
             // what is left.
             self.share += (1.0 - self.share) / 4.0;
-            self.unsettled = self.ledger.enter(&entries)?;
+            self.adopt(results)?;
         }
         Ok(Vec::new())
     }
@@ -164,7 +165,7 @@ impl Splaying {
     fn batch_len(&self) -> usize {
         match self.threads {
             Threads::One => 1 << 9,
-            Threads::All => 1 << 12,
+            Threads::All => 1 << 14,
         }
     }
 
@@ -180,25 +181,35 @@ impl Splaying {
         results.into_iter().collect()
     }
 
-    /// Adds the stars, counts what was done, and passes on the entries.
-    fn adopt(&mut self, results: Vec<BatchResult>, entries: &mut Vec<Entries>) {
-        let more = results.iter().map(|result| result.stars.len()).sum();
-        self.stars.reserve(more);
-        self.star_of.reserve(more);
-        for BatchResult { stars, entries: more, insertions } in results {
-            for (star, origin) in stars {
-                match origin {
-                    Origin::Pulled => self.stats.pulled += 1,
-                    Origin::Flipped(flips) => self.stats.flips += flips,
-                    Origin::FromPoints => self.stats.from_points += 1,
-                }
-                self.stats.built += usize::from(origin != Origin::Pulled);
-                self.star_of.insert(star.vertex, self.stars.len() as u32);
-                self.stars.push(Mutex::new(star));
-            }
-            self.stats.insertions += insertions;
-            entries.push(more);
+    /// Adds the stars, counts what was done, and enters what has happened into the ledger, which leaves
+    /// some tetrahedra unsettled.
+    fn adopt(&mut self, results: Vec<BatchResult>) -> Result<(), Aborted> {
+        let (mut new, mut entries) = (Vec::with_capacity(results.len()), Vec::with_capacity(results.len()));
+        for result in results {
+            self.stats.insertions += result.insertions;
+            new.push(result.stars);
+            entries.push(result.entries);
         }
+        let Splaying { ledger, stars, star_of, stats, .. } = self;
+        let enter = || ledger.enter(&entries);
+        let add = || {
+            let more = new.iter().map(Vec::len).sum();
+            stars.reserve(more);
+            star_of.reserve(more);
+            for (star, origin) in new.into_iter().flatten() {
+                match origin {
+                    Origin::Pulled => stats.pulled += 1,
+                    Origin::Flipped(flips) => stats.flips += flips,
+                    Origin::FromPoints => stats.from_points += 1,
+                }
+                stats.built += usize::from(origin != Origin::Pulled);
+                star_of.insert(star.vertex, stars.len() as u32);
+                stars.push(Mutex::new(star));
+            }
+        };
+        self.unsettled = parallel::both(self.threads, add, enter).1?;
+        parallel::dispose(entries);
+        Ok(())
     }
 
     /// Returns the star of a vertex, if it has been built.
@@ -209,10 +220,11 @@ impl Splaying {
 
     /// Returns the requests for all unsettled tetrahedra, sorted by vertex.
     fn requests(&self, predicates: &StarPredicates<'_>) -> Result<Vec<Request>, Aborted> {
-        let unsettled = &self.unsettled;
-        let requests = predicates.shared(self.threads, unsettled.len(), TETRAHEDRON_GRAIN, |predicates, range| {
+        let requests = predicates.shared(self.threads, self.unsettled.len(), TETRAHEDRON_GRAIN, |predicates, range| {
             let mut requests = Vec::new();
-            unsettled[range].iter().try_for_each(|&key| self.add_requests(predicates, key, &mut requests))?;
+            for i in range {
+                self.add_requests(predicates, i as u32, &mut requests)?;
+            }
             Ok(requests)
         });
         let mut requests = requests.into_iter().collect::<Result<Vec<_>, Aborted>>()?.concat();
@@ -225,13 +237,14 @@ impl Splaying {
     fn add_requests(
         &self,
         predicates: &StarPredicates<'_>,
-        key: Key,
+        unsettled: u32,
         requests: &mut Vec<Request>,
     ) -> Result<(), Aborted> {
         const NO_REASON: Aborted = Aborted::Inconsistent("a star lacks a tetrahedron without reason");
+        let key = self.unsettled[unsettled as usize];
         let held = self.ledger.held(key).ok_or(NO_REASON)?;
         let vertices = self.ledger.finite(&key);
-        let request = |vertex: u32, witness| Request { vertex, witness, tetrahedron: key };
+        let request = |vertex: u32, witness| Request { vertex, witness, tetrahedron: unsettled };
         match vertices.iter().find(|&&v| held.never(key, v)) {
             None => {
                 let lacking = vertices.iter().filter(|&&v| !held.has(key, v));
@@ -287,25 +300,27 @@ impl Splaying {
     ) -> Result<usize, Aborted> {
         let mut points = Vec::new();
         for request in requests {
+            let tetrahedron = self.unsettled[request.tetrahedron as usize];
             match request.witness {
                 NO_INDEX => {
-                    points.extend(self.ledger.finite(&request.tetrahedron).iter().filter(|&&p| p != star.vertex));
+                    let others = self.ledger.finite(&tetrahedron).iter().filter(|&&p| p != star.vertex);
+                    points.extend(others.map(|&p| (p, tetrahedron)));
                 }
-                witness => points.push(witness),
+                witness => points.push((witness, tetrahedron)),
             }
         }
         points.sort_unstable();
-        points.dedup();
-        points.retain(|&p| !star.has(p));
+        points.dedup_by_key(|&mut (p, _)| p);
+        points.retain(|&(p, _)| !star.has(p));
         let mut insertions = 0;
-        for &p in &points {
-            if star.insert(predicates, p, changes)? {
+        for &(p, tetrahedron) in &points {
+            if star.insert_near(predicates, p, tetrahedron, changes)? {
                 insertions += 1;
                 entries.extend(Entry::changes(star, &changes.removed, &changes.added));
             }
         }
         let tried = requests.iter().filter(|request| request.witness == NO_INDEX);
-        entries.extend(tried.map(|request| Entry::tried(request.tetrahedron, star.vertex)));
+        entries.extend(tried.map(|request| Entry::tried(self.unsettled[request.tetrahedron as usize], star.vertex)));
         Ok(insertions)
     }
 }

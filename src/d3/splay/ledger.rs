@@ -18,6 +18,9 @@ pub(super) type Key = [u32; 4];
 /// The number of parts of the ledger, each of which is updated by one thread at a time.
 const PARTS: usize = 16;
 
+/// The number of stars that enter a tetrahedron which is new to the ledger, as a rule.
+const STARS: usize = 4;
+
 /// From how many entries on it is worth that threads share them.
 const SHARED_FROM: usize = 1 << 11;
 
@@ -211,6 +214,8 @@ impl Ledger {
         let threads = if len < SHARED_FROM { Threads::One } else { self.threads };
         let results = parallel::map_mut(threads, &mut self.parts, |i, held_by_key| {
             let (mut touched, mut doubles) = (Vec::new(), Vec::new());
+            let len: usize = entries.iter().map(|entries| entries.of_part(i).len()).sum();
+            held_by_key.reserve(len / STARS);
             for entry in entries.iter().flat_map(|entries| entries.of_part(i)) {
                 let key = entry.key;
                 let held = match entry.event {

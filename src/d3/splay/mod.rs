@@ -244,6 +244,9 @@ impl Splay {
         failed.retain(|&v| v != infinite);
         failed.sort_unstable();
         failed.dedup();
+        // Stars that are near each other have tetrahedra and points in common.
+        let places = failed.iter().map(|&v| region.incident[v as usize]).collect();
+        parallel::sort_by_keys(threads, &mut failed, places);
         let mut has_failed = VertexSet::new(infinite as usize);
         failed.iter().for_each(|&v| has_failed.insert(v));
 
@@ -274,7 +277,9 @@ impl Splay {
                 let Known { region, .. } = &mut self.stars.known;
                 let mesh = &mut region.mesh;
                 let filled = patch::patch(mesh, &predicates, terms.threads, &remove, &add, &mut self.free)?;
-                region.note(filled);
+                if !self.missing.is_empty() {
+                    region.note(filled);
+                }
                 (self.stars.stats.removed, self.stars.stats.added) = (remove.len(), add.len());
                 self.is_delaunay = true;
             }

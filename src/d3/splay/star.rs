@@ -16,7 +16,7 @@ use std::collections::hash_map::Entry;
 /// A triangle of a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Triangle {
-    /// Counter-clockwise as seen from outside; the first is [`NO_INDEX`] in an unused slot.
+    /// Counter-clockwise as seen from outside; all are [`NO_INDEX`] in an unused slot.
     pub(super) vertices: [u32; 3],
     /// Entry *k* is across the edge opposite corner *k*: 4·(triangle) + (corner opposite the edge
     /// there).
@@ -35,6 +35,11 @@ impl Triangle {
 
     pub(super) fn is_used(&self) -> bool {
         self.vertices[0] != NO_INDEX
+    }
+
+    /// Returns how many corners it has in common with a tetrahedron, without a branch.
+    fn common(&self, tetrahedron: [u32; 4]) -> u32 {
+        self.vertices.iter().map(|v| tetrahedron.iter().map(|w| u32::from(v == w)).sum::<u32>()).sum()
     }
 }
 
@@ -67,9 +72,32 @@ pub(super) struct Changes {
 pub(super) struct LinkFinder {
     /// The place of each tetrahedron in `around`.
     place: FxHashMap<u32, u32>,
-    /// The tetrahedra, each with its corner at the vertex.
-    around: Vec<(u32, usize)>,
+    around: Vec<Around>,
 }
+
+/// A tetrahedron around a vertex.
+///
+/// All of it is read when it is found, and what it is used for later does not decide branches: so the
+/// processor need not wait for memory, where tetrahedra lie far from each other.
+#[derive(Clone, Copy)]
+struct Around {
+    tetrahedron: u32,
+    /// Its corner at the vertex.
+    corner: u32,
+    vertices: [u32; 4],
+    neighbors: [u32; 4],
+}
+
+/// The place in [`FACETS`]`[k]` of each corner but *k*.
+const PLACES: [[u32; 4]; 4] = {
+    let mut places = [[0; 4]; 4];
+    let mut i = 0;
+    while i < 12 {
+        places[i / 3][FACETS[i / 3][i % 3]] = (i % 3) as u32;
+        i += 1;
+    }
+    places
+};
 
 impl LinkFinder {
     /// Tables larger than this are replaced, because clearing them takes longer than most stars do.
@@ -82,10 +110,13 @@ impl LinkFinder {
         match self.place.entry(t) {
             Entry::Occupied(entry) => Ok(*entry.get()),
             Entry::Vacant(entry) => {
-                let corner = mesh.vertices(t).iter().position(|&v| v == vertex);
-                let corner = corner.ok_or(Aborted::Inconsistent("a link leads to a tetrahedron without its vertex"))?;
+                let vertices = mesh.vertices(t);
+                let corner = (1..4).map(|k| if vertices[k] == vertex { k as u32 } else { 0 }).sum::<u32>() % 4;
+                if vertices[corner as usize] != vertex {
+                    return Err(Aborted::Inconsistent("a link leads to a tetrahedron without its vertex"));
+                }
                 let place = *entry.insert(self.around.len() as u32);
-                self.around.push((t, corner));
+                self.around.push(Around { tetrahedron: t, corner, vertices, neighbors: mesh.neighbors[t as usize] });
                 Ok(place)
             }
         }
@@ -105,16 +136,16 @@ impl LinkFinder {
         self.place.reserve(Self::ROOM);
         self.visit(mesh, start, vertex)?;
         let mut triangles = Vec::with_capacity(Self::ROOM);
-        while let Some(&(t, corner)) = self.around.get(triangles.len()) {
-            let (v, across) = (mesh.vertices(t), mesh.neighbors[t as usize]);
-            let mut triangle = Triangle { tetrahedron: t, ..Triangle::new(FACETS[corner].map(|k| v[k])) };
-            for (neighbor, k) in triangle.neighbors.iter_mut().zip(FACETS[corner]) {
+        while let Some(&Around { tetrahedron, corner, vertices: v, neighbors: across }) =
+            self.around.get(triangles.len())
+        {
+            let facet = FACETS[corner as usize % 4];
+            let mut triangle = Triangle { tetrahedron, ..Triangle::new(facet.map(|k| v[k])) };
+            for (neighbor, k) in triangle.neighbors.iter_mut().zip(facet) {
                 let place = self.visit(mesh, across[k] >> 2, vertex)?;
-                let corner = self.around[place as usize].1;
-                let edge = FACETS[corner].iter().position(|&f| f == (across[k] & 3) as usize);
-                // If it were the corner itself, the facet would not have the vertex, which the
-                // visit rules out.
-                *neighbor = 4 * place + edge.unwrap_or(0) as u32;
+                let corner = self.around[place as usize].corner;
+                // The facet is not opposite the vertex, since it has it.
+                *neighbor = 4 * place + PLACES[corner as usize % 4][across[k] as usize % 4];
             }
             triangles.push(triangle);
         }
@@ -200,15 +231,34 @@ impl Star {
 
     /// Returns whether a vertex is on the link. Faster than a walk to it.
     pub(super) fn has(&self, v: u32) -> bool {
-        self.used().any(|t| t.vertices.contains(&v))
+        self.triangles.iter().any(|t| t.vertices.map(|w| v == w) != [false; 3])
     }
 
     /// Returns a vertex of the link that lies inside the circumsphere of a positively oriented
     /// tetrahedron.
     pub(super) fn witness(&self, predicates: &StarPredicates<'_>, tetrahedron: [u32; 4]) -> Option<u32> {
+        let conflicts = |&v: &u32| !tetrahedron.contains(&v) && predicates.conflict(tetrahedron, v) > 0;
+        // Where the link has an edge of the tetrahedron, the star's facets at that edge have all other points on
+        // one side, so that the apex of one of them is such a vertex.
+        let beside = self.used().filter(|t| t.common(tetrahedron) == 2);
+        if let Some(v) = beside.flat_map(|t| t.vertices).find(conflicts) {
+            return Some(v);
+        }
         // Most vertices are the first corner of some triangle.
-        let corners = (0..3).flat_map(|k| self.used().map(move |t| t.vertices[k]));
-        corners.filter(|v| !tetrahedron.contains(v)).find(|&v| predicates.conflict(tetrahedron, v) > 0)
+        let mut corners = (0..3).flat_map(|k| self.used().map(move |t| t.vertices[k]));
+        corners.find(conflicts)
+    }
+
+    /// Returns a triangle of the link that has most corners in common with a tetrahedron.
+    fn nearest(&self, tetrahedron: [u32; 4]) -> u32 {
+        let (mut nearest, mut most) = (self.recent, 0);
+        for (t, triangle) in (0..).zip(&self.triangles) {
+            let common = triangle.common(tetrahedron);
+            if common > most {
+                (nearest, most) = (t, common);
+            }
+        }
+        nearest
     }
 
     /// Adds the point `p` to the star; `changes` says how. Returns `false` if `p` is already a
@@ -225,6 +275,24 @@ impl Star {
             None => Ok(false),
             Some(start) => self.insert_from(predicates, p, start, changes).map(|()| true),
         }
+    }
+
+    /// Adds the point `p` as [`insert`](Self::insert) does. `p` is one of the vertices of `tetrahedron`, or
+    /// inside its circumsphere: so the triangle that has most of its vertices is tried before a walk.
+    pub(super) fn insert_near(
+        &mut self,
+        predicates: &StarPredicates<'_>,
+        p: u32,
+        tetrahedron: [u32; 4],
+        changes: &mut Changes,
+    ) -> Result<bool, Aborted> {
+        self.recent = self.nearest(tetrahedron);
+        if !self.sees(predicates, p, self.recent) {
+            return self.insert(predicates, p, changes);
+        }
+        changes.removed.clear();
+        changes.added.clear();
+        self.insert_from(predicates, p, self.recent, changes).map(|()| true)
     }
 
     /// Returns whether `p` sees a triangle from outside, that is, lies inside the circumsphere of
@@ -356,7 +424,7 @@ impl Star {
 
     /// Marks the slot of triangle `t` as unused.
     pub(super) fn release(&mut self, t: u32) {
-        self.triangles[t as usize].vertices[0] = NO_INDEX;
+        self.triangles[t as usize].vertices = [NO_INDEX; 3];
         self.free.push(t);
     }
 
