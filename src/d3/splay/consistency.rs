@@ -141,8 +141,10 @@ impl Splaying {
             let requests = std::mem::take(&mut self.requests);
             let mut requests: Vec<&[Request]> = requests.chunk_by(|r, s| r.vertex == s.vertex).collect();
             // Stars that are near each other have tetrahedra and points in common.
-            let places = requests.iter().map(|r| self.known.region.incident[r[0].vertex as usize]).collect();
-            parallel::sort_by_keys(self.threads, &mut requests, places);
+            if cfg!(not(target_arch = "wasm32")) {
+                let places = requests.iter().map(|r| self.known.region.incident[r[0].vertex as usize]).collect();
+                parallel::sort_by_keys(self.threads, &mut requests, places);
+            }
             for batch in requests.chunks(self.batch_len()) {
                 results.extend(self.widen_stars(predicates, batch)?);
                 report(self.share)?;
@@ -298,23 +300,27 @@ impl Splaying {
         changes: &mut Changes,
         entries: &mut Vec<Entry>,
     ) -> Result<usize, Aborted> {
-        let mut points = Vec::new();
-        for request in requests {
+        // Each with the request that it comes from, in the lower half.
+        let mut points: Vec<u64> = Vec::new();
+        let entry = |p: u32, i: usize| u64::from(p) << 32 | i as u64;
+        for (i, request) in requests.iter().enumerate() {
             let tetrahedron = self.unsettled[request.tetrahedron as usize];
             match request.witness {
                 NO_INDEX => {
                     let others = self.ledger.finite(&tetrahedron).iter().filter(|&&p| p != star.vertex);
-                    points.extend(others.map(|&p| (p, tetrahedron)));
+                    points.extend(others.map(|&p| entry(p, i)));
                 }
-                witness => points.push((witness, tetrahedron)),
+                witness => points.push(entry(witness, i)),
             }
         }
-        points.sort_unstable();
-        points.dedup_by_key(|&mut (p, _)| p);
-        points.retain(|&(p, _)| !star.has(p));
+        // Nothing may depend on the order of the requests, which differs with the threads.
+        let tetrahedron = |entry: u64| self.unsettled[requests[entry as u32 as usize].tetrahedron as usize];
+        parallel::sort_indirectly(&mut points, &|a, b| (a >> 32, tetrahedron(a)).cmp(&(b >> 32, tetrahedron(b))));
+        points.dedup_by_key(|&mut entry| entry >> 32);
+        points.retain(|&entry| !star.has((entry >> 32) as u32));
         let mut insertions = 0;
-        for &(p, tetrahedron) in &points {
-            if star.insert_near(predicates, p, tetrahedron, changes)? {
+        for &entry in &points {
+            if star.insert_near(predicates, (entry >> 32) as u32, tetrahedron(entry), changes)? {
                 insertions += 1;
                 entries.extend(Entry::changes(star, &changes.removed, &changes.added));
             }

@@ -57,6 +57,10 @@ pub(crate) struct Rows {
 /// How many rows there is room for, more than most stars have vertices; a power of two.
 const PLACES: usize = 128;
 
+/// Whether coordinates that are stored are used without rows. The splaying of a module with the GPU backend,
+/// whose size is limited, has none that are stored.
+const STORES: bool = !cfg!(all(target_arch = "wasm32", feature = "gpu"));
+
 impl Rows {
     /// Creates the list without a row.
     pub(crate) fn new() -> Self {
@@ -68,7 +72,8 @@ impl Rows {
     }
 
     /// Returns the row of `v` around the vertex `at`.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
     fn row(&self, context: &PredicateContext3<'_>, at: u32, v: u32) -> [f64; 4] {
         let place = (v.wrapping_mul(0x9e37_79b9) >> (u32::BITS - PLACES.ilog2())) as usize % PLACES;
         if self.keys[place].get() != [at, v] {
@@ -80,9 +85,9 @@ impl Rows {
     #[inline(never)]
     fn compute(&self, context: &PredicateContext3<'_>, at: u32, v: u32, place: usize) {
         if self.middle.get().0 != at {
-            self.middle.set((at, context.computed(at)));
+            self.middle.set((at, context.coordinate(at)));
         }
-        let p @ [x, y, z] = minus(context.computed(v), self.middle.get().1);
+        let p @ [x, y, z] = minus(context.coordinate(v), self.middle.get().1);
         self.rows[place].set([x, y, z, lift(p)]);
         self.keys[place].set([at, v]);
     }
@@ -178,9 +183,9 @@ impl PredicateContext3<'_> {
     }
 
     /// Returns [`orient3d`](Self::orient3d), from `rows` if coordinates are not stored.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn orient3d_around(&self, rows: &Rows, [at, b, c, d]: [u32; 4]) -> Sign {
-        if !self.coordinates.is_empty() {
+        if STORES && !self.coordinates.is_empty() {
             return self.orient3d(at, b, c, d);
         }
         let [u, v, w] = [b, c, d].map(|v| {
@@ -192,9 +197,9 @@ impl PredicateContext3<'_> {
     }
 
     /// Returns [`insphere`](Self::insphere), from `rows` if coordinates are not stored.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn insphere_around(&self, rows: &Rows, [at, b, c, d]: [u32; 4], e: u32) -> Sign {
-        if !self.coordinates.is_empty() {
+        if STORES && !self.coordinates.is_empty() {
             return self.insphere([at, b, c, d], e);
         }
         // Exchanging two vertices changes the sign.
