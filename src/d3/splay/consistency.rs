@@ -131,8 +131,8 @@ impl Splaying {
                 self.stats.rounds += 1;
                 self.stats.checks += self.unsettled.len();
                 self.requests = self.requests(predicates)?;
-                let pulled = self.requests.chunk_by(|r, s| r.vertex == s.vertex).map(|requests| requests[0].vertex);
-                let lacking = self.known.region.lacking(pulled.filter(|v| !self.star_of.contains_key(v)));
+                let wanted = self.requests.chunk_by(|r, s| r.vertex == s.vertex).map(|requests| requests[0].vertex);
+                let lacking = self.known.region.lacking(wanted);
                 if !lacking.is_empty() {
                     return Ok(lacking);
                 }
@@ -178,7 +178,7 @@ impl Splaying {
                 let (mut links, mut entries) = (LinkFinder::default(), Vec::new());
                 let star = |&v: &u32| self.known.convex_star(predicates, &mut links, v, &mut entries);
                 let stars = vertices[range].iter().map(star).collect::<Result<Vec<_>, _>>()?;
-                Ok(BatchResult { stars, entries: self.ledger.sorted(entries), insertions: 0 })
+                Ok(BatchResult { stars, entries: Ledger::sorted(entries), insertions: 0 })
             });
         results.into_iter().collect()
     }
@@ -286,7 +286,7 @@ impl Splaying {
                         }
                     }
                 }
-                Ok(BatchResult { stars, entries: self.ledger.sorted(entries), insertions })
+                Ok(BatchResult { stars, entries: Ledger::sorted(entries), insertions })
             });
         results.into_iter().collect()
     }
@@ -313,14 +313,13 @@ impl Splaying {
                 witness => points.push(entry(witness, i)),
             }
         }
-        // Nothing may depend on the order of the requests, which differs with the threads.
-        let tetrahedron = |entry: u64| self.unsettled[requests[entry as u32 as usize].tetrahedron as usize];
-        parallel::sort_indirectly(&mut points, &|a, b| (a >> 32, tetrahedron(a)).cmp(&(b >> 32, tetrahedron(b))));
+        parallel::sort_keyed(Threads::One, &mut points);
         points.dedup_by_key(|&mut entry| entry >> 32);
         points.retain(|&entry| !star.has((entry >> 32) as u32));
         let mut insertions = 0;
         for &entry in &points {
-            if star.insert_near(predicates, (entry >> 32) as u32, tetrahedron(entry), changes)? {
+            let tetrahedron = self.unsettled[requests[entry as u32 as usize].tetrahedron as usize];
+            if star.insert_near(predicates, (entry >> 32) as u32, tetrahedron, changes)? {
                 insertions += 1;
                 entries.extend(Entry::changes(star, &changes.removed, &changes.added));
             }

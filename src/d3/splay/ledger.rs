@@ -15,7 +15,8 @@ use rustc_hash::FxHashMap;
 /// the same vertices in the stars.
 pub(super) type Key = [u32; 4];
 
-/// The number of parts of the ledger, each of which is updated by one thread at a time.
+/// The number of parts of the ledger, each of which is updated by one thread at a time. As many in any case: what
+/// is unsettled is in their order, and nothing may depend on the number of threads.
 const PARTS: usize = 16;
 
 /// The number of stars that enter a tetrahedron which is new to the ledger, as a rule.
@@ -165,16 +166,12 @@ impl Entry {
 impl Ledger {
     /// Creates an empty ledger.
     pub(super) fn new(infinite: u32, threads: Threads) -> Self {
-        let parts = match threads {
-            Threads::One => 1,
-            Threads::All => PARTS,
-        };
-        Ledger { parts: vec![FxHashMap::default(); parts], doubles: Vec::new(), infinite, threads }
+        Ledger { parts: vec![FxHashMap::default(); PARTS], doubles: Vec::new(), infinite, threads }
     }
 
     /// Returns which stars have a tetrahedron, if it was entered.
     pub(super) fn held(&self, key: Key) -> Option<&Held> {
-        self.parts[part(key, self.parts.len())].get(&key)
+        self.parts[part(key)].get(&key)
     }
 
     /// Returns the finite vertices of a tetrahedron. Infinity, which has the highest number, is the
@@ -184,22 +181,17 @@ impl Ledger {
     }
 
     /// Groups entries for [`Ledger::enter`].
-    pub(super) fn sorted(&self, entries: Vec<Entry>) -> Entries {
-        let count = self.parts.len();
+    pub(super) fn sorted(entries: Vec<Entry>) -> Entries {
         let mut ends = [0; PARTS];
-        if count == 1 {
-            ends[0] = entries.len() as u32;
-            return Entries { sorted: entries, ends };
-        }
         // A stable counting sort.
-        entries.iter().for_each(|entry| ends[part(entry.key, count)] += 1);
+        entries.iter().for_each(|entry| ends[part(entry.key)] += 1);
         let mut place = 0;
         for end in &mut ends {
             place += std::mem::replace(end, place);
         }
         let mut sorted = entries.clone();
         for entry in entries {
-            let place = &mut ends[part(entry.key, count)];
+            let place = &mut ends[part(entry.key)];
             sorted[*place as usize] = entry;
             *place += 1;
         }
@@ -292,8 +284,8 @@ fn all(key: Key, infinite: u32) -> u8 {
 }
 
 /// Returns the part of the ledger to which a tetrahedron belongs.
-fn part(key: Key, parts: usize) -> usize {
-    (mixed(&key) >> 16) as usize % parts
+fn part(key: Key) -> usize {
+    (mixed(&key) >> 16) as usize % PARTS
 }
 
 /// Returns a number that differs for most lists of vertices.
