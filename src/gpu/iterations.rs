@@ -21,6 +21,9 @@ const EXACT_EVERY: [(u32, u64); 3] = [(8, 1024), (4, 16), (2, 3)];
 /// In every how many iterations exact checks follow when nothing is known.
 const FIRST_EXACT_EVERY: u32 = 4;
 
+/// The number of rounds of which the next run is to know. Most runs have about ten.
+const ROUNDS: usize = 32;
+
 /// How many more to record than the same round of the run before needed.
 const REPEATED_MARGIN: u32 = 1;
 /// A run repeats the one before while the points that are inserted differ by at most one in so many.
@@ -39,65 +42,26 @@ pub(crate) struct Iterations {
     /// What this run has needed so far.
     needed: Needed,
     /// What the run before needed, as long as this one repeats it.
-    before: Option<Needed>,
+    before: Needed,
 }
 
-/// What a run needed, for the next one of as many points: as a rule, these lie alike. In WebAssembly nothing is
-/// kept: the package is as large as it may be without.
-#[derive(Debug, Clone, Default)]
+/// What a run needed, for the next one of as many points: as a rule, these lie alike.
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Needed {
-    /// The points that were inserted by the end of each round, and the iterations that it needed.
-    #[cfg(not(target_arch = "wasm32"))]
-    rounds: Vec<[u32; 2]>,
-    /// In every how many iterations exact checks followed the filter after the first round.
-    #[cfg(not(target_arch = "wasm32"))]
-    exact_every: Option<u32>,
+    /// The number of points.
+    pub(crate) points: u32,
+    /// In every how many iterations exact checks followed the filter after the first round; 0 if that is not known.
+    exact_every: u32,
+    /// How many rounds there were.
+    len: usize,
+    /// The points that were inserted by the end of each of the first rounds, and the iterations that it needed.
+    rounds: [[u32; 2]; ROUNDS],
 }
 
-#[cfg(not(target_arch = "wasm32"))]
 impl Needed {
-    /// Adds a round, by the points that were inserted by its end and the iterations that it needed.
-    fn add(&mut self, inserted: u32, needed: u32) {
-        self.rounds.push([inserted, needed]);
-    }
-
-    /// Returns the same of a round of this number, if there was one.
-    fn of_round(&self, round: usize) -> Option<[u32; 2]> {
-        self.rounds.get(round).copied()
-    }
-
-    /// Returns the number of rounds.
-    fn len(&self) -> usize {
-        self.rounds.len()
-    }
-
-    /// Keeps how often exact checks follow the filter, if it is the first time.
-    fn keep_exact_every(&mut self, exact_every: u32) {
-        self.exact_every.get_or_insert(exact_every);
-    }
-
-    /// Returns how often exact checks followed the filter after the first round.
-    fn exact_every(&self) -> Option<u32> {
-        self.exact_every
-    }
-}
-
-#[cfg(target_arch = "wasm32")]
-impl Needed {
-    fn add(&mut self, _inserted: u32, _needed: u32) {}
-
-    fn of_round(&self, _round: usize) -> Option<[u32; 2]> {
-        None
-    }
-
-    fn len(&self) -> usize {
-        0
-    }
-
-    fn keep_exact_every(&mut self, _exact_every: u32) {}
-
-    fn exact_every(&self) -> Option<u32> {
-        None
+    /// Returns what is known of a round.
+    fn round(&self, round: usize) -> Option<[u32; 2]> {
+        (round < self.len).then(|| self.rounds.get(round).copied())?
     }
 }
 
@@ -144,14 +108,14 @@ impl Known {
 impl Iterations {
     /// Creates the plan of a run's first round by what the run before needed, or with `first` iterations
     /// if there was none of as many points.
-    pub(crate) fn new(first: u32, before: Option<Needed>) -> Self {
-        let exact_every = before.as_ref().and_then(Needed::exact_every).unwrap_or(FIRST_EXACT_EVERY);
+    pub(crate) fn new(first: u32, before: Needed) -> Self {
+        let exact_every = if before.exact_every == 0 { FIRST_EXACT_EVERY } else { before.exact_every };
         Iterations { first, planned: first, exact_every, needed: Needed::default(), before }
     }
 
-    /// Takes what the run has needed.
-    pub(crate) fn take_needed(&mut self) -> Needed {
-        std::mem::take(&mut self.needed)
+    /// Returns what the run has needed, of so many points.
+    pub(crate) fn needed(&self, points: u32) -> Needed {
+        Needed { points, ..self.needed }
     }
 
     /// Plans a round by the one before the last one.
@@ -160,10 +124,13 @@ impl Iterations {
         // A round that took all of its iterations has left flips to the next one.
         let needed = if used >= recorded { used + used / 4 } else { used };
         let repeats = |[before, _]: [u32; 2]| before.abs_diff(inserted) <= before / SAME_SHARE;
-        if !self.before(self.needed.len()).is_some_and(repeats) {
-            self.before = None;
+        if !self.before.round(self.needed.len).is_some_and(repeats) {
+            self.before.len = 0;
         }
-        self.needed.add(inserted, needed);
+        if let Some(round) = self.needed.rounds.get_mut(self.needed.len) {
+            *round = [inserted, needed];
+        }
+        self.needed.len += 1;
         let wanted = match waiting {
             _ if recorded == 0 => self.planned.max(MIN_PLANNED),
             _ if is_few => 0,
@@ -180,22 +147,18 @@ impl Iterations {
         let (exact, visits) = (u64::from(exact), u64::from(visits));
         self.exact_every =
             EXACT_EVERY.iter().find(|(_, for_one)| exact * for_one <= visits).map_or(1, |&(every, _)| every);
-        self.needed.keep_exact_every(self.exact_every);
+        if self.needed.exact_every == 0 {
+            self.needed.exact_every = self.exact_every;
+        }
     }
 
     /// Returns how many iterations to record for a round, by its number.
     pub(crate) fn planned(&self, round: u32) -> u32 {
-        match self.before(round as usize) {
+        match self.before.round(round as usize) {
             Some([_, 0]) => 0,
             Some([_, needed]) => (needed + REPEATED_MARGIN).min(MAX_PLANNED),
             None => self.planned,
         }
-    }
-
-    /// Returns the points inserted by the end of a round of the run before, and the iterations that it
-    /// needed, as long as this run repeats it.
-    fn before(&self, round: usize) -> Option<[u32; 2]> {
-        self.before.as_ref()?.of_round(round)
     }
 
     /// Returns in every how many iterations exact checks follow the filter; only 3D has them apart.
@@ -274,7 +237,7 @@ mod tests {
     #[test]
     fn planned_iterations_are_those_that_rounds_take() {
         for (name, points, mut inserted, rounds) in MEASURED {
-            let mut iterations = Iterations::new(Dimension::<3>::FIRST_ITERATIONS, None);
+            let mut iterations = Iterations::new(Dimension::<3>::FIRST_ITERATIONS, Needed::default());
             // The next round is recorded before the last one is known.
             let mut recorded = iterations.planned(0);
             let (mut lacking, mut idle) = (0, 0);
@@ -317,20 +280,20 @@ mod tests {
         let first = Dimension::<3>::FIRST_ITERATIONS;
         for (name, points, inserted, rounds) in MEASURED {
             let needed: Vec<u32> = rounds.iter().map(|&(_, needed)| needed).collect();
-            let mut before = None;
+            let mut before = Needed::default();
             for _ in 0..4 {
                 let mut iterations = Iterations::new(first, before);
                 recorded(&mut iterations, points, inserted, rounds);
-                before = Some(iterations.take_needed());
+                before = iterations.needed(points);
             }
-            let repeated = recorded(&mut Iterations::new(first, before.clone()), points, inserted, rounds);
+            let repeated = recorded(&mut Iterations::new(first, before), points, inserted, rounds);
             let margins: Vec<u32> = repeated.iter().zip(&needed).map(|(repeated, needed)| repeated - needed).collect();
             assert!(margins.iter().all(|&margin| margin == REPEATED_MARGIN), "{name}: {margins:?} more than needed");
 
             let (other, points, inserted, rounds) = MEASURED[0];
             let mut after = Iterations::new(first, before);
             recorded(&mut after, points, inserted, &rounds[..1]);
-            assert_eq!(after.before.is_some(), name == other, "{other} after {name}");
+            assert_eq!(after.before.len > 0, name == other, "{other} after {name}");
         }
     }
 }

@@ -87,7 +87,7 @@ fn along_curve<const D: usize>(
     parallel::for_chunks(threads, &mut keyed, |start, chunk| {
         chunk.iter_mut().zip(start as u32..).for_each(|(entry, i)| *entry = key(i, 0));
     });
-    parallel::sort(threads, &mut keyed);
+    parallel::sort_keyed(threads, &mut keyed);
     let mut parts = parts(threads, &mut keyed);
     let duplicates = parallel::map_mut(threads, &mut parts, |_, part| sort_runs(points, part, bits, key_bits, key));
     for &[duplicate, first] in duplicates.iter().flatten() {

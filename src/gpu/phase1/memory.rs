@@ -33,8 +33,8 @@ where
 {
     pub(crate) points: Option<PointBuffers>,
     pub(crate) memory: Option<Memory<D>>,
-    /// The number of points of the last run that inserted them, and the flip iterations that it needed.
-    pub(crate) needed: Option<(u32, Needed)>,
+    /// The flip iterations that the last run that inserted points needed.
+    pub(crate) needed: Needed,
 }
 
 impl<const D: usize> Default for Kept<D>
@@ -42,7 +42,7 @@ where
     Dimension<D>: Finish<D>,
 {
     fn default() -> Self {
-        Kept { points: None, memory: None, needed: None }
+        Kept { points: None, memory: None, needed: Needed::default() }
     }
 }
 

@@ -95,7 +95,7 @@ where
     rounds_before_growth: u32,
     iterations: Iterations,
     /// What the run before that inserted as many points needed.
-    before: Option<Needed>,
+    before: Needed,
     /// Memory for the simplices and their neighbours, if the host is to have them.
     #[cfg(not(target_arch = "wasm32"))]
     rooms: Rooms<D>,
@@ -221,7 +221,7 @@ where
         let history = wanted.clamp(MIN_HISTORY, bindable.max(MIN_HISTORY)) as u32;
         // What is kept is lost if the run fails.
         let Kept { points: mut point_buffers, memory: kept, needed } = std::mem::take(&mut kernels.kept);
-        let before = needed.filter(|(of, _)| *of == points).map(|(_, needed)| needed);
+        let before = if needed.points == points { needed } else { Needed::default() };
         let Input { points: input, lattice, start: first, starts_later } = input;
         let start_points = settings.start_points(count);
         let triangulate = || match starts_later {
@@ -286,7 +286,7 @@ where
             has_moved: false,
             rounds_submitted: 0,
             rounds_before_growth: 0,
-            iterations: Iterations::new(Dimension::<D>::FIRST_ITERATIONS, before.clone()),
+            iterations: Iterations::new(Dimension::<D>::FIRST_ITERATIONS, before),
             before,
             #[cfg(not(target_arch = "wasm32"))]
             rooms: [None, None],
@@ -388,7 +388,7 @@ where
             })
             .await?;
         self.has_moved = true;
-        self.iterations = Iterations::new(MOVED_ITERATIONS, None);
+        self.iterations = Iterations::new(MOVED_ITERATIONS, Needed::default());
         self.inserted_at_most = self.params.infinite;
         self.stats.start_points = 0;
         if flips_at_once {
@@ -423,7 +423,7 @@ where
         };
         let long_walks = self.counters.long_walks;
         self.counters = Counters { long_walks, ..first_counters(self.params.infinite) };
-        self.iterations = Iterations::new(Dimension::<D>::FIRST_ITERATIONS, self.before.clone());
+        self.iterations = Iterations::new(Dimension::<D>::FIRST_ITERATIONS, self.before);
         self.submitted.clear();
         (self.rounds_submitted, self.rounds_before_growth) = (0, 0);
         self.inserted_at_most = self.params.start_points;
@@ -622,18 +622,14 @@ where
         Ok(())
     }
 
-    /// Takes what the next run that inserts as many points is to know.
-    fn needed(&mut self) -> Option<(u32, Needed)> {
-        let needed = match self.has_moved {
-            true => self.before.take()?,
-            false => self.iterations.take_needed(),
-        };
-        Some((self.params.infinite, needed))
+    /// Returns what the next run that inserts as many points is to know.
+    fn needed(&self) -> Needed {
+        if self.has_moved { self.before } else { self.iterations.needed(self.params.infinite) }
     }
 
     /// Ends the run without a mesh, and keeps its buffers for the next one. Returns what it did as
     /// far as that is known.
-    pub fn abandon(mut self) -> Phase1Stats {
+    pub fn abandon(self) -> Phase1Stats {
         let needed = self.needed();
         let Run { kernels, points, memory, read_before, counters, mut stats, mut clock, .. } = self;
         stats.time = clock.lap();
@@ -730,7 +726,7 @@ where
     pub(crate) gpu: &'a Gpu,
     pub(crate) memory: Memory<D>,
     points: Option<PointBuffers>,
-    needed: Option<(u32, Needed)>,
+    needed: Needed,
     pub(crate) counters: Counters,
     /// The number of finite simplices.
     pub(crate) finite: usize,
