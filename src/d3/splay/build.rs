@@ -3,11 +3,11 @@
 use crate::d3::splay::{
     Aborted,
     flip_flop::flip_flop,
+    index_set::IndexSet,
     ledger::Entry,
     predicates::StarPredicates,
     region::Region,
     star::{Changes, LinkFinder, Star, Triangle},
-    vertex_set::VertexSet,
 };
 use crate::{
     index::NO_INDEX,
@@ -18,11 +18,11 @@ use crate::{
 pub(super) struct Known {
     pub(super) region: Region,
     /// The vertices of tetrahedra and facets that have failed.
-    pub(super) failed: VertexSet,
+    pub(super) failed: IndexSet,
     /// The finite tetrahedra that are not positively oriented, ascending.
     pub(super) inverted: Vec<u32>,
     /// Their vertices.
-    pub(super) inverted_at: VertexSet,
+    pub(super) inverted_at: IndexSet,
 }
 
 /// How a star was made convex.

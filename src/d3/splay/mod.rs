@@ -13,6 +13,7 @@
 mod build;
 mod consistency;
 mod flip_flop;
+mod index_set;
 mod insert;
 mod ledger;
 mod patch;
@@ -20,7 +21,6 @@ mod peel;
 pub(in crate::d3) mod predicates;
 mod region;
 mod star;
-mod vertex_set;
 
 use crate::{
     d3::triangulation::{Triangulation3, state},
@@ -32,9 +32,9 @@ use crate::{
 };
 use build::Known;
 use consistency::Splaying;
+pub(in crate::d3) use index_set::IndexSet;
 use predicates::StarPredicates;
 pub use region::{Gathered, INCIDENT_SHIFT, KEEP, Patch, Region, SLOT};
-use vertex_set::VertexSet;
 
 /// The result of Phase 1: a triangulation that is nearly Delaunay, and where it may not be.
 /// A tetrahedron that is not `uncertain` is taken to be positively oriented, and its facets to be
@@ -249,10 +249,10 @@ impl Splay {
             let places = failed.iter().map(|&v| region.incident[v as usize]).collect();
             parallel::sort_by_keys(threads, &mut failed, places);
         }
-        let mut has_failed = VertexSet::new(infinite as usize);
+        let mut has_failed = IndexSet::new(infinite as usize);
         failed.iter().for_each(|&v| has_failed.insert(v));
 
-        let mut inverted_at = VertexSet::new(infinite as usize);
+        let mut inverted_at = IndexSet::new(infinite as usize);
         let corners = inverted.iter().flat_map(|&t| region.mesh.vertices(t));
         corners.filter(|&v| v != infinite).for_each(|v| inverted_at.insert(v));
         let stars = Splaying::new(Known { region, failed: has_failed, inverted, inverted_at }, threads);

@@ -7,7 +7,7 @@
 
 use crate::{
     d3::{
-        splay::{Aborted, vertex_set::VertexSet},
+        splay::{Aborted, index_set::IndexSet},
         triangulation::{Triangulation3, state},
     },
     index::NO_INDEX,
@@ -115,7 +115,7 @@ pub struct Region {
 #[derive(Debug, Clone)]
 enum Complete {
     All,
-    Those(VertexSet),
+    Those(IndexSet),
 }
 
 impl Region {
@@ -132,7 +132,7 @@ impl Region {
         Region {
             mesh,
             incident: parallel::filled(threads, vertices, NO_INDEX),
-            complete: Complete::Those(VertexSet::new(vertices)),
+            complete: Complete::Those(IndexSet::new(vertices)),
             given: Gathered {
                 tetrahedra: with_room(room, [0; 4]),
                 neighbors: with_room(room, [0; 4]),
@@ -210,6 +210,10 @@ impl Region {
         parallel::extend(threads, &mut mesh.neighbors, neighbors);
         for ((t, v), word) in (first as u32..).zip(tetrahedra).zip(slots) {
             let of = *word >> INCIDENT_SHIFT;
+            // Most are the tetrahedron of no vertex.
+            if of == 0 {
+                continue;
+            }
             *word &= SLOT;
             for (_, &v) in v.iter().enumerate().filter(|(k, _)| of >> k & 1 != 0) {
                 // There is none of infinity.

@@ -269,12 +269,8 @@ impl Star {
         p: u32,
         changes: &mut Changes,
     ) -> Result<bool, Aborted> {
-        changes.removed.clear();
-        changes.added.clear();
-        match self.locate(predicates, p) {
-            None => Ok(false),
-            Some(start) => self.insert_from(predicates, p, start, changes).map(|()| true),
-        }
+        let start = self.locate(predicates, p);
+        self.insert_seen(predicates, p, start, changes)
     }
 
     /// Adds the point `p` as [`insert`](Self::insert) does. `p` is one of the vertices of `tetrahedron`, or
@@ -287,12 +283,25 @@ impl Star {
         changes: &mut Changes,
     ) -> Result<bool, Aborted> {
         self.recent = self.nearest(tetrahedron);
-        if !self.sees(predicates, p, self.recent) {
-            return self.insert(predicates, p, changes);
-        }
+        let sees = self.sees(predicates, p, self.recent);
+        let start = if sees { Some(self.recent) } else { self.locate(predicates, p) };
+        self.insert_seen(predicates, p, start, changes)
+    }
+
+    /// Adds the point `p`, which sees the triangle `start`, or none.
+    fn insert_seen(
+        &mut self,
+        predicates: &StarPredicates<'_>,
+        p: u32,
+        start: Option<u32>,
+        changes: &mut Changes,
+    ) -> Result<bool, Aborted> {
         changes.removed.clear();
         changes.added.clear();
-        self.insert_from(predicates, p, self.recent, changes).map(|()| true)
+        match start {
+            None => Ok(false),
+            Some(start) => self.insert_from(predicates, p, start, changes).map(|()| true),
+        }
     }
 
     /// Returns whether `p` sees a triangle from outside, that is, lies inside the circumsphere of
