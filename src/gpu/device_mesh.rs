@@ -482,7 +482,8 @@ macro_rules! reading {
             /// Returns the errors of `read`.
             pub async fn read_into_async(&self, outputs: Outputs, mesh: &mut crate::$mesh) -> Result<(), Error> {
                 self.read_arrays(outputs, mesh).await?;
-                mesh.set_input(self.duplicate_of.clone(), self.dimension);
+                mesh.duplicate_of.clone_from(&self.duplicate_of);
+                mesh.dimension = self.dimension;
                 Ok(())
             }
         }
