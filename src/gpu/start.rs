@@ -16,10 +16,6 @@ use crate::options::Options;
 use crate::parallel::Threads;
 use crate::predicates::filter::PredicateContext;
 
-/// Whether the start may have points that are rounded to the lattice. The package is as large as it may be
-/// without the check that they need.
-const CHECKS_ROUNDED: bool = cfg!(not(target_arch = "wasm32"));
-
 /// The first simplex, and a point inside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Start<const D: usize>
@@ -169,8 +165,7 @@ impl StartMesh {
         Dimension<D>: Dim<D>,
     {
         let first = start.first.as_ref();
-        let is_exact = |&i: &u32| lattice.coordinates(points.get(i as usize)).iter().all(|c| c.exact);
-        if wanted <= first.len() || !(CHECKS_ROUNDED || first.iter().all(is_exact)) {
+        if wanted <= first.len() {
             return None;
         }
         let wanted = (wanted - first.len()).min(points.len());
@@ -183,7 +178,6 @@ impl StartMesh {
         }));
         sample.sort_unstable();
         sample.dedup();
-        sample.retain(|i| CHECKS_ROUNDED || is_exact(i));
         let Triangulated { triangulation, vertices } = match points {
             Points::F32(p) => triangulate_few(Points::F32(&taken(p, &sample))),
             Points::F64(p) => triangulate_few(Points::F64(&taken(p, &sample))),
@@ -197,8 +191,7 @@ impl StartMesh {
         }
         let mesh = Self::of_triangulation(triangulation, vertices.iter().map(|&i| sample[i as usize]));
         let slots = mesh.points.len() * Dimension::<D>::SLOTS_PER_POINT as usize;
-        let is_valid = || !CHECKS_ROUNDED || mesh.is_on_lattice(points, lattice, start);
-        (mesh.simplices.len() <= slots && is_valid()).then_some(mesh)
+        (mesh.simplices.len() <= slots && mesh.is_on_lattice(points, lattice, start)).then_some(mesh)
     }
 
     /// Returns whether the simplices are positively oriented on the lattice, to which points may be
