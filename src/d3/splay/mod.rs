@@ -245,10 +245,8 @@ impl Splay {
         failed.sort_unstable();
         failed.dedup();
         // Stars that are near each other have tetrahedra and points in common.
-        if cfg!(not(target_arch = "wasm32")) {
-            let places = failed.iter().map(|&v| region.incident[v as usize]).collect();
-            parallel::sort_by_keys(threads, &mut failed, places);
-        }
+        let places = failed.iter().map(|&v| region.incident[v as usize]).collect();
+        parallel::sort_by_keys(threads, &mut failed, places);
         let mut has_failed = IndexSet::new(infinite as usize);
         failed.iter().for_each(|&v| has_failed.insert(v));
 
