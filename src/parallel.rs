@@ -134,9 +134,9 @@ pub(crate) fn sort_keyed(threads: Threads, entries: &mut [u64]) {
         return sort(threads, entries);
     }
     if entries.len() < FEW {
-        // A sort of numbers is as large as the indirect one, which a WebAssembly module has anyway.
-        let is_small = cfg!(target_arch = "wasm32");
-        return if is_small { sort_indirectly(entries, &|i, j| i.cmp(&j)) } else { entries.sort_unstable() };
+        // A WebAssembly module has the indirect sort anyway, and a sort of numbers is as large.
+        let is_wasm = cfg!(target_arch = "wasm32");
+        return if is_wasm { sort_indirectly(entries, &|i, j| i.cmp(&j)) } else { entries.sort_unstable() };
     }
     // A radix sort from the lowest digit.
     const DIGIT: u32 = 11;

@@ -59,9 +59,9 @@ pub(crate) struct Needed {
 }
 
 impl Needed {
-    /// Returns what is known of a round.
+    /// Returns the entry of a round, if it is known.
     fn round(&self, round: usize) -> Option<[u32; 2]> {
-        (round < self.len).then(|| self.rounds.get(round).copied())?
+        self.rounds.get(round).filter(|_| round < self.len).copied()
     }
 }
 
@@ -113,7 +113,7 @@ impl Iterations {
         Iterations { first, planned: first, exact_every, needed: Needed::default(), before }
     }
 
-    /// Returns what the run has needed, of so many points.
+    /// Returns what the run has needed for so many points.
     pub(crate) fn needed(&self, points: u32) -> Needed {
         Needed { points, ..self.needed }
     }

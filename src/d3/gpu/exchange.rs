@@ -134,8 +134,7 @@ impl<'a> Device<'a> {
         failed.sort_unstable();
         let mut uncertain: Vec<u32> = uncertain.into_iter().map(|Active { tet, .. }| tet).collect();
         uncertain.sort_unstable();
-        let begun = begin(region, device.ended.len(), gathered, failed, uncertain);
-        Ok((device, begun))
+        Ok((device, begin(region, gathered, failed, uncertain)))
     }
 
     /// Receives what is gathered, and reads the rest of it if there is more than was read ahead.
@@ -318,20 +317,14 @@ impl<'a> Device<'a> {
     }
 }
 
-/// Adds what was gathered first, of so many slots, to a region that has nothing yet. Returns it with the doubts
-/// by its numbers.
-fn begin(
-    mut region: Region,
-    slots: usize,
-    gathered: Gathered,
-    failed: Vec<u32>,
-    uncertain: Vec<u32>,
-) -> Result<Begun, Aborted> {
+/// Adds what was gathered first to a region that has nothing yet. Returns it with the doubts by its
+/// numbers. The uncertain tetrahedra are ascending.
+fn begin(mut region: Region, gathered: Gathered, failed: Vec<u32>, uncertain: Vec<u32>) -> Result<Begun, Aborted> {
     let infinite = region.infinite();
     let first = region.next();
     let mut numbers = vec![NO_INDEX; uncertain.len()];
-    // Most are not: a bit tells sooner than a search.
-    let mut is_uncertain = IndexSet::new(slots);
+    // Most tetrahedra are certain, which a bit tells sooner than a search.
+    let mut is_uncertain = IndexSet::new(uncertain.last().map_or(0, |&t| t as usize + 1));
     uncertain.iter().for_each(|&t| is_uncertain.insert(t));
     for (number, word) in (first..).zip(&gathered.slots).filter(|(_, word)| is_uncertain.has(**word & SLOT)) {
         if let Ok(i) = uncertain.binary_search(&(word & SLOT)) {

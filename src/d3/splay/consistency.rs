@@ -298,7 +298,7 @@ impl Splaying {
         changes: &mut Changes,
         entries: &mut Vec<Entry>,
     ) -> Result<usize, Aborted> {
-        // Each with the request that it comes from, in the lower half.
+        // Each point is the upper half, and the place of its request the lower half.
         let mut points: Vec<u64> = Vec::new();
         let entry = |p: u32, i: usize| u64::from(p) << 32 | i as u64;
         for (i, request) in requests.iter().enumerate() {

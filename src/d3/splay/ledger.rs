@@ -15,8 +15,8 @@ use rustc_hash::FxHashMap;
 /// the same vertices in the stars.
 pub(super) type Key = [u32; 4];
 
-/// The number of parts of the ledger, each of which is updated by one thread at a time. As many in any case: what
-/// is unsettled is in their order, and nothing may depend on the number of threads.
+/// The number of parts of the ledger, each of which is updated by one thread at a time. It does not depend on the
+/// number of threads, because what is unsettled comes in the order of the parts.
 const PARTS: usize = 16;
 
 /// The number of stars that enter a tetrahedron which is new to the ledger, as a rule.
