@@ -57,10 +57,6 @@ pub(crate) struct Rows {
 /// How many rows there is room for, more than most stars have vertices; a power of two.
 const PLACES: usize = 128;
 
-/// Whether coordinates that are stored are used without rows. The splaying of a module with the GPU backend,
-/// whose size is limited, has none that are stored.
-const STORES: bool = !cfg!(all(target_arch = "wasm32", feature = "gpu"));
-
 impl Rows {
     /// Creates the list without a row.
     pub(crate) fn new() -> Self {
@@ -72,8 +68,7 @@ impl Rows {
     }
 
     /// Returns the row of `v` around the vertex `at`.
-    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    #[cfg_attr(target_arch = "wasm32", inline(never))]
+    #[inline(always)]
     fn row(&self, context: &PredicateContext3<'_>, at: u32, v: u32) -> [f64; 4] {
         let place = (v.wrapping_mul(0x9e37_79b9) >> (u32::BITS - PLACES.ilog2())) as usize % PLACES;
         if self.keys[place].get() != [at, v] {
@@ -185,7 +180,7 @@ impl PredicateContext3<'_> {
     /// Returns [`orient3d`](Self::orient3d), from `rows` if coordinates are not stored.
     #[inline(never)]
     pub(crate) fn orient3d_around(&self, rows: &Rows, [at, b, c, d]: [u32; 4]) -> Sign {
-        if STORES && !self.coordinates.is_empty() {
+        if !self.coordinates.is_empty() {
             return self.orient3d(at, b, c, d);
         }
         let [u, v, w] = [b, c, d].map(|v| {
@@ -199,7 +194,7 @@ impl PredicateContext3<'_> {
     /// Returns [`insphere`](Self::insphere), from `rows` if coordinates are not stored.
     #[inline(never)]
     pub(crate) fn insphere_around(&self, rows: &Rows, [at, b, c, d]: [u32; 4], e: u32) -> Sign {
-        if STORES && !self.coordinates.is_empty() {
+        if !self.coordinates.is_empty() {
             return self.insphere([at, b, c, d], e);
         }
         // Exchanging two vertices changes the sign.
