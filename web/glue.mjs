@@ -12,6 +12,11 @@ const IMPORTS = '__wbg_get_imports';
 /** The parameter of the joined glue that says which module an instance is of. */
 const MODULE = 'moduleName';
 
+/** The parameter with calls of wgpu that are made in other ways: methods that take the object first. */
+const CALLS = 'calls';
+const CALLED = /\b(\w+)\.(createComputePipeline|setPipeline|popErrorScope|writeBuffer|submit)\(/;
+const QUEUE = /\b(\w+)\.queue\b/;
+
 /** What modules have by the same name, in one or several texts. */
 class Variants {
   #byName = new Map();
@@ -31,7 +36,7 @@ class Variants {
       const [first, ...others] = variants;
       if (others.length === 0) return same(name, first[0]);
       const choices = others.flatMap(([text, modules]) => modules.map((m) => `${m}: ${text}`));
-      return different(name, `{ ${choices.join(', ')} }[${MODULE}] ?? ${first[0]}`);
+      return different(name, `{ ${choices.join(', ')} }[${MODULE}] ?? (${first[0]})`);
     });
   }
 }
@@ -72,29 +77,68 @@ export function importNames(files) {
 }
 
 /**
- * What wgpu imports to draw, with long lists of names. Nothing here draws. wgpu only tries what a canvas
- * can do, once it has one; where there is none, it goes on without.
+ * What wgpu imports to draw, with long lists of names, and to time what it does. Nothing here does either.
+ * wgpu only tries what a canvas can do, once it has one; where there is none, it goes on without.
  */
-const DRAWS = /enum_Gpu(Texture|StorageTexture|Sampler)|\.(getContext|(un)?configure)\(/;
+const DRAWS =
+  /enum_Gpu(Texture|StorageTexture|Sampler)|\.(getContext|(un)?configure|resolveQuerySet)\(|\.(texture|sampler|storageTexture|externalTexture|querySet|timestampWrites|(beginning|end)OfPassWriteIndex) = /;
 const CANVAS = /new OffscreenCanvas/;
-const NOT_DRAWN = `
+/** The limits of a device at which nothing looks: the library takes the defaults of WebGPU for them. */
+const LIMIT = /\.(max|min|subgroupM)(?!BufferSize|StorageBufferBindingSize)[A-Z]?\w+;/;
+/** Where else than by its names `globalThis` and `self` the global object could be. */
+const GLOBAL = /typeof (global|window) ===/;
+const REPLACED = `
   function doesNotDraw() { throw new Error('gdel does not draw'); }
-  function noCanvas() { return handleError(doesNotDraw, []); }`;
+  function noCanvas() { return handleError(doesNotDraw, []); }
+  function nothing() { return 0; }`;
+
+/** Returns the text with functions as arrows, which are shorter. */
+const arrows = (text) =>
+  text
+    .replace(/, arguments\)/, ', args)')
+    .replace(/^function\(\)(?= \{\s*return handleError)/, '(...args) =>')
+    .replace(/\bfunction(\([^)]*\))/g, '$1 =>');
 
 /** Returns the text of an import. */
-const importText = (text) =>
-  DRAWS.test(text) ? 'doesNotDraw' : CANVAS.test(text) ? 'noCanvas' : text;
+function importText(text) {
+  if (DRAWS.test(text)) return 'doesNotDraw';
+  if (CANVAS.test(text)) return 'noCanvas';
+  if (LIMIT.test(text) || GLOBAL.test(text)) return 'nothing';
+  const instance = /= (\w+ instanceof \w+);/.exec(text);
+  const whole = instance ? text.replace(/\{[^]*\}/, `{ return ${instance[1]}; }`) : text;
+  return arrows(whole).replace(CALLED, `${CALLS}.$2($1, `).replace(QUEUE, `${CALLS}.queue($1)`);
+}
 
 /** An expression for engines that lack what ES 2022 has. */
 const FOR_OLD_ENGINES = /typeof FinalizationRegistry === "undefined" \? [^:]*:[^:]*:[^:]*: /;
 /** Statements for engines without `encodeInto`, which is as old, and for the declarations of `using`. */
 const UNUSED = /^if \((!\("encodeInto" in|Symbol\.dispose)/;
 
-/** Shorter texts: for what describes values in messages, and what takes modules in several ways. */
+/**
+ * Shorter texts: for what describes values in messages, what takes modules in several ways, what passes
+ * strings without copying them again, and what keeps track of a memory that may be replaced.
+ */
 const SHORTER = {
   debugString: 'const debugString = String;',
+  // The package passes what it gets.
+  _assertClass: 'function _assertClass() {}',
+  decodeText: 'const decodeText = (bytes) => cachedTextDecoder.decode(bytes);',
+  passStringToWasm0: `function passStringToWasm0(text, malloc) {
+    const bytes = cachedTextEncoder.encode(text);
+    const at = malloc(bytes.length, 1) >>> 0;
+    getUint8ArrayMemory0().set(bytes, at);
+    WASM_VECTOR_LEN = bytes.length;
+    return at;
+  }`,
+  getDataViewMemory0: `function getDataViewMemory0() {
+    if (cachedDataViewMemory0?.buffer !== wasm.memory.buffer)
+      cachedDataViewMemory0 = new DataView(wasm.memory.buffer);
+    return cachedDataViewMemory0;
+  }`,
   initSync: `function initSync({ module }) {
-    return __wbg_finalize_init(new WebAssembly.Instance(module, ${IMPORTS}()), module);
+    wasm = new WebAssembly.Instance(module, ${IMPORTS}()).exports;
+    wasm.__wbindgen_start();
+    return wasm;
   }`,
 };
 
@@ -137,7 +181,7 @@ function join(files) {
       (_, text) => text,
       (name, choice) => `const ${name} = ${choice};`,
     ),
-    NOT_DRAWN,
+    REPLACED,
     `function ${IMPORTS}() { return { '${from}': { ${properties.join(', ')} } }; }`,
     `glue = { ${[...exported].join(', ')} };`,
   ].join('\n');
@@ -154,8 +198,8 @@ const CODERS =
 
 /**
  * Resolves the import `glue` to a function, of which each call has an instance of its own: of the
- * module that it is told, and with the global object that it is passed. The modules'
- * imports have the names of {@link importNames}.
+ * module that it is told, with these calls of wgpu, and with the global object that it is passed. The
+ * modules' imports have the names of {@link importNames}.
  */
 export function gluePlugin(files) {
   return {
@@ -175,7 +219,7 @@ export function gluePlugin(files) {
         });
         const body = [...ERROR_CLASSES, CODERS, 'let glue;', outputFiles[0].text, 'return glue;'];
         // wasm-bindgen looks for the global object under both names, and under this one first.
-        const parameters = `${MODULE}, globalThis, self = globalThis`;
+        const parameters = `${MODULE}, ${CALLS}, globalThis, self = globalThis`;
         const contents = `export default function (${parameters}) { ${body.join('\n')} }`;
         return { contents, loader: 'js' };
       });

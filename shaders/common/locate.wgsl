@@ -40,7 +40,8 @@ fn holding(p: u32) -> u32 {
             return NONE;
         }
         var beyond = CORNERS;
-        for (var k = 0u; k < CORNERS && beyond == CORNERS; k++) {
+        let corners = not_unrolled(CORNERS);
+        for (var k = 0u; k < corners && beyond == CORNERS; k++) {
             if k != came && orient(replaced(simplex, k, p)) < 0 {
                 beyond = k;
             }

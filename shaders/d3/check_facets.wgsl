@@ -5,8 +5,8 @@
 // few that have more to do. Of what is found out about the facets of an entry, its invocation takes
 // the first that can be flipped.
 //
-// Expects: control, simplices, neighbors, status, actives; orient and conflict of d3/signs or
-// d3/signs_filtered.
+// Expects: control, simplices, neighbors, status, actives; facet_signs of d3/facet_signs or
+// d3/facet_signs_once.
 // Where the points of a mesh have moved, a flip of inverted tetrahedra is proposed as soon as those
 // that it makes are positively oriented: signed volumes add up, so that they cover what the others
 // did.
@@ -19,6 +19,8 @@
 // the proposed flip and the facets that cannot be flipped as in Active.outcome. This bit, if a sign
 // is undecided.
 const UNDECIDED: u32 = 0x4000;
+// What signs tell about a facet that is locally Delaunay.
+const LOCALLY_DELAUNAY: u32 = 0x8000;
 // Nothing is to be found out after a flip or an undecided sign.
 const ENOUGH: u32 = UNDECIDED | (3u << KIND_SHIFT);
 
@@ -62,33 +64,19 @@ fn check_facet(t: u32, tet: vec4u, k: u32) -> u32 {
         return found;
     }
     let has_moved = control.moved_simplices != 0;
-    var violated = 1;
-    if !has_moved || ((status[t].made.x | status[u].made.x) & INVERTED) == 0 {
-        violated = conflict(tet, e);
-    } else if simplices[t][k] == e {
+    let is_inverted = has_moved && ((status[t].made.x | status[u].made.x) & INVERTED) != 0;
+    if is_inverted && simplices[t][k] == e {
         // The same tetrahedron from both sides.
-        violated = -1;
+        return found;
     }
-    if violated == 0 {
+    let signs = facet_signs(t, tet, k, e, is_inverted);
+    if signs == UNDECIDED {
         return UNDECIDED;
     }
-    if violated > 0 {
+    if signs != LOCALLY_DELAUNAY {
         let c = facet(k);
-        let apex = simplices[t][k];
-        var x = vec3u(simplices[t][c.x], simplices[t][c.y], simplices[t][c.z]);
-        var negative = 0u;
-        var edge = 0u;
-        for (var j = 0u; j < 3 && negative < 2; j++) {
-            let sign = orient(vec4u(x.x, x.y, apex, e));
-            x = x.yzx;
-            if sign == 0 {
-                return UNDECIDED;
-            }
-            if sign < 0 {
-                negative += 1;
-                edge = j;
-            }
-        }
+        let negative = signs & 3;
+        let edge = signs >> 2;
         var kind = 0u;
         if negative == 0 {
             kind = select(FLIP_23, 0u, has_moved && is_edge(t, u, k));

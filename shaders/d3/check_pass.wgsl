@@ -2,7 +2,7 @@
 // filter decides, and lists the undecided entries. Where they are not decided then, they stay
 // active.
 //
-// Expects: control, simplices, neighbors, status, actives, messages; orient and conflict.
+// Expects: control, simplices, neighbors, status, actives, messages; facet_signs.
 //!include d3/check_facets
 //!include common/chunks
 

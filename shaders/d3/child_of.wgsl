@@ -9,7 +9,8 @@ fn child_of(tet: vec4u, p: u32, q: u32, infinite: u32) -> u32 {
     var a = 3u;
     var b = 0u;
     var child = 0u;
-    for (var step = 0; step < 3; step++) {
+    let steps = not_unrolled(3);
+    for (var step = 0u; step < steps; step++) {
         let i = select(select(1 - b, 0u, step == 1), 3u, step == 0);
         let j = select(select(5 - a, 1u, step == 1), 2u, step == 0);
         let four = replaced(replaced(tet, i, q), j, p);

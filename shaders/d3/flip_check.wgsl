@@ -3,4 +3,4 @@
 // Its first words name the entries with undecided signs.
 @group(0) @binding(2) var<storage, read_write> messages: array<vec4u>;
 //!include d3/check_pass
-//!include d3/signs_filtered
+//!include d3/facet_signs

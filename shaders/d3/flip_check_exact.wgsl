@@ -8,10 +8,12 @@
 @group(0) @binding(5) var<storage, read_write> actives: array<Active>;
 // Its first words name the entries with undecided signs.
 @group(0) @binding(6) var<storage, read> messages: array<vec4u>;
-//!include d3/check_exact_pass
-//!include d3/signs
+//!include d3/check_facets
+//!include d3/facet_signs_once
 
 var<workgroup> entries_here: u32;
+var<workgroup> open_here: u32;
+var<workgroup> exact_here: atomic<u32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(
@@ -23,7 +25,30 @@ fn main(
     let base = control.bid_base;
     if local == 0 {
         entries_here = entries_of(iteration, base, many());
+        open_here = atomicLoad(&control.undecided);
+        atomicStore(&exact_here, 0u);
     }
     let entries = workgroupUniformLoad(&entries_here);
-    check_exact_pass(group.x, groups.x, local, bids_of(iteration, base, entries));
+    let undecided = workgroupUniformLoad(&open_here);
+    let bids = bids_of(iteration, base, entries);
+    let list = half_of(iteration);
+    let chunk = checked_together(undecided, groups.x);
+    for (var start = group.x * chunk; start < undecided; start += groups.x * chunk) {
+        let j = start + local;
+        let has_entry = local < chunk && j < undecided;
+        var i = 0u;
+        if has_entry {
+            i = messages[j].x;
+        }
+        // No sign is undecided here.
+        _ = check_facets(has_entry, i, list + i, bids, local);
+        workgroupBarrier();
+    }
+    if exact_signs != 0 {
+        atomicAdd(&exact_here, exact_signs);
+    }
+    workgroupBarrier();
+    if local == 0 && atomicLoad(&exact_here) != 0 {
+        atomicAdd(&control.exact, atomicLoad(&exact_here));
+    }
 }

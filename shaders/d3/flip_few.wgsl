@@ -13,14 +13,13 @@
 @group(0) @binding(5) var<storage, read_write> actives: array<Active>;
 @group(0) @binding(6) var<storage, read_write> messages: array<vec4u>;
 @group(0) @binding(7) var<storage, read_write> history: array<HistoryNode>;
-//!include d3/signs
+//!include d3/facet_signs_once
 //!include d3/check_pass
-//!include d3/check_exact_pass
 //!include common/commit_pass
 //!include common/link_pass
 
-// What the filter leaves open is decided in every so many iterations, or when it leaves so large a
-// share of the entries open: an exact sign takes longer than all filters of an iteration.
+// What the filter leaves open is decided in every so many iterations, and in all of them once it has left
+// so large a share of the entries open: an exact sign takes longer than all filters of an iteration.
 const EXACT_EVERY: u32 = 4;
 const EXACT_SHARE: u32 = 4;
 
@@ -31,6 +30,8 @@ var<workgroup> exact_due: bool;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(local_invocation_index) local: u32) {
+    decides = false;
+    var always = false;
     var turn = 0u;
     loop {
         turn += 1;
@@ -49,18 +50,14 @@ fn main(@builtin(local_invocation_index) local: u32) {
         let base = workgroupUniformLoad(&base_here);
         let bids = bids_of(iteration, base, entries);
 
-        decides = false;
         check_pass(0, 1, local, bids, entries);
         passed();
         if local == 0 {
             let undecided = atomicLoad(&control.undecided);
-            exact_due = undecided != 0 && (turn % EXACT_EVERY == 0 || undecided * EXACT_SHARE >= entries);
+            always = always || (undecided != 0 && undecided * EXACT_SHARE >= entries);
+            exact_due = always || (undecided != 0 && turn % EXACT_EVERY == 0);
         }
-        if workgroupUniformLoad(&exact_due) {
-            decides = true;
-            check_exact_pass(0, 1, local, bids);
-        }
-        passed();
+        decides = workgroupUniformLoad(&exact_due);
         commit_pass(0, 1, local, bids, entries);
         passed();
         link_pass(0, 1, local, bids, entries, true);
@@ -68,6 +65,9 @@ fn main(@builtin(local_invocation_index) local: u32) {
         if local == 0 {
             control.few_done += 1;
         }
+    }
+    if exact_signs != 0 {
+        atomicAdd(&control.exact, exact_signs);
     }
 }
 

@@ -34,7 +34,8 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
             continue;
         }
         let near = neighbors[t];
-        for (var k = 0u; k < 4; k++) {
+        let facets = not_unrolled(4);
+        for (var k = 0u; k < facets; k++) {
             if ((suspect >> k) & 1) != 0 && conflict(tet, simplices[near[k] >> 2][near[k] & 3]) > 0 {
                 let c = facet(k);
                 fail(tet[c.x]);

@@ -11,12 +11,13 @@ fn follow(n: u32, p: u32) -> vec2u {
     let e = history[n].e;
     let is_23 = history[n].kind == FLIP_23;
     // 3-2: above or below the ring. 2-3: beyond the plane of the edge and x_0; then beyond that of
-    // x_1 or x_2.
-    let above = orient(select(vec4u(x, p), vec4u(x.x, p, d, e), is_23)) > 0;
-    var k = select(1u, 0u, above);
-    if is_23 {
-        let beyond = orient(vec4u(select(x.z, x.y, above), p, d, e)) > 0;
-        k = select(select(1u, 2u, beyond), select(0u, 1u, beyond), above);
+    // x_1 or x_2. In a loop, so that the exact arithmetic is compiled once.
+    let steps = not_unrolled(select(1u, 2u, is_23));
+    var k = 0u;
+    for (var step = 0u; step < steps; step++) {
+        let corner = select(select(x.z, x.y, k == 0), x.x, step == 0);
+        let beyond = orient(select(vec4u(x, p), vec4u(corner, p, d, e), is_23)) > 0;
+        k = select(select(1u, 0u, beyond), select(select(1u, 2u, beyond), select(0u, 1u, beyond), k == 0), step == 1);
     }
     return vec2u(history[n].tets[k], history[n].next[k]);
 }

@@ -1,6 +1,7 @@
 //! The device: adapters, limits, and errors as values.
 
 use std::{
+    pin::Pin,
     sync::{Arc, Mutex, OnceLock, PoisonError},
     time::Duration,
 };
@@ -268,6 +269,12 @@ pub(crate) struct ErrorScope<'a> {
     guards: [wgpu::ErrorScopeGuard; 3],
 }
 
+/// What an error scope reports: in a box, so that the code that waits for it is there once.
+#[cfg(not(target_arch = "wasm32"))]
+type Report<'a> = Pin<Box<dyn Future<Output = Result<(), Error>> + Send + 'a>>;
+#[cfg(target_arch = "wasm32")]
+type Report<'a> = Pin<Box<dyn Future<Output = Result<(), Error>> + 'a>>;
+
 impl<'a> ErrorScope<'a> {
     /// Opens a scope around `what`.
     pub(crate) fn open(gpu: &'a Gpu, what: &'static str) -> Self {
@@ -277,11 +284,11 @@ impl<'a> ErrorScope<'a> {
     }
 
     /// Closes the scope. The report says what went wrong, as [`Gpu::with_error_scope`] does.
-    pub(crate) fn close(self) -> impl Future<Output = Result<(), Error>> + use<'a> {
+    pub(crate) fn close(self) -> Report<'a> {
         let ErrorScope { gpu, what, guards: [a, b, c] } = self;
         // The scopes are a stack.
         let [c, b, a] = [c, b, a].map(wgpu::ErrorScopeGuard::pop);
-        async move {
+        Box::pin(async move {
             // What lacks memory is not valid, either.
             let [a, b, c] = [a.await, b.await, c.await];
             if let Some(report) = c.or(a).or(b) {
@@ -294,7 +301,7 @@ impl<'a> ErrorScope<'a> {
                 Some(reason) => Err(Error::DeviceLost { reason: reason.clone() }),
                 None => Ok(()),
             }
-        }
+        })
     }
 }
 

@@ -20,7 +20,10 @@ impl<'a> Recorder<'a> {
 
     /// Times the dispatches from here on under `name`.
     pub fn stage(&mut self, name: &'static str) {
-        if let Some(profiler) = &mut self.profiler {
+        // Nothing in a browser profiles, so that the names take no room there.
+        if let Some(profiler) = &mut self.profiler
+            && cfg!(not(target_arch = "wasm32"))
+        {
             self.pass = None;
             let timestamp_writes = profiler.begin(name);
             let descriptor = wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes };

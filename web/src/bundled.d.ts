@@ -2,10 +2,11 @@
 
 /**
  * The JavaScript side of the wasm modules, with a state of its own in each call: a broken instance
- * can be replaced. It has the exports of all modules; those of the named one work.
+ * can be replaced. It has the exports of all modules; those of the named one work. Some calls of wgpu are
+ * made by `calls`, if it is given.
  */
 declare module 'glue' {
-  const makeGlue: (moduleName: string, globalThis: object) => any;
+  const makeGlue: (moduleName: string, calls: object | undefined, globalThis: object) => any;
   export default makeGlue;
 }
 

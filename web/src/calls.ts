@@ -4,6 +4,8 @@
 import type { Buffer, Device } from './device.js';
 import type { Call, ToWorker } from './protocol.js';
 import { copyInSlices, Slice } from './slices.js';
+import { Staging } from './staging.js';
+import { notCompiled } from './wgpu-calls.js';
 
 /** Somebody's error scope, which is closed and opened again around every pause. */
 interface Scope {
@@ -38,10 +40,11 @@ export function serveDevice(
   post: (message: ToWorker, transfer: ArrayBuffer[]) => void,
   fail: (error: Error) => void,
 ): Served {
-  const { features, limits, adapterInfo, lost, queue } = device;
+  const { features, limits, adapterInfo, lost } = device;
+  const staging = new Staging(device);
   const objects = new Map<number, any>([
     [0, device],
-    [1, queue],
+    [1, staging.queue],
   ]);
   const handedOver = new Set<number>();
   const waiting: Call[] = [];
@@ -154,13 +157,17 @@ export function serveDevice(
             compiled(pipeline);
             return null;
           },
-          ({ message }) => {
+          (error) => {
             compiled(null);
-            return { message, constructor: { name: 'GPUValidationError' } };
+            return notCompiled(error);
           },
         );
         objects.set(id, failed);
         scopes.at(-1)?.errors.push(failed);
+      } else if (method === 'writeBuffer') {
+        staging.write(args[0], args[1], args[2]);
+      } else if (method === 'submit') {
+        staging.submit(args[0]);
       } else if (method === 'mapAsync') {
         void map(id, objects.get(object), args[0], args[1], args[2]);
       } else if (method === 'free') {
@@ -199,6 +206,7 @@ export function serveDevice(
       for (const [id, object] of objects)
         if (object !== device && !handedOver.has(id)) object.destroy?.();
       objects.clear();
+      staging.end();
     },
   };
 }

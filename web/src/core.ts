@@ -7,6 +7,7 @@ import { Memory, MemoryThreads } from './memory.js';
 import type { Control, CoreInfo, CoreStats, ModuleName, TaskName, Tasks } from './protocol.js';
 import type { MadeResident } from './resident.js';
 import type { AdapterInfo, Backend, Output } from './types.js';
+import { wgpuCalls } from './wgpu-calls.js';
 
 export { serveDevice } from './calls.js';
 
@@ -109,9 +110,10 @@ function instantiate(
   name: ModuleName,
   module: WebAssembly.Module,
   scope: object = globalThis,
+  calls?: object,
 ): { glue: any; memory: WebAssembly.Memory; table: WebAssembly.Table } {
   try {
-    const glue = makeGlue(name, scope);
+    const glue = makeGlue(name, calls, scope);
     const { memory, __wbindgen_externrefs: table } = glue.initSync({ module });
     return { glue, memory, table };
   } catch (error) {
@@ -153,7 +155,9 @@ type RunArgs = Tasks['delaunay2d']['args'];
 
 /** What 3D and 2D tasks share: an instance, its triangulator, and the choice of the backend. */
 function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | undefined) {
-  const { glue, memory, table } = instantiate(name, module, gpu ? scopeWith(gpu) : globalThis);
+  const calls = wgpuCalls();
+  const scope = gpu ? scopeWith(gpu) : globalThis;
+  const { glue, memory, table } = instantiate(name, module, scope, calls);
   const triangulator = new glue.WasmTriangulator();
   let looking: Promise<AdapterInfo> | undefined;
   const memoryThreads = new MemoryThreads();
@@ -308,6 +312,7 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
   const dispose = () => {
     drop();
     memoryThreads.end();
+    calls.end();
     if (!(gpu as Gpu | undefined)?.isGiven) void triangulator.close();
   };
   return { glue, memory, table, triangulator, choose, run, dispose, free };

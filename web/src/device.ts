@@ -5,6 +5,7 @@ export interface Buffer {
   size: number;
   mapAsync(mode: number, at?: number, size?: number): Promise<void>;
   getMappedRange(at?: number, size?: number): ArrayBuffer;
+  unmap(): void;
   destroy(): void;
 }
 
@@ -15,14 +16,18 @@ export interface DeviceInfo {
   adapterInfo?: object | undefined;
 }
 
+/** What is used of a `GPUQueue`. */
+export interface Queue {
+  submit(commands: object[]): void;
+  writeBuffer(buffer: object, at: number, data: Uint8Array, start: number, size: number): void;
+}
+
 /** What is used of a `GPUDevice`. */
 export interface Device extends DeviceInfo {
   lost: Promise<{ reason: string; message: string }>;
-  queue: {
-    submit(commands: object[]): void;
-    writeBuffer(buffer: object, at: number, data: Uint8Array, start: number, size: number): void;
-  };
+  queue: Queue;
   createBuffer(descriptor: object): Buffer;
+  createComputePipeline(descriptor: object): object;
   createComputePipelineAsync(descriptor: object): Promise<object>;
   createCommandEncoder(): {
     copyBufferToBuffer(from: object, at: number, to: object, start: number, size: number): void;
