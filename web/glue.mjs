@@ -105,14 +105,17 @@ function importText(text) {
   if (CANVAS.test(text)) return 'noCanvas';
   if (LIMIT.test(text) || GLOBAL.test(text)) return 'nothing';
   const instance = /= (\w+ instanceof \w+);/.exec(text);
-  const whole = instance ? text.replace(/\{[^]*\}/, `{ return ${instance[1]}; }`) : text;
+  const whole = instance ? text.replace(/\{.*\}/s, `{ return ${instance[1]}; }`) : text;
   return arrows(whole).replace(CALLED, `${CALLS}.$2($1, `).replace(QUEUE, `${CALLS}.queue($1)`);
 }
 
 /** An expression for engines that lack what ES 2022 has. */
 const FOR_OLD_ENGINES = /typeof FinalizationRegistry === "undefined" \? [^:]*:[^:]*:[^:]*: /;
-/** Statements for engines without `encodeInto`, which is as old, and for the declarations of `using`. */
-const UNUSED = /^if \((!\("encodeInto" in|Symbol\.dispose)/;
+/**
+ * Statements for engines without `encodeInto`, which is as old, and for the declarations of `using`; and one
+ * that has a decoder ready before it is needed.
+ */
+const UNUSED = /^(if \((!\("encodeInto" in|Symbol\.dispose)|cachedTextDecoder\.decode\()/;
 
 /**
  * Shorter texts: for what describes values in messages, what takes modules in several ways, what passes

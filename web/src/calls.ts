@@ -165,7 +165,7 @@ export function serveDevice(
         objects.set(id, failed);
         scopes.at(-1)?.errors.push(failed);
       } else if (method === 'writeBuffer') {
-        staging.write(args[0], args[1], args[2]);
+        staging.writeBuffer(args[0], args[1], args[2]);
       } else if (method === 'submit') {
         staging.submit(args[0]);
       } else if (method === 'mapAsync') {

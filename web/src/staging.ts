@@ -11,8 +11,8 @@ const MOST_BYTES = 2 ** 26;
 /** MAP_WRITE and COPY_SRC. */
 const USAGE = 6;
 
-/** The writes and the submissions of a device's queue. */
-export class Staging {
+/** The writes, each of a whole array, and the submissions of a device's queue. */
+export class Staging implements Queue {
   readonly queue: Queue;
   #device: Device;
   #buffer: Buffer | undefined;
@@ -20,17 +20,16 @@ export class Staging {
   #mapped: Uint8Array | undefined;
   #used = 0;
   #copies: [from: Buffer, start: number, to: object, at: number, size: number][] = [];
-  /** The large bytes since the last submission, and the most that one submission had. */
+  /** The large bytes since the last submission, and about the most that one submission had. */
   #wanted = 0;
-  #wantedBefore = 0;
+  #most = 0;
 
   constructor(device: Device) {
     this.queue = device.queue;
     this.#device = device;
   }
 
-  /** Writes to a buffer. */
-  write(to: object, at: number, bytes: Uint8Array): void {
+  writeBuffer(to: object, at: number, bytes: Uint8Array): void {
     const size = bytes.length;
     if (size >= LEAST_BYTES) {
       this.#wanted += size;
@@ -51,9 +50,9 @@ export class Staging {
     const wanted = Math.min(this.#wanted, MOST_BYTES);
     this.#wanted = 0;
     if (wanted <= (this.#buffer?.size ?? 0)) return;
-    // A single run would gain nothing.
-    if (wanted <= this.#wantedBefore) this.#allocate(wanted);
-    this.#wantedBefore = wanted;
+    // A single run would gain nothing, and most of its submissions write less than its first.
+    if (this.#most > 0 && 2 * wanted > this.#most) this.#allocate(wanted);
+    this.#most = Math.max(wanted, this.#most / 2);
   }
 
   /** Frees the buffer. */

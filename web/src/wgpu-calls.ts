@@ -4,21 +4,30 @@
 import type { Device, Queue } from './device.js';
 import { Staging } from './staging.js';
 
-/** A pipeline that is compiled when it is needed, or when the error scope ends in which it was created. */
+/** A pipeline that is compiled aside, or when it is needed before. */
 class Pipeline {
   #compiled: object | undefined;
+  #aside: Promise<void> | undefined;
 
-  constructor(
-    private readonly device: Device,
-    private readonly descriptor: object,
-  ) {}
+  #device: Device;
+  #descriptor: object;
 
-  async compile(): Promise<void> {
-    this.#compiled ??= await this.device.createComputePipelineAsync(this.descriptor);
+  constructor(device: Device, descriptor: object) {
+    this.#device = device;
+    this.#descriptor = descriptor;
+  }
+
+  /** Has a thread of the device compile it, unless it was needed. Fulfilled when that is done. */
+  compile(): Promise<void> | undefined {
+    if (this.#compiled) return;
+    this.#aside ??= this.#device.createComputePipelineAsync(this.#descriptor).then((pipeline) => {
+      this.#compiled ??= pipeline;
+    });
+    return this.#aside;
   }
 
   get now(): object {
-    this.#compiled ??= this.device.createComputePipeline(this.descriptor);
+    this.#compiled ??= this.#device.createComputePipeline(this.#descriptor);
     return this.#compiled;
   }
 }
@@ -34,8 +43,10 @@ const isRemote = (object: object) => 'remote' in object;
 
 /** Returns the calls of an instance of WebAssembly, each with the object of which it is a method. */
 export function wgpuCalls() {
+  /** The pipelines of the innermost scope. */
   let created: Pipeline[] = [];
   let staging: Staging | undefined;
+  const stagingOf = (queue: Queue): Queue => (queue === staging?.queue ? staging : queue);
 
   return {
     queue(device: Device): Queue {
@@ -46,6 +57,8 @@ export function wgpuCalls() {
     },
     createComputePipeline(device: Device, descriptor: object): object {
       if (isRemote(device)) return device.createComputePipeline(descriptor);
+      // What is needed at once is so before the next one is created.
+      created.at(-1)?.compile();
       const pipeline = new Pipeline(device, descriptor);
       created.push(pipeline);
       return pipeline;
@@ -55,18 +68,14 @@ export function wgpuCalls() {
     },
     popErrorScope(device: Device): Promise<{ message: string } | null> {
       const answer = device.popErrorScope();
+      if (created.length === 0) return answer;
       const compiled = created.map((pipeline) => pipeline.compile());
       created = [];
-      if (compiled.length === 0) return answer;
       return Promise.all([answer, ...compiled]).then(([error]) => error, notCompiled);
     },
-    writeBuffer(queue: Queue, to: object, at: number, bytes: Uint8Array): void {
-      if (queue === staging?.queue) staging.write(to, at, bytes);
-      else queue.writeBuffer(to, at, bytes, 0, bytes.length);
-    },
-    submit(queue: Queue, commands: object[]): void {
-      (queue === staging?.queue ? staging : queue).submit(commands);
-    },
+    writeBuffer: (queue: Queue, ...call: Parameters<Queue['writeBuffer']>) =>
+      stagingOf(queue).writeBuffer(...call),
+    submit: (queue: Queue, commands: object[]) => stagingOf(queue).submit(commands),
     /** Frees what the calls keep. */
     end(): void {
       staging?.end();
