@@ -19,7 +19,8 @@
 //!include common/link_pass
 
 // What the filter leaves open is decided in every so many iterations, and in all of them once it has left
-// so large a share of the entries open: an exact sign takes longer than all filters of an iteration.
+// so large a share of the entries open, here or before: an exact sign takes longer than all filters of an
+// iteration.
 const EXACT_EVERY: u32 = 4;
 const EXACT_SHARE: u32 = 4;
 
@@ -30,8 +31,8 @@ var<workgroup> exact_due: bool;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(local_invocation_index) local: u32) {
-    decides = false;
-    var always = false;
+    var always = atomicLoad(&control.exact) * EXACT_SHARE > control.visits;
+    decides = always;
     var turn = 0u;
     loop {
         turn += 1;
