@@ -33,16 +33,18 @@ fn orientation_of(tet: vec4u) -> i32 {
     return orient3d_filter(load_high(tet.x), load_high(tet.y), load_high(tet.z), load_high(tet.w));
 }
 
-// Returns whether a tetrahedron is not positively oriented on the lattice.
-fn is_flat(tet: vec4u) -> bool {
-    return orient3d_exact(load_vertex(tet.x), load_vertex(tet.y), load_vertex(tet.z), load_vertex(tet.w)) <= 0;
-}
-
-// Returns whether a ghost is inverted, whose number of infinity stands for the interior point. It
-// cannot be unless points have moved.
-fn is_inverted_ghost(tet: vec4u) -> bool {
-    return control.moved_simplices != 0
-        && orient3d_exact(load_vertex(tet.x), load_vertex(tet.y), load_vertex(tet.z), load_vertex(tet.w)) >= 0;
+// Returns whether a tetrahedron is not positively oriented on the lattice, or its orientation is not
+// certain. Of a ghost, the number of infinity stands for the interior point, and it is never inverted
+// unless points have moved. The exact arithmetic is called once, since it is compiled for each call.
+fn is_uncertain(tet: vec4u) -> bool {
+    let is_ghost = any(tet == vec4u(control.infinite));
+    let sign = orientation_of(tet);
+    let asks = select(sign == 0 && !any_rounded(tet), sign >= 0 && control.moved_simplices != 0, is_ghost);
+    var exact = 0;
+    if asks {
+        exact = orient3d_exact(load_vertex(tet.x), load_vertex(tet.y), load_vertex(tet.z), load_vertex(tet.w));
+    }
+    return select(sign <= 0 && (!asks || exact <= 0), asks && exact >= 0, is_ghost);
 }
 
 // Returns the undecided facets of tetrahedron t.
@@ -81,12 +83,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         if counts[COUNT_ROUNDED] != 0 {
             undecided = undecided_facets(t, tet);
         }
-        let sign = orientation_of(tet);
-        if any(tet == vec4u(control.infinite)) {
-            if sign >= 0 && is_inverted_ghost(tet) {
-                undecided |= ORIENTATION;
-            }
-        } else if sign <= 0 && (sign < 0 || any_rounded(tet) || is_flat(tet)) {
+        if is_uncertain(tet) {
             undecided |= ORIENTATION;
         }
         if undecided != 0 {

@@ -2,6 +2,9 @@
 
 use crate::gpu::{Gpu, Kernel, Profiler};
 
+/// Nothing in a browser profiles, so that this takes no room there.
+const PROFILES: bool = cfg!(not(target_arch = "wasm32"));
+
 /// Records commands for one submission.
 pub struct Recorder<'a> {
     encoder: wgpu::CommandEncoder,
@@ -20,9 +23,8 @@ impl<'a> Recorder<'a> {
 
     /// Times the dispatches from here on under `name`.
     pub fn stage(&mut self, name: &'static str) {
-        // Nothing in a browser profiles, so that the names take no room there.
         if let Some(profiler) = &mut self.profiler
-            && cfg!(not(target_arch = "wasm32"))
+            && PROFILES
         {
             self.pass = None;
             let timestamp_writes = profiler.begin(name);
@@ -55,7 +57,9 @@ impl<'a> Recorder<'a> {
     /// Submits what was recorded.
     pub fn submit(mut self, gpu: &Gpu) -> wgpu::SubmissionIndex {
         self.pass = None;
-        if let Some(profiler) = &mut self.profiler {
+        if let Some(profiler) = &mut self.profiler
+            && PROFILES
+        {
             profiler.resolve(gpu, &mut self.encoder);
         }
         gpu.queue().submit([self.encoder.finish()])
