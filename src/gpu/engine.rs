@@ -486,6 +486,11 @@ where
                 &mut self.wide
             }
         };
+        // Where no other thread compiles what the first run does without, the second one waits.
+        #[cfg(target_arch = "wasm32")]
+        if phase1.kept.memory.is_some() {
+            phase1.finish_compiling(&self.gpu).await?;
+        }
         Ok((&self.gpu, phase1))
     }
 }

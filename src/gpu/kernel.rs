@@ -1,7 +1,5 @@
 //! Compute pipelines.
 
-#[cfg(target_arch = "wasm32")]
-use crate::gpu::device::ErrorScope;
 #[cfg(not(target_arch = "wasm32"))]
 use crate::gpu::shader::{PART_STRIDE, with_int64};
 #[cfg(not(target_arch = "wasm32"))]
@@ -14,8 +12,6 @@ use crate::{
     },
     input::lattice::Width,
 };
-#[cfg(target_arch = "wasm32")]
-use std::pin::Pin;
 use std::{
     cell::RefCell,
     sync::{Arc, OnceLock},
@@ -176,19 +172,16 @@ impl Kernel {
     /// Returns the pipeline, and compiles it if that was not done yet. Waits if another thread is
     /// compiling it.
     pub fn pipeline(&self) -> &wgpu::ComputePipeline {
-        self.pipeline.get_or_init(|| self.compiled())
-    }
-
-    /// Compiles the pipeline.
-    fn compiled(&self) -> wgpu::ComputePipeline {
-        let (shader, width) = self.shader.expect("what is not a shader was compiled at once");
-        #[cfg(not(target_arch = "wasm32"))]
-        if let Some(parts) = self.parts
-            && let Some(wgsl) = shader.wgsl_in_parts(width, parts.count())
-        {
-            return self.compile(&wgsl, &[("PART", f64::from(parts.units()))]);
-        }
-        self.compile(&shader.wgsl(width), &[])
+        self.pipeline.get_or_init(|| {
+            let (shader, width) = self.shader.expect("what is not a shader was compiled at once");
+            #[cfg(not(target_arch = "wasm32"))]
+            if let Some(parts) = self.parts
+                && let Some(wgsl) = shader.wgsl_in_parts(width, parts.count())
+            {
+                return self.compile(&wgsl, &[("PART", f64::from(parts.units()))]);
+            }
+            self.compile(&shader.wgsl(width), &[])
+        })
     }
 
     fn compile(&self, wgsl: &str, constants: &[(&str, f64)]) -> wgpu::ComputePipeline {
@@ -310,34 +303,16 @@ impl<'a> Compiler<'a> {
         #[cfg(not(target_arch = "wasm32"))]
         {
             // Scopes of errors belong to threads, and are answered at once.
-            let compile = |_, kernel: &mut Kernel| pollster::block_on(compile_all(gpu.clone(), vec![kernel.clone()]));
+            let compile = |_, kernel: &mut Kernel| pollster::block_on(compile_all(gpu, std::slice::from_ref(kernel)));
             parallel::map_mut(Threads::All, &mut kernels.into_inner(), compile).into_iter().collect()
         }
         #[cfg(target_arch = "wasm32")]
-        compile_all(gpu.clone(), kernels.into_inner()).await
+        compile_all(gpu, &kernels.take()).await
     }
 }
 
-/// Compiles the kernels. They are used when the device has compiled all of them, or without waiting for it by
-/// who needs one sooner.
-///
-/// What is awaited is a box, so that its code is there once.
-#[cfg(target_arch = "wasm32")]
-fn compile_all(gpu: Gpu, kernels: Vec<Kernel>) -> Pin<Box<dyn Future<Output = Result<(), Error>>>> {
-    Box::pin(async move {
-        let scope = ErrorScope::open(&gpu, "pipelines");
-        let pipelines: Vec<_> = kernels.iter().map(Kernel::compiled).collect();
-        scope.close().await?;
-        for (kernel, pipeline) in kernels.iter().zip(pipelines) {
-            _ = kernel.pipeline.set(pipeline);
-        }
-        Ok(())
-    })
-}
-
 /// Compiles those of the kernels that are not.
-#[cfg(not(target_arch = "wasm32"))]
-async fn compile_all(gpu: Gpu, kernels: Vec<Kernel>) -> Result<(), Error> {
+async fn compile_all(gpu: &Gpu, kernels: &[Kernel]) -> Result<(), Error> {
     gpu.with_error_scope("pipelines", || {
         kernels.iter().for_each(|kernel| _ = kernel.pipeline());
         Ok(())
@@ -359,17 +334,10 @@ impl Deferred {
         let (gpu, kernels) = (gpu.clone(), self.0.clone());
         // What fails here fails again where the kernel is used, which reports it. Without the thread
         // runs do without.
-        let compile = move || _ = pollster::block_on(compile_all(gpu, kernels));
+        let compile = move || _ = pollster::block_on(compile_all(&gpu, &kernels));
         if let Ok(thread) = std::thread::Builder::new().name("gdel pipelines".to_owned()).spawn(compile) {
             started::join_at_the_end(thread);
         }
-    }
-
-    /// Lets the device compile the kernels. If it cannot, runs do without.
-    #[cfg(target_arch = "wasm32")]
-    pub fn start(&self, gpu: &Gpu) {
-        let compiled = compile_all(gpu.clone(), self.0.clone());
-        js_sys::futures::spawn_local(async { _ = compiled.await });
     }
 
     /// Returns when the kernels are compiled. What no thread has begun with is compiled here.
@@ -380,7 +348,7 @@ impl Deferred {
     pub async fn finish(&self, gpu: &Gpu) -> Result<(), Error> {
         match self.0.iter().all(Kernel::is_compiled) {
             true => Ok(()),
-            false => compile_all(gpu.clone(), self.0.clone()).await,
+            false => compile_all(gpu, &self.0).await,
         }
     }
 }

@@ -53,9 +53,6 @@ where
         #[cfg(not(target_arch = "wasm32"))]
         phase1.deferred.start(gpu);
         compiler.finish().await?;
-        // Some browsers compile few kernels at a time.
-        #[cfg(target_arch = "wasm32")]
-        phase1.deferred.start(gpu);
         Ok(phase1)
     }
 
