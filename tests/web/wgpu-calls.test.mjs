@@ -229,10 +229,11 @@ test('the calls of a worker for another thread are made there', async () => {
   assert.equal(calls.queue(device), queue);
   calls.setPipeline(pass, calls.createComputePipeline(device, { label: 'a' }));
   const bytes = new Uint8Array(2 ** 17);
-  for (let run = 0; run < 3; run++) calls.writeBuffer(queue, 'points', 0, bytes);
+  const call = ['points', 0, bytes, 0, 2 ** 17];
+  for (let run = 0; run < 3; run++) calls.writeBuffer(queue, ...call);
   calls.submit(queue, ['run']);
   assert.equal(await calls.popErrorScope(device), null);
-  const write = ['write', 'points', 0, bytes, 0, 2 ** 17];
+  const write = ['write', ...call];
   assert.deepEqual(taken(), [['pipeline', 'a'], write, write, write, ['submit', 'run']]);
   calls.end();
 });
