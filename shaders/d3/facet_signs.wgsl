@@ -3,9 +3,10 @@
 // Expects: simplices; what d3/signs_filtered does.
 //!include d3/signs_filtered
 
-// Returns in how many of its edges the tetrahedra on both sides of facet k of t meet in a reflex angle,
-// of which two are enough to know, and from bit 2 on the last of those; LOCALLY_DELAUNAY if the facet is,
-// which may be known not to be so; UNDECIDED if a sign is undecided. Vertex e lies across the facet.
+// Returns LOCALLY_DELAUNAY if facet k of t is, and UNDECIDED if a sign is undecided. Otherwise returns in how
+// many edges of the facet the tetrahedra on both sides meet in a reflex angle, at most two, and from bit 2
+// on the last of these edges. Vertex e lies across the facet. If `is_violated`, the facet is known not to
+// be locally Delaunay.
 fn facet_signs(t: u32, tet: vec4u, k: u32, e: u32, is_violated: bool) -> u32 {
     if !is_violated {
         let sign = conflict(tet, e);

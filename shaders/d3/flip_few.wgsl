@@ -31,7 +31,7 @@ var<workgroup> exact_due: bool;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(local_invocation_index) local: u32) {
-    var always = atomicLoad(&control.exact) * EXACT_SHARE > control.visits;
+    var always = atomicLoad(&control.exact) > control.visits / EXACT_SHARE;
     decides = always;
     var turn = 0u;
     loop {
