@@ -188,11 +188,15 @@ export async function dropAll(page, contents) {
   await settled(page);
 }
 
+/** The address of the page. The page knows it before Playwright does, which is told later. */
+export const hrefOf = (page) => page.evaluate(() => location.href);
+
 /** The address of the page once it says what the page shows. */
 export async function addressOf(page) {
-  // The page writes it with a delay: a change of its own makes it write at once.
+  // The page writes it with a delay: sharing writes it once the file is packed.
   await page.click('#share');
-  return page.url();
+  await settled(page);
+  return hrefOf(page);
 }
 
 /** Clicks on a button that copies something, and returns that. */

@@ -13,6 +13,7 @@ import {
   expectAccessiblePanels,
   gdel,
   generate,
+  hrefOf,
   open,
   openOnPhone,
   pictureOf,
@@ -87,7 +88,6 @@ describe('2D', () => {
 
     // Out of the square, past a corner.
     await choose(page, 'tool', 'move');
-    const before = page.url();
     await page.mouse.move(...(await at(page, 0.5, 0.52)));
     await page.mouse.down();
     for (let x = 0.5; x < 0.83; x += 0.04) await page.mouse.move(...(await at(page, x, 0.52)));
@@ -95,13 +95,9 @@ describe('2D', () => {
     await settled(page);
     assert.equal(await text(page, 'count'), '5 points → 3 triangles');
     await pictureOf(page, '2d-drawn');
-    await until(
-      page,
-      (before) => location.href !== before && location.hash.includes('move_4_'),
-      before,
-    );
+    await until(page, () => location.hash.includes('move_4_'));
     // One change, however many steps the way had.
-    assert.equal(page.url().match(/move/g).length, 1);
+    assert.equal((await hrefOf(page)).match(/move/g).length, 1);
 
     await page.click('#undo');
     await settled(page);
@@ -126,7 +122,7 @@ describe('2D', () => {
     await pictureOf(page, '2d-cross');
     await press(page, 'Space');
     assert.equal(await text(page, 'edited'), 'Point held');
-    const before = page.url();
+    const before = await hrefOf(page);
     for (let i = 0; i < 6; i++) await press(page, 'ArrowLeft');
     await until(page, (before) => location.href !== before, before);
     await press(page, 'Space');
@@ -151,7 +147,7 @@ describe('2D', () => {
     await page.mouse.move(...(await at(page, 0.6, 0.4)));
     await page.mouse.wheel(0, -600);
     await until(page, () => location.hash.includes('camera='));
-    const zoomed = page.url();
+    const zoomed = await hrefOf(page);
     await page.mouse.move(...(await at(page, 0.15, 0.9)));
     await page.mouse.down();
     await page.mouse.move(...(await at(page, 0.3, 0.8)), { steps: 4 });

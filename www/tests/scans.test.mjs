@@ -53,13 +53,6 @@ function volumeOf(stl) {
   return sum / 6;
 }
 
-/** The link to a small file, once that is packed. */
-async function linkWithData(page) {
-  await addressOf(page);
-  await until(page, () => location.hash.includes('data='));
-  return page.url();
-}
-
 describe('a scan', () => {
   let page;
   const here = site({}, async ({ browser, url }) => {
@@ -270,7 +263,7 @@ describe('a scan', () => {
     await page.getByRole('button', { name: 'Corners only' }).click();
     await settled(page);
     assert.match(await text(page, 'count'), /^12 points/);
-    const other = await open(here.browser, await linkWithData(page));
+    const other = await open(here.browser, await addressOf(page));
     assert.match(await text(other, 'count'), /^12 points/);
     await other.getByRole('button', { name: 'Put points on them' }).click();
     await settled(other);
@@ -334,7 +327,7 @@ describe('a scan', () => {
           .map((p) => p.map((x) => x.toFixed(3))),
       ),
     );
-    const other = await open(here.browser, await linkWithData(page));
+    const other = await open(here.browser, await addressOf(page));
     assert.equal(await text(other, 'name'), 'small cat.xyz');
     assert.equal(await text(other, 'shown'), await text(page, 'shown'));
     assert.deepEqual(other.problems, []);

@@ -1,6 +1,7 @@
 import { pack } from '../model/packed';
 import type { Page } from '../page';
 import { toHash } from '../settings';
+import { whileBusy } from './busy';
 import { byId } from './dom';
 
 /** The button that copies a link to the view. */
@@ -13,7 +14,7 @@ export function wireShare(page: Page): void {
   button.addEventListener('click', async () => {
     const { source } = page.settings;
     if (source.kind === 'file' && source.files.length === 1)
-      source.packed ??= (await pack(source.files[0])) ?? undefined;
+      source.packed ??= (await whileBusy(pack(source.files[0]))) ?? undefined;
     const hash = toHash(page.settings);
     history.replaceState(null, '', `#${hash}`);
     try {
