@@ -164,6 +164,11 @@ impl Kernel {
         })
     }
 
+    /// Returns whether drivers take long to compile the pipeline.
+    fn takes_long(&self) -> bool {
+        self.shader.is_some_and(|(shader, _)| shader.takes_long())
+    }
+
     /// Returns whether the pipeline is compiled.
     pub fn is_compiled(&self) -> bool {
         self.pipeline.get().is_some()
@@ -311,10 +316,13 @@ impl<'a> Compiler<'a> {
     }
 }
 
-/// Compiles those of the kernels that are not.
+/// Compiles those of the kernels that are not; first those that take long, since a browser, or Dawn,
+/// compiles several at a time.
 async fn compile_all(gpu: &Gpu, kernels: &[Kernel]) -> Result<(), Error> {
     gpu.with_error_scope("pipelines", || {
-        kernels.iter().for_each(|kernel| _ = kernel.pipeline());
+        for takes_long in [true, false] {
+            kernels.iter().filter(|kernel| kernel.takes_long() == takes_long).for_each(|kernel| _ = kernel.pipeline());
+        }
         Ok(())
     })
     .await

@@ -89,6 +89,11 @@ impl Shader {
         Some(of_all.split_inclusive('\n').filter(is_of_part).collect())
     }
 
+    /// Returns whether drivers take long to compile the WGSL, as they do where it has exact arithmetic.
+    pub fn takes_long(&self) -> bool {
+        self.wide.iter().map(|part| part.len()).sum::<usize>() > 10_000
+    }
+
     /// Assembles the WGSL.
     pub fn wgsl(&self, width: Width) -> String {
         match width {

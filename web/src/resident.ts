@@ -83,11 +83,13 @@ export interface MadeResident {
 export class Held {
   readonly resident: MadeResident;
   readonly #free: Done<Task>['free'];
+  readonly device: Device;
   #users = 1;
 
-  constructor({ result, free }: Done<Task>) {
+  constructor({ result, free }: Done<Task>, device: Device) {
     this.resident = result.resident!;
     this.#free = free;
+    this.device = device;
   }
 
   /** Does something with the mesh, which lasts until that is done. */
@@ -104,6 +106,8 @@ export class Held {
   release(): void {
     if (--this.#users > 0) return;
     for (const buffer of this.resident.buffers) buffer.destroy();
+    // Dawn frees the memory at the next submission, which takes 3 ms for a million points.
+    this.device.queue.submit([]);
     this.#free!(this.resident.key);
   }
 }
@@ -150,7 +154,6 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
   readonly #names: readonly string[];
   /** What the number of tetrahedra or triangles is called. */
   readonly #count: string;
-  readonly #device: Device;
   readonly #update: Update<Task>;
   /** Makes a mesh of arrays in the memory of the CPU. */
   readonly #make: (done: any) => Mesh;
@@ -168,13 +171,12 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
     this.#names = names;
     this.#count = count;
     this.#update = update;
-    this.#device = device;
     this.#make = make;
-    this.#take(done);
+    this.#take(done, device);
   }
 
   /** Takes over what a run has made. */
-  #take(done: Done<Task>): void {
+  #take(done: Done<Task>, device: Device): void {
     const { result, place } = done;
     const made = result.resident!;
     const { counts, duplicateOf, dimension } = made;
@@ -183,7 +185,7 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
     const [count, hullCount] = counts;
     Object.assign(this, { buffers, hullCount, duplicateOf, dimension, stats });
     Object.assign(this, { [this.#count]: count });
-    this.#held = new Held(done);
+    this.#held = new Held(done, device);
     this.#points = result.points;
     this.#mesh = undefined;
   }
@@ -210,10 +212,10 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
       const held = this.#heldNow();
       const done = await held.use(() => this.#update(points, options, held, this.stats));
       if (this.#held !== held) {
-        new Held(done).release();
+        new Held(done, held.device).release();
         this.#heldNow();
       }
-      this.#take(done);
+      this.#take(done, held.device);
       held.release();
     });
   }
@@ -237,7 +239,7 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
     // An empty array has a buffer all the same.
     const size = [count, count, hullCount, duplicateOf.length][i]! && source.size;
     const { take } = new Memory(reuse && memoryOf([reuse]));
-    const { buffer } = await held.use(() => bytesOf(this.#device, source, size, take));
+    const { buffer } = await held.use(() => bytesOf(held.device, source, size, take));
     // Every other array has −1 where there is nothing.
     return new (i % 2 ? Int32Array : Uint32Array)(buffer, 0, size / 4) as Arrays[Name];
   }

@@ -1,35 +1,29 @@
 // Calls of wgpu for which WebGPU has a faster way: pipelines are compiled while the thread goes on, and
 // side by side, and large arrays are written through memory that stays.
 
+import { builtin } from './builtin.js';
 import type { Device, Queue } from './device.js';
 import { Staging } from './staging.js';
 
 /** A pipeline that is compiled aside, or when it is needed before. */
-class Pipeline {
-  #compiled: object | undefined;
-  #aside: Promise<void> | undefined;
+interface Pipeline {
+  /** Has a thread of the device compile it, unless it was needed. Returns it, or a promise of it. */
+  compile(): object;
+  /** It, compiled by this thread if it is not yet. */
+  now: object;
+}
 
-  #device: Device;
-  #descriptor: object;
-
-  constructor(device: Device, descriptor: object) {
-    this.#device = device;
-    this.#descriptor = descriptor;
-  }
-
-  /** Has a thread of the device compile it, unless it was needed. Fulfilled when that is done. */
-  compile(): Promise<void> | undefined {
-    if (this.#compiled) return;
-    this.#aside ??= this.#device.createComputePipelineAsync(this.#descriptor).then((pipeline) => {
-      this.#compiled ??= pipeline;
-    });
-    return this.#aside;
-  }
-
-  get now(): object {
-    this.#compiled ??= this.#device.createComputePipeline(this.#descriptor);
-    return this.#compiled;
-  }
+function pipelineOf(device: Device, descriptor: object): Pipeline {
+  let compiled: object | undefined;
+  let aside: Promise<object> | undefined;
+  const compileAside = () =>
+    device.createComputePipelineAsync(descriptor).then((pipeline) => (compiled ??= pipeline));
+  return {
+    compile: () => compiled ?? (aside ??= compileAside()),
+    get now() {
+      return (compiled ??= device.createComputePipeline(descriptor));
+    },
+  };
 }
 
 /** What a scope answers if a pipeline cannot be compiled: wgpu tells errors apart by their classes' names. */
@@ -45,6 +39,9 @@ const isRemote = (object: object) => 'remote' in object;
 export function wgpuCalls() {
   /** The pipelines of the innermost scope. */
   let created: Pipeline[] = [];
+  // In Node, the device is part of the process, and its threads, two in Dawn, compile all but every third
+  // pipeline: this thread takes the others, while it would wait. Elsewhere it would hold up who draws.
+  const share = 3;
   let staging: Staging | undefined;
   const stagingOf = (queue: Queue): Queue => (queue === staging?.queue ? staging : queue);
 
@@ -58,19 +55,22 @@ export function wgpuCalls() {
     createComputePipeline(device: Device, descriptor: object): object {
       if (isRemote(device)) return device.createComputePipeline(descriptor);
       // What is needed at once is so before the next one is created.
-      created.at(-1)?.compile();
-      const pipeline = new Pipeline(device, descriptor);
+      if (created.length % share) created.at(-1)!.compile();
+      const pipeline = pipelineOf(device, descriptor);
       created.push(pipeline);
       return pipeline;
     },
     setPipeline(pass: { setPipeline(pipeline: object): void }, pipeline: object): void {
-      pass.setPipeline(pipeline instanceof Pipeline ? pipeline.now : pipeline);
+      pass.setPipeline(isRemote(pipeline) ? pipeline : (pipeline as Pipeline).now);
     },
     popErrorScope(device: Device): Promise<{ message: string } | null> {
-      const answer = device.popErrorScope();
-      if (created.length === 0) return answer;
-      const compiled = created.map((pipeline) => pipeline.compile());
+      const isInProcess = builtin('node:worker_threads');
+      const compiled = created.map((pipeline, i) =>
+        isInProcess && i % share > share - 2 ? pipeline.now : pipeline.compile(),
+      );
       created = [];
+      const answer = device.popErrorScope();
+      if (compiled.length === 0) return answer;
       return Promise.all([answer, ...compiled]).then(([error]) => error, notCompiled);
     },
     writeBuffer: (queue: Queue, ...call: Parameters<Queue['writeBuffer']>) =>
