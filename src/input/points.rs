@@ -206,6 +206,11 @@ fn box_in<T: Copy + Into<f64>, const D: usize>(coordinates: &[T]) -> Box3 {
     let mut high = [f64::NEG_INFINITY; 3];
     let mut zero = [0.0; 3];
     for p in coordinates.as_chunks::<D>().0 {
+        // Most points change nothing. To ask first takes a third less where there are no vectors of floats.
+        let is_within = |axis: usize| (p[axis].into() >= low[axis]) & (p[axis].into() <= high[axis]);
+        if cfg!(target_arch = "wasm32") && (0..D).fold(true, |all, axis| all & is_within(axis)) {
+            continue;
+        }
         for axis in 0..D {
             let x: f64 = p[axis].into();
             low[axis] = if x < low[axis] { x } else { low[axis] };
