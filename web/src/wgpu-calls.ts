@@ -39,8 +39,8 @@ const isRemote = (object: object) => 'remote' in object;
 export function wgpuCalls() {
   /** The pipelines of the innermost scope. */
   let created: Pipeline[] = [];
-  // In Node, the device is part of the process, and its threads, two in Dawn, compile all but every third
-  // pipeline: this thread takes the others, while it would wait. Elsewhere it would hold up who draws.
+  // In Node, the device is part of the process, and its threads, two in Dawn, compile all but the second of
+  // every three pipelines: this thread takes that, while it would wait. Elsewhere it would hold up who draws.
   const share = 3;
   let staging: Staging | undefined;
   const stagingOf = (queue: Queue): Queue => (queue === staging?.queue ? staging : queue);
@@ -55,7 +55,7 @@ export function wgpuCalls() {
     createComputePipeline(device: Device, descriptor: object): object {
       if (isRemote(device)) return device.createComputePipeline(descriptor);
       // What is needed at once is so before the next one is created.
-      if (created.length % share) created.at(-1)!.compile();
+      if (created.length % share !== 2) created.at(-1)?.compile();
       const pipeline = pipelineOf(device, descriptor);
       created.push(pipeline);
       return pipeline;
@@ -66,7 +66,7 @@ export function wgpuCalls() {
     popErrorScope(device: Device): Promise<{ message: string } | null> {
       const isInProcess = builtin('node:worker_threads');
       const compiled = created.map((pipeline, i) =>
-        isInProcess && i % share > share - 2 ? pipeline.now : pipeline.compile(),
+        isInProcess && i % share === 1 ? pipeline.now : pipeline.compile(),
       );
       created = [];
       const answer = device.popErrorScope();
