@@ -316,8 +316,8 @@ impl<'a> Compiler<'a> {
     }
 }
 
-/// Compiles those of the kernels that are not; first those that take long, since a browser, or Dawn,
-/// compiles several at a time.
+/// Compiles the kernels that are not compiled yet. Those that take long come first, so that none of them
+/// is the last one where several are compiled at a time, as by browsers and Dawn.
 async fn compile_all(gpu: &Gpu, kernels: &[Kernel]) -> Result<(), Error> {
     gpu.with_error_scope("pipelines", || {
         for takes_long in [true, false] {

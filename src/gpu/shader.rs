@@ -89,9 +89,11 @@ impl Shader {
         Some(of_all.split_inclusive('\n').filter(is_of_part).collect())
     }
 
-    /// Returns whether drivers take long to compile the WGSL, as they do where it has exact arithmetic.
+    /// Returns whether drivers take long to compile the WGSL: the longest kernels are those with the
+    /// exact arithmetic of in-sphere tests and orientations.
     pub fn takes_long(&self) -> bool {
-        self.wide.iter().map(|part| part.len()).sum::<usize>() > 10_000
+        const LONG: usize = 10_000;
+        self.wide.iter().map(|part| part.len()).sum::<usize>() > LONG
     }
 
     /// Assembles the WGSL.

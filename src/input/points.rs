@@ -199,16 +199,16 @@ type Box3 = ([[f64; 3]; 2], bool);
 /// Returns the box of points in `D` ≤ 3 dimensions.
 ///
 /// The comparisons stand for `f64::min` and `f64::max`, which take WebAssembly longer, since they
-/// are exact about NaN.
+/// are exact about NaN. Most points are within the box of those before them: to check that first, as
+/// `checks_first` says, saves a third of the time where the compiler does not use vectors.
 #[inline(always)]
-fn box_in<T: Copy + Into<f64>, const D: usize>(coordinates: &[T]) -> Box3 {
+fn box_in<T: Copy + Into<f64>, const D: usize>(coordinates: &[T], checks_first: bool) -> Box3 {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
     let mut zero = [0.0; 3];
     for p in coordinates.as_chunks::<D>().0 {
-        // Most points change nothing. To ask first takes a third less where there are no vectors of floats.
         let is_within = |axis: usize| (p[axis].into() >= low[axis]) & (p[axis].into() <= high[axis]);
-        if cfg!(target_arch = "wasm32") && (0..D).fold(true, |all, axis| all & is_within(axis)) {
+        if checks_first && (0..D).fold(true, |all, axis| all & is_within(axis)) {
             continue;
         }
         for axis in 0..D {
@@ -222,17 +222,28 @@ fn box_in<T: Copy + Into<f64>, const D: usize>(coordinates: &[T]) -> Box3 {
     ([low, high], zero == [0.0; 3])
 }
 
+/// Modules of the npm package do not use vectors.
+const CHECKS_FIRST: bool = cfg!(target_arch = "wasm32");
+
 /// Returns the box of points whose coordinates are in double precision.
 ///
 /// Not generic over the dimension, as generic functions are compiled with the crate that calls them,
 /// which in WebAssembly is optimised for size.
 fn box_of_f64(coordinates: &[f64], dimension: usize) -> Box3 {
-    if dimension == 3 { box_in::<f64, 3>(coordinates) } else { box_in::<f64, 2>(coordinates) }
+    if dimension == 3 {
+        box_in::<f64, 3>(coordinates, CHECKS_FIRST)
+    } else {
+        box_in::<f64, 2>(coordinates, CHECKS_FIRST)
+    }
 }
 
 /// Returns the box of points whose coordinates are in single precision.
 fn box_of_f32(coordinates: &[f32], dimension: usize) -> Box3 {
-    if dimension == 3 { box_in::<f32, 3>(coordinates) } else { box_in::<f32, 2>(coordinates) }
+    if dimension == 3 {
+        box_in::<f32, 3>(coordinates, CHECKS_FIRST)
+    } else {
+        box_in::<f32, 2>(coordinates, CHECKS_FIRST)
+    }
 }
 
 fn whole_points<T, const D: usize>(coordinates: &[T]) -> Result<&[[T; D]], Error> {
@@ -369,6 +380,14 @@ mod tests {
         let none = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
         let expected = points.validate().map(|()| points.bounds().unwrap_or(none));
         prop_assert_eq!(points.finite_bounds(Threads::All), expected);
+        let [(first, is_finite), other] = [true, false].map(|checks_first| match points {
+            Points::F32(p) => box_in::<f32, D>(p.as_flattened(), checks_first),
+            Points::F64(p) => box_in::<f64, D>(p.as_flattened(), checks_first),
+        });
+        prop_assert_eq!(is_finite, other.1);
+        if is_finite {
+            prop_assert_eq!(first, other.0);
+        }
         Ok(())
     }
 

@@ -7,19 +7,21 @@ import { Staging } from './staging.js';
 
 /** A pipeline that is compiled aside, or when it is needed before. */
 interface Pipeline {
-  /** Has a thread of the device compile it, unless it was needed. Returns it, or a promise of it. */
+  /** Has a thread of the device compile it, unless it was needed. Returns the pipeline, or a promise of it. */
   compile(): object;
-  /** It, compiled by this thread if it is not yet. */
-  now: object;
+  /** The pipeline, compiled by this thread if it is not yet compiled. */
+  readonly now: object;
 }
 
 function pipelineOf(device: Device, descriptor: object): Pipeline {
   let compiled: object | undefined;
   let aside: Promise<object> | undefined;
-  const compileAside = () =>
-    device.createComputePipelineAsync(descriptor).then((pipeline) => (compiled ??= pipeline));
   return {
-    compile: () => compiled ?? (aside ??= compileAside()),
+    compile: () =>
+      compiled ??
+      (aside ??= device
+        .createComputePipelineAsync(descriptor)
+        .then((pipeline) => (compiled ??= pipeline))),
     get now() {
       return (compiled ??= device.createComputePipeline(descriptor));
     },
@@ -39,9 +41,9 @@ const isRemote = (object: object) => 'remote' in object;
 export function wgpuCalls() {
   /** The pipelines of the innermost scope. */
   let created: Pipeline[] = [];
-  // In Node, the device is part of the process, and its threads, two in Dawn, compile all but the second of
-  // every three pipelines: this thread takes that, while it would wait. Elsewhere it would hold up who draws.
-  const share = 3;
+  // Whether this thread compiles a pipeline in Node, where the device is part of the process: Dawn has two
+  // threads for that, and this one would only wait. In a browser, it would hold up the process that draws.
+  const isForThisThread = (i: number) => i % 3 === 1;
   let staging: Staging | undefined;
   const stagingOf = (queue: Queue): Queue => (queue === staging?.queue ? staging : queue);
 
@@ -55,7 +57,7 @@ export function wgpuCalls() {
     createComputePipeline(device: Device, descriptor: object): object {
       if (isRemote(device)) return device.createComputePipeline(descriptor);
       // What is needed at once is so before the next one is created.
-      if (created.length % share !== 2) created.at(-1)?.compile();
+      if (!isForThisThread(created.length - 1)) created.at(-1)?.compile();
       const pipeline = pipelineOf(device, descriptor);
       created.push(pipeline);
       return pipeline;
@@ -64,9 +66,8 @@ export function wgpuCalls() {
       pass.setPipeline(isRemote(pipeline) ? pipeline : (pipeline as Pipeline).now);
     },
     popErrorScope(device: Device): Promise<{ message: string } | null> {
-      const isInProcess = builtin('node:worker_threads');
       const compiled = created.map((pipeline, i) =>
-        isInProcess && i % share === 1 ? pipeline.now : pipeline.compile(),
+        isForThisThread(i) && builtin('node:worker_threads') ? pipeline.now : pipeline.compile(),
       );
       created = [];
       const answer = device.popErrorScope();

@@ -188,7 +188,7 @@ export async function dropAll(page, contents) {
   await settled(page);
 }
 
-/** The address of the page. The page knows it before Playwright does, which is told later. */
+/** The address of the page, of which Playwright learns only later. */
 export const hrefOf = (page) => page.evaluate(() => location.href);
 
 /** The address of the page once it says what the page shows. */

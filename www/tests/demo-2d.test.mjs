@@ -5,6 +5,7 @@ import { join } from 'node:path';
 import { describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import {
+  addressOf,
   choose,
   colorBy,
   compare,
@@ -88,6 +89,7 @@ describe('2D', () => {
 
     // Out of the square, past a corner.
     await choose(page, 'tool', 'move');
+    assert.doesNotMatch(await addressOf(page), /move_4_/);
     await page.mouse.move(...(await at(page, 0.5, 0.52)));
     await page.mouse.down();
     for (let x = 0.5; x < 0.83; x += 0.04) await page.mouse.move(...(await at(page, x, 0.52)));

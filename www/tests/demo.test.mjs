@@ -131,6 +131,7 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
   });
 
   test('turns by the arrow keys', async () => {
+    assert.doesNotMatch(await addressOf(page), /camera=/);
     await page.focus('#canvas');
     for (let i = 0; i < 5; i++) await page.keyboard.press('ArrowLeft');
     await until(page, () => location.hash.includes('camera='));

@@ -263,7 +263,9 @@ describe('a scan', () => {
     await page.getByRole('button', { name: 'Corners only' }).click();
     await settled(page);
     assert.match(await text(page, 'count'), /^12 points/);
-    const other = await open(here.browser, await addressOf(page));
+    const link = await addressOf(page);
+    assert.match(link, /data=/);
+    const other = await open(here.browser, link);
     assert.match(await text(other, 'count'), /^12 points/);
     await other.getByRole('button', { name: 'Put points on them' }).click();
     await settled(other);
@@ -327,7 +329,9 @@ describe('a scan', () => {
           .map((p) => p.map((x) => x.toFixed(3))),
       ),
     );
-    const other = await open(here.browser, await addressOf(page));
+    const link = await addressOf(page);
+    assert.match(link, /data=/);
+    const other = await open(here.browser, link);
     assert.equal(await text(other, 'name'), 'small cat.xyz');
     assert.equal(await text(other, 'shown'), await text(page, 'shown'));
     assert.deepEqual(other.problems, []);
