@@ -6,6 +6,8 @@ const NONE: u32 = 0xffffffff;
 const BLOCK: u32 = 8;
 // The free slots of a block, if all are.
 const ALL_FREE: u32 = 0xff;
+// In 3D, where the round in which its vertex was inserted starts in the word of a block.
+const ROUND_SHIFT: u32 = 8;
 // The sort key of a point that was merged into another: it goes behind all vertices.
 const MERGED_KEY: u32 = 0xffffffff;
 

@@ -1,6 +1,6 @@
 // What breaks ties in both dimensions: the order of the vertices' indices.
 //
-// Expects: Vertex, with an index; vertices.
+// Expects: Vertex, with an index.
 
 // Exchanges two vertices if they are not in the order of their indices.
 fn put_in_order(a: ptr<function, Vertex>, b: ptr<function, Vertex>, parity: ptr<function, i32>) {
@@ -33,10 +33,4 @@ fn in_order(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex) -> InOrder {
     put_in_order(&b, &d, &parity);
     put_in_order(&b, &c, &parity);
     return InOrder(a, b, c, d, parity);
-}
-
-// Returns `count` in a form that compilers do not see through. Otherwise they unroll loops of so
-// many steps, and spend seconds on exact arithmetic that hardly ever runs.
-fn not_unrolled(count: u32) -> u32 {
-    return min(count, arrayLength(&vertices) + count - 1);
 }

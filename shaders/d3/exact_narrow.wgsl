@@ -18,6 +18,7 @@ alias VertexWords = vec4i;
 struct Vertex {
     position: vec3i,
     index: u32,
+    number: u32,
 }
 
 // A difference of two lattice points; its entries may also be −2^31.
@@ -44,7 +45,7 @@ fn index_of(v: u32) -> u32 {
 
 fn load_vertex(v: u32) -> Vertex {
     let words = vertices[v];
-    return Vertex(words.xyz, u32(words.w));
+    return Vertex(words.xyz, u32(words.w), v);
 }
 
 fn difference(a: Vertex, b: Vertex) -> Row {

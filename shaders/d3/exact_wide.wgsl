@@ -18,6 +18,7 @@ struct Vertex {
     low: vec3u,
     high: vec3u,
     index: u32,
+    number: u32,
 }
 
 // A difference of two lattice points.
@@ -44,7 +45,7 @@ fn load_vertex(v: u32) -> Vertex {
     let words = vertices[2 * v];
     let high = vec3u(words.xyz);
     let low = vec3u(vertices[2 * v + 1].xyz);
-    return Vertex((high << vec3u(31)) | low, high >> vec3u(1), u32(words.w));
+    return Vertex((high << vec3u(31)) | low, high >> vec3u(1), u32(words.w), v);
 }
 
 fn difference(a: Vertex, b: Vertex) -> Row {

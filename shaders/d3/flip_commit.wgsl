@@ -23,9 +23,15 @@ fn take_from(block: u32, free: u32) -> u32 {
         if ((before >> place) & 1) != 0 {
             slot = block * BLOCK + place;
         }
-        places = before & ~(1u << place);
+        places = before & ALL_FREE & ~(1u << place);
     }
     return slot;
+}
+
+// Returns the free slots of a block, none where its word is `reserved`.
+fn free_in(block: u32, reserved: u32) -> u32 {
+    let word = atomicLoad(&control.free[block]);
+    return select(word & ALL_FREE, 0u, word == reserved);
 }
 
 // Takes a free slot from the block of a vertex of the flip or of one beside it, else from one of a few
@@ -42,21 +48,20 @@ fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
     for (var i = 0u; i <= BESIDE_TRIES + TAIL_TRIES && slot == NONE; i++) {
         // The slots of vertices that are not inserted yet are all free, and not for others.
         let reserved = select(0u, ALL_FREE, i > 0 && i <= BESIDE_TRIES);
-        let x = atomicLoad(&control.free[blocks.x]);
-        let y = atomicLoad(&control.free[blocks.y]);
-        let z = atomicLoad(&control.free[blocks.z]);
-        let w = atomicLoad(&control.free[blocks.w]);
+        let x = free_in(blocks.x, reserved);
+        let y = free_in(blocks.y, reserved);
+        let z = free_in(blocks.z, reserved);
+        let w = free_in(blocks.w, reserved);
         var block = last;
-        var places = atomicLoad(&control.free[last]);
-        places = select(places, 0u, places == reserved);
-        block = select(block, blocks.w, w != 0 && w != reserved);
-        places = select(places, w, w != 0 && w != reserved);
-        block = select(block, blocks.z, z != 0 && z != reserved);
-        places = select(places, z, z != 0 && z != reserved);
-        block = select(block, blocks.y, y != 0 && y != reserved);
-        places = select(places, y, y != 0 && y != reserved);
-        block = select(block, blocks.x, x != 0 && x != reserved);
-        places = select(places, x, x != 0 && x != reserved);
+        var places = free_in(last, reserved);
+        block = select(block, blocks.w, w != 0);
+        places = select(places, w, w != 0);
+        block = select(block, blocks.z, z != 0);
+        places = select(places, z, z != 0);
+        block = select(block, blocks.y, y != 0);
+        places = select(places, y, y != 0);
+        block = select(block, blocks.x, x != 0);
+        places = select(places, x, x != 0);
         slot = take_from(block, places);
         if i < BESIDE_TRIES {
             let beside = select(0xffffffffu, 1u, i == 0);

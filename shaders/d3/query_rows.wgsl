@@ -11,7 +11,7 @@ struct Query {
 }
 
 fn query_at(place: LatticePoint) -> Query {
-    let vertex = Vertex((place.high << vec3u(31)) | place.low, place.high >> vec3u(1), 0);
+    let vertex = Vertex((place.high << vec3u(31)) | place.low, place.high >> vec3u(1), 0, 0);
     return Query(vec3i(place.high), vertex, place.exact);
 }
 

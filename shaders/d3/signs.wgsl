@@ -2,7 +2,7 @@
 // where `decides` is set.
 //
 // Expects: vertices: array<VertexWords>; control.
-//!include d3/predicates
+//!include d3/perturbed
 //!include d3/filter
 //!include d3/refined_{width}
 
@@ -10,6 +10,11 @@
 var<private> exact_signs: u32 = 0;
 // Whether what the first filter leaves open is decided; otherwise its sign is 0.
 var<private> decides: bool = true;
+
+// Returns the round in which a vertex was inserted.
+fn round_of(v: u32) -> u32 {
+    return atomicLoad(&control.free[v]) >> ROUND_SHIFT;
+}
 
 // Returns the orientation of four finite vertices if `of_four`, where e is the interior point;
 // otherwise whether e is inside the circumsphere of four that are positively oriented. Both in one

@@ -2,9 +2,10 @@
 //
 // Expects: control.
 
-// Notes that the slots of the children at point p are not free any more.
+// Notes that point p is inserted, and that the slots of its children are not free any more. All of its
+// slots were.
 fn take_slots(p: u32) {
-    atomicAnd(&control.free[p], ~7u);
+    atomicStore(&control.free[p], (control.round << ROUND_SHIFT) | (ALL_FREE & ~7u));
 }
 
 // Notes that a slot is not free any more.

@@ -30,6 +30,9 @@ pub const NONE: u32 = common::NONE;
 pub const BLOCK: u32 = common::BLOCK;
 /// The free slots of a block, if all are.
 pub const ALL_FREE: u32 = common::ALL_FREE;
+/// Where, in the word of a block in 3D, the round starts in which its vertex was inserted; below are its
+/// free slots.
+pub const ROUND_SHIFT: u32 = common::ROUND_SHIFT;
 
 /// The status of a tetrahedron.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]

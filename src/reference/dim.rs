@@ -29,7 +29,9 @@ pub trait ReferenceDim<const D: usize>: Dim<D> {
 
     /// Returns on which side of the circumsphere of positively oriented points `e` is: positive if
     /// inside. Never zero.
-    fn in_sphere(width: Width, points: &[Vertex<D>], corners: Self::Corners, e: u32) -> Sign;
+    fn in_sphere(state: &State<D>, corners: Self::Corners, e: u32) -> Sign
+    where
+        Dimension<D>: ReferenceDim<D>;
 
     /// Returns which child of a simplex with these corners, split at `p`, holds `q`: the one with
     /// `p` in place of that corner.
@@ -58,8 +60,8 @@ pub trait OwnState: Debug + Clone + PartialEq {
     /// Makes them larger, for `blocks` blocks.
     fn grow(&mut self, blocks: u32);
 
-    /// Notes that the first `slots` slots of a vertex are used.
-    fn occupy(&mut self, vertex: u32, slots: u32);
+    /// Notes that a vertex is inserted in this round, and that its first `slots` slots are used.
+    fn occupy(&mut self, vertex: u32, slots: u32, round: u32);
 
     /// Notes that a slot is used.
     fn occupy_slot(&mut self, slot: u32);
@@ -71,7 +73,7 @@ impl OwnState for () {
 
     fn grow(&mut self, _blocks: u32) {}
 
-    fn occupy(&mut self, _vertex: u32, _slots: u32) {}
+    fn occupy(&mut self, _vertex: u32, _slots: u32, _round: u32) {}
 
     fn occupy_slot(&mut self, _slot: u32) {}
 }

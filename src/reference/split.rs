@@ -59,7 +59,7 @@ where
                 state.append(state.half(), child);
             }
         }
-        state.own.occupy(p, D as u32);
+        state.own.occupy(p, D as u32, state.counters.round);
         state.counters.inserted += 1;
     }
 }

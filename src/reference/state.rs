@@ -152,7 +152,7 @@ where
         }
         match corners.as_ref().iter().position(|&v| v == infinite) {
             Some(k) => self.orient(replaced(corners, k, e)) > 0,
-            None => Dimension::<D>::in_sphere(self.width, &self.points, corners, e) > 0,
+            None => Dimension::<D>::in_sphere(self, corners, e) > 0,
         }
     }
 

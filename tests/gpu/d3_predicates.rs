@@ -15,12 +15,19 @@ const KERNEL: &str = include_str!("../shaders/d3_predicates.wgsl");
 
 fn on_the_gpu(kernel: &SignKernel, width: Width, cases: &[Case]) -> Vec<[i32; 7]> {
     let mut words = Vec::new();
-    for v in cases.iter().flatten() {
-        vertex::append_words(&mut words, width, v.position, v.index, false);
+    for (i, case) in cases.iter().enumerate() {
+        for v in case.iter().chain([&interior_of(cases, i)]) {
+            vertex::append_words(&mut words, width, v.position, v.index, false);
+        }
     }
-    assert_eq!(words.len(), 5 * cases.len() * Dimension::<3>::vertex_words(width));
+    assert_eq!(words.len(), 6 * cases.len() * Dimension::<3>::vertex_words(width));
     let vertices = Storage::with_contents(&kernel.gpu, "vertices", &words).unwrap();
     kernel.signs(&[("vertices", vertices.buffer())], cases.len())
+}
+
+/// The interior point of a case: a vertex of the next one.
+fn interior_of(cases: &[Case], i: usize) -> Vertex {
+    Vertex { index: u32::MAX, ..cases[(i + 1) % cases.len()][4] }
 }
 
 fn check(width: Width) {
@@ -35,10 +42,10 @@ fn check_kernel(kernel: &SignKernel, width: Width) {
         let mut zeros = [0, 0];
         let mut decided = [0, 0];
         let mut refined = [0, 0];
-        for (case, signs) in cases.iter().zip(on_the_gpu(kernel, width, &cases)) {
+        for (i, (case, signs)) in cases.iter().zip(on_the_gpu(kernel, width, &cases)).enumerate() {
             let signs = signs.map(|s| s as Sign);
             let four = [case[0], case[1], case[2], case[3]];
-            let interior = Vertex { index: u32::MAX, ..case[4] };
+            let interior = interior_of(&cases, i);
             let exact = exact_orientation(&case.map(|v| v.position));
             assert_eq!(signs[0], exact, "orient3d_exact, {family:?}: {case:?}");
             assert!(signs[3] == 0 || signs[3] == exact, "orient3d_filter, {family:?}: {case:?}");
@@ -50,7 +57,9 @@ fn check_kernel(kernel: &SignKernel, width: Width) {
             decided[0] += usize::from(signs[3] != 0);
             refined[0] += usize::from(signs[5] != 0);
             let exact = exact_in_circumsphere(&case.map(|v| v.position));
-            assert_eq!(signs[2], reference::insphere(width, *case), "in-sphere, {family:?}: {case:?}");
+            let rounds = std::array::from_fn(|k| (i >> k & 1) as u32);
+            let expected = reference::insphere(width, *case, rounds, interior);
+            assert_eq!(signs[2], expected, "in-sphere, {family:?}: {case:?}, {rounds:?}, {interior:?}");
             assert!(exact == 0 || signs[2] == exact, "in-sphere, {family:?}: {case:?}");
             assert_ne!(signs[2], 0);
             assert!(signs[4] == 0 || signs[4] == exact, "insphere_filter, {family:?}: {case:?}");

@@ -1,6 +1,6 @@
 //! The reference of the GPU's predicates: its ties are those of a perturbation that is carried out.
 
-use crate::perturbation::{leaning, perturbed_rows, sign_of_columns};
+use crate::perturbation::{leaning, nearer, perturbed_rows, sign_of_columns};
 use gdel::internals::{
     gpu::start::first_simplex,
     input::lattice::Width,
@@ -10,6 +10,7 @@ use gdel::internals::{
 use num_bigint::BigInt;
 use rand::{Rng, RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg64Mcg;
+use std::cmp::Reverse;
 
 /// (x, y, z, height, 1), perturbed.
 fn rows(vertices: &[Vertex]) -> Vec<Vec<BigInt>> {
@@ -20,8 +21,15 @@ fn perturbed_orient3d(vertices: [Vertex; 4], interior: Vertex) -> Sign {
     -sign_of_columns(&leaning(rows(&vertices), interior.position), &[0, 1, 2, 4])
 }
 
-fn perturbed_insphere(vertices: [Vertex; 5]) -> Sign {
-    -sign_of_columns(&rows(&vertices), &[0, 1, 2, 3, 4])
+fn perturbed_insphere(vertices: [Vertex; 5], rounds: [u32; 5], interior: Vertex) -> Sign {
+    let mut order = [0, 1, 2, 3, 4];
+    order.sort_unstable_by_key(|&k: &usize| (Reverse(rounds[k]), vertices[k].index));
+    -sign_of_columns(&nearer(rows(&vertices), interior.position, &order), &[0, 1, 2, 3, 4])
+}
+
+/// Rounds of which some are the same.
+fn rounds(rng: &mut impl Rng) -> [u32; 5] {
+    std::array::from_fn(|_| rng.random_range(0..3))
 }
 
 /// A point of a grid of `side`³, with an index above all others.
@@ -53,10 +61,12 @@ fn ties_are_those_of_the_perturbation() {
             assert_eq!(reference::orient3d(width, four, interior), expected, "{four:?}, {interior:?}");
         }
         let five = vertices(side, &mut rng);
-        let expected = perturbed_insphere(five);
+        let rounds = rounds(&mut rng);
+        let expected = perturbed_insphere(five, rounds, interior);
         assert_ne!(expected, 0);
         for width in [Width::Narrow, Width::Wide] {
-            assert_eq!(reference::insphere(width, five), expected, "{five:?}");
+            let sign = reference::insphere(width, five, rounds, interior);
+            assert_eq!(sign, expected, "{five:?}, {rounds:?}, {interior:?}");
         }
     }
 }
@@ -67,7 +77,7 @@ fn exchanging_two_arguments_changes_the_sign() {
     for _ in 0..2000 {
         let five: [Vertex; 5] = vertices(3, &mut rng);
         let four = [five[0], five[1], five[2], five[3]];
-        let interior = interior_point(3, &mut rng);
+        let (interior, rounds) = (interior_point(3, &mut rng), rounds(&mut rng));
         for (i, j) in [(0, 1), (1, 2), (0, 3), (2, 3)] {
             let mut exchanged = four;
             exchanged.swap(i, j);
@@ -78,11 +88,12 @@ fn exchanging_two_arguments_changes_the_sign() {
             );
         }
         for (i, j) in [(0, 1), (1, 2), (0, 4), (3, 4)] {
-            let mut exchanged = five;
+            let (mut exchanged, mut their_rounds) = (five, rounds);
             exchanged.swap(i, j);
+            their_rounds.swap(i, j);
             assert_eq!(
-                reference::insphere(Width::Narrow, exchanged),
-                -reference::insphere(Width::Narrow, five),
+                reference::insphere(Width::Narrow, exchanged, their_rounds, interior),
+                -reference::insphere(Width::Narrow, five, rounds, interior),
                 "{five:?}"
             );
         }
@@ -99,7 +110,8 @@ fn heights_come_before_lowered_coordinates() {
         let five: [Vertex; 5] = vertices(3, &mut rng);
         let defined = insphere_symbolic(five.map(|v| (v.index, v.position.map(|q| q as f64))));
         if defined != 0 {
-            assert_eq!(reference::insphere(Width::Narrow, five), defined, "{five:?}");
+            let (rounds, interior) = (rounds(&mut rng), interior_point(3, &mut rng));
+            assert_eq!(reference::insphere(Width::Narrow, five, rounds, interior), defined, "{five:?}");
             compared += 1;
         }
     }
@@ -131,6 +143,8 @@ fn the_perturbed_triangulation_is_the_answer() {
         let Some(start) = first_simplex(Width::Narrow, points.len(), |i| points[i]) else { continue };
         let interior = Vertex { position: start.interior_point, index: u32::MAX };
         let vertex = |i: usize| Vertex { position: points[i], index: i as u32 };
+        // In whatever order they were inserted.
+        let rounds: Vec<u32> = points.iter().map(|_| rng.random_range(0..4)).collect();
         let coordinates = |i: usize| points[i].map(|q| q as f64);
         let is_flat = |t: [usize; 4]| {
             let [a, b, c, d] = t.map(coordinates);
@@ -141,7 +155,11 @@ fn the_perturbed_triangulation_is_the_answer() {
             .filter(|&t| {
                 let [a, b, c, d] = t.map(vertex);
                 let orientation = reference::orient3d(Width::Narrow, [a, b, c, d], interior);
-                others(t).all(|e| reference::insphere(Width::Narrow, [a, b, c, d, vertex(e)]) == -orientation)
+                others(t).all(|e| {
+                    let five = [t[0], t[1], t[2], t[3], e];
+                    let rounds = five.map(|i| rounds[i]);
+                    reference::insphere(Width::Narrow, five.map(vertex), rounds, interior) == -orientation
+                })
             })
             .collect();
         let promised: Vec<_> = fours(points.len())

@@ -27,8 +27,8 @@ impl ReferenceDim<2> for Dimension<2> {
         predicates::orient2d(corners.map(|v| points[v as usize]), points[points.len() - 1])
     }
 
-    fn in_sphere(_width: Width, points: &[Vertex], [a, b, c]: [u32; 3], e: u32) -> Sign {
-        predicates::incircle([a, b, c, e].map(|v| points[v as usize]))
+    fn in_sphere(state: &State<2>, [a, b, c]: [u32; 3], e: u32) -> Sign {
+        predicates::incircle([a, b, c, e].map(|v| state.points[v as usize]))
     }
 
     /// Takes 2 orientations: the rays from p to the corners divide the triangle. The line of the

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::d3::mesh::FACETS;
 use crate::dimension::Dimension;
-use crate::gpu::layout::{ALL_FREE, BLOCK, Counters, DONE, DONE_23, FLIP_23, FlipNode, SLOT_SHIFT};
+use crate::gpu::layout::{ALL_FREE, BLOCK, Counters, DONE, DONE_23, FLIP_23, FlipNode, ROUND_SHIFT, SLOT_SHIFT};
 use crate::input::lattice::Width;
 use crate::predicates::Sign;
 
@@ -27,8 +27,11 @@ impl ReferenceDim<3> for Dimension<3> {
         predicates::orient3d(width, corners.map(|v| points[v as usize]), points[points.len() - 1])
     }
 
-    fn in_sphere(width: Width, points: &[Vertex], [a, b, c, d]: [u32; 4], e: u32) -> Sign {
-        predicates::insphere(width, [a, b, c, d, e].map(|v| points[v as usize]))
+    fn in_sphere(state: &State<3>, [a, b, c, d]: [u32; 4], e: u32) -> Sign {
+        let State { width, points, own, params, .. } = state;
+        let five = [a, b, c, d, e];
+        let rounds = five.map(|v| own.free[v as usize] >> ROUND_SHIFT);
+        predicates::insphere(*width, five.map(|v| points[v as usize]), rounds, points[params.infinite as usize])
     }
 
     /// Takes 3 orientations: the plane of p, v₀, v₁ and that of p, v₂, v₃ leave two children whose
@@ -108,7 +111,7 @@ impl Kernels<3> for Dimension<3> {
 /// The buffers that only 3D has, in host memory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OwnState {
-    /// The free slots of each block.
+    /// The free slots of each block, and the round in which its vertex was inserted.
     pub free: Vec<u32>,
     /// Whether each vertex has a facet that is not locally Delaunay.
     pub failed: Vec<u32>,
@@ -123,8 +126,8 @@ impl dim::OwnState for OwnState {
         self.free.resize(blocks as usize, ALL_FREE);
     }
 
-    fn occupy(&mut self, vertex: u32, slots: u32) {
-        self.free[vertex as usize] &= !((1 << slots) - 1);
+    fn occupy(&mut self, vertex: u32, slots: u32, round: u32) {
+        self.free[vertex as usize] = round << ROUND_SHIFT | ALL_FREE & !((1 << slots) - 1);
     }
 
     fn occupy_slot(&mut self, slot: u32) {

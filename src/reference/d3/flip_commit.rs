@@ -96,7 +96,7 @@ fn free_slot(state: &mut State<3>, flip: &Flip) -> Option<u32> {
     for (block, is_beside) in of_flip.chain(of_others).chain(in_tail.map(|block| (block, false))) {
         let free = &mut state.own.free[block as usize];
         // The slots of vertices that are not inserted yet are all free, and not for others.
-        if *free != 0 && !(is_beside && *free == ALL_FREE) {
+        if *free & ALL_FREE != 0 && !(is_beside && *free == ALL_FREE) {
             let place = free.trailing_zeros();
             *free &= !(1 << place);
             return Some(block * BLOCK + place);

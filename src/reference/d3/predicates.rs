@@ -1,9 +1,10 @@
-//! The reference of `shaders/d3/predicates.wgsl`, which explains how ties are broken.
+//! The reference of `shaders/d3/perturbed.wgsl`, which explains how ties are broken.
 //!
 //! The signs agree; the way to them differs: fixed-width integers of the CPU decide nearly
 //! everything, and big integers what is left to the lowered coordinates.
 
 use num_bigint::BigInt;
+use std::cmp::Reverse;
 
 use crate::{
     input::lattice::Width,
@@ -36,18 +37,41 @@ fn orient3d_at(width: Width, [a, b, c, d]: [[i64; 3]; 4]) -> Sign {
 pub fn orient3d(width: Width, vertices: [Vertex; 4], interior: Vertex) -> Sign {
     let orientation = |positions: [[i64; 3]; 5]| orient3d_at(width, symbolic::without(positions, 4));
     let [a, b, c, d] = vertices;
-    perturbed(width, [a, b, c, d, interior], orientation)
+    perturbed(width, [a, b, c, d, interior], orientation, |_| None)
 }
 
 /// Returns the sign of e against the sphere through the positively oriented a, b, c, d, positive
 /// inside, with ties broken: never 0 for vertices with different indices.
-pub fn insphere(width: Width, vertices: [Vertex; 5]) -> Sign {
-    perturbed(width, vertices, |_| 0)
+///
+/// The vertices were inserted in `rounds`; `interior` is a point with an index above theirs.
+pub fn insphere(width: Width, vertices: [Vertex; 5], rounds: [u32; 5], interior: Vertex) -> Sign {
+    let positions = vertices.map(|v| v.position);
+    let mut latest_first = [0, 1, 2, 3, 4];
+    latest_first.sort_unstable_by_key(|&k: &usize| (Reverse(rounds[k]), vertices[k].index));
+    let by_round = |lower: [[i64; 3]; 5]| {
+        latest_first.into_iter().find_map(|k| {
+            // The interior point comes last, and the last one to the place of the one that is left out.
+            let positions = exchanged(positions, k, interior.position);
+            let lower = exchanged(lower, k, interior.position);
+            let indices = exchanged(vertices.map(|v| v.index), k, interior.index);
+            let sign = match lifted(positions, lower) {
+                0 => heights(width, indices, lower),
+                sign => sign,
+            };
+            (sign != 0).then_some(if k == 4 { sign } else { -sign })
+        })
+    };
+    perturbed(width, vertices, |_| 0, by_round)
 }
 
 /// Returns the first sign that is not 0, over all sets of coordinates to lower: that of `first`, of
-/// the in-sphere determinant, and of the heights in it.
-fn perturbed(width: Width, vertices: [Vertex; 5], first: impl Fn([[i64; 3]; 5]) -> Sign) -> Sign {
+/// the in-sphere determinant, of the heights in it, and of `last`.
+fn perturbed(
+    width: Width,
+    vertices: [Vertex; 5],
+    first: impl Fn([[i64; 3]; 5]) -> Sign,
+    last: impl Fn([[i64; 3]; 5]) -> Option<Sign>,
+) -> Sign {
     let positions = vertices.map(|v| v.position);
     let order = by_index(&vertices);
     let sign_at = |set: u32| {
@@ -56,12 +80,24 @@ fn perturbed(width: Width, vertices: [Vertex; 5], first: impl Fn([[i64; 3]; 5]) 
             lower[i] = lowered(positions[i], set, rank);
         }
         let in_sphere = || if set == 0 { insphere_at(width, positions) } else { lifted(positions, lower) };
-        let by_heights =
-            || symbolic::break_tie(vertices.map(|v| v.index), |k| orient3d_at(width, symbolic::without(lower, k)));
+        let by_heights = || heights(width, vertices.map(|v| v.index), lower);
         let nonzero = |sign: Sign| (sign != 0).then_some(sign);
-        nonzero(first(lower)).or_else(|| nonzero(in_sphere())).or_else(|| nonzero(by_heights()))
+        let sign = nonzero(first(lower)).or_else(|| nonzero(in_sphere())).or_else(|| nonzero(by_heights()));
+        sign.or_else(|| last(lower))
     };
     PERTURBATIONS.into_iter().find_map(sign_at).unwrap_or(0)
+}
+
+/// Returns the five with the last one in the place of the one that is left out, and `interior` last.
+fn exchanged<T: Copy>(mut five: [T; 5], left_out: usize, interior: T) -> [T; 5] {
+    five[left_out] = five[4];
+    five[4] = interior;
+    five
+}
+
+/// Returns the sign that the heights give to an in-sphere determinant that is 0.
+fn heights(width: Width, indices: [u32; 5], positions: [[i64; 3]; 5]) -> Sign {
+    symbolic::break_tie(indices, |k| orient3d_at(width, symbolic::without(positions, k)))
 }
 
 fn insphere_at(width: Width, [a, b, c, d, e]: [[i64; 3]; 5]) -> Sign {
