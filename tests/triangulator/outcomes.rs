@@ -315,8 +315,8 @@ fn rasters_and_full_grids_take_few_flip_iterations() {
         ("raster, unrounded", clouds::raster(60, 0.0), 260),
         ("terrain", clouds::terrain(60, 0.7, 0.0), 500),
         ("terrain, whole heights", clouds::terrain(60, 0.7, 1.0), 400),
-        ("full grid", clouds::grid(16), 230),
-        ("full grid, shuffled", clouds::shuffled(&clouds::grid(16), 1), 230),
+        ("full grid", clouds::grid(16), 330),
+        ("full grid, shuffled", clouds::shuffled(&clouds::grid(16), 1), 330),
         ("flat ground", clouds::flat_ground(2_000), 150),
     ];
     for (name, points, most) in inputs {

@@ -26,7 +26,7 @@ use crate::{
         phase1::Run,
     },
     options::Options,
-    parallel::Threads,
+    parallel::{self, Threads},
     predicates::filter::PredicateContext,
     stats::{Fallback, Phase},
 };
@@ -107,7 +107,9 @@ async fn complete_on_device(
     let patch = match splayed {
         Ok((region, splay)) => {
             stats.splay = Some(splay);
-            region.patch(slots, Threads::All)
+            let patch = region.patch(slots, Threads::All);
+            parallel::dispose(region);
+            patch
         }
         Err(Stop::Error(error)) => return Err(error),
         Err(Stop::Aborted(reason)) => {

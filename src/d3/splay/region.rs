@@ -65,7 +65,7 @@ pub struct Patch {
 impl Gathered {
     /// Adds others behind the first `len`. What is missing before has no slot.
     fn append(&mut self, len: usize, others: Gathered, threads: Threads) {
-        if len == 0 && self.slots.capacity() == 0 {
+        if len == 0 && self.slots.is_empty() {
             *self = others;
             return;
         }
@@ -133,11 +133,7 @@ impl Region {
             mesh,
             incident: parallel::filled(threads, vertices, NO_INDEX),
             complete: Complete::Those(IndexSet::new(vertices)),
-            given: Gathered {
-                tetrahedra: with_room(room, [0; 4]),
-                neighbors: with_room(room, [0; 4]),
-                slots: with_room(room, 0),
-            },
+            given: Gathered::default(),
             gathers: [0; 2],
         }
     }
