@@ -178,7 +178,9 @@ export function exactSigns(vertices) {
 
 /** The contents of the kernel's input buffers: words of 32 bits. */
 export function buffers(cases, dimension, width) {
-  const vertices = cases.flat();
+  // In 3D the interior point comes behind: here, where the last vertex is.
+  const interior = (vertices) => ({ ...vertices.at(-1), index: 0xffff_ffff });
+  const vertices = cases.flatMap((five) => (dimension === 3 ? [...five, interior(five)] : five));
   const high = (x) => (width === 'wide' ? Number(x >> 31n) : Number(x));
   const low = (x) => Number(x & 0x7fff_ffffn);
   const words = vertices.flatMap(({ position, index }) => {
