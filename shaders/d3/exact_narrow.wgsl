@@ -18,6 +18,7 @@ alias VertexWords = vec4i;
 struct Vertex {
     position: vec3i,
     index: u32,
+    // The vertex itself.
     number: u32,
 }
 

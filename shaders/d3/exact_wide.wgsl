@@ -18,6 +18,7 @@ struct Vertex {
     low: vec3u,
     high: vec3u,
     index: u32,
+    // The vertex itself.
     number: u32,
 }
 

@@ -11,9 +11,9 @@
 // larger than the next. The coefficient of ζ_i is, up to its sign, the in-sphere determinant of the
 // other four with the interior point for the fifth. So a point that is inserted into a facet of the
 // hull lies inside all flat tetrahedra under it: they are flipped away, and the point comes to be
-// joined to what is below. Were it outside, or as indices say, flat tetrahedra would remain between
-// two triangulations of the facet, and each later point would add to them. Tetrahedra of the answer
-// are not flat, so that it does not depend on the order of insertion.
+// joined to what is below. If it were outside of them, they would remain between two triangulations of
+// the facet, and each later point would add to them. The tetrahedra of the answer are not flat, so that it
+// does not depend on the order of insertion.
 //
 // Infinity leans. Lifted to these heights, the triangulation is a convex hull, and infinity would
 // be the direction straight up, which four coplanar points leave undecided. So it leans, by an η
@@ -148,13 +148,15 @@ fn perturbed_sign(a_: Vertex, b_: Vertex, c_: Vertex, d_: Vertex, e_: Vertex, of
             break;
         }
         step += select(1u, STEPS_PER_SET, of_four);
-        left_out = 4u;
-        done = select(done, 0u, step % STEPS_PER_SET == 0);
-        if step % STEPS_PER_SET != 0 {
+        var origin = last;
+        if step % STEPS_PER_SET == 0 {
+            left_out = 4;
+            done = 0;
+        } else {
             left_out = latest(first, last, done);
             done |= 1u << left_out;
+            origin = control.infinite;
         }
-        let origin = select(control.infinite, last, step % STEPS_PER_SET == 0);
         let four = select(vec4u(first.yzw, last), first, vec4u(0, 1, 2, 3) < vec4u(left_out));
         rows = rows_of(
             load_vertex(four.x), load_vertex(four.y), load_vertex(four.z), load_vertex(four.w), load_vertex(origin)

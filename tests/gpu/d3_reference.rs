@@ -128,8 +128,9 @@ fn rounds_on_rasters_grids_and_lines() {
     }
 }
 
-/// Flat tetrahedra under a facet of the hull give way to the points that are inserted into it: there were 1,137
-/// of them when lowered coordinates decided which do, and 808 if the lowest index does.
+/// Flat tetrahedra under a facet of the hull give way to the points that are inserted into it. There were 1,137
+/// of them when the lowered coordinates broke ties of five coplanar points, and there are 808 if the lowest index
+/// does so instead of the last insertion.
 #[test]
 fn flat_tetrahedra_do_not_grow_in_the_faces_of_a_cube() {
     let mut flat = 0;

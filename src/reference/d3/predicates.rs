@@ -37,7 +37,7 @@ fn orient3d_at(width: Width, [a, b, c, d]: [[i64; 3]; 4]) -> Sign {
 pub fn orient3d(width: Width, vertices: [Vertex; 4], interior: Vertex) -> Sign {
     let orientation = |positions: [[i64; 3]; 5]| orient3d_at(width, symbolic::without(positions, 4));
     let [a, b, c, d] = vertices;
-    perturbed(width, [a, b, c, d, interior], orientation, |_| None)
+    perturbed(width, [a, b, c, d, interior], orientation, |_| 0)
 }
 
 /// Returns the sign of e against the sphere through the positively oriented a, b, c, d, positive
@@ -49,7 +49,7 @@ pub fn insphere(width: Width, vertices: [Vertex; 5], rounds: [u32; 5], interior:
     let mut latest_first = [0, 1, 2, 3, 4];
     latest_first.sort_unstable_by_key(|&k: &usize| (Reverse(rounds[k]), vertices[k].index));
     let by_round = |lower: [[i64; 3]; 5]| {
-        latest_first.into_iter().find_map(|k| {
+        let mut signs = latest_first.into_iter().map(|k| {
             // The interior point comes last, and the last one to the place of the one that is left out.
             let positions = exchanged(positions, k, interior.position);
             let lower = exchanged(lower, k, interior.position);
@@ -58,8 +58,9 @@ pub fn insphere(width: Width, vertices: [Vertex; 5], rounds: [u32; 5], interior:
                 0 => heights(width, indices, lower),
                 sign => sign,
             };
-            (sign != 0).then_some(if k == 4 { sign } else { -sign })
-        })
+            if k == 4 { sign } else { -sign }
+        });
+        signs.find(|&sign| sign != 0).unwrap_or(0)
     };
     perturbed(width, vertices, |_| 0, by_round)
 }
@@ -70,7 +71,7 @@ fn perturbed(
     width: Width,
     vertices: [Vertex; 5],
     first: impl Fn([[i64; 3]; 5]) -> Sign,
-    last: impl Fn([[i64; 3]; 5]) -> Option<Sign>,
+    last: impl Fn([[i64; 3]; 5]) -> Sign,
 ) -> Sign {
     let positions = vertices.map(|v| v.position);
     let order = by_index(&vertices);
@@ -83,7 +84,7 @@ fn perturbed(
         let by_heights = || heights(width, vertices.map(|v| v.index), lower);
         let nonzero = |sign: Sign| (sign != 0).then_some(sign);
         let sign = nonzero(first(lower)).or_else(|| nonzero(in_sphere())).or_else(|| nonzero(by_heights()));
-        sign.or_else(|| last(lower))
+        sign.or_else(|| nonzero(last(lower)))
     };
     PERTURBATIONS.into_iter().find_map(sign_at).unwrap_or(0)
 }
