@@ -1,5 +1,9 @@
 //! What splaying and the device exchange: stars of the mesh one way, what has changed the other.
 
+#[cfg(not(target_arch = "wasm32"))]
+use crate::d3::gpu::arrays::Arrays;
+#[cfg(target_arch = "wasm32")]
+use crate::d3::splay::Terms;
 use crate::{
     d3::{
         gpu::{
@@ -93,17 +97,22 @@ pub(crate) struct Begun {
 /// The mesh on the device at the end of Phase 1.
 pub(crate) struct Device<'a> {
     pub(crate) ended: Ended<'a, 3>,
+    /// Its arrays, if the host reads them.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(super) arrays: Option<Arrays<'a>>,
 }
 
 impl<'a> Device<'a> {
-    /// Ends the run, and gathers what splaying begins with. The host does `meanwhile` before it waits
-    /// for the device.
+    /// Ends the run, and gathers what splaying begins with. Natively the host begins to read the arrays of
+    /// the mesh, unless the mesh is `resident`. The host does `meanwhile` before it waits for the device.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
+    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "no other thread splays meanwhile"))]
     pub(crate) async fn end(
         run: Run<'a, 3>,
+        resident: bool,
         meanwhile: impl FnOnce(),
     ) -> Result<(Self, Result<Begun, Aborted>), Error> {
         let gather = Gathering { first: 1, patched: 0 };
@@ -126,7 +135,15 @@ impl<'a> Device<'a> {
             return Err(Error::TooManySimplices { limit: SLOT as usize });
         }
         let (failed_len, uncertain_len) = (ended.counters.failed as usize, ended.counters.uncertain as usize);
-        let mut device = Device { ended };
+        let mut device = Device {
+            ended,
+            #[cfg(not(target_arch = "wasm32"))]
+            arrays: None,
+        };
+        #[cfg(not(target_arch = "wasm32"))]
+        if !resident {
+            device.begin_reading();
+        }
         let gathered = device.receive(&submission, gathering).await?;
         let mut failed = device.receive_list(&submission, failed, failed_len).await?;
         let uncertain: Vec<Active> = device.receive_list(&submission, uncertain, uncertain_len).await?;
@@ -232,7 +249,15 @@ impl<'a> Device<'a> {
                 Ok((copies.recorder.submit(gpu), gathering))
             })
             .await?;
+        #[cfg(not(target_arch = "wasm32"))]
+        self.take_earlier_pieces().await?;
         self.receive(&submission, gathering).await
+    }
+
+    /// Runs a step of splaying on these terms: there is one thread, which does nothing meanwhile.
+    #[cfg(target_arch = "wasm32")]
+    pub(crate) fn beside<R>(&mut self, terms: Terms<'_>, step: impl FnOnce(Terms<'_>) -> R) -> Result<R, Error> {
+        Ok(step(terms))
     }
 
     /// Writes back what splaying has changed.
