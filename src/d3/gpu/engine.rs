@@ -92,7 +92,7 @@ async fn complete_with_stars(
 ) -> Result<Result<Made<3>, Fallback>, Error> {
     let count = near.points.len();
     let resident = near.resident;
-    let (mut device, begun) = Device::end(run, resident, || near.prepare()).await?;
+    let (mut device, start) = Device::end(run, resident, || near.prepare()).await?;
     near.end_of_phase1(&device.ended.stats);
     let (missing, duplicate_of) = near.missing(&device.ended.read_merged().await?);
     let Near { points, lattice, options, adapter, moved, stats, stopwatch, .. } = near;
@@ -108,26 +108,30 @@ async fn complete_with_stars(
     let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
     let max_evaluations = splay::evaluations_from_scratch(slots);
     let terms = || Terms { max_evaluations, threads: Threads::All, report: &report };
-    // The vertices are borrowed for a step at a time, by the thread that takes it.
+    // A step goes on as far as the stars suffice that were gathered before. The vertices are borrowed for it by
+    // the thread that takes it.
     let context = &mut vertices;
-    let begin = move |terms: Terms<'_>| {
-        let Begun { region, doubts } = begun?;
-        Splay::begin(context, region, Doubts { missing, ..doubts }, terms)
+    let first = move |terms: Terms<'_>| {
+        let Begun { region, doubts } = start.begin()?;
+        let mut splay = Splay::begin(context, region, Doubts { missing, ..doubts }, terms)?;
+        Ok((splay.advance(context, terms)?, splay))
     };
-    let mut step = device.beside(terms(), begin)?;
+    let mut step: Result<_, Stop> = device.beside(terms(), first)?;
     let splayed = loop {
-        let mut splay = match step {
-            Ok(splay) => splay,
+        let (lacking, mut splay) = match step {
+            Ok(done) => done,
             Err(stop) => break Err(stop),
         };
-        let (context, advanced) = (&mut vertices, &mut splay);
-        let lacking = match device.beside(terms(), move |terms| advanced.advance(context, terms))? {
-            Ok(lacking) if lacking.is_empty() => break Ok(splay.finish()),
-            Ok(lacking) => lacking,
-            Err(stop) => break Err(stop),
-        };
+        if lacking.is_empty() {
+            break Ok(splay.finish());
+        }
         let gathered = device.gather(&lacking, splay.region().next()).await?;
-        step = splay.add(lacking, gathered).map(|()| splay);
+        let context = &mut vertices;
+        let next = move |terms: Terms<'_>| {
+            splay.add(lacking, gathered)?;
+            Ok((splay.advance(context, terms)?, splay))
+        };
+        step = device.beside(terms(), next)?;
     };
     let patch = match splayed {
         Ok((region, splay)) => {
