@@ -312,6 +312,12 @@ pub(crate) fn both<S: Send, R: Send>(
     (one(), other())
 }
 
+/// Returns whether the calling thread is none of the pool, so that it may wait for what these do.
+#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+pub(crate) fn is_outside() -> bool {
+    rayon::current_thread_index().is_none()
+}
+
 /// Runs `own` in the calling thread and the `others` in threads of the pool, at the same time as
 /// far as these are free, and returns the results.
 pub(crate) fn beside<S, R: Send>(own: impl FnOnce() -> S, others: Vec<impl FnOnce() -> R + Send>) -> (S, Vec<R>) {

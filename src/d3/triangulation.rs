@@ -5,7 +5,7 @@ use crate::{
     parallel::{self, Threads},
     slots::{self, MarkedSlots},
 };
-use std::sync::atomic::Ordering::Relaxed;
+use std::{ops::Range, sync::atomic::Ordering::Relaxed};
 
 /// Tetrahedra are numbered below 2³⁰, because a neighbour is packed with its facet into 32 bits.
 pub(crate) const MAX_TETRAHEDRA: usize = 1 << 30;
@@ -101,37 +101,38 @@ impl Triangulation3 {
         self.tetrahedra[t as usize][3] == self.infinite
     }
 
-    /// Returns tetrahedra, neighbours and hull as in [`Mesh3`](crate::Mesh3), without ghosts and
-    /// unused slots, reusing the arrays. With `names`, vertex *v* becomes `names[v]`. `threads`
-    /// share the work.
-    pub fn into_mesh(self, names: Option<&[u32]>, threads: Threads) -> FiniteMesh {
+    /// Returns the gaps among these slots.
+    fn gaps(&self, slots: Range<usize>) -> Gaps {
         const FEW: usize = 64;
-        let slots = self.tetrahedra.len();
-        // Ghosts and unused slots, chunk by chunk.
-        let gaps = parallel::map_ranges(threads, slots, |range| {
-            let (mut ghosts, mut unused) = (Vec::new(), Vec::new());
-            // Most slots are neither, so one branch decides for many slots at a time.
-            for (start, few) in (range.start..).step_by(FEW).zip(self.tetrahedra[range].chunks(FEW)) {
-                let is_free = |t: &[u32; 4]| t[0] & state::MASK == state::FREE;
-                let is_gap = |t: &[u32; 4]| is_free(t) | (t[3] == self.infinite);
-                if few.iter().fold(false, |any, t| any | is_gap(t)) {
-                    for (t, tetrahedron) in (start as u32..).zip(few) {
-                        if is_free(tetrahedron) {
-                            unused.push(t);
-                        } else if is_gap(tetrahedron) {
-                            ghosts.push(t);
-                        }
-                    }
-                }
+        let mut gaps = Gaps::default();
+        // Most slots are no gaps, so one branch decides for many slots at a time.
+        for (start, few) in (slots.start..).step_by(FEW).zip(self.tetrahedra[slots].chunks(FEW)) {
+            let is_gap = |t: &[u32; 4]| (t[0] & state::MASK == state::FREE) | (t[3] == self.infinite);
+            if few.iter().fold(false, |any, t| any | is_gap(t)) {
+                (start as u32..).zip(few).for_each(|(t, _)| self.note_gap(t, &mut gaps));
             }
-            (ghosts, unused)
-        });
-        let ghosts: usize = gaps.iter().map(|(ghosts, _)| ghosts.len()).sum();
-        let count = slots - ghosts - gaps.iter().map(|(_, unused)| unused.len()).sum::<usize>();
+        }
+        gaps
+    }
+
+    /// Adds slot `t` to the gaps if it is one.
+    fn note_gap(&self, t: u32, gaps: &mut Gaps) {
+        if self.state(t) == state::FREE {
+            gaps.unused.push(t);
+        } else if self.is_ghost(t) {
+            gaps.ghosts.push(t);
+        }
+    }
+
+    /// Returns how `gaps`, which are ascending, are closed.
+    fn closing(&self, gaps: &[Gaps], threads: Threads) -> Closing {
+        let slots = self.tetrahedra.len();
+        let ghosts: usize = gaps.iter().map(|gaps| gaps.ghosts.len()).sum();
+        let count = slots - ghosts - gaps.iter().map(|gaps| gaps.unused.len()).sum::<usize>();
         let mut hull: Vec<[u32; 3]> = bytemuck::zeroed_vec(ghosts);
         let mut rest = hull.as_mut_slice();
         let mut facets = Vec::new();
-        for (ghosts, _) in &gaps {
+        for Gaps { ghosts, .. } in gaps {
             let (these, others) = rest.split_at_mut(ghosts.len());
             facets.push((ghosts, these));
             rest = others;
@@ -148,14 +149,23 @@ impl Triangulation3 {
             ((count + range.start) as u32..(count + range.end) as u32).filter(is_used).collect::<Vec<_>>()
         });
         let in_front = |&&t: &&u32| (t as usize) < count;
-        let unused = gaps.iter().flat_map(|(_, unused)| unused).take_while(in_front);
-        let ghosts: Vec<u32> = gaps.iter().flat_map(|(ghosts, _)| ghosts).take_while(in_front).copied().collect();
+        let unused = gaps.iter().flat_map(|gaps| &gaps.unused).take_while(in_front);
+        let ghosts: Vec<u32> = gaps.iter().flat_map(|gaps| &gaps.ghosts).take_while(in_front).copied().collect();
         let moves: Vec<[u32; 2]> =
             unused.chain(&ghosts).copied().zip(movers.into_iter().flatten()).map(Into::into).collect();
         let mut moved_to = vec![NO_INDEX; slots - count];
         for &[gap, last] in &moves {
             moved_to[last as usize - count] = gap;
         }
+        Closing { count, hull, ghosts, moves, moved_to }
+    }
+
+    /// Returns tetrahedra, neighbours and hull as in [`Mesh3`](crate::Mesh3), without ghosts and
+    /// unused slots, reusing the arrays. With `names`, vertex *v* becomes `names[v]`. `threads`
+    /// share the work.
+    pub fn into_mesh(self, names: Option<&[u32]>, threads: Threads) -> FiniteMesh {
+        let gaps = parallel::map_ranges(threads, self.tetrahedra.len(), |range| self.gaps(range));
+        let Closing { count, mut hull, ghosts, moves, moved_to } = self.closing(&gaps, threads);
         let tetrahedra = slots::share(self.tetrahedra.into_flattened());
         let neighbors = slots::share(self.neighbors.into_flattened());
         // References to ghosts beyond the last tetrahedron of the mesh are recognised by their
@@ -206,6 +216,75 @@ impl Triangulation3 {
         });
         FiniteMesh { tetrahedra, neighbors, hull }
     }
+
+    /// Returns the same for a triangulation the neighbours of which are numbers of tetrahedra, without
+    /// facets, and [`NO_INDEX`] in the place of ghosts. No others of the first `finite` slots are gaps than some of
+    /// those that `changed`.
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    pub(in crate::d3) fn into_mesh_of_numbers(self, finite: usize, changed: &[u32], threads: Threads) -> FiniteMesh {
+        let mut changed: Vec<u32> = changed.iter().copied().filter(|&t| (t as usize) < finite).collect();
+        parallel::sort(threads, &mut changed);
+        let mut gaps = vec![Gaps::default()];
+        changed.iter().for_each(|&t| self.note_gap(t, &mut gaps[0]));
+        gaps.extend(parallel::map_ranges(threads, self.tetrahedra.len() - finite, |range| {
+            self.gaps(finite + range.start..finite + range.end)
+        }));
+        let Closing { count, hull, moves, moved_to, .. } = self.closing(&gaps, threads);
+        let tetrahedra = slots::share(self.tetrahedra.into_flattened());
+        let neighbors = slots::share(self.neighbors.into_flattened());
+        // Two tetrahedra have one facet in common, at most.
+        let replace = |of: u32, before: u32, after: u32| {
+            let mut all = neighbors[4 * of as usize..].iter().take(4);
+            if let Some(neighbor) = all.find(|neighbor| neighbor.load(Relaxed) == before) {
+                neighbor.store(after, Relaxed);
+            }
+        };
+        // Nobody else writes into the gap, or into the references to what moves there.
+        parallel::map_ranges(threads, moves.len(), |range| {
+            for &[gap, last] in &moves[range] {
+                for k in 0..4 {
+                    let [from, to] = [last, gap].map(|t| 4 * t as usize + k);
+                    tetrahedra[to].store(tetrahedra[from].load(Relaxed), Relaxed);
+                    let across = neighbors[from].load(Relaxed);
+                    let beside = (across as usize).checked_sub(count);
+                    let across = match beside.map(|beside| moved_to.get(beside)) {
+                        Some(Some(&NO_INDEX) | None) => across,
+                        Some(Some(&gap)) => gap,
+                        None => {
+                            replace(across, last, gap);
+                            across
+                        }
+                    };
+                    neighbors[to].store(across, Relaxed);
+                }
+            }
+        });
+        let [mut tetrahedra, mut neighbors] = [tetrahedra, neighbors].map(slots::unshare);
+        tetrahedra.truncate(4 * count);
+        neighbors.truncate(4 * count);
+        FiniteMesh { tetrahedra: bytemuck::cast_vec(tetrahedra), neighbors: bytemuck::cast_vec(neighbors), hull }
+    }
+}
+
+/// Slots that have no place in a mesh.
+#[derive(Default)]
+struct Gaps {
+    ghosts: Vec<u32>,
+    unused: Vec<u32>,
+}
+
+/// How gaps are closed.
+struct Closing {
+    /// The number of tetrahedra of the mesh.
+    count: usize,
+    /// The facets of the ghosts, in their order.
+    hull: Vec<[u32; 3]>,
+    /// The ghosts in slots below the count.
+    ghosts: Vec<u32>,
+    /// The gaps that are filled, each with the slot of the tetrahedron that moves there.
+    moves: Vec<[u32; 2]>,
+    /// Where the tetrahedra move to that are in slots from the count on, if they do.
+    moved_to: Vec<u32>,
 }
 
 slots::slots_of_arrays!(Triangulation3, 4, tetrahedra, MAX_TETRAHEDRA);

@@ -271,9 +271,9 @@ pub(crate) struct ErrorScope<'a> {
 
 /// What an error scope reports: in a box, so that the code that waits for it is there once.
 #[cfg(not(target_arch = "wasm32"))]
-type Report<'a> = Pin<Box<dyn Future<Output = Result<(), Error>> + Send + 'a>>;
+pub(crate) type Report<'a> = Pin<Box<dyn Future<Output = Result<(), Error>> + Send + 'a>>;
 #[cfg(target_arch = "wasm32")]
-type Report<'a> = Pin<Box<dyn Future<Output = Result<(), Error>> + 'a>>;
+pub(crate) type Report<'a> = Pin<Box<dyn Future<Output = Result<(), Error>> + 'a>>;
 
 impl<'a> ErrorScope<'a> {
     /// Opens a scope around `what`.

@@ -43,7 +43,7 @@ pub use kernel::{Binding, Compiler, Deferred, Kernel};
 pub use parts::Parts;
 pub use profiler::Profiler;
 #[cfg(not(target_arch = "wasm32"))]
-pub(crate) use readback::Room;
+pub(crate) use readback::{Pace, Reading, ReadingArrays, Room, Words};
 pub use readback::{Pending, Readback};
 pub use recorder::Recorder;
 

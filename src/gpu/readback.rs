@@ -10,17 +10,35 @@ use std::{
 };
 
 use crate::error::Error;
-use crate::gpu::{Gpu, Storage, device::ErrorScope};
+use crate::gpu::{
+    Gpu, Storage,
+    device::{ErrorScope, Report},
+};
+#[cfg(not(target_arch = "wasm32"))]
+use crate::index::NO_INDEX;
 #[cfg(not(target_arch = "wasm32"))]
 use crate::parallel::{Ahead, Threads, for_chunks};
 
-/// The most bytes of a large array that are on their way in one staging buffer: so many that a
-/// submission per piece costs nothing, and so few that copying out of one piece begins while most
-/// others are still to come.
-const PIECE: u64 = 32 << 20;
+/// How large arrays are read.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pace {
+    /// The most bytes that are on their way in one staging buffer.
+    piece: u64,
+    /// The pieces that are on their way at a time.
+    ahead: usize,
+}
 
-/// The pieces that are on their way at a time.
-const PIECES_AHEAD: usize = 4;
+impl Pace {
+    /// For arrays that the host waits for. A piece has so many bytes that a submission for each costs
+    /// nothing, and so few that copying out of one begins while most others are still to come.
+    pub(crate) const ALONE: Pace = Pace { piece: 32 << 20, ahead: 4 };
+    /// For arrays beside which the host waits for other results. The device carries out commands in
+    /// their order, so that these wait until all pieces are there that are on their way. They are as few
+    /// as keep the device busy while the host takes one of them, and each takes some tenths of a
+    /// millisecond.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) const BESIDE: Pace = Pace { piece: 8 << 20, ahead: 2 };
+}
 
 /// From how many bytes on threads share a copy.
 #[cfg(not(target_arch = "wasm32"))]
@@ -34,6 +52,11 @@ const PAGE: usize = 1 << 12;
 /// runs are there by then, and to be woken takes up to 0.1 ms.
 #[cfg(not(target_arch = "wasm32"))]
 const SPIN: Duration = Duration::from_micros(300);
+
+/// How long the host waits at a time for a software device, which needs the processors itself, before it
+/// looks after something else.
+#[cfg(not(target_arch = "wasm32"))]
+const NAP: Duration = Duration::from_millis(1);
 
 /// A pool of staging buffers. Clones share it.
 ///
@@ -131,6 +154,151 @@ pub trait Target {
     fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView);
 }
 
+/// Where the bytes come from.
+pub(crate) trait Source {
+    /// Returns in which buffer byte `at` is, where there, and how many bytes follow in it at most.
+    fn place(&self, at: u64) -> (&wgpu::Buffer, u64, u64);
+}
+
+/// What lies beyond its end, the device reports.
+impl Source for &wgpu::Buffer {
+    fn place(&self, at: u64) -> (&wgpu::Buffer, u64, u64) {
+        (self, at, u64::MAX)
+    }
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+impl<T: Pod> Source for Storage<T> {
+    fn place(&self, at: u64) -> (&wgpu::Buffer, u64, u64) {
+        Storage::place(self, at)
+    }
+}
+
+/// The reading of buffers from their starts, as far as their targets go: in pieces, so that one is
+/// taken out of its staging buffer while others are on their way.
+#[must_use = "what is on its way has to be taken"]
+pub(crate) struct Reading<'a, S, T> {
+    reads: Vec<(S, T)>,
+    /// Which of these the next piece belongs to, and where it starts there.
+    next: (usize, u64),
+    /// The pieces that are on their way.
+    ahead: VecDeque<Piece<'a>>,
+}
+
+/// A piece that is on its way.
+struct Piece<'a> {
+    /// The answer of a scope takes a while in browsers, so it is awaited with the piece.
+    report: Report<'a>,
+    submission: wgpu::SubmissionIndex,
+    staged: Staged,
+    read: usize,
+    start: u64,
+    len: u64,
+}
+
+impl<'a, S: Source, T: Target> Reading<'a, S, T> {
+    /// Creates the reading of each source into its target.
+    pub(crate) fn new(reads: Vec<(S, T)>) -> Self {
+        Reading { reads, next: (0, 0), ahead: VecDeque::new() }
+    }
+
+    /// Sends as many pieces on their way as the pace allows. Returns how many these are, each in a
+    /// submission of its own.
+    pub(crate) fn send(&mut self, gpu: &'a Gpu, readback: &mut Readback, pace: Pace) -> usize {
+        let mut sent = 0;
+        while self.ahead.len() < pace.ahead
+            && let Some((read, start, len)) = self.next_piece(pace.piece)
+            && let Some((source, _)) = self.reads.get(read)
+        {
+            sent += 1;
+            readback.count += 1;
+            let scope = ErrorScope::open(gpu, "readback");
+            let mut encoder = gpu.device().create_command_encoder(&Default::default());
+            let (source, offset, _) = source.place(start);
+            let staged = readback.stage(gpu, &mut encoder, source, offset, len, len);
+            let submission = gpu.queue().submit([encoder.finish()]);
+            self.ahead.push_back(Piece { report: scope.close(), submission, staged, read, start, len });
+        }
+        sent
+    }
+
+    /// Returns the read, the start and the length of the next piece, of at most so many bytes.
+    fn next_piece(&mut self, most: u64) -> Option<(usize, u64, u64)> {
+        loop {
+            let (read, start) = self.next;
+            let (source, target) = self.reads.get(read)?;
+            let left = target.bytes() - start;
+            let len = if left > 0 { most.min(left).min(source.place(start).2) } else { 0 };
+            if len > 0 {
+                self.next.1 += len;
+                return Some((read, start, len));
+            }
+            self.next = (read + 1, 0);
+        }
+    }
+
+    /// Returns the targets.
+    pub(crate) fn targets(self) -> impl Iterator<Item = T> {
+        self.reads.into_iter().map(|(_, target)| target)
+    }
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+impl<S: Source, T: Target> Reading<'_, S, T> {
+    /// Returns how many pieces are on their way.
+    pub(crate) fn pieces_ahead(&self) -> usize {
+        self.ahead.len()
+    }
+
+    /// Asks the device whether the first piece that is on its way has arrived; `true` if there is none.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Readback::receive`].
+    pub(crate) fn has_arrived(&self, gpu: &Gpu) -> Result<bool, Error> {
+        let timeout = if gpu.adapter().software { NAP } else { Duration::ZERO };
+        self.ahead.front().map_or(Ok(true), |piece| is_done(gpu, &piece.submission, Some(timeout)))
+    }
+}
+
+/// What becomes of the words of an array when they are taken out of their staging buffer. A pass of its own
+/// takes as long as to copy.
+#[cfg(not(target_arch = "wasm32"))]
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Words {
+    /// They stay as they are.
+    Same,
+    /// Neighbours, 4·number + facet, become numbers, and [`NO_INDEX`] from this one on.
+    Numbers(u32),
+}
+
+/// A list that takes what is read.
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) struct List<T> {
+    items: Vec<T>,
+    words: Words,
+}
+
+/// The reading of two arrays of `T`, which consist of words.
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) type ReadingArrays<'a, T> = Reading<'a, Storage<T>, List<T>>;
+
+#[cfg(not(target_arch = "wasm32"))]
+impl<T: Pod> ReadingArrays<'_, T> {
+    /// Creates the reading of the first `len` elements of two large arrays into the memory of `rooms` as far
+    /// as it suffices.
+    pub(crate) fn of_arrays(arrays: &[Storage<T>; 2], rooms: [Vec<T>; 2], len: usize, words: [Words; 2]) -> Self {
+        let targets = rooms.into_iter().zip(words).map(|(room, words)| List { items: fitted(room, len), words });
+        Reading::new(arrays.iter().cloned().zip(targets).collect())
+    }
+
+    /// Returns the two lists.
+    pub(crate) fn lists(self) -> [Vec<T>; 2] {
+        let mut lists = self.targets().map(|target| target.items);
+        std::array::from_fn(|_| lists.next().unwrap_or_default())
+    }
+}
+
 impl Readback {
     /// Records the copy of `len` elements of `source`, from element `start`, into a staging buffer.
     pub fn copy<T: Pod>(
@@ -224,35 +392,37 @@ impl Readback {
     /// # Errors
     ///
     /// Returns the errors of [`Readback::receive`] and [`Gpu::with_error_scope`].
-    pub async fn read_into<T: Target>(
+    pub async fn read_into<T: Target>(&mut self, gpu: &Gpu, reads: Vec<(&wgpu::Buffer, T)>) -> Result<Vec<T>, Error> {
+        let mut reading = Reading::new(reads);
+        loop {
+            reading.send(gpu, self, Pace::ALONE);
+            if !self.take(gpu, &mut reading).await? {
+                return Ok(reading.targets().collect());
+            }
+        }
+    }
+
+    /// Waits for the first piece that is on its way, and takes it. Returns whether there was one.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Readback::read_into`].
+    pub(crate) async fn take<S: Source, T: Target>(
         &mut self,
         gpu: &Gpu,
-        mut reads: Vec<(&wgpu::Buffer, T)>,
-    ) -> Result<Vec<T>, Error> {
-        let lengths: Vec<u64> = reads.iter().map(|(_, target)| target.bytes()).collect();
-        let mut pieces = lengths.iter().enumerate().flat_map(|(i, &bytes)| {
-            let piece = move |k: u64| (i, k * PIECE, PIECE.min(bytes - k * PIECE));
-            (0..bytes.div_ceil(PIECE)).map(piece)
-        });
-        let mut ahead = VecDeque::new();
-        loop {
-            while ahead.len() < PIECES_AHEAD
-                && let Some((i, start, len)) = pieces.next()
-            {
-                self.count += 1;
-                // The answer of a scope takes a while in browsers, so it is awaited with the piece.
-                let scope = ErrorScope::open(gpu, "readback");
-                let mut encoder = gpu.device().create_command_encoder(&Default::default());
-                let staged = self.stage(gpu, &mut encoder, reads[i].0, start, len, len);
-                let submission = gpu.queue().submit([encoder.finish()]);
-                ahead.push_back((scope.close(), submission, staged, (i, start, len)));
+        reading: &mut Reading<'_, S, T>,
+    ) -> Result<bool, Error> {
+        let Some(Piece { report, submission, staged, read, start, len }) = reading.ahead.pop_front() else {
+            return Ok(false);
+        };
+        report.await?;
+        let take = |view: &wgpu::BufferView| {
+            if let Some((_, target)) = reading.reads.get_mut(read) {
+                target.take(start, len, view);
             }
-            let Some((report, submission, staged, (i, start, len))) = ahead.pop_front() else { break };
-            report.await?;
-            let target = &mut reads[i].1;
-            self.unstage(gpu, &submission, staged, |view| target.take(start, len, view)).await?;
-        }
-        Ok(reads.into_iter().map(|(_, target)| target).collect())
+        };
+        self.unstage(gpu, &submission, staged, take).await?;
+        Ok(true)
     }
 
     /// Reads the first `len` elements of two large arrays: natively in pieces, and into the memory of `rooms`
@@ -271,19 +441,13 @@ impl Readback {
     ) -> Result<[Vec<T>; 2], Error> {
         #[cfg(not(target_arch = "wasm32"))]
         {
-            let mut lists = rooms.map(|room| fitted(room, len));
-            let mut reads = Vec::new();
-            for (array, list) in arrays.iter().zip(&mut lists) {
-                let mut rest: &mut [u8] = bytemuck::cast_slice_mut(list);
-                for buffer in array.buffers() {
-                    let bytes = usize::try_from(buffer.size()).unwrap_or(usize::MAX).min(rest.len());
-                    let (target, others) = rest.split_at_mut(bytes);
-                    reads.push((buffer, target));
-                    rest = others;
+            let mut reading = ReadingArrays::of_arrays(arrays, rooms, len, [Words::Same; 2]);
+            loop {
+                reading.send(gpu, self, Pace::ALONE);
+                if !self.take(gpu, &mut reading).await? {
+                    return Ok(reading.lists());
                 }
             }
-            self.read_into(gpu, reads).await?;
-            Ok(lists)
         }
         #[cfg(target_arch = "wasm32")]
         {
@@ -389,14 +553,36 @@ impl Target for &mut [u8] {
     #[cfg(not(target_arch = "wasm32"))]
     fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView) {
         let target = &mut self[start as usize..(start + len) as usize];
-        let threads = if target.len() < SHARED_FROM { Threads::One } else { Threads::All };
-        for_chunks(threads, target, |at, chunk| chunk.copy_from_slice(&piece[at..at + chunk.len()]));
+        for_chunks(threads_for(target.len()), target, |at, chunk| chunk.copy_from_slice(&piece[at..at + chunk.len()]));
     }
 
     #[cfg(target_arch = "wasm32")]
     fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView) {
         let target = &mut self[start as usize..(start + len) as usize];
         piece.as_uint8array().subarray(0, len as u32).copy_to(target);
+    }
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+impl<T: Pod> Target for List<T> {
+    fn bytes(&self) -> u64 {
+        size_of_val(self.items.as_slice()) as u64
+    }
+
+    fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView) {
+        let Words::Numbers(end) = self.words else {
+            let mut bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut self.items);
+            return bytes.take(start, len, piece);
+        };
+        let words: &mut [u32] = bytemuck::cast_slice_mut(&mut self.items);
+        let words = &mut words[start as usize / 4..(start + len) as usize / 4];
+        for_chunks(threads_for(len as usize), words, |at, chunk| {
+            let (pieces, _) = piece[4 * at..].as_chunks();
+            for (word, bytes) in chunk.iter_mut().zip(pieces) {
+                let number = u32::from_ne_bytes(*bytes) >> 2;
+                *word = if number < end { number } else { NO_INDEX };
+            }
+        });
     }
 }
 
@@ -412,6 +598,12 @@ impl Target for js_sys::Uint8Array {
     }
 }
 
+/// Returns who copies so many bytes.
+#[cfg(not(target_arch = "wasm32"))]
+fn threads_for(bytes: usize) -> Threads {
+    if bytes < SHARED_FROM { Threads::One } else { Threads::All }
+}
+
 /// Waits until the device has carried out `submission`: busily at first.
 #[cfg(not(target_arch = "wasm32"))]
 fn wait(gpu: &Gpu, submission: &wgpu::SubmissionIndex) -> Result<(), Error> {
@@ -419,12 +611,22 @@ fn wait(gpu: &Gpu, submission: &wgpu::SubmissionIndex) -> Result<(), Error> {
     loop {
         // A software device needs the processors itself.
         let is_busy = !gpu.adapter().software && began.elapsed() < SPIN;
-        let timeout = is_busy.then_some(Duration::ZERO);
-        let wait = wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout };
-        match gpu.device().poll(wait) {
-            Err(wgpu::PollError::Timeout) if is_busy => std::hint::spin_loop(),
-            result => return result.map(drop).map_err(|e| gpu.failure(&e.to_string())),
+        if is_done(gpu, submission, is_busy.then_some(Duration::ZERO))? {
+            return Ok(());
         }
+        std::hint::spin_loop();
+    }
+}
+
+/// Returns whether the device has carried out `submission`, for which it has time until the timeout, if there
+/// is one.
+#[cfg(not(target_arch = "wasm32"))]
+fn is_done(gpu: &Gpu, submission: &wgpu::SubmissionIndex, timeout: Option<Duration>) -> Result<bool, Error> {
+    let wait = wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout };
+    match gpu.device().poll(wait) {
+        Ok(_) => Ok(true),
+        Err(wgpu::PollError::Timeout) if timeout.is_some() => Ok(false),
+        Err(e) => Err(gpu.failure(&e.to_string())),
     }
 }
 

@@ -13,6 +13,7 @@ mod editing;
 mod motions;
 mod moving;
 mod outcomes;
+mod reading;
 mod resident;
 mod statistics;
 

@@ -1,11 +1,9 @@
 //! How the GPU engine of 3D completes what Phase 1 leaves: star splaying on the CPU (the paper's
 //! §3).
 //!
-//! `result of Phase 1 → splay → drop the ghosts → mesh`, or, for a mesh that stays on the device or
-//! must not take the host's memory, `stars → splay → patch → arrays of the mesh, on the device`
+//! `stars → splay → patch → arrays of the mesh, on the device`, or, for a mesh that the host wants and has
+//! memory for, `stars → splay → patch of the arrays, which the host reads meanwhile → drop the ghosts → mesh`
 
-#[cfg(not(target_arch = "wasm32"))]
-use crate::d3::gpu::whole;
 use crate::{
     d3::{
         Mesh3,
@@ -30,6 +28,11 @@ use crate::{
     predicates::filter::PredicateContext,
     stats::{Fallback, Phase},
 };
+#[cfg(not(target_arch = "wasm32"))]
+use crate::{
+    d3::{gpu::whole, splay::SLOT, triangulation::FiniteMesh},
+    stats::Stats,
+};
 
 impl Complete<3> for Dimension<3> {
     type Tracer = Option<Tracer>;
@@ -53,31 +56,49 @@ impl Complete<3> for Dimension<3> {
         near: Near<'_, 3>,
         tracer: Option<Tracer>,
     ) -> Result<Result<Made<3>, Fallback>, Error> {
-        // In wasm, one thread would splay and copy the whole mesh, in memory of its own.
         #[cfg(not(target_arch = "wasm32"))]
-        if !near.resident {
+        if !near.resident && !reads_beside(&run) {
             let mut near = near;
             let output = run.finish(|| near.prepare()).await?;
             return whole::complete(output, near, tracer);
         }
-        complete_on_device(run, near, tracer).await
+        complete_with_stars(run, near, tracer).await
     }
 }
 
-/// Makes the mesh on the device, with the stars that splaying needs on the host.
-async fn complete_on_device(
+/// Below so many slots, a mesh is read sooner than the first stars are gathered.
+#[cfg(not(target_arch = "wasm32"))]
+const READ_BEFORE: usize = 1 << 20;
+
+/// Above so many exact signs per point, too much fails: points on a sphere need 42, those of a scan 6, and
+/// those of a grid 1. To gather so many stars takes longer than to read the mesh.
+#[cfg(not(target_arch = "wasm32"))]
+const EXACT_SIGNS: u32 = 16;
+
+/// Returns whether the host reads the mesh while other threads splay its stars.
+#[cfg(not(target_arch = "wasm32"))]
+fn reads_beside(run: &Run<'_, 3>) -> bool {
+    let (params, counters) = run.control();
+    let slots = run.buffers().simplices.len();
+    let pays = || slots >= READ_BEFORE && counters.exact / EXACT_SIGNS < params.infinite;
+    slots <= SLOT as usize && run.settings().reads_beside.unwrap_or_else(pays)
+}
+
+/// Makes the mesh with the stars that splaying needs on the host.
+async fn complete_with_stars(
     run: Run<'_, 3>,
     mut near: Near<'_, 3>,
     mut tracer: Option<Tracer>,
 ) -> Result<Result<Made<3>, Fallback>, Error> {
     let count = near.points.len();
-    let (mut device, begun) = Device::end(run, || near.prepare()).await?;
+    let resident = near.resident;
+    let (mut device, start) = Device::end(run, resident, || near.prepare()).await?;
     near.end_of_phase1(&device.ended.stats);
     let (missing, duplicate_of) = near.missing(&device.ended.read_merged().await?);
     let Near { points, lattice, options, adapter, moved, stats, stopwatch, .. } = near;
     options.report(Phase::Splay, progress::COMPLETION)?;
 
-    let vertices = PredicateContext::of_input(points, lattice);
+    let mut vertices = PredicateContext::of_input(points, lattice);
     let slots = device.ended.len();
     if let Some(tracer) = &mut tracer {
         let [tetrahedra, neighbors] = device.read().await?;
@@ -87,22 +108,30 @@ async fn complete_on_device(
     let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
     let max_evaluations = splay::evaluations_from_scratch(slots);
     let terms = || Terms { max_evaluations, threads: Threads::All, report: &report };
-    // Both are borrowed for a step at a time: they cannot be shared while the device is awaited.
-    let begin =
-        |Begun { region, doubts }: Begun| Splay::begin(&vertices, region, Doubts { missing, ..doubts }, terms());
-    let mut step = begun.map_err(Stop::Aborted).and_then(begin);
+    // A step goes on as far as the stars suffice that were gathered before. The vertices are borrowed for it by
+    // the thread that takes it.
+    let context = &mut vertices;
+    let first = move |terms: Terms<'_>| {
+        let Begun { region, doubts } = start.begin()?;
+        let mut splay = Splay::begin(context, region, Doubts { missing, ..doubts }, terms)?;
+        Ok((splay.advance(context, terms)?, splay))
+    };
+    let mut step: Result<_, Stop> = device.beside(terms(), first)?;
     let splayed = loop {
-        let mut splay = match step {
-            Ok(splay) => splay,
+        let (lacking, mut splay) = match step {
+            Ok(done) => done,
             Err(stop) => break Err(stop),
         };
-        let lacking = match splay.advance(&vertices, terms()) {
-            Ok(lacking) if lacking.is_empty() => break Ok(splay.finish()),
-            Ok(lacking) => lacking,
-            Err(stop) => break Err(stop),
-        };
+        if lacking.is_empty() {
+            break Ok(splay.finish());
+        }
         let gathered = device.gather(&lacking, splay.region().next()).await?;
-        step = splay.add(lacking, gathered).map(|()| splay);
+        let context = &mut vertices;
+        let next = move |terms: Terms<'_>| {
+            splay.add(lacking, gathered)?;
+            Ok((splay.advance(context, terms)?, splay))
+        };
+        step = device.beside(terms(), next)?;
     };
     let patch = match splayed {
         Ok((region, splay)) => {
@@ -118,6 +147,24 @@ async fn complete_on_device(
         }
     };
     stats.exact = vertices.exact_counts();
+    #[cfg(not(target_arch = "wasm32"))]
+    if !resident {
+        stats.phases.push((Phase::Splay, stopwatch.lap()));
+        let [tetrahedra, neighbors] = device.read_arrays().await?;
+        stats.phases.push((Phase::Readback, stopwatch.lap()));
+        let finite = device.ended.finite;
+        stats.gpu = Some(device.ended.release().summary(adapter));
+
+        options.report(Phase::Finish, progress::FINISH)?;
+        let mut triangulation = Triangulation3::new(tetrahedra, neighbors, count as u32);
+        patch.apply(&mut triangulation, Threads::All)?;
+        let FiniteMesh { tetrahedra, neighbors, hull } =
+            triangulation.into_mesh_of_numbers(finite, &patch.slots, Threads::All);
+        stats.phases.push((Phase::Finish, stopwatch.lap()));
+        stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
+        let mesh = Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats: Stats::default() };
+        return Ok(Ok(Made::Host(mesh)));
+    }
     if let Err(error) = device.patch(&patch).await {
         stats.gpu = Some(device.ended.release().summary(adapter));
         return match error {

@@ -1,5 +1,9 @@
 //! What splaying and the device exchange: stars of the mesh one way, what has changed the other.
 
+#[cfg(not(target_arch = "wasm32"))]
+use crate::d3::gpu::arrays::Arrays;
+#[cfg(target_arch = "wasm32")]
+use crate::d3::splay::Terms;
 use crate::{
     d3::{
         gpu::{
@@ -82,7 +86,17 @@ impl Gathering3 {
     }
 }
 
-/// What splaying begins with.
+/// What splaying begins with, as it comes from the device.
+pub(crate) struct Start {
+    region: Region,
+    gathered: Gathered,
+    /// The failed vertices.
+    failed: Vec<u32>,
+    /// The slots of the uncertain tetrahedra, ascending.
+    uncertain: Vec<u32>,
+}
+
+/// The same, in a region.
 pub(crate) struct Begun {
     /// The stars of the failed vertices and of those of uncertain tetrahedra.
     pub(crate) region: Region,
@@ -93,19 +107,20 @@ pub(crate) struct Begun {
 /// The mesh on the device at the end of Phase 1.
 pub(crate) struct Device<'a> {
     pub(crate) ended: Ended<'a, 3>,
+    /// Its arrays, if the host reads them.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(super) arrays: Option<Arrays<'a>>,
 }
 
 impl<'a> Device<'a> {
-    /// Ends the run, and gathers what splaying begins with. The host does `meanwhile` before it waits
-    /// for the device.
+    /// Ends the run, and gathers what splaying begins with. Natively the host begins to read the arrays of
+    /// the mesh, unless the mesh is `resident`. The host does `meanwhile` before it waits for the device.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub(crate) async fn end(
-        run: Run<'a, 3>,
-        meanwhile: impl FnOnce(),
-    ) -> Result<(Self, Result<Begun, Aborted>), Error> {
+    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "no other thread splays meanwhile"))]
+    pub(crate) async fn end(run: Run<'a, 3>, resident: bool, meanwhile: impl FnOnce()) -> Result<(Self, Start), Error> {
         let gather = Gathering { first: 1, patched: 0 };
         let (gpu, points) = (run.gpu(), run.control().0.infinite as usize);
         let workgroups = run.workgroups();
@@ -126,7 +141,15 @@ impl<'a> Device<'a> {
             return Err(Error::TooManySimplices { limit: SLOT as usize });
         }
         let (failed_len, uncertain_len) = (ended.counters.failed as usize, ended.counters.uncertain as usize);
-        let mut device = Device { ended };
+        let mut device = Device {
+            ended,
+            #[cfg(not(target_arch = "wasm32"))]
+            arrays: None,
+        };
+        #[cfg(not(target_arch = "wasm32"))]
+        if !resident {
+            device.begin_reading();
+        }
         let gathered = device.receive(&submission, gathering).await?;
         let mut failed = device.receive_list(&submission, failed, failed_len).await?;
         let uncertain: Vec<Active> = device.receive_list(&submission, uncertain, uncertain_len).await?;
@@ -134,7 +157,7 @@ impl<'a> Device<'a> {
         failed.sort_unstable();
         let mut uncertain: Vec<u32> = uncertain.into_iter().map(|Active { tet, .. }| tet).collect();
         uncertain.sort_unstable();
-        Ok((device, begin(region, gathered, failed, uncertain)))
+        Ok((device, Start { region, gathered, failed, uncertain }))
     }
 
     /// Receives what is gathered, and reads the rest of it if there is more than was read ahead.
@@ -232,7 +255,17 @@ impl<'a> Device<'a> {
                 Ok((copies.recorder.submit(gpu), gathering))
             })
             .await?;
+        #[cfg(not(target_arch = "wasm32"))]
+        self.take_earlier_pieces().await?;
         self.receive(&submission, gathering).await
+    }
+
+    /// Runs a step of splaying on these terms: there is one thread, which does nothing meanwhile. Not inlined, it
+    /// would take a hundred bytes of the module.
+    #[cfg(target_arch = "wasm32")]
+    #[inline(always)]
+    pub(crate) fn beside<R>(&mut self, terms: Terms<'_>, step: impl FnOnce(Terms<'_>) -> R) -> Result<R, Error> {
+        Ok(step(terms))
     }
 
     /// Writes back what splaying has changed.
@@ -317,26 +350,32 @@ impl<'a> Device<'a> {
     }
 }
 
-/// Adds what was gathered first to a region that has nothing yet. Returns it with the doubts by its
-/// numbers. The uncertain tetrahedra are ascending.
-fn begin(mut region: Region, gathered: Gathered, failed: Vec<u32>, uncertain: Vec<u32>) -> Result<Begun, Aborted> {
-    let infinite = region.infinite();
-    let first = region.next();
-    let mut numbers = vec![NO_INDEX; uncertain.len()];
-    // Most tetrahedra are certain, which a bit tells sooner than a search.
-    let mut is_uncertain = IndexSet::new(uncertain.last().map_or(0, |&t| t as usize + 1));
-    uncertain.iter().for_each(|&t| is_uncertain.insert(t));
-    for (number, word) in (first..).zip(&gathered.slots).filter(|(_, word)| is_uncertain.has(**word & SLOT)) {
-        if let Ok(i) = uncertain.binary_search(&(word & SLOT)) {
-            numbers[i] = number;
+impl Start {
+    /// Adds what was gathered to the region, which has nothing yet. Returns it with the doubts by its numbers.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Aborted::Inconsistent`] if what was gathered does not fit.
+    pub(crate) fn begin(self) -> Result<Begun, Aborted> {
+        let Start { mut region, gathered, failed, uncertain } = self;
+        let infinite = region.infinite();
+        let first = region.next();
+        let mut numbers = vec![NO_INDEX; uncertain.len()];
+        // Most tetrahedra are certain, which a bit tells sooner than a search.
+        let mut is_uncertain = IndexSet::new(uncertain.last().map_or(0, |&t| t as usize + 1));
+        uncertain.iter().for_each(|&t| is_uncertain.insert(t));
+        for (number, word) in (first..).zip(&gathered.slots).filter(|(_, word)| is_uncertain.has(**word & SLOT)) {
+            if let Ok(i) = uncertain.binary_search(&(word & SLOT)) {
+                numbers[i] = number;
+            }
         }
+        if numbers.contains(&NO_INDEX) {
+            return Err(Aborted::Inconsistent("an uncertain tetrahedron was not gathered"));
+        }
+        let uncertain = numbers;
+        let corners = uncertain.iter().flat_map(|&t| gathered.tetrahedra[(t - first) as usize]);
+        let stars: Vec<u32> = corners.filter(|&v| v != infinite).chain(failed.iter().copied()).collect();
+        region.add(stars, gathered, Threads::All)?;
+        Ok(Begun { region, doubts: Doubts { failed, uncertain, missing: Vec::new() } })
     }
-    if numbers.contains(&NO_INDEX) {
-        return Err(Aborted::Inconsistent("an uncertain tetrahedron was not gathered"));
-    }
-    let uncertain = numbers;
-    let corners = uncertain.iter().flat_map(|&t| gathered.tetrahedra[(t - first) as usize]);
-    let stars: Vec<u32> = corners.filter(|&v| v != infinite).chain(failed.iter().copied()).collect();
-    region.add(stars, gathered, Threads::All)?;
-    Ok(Begun { region, doubts: Doubts { failed, uncertain, missing: Vec::new() } })
 }

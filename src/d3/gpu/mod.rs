@@ -1,6 +1,8 @@
 //! The GPU engine of 3D: what differs from that of 2D.
 
 pub mod aliases;
+#[cfg(not(target_arch = "wasm32"))]
+mod arrays;
 pub mod buffers;
 mod dim;
 mod engine;

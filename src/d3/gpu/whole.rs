@@ -1,5 +1,5 @@
-//! Completing a mesh that the host has read as a whole, which many threads splay and copy sooner
-//! than they wait for stars. In wasm there is one thread, and memory is short: it does without.
+//! Completing a mesh that the host has read as a whole: natively one with more slots than there are numbers
+//! for where stars are gathered.
 
 use crate::{
     d3::{

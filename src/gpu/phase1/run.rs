@@ -1,7 +1,7 @@
 //! A run of Phase 1: what the host records ahead, and what it reads back.
 
 #[cfg(not(target_arch = "wasm32"))]
-use crate::gpu::{Room, dim::Corners};
+use crate::gpu::{ReadingArrays, Room, Words, dim::Corners, phase1::Aliases};
 use crate::{
     dimension::Dimension,
     error::Error,
@@ -742,7 +742,7 @@ where
     clock: Stopwatch,
 }
 
-impl<const D: usize> Ended<'_, D>
+impl<'a, const D: usize> Ended<'a, D>
 where
     Dimension<D>: Finish<D>,
 {
@@ -761,7 +761,7 @@ where
         let (readback, memory) = (&mut self.kernels.readback, &self.memory);
         self.clock.lap();
         #[cfg(not(target_arch = "wasm32"))]
-        let rooms = std::mem::take(&mut self.rooms).map(|room| room.map_or_else(Vec::new, Room::take));
+        let rooms = take_rooms(&mut self.rooms);
         #[cfg(target_arch = "wasm32")]
         let rooms = Default::default();
         let bound = &memory.bound.finish;
@@ -772,6 +772,13 @@ where
         self.stats.submits += submissions;
         self.stats.stalls += BoundFinish::<D>::STALLS;
         Ok((result, merged))
+    }
+
+    /// Returns the reading of the simplices of the mesh and their neighbours, with what becomes of the words.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn reading(&mut self, words: [Words; 2]) -> ReadingArrays<'a, Corners<D>> {
+        let arrays = self.memory.bound.finish.aliases().arrays();
+        ReadingArrays::of_arrays(&arrays, take_rooms(&mut self.rooms), self.len(), words)
     }
 
     /// Reads the points that are vertices of no simplex.
@@ -795,6 +802,15 @@ where
         kernels.kept = Kept { points, memory: Some(memory), needed };
         stats
     }
+}
+
+/// Returns the memory that there is for the simplices and for their neighbours by now.
+#[cfg(not(target_arch = "wasm32"))]
+fn take_rooms<const D: usize>(rooms: &mut Rooms<D>) -> [Vec<Corners<D>>; 2]
+where
+    Dimension<D>: Dim<D>,
+{
+    std::mem::take(rooms).map(|room| room.map_or_else(Vec::new, Room::take))
 }
 
 /// Returns the points that are merged into others, each with the other one.

@@ -56,9 +56,13 @@ pub struct Settings<const D: usize> {
     /// in memory (§4.3, Figure 12).
     pub sort: bool,
     /// 3D only: whether splaying gets only the stars that it needs, and the device makes the arrays
-    /// of the mesh, also of one that the host wants to have. It saves most of the host's memory;
-    /// where many threads splay and copy, it is faster to read the whole mesh before splaying.
+    /// of the mesh, also of one that the host wants to have. It saves most of the host's memory; it is
+    /// faster to read the whole mesh meanwhile.
     pub sparse: bool,
+    /// 3D only: whether the host reads a mesh while other threads splay its stars, and not before, as far as
+    /// stars can be gathered; `None` where that pays.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub reads_beside: Option<bool>,
     /// 3D only: the size of the parts of large arrays, in bytes; `None` to have them in parts where
     /// there are too many points for one buffer, which then are as large as the device can bind.
     pub part_bytes: Option<u64>,
@@ -89,6 +93,8 @@ where
             flips_per_iteration: 256,
             sort: true,
             sparse: cfg!(target_arch = "wasm32"),
+            #[cfg(not(target_arch = "wasm32"))]
+            reads_beside: None,
             part_bytes: None,
             winding: Winding::CounterClockwise,
             limits: Limits::on_device(D),

@@ -1,0 +1,129 @@
+//! Meshes that the host reads while other threads splay, as those that it reads before, or that the device
+//! makes.
+
+use crate::{clouds, open, same};
+use gdel::{
+    Error, Mesh3, Points3, Progress,
+    internals::{
+        Options,
+        d3::generate::{Distribution3, generate3d},
+        gpu::{engine::GpuEngine, phase1::Settings},
+    },
+    stats::Phase,
+};
+use pollster::block_on;
+use std::{
+    ops::ControlFlow,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering::Relaxed},
+    },
+    thread::ThreadId,
+};
+
+/// The settings under which a mesh is read while it is splayed, however small it is.
+fn beside() -> Settings<3> {
+    Settings { reads_beside: Some(true), ..Settings::default() }
+}
+
+fn run<'a>(engine: &mut GpuEngine<3>, points: impl Into<Points3<'a>>, settings: Settings<3>) -> Mesh3 {
+    engine.set_settings(settings);
+    block_on(engine.triangulate(points.into(), &Options::default())).expect("triangulates")
+}
+
+/// All ways in which a mesh comes to the host. Some of these inputs have splaying take more tetrahedra away
+/// than it adds, others have it insert points, which takes more slots.
+#[test]
+fn every_way_to_the_host_gives_the_same_mesh() {
+    let mut engine = open();
+    let mut rounded = generate3d(Distribution3::Uniform, 500, 3);
+    rounded.extend((0..40).map(|k| [f64::from(k % 7), f64::from(k % 5), f64::from(k % 3)].map(|x| x * 2f64.powi(-70))));
+    let sphere: Vec<_> = generate3d(Distribution3::Sphere, 3_000, 1).iter().map(|p| p.map(|x| x as f32)).collect();
+    let (uniform, thin) =
+        (generate3d(Distribution3::Uniform, 6_000, 2), generate3d(Distribution3::ThinSphere, 4_000, 1));
+    let grid = clouds::grid_64_with_duplicates(5_000);
+    let inputs: [Points3<'_>; 5] =
+        [(&rounded).into(), (&sphere).into(), (&uniform).into(), (&thin).into(), (&grid).into()];
+    let (mut has_more, mut has_fewer) = (false, false);
+    for (i, points) in inputs.into_iter().enumerate() {
+        for insert_all in [false, true] {
+            let settings = Settings { insert_all, ..beside() };
+            let mesh = run(&mut engine, points, settings);
+            assert_eq!(mesh.stats.fallback, None, "input {i}");
+            let splay = mesh.stats.splay.expect("splaying worked");
+            assert!(splay.gathers > 0, "input {i}: {splay:?}");
+            has_more |= splay.inserted > 0;
+            has_fewer |= splay.added < splay.removed;
+            same(points, &mesh);
+            let before = run(&mut engine, points, Settings { reads_beside: Some(false), ..settings });
+            assert_eq!(before.stats.splay.map(|splay| splay.gathers), Some(0), "input {i}");
+            same(points, &before);
+            same(points, &run(&mut engine, points, Settings { sparse: true, ..settings }));
+        }
+    }
+    assert!(has_more && has_fewer, "more: {has_more}, fewer: {has_fewer}");
+}
+
+#[test]
+fn tiny_inputs() {
+    let mut engine = open();
+    for n in 5..=50 {
+        let inputs = [
+            generate3d(Distribution3::Uniform, n, 7),
+            clouds::shuffled(&clouds::grid(4), n as u64)[..n.max(20)].to_vec(),
+        ];
+        inputs.iter().for_each(|points| same(points, &run(&mut engine, points, beside())));
+    }
+}
+
+/// The arrays come in several pieces.
+#[test]
+fn ninety_thousand_points() {
+    let points = generate3d(Distribution3::Uniform, 90_000, 1);
+    let mut engine = open();
+    let mesh = run(&mut engine, &points, beside());
+    let (gpu, splay) = (mesh.stats.gpu.clone().expect("the GPU worked"), mesh.stats.splay.expect("and splaying"));
+    // One for the points, at least one per round, and one for each time that stars are gathered.
+    let others = 1 + gpu.rounds.len() as u64 + splay.gathers as u64;
+    assert!(splay.gathers > 1 && gpu.submits >= others + 2 * 2, "{gpu:?}, {splay:?}");
+    same(&points, &mesh);
+
+    // A run that is cancelled while pieces are on their way.
+    let seen = AtomicBool::new(false);
+    let stop = move |progress: Progress| {
+        let is_second = progress.phase == Phase::Splay && seen.swap(progress.phase == Phase::Splay, Relaxed);
+        if is_second { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let options = Options { on_progress: Some(Arc::new(stop)), ..Options::default() };
+    let result = block_on(engine.triangulate((&points).into(), &options));
+    assert_eq!(result.map(|_| ()), Err(Error::Cancelled));
+    same(&points, &run(&mut engine, &points, beside()));
+}
+
+/// Progress is reported in the calling thread, whichever thread splays.
+#[test]
+fn reports_come_in_the_calling_thread() {
+    let points = generate3d(Distribution3::ThinSphere, 3_000, 9);
+    let here: ThreadId = std::thread::current().id();
+    let is_elsewhere = Arc::new(AtomicBool::new(false));
+    let sink = Arc::clone(&is_elsewhere);
+    let watch = move |_: Progress| {
+        sink.fetch_or(std::thread::current().id() != here, Relaxed);
+        ControlFlow::Continue(())
+    };
+    let options = Options { on_progress: Some(Arc::new(watch)), ..Options::default() };
+    let mut engine = open();
+    engine.set_settings(beside());
+    block_on(engine.triangulate((&points).into(), &options)).expect("triangulates");
+    assert!(!is_elsewhere.load(Relaxed));
+}
+
+/// A thread of the pool cannot wait for another one, which may be waiting for it.
+#[test]
+fn the_only_thread_of_a_pool_can_do_it() {
+    let points = generate3d(Distribution3::ThinSphere, 3_000, 9);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts");
+    let mesh = pool.install(|| run(&mut open(), &points, beside()));
+    assert_eq!(mesh.stats.fallback, None);
+    same(&points, &mesh);
+}
