@@ -2,7 +2,7 @@
 //! `cargo bench --features cli --bench measure_3d -- [KIND|FILE] [POINTS] [ADAPTER] [REPEATS]`.
 //!
 //! The variable SINGLE (1) rounds the coordinates to `f32`, SEED chooses others, RESIDENT (1) leaves
-//! the mesh on the device, REUSE (1) reads it into the same vectors each time, START is the number
+//! the mesh on the device, REUSE (1) writes it into the same vectors each time, START is the number
 //! of points that the CPU engine triangulates first, PART the mebibytes of a part of large arrays, which
 //! otherwise are in parts where they have to be. Prints a line of JSON: medians over the repeats
 //! of the whole run and its phases, points in host memory to mesh in host memory. Before, it runs
@@ -11,7 +11,7 @@
 use gdel::internals::d3::generate::{Distribution3, generate3d};
 use gdel::internals::gpu::{AdapterChoice, Gpu, engine::GpuEngine, phase1::Settings};
 use gdel::internals::io::files::read_points;
-use gdel::{Mesh3, Outputs, Points, Points3, internals::Options};
+use gdel::{Mesh3, Points, Points3, internals::Options};
 use pollster::block_on;
 use std::{path::Path, time::Instant};
 
@@ -46,16 +46,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     block_on(engine.finish_compiling())?;
     let mut kept = Mesh3::default();
     let mut run = || -> Result<_, gdel::Error> {
-        let clock = Instant::now();
-        if resident || reuse {
+        if resident {
+            let clock = Instant::now();
             let mesh = block_on(engine.triangulate_on_device(points, &Options::default()))?;
-            if reuse {
-                mesh.read_into(Outputs::ALL, &mut kept)?;
-            }
             return Ok((1e3 * clock.elapsed().as_secs_f64(), mesh.simplex_count(), mesh.stats().clone()));
         }
-        let mesh = block_on(engine.triangulate(points, &Options::default()))?;
-        Ok((1e3 * clock.elapsed().as_secs_f64(), mesh.tetrahedra.len(), mesh.stats))
+        if !reuse {
+            kept = Mesh3::default();
+        }
+        let clock = Instant::now();
+        block_on(engine.triangulate_into(points, &Options::default(), &mut kept))?;
+        Ok((1e3 * clock.elapsed().as_secs_f64(), kept.tetrahedra.len(), kept.stats.clone()))
     };
     let warm_up = Instant::now();
     while warm_up.elapsed().as_secs_f64() < 1.0 {

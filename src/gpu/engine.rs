@@ -54,6 +54,10 @@ where
     /// The share of a run that the rounds of Phase 1 take, as progress reports it.
     const ROUNDS_SHARE: f64;
 
+    /// Takes the lists of the simplices of the mesh and of their neighbours, for their memory.
+    #[cfg(not(target_arch = "wasm32"))]
+    fn take_lists(mesh: &mut MeshOf<D>) -> [Vec<Corners<D>>; 2];
+
     /// Returns the tracer of a run with these options.
     fn tracer(options: &Options) -> Self::Tracer;
 
@@ -122,6 +126,18 @@ where
             Made::Device(mesh) => Ok(*mesh),
         }
     }
+}
+
+/// Where a mesh is to be made.
+pub(crate) enum Destination<'a, const D: usize>
+where
+    Dimension<D>: Incremental<D>,
+{
+    /// In the memory of the host: that of the arrays of this mesh, as far as it suffices.
+    Host(MeshOf<D>),
+    /// On the device. The mesh goes on from that of the points where they were, if there is one and that
+    /// pays.
+    Device(Option<&'a DeviceMesh<D>>),
 }
 
 /// What is known of a mesh whose points have moved.
@@ -273,10 +289,27 @@ where
     ///
     /// Returns the errors of [`delaunay3d`](crate::delaunay3d), and those of the device.
     pub async fn triangulate(&mut self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error> {
-        let options = &options.monotone();
-        let mesh = self.make(points, options, false, None).await?.into_host().await?;
-        options.report(Phase::Finish, 1.0)?;
+        let mut mesh = MeshOf::<D>::default();
+        self.triangulate_into(points, options, &mut mesh).await?;
         Ok(mesh)
+    }
+
+    /// Triangulates `points` into the memory of the arrays of `mesh`, as far as it suffices. After an error
+    /// the mesh is empty.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`GpuEngine::triangulate`].
+    pub async fn triangulate_into(
+        &mut self,
+        points: Points<'_, D>,
+        options: &Options,
+        mesh: &mut MeshOf<D>,
+    ) -> Result<(), Error> {
+        let options = &options.monotone();
+        let to = Destination::Host(std::mem::take(mesh));
+        *mesh = self.make(points, options, to).await?.into_host().await?;
+        options.report(Phase::Finish, 1.0)
     }
 
     /// Triangulates `points`, and leaves the mesh on the device, or takes it there.
@@ -290,7 +323,7 @@ where
         options: &Options,
     ) -> Result<DeviceMesh<D>, Error> {
         let options = &options.monotone();
-        let mesh = self.make(points, options, true, None).await?.into_device(&self.gpu).await?;
+        let mesh = self.make(points, options, Destination::Device(None)).await?.into_device(&self.gpu).await?;
         options.report(Phase::Finish, 1.0)?;
         Ok(mesh)
     }
@@ -308,14 +341,13 @@ where
         options: &Options,
     ) -> Result<DeviceMesh<D>, Error> {
         let options = &options.monotone();
-        let mesh = self.make(points, options, true, Some(mesh)).await?.into_device(&self.gpu).await?;
+        let mesh = self.make(points, options, Destination::Device(Some(mesh))).await?.into_device(&self.gpu).await?;
         options.report(Phase::Finish, 1.0)?;
         Ok(mesh)
     }
 
-    /// Triangulates `points`, and leaves the mesh where it is made, which is the device if `resident`
-    /// and the device can make it. It goes on from `moved`, the mesh of the points where they were,
-    /// if there is one and that pays. The last report of progress is the caller's.
+    /// Triangulates `points`, and leaves the mesh where it is made, which is the destination if that is the
+    /// host, or if the device can make it. The last report of progress is the caller's.
     ///
     /// # Errors
     ///
@@ -324,9 +356,12 @@ where
         &mut self,
         points: Points<'_, D>,
         options: &Options,
-        resident: bool,
-        moved: Option<&DeviceMesh<D>>,
+        to: Destination<'_, D>,
     ) -> Result<Made<D>, Error> {
+        let (mut used, moved) = match to {
+            Destination::Host(used) => (Some(used), None),
+            Destination::Device(moved) => (None, moved),
+        };
         let mut stopwatch = Stopwatch::start();
         options.report(Phase::Lattice, 0.0)?;
         if let Some(mesh) = moved.filter(|mesh| mesh.point_count() != points.len()) {
@@ -339,7 +374,7 @@ where
         }
         let mut made = loop {
             let before = from.zip(update.as_mut());
-            match self.attempt(points, options, resident, before, &mut stopwatch).await? {
+            match self.attempt(points, options, used.as_mut(), before, &mut stopwatch).await? {
                 Ok(made) => break made,
                 Err(why) => {
                     if let Some(update) = &mut update {
@@ -362,12 +397,13 @@ where
         Ok(made)
     }
 
-    /// Does the same, or says why it takes a run from scratch.
+    /// Does the same, in the memory of the mesh `used` if the destination is the host, or says why it takes a
+    /// run from scratch.
     async fn attempt(
         &mut self,
         points: Points<'_, D>,
         options: &Options,
-        resident: bool,
+        used: Option<&mut MeshOf<D>>,
         moved: Option<(&DeviceMesh<D>, &mut UpdateStats)>,
         stopwatch: &mut Stopwatch,
     ) -> Result<Result<Made<D>, Restart>, Error> {
@@ -403,10 +439,10 @@ where
             Some((mesh, update)) => take(&mut run, &input, mesh, update).await?,
             None => None,
         };
-        let resident = settings.sparse || resident;
+        let resident = settings.sparse || used.is_none();
         #[cfg(not(target_arch = "wasm32"))]
-        if !resident {
-            run.prepare_room();
+        if let Some(used) = used.filter(|_| !resident) {
+            run.prepare_room(Dimension::<D>::take_lists(used));
         }
         let mut more = moved.is_none() || run.active() > 0;
         while more {

@@ -114,16 +114,26 @@ struct Staged {
     mapped: oneshot::Receiver<Result<(), wgpu::BufferAsyncError>>,
 }
 
-/// Memory for a large result, which the system provides while the device is at work: that takes longer
-/// than to copy the result.
+/// Memory for a large result.
 #[cfg(not(target_arch = "wasm32"))]
 #[derive(Debug)]
-pub(crate) struct Room<T>(Ahead<Vec<T>>);
+pub(crate) enum Room<T> {
+    /// That of a list that nobody needs any more.
+    Used(Vec<T>),
+    /// Memory that the system provides while the device is at work: that takes longer than to copy the
+    /// result.
+    Ahead(Ahead<Vec<T>>),
+}
 
 #[cfg(not(target_arch = "wasm32"))]
 impl<T: Pod + Send> Room<T> {
-    /// Has threads look for room for about `len` elements; `None` if that does not pay.
-    pub(crate) fn ahead(len: usize) -> Option<Self> {
+    /// Returns room for about `len` elements: that of `used`, or, if it has less than half of that, what threads
+    /// look for; `None` if that does not pay.
+    pub(crate) fn new(used: Vec<T>, len: usize) -> Option<Self> {
+        if used.capacity() > len / 2 {
+            return Some(Room::Used(used));
+        }
+        drop(used);
         let len = with_room(len);
         let pays = len.checked_mul(size_of::<T>())? >= SHARED_FROM;
         let touched = move || {
@@ -136,12 +146,15 @@ impl<T: Pod + Send> Room<T> {
             });
             list
         };
-        pays.then(|| Room(Ahead::begin(touched)))
+        pays.then(|| Room::Ahead(Ahead::begin(touched)))
     }
 
     /// Returns the room, empty if it is not there yet.
     pub(crate) fn take(self) -> Vec<T> {
-        self.0.take().unwrap_or_default()
+        match self {
+            Room::Used(list) => list,
+            Room::Ahead(ahead) => ahead.take().unwrap_or_default(),
+        }
     }
 }
 
@@ -641,13 +654,12 @@ fn wait(_gpu: &Gpu, _submission: &wgpu::SubmissionIndex) -> Result<(), Error> {
 #[cfg(not(target_arch = "wasm32"))]
 fn fitted<T: Pod>(mut list: Vec<T>, len: usize) -> Vec<T> {
     let wanted = with_room(len);
-    if list.is_empty() {
+    if list.capacity() == 0 {
         list = bytemuck::zeroed_vec(wanted);
-    } else {
-        list.resize(wanted, T::zeroed());
-        list.shrink_to(with_room(wanted));
     }
-    list.truncate(len);
+    list.reserve(wanted.saturating_sub(list.len()));
+    list.resize(len, T::zeroed());
+    list.shrink_to(with_room(wanted));
     list
 }
 
@@ -692,15 +704,21 @@ mod tests {
 
     #[test]
     fn room_is_for_large_results() {
-        assert!(Room::<u32>::ahead(1000).is_none());
-        assert!(Room::<[u32; 4]>::ahead(usize::MAX / 2).is_none());
-        let room = Room::<[u32; 4]>::ahead(SHARED_FROM).expect("it is large");
+        assert!(Room::<u32>::new(Vec::new(), 1000).is_none());
+        assert!(Room::<[u32; 4]>::new(Vec::new(), usize::MAX / 2).is_none());
+        let ahead = match Room::<[u32; 4]>::new(vec![[0; 4]; 1000], SHARED_FROM) {
+            Some(Room::Ahead(ahead)) => ahead,
+            other => panic!("it is large, and the list is not: {other:?}"),
+        };
         let room = loop {
-            match room.0.take() {
+            match ahead.take() {
                 Some(room) => break room,
                 None => std::thread::yield_now(),
             }
         };
         assert!(room.len() >= SHARED_FROM);
+        let place = room.as_ptr();
+        let room = Room::new(room, SHARED_FROM + 1).map(Room::take);
+        assert_eq!(room.map(|room| room.as_ptr()), Some(place), "the list has room");
     }
 }

@@ -214,13 +214,9 @@ impl Triangulator {
     /// [`Error::AdapterNotFound`], [`Error::DeviceLost`], [`Error::OutOfDeviceMemory`],
     /// [`Error::BufferTooLarge`] and [`Error::Gpu`].
     pub fn delaunay3d<'a>(&self, points: impl Into<Points3<'a>>) -> Result<Mesh3, Error> {
-        let points = points.into();
-        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-        {
-            pollster::block_on(self.device.delaunay3d(points, &self.options))
-        }
-        #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
-        without_gpu(points, &self.options)
+        let mut mesh = Mesh3::default();
+        self.delaunay3d_into(points, &mut mesh)?;
+        Ok(mesh)
     }
 
     /// Returns the 2D Delaunay triangulation of `points`. Blocks the thread; in browsers it
@@ -230,13 +226,9 @@ impl Triangulator {
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`].
     pub fn delaunay2d<'a>(&self, points: impl Into<Points2<'a>>) -> Result<Mesh2, Error> {
-        let points = points.into();
-        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-        {
-            pollster::block_on(self.device.delaunay2d(points, &self.options))
-        }
-        #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
-        without_gpu(points, &self.options)
+        let mut mesh = Mesh2::default();
+        self.delaunay2d_into(points, &mut mesh)?;
+        Ok(mesh)
     }
 
     /// Returns the 3D Delaunay triangulation of `points`, and waits for the GPU without blocking
@@ -256,12 +248,9 @@ impl Triangulator {
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`].
     pub async fn delaunay3d_async<'a>(&self, points: impl Into<Points3<'a>>) -> Result<Mesh3, Error> {
-        #[cfg(feature = "gpu")]
-        {
-            self.device.delaunay3d(points.into(), &self.options).await
-        }
-        #[cfg(not(feature = "gpu"))]
-        self.delaunay3d(points)
+        let mut mesh = Mesh3::default();
+        self.delaunay3d_into_async(points, &mut mesh).await?;
+        Ok(mesh)
     }
 
     /// Returns the 2D Delaunay triangulation of `points`, and waits for the GPU without blocking
@@ -271,12 +260,108 @@ impl Triangulator {
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`].
     pub async fn delaunay2d_async<'a>(&self, points: impl Into<Points2<'a>>) -> Result<Mesh2, Error> {
+        let mut mesh = Mesh2::default();
+        self.delaunay2d_into_async(points, &mut mesh).await?;
+        Ok(mesh)
+    }
+
+    /// Makes `mesh` the 3D Delaunay triangulation of `points`, whatever it was before. The GPU backend
+    /// writes the tetrahedra and their neighbours into the memory that their vectors have, as far as it
+    /// suffices, so that a program with many inputs need not have the system provide fresh memory for
+    /// each. After an error the mesh is empty. Blocks the thread.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Mesh3, Triangulator};
+    ///
+    /// let triangulator = Triangulator::new();
+    /// let mut mesh = Mesh3::default();
+    /// for height in [1.0, 2.0f64] {
+    ///     let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, height]];
+    ///     triangulator.delaunay3d_into(&points, &mut mesh)?;
+    ///     assert_eq!(mesh.canonical(), [[0, 1, 2, 3]]);
+    /// }
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::delaunay3d`].
+    pub fn delaunay3d_into<'a>(&self, points: impl Into<Points3<'a>>, mesh: &mut Mesh3) -> Result<(), Error> {
+        let (points, used) = (points.into(), std::mem::take(mesh));
+        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+        let made = pollster::block_on(self.device.delaunay3d(points, &self.options, used));
+        #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
+        let made = {
+            drop(used);
+            without_gpu(points, &self.options)
+        };
+        *mesh = made?;
+        Ok(())
+    }
+
+    /// Makes `mesh` the 2D Delaunay triangulation of `points`, whatever it was before, as
+    /// [`delaunay3d_into`](Triangulator::delaunay3d_into) does in 3D. Blocks the thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::delaunay3d`].
+    pub fn delaunay2d_into<'a>(&self, points: impl Into<Points2<'a>>, mesh: &mut Mesh2) -> Result<(), Error> {
+        let (points, used) = (points.into(), std::mem::take(mesh));
+        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+        let made = pollster::block_on(self.device.delaunay2d(points, &self.options, used));
+        #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
+        let made = {
+            drop(used);
+            without_gpu(points, &self.options)
+        };
+        *mesh = made?;
+        Ok(())
+    }
+
+    /// Makes `mesh` the 3D Delaunay triangulation of `points`, as
+    /// [`delaunay3d_into`](Triangulator::delaunay3d_into) does, and waits for the GPU without blocking the
+    /// thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::delaunay3d`].
+    pub async fn delaunay3d_into_async<'a>(
+        &self,
+        points: impl Into<Points3<'a>>,
+        mesh: &mut Mesh3,
+    ) -> Result<(), Error> {
         #[cfg(feature = "gpu")]
         {
-            self.device.delaunay2d(points.into(), &self.options).await
+            let used = std::mem::take(mesh);
+            *mesh = self.device.delaunay3d(points.into(), &self.options, used).await?;
+            Ok(())
         }
         #[cfg(not(feature = "gpu"))]
-        self.delaunay2d(points)
+        self.delaunay3d_into(points, mesh)
+    }
+
+    /// Makes `mesh` the 2D Delaunay triangulation of `points`, as
+    /// [`delaunay2d_into`](Triangulator::delaunay2d_into) does, and waits for the GPU without blocking the
+    /// thread.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::delaunay3d`].
+    pub async fn delaunay2d_into_async<'a>(
+        &self,
+        points: impl Into<Points2<'a>>,
+        mesh: &mut Mesh2,
+    ) -> Result<(), Error> {
+        #[cfg(feature = "gpu")]
+        {
+            let used = std::mem::take(mesh);
+            *mesh = self.device.delaunay2d(points.into(), &self.options, used).await?;
+            Ok(())
+        }
+        #[cfg(not(feature = "gpu"))]
+        self.delaunay2d_into(points, mesh)
     }
 
     /// Makes `mesh` the Delaunay triangulation of `points`: those of the mesh, after they have

@@ -11,7 +11,7 @@ use crate::{
     gpu::{
         AdapterChoice, Gpu, Readback,
         device_mesh::{DeviceMesh, DeviceMesh2, DeviceMesh3, MeshArrays, with_len},
-        engine::{Complete, GpuEngine, Made},
+        engine::{Complete, Destination, GpuEngine, Made},
         phase1::Finish,
     },
     input::points::{Points, Points2, Points3},
@@ -126,28 +126,27 @@ where
 {
     type Output;
 
-    /// Whether the mesh is to be made on the device.
-    const RESIDENT: bool;
-
-    /// Returns the mesh of the points where they were, if they have moved.
-    fn moved(&self) -> Option<&DeviceMesh<D>> {
-        None
-    }
+    /// Returns where the mesh is to be made.
+    fn destination(&mut self) -> Destination<'_, D>;
 
     /// Takes the mesh there from where it was made, with the GPU if it was used.
     async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<Self::Output, Error>;
 }
 
-/// To the memory of the host.
-struct ToHost;
+/// To the memory of the host, that of the arrays of this mesh as far as it suffices.
+struct ToHost<const D: usize>(MeshOf<D>)
+where
+    Dimension<D>: Choice<D>;
 
-impl<const D: usize> Deliver<D> for ToHost
+impl<const D: usize> Deliver<D> for ToHost<D>
 where
     Dimension<D>: Choice<D>,
 {
     type Output = MeshOf<D>;
 
-    const RESIDENT: bool = false;
+    fn destination(&mut self) -> Destination<'_, D> {
+        Destination::Host(std::mem::take(&mut self.0))
+    }
 
     async fn deliver(&self, mesh: Made<D>, _gpu: Option<Gpu>) -> Result<MeshOf<D>, Error> {
         mesh.into_host().await
@@ -167,10 +166,8 @@ where
 {
     type Output = DeviceMesh<D>;
 
-    const RESIDENT: bool = true;
-
-    fn moved(&self) -> Option<&DeviceMesh<D>> {
-        self.moved
+    fn destination(&mut self) -> Destination<'_, D> {
+        Destination::Device(self.moved)
     }
 
     async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<DeviceMesh<D>, Error> {
@@ -201,10 +198,8 @@ where
 {
     type Output = R;
 
-    const RESIDENT: bool = true;
-
-    fn moved(&self) -> Option<&DeviceMesh<D>> {
-        self.on_device.as_ref()?.moved
+    fn destination(&mut self) -> Destination<'_, D> {
+        Destination::Device(self.on_device.as_ref().and_then(|on_device| on_device.moved))
     }
 
     async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<R, Error> {
@@ -212,7 +207,7 @@ where
             (mesh @ Made::Host(_), Some(on_device)) => Made::Device(Box::new(on_device.deliver(mesh, gpu).await?)),
             (mesh, _) => mesh,
         };
-        if self.moved().is_some() {
+        if self.on_device.as_ref().is_some_and(|on_device| on_device.moved.is_some()) {
             mesh.stats_mut().update.get_or_insert_with(elsewhere);
         }
         (self.take)(mesh).await
@@ -261,14 +256,14 @@ impl SharedDevice {
         state.close();
     }
 
-    /// Triangulates `points` in 3D.
-    pub(super) async fn delaunay3d(&self, points: Points3<'_>, options: &Options) -> Result<Mesh3, Error> {
-        self.run(points, options, &ToHost).await
+    /// Triangulates `points` in 3D, in the memory of the mesh `used` as far as it suffices.
+    pub(super) async fn delaunay3d(&self, points: Points3<'_>, options: &Options, used: Mesh3) -> Result<Mesh3, Error> {
+        self.run(points, options, &mut ToHost(used)).await
     }
 
-    /// Triangulates `points` in 2D.
-    pub(super) async fn delaunay2d(&self, points: Points2<'_>, options: &Options) -> Result<Mesh2, Error> {
-        self.run(points, options, &ToHost).await
+    /// Triangulates `points` in 2D, in the memory of the mesh `used` as far as it suffices.
+    pub(super) async fn delaunay2d(&self, points: Points2<'_>, options: &Options, used: Mesh2) -> Result<Mesh2, Error> {
+        self.run(points, options, &mut ToHost(used)).await
     }
 
     /// Triangulates `points`, and has `take` take the mesh where it was made, or, if `resident`, on
@@ -288,7 +283,7 @@ impl SharedDevice {
     {
         check_count(points, moved)?;
         let on_device = resident.then_some(ToDevice { device: self, moved });
-        self.run(points, options, &ToCaller { on_device, take, result: std::marker::PhantomData }).await
+        self.run(points, options, &mut ToCaller { on_device, take, result: std::marker::PhantomData }).await
     }
 
     /// Triangulates `points` in 3D, and leaves the mesh on the device.
@@ -297,7 +292,7 @@ impl SharedDevice {
         points: Points3<'_>,
         options: &Options,
     ) -> Result<DeviceMesh3, Error> {
-        self.run(points, options, &ToDevice { device: self, moved: None }).await
+        self.run(points, options, &mut ToDevice { device: self, moved: None }).await
     }
 
     /// Triangulates `points` in 2D, and leaves the mesh on the device.
@@ -306,7 +301,7 @@ impl SharedDevice {
         points: Points2<'_>,
         options: &Options,
     ) -> Result<DeviceMesh2, Error> {
-        self.run(points, options, &ToDevice { device: self, moved: None }).await
+        self.run(points, options, &mut ToDevice { device: self, moved: None }).await
     }
 
     /// Triangulates the points in a buffer of the device in 3D, and leaves the mesh there.
@@ -316,7 +311,7 @@ impl SharedDevice {
         options: &Options,
     ) -> Result<DeviceMesh3, Error> {
         let points = self.read_points::<3>(points).await?;
-        self.run((&points).into(), options, &ToDevice { device: self, moved: None }).await
+        self.run((&points).into(), options, &mut ToDevice { device: self, moved: None }).await
     }
 
     /// Triangulates the points in a buffer of the device in 2D, and leaves the mesh there.
@@ -326,7 +321,7 @@ impl SharedDevice {
         options: &Options,
     ) -> Result<DeviceMesh2, Error> {
         let points = self.read_points::<2>(points).await?;
-        self.run((&points).into(), options, &ToDevice { device: self, moved: None }).await
+        self.run((&points).into(), options, &mut ToDevice { device: self, moved: None }).await
     }
 
     /// Makes `mesh` that of `points`, which have moved.
@@ -340,7 +335,7 @@ impl SharedDevice {
         Dimension<D>: Choice<D>,
     {
         check_count(points, Some(mesh))?;
-        let mut made = self.run(points, options, &ToDevice { device: self, moved: Some(mesh) }).await?;
+        let mut made = self.run(points, options, &mut ToDevice { device: self, moved: Some(mesh) }).await?;
         made.stats_mut().update.get_or_insert_with(elsewhere);
         // Its lists of points are large, and freeing them takes longer than some updates.
         parallel::dispose(std::mem::replace(mesh, made));
@@ -367,7 +362,7 @@ impl SharedDevice {
         &self,
         points: Points<'_, D>,
         options: &Options,
-        to: &L,
+        to: &mut L,
     ) -> Result<L::Output, Error>
     where
         Dimension<D>: Choice<D>,
@@ -397,7 +392,7 @@ impl SharedDevice {
         &self,
         points: Points<'_, D>,
         options: &Options,
-        to: &L,
+        to: &mut L,
     ) -> Result<Result<L::Output, Error>, Fallback>
     where
         Dimension<D>: Choice<D>,
@@ -488,7 +483,7 @@ impl State {
         &mut self,
         points: Points<'_, D>,
         options: &Options,
-        to: &L,
+        to: &mut L,
     ) -> Result<L::Output, Error>
     where
         Dimension<D>: Choice<D>,
@@ -498,7 +493,7 @@ impl State {
         };
         let options = &options.monotone();
         let result = async {
-            let mesh = engine.make(points, options, L::RESIDENT, to.moved()).await?;
+            let mesh = engine.make(points, options, to.destination()).await?;
             let delivered = to.deliver(mesh, Some(engine.gpu().clone())).await?;
             options.report(Phase::Finish, 1.0)?;
             Ok(delivered)

@@ -16,6 +16,7 @@ mod outcomes;
 mod reading;
 mod resident;
 mod statistics;
+mod used;
 
 use gdel::{
     Backend, Mesh3, Outputs, Points3,

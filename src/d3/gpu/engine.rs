@@ -40,6 +40,11 @@ impl Complete<3> for Dimension<3> {
     const DEGENERATE: Fallback = Fallback::Coplanar;
     const ROUNDS_SHARE: f64 = 0.6;
 
+    #[cfg(not(target_arch = "wasm32"))]
+    fn take_lists(mesh: &mut Mesh3) -> [Vec<[u32; 4]>; 2] {
+        [std::mem::take(&mut mesh.tetrahedra), bytemuck::cast_vec(std::mem::take(&mut mesh.neighbors))]
+    }
+
     fn tracer(options: &Options) -> Option<Tracer> {
         options.trace.then(Tracer::default)
     }

@@ -295,11 +295,12 @@ where
         })
     }
 
-    /// Has threads look for memory for the mesh, which the host is to read as a whole.
+    /// Has threads look for memory for the mesh, which the host is to read, unless that of the lists `used`
+    /// will do.
     #[cfg(not(target_arch = "wasm32"))]
-    pub(crate) fn prepare_room(&mut self) {
+    pub(crate) fn prepare_room(&mut self, used: [Vec<Corners<D>>; 2]) {
         let len = self.params.infinite as usize * Dimension::<D>::MESH_PER_POINT;
-        self.rooms = [Room::ahead(len), Room::ahead(len)];
+        self.rooms = used.map(|used| Room::new(used, len));
     }
 
     /// Returns the device.
