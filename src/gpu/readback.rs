@@ -521,19 +521,17 @@ impl Readback {
         staged: Staged,
         take: impl FnOnce(&wgpu::BufferView) -> R,
     ) -> Result<R, Error> {
-        let Staged { staging, mapped_bytes, mapped } = staged;
-        wait(gpu, submission)?;
-        match mapped.await {
-            Ok(Ok(())) => {}
-            Ok(Err(e)) => return Err(gpu.failure(&e.to_string())),
-            Err(oneshot::Canceled) => return Err(gpu.failure("a readback was never carried out")),
-        }
-        let view = staging.get_mapped_range(..mapped_bytes).map_err(|e| gpu.failure(&e.to_string()))?;
+        let (staging, view) = arrived(gpu, submission, staged).await?;
         let result = take(&view);
+        self.keep(staging, view);
+        Ok(result)
+    }
+
+    /// Keeps a staging buffer for later readbacks.
+    fn keep(&self, staging: wgpu::Buffer, view: wgpu::BufferView) {
         drop(view);
         staging.unmap();
         self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(staging);
-        Ok(result)
     }
 
     /// Returns the smallest idle staging buffer of as many bytes, or a new one of at least
@@ -554,6 +552,23 @@ impl Readback {
             }),
         }
     }
+}
+
+/// Waits for the copy that `submission` contains. Returns the staging buffer with the bytes. In one place for
+/// results of all types.
+async fn arrived(
+    gpu: &Gpu,
+    submission: &wgpu::SubmissionIndex,
+    Staged { staging, mapped_bytes, mapped }: Staged,
+) -> Result<(wgpu::Buffer, wgpu::BufferView), Error> {
+    wait(gpu, submission)?;
+    match mapped.await {
+        Ok(Ok(())) => {}
+        Ok(Err(e)) => return Err(gpu.failure(&e.to_string())),
+        Err(oneshot::Canceled) => return Err(gpu.failure("a readback was never carried out")),
+    }
+    let view = staging.get_mapped_range(..mapped_bytes).map_err(|e| gpu.failure(&e.to_string()))?;
+    Ok((staging, view))
 }
 
 /// Memory of the host. Most of the time goes into page faults where it is fresh, so threads share

@@ -10,8 +10,6 @@
 use crate::d3::splay::{Aborted, predicates::StarPredicates};
 use crate::d3::{mesh::FACETS, triangulation::Triangulation3};
 use crate::index::NO_INDEX;
-use rustc_hash::FxHashMap;
-use std::collections::hash_map::Entry;
 
 /// A triangle of a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -70,10 +68,14 @@ pub(super) struct Changes {
 /// Finds the tetrahedra around a vertex.
 #[derive(Default)]
 pub(super) struct LinkFinder {
-    /// The place of each tetrahedron in `around`.
-    place: FxHashMap<u32, u32>,
     around: Vec<Around>,
+    /// A hash table of these tetrahedra, each with its place in `around`, or [`NOTHING`]. No more than half
+    /// of it is used.
+    table: Vec<[u32; 2]>,
 }
+
+/// An unused entry of a table.
+const NOTHING: [u32; 2] = [NO_INDEX; 2];
 
 /// A tetrahedron around a vertex.
 ///
@@ -100,25 +102,52 @@ const PLACES: [[u32; 4]; 4] = {
 };
 
 impl LinkFinder {
+    /// The entries of a table at first, a power of two: most stars have fewer than half as many tetrahedra.
+    const ENTRIES: usize = 1 << 7;
     /// Tables larger than this are replaced, because clearing them takes longer than most stars do.
-    const MAX_TO_CLEAR: usize = 1 << 10;
-    /// The tetrahedra for which there is room from the start.
-    const ROOM: usize = 56;
+    const MAX_TO_CLEAR: usize = 1 << 11;
 
     /// Adds tetrahedron `t` to `around`, if it is new. Returns its place there.
+    #[inline]
     fn visit(&mut self, mesh: &Triangulation3, t: u32, vertex: u32) -> Result<u32, Aborted> {
-        match self.place.entry(t) {
-            Entry::Occupied(entry) => Ok(*entry.get()),
-            Entry::Vacant(entry) => {
-                let vertices = mesh.vertices(t);
-                let corner = (1..4).map(|k| if vertices[k] == vertex { k as u32 } else { 0 }).sum::<u32>() % 4;
-                if vertices[corner as usize] != vertex {
-                    return Err(Aborted::Inconsistent("a link leads to a tetrahedron without its vertex"));
-                }
-                let place = *entry.insert(self.around.len() as u32);
-                self.around.push(Around { tetrahedron: t, corner, vertices, neighbors: mesh.neighbors[t as usize] });
-                Ok(place)
-            }
+        let at = self.entry(t);
+        let [found, place] = self.table[at];
+        if found == t {
+            return Ok(place);
+        }
+        let vertices = mesh.vertices(t);
+        let corner = (1..4).map(|k| if vertices[k] == vertex { k as u32 } else { 0 }).sum::<u32>() % 4;
+        if vertices[corner as usize] != vertex {
+            return Err(Aborted::Inconsistent("a link leads to a tetrahedron without its vertex"));
+        }
+        let place = self.around.len() as u32;
+        self.table[at] = [t, place];
+        self.around.push(Around { tetrahedron: t, corner, vertices, neighbors: mesh.neighbors[t as usize] });
+        if 2 * self.around.len() > self.table.len() {
+            self.grow();
+        }
+        Ok(place)
+    }
+
+    /// Returns which entry of the table is that of tetrahedron `t`, or the unused one where it belongs.
+    #[inline]
+    fn entry(&self, t: u32) -> usize {
+        let mask = self.table.len() - 1;
+        let mut at = (t.wrapping_mul(0x9e37_79b9) >> (mask as u32).leading_zeros()) as usize;
+        while self.table[at] != NOTHING && self.table[at][0] != t {
+            at = (at + 1) & mask;
+        }
+        at
+    }
+
+    /// Makes the table twice as large.
+    #[cold]
+    fn grow(&mut self) {
+        self.table = vec![NOTHING; 2 * self.table.len()];
+        for place in 0..self.around.len() {
+            let t = self.around[place].tetrahedron;
+            let at = self.entry(t);
+            self.table[at] = [t, place as u32];
         }
     }
 
@@ -128,14 +157,12 @@ impl LinkFinder {
             return Err(Aborted::Inconsistent("a vertex has no tetrahedron"));
         }
         self.around.clear();
-        if self.place.capacity() > Self::MAX_TO_CLEAR {
-            self.place = FxHashMap::default();
+        match self.table.len() {
+            1..=Self::MAX_TO_CLEAR => self.table.fill(NOTHING),
+            _ => self.table = vec![NOTHING; Self::ENTRIES],
         }
-        self.place.clear();
-        // Most stars have no more, and growing a table takes longer than the star.
-        self.place.reserve(Self::ROOM);
         self.visit(mesh, start, vertex)?;
-        let mut triangles = Vec::with_capacity(Self::ROOM);
+        let mut triangles = Vec::with_capacity(Self::ENTRIES / 2);
         while let Some(&Around { tetrahedron, corner, vertices: v, neighbors: across }) =
             self.around.get(triangles.len())
         {
