@@ -52,7 +52,7 @@ fn points(gpu: &Gpu, stage: &PointStage<3>, points: Points3<'_>) {
         let lattice = Lattice::fit(points);
         let fitted = start.elapsed().as_secs_f64() * 1e3;
         let mut recorder = Recorder::new(gpu, Some(&mut profiler));
-        let input = PointInput { points, lattice: &lattice, sort: true };
+        let input = PointInput { points, lattice: &lattice, sort: true, is_uploaded: false };
         let device = stage.record(gpu, &mut recorder, &mut kept, input).expect("the points fit");
         let pending = readback.copy(gpu, recorder.encoder(), &device.counts, 0, 1);
         let recorded = start.elapsed().as_secs_f64() * 1e3;

@@ -104,7 +104,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let lattice = Lattice::fit(input);
     let position = |i: usize| lattice.coordinates(input.get(i)).map(|c| c.value);
     let start = first_simplex(lattice.width(), count, position).ok_or("the points are collinear")?;
-    let device_input = Input { points: input, lattice: &lattice, start, starts_later: false };
+    let device_input = Input { points: input, lattice: &lattice, start, starts_later: false, is_uploaded: false };
     let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
     let mut stages = Vec::new();
     let mut output = block_on(phase1.run(&gpu, device_input, &settings, None))?;

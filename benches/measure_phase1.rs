@@ -66,7 +66,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let position = |i: usize| lattice.coordinates(points[i].map(f64::from)).map(|c| c.value);
     let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
     let lattice_ms = clock.elapsed().as_secs_f64() * 1e3;
-    let input = Input { points: (&points).into(), lattice: &lattice, start, starts_later: false };
+    let input = Input { points: (&points).into(), lattice: &lattice, start, starts_later: false, is_uploaded: false };
 
     let clock = std::time::Instant::now();
     let mut phase1 = block_on(Phase1::in_parts(&gpu, lattice.width(), settings.parts(&gpu, count)))?;

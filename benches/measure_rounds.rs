@@ -56,7 +56,7 @@ where
             none => none.insert(block_on(Phase1::new(gpu, width))?),
         };
         block_on(kernels.finish_compiling(gpu))?;
-        let input = Input { points, lattice: &lattice, start, starts_later: false };
+        let input = Input { points, lattice: &lattice, start, starts_later: false, is_uploaded: false };
         let mut run = block_on(Run::new(kernels, gpu, input, Settings::default(), None))?;
         let mut rounds = Vec::new();
         let mut before = Counters::default();

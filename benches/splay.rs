@@ -99,7 +99,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
         let mut phase1 = block_on(Phase1::new(&gpu, lattice.width()))?;
         block_on(phase1.finish_compiling(&gpu))?;
-        let of_points = Input { points: (&points).into(), lattice: &lattice, start, starts_later: false };
+        let of_points =
+            Input { points: (&points).into(), lattice: &lattice, start, starts_later: false, is_uploaded: false };
         let output = block_on(phase1.run(&gpu, of_points, &Settings::default(), None))?;
         for threads in [Threads::One, Threads::All] {
             let (mut splay, mut end, mut did) = (Vec::new(), Vec::new(), SplayStats::default());

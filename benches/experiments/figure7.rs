@@ -100,7 +100,7 @@ fn kernels(context: &Context, points: &[[f64; 3]]) -> Result<Vec<(&'static str, 
     let lattice = Lattice::fit(points.into());
     let position = |i: usize| lattice.coordinates(points[i]).map(|c| c.value);
     let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are coplanar")?;
-    let input = Input { points: points.into(), lattice: &lattice, start, starts_later: false };
+    let input = Input { points: points.into(), lattice: &lattice, start, starts_later: false, is_uploaded: false };
     let mut phase1 = block_on(Phase1::new(gpu, lattice.width()))?;
     block_on(phase1.finish_compiling(gpu))?;
     block_on(phase1.run(gpu, input, &Settings::default(), None))?;

@@ -113,7 +113,11 @@ impl<const D: usize> Lattice<D> {
     ///
     /// Returns [`Error::NotFinite`] with the first point that has a coordinate that is not finite.
     pub(crate) fn fit_by(threads: Threads, points: Points<'_, D>) -> Result<Self, Error> {
-        let [low, high] = points.finite_bounds(threads)?;
+        Ok(Lattice::fit_to(threads, points, points.finite_bounds(threads)?))
+    }
+
+    /// Returns the lattice of finite `points` with these bounds, computed by `threads`.
+    pub(crate) fn fit_to(threads: Threads, points: Points<'_, D>, [low, high]: [[f64; D]; 2]) -> Self {
         let varies: [bool; D] = std::array::from_fn(|axis| low[axis] < high[axis]);
         let fitting = |width: Width| {
             (0..D).filter(|&axis| varies[axis]).map(|axis| largest_exponent(low[axis], high[axis], width.bits())).min()
@@ -128,7 +132,7 @@ impl<const D: usize> Lattice<D> {
         // Other threads need not wake up where one of the first points decides.
         let is_narrow = all_exact(0..points.len().min(FEW))
             && parallel::map_ranges(threads, points.len(), all_exact).into_iter().all(|exact| exact);
-        Ok(if is_narrow { narrow } else { lattice(Width::Wide) })
+        if is_narrow { narrow } else { lattice(Width::Wide) }
     }
 
     fn with_exponents(width: Width, exponents: [i32; D], varies: [bool; D], bounds: [[f64; D]; 2]) -> Self {

@@ -148,10 +148,40 @@ impl<'a, const D: usize> Points<'a, D> {
     ///
     /// Returns [`Error::NotFinite`] with the first point that has a coordinate that is not.
     pub(crate) fn finite_bounds(&self, threads: Threads) -> Result<[[f64; D]; 2], Error> {
-        let parts = parallel::map_ranges(threads, self.len(), |range| match self.range(range) {
+        self.bounds_of(parallel::map_ranges(threads, self.len(), |range| self.range(range).box_of_all()), threads)
+    }
+
+    /// Returns the same, and calls `take` with each piece of the points, and the number of its first point, when
+    /// it has been looked at.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`finite_bounds`](Self::finite_bounds).
+    #[cfg(any(test, all(feature = "gpu", target_arch = "wasm32")))]
+    pub(crate) fn finite_bounds_with(
+        &self,
+        mut take: impl FnMut(usize, Points<'a, D>),
+    ) -> Result<[[f64; D]; 2], Error> {
+        let firsts = (0..self.len()).step_by(PIECE);
+        let parts = firsts.map(|first| {
+            let piece = self.range(first..self.len().min(first + PIECE));
+            let bounds = piece.box_of_all();
+            take(first, piece);
+            bounds
+        });
+        self.bounds_of(parts.collect(), Threads::One)
+    }
+
+    /// Returns the box of all points, in an array of three dimensions.
+    fn box_of_all(&self) -> Box3 {
+        match self {
             Points::F32(p) => box_of_f32(p.as_flattened(), D),
             Points::F64(p) => box_of_f64(p.as_flattened(), D),
-        });
+        }
+    }
+
+    /// Returns the bounds of all points, given those of parts of them.
+    fn bounds_of(&self, parts: Vec<Box3>, threads: Threads) -> Result<[[f64; D]; 2], Error> {
         if parts.iter().any(|&(_, is_finite)| !is_finite) {
             self.validate_by(threads)?;
         }
@@ -191,6 +221,11 @@ impl<'a, const D: usize> Points<'a, D> {
         Err(Error::NotFinite { index, axis: ['x', 'y', 'z'][axis], value })
     }
 }
+
+/// The points in a piece: so few that it stays in the caches of a core while it is looked at, and so many
+/// that nothing is lost by beginning the next.
+#[cfg(any(test, all(feature = "gpu", target_arch = "wasm32")))]
+const PIECE: usize = 1 << 15;
 
 /// The box of some points, of which the third axis has no meaning in 2D, and whether all
 /// coordinates are finite.
@@ -379,7 +414,16 @@ mod tests {
     fn check<const D: usize>(points: Points<'_, D>) -> Result<(), TestCaseError> {
         let none = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
         let expected = points.validate().map(|()| points.bounds().unwrap_or(none));
-        prop_assert_eq!(points.finite_bounds(Threads::All), expected);
+        prop_assert_eq!(points.finite_bounds(Threads::All), expected.clone());
+        let mut taken = Vec::new();
+        let bounds = points.finite_bounds_with(|first, piece| {
+            assert_eq!(first, taken.len());
+            taken.extend(piece.iter());
+        });
+        prop_assert_eq!(bounds, expected.clone());
+        if expected.is_ok() {
+            prop_assert_eq!(taken, points.iter().collect::<Vec<_>>());
+        }
         let [(first, is_finite), other] = [true, false].map(|checks_first| match points {
             Points::F32(p) => box_in::<f32, D>(p.as_flattened(), checks_first),
             Points::F64(p) => box_in::<f64, D>(p.as_flattened(), checks_first),

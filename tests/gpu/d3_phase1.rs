@@ -47,7 +47,8 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, se
     let kernels = &mut kernels[usize::from(width == Width::Wide)];
     let position = |i: usize| lattice.coordinates(points.positions[i]).map(|c| c.value);
     let start = first_simplex(width, count, position).expect("not coplanar");
-    let input = Input { points: (&points.positions).into(), lattice: &lattice, start, starts_later: false };
+    let input =
+        Input { points: (&points.positions).into(), lattice: &lattice, start, starts_later: false, is_uploaded: false };
     let mut run = block_on(Run::new(kernels, gpu, input, settings, None)).unwrap();
     let mut more = true;
     while more {

@@ -419,6 +419,15 @@ test('the worker sends a dispatch as one call, and what is large in pieces', asy
     [1, 'writeBuffer', 16 + 2 * piece, piece / 2],
   ]);
   assert.equal(bytes.length, 2.5 * piece);
+
+  // What is small goes with the calls that follow.
+  const before = posted.length;
+  device.queue.writeBuffer({ remote: 9 }, 0, bytes.subarray(0, piece / 2));
+  assert.equal(posted.length, before + 1);
+  device.queue.writeBuffer({ remote: 9 }, 0, bytes.subarray(0, 64));
+  assert.equal(posted.length, before + 1);
+  await undefined;
+  assert.equal(posted.length, before + 2);
 });
 
 test('nobody waits for the errors of a scope in which nothing is created, and none is lost', async () => {

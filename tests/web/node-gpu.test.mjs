@@ -201,6 +201,38 @@ test('the arrays of a mesh give their memory to the next one', { timeout: 600_00
   triangulator.dispose();
 });
 
+// They are written to the device before their lattice is known, into buffers for those of the last run.
+test('points that come after as many others', { timeout: 600_000 }, async () => {
+  const { createTriangulator, delaunay2d, delaunay3d, generate } = await importFrom(project());
+  const triangulator = await createTriangulator({ gpu, backend: 'gpu' });
+  const check = async (points) => {
+    const mesh = await triangulator.delaunay3d(points);
+    assert.equal(mesh.stats.fallback, null);
+    const expected = await delaunay3d(points, { backend: 'cpu' });
+    assert.equal(fingerprint(mesh.tetrahedra), fingerprint(expected.tetrahedra));
+  };
+  const of = (seed, count) => generate('uniform', count, { seed });
+  const [one, other] = await Promise.all([of(1, 343), of(2, 343)]);
+  const grid = Float64Array.from({ length: 3 * 343 }, (_, i) =>
+    Math.floor(Math.floor(i / 3) / 7 ** (i % 3)) % 7,
+  );
+  for (const points of [one, other, grid, one, Float32Array.from(other), grid, other])
+    await check(points);
+  const bad = one.with(1000, Infinity);
+  await assert.rejects(triangulator.delaunay3d(bad), { code: 'NOT_FINITE', index: 333 });
+  await check(other);
+
+  // In two pieces.
+  const many = await Promise.all([of(3, 23_000), of(4, 23_000)]);
+  for (const points of many.map((coordinates) => coordinates.subarray(0, 2 * 34_000))) {
+    const mesh = await triangulator.delaunay2d(points);
+    assert.equal(mesh.stats.fallback, null);
+    const expected = await delaunay2d(points, { backend: 'cpu' });
+    assert.ok(canonical2d(mesh.triangles) === canonical2d(expected.triangles));
+  }
+  triangulator.dispose();
+});
+
 /** Returns the triangles in an order of their own: equal for equal meshes. */
 function canonical2d(triangles) {
   const rows = [];

@@ -64,14 +64,14 @@ export function remoteGpu(
     else return callByName(object, method, args);
   }
 
-  /** Writes a view of WebAssembly's memory, in pieces: one is written while the next is copied. */
+  /** Writes a view of WebAssembly's memory, in pieces: one is written while this thread goes on. */
   function write([buffer, offset, bytes]: any[]): void {
     for (let at = 0; at < bytes.length; ) {
       const piece = bytes.slice(at, at + STEP_BYTES);
       transfer.push(piece.buffer);
       add([1, 'writeBuffer', [buffer, offset + at, piece], 0]);
       at += piece.length;
-      if (at < bytes.length) send();
+      if (piece.length > STEP_BYTES / 4) send();
     }
   }
 

@@ -48,6 +48,8 @@ where
     /// Whether as a rule no points are inserted, because [`Run::take`] comes next: then what they
     /// would be inserted into is made only by [`Run::forget`].
     pub starts_later: bool,
+    /// Whether the buffers that are kept have the points already.
+    pub is_uploaded: bool,
 }
 
 /// The output of a run.
@@ -222,7 +224,7 @@ where
         // What is kept is lost if the run fails.
         let Kept { points: mut point_buffers, memory: kept, needed } = std::mem::take(&mut kernels.kept);
         let before = if needed.points == points { needed } else { Needed::default() };
-        let Input { points: input, lattice, start: first, starts_later } = input;
+        let Input { points: input, lattice, start: first, starts_later, is_uploaded } = input;
         let start_points = settings.start_points(count);
         let triangulate = || match starts_later {
             true => StartMesh::of_first(&first),
@@ -231,7 +233,7 @@ where
         let upload = || {
             // The device orders the points while the host makes the other buffers.
             let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
-            let input = PointInput { points: input, lattice, sort: settings.sort };
+            let input = PointInput { points: input, lattice, sort: settings.sort, is_uploaded };
             let device = kernels.points.record(gpu, &mut recorder, &mut point_buffers, input)?;
             let mut words = Vec::new();
             Dimension::<D>::append_vertex(&mut words, lattice.width(), first.interior_point, points, false);
@@ -403,7 +405,7 @@ where
 
     /// Forgets the mesh that was taken: all points of the input wait to be inserted.
     pub(crate) fn forget(&mut self, input: &Input<'_, D>) {
-        let Input { points, lattice, start, starts_later } = input;
+        let Input { points, lattice, start, starts_later, .. } = input;
         let start = match starts_later {
             true => StartMesh::new(*points, lattice, start, self.settings.start_points(points.len())),
             false => std::mem::take(&mut self.start),
