@@ -3,7 +3,8 @@
 //!
 //! The variable SINGLE (1) rounds the coordinates to `f32`, SEED chooses others, RESIDENT (1) leaves
 //! the mesh on the device, REUSE (1) writes it into the same vectors each time, START is the number
-//! of points that the CPU engine triangulates first, PART the mebibytes of a part of large arrays, which
+//! of points that the CPU engine triangulates first, BESIDE (1 or 0) has the mesh read while it is splayed,
+//! or before, PART the mebibytes of a part of large arrays, which
 //! otherwise are in parts where they have to be. Prints a line of JSON: medians over the repeats
 //! of the whole run and its phases, points in host memory to mesh in host memory. Before, it runs
 //! for a second to warm up: a device raises its clock slowly.
@@ -40,7 +41,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (resident, reuse) = (option("RESIDENT", 0) != 0, option("REUSE", 0) != 0);
     let sparse = option("SPARSE", 0) != 0;
     let part_bytes = std::env::var("PART").ok().and_then(|value| value.parse::<u64>().ok()).map(|part| part << 20);
-    engine.set_settings(Settings { start_points, sparse, part_bytes, ..Settings::default() });
+    let reads_beside = std::env::var("BESIDE").ok().map(|value| value == "1");
+    engine.set_settings(Settings { start_points, sparse, part_bytes, reads_beside, ..Settings::default() });
     // The kernels of narrow coordinates are compiled by the first run that needs them.
     block_on(engine.triangulate(points, &Options::default()))?;
     block_on(engine.finish_compiling())?;
