@@ -213,8 +213,9 @@ test('points that come after as many others', { timeout: 600_000 }, async () => 
   };
   const of = (seed, count) => generate('uniform', count, { seed });
   const [one, other] = await Promise.all([of(1, 343), of(2, 343)]);
-  const grid = Float64Array.from({ length: 3 * 343 }, (_, i) =>
-    Math.floor(Math.floor(i / 3) / 7 ** (i % 3)) % 7,
+  const grid = Float64Array.from(
+    { length: 3 * 343 },
+    (_, i) => Math.floor(Math.floor(i / 3) / 7 ** (i % 3)) % 7,
   );
   for (const points of [one, other, grid, one, Float32Array.from(other), grid, other])
     await check(points);
