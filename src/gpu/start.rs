@@ -251,7 +251,7 @@ fn triangulate_few<const D: usize>(points: Points<'_, D>) -> Result<Option<Trian
 where
     Dimension<D>: Incremental<D>,
 {
-    let lattice = Lattice::fit(points);
+    let lattice = Lattice::fit_by(Threads::One, points)?;
     let Distinct { mut order, rounds, .. } =
         insertion_order(Threads::One, points, &lattice, Dimension::<D>::CURVE, Order::default());
     if usize::from(Dimension::<D>::spanning_first(points, &mut order)) < D {

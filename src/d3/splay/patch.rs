@@ -17,10 +17,12 @@ use crate::{
         triangulation::{Triangulation3, state},
     },
     parallel::{self, Threads},
-    slots::Slots,
+    slots::{self, Slots},
 };
+use std::sync::atomic::Ordering::Relaxed;
 
-const UNMATCHED: Aborted = Aborted::Inconsistent("a facet of the patch has not one neighbour");
+/// The number of facets that a thread matches at a time, each with the other one.
+const FACET_GRAIN: usize = 1 << 10;
 
 /// Replaces the tetrahedra in the slots `remove` by `add`. `free` lists the unused slots, before
 /// and after. Returns the slots of the new tetrahedra.
@@ -61,14 +63,20 @@ pub(super) fn patch(
     let keys = facets.iter().map(key).collect();
     parallel::sort_by_keys(threads, &mut facets, keys);
     // Others may have the same key.
-    for facets in facets.chunk_by(|f, g| key(f) == key(g)) {
-        for f in facets {
-            let mut others = facets.iter().filter(|g| g[..3] == f[..3] && g[3] != f[3]);
-            match (others.next(), others.next()) {
-                (Some(g), None) => mesh.join(f[3], g[3]),
-                _ => return Err(UNMATCHED.into()),
-            }
-        }
+    let groups: Vec<&[[u32; 4]]> = facets.chunk_by(|f, g| key(f) == key(g)).collect();
+    let neighbors = slots::share(std::mem::take(&mut mesh.neighbors).into_flattened());
+    let matched = parallel::map_grains(threads, groups.len(), FACET_GRAIN, |range| {
+        groups[range].iter().all(|facets| {
+            facets.iter().all(|f| {
+                let mut others = facets.iter().filter(|g| g[..3] == f[..3] && g[3] != f[3]);
+                let only = others.next().filter(|_| others.next().is_none());
+                only.inspect(|g| neighbors[f[3] as usize].store(g[3], Relaxed)).is_some()
+            })
+        })
+    });
+    mesh.neighbors = bytemuck::cast_vec(slots::unshare(neighbors));
+    if matched.contains(&false) {
+        return Err(Aborted::Inconsistent("a facet of the patch has not one neighbour").into());
     }
     let mesh = &*mesh;
     let checked = predicates.shared(threads, filled.len(), TETRAHEDRON_GRAIN, |predicates, range| {
