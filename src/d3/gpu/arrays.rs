@@ -1,7 +1,8 @@
 //! The arrays of the mesh, which the host reads while other threads splay.
 //!
-//! One thread, the calling one, looks after the device: it takes the pieces of the arrays that arrive, and
-//! has stars gathered in between. In wasm there is no other thread, and memory is short: it does without.
+//! Only the calling thread works with the device: it copies the pieces of the arrays as they arrive, and
+//! submits the gathers of stars in between. WebAssembly has no other thread and little memory, so it does
+//! not use this.
 
 use crate::{
     d3::{gpu::exchange::Device, splay::Terms},
