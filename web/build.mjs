@@ -1,5 +1,5 @@
-// Builds the package into web/dist: WebAssembly by wasm-pack, JavaScript by esbuild, declarations
-// by tsc.
+// Builds the package into web/dist: WebAssembly by wasm-pack, JavaScript by esbuild and terser,
+// declarations by tsc.
 
 import { execFileSync } from 'node:child_process';
 import {
@@ -17,6 +17,7 @@ import { delimiter, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import * as esbuild from 'esbuild';
+import { minify } from 'terser';
 import { gluePlugin, importNames } from './glue.mjs';
 import { renameImports } from './imports.mjs';
 
@@ -130,8 +131,10 @@ async function bundle(entry, outfile, { plugins = [], ...options } = {}) {
   const [{ text }] = outputFiles;
   const [exports] = /^export \{[^{}]*\};$/m.exec(text) ?? [''];
   const script = text.replace(exports, '');
-  const { code } = await esbuild.transform(script, { minify: true, target, legalComments: 'none' });
-  writeFileSync(join(dist, outfile), `${code}${exports.replace(/\s+/g, ' ')}\n`);
+  // The names that esbuild chooses take 3 % more, gzipped; terser does not shorten those of private members.
+  const shorter = await esbuild.transform(script, { minify: true, target, legalComments: 'none' });
+  const { code } = await minify(shorter.code, { ecma: 2022, compress: { passes: 2 } });
+  writeFileSync(join(dist, outfile), `${code}\n${exports.replace(/\s+/g, ' ')}\n`);
 }
 
 /** An entry, whose assets are those of `src/assets*.ts`. */
