@@ -11,7 +11,8 @@ use crate::{
         device_edges::DeviceEdges,
         device_mesh::{DeviceMesh, MeshArrays},
         dim::Dim,
-        queries::{NOWHERE, OPEN, OPEN_RADIUS, QueryCounts, QueryInput, QueryPoints, words_of},
+        points::bits_of,
+        queries::{NOWHERE, OPEN, OPEN_RADIUS, QueryCounts, QueryInput, QueryPoints},
     },
     input::points::Points,
     mesh::Mesh,
@@ -255,7 +256,7 @@ where
             {
                 let (input, answers) = self.upload(batch).await?;
                 let count = batch.len();
-                let input = QueryInput { buffer: input.buffer(), count, doubles: words_of(batch).1 };
+                let input = QueryInput { buffer: input.buffer(), count, doubles: bits_of(batch).1 };
                 let locating = on_device.begin_locating(self.mesh, input, &answers, count).await?;
                 ahead.push_back((batch, answers, locating));
             }
@@ -311,7 +312,7 @@ where
         for start in (0..queries.len()).step_by(BATCH) {
             let batch = queries.range(start..queries.len().min(start + BATCH));
             let (input, answers) = self.upload(batch).await?;
-            let input = QueryInput { buffer: input.buffer(), count: batch.len(), doubles: words_of(batch).1 };
+            let input = QueryInput { buffer: input.buffer(), count: batch.len(), doubles: bits_of(batch).1 };
             let counts = on_device.nearest(self.mesh, edges, input, &answers).await?;
             if counts.not_finite.is_some() {
                 queries.validate_by(Threads::All)?;
@@ -430,7 +431,7 @@ where
         for start in (0..queries.len()).step_by(BATCH) {
             let batch = queries.range(start..queries.len().min(start + BATCH));
             let (input, answers) = self.locate_batch(on_device, queries, batch).await?;
-            let input = QueryInput { buffer: input.buffer(), count: batch.len(), doubles: words_of(batch).1 };
+            let input = QueryInput { buffer: input.buffer(), count: batch.len(), doubles: bits_of(batch).1 };
             let results = gpu.with_error_scope("results", || Storage::new(gpu, "results", batch.len())).await?;
             on_device.interpolate(self.mesh, input, &answers, values.buffer(), &results).await?;
             found.append(&mut self.mesh.readback().read(gpu, &results, 0, batch.len()).await?);
@@ -623,7 +624,7 @@ where
         batch: Points<'_, D>,
     ) -> Result<(Storage<u32>, Storage<u32>), Error> {
         let (input, answers) = self.upload(batch).await?;
-        let on_input = QueryInput { buffer: input.buffer(), count: batch.len(), doubles: words_of(batch).1 };
+        let on_input = QueryInput { buffer: input.buffer(), count: batch.len(), doubles: bits_of(batch).1 };
         let counts = on_device.locate(self.mesh, on_input, &answers).await?;
         self.finish_on_host(queries, batch, &counts, &answers).await?;
         Ok((input, answers))
@@ -651,7 +652,7 @@ where
     async fn upload(&self, queries: Points<'_, D>) -> Result<(Storage<u32>, Storage<u32>), Error> {
         let gpu = self.mesh.gpu();
         let create = || {
-            let input = Storage::with_contents(gpu, "queries", words_of(queries).0)?;
+            let input = Storage::with_contents(gpu, "queries", bits_of(queries).0)?;
             Ok((input, Storage::new(gpu, "answers", queries.len())?))
         };
         gpu.with_error_scope("queries", create).await

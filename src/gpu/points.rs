@@ -153,8 +153,8 @@ where
         }
     }
 
-    /// Uploads the points, if they are not, and records what makes vertices of them. `kept` has the buffers of the
-    /// last time, and is given those of this time.
+    /// Uploads the points, unless that is done, and records what makes vertices of them. `kept` has the
+    /// buffers of the last time, and is given those of this time.
     ///
     /// # Errors
     ///
@@ -253,8 +253,8 @@ where
     }
 }
 
-/// Returns the bits of the coordinates, and whether they are doubles.
-fn bits_of<const D: usize>(points: Points<'_, D>) -> (&[u32], bool) {
+/// Returns the bits of coordinates, and whether they are of type `f64`.
+pub(crate) fn bits_of<const D: usize>(points: Points<'_, D>) -> (&[u32], bool) {
     match points {
         Points::F32(p) => (bytemuck::cast_slice(p), false),
         Points::F64(p) => (bytemuck::cast_slice(p), true),

@@ -18,6 +18,7 @@ use crate::{
         device_edges::DeviceEdges,
         device_mesh::DeviceMesh,
         dim::Dim,
+        points::bits_of,
         primitives::sort::Sort,
         readback::Pending,
         shader::{assert_layout, constants::common as constants},
@@ -179,7 +180,7 @@ where
             ..QueryParams::default()
         };
         gpu.with_error_scope("the points of the mesh", || {
-            let (words, doubles) = words_of(points);
+            let (words, doubles) = bits_of(points);
             let input = Storage::with_contents(gpu, "points of the mesh", words)?;
             let of_points = QueryParams { count: points.len() as u32, doubles: u32::from(doubles), ..params };
             let of_points = Storage::with_contents(gpu, "point parameters", &[of_points])?;
@@ -410,14 +411,6 @@ fn counts_of(params: &QueryParams) -> QueryCounts {
     let &QueryParams { not_finite, undecided, open, .. } = params;
     let not_finite = (not_finite != u32::MAX).then_some(not_finite as usize);
     QueryCounts { not_finite, undecided: undecided as usize, open: open as usize }
-}
-
-/// Returns the bits of coordinates, and whether they are of type `f64`.
-pub fn words_of<const D: usize>(points: Points<'_, D>) -> (&[u32], bool) {
-    match points {
-        Points::F32(points) => (bytemuck::cast_slice(points), false),
-        Points::F64(points) => (bytemuck::cast_slice(points), true),
-    }
 }
 
 /// Returns an integer for the lowest coordinate, of type `f64` or `f32`, that is not below `x`:

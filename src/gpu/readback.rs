@@ -554,8 +554,8 @@ impl Readback {
     }
 }
 
-/// Waits for the copy that `submission` contains. Returns the staging buffer with the bytes. In one place for
-/// results of all types.
+/// Waits for the copy that `submission` contains. Returns the staging buffer with the bytes. It is
+/// not generic, so that results of all types share its code.
 async fn arrived(
     gpu: &Gpu,
     submission: &wgpu::SubmissionIndex,
