@@ -267,8 +267,8 @@ impl Triangulator {
 
     /// Makes `mesh` the 3D Delaunay triangulation of `points`, whatever it was before. The GPU backend
     /// writes the tetrahedra and their neighbours into the memory that their vectors have, as far as it
-    /// suffices, so that a program with many inputs need not have the system provide fresh memory for
-    /// each. After an error the mesh is empty. Blocks the thread.
+    /// suffices, which saves a program with many inputs from taking fresh memory for each. The CPU backend
+    /// makes vectors of its own. After an error the mesh is empty. Blocks the thread.
     ///
     /// # Examples
     ///
@@ -289,16 +289,12 @@ impl Triangulator {
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`].
     pub fn delaunay3d_into<'a>(&self, points: impl Into<Points3<'a>>, mesh: &mut Mesh3) -> Result<(), Error> {
-        let (points, used) = (points.into(), std::mem::take(mesh));
         #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-        let made = pollster::block_on(self.device.delaunay3d(points, &self.options, used));
+        {
+            pollster::block_on(self.device.triangulate(points.into(), &self.options, mesh))
+        }
         #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
-        let made = {
-            drop(used);
-            without_gpu(points, &self.options)
-        };
-        *mesh = made?;
-        Ok(())
+        without_gpu(points.into(), &self.options, mesh)
     }
 
     /// Makes `mesh` the 2D Delaunay triangulation of `points`, whatever it was before, as
@@ -308,16 +304,12 @@ impl Triangulator {
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`].
     pub fn delaunay2d_into<'a>(&self, points: impl Into<Points2<'a>>, mesh: &mut Mesh2) -> Result<(), Error> {
-        let (points, used) = (points.into(), std::mem::take(mesh));
         #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-        let made = pollster::block_on(self.device.delaunay2d(points, &self.options, used));
+        {
+            pollster::block_on(self.device.triangulate(points.into(), &self.options, mesh))
+        }
         #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
-        let made = {
-            drop(used);
-            without_gpu(points, &self.options)
-        };
-        *mesh = made?;
-        Ok(())
+        without_gpu(points.into(), &self.options, mesh)
     }
 
     /// Makes `mesh` the 3D Delaunay triangulation of `points`, as
@@ -334,9 +326,7 @@ impl Triangulator {
     ) -> Result<(), Error> {
         #[cfg(feature = "gpu")]
         {
-            let used = std::mem::take(mesh);
-            *mesh = self.device.delaunay3d(points.into(), &self.options, used).await?;
-            Ok(())
+            self.device.triangulate(points.into(), &self.options, mesh).await
         }
         #[cfg(not(feature = "gpu"))]
         self.delaunay3d_into(points, mesh)
@@ -356,9 +346,7 @@ impl Triangulator {
     ) -> Result<(), Error> {
         #[cfg(feature = "gpu")]
         {
-            let used = std::mem::take(mesh);
-            *mesh = self.device.delaunay2d(points.into(), &self.options, used).await?;
-            Ok(())
+            self.device.triangulate(points.into(), &self.options, mesh).await
         }
         #[cfg(not(feature = "gpu"))]
         self.delaunay2d_into(points, mesh)
@@ -722,27 +710,28 @@ fn shared(device: SharedDevice) -> Arc<SharedDevice> {
     Arc::new(device)
 }
 
-/// Triangulates where no GPU can be used: because it is not compiled in, or because a browser's
-/// cannot be waited for.
+/// Makes `mesh` that of `points` where no GPU can be used: because it is not compiled in, or because a
+/// browser's cannot be waited for. After an error the mesh is empty.
 #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
-fn without_gpu<const D: usize>(points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>
+fn without_gpu<const D: usize>(points: Points<'_, D>, options: &Options, mesh: &mut MeshOf<D>) -> Result<(), Error>
 where
     Dimension<D>: Incremental<D>,
 {
+    *mesh = MeshOf::<D>::default();
     #[cfg(feature = "gpu")]
     let reason = "a browser's GPU cannot be waited for; use the methods that end in `_async`";
     #[cfg(not(feature = "gpu"))]
     let reason = "gdel was built without the feature `gpu`";
     let unavailable = Error::GpuUnavailable { reason };
     match options.backend {
-        Backend::Cpu => cpu::delaunay(points, options),
-        Backend::Gpu => Err(unavailable),
+        Backend::Cpu => *mesh = cpu::delaunay(points, options)?,
+        Backend::Gpu => return Err(unavailable),
         Backend::Auto => {
-            let mut mesh = cpu::delaunay(points, options)?;
+            *mesh = cpu::delaunay(points, options)?;
             mesh.stats_mut().fallback = Some(Fallback::NoGpu(unavailable));
-            Ok(mesh)
         }
     }
+    Ok(())
 }
 
 /// Returns the GPU adapters of this machine, in the order that [`AdapterChoice::Index`] counts.

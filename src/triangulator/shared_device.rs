@@ -4,8 +4,6 @@
 use crate::{
     backend::Backend,
     cpu::{self, MeshOf},
-    d2::Mesh2,
-    d3::Mesh3,
     dimension::Dimension,
     error::Error,
     gpu::{
@@ -192,6 +190,17 @@ struct ToCaller<'a, F, R, const D: usize> {
 }
 
 #[cfg(target_arch = "wasm32")]
+impl<const D: usize, F, R> ToCaller<'_, F, R, D>
+where
+    Dimension<D>: Choice<D>,
+{
+    /// Returns the mesh of the points where they were, if they have moved.
+    fn moved(&self) -> Option<&DeviceMesh<D>> {
+        self.on_device.as_ref()?.moved
+    }
+}
+
+#[cfg(target_arch = "wasm32")]
 impl<const D: usize, R, F: AsyncFn(Made<D>) -> Result<R, Error>> Deliver<D> for ToCaller<'_, F, R, D>
 where
     Dimension<D>: Choice<D>,
@@ -199,7 +208,7 @@ where
     type Output = R;
 
     fn destination(&mut self) -> Destination<'_, D> {
-        Destination::Device(self.on_device.as_ref().and_then(|on_device| on_device.moved))
+        Destination::Device(self.moved())
     }
 
     async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<R, Error> {
@@ -207,7 +216,7 @@ where
             (mesh @ Made::Host(_), Some(on_device)) => Made::Device(Box::new(on_device.deliver(mesh, gpu).await?)),
             (mesh, _) => mesh,
         };
-        if self.on_device.as_ref().is_some_and(|on_device| on_device.moved.is_some()) {
+        if self.moved().is_some() {
             mesh.stats_mut().update.get_or_insert_with(elsewhere);
         }
         (self.take)(mesh).await
@@ -256,14 +265,20 @@ impl SharedDevice {
         state.close();
     }
 
-    /// Triangulates `points` in 3D, in the memory of the mesh `used` as far as it suffices.
-    pub(super) async fn delaunay3d(&self, points: Points3<'_>, options: &Options, used: Mesh3) -> Result<Mesh3, Error> {
-        self.run(points, options, &mut ToHost(used)).await
-    }
-
-    /// Triangulates `points` in 2D, in the memory of the mesh `used` as far as it suffices.
-    pub(super) async fn delaunay2d(&self, points: Points2<'_>, options: &Options, used: Mesh2) -> Result<Mesh2, Error> {
-        self.run(points, options, &mut ToHost(used)).await
+    /// Makes `mesh` that of `points`, in the memory of its arrays as far as it suffices. After an error the mesh
+    /// is empty.
+    pub(super) async fn triangulate<const D: usize>(
+        &self,
+        points: Points<'_, D>,
+        options: &Options,
+        mesh: &mut MeshOf<D>,
+    ) -> Result<(), Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let used = std::mem::take(mesh);
+        *mesh = self.run(points, options, &mut ToHost(used)).await?;
+        Ok(())
     }
 
     /// Triangulates `points`, and has `take` take the mesh where it was made, or, if `resident`, on
