@@ -92,10 +92,10 @@ impl Default for Stats {
 ///
 /// On the CPU the phases are [`Sort`](Phase::Sort), [`Insert`](Phase::Insert) and
 /// [`Finish`](Phase::Finish). On the GPU they are [`Lattice`](Phase::Lattice),
-/// [`Phase1`](Phase::Phase1), then [`Splay`](Phase::Splay) and [`Readback`](Phase::Readback) in 3D or
-/// [`Readback`](Phase::Readback), [`Check`](Phase::Check) and [`Flip`](Phase::Flip) in 2D, and
-/// [`Finish`](Phase::Finish). An update
-/// by the CPU has [`Check`](Phase::Check), [`Flip`](Phase::Flip), [`Splay`](Phase::Splay) in 3D, and
+/// [`Phase1`](Phase::Phase1), then [`Splay`](Phase::Splay) and [`Readback`](Phase::Readback) in 3D, the
+/// latter first where a mesh is read before it is splayed, or [`Readback`](Phase::Readback),
+/// [`Check`](Phase::Check) and [`Flip`](Phase::Flip) in 2D, and [`Finish`](Phase::Finish). An update by
+/// the CPU has [`Check`](Phase::Check), [`Flip`](Phase::Flip), [`Splay`](Phase::Splay) in 3D, and
 /// [`Finish`](Phase::Finish); one by the GPU has the phases of a run there. Where points come and go,
 /// they are those of the CPU, with [`Readback`](Phase::Readback) before for a mesh on the device.
 ///
@@ -117,8 +117,8 @@ pub enum Phase {
     Lattice,
     /// Insertion and flipping on the GPU: Phase 1 of the gDel3D paper.
     Phase1,
-    /// Copying the result of the GPU to host memory. In 3D it is copied while it is splayed, and this is
-    /// what is left of it then.
+    /// Copying the result of the GPU to host memory. A 3D mesh that is copied while it is splayed has here
+    /// what is left to copy afterwards.
     Readback,
     /// Repairing a triangulation by star splaying: Phase 2 of the gDel3D paper.
     Splay,

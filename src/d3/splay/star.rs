@@ -69,8 +69,8 @@ pub(super) struct Changes {
 #[derive(Default)]
 pub(super) struct LinkFinder {
     around: Vec<Around>,
-    /// A hash table of these tetrahedra, each with its place in `around`, or [`NOTHING`]. No more than half
-    /// of it is used.
+    /// A hash table of these tetrahedra, each with its place in `around`, or [`NOTHING`]. At most half of it
+    /// is used. With a map of the standard library, splaying takes 7 % longer.
     table: Vec<[u32; 2]>,
 }
 
