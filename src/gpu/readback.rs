@@ -30,8 +30,10 @@ pub(crate) struct Pace {
 
 impl Pace {
     /// For arrays that the host waits for. A piece has so many bytes that a submission for each costs
-    /// nothing, and so few that copying out of one begins while most others are still to come.
-    pub(crate) const ALONE: Pace = Pace { piece: 32 << 20, ahead: 4 };
+    /// nothing, and so few that copying out of one begins while most others are still to come. A worker gets
+    /// copies of the pieces from the thread that has the device, which uses their memory again.
+    pub(crate) const ALONE: Pace =
+        Pace { piece: if cfg!(target_arch = "wasm32") { 8 << 20 } else { 32 << 20 }, ahead: 4 };
     /// For arrays beside which the host waits for other results. The device carries out commands in
     /// their order, so that these wait until all pieces are there that are on their way. They are as few
     /// as keep the device busy while the host takes one of them, and each takes some tenths of a

@@ -194,6 +194,7 @@ function notedDevice({ milliseconds = 0 } = {}) {
     createBuffer: ({ size }) => ({
       size,
       destroy: () => notes.push(['destroy', size]),
+      unmap: () => notes.push(['unmap', size]),
       mapAsync: async () => {},
       getMappedRange: (at, length) => new Uint8Array(length).fill(at).buffer,
     }),
@@ -364,6 +365,32 @@ test('what is mapped comes after the errors of the scopes before', async () => {
   );
 });
 
+test('copies of mapped buffers use the memory that the worker gives back, until its task ends', async () => {
+  const { notes, messages, served } = notedDevice();
+  await served.take([[0, 'createBuffer', [{ size: 4 }], 2]]);
+  const map = async (at, size) => {
+    messages.length = 0;
+    await served.take([[2, 'mapAsync', [1, at, size], 3]]);
+    while (messages.length === 0) await new Promise(setImmediate);
+    const [{ value }] = answersOf(messages);
+    assert.deepEqual(new Uint8Array(value), new Uint8Array(size).fill(at));
+    return value;
+  };
+  const size = 2 ** 20;
+  const first = await map(5, size);
+  await served.take([[2, 'unmap', [first], 0]]);
+  assert.deepEqual(notes, [['unmap', 4]]);
+  assert.notEqual(await map(6, size + 4), first);
+  assert.equal(await map(7, size), first);
+  // It has one user at a time.
+  assert.notEqual(await map(8, size), first);
+  await served.take([
+    [2, 'unmap', [first], 0],
+    [9, 'free', [], 0],
+  ]);
+  assert.notEqual(await map(9, size), first);
+});
+
 /** Returns the GPU object that wgpu gets in a worker, its device, and what it posts. */
 async function remoteDevice() {
   const entry = join(root, 'web/src/remote.ts');
@@ -428,6 +455,29 @@ test('the worker sends a dispatch as one call, and what is large in pieces', asy
   assert.equal(posted.length, before + 1);
   await undefined;
   assert.equal(posted.length, before + 2);
+});
+
+test('the worker gives the memory of large copies back', async () => {
+  const { remote, device, posted, calls } = await remoteDevice();
+  const buffer = device.createBuffer({ size: 4 });
+  const unmapped = async (bytes) => {
+    const mapping = buffer.mapAsync(1, 0, bytes.byteLength);
+    const [, , , id] = calls().find(([, method]) => method === 'mapAsync');
+    remote.answer({ id, value: bytes });
+    await mapping;
+    assert.equal(buffer.getMappedRange(0, bytes.byteLength), bytes);
+    buffer.unmap();
+    await undefined;
+    const [{ transfer }] = posted;
+    return [calls(), transfer];
+  };
+  const large = new ArrayBuffer(2 ** 20);
+  assert.deepEqual(await unmapped(large), [[[buffer.remote, 'unmap', [large], 0]], [large]]);
+  assert.deepEqual(await unmapped(new ArrayBuffer(4)), [[[buffer.remote, 'unmap', [], 0]], []]);
+  // What has not been mapped can be unmapped.
+  buffer.unmap();
+  await undefined;
+  assert.deepEqual(calls(), [[buffer.remote, 'unmap', [], 0]]);
 });
 
 test('nobody waits for the errors of a scope in which nothing is created, and none is lost', async () => {

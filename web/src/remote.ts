@@ -55,13 +55,21 @@ export function remoteGpu(
   function call(object: number, method: string, args: any[]) {
     // wgpu maps what it looks at, and no more.
     if (method === 'getMappedRange') return mapped.get(object);
-    if (method === 'unmap') mapped.delete(object);
+    if (method === 'unmap') return unmap(object);
     // A kernel has one group of bindings. What is set for a dispatch goes with it.
     if (method === 'setPipeline') dispatch = [object, args[0].remote];
     else if (method === 'setBindGroup') dispatch[2] = args[1].remote;
     else if (method === 'dispatchWorkgroups') add([...dispatch, args[0]] as Call);
     else if (method === 'writeBuffer') write(args);
     else return callByName(object, method, args);
+  }
+
+  /** Unmaps a buffer. The memory of a large copy goes back for what is mapped later. */
+  function unmap(object: number): void {
+    const bytes = [mapped.get(object)].filter((bytes) => bytes && bytes.byteLength >= STEP_BYTES);
+    mapped.delete(object);
+    transfer.push(...(bytes as ArrayBuffer[]));
+    add([object, 'unmap', bytes, 0]);
   }
 
   /** Writes a view of WebAssembly's memory, in pieces: one is written while this thread goes on. */
