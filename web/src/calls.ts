@@ -51,6 +51,8 @@ export function serveDevice(
   const scopes: Scope[] = [];
   /** Memory of copies that the worker has given back: fresh memory takes three times as long to fill. */
   const spare: ArrayBuffer[] = [];
+  /** Fulfilled when all that was to be copied is: each copy has slices of its own, which would add up. */
+  let copied: Promise<unknown> = Promise.resolve();
   /** Fulfilled when the scopes that were closed have been answered. */
   let closed: Promise<unknown> = Promise.resolve();
   let isBusy = false;
@@ -102,12 +104,17 @@ export function serveDevice(
     const before = closed;
     try {
       await buffer.mapAsync(mode, at, size);
-      const found = spare.findIndex(({ byteLength }) => byteLength === size);
-      const [memory] = found < 0 ? [] : spare.splice(found, 1);
-      const bytes = new Uint8Array(memory ?? new ArrayBuffer(size));
-      await copyInSlices(buffer.getMappedRange(at, size), bytes);
+      const copy = copied.then(async () => {
+        const found = spare.findIndex(({ byteLength }) => byteLength === size);
+        const [memory] = found < 0 ? [] : spare.splice(found, 1);
+        const bytes = new Uint8Array(memory ?? new ArrayBuffer(size));
+        await copyInSlices(buffer.getMappedRange(at, size), bytes);
+        return bytes.buffer;
+      });
+      copied = copy.catch(() => {});
+      const bytes = await copy;
       await before;
-      answer(id, bytes.buffer);
+      answer(id, bytes);
     } catch (error) {
       answer(id, undefined, String(error));
     }
