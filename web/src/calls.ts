@@ -51,7 +51,7 @@ export function serveDevice(
   const scopes: Scope[] = [];
   /** Memory of copies that the worker has given back: fresh memory takes three times as long to fill. */
   const spare: ArrayBuffer[] = [];
-  /** Fulfilled when all that was to be copied is: each copy has slices of its own, which would add up. */
+  /** Fulfilled when no copy is under way. Copies are made one after another, or their slices would add up. */
   let copied: Promise<unknown> = Promise.resolve();
   /** Fulfilled when the scopes that were closed have been answered. */
   let closed: Promise<unknown> = Promise.resolve();
@@ -222,6 +222,8 @@ export function serveDevice(
       for (const [id, object] of objects)
         if (object !== device && !handedOver.has(id)) object.destroy?.();
       objects.clear();
+      // The device, which may outlast this, refers to it.
+      spare.length = 0;
       staging.end();
     },
   };

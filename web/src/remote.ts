@@ -66,10 +66,11 @@ export function remoteGpu(
 
   /** Unmaps a buffer. The memory of a large copy goes back for what is mapped later. */
   function unmap(object: number): void {
-    const bytes = [mapped.get(object)].filter((bytes) => bytes && bytes.byteLength >= STEP_BYTES);
+    const bytes = mapped.get(object);
     mapped.delete(object);
-    transfer.push(...(bytes as ArrayBuffer[]));
-    add([object, 'unmap', bytes, 0]);
+    const large = bytes && bytes.byteLength >= STEP_BYTES ? [bytes] : [];
+    transfer.push(...large);
+    add([object, 'unmap', large, 0]);
   }
 
   /** Writes a view of WebAssembly's memory, in pieces: one is written while this thread goes on. */
