@@ -22,8 +22,8 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     control.log[control.round % LOGGED] = array(inserted, unchecked, flips, control.iterations, control.few_done);
     control.round += 1;
     atomicStore(&control.next_node, 0u);
-    // In a small triangulation every flip that waits costs failed vertices in the end.
-    control.min_active = select(min(control.max_min_active, inserted >> 10), NONE, control.insert_all != 0);
+    // Flips that wait are done beside those of the next round, in iterations that it takes anyway.
+    control.min_active = select(min(control.max_min_active, inserted >> 2), NONE, control.insert_all != 0);
     if waiting == 0 {
         control.min_active = 0;
     }

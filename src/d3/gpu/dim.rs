@@ -31,7 +31,7 @@ impl Dim<3> for Dimension<3> {
     /// Uniform points take 3.1 nodes per point in the round that takes most.
     const HISTORY: u32 = 4;
     const MESH_PER_POINT: usize = 7;
-    const FIRST_ITERATIONS: u32 = 40;
+    const FIRST_ITERATIONS: u32 = 32;
 
     /// Returns the blocks of the points, that of infinity, and the tail.
     fn blocks(points: u32, tail: u32) -> u32 {

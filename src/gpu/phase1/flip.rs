@@ -42,7 +42,7 @@ pub(crate) struct BoundFlip {
 pub(crate) struct FlipPlan {
     /// How many.
     pub(crate) iterations: u32,
-    /// What the filter leaves open is decided in every so many iterations, and in the last one.
+    /// What the filter leaves open is decided in every so many iterations, or in the last one of fewer.
     pub(crate) exact_every: u32,
     /// Whether there may be so many active simplices in one that the next ones are found by
     /// compaction (§4.2).
@@ -106,7 +106,8 @@ impl Flip {
         for i in 1..=plan.iterations {
             recorder.stage("flip: check");
             recorder.dispatch(&self.check, &bound.check, workgroups);
-            let is_exact = i.is_multiple_of(plan.exact_every) || i == plan.iterations;
+            let is_last = i == plan.iterations && i < plan.exact_every;
+            let is_exact = i.is_multiple_of(plan.exact_every) || is_last;
             if let Some((kernel, bindings)) = check_exact.filter(|_| is_exact) {
                 recorder.stage("flip: check exactly");
                 recorder.dispatch(kernel, bindings, workgroups);

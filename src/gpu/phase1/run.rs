@@ -265,7 +265,7 @@ where
                 few,
                 few_limit: few.saturating_mul(FEW_LIMIT),
                 few_iterations: FEW_ITERATIONS,
-                max_min_active: settings.min_active,
+                max_min_active: settings.min_active.min(points >> 4),
                 insert_all: u32::from(settings.insert_all),
                 compact_from: compact_from(blocks, &settings),
                 pick: settings.pick as u32,
@@ -498,8 +498,9 @@ where
             let waiting = self.params.infinite - inserted - read.merged;
             let left = waiting.saturating_mul(D as u32 + 1).saturating_add(active);
             let is_few = left <= self.params.few_limit;
-            let used = used - (few - few_before);
-            self.iterations.plan(Known { used, recorded, inserted_before, inserted, waiting, is_few });
+            let few = few - few_before;
+            let used = used - few;
+            self.iterations.plan(Known { used, few, recorded, inserted_before, inserted, waiting, is_few });
             if inserted == inserted_before && inserted + read.merged < self.params.infinite {
                 return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
             }
@@ -570,7 +571,7 @@ where
             stages.insert.record(recorder, &bound.insert, buffers, workgroups);
         }
         let compacts = self.settings.slots_per_active > 0;
-        let takes_few = self.params.few > 0;
+        let takes_few = self.params.few > 0 && self.iterations.may_be_few(self.rounds_submitted);
         let plan = FlipPlan { iterations, exact_every: self.iterations.exact_every(), compacts, takes_few };
         stages.flip.record(recorder, &bound.flip, plan, workgroups);
         if self.has_moved {

@@ -24,8 +24,8 @@ pub struct Settings<const D: usize> {
     /// How many of the points the CPU engine triangulates first, while the device orders them;
     /// `None` for what was measured to be best.
     pub start_points: Option<u32>,
-    /// With fewer active simplices than this, and than one per 1,024 points that are inserted,
-    /// flipping waits for the next round; except at the end.
+    /// With fewer active simplices than this, than one per four points that are inserted, and than one
+    /// per 16 points, flipping waits for the next round; except at the end.
     pub min_active: u32,
     /// The largest number of workgroups per dispatch. Kernels stride over what there is to do.
     pub workgroups: u32,
@@ -81,12 +81,12 @@ where
             pick: Pick::Circumcenter,
             insert_all: false,
             start_points: None,
-            min_active: 1024,
+            min_active: u32::MAX,
             workgroups: 512,
             points_per_tail_block: 16,
             history: Dimension::<D>::HISTORY,
             slots_per_active: 0,
-            few: 96,
+            few: 256,
             rounds: 1,
             batches: 2,
             spare_iterations: 256,
