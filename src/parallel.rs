@@ -2,8 +2,13 @@
 
 use crate::error::Error;
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-use std::sync::{Arc, Mutex, PoisonError};
-use std::{cmp::Ordering, num::NonZeroUsize, ops::Range};
+use std::sync::Arc;
+use std::{
+    cmp::Ordering,
+    num::NonZeroUsize,
+    ops::Range,
+    sync::{Mutex, PoisonError},
+};
 
 #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
 use rayon::prelude::*;
@@ -114,6 +119,27 @@ pub(crate) fn joined<T: Clone>(mut parts: Vec<Vec<T>>) -> Vec<T> {
     match parts.len() {
         1 => parts.remove(0),
         _ => parts.concat(),
+    }
+}
+
+/// Values that threads at work take and give back, so that there are at most as many as threads.
+#[derive(Debug, Default)]
+pub(crate) struct Pool<T>(Mutex<Vec<T>>);
+
+impl<T: Default> Pool<T> {
+    /// Calls `work` with a value that no other thread has: a new one, if all are taken.
+    pub(crate) fn with<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
+        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let free = lock().pop();
+        let mut value = free.unwrap_or_default();
+        let result = work(&mut value);
+        lock().push(value);
+        result
+    }
+
+    /// Returns the values.
+    pub(crate) fn all(&mut self) -> &mut [T] {
+        self.0.get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -22,8 +22,10 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     control.log[control.round % LOGGED] = array(inserted, unchecked, flips, control.iterations, control.few_done);
     control.round += 1;
     atomicStore(&control.next_node, 0u);
-    // Flips that wait are done beside those of the next round, in iterations that it takes anyway.
-    control.min_active = select(min(control.max_min_active, inserted >> 2), NONE, control.insert_all != 0);
+    // Flips that wait are done beside those of the next round, in iterations that it takes anyway. Where many signs
+    // are ties or nearly so, more of them than elsewhere cannot be done any more.
+    let shift = select(WAITING_SHIFT, WAITING_EXACT_SHIFT, atomicLoad(&control.exact) > control.visits / WAITING_EXACT_SHARE);
+    control.min_active = select(min(control.max_min_active, inserted >> shift), NONE, control.insert_all != 0);
     if waiting == 0 {
         control.min_active = 0;
     }

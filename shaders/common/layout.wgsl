@@ -13,6 +13,11 @@ const MERGED_KEY: u32 = 0xffffffff;
 
 // The rounds of which `log` keeps the state at their ends.
 const LOGGED: u32 = 8;
+// Flips wait for the next round with fewer active simplices than one per 2^WAITING_SHIFT inserted points;
+// than one per 2^WAITING_EXACT_SHIFT if more than one visited simplex in WAITING_EXACT_SHARE needed exact signs.
+const WAITING_SHIFT: u32 = 2;
+const WAITING_EXACT_SHIFT: u32 = 4;
+const WAITING_EXACT_SHARE: u32 = 64;
 
 // How a simplex picks its point; otherwise by the circumcentre.
 const PICK_CENTROID: u32 = 1;

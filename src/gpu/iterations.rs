@@ -16,7 +16,7 @@ const RISING: u32 = 48;
 /// filters of an iteration. Where they are many, there would be no progress. So they follow the
 /// filter in every so many iterations, when the filter leaves at most one sign open for so many
 /// visited simplices.
-const EXACT_EVERY: [(u32, u64); 3] = [(8, 1024), (4, 16), (2, 3)];
+const EXACT_EVERY: [(u32, u64); 3] = [(16, 1024), (4, 16), (2, 3)];
 
 /// In every how many iterations exact checks follow when nothing is known.
 const FIRST_EXACT_EVERY: u32 = 4;
@@ -24,8 +24,9 @@ const FIRST_EXACT_EVERY: u32 = 4;
 /// The number of rounds of which the next run is to know. Most runs have about ten.
 const ROUNDS: usize = 32;
 
-/// How many more to record than the same round of the run before needed.
-const REPEATED_MARGIN: u32 = 1;
+/// What the same round of the run before needed is enough again if at most so many times as many simplices
+/// are left active as may wait for the next round: how many there are differs from run to run.
+const REPEATED_TOLERANCE: u32 = 2;
 /// A run repeats the one before while the points that are inserted differ by at most one in so many.
 const SAME_SHARE: u32 = 16;
 
@@ -85,6 +86,10 @@ pub(crate) struct Known {
     pub(crate) few: u32,
     /// The iterations that were recorded.
     pub(crate) recorded: u32,
+    /// The active simplices that it left.
+    pub(crate) active: u32,
+    /// With fewer of them, flips wait for the next round, or are done by one workgroup.
+    pub(crate) min_active: u32,
     /// The points that were inserted before it.
     pub(crate) inserted_before: u32,
     /// The points that are inserted.
@@ -133,15 +138,18 @@ impl Iterations {
 
     /// Plans a round by the one before the last one.
     pub(crate) fn plan(&mut self, known: Known) {
-        let Known { used, few, recorded, inserted, waiting, is_few, .. } = known;
+        let Known { used, few, recorded, active, min_active, inserted, waiting, is_few, .. } = known;
         let repeats = |before: NeededRound| before.inserted.abs_diff(inserted) <= before.inserted / SAME_SHARE;
         if !self.before.round(self.needed.len).is_some_and(repeats) {
             self.before.len = 0;
         }
-        // A round that took all of its iterations has left flips to the next one, hardly more if it was planned
-        // by the same round of the run before.
-        let more = if self.before.len > 0 { used / 8 } else { used / 4 };
-        let needed = if used >= recorded { used + more } else { used };
+        // A round that took all of its iterations may have left flips to the next one, hardly more if it was
+        // planned by the same round of the run before.
+        let (more, tolerated) = match self.before.len {
+            0 => (used / 4, min_active),
+            _ => (used / 8, min_active.saturating_mul(REPEATED_TOLERANCE)),
+        };
+        let needed = if used >= recorded && active >= tolerated { used + more.max(1) } else { used };
         if let Some(round) = self.needed.rounds.get_mut(self.needed.len) {
             *round = NeededRound { inserted, iterations: needed, few };
         }
@@ -170,12 +178,14 @@ impl Iterations {
     /// Returns how many iterations to record for a round, by its number.
     pub(crate) fn planned(&self, round: u32) -> u32 {
         match self.before.round(round as usize) {
-            Some(NeededRound { iterations: 0, .. }) => 0,
-            Some(NeededRound { iterations, .. }) => (iterations + REPEATED_MARGIN).min(MAX_PLANNED),
-            // It is submitted before it is known that the one before it was the last one.
-            None if self.before.len > 0 && round as usize == self.before.len => 0,
+            Some(NeededRound { iterations, .. }) => iterations.min(MAX_PLANNED),
             None => self.planned,
         }
+    }
+
+    /// Returns whether the run before had so many rounds, so that this one is as a rule done then, too.
+    pub(crate) fn may_be_done(&self, rounds: u32) -> bool {
+        self.before.len > 0 && rounds as usize == self.before.len
     }
 
     /// Returns whether a round, by its number, may have iterations that one workgroup can do.
@@ -246,6 +256,15 @@ mod tests {
         ),
     ];
 
+    /// Returns what is known of a round that needed so many iterations.
+    fn known(needed: u32, recorded: u32, inserted_before: u32, inserted: u32, points: u32) -> Known {
+        let active = if needed > recorded { u32::MAX } else { 0 };
+        let waiting = points.saturating_sub(inserted);
+        let used = needed.min(recorded);
+        let (few, min_active, is_few) = (0, 1, false);
+        Known { used, few, recorded, active, min_active, inserted_before, inserted, waiting, is_few }
+    }
+
     /// The rounds in which most points are inserted get what they need, and not much more.
     #[test]
     fn planned_iterations_are_those_that_rounds_take() {
@@ -258,9 +277,7 @@ mod tests {
                 let planned = iterations.planned(round + 1);
                 (inserted, lacking) = (inserted + added, lacking + needed.saturating_sub(recorded) * (added / 1000));
                 idle += recorded.saturating_sub(needed);
-                let used = needed.min(recorded);
-                let (inserted_before, waiting) = (inserted - added, points.saturating_sub(inserted));
-                iterations.plan(Known { used, few: 0, recorded, inserted_before, inserted, waiting, is_few: false });
+                iterations.plan(known(needed, recorded, inserted - added, inserted, points));
                 recorded = planned;
             }
             println!("{name}: {lacking} lacking, weighted by thousands of points, {idle} idle");
@@ -275,12 +292,8 @@ mod tests {
         let mut recorded = vec![iterations.planned(0)];
         for (round, &(added, needed)) in (0..).zip(rounds) {
             recorded.push(iterations.planned(round + 1));
-            let used = needed.min(recorded[round as usize]);
-            let inserted_before = inserted;
             inserted += added;
-            let waiting = points.saturating_sub(inserted);
-            let recorded = recorded[round as usize];
-            iterations.plan(Known { used, few: 0, recorded, inserted_before, inserted, waiting, is_few: false });
+            iterations.plan(known(needed, recorded[round as usize], inserted - added, inserted, points));
         }
         recorded.truncate(rounds.len());
         recorded
@@ -300,8 +313,7 @@ mod tests {
                 before = iterations.needed(points);
             }
             let repeated = recorded(&mut Iterations::new(first, before), points, inserted, rounds);
-            let margins: Vec<u32> = repeated.iter().zip(&needed).map(|(repeated, needed)| repeated - needed).collect();
-            assert!(margins.iter().all(|&margin| margin == REPEATED_MARGIN), "{name}: {margins:?} more than needed");
+            assert_eq!(repeated, needed, "{name}");
 
             // Of the sphere, the first round inserts less than of all others.
             let (other, points, inserted, rounds) = MEASURED[3];

@@ -206,6 +206,15 @@ impl Counters {
         self.active_len[(self.iteration & 1) as usize]
     }
 
+    /// Returns with fewer than how many active simplices flips wait for the next round, if so many points are
+    /// inserted when a round begins and others wait.
+    pub fn min_active(&self, params: &Params, inserted: u32) -> u32 {
+        let is_exact = self.exact > self.visits / common::WAITING_EXACT_SHARE;
+        params
+            .max_min_active
+            .min(inserted >> if is_exact { common::WAITING_EXACT_SHIFT } else { common::WAITING_SHIFT })
+    }
+
     /// Returns what was done so far: points inserted, active simplices, flips, flip iterations, and
     /// those of them that were done in one workgroup.
     pub fn progress(&self) -> [u32; 5] {

@@ -357,11 +357,31 @@ impl Readback {
         submission: &wgpu::SubmissionIndex,
         pending: Pending<T>,
     ) -> Result<Vec<T>, Error> {
+        self.receive_into(gpu, submission, pending, Vec::new()).await
+    }
+
+    /// Waits for a readback as [`Readback::receive`] does. Natively it goes to the memory of `list`, whatever that
+    /// has, if there is enough.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Readback::receive`].
+    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "copies make their own memory"))]
+    pub(crate) async fn receive_into<T: Pod>(
+        &mut self,
+        gpu: &Gpu,
+        submission: &wgpu::SubmissionIndex,
+        pending: Pending<T>,
+        list: Vec<T>,
+    ) -> Result<Vec<T>, Error> {
         let len = pending.len;
         #[cfg(not(target_arch = "wasm32"))]
         {
-            let mut result: Vec<T> = bytemuck::zeroed_vec(with_room(len));
-            result.truncate(len);
+            let mut result = list;
+            if result.capacity() < with_room(len) {
+                result = bytemuck::zeroed_vec(with_room(len));
+            }
+            result.resize(len, T::zeroed());
             let mut target: &mut [u8] = bytemuck::cast_slice_mut(&mut result);
             let mut done = 0;
             for piece in pending.staged {

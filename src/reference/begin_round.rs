@@ -23,7 +23,7 @@ where
     counters.log[counters.round as usize % LOGGED] = progress;
     counters.round += 1;
     counters.next_node = 0;
-    let few = state.params.max_min_active.min(counters.inserted >> 2);
+    let few = counters.min_active(&state.params, counters.inserted);
     counters.min_active = match (waiting, state.params.insert_all) {
         (0, _) => 0,
         (_, 0) => few,

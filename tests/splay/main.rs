@@ -47,7 +47,9 @@ fn canonical(mut tetrahedra: Vec<[u32; 4]>) -> Vec<[u32; 4]> {
 fn check(name: &str, vertices: &PredicateContext3<'_>, near: NearDelaunay3, answer: &[[u32; 4]]) -> SplayStats {
     let known = found_out(vertices, &near);
     #[cfg(feature = "gpu")]
-    let in_parts = [&near, &known].map(|near| regions::splayed(name, vertices, near.clone()));
+    let mut kept = None;
+    #[cfg(feature = "gpu")]
+    let in_parts = [&near, &known].map(|near| regions::splayed(name, vertices, near.clone(), &mut kept));
     let (doubting, _) = splayed(name, vertices, near);
     let (tetrahedra, stats) = splayed(name, vertices, known);
     let answer = canonical(answer.iter().map(|t| t.map(|v| vertices.input_index(v))).collect());

@@ -79,6 +79,7 @@ impl Finish<2> for Dimension<2> {
     type Reading = Reading;
     type Result = NearMesh;
     type Outputs = OutputStage;
+    type Host = ();
 
     /// The search for uncertain tests, and the compaction.
     const STEPS: &'static [Step<&'static str>] = &[

@@ -24,7 +24,7 @@ use crate::{
         phase1::Run,
     },
     options::Options,
-    parallel::{self, Threads},
+    parallel::Threads,
     predicates::filter::PredicateContext,
     stats::{Fallback, Phase},
 };
@@ -130,7 +130,8 @@ async fn complete_with_stars(
         if lacking.is_empty() {
             break Ok(splay.finish());
         }
-        let gathered = device.gather(&lacking, splay.region().next()).await?;
+        let (first, spare) = (splay.region().next(), splay.spare());
+        let gathered = device.gather(&lacking, first, spare).await?;
         let context = &mut vertices;
         let next = move |terms: Terms<'_>| {
             splay.add(lacking, gathered)?;
@@ -142,7 +143,7 @@ async fn complete_with_stars(
         Ok((region, splay)) => {
             stats.splay = Some(splay);
             let patch = region.patch(slots, Threads::All);
-            parallel::dispose(region);
+            device.ended.host = Some(region);
             patch
         }
         Err(Stop::Error(error)) => return Err(error),

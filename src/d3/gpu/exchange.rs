@@ -120,7 +120,11 @@ impl<'a> Device<'a> {
     ///
     /// Those of [`Run::advance`].
     #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "no other thread splays meanwhile"))]
-    pub(crate) async fn end(run: Run<'a, 3>, resident: bool, meanwhile: impl FnOnce()) -> Result<(Self, Start), Error> {
+    pub(crate) async fn end(
+        mut run: Run<'a, 3>,
+        resident: bool,
+        meanwhile: impl FnOnce(),
+    ) -> Result<(Self, Start), Error> {
         let gather = Gathering { first: 1, patched: 0 };
         let (gpu, points) = (run.gpu(), run.control().0.infinite as usize);
         let workgroups = run.workgroups();
@@ -132,11 +136,15 @@ impl<'a> Device<'a> {
             let (failed, uncertain) = (&aliases.failed, &aliases.uncertain);
             (gathering, Ahead::copy(copies, failed, ahead), Ahead::copy(copies, uncertain, ahead))
         };
+        let kept = run.take_host();
         let prepare = || {
             meanwhile();
-            Region::new(points, Threads::All)
+            match kept {
+                Some(region) => region.again(points, Threads::All),
+                None => Region::new(points, Threads::All),
+            }
         };
-        let (ended, submission, (gathering, failed, uncertain), region) = run.end(record, prepare).await?;
+        let (ended, submission, (gathering, failed, uncertain), mut region) = run.end(record, prepare).await?;
         if ended.len() > SLOT as usize {
             return Err(Error::TooManySimplices { limit: SLOT as usize });
         }
@@ -150,7 +158,7 @@ impl<'a> Device<'a> {
         if !resident {
             device.begin_reading();
         }
-        let gathered = device.receive(&submission, gathering).await?;
+        let gathered = device.receive(&submission, gathering, region.spare()).await?;
         let mut failed = device.receive_list(&submission, failed, failed_len).await?;
         let uncertain: Vec<Active> = device.receive_list(&submission, uncertain, uncertain_len).await?;
 
@@ -160,8 +168,14 @@ impl<'a> Device<'a> {
         Ok((device, Start { region, gathered, failed, uncertain }))
     }
 
-    /// Receives what is gathered, and reads the rest of it if there is more than was read ahead.
-    async fn receive(&mut self, submission: &wgpu::SubmissionIndex, gathering: Gathering3) -> Result<Gathered, Error> {
+    /// Receives what is gathered in the memory of `spare`, and reads the rest of it if there is more than was
+    /// read ahead.
+    async fn receive(
+        &mut self,
+        submission: &wgpu::SubmissionIndex,
+        gathering: Gathering3,
+        spare: Gathered,
+    ) -> Result<Gathered, Error> {
         let Gathering3 { count, tetrahedra, neighbors, slots } = gathering;
         let Ended { gpu, kernels, stats, .. } = &mut self.ended;
         let gpu: &Gpu = gpu;
@@ -196,9 +210,9 @@ impl<'a> Device<'a> {
             None => (tetrahedra, neighbors, slots),
         };
         let gathered = Gathered {
-            tetrahedra: copied.receive(tetrahedra).await?,
-            neighbors: copied.receive(neighbors).await?,
-            slots: copied.receive(slots).await?,
+            tetrahedra: copied.receive_into(tetrahedra, spare.tetrahedra).await?,
+            neighbors: copied.receive_into(neighbors, spare.neighbors).await?,
+            slots: copied.receive_into(slots, spare.slots).await?,
         };
         #[cfg(target_arch = "wasm32")]
         let gathered = match rest {
@@ -231,13 +245,13 @@ impl<'a> Device<'a> {
         Ok(list)
     }
 
-    /// Returns the tetrahedra at `vertices` that it has not returned before, and numbers them from
-    /// `first` on.
+    /// Returns the tetrahedra at `vertices` that it has not returned before, in the memory of `spare`, and numbers
+    /// them from `first` on.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub(crate) async fn gather(&mut self, vertices: &[u32], first: u32) -> Result<Gathered, Error> {
+    pub(crate) async fn gather(&mut self, vertices: &[u32], first: u32, spare: Gathered) -> Result<Gathered, Error> {
         let Ended { gpu, kernels, memory, stats, workgroups, .. } = &mut self.ended;
         let gpu: &Gpu = gpu;
         let own = &memory.buffers.own;
@@ -257,7 +271,7 @@ impl<'a> Device<'a> {
             .await?;
         #[cfg(not(target_arch = "wasm32"))]
         self.take_earlier_pieces().await?;
-        self.receive(&submission, gathering).await
+        self.receive(&submission, gathering, spare).await
     }
 
     /// Runs a step of splaying on these terms: there is one thread, which does nothing meanwhile. Not inlined, it

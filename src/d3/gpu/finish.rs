@@ -2,7 +2,10 @@
 //! open by rounding.
 
 use crate::{
-    d3::gpu::{aliases::Aliases, outputs::OutputStage},
+    d3::{
+        gpu::{aliases::Aliases, outputs::OutputStage},
+        splay::Region,
+    },
     dimension::Dimension,
     error::Error,
     gpu::{
@@ -48,6 +51,8 @@ impl Finish<3> for Dimension<3> {
     type Reading = Reading;
     type Result = NearMesh;
     type Outputs = OutputStage;
+    /// The region of the run before.
+    type Host = Option<Region>;
 
     /// The search for failed vertices, the compaction, and the certification.
     const STEPS: &'static [Step<&'static str>] = &[

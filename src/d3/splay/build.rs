@@ -5,9 +5,10 @@ use crate::d3::splay::{
     flip_flop::flip_flop,
     index_set::IndexSet,
     ledger::Entry,
+    memory::Lists,
     predicates::StarPredicates,
     region::Region,
-    star::{Changes, LinkFinder, Star, Triangle},
+    star::{Changes, Star, Triangle},
 };
 use crate::{
     index::NO_INDEX,
@@ -39,25 +40,24 @@ pub(super) enum Origin {
 impl Known {
     /// Returns the convex star of `v`. It is that of the triangulation, unless `v` has failed or
     /// has an inverted tetrahedron; then it is made convex, and the differences are added to
-    /// `entries` for the ledger.
+    /// the entries for the ledger.
     pub(super) fn convex_star(
         &self,
         predicates: &StarPredicates<'_>,
-        links: &mut LinkFinder,
+        lists: &mut Lists,
         v: u32,
-        entries: &mut Vec<Entry>,
     ) -> Result<(Star, Origin), Aborted> {
+        let Lists { links, entries, removed, edges, .. } = lists;
         let mut star = links.star(&self.region.mesh, v, self.region.incident[v as usize])?;
         let may_wind = || star.used().any(|t| t.vertices.iter().any(|&v| self.inverted_at.has(v)));
         let is_oriented = self.is_oriented(predicates, &star) && (!may_wind() || star.winds_once(predicates));
         if is_oriented && !self.failed.has(v) {
             return Ok((star, Origin::Pulled));
         }
-        // Triangles that the triangulation has, but the star no longer has.
-        let mut removed = Vec::new();
+        removed.clear();
         // All other edges are locally Delaunay.
         let may_fail = |v: u32| v == predicates.infinite() || self.failed.has(v);
-        let flips = is_oriented.then(|| flip_flop(&mut star, predicates, may_fail, &mut removed)).flatten();
+        let flips = is_oriented.then(|| flip_flop(&mut star, predicates, may_fail, edges, removed)).flatten();
         if flips.is_none() {
             removed.extend(star.used().filter(|t| t.tetrahedron != NO_INDEX));
             let mut points: Vec<u32> = removed.iter().flat_map(|t| t.vertices).collect();
@@ -65,8 +65,8 @@ impl Known {
             points.dedup();
             star = Star::from_points(predicates, v, points.into_iter(), &mut Changes::default())?;
         }
-        let (added, doubles) = recognize(&mut star, &mut removed);
-        entries.extend(Entry::changes(&star, &removed, &added));
+        let (added, doubles) = recognize(&mut star, removed);
+        entries.extend(Entry::changes(&star, removed, &added));
         entries.extend(doubles.iter().map(|t| Entry::double(&star, t)));
         Ok((star, flips.map_or(Origin::FromPoints, Origin::Flipped)))
     }

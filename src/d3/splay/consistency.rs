@@ -23,11 +23,13 @@ use crate::{
         Aborted, Stop,
         build::{Known, Origin},
         ledger::{Entries, Entry, Key, Ledger},
+        memory::{Lists, Memory},
         predicates::StarPredicates,
-        star::{Changes, LinkFinder, Star},
+        region::Region,
+        star::Star,
     },
     index::NO_INDEX,
-    parallel::{self, Threads},
+    parallel::{self, Pool, Threads},
     stats::SplayStats,
 };
 use rustc_hash::FxHashMap;
@@ -51,6 +53,8 @@ pub(super) struct Splaying {
     /// The place in `stars` of each vertex that has one.
     star_of: FxHashMap<u32, u32>,
     pub(super) ledger: Ledger,
+    /// The lists of the threads at work.
+    lists: Pool<Lists>,
     /// The tetrahedra that are unsettled.
     unsettled: Vec<Key>,
     /// What a round is to do, while stars are missing for it.
@@ -79,19 +83,36 @@ struct BatchResult {
 }
 
 impl Splaying {
-    pub(super) fn new(known: Known, threads: Threads) -> Self {
+    pub(super) fn new(mut known: Known, threads: Threads) -> Self {
         let infinite = known.region.mesh.infinite;
+        let Memory { lists, star_of, ledger, .. } = &mut known.region.memory;
+        let (lists, star_of) = (std::mem::take(lists), std::mem::take(star_of));
+        let ledger = match ledger.take() {
+            Some(ledger) => ledger.emptied(infinite, threads),
+            None => Ledger::new(infinite, threads),
+        };
         Splaying {
             known,
             threads,
             stars: Vec::new(),
-            star_of: FxHashMap::default(),
-            ledger: Ledger::new(infinite, threads),
+            star_of,
+            ledger,
+            lists,
             unsettled: Vec::new(),
             requests: Vec::new(),
             share: 0.5,
             stats: SplayStats::default(),
         }
+    }
+
+    /// Returns the region, with the memory of the stars, and what splaying did.
+    pub(super) fn finish(self) -> (Region, SplayStats) {
+        let Splaying { known: Known { mut region, .. }, stats, stars, mut star_of, ledger, lists, .. } = self;
+        star_of.clear();
+        let memory = &mut region.memory;
+        (memory.lists, memory.star_of, memory.ledger) = (lists, star_of, Some(ledger));
+        memory.keep(stars.into_iter().map(|star| star.into_inner().unwrap_or_else(PoisonError::into_inner)));
+        (region, stats)
     }
 
     /// Makes the stars of the failed vertices convex.
@@ -173,10 +194,12 @@ impl Splaying {
     fn make_convex(&self, predicates: &StarPredicates<'_>, vertices: &[u32]) -> Result<Vec<BatchResult>, Aborted> {
         let results =
             predicates.shared(self.threads, vertices.len(), star_grain(vertices.len()), |predicates, range| {
-                let (mut links, mut entries) = (LinkFinder::default(), Vec::new());
-                let star = |&v: &u32| self.known.convex_star(predicates, &mut links, v, &mut entries);
-                let stars = vertices[range].iter().map(star).collect::<Result<Vec<_>, _>>()?;
-                Ok(BatchResult { stars, entries: Ledger::sorted(entries), insertions: 0 })
+                self.lists.with(|lists| {
+                    lists.entries.clear();
+                    let star = |&v: &u32| self.known.convex_star(predicates, lists, v);
+                    let stars = vertices[range].iter().map(star).collect::<Result<Vec<_>, _>>()?;
+                    Ok(BatchResult { stars, entries: Ledger::sorted(&lists.entries), insertions: 0 })
+                })
             });
         results.into_iter().collect()
     }
@@ -268,23 +291,22 @@ impl Splaying {
     ) -> Result<Vec<BatchResult>, Aborted> {
         let results =
             predicates.shared(self.threads, requests.len(), star_grain(requests.len()), |predicates, range| {
-                let (mut links, mut changes) = (LinkFinder::default(), Changes::default());
-                let (mut stars, mut entries, mut insertions) = (Vec::new(), Vec::new(), 0);
-                for requests in &requests[range] {
-                    let v = requests[0].vertex;
-                    let mut widen = |star: &mut Star, entries: &mut Vec<Entry>| {
-                        self.widen(predicates, star, requests, &mut changes, entries)
-                    };
-                    match self.star(v) {
-                        Some(mut star) => insertions += widen(&mut star, &mut entries)?,
-                        None => {
-                            let (mut star, origin) = self.known.convex_star(predicates, &mut links, v, &mut entries)?;
-                            insertions += widen(&mut star, &mut entries)?;
-                            stars.push((star, origin));
+                self.lists.with(|lists| {
+                    lists.entries.clear();
+                    let (mut stars, mut insertions) = (Vec::new(), 0);
+                    for requests in &requests[range] {
+                        let v = requests[0].vertex;
+                        match self.star(v) {
+                            Some(mut star) => insertions += self.widen(predicates, &mut star, requests, lists)?,
+                            None => {
+                                let (mut star, origin) = self.known.convex_star(predicates, lists, v)?;
+                                insertions += self.widen(predicates, &mut star, requests, lists)?;
+                                stars.push((star, origin));
+                            }
                         }
                     }
-                }
-                Ok(BatchResult { stars, entries: Ledger::sorted(entries), insertions })
+                    Ok(BatchResult { stars, entries: Ledger::sorted(&lists.entries), insertions })
+                })
             });
         results.into_iter().collect()
     }
@@ -295,11 +317,11 @@ impl Splaying {
         predicates: &StarPredicates<'_>,
         star: &mut Star,
         requests: &[Request],
-        changes: &mut Changes,
-        entries: &mut Vec<Entry>,
+        lists: &mut Lists,
     ) -> Result<usize, Aborted> {
+        let Lists { changes, entries, points, .. } = lists;
         // Each point is the upper half, and the place of its request the lower half.
-        let mut points: Vec<u64> = Vec::new();
+        points.clear();
         let entry = |p: u32, i: usize| u64::from(p) << 32 | i as u64;
         for (i, request) in requests.iter().enumerate() {
             let tetrahedron = self.unsettled[request.tetrahedron as usize];
@@ -311,11 +333,11 @@ impl Splaying {
                 witness => points.push(entry(witness, i)),
             }
         }
-        parallel::sort_keyed(Threads::One, &mut points);
+        parallel::sort_keyed(Threads::One, points);
         points.dedup_by_key(|&mut entry| entry >> 32);
         points.retain(|&entry| !star.has((entry >> 32) as u32));
         let mut insertions = 0;
-        for &entry in &points {
+        for &entry in points.iter() {
             let tetrahedron = self.unsettled[requests[entry as u32 as usize].tetrahedron as usize];
             if star.insert_near(predicates, (entry >> 32) as u32, tetrahedron, changes)? {
                 insertions += 1;

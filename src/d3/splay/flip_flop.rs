@@ -25,15 +25,16 @@ const MAX_FLIPS_PER_TRIANGLE: usize = 16;
 /// its bound.
 ///
 /// New triangles have no tetrahedron of the triangulation. Triangles that had one and no longer
-/// exist are added to `removed`.
+/// exist are added to `removed`. What `edges` has is of no use.
 pub(super) fn flip_flop(
     star: &mut Star,
     predicates: &StarPredicates<'_>,
     may_fail: impl Fn(u32) -> bool,
+    edges: &mut Vec<u32>,
     removed: &mut Vec<Triangle>,
 ) -> Option<usize> {
-    let mut work =
-        Flipping { budget: MAX_FLIPS_PER_TRIANGLE * star.triangles.len(), flips: 0, edges: Vec::new(), removed };
+    edges.clear();
+    let mut work = Flipping { budget: MAX_FLIPS_PER_TRIANGLE * star.triangles.len(), flips: 0, edges, removed };
     for (t, triangle) in star.triangles.iter().enumerate() {
         let t = t as u32;
         let may_fail = triangle.vertices.map(&may_fail);
@@ -89,7 +90,7 @@ struct Flipping<'a> {
     budget: usize,
     flips: usize,
     /// Edges that may be in conflict; some no longer exist.
-    edges: Vec<u32>,
+    edges: &'a mut Vec<u32>,
     /// Triangles of the triangulation that no longer exist.
     removed: &'a mut Vec<Triangle>,
 }
@@ -228,8 +229,8 @@ mod tests {
             let start = (0..mesh.tetrahedra.len() as u32).find(|&t| mesh.vertices(t).contains(&v)).unwrap();
             let mut star = LinkFinder::default().star(&mesh, v, start).unwrap();
             let convex = link(&star);
-            let mut removed = Vec::new();
-            let mut spoiling = Flipping { budget: usize::MAX, flips: 0, edges: Vec::new(), removed: &mut removed };
+            let (mut edges, mut removed) = (Vec::new(), Vec::new());
+            let mut spoiling = Flipping { budget: usize::MAX, flips: 0, edges: &mut edges, removed: &mut removed };
             let mut random = v;
             for _ in 0..100 {
                 random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -240,7 +241,7 @@ mod tests {
                 }
             }
             flips += spoiling.flips;
-            match flip_flop(&mut star, &predicates, |_| true, &mut removed) {
+            match flip_flop(&mut star, &predicates, |_| true, &mut edges, &mut removed) {
                 Some(_) => assert_eq!(link(&star), convex, "vertex {v}"),
                 None => stuck += 1,
             }

@@ -78,6 +78,7 @@ impl Entries {
 }
 
 /// The tetrahedra that differ, in some star, from the triangulation.
+#[derive(Debug)]
 pub(super) struct Ledger {
     parts: Vec<FxHashMap<Key, Held>>,
     /// The slots of tetrahedra that the triangulation has more than once, but for the first of each.
@@ -169,6 +170,14 @@ impl Ledger {
         Ledger { parts: vec![FxHashMap::default(); PARTS], doubles: Vec::new(), infinite, threads }
     }
 
+    /// Creates an empty ledger in the memory of this one.
+    pub(super) fn emptied(self, infinite: u32, threads: Threads) -> Self {
+        let Ledger { mut parts, mut doubles, .. } = self;
+        parts.iter_mut().for_each(FxHashMap::clear);
+        doubles.clear();
+        Ledger { parts, doubles, infinite, threads }
+    }
+
     /// Returns which stars have a tetrahedron, if it was entered.
     pub(super) fn held(&self, key: Key) -> Option<&Held> {
         self.parts[part(key)].get(&key)
@@ -181,7 +190,7 @@ impl Ledger {
     }
 
     /// Groups entries for [`Ledger::enter`].
-    pub(super) fn sorted(entries: Vec<Entry>) -> Entries {
+    pub(super) fn sorted(entries: &[Entry]) -> Entries {
         let mut ends = [0; PARTS];
         // A stable counting sort.
         entries.iter().for_each(|entry| ends[part(entry.key)] += 1);
@@ -189,8 +198,8 @@ impl Ledger {
         for end in &mut ends {
             place += std::mem::replace(end, place);
         }
-        let mut sorted = entries.clone();
-        for entry in entries {
+        let mut sorted = entries.to_vec();
+        for &entry in entries {
             let place = &mut ends[part(entry.key)];
             sorted[*place as usize] = entry;
             *place += 1;

@@ -16,6 +16,7 @@ mod flip_flop;
 mod index_set;
 mod insert;
 mod ledger;
+mod memory;
 mod patch;
 mod peel;
 pub(in crate::d3) mod predicates;
@@ -296,6 +297,11 @@ impl Splay {
         &self.stars.known.region
     }
 
+    /// Returns memory for what is to be gathered.
+    pub fn spare(&mut self) -> Gathered {
+        self.stars.known.region.spare()
+    }
+
     /// Adds the stars of `vertices`, as [`Region::add`] does.
     ///
     /// # Errors
@@ -308,8 +314,7 @@ impl Splay {
     /// Returns the region, of the Delaunay triangulation when nothing is lacking any more, and what
     /// splaying did.
     pub fn finish(self) -> (Region, SplayStats) {
-        let Splaying { known: Known { region, .. }, mut stats, stars, ledger, .. } = self.stars;
-        parallel::dispose((stars, ledger));
+        let (region, mut stats) = self.stars.finish();
         stats.signs = self.evaluations;
         [stats.gathers, stats.gathered] = region.gathers;
         (region, stats)

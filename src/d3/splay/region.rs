@@ -9,7 +9,7 @@
 use crate::{d3::triangulation::MAX_TETRAHEDRA, error::Error, slots};
 use crate::{
     d3::{
-        splay::{Aborted, index_set::IndexSet},
+        splay::{Aborted, index_set::IndexSet, memory::Memory},
         triangulation::{Triangulation3, state},
     },
     index::NO_INDEX,
@@ -114,11 +114,11 @@ impl Patch {
 }
 
 impl Gathered {
-    /// Adds others behind the first `len`. What is missing before has no slot.
-    fn append(&mut self, len: usize, others: Gathered, threads: Threads) {
+    /// Adds others behind the first `len`. What is missing before has no slot. Returns memory that is not needed
+    /// any more.
+    fn append(&mut self, len: usize, others: Gathered, threads: Threads) -> Gathered {
         if len == 0 && self.slots.is_empty() {
-            *self = others;
-            return;
+            return std::mem::replace(self, others);
         }
         self.tetrahedra.resize(len, [OUTSIDE; 4]);
         self.neighbors.resize(len, [OUTSIDE; 4]);
@@ -126,6 +126,7 @@ impl Gathered {
         parallel::extend(threads, &mut self.tetrahedra, &others.tetrahedra);
         parallel::extend(threads, &mut self.neighbors, &others.neighbors);
         parallel::extend(threads, &mut self.slots, &others.slots);
+        others
     }
 
     /// Returns the vertices and neighbours of the tetrahedron with a number of the region, if it was
@@ -149,7 +150,7 @@ fn with_room<T: Clone>(len: usize, nothing: T) -> Vec<T> {
 }
 
 /// A part of a triangulation.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Region {
     pub(super) mesh: Triangulation3,
     /// A tetrahedron of each vertex whose star the region has, a ghost if there is one.
@@ -160,6 +161,7 @@ pub struct Region {
     given: Gathered,
     /// How often tetrahedra were gathered, and how many.
     pub(super) gathers: [usize; 2],
+    pub(super) memory: Memory,
 }
 
 /// The vertices of which a region has the whole star.
@@ -176,23 +178,50 @@ impl Region {
         let infinite = vertices as u32;
         // Memory that is not used costs nothing natively, and lists that need not grow are not copied.
         let room = if cfg!(target_arch = "wasm32") { 0 } else { vertices / 2 };
-        // What is outside looks like a tetrahedron that is not there. Nothing depends on it.
-        let mut mesh = Triangulation3::new(with_room(room, [0; 4]), with_room(room, [0; 4]), infinite);
-        mesh.tetrahedra.push([infinite | state::FREE, infinite, infinite, infinite]);
-        mesh.neighbors.push([OUTSIDE; 4]);
         Region {
-            mesh,
+            mesh: Self::outside(with_room(room, [0; 4]), with_room(room, [0; 4]), infinite),
             incident: parallel::filled(threads, vertices, NO_INDEX),
             complete: Complete::Those(IndexSet::new(vertices)),
             given: Gathered::default(),
             gathers: [0; 2],
+            memory: Memory::default(),
         }
+    }
+
+    /// Returns what stands for all that is outside, in empty lists.
+    fn outside(mut tetrahedra: Vec<[u32; 4]>, mut neighbors: Vec<[u32; 4]>, infinite: u32) -> Triangulation3 {
+        // It looks like a tetrahedron that is not there. Nothing depends on it.
+        tetrahedra.push([infinite | state::FREE, infinite, infinite, infinite]);
+        neighbors.push([OUTSIDE; 4]);
+        Triangulation3::new(tetrahedra, neighbors, infinite)
+    }
+
+    /// Creates a region as [`Region::new`] does, in the memory of this one.
+    pub fn again(self, vertices: usize, threads: Threads) -> Self {
+        let infinite = vertices as u32;
+        let Region { mut mesh, mut incident, given, mut memory, .. } = self;
+        if mesh.infinite != infinite {
+            return Region { memory, ..Region::new(vertices, threads) };
+        }
+        mesh.tetrahedra.clear();
+        mesh.neighbors.clear();
+        let mesh = Self::outside(mesh.tetrahedra, mesh.neighbors, infinite);
+        parallel::for_chunks(threads, &mut incident, |_, incident| incident.fill(NO_INDEX));
+        memory.keep_gathered(given);
+        let complete = Complete::Those(IndexSet::new(vertices));
+        Region { mesh, incident, complete, given: Gathered::default(), gathers: [0; 2], memory }
+    }
+
+    /// Returns memory for what is to be gathered.
+    pub fn spare(&mut self) -> Gathered {
+        self.memory.gathered.pop().unwrap_or_default()
     }
 
     /// Creates the region that is a whole triangulation, with a tetrahedron at each vertex, a ghost
     /// if there is one.
     pub(super) fn whole(mesh: Triangulation3, incident: Vec<u32>) -> Self {
-        Region { mesh, incident, complete: Complete::All, given: Gathered::default(), gathers: [0; 2] }
+        let (given, memory) = (Gathered::default(), Memory::default());
+        Region { mesh, incident, complete: Complete::All, given, gathers: [0; 2], memory }
     }
 
     /// Returns the number of the next tetrahedron.
@@ -201,7 +230,6 @@ impl Region {
     }
 
     /// Returns the vertex at infinity, which is the number of vertices.
-    #[cfg(feature = "gpu")]
     pub(in crate::d3) fn infinite(&self) -> u32 {
         self.mesh.infinite
     }
@@ -242,7 +270,7 @@ impl Region {
         threads: Threads,
     ) -> Result<(), Aborted> {
         const DO_NOT_FIT: Aborted = Aborted::Inconsistent("gathered tetrahedra do not fit what is there");
-        let Region { mesh, incident, complete, given, gathers } = self;
+        let Region { mesh, incident, complete, given, gathers, memory } = self;
         let Gathered { tetrahedra, neighbors, slots } = &mut gathered;
         let (tetrahedra, neighbors) = (&*tetrahedra, &*neighbors);
         let first = mesh.tetrahedra.len();
@@ -297,7 +325,7 @@ impl Region {
         if !all(mesh, &|neighbor, facet| neighbor == facet) {
             return Err(DO_NOT_FIT);
         }
-        given.append(first - 1, gathered, threads);
+        memory.keep_gathered(given.append(first - 1, gathered, threads));
         if let Complete::Those(complete) = complete {
             for v in vertices {
                 if v >= infinite {

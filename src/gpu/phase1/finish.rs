@@ -52,6 +52,8 @@ where
     type Result: Debug + Clone + PartialEq;
     /// The kernels that make the arrays of the caller's mesh.
     type Outputs: Debug;
+    /// The memory of the host that a run leaves to the next one.
+    type Host: Debug + Default + Send;
 
     /// The steps, with the names of the kernels.
     const STEPS: &'static [Step<&'static str>];
@@ -131,7 +133,16 @@ impl Copied<'_> {
     ///
     /// Returns the errors of [`Readback::receive`].
     pub async fn receive<T: Pod>(&mut self, pending: Pending<T>) -> Result<Vec<T>, Error> {
-        self.readback.receive(self.gpu, &self.submission, pending).await
+        self.receive_into(pending, Vec::new()).await
+    }
+
+    /// Waits for a readback, which goes to the memory of a list, whatever that has.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Readback::receive`].
+    pub async fn receive_into<T: Pod>(&mut self, pending: Pending<T>, list: Vec<T>) -> Result<Vec<T>, Error> {
+        self.readback.receive_into(self.gpu, &self.submission, pending, list).await
     }
 }
 

@@ -90,7 +90,7 @@ where
         self.deferred.finish(gpu).await
     }
 
-    /// Gives the buffers of the last run back.
+    /// Gives the memory of the last run back.
     pub fn release(&mut self) {
         self.readback = Readback::default();
         self.kept = Kept::default();

@@ -1,4 +1,4 @@
-//! What a run holds on the device, and leaves to the next run of its form.
+//! What a run holds, and leaves to the next run of its form.
 
 use crate::{
     dimension::Dimension,
@@ -35,6 +35,8 @@ where
     pub(crate) memory: Option<Memory<D>>,
     /// The flip iterations that the last run that inserted points needed.
     pub(crate) needed: Needed,
+    /// What the host has.
+    pub(crate) host: <Dimension<D> as Finish<D>>::Host,
 }
 
 impl<const D: usize> Default for Kept<D>
@@ -42,7 +44,7 @@ where
     Dimension<D>: Finish<D>,
 {
     fn default() -> Self {
-        Kept { points: None, memory: None, needed: Needed::default() }
+        Kept { points: None, memory: None, needed: Needed::default(), host: Default::default() }
     }
 }
 

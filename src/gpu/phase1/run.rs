@@ -81,6 +81,7 @@ where
     counters: Counters,
     points: Option<PointBuffers>,
     memory: Memory<D>,
+    host: <Dimension<D> as Finish<D>>::Host,
     first: Start<D>,
     start: StartMesh,
     /// Whether there is a triangulation of all points on the device, so that no round inserts any.
@@ -222,7 +223,7 @@ where
         let wanted = u64::from(settings.history) * u64::from(points);
         let history = wanted.clamp(MIN_HISTORY, bindable.max(MIN_HISTORY)) as u32;
         // What is kept is lost if the run fails.
-        let Kept { points: mut point_buffers, memory: kept, needed } = std::mem::take(&mut kernels.kept);
+        let Kept { points: mut point_buffers, memory: kept, needed, host } = std::mem::take(&mut kernels.kept);
         let before = if needed.points == points { needed } else { Needed::default() };
         let Input { points: input, lattice, start: first, starts_later, is_uploaded } = input;
         let start_points = settings.start_points(count);
@@ -278,6 +279,7 @@ where
             counters: first_counters(points),
             points: point_buffers,
             memory,
+            host,
             read_before: (kernels.readback.count(), kernels.readback.bytes()),
             kernels,
             submitted: VecDeque::new(),
@@ -313,6 +315,11 @@ where
     /// Returns whether the run goes on from a mesh whose points have moved.
     pub(crate) fn has_moved(&self) -> bool {
         self.has_moved
+    }
+
+    /// Takes the memory of the host that the run before left.
+    pub(crate) fn take_host(&mut self) -> <Dimension<D> as Finish<D>>::Host {
+        std::mem::take(&mut self.host)
     }
 
     /// Returns the settings.
@@ -454,7 +461,8 @@ where
     /// Runs rounds of insertion and flips, and, when all points are inserted, flip iterations,
     /// until it knows of the next batch what was done. Returns whether there is more to do.
     ///
-    /// While the device works on a batch, the next one is submitted, so that it never waits.
+    /// While the device works on a batch, the next one is submitted, so that it never waits, unless there is as a
+    /// rule nothing left to do.
     ///
     /// # Errors
     ///
@@ -464,12 +472,14 @@ where
         // One batch of flips is as a rule enough for points that have moved.
         let batches = if self.has_moved { 1 } else { self.settings.batches.max(1) as usize };
         while self.submitted.len() < batches {
+            if !self.submitted.is_empty() && self.iterations.may_be_done(self.rounds_submitted) {
+                break;
+            }
             self.submit().await?;
         }
         let Some(Batch { submission, counters, recorded }) = self.submitted.pop_front() else {
             return Ok(false);
         };
-        self.stats.stalls += usize::from(self.submitted.is_empty());
         let words = self.kernels.readback.receive(self.gpu, &submission, counters).await?;
         let before = std::mem::replace(&mut self.counters, counters_in(&words));
         let read = self.counters;
@@ -500,14 +510,28 @@ where
             let is_few = left <= self.params.few_limit;
             let few = few - few_before;
             let used = used - few;
-            self.iterations.plan(Known { used, few, recorded, inserted_before, inserted, waiting, is_few });
+            let min_active = self.min_active(inserted_before);
+            self.iterations.plan(Known {
+                used,
+                few,
+                recorded,
+                active,
+                min_active,
+                inserted_before,
+                inserted,
+                waiting,
+                is_few,
+            });
             if inserted == inserted_before && inserted + read.merged < self.params.infinite {
                 return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
             }
             last = now;
         }
         self.iterations.plan_exact(read.exact.wrapping_sub(before.exact), read.visits.wrapping_sub(before.visits));
-        Ok(self.waiting() > 0 || self.active() > 0)
+        let goes_on = self.waiting() > 0 || self.active() > 0;
+        // What is done at the end waits for the host anyway.
+        self.stats.stalls += usize::from(goes_on && self.submitted.is_empty());
+        Ok(goes_on)
     }
 
     /// Submits a batch.
@@ -583,6 +607,14 @@ where
         }
     }
 
+    /// Returns with fewer than how many active simplices the iterations of a round end that begins with so many
+    /// points inserted.
+    fn min_active(&self, inserted: u32) -> u32 {
+        let waits = inserted + self.counters.merged < self.params.infinite;
+        let min_active = if waits { self.counters.min_active(&self.params, inserted) } else { 0 };
+        min_active.max(self.params.few.saturating_add(1))
+    }
+
     fn read_counters(&mut self, encoder: &mut wgpu::CommandEncoder) -> Pending<u32> {
         let control = &self.memory.buffers.control;
         self.kernels.readback.copy(self.gpu, encoder, control, PARAM_WORDS, COUNTER_WORDS)
@@ -635,13 +667,13 @@ where
     /// far as that is known.
     pub fn abandon(self) -> Phase1Stats {
         let needed = self.needed();
-        let Run { kernels, points, memory, read_before, counters, mut stats, mut clock, .. } = self;
+        let Run { kernels, points, memory, host, read_before, counters, mut stats, mut clock, .. } = self;
         stats.time = clock.lap();
         stats.counters = counters;
         stats.readbacks = kernels.readback.count() - read_before.0;
         stats.bytes_read = kernels.readback.bytes() - read_before.1;
         stats.bytes = memory.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
-        kernels.kept = Kept { points, memory: Some(memory), needed };
+        kernels.kept = Kept { points, memory: Some(memory), needed, host };
         stats
     }
 
@@ -710,6 +742,7 @@ where
             workgroups,
             kernels: self.kernels,
             memory: self.memory,
+            host: self.host,
             points: self.points,
             #[cfg(not(target_arch = "wasm32"))]
             rooms: self.rooms,
@@ -729,6 +762,8 @@ where
     pub(crate) kernels: &'a mut Phase1<D>,
     pub(crate) gpu: &'a Gpu,
     pub(crate) memory: Memory<D>,
+    /// The memory of the host that the next run gets.
+    pub(crate) host: <Dimension<D> as Finish<D>>::Host,
     points: Option<PointBuffers>,
     needed: Needed,
     pub(crate) counters: Counters,
@@ -799,11 +834,11 @@ where
 
     /// Keeps the buffers for the next run. Returns what this one did.
     pub(crate) fn release(self) -> Phase1Stats {
-        let Ended { kernels, points, memory, needed, read_before, mut stats, .. } = self;
+        let Ended { kernels, points, memory, host, needed, read_before, mut stats, .. } = self;
         stats.readbacks = kernels.readback.count() - read_before.0;
         stats.bytes_read = kernels.readback.bytes() - read_before.1;
         stats.bytes = memory.bytes() + points.as_ref().map_or(0, PointBuffers::bytes);
-        kernels.kept = Kept { points, memory: Some(memory), needed };
+        kernels.kept = Kept { points, memory: Some(memory), needed, host };
         stats
     }
 }

@@ -24,8 +24,8 @@ pub struct Settings<const D: usize> {
     /// How many of the points the CPU engine triangulates first, while the device orders them;
     /// `None` for what was measured to be best.
     pub start_points: Option<u32>,
-    /// With fewer active simplices than this, than one per four points that are inserted, and than one
-    /// per 16 points, flipping waits for the next round; except at the end.
+    /// With fewer active simplices than this, than one per four points that are inserted (16 where many
+    /// signs are exact), and than one per 16 points, flipping waits for the next round; except at the end.
     pub min_active: u32,
     /// The largest number of workgroups per dispatch. Kernels stride over what there is to do.
     pub workgroups: u32,
