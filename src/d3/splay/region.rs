@@ -230,6 +230,7 @@ impl Region {
     }
 
     /// Returns the vertex at infinity, which is the number of vertices.
+    #[cfg(feature = "gpu")]
     pub(in crate::d3) fn infinite(&self) -> u32 {
         self.mesh.infinite
     }
