@@ -143,7 +143,9 @@ async fn complete_with_stars(
         Ok((region, splay)) => {
             stats.splay = Some(splay);
             let patch = region.patch(slots, Threads::All);
-            device.ended.host = Some(region);
+            if cfg!(not(target_arch = "wasm32")) {
+                device.ended.host = Some(region);
+            }
             patch
         }
         Err(Stop::Error(error)) => return Err(error),

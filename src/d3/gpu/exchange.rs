@@ -136,7 +136,8 @@ impl<'a> Device<'a> {
             let (failed, uncertain) = (&aliases.failed, &aliases.uncertain);
             (gathering, Ahead::copy(copies, failed, ahead), Ahead::copy(copies, uncertain, ahead))
         };
-        let kept = run.take_host();
+        // WebAssembly has little memory.
+        let kept = if cfg!(target_arch = "wasm32") { None } else { run.take_host() };
         let prepare = || {
             meanwhile();
             match kept {

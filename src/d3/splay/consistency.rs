@@ -108,10 +108,12 @@ impl Splaying {
     /// Returns the region, with the memory of the stars, and what splaying did.
     pub(super) fn finish(self) -> (Region, SplayStats) {
         let Splaying { known: Known { mut region, .. }, stats, stars, mut star_of, ledger, lists, .. } = self;
-        star_of.clear();
-        let memory = &mut region.memory;
-        (memory.lists, memory.star_of, memory.ledger) = (lists, star_of, Some(ledger));
-        memory.keep(stars.into_iter().map(|star| star.into_inner().unwrap_or_else(PoisonError::into_inner)));
+        if cfg!(not(target_arch = "wasm32")) {
+            star_of.clear();
+            let memory = &mut region.memory;
+            (memory.lists, memory.star_of, memory.ledger) = (lists, star_of, Some(ledger));
+            memory.keep(stars.into_iter().map(|star| star.into_inner().unwrap_or_else(PoisonError::into_inner)));
+        }
         (region, stats)
     }
 

@@ -1,5 +1,6 @@
 //! Memory that splaying uses again. It allocates hundreds of thousands of short lists otherwise, in
-//! all threads at once, and the system provides their memory anew each time.
+//! all threads at once, and the system provides their memory anew each time. WebAssembly, which has one
+//! thread and little memory, keeps it for one run only.
 
 use crate::{
     d3::splay::{
@@ -40,7 +41,7 @@ pub(super) struct Lists {
 }
 
 impl Memory {
-    /// Keeps the memory of what was gathered. WebAssembly, which has little, makes no use of it.
+    /// Keeps the memory of what was gathered; not in WebAssembly, which makes no use of it.
     pub(super) fn keep_gathered(&mut self, gathered: Gathered) {
         if cfg!(not(target_arch = "wasm32")) && gathered.slots.capacity() > 0 {
             self.gathered.push(gathered);
