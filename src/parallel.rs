@@ -122,12 +122,12 @@ pub(crate) fn joined<T: Clone>(mut parts: Vec<Vec<T>>) -> Vec<T> {
     }
 }
 
-/// Values that threads at work take and give back, so that there are at most as many as threads.
+/// Values that threads take while they work, and give back: there are never more values than threads.
 #[derive(Debug, Default)]
 pub(crate) struct Pool<T>(Mutex<Vec<T>>);
 
 impl<T: Default> Pool<T> {
-    /// Calls `work` with a value that no other thread has: a new one, if all are taken.
+    /// Calls `work` with a value that no other thread has; creates one if all are taken.
     pub(crate) fn with<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
         let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let free = lock().pop();

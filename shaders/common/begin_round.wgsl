@@ -23,8 +23,9 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     control.round += 1;
     atomicStore(&control.next_node, 0u);
     // Flips that wait are done beside those of the next round, in iterations that it takes anyway. Where many signs
-    // are ties or nearly so, more of them than elsewhere cannot be done any more.
-    let shift = select(WAITING_SHIFT, WAITING_EXACT_SHIFT, atomicLoad(&control.exact) > control.visits / WAITING_EXACT_SHARE);
+    // are ties or nearly so, more of the flips that wait become impossible.
+    let is_exact = atomicLoad(&control.exact) > control.visits / WAITING_EXACT_SHARE;
+    let shift = select(WAITING_SHIFT, WAITING_EXACT_SHIFT, is_exact);
     control.min_active = select(min(control.max_min_active, inserted >> shift), NONE, control.insert_all != 0);
     if waiting == 0 {
         control.min_active = 0;

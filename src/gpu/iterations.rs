@@ -24,8 +24,8 @@ const FIRST_EXACT_EVERY: u32 = 4;
 /// The number of rounds of which the next run is to know. Most runs have about ten.
 const ROUNDS: usize = 32;
 
-/// What the same round of the run before needed is enough again if at most so many times as many simplices
-/// are left active as may wait for the next round: how many there are differs from run to run.
+/// What the same round of the run before needed is enough again if fewer than so many times as many simplices
+/// are left active as may wait for the next round, because that number differs from run to run.
 const REPEATED_TOLERANCE: u32 = 2;
 /// A run repeats the one before while the points that are inserted differ by at most one in so many.
 const SAME_SHARE: u32 = 16;
@@ -183,7 +183,7 @@ impl Iterations {
         }
     }
 
-    /// Returns whether the run before had so many rounds, so that this one is as a rule done then, too.
+    /// Returns whether the run before, which this one repeats so far, ended after so many rounds.
     pub(crate) fn may_be_done(&self, rounds: u32) -> bool {
         self.before.len > 0 && rounds as usize == self.before.len
     }

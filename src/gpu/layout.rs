@@ -210,9 +210,8 @@ impl Counters {
     /// inserted when a round begins and others wait.
     pub fn min_active(&self, params: &Params, inserted: u32) -> u32 {
         let is_exact = self.exact > self.visits / common::WAITING_EXACT_SHARE;
-        params
-            .max_min_active
-            .min(inserted >> if is_exact { common::WAITING_EXACT_SHIFT } else { common::WAITING_SHIFT })
+        let shift = if is_exact { common::WAITING_EXACT_SHIFT } else { common::WAITING_SHIFT };
+        params.max_min_active.min(inserted >> shift)
     }
 
     /// Returns what was done so far: points inserted, active simplices, flips, flip iterations, and

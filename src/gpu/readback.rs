@@ -360,8 +360,8 @@ impl Readback {
         self.receive_into(gpu, submission, pending, Vec::new()).await
     }
 
-    /// Waits for a readback as [`Readback::receive`] does. Natively it goes to the memory of `list`, whatever that
-    /// has, if there is enough.
+    /// Waits for a readback as [`Readback::receive`] does. Natively, the result replaces the contents of `list`, in
+    /// its memory if there is enough.
     ///
     /// # Errors
     ///

@@ -31,11 +31,7 @@ pub fn elsewhere(near: NearDelaunay3, kept: Option<Region>) -> Elsewhere {
     let corners = |&t: &u32| mesh.tetrahedra[t as usize];
     let mut wanted: Vec<u32> = uncertain.iter().flat_map(corners).chain(failed.iter().copied()).collect();
     wanted.retain(|&v| v != infinite);
-    let vertices = infinite as usize;
-    let mut region = match kept {
-        Some(region) => region.again(vertices, Threads::All),
-        None => Region::new(vertices, Threads::All),
-    };
+    let mut region = Region::again(kept, infinite as usize, Threads::All);
     let gathered = mesh.gather(&wanted, region.next());
     region.add(wanted, gathered, Threads::All).unwrap();
     let uncertain = uncertain.iter().map(|&t| mesh.region_numbers[t as usize]).collect();

@@ -143,9 +143,7 @@ async fn complete_with_stars(
         Ok((region, splay)) => {
             stats.splay = Some(splay);
             let patch = region.patch(slots, Threads::All);
-            if cfg!(not(target_arch = "wasm32")) {
-                device.ended.host = Some(region);
-            }
+            device.ended.host = splay::KEEPS_MEMORY.then_some(region);
             patch
         }
         Err(Stop::Error(error)) => return Err(error),

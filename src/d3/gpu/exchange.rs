@@ -10,7 +10,7 @@ use crate::{
             buffers::Gathering,
             outputs::{Made, OutputParams, SlotMesh},
         },
-        splay::{Aborted, Doubts, Gathered, INCIDENT_SHIFT, IndexSet, Patch, Region, SLOT},
+        splay::{self, Aborted, Doubts, Gathered, INCIDENT_SHIFT, IndexSet, Patch, Region, SLOT},
     },
     error::Error,
     gpu::{
@@ -136,14 +136,10 @@ impl<'a> Device<'a> {
             let (failed, uncertain) = (&aliases.failed, &aliases.uncertain);
             (gathering, Ahead::copy(copies, failed, ahead), Ahead::copy(copies, uncertain, ahead))
         };
-        // WebAssembly has little memory.
-        let kept = if cfg!(target_arch = "wasm32") { None } else { run.take_host() };
+        let kept = run.take_host().filter(|_| splay::KEEPS_MEMORY);
         let prepare = || {
             meanwhile();
-            match kept {
-                Some(region) => region.again(points, Threads::All),
-                None => Region::new(points, Threads::All),
-            }
+            Region::again(kept, points, Threads::All)
         };
         let (ended, submission, (gathering, failed, uncertain), mut region) = run.end(record, prepare).await?;
         if ended.len() > SLOT as usize {

@@ -39,8 +39,8 @@ pub(super) enum Origin {
 
 impl Known {
     /// Returns the convex star of `v`. It is that of the triangulation, unless `v` has failed or
-    /// has an inverted tetrahedron; then it is made convex, and the differences are added to
-    /// the entries for the ledger.
+    /// has an inverted tetrahedron; then it is made convex, and the differences are added to the
+    /// entries of `lists`, for the ledger.
     pub(super) fn convex_star(
         &self,
         predicates: &StarPredicates<'_>,

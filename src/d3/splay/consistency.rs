@@ -23,7 +23,7 @@ use crate::{
         Aborted, Stop,
         build::{Known, Origin},
         ledger::{Entries, Entry, Key, Ledger},
-        memory::{Lists, Memory},
+        memory::{KEEPS_MEMORY, Lists, Memory},
         predicates::StarPredicates,
         region::Region,
         star::Star,
@@ -53,7 +53,7 @@ pub(super) struct Splaying {
     /// The place in `stars` of each vertex that has one.
     star_of: FxHashMap<u32, u32>,
     pub(super) ledger: Ledger,
-    /// The lists of the threads at work.
+    /// The lists of each thread.
     lists: Pool<Lists>,
     /// The tetrahedra that are unsettled.
     unsettled: Vec<Key>,
@@ -108,11 +108,11 @@ impl Splaying {
     /// Returns the region, with the memory of the stars, and what splaying did.
     pub(super) fn finish(self) -> (Region, SplayStats) {
         let Splaying { known: Known { mut region, .. }, stats, stars, mut star_of, ledger, lists, .. } = self;
-        if cfg!(not(target_arch = "wasm32")) {
+        if KEEPS_MEMORY {
             star_of.clear();
             let memory = &mut region.memory;
             (memory.lists, memory.star_of, memory.ledger) = (lists, star_of, Some(ledger));
-            memory.keep(stars.into_iter().map(|star| star.into_inner().unwrap_or_else(PoisonError::into_inner)));
+            memory.keep_stars(stars.into_iter().map(|star| star.into_inner().unwrap_or_else(PoisonError::into_inner)));
         }
         (region, stats)
     }

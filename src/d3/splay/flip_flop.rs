@@ -25,7 +25,7 @@ const MAX_FLIPS_PER_TRIANGLE: usize = 16;
 /// its bound.
 ///
 /// New triangles have no tetrahedron of the triangulation. Triangles that had one and no longer
-/// exist are added to `removed`. What `edges` has is of no use.
+/// exist are added to `removed`. The contents of `edges` are discarded.
 pub(super) fn flip_flop(
     star: &mut Star,
     predicates: &StarPredicates<'_>,

@@ -1,6 +1,5 @@
 //! Memory that splaying uses again. It allocates hundreds of thousands of short lists otherwise, in
-//! all threads at once, and the system provides their memory anew each time. WebAssembly, which has one
-//! thread and little memory, keeps it for one run only.
+//! all threads at once, and the system provides their memory anew each time.
 
 use crate::{
     d3::splay::{
@@ -12,12 +11,15 @@ use crate::{
 };
 use rustc_hash::FxHashMap;
 
+/// Whether memory is kept for the next run. WebAssembly has one thread and little memory.
+pub(in crate::d3) const KEEPS_MEMORY: bool = cfg!(not(target_arch = "wasm32"));
+
 /// What a region leaves to the next one.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
-    /// What was gathered, of which nothing is needed any more.
+    /// Gathered stars that are no longer needed.
     pub(super) gathered: Vec<Gathered>,
-    /// The lists of a thread at work.
+    /// The lists of each thread.
     pub(super) lists: Pool<Lists>,
     /// The place of each star.
     pub(super) star_of: FxHashMap<u32, u32>,
@@ -41,15 +43,15 @@ pub(super) struct Lists {
 }
 
 impl Memory {
-    /// Keeps the memory of what was gathered; not in WebAssembly, which makes no use of it.
+    /// Keeps the memory of gathered stars.
     pub(super) fn keep_gathered(&mut self, gathered: Gathered) {
-        if cfg!(not(target_arch = "wasm32")) && gathered.slots.capacity() > 0 {
+        if KEEPS_MEMORY && gathered.slots.capacity() > 0 {
             self.gathered.push(gathered);
         }
     }
 
-    /// Keeps the memory of stars, for the threads that make the next ones, and frees what none of them has used.
-    pub(super) fn keep(&mut self, stars: impl ExactSizeIterator<Item = Star>) {
+    /// Keeps the memory of stars, shared out among the threads, and frees what this run did not use.
+    pub(super) fn keep_stars(&mut self, stars: impl ExactSizeIterator<Item = Star>) {
         let lists = self.lists.all();
         if lists.is_empty() {
             return;

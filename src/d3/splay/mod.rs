@@ -34,6 +34,8 @@ use crate::{
 use build::Known;
 use consistency::Splaying;
 pub(in crate::d3) use index_set::IndexSet;
+#[cfg(feature = "gpu")]
+pub(in crate::d3) use memory::KEEPS_MEMORY;
 use predicates::StarPredicates;
 pub use region::{Gathered, INCIDENT_SHIFT, KEEP, Patch, Region, SLOT};
 

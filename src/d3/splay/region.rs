@@ -196,10 +196,11 @@ impl Region {
         Triangulation3::new(tetrahedra, neighbors, infinite)
     }
 
-    /// Creates a region as [`Region::new`] does, in the memory of this one.
-    pub fn again(self, vertices: usize, threads: Threads) -> Self {
+    /// Creates a region as [`Region::new`] does, in the memory of `kept`, if there is one.
+    pub fn again(kept: Option<Self>, vertices: usize, threads: Threads) -> Self {
+        let Some(kept) = kept else { return Region::new(vertices, threads) };
         let infinite = vertices as u32;
-        let Region { mut mesh, mut incident, given, mut memory, .. } = self;
+        let Region { mut mesh, mut incident, given, mut memory, .. } = kept;
         if mesh.infinite != infinite {
             return Region { memory, ..Region::new(vertices, threads) };
         }

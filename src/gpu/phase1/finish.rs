@@ -136,7 +136,7 @@ impl Copied<'_> {
         self.receive_into(pending, Vec::new()).await
     }
 
-    /// Waits for a readback, which goes to the memory of a list, whatever that has.
+    /// Waits for a readback, as [`Readback::receive_into`] does.
     ///
     /// # Errors
     ///

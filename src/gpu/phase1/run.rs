@@ -461,8 +461,8 @@ where
     /// Runs rounds of insertion and flips, and, when all points are inserted, flip iterations,
     /// until it knows of the next batch what was done. Returns whether there is more to do.
     ///
-    /// While the device works on a batch, the next one is submitted, so that it never waits, unless there is as a
-    /// rule nothing left to do.
+    /// While the device works on a batch, the next one is submitted, so that the device never waits; but not behind
+    /// the batch that the run before ended with.
     ///
     /// # Errors
     ///
@@ -529,7 +529,7 @@ where
         }
         self.iterations.plan_exact(read.exact.wrapping_sub(before.exact), read.visits.wrapping_sub(before.visits));
         let goes_on = self.waiting() > 0 || self.active() > 0;
-        // What is done at the end waits for the host anyway.
+        // When nothing is left, the device waits for the host anyway, which `end` counts.
         self.stats.stalls += usize::from(goes_on && self.submitted.is_empty());
         Ok(goes_on)
     }
