@@ -3,9 +3,10 @@
 # git. It says what it does and skips what is there: a second run starts at once.
 #
 # `scripts/setup.sh guard` also installs what scripts/guard.sh counts instructions with: valgrind
-# and gungraun's runner; `scripts/setup.sh lints` what scripts/lint.sh runs; `scripts/setup.sh web`
-# what the npm package needs: wasm-pack, wasm-bindgen and the npm packages;
-# `scripts/setup.sh web-tests` what checks and tests it on top: the browsers, Deno and the linter.
+# and gungraun's runner; `scripts/setup.sh lints` what scripts/lint.sh runs, `lints-online` also
+# cargo-deny, which it runs with `--online`; `scripts/setup.sh web` what the npm package needs:
+# wasm-pack, wasm-bindgen and the npm packages; `scripts/setup.sh web-tests` what checks and tests
+# it on top: the browsers, Deno and the linter.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -17,8 +18,8 @@ fail() {
 
 what=${1:-rust}
 case $what in
-  rust | guard | lints | web | web-tests) ;;
-  *) fail "usage: scripts/setup.sh [guard | lints | web | web-tests]" ;;
+  rust | guard | lints | lints-online | web | web-tests) ;;
+  *) fail "usage: scripts/setup.sh [guard | lints | lints-online | web | web-tests]" ;;
 esac
 
 # System packages: the linker that rustc calls, and a software Vulkan driver (lavapipe) for the
@@ -26,7 +27,7 @@ esac
 packages=(gcc libc6-dev libvulkan1 mesa-vulkan-drivers)
 [[ $what != web-tests ]] || packages+=(chromium firefox-esr)
 [[ $what != guard ]] || packages+=(valgrind)
-[[ $what != lints ]] || packages+=(python3-venv)
+[[ $what != lints* ]] || packages+=(python3-venv)
 
 install_packages() {
   local missing=() package
@@ -124,15 +125,18 @@ install_biome() {
   npm install --prefix .cache/biome --no-save --no-audit --no-fund --loglevel=error "@biomejs/biome@$version"
 }
 
-# cargo-hack checks the features one by one, cargo-deny licences and sources, typos the spelling.
+# typos checks the spelling.
 install_lints() {
   local typos=1.52.0
-  install_tool 0 cargo-hack cargo-hack 0.6.46 --locked
-  install_tool 0 cargo-deny cargo-deny 0.20.2 --locked --no-default-features
   [[ $(.cache/tools/python/bin/typos --version 2>/dev/null) != "typos-cli $typos" ]] || return 0
   say "installing typos"
   python3 -m venv .cache/tools/python
   .cache/tools/python/bin/pip install --quiet --disable-pip-version-check "typos==$typos"
+}
+
+# cargo-deny checks licences, sources and known vulnerabilities.
+install_online_lints() {
+  install_tool 0 cargo-deny cargo-deny 0.20.2 --locked --no-default-features
 }
 
 # For one test, which says so where it is missing.
@@ -151,9 +155,10 @@ fi
 install_rust_parts
 case $what in
   guard) install_guard_parts ;;
-  lints)
+  lints | lints-online)
     install_lints
     install_biome
+    [[ $what == lints ]] || install_online_lints
     ;;
   web | web-tests)
     install_npm_packages
