@@ -351,22 +351,29 @@ impl Readback {
     /// # Errors
     ///
     /// Returns [`Error::DeviceLost`], or [`Error::Gpu`] when the device reports something else.
-    pub async fn receive<T: Pod>(
+    pub fn receive<T: Pod>(
         &mut self,
         gpu: &Gpu,
         submission: &wgpu::SubmissionIndex,
         pending: Pending<T>,
-    ) -> Result<Vec<T>, Error> {
-        self.receive_into(gpu, submission, pending, Vec::new()).await
+    ) -> impl Future<Output = Result<Vec<T>, Error>> {
+        #[cfg(not(target_arch = "wasm32"))]
+        return self.receive_into(gpu, submission, pending, Vec::new());
+        #[cfg(target_arch = "wasm32")]
+        {
+            let len = pending.len;
+            let take = move |view: &wgpu::BufferView| if len == 0 { Vec::new() } else { copied(view, len) };
+            self.unstage(gpu, submission, pending.staged, take)
+        }
     }
 
-    /// Waits for a readback as [`Readback::receive`] does. Natively, the result replaces the contents of `list`, in
-    /// its memory if there is enough.
+    /// Waits for a readback as [`Readback::receive`] does. The result replaces the contents of `list`, in its
+    /// memory if there is enough.
     ///
     /// # Errors
     ///
     /// Returns the errors of [`Readback::receive`].
-    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "copies make their own memory"))]
+    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) async fn receive_into<T: Pod>(
         &mut self,
         gpu: &Gpu,
@@ -374,29 +381,22 @@ impl Readback {
         pending: Pending<T>,
         list: Vec<T>,
     ) -> Result<Vec<T>, Error> {
-        let len = pending.len;
-        #[cfg(not(target_arch = "wasm32"))]
-        {
-            let mut result = list;
-            if result.capacity() < with_room(len) {
-                result = bytemuck::zeroed_vec(with_room(len));
-            }
-            result.resize(len, T::zeroed());
-            let mut target: &mut [u8] = bytemuck::cast_slice_mut(&mut result);
-            let mut done = 0;
-            for piece in pending.staged {
-                let take = |view: &wgpu::BufferView| {
-                    let bytes = (target.bytes() - done).min(view.len() as u64);
-                    target.take(done, bytes, view);
-                    done += bytes;
-                };
-                self.unstage(gpu, submission, piece, take).await?;
-            }
-            Ok(result)
+        let mut result = list;
+        if result.capacity() < with_room(pending.len) {
+            result = bytemuck::zeroed_vec(with_room(pending.len));
         }
-        #[cfg(target_arch = "wasm32")]
-        self.unstage(gpu, submission, pending.staged, |view| if len == 0 { Vec::new() } else { copied(view, len) })
-            .await
+        result.resize(pending.len, T::zeroed());
+        let mut target: &mut [u8] = bytemuck::cast_slice_mut(&mut result);
+        let mut done = 0;
+        for piece in pending.staged {
+            let take = |view: &wgpu::BufferView| {
+                let bytes = (target.bytes() - done).min(view.len() as u64);
+                target.take(done, bytes, view);
+                done += bytes;
+            };
+            self.unstage(gpu, submission, piece, take).await?;
+        }
+        Ok(result)
     }
 
     /// Reads elements now: a submission of its own, for tests and for results at the end of a run.

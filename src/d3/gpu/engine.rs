@@ -130,8 +130,7 @@ async fn complete_with_stars(
         if lacking.is_empty() {
             break Ok(splay.finish());
         }
-        let (first, spare) = (splay.region().next(), splay.spare());
-        let gathered = device.gather(&lacking, first, spare).await?;
+        let gathered = device.gather(&lacking, splay.region()).await?;
         let context = &mut vertices;
         let next = move |terms: Terms<'_>| {
             splay.add(lacking, gathered)?;
@@ -143,7 +142,7 @@ async fn complete_with_stars(
         Ok((region, splay)) => {
             stats.splay = Some(splay);
             let patch = region.patch(slots, Threads::All);
-            device.ended.host = splay::KEEPS_MEMORY.then_some(region);
+            device.ended.host.keep(region);
             patch
         }
         Err(Stop::Error(error)) => return Err(error),

@@ -10,7 +10,7 @@ use crate::{
             buffers::Gathering,
             outputs::{Made, OutputParams, SlotMesh},
         },
-        splay::{self, Aborted, Doubts, Gathered, INCIDENT_SHIFT, IndexSet, Patch, Region, SLOT},
+        splay::{Aborted, Doubts, Gathered, INCIDENT_SHIFT, IndexSet, Patch, Region, SLOT},
     },
     error::Error,
     gpu::{
@@ -136,7 +136,7 @@ impl<'a> Device<'a> {
             let (failed, uncertain) = (&aliases.failed, &aliases.uncertain);
             (gathering, Ahead::copy(copies, failed, ahead), Ahead::copy(copies, uncertain, ahead))
         };
-        let kept = run.take_host().filter(|_| splay::KEEPS_MEMORY);
+        let kept = run.take_host().take();
         let prepare = || {
             meanwhile();
             Region::again(kept, points, Threads::All)
@@ -155,7 +155,7 @@ impl<'a> Device<'a> {
         if !resident {
             device.begin_reading();
         }
-        let gathered = device.receive(&submission, gathering, region.spare()).await?;
+        let gathered = device.receive(&submission, gathering, &mut region).await?;
         let mut failed = device.receive_list(&submission, failed, failed_len).await?;
         let uncertain: Vec<Active> = device.receive_list(&submission, uncertain, uncertain_len).await?;
 
@@ -165,13 +165,14 @@ impl<'a> Device<'a> {
         Ok((device, Start { region, gathered, failed, uncertain }))
     }
 
-    /// Receives what is gathered in the memory of `spare`, and reads the rest of it if there is more than was
-    /// read ahead.
+    /// Receives what is gathered, in memory that `region` has for it, and reads the rest of it if there is more than
+    /// was read ahead.
+    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "WebAssembly keeps no memory"))]
     async fn receive(
         &mut self,
         submission: &wgpu::SubmissionIndex,
         gathering: Gathering3,
-        spare: Gathered,
+        region: &mut Region,
     ) -> Result<Gathered, Error> {
         let Gathering3 { count, tetrahedra, neighbors, slots } = gathering;
         let Ended { gpu, kernels, stats, .. } = &mut self.ended;
@@ -199,31 +200,36 @@ impl<'a> Device<'a> {
             (tetrahedra.first.first(count), neighbors.first.first(count), slots.first.first(count));
         // Natively both go to the same list, without a copy.
         #[cfg(not(target_arch = "wasm32"))]
-        let (tetrahedra, neighbors, slots) = match rest {
-            Some((submission, more)) => {
-                copied.submission = submission;
-                (tetrahedra.then(more.0), neighbors.then(more.1), slots.then(more.2))
-            }
-            None => (tetrahedra, neighbors, slots),
-        };
-        let gathered = Gathered {
-            tetrahedra: copied.receive_into(tetrahedra, spare.tetrahedra).await?,
-            neighbors: copied.receive_into(neighbors, spare.neighbors).await?,
-            slots: copied.receive_into(slots, spare.slots).await?,
-        };
+        {
+            let (tetrahedra, neighbors, slots) = match rest {
+                Some((submission, more)) => {
+                    copied.submission = submission;
+                    (tetrahedra.then(more.0), neighbors.then(more.1), slots.then(more.2))
+                }
+                None => (tetrahedra, neighbors, slots),
+            };
+            let spare = region.spare();
+            Ok(Gathered {
+                tetrahedra: copied.receive_into(tetrahedra, spare.tetrahedra).await?,
+                neighbors: copied.receive_into(neighbors, spare.neighbors).await?,
+                slots: copied.receive_into(slots, spare.slots).await?,
+            })
+        }
         #[cfg(target_arch = "wasm32")]
-        let gathered = match rest {
-            Some((submission, more)) => {
+        {
+            let mut gathered = Gathered {
+                tetrahedra: copied.receive(tetrahedra).await?,
+                neighbors: copied.receive(neighbors).await?,
+                slots: copied.receive(slots).await?,
+            };
+            if let Some((submission, more)) = rest {
                 copied.submission = submission;
-                let mut all = gathered;
-                all.tetrahedra.extend(copied.receive(more.0).await?);
-                all.neighbors.extend(copied.receive(more.1).await?);
-                all.slots.extend(copied.receive(more.2).await?);
-                all
+                gathered.tetrahedra.extend(copied.receive(more.0).await?);
+                gathered.neighbors.extend(copied.receive(more.1).await?);
+                gathered.slots.extend(copied.receive(more.2).await?);
             }
-            None => gathered,
-        };
-        Ok(gathered)
+            Ok(gathered)
+        }
     }
 
     /// Receives a list, and reads the rest of it if it has more than was read ahead.
@@ -242,13 +248,12 @@ impl<'a> Device<'a> {
         Ok(list)
     }
 
-    /// Returns the tetrahedra at `vertices` that it has not returned before, in the memory of `spare`, and numbers
-    /// them from `first` on.
+    /// Returns the tetrahedra at `vertices` that it has not returned before, numbered on from those of `region`.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub(crate) async fn gather(&mut self, vertices: &[u32], first: u32, spare: Gathered) -> Result<Gathered, Error> {
+    pub(crate) async fn gather(&mut self, vertices: &[u32], region: &mut Region) -> Result<Gathered, Error> {
         let Ended { gpu, kernels, memory, stats, workgroups, .. } = &mut self.ended;
         let gpu: &Gpu = gpu;
         let own = &memory.buffers.own;
@@ -258,7 +263,7 @@ impl<'a> Device<'a> {
         let (submission, gathering) = gpu
             .with_error_scope("gathering stars", || {
                 own.wanted.write(gpu, 0, &wanted);
-                own.gathering.write(gpu, 0, &[Gathering { first, patched: 0 }]);
+                own.gathering.write(gpu, 0, &[Gathering { first: region.next(), patched: 0 }]);
                 let mut copies = Copies { readback: &mut kernels.readback, gpu, recorder: Recorder::new(gpu, None) };
                 let gathering = Gathering3::record(&mut copies, &kernels.stages, memory, ahead, *workgroups);
                 stats.dispatches += copies.recorder.dispatches();
@@ -268,7 +273,7 @@ impl<'a> Device<'a> {
             .await?;
         #[cfg(not(target_arch = "wasm32"))]
         self.take_earlier_pieces().await?;
-        self.receive(&submission, gathering, spare).await
+        self.receive(&submission, gathering, region).await
     }
 
     /// Runs a step of splaying on these terms: there is one thread, which does nothing meanwhile. Not inlined, it

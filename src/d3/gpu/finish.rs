@@ -4,7 +4,7 @@
 use crate::{
     d3::{
         gpu::{aliases::Aliases, outputs::OutputStage},
-        splay::Region,
+        splay::KeptRegion,
     },
     dimension::Dimension,
     error::Error,
@@ -52,7 +52,7 @@ impl Finish<3> for Dimension<3> {
     type Result = NearMesh;
     type Outputs = OutputStage;
     /// The region of the run before.
-    type Host = Option<Region>;
+    type Host = KeptRegion;
 
     /// The search for failed vertices, the compaction, and the certification.
     const STEPS: &'static [Step<&'static str>] = &[

@@ -87,10 +87,7 @@ impl Splaying {
         let infinite = known.region.mesh.infinite;
         let Memory { lists, star_of, ledger, .. } = &mut known.region.memory;
         let (lists, star_of) = (std::mem::take(lists), std::mem::take(star_of));
-        let ledger = match ledger.take() {
-            Some(ledger) => ledger.emptied(infinite, threads),
-            None => Ledger::new(infinite, threads),
-        };
+        let ledger = Ledger::new(ledger.take(), infinite, threads);
         Splaying {
             known,
             threads,
@@ -107,9 +104,10 @@ impl Splaying {
 
     /// Returns the region, with the memory of the stars, and what splaying did.
     pub(super) fn finish(self) -> (Region, SplayStats) {
-        let Splaying { known: Known { mut region, .. }, stats, stars, mut star_of, ledger, lists, .. } = self;
+        let Splaying { known: Known { mut region, .. }, stats, stars, mut star_of, mut ledger, lists, .. } = self;
         if KEEPS_MEMORY {
             star_of.clear();
+            ledger.clear();
             let memory = &mut region.memory;
             (memory.lists, memory.star_of, memory.ledger) = (lists, star_of, Some(ledger));
             memory.keep_stars(stars.into_iter().map(|star| star.into_inner().unwrap_or_else(PoisonError::into_inner)));

@@ -165,17 +165,19 @@ impl Entry {
 }
 
 impl Ledger {
-    /// Creates an empty ledger.
-    pub(super) fn new(infinite: u32, threads: Threads) -> Self {
-        Ledger { parts: vec![FxHashMap::default(); PARTS], doubles: Vec::new(), infinite, threads }
+    /// Creates an empty ledger, in the memory of an empty one if there is one.
+    pub(super) fn new(emptied: Option<Ledger>, infinite: u32, threads: Threads) -> Self {
+        let (parts, doubles) = match emptied {
+            Some(Ledger { parts, doubles, .. }) => (parts, doubles),
+            None => (vec![FxHashMap::default(); PARTS], Vec::new()),
+        };
+        Ledger { parts, doubles, infinite, threads }
     }
 
-    /// Creates an empty ledger in the memory of this one.
-    pub(super) fn emptied(self, infinite: u32, threads: Threads) -> Self {
-        let Ledger { mut parts, mut doubles, .. } = self;
-        parts.iter_mut().for_each(FxHashMap::clear);
-        doubles.clear();
-        Ledger { parts, doubles, infinite, threads }
+    /// Removes all entries.
+    pub(super) fn clear(&mut self) {
+        self.parts.iter_mut().for_each(FxHashMap::clear);
+        self.doubles.clear();
     }
 
     /// Returns which stars have a tetrahedron, if it was entered.

@@ -4,7 +4,7 @@
 use crate::{
     d3::splay::{
         ledger::{Entry, Ledger},
-        region::Gathered,
+        region::{Gathered, Region},
         star::{Changes, LinkFinder, Star, Triangle},
     },
     parallel::Pool,
@@ -12,7 +12,29 @@ use crate::{
 use rustc_hash::FxHashMap;
 
 /// Whether memory is kept for the next run. WebAssembly has one thread and little memory.
-pub(in crate::d3) const KEEPS_MEMORY: bool = cfg!(not(target_arch = "wasm32"));
+pub(super) const KEEPS_MEMORY: bool = cfg!(not(target_arch = "wasm32"));
+
+/// The region of a run, of which the next one uses the memory; none if memory is not kept.
+#[derive(Debug, Default)]
+pub struct KeptRegion(#[cfg(not(target_arch = "wasm32"))] Option<Region>);
+
+impl KeptRegion {
+    /// Keeps a region if memory is kept.
+    pub fn keep(&mut self, region: Region) {
+        #[cfg(not(target_arch = "wasm32"))]
+        self.0.replace(region);
+        #[cfg(target_arch = "wasm32")]
+        drop(region);
+    }
+
+    /// Returns the region that was kept.
+    pub fn take(&mut self) -> Option<Region> {
+        #[cfg(not(target_arch = "wasm32"))]
+        return self.0.take();
+        #[cfg(target_arch = "wasm32")]
+        None
+    }
+}
 
 /// What a region leaves to the next one.
 #[derive(Debug, Default)]

@@ -35,7 +35,7 @@ use build::Known;
 use consistency::Splaying;
 pub(in crate::d3) use index_set::IndexSet;
 #[cfg(feature = "gpu")]
-pub(in crate::d3) use memory::KEEPS_MEMORY;
+pub use memory::KeptRegion;
 use predicates::StarPredicates;
 pub use region::{Gathered, INCIDENT_SHIFT, KEEP, Patch, Region, SLOT};
 
@@ -295,13 +295,8 @@ impl Splay {
     }
 
     /// Returns the region.
-    pub fn region(&self) -> &Region {
-        &self.stars.known.region
-    }
-
-    /// Returns memory for what is to be gathered.
-    pub fn spare(&mut self) -> Gathered {
-        self.stars.known.region.spare()
+    pub fn region(&mut self) -> &mut Region {
+        &mut self.stars.known.region
     }
 
     /// Adds the stars of `vertices`, as [`Region::add`] does.

@@ -132,8 +132,8 @@ impl Copied<'_> {
     /// # Errors
     ///
     /// Returns the errors of [`Readback::receive`].
-    pub async fn receive<T: Pod>(&mut self, pending: Pending<T>) -> Result<Vec<T>, Error> {
-        self.receive_into(pending, Vec::new()).await
+    pub fn receive<T: Pod>(&mut self, pending: Pending<T>) -> impl Future<Output = Result<Vec<T>, Error>> {
+        self.readback.receive(self.gpu, &self.submission, pending)
     }
 
     /// Waits for a readback, as [`Readback::receive_into`] does.
@@ -141,8 +141,13 @@ impl Copied<'_> {
     /// # Errors
     ///
     /// Returns the errors of [`Readback::receive`].
-    pub async fn receive_into<T: Pod>(&mut self, pending: Pending<T>, list: Vec<T>) -> Result<Vec<T>, Error> {
-        self.readback.receive_into(self.gpu, &self.submission, pending, list).await
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn receive_into<T: Pod>(
+        &mut self,
+        pending: Pending<T>,
+        list: Vec<T>,
+    ) -> impl Future<Output = Result<Vec<T>, Error>> {
+        self.readback.receive_into(self.gpu, &self.submission, pending, list)
     }
 }
 
