@@ -239,13 +239,23 @@ fn a_grid_takes_few_rounds() {
 #[test]
 fn every_submission_is_counted() {
     let points = generate2d(Distribution2::Uniform, 1_000, 1);
-    let one_by_one = Settings { rounds: 1, batches: 1, ..Settings::default() };
-    let gpu = triangulate((&points).into(), &one_by_one).stats.gpu.expect("the GPU worked");
+    // No other test comes between these runs.
+    let mut engine = engine();
+    let mut run = |points: &[[f64; 2]], settings: Settings<2>| {
+        engine.set_settings(settings);
+        let mesh = block_on(engine.triangulate(points.into(), &Options::default())).expect("triangulates");
+        mesh.stats.gpu.expect("the GPU worked")
+    };
+    let gpu = run(&points, Settings { rounds: 1, batches: 1, ..Settings::default() });
     // One for the points, one per round, one for the end, and three to read the mesh.
     assert_eq!(gpu.submits, 1 + gpu.rounds.len() as u64 + 1 + 3);
     // The round that is submitted ahead of the last one's counters has nothing to do.
-    let gpu = triangulate((&points).into(), &Settings::default()).stats.gpu.expect("the GPU worked");
+    run(&points[..900], Settings::default());
+    let gpu = run(&points, Settings::default());
     assert_eq!(gpu.submits, 1 + gpu.rounds.len() as u64 + 1 + 1 + 3);
+    // If the run before had as many points, none is submitted beyond the round that it ended with.
+    let gpu = run(&points, Settings::default());
+    assert_eq!(gpu.submits, 1 + gpu.rounds.len() as u64 + 1 + 3);
 }
 
 #[test]
