@@ -4,7 +4,7 @@
 //! The distributions are those of `gdel generate --dim 2`, and `full-grid`, all points of a square
 //! grid.
 //!
-//! The variables SINGLE (1: coordinates rounded to `f32`), PICK (0–2), INSERT_ALL (0, 1), SORT (0,
+//! The variables SINGLE (1: coordinates rounded to `f32`), PICK (0–3), INSERT_ALL (0, 1), SORT (0,
 //! 1), MIN_ACTIVE, WORKGROUPS, START and SEED change input and settings (the paper's Figure 12). Prints a
 //! line of JSON: medians over the repeats, after one run to warm up, of the whole run and its
 //! phases, points in host memory to mesh in host memory; then the same for the CPU engine (once;
@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let defaults = Settings::default();
     let settings = Settings {
-        pick: [Pick::Circumcenter, Pick::Centroid, Pick::Random][option("PICK", 0) as usize % 3],
+        pick: Pick::ALL[option("PICK", 0) as usize % Pick::ALL.len()],
         insert_all: option("INSERT_ALL", 0) != 0,
         sort: option("SORT", 1) != 0,
         min_active: option("MIN_ACTIVE", defaults.min_active),

@@ -3,14 +3,14 @@
 //!
 //! The variable SINGLE (1) rounds the coordinates to `f32`, SEED chooses others, RESIDENT (1) leaves
 //! the mesh on the device, REUSE (1) writes it into the same vectors each time, START is the number
-//! of points that the CPU engine triangulates first, BESIDE (1 or 0) has the mesh read while it is splayed,
-//! or before, PART the mebibytes of a part of large arrays, which
-//! otherwise are in parts where they have to be. Prints a line of JSON: medians over the repeats
+//! of points that the CPU engine triangulates first, PICK (0–3) says how tetrahedra pick their points,
+//! BESIDE (1 or 0) has the mesh read while it is splayed, or before, PART the mebibytes of a part of
+//! large arrays, which otherwise are in parts where they have to be. Prints a line of JSON: medians over the repeats
 //! of the whole run and its phases, points in host memory to mesh in host memory. Before, it runs
 //! for a second to warm up: a device raises its clock slowly.
 
 use gdel::internals::d3::generate::{Distribution3, generate3d};
-use gdel::internals::gpu::{AdapterChoice, Gpu, engine::GpuEngine, phase1::Settings};
+use gdel::internals::gpu::{AdapterChoice, Gpu, engine::GpuEngine, layout::Pick, phase1::Settings};
 use gdel::internals::io::files::read_points;
 use gdel::{Mesh3, Points, Points3, internals::Options};
 use pollster::block_on;
@@ -42,7 +42,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let sparse = option("SPARSE", 0) != 0;
     let part_bytes = std::env::var("PART").ok().and_then(|value| value.parse::<u64>().ok()).map(|part| part << 20);
     let reads_beside = std::env::var("BESIDE").ok().map(|value| value == "1");
-    engine.set_settings(Settings { start_points, sparse, part_bytes, reads_beside, ..Settings::default() });
+    let pick = Pick::ALL[option("PICK", 0) as usize % Pick::ALL.len()];
+    engine.set_settings(Settings { start_points, sparse, part_bytes, reads_beside, pick, ..Settings::default() });
     // The kernels of narrow coordinates are compiled by the first run that needs them.
     block_on(engine.triangulate(points, &Options::default()))?;
     block_on(engine.finish_compiling())?;

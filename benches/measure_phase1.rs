@@ -2,7 +2,7 @@
 //! `cargo bench --features cli --bench measure_phase1 -- [KIND|FILE] [POINTS] [ADAPTER] [REPEATS]`,
 //! on coordinates rounded to `f32`.
 //!
-//! The variables PICK (0–2), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE, SLOTS_PER_ACTIVE,
+//! The variables PICK (0–3), INSERT_ALL (0, 1), SORT (0, 1), MIN_ACTIVE, SLOTS_PER_ACTIVE,
 //! WORKGROUPS, FEW, START (the points that the CPU engine triangulates first), ROUNDS, BATCHES, HISTORY,
 //! TAIL (points per block of the tail), PART (the mebibytes of a part of large arrays) and SEED change the settings. Prints a line of JSON: medians over the repeats, after a second of runs
 //! to warm up, since a device raises its clock slowly; and the stages of one more run, which is
@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let defaults = Settings::default();
     let settings = Settings {
-        pick: [Pick::Circumcenter, Pick::Centroid, Pick::Random][option("PICK", 0) as usize % 3],
+        pick: Pick::ALL[option("PICK", 0) as usize % Pick::ALL.len()],
         insert_all: option("INSERT_ALL", 0) != 0,
         min_active: option("MIN_ACTIVE", defaults.min_active),
         slots_per_active: option("SLOTS_PER_ACTIVE", defaults.slots_per_active),

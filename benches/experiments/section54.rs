@@ -16,8 +16,12 @@ use serde_json::json;
 use std::error::Error;
 
 const SIZE: usize = 1_000_000;
-const PICKS: [(&str, Pick); 3] =
-    [("circumcenter", Pick::Circumcenter), ("centroid", Pick::Centroid), ("random", Pick::Random)];
+const PICKS: [(&str, Pick); 4] = [
+    ("circumcenter", Pick::Circumcenter),
+    ("centroid", Pick::Centroid),
+    ("random", Pick::Random),
+    ("adaptive", Pick::Adaptive),
+];
 
 pub fn run(context: &Context) -> Result<Outcome, Box<dyn Error>> {
     let size = context.sizes(&[SIZE])[0];

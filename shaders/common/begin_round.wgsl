@@ -17,6 +17,16 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
         // The host will see that, and have the points inserted.
         atomicStore(&control.active_len[control.iteration & 1], 0u);
     }
+    let is_exact = atomicLoad(&control.exact) > control.visits / WAITING_EXACT_SHARE;
+    // In most of the simplices of evenly distributed points others wait, in few of those of points on a surface.
+    let before = control.log[(control.round + LOGGED - 1) % LOGGED][0];
+    let added = inserted - before;
+    if control.pick != PICK_ADAPTIVE {
+        control.criterion = control.pick;
+    } else if before >= GROWTH_FROM && inserted <= control.infinite / GROWTH_SHARE {
+        let is_even = before <= added / TWICE_GROWTH * 2 && !is_exact;
+        control.criterion = select(PICK_CIRCUMCENTER, PICK_CENTROID, is_even);
+    }
     let unchecked = atomicLoad(&control.active_len[control.iteration & 1]);
     let flips = atomicLoad(&control.flips_23) + atomicLoad(&control.flips_32) + atomicLoad(&control.flips_22);
     control.log[control.round % LOGGED] = array(inserted, unchecked, flips, control.iterations, control.few_done);
@@ -24,7 +34,6 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     atomicStore(&control.next_node, 0u);
     // Flips that wait are done beside those of the next round, in iterations that it takes anyway. Where many signs
     // are ties or nearly so, more of the flips that wait become impossible.
-    let is_exact = atomicLoad(&control.exact) > control.visits / WAITING_EXACT_SHARE;
     let shift = select(WAITING_SHIFT, WAITING_EXACT_SHIFT, is_exact);
     control.min_active = select(min(control.max_min_active, inserted >> shift), NONE, control.insert_all != 0);
     if waiting == 0 {

@@ -19,9 +19,16 @@ const WAITING_SHIFT: u32 = 2;
 const WAITING_EXACT_SHIFT: u32 = 4;
 const WAITING_EXACT_SHARE: u32 = 64;
 
-// How a simplex picks its point; otherwise by the circumcentre.
+// How a simplex picks its point.
+const PICK_CIRCUMCENTER: u32 = 0;
 const PICK_CENTROID: u32 = 1;
 const PICK_RANDOM: u32 = 2;
+const PICK_ADAPTIVE: u32 = 3;
+// The last round decides that which began with at least so many points, and ended with at most one of so many. Points
+// fill space evenly if it inserted at least half of so many times the points that it began with.
+const GROWTH_FROM: u32 = 256;
+const GROWTH_SHARE: u32 = 64;
+const TWICE_GROWTH: u32 = 11;
 
 // The parameters (`Params` on the host), then from `iteration` on the counters (`Counters`).
 struct Control {
@@ -77,6 +84,7 @@ struct Control {
     moved_hull: atomic<u32>,
     inverted: atomic<u32>,
     violated: atomic<u32>,
+    criterion: u32,
     long_walks: atomic<u32>,
     gathered: atomic<u32>,
     taken: array<atomic<u32>, 5>,

@@ -22,7 +22,7 @@ var<workgroup> first_kept: u32;
 
 // Scores a point that waits in simplex t.
 fn score(t: u32, p: u32) -> u32 {
-    if control.pick == PICK_RANDOM {
+    if control.criterion == PICK_RANDOM {
         return (((p ^ (atomicLoad(&control.inserted) * 0x9e3779b9u)) * 0x85ebca6bu) >> 1) | 1;
     }
     return score_of(unpacked(simplices[t]), p);

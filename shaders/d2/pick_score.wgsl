@@ -40,7 +40,7 @@ fn score_of(tri: vec3u, p: u32) -> u32 {
     let a = from_to(p, tri.x) * scale;
     let b = from_to(p, tri.y) * scale;
     let c = from_to(p, tri.z) * scale;
-    if control.pick == PICK_CENTROID {
+    if control.criterion == PICK_CENTROID {
         let off = a + b + c;
         return 0x7f800000 - bitcast<u32>(dot(off, off));
     }

@@ -68,7 +68,7 @@ fn score_of(tet: vec4u, p: u32) -> u32 {
     let b = from_to(p, tet.y) * scale;
     let c = from_to(p, tet.z) * scale;
     let d = from_to(p, tet.w) * scale;
-    if control.pick == PICK_CENTROID {
+    if control.criterion == PICK_CENTROID {
         let off = a + b + c + d;
         return 0x7f800000 - bitcast<u32>(dot(off, off));
     }

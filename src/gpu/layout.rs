@@ -182,6 +182,8 @@ pub struct Counters {
     /// In such a run: the facets that are not locally Delaunay between others, as far as the filter
     /// decides.
     pub violated: u32,
+    /// How simplices pick their points in this round: a [`Pick`] that is not adaptive.
+    pub criterion: u32,
     /// Points for which the walk to their simplex of the start took too many steps.
     pub long_walks: u32,
     /// Tetrahedra of the mesh that are gathered at a time, at the end.
@@ -206,11 +208,15 @@ impl Counters {
         self.active_len[(self.iteration & 1) as usize]
     }
 
+    /// Returns whether many signs took exact arithmetic.
+    pub(crate) fn is_exact(&self) -> bool {
+        self.exact > self.visits / common::WAITING_EXACT_SHARE
+    }
+
     /// Returns with fewer than how many active simplices flips wait for the next round, if so many points are
     /// inserted when a round begins and others wait.
     pub fn min_active(&self, params: &Params, inserted: u32) -> u32 {
-        let is_exact = self.exact > self.visits / common::WAITING_EXACT_SHARE;
-        let shift = if is_exact { common::WAITING_EXACT_SHIFT } else { common::WAITING_SHIFT };
+        let shift = if self.is_exact() { common::WAITING_EXACT_SHIFT } else { common::WAITING_SHIFT };
         params.max_min_active.min(inserted >> shift)
     }
 
@@ -247,7 +253,7 @@ pub struct Params {
     pub max_min_active: u32,
     /// 1 if there are no flips while points wait.
     pub insert_all: u32,
-    /// How a tetrahedron picks its point: a [`Pick`](crate::gpu::layout::Pick).
+    /// How a tetrahedron picks its point: a [`Pick`].
     pub pick: u32,
     /// Blocks that there were before there were more.
     pub blocks_before: u32,
@@ -286,17 +292,26 @@ pub const COUNTER_WORDS: usize = size_of::<Counters>() / 4;
 /// Words of the buffer `control` before the free slots of the blocks, which end it.
 pub const FREE_START: usize = PARAM_WORDS + COUNTER_WORDS;
 
-/// Which of its waiting points a tetrahedron inserts.
+/// Which of its waiting points a tetrahedron inserts (the paper's §5.4).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(u32)]
 pub enum Pick {
     /// The one nearest to the circumcentre.
-    #[default]
-    Circumcenter = 0,
+    Circumcenter = common::PICK_CIRCUMCENTER,
     /// The one nearest to the centroid.
     Centroid = common::PICK_CENTROID,
     /// Any.
     Random = common::PICK_RANDOM,
+    /// The one nearest to the centroid if there are many points and they fill space evenly, as far as the first
+    /// rounds tell: a fourth of the vertices that fail by the circumcentre do not fail then. Else the one nearest to
+    /// the circumcentre: by the centroid, twice as many fail of points near a surface.
+    #[default]
+    Adaptive = common::PICK_ADAPTIVE,
+}
+
+impl Pick {
+    /// All of them.
+    pub const ALL: [Pick; 4] = [Pick::Adaptive, Pick::Circumcenter, Pick::Centroid, Pick::Random];
 }
 
 /// A point that waits to be inserted.

@@ -1,7 +1,10 @@
 //! What the kernels of a round have to know of what the last one left.
 
 use crate::dimension::Dimension;
-use crate::gpu::layout::{LOGGED, NONE, Params};
+use crate::gpu::{
+    layout::{LOGGED, NONE, Params, Pick},
+    shader::constants::common,
+};
 
 use crate::reference::State;
 use crate::reference::dim::ReferenceDim;
@@ -18,6 +21,14 @@ where
     let Params { moved_simplices, moved_inverted, moved_violated, .. } = state.params;
     if moved_simplices != 0 && (counters.inverted > moved_inverted || counters.violated > moved_violated) {
         counters.active_len[counters.iteration as usize & 1] = 0;
+    }
+    let [before, ..] = counters.log[(counters.round as usize + LOGGED - 1) % LOGGED];
+    let added = counters.inserted.wrapping_sub(before);
+    if state.params.pick != Pick::Adaptive as u32 {
+        counters.criterion = state.params.pick;
+    } else if before >= common::GROWTH_FROM && counters.inserted <= state.params.infinite / common::GROWTH_SHARE {
+        let is_even = before <= added / common::TWICE_GROWTH * 2 && !counters.is_exact();
+        counters.criterion = if is_even { Pick::Centroid } else { Pick::Circumcenter } as u32;
     }
     let progress = counters.progress();
     counters.log[counters.round as usize % LOGGED] = progress;

@@ -21,7 +21,7 @@ where
         if t == NONE {
             continue;
         }
-        let score = if state.params.pick == Pick::Random as u32 {
+        let score = if state.counters.criterion == Pick::Random as u32 {
             (p ^ state.counters.inserted.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) >> 1 | 1
         } else {
             Dimension::<D>::score(state, t, p)

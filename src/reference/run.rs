@@ -33,7 +33,7 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Settings {
-            pick: Pick::Circumcenter,
+            pick: Pick::default(),
             insert_all: false,
             min_active: 0,
             tail: 16,

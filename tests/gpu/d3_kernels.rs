@@ -8,8 +8,8 @@ use crate::kernels::{Device, listed, shuffled};
 use gdel::internals::{
     gpu::{
         Storage,
-        layout::{CHECK, Counters, DONE, NONE, Pick},
-        start::{StartMesh, first_simplex},
+        layout::{CHECK, Counters, DONE, LOGGED, NONE, Pick},
+        start::{Start, StartMesh, first_simplex},
     },
     input::lattice::{Lattice, Width},
     reference::{self, d3, d3::predicates::Vertex},
@@ -60,13 +60,18 @@ fn check(device: &Device<3>, state: &mut State) {
     assert_eq!(Counters { undecided: 0, ..after.counters }, state.counters, "check");
 }
 
-fn compare(width: Width, pick: Pick, compact_from: u32) {
+/// Returns points, the first simplex of them, and the state before they are triangulated.
+fn begun(width: Width) -> (Vec<[i64; 3]>, Start<3>, State) {
     let positions = shuffled(width, (0..512).map(|i| [i & 7, i >> 3 & 7, i >> 6]).collect(), 250);
     let start = first_simplex(width, positions.len(), |i| positions[i]).expect("not coplanar");
     let mut points: Vec<Vertex> =
         (0..).zip(&positions).map(|(index, &position)| Vertex { position, index: index ^ 0x55 }).collect();
     points.push(Vertex { position: start.interior_point, index: 1000 });
-    let mut state = State::new(width, points, 64, 4096);
+    (positions, start, State::new(width, points, 64, 4096))
+}
+
+fn compare(width: Width, pick: Pick, compact_from: u32) {
+    let (positions, start, mut state) = begun(width);
     state.params.pick = pick as u32;
     state.params.compact_from = compact_from;
     let floats: Vec<[f64; 3]> = positions.iter().map(|q| q.map(|x| x as f64)).collect();
@@ -133,6 +138,45 @@ fn compare(width: Width, pick: Pick, compact_from: u32) {
 
 fn half_of(state: &State) -> usize {
     (state.counters.link_iteration & 1) as usize
+}
+
+/// The centroid decides where a round has multiplied many points, and few of all, by more than 6.5, and few signs were
+/// exact.
+#[test]
+fn points_are_picked_by_what_rounds_insert() {
+    const CIRCUMCENTER: u32 = Pick::Circumcenter as u32;
+    const CENTROID: u32 = Pick::Centroid as u32;
+    let (_, _, begun) = begun(Width::Wide);
+    let device = Device::<3>::new(Width::Wide, &begun);
+    // The points before the round, those that it inserted, the exact signs of 1,000 visits, and the criterion
+    // before and after.
+    let cases = [
+        (600, 4_000, 0, CIRCUMCENTER, CENTROID),
+        (600, 4_000, 15, CIRCUMCENTER, CENTROID),
+        (600, 4_000, 16, CENTROID, CIRCUMCENTER),
+        (600, 3_000, 0, CENTROID, CIRCUMCENTER),
+        (255, 2_000, 0, CIRCUMCENTER, CIRCUMCENTER),
+        (256, 2_000, 0, CIRCUMCENTER, CENTROID),
+        (2_000, 13_625, 0, CIRCUMCENTER, CENTROID),
+        (2_000, 13_626, 0, CIRCUMCENTER, CIRCUMCENTER),
+        (900_000, 20_000, 0, CENTROID, CENTROID),
+    ];
+    for pick in Pick::ALL {
+        for (round, (before, added, exact, criterion, expected)) in (1..).zip(cases) {
+            let mut state = begun.clone();
+            (state.params.infinite, state.params.pick) = (1_000_000, pick as u32);
+            let counters = &mut state.counters;
+            (counters.inserted, counters.visits, counters.exact) = (before + added, 1_000, exact);
+            (counters.round, counters.criterion) = (round, criterion);
+            counters.log[(round as usize - 1) % LOGGED][0] = before;
+            device.equal("begin_round", &mut state, reference::begin_round);
+            let expected = if pick == Pick::Adaptive { expected } else { pick as u32 };
+            assert_eq!(
+                state.counters.criterion, expected,
+                "{pick:?}: {before} and {added} points, {exact} exact signs"
+            );
+        }
+    }
 }
 
 #[test]

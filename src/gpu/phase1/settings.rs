@@ -78,7 +78,7 @@ where
 {
     fn default() -> Self {
         Settings {
-            pick: Pick::Circumcenter,
+            pick: Pick::default(),
             insert_all: false,
             start_points: None,
             min_active: u32::MAX,

@@ -25,7 +25,7 @@ pub(super) fn score(state: &State<2>, t: u32, p: u32) -> u32 {
     }
     let scale = scale_of(&[1, 2].map(|i| difference(vertices[i], vertices[0])));
     let [a, b, c] = vertices.map(|v| scaled(difference(v, p), scale));
-    if state.params.pick == Pick::Centroid as u32 {
+    if state.counters.criterion == Pick::Centroid as u32 {
         return 0x7f80_0000 - square([a[0] + b[0] + c[0], a[1] + b[1] + c[1]]).to_bits();
     }
     // The in-circle determinant: for one triangle it grows as the distance from the circumcentre

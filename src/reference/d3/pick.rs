@@ -25,7 +25,7 @@ pub(super) fn score(state: &State<3>, t: u32, p: u32) -> u32 {
     }
     let scale = scale_of(&[1, 2, 3].map(|i| difference(vertices[i], vertices[0])));
     let d = vertices.map(|v| difference(v, p).map(|x| x * scale));
-    if state.params.pick == Pick::Centroid as u32 {
+    if state.counters.criterion == Pick::Centroid as u32 {
         let off: [f32; 3] = std::array::from_fn(|i| d[0][i] + d[1][i] + d[2][i] + d[3][i]);
         return 0x7f80_0000 - off.iter().map(|x| x * x).sum::<f32>().to_bits();
     }
