@@ -138,6 +138,7 @@ impl<T: Default> Pool<T> {
     }
 
     /// Returns the values.
+    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn all(&mut self) -> &mut [T] {
         self.0.get_mut().unwrap_or_else(PoisonError::into_inner)
     }

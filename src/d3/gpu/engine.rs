@@ -63,9 +63,7 @@ impl Complete<3> for Dimension<3> {
     ) -> Result<Result<Made<3>, Fallback>, Error> {
         #[cfg(not(target_arch = "wasm32"))]
         if !near.resident && !reads_beside(&run) {
-            let mut near = near;
-            let output = run.finish(|| near.prepare()).await?;
-            return whole::complete(output, near, tracer);
+            return whole::complete(run, near, tracer).await;
         }
         complete_with_stars(run, near, tracer).await
     }

@@ -11,23 +11,24 @@ use crate::{
     error::Error,
     gpu::{
         engine::{Made, Near, progress},
-        phase1::Phase1Output,
+        phase1::Run,
     },
     parallel::Threads,
     predicates::filter::PredicateContext,
     stats::{Fallback, Phase, Stats},
 };
 
-/// Makes the mesh of what was read back as a whole.
-pub(super) fn complete(
-    output: Phase1Output<3>,
+/// Ends the run, and makes the mesh of what is read back as a whole.
+pub(super) async fn complete(
+    run: Run<'_, 3>,
     mut near: Near<'_, 3>,
     mut tracer: Option<Tracer>,
 ) -> Result<Result<Made<3>, Fallback>, Error> {
-    let Phase1Output { result, merged, stats: phase1 } = output;
-    near.end_of_phase1(&phase1);
+    let (mut ended, _, (), ()) = run.end(|_, _, _| (), || near.prepare()).await?;
+    let (result, merged) = ended.read().await?;
+    near.end_of_phase1(&ended.stats);
     let (missing, duplicate_of) = near.missing(&merged);
-    let Near { points, lattice, options, stats, stopwatch, .. } = near;
+    let Near { points, lattice, options, adapter, stats, stopwatch, .. } = near;
     options.report(Phase::Splay, progress::COMPLETION)?;
 
     let vertices = PredicateContext::of_input(points, lattice);
@@ -39,7 +40,9 @@ pub(super) fn complete(
     let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
     let max_evaluations = splay::evaluations_from_scratch(near.triangulation.tetrahedra().len());
     let terms = Terms { max_evaluations, threads: Threads::All, report: &report };
-    let triangulation = match splay::splay(&vertices, near, terms)? {
+    let splayed = splay::splay_again(&vertices, near, terms, &mut ended.host);
+    stats.gpu = Some(ended.release().summary(adapter));
+    let triangulation = match splayed? {
         SplayOutcome::Delaunay(triangulation, splay) => {
             stats.splay = Some(splay);
             triangulation

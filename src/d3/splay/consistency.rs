@@ -23,7 +23,7 @@ use crate::{
         Aborted, Stop,
         build::{Known, Origin},
         ledger::{Entries, Entry, Key, Ledger},
-        memory::{KEEPS_MEMORY, Lists, Memory},
+        memory::{Lists, StarMemory},
         predicates::StarPredicates,
         region::Region,
         star::Star,
@@ -85,9 +85,8 @@ struct BatchResult {
 impl Splaying {
     pub(super) fn new(mut known: Known, threads: Threads) -> Self {
         let infinite = known.region.mesh.infinite;
-        let Memory { lists, star_of, ledger, .. } = &mut known.region.memory;
-        let (lists, star_of) = (std::mem::take(lists), std::mem::take(star_of));
-        let ledger = Ledger::new(ledger.take(), infinite, threads);
+        let StarMemory { lists, star_of, ledger } = known.region.memory.take_stars();
+        let ledger = Ledger::new(ledger, infinite, threads);
         Splaying {
             known,
             threads,
@@ -104,14 +103,9 @@ impl Splaying {
 
     /// Returns the region, with the memory of the stars, and what splaying did.
     pub(super) fn finish(self) -> (Region, SplayStats) {
-        let Splaying { known: Known { mut region, .. }, stats, stars, mut star_of, mut ledger, lists, .. } = self;
-        if KEEPS_MEMORY {
-            star_of.clear();
-            ledger.clear();
-            let memory = &mut region.memory;
-            (memory.lists, memory.star_of, memory.ledger) = (lists, star_of, Some(ledger));
-            memory.keep_stars(stars.into_iter().map(|star| star.into_inner().unwrap_or_else(PoisonError::into_inner)));
-        }
+        let Splaying { known: Known { mut region, .. }, stats, stars, star_of, ledger, lists, .. } = self;
+        let stars = stars.into_iter().map(|star| star.into_inner().unwrap_or_else(PoisonError::into_inner));
+        region.memory.keep_stars(StarMemory { lists, star_of, ledger: Some(ledger) }, stars);
         (region, stats)
     }
 

@@ -175,6 +175,7 @@ impl Ledger {
     }
 
     /// Removes all entries.
+    #[cfg(not(target_arch = "wasm32"))]
     pub(super) fn clear(&mut self) {
         self.parts.iter_mut().for_each(FxHashMap::clear);
         self.doubles.clear();

@@ -34,7 +34,6 @@ use crate::{
 use build::Known;
 use consistency::Splaying;
 pub(in crate::d3) use index_set::IndexSet;
-#[cfg(feature = "gpu")]
 pub use memory::KeptRegion;
 use predicates::StarPredicates;
 pub use region::{Gathered, INCIDENT_SHIFT, KEEP, Patch, Region, SLOT};
@@ -159,9 +158,26 @@ impl Terms<'static> {
 ///
 /// What the report of `terms` returns, [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
 pub fn splay(vertices: &PredicateContext3<'_>, near: NearDelaunay3, terms: Terms<'_>) -> Result<SplayOutcome, Error> {
+    let mut kept = KeptRegion::default();
+    let outcome = splay_again(vertices, near, terms, &mut kept);
+    parallel::dispose(kept);
+    outcome
+}
+
+/// Splays as [`splay`] does, with the memory of stars that `kept` has from the run before, and keeps it there.
+///
+/// # Errors
+///
+/// Those of [`splay`].
+pub fn splay_again(
+    vertices: &PredicateContext3<'_>,
+    near: NearDelaunay3,
+    terms: Terms<'_>,
+    kept: &mut KeptRegion,
+) -> Result<SplayOutcome, Error> {
     let NearDelaunay3 { triangulation, incident, failed, uncertain, missing } = near;
     let missing = missing.into_iter().map(|v| [v, NO_INDEX]).collect();
-    let region = Region::whole(triangulation, incident);
+    let region = Region::whole(kept.take(), triangulation, incident);
     let splayed = || -> Result<_, Stop> {
         let mut splay = Splay::begin(vertices, region, Doubts { failed, uncertain, missing }, terms)?;
         // Nothing is lacking of what is there as a whole.
@@ -169,7 +185,11 @@ pub fn splay(vertices: &PredicateContext3<'_>, near: NearDelaunay3, terms: Terms
         Ok(splay.finish())
     };
     match splayed() {
-        Ok((region, stats)) => Ok(SplayOutcome::Delaunay(Box::new(region.into_mesh()), stats)),
+        Ok((mut region, stats)) => {
+            let triangulation = region.take_mesh();
+            kept.keep(region);
+            Ok(SplayOutcome::Delaunay(Box::new(triangulation), stats))
+        }
         Err(Stop::Aborted(reason)) => Ok(SplayOutcome::Aborted(reason)),
         Err(Stop::Error(error)) => Err(error),
     }

@@ -214,14 +214,15 @@ impl Region {
     }
 
     /// Returns memory for what is to be gathered.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn spare(&mut self) -> Gathered {
-        self.memory.gathered.pop().unwrap_or_default()
+        self.memory.spare()
     }
 
     /// Creates the region that is a whole triangulation, with a tetrahedron at each vertex, a ghost
-    /// if there is one.
-    pub(super) fn whole(mesh: Triangulation3, incident: Vec<u32>) -> Self {
-        let (given, memory) = (Gathered::default(), Memory::default());
+    /// if there is one. It has the memory of the stars of `kept`.
+    pub(super) fn whole(kept: Option<Self>, mesh: Triangulation3, incident: Vec<u32>) -> Self {
+        let (given, memory) = (Gathered::default(), kept.map_or_else(Memory::default, |kept| kept.memory));
         Region { mesh, incident, complete: Complete::All, given, gathers: [0; 2], memory }
     }
 
@@ -241,9 +242,9 @@ impl Region {
         self.mesh.vertices(t)
     }
 
-    /// Returns the triangulation: the whole one, if the region is that.
-    pub(super) fn into_mesh(self) -> Triangulation3 {
-        self.mesh
+    /// Takes the triangulation out: the whole one, if the region is that. What is left is memory for another run.
+    pub(super) fn take_mesh(&mut self) -> Triangulation3 {
+        std::mem::replace(&mut self.mesh, Triangulation3::new(Vec::new(), Vec::new(), NO_INDEX))
     }
 
     /// Returns whether the region has the whole star of a vertex.
