@@ -76,7 +76,7 @@ where
         let (failed, extra, dispatches) = if stopped {
             (format!("{} of {} inserted", counters.inserted, points.len()), String::new(), String::new())
         } else {
-            let output = block_on(run.finish(|| ()))?;
+            let output = block_on(run.finish())?;
             let stats = &output.stats;
             (stats.counters.failed.to_string(), extra(&output.result).to_string(), stats.dispatches.to_string())
         };

@@ -18,7 +18,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
         atomicStore(&control.active_len[control.iteration & 1], 0u);
     }
     let is_exact = atomicLoad(&control.exact) > control.visits / WAITING_EXACT_SHARE;
-    // In most of the simplices of evenly distributed points others wait, in few of those of points on a surface.
+    // Where points fill space evenly, points wait in most simplices, which all insert one; near a surface, in few.
     let before = control.log[(control.round + LOGGED - 1) % LOGGED][0];
     let added = inserted - before;
     if control.pick != PICK_ADAPTIVE {

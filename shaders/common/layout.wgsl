@@ -24,8 +24,9 @@ const PICK_CIRCUMCENTER: u32 = 0;
 const PICK_CENTROID: u32 = 1;
 const PICK_RANDOM: u32 = 2;
 const PICK_ADAPTIVE: u32 = 3;
-// The last round decides that which began with at least so many points, and ended with at most one of so many. Points
-// fill space evenly if it inserted at least half of so many times the points that it began with.
+// PICK_ADAPTIVE goes by the last round that began with at least GROWTH_FROM points and ended with at most one in
+// GROWTH_SHARE of all: if it inserted at least TWICE_GROWTH / 2 times the points that it began with, they fill space
+// evenly.
 const GROWTH_FROM: u32 = 256;
 const GROWTH_SHARE: u32 = 64;
 const TWICE_GROWTH: u32 = 11;

@@ -47,7 +47,7 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<2>; 2], name: &str, points:
     }
     let state = state_of(gpu, width, &run);
     state.validate_end();
-    let output = block_on(run.finish(|| ())).unwrap();
+    let output = block_on(run.finish()).unwrap();
 
     let distinct: HashSet<[u64; 2]> = points.iter().map(|p| p.map(|x| (x + 0.0).to_bits())).collect();
     assert_eq!(output.merged.len(), points.len() - distinct.len(), "{name}");

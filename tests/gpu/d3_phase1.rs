@@ -59,7 +59,7 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, se
         }
     }
     let state = state_of(gpu, width, &run);
-    let Phase1Output { result: output, merged, stats } = block_on(run.finish(|| ())).unwrap();
+    let Phase1Output { result: output, merged, stats } = block_on(run.finish()).unwrap();
 
     let index = |v: u32| if v as usize == count { v } else { state.points[v as usize].index };
     let mut marked = state.clone();

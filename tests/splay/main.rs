@@ -14,7 +14,7 @@ use gdel::{
     internals::{
         Options, cpu,
         d3::{
-            splay::{Aborted, NearDelaunay3, SplayOutcome, Terms, splay},
+            splay::{Aborted, KeptRegion, NearDelaunay3, SplayOutcome, Terms, splay, splay_again},
             triangulation::{FiniteMesh, Triangulation3},
         },
         index::NO_INDEX,
@@ -50,8 +50,9 @@ fn check(name: &str, vertices: &PredicateContext3<'_>, near: NearDelaunay3, answ
     let mut kept = None;
     #[cfg(feature = "gpu")]
     let in_parts = [&near, &known].map(|near| regions::splayed(name, vertices, near.clone(), &mut kept));
-    let (doubting, _) = splayed(name, vertices, near);
-    let (tetrahedra, stats) = splayed(name, vertices, known);
+    let mut kept = KeptRegion::default();
+    let (doubting, _) = splayed(name, vertices, near, &mut kept);
+    let (tetrahedra, stats) = splayed(name, vertices, known, &mut kept);
     let answer = canonical(answer.iter().map(|t| t.map(|v| vertices.input_index(v))).collect());
     assert_eq!(canonical(doubting), answer, "{name}");
     assert_eq!(canonical(tetrahedra), answer, "{name}");
@@ -66,10 +67,15 @@ fn check(name: &str, vertices: &PredicateContext3<'_>, near: NearDelaunay3, answ
     stats
 }
 
-/// Returns the tetrahedra that splaying gives, which the verifier must accept.
-fn splayed(name: &str, vertices: &PredicateContext3<'_>, near: NearDelaunay3) -> (Vec<[u32; 4]>, SplayStats) {
+/// Returns the tetrahedra that splaying gives in the memory of `kept`, which the verifier must accept.
+fn splayed(
+    name: &str,
+    vertices: &PredicateContext3<'_>,
+    near: NearDelaunay3,
+    kept: &mut KeptRegion,
+) -> (Vec<[u32; 4]>, SplayStats) {
     let started = std::time::Instant::now();
-    let (mesh, stats) = match splay(vertices, near, Terms::unlimited(Threads::All)).unwrap() {
+    let (mesh, stats) = match splay_again(vertices, near, Terms::unlimited(Threads::All), kept).unwrap() {
         SplayOutcome::Delaunay(mesh, stats) => (mesh, stats),
         SplayOutcome::Aborted(reason) => panic!("{name}: aborted: {reason:?}"),
     };

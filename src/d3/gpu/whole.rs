@@ -29,7 +29,6 @@ pub(super) async fn complete(
     near.end_of_phase1(&ended.stats);
     let (missing, duplicate_of) = near.missing(&merged);
     let Near { points, lattice, options, adapter, stats, stopwatch, .. } = near;
-    options.report(Phase::Splay, progress::COMPLETION)?;
 
     let vertices = PredicateContext::of_input(points, lattice);
     let near = near_delaunay(points.len(), result, &missing);
@@ -40,7 +39,10 @@ pub(super) async fn complete(
     let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
     let max_evaluations = splay::evaluations_from_scratch(near.triangulation.tetrahedra().len());
     let terms = Terms { max_evaluations, threads: Threads::All, report: &report };
-    let splayed = splay::splay_again(&vertices, near, terms, &mut ended.host);
+    let splayed = options
+        .report(Phase::Splay, progress::COMPLETION)
+        .and_then(|()| splay::splay_again(&vertices, near, terms, &mut ended.host));
+    // Whether splaying was cancelled or not, the next run gets the memory of this one.
     stats.gpu = Some(ended.release().summary(adapter));
     let triangulation = match splayed? {
         SplayOutcome::Delaunay(triangulation, splay) => {

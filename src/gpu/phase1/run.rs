@@ -677,13 +677,13 @@ where
         stats
     }
 
-    /// Makes the mesh and reads it back. The host does `meanwhile` before it waits for the device.
+    /// Makes the mesh and reads it back.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub async fn finish(self, meanwhile: impl FnOnce()) -> Result<Phase1Output<D>, Error> {
-        let (mut ended, _, (), ()) = self.end(|_, _, _| (), meanwhile).await?;
+    pub async fn finish(self) -> Result<Phase1Output<D>, Error> {
+        let (mut ended, _, (), ()) = self.end(|_, _, _| (), || ()).await?;
         let (result, merged) = ended.read().await?;
         Ok(Phase1Output { result, merged, stats: ended.release() })
     }
@@ -878,6 +878,6 @@ where
     ) -> Result<Phase1Output<D>, Error> {
         let mut run = Run::new(self, gpu, input, *settings, profiler).await?;
         while run.advance().await? {}
-        run.finish(|| ()).await
+        run.finish().await
     }
 }
