@@ -5,19 +5,21 @@
 //! not use this.
 
 use crate::{
-    d3::{gpu::exchange::Device, splay::Terms},
+    d3::{
+        gpu::{
+            exchange::Device,
+            pool::{inside, listen},
+        },
+        splay::Terms,
+    },
     error::Error,
     gpu::{
         Pace, Reading, ReadingArrays, Words,
         phase1::{Ended, Slot},
     },
-    parallel,
 };
 use pollster::block_on;
-use std::sync::{
-    atomic::{AtomicBool, Ordering::Relaxed},
-    mpsc::{Receiver, TryRecvError, channel},
-};
+use std::sync::mpsc::{Receiver, TryRecvError};
 
 /// The tetrahedra of the mesh as Phase 1 leaves it, and their neighbours, on their way to the host.
 pub(super) type Arrays<'a> = ReadingArrays<'a, Slot>;
@@ -44,8 +46,8 @@ impl Device<'_> {
         }
     }
 
-    /// Runs a step of splaying on these terms: in another thread, if the calling one reads the arrays, which
-    /// also receives the reports.
+    /// Runs a step of splaying on these terms as [`inside`] does. The calling thread reads the arrays
+    /// meanwhile, if it reads them at all.
     ///
     /// # Errors
     ///
@@ -55,28 +57,14 @@ impl Device<'_> {
         terms: Terms<'_>,
         step: impl FnOnce(Terms<'_>) -> R + Send,
     ) -> Result<R, Error> {
-        if self.arrays.is_none() || !parallel::is_outside() {
-            return Ok(step(terms));
-        }
-        let Terms { max_evaluations, threads, report } = terms;
-        let (sender, reports) = channel();
-        let is_stopped = &AtomicBool::new(false);
-        let step = move || {
-            let report = |share| {
-                // Who stops does not listen any more.
-                let _ = sender.send(share);
-                if is_stopped.load(Relaxed) { Err(Error::Cancelled) } else { Ok(()) }
-            };
-            step(Terms { max_evaluations, threads, report: &report })
-        };
-        let own = || {
-            let read = self.take_during(&reports, report);
-            is_stopped.store(read.is_err(), Relaxed);
-            read
-        };
-        let (read, mut results) = parallel::beside(own, vec![step]);
-        read?;
-        Ok(results.swap_remove(0))
+        let reads = self.arrays.is_some();
+        inside(
+            terms,
+            step,
+            |reports, report| {
+                if reads { self.take_during(reports, report) } else { listen(reports, report) }
+            },
+        )
     }
 
     /// Takes pieces as they arrive, until nobody can send `reports` any more, which `report` receives.
@@ -92,7 +80,7 @@ impl Device<'_> {
                         std::thread::yield_now();
                     } else if !block_on(self.take_piece())? {
                         // All of the arrays is there.
-                        return reports.iter().try_for_each(report);
+                        return listen(reports, report);
                     } else {
                         self.send_pieces(Pace::BESIDE);
                     }

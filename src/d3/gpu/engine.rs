@@ -25,7 +25,7 @@ use crate::{
     },
     options::Options,
     parallel::Threads,
-    predicates::filter::PredicateContext,
+    predicates::filter::{PredicateContext, PredicateContext3},
     stats::{Fallback, Phase},
 };
 #[cfg(not(target_arch = "wasm32"))]
@@ -33,6 +33,7 @@ use crate::{
     d3::{gpu::whole, splay::SLOT, triangulation::FiniteMesh},
     stats::Stats,
 };
+use std::ops::ControlFlow::{Break, Continue};
 
 impl Complete<3> for Dimension<3> {
     type Tracer = Option<Tracer>;
@@ -113,33 +114,36 @@ async fn complete_with_stars(
     let terms = || Terms { max_evaluations, threads: Threads::All, report: &report };
     // A step goes on as far as the stars suffice that were gathered before. The vertices are borrowed for it by
     // the thread that takes it.
+    let advance = |splay: &mut Splay, vertices: &PredicateContext3<'_>, terms: Terms<'_>| -> Result<_, Stop> {
+        let lacking = splay.advance(vertices, terms)?;
+        let is_done = lacking.is_empty();
+        let patch = is_done.then(|| splay.region().patch(slots, terms.threads));
+        Ok(patch.map_or(Continue(lacking), Break))
+    };
     let context = &mut vertices;
     let first = move |terms: Terms<'_>| {
         let Begun { region, doubts } = start.begin()?;
         let mut splay = Splay::begin(context, region, Doubts { missing, ..doubts }, terms)?;
-        Ok((splay.advance(context, terms)?, splay))
+        Ok((advance(&mut splay, context, terms)?, splay))
     };
     let mut step: Result<_, Stop> = device.beside(terms(), first)?;
     let splayed = loop {
-        let (lacking, mut splay) = match step {
-            Ok(done) => done,
+        let (mut splay, lacking) = match step {
+            Ok((Continue(lacking), splay)) => (splay, lacking),
+            Ok((Break(patch), splay)) => break Ok((splay.finish(), patch)),
             Err(stop) => break Err(stop),
         };
-        if lacking.is_empty() {
-            break Ok(splay.finish());
-        }
         let gathered = device.gather(&lacking, splay.region()).await?;
         let context = &mut vertices;
         let next = move |terms: Terms<'_>| {
             splay.add(lacking, gathered)?;
-            Ok((splay.advance(context, terms)?, splay))
+            Ok((advance(&mut splay, context, terms)?, splay))
         };
         step = device.beside(terms(), next)?;
     };
     let patch = match splayed {
-        Ok((region, splay)) => {
+        Ok(((region, splay), patch)) => {
             stats.splay = Some(splay);
-            let patch = region.patch(slots, Threads::All);
             device.ended.host.keep(region);
             patch
         }

@@ -9,6 +9,8 @@ mod engine;
 pub(crate) mod exchange;
 pub mod finish;
 pub mod outputs;
+#[cfg(not(target_arch = "wasm32"))]
+mod pool;
 pub mod trace;
 pub mod vertex;
 #[cfg(not(target_arch = "wasm32"))]

@@ -4,7 +4,11 @@
 use crate::{
     d3::{
         Mesh3,
-        gpu::{finish::NearMesh, trace::Tracer},
+        gpu::{
+            finish::NearMesh,
+            pool::{inside, listen},
+            trace::Tracer,
+        },
         splay::{self, NearDelaunay3, SplayOutcome, Terms},
         triangulation::{FiniteMesh, Triangulation3},
     },
@@ -30,7 +34,7 @@ pub(super) async fn complete(
     let (missing, duplicate_of) = near.missing(&merged);
     let Near { points, lattice, options, adapter, stats, stopwatch, .. } = near;
 
-    let vertices = PredicateContext::of_input(points, lattice);
+    let mut vertices = PredicateContext::of_input(points, lattice);
     let near = near_delaunay(points.len(), result, &missing);
     if let Some(tracer) = &mut tracer {
         tracer.facets(&near.triangulation, &vertices);
@@ -39,9 +43,10 @@ pub(super) async fn complete(
     let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
     let max_evaluations = splay::evaluations_from_scratch(near.triangulation.tetrahedra().len());
     let terms = Terms { max_evaluations, threads: Threads::All, report: &report };
-    let splayed = options
-        .report(Phase::Splay, progress::COMPLETION)
-        .and_then(|()| splay::splay_again(&vertices, near, terms, &mut ended.host));
+    let (context, kept) = (&mut vertices, &mut ended.host);
+    let step = move |terms: Terms<'_>| splay::splay_again(context, near, terms, kept);
+    let splayed =
+        options.report(Phase::Splay, progress::COMPLETION).and_then(|()| inside(terms, step, listen).flatten());
     // Whether splaying was cancelled or not, the next run gets the memory of this one.
     stats.gpu = Some(ended.release().summary(adapter));
     let triangulation = match splayed? {
