@@ -66,8 +66,8 @@ struct NeededRound {
     inserted: u32,
     /// The iterations that it needed with a dispatch per pass.
     iterations: u32,
-    /// Those that one workgroup did.
-    few: u32,
+    /// Whether one workgroup did others, or could have done so: when no points wait, nothing is to be left.
+    has_few: bool,
 }
 
 impl Needed {
@@ -151,7 +151,7 @@ impl Iterations {
         };
         let needed = if used >= recorded && active >= tolerated { used + more.max(1) } else { used };
         if let Some(round) = self.needed.rounds.get_mut(self.needed.len) {
-            *round = NeededRound { inserted, iterations: needed, few };
+            *round = NeededRound { inserted, iterations: needed, has_few: few > 0 || (waiting == 0 && active > 0) };
         }
         self.needed.len += 1;
         let wanted = match waiting {
@@ -190,7 +190,14 @@ impl Iterations {
 
     /// Returns whether a round, by its number, may have iterations that one workgroup can do.
     pub(crate) fn may_be_few(&self, round: u32) -> bool {
-        self.before.round(round as usize).is_none_or(|before| before.few > 0)
+        self.before.round(round as usize).is_none_or(|before| before.has_few)
+    }
+
+    /// Returns whether all flips wait for the next round in a round, by its number, as in the run before, which
+    /// this one repeats so far: then both can be submitted together.
+    pub(crate) fn flips_wait(&self, round: u32) -> bool {
+        self.before.round(round as usize).is_some_and(|before| before.iterations == 0 && !before.has_few)
+            && (round as usize) + 1 < self.before.len
     }
 
     /// Returns in every how many iterations exact checks follow the filter; only 3D has them apart.
@@ -321,5 +328,35 @@ mod tests {
             recorded(&mut after, points, inserted, &rounds[..1]);
             assert_eq!(after.before.len > 0, name == other, "{other} after {name}");
         }
+    }
+
+    /// What a run leaves active when no points wait is few as a rule, and the next run takes care of it in the
+    /// same round: otherwise it would repeat a round in which nothing happens.
+    #[test]
+    fn what_was_left_active_at_the_end_is_not_left_again() {
+        let (points, few) = (1000, 0);
+        let round =
+            |recorded, active, inserted| Known { few, active, ..known(recorded, recorded, 900, inserted, points) };
+        let mut iterations = Iterations::new(8, Needed::default());
+        // While points wait, flips may do so, too. Afterwards there was no dispatch for the few that were left.
+        for known in [round(8, 70, 990), round(8, 70, 1000), round(0, 70, 1000), round(0, 0, 1000)] {
+            iterations.plan(known);
+        }
+        let repeated = Iterations::new(8, iterations.needed(points));
+        assert_eq!([0, 1, 2, 3, 4].map(|round| repeated.may_be_few(round)), [false, true, true, false, true]);
+        assert!(![0, 1, 2, 3, 4].into_iter().any(|round| repeated.flips_wait(round)));
+    }
+
+    /// Rounds of the last few points, which leave all flips to the next one, are submitted with that.
+    #[test]
+    fn rounds_without_flips_are_known_when_they_are_repeated() {
+        let points = 1000;
+        let round = |recorded, active, inserted| Known { active, ..known(recorded, recorded, 900, inserted, points) };
+        let mut iterations = Iterations::new(8, Needed::default());
+        for known in [round(8, 0, 990), round(0, 0, 998), round(0, 0, 999), round(8, 0, 1000)] {
+            iterations.plan(known);
+        }
+        let repeated = Iterations::new(8, iterations.needed(points));
+        assert_eq!([0, 1, 2, 3, 4].map(|round| repeated.flips_wait(round)), [false, true, true, false, false]);
     }
 }

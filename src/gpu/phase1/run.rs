@@ -567,12 +567,13 @@ where
                 flip.record_clear_votes(&mut recorder, bound, self.workgroups());
             }
         }
-        let (mut recorded, mut are_few) = (Vec::new(), true);
+        let (mut recorded, mut goes_on) = (Vec::new(), true);
         let limit = (self.settings.rounds as usize).clamp(1, LOGGED);
-        while recorded.len() < limit || (self.settings.batches > 1 && are_few && recorded.len() < LOGGED) {
+        while recorded.len() < limit || (self.settings.batches > 1 && goes_on && recorded.len() < LOGGED) {
             // All flips of the first rounds of few points are few.
             let active = self.inserted_at_most.saturating_mul(GROWTH * (D as u32 + 1));
-            are_few = active <= self.params.few_limit;
+            let are_few = active <= self.params.few_limit;
+            goes_on = are_few || self.iterations.flips_wait(self.rounds_submitted);
             let iterations = if are_few { 0 } else { self.iterations.planned(self.rounds_submitted) };
             self.inserted_at_most = self.inserted_at_most.saturating_mul(1 + GROWTH);
             self.record_round(&mut recorder, iterations);
