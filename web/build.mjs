@@ -52,6 +52,8 @@ const given =
   process.env.CARGO_ENCODED_RUSTFLAGS?.split('\x1f') ?? process.env.RUSTFLAGS?.split(/\s+/) ?? [];
 /** What functions may grow to by inlining: less than by `opt-level = "s"`, which is 50. */
 const INLINE = '-Cllvm-args=-inline-threshold=45';
+/** Tetrahedra are copied as a whole. */
+const SIMD = '-Ctarget-feature=+simd128';
 const flags = (...more) => [...given, ...remapped, ...more].filter(Boolean).join('\x1f');
 const env = { ...process.env, PATH };
 const run = (command, args, more) =>
@@ -69,8 +71,8 @@ function buildWasm() {
     const args = ['build', '--mode', 'no-install', ...packing, ...to, join(web, 'wasm')];
     const cargo = ['--locked', '--features', name];
     // The largest module inlines what says that it is to be inlined, and little else: 2.5 % less
-    // gzipped, at the same speed. The others would be up to 8 % slower.
-    const CARGO_ENCODED_RUSTFLAGS = name === 'd3' ? flags(INLINE) : flags();
+    // gzipped, at the same speed. The others would be up to 8 % slower. Vectors take off 1.4 % more.
+    const CARGO_ENCODED_RUSTFLAGS = name === 'd3' ? flags(INLINE, SIMD) : flags();
     run('wasm-pack', ['--log-level', 'warn', ...args, '--', ...cargo], { CARGO_ENCODED_RUSTFLAGS });
   }
 }

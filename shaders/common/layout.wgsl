@@ -88,6 +88,8 @@ struct Control {
     criterion: u32,
     long_walks: atomic<u32>,
     gathered: atomic<u32>,
+    removed: atomic<u32>,
+    removals: u32,
     taken: array<atomic<u32>, 5>,
     log: array<array<u32, 5>, LOGGED>,
 

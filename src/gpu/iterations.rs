@@ -68,6 +68,8 @@ struct NeededRound {
     iterations: u32,
     /// Whether one workgroup did others, or could have done so: when no points wait, nothing is to be left.
     has_few: bool,
+    /// Whether facets were removed that could not be flipped.
+    removes: bool,
 }
 
 impl Needed {
@@ -98,6 +100,8 @@ pub(crate) struct Known {
     pub(crate) waiting: u32,
     /// Whether one workgroup can do all flips that are left, those of the waiting points included.
     pub(crate) is_few: bool,
+    /// Whether facets were removed that could not be flipped.
+    pub(crate) removes: bool,
 }
 
 impl Known {
@@ -138,7 +142,12 @@ impl Iterations {
 
     /// Plans a round by the one before the last one.
     pub(crate) fn plan(&mut self, known: Known) {
-        let Known { used, few, recorded, active, min_active, inserted, waiting, is_few, .. } = known;
+        let has_nothing = known.inserted == known.inserted_before && known.used + known.few + known.active == 0;
+        if has_nothing && !known.removes {
+            // It was submitted before it was known that nothing was left. The next run does without.
+            return;
+        }
+        let Known { used, few, recorded, active, min_active, inserted, waiting, is_few, removes, .. } = known;
         let repeats = |before: NeededRound| before.inserted.abs_diff(inserted) <= before.inserted / SAME_SHARE;
         if !self.before.round(self.needed.len).is_some_and(repeats) {
             self.before.len = 0;
@@ -151,7 +160,8 @@ impl Iterations {
         };
         let needed = if used >= recorded && active >= tolerated { used + more.max(1) } else { used };
         if let Some(round) = self.needed.rounds.get_mut(self.needed.len) {
-            *round = NeededRound { inserted, iterations: needed, has_few: few > 0 || (waiting == 0 && active > 0) };
+            let has_few = few > 0 || (waiting == 0 && active > 0);
+            *round = NeededRound { inserted, iterations: needed, has_few, removes };
         }
         self.needed.len += 1;
         let wanted = match waiting {
@@ -191,6 +201,11 @@ impl Iterations {
     /// Returns whether a round, by its number, may have iterations that one workgroup can do.
     pub(crate) fn may_be_few(&self, round: u32) -> bool {
         self.before.round(round as usize).is_none_or(|before| before.has_few)
+    }
+
+    /// Returns whether facets were removed in a round, by its number, of the run before, which this one repeats so far.
+    pub(crate) fn removes(&self, round: u32) -> bool {
+        self.before.round(round as usize).is_some_and(|before| before.removes)
     }
 
     /// Returns whether all flips wait for the next round in a round, by its number, as in the run before, which
@@ -268,8 +283,8 @@ mod tests {
         let active = if needed > recorded { u32::MAX } else { 0 };
         let waiting = points.saturating_sub(inserted);
         let used = needed.min(recorded);
-        let (few, min_active, is_few) = (0, 1, false);
-        Known { used, few, recorded, active, min_active, inserted_before, inserted, waiting, is_few }
+        let (few, min_active, is_few, removes) = (0, 1, false, false);
+        Known { used, few, recorded, active, min_active, inserted_before, inserted, waiting, is_few, removes }
     }
 
     /// The rounds in which most points are inserted get what they need, and not much more.

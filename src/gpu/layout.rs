@@ -188,6 +188,10 @@ pub struct Counters {
     pub long_walks: u32,
     /// Tetrahedra of the mesh that are gathered at a time, at the end.
     pub gathered: u32,
+    /// In 3D: facets that were removed because they could not be flipped.
+    pub removed: u32,
+    /// In 3D: the rounds in which such facets were looked for.
+    pub removals: u32,
     /// The entries of lists that workgroups have taken in turn, in the passes of this flip iteration and
     /// of this round.
     pub taken: [u32; 5],

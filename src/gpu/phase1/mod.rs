@@ -34,6 +34,7 @@ mod kernels;
 mod memory;
 mod moved;
 mod relocate;
+mod removals;
 mod run;
 mod settings;
 mod stages;

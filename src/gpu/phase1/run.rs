@@ -94,6 +94,8 @@ where
     inserted_at_most: u32,
     /// The rounds that were submitted.
     rounds_submitted: u32,
+    /// Whether facets are to be removed in the next one.
+    removes: bool,
     /// Those of them that were submitted before slots were added.
     rounds_before_growth: u32,
     iterations: Iterations,
@@ -289,6 +291,7 @@ where
             start,
             has_moved: false,
             rounds_submitted: 0,
+            removes: false,
             rounds_before_growth: 0,
             iterations: Iterations::new(Dimension::<D>::FIRST_ITERATIONS, before),
             before,
@@ -521,6 +524,7 @@ where
                 inserted,
                 waiting,
                 is_few,
+                removes: is_last && read.removals > before.removals,
             });
             if inserted == inserted_before && inserted + read.merged < self.params.infinite {
                 return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
@@ -528,7 +532,10 @@ where
             last = now;
         }
         self.iterations.plan_exact(read.exact.wrapping_sub(before.exact), read.visits.wrapping_sub(before.visits));
-        let goes_on = self.waiting() > 0 || self.active() > 0;
+        let is_done = self.waiting() == 0 && self.active() == 0;
+        // What could not be flipped is removed, once.
+        self.removes = is_done && self.can_remove() && read.removals == 0;
+        let goes_on = !is_done || self.removes;
         // When nothing is left, the device waits for the host anyway, which `end` counts.
         self.stats.stalls += usize::from(goes_on && self.submitted.is_empty());
         Ok(goes_on)
@@ -576,7 +583,9 @@ where
             goes_on = are_few || self.iterations.flips_wait(self.rounds_submitted);
             let iterations = if are_few { 0 } else { self.iterations.planned(self.rounds_submitted) };
             self.inserted_at_most = self.inserted_at_most.saturating_mul(1 + GROWTH);
-            self.record_round(&mut recorder, iterations);
+            let removes = std::mem::take(&mut self.removes)
+                || (self.can_remove() && self.iterations.removes(self.rounds_submitted));
+            self.record_round(&mut recorder, iterations, removes);
             self.rounds_submitted += 1;
             recorded.push(iterations);
         }
@@ -587,13 +596,22 @@ where
         Ok(Batch { submission, counters, recorded })
     }
 
-    fn record_round(&self, recorder: &mut Recorder<'_>, iterations: u32) {
+    /// Returns whether the run can remove facets that could not be flipped.
+    fn can_remove(&self) -> bool {
+        self.settings.removes && !self.has_moved && self.kernels.stages.removals.are_compiled()
+    }
+
+    /// Records a round, in which facets are removed if nothing else is left to do.
+    fn record_round(&self, recorder: &mut Recorder<'_>, iterations: u32, removes: bool) {
         let workgroups = self.workgroups();
         let (stages, Memory { buffers, bound }) = (&self.kernels.stages, &self.memory);
         if self.has_moved {
             stages.insert.record_begin(recorder, &bound.insert);
         } else {
             stages.insert.record(recorder, &bound.insert, buffers, workgroups);
+        }
+        if removes {
+            stages.removals.record(recorder, &bound.removals, workgroups);
         }
         let compacts = self.settings.slots_per_active > 0;
         let takes_few = self.params.few > 0 && self.iterations.may_be_few(self.rounds_submitted);

@@ -55,6 +55,8 @@ pub struct Settings<const D: usize> {
     /// Whether points are ordered along the Hilbert curve, and so are the slots of their simplices
     /// in memory (§4.3, Figure 12).
     pub sort: bool,
+    /// 3D only: whether facets that could not be flipped are removed with those beside them.
+    pub removes: bool,
     /// 3D only: whether splaying gets only the stars that it needs, and the device makes the arrays
     /// of the mesh, also of one that the host wants to have. It saves most of the host's memory; it is
     /// faster to read the whole mesh meanwhile.
@@ -92,6 +94,7 @@ where
             spare_iterations: 256,
             flips_per_iteration: 256,
             sort: true,
+            removes: true,
             sparse: cfg!(target_arch = "wasm32"),
             #[cfg(not(target_arch = "wasm32"))]
             reads_beside: None,

@@ -12,6 +12,7 @@ use crate::{
             insert::{BoundInsert, Insert},
             moved::Moved,
             relocate::{BoundRelocate, Relocate},
+            removals::{BoundRemovals, Removals},
         },
     },
     input::lattice::Width,
@@ -23,6 +24,7 @@ pub(crate) struct Stages {
     pub(crate) insert: Insert,
     pub(crate) flip: Flip,
     pub(crate) relocate: Relocate,
+    pub(crate) removals: Removals,
     pub(crate) finish: FinishStage,
     pub(crate) moved: Moved,
 }
@@ -36,6 +38,7 @@ where
     pub(crate) insert: BoundInsert,
     pub(crate) flip: BoundFlip,
     pub(crate) relocate: BoundRelocate,
+    pub(crate) removals: BoundRemovals,
     pub(crate) finish: BoundFinish<D>,
 }
 
@@ -49,6 +52,7 @@ impl Stages {
             insert: Insert::new::<D>(compiler, width),
             flip: Flip::new::<D>(compiler, width),
             relocate: Relocate::new::<D>(compiler, width),
+            removals: Removals::new::<D>(compiler, width),
             finish: FinishStage::new::<D>(compiler, width),
             moved: Moved::new::<D>(compiler, width),
         }
@@ -67,6 +71,7 @@ impl Stages {
             insert: self.insert.bind(gpu, b),
             flip: self.flip.bind(gpu, b),
             relocate: self.relocate.bind(gpu, b),
+            removals: self.removals.bind(gpu, b),
             finish: self.finish.bind(gpu, b)?,
         })
     }

@@ -1,0 +1,18 @@
+// The removal of facets that lie between the same two vertices, d and e (multi-face removal; de Cougny and
+// Shephard 1995; Shewchuk 2002): each is the facet of a tetrahedron at d and of one at e. A ring of tetrahedra
+// around the edge from d to e takes their place.
+
+// The most facets that are removed together.
+const MOST_FACETS: u32 = 4;
+
+// As large as a node of the history, whose memory removals have.
+struct Removal {
+    // For each facet, the tetrahedron at d and that at e, then NONE.
+    tets: array<u32, 2 * MOST_FACETS>,
+    // The edges around the facets in their order, 4 bits each: 4·facet + which of its edges.
+    ring: u32,
+    // How many facets there are.
+    facets: u32,
+    d: u32,
+    e: u32,
+}
