@@ -42,6 +42,16 @@ pub fn uniform(width: Width, count: usize) -> Input {
     input("uniform", width, random(count, 5, 1 << 22))
 }
 
+/// Points of a sphere, rounded.
+pub fn sphere(width: Width, count: usize) -> Input {
+    let on_sphere = generate3d(Distribution3::Sphere, count, 5);
+    input(
+        "sphere",
+        width,
+        on_sphere.into_iter().map(|p: [f64; 3]| p.map(|x| (x * f64::from(1 << 22)) as i64)).collect(),
+    )
+}
+
 /// Points on two skew lines: all pairs of segments make tetrahedra, a quadratic number.
 pub fn two_lines(width: Width, count: i64) -> Input {
     let points = (0..count).map(|i| if i % 2 == 0 { [4 * i, 0, 0] } else { [0, 4 * i, 40] }).collect();

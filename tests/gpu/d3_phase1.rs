@@ -156,6 +156,42 @@ fn every_round_is_valid() {
     }
 }
 
+/// Facets that cannot be flipped are removed with those beside them, when nothing else is left to do. Then fewer vertices
+/// fail.
+#[test]
+fn facets_that_cannot_be_flipped_are_removed() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let mut kernels = kernels(&gpu);
+    let settings = Settings { rounds: 1, batches: 1, ..Settings::default() };
+    let uniform = |width| inputs::uniform(width, 40_000);
+    let mut failed = [0, 0];
+    for points in [uniform(Width::Narrow), uniform(Width::Wide), inputs::sphere(Width::Wide, 12_000)] {
+        let lattice = Lattice::fit((&points.positions).into());
+        let width = lattice.width();
+        let position = |i: usize| lattice.coordinates(points.positions[i]).map(|c| c.value);
+        let start = first_simplex(width, points.positions.len(), position).expect("not coplanar");
+        let of_points = (&points.positions).into();
+        let input = Input { points: of_points, lattice: &lattice, start, starts_later: false, is_uploaded: false };
+        let kernels = &mut kernels[usize::from(width == Width::Wide)];
+        let mut run = block_on(Run::new(kernels, &gpu, input, settings, None)).unwrap();
+        let mut before = None;
+        while block_on(run.advance()).unwrap() {
+            if run.waiting() == 0 && run.active() == 0 && run.control().1.removals == 0 {
+                let mut state = state_of(&gpu, width, &run);
+                d3::mark_failed(&mut state);
+                before = Some(state.own.failed.iter().sum::<u32>() as usize);
+            }
+        }
+        state_of(&gpu, width, &run).validate();
+        let Phase1Output { result, stats, .. } = block_on(run.finish()).unwrap();
+        let before = before.expect("facets are removed after a round that leaves nothing active");
+        println!("{}: {before} failed, then {}; {:?}", points.name, result.failed.len(), stats.counters);
+        assert!(stats.counters.removals == 1 && stats.counters.removed > 0, "{}: {:?}", points.name, stats.counters);
+        failed = [failed[0] + before, failed[1] + result.failed.len()];
+    }
+    assert!(4 * failed[1] < 3 * failed[0], "{failed:?} failed before and after");
+}
+
 /// Slots and history that are far too small: flips wait, buffers grow, and nothing is lost.
 #[test]
 fn small_buffers_grow() {

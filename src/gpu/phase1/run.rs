@@ -119,6 +119,8 @@ struct Batch {
     counters: Pending<u32>,
     /// The flip iterations that were recorded for each round, a dispatch per pass.
     recorded: Vec<u32>,
+    /// Whether facets are removed in one of the rounds if nothing else is left to do.
+    removes: bool,
 }
 
 /// How many points a round inserts per point that is inserted, as a rule at most: hardly more of
@@ -480,7 +482,7 @@ where
             }
             self.submit().await?;
         }
-        let Some(Batch { submission, counters, recorded }) = self.submitted.pop_front() else {
+        let Some(Batch { submission, counters, recorded, .. }) = self.submitted.pop_front() else {
             return Ok(false);
         };
         let words = self.kernels.readback.receive(self.gpu, &submission, counters).await?;
@@ -534,8 +536,9 @@ where
         self.iterations.plan_exact(read.exact.wrapping_sub(before.exact), read.visits.wrapping_sub(before.visits));
         let is_done = self.waiting() == 0 && self.active() == 0;
         // What could not be flipped is removed, once.
-        self.removes = is_done && self.can_remove() && read.removals == 0;
-        let goes_on = !is_done || self.removes;
+        let is_to_remove = is_done && self.can_remove() && read.removals == 0;
+        self.removes = is_to_remove && !self.submitted.iter().any(|batch| batch.removes);
+        let goes_on = !is_done || is_to_remove;
         // When nothing is left, the device waits for the host anyway, which `end` counts.
         self.stats.stalls += usize::from(goes_on && self.submitted.is_empty());
         Ok(goes_on)
@@ -574,7 +577,7 @@ where
                 flip.record_clear_votes(&mut recorder, bound, self.workgroups());
             }
         }
-        let (mut recorded, mut goes_on) = (Vec::new(), true);
+        let (mut recorded, mut goes_on, mut removes_any) = (Vec::new(), true, false);
         let limit = (self.settings.rounds as usize).clamp(1, LOGGED);
         while recorded.len() < limit || (self.settings.batches > 1 && goes_on && recorded.len() < LOGGED) {
             // All flips of the first rounds of few points are few.
@@ -585,6 +588,7 @@ where
             self.inserted_at_most = self.inserted_at_most.saturating_mul(1 + GROWTH);
             let removes = std::mem::take(&mut self.removes)
                 || (self.can_remove() && self.iterations.removes(self.rounds_submitted));
+            removes_any |= removes;
             self.record_round(&mut recorder, iterations, removes);
             self.rounds_submitted += 1;
             recorded.push(iterations);
@@ -593,7 +597,7 @@ where
         let counters = self.read_counters(recorder.encoder());
         let submission = recorder.submit(gpu);
         self.profiler = profiler;
-        Ok(Batch { submission, counters, recorded })
+        Ok(Batch { submission, counters, recorded, removes: removes_any })
     }
 
     /// Returns whether the run can remove facets that could not be flipped.
