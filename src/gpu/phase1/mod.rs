@@ -9,7 +9,9 @@
 //!    flips.
 //! 3. *Last flips*, until no simplex is active. In 2D the result is the Delaunay triangulation of
 //!    the lattice's points, with its coordinates perturbed; in 3D flipping can get stuck.
-//! 4. *Finish*: the mesh without gaps, in input indices, what rounding leaves open, and the one
+//! 4. *Removals*, in 3D: facets at which it got stuck are removed with those beside them, and flips go on
+//!    until no simplex is active again.
+//! 5. *Finish*: the mesh without gaps, in input indices, what rounding leaves open, and the one
 //!    large readback; in 3D also the failed vertices (§3.2.1).
 //!
 //! The device drives the rounds: a kernel of one invocation decides at the beginning of each what

@@ -1,4 +1,5 @@
-//! Removing facets that could not be flipped, with those beside them.
+//! Removing facets that could not be flipped, with those beside them: find, commit, link (multi-face removal, de
+//! Cougny and Shephard 1995). At the end of the rounds, after which fewer vertices have failed.
 
 use crate::{
     dimension::Dimension,
