@@ -1,9 +1,6 @@
 // The third pass of a flip iteration: joins the simplices of the flips to those around them, and
 // lists the simplices to check next.
 //
-// An outer neighbour that did not change gets the new neighbour; one that did has left a message,
-// which is followed. So each facet is written once.
-//
 // A workgroup first collects the flips among its entries and then shares out their outer facets:
 // each is a chain of loads that depend on each other, and one invocation per flip would do them one
 // after the other.
@@ -11,6 +8,7 @@
 // Expects: control, neighbors, status, actives, messages.
 //!include common/bids
 //!include common/chunks
+//!include common/join
 //!include {dim}/flip_link
 
 var<workgroup> wanted: atomic<u32>;
@@ -26,17 +24,6 @@ var<workgroup> flips: array<atomic<u32>, 4>;
 struct Changed {
     slots: vec3u,
     count: u32,
-}
-
-fn join(t: u32, face: u32, mark: u32) {
-    let across = neighbors[t][face];
-    let u = across >> 2;
-    let theirs = across & 3;
-    if atomicLoad(&status[u].vote) == mark {
-        neighbors[t][face] = messages[u][theirs];
-    } else {
-        neighbors[u][theirs] = 4 * t + face;
-    }
 }
 
 // Links the flips of `entries` entries, of which workgroup `group` of `groups` takes its share, and

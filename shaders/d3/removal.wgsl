@@ -7,7 +7,7 @@ const MOST_FACETS: u32 = 4;
 
 // As large as a node of the history, whose memory removals have.
 struct Removal {
-    // For each facet, the tetrahedron at d and that at e, then NONE.
+    // For each facet, the tetrahedron at d and that at e.
     tets: array<u32, 2 * MOST_FACETS>,
     // The edges around the facets in their order, 4 bits each: 4·facet + which of its edges.
     ring: u32,
@@ -15,4 +15,9 @@ struct Removal {
     facets: u32,
     d: u32,
     e: u32,
+}
+
+// Returns the corners of a facet's tetrahedron at d: both ends of an edge of the facet, then the corner opposite.
+fn corners_of(tet: vec4u, d: u32, edge: u32) -> vec3u {
+    return turned(facet(place_of(tet, d)), edge & 3);
 }

@@ -1,5 +1,5 @@
-// Removes the facets of the removals that won all of their tetrahedra. The new tetrahedra overwrite the old ones, as
-// flips do it. One invocation per removal.
+// Removes the facets of the removals that won all of their tetrahedra. As in flips, the new tetrahedra overwrite the
+// old ones. One invocation per removal.
 //!include d3/simplex
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read_write> simplices: array<vec4u>;
@@ -34,7 +34,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
             let edge = (removal.ring >> (4 * j)) & 0xf;
             let at_d = removal.tets[2 * (edge >> 2)];
             let at_e = removal.tets[2 * (edge >> 2) + 1];
-            let c = turned(facet(place_of(simplices[at_d], removal.d)), edge & 3);
+            let c = corners_of(simplices[at_d], removal.d, edge);
             let opposite = place_of(simplices[at_e], simplices[at_d][c.z]);
             x[j] = simplices[at_d][c.x];
             near_d[j] = neighbors[at_d][c.z];

@@ -34,7 +34,7 @@ fn removal_of(t: u32, tet: vec4u, k: u32) -> Removal {
         todo_len -= 1;
         let at_d = removal.tets[2 * (at >> 2)];
         let at_e = removal.tets[2 * (at >> 2) + 1];
-        let c = turned(facet(place_of(simplices[at_d], d)), at & 3);
+        let c = corners_of(simplices[at_d], d, at);
         let x = simplices[at_d][c.x];
         let y = simplices[at_d][c.y];
         if orient(vec4u(x, y, d, e)) > 0 {
@@ -45,7 +45,8 @@ fn removal_of(t: u32, tet: vec4u, k: u32) -> Removal {
         let across_d = neighbors[at_d][c.z];
         let across_e = neighbors[at_e][place_of(simplices[at_e], simplices[at_d][c.z])];
         let w = simplices[across_d >> 2][across_d & 3];
-        var is_new = facets < MOST_FACETS && w == simplices[across_e >> 2][across_e & 3] && w != d && w != e && w != control.infinite;
+        let is_between = w == simplices[across_e >> 2][across_e & 3];
+        var is_new = facets < MOST_FACETS && is_between && w != d && w != e && w != control.infinite;
         for (var i = 0u; i < 2 * facets; i++) {
             is_new = is_new && removal.tets[i] != across_d >> 2 && removal.tets[i] != across_e >> 2;
         }
@@ -55,9 +56,8 @@ fn removal_of(t: u32, tet: vec4u, k: u32) -> Removal {
         removal.tets[2 * facets] = across_d >> 2;
         removal.tets[2 * facets + 1] = across_e >> 2;
         // The edge opposite w is the one that led here.
-        let next = facet(place_of(simplices[across_d >> 2], d));
         for (var j = 0u; j < 3; j++) {
-            if turned(next, j).z != (across_d & 3) {
+            if corners_of(simplices[across_d >> 2], d, j).z != (across_d & 3) {
                 todo = (todo << 4) | (4 * facets + j);
                 todo_len += 1;
             }
@@ -75,7 +75,7 @@ fn removal_of(t: u32, tet: vec4u, k: u32) -> Removal {
             let edge = (found >> (4 * i)) & 0xf;
             next = select(next, edge, ends_of(&removal, edge).x == end);
         }
-        if next == 16 || (next == (ring & 0xf)) {
+        if next == 16 {
             return removal;
         }
         ring |= next << (4 * ring_len);
@@ -83,14 +83,15 @@ fn removal_of(t: u32, tet: vec4u, k: u32) -> Removal {
         last = next;
     }
     removal.ring = ring;
-    removal.facets = select(0u, facets, facets > 1 && len == facets + 2 && ends_of(&removal, last).y == ends_of(&removal, ring & 0xf).x);
+    let is_closed = ends_of(&removal, last).y == ends_of(&removal, ring & 0xf).x;
+    removal.facets = select(0u, facets, facets > 1 && len == facets + 2 && is_closed);
     return removal;
 }
 
 // Returns the ends of an edge of a facet.
 fn ends_of(removal: ptr<function, Removal>, edge: u32) -> vec2u {
     let t = (*removal).tets[2 * (edge >> 2)];
-    let c = turned(facet(place_of(simplices[t], (*removal).d)), edge & 3);
+    let c = corners_of(simplices[t], (*removal).d, edge);
     return vec2u(simplices[t][c.x], simplices[t][c.y]);
 }
 

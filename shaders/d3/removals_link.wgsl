@@ -7,6 +7,7 @@
 @group(0) @binding(5) var<storage, read_write> removals: array<Removal>;
 @group(0) @binding(6) var<storage, read_write> actives: array<Active>;
 //!include common/bids
+//!include common/join
 //!include d3/removal
 
 @compute @workgroup_size(WORKGROUP)
@@ -24,14 +25,8 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         for (var j = 0u; j < len; j++) {
             let t = removal.tets[j];
             actives[first + j] = Active(t, 0);
-            for (var face = 2u; face < 4; face++) {
-                let across = neighbors[t][face];
-                if atomicLoad(&status[across >> 2].vote) == mark {
-                    neighbors[t][face] = messages[across >> 2][across & 3];
-                } else {
-                    neighbors[across >> 2][across & 3] = 4 * t + face;
-                }
-            }
+            join(t, 2, mark);
+            join(t, 3, mark);
         }
         atomicAdd(&control.removed, removal.facets);
     }

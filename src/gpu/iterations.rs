@@ -142,12 +142,11 @@ impl Iterations {
 
     /// Plans a round by the one before the last one.
     pub(crate) fn plan(&mut self, known: Known) {
-        let has_nothing = known.inserted == known.inserted_before && known.used + known.few + known.active == 0;
-        if has_nothing && !known.removes {
-            // It was submitted before it was known that nothing was left. The next run does without.
+        let Known { used, few, recorded, active, min_active, inserted, waiting, is_few, removes, .. } = known;
+        if inserted == known.inserted_before && used + few + active == 0 && !removes {
+            // The round was submitted before it was known that nothing was left. The next run does without.
             return;
         }
-        let Known { used, few, recorded, active, min_active, inserted, waiting, is_few, removes, .. } = known;
         let repeats = |before: NeededRound| before.inserted.abs_diff(inserted) <= before.inserted / SAME_SHARE;
         if !self.before.round(self.needed.len).is_some_and(repeats) {
             self.before.len = 0;
@@ -174,6 +173,7 @@ impl Iterations {
         };
         self.planned = wanted.min(MAX_PLANNED);
     }
+
     /// Plans how often exact checks follow the filter, which left `exact` signs of `visits` visited
     /// simplices open.
     pub(crate) fn plan_exact(&mut self, exact: u32, visits: u32) {
@@ -373,5 +373,19 @@ mod tests {
         }
         let repeated = Iterations::new(8, iterations.needed(points));
         assert_eq!([0, 1, 2, 3, 4].map(|round| repeated.flips_wait(round)), [false, true, true, false, false]);
+    }
+
+    /// The next run removes facets in the round after the last flips: one that had nothing to do was in between,
+    /// because it was submitted before that was known.
+    #[test]
+    fn facets_are_removed_right_after_the_last_flips_when_that_is_repeated() {
+        let points = 1000;
+        let last = known(8, 8, 900, points, points);
+        let idle = known(0, 0, points, points, points);
+        let mut iterations = Iterations::new(8, Needed::default());
+        [last, idle, Known { removes: true, ..idle }].into_iter().for_each(|known| iterations.plan(known));
+        let repeated = Iterations::new(8, iterations.needed(points));
+        assert_eq!([0, 1, 2].map(|round| repeated.removes(round)), [false, true, false]);
+        assert!(repeated.may_be_done(2));
     }
 }

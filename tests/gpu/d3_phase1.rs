@@ -39,17 +39,27 @@ fn state_of(gpu: &Gpu, width: Width, run: &Run<'_, 3>) -> State {
     download(gpu, b, &State { params, counters, merged, ..State::new(width, points, 0, 0) })
 }
 
-/// Returns the counters of the run.
-fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, settings: Settings<3>) -> Counters {
-    let count = points.positions.len();
+/// Begins a run. Returns the width of its coordinates, too.
+fn begin<'a>(
+    gpu: &'a Gpu,
+    kernels: &'a mut [Phase1<3>; 2],
+    points: &Points,
+    settings: Settings<3>,
+) -> (Width, Run<'a, 3>) {
     let lattice = Lattice::fit((&points.positions).into());
     let width = lattice.width();
     let kernels = &mut kernels[usize::from(width == Width::Wide)];
     let position = |i: usize| lattice.coordinates(points.positions[i]).map(|c| c.value);
-    let start = first_simplex(width, count, position).expect("not coplanar");
+    let start = first_simplex(width, points.positions.len(), position).expect("not coplanar");
     let input =
         Input { points: (&points.positions).into(), lattice: &lattice, start, starts_later: false, is_uploaded: false };
-    let mut run = block_on(Run::new(kernels, gpu, input, settings, None)).unwrap();
+    (width, block_on(Run::new(kernels, gpu, input, settings, None)).unwrap())
+}
+
+/// Returns the counters of the run.
+fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, settings: Settings<3>) -> Counters {
+    let count = points.positions.len();
+    let (width, mut run) = begin(gpu, kernels, points, settings);
     let mut more = true;
     while more {
         more = block_on(run.advance()).unwrap();
@@ -166,14 +176,7 @@ fn facets_that_cannot_be_flipped_are_removed() {
     let uniform = |width| inputs::uniform(width, 40_000);
     let mut failed = [0, 0];
     for points in [uniform(Width::Narrow), uniform(Width::Wide), inputs::sphere(Width::Wide, 12_000)] {
-        let lattice = Lattice::fit((&points.positions).into());
-        let width = lattice.width();
-        let position = |i: usize| lattice.coordinates(points.positions[i]).map(|c| c.value);
-        let start = first_simplex(width, points.positions.len(), position).expect("not coplanar");
-        let of_points = (&points.positions).into();
-        let input = Input { points: of_points, lattice: &lattice, start, starts_later: false, is_uploaded: false };
-        let kernels = &mut kernels[usize::from(width == Width::Wide)];
-        let mut run = block_on(Run::new(kernels, &gpu, input, settings, None)).unwrap();
+        let (width, mut run) = begin(&gpu, &mut kernels, &points, settings);
         let mut before = None;
         while block_on(run.advance()).unwrap() {
             if run.waiting() == 0 && run.active() == 0 && run.control().1.removals == 0 {
