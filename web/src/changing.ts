@@ -1,25 +1,27 @@
 // What meshes of both dimensions have in common: they change with their points, and answer questions.
 
+import type {
+  AlphaOptions,
+  AlphaShape,
+  Geometry,
+  InterpolateOptions,
+  NearestOptions,
+  Topology,
+} from './answers.js';
 import type { Doubles, Indices, SignedIndices } from './arrays.js';
 import {
-  type AlphaOptions,
-  type AlphaShape,
   alphaShape,
-  type Geometry,
   geometry,
-  type InterpolateOptions,
   interpolate,
-  type NearestOptions,
   nearest,
   type Source,
   type SpanningTree,
   spanningTree,
-  type Topology,
   topology,
 } from './derived.js';
-import type { Done } from './host.js';
 import { bad } from './options.js';
-import type { Edit, Task, Update } from './run.js';
+import type { Done, Edit, Task } from './protocol.js';
+import type { Update } from './run.js';
 import type { AccessorOptions, Points, Stats, TaskOptions, UpdateOptions } from './types.js';
 import { Updating } from './updating.js';
 

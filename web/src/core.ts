@@ -4,8 +4,15 @@ import makeGlue from 'glue';
 import type { Coordinates } from './arrays.js';
 import { type PlainError, toPlainError } from './errors.js';
 import { Memory, MemoryThreads } from './memory.js';
-import type { Control, CoreInfo, CoreStats, ModuleName, TaskName, Tasks } from './protocol.js';
-import type { MadeResident } from './resident.js';
+import type {
+  Control,
+  CoreInfo,
+  CoreStats,
+  MadeResident,
+  ModuleName,
+  TaskName,
+  Tasks,
+} from './protocol.js';
 import type { AdapterInfo, Backend, Output } from './types.js';
 import { wgpuCalls } from './wgpu-calls.js';
 

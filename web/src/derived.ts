@@ -1,6 +1,14 @@
 // What is derived from a mesh, in a WebAssembly module of its own.
 
 import { wasmDerived } from '#assets';
+import type {
+  AlphaOptions,
+  AlphaShape,
+  InterpolateOptions,
+  NearestOptions,
+  VoronoiArrays,
+  VoronoiOptions,
+} from './answers.js';
 import { type Coordinates, type Doubles, type Indices, kindOf } from './arrays.js';
 import { bad, checkArrays, checkBoolean, checkOneOf, optionsOf, taskOptions } from './options.js';
 import { coordinatesInSlices } from './points.js';
@@ -8,146 +16,6 @@ import type { DerivedMesh, TaskName, Tasks } from './protocol.js';
 import { runShared } from './shared.js';
 import { throwIfAborted } from './stop.js';
 import type { Points, TaskOptions } from './types.js';
-
-/** How values are interpolated between the vertices. */
-export type InterpolationMethod =
-  /** Within each simplex: continuous, and the fastest. */
-  | 'linear'
-  /** Natural neighbours, weighted by the areas of facets of Voronoi cells and by distances. */
-  | 'laplace'
-  /** Natural neighbours, weighted by volumes of Voronoi cells: smooth except at the vertices. */
-  | 'sibson';
-
-/** Options of `nearest`. */
-export interface NearestOptions extends TaskOptions {
-  /** How many vertices to find for each query, default 1. */
-  k?: number | undefined;
-}
-
-/** Options of `interpolate`. */
-export interface InterpolateOptions extends TaskOptions {
-  /** Default `'linear'`. */
-  method?: InterpolationMethod | undefined;
-}
-
-/** A box: the lowest coordinates, then the highest, as in `[xmin, ymin, zmin, xmax, ymax, zmax]`. */
-export type Bounds = ArrayLike<number>;
-
-/** Options of `voronoi`. */
-export interface VoronoiOptions extends TaskOptions {
-  /**
-   * What the cells are clipped to: nothing, the smallest box that contains all points, their convex
-   * hull, or a box. Default `'none'`.
-   */
-  clip?: 'none' | 'box' | 'hull' | Bounds | undefined;
-}
-
-/** Options of `alphaShape`. */
-export interface AlphaOptions extends TaskOptions {
-  /**
-   * The radius, or `'auto'` for the smallest at which all points belong to the solid, and this has
-   * no more than `components` components. Default `'auto'`.
-   */
-  alpha?: number | 'auto' | undefined;
-  /** Default 1. */
-  components?: number | undefined;
-  /** Whether to return `criticalValues`, default false. */
-  criticalValues?: boolean | undefined;
-}
-
-/** The alpha shape of the points of a mesh for one radius. */
-export interface AlphaShape {
-  /** The radius; 0 if that was `'auto'` and the points are flat. */
-  readonly alpha: number;
-  /** The simplices of the mesh that belong to the solid, ascending. */
-  readonly solid: Indices;
-  /**
-   * The boundary of the solid, closed: 3 vertices per triangle, counter-clockwise as seen from
-   * outside; in 2D 2 vertices per edge, in the direction in which it runs in its triangle.
-   */
-  readonly surface: Indices;
-  /** The number of components of the solid, which hang together across facets. */
-  readonly components: number;
-  /** The component of each simplex of the mesh, −1 outside the solid. */
-  readonly componentOf: Int32Array;
-  /**
-   * The circumradius of each simplex of the mesh: the radius from which on it belongs to the solid,
-   * with a relative error below 10⁻¹⁰. For a slider, filter by this.
-   */
-  readonly radii: Doubles;
-  /** The radii at which anything changes, ascending; empty unless requested. */
-  readonly criticalValues: Doubles;
-}
-
-/** What is connected with what in a mesh. */
-export interface Topology {
-  /** 2 vertices per edge; each edge once. */
-  readonly edges: Indices;
-  /**
-   * 3 vertices per facet, counter-clockwise as seen from outside the tetrahedron with the lower index;
-   * each facet once. In 2D the facets are the edges.
-   */
-  readonly facets: Indices;
-  /**
-   * Where the neighbours of each point start in `neighbors`; one more entry says where the last end.
-   * Duplicates have none.
-   */
-  readonly neighborOffsets: Indices;
-  /** The points that each point has an edge to, ascending. */
-  readonly neighbors: Indices;
-  /** For each point the first simplex that has it; −1 for duplicates, and if there are no simplices. */
-  readonly simplexOf: Int32Array;
-}
-
-/** What the simplices of a mesh are like. */
-export interface Geometry {
-  /** The coordinates of the centre of each simplex's circumsphere, infinite beyond the range of doubles. */
-  readonly circumcenters: Doubles;
-  /** The radii of the circumspheres. */
-  readonly circumradii: Doubles;
-  /** The volumes, in 2D the areas. */
-  readonly volumes: Doubles;
-  /**
-   * The inradius divided by the circumradius, times the dimension: 1 for regular simplices, near 0 for
-   * flat ones.
-   */
-  readonly radiusRatios: Doubles;
-  /**
-   * In radians: 6 dihedral angles per tetrahedron, at the edges between vertices 0 and 1, 0 and 2, 0
-   * and 3, 1 and 2, 1 and 3, 2 and 3; in 2D 3 angles per triangle, at its vertices.
-   */
-  readonly angles: Doubles;
-}
-
-/** The Voronoi diagram of the points of a mesh, as arrays. */
-export interface VoronoiArrays {
-  /**
-   * The coordinates of the vertices: first the circumcentre of each simplex of the mesh, then those
-   * that clipping made.
-   */
-  readonly vertices: Doubles;
-  /** Where the vertices of each facet start in `facets`; one more entry says where the last end. */
-  readonly facetOffsets: Indices;
-  /**
-   * The vertices of each facet: counter-clockwise as seen from outside in 3D, the two ends of the
-   * edge in 2D. Those of unbounded facets are an open chain. A facet between two cells is listed with
-   * each of both.
-   */
-  readonly facets: Indices;
-  /** For each facet, the point on the other side; −1 where the cell was clipped. */
-  readonly neighbors: Int32Array;
-  /** The area of each facet, its length in 2D; infinite for unbounded facets. */
-  readonly areas: Doubles;
-  /**
-   * Where the facets of each point's cell start; one more entry says where the last end. Duplicates
-   * have none.
-   */
-  readonly cells: Indices;
-  /** The volume of each point's cell, its area in 2D; infinite for unbounded cells, 0 for empty ones. */
-  readonly volumes: Doubles;
-  /** The centre of mass of each point's cell; NaN for unbounded and empty cells. */
-  readonly centroids: Doubles;
-}
 
 /** What derives from a mesh: the same in both dimensions. */
 export interface Source {

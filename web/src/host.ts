@@ -8,10 +8,10 @@ import { type Connection, callerConnection, workerConnection } from './connectio
 import { type Device, gpuOf } from './device.js';
 import { GdelError, giveBack, type PlainError, toGdelError } from './errors.js';
 import { compiled } from './modules.js';
-import type { TaskName, Tasks } from './protocol.js';
+import type { Done, TaskName, Tasks } from './protocol.js';
 import { loadCode, messageOf, startWorker, type WasmAsset } from './runtime.js';
 import { Stop } from './stop.js';
-import type { Place, TaskOptions } from './types.js';
+import type { TaskOptions } from './types.js';
 
 /** A run that can be aborted and takes longer than this has a second worker started beside it. */
 const WARM_MILLISECONDS = 100;
@@ -20,14 +20,6 @@ export interface HostOptions {
   gpu?: object | undefined;
   device?: Device | undefined;
   worker?: boolean | undefined;
-}
-
-/** The result of a task, and where it was computed. */
-export interface Done<T extends TaskName> {
-  result: Tasks[T]['result'];
-  place: Place;
-  /** Frees a mesh that stays on the caller's device. */
-  free?(key: number): void;
 }
 
 /** What the arguments of a task were made of. */

@@ -6,22 +6,22 @@
  */
 /// <reference lib="esnext.disposable" preserve="true" />
 
+export type {
+  AlphaOptions,
+  AlphaShape,
+  Bounds,
+  Geometry,
+  InterpolateOptions,
+  InterpolationMethod,
+  NearestOptions,
+  Topology,
+  VoronoiArrays,
+  VoronoiOptions,
+} from './answers.js';
 export type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
 export type { Mesh } from './changing.js';
 export { Delaunator } from './delaunator.js';
-export {
-  type AlphaOptions,
-  type AlphaShape,
-  type Bounds,
-  type Geometry,
-  type InterpolateOptions,
-  type InterpolationMethod,
-  type NearestOptions,
-  SpanningTree,
-  type Topology,
-  type VoronoiArrays,
-  type VoronoiOptions,
-} from './derived.js';
+export { SpanningTree } from './derived.js';
 export { GdelError, type GdelErrorCode } from './errors.js';
 export { type Locations3, Mesh3 } from './mesh.js';
 export { type Locations2, Mesh2 } from './mesh2.js';

@@ -1,14 +1,9 @@
+import type { VoronoiArrays, VoronoiOptions } from './answers.js';
 import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
 import { Mesh } from './changing.js';
-import {
-  locate,
-  type Source,
-  type VoronoiArrays,
-  type VoronoiOptions,
-  voronoi,
-} from './derived.js';
+import { locate, type Source, voronoi } from './derived.js';
 import { GdelError } from './errors.js';
-import type { Done } from './host.js';
+import type { Done } from './protocol.js';
 import type { Update } from './run.js';
 import { write } from './tools.js';
 import type { Output, Points, TaskOptions, Trace } from './types.js';

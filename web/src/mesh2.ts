@@ -1,9 +1,10 @@
+import type { VoronoiOptions } from './answers.js';
 import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
 import { Mesh } from './changing.js';
-import { locate, type Source, type VoronoiOptions, voronoi } from './derived.js';
-import type { Done } from './host.js';
+import { locate, type Source, voronoi } from './derived.js';
 import { bad, optionsOf } from './options.js';
 import { findNearest, Rings, stripes } from './plane.js';
+import type { Done } from './protocol.js';
 import { write2d } from './tools.js';
 import type { Points, TaskOptions } from './types.js';
 import { Voronoi2 } from './voronoi2.js';

@@ -1,7 +1,7 @@
 // Questions about a 2D mesh that are answered at once, in the calling thread.
 
+import type { VoronoiArrays } from './answers.js';
 import type { Coordinates, SignedIndices } from './arrays.js';
-import type { VoronoiArrays } from './derived.js';
 
 /** What the questions are about. */
 interface Triangles {

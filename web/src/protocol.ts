@@ -1,11 +1,9 @@
 // The messages between the page and the worker.
 
+import type { AlphaShape, Geometry, Topology, VoronoiArrays } from './answers.js';
 import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
-import type { AlphaShape, Geometry, Topology, VoronoiArrays } from './derived.js';
-import type { DeviceInfo } from './device.js';
+import type { Buffer, DeviceInfo } from './device.js';
 import type { PlainError } from './errors.js';
-import type { MadeResident } from './resident.js';
-import type { Edit } from './run.js';
 import type { UpdateStats } from './stats.js';
 import type {
   Backend,
@@ -49,6 +47,24 @@ export interface MovedMesh extends DerivedMesh {
   /** In 2D. */
   hull?: Indices;
   dimension: number;
+}
+
+/** What runs in both dimensions return of a mesh on the device. */
+export interface MadeResident {
+  buffers: Buffer[];
+  counts: [number, number];
+  duplicateOf: SignedIndices;
+  dimension: 0 | 1 | 2 | 3;
+  /** Under which the instance of the WebAssembly module that made it has it. */
+  key: number;
+}
+
+/** What becomes of a mesh whose points stay where they are. */
+export interface Edit {
+  /** Its points, which new ones follow. */
+  before: Coordinates;
+  /** The points that it loses; without these, it loses what is unused. */
+  removed?: ArrayLike<number> | undefined;
 }
 
 /** What the points that are left were numbered before, if some were dropped. */
@@ -157,6 +173,17 @@ export interface Tasks {
 }
 
 export type TaskName = keyof Tasks;
+
+/** The tasks that triangulate. */
+export type Task = 'delaunay3d' | 'delaunay2d';
+
+/** The result of a task, and where it was computed. */
+export interface Done<T extends TaskName> {
+  result: Tasks[T]['result'];
+  place: Place;
+  /** Frees a mesh that stays on the caller's device. */
+  free?(key: number): void;
+}
 
 /** The connection of a task to its caller. */
 export interface Control {

@@ -1,10 +1,10 @@
 // Runs on points: triangulations from scratch, and updates of meshes whose points have moved.
 
 import { wasm2d, wasm3d, wasmUpdate } from '#assets';
-import type { Coordinates } from './arrays.js';
 import type { Device } from './device.js';
 import { GdelError } from './errors.js';
-import { type Done, Host, type Sending } from './host.js';
+import { bytesOf, type Held, isBuffer } from './held.js';
+import { Host, type Sending } from './host.js';
 import { memoryOf } from './memory.js';
 import {
   checkArrays,
@@ -16,8 +16,7 @@ import {
   taskOptions,
 } from './options.js';
 import { coordinatesInSlices } from './points.js';
-import type { MovedMesh, Tasks } from './protocol.js';
-import { bytesOf, type Held, isBuffer } from './resident.js';
+import type { Done, Edit, MovedMesh, Task, Tasks } from './protocol.js';
 import type { WasmAsset } from './runtime.js';
 import type { UpdateStats } from './stats.js';
 import { throwIfAborted } from './stop.js';
@@ -32,8 +31,6 @@ import type {
 } from './types.js';
 
 export const BACKENDS: readonly Backend[] = ['auto', 'gpu', 'cpu'];
-
-export type Task = 'delaunay3d' | 'delaunay2d';
 
 /** A dimension. Each constant names its own files alone, so that bundlers leave out the others. */
 interface Kind<T extends Task> {
@@ -83,14 +80,6 @@ export async function triangulate<T extends Task>(
   outputs: readonly Output[] = [],
 ): Promise<Done<T>> {
   return start(maker, kind, await prepare(maker, kind, points, options), { outputs });
-}
-
-/** What becomes of a mesh whose points stay where they are. */
-export interface Edit {
-  /** Its points, which new ones follow. */
-  before: Coordinates;
-  /** The points that it loses; without these, it loses what is unused. */
-  removed?: ArrayLike<number> | undefined;
 }
 
 /** Makes a mesh of points that have moved, or are new, from the mesh before and its statistics. */

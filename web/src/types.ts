@@ -1,6 +1,4 @@
 import type { Bytes, Coordinates, Indices } from './arrays.js';
-import type { Mesh3 } from './mesh.js';
-import type { Mesh2 } from './mesh2.js';
 import type { Stats as RunStats } from './stats.js';
 
 /**
@@ -75,13 +73,13 @@ export interface RunOptions extends TaskOptions {
    * that the GPU makes are written where they fit into their memory. Fresh memory takes the system
    * longer to provide than the arrays take to copy.
    */
-  reuse?: Mesh3 | undefined;
+  reuse?: MeshView | undefined;
 }
 
 /** Options for a 2D triangulation. */
 export interface RunOptions2 extends Omit<RunOptions, 'outputs' | 'reuse'> {
   /** As in 3D. */
-  reuse?: Mesh2 | undefined;
+  reuse?: MeshView2 | undefined;
 }
 
 /** Options for a 3D triangulation in the calling thread. */
@@ -258,7 +256,7 @@ export interface Report {
   };
 }
 
-/** A 3D mesh to verify. What is missing is not checked. */
+/** The arrays of a 3D mesh. What is missing is not looked at. */
 export interface MeshView {
   tetrahedra: Uint32Array;
   neighbors?: Int32Array | undefined;
@@ -281,7 +279,7 @@ export interface Report2 extends Omit<Report, 'counts'> {
   };
 }
 
-/** A 2D mesh to verify. What is missing is not checked. */
+/** The arrays of a 2D mesh. What is missing is not looked at. */
 export interface MeshView2 {
   triangles: Uint32Array;
   halfedges?: Int32Array | undefined;

@@ -1,5 +1,5 @@
+import type { VoronoiArrays } from './answers.js';
 import type { Doubles, Indices } from './arrays.js';
-import type { VoronoiArrays } from './derived.js';
 import { bad } from './options.js';
 
 /** A closed polygon: its last point is the first one. */
