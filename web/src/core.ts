@@ -2,7 +2,7 @@
 
 import makeGlue from 'glue';
 import type { Coordinates } from './arrays.js';
-import { type PlainError, toPlainError } from './errors.js';
+import { GPU_ERRORS, type PlainError, toPlainError } from './errors.js';
 import { Memory, MemoryThreads } from './memory.js';
 import type {
   Control,
@@ -154,9 +154,6 @@ const ARRAYS = {
   d2: ['triangles', 'halfedges', 'hull'],
 };
 
-/** Returns whether the GPU is to blame for what WebAssembly threw. */
-const isOfGpu = (thrown: unknown) => /ADAPTER|DEVICE|BUFFER|^GPU/.test((thrown as PlainError).code);
-
 /** What runs have in common. */
 type RunArgs = Tasks['delaunay2d']['args'];
 
@@ -221,7 +218,7 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
    * those of simplices and neighbours.
    */
   async function run(
-    { points, backend, resident, spare, moved, key, outputs }: RunArgs,
+    { points, backend, resident, spare, moved, key, newKey, outputs }: RunArgs,
     minGpuCoordinates: number,
     large: number,
     control: Control,
@@ -250,8 +247,8 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
       const made = await (before?.update(triangulator, points, chosen, report) ?? run(onDevice));
       if (made.resident) {
         const { mesh, ...resident } = made.resident;
-        made.resident = { ...resident, key: Math.random() };
-        meshes.set(made.resident.key, mesh);
+        made.resident = { ...resident, key: newKey };
+        meshes.set(newKey, mesh);
       }
       return made;
     };
@@ -262,7 +259,7 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
           mesh = await keep(await runOrUpdate(true), outputs!, ready);
         } catch (error) {
           // The CPU takes over from a device that failed, without which nothing can be kept.
-          if (backend === 'gpu' || !isOfGpu(error)) throw error;
+          if (backend === 'gpu' || !GPU_ERRORS.has((error as PlainError).code)) throw error;
           mesh = await run(false);
         }
       } else {

@@ -46,6 +46,15 @@ export type GdelErrorCode =
   /** A bug in this package. */
   | 'INTERNAL';
 
+/** The errors for which a device is to blame. */
+export const GPU_ERRORS: ReadonlySet<GdelErrorCode> = new Set([
+  'NO_ADAPTER',
+  'DEVICE_LOST',
+  'OUT_OF_DEVICE_MEMORY',
+  'BUFFER_TOO_LARGE',
+  'GPU',
+]);
+
 /**
  * The error of every failure in this package. Only errors of your own stay what they are: what
  * `point` or `onProgress` throws, and the reason that you give to `AbortController.abort`.

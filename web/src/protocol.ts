@@ -55,7 +55,7 @@ export interface MadeResident {
   counts: [number, number];
   duplicateOf: SignedIndices;
   dimension: 0 | 1 | 2 | 3;
-  /** Under which the instance of the WebAssembly module that made it has it. */
+  /** The number under which the instance that made it has it. */
   key: number;
 }
 
@@ -92,6 +92,8 @@ export interface Tasks {
       moved?: number;
       /** For an update of what the GPU has made: the key of the last one, 0 for the first. */
       key?: number;
+      /** The key of the mesh if it stays on the device, which no other mesh has. */
+      newKey: number;
     };
     result: {
       points: Coordinates;
@@ -116,6 +118,7 @@ export interface Tasks {
       spare?: ArrayBuffer[];
       moved?: number;
       key?: number;
+      newKey: number;
       outputs?: readonly string[];
     };
     result: {

@@ -163,6 +163,12 @@ interface Job {
   options: TaskOptions;
 }
 
+/** The last key of a mesh: meshes of instances that were replaced have keys of their own, too. */
+let lastKey = 0;
+
+/** Returns a key that no mesh has. */
+export const nextKey = (): number => ++lastKey;
+
 const start = <T extends Task>(
   { host }: Maker,
   { task, asset }: Kind<T>,
@@ -206,5 +212,6 @@ async function prepare(
   );
   const spare = resident ? [] : memoryOf(arrays);
   const sending: Sending = { transfer: [coordinates.buffer, ...spare], isGiven: transfer };
-  return { args: { points: coordinates, backend, resident, spare }, sending, options: task };
+  const args = { points: coordinates, backend, resident, spare, newKey: nextKey() };
+  return { args, sending, options: task };
 }

@@ -11,6 +11,7 @@ import {
   IN_2D,
   IN_3D,
   type Maker,
+  nextKey,
   sharedMaker,
   triangulate,
   updating,
@@ -114,7 +115,7 @@ export async function createTriangulator(options?: TriangulatorOptions): Promise
       return new Triangulator(host, backend, { ...result, ...place }, device);
     }
     // A run on no points shows that the worker starts, or why it does not.
-    const args = { points: new Float64Array(0), backend, outputs: [] };
+    const args = { points: new Float64Array(0), backend, outputs: [], newKey: nextKey() };
     const { place } = await host.run(wasm3d, 'delaunay3d', args, { transfer: [] }, {});
     const info = { backend, fallback: null, adapter: null, ...place };
     return new Triangulator(host, backend, info, device);
