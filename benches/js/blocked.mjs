@@ -1,5 +1,5 @@
 // How long runs on a device of the caller's block the calling thread, in Node through the npm package
-// `webgpu` (Dawn), or in a page of headless Chromium. Prints JSON.
+// `webgpu` (Dawn), or in a page of headless Chromium. Prints a line of JSON per run.
 //
 //   node benches/js/blocked.mjs [--package FOLDER] [--in node|chromium] [--points 100000]
 //     [--kind uniform] [--dimension 3] [--backend gpu] [--runs 3] [--resident]
@@ -15,6 +15,7 @@ import { parseArgs } from 'node:util';
 import { launchChromium, WEBGPU } from '../../tests/web/browsers.mjs';
 import { root } from '../../tests/web/package.mjs';
 import { serve } from '../../tests/web/server.mjs';
+import { print } from './common.mjs';
 
 const { values } = parseArgs({
   options: {
@@ -123,6 +124,6 @@ async function inChromium() {
 }
 
 const rows = await (values.in === 'chromium' ? inChromium() : inNode());
-for (const row of rows) console.log(JSON.stringify({ in: values.in, ...settings, ...row }));
+for (const row of rows) print({ in: values.in, ...settings, ...row });
 // Dawn keeps Node alive.
 process.exit();

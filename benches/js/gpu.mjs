@@ -1,135 +1,151 @@
-// Times the packed package's GPU backend in Node through the npm package `webgpu` (Dawn), and
-// prints JSON.
+// Times the package's GPU backend in Node through the npm package `webgpu` (Dawn): a line of JSON per row.
 //
-//   node benches/js/gpu.mjs [--package FOLDER] [--webgpu FOLDER] \
-//     [--points 100000,1000000] [--kind uniform] [--runs 5] [--native GDEL]
-//     [--outputs neighbors,hull,duplicateOf] [--resident [--here]] [--reuse]
+//   node benches/js/gpu.mjs [--package FOLDER] [--webgpu FOLDER] [--points 100000,1000000]
+//     [--kind uniform] [--runs 9] [--outputs neighbors,hull,duplicateOf] [--reuse]
+//     [--resident [--moved 0.002,0.01]] [--here]
 //
-// With --resident, the mesh stays on a device that the script opens; with --here, the calling thread
-// computes as well, instead of a worker that sends it the calls. --outputs '' leaves the
-// tetrahedra alone. With --reuse, each mesh takes the memory of the one before.
+// --outputs '' leaves the tetrahedra alone. With --reuse, each mesh takes the memory of the one before. With
+// --resident, the mesh stays on a device that the script opens; with --here, the calling thread does all of the
+// work. With --moved, resident meshes follow their points: displacements are normally distributed, and given as
+// shares of the mean spacing of the points.
 //
-// To run it on another machine, carry this file, web/dist and node_modules/webgpu there; of the
-// latter, `index.js`, `package.json` and the `.dawn.node` of its platform in `dist` are enough.
-// --package and --webgpu say where they lie. On Linux it takes libvulkan1 and the driver. With
-// --native, a `gdel` binary triangulates the same points in turn.
+// To run it on another machine, carry benches/js, web/dist and node_modules/webgpu there; of the latter,
+// `index.js`, `package.json` and the `.dawn.node` of its platform in `dist` are enough. On Linux it takes
+// libvulkan1 and the driver.
 
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { dirname, join, resolve } from 'node:path';
-import { fileURLToPath, pathToFileURL } from 'node:url';
+import { join } from 'node:path';
 import { parseArgs } from 'node:util';
+import { load, openDevice, openGpu, phases, print, root, timed, times } from './common.mjs';
 
-const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
 const { values } = parseArgs({
   options: {
     package: { type: 'string', default: join(root, 'web/dist') },
     webgpu: { type: 'string', default: join(root, 'node_modules/webgpu') },
     points: { type: 'string', default: '100000,1000000' },
     kind: { type: 'string', default: 'uniform' },
-    runs: { type: 'string', default: '5' },
-    native: { type: 'string' },
+    runs: { type: 'string', default: '9' },
     outputs: { type: 'string', default: 'neighbors,hull,duplicateOf' },
     resident: { type: 'boolean', default: false },
+    moved: { type: 'string', default: '' },
     here: { type: 'boolean', default: false },
     reuse: { type: 'boolean', default: false },
   },
 });
-const load = (folder, file) => import(pathToFileURL(join(resolve(folder), file)));
-const { createTriangulator, generate } = await load(values.package, 'index.js');
-const { create } = await load(values.webgpu, 'index.js');
-
-const folder = mkdtempSync(join(tmpdir(), 'gdel-bench-'));
-process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
+const { resident, kind, here } = values;
+const list = (text) => text.split(',').filter(Boolean);
+const runs = Number(values.runs);
 // The second run of a process waits for kernels that are compiled behind the first, and a device that was
 // idle raises its clock during the first second of work.
 const WARM_UP_MILLISECONDS = 3000;
 
-const median = (numbers) => numbers.slice().sort((a, b) => a - b)[numbers.length >> 1];
-
-/** Returns a device with the largest buffers that the adapter has. */
-async function deviceOf(gpu) {
-  const adapter = await gpu.requestAdapter({ powerPreference: 'high-performance' });
-  const { maxBufferSize, maxStorageBufferBindingSize } = adapter.limits;
-  return adapter.requestDevice({ requiredLimits: { maxBufferSize, maxStorageBufferBindingSize } });
-}
-
-const opened = performance.now();
-const gpu = create([]);
-// When it is garbage, its devices are lost.
-globalThis.gpu = gpu;
-const { resident } = values;
-const triangulator = await createTriangulator({
-  ...(resident ? { device: await deviceOf(gpu), worker: !values.here } : { gpu }),
-  backend: 'gpu',
+const { createTriangulator, generate } = await load(values.package, 'index.js');
+const [openMilliseconds, triangulator] = await timed(async () => {
+  const gpu = await openGpu(values.webgpu);
+  const own = resident ? { device: await openDevice(gpu), worker: !here } : { gpu };
+  return createTriangulator({ ...own, backend: 'gpu' });
 });
-const outputs = values.outputs.split(',').filter(Boolean);
+const thread = resident && !here ? 'worker' : 'calling';
+const outputs = list(values.outputs);
 const kept = resident ? { resident } : { outputs };
-const openMilliseconds = performance.now() - opened;
-const runs = +values.runs;
 
-for (const count of values.points.split(',').map(Number)) {
-  const points = await generate(values.kind, count, { seed: 1 });
-  let native = null;
-  if (values.native) {
-    const file = join(folder, 'points.f64');
-    writeFileSync(file, new Uint8Array(points.buffer));
-    const args = [
-      'triangulate',
-      file,
-      '--backend',
-      'gpu',
-      '--stats',
-      'json',
-      '--repeat',
-      String(runs + 1),
-    ];
-    const lines = execFileSync(values.native, args, { encoding: 'utf8' }).trim().split('\n');
-    // The first run opens the device.
-    native = median(lines.slice(1).map((line) => 1e3 * JSON.parse(line).seconds.total));
-  }
-  let mesh;
-  const run = async () => {
-    const copy = points.slice();
-    const reuse = values.reuse ? mesh : undefined;
-    const started = performance.now();
-    mesh = await triangulator.delaunay3d(copy, { backend: 'gpu', transfer: true, reuse, ...kept });
-    const milliseconds = performance.now() - started;
-    if (resident) mesh.destroy();
-    return milliseconds;
-  };
+/** Runs something for a while, then times `runs` runs of it. */
+async function measure(run) {
   const warm = performance.now() + WARM_UP_MILLISECONDS;
   do await run();
   while (performance.now() < warm);
-  const times = [];
-  while (times.length < runs) times.push(await run());
-  const { gpu: device, splay, phases, fallback, adapter, wasmBytes } = mesh.stats;
-  const milliseconds = median(times);
-  console.log(
-    JSON.stringify({
-      kind: values.kind,
-      points: count,
-      tetrahedra: mesh.tetrahedronCount ?? mesh.tetrahedra.length / 4,
-      outputs: resident ? 'resident' : outputs,
-      reuse: values.reuse,
-      milliseconds,
-      all: times,
-      nativeMilliseconds: native,
-      ratio: native && milliseconds / native,
-      phases,
-      fallback,
-      submits: device?.submits,
-      dispatches: device?.dispatches,
-      readbacks: device?.readbacks,
-      bytesRead: device?.bytesRead,
-      failedVertices: device?.failedVertices,
-      splayed: splay?.built,
-      gpuBytes: device?.bytes,
-      wasmBytes,
-      openMilliseconds,
-      adapter,
-    }),
-  );
+  const all = [];
+  while (all.length < runs) all.push(await run());
+  return all;
+}
+
+async function triangulate(count) {
+  const points = await generate(kind, count, { seed: 1 });
+  let mesh;
+  const all = await measure(async () => {
+    const copy = points.slice();
+    const options = { backend: 'gpu', transfer: true, ...kept };
+    if (values.reuse) options.reuse = mesh;
+    const [milliseconds, made] = await timed(() => triangulator.delaunay3d(copy, options));
+    if (resident) made.destroy();
+    mesh = made;
+    return milliseconds;
+  });
+  const { gpu, splay, fallback, adapter, wasmBytes } = mesh.stats;
+  print({
+    input: kind,
+    points: count,
+    precision: 'f64',
+    result: resident ? 'resident' : ['tetrahedra', ...outputs].join(','),
+    reuse: values.reuse,
+    thread,
+    simplices: mesh.tetrahedronCount ?? mesh.tetrahedra.length / 4,
+    ...times('ms', all),
+    phases_ms: phases(mesh.stats),
+    open_ms: openMilliseconds,
+    fallback,
+    gpu: {
+      failed_vertices: gpu?.failedVertices,
+      dispatches: gpu?.dispatches,
+      submits: gpu?.submits,
+      readbacks: gpu?.readbacks,
+      bytes_read: gpu?.bytesRead,
+      bytes: gpu?.bytes,
+    },
+    splay: { built: splay?.built },
+    wasm_bytes: wasmBytes,
+    adapter,
+  });
+}
+
+/** Returns normally distributed numbers, two at a time. */
+function gaussians() {
+  const radius = Math.sqrt(-2 * Math.log(1 - Math.random()));
+  const angle = 2 * Math.PI * Math.random();
+  return [radius * Math.cos(angle), radius * Math.sin(angle)];
+}
+
+async function follow(count, share) {
+  const points = await generate('uniform', count, { seed: 1 });
+  const displacement = share * count ** (-1 / 3);
+  const mesh = await triangulator.delaunay3d(points.slice(), { resident });
+  const restarts = [];
+  const displace = () => {
+    for (let i = 0; i < points.length; i += 2) {
+      const [x, y] = gaussians();
+      points[i] += displacement * x;
+      points[i + 1] += displacement * y;
+    }
+  };
+  const updates = await measure(async () => {
+    displace();
+    const [milliseconds] = await timed(() => mesh.update(points));
+    restarts.push(mesh.stats.update.restarted);
+    return milliseconds;
+  });
+  const scratch = await measure(async () => {
+    displace();
+    const [milliseconds, made] = await timed(() => triangulator.delaunay3d(points, { resident }));
+    made.destroy();
+    return milliseconds;
+  });
+  mesh.destroy();
+  print({
+    input: 'uniform',
+    points: count,
+    precision: 'f64',
+    share,
+    thread,
+    restarts: restarts.slice(-runs).filter(Boolean),
+    ...times('ms', updates),
+    ...times('scratch_ms', scratch),
+    adapter: mesh.stats.adapter,
+  });
+}
+
+for (const count of list(values.points).map(Number)) {
+  if (!values.moved) await triangulate(count);
+  for (const share of list(values.moved).map(Number)) await follow(count, share);
 }
 triangulator.dispose();
+// Dawn keeps Node alive.
+process.exit();

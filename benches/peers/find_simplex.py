@@ -1,4 +1,4 @@
-"""SciPy's point location, for answers.py."""
+"""SciPy's point location, for peers.py."""
 
 import json
 import sys

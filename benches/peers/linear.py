@@ -1,5 +1,5 @@
-"""Prints SciPy's linear interpolation at queries: `linear.py DIMENSION POINTS QUERIES`, of x·y + z, in 2D of x·y + y,
-the oracle in tests/data/derived/linear.txt and of answers.py --equal."""
+"""Prints SciPy's linear interpolation at queries: `linear.py DIMENSION POINTS QUERIES`, of x·y + z, in 2D of x·y + y, the oracle
+in tests/data/derived/linear.txt."""
 
 import sys
 

@@ -1,4 +1,4 @@
-// CGAL's point location, for answers.py: the queries are sorted along a Hilbert curve, and each walk
+// CGAL's point location, for peers.py: the queries are sorted along a Hilbert curve, and each walk
 // starts where the last one ended.
 
 #include <CGAL/Delaunay_triangulation_3.h>

@@ -1,4 +1,4 @@
-// The Voronoi cells of voro++ in the unit cube, volumes and neighbours, for answers.py.
+// The Voronoi cells of voro++ in the unit cube, volumes and neighbours, for peers.py.
 
 #include <cmath>
 #include <cstdint>

@@ -22,7 +22,7 @@ use async_lock::Mutex;
 
 /// The number of points in 3D from which on [`Backend::Auto`] takes the GPU engine if it is open.
 ///
-/// A bound, from `cargo bench --features cli --bench experiments -- crossing` on one NVIDIA H200
+/// A bound, measured on one NVIDIA H200
 /// and one core of the Xeon beside it, 2026-11-21: the GPU engine takes 27 ms for 100,000 uniform
 /// points, and never more for fewer; the CPU engine takes at least 2.0 µs per point, so it is no
 /// faster from 14,000 points on. The rest is for devices that take longer to start. Against 4 and
@@ -36,7 +36,7 @@ pub const MIN_POINTS_3D: usize = 24_000;
 pub const OPENING_POINTS_3D: usize = 100_000;
 
 /// The number of points in 2D from which on [`Backend::Auto`] takes the GPU engine if it is open:
-/// on the same machine (`cargo bench --bench measure_2d`, 2026-11-22), the GPU engine takes 8 ms
+/// on the same machine (2026-11-22), the GPU engine takes 8 ms
 /// for 50,000 points, and the CPU engine 0.43 µs per point, so it is no faster from 19,000 points
 /// on.
 pub const MIN_POINTS_2D: usize = 30_000;

@@ -1,0 +1,161 @@
+//! Whole triangulations.
+
+use crate::{
+    input::{Adapter, Cloud, Source, Space},
+    row::{Row, median, microseconds, milliseconds, repeated},
+};
+use clap::{Args, ValueEnum};
+use gdel::{Backend, Triangulator, internals::dimension::Dimension, stats::Stats};
+use rayon::ThreadPoolBuilder;
+use serde_json::{Map, Value, json};
+use std::{error::Error, num::NonZeroUsize};
+
+/// Time triangulations, from points in host memory to the mesh.
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    source: Source,
+    #[command(flatten)]
+    adapter: Adapter,
+    /// What computes
+    #[arg(long, value_enum, default_value_t = Engine::Gpu)]
+    backend: Engine,
+    /// Where the mesh goes
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "fresh")]
+    result: Vec<Destination>,
+    /// How many threads work for the host [default: all]
+    #[arg(long, value_delimiter = ',')]
+    threads: Vec<usize>,
+    /// Timed runs, of which the median counts
+    #[arg(long, default_value = "9")]
+    runs: NonZeroUsize,
+    /// Seconds of runs before these
+    #[arg(long, default_value_t = 1.0)]
+    warm_up: f64,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Engine {
+    Cpu,
+    Gpu,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Destination {
+    /// Memory of its own
+    Fresh,
+    /// The memory of the mesh before
+    Reused,
+    /// The device
+    Resident,
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    match arguments.source.dim {
+        2 => in_dimension::<2>(arguments),
+        _ => in_dimension::<3>(arguments),
+    }
+}
+
+fn in_dimension<const D: usize>(arguments: &Arguments) -> Result<(), Box<dyn Error>>
+where
+    Dimension<D>: Space<D>,
+{
+    let backend = match arguments.backend {
+        Engine::Cpu => Backend::Cpu,
+        Engine::Gpu => Backend::Gpu,
+    };
+    // One device for all rows.
+    let triangulator = arguments.adapter.triangulator(backend);
+    let all = [rayon::current_num_threads()];
+    let threads = if arguments.threads.is_empty() { &all[..] } else { &arguments.threads };
+    for cloud in arguments.source.clouds::<D>() {
+        let cloud = cloud?;
+        for &threads in threads {
+            // What shares work does so in the pool in which it is called.
+            let pool = ThreadPoolBuilder::new().num_threads(threads).build()?;
+            for &destination in &arguments.result {
+                let row = pool.install(|| measure(arguments, &triangulator, &cloud, destination))?;
+                row.with("threads", threads).print();
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Returns the row of one input.
+fn measure<const D: usize>(
+    arguments: &Arguments,
+    triangulator: &Triangulator,
+    cloud: &Cloud<D>,
+    destination: Destination,
+) -> Result<Row, gdel::Error>
+where
+    Dimension<D>: Space<D>,
+{
+    let points = cloud.points();
+    let mut kept = <Dimension<D> as Space<D>>::Mesh::default();
+    let mut all = Vec::new();
+    let vertices = |duplicate_of: &[i32]| duplicate_of.iter().filter(|&&first| first < 0).count();
+    let (times, (simplices, vertices)) = repeated(arguments.runs, arguments.warm_up, || {
+        if destination == Destination::Resident {
+            let mesh = Dimension::<D>::triangulate_resident(triangulator, points)?;
+            all.push(mesh.stats().clone());
+            return Ok((mesh.simplex_count(), vertices(mesh.duplicate_of())));
+        }
+        if destination == Destination::Fresh {
+            kept = Default::default();
+        }
+        Dimension::<D>::triangulate(triangulator, points, &mut kept)?;
+        let (simplices, duplicate_of, stats) = Dimension::<D>::summary(&kept);
+        all.push(stats.clone());
+        Ok::<_, gdel::Error>((simplices, vertices(duplicate_of)))
+    })?;
+    let stats = &all[all.len() - arguments.runs.get()..];
+    let row = Row::new()
+        .with("input", cloud.name.as_str())
+        .with("dimension", D)
+        .with("points", points.len())
+        .with("precision", cloud.precision())
+        .with("result", destination.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned()))
+        .with("simplices", simplices)
+        .with("vertices", vertices)
+        .with_times("ms", &times);
+    Ok(with_stats(row, stats))
+}
+
+/// Adds the medians of the phases, and the counts of the last run.
+fn with_stats(row: Row, all: &[Stats]) -> Row {
+    let Some(last) = all.last() else { return row };
+    let phases: Map<String, Value> = last
+        .phases
+        .iter()
+        .map(|&(phase, _)| {
+            let times: Vec<f64> = all.iter().map(|stats| milliseconds(stats.time_of(phase))).collect();
+            (phase.name().replace(' ', "_"), json!(microseconds(median(&times))))
+        })
+        .collect();
+    let row = row
+        .with("backend", last.backend.to_string())
+        .with("fallback", last.fallback.as_ref().map(ToString::to_string))
+        .with("phases_ms", phases);
+    let row = match &last.gpu {
+        Some(gpu) => row.with("adapter", gpu.adapter.as_str()).with(
+            "gpu",
+            json!({
+                "rounds": gpu.rounds.len(), "flip_iterations": gpu.flip_iterations,
+                "flips": gpu.flips_22 + gpu.flips_23 + gpu.flips_32, "exact_tests": gpu.exact_tests,
+                "failed_vertices": gpu.failed_vertices, "dispatches": gpu.dispatches, "submits": gpu.submits,
+                "readbacks": gpu.readbacks, "stalls": gpu.stalls, "bytes": gpu.bytes,
+            }),
+        ),
+        None => row,
+    };
+    match &last.splay {
+        Some(splay) => row.with(
+            "splay",
+            json!({ "built": splay.built, "pulled": splay.pulled, "rounds": splay.rounds, "gathers": splay.gathers }),
+        ),
+        None => row,
+    }
+}
