@@ -3,7 +3,7 @@
 //
 //   npm run build && cargo build --release -p gdel-bench
 //   node benches/js/cpu.mjs [--dim 2] [--points 100000] [--kind uniform] [--runs 3]
-//     [--sides ours,native,qhull]
+//     [--sides gdel-wasm,native,qhull-wasm]
 //
 // All sides take the same points, in turn.
 
@@ -31,7 +31,7 @@ let wasmBytes = 0;
 
 /** Each returns the milliseconds of a run, and the number of simplices. */
 const SIDES = {
-  async ours() {
+  async 'gdel-wasm'() {
     const copy = input.slice();
     const [milliseconds, mesh] = await timed(() =>
       triangulator[`delaunay${dimension}d`](copy, { transfer: true }),
@@ -49,12 +49,13 @@ const SIDES = {
 if (dimension === 2) {
   const { default: Theirs } = await import('delaunator');
   await gdel.Delaunator.load();
-  SIDES['our class'] = () => timed(() => new gdel.Delaunator(input).triangles.length / 3);
+  SIDES['its class Delaunator'] = () =>
+    timed(() => new gdel.Delaunator(input).triangles.length / 3);
   SIDES.delaunator = () => timed(() => new Theirs(input).triangles.length / 3);
 } else {
   const { loadQhull } = await import('qhull-wasm');
   const qhull = await loadQhull();
-  SIDES.qhull = () => timed(() => qhull.delaunay(input, 3).facets.length);
+  SIDES['qhull-wasm'] = () => timed(() => qhull.delaunay(input, 3).facets.length);
 }
 
 const names = values.sides?.split(',') ?? Object.keys(SIDES);
@@ -68,7 +69,7 @@ for (let run = 0; run < runs; run++) {
   }
 }
 triangulator.dispose();
-const ours = median(found.ours ?? found[names[0]]);
+const ours = median(found['gdel-wasm'] ?? found[names[0]]);
 for (const name of names) {
   print({
     input: values.kind,
@@ -79,6 +80,6 @@ for (const name of names) {
     simplices: counts[name],
     ...times('ms', found[name]),
     ratio: Math.round((1e3 * ours) / median(found[name])) / 1e3,
-    wasm_bytes: name === 'ours' ? wasmBytes : undefined,
+    wasm_bytes: name === 'gdel-wasm' ? wasmBytes : undefined,
   });
 }

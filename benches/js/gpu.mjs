@@ -44,9 +44,11 @@ const [openMilliseconds, triangulator] = await timed(async () => {
   const own = resident ? { device: await openDevice(gpu), worker: !here } : { gpu };
   return createTriangulator({ ...own, backend: 'gpu' });
 });
-const thread = resident && !here ? 'worker' : 'calling';
+
 const outputs = list(values.outputs);
 const kept = resident ? { resident } : { outputs };
+const arrays = outputs.length === 3 ? 'all arrays' : ['tetrahedra', ...outputs].join(', ');
+const result = resident ? 'resident' : arrays;
 
 /** Runs something for a while, then times `runs` runs of it. */
 async function measure(run) {
@@ -70,12 +72,12 @@ async function triangulate(count) {
     mesh = made;
     return milliseconds;
   });
-  const { gpu, splay, fallback, adapter, wasmBytes } = mesh.stats;
+  const { gpu, splay, fallback, adapter, thread, wasmBytes } = mesh.stats;
   print({
     input: kind,
     points: count,
     precision: 'f64',
-    result: resident ? 'resident' : ['tetrahedra', ...outputs].join(','),
+    result,
     reuse: values.reuse,
     thread,
     simplices: mesh.tetrahedronCount ?? mesh.tetrahedra.length / 4,
@@ -134,7 +136,7 @@ async function follow(count, share) {
     points: count,
     precision: 'f64',
     share,
-    thread,
+    thread: mesh.stats.thread,
     restarts: restarts.slice(-runs).filter(Boolean),
     ...times('ms', updates),
     ...times('scratch_ms', scratch),

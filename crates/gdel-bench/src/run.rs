@@ -5,7 +5,11 @@ use crate::{
     row::{Row, median, microseconds, milliseconds, repeated},
 };
 use clap::{Args, ValueEnum};
-use gdel::{Backend, Triangulator, internals::dimension::Dimension, stats::Stats};
+use gdel::{
+    Backend, Triangulator,
+    internals::dimension::Dimension,
+    stats::{Phase, Stats},
+};
 use rayon::ThreadPoolBuilder;
 use serde_json::{Map, Value, json};
 use std::{error::Error, num::NonZeroUsize};
@@ -112,6 +116,8 @@ where
         Ok::<_, gdel::Error>((simplices, vertices(duplicate_of)))
     })?;
     let stats = &all[all.len() - arguments.runs.get()..];
+    let before = |stats: &Stats| milliseconds(stats.time_of(Phase::Lattice) + stats.time_of(Phase::Phase1));
+    let after: Vec<f64> = times.iter().zip(stats).map(|(time, stats)| time - before(stats)).collect();
     let row = Row::new()
         .with("input", cloud.name.as_str())
         .with("dimension", D)
@@ -121,7 +127,9 @@ where
         .with("simplices", simplices)
         .with("vertices", vertices)
         .with_times("ms", &times);
-    Ok(with_stats(row, stats))
+    let row = with_stats(row, stats);
+    // What follows Phase 1, for the GPU.
+    Ok(if stats[0].gpu.is_some() { row.with("after_ms", microseconds(median(&after))) } else { row })
 }
 
 /// Adds the medians of the phases, and the counts of the last run.
