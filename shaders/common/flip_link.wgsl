@@ -22,5 +22,5 @@ fn main(
         entries_here = entries_of(iteration, base, many());
     }
     let entries = workgroupUniformLoad(&entries_here);
-    link_pass(group.x, groups.x, local, bids_of(iteration, base, entries), entries, lists_next(entries));
+    link_pass(group.x, groups.x, local, bids_of(iteration, base, entries), entries);
 }

@@ -43,7 +43,6 @@ struct Control {
     insert_all: u32,
     pick: u32,
     blocks_before: u32,
-    compact_from: u32,
     clockwise: u32,
     start_points: u32,
     start_simplices: u32,

@@ -27,8 +27,8 @@ struct Changed {
 }
 
 // Links the flips of `entries` entries, of which workgroup `group` of `groups` takes its share, and
-// lists the simplices to check next if it is to.
-fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, lists: bool) {
+// lists the simplices to check next.
+fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     if local < 4 {
         atomicStore(&flips[local], 0u);
     }
@@ -58,8 +58,7 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
                 changed = Changed(vec3u(entry.tet, 0, 0), select(0u, 1u, (entry.outcome & CHECK) != 0));
             }
         }
-        let count = select(0u, changed.count, lists);
-        var at = atomicAdd(&wanted, count);
+        var at = atomicAdd(&wanted, changed.count);
         workgroupBarrier();
         // Where the list goes on is asked for early, since the answer takes a while.
         var first = 0u;
@@ -77,13 +76,13 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32, list
             given = first;
         }
         at += workgroupUniformLoad(&given) + next;
-        if count > 0 {
+        if changed.count > 0 {
             actives[at] = Active(changed.slots.x, 0);
         }
-        if count > 1 {
+        if changed.count > 1 {
             actives[at + 1] = Active(changed.slots.y, 0);
         }
-        if count > 2 {
+        if changed.count > 2 {
             actives[at + 2] = Active(changed.slots.z, 0);
         }
         start = next_chunk(start, ahead, long, WORKGROUP, groups, local);

@@ -2,11 +2,6 @@
 //
 // Expects: control, neighbors; Changed and flips of common/link_pass.
 
-// Returns whether flip_link lists the triangles to check next: no other kernel does.
-fn lists_next(entries: u32) -> bool {
-    return true;
-}
-
 // Returns the kind of a flip that was carried out.
 fn kind_of(outcome: u32) -> u32 {
     return FLIP_22;

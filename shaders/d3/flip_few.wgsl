@@ -61,7 +61,7 @@ fn main(@builtin(local_invocation_index) local: u32) {
         decides = workgroupUniformLoad(&exact_due);
         commit_pass(0, 1, local, bids, entries);
         passed();
-        link_pass(0, 1, local, bids, entries, true);
+        link_pass(0, 1, local, bids, entries);
         passed();
         if local == 0 {
             control.few_done += 1;

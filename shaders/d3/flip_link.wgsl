@@ -2,11 +2,6 @@
 //
 // Expects: control, neighbors; Changed and flips of common/link_pass.
 
-// Returns whether flip_link lists the tetrahedra to check next; otherwise flip_compact does.
-fn lists_next(entries: u32) -> bool {
-    return entries < control.compact_from;
-}
-
 // Returns the kind of a flip that was carried out.
 fn kind_of(outcome: u32) -> u32 {
     return select(FLIP_32, FLIP_23, (outcome & DONE_23) != 0);

@@ -261,9 +261,6 @@ pub struct Params {
     pub pick: u32,
     /// Blocks that there were before there were more.
     pub blocks_before: u32,
-    /// In 3D: after a flip iteration with at least this many active tetrahedra, the next ones
-    /// are found by looking at all slots (§4.2).
-    pub compact_from: u32,
     /// In 2D: 1 for a mesh that is clockwise with *y* up, 0 for one that is counter-clockwise.
     pub clockwise: u32,
     /// The points that the start triangulates.

@@ -6,8 +6,8 @@ use crate::gpu::layout::{Active, CHECK, DONE};
 use crate::reference::State;
 use crate::reference::dim::ReferenceDim;
 
-/// Joins the new simplices to those around them, and lists the simplices to check next, unless
-/// compaction finds them. One invocation per entry of the active list.
+/// Joins the new simplices to those around them, and lists the simplices to check next. One
+/// invocation per entry of the active list.
 ///
 /// An outer neighbour that did not change is updated; one that did left a message, which is
 /// followed. So each facet is written once.
@@ -47,22 +47,12 @@ where
     }
     state.counters.iteration = iteration + 1;
     state.counters.bid_base = bids.next_base();
-    if state.compacts(iteration) {
-        state.counters.active_len[1 - half] = 0;
-    }
 }
 
 impl<const D: usize> State<D>
 where
     Dimension<D>: ReferenceDim<D>,
 {
-    /// Returns whether so many simplices were active in an iteration that the next ones are found
-    /// by looking at all slots.
-    pub(super) fn compacts(&self, iteration: u32) -> bool {
-        let active = self.counters.active_len[(iteration & 1) as usize];
-        !self.is_idle(iteration) && active >= self.params.compact_from
-    }
-
     fn join(&mut self, mark: u32, t: u32, face: usize) {
         let (u, theirs) = self.across(t, face);
         if self.status[u as usize].vote == mark {

@@ -74,7 +74,7 @@ where
         let slots = (blocks * BLOCK) as usize;
         State {
             width,
-            params: Params { infinite, blocks, history, compact_from: u32::MAX, ..Params::default() },
+            params: Params { infinite, blocks, history, ..Params::default() },
             start: StartMesh { points: Vec::new(), simplices: Vec::new() },
             start_vertices: Vec::new(),
             merged: vec![false; infinite as usize],

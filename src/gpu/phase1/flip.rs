@@ -14,8 +14,6 @@ pub(crate) struct Flip {
     check_exact: Option<Kernel>,
     commit: Kernel,
     link: Kernel,
-    /// In a dimension that can find the active simplices by looking at all slots (§4.2).
-    compact: Option<Kernel>,
     clear_votes: Kernel,
     /// In a dimension in which a flip beside an inverted simplex may have to wait for another one.
     again: Option<Kernel>,
@@ -31,7 +29,6 @@ pub(crate) struct BoundFlip {
     check_exact: Option<wgpu::BindGroup>,
     commit: wgpu::BindGroup,
     link: wgpu::BindGroup,
-    compact: Option<wgpu::BindGroup>,
     clear_votes: wgpu::BindGroup,
     again: Option<wgpu::BindGroup>,
     few: Option<wgpu::BindGroup>,
@@ -44,9 +41,6 @@ pub(crate) struct FlipPlan {
     pub(crate) iterations: u32,
     /// What the filter leaves open is decided in every so many iterations, or in the last one of fewer.
     pub(crate) exact_every: u32,
-    /// Whether there may be so many active simplices in one that the next ones are found by
-    /// compaction (§4.2).
-    pub(crate) compacts: bool,
     /// Whether iterations of few simplices are done in one workgroup.
     pub(crate) takes_few: bool,
 }
@@ -59,7 +53,6 @@ impl Flip {
     {
         let kernel = |name| compiler.kernel(Dimension::<D>::SHADERS.get(name), width);
         let optional = |name| Dimension::<D>::SHADERS.find(name).map(|shader| compiler.kernel(shader, width));
-        let compact = Dimension::<D>::SHADERS.find("flip_compact");
         let again = Dimension::<D>::SHADERS.find("moved_again");
         let few = Dimension::<D>::SHADERS.find("flip_few").filter(|_| compiler.parts().is_none());
         Flip {
@@ -67,7 +60,6 @@ impl Flip {
             check_exact: optional("flip_check_exact"),
             commit: kernel("flip_commit"),
             link: kernel("flip_link"),
-            compact: compact.map(|shader| compiler.on_demand(shader, width)),
             clear_votes: compiler.on_demand(Dimension::<D>::SHADERS.get("clear_votes"), width),
             again: again.map(|shader| compiler.on_demand(shader, width)),
             few: few.map(|shader| compiler.deferred(shader, width)),
@@ -85,7 +77,6 @@ impl Flip {
             check_exact: self.check_exact.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
             commit: self.commit.bind(gpu, &buffers),
             link: self.link.bind(gpu, &buffers),
-            compact: self.compact.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
             clear_votes: self.clear_votes.bind(gpu, &buffers),
             again: self.again.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
             few: self.few.as_ref().map(|kernel| kernel.bind(gpu, &buffers)),
@@ -102,7 +93,6 @@ impl Flip {
     /// Those that find too few active simplices do nothing.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundFlip, plan: FlipPlan, workgroups: u32) {
         let check_exact = self.check_exact.as_ref().zip(bound.check_exact.as_ref());
-        let compact = self.compact.as_ref().zip(bound.compact.as_ref()).filter(|_| plan.compacts);
         for i in 1..=plan.iterations {
             recorder.stage("flip: check");
             recorder.dispatch(&self.check, &bound.check, workgroups);
@@ -116,10 +106,6 @@ impl Flip {
             recorder.dispatch(&self.commit, &bound.commit, workgroups);
             recorder.stage("flip: link");
             recorder.dispatch(&self.link, &bound.link, workgroups);
-            if let Some((kernel, bindings)) = compact {
-                recorder.stage("flip: compact");
-                recorder.dispatch(kernel, bindings, workgroups);
-            }
         }
         if let Some((kernel, bindings)) = self.few.as_ref().zip(bound.few.as_ref()).filter(|_| plan.takes_few) {
             recorder.stage("flip: few");

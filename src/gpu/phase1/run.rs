@@ -161,11 +161,6 @@ const MAX_SPREAD: u64 = 1 << 20;
 /// Nodes of the history, however few the points are.
 const MIN_HISTORY: u64 = 64;
 
-/// Returns from how many active simplices on the next ones are found by looking at all slots.
-fn compact_from<const D: usize>(blocks: u32, settings: &Settings<D>) -> u32 {
-    (blocks * BLOCK).checked_div(settings.slots_per_active).map_or(u32::MAX, |slots| slots.max(1))
-}
-
 /// Returns the largest number of points whose buffers a device can bind.
 fn max_points<const D: usize>(limit: u64, settings: &Settings<D>) -> usize
 where
@@ -272,7 +267,6 @@ where
                 few_iterations: FEW_ITERATIONS,
                 max_min_active: settings.min_active.min(points >> 4),
                 insert_all: u32::from(settings.insert_all),
-                compact_from: compact_from(blocks, &settings),
                 pick: settings.pick as u32,
                 clockwise: u32::from(settings.winding == Winding::Clockwise),
                 start_points: start.points.len() as u32,
@@ -617,9 +611,8 @@ where
         if removes {
             stages.removals.record(recorder, &bound.removals, workgroups);
         }
-        let compacts = self.settings.slots_per_active > 0;
         let takes_few = self.params.few > 0 && self.iterations.may_be_few(self.rounds_submitted);
-        let plan = FlipPlan { iterations, exact_every: self.iterations.exact_every(), compacts, takes_few };
+        let plan = FlipPlan { iterations, exact_every: self.iterations.exact_every(), takes_few };
         stages.flip.record(recorder, &bound.flip, plan, workgroups);
         if self.has_moved {
             stages.flip.record_again(recorder, &bound.flip, workgroups);
@@ -673,7 +666,6 @@ where
         let stages = &self.kernels.stages;
         self.memory = self.memory.with_blocks(stages, self.gpu, recorder, blocks, parts)?;
         (self.params.blocks_before, self.params.blocks) = (before, blocks);
-        self.params.compact_from = compact_from(blocks, &self.settings);
         self.rounds_before_growth = self.rounds_submitted;
         self.memory.buffers.control.write(self.gpu, 0, bytemuck::cast_slice(&[self.params]));
         let (bound, workgroups) = (&self.memory.bound, self.workgroups());

@@ -35,10 +35,6 @@ pub struct Settings<const D: usize> {
     /// Nodes of the history per point, if the device can bind so many. Flips for which there is no
     /// room wait for the next round.
     pub history: u32,
-    /// 3D only: after a flip iteration with an active tetrahedron per so many slots, or more of
-    /// them, the next ones are found by looking at all slots; otherwise the flips list them (§4.2).
-    /// With 0, they always do.
-    pub slots_per_active: u32,
     /// 3D only: with at most so many active tetrahedra, flip iterations are done in one workgroup,
     /// without a dispatch per pass.
     pub few: u32,
@@ -87,7 +83,6 @@ where
             workgroups: 512,
             points_per_tail_block: 16,
             history: Dimension::<D>::HISTORY,
-            slots_per_active: 0,
             few: 256,
             rounds: 1,
             batches: 2,

@@ -3,7 +3,6 @@
 mod dim;
 mod flip_check;
 mod flip_commit;
-mod flip_compact;
 pub mod gather;
 mod mark_failed;
 mod outputs;
@@ -12,6 +11,5 @@ pub mod predicates;
 mod validate;
 
 pub use dim::OwnState;
-pub use flip_compact::flip_compact;
 pub use mark_failed::mark_failed;
 pub use outputs::{outputs_mark, outputs_write};
