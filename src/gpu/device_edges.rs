@@ -148,7 +148,7 @@ where
                 ];
                 let mut recorder = Recorder::new(gpu, None);
                 recorder.dispatch(&mark, &mark.bind(gpu, &buffers), workgroups(simplices as u32));
-                scan.record(&mut recorder, &bound);
+                bound.record(&mut recorder);
                 let total = readback.copy(gpu, recorder.encoder(), bound.sums(), GROUPS, 1);
                 Ok((listed, offsets, recorder.submit(gpu), total))
             })

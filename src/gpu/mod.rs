@@ -34,6 +34,7 @@ mod readback;
 mod recorder;
 pub mod shader;
 pub mod start;
+pub(crate) mod steps;
 pub(crate) mod vertex_simplices;
 
 pub use buffers::Storage;

@@ -14,14 +14,15 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::gpu::primitives::sort::{BoundSort, Sort};
 use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Compiler, Gpu, Kernel, Parts, Recorder, Storage, append_bindings,
+        Compiler, Gpu, Parts, Recorder, Storage, append_bindings,
         dim::Dim,
+        primitives::sort::{BoundSort, Sort},
         shader::{assert_layout, constants::common as constants},
+        steps::{BoundSteps, Step, Steps},
         workgroups,
     },
     input::{
@@ -77,6 +78,11 @@ const _: () = {
     assert!(std::mem::offset_of!(InputCounts, rounded) == 4 * constants::COUNT_ROUNDED as usize);
 };
 
+/// Merges the points at the same place, and gives each its key.
+const KEY: &[Step] = &[Step::new("merge", "points_merge"), Step::new("keys", "points_keys")];
+/// Writes the vertices in the order of the keys.
+const GATHER: &[Step] = &[Step::new("gather", "points_gather")];
+
 /// The bits of a sort key: 30 for the place along the curve, and the largest for points that others
 /// stand for.
 const KEY_BITS: u32 = 32;
@@ -84,10 +90,9 @@ const KEY_BITS: u32 = 32;
 /// The kernels, for points of `D` coordinates.
 #[derive(Debug)]
 pub struct PointStage<const D: usize> {
-    merge: Kernel,
-    keys: Kernel,
-    gather: Kernel,
+    key: Steps,
     sort: Sort,
+    gather: Steps,
     /// The parts of the large arrays, if they are in parts.
     parts: Option<Parts>,
 }
@@ -130,10 +135,9 @@ pub struct PointBuffers {
     input: Storage<u32>,
     table: Storage<u32>,
     device: DevicePoints,
-    merge: wgpu::BindGroup,
-    keys: wgpu::BindGroup,
+    key: BoundSteps,
     sort: BoundSort,
-    gather: wgpu::BindGroup,
+    gather: BoundSteps,
     bytes: u64,
 }
 
@@ -143,12 +147,10 @@ where
 {
     /// Creates the kernels.
     pub fn new(compiler: &Compiler<'_>) -> Self {
-        let kernel = |name| compiler.kernel(Dimension::<D>::SHADERS.get(name), Width::Narrow);
         PointStage {
-            merge: kernel("points_merge"),
-            keys: kernel("points_keys"),
-            gather: kernel("points_gather"),
+            key: Steps::new::<D>(compiler, Width::Narrow, KEY),
             sort: Sort::new(compiler),
+            gather: Steps::new::<D>(compiler, Width::Narrow, GATHER),
             parts: compiler.parts(),
         }
     }
@@ -196,16 +198,12 @@ where
         encoder.clear_buffer(buffers.table.buffer(), 0, None);
         encoder.clear_buffer(buffers.device.counts.buffer(), 0, None);
         let groups = workgroups(n as u32);
-        recorder.stage("merge");
-        recorder.dispatch(&self.merge, &buffers.merge, groups);
-        recorder.stage("keys");
-        recorder.dispatch(&self.keys, &buffers.keys, groups);
+        buffers.key.record(recorder, groups);
         if sort {
             recorder.stage("sort");
             self.sort.record(recorder, &buffers.sort);
         }
-        recorder.stage("gather");
-        recorder.dispatch(&self.gather, &buffers.gather, groups);
+        buffers.gather.record(recorder, groups);
         let device = buffers.device.clone();
         *kept = Some(buffers);
         Ok(device)
@@ -238,7 +236,7 @@ where
             ("counts", counts.buffer()),
         ];
         append_bindings(&mut buffers, &[input.named("input"), vertices.named("vertices")]);
-        let [merge, keys, gather] = [&self.merge, &self.keys, &self.gather].map(|kernel| kernel.bind(gpu, &buffers));
+        let [key, gather] = [&self.key, &self.gather].map(|steps| steps.bind(gpu, &buffers));
         // An even number of passes: the pairs end up where they were.
         let sort = self.sort.bind(gpu, &mut pairs, &mut scratch, KEY_BITS)?;
         let bytes = params.bytes()
@@ -249,7 +247,7 @@ where
             + merged_into.bytes()
             + vertices.bytes();
         let device = DevicePoints { vertices, pairs, merged_into, vertex_of: slots, counts };
-        Ok(PointBuffers { form, params, input, table, device, merge, keys, sort, gather, bytes })
+        Ok(PointBuffers { form, params, input, table, device, key, sort, gather, bytes })
     }
 }
 

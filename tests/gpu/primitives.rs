@@ -58,7 +58,7 @@ fn scan_is_the_exclusive_prefix_sum() {
         let values = Storage::with_contents(&gpu, "values", &values).unwrap();
         let offsets = Storage::new(&gpu, "offsets", n).unwrap();
         let bound = scan.bind(&gpu, &params, &values, &offsets).unwrap();
-        let result = run(&gpu, &offsets, |recorder| scan.record(recorder, &bound));
+        let result = run(&gpu, &offsets, |recorder| bound.record(recorder));
         assert!(result == expected, "{n} values");
         let total = block_on(Readback::default().read(&gpu, bound.sums(), scan::GROUPS, 1)).unwrap();
         assert_eq!(total, [sum], "{n} values");
@@ -74,10 +74,10 @@ fn scan_goes_as_far_as_it_is_told() {
     let values = Storage::with_contents(&gpu, "values", &[1; 3000]).unwrap();
     let offsets = Storage::new(&gpu, "offsets", 3000).unwrap();
     let bound = scan.bind(&gpu, &params, &values, &offsets).unwrap();
-    assert!(run(&gpu, &offsets, |recorder| scan.record(recorder, &bound)).into_iter().eq(0..3000));
+    assert!(run(&gpu, &offsets, |recorder| bound.record(recorder)).into_iter().eq(0..3000));
     params.write(&gpu, 0, &[ScanParams { count: 1500 }]);
     offsets.write(&gpu, 0, &[7; 3000]);
-    let result = run(&gpu, &offsets, |recorder| scan.record(recorder, &bound));
+    let result = run(&gpu, &offsets, |recorder| bound.record(recorder));
     assert!(result[..1500].iter().copied().eq(0..1500));
     assert_eq!(result[1500..], [7; 1500]);
     assert_eq!(block_on(Readback::default().read(&gpu, bound.sums(), scan::GROUPS, 1)).unwrap(), [1500]);
@@ -96,7 +96,7 @@ fn compaction_keeps_the_marked_in_order() {
         let marks = Storage::with_contents(&gpu, "marks", &marks).unwrap();
         let kept = Storage::new(&gpu, "kept", n).unwrap();
         let bound = compact.bind(&gpu, &params, &marks, &kept).unwrap();
-        let result = run(&gpu, &kept, |recorder| compact.record(recorder, &bound));
+        let result = run(&gpu, &kept, |recorder| bound.record(recorder));
         let total = block_on(Readback::default().read(&gpu, bound.sums(), scan::GROUPS, 1)).unwrap();
         assert_eq!(total, [expected.len() as u32], "{n} marks");
         assert!(result[..expected.len()] == expected, "{n} marks");

@@ -49,7 +49,7 @@ impl Complete<2> for Dimension<2> {
     }
 
     async fn complete(run: Run<'_, 2>, mut near: Near<'_, 2>, _tracer: ()) -> Result<Result<Made<2>, Fallback>, Error> {
-        let (mut ended, _, (), ()) = run.end(|_, _, _| (), || near.prepare()).await?;
+        let (mut ended, _, (), ()) = run.end(|_, _| (), || near.prepare()).await?;
         if near.moved.is_some() && ended.counters.failed > 0 {
             // Triangles are still inverted.
             near.stats.gpu = Some(ended.release().summary(near.adapter));
@@ -139,7 +139,7 @@ async fn complete_on_device(
         return Ok(None);
     }
     let Ended { gpu, kernels, memory, stats, finite, .. } = ended;
-    let aliases = memory.bound.finish.aliases();
+    let aliases = &memory.bound.aliases;
     let made = kernels.outputs.run(gpu, aliases, *finite, points, &hull).await?;
     stats.dispatches += made.1;
     stats.submits += 1;
@@ -154,7 +154,7 @@ async fn read_open(ended: &mut Ended<'_, 2>) -> Result<Open<Vec<[u32; 2]>, Vec<U
     let (submission, open) = gpu
         .with_error_scope("the result of Phase 1", || {
             let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, None) };
-            let open = Open::copy(&mut copies, &memory.buffers, memory.bound.finish.aliases(), counters);
+            let open = Open::copy(&mut copies, &memory.buffers, &memory.bound.aliases, counters);
             Ok((copies.recorder.submit(gpu), open))
         })
         .await?;

@@ -7,7 +7,7 @@ use crate::{
     gpu::{
         Compiler, Pending,
         layout::Counters,
-        phase1::{Buffers, Copied, Copies, Finish, Step},
+        phase1::{Buffers, Copied, Copies, Finish},
     },
 };
 
@@ -80,19 +80,6 @@ impl Finish<2> for Dimension<2> {
     type Result = NearMesh;
     type Outputs = OutputStage;
     type Host = ();
-
-    /// The search for uncertain tests, and the compaction.
-    const STEPS: &'static [Step<&'static str>] = &[
-        Step::Stage("mark mesh"),
-        Step::Kernel("mesh_mark"),
-        Step::Stage("compact mesh"),
-        Step::Scan,
-        Step::Kernel("mesh_compact"),
-    ];
-
-    /// Nothing is gathered: the host sees the whole mesh, or none of it.
-    const GATHER: &'static [Step<&'static str>] = &[];
-    const PATCH: &'static [Step<&'static str>] = &[];
 
     fn outputs(compiler: &Compiler<'_>) -> OutputStage {
         OutputStage::new(compiler)

@@ -17,7 +17,7 @@ use crate::{
         Gpu, Pending, Recorder, Storage,
         device_mesh::DeviceArrays,
         layout::{Active, Counters, PARAM_WORDS},
-        phase1::{Copied, Copies, Ended, Memory, Run, Slot, Stages},
+        phase1::{Copied, Copies, Ended, Memory, Run, Slot, Stage},
         shader::constants::d3,
         workgroups,
     },
@@ -71,12 +71,12 @@ struct Gathering3 {
 
 impl Gathering3 {
     /// Records gathering, and that its result is read.
-    fn record(copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>, ahead: usize, workgroups: u32) -> Self {
-        let (bound, own) = (&memory.bound.finish, &memory.buffers.own);
+    fn record(copies: &mut Copies<'_>, memory: &Memory<3>, ahead: usize, workgroups: u32) -> Self {
+        let (bound, own) = (&memory.bound, &memory.buffers.own);
         let control = &memory.buffers.control;
         copies.recorder.encoder().clear_buffer(control.buffer(), 4 * GATHERED as u64, Some(4));
-        stages.finish.record(&mut copies.recorder, bound, &bound.gather, workgroups);
-        let aliases = bound.aliases();
+        bound.record(&mut copies.recorder, Stage::Gather, workgroups);
+        let aliases = &bound.aliases;
         Gathering3 {
             count: copies.copy_from(control, GATHERED, 1),
             tetrahedra: Ahead::copy(copies, &aliases.gathered_tetrahedra, ahead),
@@ -130,9 +130,9 @@ impl<'a> Device<'a> {
         let workgroups = run.workgroups();
         run.buffers().own.gathering.write(gpu, 0, &[gather]);
         let ahead = ahead(points, run.has_moved());
-        let record = |copies: &mut Copies<'_>, stages: &Stages, memory: &Memory<3>| {
-            let gathering = Gathering3::record(copies, stages, memory, ahead, workgroups);
-            let aliases = memory.bound.finish.aliases();
+        let record = |copies: &mut Copies<'_>, memory: &Memory<3>| {
+            let gathering = Gathering3::record(copies, memory, ahead, workgroups);
+            let aliases = &memory.bound.aliases;
             let (failed, uncertain) = (&aliases.failed, &aliases.uncertain);
             (gathering, Ahead::copy(copies, failed, ahead), Ahead::copy(copies, uncertain, ahead))
         };
@@ -265,7 +265,7 @@ impl<'a> Device<'a> {
                 own.wanted.write(gpu, 0, &wanted);
                 own.gathering.write(gpu, 0, &[Gathering { first: region.next(), patched: 0 }]);
                 let mut copies = Copies { readback: &mut kernels.readback, gpu, recorder: Recorder::new(gpu, None) };
-                let gathering = Gathering3::record(&mut copies, &kernels.stages, memory, ahead, *workgroups);
+                let gathering = Gathering3::record(&mut copies, memory, ahead, *workgroups);
                 stats.dispatches += copies.recorder.dispatches();
                 stats.submits += 1;
                 Ok((copies.recorder.submit(gpu), gathering))
@@ -290,10 +290,10 @@ impl<'a> Device<'a> {
     ///
     /// Returns [`Error::TooManySimplices`] if the device has no room for it.
     pub(crate) async fn patch(&mut self, patch: &Patch) -> Result<(), Error> {
-        let Ended { gpu, kernels, memory, stats, .. } = &mut self.ended;
+        let Ended { gpu, memory, stats, .. } = &mut self.ended;
         let gpu: &Gpu = gpu;
-        let (bound, own) = (&memory.bound.finish, &memory.buffers.own);
-        let aliases = bound.aliases();
+        let (bound, own) = (&memory.bound, &memory.buffers.own);
+        let aliases = &bound.aliases;
         let limit = aliases.tets.len();
         if patch.len > limit {
             return Err(Error::TooManySimplices { limit });
@@ -308,7 +308,7 @@ impl<'a> Device<'a> {
             aliases.gathered_tetrahedra.write(gpu, 0, &patch.tetrahedra);
             aliases.gathered_neighbors.write(gpu, 0, &patch.neighbors);
             let mut recorder = Recorder::new(gpu, None);
-            kernels.stages.finish.record(&mut recorder, bound, &bound.patch, workgroups(count));
+            bound.record(&mut recorder, Stage::Patch, workgroups(count));
             stats.dispatches += recorder.dispatches();
             stats.submits += 1;
             recorder.submit(gpu);
@@ -329,7 +329,7 @@ impl<'a> Device<'a> {
         reads_hull: bool,
     ) -> Result<(DeviceArrays, Vec<[u32; 3]>), Error> {
         let Ended { gpu, kernels, memory, stats, finite, counters, .. } = &mut self.ended;
-        let (aliases, buffers) = (memory.bound.finish.aliases(), &memory.buffers);
+        let (aliases, buffers) = (&memory.bound.aliases, &memory.buffers);
         let [more, more_ghosts] = patch.more;
         let params = OutputParams {
             count: patch.len as u32,
@@ -359,7 +359,7 @@ impl<'a> Device<'a> {
     pub(crate) async fn read(&mut self) -> Result<[Vec<Slot>; 2], Error> {
         let len = self.ended.len();
         let Ended { gpu, kernels, memory, stats, .. } = &mut self.ended;
-        let aliases = memory.bound.finish.aliases();
+        let aliases = &memory.bound.aliases;
         stats.submits += 2;
         let tetrahedra = kernels.readback.read(gpu, &aliases.tets, 0, len).await?;
         Ok([tetrahedra, kernels.readback.read(gpu, &aliases.neighbors, 0, len).await?])

@@ -11,7 +11,7 @@ use crate::{
     gpu::{
         Compiler, Pending,
         layout::{Active, Counters},
-        phase1::{Buffers, Copied, Copies, Finish, Step},
+        phase1::{Buffers, Copied, Copies, Finish},
     },
 };
 
@@ -53,24 +53,6 @@ impl Finish<3> for Dimension<3> {
     type Outputs = OutputStage;
     /// The region of the run before.
     type Host = KeptRegion;
-
-    /// The search for failed vertices, the compaction, and the certification.
-    const STEPS: &'static [Step<&'static str>] = &[
-        Step::Stage("mark failed"),
-        Step::Kernel("mark_failed"),
-        Step::Stage("compact mesh"),
-        Step::Kernel("mesh_mark"),
-        Step::Scan,
-        Step::Kernel("mesh_number"),
-        Step::Kernel("mesh_compact"),
-        Step::Stage("certify"),
-        Step::Kernel("certify"),
-    ];
-
-    /// The stars that are wanted.
-    const GATHER: &'static [Step<&'static str>] =
-        &[Step::Stage("gather"), Step::Kernel("gather_list"), Step::Kernel("gather_copy")];
-    const PATCH: &'static [Step<&'static str>] = &[Step::Stage("patch"), Step::Kernel("patch")];
 
     fn outputs(compiler: &Compiler<'_>) -> OutputStage {
         OutputStage::new(compiler)

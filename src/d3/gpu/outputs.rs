@@ -129,7 +129,7 @@ impl OutputStage {
                     recorder.dispatch(kernel, &kernel.bind(gpu, &buffers), gpu.workgroups(items as usize));
                 };
                 run(&mut recorder, &self.mark, count);
-                self.scan.record(&mut recorder, &scan);
+                scan.record(&mut recorder);
                 run(&mut recorder, &self.write, count);
                 self.vertices.record(gpu, &mut recorder, &arrays);
                 let dispatches = recorder.dispatches();

@@ -28,7 +28,7 @@ pub(super) async fn complete(
     mut near: Near<'_, 3>,
     mut tracer: Option<Tracer>,
 ) -> Result<Result<Made<3>, Fallback>, Error> {
-    let (mut ended, _, (), ()) = run.end(|_, _, _| (), || near.prepare()).await?;
+    let (mut ended, _, (), ()) = run.end(|_, _| (), || near.prepare()).await?;
     let (result, merged) = ended.read().await?;
     near.end_of_phase1(&ended.stats);
     let (missing, duplicate_of) = near.missing(&merged);

@@ -201,6 +201,8 @@ where
                 self.messages.named("messages"),
                 self.messages.named("picks"),
                 self.history.named("history"),
+                // Facets are removed when nobody needs the history any more.
+                self.history.named("removals"),
             ],
         );
         bindings

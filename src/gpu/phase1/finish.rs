@@ -8,35 +8,12 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Binding, Compiler, Gpu, Kernel, Pending, Readback, Recorder, Storage,
+        Binding, Compiler, Gpu, Pending, Readback, Recorder, Storage,
         dim::{Corners, Dim},
         layout::Counters,
-        phase1::buffers::Buffers,
-        primitives::scan::{BoundScan, Scan, ScanParams},
+        phase1::{buffers::Buffers, memory::Memory},
     },
-    input::lattice::Width,
 };
-
-/// A step of the end of Phase 1, with its kernel in the form `K`.
-#[derive(Debug, Clone, Copy)]
-pub enum Step<K> {
-    /// Times the steps from here on under this name.
-    Stage(&'static str),
-    /// Runs a kernel.
-    Kernel(K),
-    /// Numbers the simplices of the mesh by a scan of [`Buffers::marks`].
-    Scan,
-}
-
-impl<K> Step<K> {
-    fn map<L>(&self, kernel: impl FnOnce(&K) -> L) -> Step<L> {
-        match self {
-            Step::Stage(name) => Step::Stage(name),
-            Step::Kernel(k) => Step::Kernel(kernel(k)),
-            Step::Scan => Step::Scan,
-        }
-    }
-}
 
 /// How Phase 1 ends in `D` dimensions.
 #[expect(async_fn_in_trait, reason = "only this crate implements it, and no caller is generic over threads")]
@@ -54,13 +31,6 @@ where
     type Outputs: Debug;
     /// The memory of the host that a run leaves to the next one.
     type Host: Debug + Default + Send;
-
-    /// The steps, with the names of the kernels.
-    const STEPS: &'static [Step<&'static str>];
-    /// The steps that gather parts of the mesh.
-    const GATHER: &'static [Step<&'static str>];
-    /// The steps that write changed parts back.
-    const PATCH: &'static [Step<&'static str>];
 
     /// Creates the kernels that make the arrays of the caller's mesh.
     fn outputs(compiler: &Compiler<'_>) -> Self::Outputs;
@@ -151,138 +121,39 @@ impl Copied<'_> {
     }
 }
 
-/// The kernels of the end of Phase 1.
-#[derive(Debug)]
-pub(crate) struct FinishStage {
-    steps: Vec<Step<Kernel>>,
-    gather: Vec<Step<Kernel>>,
-    patch: Vec<Step<Kernel>>,
-    scan: Scan,
-}
+/// How often [`read`] waits while the device has nothing to do: for the last submission.
+pub(crate) const STALLS: usize = 1;
 
-/// The kernels with their bind groups.
-#[derive(Debug)]
-pub(crate) struct BoundFinish<const D: usize>
+/// Reads the mesh back, of which `finite` simplices are finite. There are `rooms` for the simplices and
+/// for their neighbours. Returns the number of submissions as well.
+///
+/// # Errors
+///
+/// Returns the errors of [`Gpu::with_error_scope`] and [`Readback::receive`].
+pub(crate) async fn read<const D: usize>(
+    gpu: &Gpu,
+    readback: &mut Readback,
+    memory: &Memory<D>,
+    finite: usize,
+    counters: &Counters,
+    rooms: [Vec<Corners<D>>; 2],
+) -> Result<(<Dimension<D> as Finish<D>>::Result, usize), Error>
 where
     Dimension<D>: Finish<D>,
 {
-    /// The end of Phase 1.
-    pub(crate) steps: BoundSteps,
-    /// Gathers what is wanted.
-    pub(crate) gather: BoundSteps,
-    /// Writes changed parts back.
-    pub(crate) patch: BoundSteps,
-    scan: BoundScan,
-    aliases: <Dimension<D> as Finish<D>>::Aliases,
-}
-
-/// Steps with their bind groups.
-pub(crate) type BoundSteps = Vec<Step<(Kernel, wgpu::BindGroup)>>;
-
-impl FinishStage {
-    /// Creates the kernels.
-    pub(crate) fn new<const D: usize>(compiler: &Compiler<'_>, width: Width) -> Self
-    where
-        Dimension<D>: Finish<D>,
-    {
-        let kernel = |name: &&str| compiler.kernel(Dimension::<D>::SHADERS.get(name), width);
-        let kernels = |steps: &[Step<&str>]| steps.iter().map(|step| step.map(kernel)).collect();
-        FinishStage {
-            steps: kernels(Dimension::<D>::STEPS),
-            gather: kernels(Dimension::<D>::GATHER),
-            patch: kernels(Dimension::<D>::PATCH),
-            scan: Scan::new(compiler),
-        }
-    }
-
-    /// Binds the kernels to these buffers.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`Storage::new`].
-    pub(crate) fn bind<const D: usize>(&self, gpu: &Gpu, b: &Buffers<D>) -> Result<BoundFinish<D>, Error>
-    where
-        Dimension<D>: Finish<D>,
-    {
-        let count = ScanParams { count: b.simplices.len() as u32 };
-        let params = Storage::with_contents(gpu, "scan parameters", &[count])?;
-        let scan = self.scan.bind(gpu, &params, &b.marks, &b.numbers)?;
-        let aliases = <Dimension<D> as Finish<D>>::Aliases::new(b);
-        let mut buffers = b.bindings();
-        buffers.extend(aliases.bindings());
-        buffers.push(("sums", scan.sums().buffer()));
-        let bind = |kernel: &Kernel| (kernel.clone(), kernel.bind(gpu, &buffers));
-        let bind = |steps: &[Step<Kernel>]| steps.iter().map(|step| step.map(bind)).collect();
-        let [steps, gather, patch] = [&self.steps, &self.gather, &self.patch].map(|steps| bind(steps));
-        Ok(BoundFinish { steps, gather, patch, scan, aliases })
-    }
-
-    /// Records these steps of `bound`.
-    pub(crate) fn record<const D: usize>(
-        &self,
-        recorder: &mut Recorder<'_>,
-        bound: &BoundFinish<D>,
-        steps: &BoundSteps,
-        workgroups: u32,
-    ) where
-        Dimension<D>: Finish<D>,
-    {
-        for step in steps {
-            match step {
-                Step::Stage(name) => recorder.stage(name),
-                Step::Kernel((kernel, bindings)) => recorder.dispatch(kernel, bindings, workgroups),
-                Step::Scan => self.scan.record(recorder, &bound.scan),
-            }
-        }
-    }
-}
-
-impl<const D: usize> BoundFinish<D>
-where
-    Dimension<D>: Finish<D>,
-{
-    /// How often [`BoundFinish::read`] waits while the device has nothing to do: for the last submission.
-    pub(crate) const STALLS: usize = 1;
-
-    /// Returns the sums of the scan; their entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS)
-    /// is the number of finite simplices.
-    pub(crate) fn sums(&self) -> &Storage<u32> {
-        self.scan.sums()
-    }
-
-    /// Returns the names that buffers have at the end.
-    pub(crate) fn aliases(&self) -> &<Dimension<D> as Finish<D>>::Aliases {
-        &self.aliases
-    }
-
-    /// Reads the mesh back, of which `finite` simplices are finite. There are `rooms` for the simplices and
-    /// for their neighbours. Returns the number of submissions as well.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`Gpu::with_error_scope`] and [`Readback::receive`].
-    pub(crate) async fn read(
-        &self,
-        gpu: &Gpu,
-        readback: &mut Readback,
-        b: &Buffers<D>,
-        finite: usize,
-        counters: &Counters,
-        rooms: [Vec<Corners<D>>; 2],
-    ) -> Result<(<Dimension<D> as Finish<D>>::Result, usize), Error> {
-        let len = Dimension::<D>::mesh_len(finite, counters);
-        let (submission, reading) = gpu
-            .with_error_scope("the result of Phase 1", || {
-                let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, None) };
-                let reading = Dimension::<D>::copy(&mut copies, b, &self.aliases, counters);
-                Ok((copies.recorder.submit(gpu), reading))
-            })
-            .await?;
-        let before = readback.count();
-        let arrays = readback.read_arrays(gpu, &self.aliases.arrays(), rooms, len).await?;
-        let submissions = 1 + readback.count() - before;
-        let mut copied = Copied { readback, gpu, submission };
-        let result = Dimension::<D>::receive(&mut copied, reading, arrays, finite).await?;
-        Ok((result, submissions))
-    }
+    let Memory { buffers, bound } = memory;
+    let len = Dimension::<D>::mesh_len(finite, counters);
+    let (submission, reading) = gpu
+        .with_error_scope("the result of Phase 1", || {
+            let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, None) };
+            let reading = Dimension::<D>::copy(&mut copies, buffers, &bound.aliases, counters);
+            Ok((copies.recorder.submit(gpu), reading))
+        })
+        .await?;
+    let before = readback.count();
+    let arrays = readback.read_arrays(gpu, &bound.aliases.arrays(), rooms, len).await?;
+    let submissions = 1 + readback.count() - before;
+    let mut copied = Copied { readback, gpu, submission };
+    let result = Dimension::<D>::receive(&mut copied, reading, arrays, finite).await?;
+    Ok((result, submissions))
 }

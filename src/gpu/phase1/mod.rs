@@ -30,23 +30,19 @@
 
 mod buffers;
 mod finish;
-mod flip;
-mod insert;
 mod kernels;
 mod memory;
-mod moved;
-mod relocate;
-mod removals;
+mod round;
 mod run;
 mod settings;
 mod stages;
 mod stats;
 
 pub use buffers::{Buffers, Sizes, Slot};
-pub use finish::{Aliases, Copied, Copies, Finish, Step};
+pub use finish::{Aliases, Copied, Copies, Finish};
 pub use kernels::Phase1;
 pub(crate) use memory::Memory;
 pub use run::{Ended, Input, Phase1Output, Run};
 pub use settings::Settings;
-pub(crate) use stages::Stages;
+pub(crate) use stages::Stage;
 pub use stats::Phase1Stats;

@@ -14,12 +14,12 @@ use crate::{
         parts,
         phase1::{
             buffers::{Buffers, Sizes, largest_bytes},
-            finish::{BoundFinish, Copies, Finish},
-            flip::FlipPlan,
+            finish::{self, Copies, Finish},
             kernels::Phase1,
             memory::{Kept, Memory},
+            round::Round as RoundPlan,
             settings::Settings,
-            stages::Stages,
+            stages::Stage,
             stats::Phase1Stats,
         },
         points::{PointBuffers, PointInput},
@@ -139,10 +139,6 @@ const FEW_ITERATIONS: u32 = 128;
 /// million points that moved by a five-hundredth of their spacing take so many.
 const MOVED_ITERATIONS: u32 = 12;
 
-/// The flip iterations that are recorded, a dispatch per pass, for what could not be flipped before:
-/// most of it cannot be flipped now, either, and leaves the list in the first one.
-const AGAIN_ITERATIONS: u32 = 4;
-
 /// Votes are cleared when the lowest bid is so high: a quarter of the numbers that are left by then
 /// suffices for all rounds that may be submitted before.
 const CLEAR_VOTES_FROM: u32 = 1 << 30;
@@ -253,7 +249,7 @@ where
             .await?;
         let start = start.swap_remove(0);
         let blocks = memory.buffers.blocks();
-        let few = if kernels.stages.flip.takes_few() { settings.few } else { 0 };
+        let few = if kernels.stages.can(Stage::FlipFew) { settings.few } else { 0 };
         Ok(Run {
             gpu,
             settings,
@@ -386,10 +382,11 @@ where
                 buffers.control.write(gpu, 0, bytemuck::cast_slice(&[self.params]));
                 buffers.control.write(gpu, PARAM_WORDS, bytemuck::cast_slice(&[first_counters(0)]));
                 buffers.record_clear(&mut recorder);
-                let (stages, workgroups) = (&self.kernels.stages, self.workgroups());
-                stages.insert.record_fill_free(&mut recorder, &self.memory.bound.insert, "moved mesh", workgroups);
-                let arrays = [("moved_simplices", mesh.simplices()), ("moved_neighbors", mesh.neighbors())];
-                stages.moved.record(gpu, &mut recorder, buffers, arrays, workgroups);
+                let workgroups = self.workgroups();
+                self.memory.bound.record(&mut recorder, Stage::FillFree, workgroups);
+                let mut bindings = buffers.bindings();
+                bindings.extend([("moved_simplices", mesh.simplices()), ("moved_neighbors", mesh.neighbors())]);
+                self.kernels.stages.moved.bind(gpu, &bindings).record(&mut recorder, workgroups);
                 self.stats.dispatches += recorder.dispatches();
                 self.stats.submits += 1;
                 let counters = self.read_counters(recorder.encoder());
@@ -558,8 +555,9 @@ where
             self.memory.buffers.start_points.write(gpu, 0, &self.start.points);
             self.memory.buffers.start_simplices.write(gpu, 0, &self.start.simplices);
             self.memory.buffers.record_clear(&mut recorder);
-            let workgroups = self.workgroups();
-            self.kernels.stages.insert.record_first(&mut recorder, &self.memory.bound.insert, workgroups);
+            let (bound, workgroups) = (&self.memory.bound, self.workgroups());
+            bound.record(&mut recorder, Stage::FillFree, workgroups);
+            bound.record(&mut recorder, Stage::Start, workgroups);
         } else {
             // Rounds that were submitted before the slots were added can say that there were too
             // few.
@@ -567,8 +565,7 @@ where
                 self.grow(&mut recorder)?;
             }
             if self.counters.bid_base > CLEAR_VOTES_FROM {
-                let (flip, bound) = (&self.kernels.stages.flip, &self.memory.bound.flip);
-                flip.record_clear_votes(&mut recorder, bound, self.workgroups());
+                self.memory.bound.record(&mut recorder, Stage::ClearVotes, self.workgroups());
             }
         }
         let (mut recorded, mut goes_on, mut removes_any) = (Vec::new(), true, false);
@@ -596,31 +593,24 @@ where
 
     /// Returns whether the run can remove facets that could not be flipped.
     fn can_remove(&self) -> bool {
-        self.settings.removes && !self.has_moved && self.kernels.stages.removals.are_compiled()
+        self.settings.removes && !self.has_moved && self.kernels.stages.can(Stage::Remove)
     }
 
     /// Records a round, in which facets are removed if nothing else is left to do.
     fn record_round(&self, recorder: &mut Recorder<'_>, iterations: u32, removes: bool) {
+        let Memory { buffers, bound } = &self.memory;
         let workgroups = self.workgroups();
-        let (stages, Memory { buffers, bound }) = (&self.kernels.stages, &self.memory);
-        if self.has_moved {
-            stages.insert.record_begin(recorder, &bound.insert);
-        } else {
-            stages.insert.record(recorder, &bound.insert, buffers, workgroups);
+        let round = RoundPlan {
+            has_moved: self.has_moved,
+            removes,
+            iterations,
+            exact_every: self.iterations.exact_every(),
+            takes_few: self.params.few > 0 && self.iterations.may_be_few(self.rounds_submitted),
+        };
+        if !self.has_moved {
+            buffers.messages.record_clear(recorder.encoder());
         }
-        if removes {
-            stages.removals.record(recorder, &bound.removals, workgroups);
-        }
-        let takes_few = self.params.few > 0 && self.iterations.may_be_few(self.rounds_submitted);
-        let plan = FlipPlan { iterations, exact_every: self.iterations.exact_every(), takes_few };
-        stages.flip.record(recorder, &bound.flip, plan, workgroups);
-        if self.has_moved {
-            stages.flip.record_again(recorder, &bound.flip, workgroups);
-            let plan = FlipPlan { iterations: plan.iterations.min(AGAIN_ITERATIONS), ..plan };
-            stages.flip.record(recorder, &bound.flip, plan, workgroups);
-        } else {
-            stages.relocate.record(recorder, &bound.relocate, workgroups);
-        }
+        round.stages().into_iter().for_each(|stage| bound.record(recorder, stage, workgroups));
     }
 
     /// Returns with fewer than how many active simplices the iterations of a round end that begins with so many
@@ -668,8 +658,7 @@ where
         (self.params.blocks_before, self.params.blocks) = (before, blocks);
         self.rounds_before_growth = self.rounds_submitted;
         self.memory.buffers.control.write(self.gpu, 0, bytemuck::cast_slice(&[self.params]));
-        let (bound, workgroups) = (&self.memory.bound, self.workgroups());
-        stages.insert.record_fill_free(recorder, &bound.insert, "grow", workgroups);
+        self.memory.bound.record(recorder, Stage::FillFree, self.workgroups());
         Ok(())
     }
 
@@ -698,7 +687,7 @@ where
     ///
     /// Those of [`Run::advance`].
     pub async fn finish(self) -> Result<Phase1Output<D>, Error> {
-        let (mut ended, _, (), ()) = self.end(|_, _, _| (), || ()).await?;
+        let (mut ended, _, (), ()) = self.end(|_, _| (), || ()).await?;
         let (result, merged) = ended.read().await?;
         Ok(Phase1Output { result, merged, stats: ended.release() })
     }
@@ -711,7 +700,7 @@ where
     /// Those of [`Run::advance`].
     pub(crate) async fn end<T, U>(
         mut self,
-        more: impl FnOnce(&mut Copies<'_>, &Stages, &Memory<D>) -> T,
+        more: impl FnOnce(&mut Copies<'_>, &Memory<D>) -> T,
         meanwhile: impl FnOnce() -> U,
     ) -> Result<(Ended<'a, D>, wgpu::SubmissionIndex, T, U), Error> {
         let gpu = self.gpu;
@@ -720,12 +709,11 @@ where
         let is_merged = self.counters.merged > 0;
         let (submission, counters, finite, merged, more) = gpu
             .with_error_scope("the end of Phase 1", || {
-                let (stages, memory, readback) = (&self.kernels.stages, &self.memory, &mut self.kernels.readback);
+                let (memory, readback) = (&self.memory, &mut self.kernels.readback);
                 let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, profiler) };
-                let bound = &memory.bound.finish;
-                stages.finish.record(&mut copies.recorder, bound, &bound.steps, workgroups);
-                let more = more(&mut copies, stages, memory);
-                let finite = copies.copy_from(bound.sums(), GROUPS, 1);
+                memory.bound.record_end(&mut copies.recorder, workgroups);
+                let more = more(&mut copies, memory);
+                let finite = copies.copy_from(memory.bound.sums(), GROUPS, 1);
                 let counters = copies.copy_from(&memory.buffers.control, PARAM_WORDS, COUNTER_WORDS);
                 let merged_into = &memory.buffers.points.merged_into;
                 let merged = is_merged.then(|| copies.copy(merged_into, merged_into.len()));
@@ -818,20 +806,19 @@ where
         let rooms = take_rooms(&mut self.rooms);
         #[cfg(target_arch = "wasm32")]
         let rooms = Default::default();
-        let bound = &memory.bound.finish;
         let (result, submissions) =
-            bound.read(self.gpu, readback, &memory.buffers, self.finite, &self.counters, rooms).await?;
+            finish::read(self.gpu, readback, memory, self.finite, &self.counters, rooms).await?;
         let merged = self.read_merged().await?;
         self.stats.readback_time += self.clock.lap();
         self.stats.submits += submissions;
-        self.stats.stalls += BoundFinish::<D>::STALLS;
+        self.stats.stalls += finish::STALLS;
         Ok((result, merged))
     }
 
     /// Returns the reading of the simplices of the mesh and their neighbours, with what becomes of the words.
     #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn reading(&mut self, words: [Words; 2]) -> ReadingArrays<'a, Corners<D>> {
-        let arrays = self.memory.bound.finish.aliases().arrays();
+        let arrays = self.memory.bound.aliases.arrays();
         ReadingArrays::of_arrays(&arrays, take_rooms(&mut self.rooms), self.len(), words)
     }
 

@@ -1,31 +1,34 @@
 //! Stream compaction: the numbers of the marked entries, in order.
 
-use crate::gpu::primitives::scan::{BoundScan, Scan, ScanParams};
 use crate::{
     error::Error,
-    gpu::{Compiler, Gpu, Kernel, Recorder, Storage, append_bindings, shader, workgroups},
-    input::lattice::Width,
+    gpu::{
+        Compiler, Gpu, Recorder, Storage, append_bindings,
+        primitives::scan::{BoundScan, Scan, ScanParams},
+        steps::{BoundSteps, Step, Steps},
+        workgroups,
+    },
 };
 
 /// The kernels of a compaction.
 #[derive(Debug)]
 pub struct Compact {
     scan: Scan,
-    scatter: Kernel,
+    scatter: Steps,
 }
 
 /// A compaction of certain buffers, which can be recorded again and again.
 #[derive(Debug)]
 pub struct BoundCompact {
     scan: BoundScan,
-    scatter: wgpu::BindGroup,
+    scatter: BoundSteps,
     workgroups: u32,
 }
 
 impl Compact {
     /// Creates the kernels.
     pub fn new(compiler: &Compiler<'_>) -> Self {
-        Compact { scan: Scan::new(compiler), scatter: compiler.kernel(shader::COMMON.get("compact"), Width::Narrow) }
+        Compact { scan: Scan::new(compiler), scatter: Steps::common(compiler, &[Step::new("compact", "compact")]) }
     }
 
     /// Prepares a compaction: `kept` becomes the numbers, ascending, of the entries of `marks` that
@@ -48,15 +51,15 @@ impl Compact {
         let scatter = self.scatter.bind(gpu, &buffers);
         Ok(BoundCompact { scan, scatter, workgroups: workgroups(marks.len() as u32) })
     }
-
-    /// Records a compaction.
-    pub fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundCompact) {
-        self.scan.record(recorder, &bound.scan);
-        recorder.dispatch(&self.scatter, &bound.scatter, bound.workgroups);
-    }
 }
 
 impl BoundCompact {
+    /// Records the compaction.
+    pub fn record(&self, recorder: &mut Recorder<'_>) {
+        self.scan.record(recorder);
+        self.scatter.record(recorder, self.workgroups);
+    }
+
     /// Returns the scan's sums; entry [`GROUPS`](crate::gpu::primitives::scan::GROUPS) is the
     /// number of entries kept.
     pub fn sums(&self) -> &Storage<u32> {

@@ -6,10 +6,10 @@ use bytemuck::{Pod, Zeroable};
 use crate::{
     error::Error,
     gpu::{
-        Compiler, Gpu, Kernel, Recorder, Storage, append_bindings,
-        shader::{self, assert_layout, constants::primitives as constants},
+        Compiler, Gpu, Recorder, Storage, append_bindings,
+        shader::{assert_layout, constants::primitives as constants},
+        steps::{BoundSteps, Step, Steps},
     },
-    input::lattice::Width,
 };
 
 /// The maximum number of workgroups that share a scan.
@@ -28,28 +28,28 @@ assert_layout!(ScanParams);
 
 /// The kernels of a scan.
 #[derive(Debug)]
-pub struct Scan {
-    reduce: Kernel,
-    sums: Kernel,
-    parts: Kernel,
-}
+pub struct Scan(Steps);
+
+const STEPS: &[Step] = &[
+    Step::new("scan", "scan_reduce"),
+    Step::new("scan", "scan_sums").in_one_workgroup(),
+    Step::new("scan", "scan_parts"),
+];
 
 /// A scan of certain buffers, which can be recorded again and again.
 #[derive(Debug)]
 pub struct BoundScan {
     /// Entry [`GROUPS`] is the sum of all values.
     sums: Storage<u32>,
-    bindings: [wgpu::BindGroup; 3],
-    /// Those that have values.
+    steps: BoundSteps,
+    /// The workgroups that have values.
     groups: u32,
 }
 
 impl Scan {
     /// Creates the kernels.
     pub fn new(compiler: &Compiler<'_>) -> Self {
-        let kernel = |name| compiler.kernel(shader::COMMON.get(name), Width::Narrow);
-        let [reduce, sums, parts] = ["scan_reduce", "scan_sums", "scan_parts"].map(kernel);
-        Scan { reduce, sums, parts }
+        Scan(Steps::common(compiler, STEPS))
     }
 
     /// Prepares a scan: `offsets[i]` becomes the sum, modulo 2³², of `values[..i]`, for the first
@@ -68,21 +68,17 @@ impl Scan {
         let sums = Storage::new(gpu, "scan sums", GROUPS + 1)?;
         let mut buffers = vec![("params", params.buffer()), ("sums", sums.buffer())];
         append_bindings(&mut buffers, &[values.named("values"), offsets.named("offsets")]);
-        let bindings = [&self.reduce, &self.sums, &self.parts].map(|kernel| kernel.bind(gpu, &buffers));
         let groups = values.len().div_ceil(STEP).clamp(1, GROUPS) as u32;
-        Ok(BoundScan { sums, bindings, groups })
-    }
-
-    /// Records a scan.
-    pub fn record(&self, recorder: &mut Recorder<'_>, bound: &BoundScan) {
-        let [reduce, sums, parts] = &bound.bindings;
-        recorder.dispatch(&self.reduce, reduce, bound.groups);
-        recorder.dispatch(&self.sums, sums, 1);
-        recorder.dispatch(&self.parts, parts, bound.groups);
+        Ok(BoundScan { steps: self.0.bind(gpu, &buffers), sums, groups })
     }
 }
 
 impl BoundScan {
+    /// Records the scan.
+    pub fn record(&self, recorder: &mut Recorder<'_>) {
+        self.steps.record(recorder, self.groups);
+    }
+
     /// Returns the sums; entry [`GROUPS`] is that of all values.
     pub fn sums(&self) -> &Storage<u32> {
         &self.sums
