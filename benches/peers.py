@@ -29,7 +29,8 @@ PEERS = ROOT / "benches" / "peers"
 BENCH = ROOT / "target" / "release" / "gdel-bench"
 DRAGON = ROOT / ".cache" / "dragon.ply"
 POINTS, QUERIES = FOLDER / "points.f64", FOLDER / "queries.f64"
-FEW = "100000"
+# The points of which Voronoi cells are made, at most, as in our program.
+FEW = 100_000
 # All sides for the baseline of the architecture, no -march=native; CGAL asks for -frounding-math.
 CXX = ["g++", "-std=c++17", "-O3", "-DNDEBUG", "-frounding-math"]
 
@@ -158,14 +159,14 @@ TASKS = [
 ]
 
 
-def peers_of_answers():
+def peers_of_answers(points):
     """Returns the command of each peer that can be built."""
     kiddo = ["cargo", "build", "--release", "--quiet", "--manifest-path", PEERS / "kiddo" / "Cargo.toml"]
     attempts = {
         "CGAL": ([*CXX, PEERS / "locate.cpp", "-o", FOLDER / "locate", "-lgmp", "-lmpfr"],
                  [FOLDER / "locate", POINTS, QUERIES]),
         "voro++": ([*CXX, PEERS / "voronoi.cpp", "-o", FOLDER / "voronoi", "-lvoro++"],
-                   [FOLDER / "voronoi", POINTS, FEW]),
+                   [FOLDER / "voronoi", POINTS, str(min(points, FEW))]),
         "kiddo": ([*kiddo, "--target-dir", FOLDER / "kiddo"],
                   [FOLDER / "kiddo" / "release" / "kiddo-nearest", POINTS, QUERIES]),
         "SciPy": ([sys.executable, "-c", "import scipy"], [sys.executable, PEERS / "find_simplex.py", POINTS, QUERIES]),
@@ -184,7 +185,7 @@ def answers(arguments):
     for seed, path in ((1, POINTS), (2, QUERIES)):
         source = ["uniform", f"--points={arguments.points}", f"--seed={seed}"]
         subprocess.run([BENCH, "points", *source, "-o", path], check=True)
-    commands = {"gdel": ours, **peers_of_answers()}
+    commands = {"gdel": ours, **peers_of_answers(arguments.points)}
     runs = {name: [] for name in commands}
     for _ in range(arguments.runs):
         for name, command in commands.items():
