@@ -60,6 +60,8 @@ async function measure(run) {
   return all;
 }
 
+let firstMilliseconds;
+
 async function triangulate(count) {
   const points = await generate(kind, count, { seed: 1 });
   let mesh;
@@ -68,6 +70,7 @@ async function triangulate(count) {
     const options = { backend: 'gpu', transfer: true, ...kept };
     if (values.reuse) options.reuse = mesh;
     const [milliseconds, made] = await timed(() => triangulator.delaunay3d(copy, options));
+    firstMilliseconds ??= performance.now();
     if (resident) made.destroy();
     mesh = made;
     return milliseconds;
@@ -84,6 +87,7 @@ async function triangulate(count) {
     ...times('ms', all),
     phases_ms: phases(mesh.stats),
     open_ms: openMilliseconds,
+    first_mesh_ms: firstMilliseconds,
     fallback,
     gpu: {
       failed_vertices: gpu?.failedVertices,
@@ -137,7 +141,7 @@ async function follow(count, share) {
     precision: 'f64',
     share,
     thread: mesh.stats.thread,
-    restarts: restarts.slice(-runs).filter(Boolean),
+    restarted: restarts.slice(-runs).filter(Boolean).length,
     ...times('ms', updates),
     ...times('scratch_ms', scratch),
     adapter: mesh.stats.adapter,
