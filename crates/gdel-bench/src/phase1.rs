@@ -86,11 +86,9 @@ where
         let input = Input { points, lattice: &lattice, start, starts_later: false, is_uploaded: false };
         let mut phase1 = block_on(Phase1::in_parts(&gpu, lattice.width(), settings.parts(&gpu, points.len())))?;
         block_on(phase1.finish_compiling(&gpu))?;
-        let mut times = Vec::new();
-        let (_, output) = repeated(arguments.runs, 1.0, || {
+        let (times, output) = repeated(arguments.runs, 1.0, || {
             let output = block_on(phase1.run(&gpu, input, &settings, None))?;
-            times.push(milliseconds(output.stats.time));
-            Ok::<_, gdel::Error>(output)
+            Ok::<_, gdel::Error>((milliseconds(output.stats.time), output))
         })?;
         let mut stages = Map::new();
         if let Some(mut profiler) = Profiler::new(&gpu)? {
@@ -107,7 +105,7 @@ where
             .with("precision", cloud.precision())
             .with("width", format!("{:?}", lattice.width()))
             .with("stages_ms", stages);
-        row.with_times("ms", &times[times.len() - arguments.runs.get()..]).print();
+        row.with_times("ms", &times).print();
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     input::Adapter,
-    row::{Row, microseconds, repeated, timed},
+    row::{Row, microseconds, repeated, timed, try_timed},
 };
 use clap::Args;
 use gdel::{
@@ -43,11 +43,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let mesh = triangulator.delaunay3d_on_device(&points)?;
 
     let runs = arguments.runs;
-    let (create, locator) = repeated(runs, 1.0, || DeviceLocator::new(&mesh, &points))?;
-    let (arrays, answers) = repeated(runs, 1.0, || locator.locate_many(&queries))?;
+    let (create, locator) = repeated(runs, 1.0, || try_timed(|| DeviceLocator::new(&mesh, &points)))?;
+    let (arrays, answers) = repeated(runs, 1.0, || try_timed(|| locator.locate_many(&queries)))?;
     let buffer = Storage::with_contents(&gpu, "queries", queries.as_flattened())?;
-    let (buffers, _) = repeated(runs, 1.0, || locator.locate_buffer(buffer.buffer()))?;
-    let (circumspheres, _) = repeated(runs, 1.0, || locator.circumspheres_buffer())?;
+    let (buffers, _) = repeated(runs, 1.0, || try_timed(|| locator.locate_buffer(buffer.buffer())))?;
+    let (circumspheres, _) = repeated(runs, 1.0, || try_timed(|| locator.circumspheres_buffer()))?;
     let read = mesh.read(Outputs::ALL)?;
     let on_host = Locator::new(&read, &points)?;
     let (host, expected) = timed(|| on_host.locate_many(Points::F32(&queries)));

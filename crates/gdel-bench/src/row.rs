@@ -80,28 +80,34 @@ pub fn timed<R>(work: impl FnOnce() -> R) -> (f64, R) {
     (milliseconds(clock.elapsed()), result)
 }
 
-/// Returns the milliseconds of `runs` runs of some work and its last result, after others for `warm_up` seconds.
+/// Returns the milliseconds that some work takes, and its result.
 ///
 /// # Errors
 ///
-/// Returns the first error of the work.
+/// Returns the error of the work.
+pub fn try_timed<R, E>(work: impl FnOnce() -> Result<R, E>) -> Result<(f64, R), E> {
+    let (time, result) = timed(work);
+    Ok((time, result?))
+}
+
+/// Returns the milliseconds of `runs` runs, as they state them, and the last result, after others for `warm_up`
+/// seconds. A run finds the memory of the result before free.
+///
+/// # Errors
+///
+/// Returns the first error of a run.
 pub fn repeated<R, E>(
     runs: NonZeroUsize,
     warm_up: f64,
-    mut work: impl FnMut() -> Result<R, E>,
+    mut run: impl FnMut() -> Result<(f64, R), E>,
 ) -> Result<(Vec<f64>, R), E> {
     let clock = Instant::now();
     while clock.elapsed().as_secs_f64() < warm_up {
-        work()?;
+        run()?;
     }
-    let mut run = || {
-        let (time, result) = timed(&mut work);
-        Ok((time, result?))
-    };
     let (first, mut last) = run()?;
     let mut times = vec![first];
     for _ in 1..runs.get() {
-        // A run finds the memory of the result before free.
         drop(last);
         let (time, result) = run()?;
         last = result;

@@ -2,7 +2,7 @@
 
 use crate::{
     input::{Adapter, Cloud, Source, Space},
-    row::{Row, median, microseconds, milliseconds, repeated},
+    row::{Row, median, microseconds, milliseconds, repeated, try_timed},
 };
 use clap::{Args, ValueEnum};
 use gdel::{
@@ -10,7 +10,6 @@ use gdel::{
     internals::dimension::Dimension,
     stats::{Phase, Stats},
 };
-use rayon::ThreadPoolBuilder;
 use serde_json::{Map, Value, json};
 use std::{error::Error, num::NonZeroUsize};
 
@@ -27,9 +26,9 @@ pub struct Arguments {
     /// Where the mesh goes
     #[arg(long, value_enum, value_delimiter = ',', default_value = "fresh")]
     result: Vec<Destination>,
-    /// How many threads work for the host [default: all]
+    /// How many threads the CPU backend uses [default: all]; for the GPU backend, see RAYON_NUM_THREADS
     #[arg(long, value_delimiter = ',')]
-    threads: Vec<usize>,
+    threads: Vec<NonZeroUsize>,
     /// Timed runs, of which the median counts
     #[arg(long, default_value = "9")]
     runs: NonZeroUsize,
@@ -54,6 +53,16 @@ enum Destination {
     Resident,
 }
 
+impl Destination {
+    fn name(self) -> &'static str {
+        match self {
+            Destination::Fresh => "fresh",
+            Destination::Reused => "reused",
+            Destination::Resident => "resident",
+        }
+    }
+}
+
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     match arguments.source.dim {
         2 => in_dimension::<2>(arguments),
@@ -67,20 +76,21 @@ where
 {
     let backend = match arguments.backend {
         Engine::Cpu => Backend::Cpu,
-        Engine::Gpu => Backend::Gpu,
+        Engine::Gpu if arguments.threads.is_empty() => Backend::Gpu,
+        Engine::Gpu => return Err("--threads is for the CPU backend; set RAYON_NUM_THREADS for the GPU backend".into()),
     };
     // One device for all rows.
     let triangulator = arguments.adapter.triangulator(backend);
-    let all = [rayon::current_num_threads()];
-    let threads = if arguments.threads.is_empty() { &all[..] } else { &arguments.threads };
     for cloud in arguments.source.clouds::<D>() {
         let cloud = cloud?;
-        for &threads in threads {
-            // What shares work does so in the pool in which it is called.
-            let pool = ThreadPoolBuilder::new().num_threads(threads).build()?;
-            for &destination in &arguments.result {
-                let row = pool.install(|| measure(arguments, &triangulator, &cloud, destination))?;
-                row.with("threads", threads).print();
+        for &destination in &arguments.result {
+            if arguments.threads.is_empty() {
+                let row = measure(arguments, &triangulator, &cloud, destination)?;
+                row.with("threads", rayon::current_num_threads()).print();
+            }
+            for &threads in &arguments.threads {
+                let triangulator = triangulator.clone().threads(threads);
+                measure(arguments, &triangulator, &cloud, destination)?.with("threads", threads.get()).print();
             }
         }
     }
@@ -103,17 +113,17 @@ where
     let vertices = |duplicate_of: &[i32]| duplicate_of.iter().filter(|&&first| first < 0).count();
     let (times, (simplices, vertices)) = repeated(arguments.runs, arguments.warm_up, || {
         if destination == Destination::Resident {
-            let mesh = Dimension::<D>::triangulate_resident(triangulator, points)?;
+            let (time, mesh) = try_timed(|| Dimension::<D>::triangulate_resident(triangulator, points))?;
             all.push(mesh.stats().clone());
-            return Ok((mesh.simplex_count(), vertices(mesh.duplicate_of())));
+            return Ok((time, (mesh.simplex_count(), vertices(mesh.duplicate_of()))));
         }
         if destination == Destination::Fresh {
             kept = Default::default();
         }
-        Dimension::<D>::triangulate(triangulator, points, &mut kept)?;
+        let (time, ()) = try_timed(|| Dimension::<D>::triangulate(triangulator, points, &mut kept))?;
         let (simplices, duplicate_of, stats) = Dimension::<D>::summary(&kept);
         all.push(stats.clone());
-        Ok::<_, gdel::Error>((simplices, vertices(duplicate_of)))
+        Ok::<_, gdel::Error>((time, (simplices, vertices(duplicate_of))))
     })?;
     let stats = &all[all.len() - arguments.runs.get()..];
     let before = |stats: &Stats| milliseconds(stats.time_of(Phase::Lattice) + stats.time_of(Phase::Phase1));
@@ -123,7 +133,7 @@ where
         .with("dimension", D)
         .with("points", points.len())
         .with("precision", cloud.precision())
-        .with("result", destination.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned()))
+        .with("result", destination.name())
         .with("simplices", simplices)
         .with("vertices", vertices)
         .with_times("ms", &times);
