@@ -208,32 +208,22 @@ fn module(
                 constants.join(", ")
             });
             write!(text, "Shader {{ name: {name:?}, narrow: &[{narrow}], wide: &[{wide}], variables: &{variables:?}")?;
-            if !in_parts.is_empty() {
-                let texts = in_parts.get(name).filter(|_| own.is_none_or(|own| std::ptr::eq(own, d3)));
-                write!(text, ", in_parts: {texts:?}")?;
-            }
-            writeln!(text, " }},")?;
+            let texts = in_parts.get(name).filter(|_| own.is_none_or(|own| std::ptr::eq(own, d3)));
+            writeln!(text, ", in_parts: {texts:?} }},")?;
         }
         writeln!(text, "]);")?;
     }
-    if !in_parts.is_empty() {
-        let (buffers, unit) = (check::MAX_STORAGE_BUFFERS, parts::UNIT);
-        let (arrays, stride, parts) = (parts::ARRAYS, parts::STRIDE, parts::PARTS);
-        writeln!(text, "/// The arrays that can be in parts.\nconst ARRAYS_IN_PARTS: &[&str] = &{arrays:?};")?;
-        writeln!(text, "/// The most parts of an array.\npub(crate) const PARTS: u32 = {parts};")?;
-        writeln!(
-            text,
-            "/// From the binding of a part to that of the next one.\npub(crate) const PART_STRIDE: u32 = {stride};"
-        )?;
-        writeln!(
-            text,
-            "/// The bytes that sizes of parts are multiples of.\npub(crate) const PART_UNIT: u64 = {unit};"
-        )?;
-        writeln!(
-            text,
-            "/// The storage buffers of a kernel, at most.\npub(crate) const MAX_BUFFERS: u32 = {buffers};"
-        )?;
-    }
+    let (buffers, unit) = (check::MAX_STORAGE_BUFFERS, parts::UNIT);
+    let (arrays, stride) = (parts::ARRAYS, parts::STRIDE);
+    let parts = if in_parts.is_empty() { 1 } else { parts::PARTS };
+    writeln!(text, "/// The arrays that can be in parts.\nconst ARRAYS_IN_PARTS: &[&str] = &{arrays:?};")?;
+    writeln!(text, "/// The most parts of an array.\npub(crate) const PARTS: u32 = {parts};")?;
+    writeln!(
+        text,
+        "/// From the binding of a part to that of the next one.\npub(crate) const PART_STRIDE: u32 = {stride};"
+    )?;
+    writeln!(text, "/// The bytes that sizes of parts are multiples of.\npub(crate) const PART_UNIT: u64 = {unit};")?;
+    writeln!(text, "/// The storage buffers of a kernel, at most.\npub(crate) const MAX_BUFFERS: u32 = {buffers};")?;
     write_constants(&mut text, declarations)?;
     write_layouts(&mut text, declarations)?;
     Ok(text)

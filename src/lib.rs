@@ -84,6 +84,7 @@ mod index;
 #[cfg(feature = "io")]
 mod io;
 mod parallel;
+mod platform;
 mod random;
 #[cfg(feature = "gpu")]
 mod reference;

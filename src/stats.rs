@@ -4,6 +4,7 @@ use crate::{
     backend::Backend,
     error::Error,
     fields::{Field, Value, with_fields},
+    platform::Instant,
 };
 use std::{fmt, time::Duration};
 
@@ -659,38 +660,21 @@ mod serialize {
     }
 }
 
-/// Times consecutive phases. Reads no clock on wasm without the feature `gpu`, which has none; with
-/// it, the browser's.
+/// Times consecutive phases.
 pub(crate) struct Stopwatch {
-    #[cfg(any(feature = "gpu", not(target_arch = "wasm32")))]
     started: Instant,
 }
 
-#[cfg(not(target_arch = "wasm32"))]
-use std::time::Instant;
-#[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-use web_time::Instant;
-
 impl Stopwatch {
     pub(crate) fn start() -> Self {
-        Stopwatch {
-            #[cfg(any(feature = "gpu", not(target_arch = "wasm32")))]
-            started: Instant::now(),
-        }
+        Stopwatch { started: Instant::now() }
     }
 
-    /// Returns the time since the start or the last lap.
-    #[cfg(any(feature = "gpu", not(target_arch = "wasm32")))]
+    /// Returns the time since the start or the last lap; zero where there is no clock.
     pub(crate) fn lap(&mut self) -> Duration {
         let now = Instant::now();
         let time = now - self.started;
         self.started = now;
         time
-    }
-
-    /// Returns zero, since there is no clock.
-    #[cfg(not(any(feature = "gpu", not(target_arch = "wasm32"))))]
-    pub(crate) fn lap(&mut self) -> Duration {
-        Duration::ZERO
     }
 }

@@ -220,7 +220,7 @@ impl Triangulation3 {
     /// Returns the same for a triangulation the neighbours of which are numbers of tetrahedra, without
     /// facets, and [`NO_INDEX`] in the place of ghosts. No others of the first `finite` slots are gaps than some of
     /// those that `changed`.
-    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    #[cfg(feature = "gpu")]
     pub(in crate::d3) fn into_mesh_of_numbers(self, finite: usize, changed: &[u32], threads: Threads) -> FiniteMesh {
         let mut changed: Vec<u32> = changed.iter().copied().filter(|&t| (t as usize) < finite).collect();
         parallel::sort(threads, &mut changed);

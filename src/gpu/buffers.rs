@@ -6,8 +6,7 @@ use bytemuck::Pod;
 
 use crate::error::Error;
 use crate::gpu::{Binding, Gpu, Parts};
-#[cfg(not(target_arch = "wasm32"))]
-use crate::parallel::{Threads, for_parts};
+use crate::platform;
 
 /// A storage buffer of `T`, which kernels see as `array<T>`.
 ///
@@ -16,7 +15,7 @@ use crate::parallel::{Threads, for_parts};
 pub struct Storage<T> {
     buffer: wgpu::Buffer,
     /// The buffers of an array in parts, after the first.
-    more: More,
+    more: Vec<wgpu::Buffer>,
     label: &'static str,
     len: usize,
     elements: PhantomData<T>,
@@ -32,18 +31,6 @@ pub(crate) fn append_bindings<'a>(bindings: &mut Vec<Binding<'a>>, arrays: &[Nam
         bindings.extend(more.iter().map(|buffer| (name, buffer)));
     }
 }
-
-#[cfg(not(target_arch = "wasm32"))]
-type More = Vec<wgpu::Buffer>;
-#[cfg(target_arch = "wasm32")]
-type More = [wgpu::Buffer; 0];
-
-/// Of more bytes than these, several threads write a part each.
-#[cfg(not(target_arch = "wasm32"))]
-const MANY_BYTES: usize = 1 << 20;
-/// The bytes that are written at a time.
-#[cfg(not(target_arch = "wasm32"))]
-const PART: usize = 1 << 12;
 
 /// The size of a buffer without elements.
 const EMPTY_BYTES: u128 = 16;
@@ -75,9 +62,7 @@ impl<T: Pod> Storage<T> {
             let bytes = len as u128 * size_of::<T>() as u128;
             return Err(Error::BufferTooLarge { label, bytes, limit: parts.limit(), points: None });
         }
-        #[cfg_attr(target_arch = "wasm32", expect(unused_mut, reason = "there are no parts"))]
         let mut storage = Self::new(gpu, label, len.min(per_part))?;
-        #[cfg(not(target_arch = "wasm32"))]
         while storage.len < len {
             let part = Self::new(gpu, label, (len - storage.len).min(per_part))?;
             storage.len += part.len;
@@ -130,7 +115,7 @@ impl<T: Pod> Storage<T> {
         })?;
         let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
         let buffer = gpu.device().create_buffer(&descriptor);
-        Ok(Storage { buffer, more: More::default(), label, len, elements: PhantomData })
+        Ok(Storage { buffer, more: Vec::new(), label, len, elements: PhantomData })
     }
 
     /// Makes room for `len` elements: at least half as many again as there are now, if the device
@@ -155,20 +140,12 @@ impl<T: Pod> Storage<T> {
 
     /// Writes `contents` at element `start`, before the commands of the next submission.
     pub fn write(&self, gpu: &Gpu, start: usize, contents: &[T]) {
-        let at = (start * size_of::<T>()) as u64;
-        let bytes: &[u8] = bytemuck::cast_slice(contents);
-        #[cfg(target_arch = "wasm32")]
-        gpu.queue().write_buffer(&self.buffer, at, bytes);
-        #[cfg(not(target_arch = "wasm32"))]
-        self.write_bytes(gpu, at, bytes);
-    }
-
-    #[cfg(not(target_arch = "wasm32"))]
-    fn write_bytes(&self, gpu: &Gpu, mut at: u64, mut bytes: &[u8]) {
+        let mut at = (start * size_of::<T>()) as u64;
+        let mut bytes: &[u8] = bytemuck::cast_slice(contents);
         while !bytes.is_empty() {
             let (buffer, offset, left) = self.place(at);
             let (part, rest) = bytes.split_at(bytes.len().min(left as usize));
-            write(gpu, buffer, offset, part);
+            platform::gpu::write(gpu, buffer, offset, part);
             (at, bytes) = (at + part.len() as u64, rest);
         }
     }
@@ -247,27 +224,4 @@ impl<T: Pod> Storage<T> {
             done += copied;
         }
     }
-}
-
-/// Writes to a buffer, before the commands of the next submission.
-#[cfg(not(target_arch = "wasm32"))]
-fn write(gpu: &Gpu, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) {
-    if bytes.len() > MANY_BYTES {
-        // Most of the time goes into page faults, since the memory that the device reads is
-        // fresh each time, so threads share the work.
-        let size = std::num::NonZero::new(bytes.len() as u64);
-        let view = size.and_then(|size| gpu.queue().write_buffer_with(buffer, offset, size));
-        // Without a view, the size or the place are wrong, and the device has reported that.
-        if let Some(mut view) = view {
-            let (parts, rest) = bytes.as_chunks::<PART>();
-            let (targets, mut target_of_rest) = view.slice(..).into_chunks::<PART>();
-            target_of_rest.copy_from_slice(rest);
-            let mut copies: Vec<_> = targets.into_iter().zip(parts).map(Some).collect();
-            for_parts(Threads::All, &mut copies, |_, copies| {
-                copies.iter_mut().filter_map(Option::take).for_each(|(target, part)| target.write(*part));
-            });
-        }
-        return;
-    }
-    gpu.queue().write_buffer(buffer, offset, bytes);
 }

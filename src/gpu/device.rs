@@ -1,7 +1,6 @@
 //! The device: adapters, limits, and errors as values.
 
 use std::{
-    pin::Pin,
     sync::{Arc, Mutex, OnceLock, PoisonError},
     time::Duration,
 };
@@ -10,6 +9,7 @@ use crate::{
     error::Error,
     gpu::{Kernel, MAX_WORKGROUPS, WORKGROUP, parts, workgroups},
     input::lattice::Width,
+    platform,
 };
 
 /// The most items for an invocation of a software device. Such devices end loops after 65,535 steps,
@@ -269,12 +269,6 @@ pub(crate) struct ErrorScope<'a> {
     guards: [wgpu::ErrorScopeGuard; 3],
 }
 
-/// What an error scope reports: in a box, so that the code that waits for it is there once.
-#[cfg(not(target_arch = "wasm32"))]
-pub(crate) type Report<'a> = Pin<Box<dyn Future<Output = Result<(), Error>> + Send + 'a>>;
-#[cfg(target_arch = "wasm32")]
-pub(crate) type Report<'a> = Pin<Box<dyn Future<Output = Result<(), Error>> + 'a>>;
-
 impl<'a> ErrorScope<'a> {
     /// Opens a scope around `what`.
     pub(crate) fn open(gpu: &'a Gpu, what: &'static str) -> Self {
@@ -284,7 +278,7 @@ impl<'a> ErrorScope<'a> {
     }
 
     /// Closes the scope. The report says what went wrong, as [`Gpu::with_error_scope`] does.
-    pub(crate) fn close(self) -> Report<'a> {
+    pub(crate) fn close(self) -> platform::gpu::Report<'a> {
         let ErrorScope { gpu, what, guards: [a, b, c] } = self;
         // The scopes are a stack.
         let [c, b, a] = [c, b, a].map(wgpu::ErrorScopeGuard::pop);
@@ -313,8 +307,6 @@ async fn choose(instance: &wgpu::Instance, choice: &AdapterChoice) -> Result<wgp
             None => Err(Error::AdapterNotFound { wanted, available: names }),
         }
     };
-    // Browsers offer no list, and looking through one takes 2 kB of a module.
-    let choice = if cfg!(target_arch = "wasm32") { &AdapterChoice::Default } else { choice };
     match choice {
         AdapterChoice::Default => instance
             .request_adapter(&wgpu::RequestAdapterOptions {

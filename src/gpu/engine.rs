@@ -407,7 +407,7 @@ where
         moved: Option<(&DeviceMesh<D>, &mut UpdateStats)>,
         stopwatch: &mut Stopwatch,
     ) -> Result<Result<Made<D>, Restart>, Error> {
-        let (lattice, uploaded) = self.fit(points)?;
+        let lattice = Lattice::fit_by(Threads::All, points)?;
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         // Points that had moved too far before will do so again, as a rule.
         let stays = |mesh: &&DeviceMesh<D>| mesh.begun_anew() == 0;
@@ -432,9 +432,8 @@ where
             // What is traced is the triangulation after each round.
             (settings.rounds, settings.batches, settings.start_points) = (1, 1, Some(0));
         }
-        let is_uploaded = uploaded == Some(lattice.width());
         let (gpu, phase1) = self.kernels(lattice.width(), points.len()).await?;
-        let input = Input { points, lattice: &lattice, start, starts_later: repaired.is_some(), is_uploaded };
+        let input = Input { points, lattice: &lattice, start, starts_later: repaired.is_some() };
         let mut run = Run::new(phase1, gpu, input, settings, None).await?;
         let mut moved = match moved {
             Some((mesh, update)) => take(&mut run, &input, mesh, update).await?,
@@ -485,32 +484,6 @@ where
             Err(Fallback::Splaying) if has_moved => Ok(Err(Restart::Changed)),
             Err(_) if has_moved => Ok(Err(Restart::Stuck)),
             Err(why) => fall_back(points, options, why, stats).map(Ok),
-        }
-    }
-
-    /// Returns the lattice of the points. In WebAssembly, where one thread has to look at all of them, they are
-    /// uploaded on the way, piece by piece, while these are in the caches: into the buffers of the last
-    /// run, which are for a lattice of the width that is returned, if there were as many points then.
-    ///
-    /// # Errors
-    ///
-    /// Returns [`Error::NotFinite`].
-    fn fit(&self, points: Points<'_, D>) -> Result<(Lattice<D>, Option<Width>), Error> {
-        #[cfg(not(target_arch = "wasm32"))]
-        {
-            Ok((Lattice::fit_by(Threads::All, points)?, None))
-        }
-        #[cfg(target_arch = "wasm32")]
-        {
-            let kernels = [Some(&self.wide), self.narrow.as_ref()];
-            let buffers = kernels.into_iter().flatten().find_map(|kernels| kernels.kept.points.as_ref());
-            let to = buffers.and_then(|buffers| Some((buffers, buffers.width_for(points)?)));
-            let bounds = points.finite_bounds_with(|first, piece| {
-                if let Some((buffers, _)) = to {
-                    buffers.upload(&self.gpu, first, piece);
-                }
-            })?;
-            Ok((Lattice::fit_to(Threads::All, points, bounds), to.map(|(_, width)| width)))
         }
     }
 

@@ -1,16 +1,13 @@
 //! Compute pipelines.
 
-#[cfg(not(target_arch = "wasm32"))]
-use crate::gpu::shader::{PART_STRIDE, with_int64};
-#[cfg(not(target_arch = "wasm32"))]
-use crate::parallel::{self, Threads};
 use crate::{
     error::Error,
     gpu::{
         Gpu, Parts,
-        shader::{Shader, Variable},
+        shader::{PART_STRIDE, Shader, Variable, with_int64},
     },
     input::lattice::Width,
+    platform,
 };
 use std::{
     cell::RefCell,
@@ -38,7 +35,6 @@ struct Bound {
 /// Returns the storage buffers of a shader, with each part of those that are in parts.
 fn bound(shader: &'static Shader, parts: Option<Parts>) -> Vec<Bound> {
     let whole = |&(name, binding, read_only): &Variable| Bound { name, binding, part: 0, is_last: true, read_only };
-    #[cfg(not(target_arch = "wasm32"))]
     if let Some(parts) = parts {
         let of_variable = |variable: &Variable| {
             let count = if shader.has_in_parts(variable.0) { parts.count() } else { 1 };
@@ -52,7 +48,6 @@ fn bound(shader: &'static Shader, parts: Option<Parts>) -> Vec<Bound> {
         };
         return shader.variables().iter().flat_map(of_variable).collect();
     }
-    _ = parts;
     shader.variables().iter().map(whole).collect()
 }
 
@@ -66,7 +61,6 @@ pub struct Kernel {
     /// What the pipeline is compiled from, if it was not compiled at once.
     shader: Option<(&'static Shader, Width)>,
     /// The size of the parts of its large arrays, if these are in parts.
-    #[cfg(not(target_arch = "wasm32"))]
     parts: Option<Parts>,
     pipeline: Arc<OnceLock<wgpu::ComputePipeline>>,
 }
@@ -94,7 +88,6 @@ impl Kernel {
             layout,
             device: gpu.device().clone(),
             shader: Some((shader, width)),
-            #[cfg(not(target_arch = "wasm32"))]
             parts,
             pipeline: Arc::default(),
         }
@@ -121,7 +114,6 @@ impl Kernel {
             layout: pipeline.get_bind_group_layout(0),
             device: gpu.device().clone(),
             shader: None,
-            #[cfg(not(target_arch = "wasm32"))]
             parts: None,
             pipeline: Arc::new(OnceLock::from(pipeline)),
         }
@@ -179,7 +171,6 @@ impl Kernel {
     pub fn pipeline(&self) -> &wgpu::ComputePipeline {
         self.pipeline.get_or_init(|| {
             let (shader, width) = self.shader.expect("what is not a shader was compiled at once");
-            #[cfg(not(target_arch = "wasm32"))]
             if let Some(parts) = self.parts
                 && let Some(wgsl) = shader.wgsl_in_parts(width, parts.count())
             {
@@ -190,7 +181,6 @@ impl Kernel {
     }
 
     fn compile(&self, wgsl: &str, constants: &[(&str, f64)]) -> wgpu::ComputePipeline {
-        #[cfg(not(target_arch = "wasm32"))]
         let wgsl = match self.device.features().contains(wgpu::Features::SHADER_INT64) {
             true => &*with_int64(wgsl),
             false => wgsl,
@@ -305,20 +295,13 @@ impl<'a> Compiler<'a> {
     /// Returns the errors of [`Gpu::with_error_scope`].
     pub async fn finish(self) -> Result<(), Error> {
         let Compiler { gpu, kernels, .. } = self;
-        #[cfg(not(target_arch = "wasm32"))]
-        {
-            // Scopes of errors belong to threads, and are answered at once.
-            let compile = |_, kernel: &mut Kernel| pollster::block_on(compile_all(gpu, std::slice::from_ref(kernel)));
-            parallel::map_mut(Threads::All, &mut kernels.into_inner(), compile).into_iter().collect()
-        }
-        #[cfg(target_arch = "wasm32")]
-        compile_all(gpu, &kernels.take()).await
+        platform::gpu::compile(gpu, kernels.into_inner()).await
     }
 }
 
 /// Compiles the kernels that are not compiled yet. Those that take long come first, so that none of them
 /// is the last one where several are compiled at a time, as by browsers and Dawn.
-async fn compile_all(gpu: &Gpu, kernels: &[Kernel]) -> Result<(), Error> {
+pub(crate) async fn compile_all(gpu: &Gpu, kernels: &[Kernel]) -> Result<(), Error> {
     gpu.with_error_scope("pipelines", || {
         for takes_long in [true, false] {
             kernels.iter().filter(|kernel| kernel.takes_long() == takes_long).for_each(|kernel| _ = kernel.pipeline());

@@ -40,12 +40,13 @@ pub(crate) mod vertex_simplices;
 pub use buffers::Storage;
 pub(crate) use buffers::append_bindings;
 pub use device::{AdapterChoice, AdapterSummary, Gpu, adapters};
+pub(crate) use kernel::compile_all;
 pub use kernel::{Binding, Compiler, Deferred, Kernel};
 pub use parts::Parts;
 pub use profiler::Profiler;
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) use readback::{Pace, Reading, ReadingArrays, Room, Words};
-pub use readback::{Pending, Readback};
+pub use readback::{Pending, Readback, Target};
 pub use recorder::Recorder;
 
 /// The number of invocations in a workgroup.

@@ -6,22 +6,18 @@
 //! many parts there can be depends on how many buffers the device binds.
 
 use crate::gpu::Gpu;
-#[cfg(not(target_arch = "wasm32"))]
 use crate::gpu::shader::{MAX_BUFFERS, PART_UNIT, PARTS};
 
-/// How large the parts of large arrays are. In WebAssembly, which has no memory for so many points,
-/// there are none.
+/// How large the parts of large arrays are. WebAssembly, which has no memory for so many points, has only the kernels for
+/// whole arrays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Parts {
     /// In units of [`PART_UNIT`] bytes.
     units: u32,
     /// How many parts an array has, at most.
     count: u32,
-    #[cfg(target_arch = "wasm32")]
-    never: std::convert::Infallible,
 }
 
-#[cfg(not(target_arch = "wasm32"))]
 impl Parts {
     /// Returns parts as large as the device can bind; `None` if it can bind too few buffers.
     pub fn of(gpu: &Gpu) -> Option<Self> {
@@ -57,20 +53,8 @@ impl Parts {
     }
 }
 
-#[cfg(target_arch = "wasm32")]
-impl Parts {
-    pub(crate) fn bytes(self) -> u64 {
-        match self.never {}
-    }
-
-    pub(crate) fn limit(self) -> u64 {
-        match self.never {}
-    }
-}
-
 /// Returns how many storage buffers a kernel of a device with these limits can bind, as far as arrays in
 /// parts need them.
-#[cfg(not(target_arch = "wasm32"))]
 fn buffers(limits: &wgpu::Limits) -> u32 {
     let and_others = limits.max_buffers_and_acceleration_structures_per_shader_stage;
     limits.max_storage_buffers_per_shader_stage.min(and_others).min(MAX_BUFFERS * PARTS)
@@ -80,15 +64,12 @@ fn buffers(limits: &wgpu::Limits) -> u32 {
 /// the buffers that arrays in parts need.
 pub(crate) fn limits(limits: &wgpu::Limits) -> wgpu::Limits {
     let defaults = wgpu::Limits::default();
-    #[cfg(not(target_arch = "wasm32"))]
-    let defaults = wgpu::Limits {
+    wgpu::Limits {
         max_storage_buffers_per_shader_stage: buffers(limits),
         max_buffers_and_acceleration_structures_per_shader_stage: buffers(limits)
             .max(defaults.max_buffers_and_acceleration_structures_per_shader_stage),
         ..defaults
-    };
-    _ = limits;
-    defaults
+    }
 }
 
 /// Returns the size of the largest array that can be in parts, in bytes.

@@ -106,8 +106,6 @@ pub struct PointInput<'a, const D: usize = 3> {
     pub lattice: &'a Lattice<D>,
     /// Whether to sort along the Hilbert curve; else the vertices are in the order of the points.
     pub sort: bool,
-    /// Whether the buffers of the last time have the points already.
-    pub is_uploaded: bool,
 }
 
 /// The points on the device. Valid when the recorded commands have run.
@@ -155,7 +153,7 @@ where
         }
     }
 
-    /// Uploads the points, unless that is done, and records what makes vertices of them. `kept` has the
+    /// Uploads the points and records what makes vertices of them. `kept` has the
     /// buffers of the last time, and is given those of this time.
     ///
     /// # Errors
@@ -168,13 +166,13 @@ where
         kept: &mut Option<PointBuffers>,
         input: PointInput<'_, D>,
     ) -> Result<DevicePoints, Error> {
-        let PointInput { points, lattice, sort, is_uploaded } = input;
+        let PointInput { points, lattice, sort } = input;
         let n = points.len();
         let (bits, doubles) = bits_of(points);
         let form = (n, bits.len(), lattice.width());
-        let (buffers, is_uploaded) = match kept.take() {
-            Some(buffers) if buffers.form == form => (buffers, is_uploaded),
-            _ => (self.allocate(gpu, form)?, false),
+        let buffers = match kept.take() {
+            Some(buffers) if buffers.form == form => buffers,
+            _ => self.allocate(gpu, form)?,
         };
         let along: [_; 3] = std::array::from_fn(|axis| lattice.origin().get(axis).copied().flatten());
         let origin = along.map(|origin| origin.unwrap_or(0));
@@ -191,9 +189,7 @@ where
             unused: [0; 3],
         };
         buffers.params.write(gpu, 0, &[params]);
-        if !is_uploaded {
-            buffers.input.write(gpu, 0, bits);
-        }
+        buffers.input.write(gpu, 0, bits);
         let encoder = recorder.encoder();
         encoder.clear_buffer(buffers.table.buffer(), 0, None);
         encoder.clear_buffer(buffers.device.counts.buffer(), 0, None);
@@ -260,20 +256,6 @@ pub(crate) fn bits_of<const D: usize>(points: Points<'_, D>) -> (&[u32], bool) {
 }
 
 impl PointBuffers {
-    /// Returns their lattice's width if they are for as many points in this precision.
-    #[cfg(target_arch = "wasm32")]
-    pub(crate) fn width_for<const D: usize>(&self, points: Points<'_, D>) -> Option<Width> {
-        let (count, words, width) = self.form;
-        ((count, words) == (points.len(), bits_of(points).0.len())).then_some(width)
-    }
-
-    /// Uploads some of the points, the first of which has this number.
-    #[cfg(target_arch = "wasm32")]
-    pub(crate) fn upload<const D: usize>(&self, gpu: &Gpu, first: usize, points: Points<'_, D>) {
-        let (bits, doubles) = bits_of(points);
-        self.input.write(gpu, (D * first) << u32::from(doubles), bits);
-    }
-
     /// Returns the bytes that they take on the device.
     pub fn bytes(&self) -> u64 {
         self.bytes

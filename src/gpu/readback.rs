@@ -1,23 +1,18 @@
 //! Reading results back, through staging buffers that are reused.
 
+use crate::{
+    error::Error,
+    gpu::{Gpu, Storage, device::ErrorScope},
+    index::NO_INDEX,
+    parallel::{self, Threads, for_chunks},
+    platform::{self, gpu::Report},
+};
 use bytemuck::Pod;
 use futures_channel::oneshot;
-#[cfg(not(target_arch = "wasm32"))]
-use std::time::{Duration, Instant};
 use std::{
     collections::VecDeque,
     sync::{Arc, Mutex, PoisonError},
 };
-
-use crate::error::Error;
-use crate::gpu::{
-    Gpu, Storage,
-    device::{ErrorScope, Report},
-};
-#[cfg(not(target_arch = "wasm32"))]
-use crate::index::NO_INDEX;
-#[cfg(not(target_arch = "wasm32"))]
-use crate::parallel::{Ahead, Threads, for_chunks};
 
 /// How large arrays are read.
 #[derive(Debug, Clone, Copy)]
@@ -29,36 +24,20 @@ pub(crate) struct Pace {
 }
 
 impl Pace {
-    /// For arrays that the host waits for. A piece has so many bytes that a submission for each costs
-    /// nothing, and so few that copying out of one begins while most others are still to come. A worker gets
-    /// copies of the pieces from the thread that has the device, which uses their memory again.
-    pub(crate) const ALONE: Pace =
-        Pace { piece: if cfg!(target_arch = "wasm32") { 8 << 20 } else { 32 << 20 }, ahead: 4 };
+    /// For arrays that the host waits for.
+    pub(crate) const ALONE: Pace = Pace { piece: platform::gpu::PIECE, ahead: 4 };
     /// For arrays beside which the host waits for other results. The device carries out commands in
     /// their order, so that these wait until all pieces are there that are on their way. They are as few
     /// as keep the device busy while the host takes one of them, and each takes some tenths of a
     /// millisecond.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) const BESIDE: Pace = Pace { piece: 8 << 20, ahead: 2 };
 }
 
-/// From how many bytes on threads share a copy.
-#[cfg(not(target_arch = "wasm32"))]
+/// From this size on, threads share a copy.
 const SHARED_FROM: usize = 1 << 20;
 
 /// The size of a page of memory, or less.
-#[cfg(not(target_arch = "wasm32"))]
 const PAGE: usize = 1 << 12;
-
-/// How long the host asks for a result before it sleeps until there is one: most results of small
-/// runs are there by then, and to be woken takes up to 0.1 ms.
-#[cfg(not(target_arch = "wasm32"))]
-const SPIN: Duration = Duration::from_micros(300);
-
-/// How long the host waits at a time for a software device, which needs the processors itself, before it
-/// looks after something else.
-#[cfg(not(target_arch = "wasm32"))]
-const NAP: Duration = Duration::from_millis(1);
 
 /// A pool of staging buffers. Clones share it.
 ///
@@ -75,7 +54,8 @@ pub struct Readback {
 #[derive(Debug)]
 #[must_use = "a readback does nothing until it is received"]
 pub struct Pending<T> {
-    staged: Pieces,
+    /// A piece of each part of the array.
+    staged: Vec<Staged>,
     len: usize,
     elements: std::marker::PhantomData<T>,
 }
@@ -92,7 +72,6 @@ impl<T> Pending<T> {
     }
 
     /// Returns the same and the elements of `other` behind, which a later submission may contain.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn then(mut self, other: Self) -> Self {
         self.len += other.len;
         self.staged.extend(other.staged);
@@ -100,19 +79,12 @@ impl<T> Pending<T> {
     }
 }
 
-/// What is read of an array: a piece of each of its parts. In WebAssembly it has only one.
-#[cfg(not(target_arch = "wasm32"))]
-type Pieces = Vec<Staged>;
-#[cfg(target_arch = "wasm32")]
-type Pieces = Staged;
-
 /// A staging buffer that is about to be mapped.
 #[derive(Debug)]
 struct Staged {
     staging: wgpu::Buffer,
-    /// The bytes that are mapped, from the start: those that were asked for, and what lies behind
-    /// them, up to the room that was.
-    mapped_bytes: u64,
+    /// The bytes that are mapped, from the start.
+    bytes: u64,
     mapped: oneshot::Receiver<Result<(), wgpu::BufferAsyncError>>,
 }
 
@@ -124,7 +96,7 @@ pub(crate) enum Room<T> {
     Used(Vec<T>),
     /// Memory that the system provides while the device is at work: that takes longer than to copy the
     /// result.
-    Ahead(Ahead<Vec<T>>),
+    Ahead(parallel::Ahead<Vec<T>>),
 }
 
 #[cfg(not(target_arch = "wasm32"))]
@@ -148,7 +120,7 @@ impl<T: Pod + Send> Room<T> {
             });
             list
         };
-        pays.then(|| Room::Ahead(Ahead::begin(touched)))
+        pays.then(|| Room::Ahead(parallel::Ahead::begin(touched)))
     }
 
     /// Returns the room, empty if it is not there yet.
@@ -182,7 +154,6 @@ impl Source for &wgpu::Buffer {
     }
 }
 
-#[cfg(not(target_arch = "wasm32"))]
 impl<T: Pod> Source for Storage<T> {
     fn place(&self, at: u64) -> (&wgpu::Buffer, u64, u64) {
         Storage::place(self, at)
@@ -230,7 +201,7 @@ impl<'a, S: Source, T: Target> Reading<'a, S, T> {
             let scope = ErrorScope::open(gpu, "readback");
             let mut encoder = gpu.device().create_command_encoder(&Default::default());
             let (source, offset, _) = source.place(start);
-            let staged = readback.stage(gpu, &mut encoder, source, offset, len, len);
+            let staged = readback.stage(gpu, &mut encoder, source, offset, len);
             let submission = gpu.queue().submit([encoder.finish()]);
             self.ahead.push_back(Piece { report: scope.close(), submission, staged, read, start, len });
         }
@@ -271,14 +242,12 @@ impl<S: Source, T: Target> Reading<'_, S, T> {
     ///
     /// Returns the errors of [`Readback::receive`].
     pub(crate) fn has_arrived(&self, gpu: &Gpu) -> Result<bool, Error> {
-        let timeout = if gpu.adapter().software { NAP } else { Duration::ZERO };
-        self.ahead.front().map_or(Ok(true), |piece| is_done(gpu, &piece.submission, Some(timeout)))
+        self.ahead.front().map_or(Ok(true), |piece| platform::gpu::has_arrived(gpu, &piece.submission))
     }
 }
 
 /// What becomes of the words of an array when they are taken out of their staging buffer. A pass of its own
 /// takes as long as to copy.
-#[cfg(not(target_arch = "wasm32"))]
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Words {
     /// They stay as they are.
@@ -288,17 +257,14 @@ pub(crate) enum Words {
 }
 
 /// A list that takes what is read.
-#[cfg(not(target_arch = "wasm32"))]
 pub(crate) struct List<T> {
     items: Vec<T>,
     words: Words,
 }
 
 /// The reading of two arrays of `T`, which consist of words.
-#[cfg(not(target_arch = "wasm32"))]
 pub(crate) type ReadingArrays<'a, T> = Reading<'a, Storage<T>, List<T>>;
 
-#[cfg(not(target_arch = "wasm32"))]
 impl<T: Pod> ReadingArrays<'_, T> {
     /// Creates the reading of the first `len` elements of two large arrays into the memory of `rooms` as far
     /// as it suffices.
@@ -328,21 +294,16 @@ impl Readback {
         // In 64 bits, which `usize` need not have.
         let bytes_of = |elements: usize| (elements as u64 * size_of::<T>() as u64).next_multiple_of(4);
         let offset = start as u64 * size_of::<T>() as u64;
-        #[cfg(not(target_arch = "wasm32"))]
-        let staged = {
-            let (mut pieces, mut done) = (Vec::new(), 0);
-            loop {
-                let (buffer, at, left) = source.place(offset + done);
-                let bytes = (bytes_of(len) - done).min(left);
-                pieces.push(self.stage(gpu, encoder, buffer, at, bytes, bytes));
-                done += bytes;
-                if bytes == 0 || done == bytes_of(len) {
-                    break pieces;
-                }
+        let (mut staged, mut done) = (Vec::new(), 0);
+        loop {
+            let (buffer, at, left) = source.place(offset + done);
+            let bytes = (bytes_of(len) - done).min(left);
+            staged.push(self.stage(gpu, encoder, buffer, at, bytes));
+            done += bytes;
+            if bytes == 0 || done == bytes_of(len) {
+                break;
             }
-        };
-        #[cfg(target_arch = "wasm32")]
-        let staged = self.stage(gpu, encoder, source.buffer(), offset, bytes_of(len), bytes_of(with_room(len)));
+        }
         Pending { staged, len, elements: std::marker::PhantomData }
     }
 
@@ -351,20 +312,13 @@ impl Readback {
     /// # Errors
     ///
     /// Returns [`Error::DeviceLost`], or [`Error::Gpu`] when the device reports something else.
-    pub fn receive<T: Pod>(
+    pub async fn receive<T: Pod>(
         &mut self,
         gpu: &Gpu,
         submission: &wgpu::SubmissionIndex,
         pending: Pending<T>,
-    ) -> impl Future<Output = Result<Vec<T>, Error>> {
-        #[cfg(not(target_arch = "wasm32"))]
-        return self.receive_into(gpu, submission, pending, Vec::new());
-        #[cfg(target_arch = "wasm32")]
-        {
-            let len = pending.len;
-            let take = move |view: &wgpu::BufferView| if len == 0 { Vec::new() } else { copied(view, len) };
-            self.unstage(gpu, submission, pending.staged, take)
-        }
+    ) -> Result<Vec<T>, Error> {
+        self.receive_into(gpu, submission, pending, Vec::new()).await
     }
 
     /// Waits for a readback as [`Readback::receive`] does. The result replaces the contents of `list`, in its
@@ -373,7 +327,6 @@ impl Readback {
     /// # Errors
     ///
     /// Returns the errors of [`Readback::receive`].
-    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) async fn receive_into<T: Pod>(
         &mut self,
         gpu: &Gpu,
@@ -460,13 +413,12 @@ impl Readback {
         Ok(true)
     }
 
-    /// Reads the first `len` elements of two large arrays: natively in pieces, and into the memory of `rooms`
-    /// as far as it suffices.
+    /// Reads the first `len` elements of two large arrays in pieces, into the memory of `rooms` as far as it
+    /// suffices.
     ///
     /// # Errors
     ///
     /// Returns the errors of [`Readback::receive`] and [`Gpu::with_error_scope`].
-    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "there is no memory ahead"))]
     pub(crate) async fn read_arrays<T: Pod>(
         &mut self,
         gpu: &Gpu,
@@ -474,28 +426,12 @@ impl Readback {
         rooms: [Vec<T>; 2],
         len: usize,
     ) -> Result<[Vec<T>; 2], Error> {
-        #[cfg(not(target_arch = "wasm32"))]
-        {
-            let mut reading = ReadingArrays::of_arrays(arrays, rooms, len, [Words::Same; 2]);
-            loop {
-                reading.send(gpu, self, Pace::ALONE);
-                if !self.take(gpu, &mut reading).await? {
-                    return Ok(reading.lists());
-                }
+        let mut reading = ReadingArrays::of_arrays(arrays, rooms, len, [Words::Same; 2]);
+        loop {
+            reading.send(gpu, self, Pace::ALONE);
+            if !self.take(gpu, &mut reading).await? {
+                return Ok(reading.lists());
             }
-        }
-        #[cfg(target_arch = "wasm32")]
-        {
-            let record = || {
-                // The host takes the first array while the device sends the second one.
-                Ok(arrays.each_ref().map(|array| {
-                    let mut encoder = gpu.device().create_command_encoder(&Default::default());
-                    let pending = self.copy(gpu, &mut encoder, array, 0, len);
-                    (gpu.queue().submit([encoder.finish()]), pending)
-                }))
-            };
-            let [first, second] = gpu.with_error_scope("readback", record).await?;
-            Ok([self.receive(gpu, &first.0, first.1).await?, self.receive(gpu, &second.0, second.1).await?])
         }
     }
 
@@ -509,8 +445,7 @@ impl Readback {
         self.bytes
     }
 
-    /// Records the copy of bytes from `offset` on into a staging buffer. `room`, which is no less,
-    /// are mapped.
+    /// Records the copy of bytes from `offset` on into a staging buffer.
     fn stage(
         &mut self,
         gpu: &Gpu,
@@ -518,10 +453,9 @@ impl Readback {
         source: &wgpu::Buffer,
         offset: u64,
         bytes: u64,
-        room: u64,
     ) -> Staged {
-        let staging = self.staging(gpu, bytes.max(4), room.max(4));
-        let mapped_bytes = room.max(4).min(staging.size());
+        let mapped_bytes = bytes.max(4);
+        let staging = self.staging(gpu, mapped_bytes);
         if bytes > 0 {
             encoder.copy_buffer_to_buffer(source, offset, &staging, 0, bytes);
         }
@@ -531,7 +465,7 @@ impl Readback {
             let _ = sender.send(result);
         });
         self.bytes += bytes;
-        Staged { staging, mapped_bytes, mapped }
+        Staged { staging, bytes: mapped_bytes, mapped }
     }
 
     /// Waits for the copy that `submission` contains, has `take` look at the bytes, and keeps the
@@ -556,17 +490,17 @@ impl Readback {
         self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(staging);
     }
 
-    /// Returns the smallest idle staging buffer of as many bytes, or a new one of at least
-    /// `wanted`, a little larger for next time.
-    fn staging(&mut self, gpu: &Gpu, bytes: u64, wanted: u64) -> wgpu::Buffer {
+    /// Returns the smallest idle staging buffer of at least so many bytes, or a new one, a little larger for next
+    /// time.
+    fn staging(&mut self, gpu: &Gpu, bytes: u64) -> wgpu::Buffer {
         let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let fitting = (0..idle.len()).filter(|&i| idle[i].size() >= bytes).min_by_key(|&i| idle[i].size());
         match fitting {
             Some(i) => idle.swap_remove(i),
             None => gpu.device().create_buffer(&wgpu::BufferDescriptor {
                 label: Some("staging"),
-                size: wanted
-                    .next_multiple_of((wanted.next_power_of_two() / 8).max(4))
+                size: bytes
+                    .next_multiple_of((bytes.next_power_of_two() / 8).max(4))
                     .min(gpu.device().limits().max_buffer_size)
                     .max(bytes),
                 usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
@@ -581,15 +515,15 @@ impl Readback {
 async fn arrived(
     gpu: &Gpu,
     submission: &wgpu::SubmissionIndex,
-    Staged { staging, mapped_bytes, mapped }: Staged,
+    Staged { staging, bytes, mapped }: Staged,
 ) -> Result<(wgpu::Buffer, wgpu::BufferView), Error> {
-    wait(gpu, submission)?;
+    platform::gpu::wait(gpu, submission)?;
     match mapped.await {
         Ok(Ok(())) => {}
         Ok(Err(e)) => return Err(gpu.failure(&e.to_string())),
         Err(oneshot::Canceled) => return Err(gpu.failure("a readback was never carried out")),
     }
-    let view = staging.get_mapped_range(..mapped_bytes).map_err(|e| gpu.failure(&e.to_string()))?;
+    let view = staging.get_mapped_range(..bytes).map_err(|e| gpu.failure(&e.to_string()))?;
     Ok((staging, view))
 }
 
@@ -600,20 +534,11 @@ impl Target for &mut [u8] {
         self.len() as u64
     }
 
-    #[cfg(not(target_arch = "wasm32"))]
     fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView) {
-        let target = &mut self[start as usize..(start + len) as usize];
-        for_chunks(threads_for(target.len()), target, |at, chunk| chunk.copy_from_slice(&piece[at..at + chunk.len()]));
-    }
-
-    #[cfg(target_arch = "wasm32")]
-    fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView) {
-        let target = &mut self[start as usize..(start + len) as usize];
-        piece.as_uint8array().subarray(0, len as u32).copy_to(target);
+        platform::gpu::copy(piece, &mut self[start as usize..(start + len) as usize]);
     }
 }
 
-#[cfg(not(target_arch = "wasm32"))]
 impl<T: Pod> Target for List<T> {
     fn bytes(&self) -> u64 {
         size_of_val(self.items.as_slice()) as u64
@@ -626,6 +551,7 @@ impl<T: Pod> Target for List<T> {
         };
         let words: &mut [u32] = bytemuck::cast_slice_mut(&mut self.items);
         let words = &mut words[start as usize / 4..(start + len) as usize / 4];
+        let piece: &[u8] = piece;
         for_chunks(threads_for(len as usize), words, |at, chunk| {
             let (pieces, _) = piece[4 * at..].as_chunks();
             for (word, bytes) in chunk.iter_mut().zip(pieces) {
@@ -636,59 +562,13 @@ impl<T: Pod> Target for List<T> {
     }
 }
 
-/// Memory outside of that of wasm: the bytes go there with one copy.
-#[cfg(target_arch = "wasm32")]
-impl Target for js_sys::Uint8Array {
-    fn bytes(&self) -> u64 {
-        self.byte_length().into()
-    }
-
-    fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView) {
-        self.set(&piece.as_uint8array().subarray(0, len as u32), start as u32);
-    }
-}
-
 /// Returns who copies so many bytes.
-#[cfg(not(target_arch = "wasm32"))]
 fn threads_for(bytes: usize) -> Threads {
     if bytes < SHARED_FROM { Threads::One } else { Threads::All }
 }
 
-/// Waits until the device has carried out `submission`: busily at first.
-#[cfg(not(target_arch = "wasm32"))]
-fn wait(gpu: &Gpu, submission: &wgpu::SubmissionIndex) -> Result<(), Error> {
-    let began = Instant::now();
-    loop {
-        // A software device needs the processors itself.
-        let is_busy = !gpu.adapter().software && began.elapsed() < SPIN;
-        if is_done(gpu, submission, is_busy.then_some(Duration::ZERO))? {
-            return Ok(());
-        }
-        std::hint::spin_loop();
-    }
-}
-
-/// Returns whether the device has carried out `submission`, for which it has time until the timeout, if there
-/// is one.
-#[cfg(not(target_arch = "wasm32"))]
-fn is_done(gpu: &Gpu, submission: &wgpu::SubmissionIndex, timeout: Option<Duration>) -> Result<bool, Error> {
-    let wait = wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout };
-    match gpu.device().poll(wait) {
-        Ok(_) => Ok(true),
-        Err(wgpu::PollError::Timeout) if timeout.is_some() => Ok(false),
-        Err(e) => Err(gpu.failure(&e.to_string())),
-    }
-}
-
-/// Does nothing: browsers call back by themselves.
-#[cfg(target_arch = "wasm32")]
-fn wait(_gpu: &Gpu, _submission: &wgpu::SubmissionIndex) -> Result<(), Error> {
-    Ok(())
-}
-
 /// Returns a list of `len` elements, whatever they are, and some room: in the memory of `list`, of which no
 /// more is kept than that.
-#[cfg(not(target_arch = "wasm32"))]
 fn fitted<T: Pod>(mut list: Vec<T>, len: usize) -> Vec<T> {
     let wanted = with_room(len);
     if list.capacity() == 0 {
@@ -706,24 +586,7 @@ fn with_room(len: usize) -> usize {
     len + len / 64
 }
 
-/// Copies `len` elements from the bytes of a mapped buffer, which lie outside of the memory of
-/// wasm: to look at them as a slice would copy them once more. The room is copied along, since to
-/// fill it, and the rest, with zeros before takes as long as to copy.
-#[cfg(target_arch = "wasm32")]
-fn copied<T: Pod>(view: &wgpu::BufferView, len: usize) -> Vec<T> {
-    let bytes = view.as_uint8array();
-    let words = js_sys::Uint32Array::new_with_byte_offset_and_length(
-        &bytes.buffer(),
-        bytes.byte_offset(),
-        (bytes.byte_length() / 4).min((with_room(len) * size_of::<T>()).div_ceil(4) as u32),
-    );
-    let cast = bytemuck::allocation::try_cast_vec(words.to_vec());
-    let mut result: Vec<T> = cast.unwrap_or_else(|(_, words)| bytemuck::allocation::pod_collect_to_vec(&words));
-    result.truncate(len);
-    result
-}
-
-#[cfg(all(test, not(target_arch = "wasm32")))]
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -2,9 +2,6 @@
 
 use crate::gpu::{Gpu, Kernel, Profiler};
 
-/// Nothing in a browser profiles, so that this takes no room there.
-const PROFILES: bool = cfg!(not(target_arch = "wasm32"));
-
 /// Records commands for one submission.
 pub struct Recorder<'a> {
     encoder: wgpu::CommandEncoder,
@@ -23,9 +20,7 @@ impl<'a> Recorder<'a> {
 
     /// Times the dispatches from here on under `name`.
     pub fn stage(&mut self, name: &'static str) {
-        if let Some(profiler) = &mut self.profiler
-            && PROFILES
-        {
+        if let Some(profiler) = &mut self.profiler {
             self.pass = None;
             let timestamp_writes = profiler.begin(name);
             let descriptor = wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes };
@@ -57,9 +52,7 @@ impl<'a> Recorder<'a> {
     /// Submits what was recorded.
     pub fn submit(mut self, gpu: &Gpu) -> wgpu::SubmissionIndex {
         self.pass = None;
-        if let Some(profiler) = &mut self.profiler
-            && PROFILES
-        {
+        if let Some(profiler) = &mut self.profiler {
             profiler.resolve(gpu, &mut self.encoder);
         }
         gpu.queue().submit([self.encoder.finish()])

@@ -25,7 +25,6 @@ pub struct Shader {
     wide: &'static [&'static str],
     variables: &'static [Variable],
     /// The WGSL for each width with arrays in parts, if it has such arrays.
-    #[cfg(not(target_arch = "wasm32"))]
     in_parts: Option<[&'static str; 2]>,
 }
 
@@ -34,7 +33,6 @@ pub type Variable = (&'static str, u32, bool);
 
 /// Returns the WGSL of a kernel for a device with 64-bit integers, which make products in exact arithmetic
 /// from two words at once.
-#[cfg(not(target_arch = "wasm32"))]
 pub fn with_int64(wgsl: &str) -> String {
     wgsl.replace(ARITHMETIC_MULTIPLY, ARITHMETIC_MULTIPLY_INT64)
 }
@@ -72,13 +70,11 @@ impl Shader {
     }
 
     /// Returns whether this variable is an array that is in parts in [`Shader::wgsl_in_parts`].
-    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn has_in_parts(&self, variable: &str) -> bool {
         self.in_parts.is_some() && ARRAYS_IN_PARTS.contains(&variable)
     }
 
     /// Returns the WGSL with large arrays in so many parts, if it has such arrays.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn wgsl_in_parts(&self, width: Width, parts: u32) -> Option<String> {
         let [narrow, wide] = self.in_parts?;
         let of_all = match width {
@@ -105,7 +101,7 @@ impl Shader {
     }
 }
 
-#[cfg(all(test, not(target_arch = "wasm32")))]
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -163,7 +163,7 @@ fn sort_runs<const D: usize>(
 /// coordinates, then by index. Equal points become neighbours, the lowest index first.
 pub(crate) fn sort_by_place<const D: usize>(points: Points<'_, D>, entries: &mut [u64]) {
     let point = |entry: u64| points.get(entry as u32 as usize);
-    parallel::sort_indirectly(entries, &|i, j| {
+    entries.sort_unstable_by(|&i, &j| {
         // −0 and 0 are the same coordinate.
         let by_place = point(i).partial_cmp(&point(j)).unwrap_or(Ordering::Equal);
         (i >> 32).cmp(&(j >> 32)).then(by_place).then(i.cmp(&j))

@@ -151,27 +151,6 @@ impl<'a, const D: usize> Points<'a, D> {
         self.bounds_of(parallel::map_ranges(threads, self.len(), |range| self.range(range).box_of_all()), threads)
     }
 
-    /// Returns the same, and calls `take` with each piece of the points, and the number of its first point, when
-    /// it has been looked at.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`finite_bounds`](Self::finite_bounds).
-    #[cfg(any(test, all(feature = "gpu", target_arch = "wasm32")))]
-    pub(crate) fn finite_bounds_with(
-        &self,
-        mut take: impl FnMut(usize, Points<'a, D>),
-    ) -> Result<[[f64; D]; 2], Error> {
-        let firsts = (0..self.len()).step_by(PIECE);
-        let parts = firsts.map(|first| {
-            let piece = self.range(first..self.len().min(first + PIECE));
-            let bounds = piece.box_of_all();
-            take(first, piece);
-            bounds
-        });
-        self.bounds_of(parts.collect(), Threads::One)
-    }
-
     /// Returns the box of all points, in an array of three dimensions.
     fn box_of_all(&self) -> Box3 {
         match self {
@@ -222,11 +201,6 @@ impl<'a, const D: usize> Points<'a, D> {
     }
 }
 
-/// The points in a piece: so few that it stays in the caches of a core while it is looked at, and so many
-/// that nothing is lost by beginning the next.
-#[cfg(any(test, all(feature = "gpu", target_arch = "wasm32")))]
-const PIECE: usize = 1 << 15;
-
 /// The box of some points, of which the third axis has no meaning in 2D, and whether all
 /// coordinates are finite.
 type Box3 = ([[f64; 3]; 2], bool);
@@ -239,22 +213,12 @@ type Box3 = ([[f64; 3]; 2], bool);
 /// the sign of the exact one, and so has a product that is positive; one that underflows, or is NaN,
 /// decides nothing.
 #[inline(always)]
-fn box_in<T: Copy + Into<f64>, const D: usize>(coordinates: &[T], checks_first: bool) -> Box3 {
+fn box_in<T: Copy + Into<f64>, const D: usize>(coordinates: &[T]) -> Box3 {
     let points = coordinates.as_chunks::<D>().0;
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
     let mut zero = [0.0; 3];
-    if let Some(p) = points.first().filter(|_| checks_first) {
-        // All points would be inside of infinite bounds.
-        for axis in 0..D {
-            (low[axis], high[axis]) = (p[axis].into(), p[axis].into());
-        }
-    }
     for p in points {
-        let is_inside = |axis: usize| (p[axis].into() - low[axis]) * (high[axis] - p[axis].into()) > 0.0;
-        if checks_first && (0..D).all(is_inside) {
-            continue;
-        }
         for axis in 0..D {
             let x: f64 = p[axis].into();
             low[axis] = if x < low[axis] { x } else { low[axis] };
@@ -266,28 +230,17 @@ fn box_in<T: Copy + Into<f64>, const D: usize>(coordinates: &[T], checks_first: 
     ([low, high], zero == [0.0; 3])
 }
 
-/// Modules of the npm package do not use vectors.
-const CHECKS_FIRST: bool = cfg!(target_arch = "wasm32");
-
 /// Returns the box of points whose coordinates are in double precision.
 ///
 /// Not generic over the dimension, as generic functions are compiled with the crate that calls them,
 /// which in WebAssembly is optimised for size.
 fn box_of_f64(coordinates: &[f64], dimension: usize) -> Box3 {
-    if dimension == 3 {
-        box_in::<f64, 3>(coordinates, CHECKS_FIRST)
-    } else {
-        box_in::<f64, 2>(coordinates, CHECKS_FIRST)
-    }
+    if dimension == 3 { box_in::<f64, 3>(coordinates) } else { box_in::<f64, 2>(coordinates) }
 }
 
 /// Returns the box of points whose coordinates are in single precision.
 fn box_of_f32(coordinates: &[f32], dimension: usize) -> Box3 {
-    if dimension == 3 {
-        box_in::<f32, 3>(coordinates, CHECKS_FIRST)
-    } else {
-        box_in::<f32, 2>(coordinates, CHECKS_FIRST)
-    }
+    if dimension == 3 { box_in::<f32, 3>(coordinates) } else { box_in::<f32, 2>(coordinates) }
 }
 
 fn whole_points<T, const D: usize>(coordinates: &[T]) -> Result<&[[T; D]], Error> {
@@ -424,23 +377,6 @@ mod tests {
         let none = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
         let expected = points.validate().map(|()| points.bounds().unwrap_or(none));
         prop_assert_eq!(points.finite_bounds(Threads::All), expected.clone());
-        let mut taken = Vec::new();
-        let bounds = points.finite_bounds_with(|first, piece| {
-            assert_eq!(first, taken.len());
-            taken.extend(piece.iter());
-        });
-        prop_assert_eq!(bounds, expected.clone());
-        if expected.is_ok() {
-            prop_assert_eq!(taken, points.iter().collect::<Vec<_>>());
-        }
-        let [(first, is_finite), other] = [true, false].map(|checks_first| match points {
-            Points::F32(p) => box_in::<f32, D>(p.as_flattened(), checks_first),
-            Points::F64(p) => box_in::<f64, D>(p.as_flattened(), checks_first),
-        });
-        prop_assert_eq!(is_finite, other.1);
-        if is_finite {
-            prop_assert_eq!(first, other.0);
-        }
         Ok(())
     }
 

@@ -24,7 +24,7 @@ fn signs_that_are_not_listed_are_those_of_the_true_coordinates() {
     let start = first_simplex(Width::Wide, points.len(), position).expect("not coplanar");
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let mut kernels = block_on(Phase1::new(&gpu, Width::Wide)).unwrap();
-    let input = Input { points: (&points).into(), lattice: &lattice, start, starts_later: false, is_uploaded: false };
+    let input = Input { points: (&points).into(), lattice: &lattice, start, starts_later: false };
     let output = block_on(kernels.run(&gpu, input, &Settings::default(), None)).unwrap().result;
 
     let infinite = points.len() as u32;

@@ -35,7 +35,7 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<2>; 2], name: &str, points:
     let kernels = &mut kernels[usize::from(width == Width::Wide)];
     let position = |i: usize| lattice.coordinates(points[i]).map(|c| c.value);
     let start = first_simplex(lattice.width(), points.len(), position).expect("not collinear");
-    let input = Input { points: points.into(), lattice: &lattice, start, starts_later: false, is_uploaded: false };
+    let input = Input { points: points.into(), lattice: &lattice, start, starts_later: false };
     let mut run = block_on(Run::new(kernels, gpu, input, settings, None)).unwrap();
     let mut more = true;
     while more {

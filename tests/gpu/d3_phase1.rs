@@ -51,8 +51,7 @@ fn begin<'a>(
     let kernels = &mut kernels[usize::from(width == Width::Wide)];
     let position = |i: usize| lattice.coordinates(points.positions[i]).map(|c| c.value);
     let start = first_simplex(width, points.positions.len(), position).expect("not coplanar");
-    let input =
-        Input { points: (&points.positions).into(), lattice: &lattice, start, starts_later: false, is_uploaded: false };
+    let input = Input { points: (&points.positions).into(), lattice: &lattice, start, starts_later: false };
     (width, block_on(Run::new(kernels, gpu, input, settings, None)).unwrap())
 }
 

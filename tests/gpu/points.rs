@@ -45,7 +45,7 @@ where
                 gpu,
                 &mut recorder,
                 &mut None,
-                PointInput { points, lattice: &lattice, sort: true, is_uploaded: false },
+                PointInput { points, lattice: &lattice, sort: true },
             )?;
             recorder.submit(gpu);
             Ok(device)

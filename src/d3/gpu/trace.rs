@@ -70,7 +70,7 @@ impl Tracer {
             v
         };
         let mut before: Vec<[u32; 4]> = self.trace.rounds.last().into_iter().flatten().copied().map(sorted).collect();
-        parallel::sort_records(Threads::One, &mut before);
+        parallel::sort(Threads::One, &mut before);
         self.trace.splayed = tetrahedra.iter().map(|&v| before.binary_search(&sorted(v)).is_err()).collect();
         self.trace
     }

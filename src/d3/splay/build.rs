@@ -92,7 +92,7 @@ fn recognize(star: &mut Star, removed: &mut Vec<Triangle>) -> (Vec<u32>, Vec<Tri
         _ => [c, a, b],
     };
     removed.iter_mut().for_each(|t| t.vertices = rotated(t.vertices));
-    parallel::sort_records(Threads::One, removed);
+    parallel::sort(Threads::One, removed);
     let mut doubles = Vec::new();
     removed.dedup_by(|double, first| {
         let are_same = double.vertices == first.vertices;

@@ -175,7 +175,6 @@ impl Ledger {
     }
 
     /// Removes all entries.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(super) fn clear(&mut self) {
         self.parts.iter_mut().for_each(FxHashMap::clear);
         self.doubles.clear();
@@ -283,7 +282,7 @@ impl Ledger {
         // The order in the hash tables is arbitrary, and each star has its doubles.
         parallel::sort(self.threads, &mut remove);
         remove.dedup();
-        parallel::sort_records(self.threads, &mut add);
+        parallel::sort(self.threads, &mut add);
         Ok((remove, add))
     }
 }

@@ -4,20 +4,12 @@
 use crate::{
     d3::splay::{
         ledger::{Entry, Ledger},
-        star::{Changes, LinkFinder, Triangle},
+        region::{Gathered, Region},
+        star::{Changes, LinkFinder, Star, Triangle},
     },
     parallel::Pool,
 };
 use rustc_hash::FxHashMap;
-
-#[cfg(not(target_arch = "wasm32"))]
-pub use kept::KeptRegion;
-#[cfg(not(target_arch = "wasm32"))]
-pub(super) use kept::Memory;
-#[cfg(target_arch = "wasm32")]
-pub use nothing::KeptRegion;
-#[cfg(target_arch = "wasm32")]
-pub(super) use nothing::Memory;
 
 /// What is kept for stars.
 #[derive(Debug, Default)]
@@ -45,115 +37,60 @@ pub(super) struct Lists {
     pub(super) points: Vec<u64>,
 }
 
-#[cfg(not(target_arch = "wasm32"))]
-mod kept {
-    use super::StarMemory;
-    use crate::d3::splay::{
-        ledger::Ledger,
-        region::{Gathered, Region},
-        star::Star,
-    };
+/// The region of a run, of which the next one uses the memory.
+#[derive(Debug, Default)]
+pub struct KeptRegion(Option<Region>);
 
-    /// The region of a run, of which the next one uses the memory.
-    #[derive(Debug, Default)]
-    pub struct KeptRegion(Option<Region>);
-
-    impl KeptRegion {
-        /// Keeps a region.
-        pub fn keep(&mut self, region: Region) {
-            self.0 = Some(region);
-        }
-
-        /// Returns the region that was kept.
-        pub fn take(&mut self) -> Option<Region> {
-            self.0.take()
-        }
+impl KeptRegion {
+    /// Keeps a region.
+    pub fn keep(&mut self, region: Region) {
+        self.0 = Some(region);
     }
 
-    /// What a region leaves to the next one beside its own lists.
-    #[derive(Debug, Default)]
-    pub(in crate::d3::splay) struct Memory {
-        /// Gathered stars that are no longer needed.
-        gathered: Vec<Gathered>,
-        stars: StarMemory,
-    }
-
-    impl Memory {
-        /// Returns memory for what is to be gathered.
-        pub(in crate::d3::splay) fn spare(&mut self) -> Gathered {
-            self.gathered.pop().unwrap_or_default()
-        }
-
-        /// Keeps the memory of gathered stars.
-        pub(in crate::d3::splay) fn keep_gathered(&mut self, gathered: Gathered) {
-            if gathered.slots.capacity() > 0 {
-                self.gathered.push(gathered);
-            }
-        }
-
-        /// Returns the memory of stars, with nothing in it.
-        pub(in crate::d3::splay) fn take_stars(&mut self) -> StarMemory {
-            std::mem::take(&mut self.stars)
-        }
-
-        /// Keeps the memory of stars, which the threads share, and frees what this run did not use.
-        pub(in crate::d3::splay) fn keep_stars(
-            &mut self,
-            mut memory: StarMemory,
-            stars: impl ExactSizeIterator<Item = Star>,
-        ) {
-            memory.star_of.clear();
-            memory.ledger.iter_mut().for_each(Ledger::clear);
-            let lists = memory.lists.all();
-            lists.iter_mut().for_each(|lists| lists.links.forget_spare());
-            let share = stars.len().div_ceil(lists.len().max(1)).max(1);
-            for (i, star) in stars.enumerate() {
-                if let Some(lists) = lists.get_mut(i / share) {
-                    lists.links.keep(star);
-                }
-            }
-            self.stars = memory;
-        }
+    /// Returns the region that was kept.
+    pub fn take(&mut self) -> Option<Region> {
+        self.0.take()
     }
 }
 
-/// The same for WebAssembly, which has one thread and little memory.
-#[cfg(target_arch = "wasm32")]
-mod nothing {
-    use super::StarMemory;
-    use crate::d3::splay::{
-        region::{Gathered, Region},
-        star::Star,
-    };
+/// What a region leaves to the next one beside its own lists.
+#[derive(Debug, Default)]
+pub(super) struct Memory {
+    /// Gathered stars that are no longer needed.
+    gathered: Vec<Gathered>,
+    stars: StarMemory,
+}
 
-    /// No region.
-    #[derive(Debug, Default)]
-    pub struct KeptRegion {}
+impl Memory {
+    /// Returns memory for what is to be gathered.
+    pub(super) fn spare(&mut self) -> Gathered {
+        self.gathered.pop().unwrap_or_default()
+    }
 
-    impl KeptRegion {
-        /// Frees a region.
-        pub fn keep(&mut self, _: Region) {}
-
-        /// Returns none.
-        pub fn take(&mut self) -> Option<Region> {
-            None
+    /// Keeps the memory of gathered stars.
+    pub(super) fn keep_gathered(&mut self, gathered: Gathered) {
+        if gathered.slots.capacity() > 0 {
+            self.gathered.push(gathered);
         }
     }
 
-    /// Nothing.
-    #[derive(Debug, Default)]
-    pub(in crate::d3::splay) struct Memory {}
+    /// Returns the memory of stars, with nothing in it.
+    pub(super) fn take_stars(&mut self) -> StarMemory {
+        std::mem::take(&mut self.stars)
+    }
 
-    impl Memory {
-        /// Frees gathered stars.
-        pub(in crate::d3::splay) fn keep_gathered(&mut self, _: Gathered) {}
-
-        /// Returns empty lists.
-        pub(in crate::d3::splay) fn take_stars(&mut self) -> StarMemory {
-            StarMemory::default()
+    /// Keeps the memory of stars, which the threads share, and frees what this run did not use.
+    pub(super) fn keep_stars(&mut self, mut memory: StarMemory, stars: impl ExactSizeIterator<Item = Star>) {
+        memory.star_of.clear();
+        memory.ledger.iter_mut().for_each(Ledger::clear);
+        let lists = memory.lists.all();
+        lists.iter_mut().for_each(|lists| lists.links.forget_spare());
+        let share = stars.len().div_ceil(lists.len().max(1)).max(1);
+        for (i, star) in stars.enumerate() {
+            if let Some(lists) = lists.get_mut(i / share) {
+                lists.links.keep(star);
+            }
         }
-
-        /// Frees the memory of stars.
-        pub(in crate::d3::splay) fn keep_stars(&mut self, _: StarMemory, _: impl ExactSizeIterator<Item = Star>) {}
+        self.stars = memory;
     }
 }

@@ -5,7 +5,7 @@
 //! region lacks. Everything that works on a triangulation therefore works on a region, as long as
 //! it stays within the stars that have been gathered.
 
-#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+#[cfg(feature = "gpu")]
 use crate::{d3::triangulation::MAX_TETRAHEDRA, error::Error, slots};
 use crate::{
     d3::{
@@ -15,7 +15,7 @@ use crate::{
     index::NO_INDEX,
     parallel::{self, Threads},
 };
-#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+#[cfg(feature = "gpu")]
 use std::sync::atomic::Ordering::Relaxed;
 
 /// The number of every tetrahedron that is not in the region.
@@ -29,9 +29,6 @@ pub const INCIDENT_SHIFT: u32 = 28;
 
 /// An entry of [`Patch::neighbors`]: what is there stays as it is.
 pub const KEEP: u32 = u32::MAX;
-
-/// A region has room for half a tetrahedron per vertex, of which as a rule one in so many is used.
-const USED: usize = 16;
 
 /// The number of tetrahedra that a thread takes at a time to find what has changed.
 const PATCH_GRAIN: usize = 1 << 11;
@@ -73,7 +70,7 @@ impl Patch {
     /// # Errors
     ///
     /// Returns [`Error::TooManySimplices`] and [`Error::OutOfMemory`]; the triangulation is unchanged then.
-    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    #[cfg(feature = "gpu")]
     pub(in crate::d3) fn apply(&self, mesh: &mut Triangulation3, threads: Threads) -> Result<(), Error> {
         if self.len > MAX_TETRAHEDRA {
             return Err(Error::TooManySimplices { limit: MAX_TETRAHEDRA });
@@ -137,18 +134,6 @@ impl Gathered {
     }
 }
 
-/// Returns an empty list with room for so many items, if there is memory.
-fn with_room<T: Clone>(len: usize, nothing: T) -> Vec<T> {
-    let mut list = Vec::new();
-    // Where there is none, the list grows when it has to.
-    if list.try_reserve_exact(len).is_ok() {
-        // The system provides what is used as a rule now, while the device is at work.
-        list.resize(len / USED, nothing);
-        list.clear();
-    }
-    list
-}
-
 /// A part of a triangulation.
 #[derive(Debug)]
 pub struct Region {
@@ -176,10 +161,8 @@ impl Region {
     /// work.
     pub fn new(vertices: usize, threads: Threads) -> Self {
         let infinite = vertices as u32;
-        // Memory that is not used costs nothing natively, and lists that need not grow are not copied.
-        let room = if cfg!(target_arch = "wasm32") { 0 } else { vertices / 2 };
         Region {
-            mesh: Self::outside(with_room(room, [0; 4]), with_room(room, [0; 4]), infinite),
+            mesh: Self::outside(Vec::new(), Vec::new(), infinite),
             incident: parallel::filled(threads, vertices, NO_INDEX),
             complete: Complete::Those(IndexSet::new(vertices)),
             given: Gathered::default(),
@@ -214,7 +197,6 @@ impl Region {
     }
 
     /// Returns memory for what is to be gathered.
-    #[cfg(not(target_arch = "wasm32"))]
     pub fn spare(&mut self) -> Gathered {
         self.memory.spare()
     }

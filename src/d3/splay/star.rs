@@ -155,13 +155,11 @@ impl LinkFinder {
     }
 
     /// Frees the memory that no star has used.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(super) fn forget_spare(&mut self) {
         self.spare.clear();
     }
 
     /// Keeps the memory of a star, for another one.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(super) fn keep(&mut self, star: Star) {
         self.spare.push(star.triangles);
     }

@@ -48,8 +48,6 @@ where
     /// Whether as a rule no points are inserted, because [`Run::take`] comes next: then what they
     /// would be inserted into is made only by [`Run::forget`].
     pub starts_later: bool,
-    /// Whether the buffers that are kept have the points already.
-    pub is_uploaded: bool,
 }
 
 /// The output of a run.
@@ -220,7 +218,7 @@ where
         // What is kept is lost if the run fails.
         let Kept { points: mut point_buffers, memory: kept, needed, host } = std::mem::take(&mut kernels.kept);
         let before = if needed.points == points { needed } else { Needed::default() };
-        let Input { points: input, lattice, start: first, starts_later, is_uploaded } = input;
+        let Input { points: input, lattice, start: first, starts_later } = input;
         let start_points = settings.start_points(count);
         let triangulate = || match starts_later {
             true => StartMesh::of_first(&first),
@@ -229,7 +227,7 @@ where
         let upload = || {
             // The device orders the points while the host makes the other buffers.
             let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
-            let input = PointInput { points: input, lattice, sort: settings.sort, is_uploaded };
+            let input = PointInput { points: input, lattice, sort: settings.sort };
             let device = kernels.points.record(gpu, &mut recorder, &mut point_buffers, input)?;
             let mut words = Vec::new();
             Dimension::<D>::append_vertex(&mut words, lattice.width(), first.interior_point, points, false);

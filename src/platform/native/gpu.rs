@@ -1,0 +1,105 @@
+//! How the host and a device exchange data natively.
+
+use crate::{
+    error::Error,
+    gpu::{Gpu, Kernel, compile_all},
+    parallel::{self, Threads, for_chunks, for_parts},
+};
+use std::{
+    num::NonZero,
+    pin::Pin,
+    time::{Duration, Instant},
+};
+
+/// What an error scope reports.
+pub(crate) type Report<'a> = Pin<Box<dyn Future<Output = Result<(), Error>> + Send + 'a>>;
+
+/// The bytes of a piece of a large array that is read: so many that its submission costs nothing, and so few that copying
+/// out of it begins while most pieces are still to come.
+pub(crate) const PIECE: u64 = 32 << 20;
+
+/// From this size on, threads share a copy.
+const SHARED_FROM: usize = 1 << 20;
+
+/// The bytes that a thread writes at a time.
+const PART: usize = 1 << 12;
+
+/// How long the host polls before it blocks. Most results of small runs are there by then, and waking up takes up to
+/// 0.1 ms.
+const SPIN: Duration = Duration::from_micros(300);
+
+/// How long the host waits at a time for a software device before it looks after something else.
+const NAP: Duration = Duration::from_millis(1);
+
+/// Waits until the device has carried out `submission`.
+///
+/// # Errors
+///
+/// Returns [`Error::DeviceLost`] and [`Error::Gpu`].
+pub(crate) fn wait(gpu: &Gpu, submission: &wgpu::SubmissionIndex) -> Result<(), Error> {
+    let began = Instant::now();
+    loop {
+        // A software device needs the processors itself.
+        let is_busy = !gpu.adapter().software && began.elapsed() < SPIN;
+        if is_done(gpu, submission, is_busy.then_some(Duration::ZERO))? {
+            return Ok(());
+        }
+        std::hint::spin_loop();
+    }
+}
+
+/// Returns whether the device has carried out `submission`. Does not wait, except for a software device, which needs the
+/// processors itself.
+///
+/// # Errors
+///
+/// Returns [`Error::DeviceLost`] and [`Error::Gpu`].
+pub(crate) fn has_arrived(gpu: &Gpu, submission: &wgpu::SubmissionIndex) -> Result<bool, Error> {
+    is_done(gpu, submission, Some(if gpu.adapter().software { NAP } else { Duration::ZERO }))
+}
+
+/// Returns whether the device has carried out `submission`, for which it has until the timeout, if there is one.
+fn is_done(gpu: &Gpu, submission: &wgpu::SubmissionIndex, timeout: Option<Duration>) -> Result<bool, Error> {
+    let wait = wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout };
+    match gpu.device().poll(wait) {
+        Ok(_) => Ok(true),
+        Err(wgpu::PollError::Timeout) if timeout.is_some() => Ok(false),
+        Err(e) => Err(gpu.failure(&e.to_string())),
+    }
+}
+
+/// Copies the first bytes of a mapped buffer. Threads share the work where there is much, because fresh memory costs page
+/// faults.
+pub(crate) fn copy(from: &wgpu::BufferView, to: &mut [u8]) {
+    let threads = if to.len() < SHARED_FROM { Threads::One } else { Threads::All };
+    for_chunks(threads, to, |at, chunk| chunk.copy_from_slice(&from[at..at + chunk.len()]));
+}
+
+/// Writes to a buffer, before the commands of the next submission.
+pub(crate) fn write(gpu: &Gpu, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) {
+    if bytes.len() < SHARED_FROM {
+        return gpu.queue().write_buffer(buffer, offset, bytes);
+    }
+    // The staging memory is fresh each time, so threads share its page faults. Without a view, the size or the offset is
+    // wrong, and the device has reported that.
+    let view = NonZero::new(bytes.len() as u64).and_then(|size| gpu.queue().write_buffer_with(buffer, offset, size));
+    let Some(mut view) = view else { return };
+    let (parts, rest) = bytes.as_chunks::<PART>();
+    let (targets, mut target_of_rest) = view.slice(..).into_chunks::<PART>();
+    target_of_rest.copy_from_slice(rest);
+    let mut copies: Vec<_> = targets.into_iter().zip(parts).map(Some).collect();
+    for_parts(Threads::All, &mut copies, |_, copies| {
+        copies.iter_mut().filter_map(Option::take).for_each(|(target, part)| target.write(*part));
+    });
+}
+
+/// Compiles kernels, in all threads.
+///
+/// # Errors
+///
+/// Returns the errors of [`Gpu::with_error_scope`].
+pub(crate) async fn compile(gpu: &Gpu, mut kernels: Vec<Kernel>) -> Result<(), Error> {
+    // Error scopes belong to threads, and report at once.
+    let compile = |_, kernel: &mut Kernel| pollster::block_on(compile_all(gpu, std::slice::from_ref(kernel)));
+    parallel::map_mut(Threads::All, &mut kernels, compile).into_iter().collect()
+}

@@ -1,0 +1,98 @@
+//! Work on slices, in the calling thread.
+
+use crate::{error::Error, parallel::Threads};
+use std::{cmp::Ordering, num::NonZeroUsize, ops::Range};
+
+/// Calls `work` with `items` and the index of the first one.
+pub(crate) fn for_chunks<T: Send>(_: Threads, items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
+    work(0, items);
+}
+
+/// Calls `work` with `items` and the index of the first one.
+pub(crate) fn for_parts<T: Send>(_: Threads, items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
+    work(0, items);
+}
+
+/// Calls `work` with two lists of equal length, and the index of their first elements.
+pub(crate) fn for_chunk_pairs<T: Send, U: Send>(
+    _: Threads,
+    (items, others): (&mut [T], &mut [U]),
+    work: impl Fn(usize, (&mut [T], &mut [U])) + Sync,
+) {
+    work(0, (items, others));
+}
+
+/// Returns a list of `len` times `value`.
+pub(crate) fn filled<T: Copy + Send + Sync>(_: Threads, len: usize, value: T) -> Vec<T> {
+    vec![value; len]
+}
+
+/// Appends `items` to `list`.
+pub(crate) fn extend<T: Copy + Send + Sync>(_: Threads, list: &mut Vec<T>, items: &[T]) {
+    list.extend_from_slice(items);
+}
+
+/// Returns the result of `work` for the whole range 0 … `len`.
+pub(crate) fn map_grains<R: Send>(
+    _: Threads,
+    len: usize,
+    _grain: usize,
+    work: impl Fn(Range<usize>) -> R + Sync,
+) -> Vec<R> {
+    vec![work(0..len)]
+}
+
+/// Returns the results of `work` for each item and its index, in order.
+pub(crate) fn map_mut<T: Send, R: Send>(
+    _: Threads,
+    items: &mut [T],
+    work: impl Fn(usize, &mut T) -> R + Sync,
+) -> Vec<R> {
+    items.iter_mut().enumerate().map(|(i, item)| work(i, item)).collect()
+}
+
+/// Sorts items of which equal ones are indistinguishable.
+pub(crate) fn sort<T: Ord + Send>(_: Threads, items: &mut [T]) {
+    items.sort_unstable();
+}
+
+/// Sorts items by a total order.
+pub(crate) fn sort_by<T: Send>(_: Threads, items: &mut [T], compare: impl Fn(&T, &T) -> Ordering + Sync) {
+    items.sort_unstable_by(compare);
+}
+
+/// Does two pieces of work, one after the other, and returns both results.
+pub(crate) fn both<S: Send, R: Send>(
+    _: Threads,
+    one: impl FnOnce() -> S + Send,
+    other: impl FnOnce() -> R + Send,
+) -> (S, R) {
+    (one(), other())
+}
+
+/// Runs `own`, then the `others`, and returns the results.
+pub(crate) fn beside<S, R: Send>(own: impl FnOnce() -> S, others: Vec<impl FnOnce() -> R + Send>) -> (S, Vec<R>) {
+    (own(), others.into_iter().map(|other| other()).collect())
+}
+
+/// Returns how many threads work at the same time: one.
+pub(crate) fn count(_: Threads) -> usize {
+    1
+}
+
+/// Calls `work` with the one thread that there is, whatever the limit.
+///
+/// # Errors
+///
+/// Returns the errors of `work`.
+pub(crate) fn with_threads<R: Send>(
+    _limit: Option<NonZeroUsize>,
+    work: impl FnOnce(Threads) -> Result<R, Error> + Send,
+) -> Result<R, Error> {
+    work(Threads::One)
+}
+
+/// Frees memory.
+pub(crate) fn dispose<T>(garbage: T) {
+    drop(garbage);
+}
