@@ -1,7 +1,7 @@
 //! Work on slices, shared among the machine's threads if it has several.
 
-#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-pub(crate) use crate::platform::threads::{Ahead, is_outside};
+#[cfg(feature = "gpu")]
+pub(crate) use crate::platform::threads::Ahead;
 pub(crate) use crate::platform::threads::{
     beside, both, count, dispose, extend, filled, for_chunk_pairs, for_chunks, for_parts, map_grains, map_mut, sort,
     sort_by, with_threads,

@@ -216,54 +216,6 @@ impl Triangulation3 {
         });
         FiniteMesh { tetrahedra, neighbors, hull }
     }
-
-    /// Returns the same for a triangulation the neighbours of which are numbers of tetrahedra, without
-    /// facets, and [`NO_INDEX`] in the place of ghosts. No others of the first `finite` slots are gaps than some of
-    /// those that `changed`.
-    #[cfg(feature = "gpu")]
-    pub(in crate::d3) fn into_mesh_of_numbers(self, finite: usize, changed: &[u32], threads: Threads) -> FiniteMesh {
-        let mut changed: Vec<u32> = changed.iter().copied().filter(|&t| (t as usize) < finite).collect();
-        parallel::sort(threads, &mut changed);
-        let mut gaps = vec![Gaps::default()];
-        changed.iter().for_each(|&t| self.note_gap(t, &mut gaps[0]));
-        gaps.extend(parallel::map_ranges(threads, self.tetrahedra.len() - finite, |range| {
-            self.gaps(finite + range.start..finite + range.end)
-        }));
-        let Closing { count, hull, moves, moved_to, .. } = self.closing(&gaps, threads);
-        let tetrahedra = slots::share(self.tetrahedra.into_flattened());
-        let neighbors = slots::share(self.neighbors.into_flattened());
-        // Two tetrahedra have one facet in common, at most.
-        let replace = |of: u32, before: u32, after: u32| {
-            let mut all = neighbors[4 * of as usize..].iter().take(4);
-            if let Some(neighbor) = all.find(|neighbor| neighbor.load(Relaxed) == before) {
-                neighbor.store(after, Relaxed);
-            }
-        };
-        // Nobody else writes into the gap, or into the references to what moves there.
-        parallel::map_ranges(threads, moves.len(), |range| {
-            for &[gap, last] in &moves[range] {
-                for k in 0..4 {
-                    let [from, to] = [last, gap].map(|t| 4 * t as usize + k);
-                    tetrahedra[to].store(tetrahedra[from].load(Relaxed), Relaxed);
-                    let across = neighbors[from].load(Relaxed);
-                    let beside = (across as usize).checked_sub(count);
-                    let across = match beside.map(|beside| moved_to.get(beside)) {
-                        Some(Some(&NO_INDEX) | None) => across,
-                        Some(Some(&gap)) => gap,
-                        None => {
-                            replace(across, last, gap);
-                            across
-                        }
-                    };
-                    neighbors[to].store(across, Relaxed);
-                }
-            }
-        });
-        let [mut tetrahedra, mut neighbors] = [tetrahedra, neighbors].map(slots::unshare);
-        tetrahedra.truncate(4 * count);
-        neighbors.truncate(4 * count);
-        FiniteMesh { tetrahedra: bytemuck::cast_vec(tetrahedra), neighbors: bytemuck::cast_vec(neighbors), hull }
-    }
 }
 
 /// Slots that have no place in a mesh.

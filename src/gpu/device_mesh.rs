@@ -331,18 +331,7 @@ impl<const D: usize> DeviceMesh<D> {
         self.read_with(arrays.iter().map(read).collect::<Result<_, Error>>()?).await
     }
 
-    /// Returns the lowest simplex of each point, [`NONE`](crate::NONE) for duplicates. Blocks the
-    /// thread.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of `read`.
-    #[cfg(not(target_arch = "wasm32"))]
-    pub fn read_vertex_simplex(&self) -> Result<Vec<i32>, Error> {
-        pollster::block_on(self.read_vertex_simplex_async())
-    }
-
-    /// Does the same without blocking the thread.
+    /// Returns the lowest simplex of each point, [`NONE`](crate::NONE) for duplicates.
     ///
     /// # Errors
     ///
@@ -441,18 +430,7 @@ where
 macro_rules! reading {
     ($D:literal, $mesh:ident) => {
         impl DeviceMesh<$D> {
-            /// Reads the arrays that are among `outputs`; the others are empty. Blocks the thread.
-            ///
-            /// # Errors
-            ///
-            /// Returns [`Error::DeviceLost`], for a device of the caller's [`Error::Gpu`], and
-            /// [`Error::OutOfMemory`].
-            #[cfg(not(target_arch = "wasm32"))]
-            pub fn read(&self, outputs: Outputs) -> Result<crate::$mesh, Error> {
-                pollster::block_on(self.read_async(outputs))
-            }
-
-            /// Does the same without blocking the thread.
+            /// Reads the arrays that are among `outputs`; the others are empty.
             ///
             /// # Errors
             ///
@@ -463,19 +441,9 @@ macro_rules! reading {
                 Ok(mesh)
             }
 
-            /// Reads into `mesh` instead, in the memory that its arrays have: most of the time of
-            /// [`read`](Self::read) is that in which the system provides fresh memory. Arrays that
-            /// are not among `outputs` become empty. After an error the contents have no meaning.
-            ///
-            /// # Errors
-            ///
-            /// Returns the errors of `read`.
-            #[cfg(not(target_arch = "wasm32"))]
-            pub fn read_into(&self, outputs: Outputs, mesh: &mut crate::$mesh) -> Result<(), Error> {
-                pollster::block_on(self.read_into_async(outputs, mesh))
-            }
-
-            /// Does the same without blocking the thread.
+            /// Reads the arrays that are among `outputs` into the memory that the arrays of `mesh` have: most of the time of
+            /// [`read_async`](Self::read_async) goes into fresh memory. The other arrays become empty. After an error the
+            /// contents have no meaning.
             ///
             /// # Errors
             ///

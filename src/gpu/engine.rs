@@ -55,7 +55,6 @@ where
     const ROUNDS_SHARE: f64;
 
     /// Takes the lists of the simplices of the mesh and of their neighbours, for their memory.
-    #[cfg(not(target_arch = "wasm32"))]
     fn take_lists(mesh: &mut MeshOf<D>) -> [Vec<Corners<D>>; 2];
 
     /// Returns the tracer of a run with these options.
@@ -229,7 +228,6 @@ where
     narrow: Option<Phase1<D>>,
     /// The kernels for large arrays in parts, for points of one width, since the last input that needed
     /// them.
-    #[cfg(not(target_arch = "wasm32"))]
     in_parts: Option<(Width, Phase1<D>)>,
     settings: Settings<D>,
 }
@@ -245,14 +243,7 @@ where
     /// Returns the errors of [`Gpu::with_error_scope`].
     pub async fn new(gpu: Gpu) -> Result<Self, Error> {
         let wide = Phase1::new(&gpu, Width::Wide).await?;
-        Ok(GpuEngine {
-            gpu,
-            wide,
-            narrow: None,
-            #[cfg(not(target_arch = "wasm32"))]
-            in_parts: None,
-            settings: Settings::default(),
-        })
+        Ok(GpuEngine { gpu, wide, narrow: None, in_parts: None, settings: Settings::default() })
     }
 
     /// Returns when also the kernels are compiled that a first run does without.
@@ -440,7 +431,6 @@ where
             None => None,
         };
         let resident = settings.sparse || used.is_none();
-        #[cfg(not(target_arch = "wasm32"))]
         if let Some(used) = used.filter(|_| !resident) {
             run.prepare_room(Dimension::<D>::take_lists(used));
         }
@@ -490,9 +480,7 @@ where
     /// Returns the device with the kernels for so many points of this width, compiled if they are not,
     /// and gives the buffers of the other ones back, because points of another kind are unlikely to
     /// come soon.
-    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "there are no arrays in parts"))]
     async fn kernels(&mut self, width: Width, points: usize) -> Result<(&Gpu, &mut Phase1<D>), Error> {
-        #[cfg(not(target_arch = "wasm32"))]
         if let Some(parts) = self.settings.parts(&self.gpu, points) {
             self.wide.release();
             self.narrow.iter_mut().for_each(Phase1::release);
@@ -503,7 +491,6 @@ where
             };
             return Ok((&self.gpu, &mut self.in_parts.insert(kernels).1));
         }
-        #[cfg(not(target_arch = "wasm32"))]
         if let Some((_, in_parts)) = &mut self.in_parts {
             in_parts.release();
         }

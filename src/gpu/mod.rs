@@ -13,6 +13,8 @@
 //! * [`dim`] has what differs between the dimensions; [`phase1`] and [`engine`] are generic over
 //!   them.
 
+#[cfg(not(target_arch = "wasm32"))]
+mod blocking;
 mod buffers;
 mod device;
 #[cfg(not(target_arch = "wasm32"))]
@@ -44,8 +46,7 @@ pub(crate) use kernel::compile_all;
 pub use kernel::{Binding, Compiler, Deferred, Kernel};
 pub use parts::Parts;
 pub use profiler::Profiler;
-#[cfg(not(target_arch = "wasm32"))]
-pub(crate) use readback::{Pace, Reading, ReadingArrays, Room, Words};
+pub(crate) use readback::Room;
 pub use readback::{Pending, Readback, Target};
 pub use recorder::Recorder;
 

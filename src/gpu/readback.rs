@@ -3,8 +3,7 @@
 use crate::{
     error::Error,
     gpu::{Gpu, Storage, device::ErrorScope},
-    index::NO_INDEX,
-    parallel::{self, Threads, for_chunks},
+    parallel::{Ahead, Threads, for_chunks},
     platform::{self, gpu::Report},
 };
 use bytemuck::Pod;
@@ -14,24 +13,8 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 
-/// How large arrays are read.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Pace {
-    /// The most bytes that are on their way in one staging buffer.
-    piece: u64,
-    /// The pieces that are on their way at a time.
-    ahead: usize,
-}
-
-impl Pace {
-    /// For arrays that the host waits for.
-    pub(crate) const ALONE: Pace = Pace { piece: platform::gpu::PIECE, ahead: 4 };
-    /// For arrays beside which the host waits for other results. The device carries out commands in
-    /// their order, so that these wait until all pieces are there that are on their way. They are as few
-    /// as keep the device busy while the host takes one of them, and each takes some tenths of a
-    /// millisecond.
-    pub(crate) const BESIDE: Pace = Pace { piece: 8 << 20, ahead: 2 };
-}
+/// The pieces of large arrays that are on their way at a time.
+const PIECES_AHEAD: usize = 4;
 
 /// From this size on, threads share a copy.
 const SHARED_FROM: usize = 1 << 20;
@@ -89,17 +72,15 @@ struct Staged {
 }
 
 /// Memory for a large result.
-#[cfg(not(target_arch = "wasm32"))]
 #[derive(Debug)]
 pub(crate) enum Room<T> {
     /// That of a list that nobody needs any more.
     Used(Vec<T>),
     /// Memory that the system provides while the device is at work: that takes longer than to copy the
     /// result.
-    Ahead(parallel::Ahead<Vec<T>>),
+    Ahead(Ahead<Vec<T>>),
 }
 
-#[cfg(not(target_arch = "wasm32"))]
 impl<T: Pod + Send> Room<T> {
     /// Returns room for about `len` elements: that of `used`, or, if it has less than half of that, what threads
     /// look for; `None` if that does not pay.
@@ -120,7 +101,7 @@ impl<T: Pod + Send> Room<T> {
             });
             list
         };
-        pays.then(|| Room::Ahead(parallel::Ahead::begin(touched)))
+        pays.then(|| Room::Ahead(Ahead::begin(touched)))
     }
 
     /// Returns the room, empty if it is not there yet.
@@ -142,7 +123,7 @@ pub trait Target {
 }
 
 /// Where the bytes come from.
-pub(crate) trait Source {
+pub trait Source {
     /// Returns in which buffer byte `at` is, where there, and how many bytes follow in it at most.
     fn place(&self, at: u64) -> (&wgpu::Buffer, u64, u64);
 }
@@ -188,12 +169,12 @@ impl<'a, S: Source, T: Target> Reading<'a, S, T> {
         Reading { reads, next: (0, 0), ahead: VecDeque::new() }
     }
 
-    /// Sends as many pieces on their way as the pace allows. Returns how many these are, each in a
+    /// Sends pieces on their way until there are [`PIECES_AHEAD`]. Returns how many these are, each in a
     /// submission of its own.
-    pub(crate) fn send(&mut self, gpu: &'a Gpu, readback: &mut Readback, pace: Pace) -> usize {
+    pub(crate) fn send(&mut self, gpu: &'a Gpu, readback: &mut Readback) -> usize {
         let mut sent = 0;
-        while self.ahead.len() < pace.ahead
-            && let Some((read, start, len)) = self.next_piece(pace.piece)
+        while self.ahead.len() < PIECES_AHEAD
+            && let Some((read, start, len)) = self.next_piece(platform::gpu::PIECE)
             && let Some((source, _)) = self.reads.get(read)
         {
             sent += 1;
@@ -226,57 +207,6 @@ impl<'a, S: Source, T: Target> Reading<'a, S, T> {
     /// Returns the targets.
     pub(crate) fn targets(self) -> impl Iterator<Item = T> {
         self.reads.into_iter().map(|(_, target)| target)
-    }
-}
-
-#[cfg(not(target_arch = "wasm32"))]
-impl<S: Source, T: Target> Reading<'_, S, T> {
-    /// Returns how many pieces are on their way.
-    pub(crate) fn pieces_ahead(&self) -> usize {
-        self.ahead.len()
-    }
-
-    /// Asks the device whether the first piece that is on its way has arrived; `true` if there is none.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`Readback::receive`].
-    pub(crate) fn has_arrived(&self, gpu: &Gpu) -> Result<bool, Error> {
-        self.ahead.front().map_or(Ok(true), |piece| platform::gpu::has_arrived(gpu, &piece.submission))
-    }
-}
-
-/// What becomes of the words of an array when they are taken out of their staging buffer. A pass of its own
-/// takes as long as to copy.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Words {
-    /// They stay as they are.
-    Same,
-    /// Neighbours, 4·number + facet, become numbers, and [`NO_INDEX`] from this one on.
-    Numbers(u32),
-}
-
-/// A list that takes what is read.
-pub(crate) struct List<T> {
-    items: Vec<T>,
-    words: Words,
-}
-
-/// The reading of two arrays of `T`, which consist of words.
-pub(crate) type ReadingArrays<'a, T> = Reading<'a, Storage<T>, List<T>>;
-
-impl<T: Pod> ReadingArrays<'_, T> {
-    /// Creates the reading of the first `len` elements of two large arrays into the memory of `rooms` as far
-    /// as it suffices.
-    pub(crate) fn of_arrays(arrays: &[Storage<T>; 2], rooms: [Vec<T>; 2], len: usize, words: [Words; 2]) -> Self {
-        let targets = rooms.into_iter().zip(words).map(|(room, words)| List { items: fitted(room, len), words });
-        Reading::new(arrays.iter().cloned().zip(targets).collect())
-    }
-
-    /// Returns the two lists.
-    pub(crate) fn lists(self) -> [Vec<T>; 2] {
-        let mut lists = self.targets().map(|target| target.items);
-        std::array::from_fn(|_| lists.next().unwrap_or_default())
     }
 }
 
@@ -380,10 +310,10 @@ impl Readback {
     /// # Errors
     ///
     /// Returns the errors of [`Readback::receive`] and [`Gpu::with_error_scope`].
-    pub async fn read_into<T: Target>(&mut self, gpu: &Gpu, reads: Vec<(&wgpu::Buffer, T)>) -> Result<Vec<T>, Error> {
+    pub async fn read_into<S: Source, T: Target>(&mut self, gpu: &Gpu, reads: Vec<(S, T)>) -> Result<Vec<T>, Error> {
         let mut reading = Reading::new(reads);
         loop {
-            reading.send(gpu, self, Pace::ALONE);
+            reading.send(gpu, self);
             if !self.take(gpu, &mut reading).await? {
                 return Ok(reading.targets().collect());
             }
@@ -426,13 +356,10 @@ impl Readback {
         rooms: [Vec<T>; 2],
         len: usize,
     ) -> Result<[Vec<T>; 2], Error> {
-        let mut reading = ReadingArrays::of_arrays(arrays, rooms, len, [Words::Same; 2]);
-        loop {
-            reading.send(gpu, self, Pace::ALONE);
-            if !self.take(gpu, &mut reading).await? {
-                return Ok(reading.lists());
-            }
-        }
+        let mut lists = rooms.map(|room| fitted(room, len));
+        let targets = lists.iter_mut().map(|list| bytemuck::cast_slice_mut::<T, u8>(list));
+        self.read_into(gpu, arrays.iter().cloned().zip(targets).collect()).await?;
+        Ok(lists)
     }
 
     /// Returns how many readbacks were recorded.
@@ -537,34 +464,6 @@ impl Target for &mut [u8] {
     fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView) {
         platform::gpu::copy(piece, &mut self[start as usize..(start + len) as usize]);
     }
-}
-
-impl<T: Pod> Target for List<T> {
-    fn bytes(&self) -> u64 {
-        size_of_val(self.items.as_slice()) as u64
-    }
-
-    fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView) {
-        let Words::Numbers(end) = self.words else {
-            let mut bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut self.items);
-            return bytes.take(start, len, piece);
-        };
-        let words: &mut [u32] = bytemuck::cast_slice_mut(&mut self.items);
-        let words = &mut words[start as usize / 4..(start + len) as usize / 4];
-        let piece: &[u8] = piece;
-        for_chunks(threads_for(len as usize), words, |at, chunk| {
-            let (pieces, _) = piece[4 * at..].as_chunks();
-            for (word, bytes) in chunk.iter_mut().zip(pieces) {
-                let number = u32::from_ne_bytes(*bytes) >> 2;
-                *word = if number < end { number } else { NO_INDEX };
-            }
-        });
-    }
-}
-
-/// Returns who copies so many bytes.
-fn threads_for(bytes: usize) -> Threads {
-    if bytes < SHARED_FROM { Threads::One } else { Threads::All }
 }
 
 /// Returns a list of `len` elements, whatever they are, and some room: in the memory of `list`, of which no

@@ -1,5 +1,5 @@
-//! Meshes that the host reads while other threads splay, as those that it reads before, or that the device
-//! makes.
+//! Meshes that the host reads before it splays them, and those that the device makes of the stars that splaying has
+//! changed.
 
 use crate::{clouds, open, same};
 use gdel::{
@@ -21,9 +21,9 @@ use std::{
     thread::ThreadId,
 };
 
-/// The settings under which a mesh is read while it is splayed, however small it is.
-fn beside() -> Settings<3> {
-    Settings { reads_beside: Some(true), ..Settings::default() }
+/// The settings under which stars are gathered for splaying, and the device makes the arrays of the mesh.
+fn gathering() -> Settings<3> {
+    Settings { sparse: true, ..Settings::default() }
 }
 
 fn run<'a>(engine: &mut GpuEngine<3>, points: impl Into<Points3<'a>>, settings: Settings<3>) -> Mesh3 {
@@ -47,7 +47,7 @@ fn every_way_to_the_host_gives_the_same_mesh() {
     let (mut has_more, mut has_fewer) = (false, false);
     for (i, points) in inputs.into_iter().enumerate() {
         for insert_all in [false, true] {
-            let settings = Settings { insert_all, ..beside() };
+            let settings = Settings { insert_all, ..gathering() };
             let mesh = run(&mut engine, points, settings);
             assert_eq!(mesh.stats.fallback, None, "input {i}");
             let splay = mesh.stats.splay.expect("splaying worked");
@@ -55,10 +55,9 @@ fn every_way_to_the_host_gives_the_same_mesh() {
             has_more |= splay.inserted > 0;
             has_fewer |= splay.added < splay.removed;
             same(points, &mesh);
-            let before = run(&mut engine, points, Settings { reads_beside: Some(false), ..settings });
+            let before = run(&mut engine, points, Settings { sparse: false, ..settings });
             assert_eq!(before.stats.splay.map(|splay| splay.gathers), Some(0), "input {i}");
             same(points, &before);
-            same(points, &run(&mut engine, points, Settings { sparse: true, ..settings }));
         }
     }
     assert!(has_more && has_fewer, "more: {has_more}, fewer: {has_fewer}");
@@ -72,7 +71,7 @@ fn tiny_inputs() {
             generate3d(Distribution3::Uniform, n, 7),
             clouds::shuffled(&clouds::grid(4), n as u64)[..n.max(20)].to_vec(),
         ];
-        inputs.iter().for_each(|points| same(points, &run(&mut engine, points, beside())));
+        inputs.iter().for_each(|points| same(points, &run(&mut engine, points, gathering())));
     }
 }
 
@@ -81,7 +80,7 @@ fn tiny_inputs() {
 fn ninety_thousand_points() {
     let points = generate3d(Distribution3::Uniform, 90_000, 1);
     let mut engine = open();
-    let mesh = run(&mut engine, &points, beside());
+    let mesh = run(&mut engine, &points, gathering());
     let (gpu, splay) = (mesh.stats.gpu.clone().expect("the GPU worked"), mesh.stats.splay.expect("and splaying"));
     // One for the points, at least one per round, and one for each time that stars are gathered.
     let others = 1 + gpu.rounds.len() as u64 + splay.gathers as u64;
@@ -97,7 +96,7 @@ fn ninety_thousand_points() {
     let options = Options { on_progress: Some(Arc::new(stop)), ..Options::default() };
     let result = block_on(engine.triangulate((&points).into(), &options));
     assert_eq!(result.map(|_| ()), Err(Error::Cancelled));
-    same(&points, &run(&mut engine, &points, beside()));
+    same(&points, &run(&mut engine, &points, gathering()));
 }
 
 /// Progress is reported in the calling thread, whichever thread splays.
@@ -113,7 +112,7 @@ fn reports_come_in_the_calling_thread() {
     };
     let options = Options { on_progress: Some(Arc::new(watch)), ..Options::default() };
     let mut engine = open();
-    engine.set_settings(beside());
+    engine.set_settings(gathering());
     block_on(engine.triangulate((&points).into(), &options)).expect("triangulates");
     assert!(!is_elsewhere.load(Relaxed));
 }
@@ -123,7 +122,7 @@ fn reports_come_in_the_calling_thread() {
 fn the_only_thread_of_a_pool_can_do_it() {
     let points = generate3d(Distribution3::ThinSphere, 3_000, 9);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts");
-    let mesh = pool.install(|| run(&mut open(), &points, beside()));
+    let mesh = pool.install(|| run(&mut open(), &points, gathering()));
     assert_eq!(mesh.stats.fallback, None);
     same(&points, &mesh);
 }

@@ -37,7 +37,6 @@ impl Complete<2> for Dimension<2> {
     const DEGENERATE: Fallback = Fallback::Collinear;
     const ROUNDS_SHARE: f64 = 0.7;
 
-    #[cfg(not(target_arch = "wasm32"))]
     fn take_lists(mesh: &mut Mesh2) -> [Vec<[u32; 3]>; 2] {
         [std::mem::take(&mut mesh.triangles), bytemuck::cast_vec(std::mem::take(&mut mesh.halfedges))]
     }

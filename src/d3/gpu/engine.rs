@@ -10,6 +10,7 @@ use crate::{
         gpu::{
             exchange::{Begun, Device},
             trace::Tracer,
+            whole,
         },
         splay::{self, Doubts, Splay, Stop, Terms},
         triangulation::Triangulation3,
@@ -28,11 +29,6 @@ use crate::{
     predicates::filter::{PredicateContext, PredicateContext3},
     stats::{Fallback, Phase},
 };
-#[cfg(not(target_arch = "wasm32"))]
-use crate::{
-    d3::{gpu::whole, splay::SLOT, triangulation::FiniteMesh},
-    stats::Stats,
-};
 use std::ops::ControlFlow::{Break, Continue};
 
 impl Complete<3> for Dimension<3> {
@@ -41,7 +37,6 @@ impl Complete<3> for Dimension<3> {
     const DEGENERATE: Fallback = Fallback::Coplanar;
     const ROUNDS_SHARE: f64 = 0.6;
 
-    #[cfg(not(target_arch = "wasm32"))]
     fn take_lists(mesh: &mut Mesh3) -> [Vec<[u32; 4]>; 2] {
         [std::mem::take(&mut mesh.tetrahedra), bytemuck::cast_vec(std::mem::take(&mut mesh.neighbors))]
     }
@@ -62,30 +57,11 @@ impl Complete<3> for Dimension<3> {
         near: Near<'_, 3>,
         tracer: Option<Tracer>,
     ) -> Result<Result<Made<3>, Fallback>, Error> {
-        #[cfg(not(target_arch = "wasm32"))]
-        if !near.resident && !reads_beside(&run) {
-            return whole::complete(run, near, tracer).await;
+        match near.resident {
+            true => complete_with_stars(run, near, tracer).await,
+            false => whole::complete(run, near, tracer).await,
         }
-        complete_with_stars(run, near, tracer).await
     }
-}
-
-/// Below so many slots, a mesh is read sooner than the first stars are gathered.
-#[cfg(not(target_arch = "wasm32"))]
-const READ_BEFORE: usize = 1 << 20;
-
-/// Above so many exact signs per point, too much fails: points on a sphere need 42, those of a scan 6, and
-/// those of a grid 1. To gather so many stars takes longer than to read the mesh.
-#[cfg(not(target_arch = "wasm32"))]
-const EXACT_SIGNS: u32 = 16;
-
-/// Returns whether the host reads the mesh while other threads splay its stars.
-#[cfg(not(target_arch = "wasm32"))]
-fn reads_beside(run: &Run<'_, 3>) -> bool {
-    let (params, counters) = run.control();
-    let slots = run.buffers().simplices.len();
-    let pays = || slots >= READ_BEFORE && counters.exact / EXACT_SIGNS < params.infinite;
-    slots <= SLOT as usize && run.settings().reads_beside.unwrap_or_else(pays)
 }
 
 /// Makes the mesh with the stars that splaying needs on the host.
@@ -95,8 +71,7 @@ async fn complete_with_stars(
     mut tracer: Option<Tracer>,
 ) -> Result<Result<Made<3>, Fallback>, Error> {
     let count = near.points.len();
-    let resident = near.resident;
-    let (mut device, start) = Device::end(run, resident, || near.prepare()).await?;
+    let (mut device, start) = Device::end(run, || near.prepare()).await?;
     near.end_of_phase1(&device.ended.stats);
     let (missing, duplicate_of) = near.missing(&device.ended.read_merged().await?);
     let Near { points, lattice, options, adapter, moved, stats, stopwatch, .. } = near;
@@ -126,7 +101,7 @@ async fn complete_with_stars(
         let mut splay = Splay::begin(context, region, Doubts { missing, ..doubts }, terms)?;
         Ok((advance(&mut splay, context, terms)?, splay))
     };
-    let mut step: Result<_, Stop> = device.beside(terms(), first)?;
+    let mut step: Result<_, Stop> = first(terms());
     let splayed = loop {
         let (mut splay, lacking) = match step {
             Ok((Continue(lacking), splay)) => (splay, lacking),
@@ -139,7 +114,7 @@ async fn complete_with_stars(
             splay.add(lacking, gathered)?;
             Ok((advance(&mut splay, context, terms)?, splay))
         };
-        step = device.beside(terms(), next)?;
+        step = next(terms());
     };
     let patch = match splayed {
         Ok(((region, splay), patch)) => {
@@ -154,24 +129,6 @@ async fn complete_with_stars(
         }
     };
     stats.exact = vertices.exact_counts();
-    #[cfg(not(target_arch = "wasm32"))]
-    if !resident {
-        stats.phases.push((Phase::Splay, stopwatch.lap()));
-        let [tetrahedra, neighbors] = device.read_arrays().await?;
-        stats.phases.push((Phase::Readback, stopwatch.lap()));
-        let finite = device.ended.finite;
-        stats.gpu = Some(device.ended.release().summary(adapter));
-
-        options.report(Phase::Finish, progress::FINISH)?;
-        let mut triangulation = Triangulation3::new(tetrahedra, neighbors, count as u32);
-        patch.apply(&mut triangulation, Threads::All)?;
-        let FiniteMesh { tetrahedra, neighbors, hull } =
-            triangulation.into_mesh_of_numbers(finite, &patch.slots, Threads::All);
-        stats.phases.push((Phase::Finish, stopwatch.lap()));
-        stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
-        let mesh = Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats: Stats::default() };
-        return Ok(Ok(Made::Host(mesh)));
-    }
     if let Err(error) = device.patch(&patch).await {
         stats.gpu = Some(device.ended.release().summary(adapter));
         return match error {

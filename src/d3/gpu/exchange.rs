@@ -1,9 +1,5 @@
 //! What splaying and the device exchange: stars of the mesh one way, what has changed the other.
 
-#[cfg(not(target_arch = "wasm32"))]
-use crate::d3::gpu::arrays::Arrays;
-#[cfg(target_arch = "wasm32")]
-use crate::d3::splay::Terms;
 use crate::{
     d3::{
         gpu::{
@@ -107,24 +103,15 @@ pub(crate) struct Begun {
 /// The mesh on the device at the end of Phase 1.
 pub(crate) struct Device<'a> {
     pub(crate) ended: Ended<'a, 3>,
-    /// Its arrays, if the host reads them.
-    #[cfg(not(target_arch = "wasm32"))]
-    pub(super) arrays: Option<Arrays<'a>>,
 }
 
 impl<'a> Device<'a> {
-    /// Ends the run, and gathers what splaying begins with. Natively the host begins to read the arrays of
-    /// the mesh, unless the mesh is `resident`. The host does `meanwhile` before it waits for the device.
+    /// Ends the run, and gathers what splaying begins with. The host does `meanwhile` before it waits for the device.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "no other thread splays meanwhile"))]
-    pub(crate) async fn end(
-        mut run: Run<'a, 3>,
-        resident: bool,
-        meanwhile: impl FnOnce(),
-    ) -> Result<(Self, Start), Error> {
+    pub(crate) async fn end(mut run: Run<'a, 3>, meanwhile: impl FnOnce()) -> Result<(Self, Start), Error> {
         let gather = Gathering { first: 1, patched: 0 };
         let (gpu, points) = (run.gpu(), run.control().0.infinite as usize);
         let workgroups = run.workgroups();
@@ -146,15 +133,7 @@ impl<'a> Device<'a> {
             return Err(Error::TooManySimplices { limit: SLOT as usize });
         }
         let (failed_len, uncertain_len) = (ended.counters.failed as usize, ended.counters.uncertain as usize);
-        let mut device = Device {
-            ended,
-            #[cfg(not(target_arch = "wasm32"))]
-            arrays: None,
-        };
-        #[cfg(not(target_arch = "wasm32"))]
-        if !resident {
-            device.begin_reading();
-        }
+        let mut device = Device { ended };
         let gathered = device.receive(&submission, gathering, &mut region).await?;
         let mut failed = device.receive_list(&submission, failed, failed_len).await?;
         let uncertain: Vec<Active> = device.receive_list(&submission, uncertain, uncertain_len).await?;
@@ -167,7 +146,6 @@ impl<'a> Device<'a> {
 
     /// Receives what is gathered, in memory that `region` has for it, and reads the rest of it if there is more than
     /// was read ahead.
-    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "WebAssembly keeps no memory"))]
     async fn receive(
         &mut self,
         submission: &wgpu::SubmissionIndex,
@@ -198,38 +176,20 @@ impl<'a> Device<'a> {
         }
         let (tetrahedra, neighbors, slots) =
             (tetrahedra.first.first(count), neighbors.first.first(count), slots.first.first(count));
-        // Natively both go to the same list, without a copy.
-        #[cfg(not(target_arch = "wasm32"))]
-        {
-            let (tetrahedra, neighbors, slots) = match rest {
-                Some((submission, more)) => {
-                    copied.submission = submission;
-                    (tetrahedra.then(more.0), neighbors.then(more.1), slots.then(more.2))
-                }
-                None => (tetrahedra, neighbors, slots),
-            };
-            let spare = region.spare();
-            Ok(Gathered {
-                tetrahedra: copied.receive_into(tetrahedra, spare.tetrahedra).await?,
-                neighbors: copied.receive_into(neighbors, spare.neighbors).await?,
-                slots: copied.receive_into(slots, spare.slots).await?,
-            })
-        }
-        #[cfg(target_arch = "wasm32")]
-        {
-            let mut gathered = Gathered {
-                tetrahedra: copied.receive(tetrahedra).await?,
-                neighbors: copied.receive(neighbors).await?,
-                slots: copied.receive(slots).await?,
-            };
-            if let Some((submission, more)) = rest {
+        // Both go to the same list.
+        let (tetrahedra, neighbors, slots) = match rest {
+            Some((submission, more)) => {
                 copied.submission = submission;
-                gathered.tetrahedra.extend(copied.receive(more.0).await?);
-                gathered.neighbors.extend(copied.receive(more.1).await?);
-                gathered.slots.extend(copied.receive(more.2).await?);
+                (tetrahedra.then(more.0), neighbors.then(more.1), slots.then(more.2))
             }
-            Ok(gathered)
-        }
+            None => (tetrahedra, neighbors, slots),
+        };
+        let spare = region.spare();
+        Ok(Gathered {
+            tetrahedra: copied.receive_into(tetrahedra, spare.tetrahedra).await?,
+            neighbors: copied.receive_into(neighbors, spare.neighbors).await?,
+            slots: copied.receive_into(slots, spare.slots).await?,
+        })
     }
 
     /// Receives a list, and reads the rest of it if it has more than was read ahead.
@@ -271,17 +231,7 @@ impl<'a> Device<'a> {
                 Ok((copies.recorder.submit(gpu), gathering))
             })
             .await?;
-        #[cfg(not(target_arch = "wasm32"))]
-        self.take_earlier_pieces().await?;
         self.receive(&submission, gathering, region).await
-    }
-
-    /// Runs a step of splaying on these terms: there is one thread, which does nothing meanwhile. Not inlined, it
-    /// would take a hundred bytes of the module.
-    #[cfg(target_arch = "wasm32")]
-    #[inline(always)]
-    pub(crate) fn beside<R>(&mut self, terms: Terms<'_>, step: impl FnOnce(Terms<'_>) -> R) -> Result<R, Error> {
-        Ok(step(terms))
     }
 
     /// Writes back what splaying has changed.

@@ -1,14 +1,9 @@
-//! Completing a mesh that the host has read as a whole: natively one with more slots than there are numbers
-//! for where stars are gathered.
+//! Completes a mesh in the memory of the host: reads it as a whole, and splays it there.
 
 use crate::{
     d3::{
         Mesh3,
-        gpu::{
-            finish::NearMesh,
-            pool::{inside, listen},
-            trace::Tracer,
-        },
+        gpu::{finish::NearMesh, trace::Tracer},
         splay::{self, NearDelaunay3, SplayOutcome, Terms},
         triangulation::{FiniteMesh, Triangulation3},
     },
@@ -34,7 +29,7 @@ pub(super) async fn complete(
     let (missing, duplicate_of) = near.missing(&merged);
     let Near { points, lattice, options, adapter, stats, stopwatch, .. } = near;
 
-    let mut vertices = PredicateContext::of_input(points, lattice);
+    let vertices = PredicateContext::of_input(points, lattice);
     let near = near_delaunay(points.len(), result, &missing);
     if let Some(tracer) = &mut tracer {
         tracer.facets(&near.triangulation, &vertices);
@@ -43,10 +38,9 @@ pub(super) async fn complete(
     let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
     let max_evaluations = splay::evaluations_from_scratch(near.triangulation.tetrahedra().len());
     let terms = Terms { max_evaluations, threads: Threads::All, report: &report };
-    let (context, kept) = (&mut vertices, &mut ended.host);
-    let step = move |terms: Terms<'_>| splay::splay_again(context, near, terms, kept);
-    let splayed =
-        options.report(Phase::Splay, progress::COMPLETION).and_then(|()| inside(terms, step, listen).flatten());
+    let splayed = options
+        .report(Phase::Splay, progress::COMPLETION)
+        .and_then(|()| splay::splay_again(&vertices, near, terms, &mut ended.host));
     // Whether splaying was cancelled or not, the next run gets the memory of this one.
     stats.gpu = Some(ended.release().summary(adapter));
     let triangulation = match splayed? {

@@ -5,8 +5,6 @@
 //! region lacks. Everything that works on a triangulation therefore works on a region, as long as
 //! it stays within the stars that have been gathered.
 
-#[cfg(feature = "gpu")]
-use crate::{d3::triangulation::MAX_TETRAHEDRA, error::Error, slots};
 use crate::{
     d3::{
         splay::{Aborted, index_set::IndexSet, memory::Memory},
@@ -15,8 +13,6 @@ use crate::{
     index::NO_INDEX,
     parallel::{self, Threads},
 };
-#[cfg(feature = "gpu")]
-use std::sync::atomic::Ordering::Relaxed;
 
 /// The number of every tetrahedron that is not in the region.
 const OUTSIDE: u32 = 0;
@@ -61,53 +57,6 @@ pub struct Patch {
     pub len: usize,
     /// How many more finite tetrahedra there are now, and how many more ghosts.
     pub more: [isize; 2],
-}
-
-impl Patch {
-    /// Changes a triangulation the neighbours of which are numbers of tetrahedra, without facets. Its unused
-    /// slots are marked then.
-    ///
-    /// # Errors
-    ///
-    /// Returns [`Error::TooManySimplices`] and [`Error::OutOfMemory`]; the triangulation is unchanged then.
-    #[cfg(feature = "gpu")]
-    pub(in crate::d3) fn apply(&self, mesh: &mut Triangulation3, threads: Threads) -> Result<(), Error> {
-        if self.len > MAX_TETRAHEDRA {
-            return Err(Error::TooManySimplices { limit: MAX_TETRAHEDRA });
-        }
-        slots::reserve(&mut mesh.tetrahedra, &mut mesh.neighbors, self.len)?;
-        mesh.tetrahedra.resize(self.len, [0; 4]);
-        mesh.neighbors.resize(self.len, [0; 4]);
-        let infinite = mesh.infinite;
-        let arrays = [&mut mesh.tetrahedra, &mut mesh.neighbors].map(std::mem::take);
-        let [tetrahedra, neighbors] = arrays.map(|array| slots::share(array.into_flattened()));
-        let work = |each: &(dyn Fn(usize, u32) + Sync)| {
-            parallel::map_grains(threads, self.slots.len(), PATCH_GRAIN, |range| {
-                range.for_each(|i| each(i, self.slots[i]));
-            });
-        };
-        work(&|i, slot| {
-            let v = self.tetrahedra[i];
-            let words = if v == [0; 4] { [state::FREE, 0, 0, 0] } else { v };
-            for (k, word) in words.into_iter().enumerate() {
-                tetrahedra[4 * slot as usize + k].store(word, Relaxed);
-            }
-        });
-        let is_ghost = |t: u32| tetrahedra[4 * t as usize + 3].load(Relaxed) == infinite;
-        // A neighbour that has not changed may have had this facet of the slot, too, when a ghost was in the slot
-        // or was not.
-        work(&|i, slot| {
-            for (k, &across) in self.neighbors[i].iter().enumerate().filter(|(_, across)| **across != KEEP) {
-                let (other, here, there) = (across >> 2, 4 * slot as usize + k, across as usize);
-                let visible = |t: u32| if is_ghost(t) { NO_INDEX } else { t };
-                neighbors[here].store(visible(other), Relaxed);
-                neighbors[there].store(visible(slot), Relaxed);
-            }
-        });
-        let [tetrahedra, neighbors] = [tetrahedra, neighbors].map(|words| bytemuck::cast_vec(slots::unshare(words)));
-        (mesh.tetrahedra, mesh.neighbors) = (tetrahedra, neighbors);
-        Ok(())
-    }
 }
 
 impl Gathered {

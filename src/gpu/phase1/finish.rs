@@ -111,7 +111,6 @@ impl Copied<'_> {
     /// # Errors
     ///
     /// Returns the errors of [`Readback::receive`].
-    #[cfg(not(target_arch = "wasm32"))]
     pub fn receive_into<T: Pod>(
         &mut self,
         pending: Pending<T>,

@@ -1,14 +1,12 @@
 //! A run of Phase 1: what the host records ahead, and what it reads back.
 
-#[cfg(not(target_arch = "wasm32"))]
-use crate::gpu::{ReadingArrays, Room, Words, dim::Corners, phase1::Aliases};
 use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Gpu, Pending, Profiler, Recorder,
+        Gpu, Pending, Profiler, Recorder, Room,
         device_mesh::DeviceMesh,
-        dim::{Dim, Flip},
+        dim::{Corners, Dim, Flip},
         iterations::{Iterations, Known, Needed},
         layout::{BLOCK, COUNTER_WORDS, Counters, DONE, LOGGED, NONE, PARAM_WORDS, Params, SLOT_SHIFT, SLOTS_FULL},
         parts,
@@ -100,7 +98,6 @@ where
     /// What the run before that inserted as many points needed.
     before: Needed,
     /// Memory for the simplices and their neighbours, if the host is to have them.
-    #[cfg(not(target_arch = "wasm32"))]
     rooms: Rooms<D>,
     stats: Phase1Stats,
     clock: Stopwatch,
@@ -108,7 +105,6 @@ where
 }
 
 /// Memory for the simplices of a mesh, and for their neighbours.
-#[cfg(not(target_arch = "wasm32"))]
 type Rooms<const D: usize> = [Option<Room<Corners<D>>>; 2];
 
 /// Rounds that were submitted together.
@@ -285,7 +281,6 @@ where
             rounds_before_growth: 0,
             iterations: Iterations::new(Dimension::<D>::FIRST_ITERATIONS, before),
             before,
-            #[cfg(not(target_arch = "wasm32"))]
             rooms: [None, None],
             clock,
             round_clock,
@@ -294,7 +289,6 @@ where
 
     /// Has threads look for memory for the mesh, which the host is to read, unless that of the lists `used`
     /// will do.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn prepare_room(&mut self, used: [Vec<Corners<D>>; 2]) {
         let len = self.params.infinite as usize * Dimension::<D>::MESH_PER_POINT;
         self.rooms = used.map(|used| Room::new(used, len));
@@ -745,7 +739,6 @@ where
             memory: self.memory,
             host: self.host,
             points: self.points,
-            #[cfg(not(target_arch = "wasm32"))]
             rooms: self.rooms,
             read_before: self.read_before,
             stats: self.stats,
@@ -775,7 +768,6 @@ where
     /// The same, since somebody has asked.
     merged: Vec<[u32; 2]>,
     pub(crate) workgroups: u32,
-    #[cfg(not(target_arch = "wasm32"))]
     rooms: Rooms<D>,
     read_before: (usize, u64),
     pub(crate) stats: Phase1Stats,
@@ -800,10 +792,7 @@ where
     pub(crate) async fn read(&mut self) -> Result<(<Dimension<D> as Finish<D>>::Result, Vec<[u32; 2]>), Error> {
         let (readback, memory) = (&mut self.kernels.readback, &self.memory);
         self.clock.lap();
-        #[cfg(not(target_arch = "wasm32"))]
         let rooms = take_rooms(&mut self.rooms);
-        #[cfg(target_arch = "wasm32")]
-        let rooms = Default::default();
         let (result, submissions) =
             finish::read(self.gpu, readback, memory, self.finite, &self.counters, rooms).await?;
         let merged = self.read_merged().await?;
@@ -811,13 +800,6 @@ where
         self.stats.submits += submissions;
         self.stats.stalls += finish::STALLS;
         Ok((result, merged))
-    }
-
-    /// Returns the reading of the simplices of the mesh and their neighbours, with what becomes of the words.
-    #[cfg(not(target_arch = "wasm32"))]
-    pub(crate) fn reading(&mut self, words: [Words; 2]) -> ReadingArrays<'a, Corners<D>> {
-        let arrays = self.memory.bound.aliases.arrays();
-        ReadingArrays::of_arrays(&arrays, take_rooms(&mut self.rooms), self.len(), words)
     }
 
     /// Reads the points that are vertices of no simplex.
@@ -844,7 +826,6 @@ where
 }
 
 /// Returns the memory that there is for the simplices and for their neighbours by now.
-#[cfg(not(target_arch = "wasm32"))]
 fn take_rooms<const D: usize>(rooms: &mut Rooms<D>) -> [Vec<Corners<D>>; 2]
 where
     Dimension<D>: Dim<D>,

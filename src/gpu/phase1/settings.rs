@@ -1,15 +1,16 @@
 //! Settings for Phase 1.
 
-#[cfg(not(target_arch = "wasm32"))]
-use crate::gpu::{Gpu, Parts, phase1::buffers::largest_bytes};
 use crate::{
     cpu::update::Limits,
     dimension::Dimension,
     gpu::{
+        Gpu, Parts,
         dim::Dim,
         layout::{Counters, Pick},
+        phase1::buffers::largest_bytes,
     },
     options::Winding,
+    platform,
 };
 
 /// Settings for Phase 1 in `D` dimensions, for experiments: they change the time, and not the set
@@ -53,14 +54,10 @@ pub struct Settings<const D: usize> {
     pub sort: bool,
     /// 3D only: whether facets that could not be flipped are removed with those beside them.
     pub removes: bool,
-    /// 3D only: whether splaying gets only the stars that it needs, and the device makes the arrays
-    /// of the mesh, also of one that the host wants to have. It saves most of the host's memory; it is
-    /// faster to read the whole mesh meanwhile.
+    /// 3D only: whether splaying gathers only the stars that it needs, and the device makes the arrays of the mesh, even
+    /// where the host wants to have it. That saves most of the host's memory, and takes longer than to read the mesh
+    /// before it is splayed.
     pub sparse: bool,
-    /// 3D only: whether the host reads a mesh while other threads splay its stars, and not before, as far as
-    /// stars can be gathered; `None` where that pays.
-    #[cfg(not(target_arch = "wasm32"))]
-    pub reads_beside: Option<bool>,
     /// 3D only: the size of the parts of large arrays, in bytes; `None` to have them in parts where
     /// there are too many points for one buffer, which then are as large as the device can bind.
     pub part_bytes: Option<u64>,
@@ -90,9 +87,7 @@ where
             flips_per_iteration: 256,
             sort: true,
             removes: true,
-            sparse: cfg!(target_arch = "wasm32"),
-            #[cfg(not(target_arch = "wasm32"))]
-            reads_beside: None,
+            sparse: platform::MESHES_STAY_ON_DEVICE,
             part_bytes: None,
             winding: Winding::CounterClockwise,
             limits: Limits::on_device(D),
@@ -129,7 +124,6 @@ impl<const D: usize> Settings<D> {
     /// Returns the parts that large arrays are in for so many points; `None` if each is in one buffer.
     ///
     /// One buffer has to have room for an eighth more slots, because a run may ask for more.
-    #[cfg(not(target_arch = "wasm32"))]
     pub fn parts(&self, gpu: &Gpu, points: usize) -> Option<Parts>
     where
         Dimension<D>: Dim<D>,

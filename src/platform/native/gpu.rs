@@ -28,9 +28,6 @@ const PART: usize = 1 << 12;
 /// 0.1 ms.
 const SPIN: Duration = Duration::from_micros(300);
 
-/// How long the host waits at a time for a software device before it looks after something else.
-const NAP: Duration = Duration::from_millis(1);
-
 /// Waits until the device has carried out `submission`.
 ///
 /// # Errors
@@ -46,16 +43,6 @@ pub(crate) fn wait(gpu: &Gpu, submission: &wgpu::SubmissionIndex) -> Result<(), 
         }
         std::hint::spin_loop();
     }
-}
-
-/// Returns whether the device has carried out `submission`. Does not wait, except for a software device, which needs the
-/// processors itself.
-///
-/// # Errors
-///
-/// Returns [`Error::DeviceLost`] and [`Error::Gpu`].
-pub(crate) fn has_arrived(gpu: &Gpu, submission: &wgpu::SubmissionIndex) -> Result<bool, Error> {
-    is_done(gpu, submission, Some(if gpu.adapter().software { NAP } else { Duration::ZERO }))
 }
 
 /// Returns whether the device has carried out `submission`, for which it has until the timeout, if there is one.

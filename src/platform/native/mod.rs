@@ -11,3 +11,7 @@ pub(crate) use pool as threads;
 pub(crate) mod pool;
 
 pub(crate) use std::time::Instant;
+
+/// Whether 3D meshes are made on the device even where the host wants to have them. Memory of the host is plentiful.
+#[cfg(feature = "gpu")]
+pub(crate) const MESHES_STAY_ON_DEVICE: bool = false;

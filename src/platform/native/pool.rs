@@ -167,12 +167,6 @@ pub(crate) fn dispose<T: Send + 'static>(garbage: T) {
     rayon::spawn(move || drop(garbage));
 }
 
-/// Returns whether the calling thread is outside the pool, so that it may wait for the pool's work.
-#[cfg(feature = "gpu")]
-pub(crate) fn is_outside() -> bool {
-    rayon::current_thread_index().is_none()
-}
-
 /// A value that a thread of the pool makes while the calling thread does something else.
 #[cfg(feature = "gpu")]
 #[derive(Debug)]

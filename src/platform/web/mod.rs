@@ -11,3 +11,8 @@ mod no_clock;
 pub(crate) use no_clock::Instant;
 #[cfg(feature = "gpu")]
 pub(crate) use web_time::Instant;
+
+/// Whether 3D meshes are made on the device even where the host wants to have them. So they need not fit the memory of
+/// WebAssembly, and reach JavaScript with one copy.
+#[cfg(feature = "gpu")]
+pub(crate) const MESHES_STAY_ON_DEVICE: bool = true;
