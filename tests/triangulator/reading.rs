@@ -81,10 +81,6 @@ fn ninety_thousand_points() {
     let points = generate3d(Distribution3::Uniform, 90_000, 1);
     let mut engine = open();
     let mesh = run(&mut engine, &points, gathering());
-    let (gpu, splay) = (mesh.stats.gpu.clone().expect("the GPU worked"), mesh.stats.splay.expect("and splaying"));
-    // One for the points, at least one per round, and one for each time that stars are gathered.
-    let others = 1 + gpu.rounds.len() as u64 + splay.gathers as u64;
-    assert!(splay.gathers > 1 && gpu.submits >= others + 2 * 2, "{gpu:?}, {splay:?}");
     same(&points, &mesh);
 
     // A run that is cancelled while pieces are on their way.
