@@ -27,7 +27,7 @@ done
 wasm=(--target wasm32-unknown-unknown)
 step cargo check --locked --lib --no-default-features "${wasm[@]}"
 step cargo clippy --locked --lib --package gdel --features gdel/gpu \
-  --package gdel-web --features gdel-web/d2,gdel-web/d3,gdel-web/update,gdel-web/tools,gdel-web/derived "${wasm[@]}" -- -D warnings
+  --package gdel-web --features gdel-web/d2,gdel-web/d3,gdel-web/edit,gdel-web/tools,gdel-web/derived "${wasm[@]}" -- -D warnings
 # The fuzz targets; what they are linked to needs a compiler of C++ and is not needed for a check.
 CUSTOM_LIBFUZZER_PATH=target/libfuzzer.a step cargo check --locked --manifest-path fuzz/Cargo.toml --target-dir "${CARGO_TARGET_DIR:-target}"
 RUSTDOCFLAGS="-D warnings" step cargo doc --locked --no-deps --all-features

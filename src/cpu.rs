@@ -6,8 +6,7 @@
 //! the dimensions supply.
 
 pub mod edit;
-pub mod sparse;
-pub mod update;
+
 mod workers;
 
 pub(crate) use workers::{Run, insert_by_workers};

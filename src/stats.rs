@@ -95,10 +95,9 @@ impl Default for Stats {
 /// [`Finish`](Phase::Finish). On the GPU they are [`Lattice`](Phase::Lattice),
 /// [`Phase1`](Phase::Phase1), then [`Splay`](Phase::Splay) and [`Readback`](Phase::Readback) in 3D, the
 /// latter first where a mesh is read before it is splayed, or [`Readback`](Phase::Readback),
-/// [`Check`](Phase::Check) and [`Flip`](Phase::Flip) in 2D, and [`Finish`](Phase::Finish). An update by
-/// the CPU has [`Check`](Phase::Check), [`Flip`](Phase::Flip), [`Splay`](Phase::Splay) in 3D, and
-/// [`Finish`](Phase::Finish); one by the GPU has the phases of a run there. Where points come and go,
-/// they are those of the CPU, with [`Readback`](Phase::Readback) before for a mesh on the device.
+/// [`Check`](Phase::Check) and [`Flip`](Phase::Flip) in 2D, and [`Finish`](Phase::Finish); an update on
+/// the device has the same. Inserting points into a mesh and removing them has the phases of the
+/// CPU, after a [`Readback`](Phase::Readback) for a mesh on the device.
 ///
 /// # Examples
 ///
@@ -123,8 +122,7 @@ pub enum Phase {
     Readback,
     /// Repairing a triangulation by star splaying: Phase 2 of the gDel3D paper.
     Splay,
-    /// Evaluating exactly what rounding to the lattice left open, in 2D; or, in an update, every
-    /// sign at the new points.
+    /// Evaluating exactly what rounding to the lattice left open, in 2D.
     Check,
     /// Repairing a triangulation by flips.
     Flip,
@@ -386,7 +384,7 @@ with_fields! {
 }
 
 with_fields! {
-    /// What was done to make a mesh from the one before, after points have moved, come or gone.
+    /// What an update, an insertion or a removal did to make a mesh from the one before.
     ///
     /// # Examples
     ///
@@ -394,10 +392,11 @@ with_fields! {
     /// use gdel::{Backend, Triangulator};
     ///
     /// let triangulator = Triangulator::new().backend(Backend::Cpu);
-    /// let mut mesh = triangulator.delaunay2d(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [0.0, 1.0f64]])?;
-    /// triangulator.update(&mut mesh, &[[0.0, 0.0], [2.0, 0.0], [2.0, 0.5], [0.0, 1.0f64]])?;
-    /// let update = mesh.stats.update.expect("the mesh was updated");
-    /// assert_eq!((update.inverted, update.flips, update.restarted), (0, 1, None));
+    /// let points = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [0.0, 1.0], [1.0, 0.5f64]];
+    /// let mut mesh = triangulator.delaunay2d(&points)?;
+    /// triangulator.remove(&mut mesh, &points, &[4])?;
+    /// let update = mesh.stats.update.expect("the mesh was changed");
+    /// assert_eq!((update.removed, update.inserted, update.restarted), (1, 0, None));
     /// # Ok::<(), gdel::Error>(())
     /// ```
     #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -405,7 +404,7 @@ with_fields! {
     #[non_exhaustive]
     pub struct UpdateStats {
         /// The number of tetrahedra, or triangles in 2D, that were flat or inverted at the new
-        /// points.
+        /// points. Like the next three, it is counted by updates of meshes on a device.
         pub inverted: usize,
         /// The number of facets, or edges in 2D, that were not locally Delaunay there.
         pub not_locally_delaunay: usize,
@@ -413,14 +412,11 @@ with_fields! {
         pub flips: u64,
         /// The number of stars that were made convex; 3D only.
         pub stars: usize,
-        /// The number of vertices that were removed and inserted again where they are now; 2D only.
-        pub reinserted: usize,
         /// The number of vertices that were removed because their points were.
         pub removed: usize,
-        /// The number of points that were inserted: new ones, and those that are no duplicates any
-        /// more.
+        /// The number of points that were inserted: new ones, and former duplicates.
         pub inserted: usize,
-        /// Whether a mesh on the device was read for that, changed by the host, and uploaded.
+        /// Whether a mesh on the device was read, changed on the host, and uploaded.
         pub on_host: bool,
         /// Why the points were triangulated from scratch, if they were. On a device, after two such
         /// updates in a row, only every fourth looks at the mesh; the others have the reason of the one
@@ -429,7 +425,14 @@ with_fields! {
     }
 }
 
-/// Why an update triangulated the points from scratch.
+impl UpdateStats {
+    /// Returns the statistics of a run from scratch.
+    pub(crate) fn from_scratch(why: Restart) -> Self {
+        UpdateStats { restarted: Some(why), ..UpdateStats::default() }
+    }
+}
+
+/// Why the points of a mesh were triangulated from scratch, and the mesh not changed.
 ///
 /// # Examples
 ///
@@ -439,10 +442,8 @@ with_fields! {
 /// let triangulator = Triangulator::new().backend(Backend::Cpu);
 /// let mut mesh = triangulator.delaunay2d(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]])?;
 /// triangulator.update(&mut mesh, &[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0f64]])?;
-/// assert_eq!((mesh.dimension, mesh.triangles.len()), (1, 0));
-/// // From one dimension, there is nothing to begin with.
-/// triangulator.update(&mut mesh, &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]])?;
-/// assert_eq!(mesh.stats.update.and_then(|update| update.restarted), Some(Restart::Degenerate));
+/// // Only meshes on a device are repaired.
+/// assert_eq!(mesh.stats.update.and_then(|update| update.restarted), Some(Restart::NotResident));
 /// # Ok::<(), gdel::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, thiserror::Error)]
@@ -457,22 +458,19 @@ pub enum Restart {
     /// More has changed for other reasons than it pays to repair.
     #[error("too much has changed")]
     Changed,
-    /// So many threads triangulate the points before they have checked the mesh.
-    #[error("so many threads are faster from scratch")]
-    Threads,
     /// The repair did not lead to the Delaunay triangulation.
     #[error("flips and star splaying do not lead to the Delaunay triangulation")]
     Stuck,
     /// Points that were apart have the same coordinates now.
     #[error("points that were apart have the same coordinates")]
     Coincident,
-    /// More points are no duplicates any more than it pays to insert.
+    /// Too many duplicates have parted from their points: inserting them takes longer.
     #[error("too many duplicates have parted")]
     Parted,
-    /// The mesh is not where the points are triangulated: on another device, or on one when the CPU
-    /// has to do it.
-    #[error("the mesh is not where the points are triangulated")]
-    Elsewhere,
+    /// Only a mesh on the device that triangulates its points can be repaired: this one is in the
+    /// host's memory or on another device, or the CPU triangulates the points.
+    #[error("the mesh is not on the device that triangulates its points")]
+    NotResident,
     /// The arrays of the mesh are not those of a triangulation of as many points.
     #[error("the mesh is not a triangulation")]
     Broken,
@@ -488,11 +486,10 @@ impl Restart {
             Restart::Degenerate => "degenerate",
             Restart::Inverted => "inverted",
             Restart::Changed => "changed",
-            Restart::Threads => "threads",
             Restart::Stuck => "stuck",
             Restart::Coincident => "coincident",
             Restart::Parted => "parted",
-            Restart::Elsewhere => "elsewhere",
+            Restart::NotResident => "not-resident",
             Restart::Broken => "broken",
             Restart::Points => "points",
         }

@@ -30,7 +30,7 @@ const pkg = (name) => join(web, 'pkg', name);
 const MODULES = {
   d3: 'gdel-3d.wasm',
   d2: 'gdel-2d.wasm',
-  update: 'gdel-update.wasm',
+  edit: 'gdel-edit.wasm',
   tools: 'gdel-tools.wasm',
   derived: 'gdel-derived.wasm',
 };
@@ -87,7 +87,7 @@ const glue = gluePlugin(glueFiles);
 const COPIES = {
   d3: 'inline-3d',
   d2: 'inline-2d',
-  update: 'inline-update',
+  edit: 'inline-edit',
   tools: 'inline-tools',
   derived: 'inline-derived',
   worker: 'inline-worker',

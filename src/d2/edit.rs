@@ -1,10 +1,7 @@
 //! Triangles whose vertices come and go.
 
 use crate::{
-    cpu::{
-        edit::Edit,
-        sparse::{Patch, Row},
-    },
+    cpu::edit::{Edit, Patch, Row},
     d2::{
         Mesh2, Triangulation2,
         insert::{self, edge_of},
@@ -24,6 +21,7 @@ impl Edit<2, 3> for Dimension<2> {
 
     const MAX_SIMPLICES: usize = MAX_TRIANGLES;
     const REMOVAL: f64 = 1.4;
+    const MAX_SHARE: f64 = 0.02;
 
     fn count(mesh: &Mesh2) -> usize {
         mesh.triangles.len()

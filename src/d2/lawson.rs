@@ -109,7 +109,7 @@ pub fn lawson(
 /// # Errors
 ///
 /// Returns the errors of `report`.
-pub(crate) fn flip_edges(
+fn flip_edges(
     mesh: &mut Triangulation2,
     vertices: &PredicateContext2<'_>,
     mut pending: Vec<u32>,
@@ -141,7 +141,7 @@ pub(crate) fn flip_edges(
 
 impl Triangulation2 {
     /// Returns the orientation of triangle `t`.
-    pub(crate) fn orientation(&self, vertices: &PredicateContext2<'_>, t: u32) -> Sign {
+    fn orientation(&self, vertices: &PredicateContext2<'_>, t: u32) -> Sign {
         let [a, b, c] = self.triangles[t as usize];
         vertices.orient2d(a, b, c)
     }
@@ -157,7 +157,7 @@ impl Triangulation2 {
 
     /// Returns whether the triangle on one side of the edge is not in conflict with the vertex on
     /// the other; both sides give the same answer.
-    pub(crate) fn is_delaunay(&self, vertices: &PredicateContext2<'_>, edge: u32) -> bool {
+    fn is_delaunay(&self, vertices: &PredicateContext2<'_>, edge: u32) -> bool {
         let across = self.neighbors[edge as usize / 4][edge as usize % 4];
         let [p, .., q] = self.around(edge);
         // A conflict between a ghost and infinity has no meaning, so the other side is tested then.
@@ -202,7 +202,7 @@ impl Triangulation2 {
     }
 
     /// Returns whether the hull is one polygon that [`turns_once`].
-    pub(crate) fn hull_turns_once(&self, vertices: &PredicateContext2<'_>) -> bool {
+    fn hull_turns_once(&self, vertices: &PredicateContext2<'_>) -> bool {
         let ghosts = (0..self.triangles.len() as u32).filter(|&t| self.is_ghost(t)).count();
         let hull = self.hull_vertices();
         hull.len() == ghosts && turns_once(vertices, &hull, Winding::Clockwise)

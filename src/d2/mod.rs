@@ -9,7 +9,6 @@ mod insert;
 pub mod lawson;
 mod mesh;
 mod triangulation;
-mod update;
 pub mod verify;
 
 pub use mesh::Mesh2;

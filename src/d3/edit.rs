@@ -1,10 +1,7 @@
 //! Tetrahedra whose vertices come and go.
 
 use crate::{
-    cpu::{
-        edit::Edit,
-        sparse::{Patch, Row},
-    },
+    cpu::edit::{Edit, Patch, Row},
     d3::{
         Mesh3, insert,
         mesh::FACETS,
@@ -24,6 +21,7 @@ impl Edit<3, 4> for Dimension<3> {
 
     const MAX_SIMPLICES: usize = MAX_TETRAHEDRA;
     const REMOVAL: f64 = 1.2;
+    const MAX_SHARE: f64 = 0.028;
 
     fn count(mesh: &Mesh3) -> usize {
         mesh.tetrahedra.len()

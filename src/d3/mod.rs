@@ -6,12 +6,12 @@ mod edit;
 pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+#[cfg(feature = "gpu")]
+mod hull;
 pub(crate) mod insert;
-mod lawson;
 pub mod mesh;
 pub mod splay;
 pub mod triangulation;
-mod update;
 pub mod verify;
 
 pub use mesh::Mesh3;

@@ -7,7 +7,7 @@ use std::fmt::Debug;
 
 use crate::{
     backend::Backend,
-    cpu::{self, Incremental, MeshOf, update::PARTED},
+    cpu::{self, Incremental, MeshOf},
     dimension::Dimension,
     error::Error,
     gpu::{
@@ -16,6 +16,7 @@ use crate::{
         dim::{Corners, Dim},
         phase1::{Finish, Input, Phase1, Phase1Stats, Run, Settings},
         start::{Start, first_simplex},
+        update::PARTED,
     },
     index::NONE,
     input::{
@@ -533,7 +534,7 @@ where
     let restarted = if usize::from(mesh.dimension()) != D {
         Err(Restart::Degenerate)
     } else if !mesh.gpu().is_same(run.gpu()) {
-        Err(Restart::Elsewhere)
+        Err(Restart::NotResident)
     } else {
         match run.take(mesh, input.starts_later).await? {
             None => Err(Restart::Broken),

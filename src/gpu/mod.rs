@@ -37,6 +37,7 @@ mod recorder;
 pub mod shader;
 pub mod start;
 pub(crate) mod steps;
+pub mod update;
 pub(crate) mod vertex_simplices;
 
 pub use buffers::Storage;

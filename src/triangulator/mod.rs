@@ -357,11 +357,8 @@ impl Triangulator {
     ///
     /// The mesh is that of a run from scratch, except for the order of its simplices: also where
     /// points have become equal or coplanar, have left the hull, or are no duplicates any more.
-    /// Where that is faster, the mesh is repaired; else the points are triangulated from scratch by
-    /// the backend. A mesh in host memory is repaired by the CPU: with one thread, if points have
-    /// moved by up to about 1 % of their distances (3 % in 2D), and never with more than three
-    /// [threads](Triangulator::threads). One on the device is repaired there.
-    /// [`Stats::update`](crate::stats::Stats::update) says what was done.
+    /// A mesh on the device is repaired there where that is faster. Otherwise the points are
+    /// triangulated from scratch, and [`Stats::update`](crate::stats::Stats::update) says why.
     ///
     /// # Examples
     ///

@@ -5,20 +5,17 @@ use crate::gpu::device_mesh::{DeviceMesh2, DeviceMesh3};
 #[cfg(feature = "gpu")]
 use crate::{
     cpu::Incremental,
-    dimension::Dimension,
     stats::{Phase, Stopwatch},
 };
 use crate::{
-    cpu::{
-        edit::{Used, edit},
-        update::{Limits, update},
-    },
+    cpu::edit::{Edit, Used, edit},
     d2::Mesh2,
     d3::Mesh3,
+    dimension::Dimension,
     error::Error,
     input::points::{Points, Points2, Points3},
     mesh::{MeshInfo, sealed::Sealed},
-    stats::UpdateStats,
+    stats::{Restart, UpdateStats},
     triangulator::Triangulator,
 };
 #[cfg(feature = "gpu")]
@@ -86,12 +83,12 @@ fn restored<const D: usize, M: MeshInfo + Send>(
     triangulator: &Triangulator,
     mut made: M,
     used: Option<Used<D>>,
-    update: UpdateStats,
+    why: Restart,
 ) -> Result<M, Error> {
     if let Some(used) = used {
         used.restore(&mut made, triangulator.options.threads)?;
     }
-    made.stats_mut().update = Some(update);
+    made.stats_mut().update = Some(UpdateStats::from_scratch(why));
     Ok(made)
 }
 
@@ -106,15 +103,10 @@ macro_rules! on_host {
             }
 
             fn follow(&mut self, triangulator: &Triangulator, points: Self::Points<'_>) -> Result<(), Error> {
-                let (repaired, stats) = update::<$D>(self, points, &triangulator.options, Limits::measured($D))?;
-                *self = match repaired {
-                    Some(repaired) => repaired,
-                    None => {
-                        let used = Used::of(points, &self.duplicate_of);
-                        let made = triangulator.$scratch(used.as_ref().map_or(points, Used::points))?;
-                        restored(triangulator, made, used, stats)?
-                    }
-                };
+                let points = self.as_many(points)?;
+                let used = Used::of(points, &self.duplicate_of);
+                let made = triangulator.$scratch(used.as_ref().map_or(points, Used::points))?;
+                *self = restored(triangulator, made, used, Restart::NotResident)?;
                 Ok(())
             }
 
@@ -123,15 +115,10 @@ macro_rules! on_host {
                 triangulator: &Triangulator,
                 points: Self::Points<'_>,
             ) -> Result<(), Error> {
-                let (repaired, stats) = update::<$D>(self, points, &triangulator.options, Limits::measured($D))?;
-                *self = match repaired {
-                    Some(repaired) => repaired,
-                    None => {
-                        let used = Used::of(points, &self.duplicate_of);
-                        let made = triangulator.$scratch_async(used.as_ref().map_or(points, Used::points)).await?;
-                        restored(triangulator, made, used, stats)?
-                    }
-                };
+                let points = self.as_many(points)?;
+                let used = Used::of(points, &self.duplicate_of);
+                let made = triangulator.$scratch_async(used.as_ref().map_or(points, Used::points)).await?;
+                *self = restored(triangulator, made, used, Restart::NotResident)?;
                 Ok(())
             }
 
@@ -141,11 +128,16 @@ macro_rules! on_host {
                 points: Self::Points<'_>,
                 removed: &[u32],
             ) -> Result<(), Error> {
-                let limits = Limits::measured($D);
-                if let Some(again) = edit::<$D, $N>(self, points, removed, &triangulator.options, limits)? {
+                if let Some(again) = edit::<$D, $N>(
+                    self,
+                    points,
+                    removed,
+                    &triangulator.options,
+                    <Dimension<$D> as Edit<$D, $N>>::MAX_SHARE,
+                )? {
                     let used = again.used(points);
                     let made = triangulator.$scratch(used.as_ref().map_or(points, Used::points))?;
-                    *self = restored(triangulator, made, used, again.update)?;
+                    *self = restored(triangulator, made, used, again.why)?;
                 }
                 Ok(())
             }
@@ -156,11 +148,16 @@ macro_rules! on_host {
                 points: Self::Points<'_>,
                 removed: &[u32],
             ) -> Result<(), Error> {
-                let limits = Limits::measured($D);
-                if let Some(again) = edit::<$D, $N>(self, points, removed, &triangulator.options, limits)? {
+                if let Some(again) = edit::<$D, $N>(
+                    self,
+                    points,
+                    removed,
+                    &triangulator.options,
+                    <Dimension<$D> as Edit<$D, $N>>::MAX_SHARE,
+                )? {
                     let used = again.used(points);
                     let made = triangulator.$scratch_async(used.as_ref().map_or(points, Used::points)).await?;
-                    *self = restored(triangulator, made, used, again.update)?;
+                    *self = restored(triangulator, made, used, again.why)?;
                 }
                 Ok(())
             }
@@ -236,18 +233,23 @@ macro_rules! on_device {
                 let mut stopwatch = Stopwatch::start();
                 let mut mesh = self.read_all().await?;
                 let read = stopwatch.lap();
-                let limits = Limits::measured($D);
-                *self = match edit::<$D, $N>(&mut mesh, points, removed, &triangulator.options, limits)? {
+                *self = match edit::<$D, $N>(
+                    &mut mesh,
+                    points,
+                    removed,
+                    &triangulator.options,
+                    <Dimension<$D> as Edit<$D, $N>>::MAX_SHARE,
+                )? {
                     None => self.changed_by_host(mesh, read).await?,
                     Some(again) => match again.used(points) {
                         None => {
                             let mut made = triangulator.$on_device_async(points).await?;
-                            made.stats_mut().update = Some(again.update);
+                            made.stats_mut().update = Some(UpdateStats::from_scratch(again.why));
                             made
                         }
                         Some(used) => {
                             let made = triangulator.$scratch_async(used.points()).await?;
-                            let made = restored(triangulator, made, Some(used), again.update)?;
+                            let made = restored(triangulator, made, Some(used), again.why)?;
                             self.changed_by_host(made, read).await?
                         }
                     },

@@ -217,7 +217,7 @@ where
             (mesh, _) => mesh,
         };
         if self.moved().is_some() {
-            mesh.stats_mut().update.get_or_insert_with(elsewhere);
+            mesh.stats_mut().update.get_or_insert_with(|| UpdateStats::from_scratch(Restart::NotResident));
         }
         (self.take)(mesh).await
     }
@@ -231,10 +231,7 @@ fn check_count<const D: usize>(points: Points<'_, D>, moved: Option<&DeviceMesh<
     }
 }
 
-/// Returns the statistics of an update by the CPU of a mesh on the device: it is from scratch.
-fn elsewhere() -> UpdateStats {
-    UpdateStats { restarted: Some(Restart::Elsewhere), ..UpdateStats::default() }
-}
+
 
 impl SharedDevice {
     /// Creates the state for a device of this adapter.
@@ -351,7 +348,7 @@ impl SharedDevice {
     {
         check_count(points, Some(mesh))?;
         let mut made = self.run(points, options, &mut ToDevice { device: self, moved: Some(mesh) }).await?;
-        made.stats_mut().update.get_or_insert_with(elsewhere);
+        made.stats_mut().update.get_or_insert_with(|| UpdateStats::from_scratch(Restart::NotResident));
         // Its lists of points are large, and freeing them takes longer than some updates.
         parallel::dispose(std::mem::replace(mesh, made));
         Ok(())

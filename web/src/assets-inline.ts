@@ -4,7 +4,7 @@ import type { WasmAsset, WorkerAsset } from './runtime.js';
 
 export const wasm3d: WasmAsset = { name: 'd3', copy: () => import('base64:d3') };
 export const wasm2d: WasmAsset = { name: 'd2', copy: () => import('base64:d2') };
-export const wasmUpdate: WasmAsset = { name: 'update', copy: () => import('base64:update') };
+export const wasmEdit: WasmAsset = { name: 'edit', copy: () => import('base64:edit') };
 export const wasmTools: WasmAsset = { name: 'tools', copy: () => import('base64:tools') };
 export const wasmDerived: WasmAsset = {
   name: 'derived',

@@ -16,10 +16,10 @@ export const wasm2d: WasmAsset = {
   copy: () => import('base64:d2'),
 };
 
-export const wasmUpdate: WasmAsset = {
-  name: 'update',
-  file: () => new URL('./gdel-update.wasm', import.meta.url),
-  copy: () => import('base64:update'),
+export const wasmEdit: WasmAsset = {
+  name: 'edit',
+  file: () => new URL('./gdel-edit.wasm', import.meta.url),
+  copy: () => import('base64:edit'),
 };
 
 export const wasmTools: WasmAsset = {

@@ -73,8 +73,8 @@ export abstract class Mesh {
 
   /**
    * Moves the points of the mesh: it becomes the mesh of as many other points, the same as a run from
-   * scratch makes of them, except for the order of its simplices. Where little has changed, that is
-   * faster; {@link UpdateStats}, in `stats.update`, say what was done.
+   * scratch makes of them, except for the order of its simplices. A mesh of the GPU that has changed
+   * little is repaired, which is faster; {@link UpdateStats}, in `stats.update`, say what was done.
    *
    * What triangulated the points does it: its backend, and its worker. The arrays of the mesh are
    * replaced by new ones when the promise is fulfilled. Until then, and if it is rejected, the mesh is

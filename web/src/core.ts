@@ -33,7 +33,7 @@ interface ModuleTasks {
 const TASKS: Record<ModuleName, (module: WebAssembly.Module, gpu?: object) => ModuleTasks> = {
   d3: tasks3d,
   d2: tasks2d,
-  update: updateTasks,
+  edit: editTasks,
   tools: toolsTasks,
   derived: derivedTasks,
 };
@@ -380,18 +380,18 @@ function tasks2d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
   return { handlers, memory, ...rest };
 }
 
-/** Meshes in the memory of the CPU whose points move, come and go. */
-function updateTasks(module: WebAssembly.Module): ModuleTasks {
-  const { glue, memory } = instantiate('update', module);
+/** Meshes in the memory of the CPU that gain and lose points. */
+function editTasks(module: WebAssembly.Module): ModuleTasks {
+  const { glue, memory } = instantiate('edit', module);
   const handlers: Handlers = {
-    async change({ dimension, points, before, moved, removed, outputs }, control) {
+    async change({ dimension, points, before, mesh: given, removed, outputs }, control) {
       const started = performance.now();
       control.onBlocking();
       const mesh = glue.change(
         dimension,
         points,
         before,
-        moved,
+        given,
         removed,
         outputsOf(glue, outputs),
         reporting(control),

@@ -4,7 +4,6 @@ import type { AlphaShape, Geometry, Topology, VoronoiArrays } from './answers.js
 import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
 import type { Buffer, DeviceInfo } from './device.js';
 import type { PlainError } from './errors.js';
-import type { UpdateStats } from './stats.js';
 import type {
   Backend,
   MeshView,
@@ -21,7 +20,7 @@ import type {
 } from './types.js';
 
 /** The wasm modules. */
-export type ModuleName = 'd3' | 'd2' | 'update' | 'tools' | 'derived';
+export type ModuleName = 'd3' | 'd2' | 'edit' | 'tools' | 'derived';
 
 export type CoreInfo = Omit<TriangulatorInfo, keyof Place>;
 
@@ -70,11 +69,6 @@ export interface Edit {
 /** What the points that are left were numbered before, if some were dropped. */
 interface Kept {
   kept?: Indices;
-}
-
-/** What the result of an update has instead of arrays if the points are to be triangulated anew. */
-interface Restarted {
-  update?: UpdateStats;
 }
 
 /** The arguments and the result of each task. */
@@ -138,10 +132,10 @@ export interface Tasks {
     args: {
       dimension: 2 | 3;
       points: Coordinates;
-      moved: MovedMesh;
+      mesh: MovedMesh;
       outputs: readonly Output[];
     } & Partial<Edit>;
-    result: Tasks['delaunay3d' | 'delaunay2d']['result'] & Restarted & Kept;
+    result: Tasks['delaunay3d' | 'delaunay2d']['result'] & Kept;
   };
   generate: { args: { kind: string; count: number; seed: bigint }; result: Doubles };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };

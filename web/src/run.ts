@@ -1,6 +1,6 @@
 // Runs on points: triangulations from scratch, and updates of meshes whose points have moved.
 
-import { wasm2d, wasm3d, wasmUpdate } from '#assets';
+import { wasm2d, wasm3d, wasmEdit } from '#assets';
 import type { Device } from './device.js';
 import { GdelError } from './errors.js';
 import { bytesOf, type Held, isBuffer } from './held.js';
@@ -91,23 +91,22 @@ export type Update<T extends Task> = (
   edit?: Edit,
 ) => Promise<Done<T>>;
 
-/** The statistics of an update that could not go on from the mesh, which the GPU does not have. */
-const ELSEWHERE: UpdateStats = {
+/** The statistics of an update from scratch, since the mesh is not on the GPU. */
+const NOT_RESIDENT: UpdateStats = {
   inverted: 0,
   notLocallyDelaunay: 0,
   flips: 0,
   stars: 0,
-  reinserted: 0,
   removed: 0,
   inserted: 0,
   onHost: false,
-  restarted: 'elsewhere',
+  restarted: 'not-resident',
 };
 
 /**
- * Returns what updates a mesh that a run with these options has made. What is on the device is
- * updated there. Otherwise the CPU repairs what it has made. What the GPU has made, it makes anew the
- * first time, and keeps it for the next one.
+ * Returns what changes a mesh that a run with these options has made. A resident mesh is updated on
+ * the device. The arrays of the CPU are made anew by an update, and edited by insertions and removals.
+ * Arrays of the GPU are made anew by the first update; the device keeps their mesh for the next one.
  */
 export function updating<T extends Task>(
   maker: Maker,
@@ -122,25 +121,22 @@ export function updating<T extends Task>(
     if (resident) {
       const job = await prepare(maker, kind, points, all);
       const done = await start(maker, kind, job, { outputs, moved: (moved as Held).resident.key });
-      done.result.stats.update ??= ELSEWHERE;
+      done.result.stats.update ??= NOT_RESIDENT;
       return done;
     }
     checkArrays({ ...moved, points: edit?.before });
     const job = await prepare(maker, kind, points, all);
-    let [update, milliseconds] = [ELSEWHERE, 0];
-    if (edit || stats.backend === 'cpu') {
-      const { sending, options } = job;
+    const { duplicateOf } = moved as MovedMesh;
+    const { dimension } = kind;
+    const count = job.args.points.length / dimension;
+    if (!edit && Number.isInteger(count) && count !== duplicateOf.length)
+      throw new GdelError('BAD_INPUT', `the mesh has ${duplicateOf.length} points, not ${count}`);
+    // Only the module for edits knows about points that were removed.
+    if (edit || duplicateOf.some((first, i) => first === i)) {
       const { points } = job.args;
-      const { dimension } = kind;
-      const args = { ...edit, dimension, points, moved: moved as MovedMesh, outputs };
-      const done = await maker.host.run(wasmUpdate, 'change', args, sending, options);
-      const { result } = done;
-      if (!result.update) return done as unknown as Done<T>;
-      update = result.update;
-      milliseconds = result.stats.milliseconds;
-      // They have been there and back.
-      job.args.points = result.points;
-      sending.transfer = [result.points.buffer];
+      const args = { ...edit, dimension, points, mesh: moved as MovedMesh, outputs };
+      const done = await maker.host.run(wasmEdit, 'change', args, job.sending, job.options);
+      return done as unknown as Done<T>;
     }
     const done = await start(
       maker,
@@ -148,9 +144,7 @@ export function updating<T extends Task>(
       job,
       stats.backend === 'gpu' ? { outputs, key } : { outputs },
     );
-    const { stats: last } = done.result;
-    last.update ??= update;
-    last.milliseconds += milliseconds;
+    done.result.stats.update ??= NOT_RESIDENT;
     key = done.result.key ?? 0;
     return done;
   };

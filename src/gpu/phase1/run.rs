@@ -340,7 +340,7 @@ where
     /// `None` if the arrays of the mesh do not fit each other.
     ///
     /// The flips that follow repair what they can. If `flips_at_once`, the first of them are submitted
-    /// with it; the device leaves them out beyond [`Limits`](crate::cpu::update::Limits).
+    /// with it; the device leaves them out beyond [`Limits`](crate::gpu::update::Limits).
     /// [`Run::forget`] has the points inserted instead.
     ///
     /// # Errors

@@ -1,13 +1,13 @@
 //! Settings for Phase 1.
 
 use crate::{
-    cpu::update::Limits,
     dimension::Dimension,
     gpu::{
         Gpu, Parts,
         dim::Dim,
         layout::{Counters, Pick},
         phase1::buffers::largest_bytes,
+        update::Limits,
     },
     options::Winding,
     platform,
@@ -90,7 +90,7 @@ where
             sparse: platform::MESHES_STAY_ON_DEVICE,
             part_bytes: None,
             winding: Winding::CounterClockwise,
-            limits: Limits::on_device(D),
+            limits: Limits::measured(D),
         }
     }
 }

@@ -1,10 +1,10 @@
 //! The WebAssembly bindings of the npm package: typed arrays in, typed arrays out, errors as
 //! `Error` objects with a `code`. The TypeScript in `web/src` is their only caller.
 //!
-//! The features `d3`, `d2`, `update`, `tools` and `derived` are the modules of the package.
+//! The features `d3`, `d2`, `edit`, `tools` and `derived` are the modules of the package.
 #![cfg(target_arch = "wasm32")]
 
-#[cfg(any(feature = "d2", feature = "d3", feature = "update"))]
+#[cfg(any(feature = "d2", feature = "d3", feature = "edit"))]
 mod arrays;
 #[cfg(feature = "d2")]
 mod d2;
@@ -12,20 +12,20 @@ mod d2;
 mod d3;
 #[cfg(feature = "derived")]
 mod derived;
-#[cfg(any(feature = "tools", feature = "derived", feature = "update"))]
+#[cfg(feature = "edit")]
+mod edit;
+#[cfg(any(feature = "tools", feature = "derived", feature = "edit"))]
 mod mesh;
 mod objects;
 mod points;
 #[cfg(any(feature = "d2", feature = "d3"))]
 mod resident;
-#[cfg(any(feature = "d2", feature = "d3", feature = "update"))]
+#[cfg(any(feature = "d2", feature = "d3", feature = "edit"))]
 mod run;
 #[cfg(feature = "tools")]
 mod tools;
 #[cfg(any(feature = "d2", feature = "d3"))]
 mod triangulator;
-#[cfg(feature = "update")]
-mod update;
 
 use wasm_bindgen::prelude::wasm_bindgen;
 

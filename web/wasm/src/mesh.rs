@@ -2,7 +2,7 @@
 
 #[cfg(feature = "tools")]
 use gdel::Points;
-#[cfg(any(feature = "update", feature = "tools"))]
+#[cfg(any(feature = "edit", feature = "tools"))]
 use gdel::{Mesh2, Mesh3};
 use js_sys::{Int32Array, Reflect, Uint32Array};
 use wasm_bindgen::{JsCast, JsValue};
@@ -17,8 +17,8 @@ use crate::{
 /// A mesh copied into this module's memory: `N` vertices per simplex, `H` per hull facet in `hull`.
 /// `None` stands for what the caller did not state.
 #[cfg_attr(
-    not(any(feature = "update", feature = "tools")),
-    expect(dead_code, reason = "the hull and the dimension are for files, proofs and updates")
+    not(any(feature = "edit", feature = "tools")),
+    expect(dead_code, reason = "the hull and the dimension are for files, proofs and edits")
 )]
 pub(crate) struct CallerMesh<const N: usize, const H: usize> {
     pub(crate) simplices: Vec<[u32; N]>,
@@ -66,7 +66,7 @@ impl<const N: usize, const H: usize> CallerMesh<N, H> {
     }
 }
 
-#[cfg(any(feature = "update", feature = "tools"))]
+#[cfg(any(feature = "edit", feature = "tools"))]
 impl From<CallerMesh<4, 3>> for Mesh3 {
     fn from(caller: CallerMesh<4, 3>) -> Mesh3 {
         let mut mesh = Mesh3::default();
@@ -79,7 +79,7 @@ impl From<CallerMesh<4, 3>> for Mesh3 {
     }
 }
 
-#[cfg(any(feature = "update", feature = "tools"))]
+#[cfg(any(feature = "edit", feature = "tools"))]
 impl From<CallerMesh<3, 1>> for Mesh2 {
     fn from(caller: CallerMesh<3, 1>) -> Mesh2 {
         let mut mesh = Mesh2::default();

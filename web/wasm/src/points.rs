@@ -43,7 +43,7 @@ impl Coordinates {
     }
 
     /// Appends more, in double precision if either is.
-    #[cfg(feature = "update")]
+    #[cfg(feature = "edit")]
     pub(crate) fn append(&mut self, more: Coordinates) {
         match (&mut *self, more) {
             (Coordinates::F32(values), Coordinates::F32(more)) => values.extend(more),
@@ -57,7 +57,7 @@ impl Coordinates {
     }
 
     /// Returns the points with these indices.
-    #[cfg(feature = "update")]
+    #[cfg(feature = "edit")]
     pub(crate) fn select<const D: usize>(&self, indices: &[u32]) -> Coordinates {
         let all = indices.iter().flat_map(|&i| D * i as usize..D * (i as usize + 1));
         match self {
@@ -67,7 +67,7 @@ impl Coordinates {
     }
 
     /// Returns the coordinates as the array of JavaScript that has their precision.
-    #[cfg(feature = "update")]
+    #[cfg(feature = "edit")]
     pub(crate) fn into_js(self) -> JsValue {
         match self {
             Coordinates::F32(values) => Float32Array::new_from_slice(&values).into(),
@@ -101,7 +101,7 @@ pub(crate) fn room<T>(length: usize) -> Result<Vec<T>, Thrown> {
 }
 
 /// Returns an array of zeros, or an error if memory does not suffice.
-#[cfg(any(feature = "tools", feature = "derived", feature = "update"))]
+#[cfg(any(feature = "tools", feature = "derived", feature = "edit"))]
 pub(crate) fn zeros<T: Clone + Default>(length: u32) -> Result<Vec<T>, Thrown> {
     let mut values = room(length as usize)?;
     values.resize(length as usize, T::default());

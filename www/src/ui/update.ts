@@ -4,14 +4,13 @@ import { things } from './dom';
 /** Says in one line how a frame of the live mode was made from the one before. */
 export function updateOf(update: UpdateStats | null, dimension: 2 | 3): string {
   if (!update) return 'The first frame, from scratch';
-  const { restarted, inverted, flips, stars, reinserted, inserted } = update;
+  const { restarted, inverted, flips, stars, inserted } = update;
   const [one, many] = dimension === 3 ? ['tetrahedron', 'tetrahedra'] : ['triangle', 'triangles'];
   if (restarted) return `From scratch: ${REASONS[restarted]?.(many) ?? restarted}`;
   const done = [
     `${things(inverted, one, many)} inverted`,
     things(flips, 'flip', 'flips'),
     stars && things(stars, 'star mended', 'stars mended'),
-    reinserted && things(reinserted, 'vertex reinserted', 'vertices reinserted'),
     inserted && things(inserted, 'duplicate parted', 'duplicates parted'),
   ];
   return `Mesh kept: ${done.filter(Boolean).join(', ')}`;
@@ -24,5 +23,5 @@ const REASONS: Readonly<Record<string, (many: string) => string>> = {
   stuck: () => 'flips do not lead to the mesh',
   coincident: () => 'points have met',
   parted: () => 'too many duplicates have parted',
-  elsewhere: () => 'the GPU does not have the frame before',
+  'not-resident': () => 'the frame before is not on the GPU',
 };

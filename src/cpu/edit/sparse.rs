@@ -2,7 +2,13 @@
 //! simplices that are looked at, so that the work does not depend on the size of the mesh.
 
 use crate::{
-    cpu::{MeshOf, edit::Edit},
+    cpu::{
+        MeshOf,
+        edit::{
+            dim::Edit,
+            patch::{Patch, Row},
+        },
+    },
     dimension::Dimension,
     error::Error,
     index::NO_INDEX,
@@ -12,9 +18,6 @@ use crate::{
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::cell::RefCell;
-
-/// The vertices of a simplex, and its neighbours as [`Slots`] number them.
-pub type Row<const N: usize> = ([u32; N], [u32; N]);
 
 /// The hull of a mesh.
 pub type HullOf<const D: usize, const N: usize> = <Dimension<D> as Edit<D, N>>::Hull;
@@ -89,16 +92,6 @@ where
     count: u32,
     /// Looking at something copies it.
     state: RefCell<State<N>>,
-}
-
-/// What is to be changed of a mesh.
-pub struct Patch<const N: usize, Hull> {
-    /// The number of simplices.
-    pub(crate) count: usize,
-    /// What the simplices of these numbers become. Outside the hull the neighbour is [`NO_INDEX`].
-    pub(crate) rows: Vec<(u32, Row<N>)>,
-    /// The hull, if that changes.
-    pub(crate) hull: Option<Hull>,
 }
 
 impl<'m, 'p, const D: usize, const N: usize> Sparse<'m, 'p, D, N>

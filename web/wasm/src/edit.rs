@@ -1,4 +1,4 @@
-//! Meshes in the memory of the CPU whose points move, come and go.
+//! Meshes in the memory of the CPU that gain and lose points.
 
 use gdel::{
     Error, Mesh2, Mesh3,
@@ -6,14 +6,12 @@ use gdel::{
         Options, Winding,
         cpu::{
             Insert, MeshOf,
-            edit::{Edit, Used, delaunay_of_used, edit},
-            sparse::Sparse,
-            update::{Limits, update},
+            edit::{Edit, Sparse, Used, delaunay_of_used, edit},
         },
         dimension::Dimension,
         mesh::MeshInfo,
     },
-    stats::UpdateStats,
+    stats::{Restart, UpdateStats},
 };
 use js_sys::{Float64Array, Function, Uint32Array};
 use std::sync::Arc;
@@ -28,47 +26,47 @@ use crate::{
         d3::{Outputs, mesh3},
     },
     mesh::CallerMesh,
-    objects::{Thrown, error, object, set},
+    objects::{Thrown, error, set},
     points::Coordinates,
-    run::{reporting, statistics},
+    run::reporting,
 };
 
-/// Returns the mesh of points of 2 or 3 dimensions, given the one of the points where they were; in 2D
-/// in delaunator's orientation. If these have to be triangulated from scratch, and all are used, the
-/// result has only the statistics of the attempt, as `update`.
+/// Changes a mesh of 2 or 3 dimensions; in 2D in delaunator's orientation.
 ///
-/// With the points `before`, it is the mesh of these, of those in `points`, which follow them, and
-/// without those with the indices in the array `removed`. If there is none, no index of it is unused any
-/// more, and the result has what the indices were, as `kept`. The result has the points as well.
+/// * With the points `before`, which are those of the mesh, and an array `removed` of indices: inserts
+///   `points` after them, and removes those with these indices.
+/// * With `before` only: drops the points that were removed. The result then has the former indices of
+///   the others, as `kept`.
+/// * Without both: moves the points of the mesh to `points`. Removed ones stay so.
+///
+/// In the first two cases the result has the points as well.
 #[wasm_bindgen]
 pub fn change(
     dimension: u32,
     points: JsValue,
     before: JsValue,
-    moved: JsValue,
+    mesh: JsValue,
     removed: JsValue,
     outputs: Outputs,
     report: Function,
 ) -> Result<JsValue, Thrown> {
     let options = Options { on_progress: Some(Arc::new(reporting(report))), ..Options::default() };
     if dimension == 3 {
-        let mut mesh = Mesh3::from(CallerMesh::new(&moved, "tetrahedra", "neighbors")?);
+        let mut mesh = Mesh3::from(CallerMesh::new(&mesh, "tetrahedra", "neighbors")?);
         let changed = changed::<3, 4>(&mut mesh, &points, &before, &removed, &options, Mesh3::compact)?;
         return Ok(changed.of(|| mesh3(mesh, outputs)));
     }
     let options = Options { winding: Winding::Clockwise, ..options };
-    let mut mesh = Mesh2::from(CallerMesh::new(&moved, "triangles", "halfedges")?);
+    let mut mesh = Mesh2::from(CallerMesh::new(&mesh, "triangles", "halfedges")?);
     let changed = changed::<2, 3>(&mut mesh, &points, &before, &removed, &options, Mesh2::compact)?;
     Ok(changed.of(|| mesh2(mesh, true)))
 }
 
 /// What has become of a mesh.
 enum Changed {
-    /// It is that of the points where they are now.
+    /// Its points have moved.
     Moved,
-    /// The points are to be triangulated from scratch.
-    Restarted(UpdateStats),
-    /// It is that of these points. They were numbered in this way before if some were dropped.
+    /// It has these points. If some were dropped, the others had these indices.
     Edited(Coordinates, Option<Vec<u32>>),
 }
 
@@ -77,7 +75,6 @@ impl Changed {
     fn of(self, mesh: impl FnOnce() -> JsValue) -> JsValue {
         match self {
             Changed::Moved => mesh(),
-            Changed::Restarted(stats) => object([("update", statistics(&stats))]),
             Changed::Edited(points, kept) => {
                 let mesh = mesh();
                 set(&mesh, "points", points.into_js());
@@ -106,12 +103,8 @@ where
     let new = Coordinates::new(points)?;
     if before.is_undefined() {
         let points = new.points::<D>()?;
-        let (followed, stats) = update::<D>(mesh, points, options, Limits::measured(D))?;
-        *mesh = match (followed, Used::of(points, mesh.duplicate_of())) {
-            (Some(followed), _) => followed,
-            (None, used @ Some(_)) => delaunay_of_used(points, used.as_ref(), stats, options)?,
-            (None, None) => return Ok(Changed::Restarted(stats)),
-        };
+        let used = Used::of(points, mesh.duplicate_of());
+        *mesh = delaunay_of_used(points, used.as_ref(), Restart::NotResident, options)?;
         return Ok(Changed::Moved);
     }
     // The index in an error is that among the new ones.
@@ -133,8 +126,8 @@ where
     let removed: Vec<u32> = removed.to_vec().into_iter().map(index).collect::<Result<_, _>>()?;
     coordinates.append(new);
     let points = coordinates.points::<D>()?;
-    if let Some(again) = edit::<D, N>(mesh, points, &removed, options, Limits::measured(D))? {
-        *mesh = delaunay_of_used(points, again.used(points).as_ref(), again.update, options)?;
+    if let Some(again) = edit::<D, N>(mesh, points, &removed, options, Dimension::<D>::MAX_SHARE)? {
+        *mesh = delaunay_of_used(points, again.used(points).as_ref(), again.why, options)?;
     }
     Ok(Changed::Edited(coordinates, None))
 }
