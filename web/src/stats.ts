@@ -156,9 +156,12 @@ export interface SplayStats {
   gathered: number;
 }
 
-/** What was done to make a mesh from the one before, after points have moved, come or gone. */
+/** What an update, an insertion or a removal did to make a mesh from the one before. */
 export interface UpdateStats {
-  /** The number of tetrahedra, or triangles in 2D, that were flat or inverted at the new points. */
+  /**
+   * The number of tetrahedra, or triangles in 2D, that were flat or inverted at the new points.
+   * Like the next three, it is counted by updates of meshes on a device.
+   */
   inverted: number;
   /** The number of facets, or edges in 2D, that were not locally Delaunay there. */
   notLocallyDelaunay: number;
@@ -166,15 +169,11 @@ export interface UpdateStats {
   flips: number;
   /** The number of stars that were made convex; 3D only. */
   stars: number;
-  /** The number of vertices that were removed and inserted again where they are now; 2D only. */
-  reinserted: number;
   /** The number of vertices that were removed because their points were. */
   removed: number;
-  /**
-   * The number of points that were inserted: new ones, and those that are no duplicates any more.
-   */
+  /** The number of points that were inserted: new ones, and former duplicates. */
   inserted: number;
-  /** Whether a mesh on the device was read for that, changed by the host, and uploaded. */
+  /** Whether a mesh on the device was read, changed on the host, and uploaded. */
   onHost: boolean;
   /**
    * Why the points were triangulated from scratch, if they were. On a device, after two such
