@@ -231,8 +231,6 @@ fn check_count<const D: usize>(points: Points<'_, D>, moved: Option<&DeviceMesh<
     }
 }
 
-
-
 impl SharedDevice {
     /// Creates the state for a device of this adapter.
     pub(super) fn new(adapter: AdapterChoice) -> Self {
