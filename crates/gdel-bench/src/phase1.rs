@@ -83,7 +83,7 @@ where
         let lattice = Lattice::fit(points);
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are flat")?;
-        let input = Input { points, lattice: &lattice, start, starts_later: false, is_uploaded: false };
+        let input = Input { points, lattice: &lattice, start, starts_later: false };
         let mut phase1 = block_on(Phase1::in_parts(&gpu, lattice.width(), settings.parts(&gpu, points.len())))?;
         block_on(phase1.finish_compiling(&gpu))?;
         let (times, output) = repeated(arguments.runs, 1.0, || {
