@@ -1,7 +1,7 @@
 // Times the package's GPU backend in Node through the npm package `webgpu` (Dawn): a line of JSON per row.
 //
 //   node benches/js/gpu.mjs [--package FOLDER] [--webgpu FOLDER] [--points 100000,1000000]
-//     [--kind uniform] [--runs 9] [--outputs neighbors,hull,duplicateOf] [--reuse]
+//     [--kind uniform] [--single] [--runs 9] [--outputs neighbors,hull,duplicateOf] [--reuse]
 //     [--resident [--moved 0.002,0.01]] [--here]
 //
 // --outputs '' leaves the tetrahedra alone. With --reuse, each mesh takes the memory of the one before. With
@@ -23,6 +23,7 @@ const { values } = parseArgs({
     webgpu: { type: 'string', default: join(root, 'node_modules/webgpu') },
     points: { type: 'string', default: '100000,1000000' },
     kind: { type: 'string', default: 'uniform' },
+    single: { type: 'boolean', default: false },
     runs: { type: 'string', default: '9' },
     outputs: { type: 'string', default: 'neighbors,hull,duplicateOf' },
     resident: { type: 'boolean', default: false },
@@ -44,7 +45,6 @@ const [openMilliseconds, triangulator] = await timed(async () => {
   const own = resident ? { device: await openDevice(gpu), worker: !here } : { gpu };
   return createTriangulator({ ...own, backend: 'gpu' });
 });
-
 const outputs = list(values.outputs);
 const kept = resident ? { resident } : { outputs };
 const arrays = outputs.length === 3 ? 'all arrays' : ['tetrahedra', ...outputs].join(', ');
@@ -60,10 +60,12 @@ async function measure(run) {
   return all;
 }
 
+/** When the first mesh of the process was there. */
 let firstMilliseconds;
 
 async function triangulate(count) {
-  const points = await generate(kind, count, { seed: 1 });
+  const doubles = await generate(kind, count, { seed: 1 });
+  const points = values.single ? new Float32Array(doubles) : doubles;
   let mesh;
   const all = await measure(async () => {
     const copy = points.slice();
@@ -79,7 +81,7 @@ async function triangulate(count) {
   print({
     input: kind,
     points: count,
-    precision: 'f64',
+    precision: values.single ? 'f32' : 'f64',
     result,
     reuse: values.reuse,
     thread,
