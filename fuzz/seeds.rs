@@ -1,9 +1,9 @@
 //! Writes the samples of the tests as seeds for the fuzz targets.
 
-#[path = "../tests/io/samples.rs"]
+#[path = "../crates/gdel-io/tests/io/samples.rs"]
 mod samples;
 
-use gdel::internals::io::{MeshFormat, PointFormat};
+use gdel_io::{MeshFormat, PointFormat};
 use std::{fs, io, path::Path};
 
 fn main() -> io::Result<()> {

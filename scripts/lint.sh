@@ -22,10 +22,10 @@ features=$(cargo metadata --locked --no-deps --format-version 1 | node -e '
   const { features } = packages.find(({ name }) => name === "gdel");
   console.log(Object.keys(features).filter((name) => name !== "default").join(" "));')
 for feature in "" $features; do
-  step cargo check --locked --lib --no-default-features --features "$feature"
+  step cargo check --locked --package gdel --lib --no-default-features --features "$feature"
 done
 wasm=(--target wasm32-unknown-unknown)
-step cargo check --locked --lib --no-default-features "${wasm[@]}"
+step cargo check --locked --package gdel --package gdel-io --lib --no-default-features "${wasm[@]}"
 step cargo clippy --locked --lib --package gdel --features gdel/gpu \
   --package gdel-web --features gdel-web/d2,gdel-web/d3,gdel-web/edit,gdel-web/tools,gdel-web/derived "${wasm[@]}" -- -D warnings
 # The fuzz targets; what they are linked to needs a compiler of C++ and is not needed for a check.

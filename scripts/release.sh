@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The steps of a release, in order:
 #
-#   scripts/release.sh check vX.Y.Z   the tag, the crate, the package and the changelog agree
-#   scripts/release.sh crate          publishes the crate; --dry-run packs and builds it only
+#   scripts/release.sh check vX.Y.Z   the tag, the crates, the package and the changelog agree
+#   scripts/release.sh crate          publishes the crates; --dry-run packs and builds them only
 #   scripts/release.sh npm            builds and publishes the npm package; --dry-run packs it only
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -27,7 +27,7 @@ case ${1:-} in
     ;;
   crate)
     shift
-    cargo publish --locked -p gdel "$@"
+    cargo publish --locked -p gdel -p gdel-io -p gdel-cli "$@"
     ;;
   npm)
     shift

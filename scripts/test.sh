@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Sets up what is missing and runs all tests: those of the crate, the npm package and the demo page.
+# Sets up what is missing and runs all tests: those of the crates, the npm package and the demo page.
 #
 #   scripts/test.sh                everything
-#   scripts/test.sh crate          the crate
+#   scripts/test.sh crate          the crates
 #   scripts/test.sh js [FILE…]     the package and the page, or these test files of theirs
 #   scripts/test.sh ARGUMENT…      what `cargo test` makes of these arguments
 #

@@ -42,13 +42,11 @@
 //! | feature | what it adds |
 //! | --- | --- |
 //! | `gpu` (default) | the GPU backend, by [wgpu](https://docs.rs/wgpu); else [`Backend::Auto`] is the CPU |
-//! | `threads` (implied by `gpu` and `cli`) | the CPU backend on several threads |
+//! | `threads` (implied by `gpu`) | the CPU backend on several threads |
 //! | `serde` | `Serialize` and `Deserialize` for meshes, `Serialize` for statistics |
 //! | `glam`, `mint`, `nalgebra`, `ndarray` | conversions of these crates' points into [`Points`], without a copy |
-//! | `cli` | the program `gdel` |
 //!
-//! The feature `io` serves the program and the npm package; it adds nothing to the public
-//! interface.
+//! The program `gdel` is the crate `gdel-cli`, and the file formats that it reads and writes are in `gdel-io`.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
@@ -81,13 +79,9 @@ pub mod verify;
 // Tools.
 mod fields;
 mod index;
-#[cfg(feature = "io")]
-mod io;
 mod parallel;
 mod platform;
 mod random;
-#[cfg(feature = "gpu")]
-mod reference;
 mod slots;
 
 pub use backend::Backend;
@@ -208,14 +202,10 @@ pub mod internals {
         geometry,
         index,
         input,
-        #[cfg(feature = "io")]
-        io,
         mesh,
         parallel,
         predicates,
         random,
-        #[cfg(feature = "gpu")]
-        reference,
         triangulator
     );
 }

@@ -4,12 +4,7 @@
 //! Setting up and dropping what a function returns are not counted.
 
 use gdel::{
-    Backend, Mesh2, Mesh3, Points, Triangulator,
-    internals::{
-        d3::splay::SplayOutcome,
-        io::{MeshData3, MeshFormat, PointCloud, PointFormat},
-    },
-    verify::Report,
+    Backend, Mesh2, Mesh3, Points, Triangulator, internals::d3::splay::SplayOutcome, verify::Report,
     verify2d as prove2d, verify3d as prove3d,
 };
 use gdel_guard::{
@@ -18,6 +13,7 @@ use gdel_guard::{
     predicates::{Lists, Stage},
     splay::{Spoilt, expect_delaunay},
 };
+use gdel_io::{MeshData3, MeshFormat, PointCloud, PointFormat};
 use gungraun::{Callgrind, prelude::*};
 use std::hint::black_box;
 

@@ -2,10 +2,8 @@
 //! chooses the format and the dimension.
 #![no_main]
 
-use gdel::{
-    Mesh2, Mesh3, Points, Points2,
-    internals::io::{MeshFormat, read_neigh},
-};
+use gdel::{Mesh2, Mesh3, Points, Points2};
+use gdel_io::{MeshFormat, read_neigh};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|data: &[u8]| {

@@ -2,13 +2,11 @@
 //! dimension.
 #![no_main]
 
-#[path = "../../tests/io/samples.rs"]
+#[path = "../../crates/gdel-io/tests/io/samples.rs"]
 mod samples;
 
-use gdel::{
-    Points,
-    internals::io::{PointFormat, panics_are_caught},
-};
+use gdel::Points;
+use gdel_io::{PointFormat, panics_are_caught};
 use libfuzzer_sys::fuzz_target;
 use std::panic;
 

@@ -213,7 +213,7 @@ impl Counters {
     }
 
     /// Returns whether many signs took exact arithmetic.
-    pub(crate) fn is_exact(&self) -> bool {
+    pub fn is_exact(&self) -> bool {
         self.exact > self.visits / common::WAITING_EXACT_SHARE
     }
 
@@ -285,6 +285,13 @@ assert_layout!(Params);
 
 /// The rounds that [`Counters::log`] keeps.
 pub const LOGGED: usize = common::LOGGED as usize;
+
+/// The fewest points with which a round must begin to tell how the points fill space.
+pub const GROWTH_FROM: u32 = common::GROWTH_FROM;
+/// The share of all points, as a divisor, with which such a round must end at most.
+pub const GROWTH_SHARE: u32 = common::GROWTH_SHARE;
+/// Twice the growth in such a round from which on points fill space evenly.
+pub const TWICE_GROWTH: u32 = common::TWICE_GROWTH;
 
 /// Words of [`Params`], after which the [`Counters`] stand in the buffer `control`.
 pub const PARAM_WORDS: usize = size_of::<Params>() / 4;

@@ -22,7 +22,6 @@ use crate::{
 /// assert_eq!((points.len(), points.get(1)), (2, [1.0, 0.5]));
 /// ```
 #[derive(Debug, Clone, Copy)]
-#[non_exhaustive]
 pub enum Points<'a, const D: usize> {
     /// Single precision.
     F32(&'a [[f32; D]]),

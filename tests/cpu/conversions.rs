@@ -50,7 +50,7 @@ fn points_of_mint() {
 }
 
 /// A mesh comes back as it was, but for its statistics; these have stable keys.
-#[cfg(feature = "cli")]
+#[cfg(feature = "serde")]
 #[test]
 fn meshes_and_statistics_as_json() {
     use gdel::{Mesh3, stats::Stats};

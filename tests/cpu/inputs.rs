@@ -159,22 +159,19 @@ fn zero_and_minus_zero_are_the_same_coordinate() {
     assert_eq!(mesh.tetrahedra.len(), 1);
 }
 
-#[cfg(feature = "io")]
 #[test]
 fn bunny() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/bunny.ply");
-    let cloud = gdel::internals::io::files::read_points(std::path::Path::new(path)).unwrap();
+    let cloud = gdel_io::files::read_points(std::path::Path::new(path)).unwrap();
     let mesh = check(&cloud, 3);
     assert_eq!(mesh.duplicate_of.len(), 35_947);
 }
 
-#[cfg(feature = "io")]
 #[test]
 #[ignore = "needs scripts/fetch-dragon.sh, and minutes"]
 fn dragon() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/.cache/dragon.ply");
-    let cloud =
-        gdel::internals::io::files::read_points(std::path::Path::new(path)).expect("run scripts/fetch-dragon.sh");
+    let cloud = gdel_io::files::read_points(std::path::Path::new(path)).expect("run scripts/fetch-dragon.sh");
     let mesh = check(&cloud, 1);
     assert_eq!(mesh.duplicate_count(), 2_100);
 }

@@ -7,7 +7,7 @@ use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::gpu::{AdapterChoice, Gpu};
 use gdel::internals::input::lattice::{Lattice, Width};
 use gdel::internals::predicates;
-use gdel::internals::reference::d3::{predicates as reference, predicates::Vertex};
+use gdel_reference::d3::predicates::{self as reference, Vertex};
 use pollster::block_on;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;

@@ -1,7 +1,8 @@
 //! Four vertices each, for the 2D predicates: generic, nearly degenerate and degenerate.
 
 use crate::positions::{clustered, corners, cospherical, direction, grid, indices, largest, uniform};
-use gdel::internals::{input::lattice::Width, reference::d2::predicates::Vertex};
+use gdel::internals::input::lattice::Width;
+use gdel_reference::d2::predicates::Vertex;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 

@@ -14,7 +14,10 @@ use gdel::internals::{
         start::{StartMesh, first_simplex},
     },
     input::lattice::{Lattice, Width},
-    reference::{self, d2, d2::predicates::Vertex},
+};
+use gdel_reference::{
+    self as reference,
+    d2::{self, predicates::Vertex},
 };
 use std::collections::BTreeSet;
 

@@ -10,11 +10,11 @@ use gdel::internals::gpu::phase1::{Input, Phase1, Run, Settings};
 use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::gpu::{AdapterChoice, Gpu};
 use gdel::internals::input::lattice::{Lattice, Width};
-use gdel::internals::reference::d2::{mesh_compact, mesh_mark, predicates::Vertex};
 use gdel::internals::{dimension::Dimension, gpu::dim::Dim};
+use gdel_reference::d2::{mesh_compact, mesh_mark, predicates::Vertex};
 use pollster::block_on;
 
-type State = gdel::internals::reference::State<2>;
+type State = gdel_reference::State<2>;
 
 /// The buffers of a run, as the references have them.
 fn state_of(gpu: &Gpu, width: Width, run: &Run<'_, 2>) -> State {

@@ -4,13 +4,8 @@
 use crate::d2_cases::{Case, FAMILIES, cases};
 use crate::perturbation::{leaning, perturbed_rows, sign_of_columns};
 use crate::signs::{SignKernel, exact_in_circumsphere, exact_orientation};
-use gdel::internals::{
-    d2::gpu::vertex,
-    gpu::Storage,
-    input::lattice::Width,
-    predicates::Sign,
-    reference::d2::{predicates as reference, predicates::Vertex},
-};
+use gdel::internals::{d2::gpu::vertex, gpu::Storage, input::lattice::Width, predicates::Sign};
+use gdel_reference::d2::predicates::{self as reference, Vertex};
 use rand::{RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg64Mcg;
 

@@ -4,14 +4,14 @@ use std::collections::HashSet;
 
 use gdel::internals::gpu::layout::Pick;
 use gdel::internals::input::lattice::Width;
-use gdel::internals::reference::d2::predicates::Vertex;
-use gdel::internals::reference::d2::{mesh_compact, mesh_mark};
-use gdel::internals::reference::hilbert::hilbert_key;
-use gdel::internals::reference::run::{Settings, run};
+use gdel_reference::d2::predicates::Vertex;
+use gdel_reference::d2::{mesh_compact, mesh_mark};
+use gdel_reference::hilbert::hilbert_key;
+use gdel_reference::run::{Settings, run};
 use rand::{SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;
 
-type State = gdel::internals::reference::State<2>;
+type State = gdel_reference::State<2>;
 
 /// Distinct points along the Hilbert curve, with the places of their input order.
 fn sites(points: &[[i64; 2]]) -> Vec<Vertex> {

@@ -14,8 +14,8 @@ use gdel::internals::{
         primitives::scan::GROUPS,
     },
     input::lattice::Width,
-    reference::d3::gather::{self, Mesh},
 };
+use gdel_reference::d3::gather::{self, Mesh};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 

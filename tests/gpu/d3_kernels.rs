@@ -12,7 +12,10 @@ use gdel::internals::{
         start::{Start, StartMesh, first_simplex},
     },
     input::lattice::{Lattice, Width},
-    reference::{self, d3, d3::predicates::Vertex},
+};
+use gdel_reference::{
+    self as reference,
+    d3::{self, predicates::Vertex},
 };
 use std::collections::BTreeSet;
 

@@ -16,9 +16,9 @@ use gdel::{
         input::lattice::Width,
         mesh::canonical,
         parallel::Threads,
-        reference::d3::{outputs_mark, outputs_write},
     },
 };
+use gdel_reference::d3::{outputs_mark, outputs_write};
 use pollster::block_on;
 use rand::{SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg64Mcg;

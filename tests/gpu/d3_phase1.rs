@@ -8,7 +8,6 @@ use crate::d3_inputs::{self as inputs, Input as Points};
 use gdel::internals::d3::mesh::FACETS;
 use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::input::lattice::{Lattice, Width};
-use gdel::internals::reference::d3::{self, predicates::Vertex};
 use gdel::internals::{
     d3::gpu::vertex,
     gpu::{
@@ -18,9 +17,10 @@ use gdel::internals::{
     },
 };
 use gdel::internals::{dimension::Dimension, gpu::dim::Dim};
+use gdel_reference::d3::{self, predicates::Vertex};
 use pollster::block_on;
 
-type State = gdel::internals::reference::State<3>;
+type State = gdel_reference::State<3>;
 
 /// The vertices of a buffer.
 fn vertices(width: Width, words: &[i32]) -> Vec<Vertex> {

@@ -2,14 +2,9 @@
 
 use crate::d3_cases::{Case, FAMILIES, Family, cases};
 use crate::signs::{SignKernel, exact_in_circumsphere, exact_orientation};
-use gdel::internals::{
-    d3::gpu::vertex,
-    gpu::Storage,
-    input::lattice::Width,
-    predicates::Sign,
-    reference::d3::{predicates as reference, predicates::Vertex},
-};
+use gdel::internals::{d3::gpu::vertex, gpu::Storage, input::lattice::Width, predicates::Sign};
 use gdel::internals::{dimension::Dimension, gpu::dim::Dim};
+use gdel_reference::d3::predicates::{self as reference, Vertex};
 
 const KERNEL: &str = include_str!("../shaders/d3_predicates.wgsl");
 

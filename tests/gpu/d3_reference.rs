@@ -3,12 +3,12 @@
 use gdel::internals::gpu::layout::Pick;
 use gdel::internals::input::lattice::Width;
 use gdel::internals::predicates::integer::orient3d_narrow;
-use gdel::internals::reference::d3::predicates::{Vertex, insphere, orient3d};
-use gdel::internals::reference::run::{Settings, run};
+use gdel_reference::d3::predicates::{Vertex, insphere, orient3d};
+use gdel_reference::run::{Settings, run};
 use rand::{RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;
 
-type State = gdel::internals::reference::State<3>;
+type State = gdel_reference::State<3>;
 
 type Point = [i64; 3];
 

@@ -5,8 +5,8 @@ use gdel::internals::{
     gpu::start::first_simplex,
     input::lattice::Width,
     predicates::{Sign, insphere_symbolic},
-    reference::d3::{predicates as reference, predicates::Vertex},
 };
+use gdel_reference::d3::predicates::{self as reference, Vertex};
 use num_bigint::BigInt;
 use rand::{Rng, RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg64Mcg;

@@ -14,10 +14,10 @@ use gdel::{
             shader::Shader,
         },
         input::lattice::Width,
-        reference::{self, State},
     },
     wgpu,
 };
+use gdel_reference::{self as reference, State};
 use pollster::block_on;
 use rand::{SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg32;

@@ -12,8 +12,8 @@ use gdel::internals::{
         start::first_simplex,
     },
     input::{lattice::Width, points::Points},
-    reference::{self, State, Vertex, dim::Kernels},
 };
+use gdel_reference::{self as reference, State, Vertex, dim::Kernels};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 

@@ -12,9 +12,9 @@ use gdel::{
             points::{InputCounts, PointInput, PointStage},
         },
         input::lattice::{Lattice, Width},
-        reference::hilbert::hilbert_key,
     },
 };
+use gdel_reference::hilbert::hilbert_key;
 use pollster::block_on;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;

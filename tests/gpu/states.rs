@@ -8,8 +8,8 @@ use gdel::internals::{
         layout::{Counters, FREE_START, PARAM_WORDS, Params},
         phase1::Buffers,
     },
-    reference::{State, d3, dim::ReferenceDim},
 };
+use gdel_reference::{State, d3, dim::ReferenceDim};
 use pollster::block_on;
 use std::ops::Range;
 

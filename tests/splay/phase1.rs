@@ -8,13 +8,13 @@ use gdel::{
         index::NO_INDEX,
         input::lattice::{Lattice, Width},
         predicates::filter::{PredicateContext, PredicateContext3},
-        reference::{
-            self,
-            d3::predicates::Vertex,
-            run::{Settings, run},
-        },
     },
     stats::SplayStats,
+};
+use gdel_reference::{
+    self as reference,
+    d3::predicates::Vertex,
+    run::{Settings, run},
 };
 
 /// Returns the triangulation without the gaps between tetrahedra, and what has failed; flat

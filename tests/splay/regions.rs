@@ -11,10 +11,10 @@ use gdel::{
         index::NO_INDEX,
         parallel::Threads,
         predicates::filter::PredicateContext3,
-        reference::d3::gather::{self, Mesh},
     },
     stats::SplayStats,
 };
+use gdel_reference::d3::gather::{self, Mesh};
 
 /// The triangulation elsewhere, the region of it that is here, and what may be wrong.
 pub struct Elsewhere {

@@ -114,11 +114,10 @@ fn what_makes_other_codes_fail() {
     }
 }
 
-#[cfg(feature = "io")]
 #[test]
 fn the_bunny() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/bunny.ply");
-    let cloud = gdel::internals::io::files::read_points(std::path::Path::new(path)).expect("the bunny");
+    let cloud = gdel_io::files::read_points(std::path::Path::new(path)).expect("the bunny");
     agree(&cloud);
 }
 
@@ -179,13 +178,11 @@ fn five_hundred_thousand_points_on_a_sphere() {
     agree(&points.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>());
 }
 
-#[cfg(feature = "io")]
 #[test]
 #[ignore = "needs scripts/fetch-dragon.sh, and minutes on a software adapter"]
 fn the_dragon() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/.cache/dragon.ply");
-    let cloud =
-        gdel::internals::io::files::read_points(std::path::Path::new(path)).expect("run scripts/fetch-dragon.sh");
+    let cloud = gdel_io::files::read_points(std::path::Path::new(path)).expect("run scripts/fetch-dragon.sh");
     agree(&cloud);
 }
 

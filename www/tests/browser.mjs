@@ -253,7 +253,7 @@ export async function save(page, format, folder, files = 1) {
 export function gdel(...args) {
   const [command, ...first] = process.env.GDEL
     ? [process.env.GDEL]
-    : ['cargo', 'run', '--quiet', '--locked', '--features', 'cli', '--bin', 'gdel', '--'];
+    : ['cargo', 'run', '--quiet', '--locked', '-p', 'gdel-cli', '--'];
   execFileSync(command, [...first, ...args], {
     cwd: here('../..'),
     stdio: ['ignore', 'pipe', 'inherit'],

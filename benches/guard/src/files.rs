@@ -1,10 +1,8 @@
 //! Files of all formats, in memory.
 
 use crate::points::{self, POINTS};
-use gdel::{
-    Backend, Mesh3, Triangulator,
-    internals::io::{MeshFormat, PointFormat, SurfaceFormat, write_ele, write_npz, write_vtu},
-};
+use gdel::{Backend, Mesh3, Triangulator};
+use gdel_io::{MeshFormat, PointFormat, SurfaceFormat, write_ele, write_npz, write_vtu};
 use las::{Builder, Point, Transform, Vector};
 use std::{fmt::Write, io::Cursor};
 

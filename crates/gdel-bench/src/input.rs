@@ -8,10 +8,10 @@ use gdel::{
         d3::generate::{Distribution3, generate3d},
         dimension::Dimension,
         gpu::{AdapterChoice, Gpu},
-        io::files::Input as File,
     },
     stats::Stats,
 };
+use gdel_io::files::Input as File;
 use pollster::block_on;
 use std::path::Path;
 

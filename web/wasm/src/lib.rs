@@ -37,7 +37,7 @@ fn start() {
         // The decoder of LAZ panics on broken data: the file is at fault, so the console stays
         // empty.
         #[cfg(feature = "tools")]
-        if gdel::internals::io::panics_are_caught() {
+        if gdel_io::panics_are_caught() {
             let broken = objects::error("BAD_FILE", "the compressed data is broken");
             wasm_bindgen::throw_val(broken.into());
         }

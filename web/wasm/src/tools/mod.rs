@@ -5,11 +5,10 @@ mod d3;
 
 use gdel::{
     Points,
-    internals::io::{
-        Mesh, PointBuf, PointCloud, PointFormat, SurfaceFormat, write_ele, write_neigh, write_node, write_npz,
-        write_vtu,
-    },
     verify::{Check, Outcome, Report},
+};
+use gdel_io::{
+    Mesh, PointBuf, PointCloud, PointFormat, SurfaceFormat, write_ele, write_neigh, write_node, write_npz, write_vtu,
 };
 use js_sys::{Array, Float32Array, Float64Array, Uint8Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};

@@ -1,0 +1,138 @@
+//! `gdel alpha`: the alpha shape of points.
+
+use super::{
+    Failure,
+    derive::{Common, Found, Number, write},
+    dimension::{Dimension, Triangulation},
+    usage,
+};
+use clap::{Args, builder::TypedValueParser, error::ErrorKind};
+use gdel::{
+    AlphaShape, Error, Mesh2, Mesh3, Points,
+    internals::{derived::AlphaEdges, geometry::Euclidean},
+};
+use gdel_io::{CellShape, Grid, SurfaceFormat, files::ResultOutput};
+use std::{num::NonZeroUsize, path::Path};
+
+/// Compute the alpha shape of points: a solid for a radius alpha, and its surface.
+#[derive(Args)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// The radius; `auto` is the smallest for which all points belong to the solid, and this has no
+    /// more components than wanted
+    #[arg(long, default_value = "auto", allow_negative_numbers = true)]
+    #[arg(value_parser = clap::builder::StringValueParser::new().try_map(|text| parse_alpha(&text)))]
+    alpha: Alpha,
+    /// With `--alpha auto`: the largest number of components, 1 if not given
+    #[arg(long, value_name = "N")]
+    components: Option<NonZeroUsize>,
+    /// Where to write: the surface as .ply, .obj, .stl or .glb, the tetrahedra of the solid as
+    /// .vtu; in 2D, all have the triangles of the solid
+    #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
+    output: ResultOutput<Format>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Alpha {
+    Auto,
+    Radius(f64),
+}
+
+fn parse_alpha(text: &str) -> Result<Alpha, String> {
+    match text.parse::<f64>() {
+        Ok(radius) if radius >= 0.0 => Ok(Alpha::Radius(radius)),
+        _ if text == "auto" => Ok(Alpha::Auto),
+        _ => Err("`auto` or a number that is not negative is needed".into()),
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Format {
+    Surface(SurfaceFormat),
+    Vtu,
+}
+
+fn parse_output(path: &str) -> Result<ResultOutput<Format>, String> {
+    let format_of = |extension: &str| match extension.to_ascii_lowercase().as_str() {
+        "vtu" => Some(Format::Vtu),
+        other => SurfaceFormat::from_extension(other).map(Format::Surface),
+    };
+    let known = ["ply", "obj", "stl", "glb", "vtu"];
+    let output = ResultOutput::new(Path::new(path), "alpha shapes", format_of, &known);
+    output.map_err(|error| error.to_string())
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match arguments.common.dim {
+        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
+        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
+    }
+}
+
+/// The parts of the alpha shape that files hold.
+struct Parts<const D: usize, const N: usize> {
+    solid: Vec<[u32; N]>,
+    surface: Vec<[u32; D]>,
+}
+
+fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure>
+where
+    Euclidean: AlphaEdges<D, N>,
+{
+    let Arguments { common, alpha, components, output } = arguments;
+    if let (Alpha::Radius(_), Some(_)) = (alpha, components) {
+        usage(ErrorKind::ArgumentConflict, "--components needs --alpha auto");
+    }
+    let components = components.map_or(1, NonZeroUsize::get);
+    let input = common.input()?;
+    common.check(output, &[input.path()])?;
+    let cloud = common.read::<D>(&input)?;
+    let points = Points::from(&cloud);
+    let (_, parts) = common.run::<M, D, N, _>(points, "alpha", |mesh| find(mesh, points, *alpha, components))?;
+    let Parts { solid, surface } = parts;
+    match output.format() {
+        Format::Vtu => {
+            let shape = if D == 2 { CellShape::Triangle } else { CellShape::Tetrahedron };
+            let mut grid = Grid::new(points, shape);
+            solid.iter().for_each(|simplex| grid.push(*simplex));
+            write(output, |to| grid.write_vtu(to))
+        }
+        Format::Surface(format) => {
+            // Three of the vertices are all: of a facet in 3D, of a simplex in 2D.
+            let triangles: Vec<[u32; 3]> = if D == 2 {
+                solid.iter().map(|simplex| std::array::from_fn(|k| simplex[k])).collect()
+            } else {
+                surface.iter().map(|facet| std::array::from_fn(|k| facet[k])).collect()
+            };
+            write(output, |to| format.write_triangles(to, points, &triangles, "alpha shape"))
+        }
+    }
+}
+
+fn find<M: gdel::Mesh<D, N>, const D: usize, const N: usize>(
+    mesh: &M,
+    points: Points<'_, D>,
+    alpha: Alpha,
+    components: usize,
+) -> Result<Found<Parts<D, N>>, Error>
+where
+    Euclidean: AlphaEdges<D, N>,
+{
+    let shape = AlphaShape::new(mesh, points)?;
+    let radius = match alpha {
+        Alpha::Radius(radius) => radius,
+        // Flat points have no solid for any radius.
+        Alpha::Auto => shape.find_alpha(components).unwrap_or(0.0),
+    };
+    let complex = shape.at(radius)?;
+    let parts =
+        Parts { solid: complex.solid().map(|t| mesh.simplices()[t]).collect(), surface: complex.surface().collect() };
+    let numbers = vec![
+        ("alpha", Number::Real(radius)),
+        ("solid", Number::Count(parts.solid.len())),
+        ("surface", Number::Count(parts.surface.len())),
+        ("components", Number::Count(complex.components().1)),
+    ];
+    Ok(Found { result: parts, numbers })
+}

@@ -1,0 +1,234 @@
+//! What the commands that derive something from a triangulation have in common.
+
+use super::{
+    Failure,
+    dimension::{Counts, Dimension, Triangulation, format_parser, read},
+    input,
+    progress::Progress,
+    triangulate::{BackendName, StatsForm, print, triangulate},
+    usage,
+};
+use clap::{
+    Args,
+    error::ErrorKind::{ArgumentConflict, MissingRequiredArgument},
+};
+use gdel::{Backend, Error, Points, Triangulator, stats::Fallback};
+use gdel_io::{
+    Mesh, PointCloud, PointFormat,
+    files::{Input, ResultOutput},
+};
+use serde::{Serialize, Serializer};
+use std::{
+    fmt,
+    io::{self, Write},
+    num::NonZeroUsize,
+    path::{Path, PathBuf},
+    time::{Duration, Instant},
+};
+
+/// Arguments of all these commands.
+#[derive(Args)]
+pub(super) struct Common {
+    /// The points, in any format that `triangulate` reads, or `-` for standard input, with
+    /// `--format`
+    pub(super) points: PathBuf,
+    /// Replace the output even if it is no earlier output of gdel; CSV files, which nothing marks
+    /// as such, are replaced with this only
+    #[arg(short, long)]
+    force: bool,
+    /// The dimension of the points; 2D drops z
+    #[arg(long, value_enum, default_value_t = Dimension::Three)]
+    pub(super) dim: Dimension,
+    /// The format of the points, whatever the extension of their file
+    #[arg(long, value_parser = format_parser())]
+    format: Option<PointFormat>,
+    /// Where to triangulate; the mesh is the same everywhere
+    #[arg(long, value_enum, default_value_t = BackendName::Auto)]
+    backend: BackendName,
+    /// Print statistics instead of a summary: one line per run
+    #[arg(long, value_enum)]
+    stats: Option<StatsForm>,
+    /// Do it this many times
+    #[arg(long, value_name = "N", default_value = "1")]
+    repeat: NonZeroUsize,
+}
+
+/// Arguments of the commands that take query points.
+#[derive(Args)]
+pub(super) struct Queries {
+    /// The query points, in any format that `triangulate` reads, or `-` for standard input, with
+    /// `--queries-format`
+    queries: PathBuf,
+    /// The format of the queries, whatever the extension of their file
+    #[arg(long, value_name = "FORMAT", value_parser = format_parser())]
+    queries_format: Option<PointFormat>,
+}
+
+impl Queries {
+    /// Creates the input of the queries, beside that of the points.
+    pub(super) fn input(&self, points: &Input) -> Result<Input, Failure> {
+        let standard_input = Path::new("-");
+        if self.queries == standard_input {
+            if self.queries_format.is_none() {
+                usage(MissingRequiredArgument, "give the format of the queries with `--queries-format`");
+            }
+            if points.path() == standard_input {
+                usage(ArgumentConflict, "only one of the points and the queries can be standard input");
+            }
+        }
+        Ok(input(&self.queries, self.queries_format)?)
+    }
+
+    /// Reads the queries, and checks that all are finite.
+    pub(super) fn read<const D: usize>(input: &Input) -> Result<PointCloud<D>, Failure> {
+        let queries = read::<D>(input)?;
+        let are_valid = Points::from(&queries).validate();
+        are_valid.map_err(|source| Failure::Points { path: input.path().into(), source })?;
+        Ok(queries)
+    }
+}
+
+/// What a run says about itself: as JSON by `serde`, for people by `Display`.
+#[derive(Serialize)]
+struct Report<'a> {
+    points: usize,
+    dimension: u8,
+    #[serde(flatten)]
+    counts: Counts,
+    #[serde(flatten, serialize_with = "as_map")]
+    numbers: &'a [(&'static str, Number)],
+    backend: Backend,
+    /// Why the CPU computed the mesh, where it was not requested explicitly.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fallback: Option<&'a Fallback>,
+    /// Without reading and writing files.
+    #[serde(serialize_with = "as_map")]
+    seconds: &'a [(&'static str, f64)],
+}
+
+fn as_map<T: Serialize, S: Serializer>(entries: &&[(&'static str, T)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(entries.iter().map(|(name, value)| (name, value)))
+}
+
+impl fmt::Display for Report<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{:<16}{}", "points", self.points)?;
+        match self.counts {
+            Counts::D3 { tetrahedra, .. } => writeln!(f, "{:<16}{tetrahedra}", "tetrahedra")?,
+            Counts::D2 { triangles, .. } => writeln!(f, "{:<16}{triangles}", "triangles")?,
+        }
+        for (name, number) in self.numbers {
+            let name = name.replace('_', " ");
+            match number {
+                Number::Count(count) => writeln!(f, "{name:<16}{count}")?,
+                Number::Real(real) => writeln!(f, "{name:<16}{real}")?,
+            }
+        }
+        let seconds: Vec<String> = self.seconds.iter().map(|(name, time)| format!("{name} {time:.3}")).collect();
+        write!(f, "{:<16}{}", "seconds", seconds.join(", "))
+    }
+}
+
+/// A number that a command prints.
+#[derive(Clone, Copy, Serialize)]
+#[serde(untagged)]
+pub(super) enum Number {
+    Count(usize),
+    Real(f64),
+}
+
+/// What a command found, and the numbers about it that are printed.
+pub(super) struct Found<T> {
+    pub(super) result: T,
+    pub(super) numbers: Vec<(&'static str, Number)>,
+}
+
+impl Common {
+    /// Creates the input of the points.
+    pub(super) fn input(&self) -> Result<Input, Failure> {
+        Ok(input(&self.points, self.format)?)
+    }
+
+    /// Checks early that the output can be written and is none of the inputs.
+    pub(super) fn check<F: Copy>(&self, output: &ResultOutput<F>, inputs: &[&Path]) -> Result<(), Failure> {
+        Ok(output.check(inputs, self.force)?)
+    }
+
+    /// Reads the points.
+    pub(super) fn read<const D: usize>(&self, input: &Input) -> Result<PointCloud<D>, Failure> {
+        let _progress = Progress::new("reading");
+        read::<D>(input)
+    }
+
+    /// Reads the points, and the values in a column of their file.
+    pub(super) fn read_with_values<const D: usize>(
+        &self,
+        input: &Input,
+        column: &str,
+    ) -> Result<(PointCloud<D>, Vec<f64>), Failure> {
+        let _progress = Progress::new("reading");
+        Ok(input.read_with_values::<D>(column)?)
+    }
+
+    /// Triangulates, calls `derive` with the mesh and prints what is to be said, as often as
+    /// wanted. Returns the last mesh and what was derived from it.
+    pub(super) fn run<M: Triangulation<D, N> + Mesh<D, N>, const D: usize, const N: usize, T>(
+        &self,
+        points: Points<'_, D>,
+        what: &'static str,
+        derive: impl Fn(&M) -> Result<Found<T>, Error>,
+    ) -> Result<(M, T), Failure> {
+        let failure = |source| Failure::Points { path: self.points.clone(), source };
+        // One device for all runs.
+        let triangulator = Triangulator::new().backend(self.backend.into());
+        let run = || {
+            let (mesh, triangulating) = triangulate::<M, D, N>(points, &triangulator).map_err(failure)?;
+            let progress = Progress::new(what);
+            let start = Instant::now();
+            let Found { result, numbers } = derive(&mesh).map_err(failure)?;
+            let deriving = start.elapsed();
+            drop(progress);
+            let times = [("triangulate", triangulating), (what, deriving)];
+            let is_read = self.print(&mesh, points.len(), &numbers, &times)?;
+            Ok::<_, Failure>(((mesh, result), is_read))
+        };
+        // Each run gives its memory back before the next.
+        for _ in 1..self.repeat.get() {
+            if !run()?.1 {
+                break;
+            }
+        }
+        Ok(run()?.0)
+    }
+
+    fn print<M: Triangulation<D, N>, const D: usize, const N: usize>(
+        &self,
+        mesh: &M,
+        points: usize,
+        numbers: &[(&'static str, Number)],
+        times: &[(&'static str, Duration)],
+    ) -> Result<bool, io::Error> {
+        let total = ("total", times.iter().map(|(_, time)| time).sum());
+        let seconds: Vec<_> = [total].iter().chain(times).map(|&(name, time)| (name, time.as_secs_f64())).collect();
+        let stats = mesh.stats();
+        let report = Report {
+            points,
+            dimension: mesh.dimension(),
+            counts: mesh.counts(),
+            numbers,
+            backend: stats.backend,
+            fallback: stats.fallback.as_ref(),
+            seconds: &seconds,
+        };
+        print(self.stats, &report)
+    }
+}
+
+/// Writes the output, with a word on the terminal if that takes long.
+pub(super) fn write<F: Copy>(
+    output: &ResultOutput<F>,
+    content: impl Fn(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Failure> {
+    let _progress = Progress::new("writing");
+    Ok(output.write(content)?)
+}

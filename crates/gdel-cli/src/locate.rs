@@ -1,0 +1,101 @@
+//! `gdel locate`: which simplex contains each query, and which vertex is nearest.
+
+use super::{
+    Failure,
+    derive::{Common, Found, Number, Queries, write},
+    dimension::{Dimension, Triangulation},
+};
+use clap::Args;
+use gdel::{
+    Location, Locator, Mesh2, Mesh3, Points,
+    internals::geometry::{Euclidean, Geometry},
+};
+use gdel_io::{Column, Table, TableFormat, files::ResultOutput};
+use std::path::Path;
+
+/// Find the simplex that contains each query point, and the nearest vertex.
+#[derive(Args)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    #[command(flatten)]
+    queries: Queries,
+    /// Where to write, one row per query: .csv or .npz. `simplex` is the number of the simplex in
+    /// the mesh that `triangulate` writes, −1 outside the hull; `v0`, `v1`, … are its vertices, or
+    /// outside those of a facet of the hull that sees the query, and −1; `nearest` is the nearest
+    /// vertex
+    #[arg(short, long = "output", value_name = "FILE", value_parser = parse_table)]
+    output: ResultOutput<TableFormat>,
+}
+
+/// Parses the name of a file for a table.
+pub(super) fn parse_table(path: &str) -> Result<ResultOutput<TableFormat>, String> {
+    let known = ["csv", "npz"];
+    let output = ResultOutput::new(Path::new(path), "tables", TableFormat::from_extension, &known);
+    output.map_err(|error| error.to_string())
+}
+
+/// Writes a table in the format of its file.
+pub(super) fn write_table(output: &ResultOutput<TableFormat>, table: &Table) -> Result<(), Failure> {
+    write(output, |to| match output.format() {
+        TableFormat::Csv => table.write_csv(to),
+        TableFormat::Npz => table.write_npz(to),
+    })
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match arguments.common.dim {
+        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
+        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
+    }
+}
+
+fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let Arguments { common, queries, output } = arguments;
+    let input = common.input()?;
+    let query_input = queries.input(&input)?;
+    common.check(output, &[input.path(), query_input.path()])?;
+    let points = common.read::<D>(&input)?;
+    let queries = Queries::read::<D>(&query_input)?;
+    let (points, queries) = (Points::from(&points), Points::from(&queries));
+    let (mesh, (located, nearest)) = common.run::<M, D, N, _>(points, "locate", |mesh| {
+        let locator = Locator::new(mesh, points)?;
+        let located = locator.locate_many(queries)?;
+        let nearest = locator.nearest_many(queries)?;
+        let inside = located.iter().filter(|location| location.simplex().is_some()).count();
+        let numbers = vec![("queries", Number::Count(queries.len())), ("inside", Number::Count(inside))];
+        Ok(Found { result: (located, nearest), numbers })
+    })?;
+    let simplex = |location: &Location| location.simplex().map_or(-1, |t| t as i64);
+    let mut table = Table::default().with("simplex", Column::Indices(located.iter().map(simplex).collect()));
+    let vertices: Vec<[i64; N]> = located.iter().map(|&location| vertices(&mesh, location)).collect();
+    for k in 0..N {
+        table = table.with(&format!("v{k}"), Column::Indices(vertices.iter().map(|v| v[k]).collect()));
+    }
+    let nearest = nearest.iter().map(|v| v.map_or(-1, i64::from)).collect();
+    write_table(output, &table.with("nearest", Column::Indices(nearest)))
+}
+
+/// Returns the vertices of the simplex or facet where a query is, and −1 in the places without one.
+fn vertices<M: gdel::Mesh<D, N>, const D: usize, const N: usize>(mesh: &M, location: Location) -> [i64; N]
+where
+    Euclidean: Geometry<D, N>,
+{
+    match location {
+        Location::Inside(t) => mesh.simplices()[t].map(i64::from),
+        Location::Outside { simplex, facet } => {
+            let numbers = <Euclidean as Geometry<D, N>>::FACET_NUMBERS;
+            let opposite = numbers.iter().position(|&number| number == facet).unwrap_or(0);
+            let mut vertices = [-1; N];
+            let corners = <Euclidean as Geometry<D, N>>::FACETS[opposite];
+            for (vertex, corner) in vertices.iter_mut().zip(corners) {
+                *vertex = mesh.simplices()[simplex][corner].into();
+            }
+            vertices
+        }
+        _ => [-1; N],
+    }
+}

@@ -1,0 +1,135 @@
+//! The command `gdel`: its commands, and how they end.
+#![forbid(unsafe_code)]
+
+mod adapters;
+mod alpha;
+mod derive;
+mod dimension;
+mod generate;
+mod interpolate;
+mod locate;
+mod progress;
+mod report;
+mod signals;
+mod tree;
+mod triangulate;
+mod verify;
+mod voronoi;
+
+use clap::{CommandFactory, Parser, Subcommand, error::ErrorKind};
+use gdel_io::{
+    PointFormat,
+    files::{FileError, Input, shown},
+    printable,
+};
+use std::{
+    env,
+    ffi::OsString,
+    io, panic,
+    path::{Path, PathBuf},
+    process::{self, ExitCode},
+};
+
+/// Exact 3D and 2D Delaunay triangulation of point clouds.
+#[derive(Parser)]
+#[command(
+    version,
+    about = "Exact 3D and 2D Delaunay triangulation of point clouds",
+    after_help = "Exit codes: 0 done, 1 bad input or output, 2 wrong usage."
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Triangulate(triangulate::Arguments),
+    Generate(generate::Arguments),
+    Verify(verify::Arguments),
+    Locate(locate::Arguments),
+    Interpolate(interpolate::Arguments),
+    Voronoi(voronoi::Arguments),
+    Alpha(alpha::Arguments),
+    Tree(tree::Arguments),
+    /// List the GPUs of this machine
+    Adapters,
+}
+
+/// Why a command failed. The text is one line of printable characters.
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error(transparent)]
+    File(#[from] FileError),
+    #[error("{}: {source}", shown(path))]
+    Points { path: PathBuf, source: gdel::Error },
+    #[error("{}: not the Delaunay triangulation: {what}", shown(path))]
+    Mesh { path: PathBuf, what: String },
+    #[error("{}: not a mesh of the points in {}: {what}", shown(path), shown(input))]
+    OtherPoints { path: PathBuf, input: PathBuf, what: String },
+    #[error(
+        "{}: this file holds no points: name the file that does first, as in `gdel verify POINTS MESH`",
+        shown(path)
+    )]
+    NoPoints { path: PathBuf },
+    #[error("standard output: {0}")]
+    StandardOutput(#[from] io::Error),
+}
+
+/// Parses the arguments and runs the command.
+fn main() -> ExitCode {
+    let report = panic::take_hook();
+    panic::set_hook(Box::new(move |info| {
+        if !gdel_io::panics_are_caught() {
+            report(info);
+        }
+    }));
+    signals::watch();
+    let result = match parse().command {
+        Command::Triangulate(arguments) => triangulate::run(&arguments),
+        Command::Generate(arguments) => generate::run(&arguments),
+        Command::Verify(arguments) => verify::run(&arguments),
+        Command::Locate(arguments) => locate::run(&arguments),
+        Command::Interpolate(arguments) => interpolate::run(&arguments),
+        Command::Voronoi(arguments) => voronoi::run(&arguments),
+        Command::Alpha(arguments) => alpha::run(&arguments),
+        Command::Tree(arguments) => tree::run(&arguments),
+        Command::Adapters => adapters::run(),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        // The reader of the output has closed it: `gdel … | head -1` is not a failure.
+        Err(Failure::StandardOutput(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("gdel: {failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Parses the arguments; where they are wrong, the program says so and exits with 2.
+fn parse() -> Cli {
+    Cli::try_parse().unwrap_or_else(|error| {
+        // The message quotes the arguments, which may be names of files that speak to the terminal.
+        let is_clean = |argument: OsString| printable(&argument.to_string_lossy()) == argument.to_string_lossy();
+        if error.use_stderr() && !env::args_os().all(is_clean) {
+            let text = error.to_string();
+            eprintln!("{}", text.trim_end().split('\n').map(printable).collect::<Vec<_>>().join("\n"));
+            process::exit(error.exit_code());
+        }
+        error.exit()
+    })
+}
+
+/// Creates the input at `path`; without a format, standard input is wrong usage.
+fn input(path: &Path, format: Option<PointFormat>) -> Result<Input, FileError> {
+    match Input::new(path, format) {
+        Err(error @ FileError::NoFormat) => usage(ErrorKind::MissingRequiredArgument, &error.to_string()),
+        input => input,
+    }
+}
+
+/// Exits with an error about the usage.
+fn usage(kind: ErrorKind, what: &str) -> ! {
+    Cli::command().error(kind, what).exit()
+}

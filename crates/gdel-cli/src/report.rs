@@ -1,0 +1,135 @@
+//! What a run says about itself.
+
+use super::dimension::{Counts, Triangulation};
+use gdel::{
+    Backend,
+    stats::{ExactCounts, Fallback, GpuStats, Phase, SplayStats},
+};
+use gdel_io::PointCloud;
+use serde::{Serialize, Serializer, ser::SerializeMap};
+use std::{fmt, time::Duration};
+
+/// The statistics of a run: as JSON by `serde`, for people by `Display`.
+#[derive(Serialize)]
+pub(super) struct Report<'a> {
+    /// Those of the mesh, without the `no_return` of the file.
+    points: usize,
+    /// Points of the file that hold no measurement.
+    no_return: usize,
+    /// Columns of a text file that are not coordinates.
+    ignored_columns: usize,
+    duplicates: usize,
+    dimension: u8,
+    /// Those that the dimension of the mesh has.
+    #[serde(flatten)]
+    counts: Counts,
+    /// Whether the mesh was proven to be the Delaunay triangulation, where that was requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    verified: Option<bool>,
+    backend: Backend,
+    /// Why the CPU computed the mesh, where it was not requested explicitly.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fallback: Option<&'a Fallback>,
+    seconds: Seconds<'a>,
+    /// Predicate evaluations that the filters left open on the CPU.
+    exact: ExactCounts,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gpu: Option<&'a GpuStats>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    splay: Option<&'a SplayStats>,
+}
+
+/// Without reading and writing files.
+struct Seconds<'a> {
+    total: Duration,
+    phases: &'a [(Phase, Duration)],
+}
+
+impl Serialize for Seconds<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(1 + self.phases.len()))?;
+        map.serialize_entry("total", &self.total.as_secs_f64())?;
+        for (phase, time) in self.phases {
+            map.serialize_entry(phase, &time.as_secs_f64())?;
+        }
+        map.end()
+    }
+}
+
+impl<'a> Report<'a> {
+    pub(super) fn new<const D: usize, const N: usize>(
+        cloud: &PointCloud<D>,
+        mesh: &'a impl Triangulation<D, N>,
+        total: Duration,
+        verified: Option<bool>,
+    ) -> Self {
+        let stats = mesh.stats();
+        Report {
+            points: cloud.points.len(),
+            no_return: cloud.no_return,
+            ignored_columns: cloud.ignored_columns,
+            duplicates: mesh.duplicates(),
+            dimension: mesh.dimension(),
+            counts: mesh.counts(),
+            verified,
+            backend: stats.backend,
+            fallback: stats.fallback.as_ref(),
+            seconds: Seconds { total, phases: &stats.phases },
+            exact: stats.exact,
+            gpu: stats.gpu.as_ref(),
+            splay: stats.splay.as_ref(),
+        }
+    }
+}
+
+impl fmt::Display for Report<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "points          {}", self.points)?;
+        if self.duplicates > 0 {
+            write!(f, " ({} duplicates)", self.duplicates)?;
+        }
+        if self.no_return > 0 {
+            write!(f, " and {} without a return, dropped", self.no_return)?;
+        }
+        match self.ignored_columns {
+            0 => {}
+            1 => write!(f, "; the column after the coordinates is ignored")?,
+            n => write!(f, "; {n} columns after the coordinates are ignored")?,
+        }
+        writeln!(f)?;
+        let (full, simplices) = match self.counts {
+            Counts::D3 { .. } => (3, "tetrahedra"),
+            Counts::D2 { .. } => (2, "triangles"),
+        };
+        if self.dimension < full {
+            let shape = match (self.dimension, self.points) {
+                (_, 0) => "there are no points",
+                (0, _) => "all points are equal",
+                (1, _) => "all points are collinear",
+                _ => "all points are coplanar",
+            };
+            writeln!(f, "dimension       {} ({shape}, so there are no {simplices})", self.dimension)?;
+        }
+        match self.counts {
+            Counts::D3 { tetrahedra, hull_triangles } => {
+                writeln!(f, "tetrahedra      {tetrahedra}\nhull triangles  {hull_triangles}")?;
+            }
+            Counts::D2 { triangles, hull_edges } => {
+                writeln!(f, "triangles       {triangles}\nhull edges      {hull_edges}")?;
+            }
+        }
+        write!(f, "seconds         {:.3} ({}", self.seconds.total.as_secs_f64(), self.backend)?;
+        if let Some(why) = &self.fallback {
+            write!(f, ", since {why}")?;
+        }
+        for (phase, time) in self.seconds.phases {
+            write!(f, ", {phase} {:.3}", time.as_secs_f64())?;
+        }
+        write!(f, ")")?;
+        match self.verified {
+            Some(true) => write!(f, "\nverified        this is the Delaunay triangulation"),
+            Some(false) => write!(f, "\nverified        NOT the Delaunay triangulation"),
+            None => Ok(()),
+        }
+    }
+}

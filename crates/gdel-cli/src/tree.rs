@@ -1,0 +1,85 @@
+//! `gdel tree`: the Euclidean minimum spanning tree of points.
+
+use super::{
+    Failure,
+    derive::{Common, Found, Number, write},
+    dimension::{Dimension, Triangulation},
+};
+use clap::Args;
+use gdel::{
+    Mesh2, Mesh3, Points, SpanningTree,
+    internals::geometry::{Euclidean, Geometry},
+};
+use gdel_io::{CellShape, Column, Grid, Table, files::ResultOutput};
+use std::path::Path;
+
+/// Compute the Euclidean minimum spanning tree of points.
+#[derive(Args)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// Where to write the edges, in the order of their lengths: .csv or .npz with both vertices and
+    /// the length, or .vtu
+    #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
+    output: ResultOutput<Format>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Format {
+    Vtu,
+    Csv,
+    Npz,
+}
+
+fn parse_output(path: &str) -> Result<ResultOutput<Format>, String> {
+    let format_of = |extension: &str| match extension.to_ascii_lowercase().as_str() {
+        "vtu" => Some(Format::Vtu),
+        "csv" => Some(Format::Csv),
+        "npz" => Some(Format::Npz),
+        _ => None,
+    };
+    let output = ResultOutput::new(Path::new(path), "spanning trees", format_of, &["csv", "npz", "vtu"]);
+    output.map_err(|error| error.to_string())
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match arguments.common.dim {
+        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
+        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
+    }
+}
+
+fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let Arguments { common, output } = arguments;
+    let input = common.input()?;
+    common.check(output, &[input.path()])?;
+    let cloud = common.read::<D>(&input)?;
+    let points = Points::from(&cloud);
+    let (_, tree) = common.run::<M, D, N, _>(points, "tree", |mesh| {
+        let tree = SpanningTree::new(mesh, points)?;
+        let numbers =
+            vec![("edges", Number::Count(tree.edges.len())), ("total_length", Number::Real(tree.total_length()))];
+        Ok(Found { result: tree, numbers })
+    })?;
+    let ends = |end: usize| Column::Indices(tree.edges.iter().map(|edge| edge[end].into()).collect());
+    let lengths = Table::default().with("length", Column::Numbers(tree.lengths.clone()));
+    match output.format() {
+        Format::Vtu => {
+            let mut grid = Grid::new(points, CellShape::Line);
+            tree.edges.iter().for_each(|edge| grid.push(*edge));
+            grid.values = lengths;
+            write(output, |to| grid.write_vtu(to))
+        }
+        format => {
+            let mut table = Table::default().with("v0", ends(0)).with("v1", ends(1));
+            table.columns.extend(lengths.columns);
+            write(output, |to| match format {
+                Format::Npz => table.write_npz(to),
+                _ => table.write_csv(to),
+            })
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! `gdel triangulate`: a point cloud in, its Delaunay triangulation out.
+
+use super::{
+    Failure,
+    dimension::{Dimension, Triangulation, format_parser, read},
+    input,
+    progress::Progress,
+    report::Report,
+    verify,
+};
+use clap::{Args, ValueEnum};
+use gdel::{Backend, Mesh2, Mesh3, Points, Triangulator};
+use gdel_io::{PointFormat, files::Output};
+use serde::Serialize;
+use std::{
+    fmt::Display,
+    io::{self, Write},
+    num::NonZeroUsize,
+    ops::ControlFlow,
+    path::{Path, PathBuf},
+    time::{Duration, Instant},
+};
+
+/// Compute the Delaunay triangulation of a point cloud.
+#[derive(Args)]
+pub(super) struct Arguments {
+    /// The points: .ply, .obj, .stl, .off, .xyz, .txt, .asc, .pts, .csv, .tsv, .pcd, .las, .laz,
+    /// .e57, .npy, .node, .f32 or .f64; or `-` for standard input, with `--format`
+    input: PathBuf,
+    /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu or .npz;
+    /// its hull as .ply, .obj, .stl or .glb; may be given several times
+    #[arg(short, long = "output", value_name = "OUTPUT", value_parser = parse_output)]
+    outputs: Vec<Output>,
+    /// Replace any existing file; without this, only earlier outputs of gdel are replaced
+    #[arg(short, long)]
+    force: bool,
+    /// The dimension of the points; in 2D, z is dropped and all outputs hold triangles
+    #[arg(long, value_enum, default_value_t = Dimension::Three)]
+    dim: Dimension,
+    /// The format of the input, whatever its extension
+    #[arg(long, value_parser = format_parser())]
+    format: Option<PointFormat>,
+    /// Where to compute; the mesh is the same everywhere
+    #[arg(long, value_enum, default_value_t = BackendName::Auto)]
+    backend: BackendName,
+    /// How many threads the CPU backend uses [default: all]
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Print statistics instead of a summary: one line per run
+    #[arg(long, value_enum)]
+    stats: Option<StatsForm>,
+    /// Triangulate this many times
+    #[arg(long, value_name = "N", default_value = "1")]
+    repeat: NonZeroUsize,
+    /// Prove that the result is the Delaunay triangulation; with --repeat, the last one
+    #[arg(long)]
+    verify: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub(super) enum BackendName {
+    /// The GPU for large inputs if there is a hardware GPU, else the CPU
+    Auto,
+    /// Incremental insertion
+    Cpu,
+    /// Insertion and flipping on the GPU; an error if there is none
+    Gpu,
+}
+
+impl From<BackendName> for Backend {
+    fn from(name: BackendName) -> Self {
+        match name {
+            BackendName::Auto => Backend::Auto,
+            BackendName::Cpu => Backend::Cpu,
+            BackendName::Gpu => Backend::Gpu,
+        }
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub(super) enum StatsForm {
+    /// One JSON object
+    Json,
+}
+
+fn parse_output(path: &str) -> Result<Output, String> {
+    Output::new(Path::new(path)).map_err(|error| error.to_string())
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match arguments.dim {
+        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
+        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
+    }
+}
+
+fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure> {
+    let input = input(&arguments.input, arguments.format)?;
+    arguments.outputs.iter().try_for_each(|output| output.check(&[input.path()], arguments.force))?;
+    let cloud = {
+        let _progress = Progress::new("reading");
+        read::<D>(&input)?
+    };
+    let points = Points::from(&cloud);
+    let failure = |source| Failure::Points { path: input.path().into(), source };
+    let report = |mesh: &M, total, verified| print(arguments.stats, &Report::new(&cloud, mesh, total, verified));
+    // One device for all runs.
+    let mut triangulator = Triangulator::new().backend(arguments.backend.into());
+    if let Some(threads) = arguments.threads {
+        triangulator = triangulator.threads(threads);
+    }
+    // Each run gives its memory back before the next.
+    for _ in 1..arguments.repeat.get() {
+        let (mesh, total) = triangulate::<M, D, N>(points, &triangulator).map_err(failure)?;
+        if !report(&mesh, total, None)? {
+            break;
+        }
+    }
+    let (mesh, total) = triangulate::<M, D, N>(points, &triangulator).map_err(failure)?;
+    let proof =
+        if arguments.verify { Some(verify::proof(|| M::verify(points, &mesh)).map_err(failure)?) } else { None };
+    report(&mesh, total, proof.as_ref().map(gdel::verify::Report::passed))?;
+    if let Some(proof) = &proof {
+        verify::conclude(input.path(), proof)?;
+    }
+    let _progress = Progress::new("writing");
+    Ok(arguments.outputs.iter().try_for_each(|output| output.write(points, &mesh))?)
+}
+
+/// Triangulates, and measures how long that takes.
+pub(super) fn triangulate<M: Triangulation<D, N>, const D: usize, const N: usize>(
+    points: Points<'_, D>,
+    triangulator: &Triangulator,
+) -> Result<(M, Duration), gdel::Error> {
+    let progress = Progress::new("triangulating");
+    let show = progress.reporter();
+    let triangulator = triangulator.clone().on_progress(move |progress| {
+        show(progress.phase.name(), progress.fraction);
+        ControlFlow::Continue(())
+    });
+    let start = Instant::now();
+    let mesh = M::triangulate(points, &triangulator)?;
+    Ok((mesh, start.elapsed()))
+}
+
+/// Prints what a run says about itself. Returns whether there is a reader: one who has closed
+/// standard output, as in `gdel … | head -1`, still wants the files.
+pub(super) fn print(form: Option<StatsForm>, report: &(impl Serialize + Display)) -> Result<bool, io::Error> {
+    let text = match form {
+        Some(StatsForm::Json) => serde_json::to_string(report)?,
+        None => report.to_string(),
+    };
+    match writeln!(io::stdout().lock(), "{text}") {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(false),
+        written => written.map(|()| true),
+    }
+}

@@ -1,0 +1,100 @@
+//! `gdel verify`: the proof that a mesh is the Delaunay triangulation of its points.
+
+use super::{
+    Failure,
+    dimension::{Dimension, Triangulation, format_parser, read},
+    input,
+    progress::Progress,
+};
+use clap::Args;
+use gdel::{Mesh2, Mesh3, Points, verify::Report};
+use gdel_io::{
+    PointBuf, PointFormat,
+    files::{Input, read_mesh},
+};
+use std::{
+    io::{self, Write},
+    path::{Path, PathBuf},
+};
+
+/// Prove that a mesh is the Delaunay triangulation of its points, or say what is wrong with it.
+#[derive(Args)]
+#[command(allow_missing_positional = true)]
+pub(super) struct Arguments {
+    /// The points, in any format that `triangulate` reads, or `-` for standard input; without them,
+    /// the points that the mesh's file holds. Where both are there, they must be the same.
+    points: Option<PathBuf>,
+    /// The mesh: .ele (with the .neigh and .node beside it, if any), .vtu or .npz
+    mesh: PathBuf,
+    /// The dimension of the mesh
+    #[arg(long, value_enum, default_value_t = Dimension::Three)]
+    dim: Dimension,
+    /// The format of the points, whatever the extension of their file
+    #[arg(long, value_parser = format_parser(), requires = "points")]
+    format: Option<PointFormat>,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match arguments.dim {
+        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
+        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
+    }
+}
+
+fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure> {
+    let path = &arguments.mesh;
+    let points = arguments.points.as_ref().map(|path| input(path, arguments.format)).transpose()?;
+    let reading = Progress::new("reading");
+    let given = points.as_ref().map(read::<D>).transpose()?;
+    let mut mesh = read_mesh::<M, D, N>(path)?;
+    drop(reading);
+    let stored = mesh.points.take();
+    let report = match (&points, &given, &stored) {
+        (Some(input), Some(given), _) => {
+            compare(input, given.into(), path, stored.as_ref())?;
+            let report = proof(|| M::verify_data(given.into(), &mesh));
+            report.map_err(|source| Failure::Points { path: input.path().into(), source })?
+        }
+        (_, _, Some(stored)) => {
+            let report = proof(|| M::verify_data(stored.into(), &mesh));
+            report.map_err(|source| Failure::Points { path: path.clone(), source })?
+        }
+        _ => return Err(Failure::NoPoints { path: path.clone() }),
+    };
+    let printed = writeln!(io::stdout().lock(), "{report}");
+    // Also for those who do not read the report.
+    conclude(path, &report)?;
+    Ok(printed?)
+}
+
+/// Checks that the points in a mesh's file, if any, are those of the input.
+fn compare<const D: usize>(
+    input: &Input,
+    given: Points<'_, D>,
+    path: &Path,
+    stored: Option<&PointBuf<D>>,
+) -> Result<(), Failure> {
+    let Some(stored) = stored.map(Points::from) else { return Ok(()) };
+    let what = if stored.len() != given.len() {
+        format!("it has {} points, not {}", stored.len(), given.len())
+    } else if let Some(i) = stored.iter().zip(given.iter()).position(|(stored, given)| stored != given) {
+        format!("its point {i} is {:?}, not {:?}", stored.get(i), given.get(i))
+    } else {
+        return Ok(());
+    };
+    Err(Failure::OtherPoints { path: path.into(), input: input.path().into(), what })
+}
+
+/// Runs the verifier.
+pub(super) fn proof<E>(verify: impl FnOnce() -> Result<Report, E>) -> Result<Report, E> {
+    let _progress = Progress::new("verifying");
+    verify()
+}
+
+/// Creates a failure that names `path` unless all checks passed.
+pub(super) fn conclude(path: &Path, report: &Report) -> Result<(), Failure> {
+    match report.failures().next() {
+        Some((check, defect, _)) => Err(Failure::Mesh { path: path.into(), what: format!("{check}: {defect}") }),
+        None => Ok(()),
+    }
+}

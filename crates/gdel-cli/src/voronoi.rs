@@ -1,0 +1,185 @@
+//! `gdel voronoi`: the Voronoi cells of points.
+
+use super::{
+    Failure,
+    derive::{Common, Found, Number, write},
+    dimension::{Dimension, Triangulation},
+};
+use clap::{Args, ValueEnum};
+use gdel::{
+    Clip, Csr, Mesh2, Mesh3, Points, Voronoi,
+    internals::{derived::VoronoiShapes, geometry::Euclidean},
+};
+use gdel_io::{CellShape, Column, Grid, Table, files::ResultOutput};
+use std::path::Path;
+
+/// Compute the Voronoi cells of points.
+#[derive(Args)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// What the cells are clipped to
+    #[arg(long, value_enum, default_value_t = ClipName::Box)]
+    clip: ClipName,
+    /// Where to write: the cells as .vtu (those that are bounded); the volume, the centre of mass
+    /// and the neighbours of each point's cell as .csv; all arrays as .npz
+    #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
+    output: ResultOutput<Format>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ClipName {
+    /// Nothing
+    None,
+    /// The smallest box that contains all points
+    Box,
+    /// The convex hull of the points
+    Hull,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Format {
+    Vtu,
+    Csv,
+    Npz,
+}
+
+fn parse_output(path: &str) -> Result<ResultOutput<Format>, String> {
+    let format_of = |extension: &str| match extension.to_ascii_lowercase().as_str() {
+        "vtu" => Some(Format::Vtu),
+        "csv" => Some(Format::Csv),
+        "npz" => Some(Format::Npz),
+        _ => None,
+    };
+    let output = ResultOutput::new(Path::new(path), "Voronoi cells", format_of, &["vtu", "csv", "npz"]);
+    output.map_err(|error| error.to_string())
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match arguments.common.dim {
+        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
+        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
+    }
+}
+
+fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure>
+where
+    Euclidean: VoronoiShapes<D, N>,
+{
+    let Arguments { common, clip, output } = arguments;
+    let input = common.input()?;
+    common.check(output, &[input.path()])?;
+    let cloud = common.read::<D>(&input)?;
+    let points = Points::from(&cloud);
+    let (_, result) = common.run::<M, D, N, _>(points, "voronoi", |mesh| {
+        let clip = match (clip, points.bounds()) {
+            (ClipName::Hull, _) => Clip::Hull,
+            // Flat points, whose box may have no inside, have no cells.
+            (ClipName::Box, Some(bounds)) if !mesh.simplices().is_empty() => Clip::Box(bounds),
+            _ => Clip::None,
+        };
+        let voronoi = Voronoi::new(mesh, points, clip)?;
+        let (result, volumes) = match output.format() {
+            Format::Npz => arrays(&voronoi),
+            Format::Csv => rows(&voronoi),
+            Format::Vtu => cells(&voronoi),
+        };
+        let cells = volumes.iter().filter(|&&volume| volume > 0.0).count();
+        let numbers = vec![
+            ("cells", Number::Count(cells)),
+            (measure::<D>(), Number::Real(volumes.iter().fold(0.0, |sum, volume| sum + volume))),
+        ];
+        Ok(Found { result, numbers })
+    })?;
+    write(output, |to| match &result {
+        Derived::Arrays(table) => table.write_npz(to),
+        Derived::Rows(table) => table.write_csv(to),
+        Derived::Cells(grid) => grid.write_vtu(to),
+    })
+}
+
+/// What is written.
+enum Derived {
+    Arrays(Table),
+    Rows(Table),
+    Cells(Grid),
+}
+
+/// Returns what the size of a cell is called.
+fn measure<const D: usize>() -> &'static str {
+    if D == 2 { "area" } else { "volume" }
+}
+
+/// Returns a row for each point's cell, and the volumes.
+fn rows<const D: usize, const N: usize>(voronoi: &Voronoi<'_, D, N>) -> (Derived, Vec<f64>)
+where
+    Euclidean: VoronoiShapes<D, N>,
+{
+    let mut neighbors = Csr::default();
+    let (mut volumes, mut centroids) = (Vec::new(), Vec::new());
+    for (volume, centroid, of_cell) in voronoi.map_cells(|_, cell| (cell.volume, cell.centroid, cell.neighbors())) {
+        volumes.push(volume);
+        centroids.push(centroid);
+        neighbors.indices.extend(of_cell);
+        neighbors.offsets.push(neighbors.indices.len());
+    }
+    let table = Table::default()
+        .with("point", Column::Indices((0..volumes.len() as i64).collect()))
+        .with(measure::<D>(), Column::Numbers(volumes.clone()))
+        .with_points("centroid_", &centroids)
+        .with("neighbors", Column::Lists(neighbors));
+    (Derived::Rows(table), volumes)
+}
+
+/// Returns the diagram as arrays, and the volumes.
+fn arrays<const D: usize, const N: usize>(voronoi: &Voronoi<'_, D, N>) -> (Derived, Vec<f64>)
+where
+    Euclidean: VoronoiShapes<D, N>,
+{
+    let diagram = voronoi.diagram();
+    let neighbors = diagram.neighbors.iter().map(|&v| v.into()).collect();
+    let table = Table::default()
+        .with_points("vertex_", &diagram.vertices)
+        .with("facets", Column::Lists(diagram.facets))
+        .with("facet_neighbors", Column::Indices(neighbors))
+        .with("facet_areas", Column::Numbers(diagram.areas))
+        .with("cells", Column::Indices(diagram.cells.iter().map(|&start| start as i64).collect()))
+        .with("volumes", Column::Numbers(diagram.volumes.clone()))
+        .with_points("centroid_", &diagram.centroids);
+    (Derived::Arrays(table), diagram.volumes)
+}
+
+/// Returns the bounded cells, and the volumes of all.
+fn cells<const D: usize, const N: usize>(voronoi: &Voronoi<'_, D, N>) -> (Derived, Vec<f64>)
+where
+    Euclidean: VoronoiShapes<D, N>,
+{
+    let shape = if D == 2 { CellShape::Polygon } else { CellShape::Polyhedron };
+    let mut grid = Grid::new::<D>(Points::F64(&[]), shape);
+    let (mut points, mut volumes, mut all) = (Vec::new(), Vec::new(), Vec::new());
+    for (point, cell) in voronoi.map_cells(|point, cell| (point, cell.clone())) {
+        all.push(cell.volume);
+        if cell.is_empty() || !cell.is_bounded {
+            continue;
+        }
+        let first = grid.points.len() as u32;
+        let padded = |p: &[f64; D]| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0));
+        grid.points.extend(cell.vertices.iter().map(padded));
+        let corners: Vec<u32> = cell.facets.indices.iter().map(|v| first + v).collect();
+        let facets = cell.facets.offsets.windows(2).map(|ends| &corners[ends[0]..ends[1]]);
+        if D == 2 {
+            // The edges are in order, and each begins with a vertex.
+            grid.push(facets.map(|ends| ends[0]));
+        } else {
+            let mut vertices = corners.clone();
+            vertices.sort_unstable();
+            vertices.dedup();
+            grid.push_polyhedron(vertices, facets);
+        }
+        points.push(point.into());
+        volumes.push(cell.volume);
+    }
+    grid.values =
+        Table::default().with("point", Column::Indices(points)).with(measure::<D>(), Column::Numbers(volumes));
+    (Derived::Cells(grid), all)
+}

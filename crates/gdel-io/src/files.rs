@@ -1,0 +1,212 @@
+//! Files by path: formats by extension, and outputs that are written atomically.
+
+use crate::{FormatError, Mesh, MeshData, MeshFormat, PointCloud, PointFormat, printable, tetgen};
+use gdel::Points;
+use std::{
+    fs,
+    io::{self, Read},
+    path::{Path, PathBuf},
+};
+
+mod output;
+mod temporary;
+
+pub use output::{Output, PointOutput, ResultOutput};
+pub use temporary::remove_temporary_files;
+
+/// Why a file was not read or written. Its text is one line of printable characters that starts
+/// with the file's name.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FileError {
+    /// The file system refused to read.
+    #[error("{}: cannot be read: {source}", shown(path))]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The file system refused to write.
+    #[error("{}: cannot be written: {source}", shown(path))]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The content is broken.
+    #[error("{}: {source}", shown(path))]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// Where and why.
+        source: FormatError,
+    },
+    /// The extension names no format that serves.
+    #[error("{}: unknown extension, {what} end in {known}", shown(path))]
+    Extension {
+        /// The file.
+        path: PathBuf,
+        /// What was to be read or written.
+        what: &'static str,
+        /// The extensions that serve.
+        known: String,
+    },
+    /// The format of standard input is not given.
+    #[error("standard input has no extension: give its format with `--format`, as in `--format xyz`")]
+    NoFormat,
+    /// An output would replace an input.
+    #[error("{}: this is the input {}: choose another name for the output", shown(path), shown(input))]
+    IsInput {
+        /// The output.
+        path: PathBuf,
+        /// The input.
+        input: PathBuf,
+    },
+    /// An output would replace a file that is not known to be an older one of its kind.
+    #[error("{}: this file exists, and is not {what}: add `--force` to replace it", shown(path))]
+    Exists {
+        /// The output.
+        path: PathBuf,
+        /// What could be replaced.
+        what: String,
+    },
+}
+
+/// Returns the name of a file for messages: without control characters, and `standard input` for
+/// `-`.
+pub fn shown(path: &Path) -> String {
+    if path == Path::new("-") { "standard input".into() } else { printable(&path.to_string_lossy()) }
+}
+
+/// Finds the format of `path` among those that `format_of` knows by extension.
+fn by_extension<F: Copy>(
+    path: &Path,
+    what: &'static str,
+    format_of: impl Fn(&str) -> Option<F>,
+    known: impl Iterator<Item = &'static str>,
+) -> Result<F, FileError> {
+    path.extension().and_then(|extension| format_of(extension.to_str()?)).ok_or_else(|| FileError::Extension {
+        path: path.into(),
+        what,
+        known: known.map(|extension| format!(".{extension}")).collect::<Vec<_>>().join(", "),
+    })
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, FileError> {
+    let in_file = |source| FileError::Read { path: path.into(), source };
+    if path.is_dir() {
+        return Err(in_file(io::ErrorKind::IsADirectory.into()));
+    }
+    fs::read(path).map_err(in_file)
+}
+
+/// A point cloud to read: a file, or standard input.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Input {
+    path: PathBuf,
+    format: PointFormat,
+}
+
+impl Input {
+    /// Creates the input at `path`, where `-` is standard input. Without a `format`, the extension
+    /// says which it is.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::Extension`] or [`FileError::NoFormat`], when the format is not known.
+    pub fn new(path: &Path, format: Option<PointFormat>) -> Result<Self, FileError> {
+        let format = match format {
+            Some(format) => format,
+            None if path == Path::new("-") => return Err(FileError::NoFormat),
+            // "Is a directory" says more than that `.` is not a known extension.
+            None if path.is_dir() => PointFormat::Text,
+            None => {
+                let known = PointFormat::ALL.iter().flat_map(|f| f.extensions()).copied();
+                by_extension(path, "point clouds", PointFormat::from_extension, known)?
+            }
+        };
+        Ok(Input { path: path.into(), format })
+    }
+
+    /// Returns the file; `-` is standard input.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Reads all points.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::Read`] or [`FileError::Format`].
+    pub fn read<const D: usize>(&self) -> Result<PointCloud<D>, FileError> {
+        self.format.read(self.bytes()?).map_err(|source| FileError::Format { path: self.path.clone(), source })
+    }
+
+    /// Reads all points, and the values in a column of the file: see
+    /// [`PointFormat::read_with_values`].
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::Read`] or [`FileError::Format`].
+    pub fn read_with_values<const D: usize>(&self, column: &str) -> Result<(PointCloud<D>, Vec<f64>), FileError> {
+        let values = self.format.read_with_values(&self.bytes()?, column);
+        values.map_err(|source| FileError::Format { path: self.path.clone(), source })
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, FileError> {
+        let path = &self.path;
+        if path != Path::new("-") {
+            return read(path);
+        }
+        let mut bytes = Vec::new();
+        let read = io::stdin().lock().read_to_end(&mut bytes);
+        read.map_err(|source| FileError::Read { path: path.clone(), source })?;
+        Ok(bytes)
+    }
+}
+
+/// Reads a 3D point cloud; the extension says in which format. [`Input`] reads 2D points, too.
+///
+/// # Errors
+///
+/// [`FileError`].
+pub fn read_points(path: &Path) -> Result<PointCloud, FileError> {
+    Input::new(path, None)?.read()
+}
+
+/// Reads a mesh; the extension says in which format. For any of the three files of TetGen or
+/// Triangle the `.ele` is read, and the `.neigh` and `.node` beside it if there are any.
+///
+/// # Errors
+///
+/// [`FileError`].
+pub fn read_mesh<M: Mesh<D, N>, const D: usize, const N: usize>(path: &Path) -> Result<MeshData<D, N>, FileError> {
+    let known = MeshFormat::ALL.iter().flat_map(|f| f.extensions()).copied();
+    let format = by_extension(path, "meshes", MeshFormat::from_extension, known)?;
+    let path = if format == MeshFormat::TetGen { &path.with_extension("ele") } else { path };
+    let in_file = |path: &Path, source| FileError::Format { path: path.into(), source };
+    let mut mesh = format.read::<M, D, N>(&read(path)?).map_err(|source| in_file(path, source))?;
+    if format == MeshFormat::TetGen {
+        let [neigh, node] = ["neigh", "node"].map(|extension| path.with_extension(extension));
+        if neigh.exists() {
+            let neighbors = tetgen::read_neigh::<M, D, N>(&read(&neigh)?);
+            mesh.neighbors = Some(neighbors.map_err(|source| in_file(&neigh, source))?);
+        }
+        if node.exists() {
+            let cloud = tetgen::read_node(&read(&node)?).map_err(|source| in_file(&node, source))?;
+            mesh.points = Some(cloud.points);
+        }
+    }
+    Ok(mesh)
+}
+
+/// Writes a point cloud; the extension says in which format. A file of the same name is replaced.
+///
+/// # Errors
+///
+/// [`FileError`].
+pub fn write_points<const D: usize>(path: &Path, points: Points<'_, D>) -> Result<(), FileError> {
+    PointOutput::new(path)?.write(points)
+}

@@ -1,0 +1,116 @@
+//! What the formats ask of a mesh, in 3D and in 2D.
+
+use crate::PointBuf;
+use gdel::{Mesh2, Mesh3, MeshView2, MeshView3};
+use std::borrow::Cow;
+
+/// What files and messages call the parts of a mesh.
+#[doc(hidden)]
+#[derive(Debug, Clone, Copy)]
+pub struct Names {
+    pub(super) simplex: &'static str,
+    /// Also the name of the array of NumPy.
+    pub(super) simplices: &'static str,
+    /// The name of NumPy's second array.
+    pub(super) adjacency: &'static str,
+    /// What the formats of triangles hold.
+    pub(super) surface: &'static str,
+    /// VTK's number for a simplex.
+    pub(super) vtk: u8,
+}
+
+/// A mesh that files can hold.
+pub trait Mesh<const D: usize, const N: usize>: gdel::Mesh<D, N> {
+    #[doc(hidden)]
+    const NAMES: Names;
+
+    /// Returns the rows of the second array in NumPy's files: neighbours, or half-edges.
+    #[doc(hidden)]
+    fn adjacency(&self) -> &[[i32; N]];
+
+    /// Returns the triangles of the hull, or all triangles of a 2D mesh, in the sense that files
+    /// have.
+    #[doc(hidden)]
+    fn surface(&self) -> Cow<'_, [[u32; 3]]>;
+
+    /// Creates the data of a file from NumPy's arrays.
+    #[doc(hidden)]
+    fn from_arrays(simplices: Vec<[u32; N]>, adjacency: Option<Vec<[i32; N]>>) -> MeshData<D, N>;
+}
+
+impl Mesh<3, 4> for Mesh3 {
+    const NAMES: Names = Names {
+        simplex: "tetrahedron",
+        simplices: "tetrahedra",
+        adjacency: "neighbors",
+        surface: "convex hull",
+        vtk: 10,
+    };
+
+    fn adjacency(&self) -> &[[i32; 4]] {
+        &self.neighbors
+    }
+
+    fn surface(&self) -> Cow<'_, [[u32; 3]]> {
+        Cow::Borrowed(&self.hull)
+    }
+
+    fn from_arrays(simplices: Vec<[u32; 4]>, neighbors: Option<Vec<[i32; 4]>>) -> MeshData3 {
+        MeshData { simplices, neighbors, halfedges: None, points: None }
+    }
+}
+
+impl Mesh<2, 3> for Mesh2 {
+    const NAMES: Names =
+        Names { simplex: "triangle", simplices: "triangles", adjacency: "halfedges", surface: "triangulation", vtk: 5 };
+
+    fn adjacency(&self) -> &[[i32; 3]] {
+        &self.halfedges
+    }
+
+    fn surface(&self) -> Cow<'_, [[u32; 3]]> {
+        Cow::Borrowed(&self.triangles)
+    }
+
+    fn from_arrays(simplices: Vec<[u32; 3]>, halfedges: Option<Vec<[i32; 3]>>) -> MeshData2 {
+        MeshData { simplices, neighbors: None, halfedges, points: None }
+    }
+}
+
+/// A mesh as a file gives it: nothing about it has been checked.
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct MeshData<const D: usize, const N: usize> {
+    /// The indices of the vertices of each tetrahedron, or of each triangle in the sense that
+    /// [`Mesh2`] has.
+    pub simplices: Vec<[u32; N]>,
+    /// Entry *k* is the tetrahedron, or triangle, opposite vertex *k*, -1 outside; `None` when the
+    /// file does not say.
+    pub neighbors: Option<Vec<[i32; N]>>,
+    /// The half-edges of a 2D mesh as in [`Mesh2`]; `None` when the file does not say.
+    pub halfedges: Option<Vec<[i32; N]>>,
+    /// The points that the vertices are indices of; `None` when the file does not have them.
+    pub points: Option<PointBuf<D>>,
+}
+
+/// A 3D mesh as a file gives it.
+pub type MeshData3 = MeshData<3, 4>;
+
+/// A 2D mesh as a file gives it.
+pub type MeshData2 = MeshData<2, 3>;
+
+impl<'a> From<&'a MeshData3> for MeshView3<'a> {
+    fn from(mesh: &'a MeshData3) -> Self {
+        let mut view = MeshView3::of_tetrahedra(&mesh.simplices);
+        view.neighbors = mesh.neighbors.as_deref();
+        view
+    }
+}
+
+impl<'a> From<&'a MeshData2> for MeshView2<'a> {
+    fn from(mesh: &'a MeshData2) -> Self {
+        let mut view = MeshView2::of_triangles(&mesh.simplices);
+        (view.halfedges, view.neighbors) = (mesh.halfedges.as_deref(), mesh.neighbors.as_deref());
+        view
+    }
+}

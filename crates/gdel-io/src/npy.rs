@@ -1,0 +1,234 @@
+//! NumPy's `.npy`.
+//!
+//! Read here because `npyz` allocates what the header says, multiplies the shape unchecked, and
+//! parses the header with a recursion that a file can make as deep as it likes. The header is one
+//! line that NumPy writes in one form.
+
+use crate::{FormatError, PointBuf, PointCloud, error::quote};
+use gdel::Points;
+use std::io::{self, Write};
+
+/// What an array's header says, and its data.
+pub(super) struct Array<'a> {
+    big_endian: bool,
+    /// `f`, `i` or `u`.
+    kind: u8,
+    /// Bytes per number.
+    size: usize,
+    shape: Vec<usize>,
+    fortran_order: bool,
+    /// Where the data starts in the file.
+    offset: usize,
+    data: &'a [u8],
+}
+
+impl<'a> Array<'a> {
+    pub(super) fn parse(bytes: &'a [u8]) -> Result<Self, FormatError> {
+        let Some(rest) = bytes.strip_prefix(b"\x93NUMPY") else {
+            return Err(FormatError::byte(0, "not a NumPy array: it does not start with \\x93NUMPY"));
+        };
+        let (start, length) = match rest {
+            [1, _, a, b, ..] => (10, u16::from_le_bytes([*a, *b]) as usize),
+            [2 | 3, _, a, b, c, d, ..] => (12, u32::from_le_bytes([*a, *b, *c, *d]) as usize),
+            _ => return Err(FormatError::byte(6, "a version of the format that is not known")),
+        };
+        let header = bytes[start..].get(..length).ok_or_else(|| {
+            FormatError::byte(bytes.len(), format!("the file ends within its header of {length} bytes"))
+        })?;
+        let invalid = |what: String| FormatError::byte(start, what);
+        let value = |key: &str| {
+            value_of(header, key).ok_or_else(|| invalid(format!("the header has no `{key}`: {}", quote(header))))
+        };
+        let descr = value("descr")?;
+        let (big_endian, kind, size) = match descr {
+            [
+                b'\'' | b'"',
+                order @ (b'<' | b'>' | b'|' | b'='),
+                kind @ (b'f' | b'i' | b'u'),
+                size @ (b'1' | b'2' | b'4' | b'8'),
+                b'\'' | b'"',
+                ..,
+            ] => (*order == b'>', *kind, usize::from(size - b'0')),
+            _ => return Err(invalid(unsupported(descr))),
+        };
+        let fortran_order = value("fortran_order")?.starts_with(b"True");
+        let shape = tuple(value("shape")?).ok_or_else(|| invalid("the shape is not a tuple of numbers".into()))?;
+        let offset = start + length;
+        let data = &bytes[offset..];
+        let promised = shape.iter().try_fold(size, |n, &dimension| n.checked_mul(dimension));
+        if promised.is_none_or(|n| n > data.len()) {
+            return Err(FormatError::byte(
+                bytes.len(),
+                format!("the file ends before all of its array of shape {shape:?}"),
+            ));
+        }
+        Ok(Array { big_endian, kind, size, shape, fortran_order, offset, data })
+    }
+
+    /// Returns the rows of an array of shape (n, `N`), whatever its order in memory; `decode` gets
+    /// a number's bytes in little-endian order.
+    fn rows<T, const N: usize, const SIZE: usize>(
+        &self,
+        decode: fn([u8; SIZE]) -> T,
+    ) -> Result<Vec<[T; N]>, FormatError> {
+        let count = match *self.shape {
+            [count, columns] if columns == N => count,
+            _ => {
+                let what = format!("an array of shape (n, {N}) expected, found {:?}", self.shape);
+                return Err(FormatError::byte(0, what));
+            }
+        };
+        let (numbers, _) = self.data.as_chunks::<SIZE>();
+        // Fits, as all of the array is in the data.
+        let end = count * N * SIZE;
+        if self.data.len() > end {
+            let what = "the file goes on after its array: only one array per file is read";
+            return Err(FormatError::byte(self.offset + end, what));
+        }
+        let row = |i: usize| {
+            std::array::from_fn(|k| {
+                let mut bytes = numbers[if self.fortran_order { k * count + i } else { i * N + k }];
+                if self.big_endian {
+                    bytes.reverse();
+                }
+                decode(bytes)
+            })
+        };
+        Ok((0..count).map(row).collect())
+    }
+
+    /// Returns the points; of 2D points the third column is dropped.
+    pub(super) fn points<const D: usize>(&self) -> Result<PointCloud<D>, FormatError> {
+        match *self.shape {
+            [_, 3] if D == 2 => Ok(PointCloud::new(self.coordinates::<3>()?)?.resize()),
+            [_, 2] if D == 3 => Err(FormatError::byte(0, format!("2D points: the array has shape {:?}", self.shape))),
+            _ => PointCloud::new(self.coordinates()?),
+        }
+    }
+
+    fn coordinates<const D: usize>(&self) -> Result<PointBuf<D>, FormatError> {
+        Ok(match (self.kind, self.size) {
+            (b'f', 2) => PointBuf::F32(self.rows(|b| half(u16::from_le_bytes(b)))?),
+            (b'f', 4) => PointBuf::F32(self.rows(f32::from_le_bytes)?),
+            (b'f', 8) => PointBuf::F64(self.rows(f64::from_le_bytes)?),
+            (b'i', 8) => PointBuf::F64(exact(self.rows(|b| i64::from_le_bytes(b).into())?)?),
+            (b'u', 8) => PointBuf::F64(exact(self.rows(|b| u64::from_le_bytes(b).into())?)?),
+            (b'i', 4) => PointBuf::F64(self.rows(|b| f64::from(i32::from_le_bytes(b)))?),
+            (b'u', 4) => PointBuf::F64(self.rows(|b| f64::from(u32::from_le_bytes(b)))?),
+            (b'i', 2) => PointBuf::F32(self.rows(|b| f32::from(i16::from_le_bytes(b)))?),
+            (b'u', 2) => PointBuf::F32(self.rows(|b| f32::from(u16::from_le_bytes(b)))?),
+            (b'i', 1) => PointBuf::F32(self.rows(|b| f32::from(i8::from_le_bytes(b)))?),
+            (b'u', 1) => PointBuf::F32(self.rows(|[b]| f32::from(b))?),
+            _ => return Err(self.unsupported("coordinates")),
+        })
+    }
+
+    /// Returns the rows as indices.
+    pub(super) fn indices<const N: usize>(&self) -> Result<Vec<[i64; N]>, FormatError> {
+        match (self.kind, self.size) {
+            // A u64 beyond i64 becomes negative, as no index is.
+            (b'i' | b'u', 8) => self.rows(i64::from_le_bytes),
+            (b'i', 4) => self.rows(|b| i32::from_le_bytes(b).into()),
+            (b'u', 4) => self.rows(|b| u32::from_le_bytes(b).into()),
+            _ => Err(self.unsupported("indices")),
+        }
+    }
+
+    fn unsupported(&self, what: &str) -> FormatError {
+        let what = format!("{what} of type {}{} are not supported", self.kind as char, self.size);
+        FormatError::byte(self.offset, what)
+    }
+}
+
+/// Returns why an element type cannot be read, and what to do about it.
+fn unsupported(descr: &[u8]) -> String {
+    let end = descr.iter().position(|b| b",}".contains(b)).filter(|_| !descr.starts_with(b"[")).unwrap_or(descr.len());
+    let name = quote(&descr[..end]);
+    let remedy = "save it with `.astype(float)`";
+    match descr {
+        [b'\'' | b'"', b'|', b'O', ..] => format!("an array of Python objects (type {name}), not of numbers: {remedy}"),
+        [b'\'' | b'"', _, b'c', ..] => format!("an array of complex numbers (type {name})"),
+        [b'[', ..] => format!("an array with named fields (type {name}): save its coordinates as columns of one array"),
+        _ => format!("an array of an element type that is not read ({name}): {remedy}"),
+    }
+}
+
+/// Returns the value of a half-precision number.
+fn half(bits: u16) -> f32 {
+    let (exponent, fraction) = (u32::from(bits >> 10 & 31), u32::from(bits & 0x3ff));
+    let magnitude = match exponent {
+        // Multiples of 2⁻²⁴, which single precision holds.
+        0 => fraction as f32 / 16_777_216.0,
+        31 if fraction > 0 => f32::NAN,
+        31 => f32::INFINITY,
+        // The bias of single precision is greater by 112.
+        _ => f32::from_bits((exponent + 112) << 23 | fraction << 13),
+    };
+    if bits >> 15 == 1 { -magnitude } else { magnitude }
+}
+
+/// Converts whole numbers, all of which double precision must hold.
+fn exact<const D: usize>(points: Vec<[i128; D]>) -> Result<Vec<[f64; D]>, FormatError> {
+    let rounded = |&x: &i128| x as f64 as i128 != x;
+    if let Some((index, x)) = points.iter().enumerate().find_map(|(i, p)| Some((i, p.iter().copied().find(rounded)?))) {
+        return Err(FormatError::point(index, format!("{x} has more digits than double precision can hold")));
+    }
+    Ok(points.into_iter().map(|p| p.map(|x| x as f64)).collect())
+}
+
+/// Returns what follows `'key':` in the header's dictionary.
+fn value_of<'a>(header: &'a [u8], key: &str) -> Option<&'a [u8]> {
+    ['\'', '"'].iter().find_map(|quote| {
+        let key = format!("{quote}{key}{quote}");
+        let at = header.windows(key.len()).position(|window| window == key.as_bytes())?;
+        Some(header[at + key.len()..].trim_ascii_start().strip_prefix(b":")?.trim_ascii_start())
+    })
+}
+
+fn tuple(value: &[u8]) -> Option<Vec<usize>> {
+    let inside = value.strip_prefix(b"(")?.split(|&b| b == b')').next()?;
+    let text = std::str::from_utf8(inside).ok()?;
+    text.split(',').map(str::trim).filter(|number| !number.is_empty()).map(|number| number.parse().ok()).collect()
+}
+
+pub(super) fn read<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
+    Array::parse(bytes)?.points()
+}
+
+pub(super) fn write<const D: usize>(to: impl Write, points: Points<'_, D>) -> io::Result<()> {
+    match points {
+        Points::F32(p) => write_array(to, "<f4", p, f32::to_le_bytes),
+        Points::F64(p) => write_array(to, "<f8", p, f64::to_le_bytes),
+    }
+}
+
+/// Writes an array of shape (n, `N`), version 1.0 of the format.
+pub(super) fn write_array<T: Copy, const N: usize, const SIZE: usize>(
+    mut to: impl Write,
+    descr: &str,
+    rows: &[[T; N]],
+    encode: fn(T) -> [u8; SIZE],
+) -> io::Result<()> {
+    write_header(&mut to, descr, &format!("({}, {N})", rows.len()))?;
+    rows.as_flattened().iter().try_for_each(|&x| to.write_all(&encode(x)))
+}
+
+/// Writes an array of shape (n,), version 1.0 of the format.
+pub(super) fn write_vector<T: Copy, const SIZE: usize>(
+    mut to: impl Write,
+    descr: &str,
+    elements: &[T],
+    encode: impl Fn(T) -> [u8; SIZE],
+) -> io::Result<()> {
+    write_header(&mut to, descr, &format!("({},)", elements.len()))?;
+    elements.iter().try_for_each(|&x| to.write_all(&encode(x)))
+}
+
+fn write_header(to: &mut impl Write, descr: &str, shape: &str) -> io::Result<()> {
+    let dictionary = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
+    // With the ten bytes before it and the line end, the header fills a multiple of 64 bytes.
+    let padded = (dictionary.len() + 11).next_multiple_of(64) - 11;
+    to.write_all(b"\x93NUMPY\x01\x00")?;
+    to.write_all(&(padded as u16 + 1).to_le_bytes())?;
+    writeln!(to, "{dictionary:padded$}")
+}

@@ -1,0 +1,161 @@
+//! NumPy's `.npz`: a ZIP archive of arrays.
+
+use crate::{
+    FormatError, Mesh, MeshData,
+    mesh::Names,
+    npy::{self, Array},
+    surface::MARK,
+};
+use gdel::{NONE, Points};
+use std::{
+    io::{self, Cursor, Read, Write},
+    ops::RangeInclusive,
+};
+use zip::{
+    CompressionMethod, ZipArchive, ZipWriter,
+    result::ZipError,
+    write::{SimpleFileOptions, StreamWriter},
+};
+
+/// No ZIP member expands by more: DEFLATE's limit.
+const LARGEST_RATIO: u64 = 1032;
+
+/// Reads the arrays of [`write_npz`]; only that of the tetrahedra or triangles must be there.
+///
+/// # Errors
+///
+/// When the archive or an array is broken or missing.
+pub fn read_npz<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> Result<MeshData<D, N>, FormatError> {
+    let mut archive = ZipArchive::new(Cursor::new(bytes))
+        .map_err(|error| FormatError::byte(0, format!("not a whole ZIP archive, which .npz is: {error}")))?;
+    let Names { simplices, adjacency, .. } = M::NAMES;
+    let Some(rows) = read_indices(&mut archive, simplices, 0..=u32::MAX.into())? else {
+        return Err(FormatError::byte(0, format!("the archive has no array `{simplices}`")));
+    };
+    let simplices = rows.into_iter().map(|row| row.map(|v| v as u32)).collect();
+    let adjacency = read_indices(&mut archive, adjacency, NONE.into()..=i32::MAX.into())?;
+    let adjacency = adjacency.map(|rows| rows.into_iter().map(|row| row.map(|n| n as i32)).collect());
+    let points = read_array(&mut archive, "points", |array| array.points())?.map(|cloud| cloud.points);
+    Ok(MeshData { points, ..M::from_arrays(simplices, adjacency) })
+}
+
+fn read_indices<const N: usize>(
+    archive: &mut ZipArchive<Cursor<&[u8]>>,
+    name: &str,
+    range: RangeInclusive<i64>,
+) -> Result<Option<Vec<[i64; N]>>, FormatError> {
+    let rows: Option<Vec<[i64; N]>> = read_array(archive, name, |array| array.indices())?;
+    match rows.iter().flatten().flatten().find(|index| !range.contains(index)) {
+        Some(index) => Err(FormatError::byte(0, format!("array `{name}`: {index} is not an index"))),
+        None => Ok(rows),
+    }
+}
+
+/// Reads the array of that name, where there is one.
+fn read_array<T>(
+    archive: &mut ZipArchive<Cursor<&[u8]>>,
+    name: &str,
+    read: impl FnOnce(Array<'_>) -> Result<T, FormatError>,
+) -> Result<Option<T>, FormatError> {
+    let in_array = |what: String| FormatError::byte(0, format!("array `{name}`: {what}"));
+    let member = match archive.by_name(&format!("{name}.npy")) {
+        Ok(member) => member,
+        Err(ZipError::FileNotFound) => return Ok(None),
+        Err(error) => return Err(in_array(error.to_string())),
+    };
+    let limit = member.compressed_size().saturating_mul(LARGEST_RATIO);
+    let mut array = Vec::new();
+    member.take(limit).read_to_end(&mut array).map_err(|error| in_array(error.to_string()))?;
+    let array = Array::parse(&array).and_then(read).map_err(|error| in_array(error.to_string()))?;
+    Ok(Some(array))
+}
+
+/// Writes `points` (f4 or f8, n × 3) and, of a 3D mesh, `tetrahedra` (u4, m × 4) and `neighbors`
+/// (i4, m × 4), uncompressed as `numpy.savez` does; of a 2D mesh `points` (n × 2), `triangles` (m ×
+/// 3) and `halfedges` (m × 3), as [`Mesh2`](gdel::Mesh2) has them.
+///
+/// # Errors
+///
+/// When `to` cannot be written.
+pub fn write_npz<const D: usize, const N: usize, M: Mesh<D, N>>(
+    to: impl Write,
+    points: Points<'_, D>,
+    mesh: &M,
+) -> io::Result<()> {
+    self::write(to, |archive| {
+        archive.array("points", |to| npy::write(to, points))?;
+        archive.array(M::NAMES.simplices, |to| npy::write_array(to, "<u4", mesh.simplices(), u32::to_le_bytes))?;
+        archive.array(M::NAMES.adjacency, |to| npy::write_array(to, "<i4", mesh.adjacency(), i32::to_le_bytes))
+    })
+}
+
+/// Writes an archive of arrays.
+pub(super) fn write(to: impl Write, arrays: impl FnOnce(&mut Archive<'_>) -> io::Result<()>) -> io::Result<()> {
+    let mut failure = None;
+    let result = write_arrays(&mut Latch { to, failure: &mut failure }, arrays);
+    failure.map_or(result, Err)
+}
+
+/// A file that keeps its first failure, and is silent about it: `ZipWriter`, when it is dropped
+/// before its end, tries to write that end, and prints what comes of it.
+struct Latch<'f, W> {
+    to: W,
+    failure: &'f mut Option<io::Error>,
+}
+
+impl<W: Write> Write for Latch<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.failure.is_some() {
+            return Ok(bytes.len());
+        }
+        match self.to.write(bytes) {
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => Err(error),
+            Err(error) => {
+                *self.failure = Some(error);
+                Ok(bytes.len())
+            }
+            Ok(0) if !bytes.is_empty() => {
+                *self.failure = Some(io::ErrorKind::WriteZero.into());
+                Ok(bytes.len())
+            }
+            written => written,
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        if self.failure.is_none()
+            && let Err(error) = self.to.flush()
+        {
+            *self.failure = Some(error);
+        }
+        Ok(())
+    }
+}
+
+/// An archive that is being written.
+pub(super) struct Archive<'w>(ZipWriter<StreamWriter<&'w mut dyn Write>>);
+
+impl<'w> Archive<'w> {
+    /// Writes the array of that name.
+    pub(super) fn array(
+        &mut self,
+        name: &str,
+        write: impl FnOnce(&mut ZipWriter<StreamWriter<&'w mut dyn Write>>) -> io::Result<()>,
+    ) -> io::Result<()> {
+        // 64-bit sizes, so that no mesh is too large, and no date, so that equal meshes make equal
+        // files.
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Stored)
+            .large_file(true)
+            .last_modified_time(zip::DateTime::default());
+        self.0.start_file(format!("{name}.npy"), options)?;
+        write(&mut self.0)
+    }
+}
+
+fn write_arrays(to: &mut dyn Write, arrays: impl FnOnce(&mut Archive<'_>) -> io::Result<()>) -> io::Result<()> {
+    let mut archive = Archive(ZipWriter::new_stream(to));
+    arrays(&mut archive)?;
+    archive.0.set_comment(MARK).map_err(io::Error::from)?;
+    archive.0.finish()?.into_inner().flush()
+}

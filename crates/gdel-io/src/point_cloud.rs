@@ -1,0 +1,106 @@
+//! Points as a file gives them.
+
+use crate::{FormatError, PointColors};
+use gdel::{Error, Points};
+
+/// Owned points in the precision of their file.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PointBuf<const D: usize = 3> {
+    /// Single precision.
+    F32(Vec<[f32; D]>),
+    /// Double precision.
+    F64(Vec<[f64; D]>),
+}
+
+impl<const D: usize> PointBuf<D> {
+    /// Returns the number of points.
+    pub fn len(&self) -> usize {
+        Points::from(self).len()
+    }
+
+    /// Returns whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Keeps the first `E` coordinates of each point; those that a point lacks become 0.
+    pub(super) fn resize<const E: usize>(self) -> PointBuf<E> {
+        fn resize<T: Copy + Default, const D: usize, const E: usize>(points: Vec<[T; D]>) -> Vec<[T; E]> {
+            points.into_iter().map(|p| std::array::from_fn(|k| p.get(k).copied().unwrap_or_default())).collect()
+        }
+        match self {
+            PointBuf::F32(points) => PointBuf::F32(resize(points)),
+            PointBuf::F64(points) => PointBuf::F64(resize(points)),
+        }
+    }
+}
+
+impl<'a, const D: usize> From<&'a PointBuf<D>> for Points<'a, D> {
+    fn from(points: &'a PointBuf<D>) -> Self {
+        match points {
+            PointBuf::F32(p) => Points::F32(p),
+            PointBuf::F64(p) => Points::F64(p),
+        }
+    }
+}
+
+/// The points of a file, all of whose coordinates are finite, and what else the file had.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct PointCloud<const D: usize = 3> {
+    /// The points, in the file's order.
+    pub points: PointBuf<D>,
+    /// How many points of the file are not in `points`, because it says that they have no
+    /// coordinates: by NaN in PCD, by their state in E57. Always 0 for other formats; NaN is an
+    /// error in all but PCD.
+    pub no_return: usize,
+    /// How many columns of a text file were ignored: those after the coordinates. Always 0 for
+    /// formats that name their columns.
+    pub ignored_columns: usize,
+    /// Whether these are 2D points of a file whose *z* coordinates are not all 0.
+    pub dropped_z: bool,
+    /// The points' colours, or what can stand for them; `None` if the file says nothing about any,
+    /// or the same of all points.
+    pub colors: Option<PointColors>,
+}
+
+impl<const D: usize> PointCloud<D> {
+    /// Creates the cloud of all of `points`.
+    pub(super) fn new(points: PointBuf<D>) -> Result<Self, FormatError> {
+        match Points::from(&points).validate() {
+            Ok(()) => Ok(PointCloud { points, no_return: 0, ignored_columns: 0, dropped_z: false, colors: None }),
+            Err(Error::NotFinite { index, axis, value }) => Err(FormatError::point(
+                index,
+                format!("the {axis} coordinate is {value}, which is not a finite number"),
+            )),
+            Err(other) => Err(FormatError::point(0, other.to_string())),
+        }
+    }
+
+    /// Keeps the first `E` coordinates of each point.
+    pub(super) fn resize<const E: usize>(self) -> PointCloud<E> {
+        let loses_z = E < 3 && Points::from(&self.points).iter().any(|p| p.get(2).is_some_and(|&z| z != 0.0));
+        PointCloud {
+            points: self.points.resize(),
+            no_return: self.no_return,
+            ignored_columns: self.ignored_columns,
+            dropped_z: self.dropped_z || loses_z,
+            colors: self.colors,
+        }
+    }
+}
+
+impl<'a, const D: usize> From<&'a PointCloud<D>> for Points<'a, D> {
+    fn from(cloud: &'a PointCloud<D>) -> Self {
+        (&cloud.points).into()
+    }
+}
+
+/// Collects points as `f64` and hands them out as `f32` when their file's type fits that exactly.
+pub(super) fn narrow<const D: usize>(points: Vec<[f64; D]>, single: bool) -> PointBuf<D> {
+    if single {
+        PointBuf::F32(points.into_iter().map(|p| p.map(|x| x as f32)).collect())
+    } else {
+        PointBuf::F64(points)
+    }
+}

@@ -1,0 +1,13 @@
+//! The file formats.
+
+mod samples;
+
+mod bad_input;
+mod colors;
+mod degenerate;
+mod e57;
+mod glb;
+mod laz;
+mod meshes;
+mod outputs;
+mod points;
