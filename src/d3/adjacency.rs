@@ -2,11 +2,15 @@
 //! its boundary belongs to one facet, and its reverse to the adjacent facet.
 
 use crate::{
-    d3::insert::corners_from_inside,
+    d3::triangulation::state,
     predicates::filter::{PredicatesAt, Row},
     slots::{Places, Slots},
 };
 use std::collections::HashMap;
+
+/// The [`FACETS`](crate::d3::mesh::FACETS) of a tetrahedron, beginning so that its last vertex, which may be infinite, comes
+/// last.
+pub(crate) const CAVITY_FACETS: [[usize; 3]; 4] = [[1, 2, 3], [2, 0, 3], [0, 1, 3], [0, 2, 1]];
 
 /// Cavities of more vertices than places have no more rows, and use a hash table instead of the
 /// matrix, which has 64² entries, or 16 KiB: it fits into a level-1 cache.
@@ -195,4 +199,13 @@ impl EdgeMap {
             slots.set_neighbors(t, [beyond, across((c, b)), across((a, c)), across((b, a))]);
         }
     }
+}
+
+/// Returns the corners of a facet, counter-clockwise as seen from the tetrahedron that it belongs to;
+/// an infinite vertex comes last.
+fn corners_from_inside(slots: &impl Slots<4>, facet: u32) -> [u32; 3] {
+    let mut v = slots.simplex(facet >> 2);
+    v[0] &= !state::MASK;
+    let [a, b, c] = CAVITY_FACETS[facet as usize & 3].map(|k| v[k]);
+    [b, a, c]
 }

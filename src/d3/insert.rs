@@ -9,7 +9,7 @@
 use crate::{
     cpu::Insert,
     d3::{
-        adjacency::{CavityVertices, EdgeMap, Facet, FacetPlaces},
+        adjacency::{CAVITY_FACETS, CavityVertices, EdgeMap, Facet, FacetPlaces},
         mesh::FACETS,
         triangulation::{MAX_TETRAHEDRA, state},
     },
@@ -36,23 +36,10 @@ pub struct Scratch<P> {
     edges: EdgeMap,
 }
 
-/// The [`FACETS`] of a tetrahedron, beginning so that its last vertex, which may be infinite, comes
-/// last.
-const CAVITY_FACETS: [[usize; 3]; 4] = [[1, 2, 3], [2, 0, 3], [0, 1, 3], [0, 2, 1]];
-
 /// So many facets of a cavity are looked at before anything is done about what was found: whether
 /// what is beyond a facet is in conflict cannot be predicted, and a branch on it would throw away
 /// what a processor has begun with the next facets, which in most cases has to be done anyway.
 const BATCH: usize = 32;
-
-/// Returns the corners of a facet, counter-clockwise as seen from the tetrahedron that it belongs to;
-/// an infinite vertex comes last.
-pub(crate) fn corners_from_inside(slots: &impl Slots<4>, facet: u32) -> [u32; 3] {
-    let mut v = slots.simplex(facet >> 2);
-    v[0] &= !state::MASK;
-    let [a, b, c] = CAVITY_FACETS[facet as usize & 3].map(|k| v[k]);
-    [b, a, c]
-}
 
 /// A walk among tetrahedra that other threads change ends after this many: it may go in circles.
 const MAX_STEPS: usize = 1 << 14;

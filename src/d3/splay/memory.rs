@@ -3,8 +3,8 @@
 
 use crate::{
     d3::splay::{
+        gathered::Gathered,
         ledger::{Entry, Ledger},
-        region::{Gathered, Region},
         star::{Changes, LinkFinder, Star, Triangle},
     },
     parallel::Pool,
@@ -35,22 +35,6 @@ pub(super) struct Lists {
     pub(super) edges: Vec<u32>,
     /// Points that are to be inserted into a star, each with the place of a request.
     pub(super) points: Vec<u64>,
-}
-
-/// The region of a run, of which the next one uses the memory.
-#[derive(Debug, Default)]
-pub struct KeptRegion(Option<Region>);
-
-impl KeptRegion {
-    /// Keeps a region.
-    pub fn keep(&mut self, region: Region) {
-        self.0 = Some(region);
-    }
-
-    /// Returns the region that was kept.
-    pub fn take(&mut self) -> Option<Region> {
-        self.0.take()
-    }
 }
 
 /// What a region leaves to the next one beside its own lists.

@@ -13,6 +13,7 @@
 mod build;
 mod consistency;
 mod flip_flop;
+mod gathered;
 mod index_set;
 mod insert;
 mod ledger;
@@ -33,10 +34,10 @@ use crate::{
 };
 use build::Known;
 use consistency::Splaying;
+pub use gathered::{Gathered, INCIDENT_SHIFT, SLOT};
 pub(in crate::d3) use index_set::IndexSet;
-pub use memory::KeptRegion;
 use predicates::StarPredicates;
-pub use region::{Gathered, INCIDENT_SHIFT, KEEP, Patch, Region, SLOT};
+pub use region::{KEEP, KeptRegion, Patch, Region};
 
 /// The result of Phase 1: a triangulation that is nearly Delaunay, and where it may not be.
 /// A tetrahedron that is not `uncertain` is taken to be positively oriented, and its facets to be

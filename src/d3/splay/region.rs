@@ -7,21 +7,17 @@
 
 use crate::{
     d3::{
-        splay::{Aborted, index_set::IndexSet, memory::Memory},
+        splay::{
+            Aborted,
+            gathered::{Gathered, INCIDENT_SHIFT, OUTSIDE, SLOT},
+            index_set::IndexSet,
+            memory::Memory,
+        },
         triangulation::{Triangulation3, state},
     },
     index::NO_INDEX,
     parallel::{self, Threads},
 };
-
-/// The number of every tetrahedron that is not in the region.
-const OUTSIDE: u32 = 0;
-
-/// The bits of the slot, in [`Gathered::slots`].
-pub const SLOT: u32 = (1 << INCIDENT_SHIFT) - 1;
-
-/// Where the vertices start, in [`Gathered::slots`], of which it is the tetrahedron.
-pub const INCIDENT_SHIFT: u32 = 28;
 
 /// An entry of [`Patch::neighbors`]: what is there stays as it is.
 pub const KEEP: u32 = u32::MAX;
@@ -31,18 +27,6 @@ const PATCH_GRAIN: usize = 1 << 11;
 
 /// From how many facets on it is worth that each thread looks at all of them.
 const SHARED_FROM: usize = 1 << 12;
-
-/// Tetrahedra of a triangulation, numbered in this order.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Gathered {
-    /// The vertices of each; a ghost has infinity last.
-    pub tetrahedra: Vec<[u32; 4]>,
-    /// The neighbours of each, 4·number + facet; below 4 where the neighbour has not been gathered.
-    pub neighbors: Vec<[u32; 4]>,
-    /// Where each is in the triangulation ([`SLOT`]); bit [`INCIDENT_SHIFT`] + *k* says that it is the
-    /// tetrahedron of its vertex *k*. Every vertex has one, a ghost if it has any.
-    pub slots: Vec<u32>,
-}
 
 /// What splaying changed in a region, for the triangulation that the region is a part of.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -57,30 +41,6 @@ pub struct Patch {
     pub len: usize,
     /// How many more finite tetrahedra there are now, and how many more ghosts.
     pub more: [isize; 2],
-}
-
-impl Gathered {
-    /// Adds others behind the first `len`. What is missing before has no slot. Returns memory that is not needed
-    /// any more.
-    fn append(&mut self, len: usize, others: Gathered, threads: Threads) -> Gathered {
-        if len == 0 && self.slots.is_empty() {
-            return std::mem::replace(self, others);
-        }
-        self.tetrahedra.resize(len, [OUTSIDE; 4]);
-        self.neighbors.resize(len, [OUTSIDE; 4]);
-        self.slots.resize(len, NO_INDEX);
-        parallel::extend(threads, &mut self.tetrahedra, &others.tetrahedra);
-        parallel::extend(threads, &mut self.neighbors, &others.neighbors);
-        parallel::extend(threads, &mut self.slots, &others.slots);
-        others
-    }
-
-    /// Returns the vertices and neighbours of the tetrahedron with a number of the region, if it was
-    /// gathered.
-    fn of(&self, number: usize) -> Option<(&[u32; 4], &[u32; 4])> {
-        let i = number.wrapping_sub(1);
-        (*self.slots.get(i)? != NO_INDEX).then_some((&self.tetrahedra[i], &self.neighbors[i]))
-    }
 }
 
 /// A part of a triangulation.
@@ -347,5 +307,21 @@ impl Region {
             patch.more = [patch.more[0] + part.more[0], patch.more[1] + part.more[1]];
         }
         patch
+    }
+}
+
+/// The region of a run, of which the next one uses the memory.
+#[derive(Debug, Default)]
+pub struct KeptRegion(Option<Region>);
+
+impl KeptRegion {
+    /// Keeps a region.
+    pub fn keep(&mut self, region: Region) {
+        self.0 = Some(region);
+    }
+
+    /// Returns the region that was kept.
+    pub fn take(&mut self) -> Option<Region> {
+        self.0.take()
     }
 }
