@@ -15,7 +15,7 @@ use crate::{
     },
     error::Error,
     predicates::filter::{PredicateContext3, PredicatesAt},
-    slots::{MarkedSlots, Slots},
+    slots::MarkedSlots,
 };
 use std::array;
 
