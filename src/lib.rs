@@ -79,6 +79,8 @@ pub mod verify;
 // Tools.
 mod fields;
 mod index;
+#[doc(hidden)]
+pub mod internals;
 mod parallel;
 mod platform;
 mod random;
@@ -173,41 +175,6 @@ pub fn delaunay3d<'a>(points: impl Into<Points3<'a>>) -> Result<Mesh3, Error> {
 /// Returns the errors of [`delaunay3d`].
 pub fn delaunay2d<'a>(points: impl Into<Points2<'a>>) -> Result<Mesh2, Error> {
     Triangulator::of_process().delaunay2d(points)
-}
-
-/// The modules that this package's own tests, benchmarks, program and WebAssembly bindings use.
-///
-/// Nothing here is part of the public interface: anything may change or go in any version.
-#[doc(hidden)]
-pub mod internals {
-    pub use crate::options::{OnProgress, Options, Winding};
-
-    macro_rules! open {
-        ($($(#[$attribute:meta])* $module:ident),*) => {$(
-            $(#[$attribute])*
-            pub mod $module {
-                pub use crate::$module::*;
-            }
-        )*};
-    }
-    open!(
-        cpu,
-        d2,
-        d3,
-        dimension,
-        derived,
-        fields,
-        #[cfg(feature = "gpu")]
-        gpu,
-        geometry,
-        index,
-        input,
-        mesh,
-        parallel,
-        predicates,
-        random,
-        triangulator
-    );
 }
 
 /// Compiles and runs the README's examples.
