@@ -149,7 +149,7 @@ pub mod parallel {
     pub use crate::parallel::Threads;
 }
 pub mod predicates {
-    pub use crate::predicates::{Sign, collinear, incircle, insphere, insphere_symbolic, orient2d, orient3d};
+    pub use crate::predicates::{Sign, collinear, incircle, insphere, orient2d, orient3d};
     pub mod filter {
         pub use crate::predicates::filter::{PredicateContext, PredicateContext2, PredicateContext3};
     }
@@ -160,6 +160,7 @@ pub mod predicates {
         pub use crate::predicates::symbolic::{break_tie, without};
     }
 }
+#[cfg(feature = "gpu")]
 pub mod triangulator {
     pub use crate::triangulator::{MIN_POINTS_2D, MIN_POINTS_3D};
 }

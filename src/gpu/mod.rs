@@ -32,7 +32,7 @@ pub mod primitives;
 mod profiler;
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) mod queries;
-mod readback;
+pub(crate) mod readback;
 mod recorder;
 pub mod shader;
 pub mod start;
@@ -48,7 +48,7 @@ pub use kernel::{Binding, Compiler, Deferred, Kernel};
 pub use parts::Parts;
 pub use profiler::Profiler;
 pub(crate) use readback::Room;
-pub use readback::{Pending, Readback, Target};
+pub use readback::{Pending, Readback};
 pub use recorder::Recorder;
 
 /// The number of invocations in a workgroup.

@@ -4,6 +4,3 @@ pub mod hilbert;
 pub mod lattice;
 pub mod order;
 pub mod points;
-
-pub use order::Order;
-pub use points::{Points, Points2, Points3};

@@ -173,6 +173,7 @@ pub(crate) fn sort_by_place<const D: usize>(points: Points<'_, D>, entries: &mut
 /// Sorts out the points that share a lattice position with a representative, given as pairs
 /// `merged`. Notes exact duplicates in `duplicate_of`, and returns the first point at each other
 /// position, with its representative.
+#[cfg(feature = "gpu")]
 pub(crate) fn missing_points<const D: usize>(
     points: Points<'_, D>,
     merged: &[[u32; 2]],

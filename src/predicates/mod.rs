@@ -24,7 +24,6 @@ pub(crate) mod polynomial;
 pub mod symbolic;
 
 pub use exact::{collinear, incircle, insphere, orient2d, orient3d};
-pub use symbolic::{incircle_symbolic, insphere_symbolic};
 
 /// The sign of an exact value: −1, 0 or 1.
 ///

@@ -7,7 +7,7 @@
 //! order whose removal leaves four points that are not coplanar decides; in 2D, three points that
 //! are not collinear.
 
-use crate::predicates::{Sign, exact};
+use crate::predicates::Sign;
 
 /// Returns the sign of an in-sphere or in-circle determinant that vanishes without the
 /// perturbation.
@@ -29,36 +29,6 @@ pub fn break_tie<const N: usize>(indices: [u32; N], mut orient: impl FnMut(usize
     // Raising the last argument's height moves it outside.
     let cofactor = |k: usize| if (N - k) % 2 == 1 { -orient(k) } else { orient(k) };
     order.into_iter().map(cofactor).find(|&sign| sign != 0).unwrap_or(0)
-}
-
-/// Returns the sign of [`insphere`](exact::insphere) with ties broken: never zero for distinct
-/// points that are not all coplanar.
-///
-/// `points` are input indices, all different, and coordinates.
-pub fn insphere_symbolic(points: [(u32, [f64; 3]); 5]) -> Sign {
-    let [a, b, c, d, e] = points.map(|(_, p)| p);
-    match exact::insphere(a, b, c, d, e) {
-        0 => break_tie(points.map(|(i, _)| i), |k| {
-            let [a, b, c, d] = without(points, k).map(|(_, p)| p);
-            exact::orient3d(a, b, c, d)
-        }),
-        sign => sign,
-    }
-}
-
-/// Returns the sign of [`incircle`](exact::incircle) with ties broken: never zero for distinct
-/// points that are not all collinear.
-///
-/// `points` are input indices, all different, and coordinates.
-pub fn incircle_symbolic(points: [(u32, [f64; 2]); 4]) -> Sign {
-    let [a, b, c, d] = points.map(|(_, p)| p);
-    match exact::incircle(a, b, c, d) {
-        0 => break_tie(points.map(|(i, _)| i), |k| {
-            let [a, b, c] = without(points, k).map(|(_, p)| p);
-            exact::orient2d(a, b, c)
-        }),
-        sign => sign,
-    }
 }
 
 /// Returns the other items, in order, when item `k` is left out. `M` is `N` − 1.

@@ -7,7 +7,7 @@ mod shared_device;
 pub use moving::Moving;
 
 #[cfg(feature = "gpu")]
-pub use shared_device::{MIN_POINTS_2D, MIN_POINTS_3D, OPENING_POINTS_2D, OPENING_POINTS_3D};
+pub use shared_device::{MIN_POINTS_2D, MIN_POINTS_3D};
 
 #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
 use crate::gpu::engine::Made;

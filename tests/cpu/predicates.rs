@@ -6,9 +6,10 @@ use gdel::{
     Points,
     internals::{
         input::lattice::Lattice,
-        predicates::{collinear, filter::PredicateContext, incircle, insphere, insphere_symbolic, orient2d, orient3d},
+        predicates::{collinear, filter::PredicateContext, incircle, insphere, orient2d, orient3d},
     },
 };
+use gdel_reference::insphere_symbolic;
 use num_bigint::BigInt;
 use rand_pcg::{
     Pcg64Mcg,

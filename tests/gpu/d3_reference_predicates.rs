@@ -1,12 +1,11 @@
 //! The reference of the GPU's predicates: its ties are those of a perturbation that is carried out.
 
 use crate::perturbation::{leaning, nearer, perturbed_rows, sign_of_columns};
-use gdel::internals::{
-    gpu::start::first_simplex,
-    input::lattice::Width,
-    predicates::{Sign, insphere_symbolic},
+use gdel::internals::{gpu::start::first_simplex, input::lattice::Width, predicates::Sign};
+use gdel_reference::{
+    d3::predicates::{self as reference, Vertex},
+    insphere_symbolic,
 };
-use gdel_reference::d3::predicates::{self as reference, Vertex};
 use num_bigint::BigInt;
 use rand::{Rng, RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg64Mcg;

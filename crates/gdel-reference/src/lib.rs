@@ -23,6 +23,7 @@ mod relocate;
 pub mod run;
 mod split;
 mod state;
+mod symbolic;
 mod ties;
 mod validate;
 
@@ -35,3 +36,4 @@ pub use pick::{pick_point, pick_score};
 pub use relocate::relocate;
 pub use split::{relocate_split, split};
 pub use state::{State, Vertex};
+pub use symbolic::{incircle_symbolic, insphere_symbolic};

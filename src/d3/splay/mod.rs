@@ -34,7 +34,9 @@ use crate::{
 };
 use build::Known;
 use consistency::Splaying;
-pub use gathered::{Gathered, INCIDENT_SHIFT, SLOT};
+#[cfg(feature = "gpu")]
+pub(crate) use gathered::SLOT;
+pub use gathered::{Gathered, INCIDENT_SHIFT};
 pub(in crate::d3) use index_set::IndexSet;
 use predicates::StarPredicates;
 pub use region::{KEEP, KeptRegion, Patch, Region};
@@ -129,6 +131,7 @@ impl From<Error> for Stop {
 
 /// Returns the approximate number of predicate evaluations that the CPU needs to triangulate
 /// points from scratch whose triangulation has so many tetrahedra: 16 for each.
+#[cfg(feature = "gpu")]
 pub fn evaluations_from_scratch(tetrahedra: usize) -> u64 {
     16 * tetrahedra as u64
 }

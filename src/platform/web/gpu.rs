@@ -2,7 +2,7 @@
 
 use crate::{
     error::Error,
-    gpu::{Gpu, Kernel, Target, compile_all},
+    gpu::{Gpu, Kernel, compile_all, readback::Target},
 };
 use std::pin::Pin;
 

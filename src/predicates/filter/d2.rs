@@ -190,7 +190,7 @@ mod tests {
         prop_assert_eq!(vertices.orient2d(1, 0, 2), -sign);
         prop_assert_eq!(vertices.orient2d_exact([0, 1, 2]), sign);
         let four = [0, 1, 2, 3].map(|v| (vertices.input_index(v), p(v)));
-        prop_assert_eq!(vertices.incircle([0, 1, 2], 3), symbolic::incircle_symbolic(four));
+        prop_assert_eq!(vertices.incircle([0, 1, 2], 3), gdel_reference::incircle_symbolic(four));
         Ok(())
     }
 

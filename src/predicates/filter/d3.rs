@@ -430,7 +430,7 @@ mod tests {
         prop_assert_eq!(vertices.orient3d(1, 0, 2, 3), -sign);
         prop_assert_eq!(vertices.orient3d_exact([0, 1, 2, 3]), sign);
         let five = [0, 1, 2, 3, 4].map(|v| (vertices.input_index(v), p(v)));
-        let sign = symbolic::insphere_symbolic(five);
+        let sign = gdel_reference::insphere_symbolic(five);
         prop_assert_eq!(vertices.insphere([0, 1, 2, 3], 4), sign);
         // From rows, with each of the vertices in each place.
         let here = vertices.at(4);
