@@ -19,8 +19,8 @@ use std::{num::NonZeroUsize, path::Path};
 pub(super) struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// The radius; `auto` is the smallest for which all points belong to the solid, and this has no
-    /// more components than wanted
+    /// The radius; `auto` is the smallest one with which all points belong to the solid and the
+    /// solid has no more components than `--components`
     #[arg(long, default_value = "auto", allow_negative_numbers = true)]
     #[arg(value_parser = clap::builder::StringValueParser::new().try_map(|text| parse_alpha(&text)))]
     alpha: Alpha,
@@ -99,7 +99,7 @@ where
             write(output, |to| grid.write_vtu(to))
         }
         Format::Surface(format) => {
-            // Three of the vertices are all: of a facet in 3D, of a simplex in 2D.
+            // Three vertices: those of a facet in 3D, or of a simplex in 2D.
             let triangles: Vec<[u32; 3]> = if D == 2 {
                 solid.iter().map(|simplex| std::array::from_fn(|k| simplex[k])).collect()
             } else {

@@ -1,4 +1,4 @@
-//! What the commands that derive something from a triangulation have in common.
+//! The frame of the commands that derive something from a triangulation.
 
 use super::{
     Failure,
@@ -32,8 +32,8 @@ pub(super) struct Common {
     /// The points, in any format that `triangulate` reads, or `-` for standard input, with
     /// `--format`
     pub(super) points: PathBuf,
-    /// Replace the output even if it is no earlier output of gdel; CSV files, which nothing marks
-    /// as such, are replaced with this only
+    /// Replace the output even if it is not marked as an earlier output of gdel; CSV files have no
+    /// mark, so they always need this
     #[arg(short, long)]
     force: bool,
     /// The dimension of the points; 2D drops z
@@ -88,7 +88,7 @@ impl Queries {
     }
 }
 
-/// What a run says about itself: as JSON by `serde`, for people by `Display`.
+/// The report of a run: as JSON by `serde`, for people by `Display`.
 #[derive(Serialize)]
 struct Report<'a> {
     points: usize,
@@ -137,7 +137,7 @@ pub(super) enum Number {
     Real(f64),
 }
 
-/// What a command found, and the numbers about it that are printed.
+/// The result of a command, and the numbers about it that are printed.
 pub(super) struct Found<T> {
     pub(super) result: T,
     pub(super) numbers: Vec<(&'static str, Number)>,
@@ -170,8 +170,8 @@ impl Common {
         Ok(input.read_with_values::<D>(column)?)
     }
 
-    /// Triangulates, calls `derive` with the mesh and prints what is to be said, as often as
-    /// wanted. Returns the last mesh and what was derived from it.
+    /// Triangulates, calls `derive` with the mesh and prints the report, as often as requested.
+    /// Returns the last mesh and what was derived from it.
     pub(super) fn run<M: Triangulation<D, N> + Mesh<D, N>, const D: usize, const N: usize, T>(
         &self,
         points: Points<'_, D>,
@@ -224,7 +224,7 @@ impl Common {
     }
 }
 
-/// Writes the output, with a word on the terminal if that takes long.
+/// Writes the output, with a progress message on the terminal if that takes long.
 pub(super) fn write<F: Copy>(
     output: &ResultOutput<F>,
     content: impl Fn(&mut dyn Write) -> io::Result<()>,

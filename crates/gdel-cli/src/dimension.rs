@@ -1,4 +1,4 @@
-//! `--dim`, and what the commands do with the meshes of either dimension.
+//! `--dim`, and the operations on meshes of either dimension.
 
 use super::Failure;
 use clap::{ValueEnum, builder::PossibleValuesParser, builder::TypedValueParser};
@@ -75,7 +75,7 @@ impl Triangulation<2, 3> for Mesh2 {
     }
 }
 
-/// Reads the points, with a word on standard error if that loses a coordinate.
+/// Reads the points, with a note on standard error if a coordinate is dropped.
 pub(super) fn read<const D: usize>(input: &Input) -> Result<PointCloud<D>, Failure> {
     let cloud: PointCloud<D> = input.read()?;
     if cloud.dropped_z {

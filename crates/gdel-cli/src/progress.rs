@@ -10,13 +10,13 @@ use std::{
     time::Duration,
 };
 
-/// How long the user waits without seeing anything.
+/// The delay before the bar is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 const REFRESH: Duration = Duration::from_millis(100);
 /// Steps of the bar.
 const STEPS: u64 = 1000;
 
-/// What to show.
+/// The state of the bar.
 #[derive(Clone, Copy)]
 struct State {
     what: &'static str,

@@ -143,8 +143,8 @@ pub(super) fn triangulate<M: Triangulation<D, N>, const D: usize, const N: usize
     Ok((mesh, start.elapsed()))
 }
 
-/// Prints what a run says about itself. Returns whether there is a reader: one who has closed
-/// standard output, as in `gdel … | head -1`, still wants the files.
+/// Prints the report of a run. Returns whether standard output is still open: after `gdel … | head
+/// -1` the files are written all the same.
 pub(super) fn print(form: Option<StatsForm>, report: &(impl Serialize + Display)) -> Result<bool, io::Error> {
     let text = match form {
         Some(StatsForm::Json) => serde_json::to_string(report)?,

@@ -5,14 +5,14 @@
 pub enum ColorSource {
     /// Colours that the file has.
     Rgb,
-    /// How much light came back: shades of grey from the 2nd to the 98th percentile.
+    /// Intensity of the returned light: shades of grey from the 2nd to the 98th percentile.
     Intensity,
     /// Directions of the surface: *x*, *y* and *z* from −1 to 1 as red, green and blue.
     Normals,
 }
 
 impl ColorSource {
-    /// Returns its name: `rgb`, `intensity` or `normals`.
+    /// Returns the name: `rgb`, `intensity` or `normals`.
     pub fn name(self) -> &'static str {
         match self {
             ColorSource::Rgb => "rgb",
@@ -28,11 +28,11 @@ impl ColorSource {
 pub struct PointColors {
     /// Red, green and blue of each point, in sRGB.
     pub rgb: Vec<[u8; 3]>,
-    /// What they stand for.
+    /// What the colours stand for.
     pub source: ColorSource,
 }
 
-/// How many numbers a file may have for the colour of a point.
+/// Numbers that a file may have for the colour of a point.
 pub(super) const CHANNELS: usize = 7;
 
 /// Those numbers: red, green, blue; intensity; the three components of a normal. What a point lacks
@@ -44,7 +44,7 @@ pub(super) const INTENSITY: usize = 3;
 /// The place of the normal in a sample.
 pub(super) const NORMAL: usize = 4;
 
-/// Returns which number of a sample a column or property is by its name.
+/// Returns the place in a sample of the column or property with a name.
 pub(super) fn channel(name: &[u8]) -> Option<usize> {
     const NAMES: [&[&str]; CHANNELS] = [
         &["red", "r", "diffuse_red"],
@@ -70,7 +70,7 @@ pub(super) enum Range {
 }
 
 impl Range {
-    /// What numbers are multiplied by to be kept as 16-bit integers.
+    /// Factor that converts numbers to 16-bit integers.
     fn scale(self) -> f64 {
         if self == Range::Fractions { 256.0 } else { 1.0 }
     }
@@ -102,12 +102,12 @@ pub(super) struct Colors {
     range: Range,
     rgb: Option<Vec<[u16; 3]>>,
     intensities: Option<Vec<f32>>,
-    /// As they will be colours.
+    /// The values as 16-bit integers.
     normals: Option<Vec<[u8; 3]>>,
 }
 
 impl Colors {
-    /// Begins with no point; `has` says which numbers of a sample there are in the file.
+    /// Creates it without points; `has` says which numbers of a sample the file has.
     pub(super) fn new(has: [bool; CHANNELS], range: Range) -> Self {
         let all = |places: std::ops::Range<usize>| has[places].iter().all(|&has| has);
         Colors {
@@ -140,8 +140,8 @@ impl Colors {
         }
     }
 
-    /// Returns the first that there are of colours, intensities and normals; those that are the same
-    /// for all points say nothing.
+    /// Returns the colours, else the intensities, else the normals. Values that are equal for all
+    /// points are ignored.
     pub(super) fn finish(self) -> Option<PointColors> {
         fn varied<T: PartialEq>(values: Option<Vec<T>>) -> Option<Vec<T>> {
             values.filter(|values| values.iter().any(|value| *value != values[0]))
@@ -167,7 +167,7 @@ fn nearest(x: f64) -> u16 {
 
 /// Returns shades of grey from the 2nd to the 98th percentile of values that are not all the same.
 fn greys(values: &[f32]) -> Vec<[u8; 3]> {
-    /// As many values tell the percentiles.
+    /// Number of values that the percentiles are estimated from.
     const SAMPLE: usize = 1 << 16;
     let mut sample: Vec<f32> = values.iter().copied().step_by(values.len() / SAMPLE + 1).collect();
     sample.sort_unstable_by(f32::total_cmp);

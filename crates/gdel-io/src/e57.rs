@@ -1,8 +1,8 @@
 //! ASTM E57, by the crate `e57`.
 //!
-//! The crate does not panic; what it would allocate on the word of a broken file is checked here
-//! before. Of its two readers, the one of raw values is used: the other gives up at a packet that
-//! does not complete a point.
+//! The crate does not panic, but allocates what a broken file promises, so sizes are checked here
+//! first. Of its two readers, the one of raw values is used: the other stops at a packet that does
+//! not complete a point.
 
 use crate::{
     FormatError, PointCloud,
@@ -57,8 +57,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     Ok(PointCloud { no_return, colors: colors.finish(), ..PointCloud::new(narrow(points, is_single))? })
 }
 
-/// Checks the numbers of points that the scans promise against the file's `size`. What they may
-/// take in memory follows from it.
+/// Compares the numbers of points that the scans promise with the file's `size`, which bounds the
+/// memory for them.
 fn check_counts(scans: &[Scan], size: usize) -> Result<(), FormatError> {
     let mut promised: u128 = 0;
     for scan in scans {
@@ -165,7 +165,7 @@ impl Columns {
             return Ok(Some(point));
         }
         Ok(of(&self.spherical)?.map(|[range, azimuth, elevation]| {
-            // The same on every machine, unlike those of the standard library.
+            // `libm` gives the same results on every machine, unlike the standard library.
             let ((sin_a, cos_a), (sin_e, cos_e)) = (libm::sincos(azimuth), libm::sincos(elevation));
             [range * cos_e * cos_a, range * cos_e * sin_a, range * sin_e]
         }))
@@ -200,7 +200,7 @@ impl Tints {
         Tints { columns, invalid: [column(IsColorInvalid), column(IsIntensityInvalid)] }
     }
 
-    /// Returns what a record says, as shares of full light; the intensity as it is.
+    /// Returns the colours of a record as shares of full light, and its intensity unchanged.
     fn sample(&self, scan: &Scan, record: &[RecordValue]) -> Sample {
         let kind = |column: usize| &scan.prototype[column].data_type;
         let invalid = self.invalid.map(|column| {
@@ -220,7 +220,7 @@ impl Tints {
     }
 }
 
-/// Describes an error of the crate in what goes before the points.
+/// Describes an error of the crate before the points.
 fn in_header(error: &Error) -> FormatError {
     FormatError::byte(0, format!("not an E57 file that can be read: {}", described(error)))
 }

@@ -43,14 +43,14 @@ pub enum FileError {
         /// Where and why.
         source: FormatError,
     },
-    /// The extension names no format that serves.
+    /// The extension is not that of a suitable format.
     #[error("{}: unknown extension, {what} end in {known}", shown(path))]
     Extension {
         /// The file.
         path: PathBuf,
-        /// What was to be read or written.
+        /// What should have been read or written.
         what: &'static str,
-        /// The extensions that serve.
+        /// The suitable extensions.
         known: String,
     },
     /// The format of standard input is not given.
@@ -64,7 +64,7 @@ pub enum FileError {
         /// The input.
         input: PathBuf,
     },
-    /// An output would replace a file that is not known to be an older one of its kind.
+    /// An output would replace a file that is not marked as an earlier output of its kind.
     #[error("{}: this file exists, and is not {what}: add `--force` to replace it", shown(path))]
     Exists {
         /// The output.
@@ -115,7 +115,7 @@ impl Input {
     ///
     /// # Errors
     ///
-    /// [`FileError::Extension`] or [`FileError::NoFormat`], when the format is not known.
+    /// Returns [`FileError::Extension`] or [`FileError::NoFormat`] if the format is not known.
     pub fn new(path: &Path, format: Option<PointFormat>) -> Result<Self, FileError> {
         let format = match format {
             Some(format) => format,
@@ -139,7 +139,7 @@ impl Input {
     ///
     /// # Errors
     ///
-    /// [`FileError::Read`] or [`FileError::Format`].
+    /// Returns [`FileError::Read`] or [`FileError::Format`].
     pub fn read<const D: usize>(&self) -> Result<PointCloud<D>, FileError> {
         self.format.read(self.bytes()?).map_err(|source| FileError::Format { path: self.path.clone(), source })
     }
@@ -149,7 +149,7 @@ impl Input {
     ///
     /// # Errors
     ///
-    /// [`FileError::Read`] or [`FileError::Format`].
+    /// Returns [`FileError::Read`] or [`FileError::Format`].
     pub fn read_with_values<const D: usize>(&self, column: &str) -> Result<(PointCloud<D>, Vec<f64>), FileError> {
         let values = self.format.read_with_values(&self.bytes()?, column);
         values.map_err(|source| FileError::Format { path: self.path.clone(), source })
@@ -171,7 +171,7 @@ impl Input {
 ///
 /// # Errors
 ///
-/// [`FileError`].
+/// Returns a [`FileError`].
 pub fn read_points(path: &Path) -> Result<PointCloud, FileError> {
     Input::new(path, None)?.read()
 }
@@ -181,7 +181,7 @@ pub fn read_points(path: &Path) -> Result<PointCloud, FileError> {
 ///
 /// # Errors
 ///
-/// [`FileError`].
+/// Returns a [`FileError`].
 pub fn read_mesh<M: Mesh<D, N>, const D: usize, const N: usize>(path: &Path) -> Result<MeshData<D, N>, FileError> {
     let known = MeshFormat::ALL.iter().flat_map(|f| f.extensions()).copied();
     let format = by_extension(path, "meshes", MeshFormat::from_extension, known)?;
@@ -206,7 +206,7 @@ pub fn read_mesh<M: Mesh<D, N>, const D: usize, const N: usize>(path: &Path) -> 
 ///
 /// # Errors
 ///
-/// [`FileError`].
+/// Returns a [`FileError`].
 pub fn write_points<const D: usize>(path: &Path, points: Points<'_, D>) -> Result<(), FileError> {
     PointOutput::new(path)?.write(points)
 }

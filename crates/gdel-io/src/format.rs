@@ -63,9 +63,9 @@ formats! {
         Npy: "npy",
         /// The points of TetGen or Triangle.
         Node: "node",
-        /// Nothing but x, y, z as little-endian single precision, also for 2D points.
+        /// Only x, y, z in little-endian single precision, also for 2D points.
         RawF32: "f32",
-        /// Nothing but x, y, z as little-endian double precision, also for 2D points.
+        /// Only x, y, z in little-endian double precision, also for 2D points.
         RawF64: "f64",
     }
 }
@@ -119,7 +119,7 @@ impl PointFormat {
     ///
     /// # Errors
     ///
-    /// Where the file is broken, and how.
+    /// Returns where the file is broken, and how.
     pub fn read<const D: usize>(self, bytes: Vec<u8>) -> Result<PointCloud<D>, FormatError> {
         let has_header = !matches!(
             self,
@@ -142,7 +142,8 @@ impl PointFormat {
     ///
     /// # Errors
     ///
-    /// Where the file is broken, and how; for other formats, that they have no values.
+    /// Returns where the file is broken, and how; other formats have no values, which is an error,
+    /// too.
     pub fn read_with_values<const D: usize>(
         self,
         bytes: &[u8],
@@ -171,7 +172,7 @@ impl PointFormat {
         }
     }
 
-    /// Returns whether [`write`](Self::write) knows this format.
+    /// Returns whether [`write`](Self::write) supports this format.
     pub fn is_written(self) -> bool {
         !matches!(self, PointFormat::Stl | PointFormat::Off | PointFormat::Pcd | PointFormat::Las | PointFormat::E57)
     }
@@ -181,8 +182,8 @@ impl PointFormat {
     ///
     /// # Errors
     ///
-    /// When `to` cannot be written; [`io::ErrorKind::Unsupported`] for the formats that are read
-    /// only.
+    /// Returns an error if `to` cannot be written, and [`io::ErrorKind::Unsupported`] for the
+    /// formats that are only read.
     pub fn write<const D: usize>(self, to: impl Write, points: Points<'_, D>) -> io::Result<()> {
         match self {
             PointFormat::Ply => ply::write_points(to, points),
@@ -205,7 +206,7 @@ impl MeshFormat {
     ///
     /// # Errors
     ///
-    /// Where the file is broken, and how.
+    /// Returns where the file is broken, and how.
     pub fn read<M: Mesh<D, N>, const D: usize, const N: usize>(
         self,
         bytes: &[u8],
@@ -222,16 +223,15 @@ impl SurfaceFormat {
     /// Writes the hull of a 3D mesh, or all triangles of a 2D mesh with *z* = 0; without the points
     /// that are not its vertices.
     ///
-    /// PLY has the points' precision. STL is binary where that holds the coordinates exactly, which
-    /// is in single precision, else ASCII. The numbers of binary glTF are single precision:
-    /// coordinates which that does not hold exactly are relative to the middle of the surface,
-    /// whose place in double precision is the translation of the node. Axes stay as they are,
-    /// though glTF has *y* point up.
+    /// PLY keeps the precision of the points. STL is binary if single precision holds the
+    /// coordinates exactly, else ASCII. Binary glTF has single precision: coordinates that it does
+    /// not hold exactly are relative to the centre of the surface, and the translation of the node
+    /// is that centre in double precision. Axes are not exchanged, though *y* points up in glTF.
     ///
     /// # Errors
     ///
-    /// When `to` cannot be written; [`io::ErrorKind::FileTooLarge`] beyond the 4 GB that binary
-    /// glTF can hold.
+    /// Returns an error if `to` cannot be written, and [`io::ErrorKind::FileTooLarge`] if a binary
+    /// glTF would exceed 4 GB.
     pub fn write<const D: usize, const N: usize, M: Mesh<D, N>>(
         self,
         to: impl Write,
@@ -246,7 +246,7 @@ impl SurfaceFormat {
     ///
     /// # Errors
     ///
-    /// The same as for [`write`](Self::write).
+    /// Returns the errors of [`write`](Self::write).
     pub fn write_triangles<const D: usize>(
         self,
         to: impl Write,

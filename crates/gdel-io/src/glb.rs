@@ -11,12 +11,12 @@ const CHUNK_HEADER: usize = 8;
 
 /// Writes binary glTF.
 ///
-/// Its numbers are single precision. Coordinates which that does not hold exactly are relative to
-/// the middle of the surface, whose place in double precision is the translation of the node; where
-/// they leave the range of single precision, they are scaled, too. Axes stay as they are, though
-/// glTF has *y* point up.
+/// Numbers have single precision. Coordinates that it does not hold exactly are relative to the
+/// centre of the surface, and the translation of the node is that centre in double precision.
+/// Coordinates beyond the range of single precision are scaled as well. Axes are not exchanged,
+/// though *y* points up in glTF.
 ///
-/// Fails with [`io::ErrorKind::FileTooLarge`] beyond 4 GB, which is as much as the format can hold.
+/// Returns [`io::ErrorKind::FileTooLarge`] beyond 4 GB, the limit of the format.
 pub(super) fn write_surface<const D: usize>(mut to: impl Write, surface: &Surface<'_, D>) -> io::Result<()> {
     let name = surface.name;
     let triangles = surface.triangles().len();
@@ -81,7 +81,7 @@ fn bounds(points: impl Iterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
     })
 }
 
-/// Where the numbers of the file are: at `middle` + `scale`·number.
+/// The coordinates are `middle` + `scale`·number.
 struct Place {
     middle: [f64; 3],
     scale: f64,

@@ -1,12 +1,13 @@
 //! File formats: reads point clouds and meshes, writes point clouds, meshes and hulls.
 //!
 //! Everything here works on bytes and [`std::io::Write`]; only [`files`] knows paths. A reader
-//! takes a whole file, so what a header promises is checked against what is there before anything
-//! is allocated, and every error says where in the file it is. No reader drops a point silently:
-//! what does not add up is an error.
+//! takes a whole file. It compares the counts of a header with the size of the file before it
+//! allocates memory, and every error says where in the file it is. No reader drops a point
+//! silently: a contradiction in the file is an error.
 //!
-//! Crates read the formats where one was found that neither panics nor allocates on a broken file's
-//! word, or that can be guarded against it; the modules that read a format themselves say why.
+//! Other crates read a format where one was found that neither panics on a broken file nor
+//! allocates what it promises, or that can be guarded. Modules that read a format themselves say
+//! why.
 
 mod colors;
 mod e57;

@@ -1,10 +1,10 @@
-//! What the formats ask of a mesh, in 3D and in 2D.
+//! The trait that lets formats handle meshes of either dimension.
 
 use crate::PointBuf;
 use gdel::{Mesh2, Mesh3, MeshView2, MeshView3};
 use std::borrow::Cow;
 
-/// What files and messages call the parts of a mesh.
+/// The names of the parts of a mesh, in files and messages.
 #[doc(hidden)]
 #[derive(Debug, Clone, Copy)]
 pub struct Names {
@@ -13,7 +13,7 @@ pub struct Names {
     pub(super) simplices: &'static str,
     /// The name of NumPy's second array.
     pub(super) adjacency: &'static str,
-    /// What the formats of triangles hold.
+    /// The name of the surface in formats of triangles.
     pub(super) surface: &'static str,
     /// VTK's number for a simplex.
     pub(super) vtk: u8,
@@ -28,8 +28,8 @@ pub trait Mesh<const D: usize, const N: usize>: gdel::Mesh<D, N> {
     #[doc(hidden)]
     fn adjacency(&self) -> &[[i32; N]];
 
-    /// Returns the triangles of the hull, or all triangles of a 2D mesh, in the sense that files
-    /// have.
+    /// Returns the triangles of the hull, or all triangles of a 2D mesh, in the orientation of
+    /// files.
     #[doc(hidden)]
     fn surface(&self) -> Cow<'_, [[u32; 3]]>;
 
@@ -81,8 +81,8 @@ impl Mesh<2, 3> for Mesh2 {
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct MeshData<const D: usize, const N: usize> {
-    /// The indices of the vertices of each tetrahedron, or of each triangle in the sense that
-    /// [`Mesh2`] has.
+    /// The indices of the vertices of each tetrahedron, or of each triangle in the orientation of
+    /// [`Mesh2`].
     pub simplices: Vec<[u32; N]>,
     /// Entry *k* is the tetrahedron, or triangle, opposite vertex *k*, -1 outside; `None` when the
     /// file does not say.

@@ -1,8 +1,8 @@
 //! NumPy's `.npy`.
 //!
-//! Read here because `npyz` allocates what the header says, multiplies the shape unchecked, and
-//! parses the header with a recursion that a file can make as deep as it likes. The header is one
-//! line that NumPy writes in one form.
+//! Read here because `npyz` allocates what the header promises, multiplies the shape without a
+//! check for overflow, and parses the header by recursion of unlimited depth. NumPy writes the
+//! header as one line in a fixed form.
 
 use crate::{FormatError, PointBuf, PointCloud, error::quote};
 use gdel::Points;
@@ -79,7 +79,7 @@ impl<'a> Array<'a> {
             }
         };
         let (numbers, _) = self.data.as_chunks::<SIZE>();
-        // Fits, as all of the array is in the data.
+        // Cannot overflow: the data holds the whole array.
         let end = count * N * SIZE;
         if self.data.len() > end {
             let what = "the file goes on after its array: only one array per file is read";
@@ -126,7 +126,7 @@ impl<'a> Array<'a> {
     /// Returns the rows as indices.
     pub(super) fn indices<const N: usize>(&self) -> Result<Vec<[i64; N]>, FormatError> {
         match (self.kind, self.size) {
-            // A u64 beyond i64 becomes negative, as no index is.
+            // A u64 beyond i64 becomes negative, which is rejected as an index.
             (b'i' | b'u', 8) => self.rows(i64::from_le_bytes),
             (b'i', 4) => self.rows(|b| i32::from_le_bytes(b).into()),
             (b'u', 4) => self.rows(|b| u32::from_le_bytes(b).into()),
@@ -176,7 +176,7 @@ fn exact<const D: usize>(points: Vec<[i128; D]>) -> Result<Vec<[f64; D]>, Format
     Ok(points.into_iter().map(|p| p.map(|x| x as f64)).collect())
 }
 
-/// Returns what follows `'key':` in the header's dictionary.
+/// Returns the text after `'key':` in the header's dictionary.
 fn value_of<'a>(header: &'a [u8], key: &str) -> Option<&'a [u8]> {
     ['\'', '"'].iter().find_map(|quote| {
         let key = format!("{quote}{key}{quote}");

@@ -20,11 +20,11 @@ use zip::{
 /// No ZIP member expands by more: DEFLATE's limit.
 const LARGEST_RATIO: u64 = 1032;
 
-/// Reads the arrays of [`write_npz`]; only that of the tetrahedra or triangles must be there.
+/// Reads the arrays of [`write_npz`]. Only the array of tetrahedra or triangles is required.
 ///
 /// # Errors
 ///
-/// When the archive or an array is broken or missing.
+/// Returns an error if the archive or an array is broken or missing.
 pub fn read_npz<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> Result<MeshData<D, N>, FormatError> {
     let mut archive = ZipArchive::new(Cursor::new(bytes))
         .map_err(|error| FormatError::byte(0, format!("not a whole ZIP archive, which .npz is: {error}")))?;
@@ -76,7 +76,7 @@ fn read_array<T>(
 ///
 /// # Errors
 ///
-/// When `to` cannot be written.
+/// Returns an error if `to` cannot be written.
 pub fn write_npz<const D: usize, const N: usize, M: Mesh<D, N>>(
     to: impl Write,
     points: Points<'_, D>,
@@ -96,8 +96,8 @@ pub(super) fn write(to: impl Write, arrays: impl FnOnce(&mut Archive<'_>) -> io:
     failure.map_or(result, Err)
 }
 
-/// A file that keeps its first failure, and is silent about it: `ZipWriter`, when it is dropped
-/// before its end, tries to write that end, and prints what comes of it.
+/// A file that reports no error after its first one. A `ZipWriter` that is dropped early tries to
+/// write the end of the archive, and would print the error.
 struct Latch<'f, W> {
     to: W,
     failure: &'f mut Option<io::Error>,
@@ -142,8 +142,7 @@ impl<'w> Archive<'w> {
         name: &str,
         write: impl FnOnce(&mut ZipWriter<StreamWriter<&'w mut dyn Write>>) -> io::Result<()>,
     ) -> io::Result<()> {
-        // 64-bit sizes, so that no mesh is too large, and no date, so that equal meshes make equal
-        // files.
+        // 64-bit sizes allow for meshes of any size. Without dates, equal meshes give equal files.
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Stored)
             .large_file(true)

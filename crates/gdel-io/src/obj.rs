@@ -1,7 +1,7 @@
 //! Wavefront OBJ.
 //!
-//! Read here because the crates do not do what is needed: `tobj` returns no vertices but those of
-//! faces, and so nothing for a point cloud; `obj` reads single precision only.
+//! Read here because `tobj` returns only the vertices of faces, so nothing for a point cloud, and
+//! `obj` reads only single precision.
 
 use crate::{
     FormatError, PointBuf, PointCloud,

@@ -1,6 +1,6 @@
 //! OFF, the Object File Format of Geomview, in text.
 //!
-//! Read here because no crate that reads it has been kept up.
+//! Read here because no crate that reads it is maintained.
 
 use crate::{
     FormatError, PointBuf, PointCloud,
@@ -8,7 +8,7 @@ use crate::{
     text::{fields, lines, number},
 };
 
-/// Reads the vertices; the faces are checked, so that a file which lacks its end is found out.
+/// Reads the vertices. The faces are checked as well, so that a truncated file is an error.
 pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     let mut last = 1;
     let mut rows = lines(bytes)

@@ -27,7 +27,7 @@ impl Field {
     }
 }
 
-/// What a field says about a point's colour.
+/// How a field contributes to the colour of a point.
 #[derive(Clone, Copy)]
 enum Tint {
     /// A number of the sample.
@@ -199,7 +199,7 @@ fn integer(word: &[u8]) -> Option<usize> {
 }
 
 fn declare(names: &[&[u8]], sizes: &[&[u8]], kinds: &[&[u8]], counts: &[&[u8]]) -> Result<Vec<Field>, String> {
-    /// More than any real record has, so that sums stay small.
+    /// A limit above that of any real record, so that sums cannot overflow.
     const LARGEST_COUNT: usize = 1 << 20;
     if sizes.len() != names.len() || kinds.len() != names.len() || !(counts.is_empty() || counts.len() == names.len()) {
         return Err("FIELDS, SIZE, TYPE and COUNT have different numbers of entries".into());
@@ -326,7 +326,7 @@ fn read_ascii(data: &[u8], header: &Header, colors: &mut Colors) -> Result<Vec<[
     Ok(points)
 }
 
-/// Where a field's values are: the first, and how far it is from one to the next.
+/// The place of a field's first value, and the distance from one value to the next.
 struct Column<'a> {
     field: &'a Field,
     start: usize,
@@ -381,7 +381,7 @@ fn compressed_block<'a>(bytes: &'a [u8], header: &Header) -> Result<(&'a [u8], u
         let what = format!("{size} bytes of data do not match {} points of {}", header.points, header.record());
         return Err(FormatError::byte(header.offset + 4, what));
     }
-    // Nothing larger can come of it, and is not allocated.
+    // The data cannot decompress to more, so no more is allocated.
     if size > compressed.saturating_mul(LARGEST_LZF_RATIO) {
         return Err(FormatError::byte(header.offset + 4, format!("{compressed} bytes cannot expand to {size}")));
     }

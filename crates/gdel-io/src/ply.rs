@@ -97,7 +97,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     Ok(PointCloud { colors: colors.finish(), ..PointCloud::new(narrow(points, is_single))? })
 }
 
-/// What a property of the vertices is.
+/// The meaning of a vertex property.
 #[derive(Clone, Copy)]
 enum Role {
     Axis(usize),
@@ -157,7 +157,7 @@ impl Header {
                         return wrong("the header ends without a line `format`".into());
                     };
                     if let Some(endless) = elements.iter().find(|e| e.properties.is_empty() && e.count > 0) {
-                        // There would be no end of these: they take no bytes.
+                        // These take no bytes, so any number of them would fit.
                         let what = format!("the element {} has no properties", quote(&endless.name));
                         return Err(FormatError::line(endless.line, what));
                     }

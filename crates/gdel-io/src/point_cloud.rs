@@ -44,7 +44,7 @@ impl<'a, const D: usize> From<&'a PointBuf<D>> for Points<'a, D> {
     }
 }
 
-/// The points of a file, all of whose coordinates are finite, and what else the file had.
+/// The points of a file, with finite coordinates, and what else was found in the file.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct PointCloud<const D: usize = 3> {
@@ -59,8 +59,8 @@ pub struct PointCloud<const D: usize = 3> {
     pub ignored_columns: usize,
     /// Whether these are 2D points of a file whose *z* coordinates are not all 0.
     pub dropped_z: bool,
-    /// The points' colours, or what can stand for them; `None` if the file says nothing about any,
-    /// or the same of all points.
+    /// The points' colours, or values that can stand for them; `None` if the file has none, or if
+    /// all points have the same.
     pub colors: Option<PointColors>,
 }
 

@@ -60,7 +60,7 @@ impl Scalar {
     pub(super) fn parse(self, word: &[u8]) -> Option<f64> {
         let text = std::str::from_utf8(word).ok()?;
         match self {
-            // The nearest of its type, not that of the nearest double.
+            // Parsed in its own type: rounding by way of a double could give another value.
             Scalar::F32 => text.parse::<f32>().ok().map(f64::from),
             _ => text.parse().ok(),
         }

@@ -1,7 +1,7 @@
 //! STL, ASCII and binary.
 //!
-//! Read here because `stl_io` says no line where a file is broken, refuses solids without a name,
-//! stops after the first of several, and takes a binary file whose header happens to begin with
+//! Read here because the errors of `stl_io` name no line, and because it refuses solids without a
+//! name, stops after the first of several solids, and takes binary files whose header begins with
 //! `solid` for text.
 
 use crate::{
@@ -15,7 +15,7 @@ use std::{
     io::{self, Write},
 };
 
-/// A header, the number of triangles, and for each 12 numbers and 2 bytes that nobody uses.
+/// A header and the number of triangles; then 12 numbers and 2 unused bytes for each.
 const HEADER: usize = 80;
 const TRIANGLE: usize = 50;
 
@@ -126,8 +126,7 @@ impl<T, Bits: Eq + std::hash::Hash> Distinct<T, Bits> {
     }
 }
 
-/// Writes binary STL where that holds the coordinates exactly, which is in single precision, else
-/// ASCII.
+/// Writes binary STL if single precision holds the coordinates exactly, else ASCII.
 pub(super) fn write_surface<const D: usize>(mut to: impl Write, surface: &Surface<'_, D>) -> io::Result<()> {
     let is_single = surface.vertices().flatten().all(|x| f64::from(x as f32) == x);
     let name = format!("{MARK}: {}", surface.name);
@@ -158,7 +157,7 @@ pub(super) fn write_surface<const D: usize>(mut to: impl Write, surface: &Surfac
     }
 }
 
-/// Returns the unit normal; zero where it cannot be computed, which readers take as "work it out".
+/// Returns the unit normal, or zero if it cannot be computed; readers then compute it themselves.
 fn normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     let [a, b, c] = [a, b, c].map(glam::DVec3::from);
     (b - a).cross(c - a).normalize_or_zero().to_array()

@@ -57,7 +57,7 @@ impl Table {
     ///
     /// # Errors
     ///
-    /// When `to` cannot be written.
+    /// Returns an error if `to` cannot be written.
     pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
         let names: Vec<&str> = self.columns.iter().map(|(name, _)| name.as_str()).collect();
         writeln!(to, "{}", names.join(","))?;
@@ -86,7 +86,7 @@ impl Table {
     ///
     /// # Errors
     ///
-    /// When `to` cannot be written.
+    /// Returns an error if `to` cannot be written.
     pub fn write_npz(&self, to: impl Write) -> io::Result<()> {
         npz::write(to, |archive| {
             for (name, column) in &self.columns {
@@ -185,7 +185,7 @@ impl Grid {
     ///
     /// # Errors
     ///
-    /// When `to` cannot be written.
+    /// Returns an error if `to` cannot be written.
     pub fn write_vtu(&self, to: impl Write) -> io::Result<()> {
         let wide = |x: u64| x.to_le_bytes();
         let coordinates = self.points.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();

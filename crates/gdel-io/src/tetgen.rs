@@ -16,13 +16,13 @@ use std::{
 ///
 /// # Errors
 ///
-/// When `to` cannot be written.
+/// Returns an error if `to` cannot be written.
 pub fn write_node<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {
     writeln!(to, "{} {D} 0 0", points.len())?;
     write_rows(to, points.iter().map(|p| p.map(Shortest)))
 }
 
-/// A number with the digits that it takes to read it back.
+/// A number, written with the digits needed to read it back.
 struct Shortest(f64);
 
 impl Display for Shortest {
@@ -35,7 +35,7 @@ impl Display for Shortest {
 ///
 /// # Errors
 ///
-/// When `to` cannot be written.
+/// Returns an error if `to` cannot be written.
 pub fn write_ele<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl Write, mesh: &M) -> io::Result<()> {
     writeln!(to, "{} {N} 0", mesh.simplices().len())?;
     write_rows(to, mesh.simplices().iter().copied())
@@ -46,7 +46,7 @@ pub fn write_ele<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl Wri
 ///
 /// # Errors
 ///
-/// When `to` cannot be written.
+/// Returns an error if `to` cannot be written.
 pub fn write_neigh<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl Write, mesh: &M) -> io::Result<()> {
     let opposites = mesh.opposites();
     writeln!(to, "{} {N}", opposites.len())?;
@@ -82,12 +82,12 @@ fn read_points<const E: usize>(bytes: &[u8]) -> Result<Vec<[f64; E]>, FormatErro
     Ok(rows.rows.into_iter().map(|row| row.entries).collect())
 }
 
-/// Reads the vertices of the tetrahedra, or of the triangles in the sense that
-/// [`Mesh2`](gdel::Mesh2) has, counted from 0. A file whose first row is number 1 counts from 1.
+/// Reads the vertices of the tetrahedra, or of the triangles in the orientation of
+/// [`Mesh2`](gdel::Mesh2), counted from 0. A file whose first row is number 1 counts from 1.
 ///
 /// # Errors
 ///
-/// Where the file is broken, and how.
+/// Returns where the file is broken, and how.
 pub fn read_ele<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> Result<Vec<[u32; N]>, FormatError> {
     let Rows { rows, base } = read_rows(bytes, M::NAMES.simplices, integer)?;
     let index = |v: i64| u32::try_from(v.checked_sub(base)?).ok();
@@ -98,7 +98,7 @@ pub fn read_ele<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> 
 ///
 /// # Errors
 ///
-/// Where the file is broken, and how.
+/// Returns where the file is broken, and how.
 pub fn read_neigh<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> Result<Vec<[i32; N]>, FormatError> {
     let Rows { rows, base } = read_rows(bytes, M::NAMES.simplices, integer)?;
     // "None" is -1 in files that count from 1 as well.

@@ -1,4 +1,4 @@
-//! Points as text: XYZ, PTS and CSV, and what all readers of text share.
+//! Points as text (XYZ, PTS and CSV), and functions for all readers of text.
 
 use crate::{
     FormatError, PointBuf, PointCloud,
@@ -70,16 +70,16 @@ fn parse(field: &[u8]) -> Option<f64> {
     std::str::from_utf8(field).ok()?.parse().ok()
 }
 
-/// Names the coordinates that a point has, for messages.
+/// Returns the names of the coordinates, for messages.
 pub(super) fn axes<const D: usize>() -> &'static str {
     if D == 2 { "x and y" } else { "x, y and z" }
 }
 
-/// The rows of a text file become points.
+/// Collects the points of a text file, row by row.
 struct Table<'w, const D: usize> {
     /// Which fields of a row are the coordinates; `None` before the first row.
     columns: Option<[usize; D]>,
-    /// Which field is the *z* that 2D points do without.
+    /// The field of the *z* that 2D points drop.
     dropped: Option<usize>,
     points: Vec<[f64; D]>,
     dropped_z: bool,
@@ -100,8 +100,8 @@ struct Table<'w, const D: usize> {
 /// The fields of a row that say something about the colour of its point.
 struct Tints {
     fields: [Option<usize>; CHANNELS],
-    /// Whether they are what fields of a row without names seem to be: then red, green and blue must
-    /// be that in every row.
+    /// Whether the meaning was guessed from the first row: then red, green and blue must be
+    /// plausible in every row.
     is_guess: bool,
     colors: Colors,
 }
@@ -136,7 +136,7 @@ impl Tints {
         Tints::new(fields, Range::Bytes, true)
     }
 
-    /// Adds the point of a row. Returns whether the row has what a guess says.
+    /// Adds the colour of a row. Returns whether the row agrees with a guess.
     fn add(&mut self, row: &[&[u8]]) -> bool {
         if self.colors.is_empty() {
             return true;
@@ -252,7 +252,7 @@ impl<'w, const D: usize> Table<'w, D> {
     }
 
     fn name_columns(&mut self, row: &[&[u8]], line: usize) -> Result<(), FormatError> {
-        /// As many names are quoted in a message.
+        /// The number of names that a message quotes.
         const QUOTED: usize = 8;
         let column = |name: &str| row.iter().position(|field| bare(field).eq_ignore_ascii_case(name.as_bytes()));
         let found = ["x", "y", "z"].map(column);
@@ -399,7 +399,7 @@ pub(super) fn read_csv_with_values<const D: usize>(
         .from_reader(text);
     let mut table = Table::new(wanted);
     let mut record = csv::ByteRecord::new();
-    // The crate counts no lines that end in `\r` alone; rows will do there.
+    // The crate does not count lines that end in a lone `\r`; the number of the row is used then.
     let counts_lines = text.contains(&b'\n');
     let line_of = |at: &csv::Position| if counts_lines { at.line() } else { at.record() + 1 } as usize;
     loop {

@@ -27,7 +27,7 @@ use std::io::{self, Read, Write};
 ///
 /// # Errors
 ///
-/// When `to` cannot be written.
+/// Returns an error if `to` cannot be written.
 pub fn write_vtu<const D: usize, const N: usize, M: Mesh<D, N>>(
     to: impl Write,
     points: Points<'_, D>,
@@ -133,13 +133,13 @@ _"#
     to.write_all(b"\n  </AppendedData>\n</VTKFile>\n")
 }
 
-/// Reads points and tetrahedra or triangles; all forms of data are known: ASCII, base64, appended,
-/// compressed with zlib.
+/// Reads points and tetrahedra or triangles, in all encodings: ASCII, base64, appended, compressed
+/// with zlib.
 ///
 /// # Errors
 ///
-/// Where the file is broken, and how; when it has cells of other types, or 2D points with *z* other
-/// than 0.
+/// Returns where the file is broken, and how. Cells of other types are errors, as are 2D points
+/// with a *z* other than 0.
 pub fn read_vtu<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> Result<MeshData<D, N>, FormatError> {
     let names = M::NAMES;
     let file = File::parse(bytes)?;
@@ -370,7 +370,7 @@ impl<'a> File<'a> {
             if self.big_endian {
                 wide[..size].reverse();
             }
-            // Shifted to the top and back, which spreads the sign.
+            // Shifts to the top and back, which extends the sign.
             let unused = 64 - 8 * size as u32;
             let value = i64::from_le_bytes(wide) << unused;
             if is_signed { value >> unused } else { (value as u64 >> unused) as i64 }
@@ -383,8 +383,8 @@ fn position(xml: &Reader<&[u8]>) -> usize {
     xml.buffer_position() as usize
 }
 
-/// Returns the attribute's value, empty where there is none. No attribute that matters has anything
-/// to unescape.
+/// Returns the attribute's value, or an empty one if it is absent. The attributes that are used
+/// contain nothing to unescape.
 fn attribute(tag: &BytesStart<'_>, name: &str) -> String {
     tag.try_get_attribute(name).ok().flatten().map(|attribute| attribute.value.into_owned()).unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! What the kernels of a round have to know of what the last one left.
+//! The beginning of an insertion round.
 
 use gdel::internals::dimension::Dimension;
 use gdel::internals::gpu::layout::{GROWTH_FROM, GROWTH_SHARE, LOGGED, NONE, Params, Pick, TWICE_GROWTH};
@@ -6,9 +6,8 @@ use gdel::internals::gpu::layout::{GROWTH_FROM, GROWTH_SHARE, LOGGED, NONE, Para
 use crate::State;
 use crate::dim::ReferenceDim;
 
-/// Begins an insertion round, and decides whether the list of waiting points is compacted, and
-/// whether so much is wrong with a mesh whose points have moved that nothing is flipped. One
-/// invocation.
+/// Begins an insertion round. Decides whether the list of waiting points is compacted, and whether
+/// a mesh whose points have moved is too damaged to be repaired by flips. One invocation.
 pub fn begin_round<const D: usize>(state: &mut State<D>)
 where
     Dimension<D>: ReferenceDim<D>,

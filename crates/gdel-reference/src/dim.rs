@@ -10,7 +10,8 @@ use gdel::internals::predicates::Sign;
 
 use crate::{State, Vertex};
 
-/// What the references need of a dimension beside [`Dim`]: predicates, corners, facets, and flips.
+/// What the references need from a dimension in addition to [`Dim`]: predicates, corners, facets
+/// and flips.
 pub trait ReferenceDim<const D: usize>: Dim<D> {
     /// The buffers that only this dimension has.
     type OwnState: OwnState;
@@ -94,8 +95,7 @@ where
     /// Carries out the flip that entry `i` of the active list proposes, if it has won.
     fn commit(state: &mut State<D>, i: usize);
 
-    /// Does what remains to be done when all points are inserted and no flip is left. 2D has
-    /// nothing to do.
+    /// Finishes when all points are inserted and no flip is left. Does nothing in 2D.
     fn finish(state: &mut State<D>);
 
     /// Panics unless the buffers that only this dimension has agree with the others.

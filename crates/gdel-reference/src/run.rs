@@ -13,7 +13,7 @@ use crate::{
     relocate_split, split, start_mesh,
 };
 
-/// How to run.
+/// The settings of a run.
 #[derive(Debug, Clone, Copy)]
 pub struct Settings {
     /// How points are picked.
@@ -75,7 +75,7 @@ where
     while state.waiting.iter().any(|entry| entry.tet != NONE) {
         state.messages.fill([0; 4]);
         begin_round(&mut state);
-        // However few points are inserted.
+        // Even if only a few points are inserted.
         state.counters.min_active = settings.min_active;
         pick_score(&mut state);
         pick_point(&mut state);
@@ -89,7 +89,7 @@ where
         }
         grow(&mut state);
     }
-    // A round in which nothing waits: its flips need no history.
+    // In the last round no point waits, so its flips need no history.
     begin_round(&mut state);
     while !state.is_idle(state.counters.iteration) {
         flip(&mut state);

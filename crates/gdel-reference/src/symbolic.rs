@@ -6,8 +6,8 @@ use gdel::{
     orient2d, orient3d,
 };
 
-/// Returns the sign of [`insphere`] with ties broken: never zero for distinct
-/// points that are not all coplanar.
+/// Returns the sign of [`insphere`] with ties broken: never zero for distinct points that are not
+/// all coplanar.
 ///
 /// `points` are input indices, all different, and coordinates.
 pub fn insphere_symbolic(points: [(u32, [f64; 3]); 5]) -> Sign {

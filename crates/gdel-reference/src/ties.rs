@@ -1,4 +1,4 @@
-//! What the references of the predicates share.
+//! Helpers of the references of the predicates.
 
 use num_bigint::BigInt;
 

@@ -1,4 +1,4 @@
-//! What must hold after every phase.
+//! Invariants after every phase.
 
 use std::collections::HashSet;
 
@@ -36,7 +36,7 @@ where
         (facet, !inversions.is_multiple_of(2))
     }
 
-    /// Panics unless the part about simplices holds.
+    /// Panics unless the invariants of the simplices hold.
     pub fn validate_mesh(&self) {
         let mut present = HashSet::new();
         let mut edges = HashSet::new();

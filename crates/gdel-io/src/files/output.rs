@@ -17,7 +17,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// A file to write, with a format that takes what a triangulation gives.
+/// A file for a mesh or its hull.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Output {
     path: PathBuf,
@@ -35,7 +35,7 @@ impl Output {
     ///
     /// # Errors
     ///
-    /// [`FileError::Extension`].
+    /// Returns [`FileError::Extension`].
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let format_of = |extension: &str| {
             let mesh = MeshFormat::from_extension(extension).map(OutputFormat::Mesh);
@@ -57,14 +57,14 @@ impl Output {
         }
     }
 
-    /// Finds out early whether the output can be written, before the work whose result goes there.
+    /// Checks that the output can be written, before the work begins.
     ///
     /// The files `inputs` are never replaced, and others only if they are earlier outputs of this
     /// format, or with `force`.
     ///
     /// # Errors
     ///
-    /// [`FileError::Write`], [`FileError::IsInput`] or [`FileError::Exists`].
+    /// Returns [`FileError::Write`], [`FileError::IsInput`] or [`FileError::Exists`].
     pub fn check(&self, inputs: &[&Path], force: bool) -> Result<(), FileError> {
         for path in self.paths() {
             check(&path, inputs)?;
@@ -84,7 +84,7 @@ impl Output {
     ///
     /// # Errors
     ///
-    /// [`FileError::Write`].
+    /// Returns [`FileError::Write`].
     pub fn write<const D: usize, const N: usize, M: Mesh<D, N>>(
         &self,
         points: Points<'_, D>,
@@ -117,7 +117,7 @@ impl PointOutput {
     ///
     /// # Errors
     ///
-    /// [`FileError::Extension`].
+    /// Returns [`FileError::Extension`].
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let known = PointFormat::ALL.iter().filter(|f| f.is_written()).flat_map(|f| f.extensions()).copied();
         let format_of = |extension: &str| PointFormat::from_extension(extension).filter(|f| f.is_written());
@@ -125,12 +125,12 @@ impl PointOutput {
         Ok(PointOutput { path: path.into(), format })
     }
 
-    /// Finds out early whether the file can be written. A file that exists is replaced only with
-    /// `force`: nothing tells generated points from measured ones.
+    /// Checks that the file can be written, before the work begins. An existing file is replaced
+    /// only with `force`, since nothing tells generated points from measured ones.
     ///
     /// # Errors
     ///
-    /// [`FileError::Write`] or [`FileError::Exists`].
+    /// Returns [`FileError::Write`] or [`FileError::Exists`].
     pub fn check(&self, force: bool) -> Result<(), FileError> {
         check(&self.path, &[])?;
         if !force && self.path.symlink_metadata().is_ok() {
@@ -144,7 +144,7 @@ impl PointOutput {
     ///
     /// # Errors
     ///
-    /// [`FileError::Write`].
+    /// Returns [`FileError::Write`].
     pub fn write<const D: usize>(&self, points: Points<'_, D>) -> Result<(), FileError> {
         publish(vec![prepare(&self.path, |to| self.format.write(to, points))?])
     }
@@ -158,12 +158,12 @@ pub struct ResultOutput<F> {
 }
 
 impl<F: Copy> ResultOutput<F> {
-    /// Creates the output at `path`, with the format that `format_of` has for its extension;
-    /// `known` has all of these, and `what` says what is written.
+    /// Creates the output at `path`, with the format that `format_of` returns for its extension.
+    /// Errors quote the extensions in `known` and the kind of result, `what`.
     ///
     /// # Errors
     ///
-    /// [`FileError::Extension`].
+    /// Returns [`FileError::Extension`].
     pub fn new(
         path: &Path,
         what: &'static str,
@@ -179,14 +179,14 @@ impl<F: Copy> ResultOutput<F> {
         self.format
     }
 
-    /// Finds out early whether the output can be written, before the work whose result goes there.
+    /// Checks that the output can be written, before the work begins.
     ///
     /// The files `inputs` are never replaced, and others only if they are marked as an output of
     /// gdel, or with `force`.
     ///
     /// # Errors
     ///
-    /// [`FileError::Write`], [`FileError::IsInput`] or [`FileError::Exists`].
+    /// Returns [`FileError::Write`], [`FileError::IsInput`] or [`FileError::Exists`].
     pub fn check(&self, inputs: &[&Path], force: bool) -> Result<(), FileError> {
         check(&self.path, inputs)?;
         if !force && self.path.symlink_metadata().is_ok() && !is_generated(&self.path) {
@@ -200,7 +200,7 @@ impl<F: Copy> ResultOutput<F> {
     ///
     /// # Errors
     ///
-    /// [`FileError::Write`].
+    /// Returns [`FileError::Write`].
     pub fn write(&self, write: impl Fn(&mut dyn io::Write) -> io::Result<()>) -> Result<(), FileError> {
         publish(vec![prepare(&self.path, write)?])
     }
@@ -212,7 +212,7 @@ fn check(path: &Path, inputs: &[&Path]) -> Result<(), FileError> {
     if path.is_dir() {
         return Err(in_file(io::ErrorKind::IsADirectory.into()));
     }
-    // Where one of the two does not exist, they are not the same.
+    // Files of which one does not exist are not the same.
     if let Some(input) = inputs.iter().find(|input| same_file::is_same_file(path, input).unwrap_or(false)) {
         return Err(FileError::IsInput { path: path.into(), input: input.into() });
     }
@@ -221,7 +221,7 @@ fn check(path: &Path, inputs: &[&Path]) -> Result<(), FileError> {
 
 /// Returns whether the file has the mark of one that was written here.
 fn is_generated(path: &Path) -> bool {
-    /// As far from the begin or the end the mark is.
+    /// The mark is at most so many bytes from the begin or the end.
     const REACH: u64 = 512;
     let has_mark = || -> io::Result<bool> {
         // Opening anything else, such as a pipe, might wait.

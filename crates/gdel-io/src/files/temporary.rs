@@ -1,4 +1,4 @@
-//! Files that do not have their names yet.
+//! Temporary files, which get their names when they are complete.
 
 use crate::files::FileError;
 use std::{
@@ -16,13 +16,12 @@ fn temporary_files() -> MutexGuard<'static, Vec<PathBuf>> {
     TEMPORARY_FILES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes the temporary files of outputs that are not written to their end, for a program that is
-/// about to exit on a signal. Outputs that are just being replaced get that done first; later ones
-/// wait forever.
+/// Removes the temporary files of incomplete outputs, for a program that is about to exit on a
+/// signal. Outputs that are being renamed are finished first; later ones block forever.
 pub fn remove_temporary_files() {
     let mut files = temporary_files();
     for path in files.drain(..) {
-        // One that is gone is as good.
+        // A file that no longer exists needs no removal.
         let _ = fs::remove_file(path);
     }
     std::mem::forget(files);
@@ -81,7 +80,7 @@ pub(super) fn prepare(path: &Path, content: impl Fn(&mut dyn Write) -> io::Resul
 pub(super) fn publish(prepared: Vec<Prepared>) -> Result<(), FileError> {
     let mut files = temporary_files();
     let is_single = prepared.len() == 1;
-    // Each name with the file that had it.
+    // The paths, with the files that had these names before.
     let mut done: Vec<(PathBuf, Option<PathBuf>)> = Vec::new();
     let mut result = Ok(());
     for Prepared { path, file } in prepared {
@@ -105,7 +104,7 @@ pub(super) fn publish(prepared: Vec<Prepared>) -> Result<(), FileError> {
         }
     }
     for (path, aside) in done.iter().rev() {
-        // Nothing more can be done for those that fail here.
+        // A failure to restore cannot be handled further.
         let _ = match (aside, &result) {
             (Some(aside), Err(_)) => fs::rename(aside, path),
             (None, Err(_)) => fs::remove_file(path),

@@ -8,21 +8,20 @@ use laz::{
 };
 use std::io::{self, Read};
 
-/// A run of times with small differences, such as one of several scanners' that take turns.
+/// A sequence of times with small differences, as of one scanner of several that take turns.
 #[derive(Clone, Copy, Default)]
 struct Sequence {
     /// The last time: the bits of a double, as an integer.
     time: i64,
-    /// The difference that later ones are multiples of, about.
+    /// The difference of which later differences are approximate multiples.
     difference: i32,
-    /// How many differences were no such multiple.
+    /// Differences in a row that were no such multiple.
     extremes: u8,
 }
 
-/// Four sequences, the most that an encoder keeps.
+/// The number of sequences that an encoder keeps.
 const SEQUENCES: usize = 4;
-/// An encoder that finds a time near the last one of another sequence switches to it at once; by
-/// steps of one, three switches reach every sequence.
+/// Switches in a row that an encoder may write: three steps reach every sequence.
 const MAX_SWITCHES: usize = SEQUENCES - 1;
 /// Differences without a good multiple after which the last of them becomes the sequence's.
 const MAX_EXTREMES: u8 = 3;
@@ -35,17 +34,17 @@ const UNCHANGED: u32 = MIN_MULTIPLE + 1;
 const NEW_SEQUENCE: u32 = MIN_MULTIPLE + 2;
 const SYMBOLS: u32 = NEW_SEQUENCE + SEQUENCES as u32;
 
-/// The decompressor of the item, as the [LASzip paper] and its reference implementation have it.
+/// The decoder of the item, as in the [LASzip paper] and its reference implementation.
 ///
 /// [LASzip paper]: https://doi.org/10.14358/PERS.79.2.209
 pub(super) struct GpsTime {
     sequences: [Sequence; SEQUENCES],
     current: usize,
     newest: usize,
-    /// What comes next in a sequence whose difference is zero, which is that of a new one.
+    /// Symbols in a sequence whose difference is zero, as in a new one.
     first_symbols: ArithmeticModel,
     symbols: ArithmeticModel,
-    /// What is to be added to a predicted number, in nine contexts.
+    /// Corrections to predicted numbers, in nine contexts.
     corrections: IntegerDecompressor,
 }
 
@@ -63,8 +62,8 @@ impl Default for GpsTime {
 }
 
 impl GpsTime {
-    /// Reads one symbol with what belongs to it. Returns whether that was a time, and not a switch
-    /// to another sequence.
+    /// Reads one symbol and the numbers that follow it. Returns whether it was a time rather than a
+    /// switch to another sequence.
     fn step<R: Read>(&mut self, decoder: &mut ArithmeticDecoder<R>) -> io::Result<bool> {
         let sequence = &mut self.sequences[self.current];
         let symbol = if sequence.difference == 0 {
@@ -140,70 +139,5 @@ impl<R: Read> FieldDecompressor<R> for GpsTime {
             }
         }
         Err(io::Error::new(io::ErrorKind::InvalidData, "no GPS time, but switches between sequences of them"))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use laz::{
-        las::v2,
-        record::{
-            RecordCompressor, RecordDecompressor, SequentialPointRecordCompressor, SequentialPointRecordDecompressor,
-        },
-    };
-    use rand::{RngExt, SeedableRng, seq::IndexedRandom};
-    use rand_pcg::Pcg64Mcg;
-
-    type Decompressor<'a> = SequentialPointRecordDecompressor<'a, &'a [u8]>;
-
-    /// Returns the decompressors of a stream of times: the one here and that of the crate.
-    fn decompressors(stream: &[u8]) -> [Decompressor<'_>; 2] {
-        let [mut ours, mut theirs] = [Decompressor::new(stream), Decompressor::new(stream)];
-        ours.add_field_decompressor(GpsTime::default());
-        theirs.add_field_decompressor(v2::GpsTimeDecompressor::default());
-        [ours, theirs]
-    }
-
-    /// Returns times that need every symbol: several sequences, most of which pass by multiples of
-    /// a difference, small and large, of both signs, for a while or once.
-    fn times(random: &mut Pcg64Mcg, count: usize) -> Vec<i64> {
-        let mut sequences: Vec<i64> = (0..6).map(|i| i << 40).collect();
-        let mut times = Vec::with_capacity(count);
-        let (mut s, mut unit, mut multiple) = (0, 1_i64, 1_i64);
-        while times.len() < count {
-            match random.random_range(0..40) {
-                0 => s = random.random_range(0..sequences.len()),
-                1 => unit = *[1, 20, 1000, 1 << 20].choose(random).expect("four"),
-                2 => multiple = *[0, 1, 7, 80, 499, 500, 501, 10_000].choose(random).expect("eight"),
-                3 => multiple = -*[1, 9, 10, 11, 600].choose(random).expect("five"),
-                4 => sequences[s] += i64::from(*[i32::MIN, i32::MAX].choose(random).expect("two")),
-                5 => sequences[s] = i64::from(random.random::<i32>()) << 20,
-                _ => {}
-            }
-            let jitter = if random.random_bool(0.3) { random.random_range(-unit / 5..=unit / 5) } else { 0 };
-            sequences[s] += unit * multiple + jitter;
-            times.push(sequences[s]);
-        }
-        times
-    }
-
-    #[test]
-    fn what_the_crate_compresses() {
-        for seed in 0..5 {
-            let times = times(&mut Pcg64Mcg::seed_from_u64(seed), 20_000);
-            let mut compressor = SequentialPointRecordCompressor::new(Vec::new());
-            compressor.add_field_compressor(v2::GpsTimeCompressor::default());
-            times.iter().for_each(|time| compressor.compress_next(&time.to_le_bytes()).expect("memory"));
-            compressor.done().expect("memory");
-            let stream = compressor.into_inner();
-            for mut decompressor in decompressors(&stream) {
-                for (i, time) in times.iter().enumerate() {
-                    let mut read = [0; 8];
-                    decompressor.decompress_next(&mut read).expect("whole");
-                    assert_eq!(i64::from_le_bytes(read), *time, "time {i} of seed {seed}");
-                }
-            }
-        }
     }
 }

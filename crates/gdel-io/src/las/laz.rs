@@ -1,11 +1,10 @@
 //! The compressed points of LAZ.
 //!
-//! The crate `laz` decodes the items of a point; here they are put together to records, and those
-//! to chunks, because of one item: in the crate, a point's GPS time that is said to be in another
-//! sequence than the last is read by recursion, and a broken file says so a million times in a row.
-//! Of the formats that code all items in one stream, [`GpsTime`] takes the crate's place. Those
-//! that code each item in a layer of its own are read without the layers that neither coordinates nor
-//! colours need.
+//! The crate `laz` (0.13) decodes the items of a point. This module combines them to records and
+//! chunks, because of one item: the crate follows a switch between sequences of GPS times by
+//! recursion, and a broken file can have a million switches in a row, which would overflow the
+//! stack. In formats that code all items in one stream, [`GpsTime`] replaces the crate's decoder.
+//! In formats with a layer per item, only the layers of coordinates and colours are read.
 
 use super::{gps_time::GpsTime, in_header, is_end};
 use crate::FormatError;
@@ -59,8 +58,8 @@ pub(super) fn decode(
     Ok(())
 }
 
-/// Checks that the items make a record, whatever sizes the file gives them, and that the first is
-/// the one with the coordinates that the kind of compressor is for.
+/// Checks that the items make a record, whatever sizes the file gives them, and that the first item
+/// has coordinates and suits the kind of compressor.
 fn check_items(items: &[LazItem], compressor: u16, start: usize, record: u16) -> Result<(), FormatError> {
     const ONE_STREAM: [u16; 2] = [CompressorType::PointWise as u16, CompressorType::PointWiseChunked as u16];
     const LAYERS: u16 = CompressorType::LayeredChunked as u16;
@@ -80,8 +79,7 @@ fn check_items(items: &[LazItem], compressor: u16, start: usize, record: u16) ->
     }
 }
 
-/// Returns how many points each chunk has, none of them zero, and moves `source` from the place of
-/// their table to the first of them.
+/// Returns the number of points of each chunk, never zero, and moves `source` to the first chunk.
 fn chunks(source: &mut Cursor<&[u8]>, vlr: &LazVlr) -> Result<Box<dyn Iterator<Item = u64>>, FormatError> {
     let start = source.position();
     check_table(source.get_ref(), start as usize)?;
@@ -93,15 +91,15 @@ fn chunks(source: &mut Cursor<&[u8]>, vlr: &LazVlr) -> Result<Box<dyn Iterator<I
         return Ok(Box::new(counts.into_iter()));
     }
     source.set_position(start + ChunkTable::OFFSET_SIZE as u64);
-    // As in LASzip, chunks of no points stand for one with all of them.
+    // As in LASzip, a chunk size of zero means one chunk with all points.
     Ok(Box::new(iter::repeat(if vlr.chunk_size() == 0 { u64::MAX } else { vlr.chunk_size().into() })))
 }
 
-/// Checks the number of chunks that their table says, for which the crate allocates memory. `start`
-/// is the byte where the place of the table stands.
+/// Checks the number of chunks in their table, for which the crate allocates memory. The offset of
+/// the table is at the byte `start`.
 fn check_table(bytes: &[u8], start: usize) -> Result<(), FormatError> {
     let i64_at = |at: usize| Some(i64::from_le_bytes(*bytes.get(at..)?.first_chunk()?));
-    // A writer that could not seek left the table's place at the end of the file.
+    // A writer that could not seek has put the table's offset at the end of the file.
     let places = [Some(start), bytes.len().checked_sub(8)].into_iter().flatten().filter_map(i64_at);
     let place = places.filter_map(|place| usize::try_from(place).ok()).find(|&place| place > start);
     match place.and_then(|place| Some((place, u32_at(bytes, place.checked_add(4)?)?))) {

@@ -1,8 +1,8 @@
 //! ASPRS LAS and LAZ, by the crates `las` and `laz`.
 //!
-//! The crates allocate what a broken file says, and panic on some. So what a file says is checked
-//! here before they see it, and a panic is taken for what it is: a broken file. Nothing catches a
-//! stack that overflows, so what recurses in them is not used.
+//! The crates allocate what a broken file promises, and panic on some broken files. So sizes are
+//! checked here first, and a panic becomes an error. A stack overflow cannot be caught, so the
+//! decoder of GPS times that recurses is not used (`laz` 0.13).
 
 mod gps_time;
 mod laz;
@@ -24,7 +24,7 @@ thread_local! {
 }
 
 /// Returns whether this thread runs a decoder whose panics become errors. A program's panic hook
-/// asks this to know when to be silent.
+/// prints nothing then.
 pub fn panics_are_caught() -> bool {
     PANICS_ARE_CAUGHT.get()
 }
@@ -37,7 +37,8 @@ pub(super) fn read(mut bytes: Vec<u8>) -> Result<PointCloud, FormatError> {
     let header = raw::Header::read_from(bytes.as_slice()).map_err(|error| in_header(error, size))?;
     check_size(&header, size)?;
     if header.evlr.is_some() {
-        // Nothing in these is about coordinates, and the crate allocates what they say.
+        // These records have nothing about coordinates, and the crate allocates the size that they
+        // promise.
         bytes[EVLR].fill(0);
     }
     let start = header.offset_to_point_data as usize;
@@ -47,7 +48,7 @@ pub(super) fn read(mut bytes: Vec<u8>) -> Result<PointCloud, FormatError> {
     result.unwrap_or_else(|_| Err(FormatError::byte(start, "the compressed data is broken")))
 }
 
-/// Checks the header's counts against the file's size.
+/// Compares the header's counts with the file's size.
 fn check_size(header: &raw::Header, size: usize) -> Result<(), FormatError> {
     let points = point_count(header);
     let is_compressed = header.point_data_record_format & 0xc0 != 0;
@@ -55,8 +56,7 @@ fn check_size(header: &raw::Header, size: usize) -> Result<(), FormatError> {
     let promised = points.checked_mul(header.point_data_record_length.into());
     match (data, promised) {
         (None, _) => Err(FormatError::byte(size, "the file ends before its points")),
-        // A mesh cannot name more points than this, and the product cannot overflow in what
-        // follows.
+        // A mesh has no indices for more points, and later products cannot overflow.
         (_, promised) if points > u32::MAX.into() || promised.is_none() => {
             Err(FormatError::byte(0, format!("{points} points are too many")))
         }
@@ -116,7 +116,7 @@ fn rgb_at(format: &Format) -> Option<usize> {
     format.has_color.then_some(before)
 }
 
-/// Describes an error of the crates in what goes before the points, in a file of `size` bytes.
+/// Describes an error of the crates before the points, in a file of `size` bytes.
 fn in_header(error: impl Into<::las::Error>, size: usize) -> FormatError {
     match error.into() {
         ::las::Error::Io(error) | ::las::Error::LasZipError(LasZipError::IoError(error)) if is_end(&error) => {

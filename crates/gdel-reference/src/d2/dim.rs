@@ -1,4 +1,4 @@
-//! What makes the references those of 2D.
+//! The 2D implementations of the traits of the references.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! What must hold at the end.
+//! Invariants at the end of Phase 1.
 
 use crate::State;
 

@@ -1,4 +1,4 @@
-//! What makes the references those of 3D.
+//! The 3D implementations of the traits of the references.
 
 use std::ops::Range;
 

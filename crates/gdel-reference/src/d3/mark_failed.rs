@@ -1,4 +1,4 @@
-//! The vertices that star splaying has to mend (§3.2.1).
+//! The vertices that star splaying has to repair (§3.2.1).
 
 use gdel::internals::d3::mesh::FACETS;
 use gdel::internals::gpu::layout::SUSPECT_SHIFT;
@@ -7,8 +7,8 @@ use crate::State;
 
 /// Marks the vertices of the facets that are not locally Delaunay. One invocation per slot.
 ///
-/// Only facets that a flip iteration found so and could not flip need another look: what lies
-/// around them may have changed since.
+/// Only facets that a flip iteration found but could not flip are checked: their neighbourhood may
+/// have changed since.
 pub fn mark_failed(state: &mut State<3>) {
     for t in 0..state.simplices.len() as u32 {
         if !state.is_used(t as usize) {

@@ -1,4 +1,4 @@
-//! What the references of the kernels have of their own in 3D.
+//! The parts of the references that are specific to 3D.
 
 mod dim;
 mod flip_check;
