@@ -156,11 +156,6 @@ impl Kernel {
         })
     }
 
-    /// Returns whether drivers take long to compile the pipeline.
-    fn takes_long(&self) -> bool {
-        self.shader.is_some_and(|(shader, _)| shader.takes_long())
-    }
-
     /// Returns whether the pipeline is compiled.
     pub fn is_compiled(&self) -> bool {
         self.pipeline.get().is_some()
@@ -299,13 +294,10 @@ impl<'a> Compiler<'a> {
     }
 }
 
-/// Compiles the kernels that are not compiled yet. Those that take long come first, so that none of them
-/// is the last one where several are compiled at a time, as by browsers and Dawn.
+/// Compiles the kernels that are not compiled yet.
 pub(crate) async fn compile_all(gpu: &Gpu, kernels: &[Kernel]) -> Result<(), Error> {
     gpu.with_error_scope("pipelines", || {
-        for takes_long in [true, false] {
-            kernels.iter().filter(|kernel| kernel.takes_long() == takes_long).for_each(|kernel| _ = kernel.pipeline());
-        }
+        kernels.iter().for_each(|kernel| _ = kernel.pipeline());
         Ok(())
     })
     .await

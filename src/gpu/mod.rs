@@ -22,7 +22,6 @@ pub(crate) mod device_edges;
 pub mod device_mesh;
 pub mod dim;
 pub mod engine;
-pub(crate) mod iterations;
 mod kernel;
 pub mod layout;
 pub(crate) mod parts;

@@ -85,13 +85,6 @@ impl Shader {
         Some(of_all.split_inclusive('\n').filter(is_of_part).collect())
     }
 
-    /// Returns whether drivers take long to compile the WGSL: the longest kernels are those with the
-    /// exact arithmetic of in-sphere tests and orientations.
-    pub fn takes_long(&self) -> bool {
-        const LONG: usize = 10_000;
-        self.wide.iter().map(|part| part.len()).sum::<usize>() > LONG
-    }
-
     /// Assembles the WGSL.
     pub fn wgsl(&self, width: Width) -> String {
         match width {

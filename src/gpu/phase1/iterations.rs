@@ -1,42 +1,40 @@
-//! How many flip iterations the host records ahead for a round, a dispatch per pass.
+//! How many flip iterations are recorded for a round, with a dispatch per pass.
+//!
+//! An iteration that finds nothing to do costs microseconds; one that is missing leaves its flips to the
+//! next round, and may cost failed vertices. A run of as many points as the one before gets what that
+//! needed, as long as its rounds insert about as many. Otherwise a round is planned by the last one that
+//! is known.
 
-use std::f64::consts::SQRT_2;
-
-/// The smallest number of iterations to record for a round, unless one workgroup can do them all.
+/// The fewest iterations of a round, unless one workgroup can do them all.
 const MIN_PLANNED: u32 = 6;
-/// The largest number: what more there is to do waits for the next round.
+/// The most: what more there is to do waits for the next round.
 const MAX_PLANNED: u32 = 80;
-/// How many more to record than a round is expected to take.
+/// How many more are recorded than a round is expected to take.
 const MARGIN: u32 = 4;
 /// While so many times as many points wait as are inserted, each round takes more iterations than
 /// the one before.
 const RISING: u32 = 48;
 
-/// Where few signs are left open, exact checks wait for each other: one alone takes longer than all
-/// filters of an iteration. Where they are many, there would be no progress. So they follow the
-/// filter in every so many iterations, when the filter leaves at most one sign open for so many
-/// visited simplices.
+/// Where the filter leaves at most one sign open for so many visited simplices, exact checks follow
+/// it in every so many iterations only: one of them takes longer than all filters of an iteration.
+/// Where many signs are open, there would be no progress without exact checks.
 const EXACT_EVERY: [(u32, u64); 3] = [(16, 1024), (4, 16), (2, 3)];
 
 /// In every how many iterations exact checks follow when nothing is known.
 const FIRST_EXACT_EVERY: u32 = 4;
 
-/// The number of rounds of which the next run is to know. Most runs have about ten.
+/// The number of rounds that are remembered for the next run. Most runs have about ten.
 const ROUNDS: usize = 32;
 
-/// What the same round of the run before needed is enough again if fewer than so many times as many simplices
-/// are left active as may wait for the next round, because that number differs from run to run.
-const REPEATED_TOLERANCE: u32 = 2;
 /// A run repeats the one before while the points that are inserted differ by at most one in so many.
 const SAME_SHARE: u32 = 16;
 
-/// The flip iterations of a run. An iteration that finds nothing to do costs microseconds, a flip
-/// that has to wait for the next round may cost failed vertices.
+/// The flip iterations of a run.
 #[derive(Debug)]
 pub(crate) struct Iterations {
-    /// To record for a round of which nothing is known.
+    /// Those of a round of which nothing is known.
     first: u32,
-    /// To record for a round by the rounds before it.
+    /// Those of the next round, by the rounds before it.
     planned: u32,
     /// Exact checks follow the filter in every so many iterations of a round.
     exact_every: u32,
@@ -46,7 +44,7 @@ pub(crate) struct Iterations {
     before: Needed,
 }
 
-/// What a run needed, for the next one of as many points: as a rule, these lie alike.
+/// What a run needed, for the next one of as many points, which lie alike as a rule.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Needed {
     /// The number of points.
@@ -74,8 +72,8 @@ struct NeededRound {
 
 impl Needed {
     /// Returns the entry of a round, if it is known.
-    fn round(&self, round: usize) -> Option<NeededRound> {
-        self.rounds.get(round).filter(|_| round < self.len).copied()
+    fn round(&self, round: u32) -> Option<NeededRound> {
+        self.rounds.get(round as usize).filter(|_| (round as usize) < self.len).copied()
     }
 }
 
@@ -104,29 +102,6 @@ pub(crate) struct Known {
     pub(crate) removes: bool,
 }
 
-impl Known {
-    /// Returns how often the number of points that are inserted per point before will have halved in
-    /// the round after the next one.
-    ///
-    /// *n* points make simplices for *r*·*n* more, where *r* depends on how the points lie: about 6
-    /// for uniform points, 2 to 4 on surfaces. Of *w* waiting points, a round inserts some
-    /// *w*·*r*·*n* / (*w* + *r*·*n*): one per simplex while many wait, all of them when few do.
-    fn halvings(&self) -> u32 {
-        let [before, mut inserted, mut waiting] = [self.inserted_before, self.inserted, self.waiting].map(f64::from);
-        let added = inserted - before;
-        let share = added / before;
-        let room = share * (waiting + added) / waiting;
-        let mut later = 0.0;
-        for _ in 0..2 {
-            let added = waiting * room * inserted / (waiting + room * inserted);
-            later = added / inserted;
-            inserted += added;
-            waiting -= added;
-        }
-        (1..u32::BITS).take_while(|&k| share * SQRT_2 >= later * f64::from(1u32 << k)).count() as u32
-    }
-}
-
 impl Iterations {
     /// Creates the plan of a run's first round by what the run before needed, or with `first` iterations
     /// if there was none of as many points.
@@ -140,36 +115,32 @@ impl Iterations {
         Needed { points, ..self.needed }
     }
 
-    /// Plans a round by the one before the last one.
+    /// Plans the next round by one that is known.
     pub(crate) fn plan(&mut self, known: Known) {
-        let Known { used, few, recorded, active, min_active, inserted, waiting, is_few, removes, .. } = known;
+        let Known { used, few, recorded, active, inserted, waiting, removes, .. } = known;
         if inserted == known.inserted_before && used + few + active == 0 && !removes {
             // The round was submitted before it was known that nothing was left. The next run does without.
             return;
         }
+        let round = self.needed.len;
         let repeats = |before: NeededRound| before.inserted.abs_diff(inserted) <= before.inserted / SAME_SHARE;
-        if !self.before.round(self.needed.len).is_some_and(repeats) {
+        if !self.before.round(round as u32).is_some_and(repeats) {
             self.before.len = 0;
         }
-        // A round that took all of its iterations may have left flips to the next one, hardly more if it was
-        // planned by the same round of the run before.
-        let (more, tolerated) = match self.before.len {
-            0 => (used / 4, min_active),
-            _ => (used / 8, min_active.saturating_mul(REPEATED_TOLERANCE)),
-        };
-        let needed = if used >= recorded && active >= tolerated { used + more.max(1) } else { used };
-        if let Some(round) = self.needed.rounds.get_mut(self.needed.len) {
+        // A round that took all of its iterations may have left flips to the next one.
+        let lacked = used >= recorded && active >= known.min_active;
+        let iterations = if lacked { used + (used / 4).max(1) } else { used };
+        if let Some(needed) = self.needed.rounds.get_mut(round) {
             let has_few = few > 0 || (waiting == 0 && active > 0);
-            *round = NeededRound { inserted, iterations: needed, has_few, removes };
+            *needed = NeededRound { inserted, iterations, has_few, removes };
         }
         self.needed.len += 1;
         let wanted = match waiting {
             _ if recorded == 0 => self.planned.max(MIN_PLANNED),
-            _ if is_few => 0,
-            0 => (needed / 3 + MARGIN).max(MIN_PLANNED),
-            _ if waiting / RISING >= inserted => (needed + needed / 8 + MARGIN).max(self.first),
-            // An eighth less each time that half as many points are inserted.
-            _ => ((0..known.halvings()).fold(needed, |n, _| n - n / 8) + MARGIN).max(MIN_PLANNED),
+            _ if known.is_few => 0,
+            0 => (iterations / 3 + MARGIN).max(MIN_PLANNED),
+            _ if waiting / RISING >= inserted => (iterations + iterations / 8 + MARGIN).max(self.first),
+            _ => (iterations - iterations / 8 + MARGIN).max(MIN_PLANNED),
         };
         self.planned = wanted.min(MAX_PLANNED);
     }
@@ -187,7 +158,7 @@ impl Iterations {
 
     /// Returns how many iterations to record for a round, by its number.
     pub(crate) fn planned(&self, round: u32) -> u32 {
-        match self.before.round(round as usize) {
+        match self.before.round(round) {
             Some(NeededRound { iterations, .. }) => iterations.min(MAX_PLANNED),
             None => self.planned,
         }
@@ -200,18 +171,18 @@ impl Iterations {
 
     /// Returns whether a round, by its number, may have iterations that one workgroup can do.
     pub(crate) fn may_be_few(&self, round: u32) -> bool {
-        self.before.round(round as usize).is_none_or(|before| before.has_few)
+        self.before.round(round).is_none_or(|before| before.has_few)
     }
 
-    /// Returns whether facets were removed in a round, by its number, of the run before, which this one repeats so far.
+    /// Returns whether the run before, which this one repeats so far, removed facets in a round, by its number.
     pub(crate) fn removes(&self, round: u32) -> bool {
-        self.before.round(round as usize).is_some_and(|before| before.removes)
+        self.before.round(round).is_some_and(|before| before.removes)
     }
 
-    /// Returns whether all flips wait for the next round in a round, by its number, as in the run before, which
-    /// this one repeats so far: then both can be submitted together.
+    /// Returns whether the run before, which this one repeats so far, left all flips of a round, by its number,
+    /// to the next one: then both can be submitted together.
     pub(crate) fn flips_wait(&self, round: u32) -> bool {
-        self.before.round(round as usize).is_some_and(|before| before.iterations == 0 && !before.has_few)
+        self.before.round(round).is_some_and(|before| before.iterations == 0 && !before.has_few)
             && (round as usize) + 1 < self.before.len
     }
 

@@ -5,10 +5,10 @@ use crate::{
     error::Error,
     gpu::{
         Gpu, Parts, Recorder,
-        iterations::Needed,
         phase1::{
             buffers::{Buffers, Sizes},
             finish::Finish,
+            iterations::Needed,
             stages::{BoundStages, Stages},
         },
         points::{DevicePoints, PointBuffers},

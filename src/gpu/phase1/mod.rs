@@ -28,21 +28,30 @@
 //! All of it is generic over the number `D` of coordinates; [`Dim`](crate::gpu::dim::Dim) and
 //! [`Finish`] are what the dimensions supply.
 
+mod begin;
 mod buffers;
+mod capacity;
+mod ended;
 mod finish;
+mod iterations;
 mod kernels;
 mod memory;
+mod moved;
+mod plan;
+mod record;
 mod round;
 mod run;
 mod settings;
 mod stages;
 mod stats;
 
+pub use begin::Input;
 pub use buffers::{Buffers, Sizes, Slot};
+pub use ended::Ended;
 pub use finish::{Aliases, Copied, Copies, Finish};
 pub use kernels::Phase1;
 pub(crate) use memory::Memory;
-pub use run::{Ended, Input, Phase1Output, Run};
+pub use run::{Phase1Output, Run};
 pub use settings::Settings;
 pub(crate) use stages::Stage;
 pub use stats::Phase1Stats;

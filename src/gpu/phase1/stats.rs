@@ -2,7 +2,7 @@
 
 use crate::{
     gpu::layout::Counters,
-    stats::{GpuStats, Round},
+    stats::{GpuStats, Round, Stopwatch},
 };
 use std::time::Duration;
 
@@ -60,5 +60,24 @@ impl Phase1Stats {
             submits: self.submits as u64,
             bytes: self.bytes,
         }
+    }
+}
+
+/// What a run has done so far, and its clocks.
+pub(crate) struct Meter {
+    pub(crate) stats: Phase1Stats,
+    /// The readbacks before the run, and their bytes.
+    pub(crate) read_before: (usize, u64),
+    /// Since the beginning.
+    pub(crate) clock: Stopwatch,
+    /// Since the last batch was read.
+    pub(crate) round_clock: Stopwatch,
+}
+
+impl Meter {
+    /// Takes note of the time and the counters at the end of Phase 1.
+    pub(crate) fn end(&mut self, counters: Counters) {
+        self.stats.time = self.clock.lap();
+        self.stats.counters = counters;
     }
 }

@@ -1,0 +1,158 @@
+//! The beginning of a run: points are uploaded and ordered, while the host makes the start.
+
+use crate::{
+    dimension::Dimension,
+    error::Error,
+    gpu::{
+        Gpu, Profiler, Recorder,
+        dim::Dim,
+        layout::Params,
+        phase1::{
+            buffers::Sizes,
+            capacity::first_sizes,
+            finish::Finish,
+            kernels::Phase1,
+            memory::{Kept, Memory},
+            plan::{Plan, Rules},
+            record::Device,
+            run::Run,
+            settings::Settings,
+            stages::Stage,
+            stats::{Meter, Phase1Stats},
+        },
+        points::PointInput,
+        start::{Start, StartMesh},
+    },
+    input::{lattice::Lattice, points::Points},
+    options::Winding,
+    parallel,
+    stats::Stopwatch,
+};
+use std::collections::VecDeque;
+
+/// Flip iterations are done in one workgroup until this many times as many simplices are active as
+/// when it begins with that.
+const FEW_LIMIT: u32 = 4;
+
+/// The most flip iterations that one workgroup does in a dispatch: more than a round of an ordinary
+/// input takes, and so few that a run is not far beyond them when it is found to be slow.
+const FEW_ITERATIONS: u32 = 128;
+
+/// The points of a run.
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a, const D: usize>
+where
+    Dimension<D>: Dim<D>,
+{
+    /// The points, in input order.
+    pub points: Points<'a, D>,
+    /// The lattice that is fitted to them.
+    pub lattice: &'a Lattice<D>,
+    /// The first simplex, by input indices.
+    pub start: Start<D>,
+    /// Whether as a rule no points are inserted, because [`Run::take`] comes next: then what they
+    /// would be inserted into is made only by [`Run::forget`].
+    pub starts_later: bool,
+}
+
+impl<'a, const D: usize> Run<'a, D>
+where
+    Dimension<D>: Finish<D>,
+{
+    /// The largest number of points.
+    pub const MAX_POINTS: usize = Dimension::<D>::MAX_POINTS;
+
+    /// Uploads the points and records their ordering.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::TooManyPoints`]; [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`]
+    /// when the device cannot hold the buffers.
+    pub async fn new(
+        kernels: &'a mut Phase1<D>,
+        gpu: &'a Gpu,
+        input: Input<'_, D>,
+        settings: Settings<D>,
+        mut profiler: Option<&'a mut Profiler>,
+    ) -> Result<Self, Error> {
+        let (clock, round_clock) = (Stopwatch::start(), Stopwatch::start());
+        let count = input.points.len();
+        let sizes = first_sizes(gpu, kernels.parts, &settings, count)?;
+        // What is kept is lost if the run fails.
+        let Kept { mut points, memory: kept, needed, host } = std::mem::take(&mut kernels.kept);
+        let before = if needed.points == count as u32 { needed } else { Default::default() };
+        let Input { points: input, lattice, start: first, starts_later } = input;
+        let triangulate = || match starts_later {
+            true => StartMesh::of_first(&first),
+            false => StartMesh::new(input, lattice, &first, sizes.start_points),
+        };
+        let upload = || {
+            // The device orders the points while the host makes the other buffers.
+            let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
+            let input = PointInput { points: input, lattice, sort: settings.sort };
+            let device = kernels.points.record(gpu, &mut recorder, &mut points, input)?;
+            let mut words = Vec::new();
+            Dimension::<D>::append_vertex(&mut words, lattice.width(), first.interior_point, count as u32, false);
+            device.vertices.write(gpu, count * words.len(), &words);
+            let dispatches = recorder.dispatches();
+            recorder.submit(gpu);
+            Ok((Memory::new(&kernels.stages, gpu, kept, device, sizes)?, dispatches))
+        };
+        let (mut start, (memory, dispatches)) = gpu
+            .with_error_scope("Phase 1", || {
+                let (uploaded, start) = parallel::beside(upload, vec![triangulate]);
+                Ok((start, uploaded?))
+            })
+            .await?;
+        let start = start.swap_remove(0);
+        let few = if kernels.stages.can(Stage::FlipFew) { settings.few } else { 0 };
+        let params = params(&settings, Sizes { blocks: memory.buffers.blocks(), ..sizes }, count as u32, few);
+        let mut device = Device { params, memory, points, settings, parts: kernels.parts };
+        device.set_start(&start);
+        let rules = Rules {
+            params: device.params,
+            corners: D as u32 + 1,
+            first_iterations: Dimension::<D>::FIRST_ITERATIONS,
+            rounds: settings.rounds as usize,
+            batches: settings.batches as usize,
+            removes: settings.removes && kernels.stages.can(Stage::Remove),
+        };
+        let start_points = start.points.len();
+        Ok(Run {
+            gpu,
+            profiler,
+            device,
+            host,
+            meter: Meter {
+                stats: Phase1Stats { start_points, dispatches, submits: 1, ..Phase1Stats::default() },
+                read_before: (kernels.readback.count(), kernels.readback.bytes()),
+                clock,
+                round_clock,
+            },
+            kernels,
+            plan: Plan::new(rules, start_points as u32, before),
+            before,
+            submitted: VecDeque::new(),
+            first,
+            start,
+            rooms: [None, None],
+        })
+    }
+}
+
+/// Returns the parameters of the kernels for so many points, without those of the start.
+fn params<const D: usize>(settings: &Settings<D>, sizes: Sizes, points: u32, few: u32) -> Params {
+    Params {
+        infinite: points,
+        blocks: sizes.blocks,
+        history: sizes.history,
+        few,
+        few_limit: few.saturating_mul(FEW_LIMIT),
+        few_iterations: FEW_ITERATIONS,
+        max_min_active: settings.min_active.min(points >> 4),
+        insert_all: u32::from(settings.insert_all),
+        pick: settings.pick as u32,
+        clockwise: u32::from(settings.winding == Winding::Clockwise),
+        ..Params::default()
+    }
+}

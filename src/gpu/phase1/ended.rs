@@ -1,0 +1,241 @@
+//! The end of a run: the mesh without gaps, which stays on the device or is read.
+
+use crate::{
+    dimension::Dimension,
+    error::Error,
+    gpu::{
+        Gpu, Pending, Recorder, Room,
+        dim::{Corners, Dim},
+        layout::{COUNTER_WORDS, Counters, NONE, PARAM_WORDS},
+        phase1::{
+            finish::{self, Copies, Finish},
+            kernels::Phase1,
+            memory::Memory,
+            record::counters_in,
+            run::{Phase1Output, Run, Submitted},
+            stats::Phase1Stats,
+        },
+        points::PointBuffers,
+        primitives::scan::GROUPS,
+    },
+    parallel::{self, Threads},
+    stats::Stopwatch,
+};
+
+/// Memory for the simplices of a mesh, and for their neighbours.
+pub(super) type Rooms<const D: usize> = [Option<Room<Corners<D>>>; 2];
+
+impl<'a, const D: usize> Run<'a, D>
+where
+    Dimension<D>: Finish<D>,
+{
+    /// Has threads look for memory for the mesh, which the host is to read, unless that of the lists `used`
+    /// will do.
+    pub(crate) fn prepare_room(&mut self, used: [Vec<Corners<D>>; 2]) {
+        let len = self.device.params.infinite as usize * Dimension::<D>::MESH_PER_POINT;
+        self.rooms = used.map(|used| Room::new(used, len));
+    }
+
+    /// Ends the run without a mesh, and keeps its buffers for the next one. Returns what it did as
+    /// far as that is known.
+    pub fn abandon(mut self) -> Phase1Stats {
+        self.keep_needed();
+        let Run { kernels, device, host, plan, mut meter, .. } = self;
+        meter.end(*plan.counters());
+        kernels.kept.points = device.points;
+        keep(kernels, device.memory, host, meter.read_before, meter.stats)
+    }
+
+    /// Makes the mesh and reads it back.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::advance`].
+    pub async fn finish(self) -> Result<Phase1Output<D>, Error> {
+        let (mut ended, _, (), ()) = self.end(|_, _| (), || ()).await?;
+        let (result, merged) = ended.read().await?;
+        Ok(Phase1Output { result, merged, stats: ended.release() })
+    }
+
+    /// Makes the mesh and leaves it on the device. `more` records what the same submission is to do
+    /// with it; the host does `meanwhile` before it waits for that.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::advance`].
+    pub(crate) async fn end<T, U>(
+        mut self,
+        more: impl FnOnce(&mut Copies<'_>, &Memory<D>) -> T,
+        meanwhile: impl FnOnce() -> U,
+    ) -> Result<(Ended<'a, D>, wgpu::SubmissionIndex, T, U), Error> {
+        let gpu = self.gpu;
+        let workgroups = self.workgroups();
+        let profiler = self.profiler.take();
+        let is_merged = self.plan.counters().merged > 0;
+        let (submission, counters, finite, merged, more) = gpu
+            .with_error_scope("the end of Phase 1", || {
+                let (memory, readback) = (&self.device.memory, &mut self.kernels.readback);
+                let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, profiler) };
+                memory.bound.record_end(&mut copies.recorder, workgroups);
+                let more = more(&mut copies, memory);
+                let finite = copies.copy_from(memory.bound.sums(), GROUPS, 1);
+                let counters = copies.copy_from(&memory.buffers.control, PARAM_WORDS, COUNTER_WORDS);
+                let merged_into = &memory.buffers.points.merged_into;
+                let merged = is_merged.then(|| copies.copy(merged_into, merged_into.len()));
+                self.meter.stats.dispatches += copies.recorder.dispatches();
+                self.meter.stats.submits += 1;
+                Ok((copies.recorder.submit(gpu), counters, finite, merged, more))
+            })
+            .await?;
+        let prepared = meanwhile();
+        // What was submitted beyond the end had nothing to do, and came before.
+        for Submitted { submission, counters } in std::mem::take(&mut self.submitted) {
+            self.kernels.readback.receive(gpu, &submission, counters).await?;
+        }
+        self.meter.stats.stalls += 1;
+        let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
+        let finite = self.kernels.readback.receive(gpu, &submission, finite).await?[0] as usize;
+        let counters = counters_in(&words);
+        debug_assert_eq!(is_merged, counters.merged > 0, "points are merged before the first round");
+        self.meter.end(counters);
+        self.keep_needed();
+        self.kernels.kept.points = self.device.points;
+        let merged = match merged {
+            Some(merged) => Merged::Coming(submission.clone(), merged),
+            None => Merged::Known(Vec::new()),
+        };
+        let ended = Ended {
+            gpu,
+            counters,
+            finite,
+            merged,
+            workgroups,
+            kernels: self.kernels,
+            memory: self.device.memory,
+            host: self.host,
+            rooms: self.rooms,
+            read_before: self.meter.read_before,
+            stats: self.meter.stats,
+        };
+        Ok((ended, submission, more, prepared))
+    }
+
+    /// Leaves what the run needed to the next one of as many points.
+    fn keep_needed(&mut self) {
+        self.kernels.kept.needed = self.plan.needed().unwrap_or(self.before);
+    }
+}
+
+/// Keeps the buffers of a run for the next one. Returns what the run did.
+fn keep<const D: usize>(
+    kernels: &mut Phase1<D>,
+    memory: Memory<D>,
+    host: <Dimension<D> as Finish<D>>::Host,
+    read_before: (usize, u64),
+    mut stats: Phase1Stats,
+) -> Phase1Stats
+where
+    Dimension<D>: Finish<D>,
+{
+    stats.readbacks = kernels.readback.count() - read_before.0;
+    stats.bytes_read = kernels.readback.bytes() - read_before.1;
+    stats.bytes = memory.bytes() + kernels.kept.points.as_ref().map_or(0, PointBuffers::bytes);
+    (kernels.kept.memory, kernels.kept.host) = (Some(memory), host);
+    stats
+}
+
+/// A run that has made the mesh, which is still on the device.
+pub struct Ended<'a, const D: usize>
+where
+    Dimension<D>: Finish<D>,
+{
+    pub(crate) kernels: &'a mut Phase1<D>,
+    pub(crate) gpu: &'a Gpu,
+    pub(crate) memory: Memory<D>,
+    /// The memory of the host that the next run gets.
+    pub(crate) host: <Dimension<D> as Finish<D>>::Host,
+    pub(crate) counters: Counters,
+    /// The number of finite simplices.
+    pub(crate) finite: usize,
+    merged: Merged,
+    pub(crate) workgroups: u32,
+    rooms: Rooms<D>,
+    read_before: (usize, u64),
+    pub(crate) stats: Phase1Stats,
+}
+
+/// The points that are merged into others, each with the other one.
+enum Merged {
+    /// They are being read.
+    Coming(wgpu::SubmissionIndex, Pending<u32>),
+    Known(Vec<[u32; 2]>),
+}
+
+impl<const D: usize> Ended<'_, D>
+where
+    Dimension<D>: Finish<D>,
+{
+    /// Returns the number of simplices of the mesh, the infinite ones included if it has them.
+    pub(crate) fn len(&self) -> usize {
+        Dimension::<D>::mesh_len(self.finite, &self.counters)
+    }
+
+    /// Reads the mesh back, and what is to be repaired or checked of it; and the points that are
+    /// vertices of no simplex, as [`Phase1Output::merged`] has them.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::advance`].
+    pub(crate) async fn read(&mut self) -> Result<(<Dimension<D> as Finish<D>>::Result, Vec<[u32; 2]>), Error> {
+        let mut clock = Stopwatch::start();
+        let rooms = take_rooms(&mut self.rooms);
+        let readback = &mut self.kernels.readback;
+        let (result, submissions) =
+            finish::read(self.gpu, readback, &self.memory, self.finite, &self.counters, rooms).await?;
+        let merged = self.read_merged().await?;
+        self.stats.readback_time += clock.lap();
+        self.stats.submits += submissions;
+        self.stats.stalls += finish::STALLS;
+        Ok((result, merged))
+    }
+
+    /// Reads the points that are vertices of no simplex.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::advance`].
+    pub(crate) async fn read_merged(&mut self) -> Result<Vec<[u32; 2]>, Error> {
+        match std::mem::replace(&mut self.merged, Merged::Known(Vec::new())) {
+            Merged::Coming(submission, merged) => {
+                let merged = pairs(self.kernels.readback.receive(self.gpu, &submission, merged).await?);
+                self.merged = Merged::Known(merged.clone());
+                Ok(merged)
+            }
+            Merged::Known(merged) => {
+                self.merged = Merged::Known(merged.clone());
+                Ok(merged)
+            }
+        }
+    }
+
+    /// Keeps the buffers for the next run. Returns what this one did.
+    pub(crate) fn release(self) -> Phase1Stats {
+        keep(self.kernels, self.memory, self.host, self.read_before, self.stats)
+    }
+}
+
+/// Returns the memory that there is for the simplices and for their neighbours by now.
+fn take_rooms<const D: usize>(rooms: &mut Rooms<D>) -> [Vec<Corners<D>>; 2]
+where
+    Dimension<D>: Dim<D>,
+{
+    std::mem::take(rooms).map(|room| room.map_or_else(Vec::new, Room::take))
+}
+
+/// Returns the points that are merged into others, each with the other one.
+pub(super) fn pairs(merged_into: Vec<u32>) -> Vec<[u32; 2]> {
+    parallel::joined(parallel::map_ranges(Threads::All, merged_into.len(), |range| {
+        let merged = range.filter(|&point| merged_into[point] != NONE);
+        merged.map(|point| [point as u32, merged_into[point]]).collect::<Vec<_>>()
+    }))
+}
