@@ -1,5 +1,4 @@
-// Begins an insertion round: what the kernels of the round have to know of what the last one left.
-// One invocation.
+// Begins a round: decides from the counters of the last one what its kernels do. One invocation.
 //!include common/layout
 //!include common/chunks
 @group(0) @binding(0) var<storage, read_write> control: Control;
@@ -14,11 +13,12 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let is_far = atomicLoad(&control.inverted) > control.moved_inverted
         || atomicLoad(&control.violated) > control.moved_violated;
     if control.moved_simplices != 0 && is_far {
-        // The host will see that, and have the points inserted.
+        // Too much of the mesh is wrong: no flips. The host inserts the points from scratch.
         atomicStore(&control.active_len[control.iteration & 1], 0u);
     }
     let is_exact = atomicLoad(&control.exact) > control.visits / WAITING_EXACT_SHARE;
-    // Where points fill space evenly, points wait in most simplices, which all insert one; near a surface, in few.
+    // A simplex with waiting points inserts one. Where points fill space evenly, most simplices have some; near a
+    // surface, few have.
     let before = control.log[(control.round + LOGGED - 1) % LOGGED][0];
     let added = inserted - before;
     if control.pick != PICK_ADAPTIVE {
@@ -32,15 +32,15 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     control.log[control.round % LOGGED] = array(inserted, unchecked, flips, control.iterations, control.few_done);
     control.round += 1;
     atomicStore(&control.next_node, 0u);
-    // Flips that wait are done beside those of the next round, in iterations that it takes anyway. Where many signs
-    // are ties or nearly so, more of the flips that wait become impossible.
+    // The last flips of a round wait for the next one, whose iterations do them at no extra cost. Fewer wait where
+    // many signs need exact arithmetic: there, more of them become impossible in the meantime.
     let shift = select(WAITING_SHIFT, WAITING_EXACT_SHIFT, is_exact);
     control.min_active = select(min(control.max_min_active, inserted >> shift), NONE, control.insert_all != 0);
     if waiting == 0 {
         control.min_active = 0;
     }
     atomicStore(&control.overflow, 0u);
-    // To compact the list costs about as much as to walk it once more.
+    // Compacting the list takes about as long as walking through it once more.
     atomicStore(&control.kept, 0u);
     atomicStore(&control.taken[PICK_CHUNKS], 0u);
     atomicStore(&control.taken[SPLIT_CHUNKS], 0u);

@@ -1,12 +1,12 @@
 // Chunks of a long list, of which each workgroup takes the next one when it is done with its last.
 //
-// So all workgroups are at about the same place of the list at any time: they look at simplices that
-// are near each other in memory, as they are in space, and what they list for the next iteration is
-// in about the same order. If chunks were dealt out beforehand, the faster workgroups would run ahead,
-// and after a few iterations the list would be in no order at all.
+// All workgroups are then at about the same place of the list at any time. They read simplices that are
+// near each other in memory, and the list of the next iteration keeps about this order. With a fixed
+// share for each workgroup, the faster ones would run ahead, and the list would lose its order within a
+// few iterations.
 //
-// Each pass of a flip iteration sets the counter of another pass back to 0, from which no workgroup
-// takes at that time; begin_round does so for the passes of a round.
+// Each pass of a flip iteration resets the counter of another pass, which nobody uses at that time;
+// begin_round resets those of a round's passes.
 //
 // Expects: control.
 
@@ -27,8 +27,8 @@ fn is_long(entries: u32, chunk: u32, groups: u32) -> bool {
     return entries / chunk >= MANY_CHUNKS * groups;
 }
 
-// Takes the next chunk of a long list, and returns where it starts; only to the first invocation of a
-// workgroup. To be asked for early, since the answer takes a while.
+// Takes the next chunk of a long list, and returns its start to the first invocation of the workgroup.
+// Called early, because the atomic operation takes a while to return.
 fn chunk_ahead(pass_number: u32, long: bool, chunk: u32, groups: u32, local: u32) -> u32 {
     if !long || local != 0 {
         return 0;
@@ -36,8 +36,8 @@ fn chunk_ahead(pass_number: u32, long: bool, chunk: u32, groups: u32, local: u32
     return groups * chunk + atomicAdd(&control.taken[pass_number], chunk);
 }
 
-// Returns where the chunk starts that comes after the one at `start`: what chunk_ahead has returned, if
-// the list is long. All of the workgroup must call it, which waits for each other then.
+// Returns the start of the chunk after the one at `start`; for a long list this is what chunk_ahead has
+// returned. It is a barrier: every invocation of the workgroup must call it.
 fn next_chunk(start: u32, ahead: u32, long: bool, chunk: u32, groups: u32, local: u32) -> u32 {
     if !long {
         return start + groups * chunk;

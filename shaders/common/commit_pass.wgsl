@@ -38,11 +38,11 @@ fn commit_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
     // Read once, because the compiler cannot know that no store changes them.
     let round = control.round;
     let room = control.history;
-    // Each workgroup looks at more than in the other passes. If all of them took part in a long list, less
-    // of what they look at would be in the caches.
+    // A workgroup reads more per entry than in the other passes. Half of the workgroups share a long list, so
+    // that what they read fits the caches.
     let long = is_long(entries, COMMIT_STEP, groups);
     let taking = select(groups, (groups + 1) / 2, long);
-    // Of a short list, no invocation looks at two entries one after the other.
+    // An invocation has at most one entry of a short list.
     let step = select(COMMIT_STEP, WORKGROUP, entries <= groups * WORKGROUP);
     var start = select(entries, group * step, group < taking);
     while start < entries {

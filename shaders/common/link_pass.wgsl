@@ -52,7 +52,7 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
                 changed = changed_by(entry);
                 done[atomicAdd(&done_len, 1u)] = changed;
             } else if atomicLoad(&status[entry.tet].vote) != mark {
-                // Otherwise the flip that changed this simplex lists it.
+                // A simplex that a flip has changed is listed with that flip.
                 let flags = status[entry.tet].made.x;
                 status[entry.tet].made.x = (flags & ~0xffu) | (entry.outcome & 0xff);
                 changed = Changed(vec3u(entry.tet, 0, 0), select(0u, 1u, (entry.outcome & CHECK) != 0));
@@ -60,7 +60,7 @@ fn link_pass(group: u32, groups: u32, local: u32, bids: Bids, entries: u32) {
         }
         var at = atomicAdd(&wanted, changed.count);
         workgroupBarrier();
-        // Where the list goes on is asked for early, since the answer takes a while.
+        // The place in the next list is requested early, because the atomic operation takes a while to return.
         var first = 0u;
         if local == 0 {
             done_here = atomicLoad(&done_len);

@@ -1,6 +1,6 @@
 // Scores each waiting point and finds the best score of each simplex (§3.1). One invocation per
-// entry of the list of waiting points, which loses those that wait no longer if begin_round says
-// so: what is left goes into the list's other half, a workgroup's share at a time, so that it stays
+// entry of the list of waiting points. If begin_round says so, points that wait no longer are dropped
+// from the list: the rest goes into its other half, a workgroup's share at a time, so that it stays
 // about in the order of the curve.
 //!include {dim}/simplex
 @group(0) @binding(0) var<storage, read_write> control: Control;

@@ -1,4 +1,4 @@
-// Queries: points that are asked about, which need not be on the lattice of the mesh's points.
+// Queries: points to locate, which need not be on the lattice of the mesh's points.
 //
 // The lattice has room around the points. A query that is near has a place on it, which rounding
 // may have moved by half a step; the others are left to the host.

@@ -1,8 +1,8 @@
 // The parameters of queries of a mesh on the device.
 //!include primitives/workgroup
 
-// What the kernels have to know of the points, the mesh and the queries, and what they count. The
-// members up to `dimension` are those of InputParams.
+// The parameters of the kernels, and what they count. The members up to `dimension` are those of
+// InputParams.
 struct QueryParams {
     count: u32,
     exponent: i32,

@@ -1,7 +1,7 @@
 // Returns which child of a triangle, split at p, holds q, by 2 orientations.
 //
-// The rays from p to the corners divide the triangle. The line of the first ray leaves two children
-// on each side, and the ray between those decides. `infinite` is infinity's number, or NONE where
+// The rays from p to the corners divide the triangle. On each side of the line through the first ray
+// there are two children; the ray between them decides. `infinite` is infinity's number, or NONE where
 // that number stands for the interior point.
 //
 // Expects: orient_finite of d2/signs.

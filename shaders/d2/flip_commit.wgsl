@@ -64,8 +64,8 @@ fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: u32) -> u32 {
 
 // Ends a flip that has begun: writes the triangles, and the messages. Returns the entry's outcome.
 //
-// Components with an index that is not known beforehand are loaded one by one: of a vector in
-// registers, they would have to go through memory of the invocation's own.
+// Components with a computed index are loaded one by one: compilers would keep a whole vector in memory
+// of the invocation's own.
 fn end_flip(flip: Proposal, u: u32) -> u32 {
     let t = flip.t;
     let k = flip.k;

@@ -1,4 +1,4 @@
-// What a flip of triangles leaves to link.
+// Linking after flips of triangles.
 //
 // Expects: control, neighbors; Changed and flips of common/link_pass.
 

@@ -4,7 +4,7 @@
 // the left; incircle(a, b, c, d) is positive when d is inside the circle through the positively
 // oriented a, b, c, and changes sign with every exchange of two arguments.
 //
-// Ties are broken as d3/perturbed explains: by the heights of the points, by infinity that leans
+// Ties are broken as d3/perturbed explains: by the heights of the points, by the tilt of infinity
 // away from the interior point, then by the lowered coordinates ε(i, j), j = y, x. So a point of
 // the hull between two others on a line is beyond their edge, and no flat triangles lie along the
 // hull. A set S of lowered coordinates is a bit set, 2·rank + (y: 0, x: 1).

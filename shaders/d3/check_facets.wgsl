@@ -1,9 +1,8 @@
 // Checks the facets of active tetrahedra (§3.1, §4.2).
 //
-// A workgroup lists the facets that are to be checked of its entries of the active list, and shares them
-// out: entries have one to four of them, so that with an entry for each invocation most would wait for the
-// few that have more to do. Of what is found out about the facets of an entry, its invocation takes
-// the first that can be flipped.
+// An entry of the active list has one to four facets to check. A workgroup lists the facets of its
+// entries and shares them out: with an entry per invocation, most would wait for the few with four
+// facets. The invocation of an entry then takes the first of its facets that can be flipped.
 //
 // Expects: control, simplices, neighbors, status, actives; facet_signs of d3/facet_signs or
 // d3/facet_signs_once.
@@ -15,13 +14,12 @@
 //!include common/moved_slots
 //!include common/bids
 
-// What was found out about the facets of an entry: those that need no more checking (bits 0–3), and
-// the proposed flip and the facets that cannot be flipped as in Active.outcome. This bit, if a sign
-// is undecided.
+// A finding about the facets of an entry: those that need no more checking (bits 0–3); the proposed
+// flip and the facets that cannot be flipped, as in Active.outcome; and this bit if a sign is undecided.
 const UNDECIDED: u32 = 0x4000;
-// What signs tell about a facet that is locally Delaunay.
+// The finding about a facet that is locally Delaunay.
 const LOCALLY_DELAUNAY: u32 = 0x8000;
-// Nothing is to be found out after a flip or an undecided sign.
+// After one of these, the other facets of the entry do not matter.
 const ENOUGH: u32 = UNDECIDED | (3u << KIND_SHIFT);
 
 // The facets to be checked, 4·tetrahedron + facet, those of an entry in a row; then what is found out
@@ -48,10 +46,10 @@ fn is_edge(t: u32, u: u32, k: u32) -> bool {
     return found;
 }
 
-// Returns what is found out about facet k of t, which is to be checked.
+// Checks facet k of t and returns the finding.
 //
-// Components with an index that is not known beforehand are loaded one by one: of a vector in
-// registers, they would have to go through memory of the invocation's own.
+// Components with a computed index are loaded one by one: compilers would keep a whole vector in memory
+// of the invocation's own.
 fn check_facet(t: u32, tet: vec4u, k: u32) -> u32 {
     let across = neighbors[t][k];
     let u = across >> 2;

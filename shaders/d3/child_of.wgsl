@@ -1,7 +1,6 @@
 // Returns which child of a tetrahedron, split at p, holds q, by 3 orientations.
 //
-// The plane of p, v0, v1 and that of p, v2, v3 leave two children whose directions from p meet; a
-// third plane divides them. `infinite` is infinity's number, or NONE where that number stands for
+// The planes of p, v0, v1 and of p, v2, v3 leave two children, which a third plane divides. `infinite` is infinity's number, or NONE where that number stands for
 // the interior point.
 //
 // Expects: orient_finite of d3/signs.

@@ -1,4 +1,4 @@
-// What the filter tells about a facet.
+// The signs of a facet, as far as the filter decides.
 //
 // Expects: simplices; what d3/signs_filtered does.
 //!include d3/signs_filtered

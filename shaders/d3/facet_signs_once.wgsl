@@ -1,5 +1,5 @@
-// What exact signs tell about a facet: as in d3/facet_signs, but with all signs in one loop, so that
-// the exact arithmetic is compiled once. That takes half of the time.
+// The exact signs of a facet, as d3/facet_signs returns them. One loop takes all signs, so that the
+// exact arithmetic is compiled once, in half of the time.
 //
 // Expects: simplices; what d3/signs does.
 //!include d3/signs

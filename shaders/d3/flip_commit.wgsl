@@ -8,12 +8,12 @@
 const BESIDE_TRIES: u32 = 2;
 // How often it looks for one in four blocks of the tail.
 const TAIL_TRIES: u32 = 12;
-// How often it does so near the vertex's place in the tail, since what lies together in space should do
-// so in memory: among so many blocks at first, then among 16 times as many each time.
+// How often it does so near the vertex's place in the tail, so that what is near in space is near in
+// memory: among so many blocks at first, then among 16 times as many each time.
 const NEAR_TRIES: u32 = 2;
 const TAIL_WINDOW: u32 = 16;
 
-// Takes a slot of a block that had these free places. Returns NONE if other flips were faster.
+// Takes a slot of a block in which these were free. Returns NONE if other flips have taken them.
 fn take_from(block: u32, free: u32) -> u32 {
     var places = free;
     var slot = NONE;
@@ -46,7 +46,7 @@ fn free_slot(ring: vec3u, d: u32, e: u32, t: u32, iteration: u32) -> u32 {
     var last = e;
     var slot = NONE;
     for (var i = 0u; i <= BESIDE_TRIES + TAIL_TRIES && slot == NONE; i++) {
-        // The slots of vertices that are not inserted yet are all free, and not for others.
+        // The slots of vertices that are not inserted yet are all free, but reserved.
         let reserved = select(0u, ALL_FREE, i > 0 && i <= BESIDE_TRIES);
         let x = free_in(blocks.x, reserved);
         let y = free_in(blocks.y, reserved);
@@ -176,8 +176,8 @@ fn begin_flip(flip: Proposal, node: u32, bids: Bids, round: u32) -> u32 {
 
 // Ends a flip that has begun: writes the tetrahedra, and the messages. Returns the entry's outcome.
 //
-// Components with an index that is not known beforehand are loaded one by one: of a vector in
-// registers, they would have to go through memory of the invocation's own.
+// Components with a computed index are loaded one by one: compilers would keep a whole vector in memory
+// of the invocation's own.
 fn end_flip(flip: Proposal, third: u32) -> u32 {
     let kind = flip.kind;
     let t = flip.t;

@@ -1,9 +1,9 @@
 // Carries out flip iterations in one workgroup while few tetrahedra are active, without a dispatch
 // per pass: no other workgroup touches the mesh, so that the barriers of a workgroup suffice.
 //
-// It ends when fewer are active than an iteration needs, when more are than one workgroup should
-// take, when slots or the history run out, or after `few_iterations`, because a dispatch must not
-// take long.
+// It ends when fewer tetrahedra are active than an iteration needs, when more are active than one
+// workgroup should do, when slots or the history run out, or after `few_iterations`, because a
+// dispatch must not take long.
 //!include d3/simplex
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read> vertices: array<VertexWords>;
@@ -18,9 +18,9 @@
 //!include common/commit_pass
 //!include common/link_pass
 
-// What the filter leaves open is decided in every so many iterations, and in all of them once it has left
-// so large a share of the entries open, here or before: an exact sign takes longer than all filters of an
-// iteration.
+// Every so many iterations, exact arithmetic decides what the filter has left open: one exact sign takes
+// longer than all filters of an iteration. It does so in every iteration once the filter has left so large a
+// share of the entries open, here or before.
 const EXACT_EVERY: u32 = 4;
 const EXACT_SHARE: u32 = 4;
 

@@ -1,4 +1,4 @@
-// What a flip of tetrahedra leaves to link.
+// Linking after flips of tetrahedra.
 //
 // Expects: control, neighbors; Changed and flips of common/link_pass.
 

@@ -1,4 +1,4 @@
-// What the host asks for when it gathers tetrahedra of the mesh, or writes changed ones back.
+// The parameters of gathering tetrahedra of the mesh, and of writing changed ones back.
 struct Gathering {
     // The number of the first tetrahedron that is gathered: 1 at the first time.
     first: u32,

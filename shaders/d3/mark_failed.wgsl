@@ -1,8 +1,8 @@
 // Marks the vertices of the facets that are not locally Delaunay (§3.2.1): their stars are wanted.
 // One invocation per slot.
 //
-// Only facets that a flip iteration found so and could not flip are examined again: the tetrahedra
-// around them may have changed since.
+// Examines only the facets that a flip iteration could not flip: the tetrahedra around them may have
+// changed since.
 //!include d3/simplex
 @group(0) @binding(0) var<storage, read_write> control: Control;
 @group(0) @binding(1) var<storage, read> vertices: array<vec4i>;

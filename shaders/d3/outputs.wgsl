@@ -1,5 +1,5 @@
-// What the kernels share that make the mesh of the caller's from that of the slots: tetrahedra of
-// input indices with ghosts, which have infinity last, and unused slots, which are zero.
+// Shared by the kernels that make the caller's mesh. They read the mesh in slots: tetrahedra of input
+// indices, ghosts, which have infinity last, and unused slots, which are zero.
 //!include primitives/workgroup
 
 struct OutputParams {

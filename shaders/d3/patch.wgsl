@@ -1,5 +1,5 @@
-// Writes what splaying changed back into the mesh. One invocation per entry of the patch, which is
-// where tetrahedra are gathered.
+// Writes what splaying changed back into the mesh. The patch is in the buffers of gathered tetrahedra.
+// One invocation per entry.
 //!include common/layout
 //!include d3/gathering
 @group(0) @binding(0) var<storage, read> gathering: Gathering;

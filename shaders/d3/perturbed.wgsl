@@ -5,7 +5,7 @@
 // z) ≫ …, each infinitely smaller than every product of those before it (Edelsbrunner and Mücke
 // 1990). The heights are those of the coordinates that are not lowered.
 //
-// Later points come nearer. Five coplanar points leave all heights undecided. So each point is moved
+// Five coplanar points: the newest one is perturbed inwards most. Heights cannot decide, so each point is moved
 // towards the interior point by a share ζ_i, smaller than η and larger than all ε; it is the larger
 // the later the point was inserted, and of those of a round, the lower its index is, each infinitely
 // larger than the next. The coefficient of ζ_i is, up to its sign, the in-sphere determinant of the
@@ -15,15 +15,15 @@
 // the facet, and each later point would add to them. The tetrahedra of the answer are not flat, so that it
 // does not depend on the order of insertion.
 //
-// Infinity leans. Lifted to these heights, the triangulation is a convex hull, and infinity would
-// be the direction straight up, which four coplanar points leave undecided. So it leans, by an η
-// that is smaller than all δ and larger than all ε, away from the interior point: with that point
-// as the origin, an orientation is the determinant of the rows (x, y, z, 1 + η·h), as if each point
+// Four coplanar points of the hull: ties at infinity follow the in-circle sign. Lifted to these
+// heights, the triangulation is a convex hull, and infinity would be the direction straight up, which
+// four coplanar points leave undecided. So infinity is tilted away from the interior point, by an η
+// that is smaller than all δ and larger than all ε: with that point as the origin, an orientation is the determinant of the rows (x, y, z, 1 + η·h), as if each point
 // had been moved towards the origin by an infinitely small share η·h of the way. Planes become
 // paraboloids, so coplanar points of the hull are triangulated as their circles in the plane say,
 // as the CPU engine and splaying (src/d3/splay/predicates.rs) do it, and no flat tetrahedra lie
 // under the hull. The rows of an in-sphere determinant, (x, y, z, h, 1 + η·h), lose η to a column
-// operation: it knows nothing of the lean. So the coefficient of η in an orientation is the
+// operation: the tilt does not affect it. So the coefficient of η in an orientation is the
 // in-sphere determinant with the interior point for the fifth: only where four points are in a
 // plane with the interior point, or in a line, is anything left to the lowered coordinates.
 //

@@ -32,7 +32,8 @@ fn permanent(a: vec3f, b: vec3f, c: vec3f) -> f32 {
 }
 
 // Returns the score of point w in the plane of a facet with the corners 0, u and v, by the
-// in-circle determinant: there the facet's circle is the half-space beyond it, as infinity leans.
+// in-circle determinant, by which ties at infinity are broken: the ghost's sphere meets the plane in
+// the facet's circle.
 fn score_in_plane(u: vec3f, v: vec3f, w: vec3f) -> u32 {
     let x = w - u;
     let y = w - v;
@@ -48,7 +49,7 @@ fn score_in_plane(u: vec3f, v: vec3f, w: vec3f) -> u32 {
 fn score_of(tet: vec4u, p: u32) -> u32 {
     let infinite = control.infinite;
     if any(tet == vec4u(infinite)) {
-        // The hull grows most by the point that is farthest from the facet.
+        // The hull grows most with the point farthest from the facet.
         let k = place_of(tet, infinite);
         let a = tet[(k + 1) % 4];
         var u = from_to(a, tet[(k + 2) % 4]);

@@ -10,7 +10,7 @@ fn follow(n: u32, p: u32) -> vec2u {
     let d = history[n].d;
     let e = history[n].e;
     let is_23 = history[n].kind == FLIP_23;
-    // 3-2: above or below the ring. 2-3: beyond the plane of the edge and x_0; then beyond that of
+    // After a 3-2 flip: above or below the ring. After a 2-3 flip: beyond the plane of the edge and x_0, then that of
     // x_1 or x_2. In a loop, so that the exact arithmetic is compiled once.
     let steps = not_unrolled(select(1u, 2u, is_23));
     var k = 0u;

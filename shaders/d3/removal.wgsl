@@ -5,7 +5,7 @@
 // The most facets that are removed together.
 const MOST_FACETS: u32 = 4;
 
-// As large as a node of the history, whose memory removals have.
+// Removals are stored in the buffer of the history, and have the size of its nodes.
 struct Removal {
     // For each facet, the tetrahedron at d and that at e.
     tets: array<u32, 2 * MOST_FACETS>,

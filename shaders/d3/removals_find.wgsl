@@ -12,8 +12,8 @@
 
 // Returns the removal that facet k of tet, which is at slot t, is a part of; one of no facets if there is none.
 //
-// Where the edge from d to e passes beside a facet, the one across that edge of it is removed, too. No more than
-// these are removed, so that the facets determine the removal.
+// Where the edge from d to e passes beside a facet, the facet across that edge is removed, too. No others are,
+// so that each of the facets determines the same removal.
 fn removal_of(t: u32, tet: vec4u, k: u32) -> Removal {
     let d = tet[k];
     let e = simplices[neighbors[t][k] >> 2][neighbors[t][k] & 3];
