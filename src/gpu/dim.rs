@@ -1,4 +1,4 @@
-//! What differs between the dimensions in what the device and the host share.
+//! What differs between the dimensions in the data that device and host share.
 //!
 //! The frame of the GPU engine is generic over the number `D` of coordinates, as
 //! [`Points`](crate::Points) and [`Lattice`](crate::input::lattice::Lattice) are. [`Dim`] supplies
@@ -44,12 +44,12 @@ pub trait Dim<const D: usize>: Incremental<D> + Debug + Copy + Send + Sync + 'st
     const SHADERS: &'static Shaders;
     /// The largest number of points: simplices are numbered in 30 bits.
     const MAX_POINTS: usize;
-    /// The default of [`Settings::history`](crate::gpu::phase1::Settings::history).
+    /// The default of [`MemorySettings::history`](crate::gpu::phase1::MemorySettings::history).
     const HISTORY: u32;
-    /// How many simplices a mesh has per point, as a rule at most.
+    /// The simplices of a mesh per point: more than most meshes have.
     const MESH_PER_POINT: usize;
-    /// The flip iterations to record for a round of which nothing is known: enough for most inputs
-    /// while each round inserts several times as many points as the one before.
+    /// The flip iterations that are recorded for a round of which nothing is known: enough for most
+    /// inputs in rounds that insert several times as many points as the one before.
     const FIRST_ITERATIONS: u32;
 
     /// Returns the blocks, of [`BLOCK`](crate::gpu::layout::BLOCK) slots each, for `points` points.
@@ -64,8 +64,8 @@ pub trait Dim<const D: usize>: Incremental<D> + Debug + Copy + Send + Sync + 'st
         }
     }
 
-    /// Returns how many of so many points the CPU engine triangulates while the device orders all of
-    /// them: with more it takes longer than the rounds that this saves. At least `D + 1`.
+    /// Returns how many of `count` points the CPU engine triangulates while the device orders all of
+    /// them. With more, it would take longer than the rounds that this saves. At least `D + 1`.
     fn start_points(count: usize) -> usize;
 
     /// Appends the words of a vertex at `position`, which the lattice has `rounded` or not. 3D
@@ -111,7 +111,7 @@ pub trait OwnBuffers: Debug + Clone {
         parts: Option<Parts>,
     ) -> Result<Self, Error>;
 
-    /// Records that what must be zero in the beginning is.
+    /// Records that buffers are cleared that a run expects to be zero.
     fn record_clear(&self, encoder: &mut wgpu::CommandEncoder);
 
     /// Returns the buffers under the names that they have in shaders.

@@ -360,7 +360,7 @@ where
             return Err(Error::PointCount { points: points.len(), expected: mesh.point_count() });
         }
         let mut update = moved.map(|_| UpdateStats::default());
-        let mut from = moved.filter(|mesh| self.settings.limits.looks_after(mesh.begun_anew()));
+        let mut from = moved.filter(|mesh| self.settings.budget.limits.looks_after(mesh.begun_anew()));
         if let Some((mesh, update)) = moved.zip(update.as_mut()).filter(|_| from.is_none()) {
             update.restarted = mesh.stats().update.and_then(|update| update.restarted);
         }
@@ -540,7 +540,8 @@ where
             None => Err(Restart::Broken),
             Some([inverted, changed]) => {
                 (update.inverted, update.not_locally_delaunay) = (inverted, changed);
-                let pays = run.settings().limits.check(inverted as f64, changed as f64, mesh.simplex_count() as f64);
+                let pays =
+                    run.settings().budget.limits.check(inverted as f64, changed as f64, mesh.simplex_count() as f64);
                 match pays {
                     Ok(()) => check_duplicates(mesh, &duplicates, &run.read_merged().await?),
                     Err(why) => Err(why),

@@ -14,7 +14,7 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
-/// The size of the buffer for a part that there is not: no element in a shader is larger.
+/// The size of the placeholder for an absent part: no element in a shader is larger.
 const EMPTY_BYTES: u64 = 48;
 
 /// A buffer under the name that it has in shaders.
@@ -58,7 +58,7 @@ pub struct Kernel {
     variables: Vec<Bound>,
     layout: wgpu::BindGroupLayout,
     device: wgpu::Device,
-    /// What the pipeline is compiled from, if it was not compiled at once.
+    /// What the pipeline is compiled from when it is first used; `None` if it was compiled at once.
     shader: Option<(&'static Shader, Width)>,
     /// The size of the parts of its large arrays, if these are in parts.
     parts: Option<Parts>,
@@ -134,10 +134,10 @@ impl Kernel {
             buffer
         };
         let found: Vec<Option<&wgpu::Buffer>> = self.variables.iter().map(of_variable).collect();
-        // What stands for parts that there are not is never looked at.
+        // Placeholders for absent parts; never read.
         let missing = found.iter().filter(|buffer| buffer.is_none()).count();
         let descriptor = wgpu::BufferDescriptor {
-            label: Some("no part"),
+            label: Some("absent part"),
             size: EMPTY_BYTES,
             usage: wgpu::BufferUsages::STORAGE,
             mapped_at_creation: false,
@@ -223,7 +223,7 @@ pub struct Compiler<'a> {
     gpu: &'a Gpu,
     /// Those to be compiled.
     kernels: RefCell<Vec<Kernel>>,
-    /// Those that runs can do without.
+    /// Those that the first run does not wait for.
     deferred: RefCell<Vec<Kernel>>,
     /// Whether the device keeps the kernels.
     kept: bool,
@@ -261,8 +261,8 @@ impl<'a> Compiler<'a> {
         kernel
     }
 
-    /// Creates the kernel of a shader that takes long to compile, and that runs can do without
-    /// until [`Kernel::is_compiled`]. [`Compiler::take_deferred`] returns those to be compiled.
+    /// Creates the kernel of a shader that the first run does not wait for: runs do without it until
+    /// [`Kernel::is_compiled`]. [`Compiler::take_deferred`] returns these kernels.
     pub fn deferred(&self, shader: &'static Shader, width: Width) -> Kernel {
         let kernel = self.on_demand(shader, width);
         self.deferred.borrow_mut().push(kernel.clone());
@@ -278,7 +278,7 @@ impl<'a> Compiler<'a> {
         }
     }
 
-    /// Returns the kernels that runs can do without.
+    /// Returns the kernels that the first run does not wait for.
     pub fn take_deferred(&self) -> Deferred {
         Deferred(self.deferred.take())
     }
@@ -303,7 +303,7 @@ pub(crate) async fn compile_all(gpu: &Gpu, kernels: &[Kernel]) -> Result<(), Err
     .await
 }
 
-/// Kernels that runs can do without until they are compiled.
+/// Kernels that are compiled while the first run goes on without them.
 #[derive(Debug)]
 pub struct Deferred(Vec<Kernel>);
 
@@ -315,8 +315,8 @@ impl Deferred {
             return;
         }
         let (gpu, kernels) = (gpu.clone(), self.0.clone());
-        // What fails here fails again where the kernel is used, which reports it. Without the thread
-        // runs do without.
+        // An error here comes up again where the kernel is used, and is reported there. If no thread can be
+        // started, the kernels are compiled by `finish`.
         let compile = move || _ = pollster::block_on(compile_all(&gpu, &kernels));
         if let Ok(thread) = std::thread::Builder::new().name("gdel pipelines".to_owned()).spawn(compile) {
             started::join_at_the_end(thread);

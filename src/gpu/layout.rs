@@ -28,10 +28,10 @@ pub const NONE: u32 = common::NONE;
 
 /// Slots in a block.
 pub const BLOCK: u32 = common::BLOCK;
-/// The free slots of a block, if all are.
+/// The word of a block whose slots are all free.
 pub const ALL_FREE: u32 = common::ALL_FREE;
-/// Where, in the word of a block in 3D, the round starts in which its vertex was inserted; below are its
-/// free slots.
+/// In 3D, the first bit of the round in which a vertex was inserted, in the word of its block. The bits below
+/// are its free slots.
 pub const ROUND_SHIFT: u32 = common::ROUND_SHIFT;
 
 /// The status of a tetrahedron.
@@ -118,7 +118,7 @@ assert_layout!(FlipNode);
 pub struct Counters {
     /// The flip iteration, as checking and committing see it.
     pub iteration: u32,
-    /// The flip iteration, as linking sees it: no kernel writes the one that it reads.
+    /// The flip iteration, as linking sees it. There are two, so that no kernel writes the one that it reads.
     pub link_iteration: u32,
     /// The lowest bid of the flip iteration, as checking and committing see it.
     pub bid_base: u32,
@@ -136,7 +136,7 @@ pub struct Counters {
     pub active_len: [u32; 2],
     /// The insertion round, from 1.
     pub round: u32,
-    /// Nodes of the history in this round. It may be larger than their room.
+    /// Nodes of the history that were requested in this round; there may be room for fewer.
     pub next_node: u32,
     /// Points inserted so far, the first four included.
     pub inserted: u32,
@@ -146,15 +146,15 @@ pub struct Counters {
     pub flips_32: u32,
     /// Signs that took exact arithmetic so far.
     pub exact: u32,
-    /// What was too small: [`SLOTS_FULL`], [`HISTORY_FULL`].
+    /// What has run out: [`SLOTS_FULL`], [`HISTORY_FULL`].
     pub overflow: u32,
     /// Flip iterations that had something to do.
     pub iterations: u32,
-    /// Tetrahedra looked at in all flip iterations.
+    /// Entries of the active list in all flip iterations.
     pub visits: u32,
     /// Failed vertices; in 2D, inverted triangles where points have moved.
     pub failed: u32,
-    /// Points that another one stands for, because it lies at the same place.
+    /// Points at the same place of the lattice as another one, which stands for them.
     pub merged: u32,
     /// Tetrahedra that are flat, or of which the lattice does not prove everything; in 2D,
     /// tests that the host decides.
@@ -173,14 +173,13 @@ pub struct Counters {
     pub few_done: u32,
     /// Entries of the list of waiting points that were kept when it was compacted in this round.
     pub kept: u32,
-    /// In a run that goes on from a mesh whose points have moved: the facets of its hull that were
-    /// found.
+    /// After points have moved: the facets of the hull that were found in the mesh.
     pub moved_hull: u32,
-    /// In such a run: the simplices that are not positively oriented, or 2³¹ and more if the arrays
-    /// of the mesh do not fit each other.
+    /// After points have moved: the simplices that are not positively oriented; 2³¹ and more if the
+    /// arrays of the mesh are not those of a triangulation.
     pub inverted: u32,
-    /// In such a run: the facets that are not locally Delaunay between others, as far as the filter
-    /// decides.
+    /// After points have moved: the facets between positively oriented simplices that are not locally
+    /// Delaunay, as far as the filter decides.
     pub violated: u32,
     /// How simplices pick their points in this round: a [`Pick`] that is not adaptive.
     pub criterion: u32,
@@ -192,8 +191,8 @@ pub struct Counters {
     pub removed: u32,
     /// In 3D: the rounds in which such facets were looked for.
     pub removals: u32,
-    /// The entries of lists that workgroups have taken in turn, in the passes of this flip iteration and
-    /// of this round.
+    /// For each pass of this flip iteration and of this round, how many entries of its list the workgroups
+    /// have taken.
     pub taken: [u32; 5],
     /// What the rounds have done: entry *r* modulo [`LOGGED`] is the state after round *r*, as
     /// [`Counters::progress`] returns it.
@@ -217,8 +216,8 @@ impl Counters {
         self.exact > self.visits / common::WAITING_EXACT_SHARE
     }
 
-    /// Returns with fewer than how many active simplices flips wait for the next round, if so many points are
-    /// inserted when a round begins and others wait.
+    /// Returns the active count at which a round ends that begins with so many points inserted, if others wait:
+    /// with fewer active simplices, flips are left to the next round.
     pub fn min_active(&self, params: &Params, inserted: u32) -> u32 {
         let shift = if self.is_exact() { common::WAITING_EXACT_SHIFT } else { common::WAITING_SHIFT };
         params.max_min_active.min(inserted >> shift)
@@ -240,7 +239,7 @@ pub const HISTORY_FULL: u32 = common::HISTORY_FULL;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Params {
-    /// Points, and the vertex at infinity.
+    /// The number of points, which is also the number of the vertex at infinity.
     pub infinite: u32,
     /// Blocks, those of the tail included.
     pub blocks: u32,
@@ -249,7 +248,7 @@ pub struct Params {
     /// With at most so many active tetrahedra, flip iterations are done in one workgroup; 0 for
     /// never.
     pub few: u32,
-    /// With more than so many active tetrahedra they are not done in one workgroup any longer.
+    /// One workgroup stops doing iterations when more than so many tetrahedra are active.
     pub few_limit: u32,
     /// The most flip iterations that one workgroup does in a dispatch.
     pub few_iterations: u32,
@@ -259,7 +258,7 @@ pub struct Params {
     pub insert_all: u32,
     /// How a tetrahedron picks its point: a [`Pick`].
     pub pick: u32,
-    /// Blocks that there were before there were more.
+    /// Block count before the last growth.
     pub blocks_before: u32,
     /// In 2D: 1 for a mesh that is clockwise with *y* up, 0 for one that is counter-clockwise.
     pub clockwise: u32,
@@ -267,16 +266,16 @@ pub struct Params {
     pub start_points: u32,
     /// The simplices of the start.
     pub start_simplices: u32,
-    /// The vertices of a stretch, for which a simplex of the start nearby is known.
+    /// The vertices of a stretch; for each stretch, a simplex of the start nearby is known.
     pub start_stride: u32,
     /// In a run that goes on from a mesh whose points have moved, the number of its simplices; 0 in
     /// others.
     pub moved_simplices: u32,
     /// The number of facets of its hull.
     pub moved_ghosts: u32,
-    /// By how much the slots of these are spread: the unused slots per 1,024 that are used.
+    /// The unused slots per 1,024 used ones, over which simplices and ghosts are spread.
     pub moved_spread: u32,
-    /// With more inverted simplices than this, nothing is flipped: the points are inserted after all.
+    /// With more inverted simplices than this, the points are inserted from scratch and nothing is flipped.
     pub moved_inverted: u32,
     /// The same for facets that are not locally Delaunay.
     pub moved_violated: u32,
@@ -310,9 +309,9 @@ pub enum Pick {
     Centroid = common::PICK_CENTROID,
     /// Any.
     Random = common::PICK_RANDOM,
-    /// The one nearest to the centroid if there are many points and they fill space evenly, as far as the first
-    /// rounds tell: there are fewer flips then, and about a sixth fewer vertices fail. Else the one nearest to the
-    /// circumcentre: of points near a surface, twice as many vertices fail by the centroid.
+    /// The centroid if there are many points and the first rounds show that they fill space evenly: it takes fewer
+    /// flips, and about a sixth fewer vertices fail. Otherwise the circumcentre: with the centroid, twice as many
+    /// vertices would fail of points near a surface.
     #[default]
     Adaptive = common::PICK_ADAPTIVE,
 }

@@ -53,8 +53,8 @@ where
     }
 }
 
-/// Points that are looked at for a large first simplex: enough for one that most points lie in, and
-/// so few that looking takes no time.
+/// The sample in which a large first simplex is searched: enough points for one that contains most of
+/// the input, and so few that the search takes no time.
 const SAMPLE: usize = 4096;
 
 /// Returns a first simplex for `count` points of a lattice, as large as a sample of them gives.
@@ -84,7 +84,7 @@ where
     Dimension<D>: Dim<D>,
 {
     let sample = || (0..count).step_by(stride);
-    // To find where a point is takes longer than all that follows.
+    // Computing a position takes longer than all that follows.
     let places: Vec<[f64; D]> = sample().map(|i| position(i).map(|x| x as f64)).collect();
     let mut first = Vec::with_capacity(D + 1);
     let mut chosen = Vec::with_capacity(D);
@@ -195,7 +195,7 @@ impl StartMesh {
     }
 
     /// Returns whether the simplices are positively oriented on the lattice, to which points may be
-    /// rounded. Where none is, flat ones do not matter, since the device's perturbation orients them.
+    /// rounded. Where none was rounded, flat ones are allowed: the device orients them by its perturbation.
     fn is_on_lattice<const D: usize>(&self, points: Points<'_, D>, lattice: &Lattice<D>, start: &Start<D>) -> bool
     where
         Dimension<D>: Dim<D>,
@@ -209,7 +209,7 @@ impl StartMesh {
             let place = |&v: &u32| places.get(v as usize).map_or(start.interior_point, |place| place.map(|c| c.value));
             let corners = &corners[..=D];
             let orientation = Dimension::<D>::orient(lattice.width(), &corners.iter().map(place).collect::<Vec<_>>());
-            // The point inside stands for infinity, which is on the other side.
+            // The interior point takes the place of infinity, which is on the other side.
             if corners.contains(&NO_INDEX) { orientation < 0 } else { orientation > 0 }
         })
     }

@@ -23,7 +23,7 @@ impl VertexSimplices {
         VertexSimplices { clear: kernel("vertex_clear"), minimum: kernel("vertex_simplex") }
     }
 
-    /// Records that they find the simplices of the points in the simplices that `arrays` have.
+    /// Records the search for the lowest simplex of each point of `arrays`.
     pub(crate) fn record(&self, gpu: &Gpu, recorder: &mut Recorder<'_>, arrays: &DeviceArrays) {
         let buffers = [("corners", arrays.simplices.buffer()), ("vertex_simplices", arrays.vertex_simplices.buffer())];
         recorder.dispatch(&self.clear, &self.clear.bind(gpu, &buffers), gpu.workgroups(arrays.vertex_simplices.len()));

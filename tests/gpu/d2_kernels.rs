@@ -99,9 +99,9 @@ fn compare(width: Width, pick: Pick) {
     device.upload(&state);
     device.run("mesh_mark");
     let marks = d2::mesh_mark(&state);
-    assert_eq!(device.read(&device.buffers.marks), marks);
+    assert_eq!(device.read(&device.buffers.numbering.marks), marks);
     let numbers: Vec<u32> = marks.iter().scan(0, |sum, &m| Some(std::mem::replace(sum, *sum + m))).collect();
-    device.buffers.numbers.write(&device.kernels.gpu, 0, &numbers);
+    device.buffers.numbering.numbers.write(&device.kernels.gpu, 0, &numbers);
     device.run("mesh_compact");
     let mesh = d2::mesh_compact(&state, &numbers);
     let count = mesh.triangles.len();

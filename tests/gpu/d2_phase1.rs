@@ -6,7 +6,7 @@ use std::collections::HashSet;
 
 use gdel::internals::d2::gpu::vertex;
 use gdel::internals::gpu::layout::Pick;
-use gdel::internals::gpu::phase1::{Input, Phase1, Run, Settings};
+use gdel::internals::gpu::phase1::{Input, MemorySettings, Phase1, Run, Settings};
 use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::gpu::{AdapterChoice, Gpu};
 use gdel::internals::input::lattice::{Lattice, Width};
@@ -92,7 +92,8 @@ fn every_round_is_valid() {
         let all = Settings { insert_all: true, pick: Pick::Centroid, ..settings };
         run_and_validate(&gpu, &mut kernels, name, &points, all);
         // Flips wait for room in the history, and nothing is lost.
-        let narrow = Settings { history: 0, min_active: 100, ..settings };
+        let memory = MemorySettings { history: 0, ..settings.memory };
+        let narrow = Settings { memory, min_active: 100, ..settings };
         run_and_validate(&gpu, &mut kernels, name, &points, narrow);
     }
 }

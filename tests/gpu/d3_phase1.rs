@@ -13,7 +13,7 @@ use gdel::internals::{
     gpu::{
         AdapterChoice, Gpu, Parts,
         layout::{Counters, Pick},
-        phase1::{Input, Phase1, Phase1Output, Run, Settings},
+        phase1::{Input, MemorySettings, Phase1, Phase1Output, Run, Settings},
     },
 };
 use gdel::internals::{dimension::Dimension, gpu::dim::Dim};
@@ -126,7 +126,7 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, se
     }
     // One for each batch of rounds, and a few at the end: of two arrays one for each of up to four parts.
     let batches = stats.rounds.len();
-    let of_parts = if settings.part_bytes.is_some() { 2 * 3 } else { 0 };
+    let of_parts = if settings.memory.part_bytes.is_some() { 2 * 3 } else { 0 };
     assert!(
         stats.readbacks <= batches + 10 + of_parts,
         "{}: {} readbacks in {batches} rounds",
@@ -191,11 +191,17 @@ fn facets_that_cannot_be_flipped_are_removed() {
     assert!(4 * failed[1] < 3 * failed[0], "{failed:?} failed before and after");
 }
 
+/// Returns the same settings with far too few slots and a far too small history.
+fn tight(settings: Settings<3>) -> Settings<3> {
+    let memory = MemorySettings { points_per_tail_block: 1 << 20, history: 0, ..settings.memory };
+    Settings { memory, ..settings }
+}
+
 /// Slots and history that are far too small: flips wait, buffers grow, and nothing is lost.
 #[test]
 fn small_buffers_grow() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
-    let settings = Settings { points_per_tail_block: 1 << 20, history: 0, ..Settings::default() };
+    let settings = tight(Settings::default());
     run_and_validate(&gpu, &mut kernels(&gpu), &inputs::two_lines(Width::Narrow, 300), settings);
 }
 
@@ -222,8 +228,7 @@ fn batches_overlap() {
         for (rounds, batches) in [(1, 2), (3, 2), (8, 3)] {
             let settings = Settings { rounds, batches, ..Settings::default() };
             run_and_validate(&gpu, &mut kernels, &points, settings);
-            let tight = Settings { points_per_tail_block: 1 << 20, history: 0, ..settings };
-            run_and_validate(&gpu, &mut kernels, &points, tight);
+            run_and_validate(&gpu, &mut kernels, &points, tight(settings));
         }
     }
 }
@@ -264,15 +269,15 @@ fn a_first_run_does_without_the_kernel_that_takes_longest_to_compile() {
 fn arrays_in_parts() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let settings = Settings { rounds: 1, batches: 1, ..Settings::default() };
-    let tight = Settings { points_per_tail_block: 1 << 20, history: 0, ..Settings::default() };
     for (points, settings, blocks_per_part) in [
         (inputs::uniform(Width::Narrow, 1000), settings, 400),
         (inputs::uniform(Width::Wide, 1000), Settings { batches: 2, ..settings }, 300),
-        (inputs::two_lines(Width::Narrow, 100), tight, 130),
+        (inputs::two_lines(Width::Narrow, 100), tight(Settings::default()), 130),
     ] {
         let bytes = 8 * 16 * blocks_per_part;
         let parts = Parts::with_bytes(&gpu, bytes).expect("lavapipe binds 32 buffers");
-        let settings = Settings { part_bytes: Some(bytes), ..settings };
+        let memory = MemorySettings { part_bytes: Some(bytes), ..settings.memory };
+        let settings = Settings { memory, ..settings };
         let mut kernels = [Width::Narrow, Width::Wide]
             .map(|width| block_on(Phase1::in_parts(&gpu, width, Some(parts))).expect("they compile"));
         let counters = run_and_validate(&gpu, &mut kernels, &points, settings);

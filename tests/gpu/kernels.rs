@@ -132,13 +132,13 @@ where
         let vertices: Vec<u32> = (0..state.params.infinite).collect();
         b.points.vertex_of.write(gpu, 0, &vertices);
         b.points.merged_into.write(gpu, 0, &vec![NONE; vertices.len()]);
-        b.start_points.write(gpu, 0, &state.start.points);
-        b.start_simplices.write(gpu, 0, &state.start.simplices);
+        b.start.points.write(gpu, 0, &state.start.points);
+        b.start.simplices.write(gpu, 0, &state.start.simplices);
         self.upload(state);
         self.run("start_vertices");
         let count = state.start.points.len();
-        assert_eq!(self.read(&b.start_vertices)[..count], state.start_vertices);
-        let near = self.read(&b.start_near);
+        assert_eq!(self.read(&b.start.vertices)[..count], state.start_vertices);
+        let near = self.read(&b.start.near);
         for (&v, &[_, simplex]) in state.start_vertices.iter().zip(&state.start.points) {
             let slot = near[(v / state.params.start_stride) as usize];
             assert!(slot > state.start_slot(simplex), "the last one of a stretch is kept");

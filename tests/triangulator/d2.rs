@@ -7,7 +7,12 @@ use gdel::{
         Options,
         cpu::delaunay_in_order,
         d2::generate::{Distribution2, generate2d},
-        gpu::{AdapterChoice, Gpu, engine::GpuEngine, layout::Pick, phase1::Settings},
+        gpu::{
+            AdapterChoice, Gpu,
+            engine::GpuEngine,
+            layout::Pick,
+            phase1::{Budget, MemorySettings, Settings},
+        },
         input::order::Order,
     },
     stats::{Fallback, Phase},
@@ -128,16 +133,23 @@ fn the_same_triangles_on_all_kinds_of_input() {
     agree("duplicates", (&duplicates).into());
 }
 
+/// Returns settings under which a run may take so many flip iterations, and one more for so many flips.
+fn with_budget(spare_iterations: u32, flips_per_iteration: u32) -> Settings<2> {
+    let default = Settings::default();
+    let budget = Budget { spare_iterations, flips_per_iteration, ..default.budget };
+    Settings { budget, ..default }
+}
+
 #[test]
 fn settings_do_not_change_the_answer() {
     let points = random(2_000, 10, |rng| ring(rng, 1e-2));
     // Most of these take more flip iterations than the default settings.
-    let default = Settings { spare_iterations: u32::MAX, ..Settings::default() };
+    let default = with_budget(u32::MAX, 256);
     for settings in [
         Settings { insert_all: true, ..default },
         Settings { sort: false, ..default },
         Settings { pick: Pick::Centroid, min_active: 0, ..default },
-        Settings { pick: Pick::Random, history: 0, ..default },
+        Settings { pick: Pick::Random, memory: MemorySettings { history: 0, ..default.memory }, ..default },
     ] {
         let mesh = triangulate((&points).into(), &settings);
         assert_eq!(mesh.stats.fallback, None);
@@ -220,7 +232,7 @@ fn two_lines_take_few_flip_iterations() {
 fn flips_that_wait_for_each_other_are_left_to_the_cpu() {
     let points = uniform(3_000, 1);
     // A run may take what its flips have earned.
-    let settings = Settings { spare_iterations: 4, flips_per_iteration: 100_000, ..Settings::default() };
+    let settings = with_budget(4, 100_000);
     let mesh = triangulate((&points).into(), &settings);
     assert_eq!(mesh.stats.fallback, Some(Fallback::Flips));
     same((&points).into(), &mesh);

@@ -6,7 +6,7 @@ use gdel::{
     internals::{
         Options,
         d3::generate::{Distribution3, generate3d},
-        gpu::phase1::Settings,
+        gpu::phase1::{MemorySettings, Settings},
     },
     stats::Fallback,
 };
@@ -41,11 +41,15 @@ fn five_thousand_points_on_a_sphere_in_single_precision() {
 fn arrays_in_parts() {
     let mut engine = open();
     let options = Options::default();
-    let parts = Settings { part_bytes: Some(60_000 * 16), ..Settings::default() };
+    let of_slots = |slots: u64| {
+        let default = Settings::default();
+        let memory = MemorySettings { part_bytes: Some(slots * 16), ..default.memory };
+        Settings { memory, ..default }
+    };
     let uniform = generate3d(Distribution3::Uniform, 20_000, 3);
     for points in [&uniform, &generate3d(Distribution3::Sphere, 3_000, 1), &clouds::shuffled(&clouds::grid(20), 1)] {
         for sparse in [false, true] {
-            engine.set_settings(Settings { sparse, ..parts });
+            engine.set_settings(Settings { sparse, ..of_slots(60_000) });
             let mesh = block_on(engine.triangulate(points.into(), &options)).expect("triangulates");
             assert_eq!(mesh.stats.fallback, None);
             same(points, &mesh);
@@ -60,7 +64,7 @@ fn arrays_in_parts() {
     same(&moved[1], &mesh.read(Outputs::ALL).expect("reads"));
 
     // Four parts are too few.
-    engine.set_settings(Settings { part_bytes: Some(40_000 * 16), ..parts });
+    engine.set_settings(of_slots(40_000));
     let error = block_on(engine.triangulate((&uniform).into(), &options)).expect_err("it does not fit");
     assert!(matches!(error, Error::BufferTooLarge { points: Some(18_000..20_000), .. }), "{error}");
     engine.set_settings(Settings::default());

@@ -5,7 +5,10 @@ use gdel::{
     Backend, DeviceMesh3, Error, Outputs, Points2, Points3, Triangulator,
     internals::{
         Options,
-        gpu::{phase1::Settings, update::Limits},
+        gpu::{
+            phase1::{Budget, Settings},
+            update::Limits,
+        },
     },
     stats::{Restart, UpdateStats},
 };
@@ -20,7 +23,9 @@ macro_rules! follow {
     ($name:ident, $D:literal, $points:ident, $engine:expr, $same:path) => {
         fn $name(steps: motions::Steps<$D>) -> Vec<UpdateStats> {
             let mut engine = $engine;
-            engine.set_settings(Settings { limits: Limits::NONE, ..Settings::default() });
+            let default = Settings::<$D>::default();
+            let budget = Budget { limits: Limits::NONE, ..default.budget };
+            engine.set_settings(Settings { budget, ..default });
             let mut steps = steps.into_iter();
             let points = steps.next().expect("there is a step");
             let options = Options::default();

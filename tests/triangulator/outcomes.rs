@@ -7,7 +7,11 @@ use gdel::{
         Options,
         d2::generate::{Distribution2, generate2d},
         d3::generate::{Distribution3, generate3d},
-        gpu::{AdapterChoice, Gpu, engine::GpuEngine, phase1::Settings},
+        gpu::{
+            AdapterChoice, Gpu,
+            engine::GpuEngine,
+            phase1::{Budget, Settings},
+        },
         triangulator::{MIN_POINTS_2D, MIN_POINTS_3D},
     },
     stats::{Fallback, Phase},
@@ -272,7 +276,9 @@ fn an_input_that_is_too_large_is_an_error_that_says_what_would_fit() {
 fn a_triangulation_that_outgrows_the_device_is_an_error() {
     let mut engine = with_small_buffers(1 << 20);
     // Flips wait for each other here, and the CPU engine would take over.
-    engine.set_settings(Settings { spare_iterations: u32::MAX, ..Settings::default() });
+    let default = Settings::<3>::default();
+    let budget = Budget { spare_iterations: u32::MAX, ..default.budget };
+    engine.set_settings(Settings { budget, ..default });
     let lines = clouds::two_skew_lines(400);
     let error = block_on(engine.triangulate((&lines).into(), &Options::default())).expect_err("1 MiB is not enough");
     let Error::BufferTooLarge { points: Some(fitting), .. } = error else { panic!("{error:?}") };

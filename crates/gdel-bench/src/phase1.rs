@@ -10,7 +10,7 @@ use gdel::internals::{
     gpu::{
         Gpu, Profiler,
         layout::Pick,
-        phase1::{Finish, Input, Phase1, Phase1Output, Settings},
+        phase1::{Finish, Input, MemorySettings, Phase1, Phase1Output, Settings},
         start::first_simplex,
     },
     input::lattice::Lattice,
@@ -65,6 +65,7 @@ where
     Dimension<D>: Space<D> + Finish<D>,
 {
     let gpu = arguments.adapter.open()?;
+    let default = Settings::default();
     let settings = Settings {
         pick: match arguments.pick {
             Picked::Adaptive => Pick::Adaptive,
@@ -74,8 +75,8 @@ where
         },
         insert_all: arguments.insert_all,
         sort: !arguments.unsorted,
-        part_bytes: arguments.part.map(|part| part << 20),
-        ..Settings::default()
+        memory: MemorySettings { part_bytes: arguments.part.map(|part| part << 20), ..default.memory },
+        ..default
     };
     for cloud in arguments.source.clouds::<D>() {
         let cloud = cloud?;

@@ -30,15 +30,15 @@ pub struct Mesh {
 pub struct NearMesh {
     /// The triangles: those of the true points, if all `uncertain` tests have the right answer.
     pub mesh: Mesh,
-    /// What the lattice does not prove of the mesh, because coordinates were rounded; `None` if
-    /// that is more than the device has room for.
+    /// The signs that the lattice does not prove, because coordinates were rounded; `None` if there are
+    /// more of them than the device has room for.
     pub uncertain: Option<Vec<UncertainTest>>,
 }
 
 /// The readbacks beside those of the triangles and their half-edges.
 pub type Reading = Open<Pending<[u32; 2]>, Pending<UncertainTest>>;
 
-/// What the host has to see of any mesh.
+/// What the host reads of any mesh.
 pub struct Open<H, U> {
     /// [`Mesh::hull`].
     pub(crate) hull: H,

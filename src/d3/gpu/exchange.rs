@@ -290,8 +290,8 @@ impl<'a> Device<'a> {
         let mesh = SlotMesh {
             tetrahedra: &aliases.tets,
             neighbors: &aliases.neighbors,
-            marks: &buffers.marks,
-            numbers: &buffers.numbers,
+            marks: &buffers.numbering.marks,
+            numbers: &buffers.numbering.numbers,
             params,
         };
         let Made { arrays, hull, dispatches } =

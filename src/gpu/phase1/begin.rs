@@ -115,7 +115,7 @@ where
             first_iterations: Dimension::<D>::FIRST_ITERATIONS,
             rounds: settings.rounds as usize,
             batches: settings.batches as usize,
-            removes: settings.removes && kernels.stages.can(Stage::Remove),
+            removes: kernels.stages.can(Stage::Remove),
         };
         let start_points = start.points.len();
         Ok(Run {

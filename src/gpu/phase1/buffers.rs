@@ -44,20 +44,34 @@ where
     pub waiting: Storage<Waiting>,
     /// Scores of the waiting points.
     pub scores: Storage<u32>,
-    /// The points of the start, each with one of its simplices.
-    pub start_points: Storage<[u32; 2]>,
-    /// The simplices of the start: corners and neighbours.
-    pub start_simplices: Storage<[Slot; 2]>,
-    /// The vertices of the start's points.
-    pub start_vertices: Storage<u32>,
-    /// For each stretch of vertices the slot of a simplex of the start, plus 1, or 0.
-    pub start_near: Storage<u32>,
-    /// Whether each slot has a simplex of the mesh, at the end.
-    pub marks: Storage<u32>,
-    /// The number of each slot's simplex in the mesh, at the end.
-    pub numbers: Storage<u32>,
+    /// What Phase 1 starts with.
+    pub start: StartBuffers,
+    /// The order of the simplices in the mesh, at the end.
+    pub numbering: NumberingBuffers,
     /// The buffers that only this dimension has.
     pub own: <Dimension<D> as Dim<D>>::OwnBuffers,
+}
+
+/// The triangulation of some of the points, as [`StartMesh`](crate::gpu::start::StartMesh) has it.
+#[derive(Debug, Clone)]
+pub struct StartBuffers {
+    /// The points, each with one of its simplices.
+    pub points: Storage<[u32; 2]>,
+    /// The simplices: corners and neighbours.
+    pub simplices: Storage<[Slot; 2]>,
+    /// The vertices that the points are.
+    pub vertices: Storage<u32>,
+    /// For each stretch of vertices the slot of a simplex nearby, plus 1, or 0.
+    pub near: Storage<u32>,
+}
+
+/// The order of the simplices in the mesh.
+#[derive(Debug, Clone)]
+pub struct NumberingBuffers {
+    /// 1 for each slot with a simplex of the mesh, and 0 for the others.
+    pub marks: Storage<u32>,
+    /// The number of each slot's simplex.
+    pub numbers: Storage<u32>,
 }
 
 /// How large the buffers of a run are, beside what follows from the number of its points.
@@ -107,16 +121,8 @@ where
             history: Storage::in_parts(gpu, "history", history as usize, parts)?,
             waiting: Storage::new(gpu, "waiting points", 2 * count)?,
             scores: Storage::new(gpu, "scores", count)?,
-            start_points: Storage::new(gpu, "points of the start", start_points)?,
-            start_simplices: Storage::new(
-                gpu,
-                "simplices of the start",
-                start_points * Dimension::<D>::SLOTS_PER_POINT as usize,
-            )?,
-            start_vertices: Storage::new(gpu, "vertices of the start", start_points)?,
-            start_near: Storage::new(gpu, "simplices near vertices", start_points)?,
-            marks: Storage::in_parts(gpu, "marks", slots, parts)?,
-            numbers: Storage::in_parts(gpu, "numbers of simplices", slots, parts)?,
+            start: StartBuffers::new(gpu, start_points, Dimension::<D>::SLOTS_PER_POINT as usize)?,
+            numbering: NumberingBuffers::new(gpu, slots, parts)?,
             own: OwnBuffers::new(gpu, count, blocks, parts)?,
             points,
         })
@@ -144,8 +150,7 @@ where
         larger.neighbors = Storage::in_parts(gpu, "neighbours", slots, parts)?;
         larger.status = Storage::in_parts(gpu, "status", slots, parts)?;
         larger.active = Storage::in_parts(gpu, "active list", 2 * slots, parts)?;
-        larger.marks = Storage::in_parts(gpu, "marks", slots, parts)?;
-        larger.numbers = Storage::in_parts(gpu, "numbers of simplices", slots, parts)?;
+        larger.numbering = NumberingBuffers::new(gpu, slots, parts)?;
         let encoder = recorder.encoder();
         // All but the parameters, which the host writes anew.
         let counters = (PARAM_WORDS * size_of::<u32>()) as u64;
@@ -159,13 +164,13 @@ where
         Ok(larger)
     }
 
-    /// Records that what must be zero in the beginning is: slots without simplices, their status,
-    /// and what the dimension adds.
+    /// Records that buffers are cleared that a run expects to be zero: slots, their status, and those that
+    /// the dimension adds.
     pub fn record_clear(&self, recorder: &mut Recorder<'_>) {
         let encoder = recorder.encoder();
         self.simplices.record_clear(encoder);
         self.status.record_clear(encoder);
-        self.start_near.record_clear(encoder);
+        self.start.near.record_clear(encoder);
         self.own.record_clear(encoder);
     }
 
@@ -181,17 +186,17 @@ where
             ("vertex_of", self.points.vertex_of.buffer()),
             ("waiting", self.waiting.buffer()),
             ("scores", self.scores.buffer()),
-            ("start_points", self.start_points.buffer()),
-            ("start_simplices", self.start_simplices.buffer()),
-            ("start_vertices", self.start_vertices.buffer()),
-            ("start_near", self.start_near.buffer()),
+            ("start_points", self.start.points.buffer()),
+            ("start_simplices", self.start.simplices.buffer()),
+            ("start_vertices", self.start.vertices.buffer()),
+            ("start_near", self.start.near.buffer()),
         ]);
         append_bindings(
             &mut bindings,
             &[
                 self.points.vertices.named("vertices"),
-                self.marks.named("marks"),
-                self.numbers.named("numbers"),
+                self.numbering.marks.named("marks"),
+                self.numbering.numbers.named("numbers"),
                 self.simplices.named("simplices"),
                 self.neighbors.named("neighbors"),
                 self.status.named("status"),
@@ -226,18 +231,36 @@ where
             history,
             waiting,
             scores,
-            start_points,
-            start_simplices,
-            start_vertices,
-            start_near,
-            marks,
-            numbers,
+            start,
+            numbering,
             own,
         } = self;
+        let StartBuffers { points: start_points, simplices: start_simplices, vertices, near } = start;
+        let NumberingBuffers { marks, numbers } = numbering;
         let words = control.bytes() + waiting.bytes() + scores.bytes();
         let slots = simplices.bytes() + neighbors.bytes() + status.bytes() + active.bytes() + messages.bytes();
         let mesh = marks.bytes() + numbers.bytes();
-        let start = start_points.bytes() + start_simplices.bytes() + start_vertices.bytes() + start_near.bytes();
+        let start = start_points.bytes() + start_simplices.bytes() + vertices.bytes() + near.bytes();
         words + slots + mesh + history.bytes() + start + own.bytes()
+    }
+}
+
+impl StartBuffers {
+    fn new(gpu: &Gpu, points: usize, slots_per_point: usize) -> Result<Self, Error> {
+        Ok(StartBuffers {
+            points: Storage::new(gpu, "points of the start", points)?,
+            simplices: Storage::new(gpu, "simplices of the start", points * slots_per_point)?,
+            vertices: Storage::new(gpu, "vertices of the start", points)?,
+            near: Storage::new(gpu, "simplices near vertices", points)?,
+        })
+    }
+}
+
+impl NumberingBuffers {
+    fn new(gpu: &Gpu, slots: usize, parts: Option<Parts>) -> Result<Self, Error> {
+        Ok(NumberingBuffers {
+            marks: Storage::in_parts(gpu, "marks", slots, parts)?,
+            numbers: Storage::in_parts(gpu, "numbers of simplices", slots, parts)?,
+        })
     }
 }

@@ -51,7 +51,7 @@ where
         return Err(Error::BufferTooLarge { label: Dimension::<D>::SIMPLICES, bytes, limit, points });
     }
     let bindable = MAX_NODES.min(limit / size_of::<Flip<D>>() as u64);
-    let wanted = u64::from(settings.history) * u64::from(points);
+    let wanted = u64::from(settings.memory.history) * u64::from(points);
     let history = wanted.clamp(MIN_HISTORY, bindable.max(MIN_HISTORY)) as u32;
     Ok(Sizes { blocks, history, start_points: settings.start_points(count), parts })
 }

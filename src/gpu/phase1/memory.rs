@@ -69,7 +69,7 @@ where
             b.points.vertices.buffer() == points.vertices.buffer()
                 && b.blocks() >= sizes.blocks
                 && b.history.len() == sizes.history as usize
-                && b.start_points.len() >= sizes.start_points
+                && b.start.points.len() >= sizes.start_points
         };
         match kept {
             Some(memory) if fits(&memory.buffers) => Ok(memory),

@@ -14,16 +14,16 @@
 //! 5. *Finish*: the mesh without gaps, in input indices, what rounding leaves open, and the one
 //!    large readback; in 3D also the failed vertices (§3.2.1).
 //!
-//! The device drives the rounds: a kernel of one invocation decides at the beginning of each what
-//! follows from the counters. The host records several rounds per submission and reads the counters
-//! of one batch while the device works on the next. A round that has nothing to do costs only empty
-//! dispatches.
+//! The device drives the rounds: at the beginning of each, a kernel of one invocation decides by the
+//! counters what it does. The host submits batches of rounds ahead and reads the counters of one batch
+//! while the device works on the next. What it submits is decided by a *plan* (`plan.rs`), which sees
+//! nothing but counters; a *round* (`round.rs`) is a list of *stages* (`stages.rs`), each a table of
+//! kernels; `record.rs` records them, and `run.rs` drives all this.
 //!
-//! Flip iterations are recorded ahead, a dispatch per pass, some more than the last rounds took:
-//! those that find nothing to do cost microseconds, and what they leave undone is taken up in the
-//! next round. In 3D, iterations with few active tetrahedra are done in one workgroup, all in one
-//! dispatch. No flip is lost for want of room: when the slots (3D only) or the history run out,
-//! flips wait in the active list until there is more.
+//! Flip iterations are recorded ahead, with a dispatch per pass. Those that find nothing to do cost
+//! microseconds; flips that they leave undone are done in the next round. In 3D, one workgroup does
+//! iterations with few active tetrahedra, all in one dispatch. No flip is lost for want of memory: when
+//! slots (3D only) or the history run out, flips wait in the active list until there are more.
 //!
 //! All of it is generic over the number `D` of coordinates; [`Dim`](crate::gpu::dim::Dim) and
 //! [`Finish`] are what the dimensions supply.
@@ -52,6 +52,6 @@ pub use finish::{Aliases, Copied, Copies, Finish};
 pub use kernels::Phase1;
 pub(crate) use memory::Memory;
 pub use run::{Phase1Output, Run};
-pub use settings::Settings;
+pub use settings::{Budget, MemorySettings, Settings};
 pub(crate) use stages::Stage;
 pub use stats::Phase1Stats;

@@ -21,6 +21,10 @@ use crate::{
     },
 };
 
+/// The largest number of workgroups of a kernel with an invocation per slot: enough for the largest devices.
+/// Kernels stride over what there is to do.
+const MAX_WORKGROUPS: u32 = 512;
+
 /// The most unused slots per 1,024 simplices of a mesh that is taken: so few that their product with
 /// 1,024 fits 32 bits.
 const MAX_SPREAD: u64 = 1 << 20;
@@ -46,7 +50,7 @@ where
     /// Returns the workgroups of a kernel with an invocation per slot.
     pub(crate) fn workgroups(&self, gpu: &Gpu) -> u32 {
         let slots = self.params.blocks.saturating_mul(BLOCK);
-        gpu.workgroups(slots as usize).min(self.settings.workgroups)
+        gpu.workgroups(slots as usize).min(MAX_WORKGROUPS)
     }
 
     /// Records a stage.
@@ -82,8 +86,8 @@ where
         self.write_params(gpu);
         self.write_counters(gpu, Counters { inserted, active_len: [active, 0], ..*counters });
         let buffers = &self.memory.buffers;
-        buffers.start_points.write(gpu, 0, &start.points);
-        buffers.start_simplices.write(gpu, 0, &start.simplices);
+        buffers.start.points.write(gpu, 0, &start.points);
+        buffers.start.simplices.write(gpu, 0, &start.simplices);
         buffers.record_clear(recorder);
         self.record(gpu, recorder, Stage::FillFree);
         self.record(gpu, recorder, Stage::Start);
@@ -140,7 +144,7 @@ where
         }
         // In 2D, the last slot is never used.
         let free = self.params.blocks * BLOCK - all - 1;
-        let [moved_inverted, moved_violated] = self.settings.limits.most(simplices as f64);
+        let [moved_inverted, moved_violated] = self.settings.budget.limits.most(simplices as f64);
         self.params = Params {
             blocks_before: 0,
             moved_simplices: simplices as u32,

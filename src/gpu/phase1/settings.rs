@@ -25,17 +25,12 @@ pub struct Settings<const D: usize> {
     /// How many of the points the CPU engine triangulates first, while the device orders them;
     /// `None` for what was measured to be best.
     pub start_points: Option<u32>,
-    /// With fewer active simplices than this, than one per four points that are inserted (16 where many
-    /// signs are exact), and than one per 16 points, flipping waits for the next round; except at the end.
+    /// The largest active count at which a round ends while points wait. A round also goes on until fewer
+    /// simplices are active than one per four points that are inserted (16 where many signs are exact), and
+    /// than one per 16 points of the input.
     pub min_active: u32,
-    /// The largest number of workgroups per dispatch. Kernels stride over what there is to do.
-    pub workgroups: u32,
-    /// 3D only: there is a block in the tail for so many points, at the start and again whenever
-    /// slots run out.
-    pub points_per_tail_block: u32,
-    /// Nodes of the history per point, if the device can bind so many. Flips for which there is no
-    /// room wait for the next round.
-    pub history: u32,
+    /// How much device memory a run gets.
+    pub memory: MemorySettings,
     /// 3D only: with at most so many active tetrahedra, flip iterations are done in one workgroup,
     /// without a dispatch per pass.
     pub few: u32,
@@ -45,25 +40,41 @@ pub struct Settings<const D: usize> {
     pub rounds: u32,
     /// The batches of rounds that are submitted before the counters of the first one are read.
     pub batches: u32,
-    /// The flip iterations that a run may take whatever comes of them; see [`Settings::is_slow`].
-    pub spare_iterations: u32,
-    /// The flips that earn a run one more flip iteration.
-    pub flips_per_iteration: u32,
+    /// What a run may cost before it is given up.
+    pub budget: Budget,
     /// Whether points are ordered along the Hilbert curve, and so are the slots of their simplices
     /// in memory (§4.3, Figure 12).
     pub sort: bool,
-    /// 3D only: whether facets that could not be flipped are removed with those beside them.
-    pub removes: bool,
     /// 3D only: whether splaying gathers only the stars that it needs, and the device makes the arrays of the mesh, even
     /// where the host wants to have it. That saves most of the host's memory, and takes longer than to read the mesh
     /// before it is splayed.
     pub sparse: bool,
+    /// 2D only: the orientation of the mesh.
+    pub winding: Winding,
+}
+
+/// How much device memory a run gets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MemorySettings {
+    /// 3D only: there is a block in the tail for so many points, at the start and again whenever
+    /// slots run out.
+    pub points_per_tail_block: u32,
+    /// Nodes of the history per point, if the device can bind so many. Flips for which there is no
+    /// room wait for the next round.
+    pub history: u32,
     /// 3D only: the size of the parts of large arrays, in bytes; `None` to have them in parts where
     /// there are too many points for one buffer, which then are as large as the device can bind.
     pub part_bytes: Option<u64>,
-    /// 2D only: the orientation of the mesh.
-    pub winding: Winding,
-    /// How much of a mesh whose points have moved it pays to repair.
+}
+
+/// What a run may cost before it is given up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Budget {
+    /// The flip iterations before flips are counted; see [`Settings::is_slow`].
+    pub spare_iterations: u32,
+    /// The flips that earn a run one more flip iteration.
+    pub flips_per_iteration: u32,
+    /// How wrong a mesh may be after its points have moved, so that repairing it pays.
     pub limits: Limits,
 }
 
@@ -77,31 +88,25 @@ where
             insert_all: false,
             start_points: None,
             min_active: u32::MAX,
-            workgroups: 512,
-            points_per_tail_block: 16,
-            history: Dimension::<D>::HISTORY,
+            memory: MemorySettings { points_per_tail_block: 16, history: Dimension::<D>::HISTORY, part_bytes: None },
             few: 256,
             rounds: 1,
             batches: 2,
-            spare_iterations: 256,
-            flips_per_iteration: 256,
+            budget: Budget { spare_iterations: 256, flips_per_iteration: 256, limits: Limits::measured(D) },
             sort: true,
-            removes: true,
             sparse: platform::MESHES_STAY_ON_DEVICE,
-            part_bytes: None,
             winding: Winding::CounterClockwise,
-            limits: Limits::measured(D),
         }
     }
 }
 
-/// Blocks in the tail for no points: so many that few points do not need many steps to grow.
+/// The smallest tail, in blocks: small inputs seldom have to grow it.
 const MIN_TAIL_BLOCKS: u32 = 64;
 
 impl<const D: usize> Settings<D> {
     /// Returns the blocks that are added to the tail at a time.
     pub(crate) fn tail_blocks(&self, points: u32) -> u32 {
-        MIN_TAIL_BLOCKS + points / self.points_per_tail_block.max(1)
+        MIN_TAIL_BLOCKS + points / self.memory.points_per_tail_block.max(1)
     }
 
     /// Returns the blocks for so many points, with the first tail.
@@ -132,7 +137,7 @@ impl<const D: usize> Settings<D> {
         if D != 3 {
             return None;
         }
-        match self.part_bytes {
+        match self.memory.part_bytes {
             Some(bytes) => Parts::with_bytes(gpu, bytes),
             None => {
                 let bytes = largest_bytes(self.first_blocks(points));
@@ -149,6 +154,7 @@ impl<const D: usize> Settings<D> {
     /// flips per iteration; on the moment curve or two skew lines there are 10 to 30, however many
     /// the points are. What few points take is within the spare iterations.
     pub fn is_slow(&self, counters: &Counters) -> bool {
-        counters.iterations > self.spare_iterations.saturating_add(counters.flips() / self.flips_per_iteration.max(1))
+        let Budget { spare_iterations, flips_per_iteration, .. } = self.budget;
+        counters.iterations > spare_iterations.saturating_add(counters.flips() / flips_per_iteration.max(1))
     }
 }

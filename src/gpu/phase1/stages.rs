@@ -198,7 +198,7 @@ impl Stages {
     {
         let count = ScanParams { count: b.simplices.len() as u32 };
         let params = Storage::with_contents(gpu, "scan parameters", &[count])?;
-        let scan = self.scan.bind(gpu, &params, &b.marks, &b.numbers)?;
+        let scan = self.scan.bind(gpu, &params, &b.numbering.marks, &b.numbering.numbers)?;
         let aliases = <Dimension<D> as Finish<D>>::Aliases::new(b);
         let mut buffers = b.bindings();
         buffers.extend(aliases.bindings());

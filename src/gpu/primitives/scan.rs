@@ -42,7 +42,7 @@ pub struct BoundScan {
     /// Entry [`GROUPS`] is the sum of all values.
     sums: Storage<u32>,
     steps: BoundSteps,
-    /// The workgroups that have values.
+    /// The number of workgroups with values.
     groups: u32,
 }
 
