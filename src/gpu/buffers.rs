@@ -94,7 +94,7 @@ impl<T: Pod> Storage<T> {
         if contents.is_empty() {
             return Self::new(gpu, label, 0);
         }
-        // A buffer that is mapped at its creation would be filled with zeros before.
+        // Mapping the buffer at its creation would fill it with zeros first.
         let storage = Self::new(gpu, label, contents.len())?;
         storage.write(gpu, 0, contents);
         Ok(storage)
@@ -188,7 +188,7 @@ impl<T: Pod> Storage<T> {
         (name, &self.buffer, &self.more)
     }
 
-    /// Returns in which buffer byte `at` is, where there, and how many bytes follow in it.
+    /// Returns the buffer that has byte `at`, the place there, and how many bytes follow in it.
     pub(crate) fn place(&self, mut at: u64) -> (&wgpu::Buffer, u64, u64) {
         let mut buffer = &self.buffer;
         for next in &self.more {
@@ -201,7 +201,7 @@ impl<T: Pod> Storage<T> {
         (buffer, at, buffer.size() - at)
     }
 
-    /// Records that everything is zero.
+    /// Records that all elements are set to zero.
     pub(crate) fn record_clear(&self, encoder: &mut wgpu::CommandEncoder) {
         self.buffers().for_each(|buffer| encoder.clear_buffer(buffer, 0, None));
     }

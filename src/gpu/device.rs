@@ -13,8 +13,8 @@ use crate::{
 };
 
 /// The most items for an invocation of a software device. Such devices end loops after 65,535 steps,
-/// those of all loops of an invocation, of which a slot takes up to some dozens, and a point, of which
-/// there is one for eight slots, some hundreds.
+/// counted over all loops of an invocation. A slot takes up to some dozens of steps, and a point, of
+/// which there is one per eight slots, some hundreds.
 const MAX_SOFTWARE_ITEMS: u32 = 1 << 10;
 
 /// The bytes of device memory that are allocated at a time, for buffers that are not larger.
@@ -99,8 +99,7 @@ impl AdapterSummary {
     }
 }
 
-/// The features that are used where an adapter has them: to time stages, and, natively, for faster exact
-/// arithmetic.
+/// Optional features: timestamps of stages, and, natively, 64-bit integers for faster exact arithmetic.
 const FEATURES: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::SHADER_INT64);
 
 /// Returns the adapters of this machine, in the order that [`AdapterChoice::Index`] counts.
@@ -124,7 +123,7 @@ pub struct Gpu {
     adapter: AdapterSummary,
     /// Why the device was lost, once it was.
     lost: Arc<OnceLock<String>>,
-    /// Kernels that are kept, with their names.
+    /// Kernels that are compiled once for the device.
     kernels: Arc<Mutex<Vec<KeptKernel>>>,
 }
 
@@ -150,9 +149,9 @@ impl Gpu {
                 max_storage_buffer_binding_size: limits.max_storage_buffer_binding_size,
                 ..parts::limits(&limits)
             },
-            // A mesh that is replaced goes while the device holds the next one. The allocator gives blocks
-            // without buffers back to the driver, which takes as long to provide another one as an
-            // update: few blocks of the largest size that it knows stay in use.
+            // The allocator returns blocks without buffers to the driver, and another block takes the driver
+            // as long as a whole update. In few blocks of the largest size, some buffer is always left when
+            // a mesh replaces another.
             memory_hints: wgpu::MemoryHints::Manual {
                 suballocated_device_memory_block_size: MEMORY_BLOCK..MEMORY_BLOCK,
             },
@@ -163,7 +162,7 @@ impl Gpu {
         let gpu = Gpu::from_device(device, queue);
         let lost = Arc::clone(&gpu.lost);
         gpu.device.set_device_lost_callback(move |reason, message| {
-            // A second loss adds nothing.
+            // Only the first reason is kept.
             let _ = lost.set(if message.is_empty() { format!("{reason:?}") } else { message });
         });
         Ok(gpu)
@@ -208,9 +207,9 @@ impl Gpu {
         &self.adapter
     }
 
-    /// Returns the workgroups for `items` items, for a kernel that strides. On a CPU each one costs
-    /// time even if it finds nothing to do, and more of them than keep its cores busy gain nothing, as
-    /// long as an invocation does not get too many items.
+    /// Returns the workgroups for `items` items, for a kernel that strides. On a software device, each
+    /// workgroup takes time even if it has nothing to do, so there are only as many as keep the cores
+    /// busy, as long as no invocation gets too many items.
     pub(crate) fn workgroups(&self, items: usize) -> u32 {
         let items = u32::try_from(items).unwrap_or(u32::MAX);
         let most = match self.adapter.software {
@@ -250,8 +249,8 @@ impl Gpu {
 
     /// Returns the error for an operation that failed: the loss of the device, if that is why.
     pub(crate) fn failure(&self, message: &str) -> Error {
-        // Native backends report the loss only when the device is polled and has nothing left to do;
-        // that polling fails, too, adds nothing.
+        // Native backends report the loss only when the device is polled and has nothing left to do. An
+        // error of this poll says nothing new.
         let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(Duration::from_secs(1)) };
         let _ = self.device.poll(wait);
         match self.lost.get() {
@@ -283,7 +282,7 @@ impl<'a> ErrorScope<'a> {
         // The scopes are a stack.
         let [c, b, a] = [c, b, a].map(wgpu::ErrorScopeGuard::pop);
         Box::pin(async move {
-            // What lacks memory is not valid, either.
+            // A resource for which memory is lacking is also reported as invalid.
             let [a, b, c] = [a.await, b.await, c.await];
             if let Some(report) = c.or(a).or(b) {
                 return Err(match report {

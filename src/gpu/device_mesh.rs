@@ -27,7 +27,7 @@ use crate::{
 pub struct Outputs(u8);
 
 impl Outputs {
-    /// Nothing but what the host knows.
+    /// No arrays, only what the host knows.
     pub const NONE: Outputs = Outputs(0);
     /// The vertices of the tetrahedra or triangles.
     pub const SIMPLICES: Outputs = Outputs(1);
@@ -81,15 +81,15 @@ pub trait MeshArrays<const D: usize>: Incremental<D> {
     ) -> Result<[&mut [u8]; 3], Error>;
 }
 
-/// Gives `array` as many elements, whatever they are, in the memory that it has if that suffices.
-/// Returns their bytes.
+/// Sets the length of `array`, in its own memory if that suffices; the elements are arbitrary. Returns
+/// their bytes.
 ///
 /// # Errors
 ///
 /// Returns [`Error::OutOfMemory`].
 pub(crate) fn with_len<T: Pod>(array: &mut Vec<T>, len: usize) -> Result<&mut [u8], Error> {
     if array.capacity() < len {
-        // Freed before, so that both are never held.
+        // The old memory is freed first, so that both are never held.
         *array = Vec::new();
         *array = bytemuck::try_zeroed_vec(len).map_err(|()| Error::OutOfMemory { simplices: len })?;
     } else {
@@ -170,7 +170,7 @@ pub struct DeviceMesh<const D: usize> {
     has_unused: bool,
     /// The vertices of the first simplex of the run that made the mesh, if it was one of the device.
     first: Vec<u32>,
-    /// The updates in a row up to this mesh that began anew.
+    /// How many updates in a row up to this one began anew.
     begun_anew: u32,
     dimension: u8,
     stats: Stats,
@@ -238,7 +238,7 @@ impl<const D: usize> DeviceMesh<D> {
         &self.stats
     }
 
-    /// Returns whether points were removed that are still counted.
+    /// Returns whether some points are unused: removed, but still counted.
     pub(crate) fn has_unused(&self) -> bool {
         self.has_unused
     }
@@ -270,7 +270,7 @@ impl<const D: usize> DeviceMesh<D> {
         self.begun_anew
     }
 
-    /// Takes note of the mesh of which this one is an update.
+    /// Counts the updates in a row that began anew, given the mesh that this one updates.
     pub(crate) fn follows(&mut self, before: &Self) {
         let has_begun_anew = self.stats.update.is_some_and(|update| update.restarted.is_some());
         self.begun_anew = if has_begun_anew { before.begun_anew.saturating_add(1) } else { 0 };
@@ -285,7 +285,8 @@ impl<const D: usize> DeviceMesh<D> {
         self.arrays.storages().map(Storage::bytes).iter().sum()
     }
 
-    /// Frees the buffers now, also for those who have clones of them: for garbage collectors.
+    /// Frees the buffers at once, even if there are clones of them: garbage collectors cannot see device
+    /// memory.
     #[doc(hidden)]
     pub fn destroy(&self) {
         for storage in self.arrays.storages() {
@@ -293,7 +294,7 @@ impl<const D: usize> DeviceMesh<D> {
         }
     }
 
-    /// Reads buffers of the mesh. Returns the statistics with what that took.
+    /// Reads buffers of the mesh. Returns the statistics as well, these readbacks included.
     pub(crate) async fn read_with<T: Target>(&self, reads: Vec<(&wgpu::Buffer, T)>) -> Result<(Vec<T>, Stats), Error> {
         let mut readback = self.readback.clone();
         let (count, bytes) = (readback.count(), readback.bytes());
@@ -309,9 +310,8 @@ impl<const D: usize> DeviceMesh<D> {
     }
 
     /// Reads buffers of the mesh into memory outside of that of WebAssembly: the simplices, their
-    /// neighbours, the hull, and the lowest simplex of each point, by these numbers. `memory` returns
-    /// that for a number of bytes, if there is as much. Returns the statistics as well, with what
-    /// that took.
+    /// neighbours, the hull, and the lowest simplex of each point, by these numbers. `memory` allocates
+    /// so many bytes, if it can. Returns the statistics as well, these readbacks included.
     ///
     /// # Errors
     ///
@@ -348,8 +348,7 @@ impl<const D: usize> DeviceMesh<D>
 where
     Dimension<D>: MeshArrays<D>,
 {
-    /// Takes over arrays that a run has made, and what `mesh`, whose arrays are empty, says of the
-    /// input and of the run.
+    /// Creates a mesh of arrays that a run has made. `mesh` has the rest; its own arrays are empty.
     pub(crate) fn new(gpu: &Gpu, readback: &Readback, arrays: DeviceArrays, mesh: MeshOf<D>) -> Self {
         let (duplicate_of, dimension, stats) = mesh.into_info();
         let (gpu, readback) = (gpu.clone(), readback.clone());

@@ -2,8 +2,8 @@
 //!
 //! An array with 16 bytes per slot exceeds the 2 GiB of one binding from 15.8 million points on.
 //! Then each large array consists of several buffers, and runs use kernels that choose the part by
-//! the index: `build/parts.rs` makes these of the others, of which they differ in nothing else. How
-//! many parts there can be depends on how many buffers the device binds.
+//! the index, which `build/parts.rs` generates from the others. How many parts there can be depends on
+//! how many buffers the device binds.
 
 use crate::gpu::Gpu;
 use crate::gpu::shader::{MAX_BUFFERS, PART_UNIT, PARTS};
@@ -53,15 +53,15 @@ impl Parts {
     }
 }
 
-/// Returns how many storage buffers a kernel of a device with these limits can bind, as far as arrays in
-/// parts need them.
+/// Returns how many storage buffers a kernel can bind on a device with these limits, and no more than
+/// arrays in parts need.
 fn buffers(limits: &wgpu::Limits) -> u32 {
     let and_others = limits.max_buffers_and_acceleration_structures_per_shader_stage;
     limits.max_storage_buffers_per_shader_stage.min(and_others).min(MAX_BUFFERS * PARTS)
 }
 
-/// Returns the limits to open a device with, of an adapter with these `limits`: the defaults of WebGPU, and
-/// the buffers that arrays in parts need.
+/// Returns the limits to request of an adapter with these `limits`: the defaults of WebGPU, and the buffers
+/// that arrays in parts need.
 pub(crate) fn limits(limits: &wgpu::Limits) -> wgpu::Limits {
     let defaults = wgpu::Limits::default();
     wgpu::Limits {

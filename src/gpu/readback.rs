@@ -13,7 +13,7 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 
-/// The pieces of large arrays that are on their way at a time.
+/// The number of pieces of large arrays that are on their way at a time.
 const PIECES_AHEAD: usize = 4;
 
 /// From this size on, threads share a copy.
@@ -49,12 +49,12 @@ impl<T> Pending<T> {
         self.len
     }
 
-    /// Returns the same, of which no more than the first `len` elements are received.
+    /// Returns the same readback, limited to the first `len` elements.
     pub(crate) fn first(self, len: usize) -> Self {
         Pending { len: self.len.min(len), ..self }
     }
 
-    /// Returns the same and the elements of `other` behind, which a later submission may contain.
+    /// Returns this readback followed by `other`, which a later submission may contain.
     pub(crate) fn then(mut self, other: Self) -> Self {
         self.len += other.len;
         self.staged.extend(other.staged);
@@ -71,19 +71,18 @@ struct Staged {
     mapped: oneshot::Receiver<Result<(), wgpu::BufferAsyncError>>,
 }
 
-/// Memory for a large result.
+/// Memory for a large result, prepared while the device is at work.
 #[derive(Debug)]
 pub(crate) enum Room<T> {
-    /// That of a list that nobody needs any more.
+    /// The memory of a list that is no longer needed.
     Used(Vec<T>),
-    /// Memory that the system provides while the device is at work: that takes longer than to copy the
-    /// result.
+    /// Fresh memory, which takes the system longer to provide than the result takes to copy.
     Ahead(Ahead<Vec<T>>),
 }
 
 impl<T: Pod + Send> Room<T> {
-    /// Returns room for about `len` elements: that of `used`, or, if it has less than half of that, what threads
-    /// look for; `None` if that does not pay.
+    /// Returns room for about `len` elements: the memory of `used` if it holds at least half of them, otherwise
+    /// memory that other threads allocate; `None` for small results.
     pub(crate) fn new(used: Vec<T>, len: usize) -> Option<Self> {
         if used.capacity() > len / 2 {
             return Some(Room::Used(used));
@@ -92,7 +91,7 @@ impl<T: Pod + Send> Room<T> {
         let len = with_room(len);
         let pays = len.checked_mul(size_of::<T>())? >= SHARED_FROM;
         let touched = move || {
-            // Where there is no such memory, that is found out when it is needed.
+            // If this fails, the list is empty, and the reader allocates.
             let mut list: Vec<T> = bytemuck::try_zeroed_vec(len).unwrap_or_default();
             // The system provides a page when it is first written to.
             for_chunks(Threads::All, &mut list, |_, chunk| {
@@ -104,7 +103,7 @@ impl<T: Pod + Send> Room<T> {
         pays.then(|| Room::Ahead(Ahead::begin(touched)))
     }
 
-    /// Returns the room, empty if it is not there yet.
+    /// Returns the memory; an empty list if it is not ready.
     pub(crate) fn take(self) -> Vec<T> {
         match self {
             Room::Used(list) => list,
@@ -113,7 +112,7 @@ impl<T: Pod + Send> Room<T> {
     }
 }
 
-/// Where the bytes of a buffer go.
+/// The destination of the bytes of a buffer.
 pub trait Target {
     /// Returns the number of bytes, a multiple of 4.
     fn bytes(&self) -> u64;
@@ -122,13 +121,13 @@ pub trait Target {
     fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView);
 }
 
-/// Where the bytes come from.
+/// The source of bytes.
 pub trait Source {
-    /// Returns in which buffer byte `at` is, where there, and how many bytes follow in it at most.
+    /// Returns the buffer that has byte `at`, the place there, and how many bytes follow in it at most.
     fn place(&self, at: u64) -> (&wgpu::Buffer, u64, u64);
 }
 
-/// What lies beyond its end, the device reports.
+/// The device reports accesses beyond the end.
 impl Source for &wgpu::Buffer {
     fn place(&self, at: u64) -> (&wgpu::Buffer, u64, u64) {
         (self, at, u64::MAX)
@@ -141,12 +140,12 @@ impl<T: Pod> Source for Storage<T> {
     }
 }
 
-/// The reading of buffers from their starts, as far as their targets go: in pieces, so that one is
-/// taken out of its staging buffer while others are on their way.
+/// Reads buffers from their starts, each as far as its target goes. They come in pieces: one is copied
+/// out of its staging buffer while others are on their way.
 #[must_use = "what is on its way has to be taken"]
 pub(crate) struct Reading<'a, S, T> {
     reads: Vec<(S, T)>,
-    /// Which of these the next piece belongs to, and where it starts there.
+    /// The read that the next piece belongs to, and the start of the piece there.
     next: (usize, u64),
     /// The pieces that are on their way.
     ahead: VecDeque<Piece<'a>>,
@@ -154,7 +153,7 @@ pub(crate) struct Reading<'a, S, T> {
 
 /// A piece that is on its way.
 struct Piece<'a> {
-    /// The answer of a scope takes a while in browsers, so it is awaited with the piece.
+    /// Awaited with the piece, because the answer of an error scope takes a while in browsers.
     report: Report<'a>,
     submission: wgpu::SubmissionIndex,
     staged: Staged,
@@ -282,7 +281,7 @@ impl Readback {
         Ok(result)
     }
 
-    /// Reads elements now: a submission of its own, for tests and for results at the end of a run.
+    /// Reads elements in a submission of its own, for tests and for results at the end of a run.
     ///
     /// # Errors
     ///
@@ -304,8 +303,7 @@ impl Readback {
         self.receive(gpu, &submission, pending).await
     }
 
-    /// Reads buffers from their starts, as far as their targets go: in pieces, so that one is taken
-    /// out of its staging buffer while others are on their way.
+    /// Reads buffers from their starts, each as far as its target goes, in pieces.
     ///
     /// # Errors
     ///
@@ -367,7 +365,7 @@ impl Readback {
         self.count
     }
 
-    /// Returns how many bytes were read back, without what lay behind those that were asked for.
+    /// Returns how many bytes were read back.
     pub fn bytes(&self) -> u64 {
         self.bytes
     }
@@ -454,8 +452,7 @@ async fn arrived(
     Ok((staging, view))
 }
 
-/// Memory of the host. Most of the time goes into page faults where it is fresh, so threads share
-/// the work.
+/// Memory of the host. Threads share the copy: in fresh memory, most of the time goes into page faults.
 impl Target for &mut [u8] {
     fn bytes(&self) -> u64 {
         self.len() as u64
@@ -466,8 +463,8 @@ impl Target for &mut [u8] {
     }
 }
 
-/// Returns a list of `len` elements, whatever they are, and some room: in the memory of `list`, of which no
-/// more is kept than that.
+/// Returns a list of `len` arbitrary elements with some room behind them, in the memory of `list`. What is
+/// more than that is freed.
 fn fitted<T: Pod>(mut list: Vec<T>, len: usize) -> Vec<T> {
     let wanted = with_room(len);
     if list.capacity() == 0 {
@@ -479,8 +476,8 @@ fn fitted<T: Pod>(mut list: Vec<T>, len: usize) -> Vec<T> {
     list
 }
 
-/// Returns how many elements are given room when `len` are read, so that Phase 2 need not move the
-/// whole to add a few tetrahedra.
+/// Returns the capacity for `len` elements that are read: splaying adds a few tetrahedra, and should not
+/// have to move all others.
 fn with_room(len: usize) -> usize {
     len + len / 64
 }

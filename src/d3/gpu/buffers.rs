@@ -6,7 +6,7 @@ use crate::{
 };
 use bytemuck::{Pod, Zeroable};
 
-/// What the host asks for when it gathers tetrahedra, or writes changed ones back.
+/// The parameters of gathering tetrahedra, and of writing changed ones back.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Gathering {
@@ -27,7 +27,7 @@ pub struct OwnBuffers {
     pub tet_of: Storage<u32>,
     /// For each point, a bit that says whether its star is wanted.
     pub wanted: Storage<u32>,
-    /// What is asked for.
+    /// The parameters of gathering.
     pub gathering: Storage<Gathering>,
     /// For each tetrahedron of the mesh, the number under which it was gathered, or 0.
     pub region_numbers: Storage<u32>,

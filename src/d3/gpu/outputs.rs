@@ -49,7 +49,7 @@ pub struct SlotMesh<'a> {
     pub marks: &'a Storage<u32>,
     /// Another one.
     pub numbers: &'a Storage<u32>,
-    /// How many of what there are.
+    /// The numbers of all these.
     pub params: OutputParams,
 }
 
@@ -122,7 +122,7 @@ impl OutputStage {
                         mesh.numbers.named("numbers"),
                     ],
                 );
-                // The count is what the parameters of the scan are, too.
+                // The parameters of the scan are the count alone, which comes first here, too.
                 let scan = self.scan.bind(gpu, &params.cast(), mesh.marks, mesh.numbers)?;
                 let mut recorder = Recorder::new(gpu, None);
                 let run = |recorder: &mut Recorder<'_>, kernel: &Kernel, items: u32| {
