@@ -102,7 +102,9 @@ pub mod gpu {
         };
     }
     pub mod phase1 {
-        pub use crate::gpu::phase1::{Aliases, Buffers, Finish, Input, Phase1, Phase1Output, Run, Settings, Sizes};
+        pub use crate::gpu::phase1::{
+            Aliases, Budget, Buffers, Finish, Input, MemorySettings, Phase1, Phase1Output, Run, Settings, Sizes,
+        };
     }
     pub mod points {
         pub use crate::gpu::points::{DevicePoints, InputCounts, PointInput, PointStage};

@@ -33,6 +33,7 @@ mod profiler;
 pub(crate) mod queries;
 pub(crate) mod readback;
 mod recorder;
+mod room;
 pub mod shader;
 pub mod start;
 pub(crate) mod steps;
@@ -46,9 +47,9 @@ pub(crate) use kernel::compile_all;
 pub use kernel::{Binding, Compiler, Deferred, Kernel};
 pub use parts::Parts;
 pub use profiler::Profiler;
-pub(crate) use readback::Room;
 pub use readback::{Pending, Readback};
 pub use recorder::Recorder;
+pub(crate) use room::Room;
 
 /// The number of invocations in a workgroup.
 pub const WORKGROUP: u32 = shader::constants::primitives::WORKGROUP;
