@@ -154,7 +154,7 @@ where
     /// so are the scores.
     pub fn pick_score(&self, state: &mut State<D>)
     where
-        Dimension<D>: reference::dim::Kernels<D>,
+        Dimension<D>: reference::kernels::Kernels<D>,
     {
         let before = (state.waiting.clone(), state.counters.entries_before);
         let mut device = self.both("pick_score", state, reference::pick_score);

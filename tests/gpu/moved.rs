@@ -13,7 +13,7 @@ use gdel::internals::{
     },
     input::{lattice::Width, points::Points},
 };
-use gdel_reference::{self as reference, State, Vertex, dim::Kernels};
+use gdel_reference::{self as reference, State, Vertex, kernels::Kernels};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 

@@ -2,13 +2,12 @@
 
 use std::{fmt::Debug, ops::Range};
 
-use gdel::internals::dimension::Dimension;
 use gdel::internals::gpu::dim::Dim;
 use gdel::internals::gpu::layout::Counters;
 use gdel::internals::input::lattice::Width;
 use gdel::internals::predicates::Sign;
 
-use crate::{State, Vertex};
+use crate::Vertex;
 
 /// What the references need from a dimension in addition to [`Dim`]: predicates, corners, facets
 /// and flips.
@@ -30,9 +29,7 @@ pub trait ReferenceDim<const D: usize>: Dim<D> {
 
     /// Returns on which side of the circumsphere of positively oriented points `e` is: positive if
     /// inside. Never zero.
-    fn in_sphere(state: &State<D>, corners: Self::Corners, e: u32) -> Sign
-    where
-        Dimension<D>: ReferenceDim<D>;
+    fn in_sphere(width: Width, points: &[Vertex<D>], own: &Self::OwnState, corners: Self::Corners, e: u32) -> Sign;
 
     /// Returns which child of a simplex with these corners, split at `p`, holds `q`: the one with
     /// `p` in place of that corner.
@@ -77,27 +74,4 @@ impl OwnState for () {
     fn occupy(&mut self, _vertex: u32, _slots: u32, _round: u32) {}
 
     fn occupy_slot(&mut self, _slot: u32) {}
-}
-
-/// The parts of the references that are mathematics of one dimension.
-pub trait Kernels<const D: usize>: ReferenceDim<D>
-where
-    Dimension<D>: ReferenceDim<D>,
-{
-    /// Returns how much simplex `t` wants point `p`, at least 1, where points are not picked at
-    /// random. Scores of different simplices do not compare.
-    fn score(state: &State<D>, t: u32, p: u32) -> u32;
-
-    /// Returns the outcome of checking simplex `t`, and the simplices that its proposed flip would
-    /// change: none if it proposes none.
-    fn proposal(state: &State<D>, t: u32) -> (u32, Vec<u32>);
-
-    /// Carries out the flip that entry `i` of the active list proposes, if it has won.
-    fn commit(state: &mut State<D>, i: usize);
-
-    /// Finishes when all points are inserted and no flip is left. Does nothing in 2D.
-    fn finish(state: &mut State<D>);
-
-    /// Panics unless the buffers that only this dimension has agree with the others.
-    fn validate_own(state: &State<D>);
 }

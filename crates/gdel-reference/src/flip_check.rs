@@ -3,7 +3,7 @@
 use gdel::internals::dimension::Dimension;
 
 use crate::State;
-use crate::dim::Kernels;
+use crate::kernels::Kernels;
 
 /// Checks the facets of each active simplex until one can be flipped, and bids for the simplices
 /// that this flip would change. One invocation per entry of the active list.

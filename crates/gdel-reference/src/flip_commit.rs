@@ -5,7 +5,8 @@ use gdel::internals::gpu::dim::Flip;
 use gdel::internals::gpu::layout::{HELD_SHIFT, HISTORY_FULL, NONE, Status};
 
 use crate::State;
-use crate::dim::{Kernels, ReferenceDim};
+use crate::dim::ReferenceDim;
+use crate::kernels::Kernels;
 
 /// Carries out the proposed flips that won. One invocation per entry of the active list.
 ///

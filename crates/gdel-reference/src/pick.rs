@@ -4,7 +4,8 @@ use gdel::internals::dimension::Dimension;
 use gdel::internals::gpu::layout::{NONE, Pick, Waiting};
 
 use crate::State;
-use crate::dim::{Kernels, ReferenceDim};
+use crate::dim::ReferenceDim;
+use crate::kernels::Kernels;
 
 /// Scores each waiting point and finds the best score of each simplex. Compacts the list if that is
 /// due. One invocation per entry of the list.

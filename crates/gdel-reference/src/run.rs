@@ -7,7 +7,8 @@ use gdel::internals::gpu::start::{StartMesh, first_simplex};
 use gdel::internals::input::lattice::{Lattice, Width};
 use gdel::internals::input::points::Points;
 
-use crate::dim::{Kernels, ReferenceDim};
+use crate::dim::ReferenceDim;
+use crate::kernels::Kernels;
 use crate::{
     State, Vertex, begin_round, flip_check, flip_commit, flip_link, locate, pick_point, pick_score, relocate,
     relocate_split, split, start_mesh,

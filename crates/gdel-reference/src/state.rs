@@ -9,16 +9,8 @@ use gdel::internals::gpu::start::StartMesh;
 use gdel::internals::input::lattice::Width;
 use gdel::internals::predicates::Sign;
 
+use crate::Vertex;
 use crate::dim::{OwnState, ReferenceDim};
-
-/// A lattice point with its input index.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Vertex<const D: usize> {
-    /// Lattice coordinates, 0 ≤ q < 2^bits.
-    pub position: [i64; D],
-    /// The input index, which breaks ties; that of the interior point is above all others.
-    pub index: u32,
-}
 
 /// All buffers of Phase 1.
 #[derive(Debug, Clone)]
@@ -152,7 +144,7 @@ where
         }
         match corners.as_ref().iter().position(|&v| v == infinite) {
             Some(k) => self.orient(replaced(corners, k, e)) > 0,
-            None => Dimension::<D>::in_sphere(self, corners, e) > 0,
+            None => Dimension::<D>::in_sphere(self.width, &self.points, &self.own, corners, e) > 0,
         }
     }
 

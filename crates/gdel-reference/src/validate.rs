@@ -6,7 +6,8 @@ use gdel::internals::dimension::Dimension;
 use gdel::internals::gpu::layout::{CHECK, NONE, Waiting};
 
 use crate::State;
-use crate::dim::{Kernels, ReferenceDim};
+use crate::dim::ReferenceDim;
+use crate::kernels::Kernels;
 use crate::state::replaced;
 
 impl<const D: usize> State<D>

@@ -11,7 +11,8 @@ use gdel::internals::predicates::Sign;
 use crate::State;
 use crate::d2::predicates::{self, Vertex};
 use crate::d2::{flip_check, flip_commit, pick};
-use crate::dim::{Kernels, ReferenceDim};
+use crate::dim::ReferenceDim;
+use crate::kernels::Kernels;
 
 impl ReferenceDim<2> for Dimension<2> {
     type OwnState = ();
@@ -27,8 +28,8 @@ impl ReferenceDim<2> for Dimension<2> {
         predicates::orient2d(corners.map(|v| points[v as usize]), points[points.len() - 1])
     }
 
-    fn in_sphere(state: &State<2>, [a, b, c]: [u32; 3], e: u32) -> Sign {
-        predicates::incircle([a, b, c, e].map(|v| state.points[v as usize]))
+    fn in_sphere(_width: Width, points: &[Vertex], _own: &(), [a, b, c]: [u32; 3], e: u32) -> Sign {
+        predicates::incircle([a, b, c, e].map(|v| points[v as usize]))
     }
 
     /// Takes 2 orientations: the rays from p to the corners divide the triangle. The line of the

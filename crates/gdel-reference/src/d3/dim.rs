@@ -13,7 +13,8 @@ use gdel::internals::predicates::Sign;
 use crate::State;
 use crate::d3::predicates::{self, Vertex};
 use crate::d3::{flip_check, flip_commit, mark_failed, pick};
-use crate::dim::{self, Kernels, ReferenceDim};
+use crate::dim::{self, ReferenceDim};
+use crate::kernels::Kernels;
 use crate::state::replaced;
 
 impl ReferenceDim<3> for Dimension<3> {
@@ -29,11 +30,10 @@ impl ReferenceDim<3> for Dimension<3> {
         predicates::orient3d(width, corners.map(|v| points[v as usize]), points[points.len() - 1])
     }
 
-    fn in_sphere(state: &State<3>, [a, b, c, d]: [u32; 4], e: u32) -> Sign {
-        let State { width, points, own, params, .. } = state;
+    fn in_sphere(width: Width, points: &[Vertex], own: &OwnState, [a, b, c, d]: [u32; 4], e: u32) -> Sign {
         let five = [a, b, c, d, e];
         let rounds = five.map(|v| own.free[v as usize] >> ROUND_SHIFT);
-        predicates::insphere(*width, five.map(|v| points[v as usize]), rounds, points[params.infinite as usize])
+        predicates::insphere(width, five.map(|v| points[v as usize]), rounds, points[points.len() - 1])
     }
 
     /// Takes 3 orientations: the plane of p, v₀, v₁ and that of p, v₂, v₃ leave two children whose
