@@ -101,7 +101,7 @@ async function triangulate(count) {
     },
     splay: { built: splay?.built },
     wasm_bytes: wasmBytes,
-    adapter,
+    adapter: adapter?.description,
   });
 }
 
@@ -146,7 +146,7 @@ async function follow(count, share) {
     restarted: restarts.slice(-runs).filter(Boolean).length,
     ...times('ms', updates),
     ...times('scratch_ms', scratch),
-    adapter: mesh.stats.adapter,
+    adapter: mesh.stats.adapter?.description,
   });
 }
 
