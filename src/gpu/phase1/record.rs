@@ -120,7 +120,8 @@ where
         if !round.has_moved {
             self.memory.buffers.messages.record_clear(recorder.encoder());
         }
-        round.stages().into_iter().for_each(|stage| self.record(gpu, recorder, stage));
+        let workgroups = self.workgroups(gpu);
+        round.stages().into_iter().for_each(|stage| self.memory.bound.record(recorder, stage, workgroups));
     }
 
     /// Records that `mesh` is taken in place of a start.
