@@ -62,7 +62,8 @@ mod tests {
     use super::*;
     use Stage::{Again, Begin, Check, CheckExactly, Flip, FlipFew, Insert, Relocate, Remove};
 
-    const ROUND: RoundPlan = RoundPlan { has_moved: false, removes: false, iterations: 0, exact_every: 2, takes_few: false };
+    const ROUND: RoundPlan =
+        RoundPlan { has_moved: false, removes: false, iterations: 0, exact_every: 2, takes_few: false };
 
     #[test]
     fn points_are_inserted_and_flips_follow() {
