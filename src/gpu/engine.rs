@@ -27,6 +27,7 @@ use crate::{
     mesh::MeshInfo,
     options::Options,
     parallel::{self, Threads},
+    platform,
     stats::{Fallback, Phase, Restart, Stats, Stopwatch, UpdateStats},
 };
 
@@ -510,9 +511,8 @@ where
                 &mut self.wide
             }
         };
-        // Where no other thread compiles what the first run does without, the second one waits.
-        #[cfg(target_arch = "wasm32")]
-        if phase1.kept.memory.is_some() {
+        // Where no other thread compiles the kernels that the first run does without, the second one waits.
+        if !platform::gpu::COMPILES_BESIDE && phase1.kept.memory.is_some() {
             phase1.finish_compiling(&self.gpu).await?;
         }
         Ok((&self.gpu, phase1))

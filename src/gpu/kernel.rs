@@ -279,8 +279,8 @@ impl<'a> Compiler<'a> {
     }
 
     /// Returns the kernels that the first run does not wait for.
-    pub fn take_deferred(&self) -> Deferred {
-        Deferred(self.deferred.take())
+    pub fn take_deferred(&self) -> Vec<Kernel> {
+        self.deferred.take()
     }
 
     /// Compiles the kernels that runs need, where there are threads on all of them.
@@ -294,73 +294,15 @@ impl<'a> Compiler<'a> {
     }
 }
 
-/// Compiles the kernels that are not compiled yet.
+/// Compiles the kernels that are not compiled yet, in the calling thread.
+///
+/// # Errors
+///
+/// Returns the errors of [`Gpu::with_error_scope`].
 pub(crate) async fn compile_all(gpu: &Gpu, kernels: &[Kernel]) -> Result<(), Error> {
     gpu.with_error_scope("pipelines", || {
         kernels.iter().for_each(|kernel| _ = kernel.pipeline());
         Ok(())
     })
     .await
-}
-
-/// Kernels that are compiled while the first run goes on without them.
-#[derive(Debug)]
-pub struct Deferred(Vec<Kernel>);
-
-impl Deferred {
-    /// Lets a thread compile the kernels.
-    #[cfg(not(target_arch = "wasm32"))]
-    pub fn start(&self, gpu: &Gpu) {
-        if self.0.is_empty() {
-            return;
-        }
-        let (gpu, kernels) = (gpu.clone(), self.0.clone());
-        // An error here comes up again where the kernel is used, and is reported there. If no thread can be
-        // started, the kernels are compiled by `finish`.
-        let compile = move || _ = pollster::block_on(compile_all(&gpu, &kernels));
-        if let Ok(thread) = std::thread::Builder::new().name("gdel pipelines".to_owned()).spawn(compile) {
-            started::join_at_the_end(thread);
-        }
-    }
-
-    /// Returns when the kernels are compiled. What no thread has begun with is compiled here.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`Gpu::with_error_scope`].
-    pub async fn finish(&self, gpu: &Gpu) -> Result<(), Error> {
-        match self.0.iter().all(Kernel::is_compiled) {
-            true => Ok(()),
-            false => compile_all(gpu, &self.0).await,
-        }
-    }
-}
-
-/// The threads that compile, in the thread that has started them. It waits for them when it ends,
-/// which for the main thread is before the process does: a driver that compiles while its library is
-/// being unloaded may crash.
-#[cfg(not(target_arch = "wasm32"))]
-mod started {
-    use std::{cell::RefCell, thread::JoinHandle};
-
-    struct Started(Vec<JoinHandle<()>>);
-
-    impl Drop for Started {
-        fn drop(&mut self) {
-            // A panic was reported where it came up.
-            self.0.drain(..).for_each(|thread| _ = thread.join());
-        }
-    }
-
-    thread_local! {
-        static STARTED: RefCell<Started> = const { RefCell::new(Started(Vec::new())) };
-    }
-
-    /// Joins a thread when the calling one ends.
-    pub(super) fn join_at_the_end(thread: JoinHandle<()>) {
-        STARTED.with_borrow_mut(|Started(threads)| {
-            threads.retain(|thread| !thread.is_finished());
-            threads.push(thread);
-        });
-    }
 }

@@ -44,7 +44,7 @@ pub use buffers::Storage;
 pub(crate) use buffers::append_bindings;
 pub use device::{AdapterChoice, AdapterSummary, Gpu, adapters};
 pub(crate) use kernel::compile_all;
-pub use kernel::{Binding, Compiler, Deferred, Kernel};
+pub use kernel::{Binding, Compiler, Kernel};
 pub use parts::Parts;
 pub use profiler::Profiler;
 pub use readback::{Pending, Readback};

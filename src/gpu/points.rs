@@ -97,7 +97,7 @@ pub struct PointStage<const D: usize> {
     parts: Option<Parts>,
 }
 
-/// What is to become vertices.
+/// The input of [`PointStage`].
 #[derive(Debug, Clone, Copy)]
 pub struct PointInput<'a, const D: usize = 3> {
     /// The points.
@@ -153,8 +153,8 @@ where
         }
     }
 
-    /// Uploads the points and records what makes vertices of them. `kept` has the
-    /// buffers of the last time, and is given those of this time.
+    /// Uploads the points, and records the kernels that make vertices of them. `kept` has the buffers of the
+    /// last run, and receives those of this one.
     ///
     /// # Errors
     ///
@@ -224,7 +224,7 @@ where
         let mut buffers = vec![
             ("params", params.buffer()),
             ("table", table.buffer()),
-            // Nothing looks into the table any more when the vertices are known.
+            // No kernel reads the table once the vertices are known.
             ("slots", slots.buffer()),
             ("vertex_of", slots.buffer()),
             ("pairs", pairs.buffer()),

@@ -1,14 +1,13 @@
 //! Queries of a mesh on the device: where points lie in it.
 //!
-//! 1. The points of the mesh become vertices on a lattice with room around them, so that queries
+//! 1. The points of the mesh become vertices on a lattice that extends beyond them, so that queries
 //!    have a place on it, too.
 //! 2. Some simplices are sorted along the Hilbert curve: places for walks to start from.
 //! 3. `query_walk` walks to each query as far as the filter decides, and lists where it does not.
 //! 4. `query_settle` goes on from there with exact signs.
 //!
-//! Both kernels walk as [`Locator`](crate::Locator) does, so that their answers are the same. What
-//! they leave open (`OPEN`), because rounding to the lattice decides or the query is far away, is
-//! for the host.
+//! Both kernels walk as [`Locator`](crate::Locator) does, and give the same answers. A query that they
+//! leave open ([`OPEN`]), because its sign depends on rounding or it is far away, is answered by the host.
 
 use crate::{
     dimension::Dimension,
@@ -35,7 +34,7 @@ use bytemuck::{Pod, Zeroable};
 pub const OPEN: u32 = constants::OPEN;
 /// The answer if there are no simplices.
 pub const NOWHERE: u32 = constants::NOWHERE;
-/// Every simplex of this number is a place to start from.
+/// One simplex in so many is a place to start from.
 pub const START_STRIDE: usize = constants::START_STRIDE as usize;
 /// The bits of the radius of a sphere that is left to the host.
 pub const OPEN_RADIUS: u32 = constants::OPEN_RADIUS;
@@ -45,7 +44,7 @@ const KEY_BITS: u32 = 30;
 /// The steps after which a walk is left to the host.
 const MAX_STEPS: u32 = 10_000;
 
-/// The parameters of the kernels, and from `not_finite` on their counts between the limits.
+/// The parameters of the kernels, and what they count: `not_finite`, `undecided` and `open`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct QueryParams {
@@ -96,7 +95,7 @@ pub struct QueryParams {
 }
 assert_layout!(QueryParams);
 
-/// What is known of some queries when the device has done its part.
+/// What the device has counted among some queries.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct QueryCounts {
     /// The first one that is not finite.
@@ -107,7 +106,7 @@ pub struct QueryCounts {
     pub open: usize,
 }
 
-/// Where the coordinates of queries are.
+/// The coordinates of queries on the device.
 #[derive(Debug, Clone, Copy)]
 pub struct QueryInput<'a> {
     /// The bits, `D` coordinates per query.
@@ -121,7 +120,7 @@ pub struct QueryInput<'a> {
 /// The points of a mesh on its device, and its places to start from.
 #[derive(Debug)]
 pub struct QueryPoints<const D: usize> {
-    /// What does not depend on the queries.
+    /// The parameters that do not depend on the queries.
     params: QueryParams,
     /// The box within which queries are on the lattice.
     near: [[f64; D]; 2],
@@ -208,8 +207,8 @@ where
         .await
     }
 
-    /// Locates queries in `mesh`, in whose buffer `answers` the answers are put: a simplex, the
-    /// complement of four times a simplex plus the number of its facet of the hull, or [`OPEN`].
+    /// Locates queries in `mesh`. Writes the answers to `answers`: a simplex; for queries outside, the
+    /// complement of 4·simplex + the number of its facet on the hull; or [`OPEN`].
     ///
     /// # Errors
     ///
@@ -224,7 +223,7 @@ where
         Ok(self.begin_locating(mesh, queries, answers, 0).await?.end(mesh.gpu()).await?.0)
     }
 
-    /// Begins to do so, and to read the first `read` answers.
+    /// Begins to locate queries, and to read the first `read` answers.
     ///
     /// # Errors
     ///
@@ -253,8 +252,8 @@ where
             ];
             let mut recorder = Recorder::new(gpu, None);
             for kernel in [&self.walk, &self.settle] {
-                // One invocation per query on every device: software devices end loops after
-                // 65,535 steps, those of all loops of an invocation.
+                // One invocation per query on every device: software devices end loops after 65,535
+                // steps, counted over all loops of an invocation.
                 recorder.dispatch(kernel, &kernel.bind(gpu, &buffers), workgroups(queries.count as u32));
             }
             let counts = readback.copy(gpu, recorder.encoder(), &params, 0, 1);
@@ -264,7 +263,7 @@ where
         .await
     }
 
-    /// Finds the vertex nearest to each query, and puts it or [`OPEN`] into `answers`.
+    /// Finds the vertex nearest to each query, and writes it or [`OPEN`] to `answers`.
     ///
     /// # Errors
     ///
@@ -300,8 +299,8 @@ where
         Ok(counts_of(&readback.receive(gpu, &submission, pending).await?[0]))
     }
 
-    /// Interpolates `values`, an `f32` per point, linearly at queries of which `answers` has the
-    /// locations, and puts the values into `results`: NaN outside of all simplices.
+    /// Interpolates `values`, an `f32` per point, linearly at queries that are located in `answers`. Writes
+    /// the results to `results`: NaN outside of all simplices.
     ///
     /// # Errors
     ///
@@ -373,7 +372,7 @@ where
         for axis in 0..D {
             let near = ordered_low(nearest[axis], doubles);
             (params.nearest_low[axis], params.nearest_high[axis]) = (near as u32, (near >> 32) as u32);
-            // The highest is the negative of the lowest of the negatives.
+            // The largest coordinate that is not above is the negative of the smallest that is not below.
             let far = !ordered_low(-farthest[axis], doubles);
             (params.farthest_low[axis], params.farthest_high[axis]) = (far as u32, (far >> 32) as u32);
         }
@@ -413,9 +412,9 @@ fn counts_of(params: &QueryParams) -> QueryCounts {
     QueryCounts { not_finite, undecided: undecided as usize, open: open as usize }
 }
 
-/// Returns an integer for the lowest coordinate, of type `f64` or `f32`, that is not below `x`:
-/// integers in the order of the coordinates, as the kernels make them, whose words of an `f32` are
-/// 0 and its bits.
+/// Returns the rank of the smallest coordinate, of type `f64` or `f32`, that is not below `x`. Ranks are
+/// integers in the order of the coordinates, made as the kernels make them: the words of an `f32` are 0
+/// and its bits.
 fn ordered_low(x: f64, doubles: bool) -> u64 {
     let bits = if doubles {
         x.to_bits()

@@ -2,7 +2,7 @@
 
 use crate::stats::Restart;
 
-/// The number of simplices that it always pays to repair.
+/// Repairing so few simplices always pays.
 const FEW: f64 = 8.0;
 
 /// One in so many points is the most that may have been duplicates and are none any more: one

@@ -1,4 +1,4 @@
-//! Buffers of 2D with a second life at the end of Phase 1.
+//! Buffers of 2D that the end of Phase 1 uses for other contents.
 //!
 //! | buffer | during the rounds | at the end |
 //! | --- | --- | --- |
@@ -17,7 +17,7 @@ use crate::{
     },
 };
 
-/// What is written over buffers of the rounds at the end of Phase 1.
+/// The contents at the end of Phase 1, in buffers of the rounds.
 #[derive(Debug)]
 pub struct Aliases {
     /// The vertices of the triangles, as places in the input.

@@ -1,5 +1,4 @@
-//! The tests of the device's triangulation that rounding to the lattice makes uncertain, decided in
-//! the true coordinates.
+//! Decides in the true coordinates the signs that rounding to the lattice has left uncertain on the device.
 
 use crate::d2::{lawson::NearDelaunay2, triangulation::Triangulation2};
 use crate::{
@@ -10,11 +9,11 @@ use crate::{
     stats::ExactCounts,
 };
 
-/// The number of tests that are worth handing to another thread.
+/// The number of tests that a thread takes at a time.
 const GRAIN: usize = 1 << 10;
 
-/// Returns those tests whose true answer is not what the triangulation needs, and how many
-/// evaluations took which exact stage.
+/// Returns the tests whose true sign contradicts the triangulation, and how many evaluations each exact
+/// stage decided.
 pub(crate) fn failed_tests(
     points: Points2<'_>,
     lattice: &Lattice<2>,
@@ -31,7 +30,7 @@ pub(crate) fn failed_tests(
     })
 }
 
-/// Returns whether the true answer is what the triangulation needs.
+/// Returns whether the true sign agrees with the triangulation.
 fn is_right(vertices: &PredicateContext2<'_>, test: &UncertainTest) -> bool {
     let infinite = vertices.len() as u32;
     let &UncertainTest { triangle: [p, a, b], beyond } = test;

@@ -1,4 +1,4 @@
-//! What makes the frame of the GPU engine one for two dimensions.
+//! What the GPU engine needs to know of two dimensions.
 
 use crate::{
     d2::gpu::{

@@ -1,12 +1,11 @@
-//! What the kernels of 2D keep in GPU buffers: what [`gpu::layout`](crate::gpu::layout) says
-//! of tetrahedra holds of triangles, with the differences below. `shaders/d2/simplex.wgsl` has the
-//! counterparts.
+//! The contents of the buffers of 2D. [`gpu::layout`](crate::gpu::layout) describes them for
+//! tetrahedra; these are the differences for triangles. `shaders/d2/simplex.wgsl` has the counterparts.
 //!
 //! **Triangles** live in slots of four words, of which the last is 0. Slots 2v and 2v + 1 are the
 //! two that the insertion of vertex *v* adds; the triangles of the start fill those of its vertices.
-//! Flips change no slot's owner, so there is no list of free ones. The kernels that know nothing of
-//! dimensions count slots by blocks of eight: there are at least as many, and the last slot is never
-//! used.
+//! No flip changes the number of triangles, so there is no list of free slots. Kernels that both
+//! dimensions share count slots in blocks of eight; the number of slots is rounded up, and the last one
+//! is never used.
 //!
 //! **Neighbours** are packed as 4·triangle + edge: entry *k* of a triangle is the edge opposite its
 //! vertex *k*, as the triangle on the other side numbers it.
@@ -21,7 +20,7 @@ use crate::gpu::{
 /// Slots of a vertex.
 pub const SLOTS_PER_POINT: u32 = d2::SLOTS_PER_POINT;
 
-/// A flip of two triangles into two, where the layout of tetrahedra has the kind of a flip.
+/// The kind of a flip of two triangles into two.
 pub const FLIP_22: u32 = d2::FLIP_22;
 
 /// Returns the blocks of eight slots for `points` points.

@@ -1,4 +1,4 @@
-//! Buffers of 3D with a second life at the end of Phase 1.
+//! Buffers of 3D that the end of Phase 1 uses for other contents.
 //!
 //! | buffer | during the rounds | at the end |
 //! | --- | --- | --- |
@@ -14,7 +14,7 @@ use crate::gpu::{
     phase1::{self, Buffers, Slot},
 };
 
-/// What is written over buffers of the rounds at the end of Phase 1.
+/// The contents at the end of Phase 1, in buffers of the rounds.
 #[derive(Debug)]
 pub struct Aliases {
     /// The mesh without gaps: vertices of the tetrahedra, as places in the input. Infinite

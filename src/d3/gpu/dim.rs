@@ -1,4 +1,4 @@
-//! What makes the frame of the GPU engine one for three dimensions.
+//! What the GPU engine needs to know of three dimensions.
 
 use crate::{
     d3::gpu::{buffers::OwnBuffers, vertex},
@@ -12,9 +12,9 @@ use crate::{
     predicates::{Sign, integer},
 };
 
-/// The most points of a start. The CPU engine takes some 6 µs per point, so that the device does not
-/// wait for it; with four times as many, more vertices fail than without a start, on a grid twice as
-/// many.
+/// The most points of a start. The CPU engine takes some 6 µs per point, and is done before the device
+/// needs the start. With four times as many points, more vertices fail than without a start: on a grid,
+/// twice as many.
 const MAX_START: usize = 100;
 
 impl Dim<3> for Dimension<3> {
@@ -26,9 +26,9 @@ impl Dim<3> for Dimension<3> {
     const SIMPLICES: &'static str = "tetrahedra";
     const NARROW_WORDS: usize = 4;
     const SHADERS: &'static Shaders = &shader::D3;
-    /// There are eight slots per point, and some. So many were verified.
+    /// Limited by slots: there are a few more than eight per point. This many points were verified.
     const MAX_POINTS: usize = 118_000_000;
-    /// Uniform points take 3.1 nodes per point in the round that takes most.
+    /// The largest round of uniform points takes 3.1 nodes per point.
     const HISTORY: u32 = 4;
     const MESH_PER_POINT: usize = 7;
     const FIRST_ITERATIONS: u32 = 32;

@@ -1,4 +1,4 @@
-//! The steps in which a mesh came about, for looking at small inputs.
+//! Records how a mesh is made step by step, to look at small inputs.
 
 use crate::{
     d3::{
@@ -63,7 +63,7 @@ impl Tracer {
         }
     }
 
-    /// Finds out which tetrahedra of the mesh were not there before splaying, at the end.
+    /// Finds the tetrahedra that splaying has added, at the end.
     pub(crate) fn finish(mut self, tetrahedra: &[[u32; 4]]) -> Trace {
         let sorted = |mut v: [u32; 4]| {
             v.sort_unstable();

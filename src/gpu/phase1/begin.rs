@@ -14,7 +14,7 @@ use crate::{
             kernels::Phase1,
             memory::{Kept, Memory},
             plan::{Plan, Rules},
-            record::Device,
+            record::DeviceRun,
             run::Run,
             settings::Settings,
             stages::Stage,
@@ -107,7 +107,7 @@ where
         let start = start.swap_remove(0);
         let few = if kernels.stages.can(Stage::FlipFew) { settings.few } else { 0 };
         let params = params(&settings, Sizes { blocks: memory.buffers.blocks(), ..sizes }, count as u32, few);
-        let mut device = Device { params, memory, points, settings, parts: kernels.parts };
+        let mut device = DeviceRun { params, memory, points, settings, parts: kernels.parts };
         device.set_start(&start);
         let rules = Rules {
             params: device.params,

@@ -140,7 +140,8 @@ impl Iterations {
             _ if known.is_few => 0,
             0 => (iterations / 3 + MARGIN).max(MIN_PLANNED),
             _ if waiting / RISING >= inserted => (iterations + iterations / 8 + MARGIN).max(self.first),
-            _ => (iterations - iterations / 8 + MARGIN).max(MIN_PLANNED),
+            // As fewer points are inserted per point, rounds take fewer iterations.
+            _ => (iterations - iterations / 4 + MARGIN).max(MIN_PLANNED),
         };
         self.planned = wanted.min(MAX_PLANNED);
     }

@@ -4,11 +4,12 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Compiler, Deferred, Gpu, Parts, Readback,
+        Compiler, Gpu, Kernel, Parts, Readback, compile_all,
         phase1::{finish::Finish, memory::Kept, stages::Stages},
         points::PointStage,
     },
     input::lattice::Width,
+    platform,
 };
 
 /// The kernels of Phase 1, for points of one width, and the buffers of the last run, which serve
@@ -25,15 +26,16 @@ where
     pub(crate) kept: Kept<D>,
     /// The parts of the large arrays, if they are in parts.
     pub(crate) parts: Option<Parts>,
-    deferred: Deferred,
+    /// The kernels that the first run does not wait for.
+    deferred: Vec<Kernel>,
 }
 
 impl<const D: usize> Phase1<D>
 where
     Dimension<D>: Finish<D>,
 {
-    /// Compiles the kernels that a run needs. A thread, where there are any, begins with the others;
-    /// [`Phase1::finish_compiling`] waits for them.
+    /// Compiles the kernels that a run needs. Natively another thread begins with those that the first run does
+    /// without; [`Phase1::finish_compiling`] waits for them.
     ///
     /// # Errors
     ///
@@ -50,13 +52,12 @@ where
     /// Those of [`Phase1::new`].
     pub async fn in_parts(gpu: &Gpu, width: Width, parts: Option<Parts>) -> Result<Self, Error> {
         let (phase1, compiler) = Self::uncompiled(gpu, width, parts);
-        #[cfg(not(target_arch = "wasm32"))]
-        phase1.deferred.start(gpu);
+        platform::gpu::compile_beside(gpu, &phase1.deferred);
         compiler.finish().await?;
         Ok(phase1)
     }
 
-    /// Compiles the kernels that a run needs, and no others: what a first run may find, for tests.
+    /// Compiles the kernels that a run needs, and no others: the state in which a first run may be, for tests.
     ///
     /// # Errors
     ///
@@ -81,13 +82,16 @@ where
         (phase1, compiler)
     }
 
-    /// Returns when the kernels that runs can do without are compiled, too.
+    /// Returns when the kernels are compiled that the first run does without, too.
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`Deferred::finish`].
+    /// Returns the errors of [`Compiler::finish`].
     pub async fn finish_compiling(&self, gpu: &Gpu) -> Result<(), Error> {
-        self.deferred.finish(gpu).await
+        match self.deferred.iter().all(Kernel::is_compiled) {
+            true => Ok(()),
+            false => compile_all(gpu, &self.deferred).await,
+        }
     }
 
     /// Gives the memory of the last run back.

@@ -10,7 +10,7 @@ use crate::{
         layout::{Counters, LOGGED, Params, SLOTS_FULL},
         phase1::{
             iterations::{Iterations, Known, Needed},
-            round::Round,
+            round::RoundPlan,
         },
     },
     stats,
@@ -55,7 +55,7 @@ pub(crate) struct Batch {
     pub(crate) grows: bool,
     /// Whether bids start from the lowest number again.
     pub(crate) clears_votes: bool,
-    pub(crate) rounds: Vec<Round>,
+    pub(crate) rounds: Vec<RoundPlan>,
 }
 
 /// A batch of which the counters were not read yet.
@@ -200,9 +200,9 @@ impl Plan {
         self.inserted_at_most.saturating_mul(GROWTH * self.rules.corners) <= self.rules.params.few_limit
     }
 
-    fn next_round(&mut self) -> Round {
+    fn next_round(&mut self) -> RoundPlan {
         let removes = std::mem::take(&mut self.removes) || (self.can_remove() && self.iterations.removes(self.rounds));
-        Round {
+        RoundPlan {
             has_moved: self.has_moved,
             removes,
             iterations: if self.next_flips_are_few() { 0 } else { self.iterations.planned(self.rounds) },

@@ -12,7 +12,7 @@ use crate::{
             finish::Finish,
             memory::Memory,
             plan::{Batch, first_counters},
-            round::Round,
+            round::RoundPlan,
             settings::Settings,
             stages::{Stage, Stages},
         },
@@ -30,7 +30,7 @@ const MAX_WORKGROUPS: u32 = 512;
 const MAX_SPREAD: u64 = 1 << 20;
 
 /// The buffers of a run, and the parameters of its kernels.
-pub(crate) struct Device<const D: usize>
+pub(crate) struct DeviceRun<const D: usize>
 where
     Dimension<D>: Finish<D>,
 {
@@ -43,7 +43,7 @@ where
     pub(crate) parts: Option<Parts>,
 }
 
-impl<const D: usize> Device<D>
+impl<const D: usize> DeviceRun<D>
 where
     Dimension<D>: Finish<D>,
 {
@@ -97,7 +97,7 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Device::grow_to`].
+    /// Those of [`DeviceRun::grow_to`].
     pub(crate) fn record_batch(
         &mut self,
         gpu: &Gpu,
@@ -116,18 +116,19 @@ where
         Ok(())
     }
 
-    fn record_round(&self, gpu: &Gpu, recorder: &mut Recorder<'_>, round: Round) {
+    fn record_round(&self, gpu: &Gpu, recorder: &mut Recorder<'_>, round: RoundPlan) {
         if !round.has_moved {
             self.memory.buffers.messages.record_clear(recorder.encoder());
         }
-        round.stages().into_iter().for_each(|stage| self.record(gpu, recorder, stage));
+        let workgroups = self.workgroups(gpu);
+        round.stages().into_iter().for_each(|stage| self.memory.bound.record(recorder, stage, workgroups));
     }
 
     /// Records that `mesh` is taken in place of a start.
     ///
     /// # Errors
     ///
-    /// Those of [`Device::grow_to`].
+    /// Those of [`DeviceRun::grow_to`].
     pub(crate) fn record_moved(
         &mut self,
         gpu: &Gpu,

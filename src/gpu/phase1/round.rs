@@ -8,7 +8,7 @@ const AGAIN_ITERATIONS: u32 = 4;
 
 /// A round that is to be recorded.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Round {
+pub(crate) struct RoundPlan {
     /// Whether the run goes on from a mesh whose points have moved, so that none are inserted.
     pub(crate) has_moved: bool,
     /// Whether facets are removed if nothing else is left to do.
@@ -22,7 +22,7 @@ pub(crate) struct Round {
     pub(crate) takes_few: bool,
 }
 
-impl Round {
+impl RoundPlan {
     /// Returns the stages of the round in their order.
     pub(crate) fn stages(self) -> Vec<Stage> {
         let mut stages = vec![Stage::Begin];
@@ -62,11 +62,12 @@ mod tests {
     use super::*;
     use Stage::{Again, Begin, Check, CheckExactly, Flip, FlipFew, Insert, Relocate, Remove};
 
-    const ROUND: Round = Round { has_moved: false, removes: false, iterations: 0, exact_every: 2, takes_few: false };
+    const ROUND: RoundPlan =
+        RoundPlan { has_moved: false, removes: false, iterations: 0, exact_every: 2, takes_few: false };
 
     #[test]
     fn points_are_inserted_and_flips_follow() {
-        let round = Round { iterations: 3, takes_few: true, ..ROUND };
+        let round = RoundPlan { iterations: 3, takes_few: true, ..ROUND };
         let flips = [Check, Flip, Check, CheckExactly, Flip, Check, Flip, FlipFew];
         assert_eq!(round.stages(), [&[Begin, Insert][..], &flips, &[Relocate]].concat());
     }
@@ -74,19 +75,19 @@ mod tests {
     /// Otherwise the round would decide nothing that the filter leaves open.
     #[test]
     fn the_last_of_few_iterations_checks_exactly() {
-        let round = Round { iterations: 1, exact_every: 8, ..ROUND };
+        let round = RoundPlan { iterations: 1, exact_every: 8, ..ROUND };
         assert_eq!(round.stages(), [Begin, Insert, Check, CheckExactly, Flip, Relocate]);
     }
 
     #[test]
     fn facets_are_removed_before_the_flips_that_this_makes_possible() {
-        let round = Round { removes: true, iterations: 1, exact_every: 1, ..ROUND };
+        let round = RoundPlan { removes: true, iterations: 1, exact_every: 1, ..ROUND };
         assert_eq!(round.stages(), [Begin, Insert, Remove, Check, CheckExactly, Flip, Relocate]);
     }
 
     #[test]
     fn points_that_have_moved_are_not_inserted_again() {
-        let round = Round { has_moved: true, iterations: 1, exact_every: 1, ..ROUND };
+        let round = RoundPlan { has_moved: true, iterations: 1, exact_every: 1, ..ROUND };
         assert_eq!(round.stages(), [Begin, Check, CheckExactly, Flip, Again, Check, CheckExactly, Flip]);
     }
 }

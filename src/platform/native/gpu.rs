@@ -6,8 +6,10 @@ use crate::{
     parallel::{self, Threads, for_chunks, for_parts},
 };
 use std::{
+    cell::RefCell,
     num::NonZero,
     pin::Pin,
+    thread::JoinHandle,
     time::{Duration, Instant},
 };
 
@@ -89,4 +91,39 @@ pub(crate) async fn compile(gpu: &Gpu, mut kernels: Vec<Kernel>) -> Result<(), E
     // Error scopes belong to threads, and report at once.
     let compile = |_, kernel: &mut Kernel| pollster::block_on(compile_all(gpu, std::slice::from_ref(kernel)));
     parallel::map_mut(Threads::All, &mut kernels, compile).into_iter().collect()
+}
+
+/// Whether [`compile_beside`] does anything.
+pub(crate) const COMPILES_BESIDE: bool = true;
+
+/// Lets a thread compile kernels.
+pub(crate) fn compile_beside(gpu: &Gpu, kernels: &[Kernel]) {
+    if kernels.is_empty() {
+        return;
+    }
+    let (gpu, kernels) = (gpu.clone(), kernels.to_vec());
+    // An error here comes up again where a kernel is used, and is reported there. If no thread can be started,
+    // kernels are compiled when somebody waits for them.
+    let compile = move || _ = pollster::block_on(compile_all(&gpu, &kernels));
+    if let Ok(thread) = std::thread::Builder::new().name("gdel pipelines".to_owned()).spawn(compile) {
+        COMPILING.with_borrow_mut(|Compiling(threads)| {
+            threads.retain(|thread| !thread.is_finished());
+            threads.push(thread);
+        });
+    }
+}
+
+/// The threads that compile. The thread that has started them waits for them when it ends, which for the main
+/// thread is before the process does: a driver that compiles while its library is being unloaded may crash.
+struct Compiling(Vec<JoinHandle<()>>);
+
+impl Drop for Compiling {
+    fn drop(&mut self) {
+        // A panic was reported where it came up.
+        self.0.drain(..).for_each(|thread| _ = thread.join());
+    }
+}
+
+thread_local! {
+    static COMPILING: RefCell<Compiling> = const { RefCell::new(Compiling(Vec::new())) };
 }

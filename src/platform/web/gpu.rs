@@ -40,6 +40,12 @@ pub(crate) async fn compile(gpu: &Gpu, kernels: Vec<Kernel>) -> Result<(), Error
     compile_all(gpu, &kernels).await
 }
 
+/// Whether [`compile_beside`] does anything.
+pub(crate) const COMPILES_BESIDE: bool = false;
+
+/// Does nothing: a program may end while a driver compiles, and a driver that is unloaded then may crash.
+pub(crate) fn compile_beside(_: &Gpu, _: &[Kernel]) {}
+
 /// Memory outside of that of WebAssembly: the bytes get there with one copy.
 impl Target for js_sys::Uint8Array {
     fn bytes(&self) -> u64 {
