@@ -83,6 +83,10 @@ pub enum Error {
         /// The names of all GPUs, in the order of their indices.
         available: Vec<String>,
     },
+    /// [`Triangulator::adapter`](crate::Triangulator::adapter) was called for a triangulator that was
+    /// created from a device.
+    #[error("the triangulator was created from a device: it cannot choose an adapter")]
+    AdapterOfDevice,
     /// The GPU was reset, unplugged or taken away during the run.
     #[error("the connection to the GPU was lost: {reason}")]
     DeviceLost {
@@ -198,7 +202,7 @@ impl Error {
             OutOfDeviceMemory { .. } | BufferTooLarge { .. } | Gpu { .. } => true,
             TooManyPoints { .. } | TooManySimplices { .. } => true,
             NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
-            OutOfMemory { .. } | Threads { .. } | Cancelled => false,
+            AdapterOfDevice | OutOfMemory { .. } | Threads { .. } | Cancelled => false,
             PointCount { .. } | BadIndex { .. } | ValueCount { .. } | EmptyBox { .. } => false,
             BadAlpha | BrokenMesh { .. } => false,
         }
