@@ -471,7 +471,7 @@ pub enum Restart {
     /// host's memory or on another device, or the CPU triangulates the points.
     #[error("the mesh is not on the device that triangulates its points")]
     NotResident,
-    /// The arrays of the mesh are not those of a triangulation of as many points.
+    /// The arrays of the mesh are not those of a triangulation of its points.
     #[error("the mesh is not a triangulation")]
     Broken,
     /// More points come or go than it pays to insert or remove one by one.
