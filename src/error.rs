@@ -94,10 +94,10 @@ pub enum Error {
         reason: String,
     },
     /// The GPU does not have enough free memory.
-    #[error("the GPU ran out of memory for {what}")]
+    #[error("the GPU ran out of memory for {label}")]
     OutOfDeviceMemory {
         /// What the memory was for.
-        what: &'static str,
+        label: &'static str,
     },
     /// A buffer would be larger than the GPU allows.
     #[error("the buffer of {label} would need {bytes} bytes, but this GPU allows at most {limit}{}", fitting(.points))]
@@ -112,10 +112,10 @@ pub enum Error {
         points: Option<usize>,
     },
     /// The GPU reports an error that should not happen: a defect of this crate or of the driver.
-    #[error("the GPU failed unexpectedly: {message}")]
+    #[error("the GPU failed unexpectedly: {reason}")]
     Gpu {
         /// The message of the GPU's driver or of wgpu.
-        message: String,
+        reason: String,
     },
     /// The system does not start as many threads as were requested.
     #[error("{threads} threads cannot be started: {reason}")]
@@ -147,12 +147,12 @@ pub enum Error {
         expected: usize,
     },
     /// A point cannot be removed from a mesh.
-    #[error("point {index} cannot be removed: {why}")]
+    #[error("point {index} cannot be removed: {reason}")]
     BadIndex {
         /// The index of the point.
         index: u32,
-        /// Why: there is none, it was removed before, or it is given twice.
-        why: &'static str,
+        /// There is no such point, it was removed before, or it is given twice.
+        reason: &'static str,
     },
     /// There is not one value per point.
     #[error("there are {values} values for {points} points")]
@@ -173,10 +173,10 @@ pub enum Error {
     BadAlpha,
     /// A mesh is not the Delaunay triangulation of the points that were given with it, and cannot
     /// be used.
-    #[error("the mesh is not the Delaunay triangulation of the points: {what}")]
+    #[error("the mesh is not the Delaunay triangulation of the points: {reason}")]
     BrokenMesh {
         /// How that was noticed.
-        what: &'static str,
+        reason: &'static str,
     },
     /// The progress callback requested to stop.
     #[error("the triangulation was cancelled")]

@@ -481,7 +481,7 @@ fn errors_leave_the_mesh<const D: usize, M: Case<D>>() {
     model.remove([4]);
     let before = model.mesh.answer();
     let mut mesh = model.mesh;
-    let bad = |index: u32, why: &'static str| Err(Error::BadIndex { index, why });
+    let bad = |index: u32, reason: &'static str| Err(Error::BadIndex { index, reason });
     assert_eq!(mesh.remove(&cpu(), &points, &[3, 20]), bad(20, "there is no such point"));
     assert_eq!(mesh.remove(&cpu(), &points, &[u32::MAX]), bad(u32::MAX, "there is no such point"));
     assert_eq!(mesh.remove(&cpu(), &points, &[3, 5, 3]), bad(3, "it is given twice"));
