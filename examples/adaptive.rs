@@ -49,8 +49,7 @@ fn main() -> Result<(), Error> {
             };
             let new: Vec<_> = mesh.triangles.iter().filter(|t| error(t) > TOLERANCE).map(middle).collect();
             for piece in new.chunks(8) {
-                points.extend_from_slice(piece);
-                triangulator.insert(&mut mesh, &points)?;
+                triangulator.insert(&mut mesh, &mut points, piece)?;
                 note(&mesh);
                 done += piece.len();
             }

@@ -86,7 +86,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let points = buffer(12 * POINTS as usize, wgpu::BufferUsages::STORAGE);
     run("make_points", &[(0, &points)], POINTS.div_ceil(64));
     let triangulator = Triangulator::from_device(device.clone(), queue.clone()).backend(Backend::Gpu);
-    let mesh = triangulator.delaunay3d_of_buffer(&points)?;
+    let mesh = triangulator.device()?.delaunay3d_from_buffer(&points)?;
     let bins = buffer(4 * BINS, wgpu::BufferUsages::STORAGE);
     let count = mesh.simplex_count();
     run("count_lengths", &[(0, &points), (1, mesh.simplices()), (2, &bins)], (count as u32).div_ceil(64));

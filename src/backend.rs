@@ -29,7 +29,7 @@ pub enum Backend {
     /// in 3D, 560,000 in 2D.
     #[default]
     Auto,
-    /// Incremental insertion, by all threads of the machine or as many as were requested.
+    /// Incremental insertion, by all threads of the machine or by the requested number.
     Cpu,
     /// Insertion and flipping on the GPU, then star splaying (3D) or flips (2D) on the CPU.
     ///

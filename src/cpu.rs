@@ -31,13 +31,14 @@ use std::{fmt::Debug, num::NonZeroUsize, ops::Range};
 /// With fewer points than this, one thread is as fast as several. Tests let many threads meet on
 /// few points.
 const MIN_SHARED: usize = if cfg!(test) { 8 } else { 1 << 13 };
-/// So many points one thread inserts before the others join in, as long as they are few of all.
+/// The number of points that one thread inserts before the others join in, unless that is more than an
+/// eighth of all.
 const FEW: usize = 1 << 9;
 
 /// The mesh of `D` dimensions.
 pub type MeshOf<const D: usize> = <Dimension<D> as Incremental<D>>::Mesh;
 
-/// What the CPU engine of a dimension has of its own.
+/// The dimension-dependent parts of the CPU engine.
 pub trait Incremental<const D: usize> {
     /// The result.
     type Mesh: MeshInfo + Debug + Default + Send + Sync;
@@ -77,7 +78,7 @@ pub trait Grow<const D: usize>: Insert<D> + Sized {
     /// Returns [`Error::OutOfMemory`].
     fn reserve(&mut self, simplices: usize) -> Result<(), Error>;
 
-    /// Returns the corners and the neighbours of the simplices, unused slots left out, each as four
+    /// Returns the corners and the neighbours of the simplices without unused slots, each as four
     /// words: infinity is [`NO_INDEX`](crate::index::NO_INDEX), and in 2D the last one is 0.
     fn into_simplices(self) -> Vec<[[u32; 4]; 2]>;
 
@@ -97,8 +98,8 @@ pub trait Insert<const D: usize> {
     /// Lists that insertions reuse.
     type Scratch;
 
-    /// The number of points between two reports of progress: few enough for a smooth display, and
-    /// so many that reports cost little beside the insertions.
+    /// The number of points between two reports of progress. Reports then cost little, and a display is
+    /// still smooth.
     const REPORT: usize;
 
     /// Creates the lists.
@@ -125,7 +126,7 @@ pub trait Insert<const D: usize> {
         scratch: &mut Self::Scratch,
     ) -> Result<Option<u32>, Error>;
 
-    /// Takes over what the lists know of the simplices, after the last insertion.
+    /// Ends the insertions: returns to the simplices what only the lists know of them.
     fn finish(&mut self, scratch: Self::Scratch);
 }
 

@@ -83,6 +83,10 @@ pub enum Error {
         /// The names of all GPUs, in the order of their indices.
         available: Vec<String>,
     },
+    /// [`Triangulator::adapter`](crate::Triangulator::adapter) was called for a triangulator that was
+    /// created from a device.
+    #[error("the triangulator was created from a device: it cannot choose an adapter")]
+    AdapterOfDevice,
     /// The GPU was reset, unplugged or taken away during the run.
     #[error("the connection to the GPU was lost: {reason}")]
     DeviceLost {
@@ -90,10 +94,10 @@ pub enum Error {
         reason: String,
     },
     /// The GPU does not have enough free memory.
-    #[error("the GPU ran out of memory for {what}")]
+    #[error("the GPU ran out of memory for {label}")]
     OutOfDeviceMemory {
         /// What the memory was for.
-        what: &'static str,
+        label: &'static str,
     },
     /// A buffer would be larger than the GPU allows.
     #[error("the buffer of {label} would need {bytes} bytes, but this GPU allows at most {limit}{}", fitting(.points))]
@@ -108,10 +112,10 @@ pub enum Error {
         points: Option<usize>,
     },
     /// The GPU reports an error that should not happen: a defect of this crate or of the driver.
-    #[error("the GPU failed unexpectedly: {message}")]
+    #[error("the GPU failed unexpectedly: {reason}")]
     Gpu {
         /// The message of the GPU's driver or of wgpu.
-        message: String,
+        reason: String,
     },
     /// The system does not start as many threads as were requested.
     #[error("{threads} threads cannot be started: {reason}")]
@@ -143,12 +147,12 @@ pub enum Error {
         expected: usize,
     },
     /// A point cannot be removed from a mesh.
-    #[error("point {index} cannot be removed: {why}")]
+    #[error("point {index} cannot be removed: {reason}")]
     BadIndex {
         /// The index of the point.
         index: u32,
-        /// Why: there is none, it was removed before, or it is given twice.
-        why: &'static str,
+        /// There is no such point, it was removed before, or it is given twice.
+        reason: &'static str,
     },
     /// There is not one value per point.
     #[error("there are {values} values for {points} points")]
@@ -169,10 +173,10 @@ pub enum Error {
     BadAlpha,
     /// A mesh is not the Delaunay triangulation of the points that were given with it, and cannot
     /// be used.
-    #[error("the mesh is not the Delaunay triangulation of the points: {what}")]
+    #[error("the mesh is not the Delaunay triangulation of the points: {reason}")]
     BrokenMesh {
         /// How that was noticed.
-        what: &'static str,
+        reason: &'static str,
     },
     /// The progress callback requested to stop.
     #[error("the triangulation was cancelled")]
@@ -198,7 +202,7 @@ impl Error {
             OutOfDeviceMemory { .. } | BufferTooLarge { .. } | Gpu { .. } => true,
             TooManyPoints { .. } | TooManySimplices { .. } => true,
             NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
-            OutOfMemory { .. } | Threads { .. } | Cancelled => false,
+            AdapterOfDevice | OutOfMemory { .. } | Threads { .. } | Cancelled => false,
             PointCount { .. } | BadIndex { .. } | ValueCount { .. } | EmptyBox { .. } => false,
             BadAlpha | BrokenMesh { .. } => false,
         }

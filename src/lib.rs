@@ -116,9 +116,11 @@ pub use input::points::{from_mint2, from_mint3};
 pub use mesh::{Csr, Mesh};
 pub use options::Progress;
 pub use predicates::{Sign, incircle, insphere, orient2d, orient3d};
+#[cfg(feature = "gpu")]
+pub use triangulator::DeviceTriangulator;
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
 pub use triangulator::adapters;
-pub use triangulator::{Moving, Triangulator};
+pub use triangulator::{Editable, Triangulator};
 #[cfg(feature = "gpu")]
 pub use wgpu;
 

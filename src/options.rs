@@ -71,8 +71,7 @@ impl fmt::Debug for Options {
 }
 
 impl Options {
-    /// Returns options for a run that may have to begin again: its progress continues from where it
-    /// was.
+    /// Returns options for a run that may restart: its progress never decreases.
     #[cfg(feature = "gpu")]
     pub(crate) fn monotone(&self) -> Options {
         let on_progress = self.on_progress.clone().map(|callback| {

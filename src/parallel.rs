@@ -25,7 +25,7 @@ pub enum Threads {
 /// instructions.
 pub(crate) const CHUNK: usize = 1 << 13;
 
-/// Fewer keys than this are compared.
+/// With fewer keys than this, sorting by comparison is faster.
 const FEW: usize = 256;
 
 /// Up to this size, one thread sorts faster than several.

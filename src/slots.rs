@@ -20,10 +20,10 @@ pub trait Slots<const N: usize> {
     /// Returns the infinite vertex: the number of vertices.
     fn infinite(&self) -> u32;
 
-    /// Returns what stands for the vertices of simplex `t`.
+    /// Returns the vertices of simplex `t`, with marks if there are any.
     fn simplex(&self, t: u32) -> [u32; N];
 
-    /// Sets what stands for the vertices of simplex `t`.
+    /// Sets the vertices of simplex `t`, with marks if there are any.
     fn set_simplex(&mut self, t: u32, vertices: [u32; N]);
 
     /// Returns the neighbours of simplex `t`.
@@ -43,8 +43,8 @@ pub trait Slots<const N: usize> {
     /// [`has_room`](Slots::has_room).
     fn push(&mut self) -> Result<u32, Error>;
 
-    /// Returns whether so many slots can be pushed without an error, where that has to be known
-    /// before anything is changed, because other threads go on.
+    /// Returns whether `slots` slots can be pushed without an error. With several threads that has to be
+    /// known before anything is changed.
     fn has_room(&mut self, slots: usize) -> bool;
 
     /// Claims a vertex for the caller. Returns whether no other thread has it.
@@ -168,7 +168,7 @@ pub(crate) fn reserve<const N: usize>(
         .map_err(|_| Error::OutOfMemory { simplices: slots })
 }
 
-/// Reserves memory for so many more simplices of a mesh, and for some that may follow.
+/// Reserves memory for more simplices of a mesh, and for some that may follow.
 ///
 /// # Errors
 ///

@@ -257,10 +257,6 @@ with_fields! {
         /// round: those that the CPU triangulated, or the corners of one simplex where that is
         /// faster, or the sample has duplicates.
         pub start_points: u64,
-        /// The number of points for which the walk to their simplex of this start took so many
-        /// steps that all simplices were looked at in turn: 0 as a rule. Where it is not, the points
-        /// were inserted anew into one simplex.
-        pub long_walks: u64,
         /// The number of flips of two tetrahedra into three.
         pub flips_23: u64,
         /// The number of flips of three tetrahedra into two.
@@ -269,10 +265,6 @@ with_fields! {
         pub flips_22: u64,
         /// The number of flip iterations that had something to do.
         pub flip_iterations: u64,
-        /// The number of them that were done in one workgroup, in 3D: those with few active
-        /// tetrahedra, and none while the kernel for that is being compiled, which a first run does
-        /// not wait for.
-        pub few_iterations: u64,
         /// The number of predicate evaluations that took exact arithmetic.
         pub exact_tests: u64,
         /// The number of facets that were not locally Delaunay and could not be flipped, including
@@ -471,7 +463,7 @@ pub enum Restart {
     /// host's memory or on another device, or the CPU triangulates the points.
     #[error("the mesh is not on the device that triangulates its points")]
     NotResident,
-    /// The arrays of the mesh are not those of a triangulation of as many points.
+    /// The arrays of the mesh are not those of a triangulation of its points.
     #[error("the mesh is not a triangulation")]
     Broken,
     /// More points come or go than it pays to insert or remove one by one.

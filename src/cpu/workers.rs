@@ -24,16 +24,15 @@ use std::{
 /// A worker takes at most this many points at a time: few enough that the others are done soon
 /// after the first one that finds no more.
 const MAX_PORTION: usize = 256;
-/// There are at least so many vertices per worker, lest all are in each other's way, unless a test
-/// wants just that.
+/// The smallest number of vertices per worker: with fewer, workers meet too often. Tests want them to.
 const VERTICES_PER_WORKER: usize = if cfg!(test) { 1 } else { 64 };
-/// A worker gives its claims back after so many insertions: the next points are near, so that it
-/// needs most of them again, and claiming takes longer than finding a vertex claimed.
+/// The number of insertions after which a worker gives its claims back. The next points are near, so that
+/// it needs most of the claims again, and a new claim takes longer than a look at an old one.
 const INSERTIONS_PER_CLAIM: usize = 8;
-/// How many times a worker goes through what it has put off, when nothing else is left.
+/// The number of times that a worker retries the points that it has put off, at the end.
 const RETRIES: usize = 3;
 
-/// What several threads are to insert.
+/// The vertices that several threads insert.
 pub struct Run<'a, const D: usize> {
     /// The threads.
     pub(crate) threads: Threads,
@@ -48,10 +47,10 @@ pub struct Run<'a, const D: usize> {
 
 /// The points of a round.
 struct Round {
-    /// Those that an earlier round has left.
+    /// The points that an earlier round has left.
     left: Vec<u32>,
     range: Range<u32>,
-    /// How many points of each stretch have been taken.
+    /// The number of points of each stretch that have been taken.
     taken: Vec<AtomicUsize>,
     portion: usize,
     /// The number of vertices in the triangulation.
@@ -77,7 +76,7 @@ impl Round {
         self.left.get(i).copied().unwrap_or_else(|| self.range.start + (i - self.left.len()) as u32)
     }
 
-    /// Returns points that nobody has taken, first of the worker's own stretch.
+    /// Returns portions of points that no worker has taken, first those of the worker's own stretch.
     fn portions(&self, worker: usize) -> impl Iterator<Item = Range<usize>> {
         let (count, stretches) = (self.left.len() + self.range.len(), self.taken.len());
         let start = move |stretch: usize| count * stretch / stretches;
@@ -145,7 +144,7 @@ where
     }
 }
 
-/// Inserts points of a round until nobody has any more.
+/// Inserts points of a round until none are left.
 fn work<const D: usize, const N: usize>(
     slots: Worker<'_, N>,
     number: usize,

@@ -1,4 +1,4 @@
-//! What the CPU engine of 2D has of its own.
+//! The 2D parts of the CPU engine.
 
 use crate::{
     cpu::{Grow, Incremental, Run, insert_by_workers},

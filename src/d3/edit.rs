@@ -38,7 +38,7 @@ impl Edit<3, 4> for Dimension<3> {
         Some((*mesh.tetrahedra.get(t as usize)?, row))
     }
 
-    /// Without the row, which takes as many accesses for each of its facets.
+    /// Does not make the row, which would take as many accesses for each of its facets.
     fn beyond(mesh: &Mesh3, _winding: Winding, facet: u32, across: u32) -> Option<[u32; 4]> {
         let [t, u] = [facet, across].map(|facet| facet >> 2);
         let back = mesh.neighbors.get(u as usize)?[across as usize & 3];

@@ -36,9 +36,9 @@ pub struct Scratch<P> {
     edges: EdgeMap,
 }
 
-/// So many facets of a cavity are looked at before anything is done about what was found: whether
-/// what is beyond a facet is in conflict cannot be predicted, and a branch on it would throw away
-/// what a processor has begun with the next facets, which in most cases has to be done anyway.
+/// The number of facets of a cavity that are tested before the results are used. Whether the
+/// tetrahedron beyond a facet is in conflict cannot be predicted, and a mispredicted branch would
+/// discard what the processor has begun with the next facets.
 const BATCH: usize = 32;
 
 /// A walk among tetrahedra that other threads change ends after this many: it may go in circles.

@@ -40,7 +40,7 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
             return Err(Error::PointCount { points: points.len(), expected: duplicate_of.len() });
         }
         points.validate_by(Threads::All)?;
-        let broken = |what| Err(Error::BrokenMesh { what });
+        let broken = |reason| Err(Error::BrokenMesh { reason });
         if neighbors.len() != simplices.len() || simplices.len() > i32::MAX as usize {
             return broken("there are not as many neighbours as simplices");
         }

@@ -133,7 +133,7 @@ fn word_of(location: Location) -> i32 {
 /// use gdel::{DeviceLocator, Location, Triangulator};
 ///
 /// let points: Vec<[f64; 3]> = (0..1000).map(|i| [i % 10, i / 10 % 10, i / 100].map(f64::from)).collect();
-/// match Triangulator::new().delaunay3d_on_device(&points) {
+/// match Triangulator::new().device().and_then(|device| device.delaunay3d(&points)) {
 ///     Ok(mesh) => {
 ///         let locator = DeviceLocator::new(&mesh, &points)?;
 ///         let locations = locator.locate_many(&[[4.5, 2.25, 7.75], [0.5, 0.5, -1.0f32]])?;
@@ -169,7 +169,7 @@ where
 /// use gdel::{DeviceLocator2, Location, Triangulator};
 ///
 /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f32]];
-/// if let Ok(mesh) = Triangulator::new().delaunay2d_on_device(&points) {
+/// if let Ok(mesh) = Triangulator::new().device().and_then(|device| device.delaunay2d(&points)) {
 ///     let locator = DeviceLocator2::new(&mesh, &points)?;
 ///     assert_eq!(locator.locate_many(&[[0.25, 0.25f32]])?.get(0), Location::Inside(0));
 /// }
@@ -280,7 +280,7 @@ where
     /// use gdel::{DeviceLocator, Triangulator};
     ///
     /// let points = [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [2.0, 2.0f64]];
-    /// if let Ok(mesh) = Triangulator::new().delaunay2d_on_device(&points) {
+    /// if let Ok(mesh) = Triangulator::new().device().and_then(|device| device.delaunay2d(&points)) {
     ///     let locator = DeviceLocator::new(&mesh, &points)?;
     ///     // The second one is at the same distance from all.
     ///     assert_eq!(locator.nearest_many(&[[1.5, 3.0], [1.0, 1.0]])?, [Some(3), Some(0)]);
@@ -391,7 +391,7 @@ where
     /// use gdel::{DeviceLocator, Triangulator};
     ///
     /// let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0f32]];
-    /// if let Ok(mesh) = Triangulator::new().delaunay2d_on_device(&points) {
+    /// if let Ok(mesh) = Triangulator::new().device().and_then(|device| device.delaunay2d(&points)) {
     ///     let locator = DeviceLocator::new(&mesh, &points)?;
     ///     let found = locator.interpolate_many(&[0.0, 4.0, 8.0], &[[1.0, 2.0], [0.0, 4.0], [4.0, 4.0f32]])?;
     ///     assert!((found[0] - 5.0).abs() < 1e-5);
@@ -454,7 +454,7 @@ where
     ///
     /// # fn locate(device: &wgpu::Device, queue: wgpu::Queue) -> Result<wgpu::Buffer, Error> {
     /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f32]];
-    /// let mesh = Triangulator::from_device(device.clone(), queue).delaunay3d_on_device(&points)?;
+    /// let mesh = Triangulator::from_device(device.clone(), queue).device()?.delaunay3d(&points)?;
     /// let queries = device.create_buffer(&wgpu::BufferDescriptor {
     ///     label: None,
     ///     size: 12,
@@ -537,7 +537,7 @@ where
     /// use gdel::{DeviceLocator, Outputs, Triangulator};
     ///
     /// let points = [[10.0, 0.0], [16.0, 0.0], [10.0, 8.0f64]];
-    /// if let Ok(mesh) = Triangulator::new().delaunay2d_on_device(&points) {
+    /// if let Ok(mesh) = Triangulator::new().device().and_then(|device| device.delaunay2d(&points)) {
     ///     let circles = DeviceLocator::new(&mesh, &points)?.circumspheres()?;
     ///     let first = points[mesh.read(Outputs::SIMPLICES)?.triangles[0][0] as usize];
     ///     let [x, y, radius] = circles[0].map(f64::from);

@@ -413,7 +413,7 @@ where
 }
 
 /// Why a walk does not end.
-const ENDLESS: Error = Error::BrokenMesh { what: "a walk over it does not end" };
+const ENDLESS: Error = Error::BrokenMesh { reason: "a walk over it does not end" };
 
 /// The number of walks that take turns.
 const WALKS: usize = 16;

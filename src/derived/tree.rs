@@ -57,7 +57,7 @@ struct Candidate {
 /// Fewer candidates than this are sorted rather than split.
 const SORTED: usize = 1 << 14;
 
-/// About so many candidates are looked at to split them in the middle.
+/// The number of candidates whose median splits the others.
 const SAMPLE: usize = 1 << 8;
 
 impl SpanningTree {

@@ -255,7 +255,7 @@ impl Gpu {
         let _ = self.device.poll(wait);
         match self.lost.get() {
             Some(reason) => Error::DeviceLost { reason: reason.clone() },
-            None => Error::Gpu { message: message.to_owned() },
+            None => Error::Gpu { reason: message.to_owned() },
         }
     }
 }
@@ -286,7 +286,7 @@ impl<'a> ErrorScope<'a> {
             let [a, b, c] = [a.await, b.await, c.await];
             if let Some(report) = c.or(a).or(b) {
                 return Err(match report {
-                    wgpu::Error::OutOfMemory { .. } => Error::OutOfDeviceMemory { what },
+                    wgpu::Error::OutOfMemory { .. } => Error::OutOfDeviceMemory { label: what },
                     error => gpu.failure(&error.to_string()),
                 });
             }

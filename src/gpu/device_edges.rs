@@ -32,7 +32,7 @@ use crate::{
 ///
 /// // A square around its centre.
 /// let points = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [1.0, 1.0f64]];
-/// if let Ok(mesh) = Triangulator::new().delaunay2d_on_device(&points) {
+/// if let Ok(mesh) = Triangulator::new().device().and_then(|device| device.delaunay2d(&points)) {
 ///     let edges = mesh.edges()?;
 ///     assert_eq!((edges.edge_count(), edges.edges().size()), (8, 64));
 ///     assert_eq!(edges.read_vertex_neighbors()?.of(4), [0, 1, 2, 3]);

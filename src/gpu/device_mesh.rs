@@ -146,7 +146,7 @@ impl DeviceArrays {
 /// use gdel::{Outputs, Triangulator};
 ///
 /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
-/// match Triangulator::new().delaunay3d_on_device(&points) {
+/// match Triangulator::new().device().and_then(|device| device.delaunay3d(&points)) {
 ///     Ok(mesh) => {
 ///         // Four words per tetrahedron.
 ///         assert_eq!((mesh.simplex_count(), mesh.simplices().size()), (1, 16));

@@ -15,7 +15,7 @@ use crate::{
     parallel::{self, Threads},
 };
 
-/// So many points are looked at before threads share the rest: most inputs are of one kind.
+/// The number of points that one thread looks at before others share the rest. As a rule they decide.
 const FEW: usize = 16;
 
 /// Number of bits that the lattice coordinates of an input need.

@@ -33,7 +33,7 @@ pub(crate) struct Distinct {
 /// space-filling curve.
 pub(crate) type Curve<const D: usize> = fn([u32; D], u32) -> u64;
 
-/// Each round has 2⁻³ times as many points as the next: 3 bits fewer.
+/// Each round has an eighth of the points of the next one: 3 bits fewer.
 const ROUND_BITS: u32 = 3;
 /// No round but the first has fewer points than this. The first round is one sweep along the curve,
 /// which takes quadratic time where fans grow, for example on two lines.

@@ -14,3 +14,13 @@ pub(crate) use web::*;
 
 #[cfg(any(target_arch = "wasm32", not(feature = "threads")))]
 pub(crate) mod single;
+
+/// Returns what a future yields if it is ready without waiting.
+#[cfg(any(target_arch = "wasm32", not(feature = "gpu")))]
+pub(crate) fn if_ready<T>(work: impl Future<Output = T>) -> Option<T> {
+    let mut context = std::task::Context::from_waker(std::task::Waker::noop());
+    match std::pin::pin!(work).poll(&mut context) {
+        std::task::Poll::Ready(done) => Some(done),
+        std::task::Poll::Pending => None,
+    }
+}

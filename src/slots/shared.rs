@@ -61,7 +61,7 @@ fn zeros(words: usize, slots: usize) -> Result<Vec<AtomicU32>, Error> {
     bytemuck::try_zeroed_vec(words).map(share).map_err(|()| Error::OutOfMemory { simplices: slots })
 }
 
-/// Returns the words of so many vertices, none of which is claimed.
+/// Returns the words of `vertices` vertices, none of which is claimed.
 fn unclaimed(vertices: usize, slots: usize) -> Result<Vec<AtomicU16>, Error> {
     let words: Vec<u16> = bytemuck::try_zeroed_vec(vertices).map_err(|()| Error::OutOfMemory { simplices: slots })?;
     Ok(words.into_iter().map(AtomicU16::new).collect())

@@ -1,40 +1,51 @@
 //! Triangulations with options, on the CPU or the GPU.
 
-mod moving;
+#[cfg(feature = "gpu")]
+mod device;
+mod editable;
+#[cfg(not(feature = "gpu"))]
+mod no_device;
 #[cfg(feature = "gpu")]
 mod shared_device;
-
-pub use moving::Moving;
+#[cfg(feature = "gpu")]
+mod state;
+mod wait;
 
 #[cfg(feature = "gpu")]
-pub use shared_device::{MIN_POINTS_2D, MIN_POINTS_3D};
+pub use device::DeviceTriangulator;
+pub use editable::Editable;
+#[cfg(not(feature = "gpu"))]
+use no_device::{Choice, SharedDevice};
+#[cfg(feature = "gpu")]
+use shared_device::{SharedDevice, shared};
+#[cfg(feature = "gpu")]
+use state::Choice;
+#[cfg(feature = "gpu")]
+pub use state::{MIN_POINTS_2D, MIN_POINTS_3D};
 
+#[cfg(feature = "gpu")]
+use crate::gpu::{AdapterChoice, Gpu};
 #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-use crate::gpu::engine::Made;
-#[cfg(feature = "gpu")]
 use crate::gpu::{
-    AdapterChoice, Gpu,
     device_mesh::{DeviceMesh2, DeviceMesh3},
+    engine::Made,
 };
 use crate::{
     backend::Backend,
+    cpu::MeshOf,
     d2::Mesh2,
     d3::Mesh3,
+    dimension::Dimension,
     error::Error,
-    input::points::{Points2, Points3},
+    input::points::{Points, Points2, Points3},
     options::{Options, Progress, Winding},
 };
-#[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
-use crate::{
-    cpu::{self, Incremental, MeshOf},
-    dimension::Dimension,
-    input::points::Points,
-    mesh::MeshInfo,
-    stats::Fallback,
+use std::{
+    num::NonZeroUsize,
+    ops::{ControlFlow, Range},
+    sync::Arc,
 };
-#[cfg(feature = "gpu")]
-use shared_device::SharedDevice;
-use std::{num::NonZeroUsize, ops::ControlFlow, sync::Arc};
+use wait::wait;
 
 /// Triangulates with options: which backend computes, what learns of the progress, which device is
 /// used.
@@ -61,7 +72,6 @@ use std::{num::NonZeroUsize, ops::ControlFlow, sync::Arc};
 #[derive(Debug, Clone, Default)]
 pub struct Triangulator {
     options: Options,
-    #[cfg(feature = "gpu")]
     device: Arc<SharedDevice>,
 }
 
@@ -146,7 +156,8 @@ impl Triangulator {
     }
 
     /// Sets which adapter to open. The triangulator no longer shares its device with those that it
-    /// was cloned from.
+    /// was cloned from. If it was [created from a device](Triangulator::from_device), its runs return
+    /// [`Error::AdapterOfDevice`].
     ///
     /// # Examples
     ///
@@ -159,7 +170,7 @@ impl Triangulator {
     #[cfg(feature = "gpu")]
     #[must_use]
     pub fn adapter(mut self, adapter: AdapterChoice) -> Self {
-        self.device = shared(SharedDevice::new(adapter));
+        self.device = shared(self.device.with_adapter(adapter));
         self
     }
 
@@ -211,8 +222,8 @@ impl Triangulator {
     ///
     /// Returns the errors of [`delaunay3d`](crate::delaunay3d). If the backend is [`Backend::Gpu`],
     /// also those of the GPU: [`Error::GpuUnavailable`], [`Error::NoAdapter`],
-    /// [`Error::AdapterNotFound`], [`Error::DeviceLost`], [`Error::OutOfDeviceMemory`],
-    /// [`Error::BufferTooLarge`] and [`Error::Gpu`].
+    /// [`Error::AdapterNotFound`], [`Error::AdapterOfDevice`], [`Error::DeviceLost`],
+    /// [`Error::OutOfDeviceMemory`], [`Error::BufferTooLarge`] and [`Error::Gpu`].
     pub fn delaunay3d<'a>(&self, points: impl Into<Points3<'a>>) -> Result<Mesh3, Error> {
         let mut mesh = Mesh3::default();
         self.delaunay3d_into(points, &mut mesh)?;
@@ -231,8 +242,8 @@ impl Triangulator {
         Ok(mesh)
     }
 
-    /// Returns the 3D Delaunay triangulation of `points`, and waits for the GPU without blocking
-    /// the thread.
+    /// Returns the 3D Delaunay triangulation of `points` without blocking the thread while the GPU
+    /// works.
     ///
     /// # Examples
     ///
@@ -249,26 +260,28 @@ impl Triangulator {
     /// Returns the errors of [`Triangulator::delaunay3d`].
     pub async fn delaunay3d_async<'a>(&self, points: impl Into<Points3<'a>>) -> Result<Mesh3, Error> {
         let mut mesh = Mesh3::default();
-        self.delaunay3d_into_async(points, &mut mesh).await?;
+        self.triangulate(points.into(), &mut mesh).await?;
         Ok(mesh)
     }
 
-    /// Returns the 2D Delaunay triangulation of `points`, and waits for the GPU without blocking
-    /// the thread.
+    /// Returns the 2D Delaunay triangulation of `points` without blocking the thread while the GPU
+    /// works.
     ///
     /// # Errors
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`].
     pub async fn delaunay2d_async<'a>(&self, points: impl Into<Points2<'a>>) -> Result<Mesh2, Error> {
         let mut mesh = Mesh2::default();
-        self.delaunay2d_into_async(points, &mut mesh).await?;
+        self.triangulate(points.into(), &mut mesh).await?;
         Ok(mesh)
     }
 
-    /// Makes `mesh` the 3D Delaunay triangulation of `points`, whatever it was before. The GPU backend
-    /// writes the tetrahedra and their neighbours into the memory that their vectors have, as far as it
-    /// suffices, which saves a program with many inputs from taking fresh memory for each. The CPU backend
-    /// makes vectors of its own. After an error the mesh is empty. Blocks the thread.
+    /// Makes `mesh` the 3D Delaunay triangulation of `points`, whatever it was before, and blocks the
+    /// thread.
+    ///
+    /// The GPU backend writes the tetrahedra and their neighbours into the memory of their vectors, as
+    /// far as it suffices. That saves a program with many inputs from taking fresh memory for each.
+    /// The CPU backend makes new vectors. After an error the mesh is empty.
     ///
     /// # Examples
     ///
@@ -289,67 +302,17 @@ impl Triangulator {
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`].
     pub fn delaunay3d_into<'a>(&self, points: impl Into<Points3<'a>>, mesh: &mut Mesh3) -> Result<(), Error> {
-        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-        {
-            pollster::block_on(self.device.triangulate(points.into(), &self.options, mesh))
-        }
-        #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
-        without_gpu(points.into(), &self.options, mesh)
+        wait(self.for_blocking()?.triangulate(points.into(), mesh))
     }
 
-    /// Makes `mesh` the 2D Delaunay triangulation of `points`, whatever it was before, as
-    /// [`delaunay3d_into`](Triangulator::delaunay3d_into) does in 3D. Blocks the thread.
+    /// Makes `mesh` the 2D Delaunay triangulation of `points`, as
+    /// [`delaunay3d_into`](Triangulator::delaunay3d_into) does in 3D.
     ///
     /// # Errors
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`].
     pub fn delaunay2d_into<'a>(&self, points: impl Into<Points2<'a>>, mesh: &mut Mesh2) -> Result<(), Error> {
-        #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-        {
-            pollster::block_on(self.device.triangulate(points.into(), &self.options, mesh))
-        }
-        #[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
-        without_gpu(points.into(), &self.options, mesh)
-    }
-
-    /// Makes `mesh` the 3D Delaunay triangulation of `points`, as
-    /// [`delaunay3d_into`](Triangulator::delaunay3d_into) does, and waits for the GPU without blocking the
-    /// thread.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`Triangulator::delaunay3d`].
-    pub async fn delaunay3d_into_async<'a>(
-        &self,
-        points: impl Into<Points3<'a>>,
-        mesh: &mut Mesh3,
-    ) -> Result<(), Error> {
-        #[cfg(feature = "gpu")]
-        {
-            self.device.triangulate(points.into(), &self.options, mesh).await
-        }
-        #[cfg(not(feature = "gpu"))]
-        self.delaunay3d_into(points, mesh)
-    }
-
-    /// Makes `mesh` the 2D Delaunay triangulation of `points`, as
-    /// [`delaunay2d_into`](Triangulator::delaunay2d_into) does, and waits for the GPU without blocking the
-    /// thread.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`Triangulator::delaunay3d`].
-    pub async fn delaunay2d_into_async<'a>(
-        &self,
-        points: impl Into<Points2<'a>>,
-        mesh: &mut Mesh2,
-    ) -> Result<(), Error> {
-        #[cfg(feature = "gpu")]
-        {
-            self.device.triangulate(points.into(), &self.options, mesh).await
-        }
-        #[cfg(not(feature = "gpu"))]
-        self.delaunay2d_into(points, mesh)
+        wait(self.for_blocking()?.triangulate(points.into(), mesh))
     }
 
     /// Makes `mesh` the Delaunay triangulation of `points`: those of the mesh, after they have
@@ -368,14 +331,12 @@ impl Triangulator {
     /// let mut points: Vec<[f64; 2]> = (0..100).map(|i| [f64::from(i * i % 101), f64::from(i)]).collect();
     /// let triangulator = Triangulator::new().backend(Backend::Cpu);
     /// let mut mesh = triangulator.delaunay2d(&points)?;
-    /// for step in 0..10 {
-    ///     for (i, [x, y]) in points.iter_mut().enumerate() {
-    ///         *x += 0.1 * (i as f64).sin();
-    ///         *y += 0.1 * (i as f64).cos();
-    ///     }
-    ///     triangulator.update(&mut mesh, &points)?;
-    ///     assert_eq!(mesh.canonical(), gdel::delaunay2d(&points)?.canonical());
+    /// for (i, [x, y]) in points.iter_mut().enumerate() {
+    ///     *x += 0.1 * (i as f64).sin();
+    ///     *y += 0.1 * (i as f64).cos();
     /// }
+    /// triangulator.update(&mut mesh, &points)?;
+    /// assert_eq!(mesh.canonical(), gdel::delaunay2d(&points)?.canonical());
     /// # Ok::<(), gdel::Error>(())
     /// ```
     ///
@@ -383,33 +344,37 @@ impl Triangulator {
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`], and [`Error::PointCount`] if the mesh is
     /// not one of as many points. After an error the mesh is what it was before.
-    pub fn update<'a, M: Moving>(&self, mesh: &mut M, points: impl Into<M::Points<'a>>) -> Result<(), Error> {
-        mesh.follow(self, points.into())
+    pub fn update<'a, const D: usize, M: Editable<D>>(
+        &self,
+        mesh: &mut M,
+        points: impl Into<Points<'a, D>>,
+    ) -> Result<(), Error> {
+        wait(mesh.update(&self.for_blocking()?, points.into()))
     }
 
-    /// Does the same as [`update`](Triangulator::update), and waits for the GPU without blocking
-    /// the thread.
+    /// Does the same as [`update`](Triangulator::update) without blocking the thread while the GPU
+    /// works.
     ///
     /// # Errors
     ///
     /// Returns the errors of [`Triangulator::update`].
-    pub async fn update_async<'a, M: Moving>(
+    pub async fn update_async<'a, const D: usize, M: Editable<D>>(
         &self,
         mesh: &mut M,
-        points: impl Into<M::Points<'a>>,
+        points: impl Into<Points<'a, D>>,
     ) -> Result<(), Error> {
-        mesh.follow_async(self, points.into()).await
+        mesh.update(self, points.into()).await
     }
 
-    /// Inserts points into a mesh. Blocks the thread.
+    /// Inserts the points `new` into a mesh, and appends them to `points`, which are those of the
+    /// mesh. Returns their indices. Blocks the thread.
     ///
-    /// `points` are all points: first those of the mesh, as they were, then the new ones. The mesh is
-    /// that of a run from scratch, except for the order of its simplices: also where new points lie
-    /// outside the hull, equal others, or are the first that do not lie in a plane.
+    /// The mesh is that of a run from scratch, except for the order of its simplices: also where new
+    /// points lie outside the hull, equal others, or are the first that do not lie in a plane.
     ///
-    /// A few points cost what changes around them, and one look at the coordinates of all. Where more
-    /// come than it pays to insert one by one (with one thread, about one in twenty), the points are
-    /// triangulated from scratch by the backend, and
+    /// To insert a few points takes time for what changes around them, and for one look at the
+    /// coordinates of all. Where it is faster (with one thread, beyond about one point in forty), the
+    /// points are triangulated from scratch by the backend, and
     /// [`Stats::update`](crate::stats::Stats::update) says why. The mesh has to be that of its points:
     /// only what is near the new ones is checked. A mesh on the device is read, changed by the host,
     /// and uploaded.
@@ -422,38 +387,49 @@ impl Triangulator {
     /// let mut points = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0f64]];
     /// let triangulator = Triangulator::new().backend(Backend::Cpu);
     /// let mut mesh = triangulator.delaunay2d(&points)?;
-    /// // The middle of the largest triangle, five times.
-    /// for _ in 0..5 {
-    ///     let areas: Vec<f64> = mesh.areas(&points).collect();
-    ///     let largest = (0..areas.len()).max_by(|&s, &t| areas[s].total_cmp(&areas[t])).unwrap();
-    ///     let corners = mesh.triangles[largest].map(|v| points[v as usize]);
-    ///     points.push([0, 1].map(|axis| corners.iter().map(|p| p[axis]).sum::<f64>() / 3.0));
-    ///     triangulator.insert(&mut mesh, &points)?;
-    /// }
+    /// let inserted = triangulator.insert(&mut mesh, &mut points, &[[1.0, 1.0], [2.0, 2.0]])?;
+    /// assert_eq!((inserted, points.len()), (4..6, 6));
     /// assert_eq!(mesh.canonical(), gdel::delaunay2d(&points)?.canonical());
     /// # Ok::<(), gdel::Error>(())
     /// ```
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`Triangulator::delaunay3d`], and [`Error::PointCount`] if there are
-    /// fewer points than the mesh has. After an error the mesh is what it was before.
-    pub fn insert<'a, M: Moving>(&self, mesh: &mut M, points: impl Into<M::Points<'a>>) -> Result<(), Error> {
-        mesh.edit(self, points.into(), &[])
+    /// Returns the errors of [`Triangulator::delaunay3d`], and [`Error::PointCount`] if the mesh is not
+    /// one of as many `points`. After an error the mesh and `points` are what they were before.
+    pub fn insert<const D: usize, T: Copy, M: Editable<D>>(
+        &self,
+        mesh: &mut M,
+        points: &mut Vec<[T; D]>,
+        new: &[[T; D]],
+    ) -> Result<Range<u32>, Error>
+    where
+        for<'p> Points<'p, D>: From<&'p [[T; D]]>,
+    {
+        wait(self.for_blocking()?.insert_async(mesh, points, new))
     }
 
-    /// Does the same as [`insert`](Triangulator::insert), and waits for the GPU without blocking the
-    /// thread.
+    /// Does the same as [`insert`](Triangulator::insert) without blocking the thread while the GPU
+    /// works.
     ///
     /// # Errors
     ///
     /// Returns the errors of [`Triangulator::insert`].
-    pub async fn insert_async<'a, M: Moving>(
+    pub async fn insert_async<const D: usize, T: Copy, M: Editable<D>>(
         &self,
         mesh: &mut M,
-        points: impl Into<M::Points<'a>>,
-    ) -> Result<(), Error> {
-        mesh.edit_async(self, points.into(), &[]).await
+        points: &mut Vec<[T; D]>,
+        new: &[[T; D]],
+    ) -> Result<Range<u32>, Error>
+    where
+        for<'p> Points<'p, D>: From<&'p [[T; D]]>,
+    {
+        editable::check_count(mesh, points.len())?;
+        let first = points.len();
+        let appended = Appended { points, first };
+        appended.points.extend_from_slice(new);
+        mesh.edit(self, appended.points.as_slice().into(), &[]).await?;
+        Ok(appended.keep())
     }
 
     /// Removes the points with these indices from a mesh, which is one of `points`. Blocks the thread.
@@ -461,13 +437,11 @@ impl Triangulator {
     /// The mesh is that of a run from scratch on the points that are left, except for the order of its
     /// simplices; if the removed point stood for others, the lowest of these takes its place. All
     /// points keep their indices. Those that were removed are *unused*: in
-    /// [`duplicate_of`](Mesh3::duplicate_of) they are their own duplicates, and nothing depends on
-    /// their coordinates any more, except that they have to be finite. Later calls of
-    /// [`update`](Triangulator::update), [`insert`](Triangulator::insert) and `remove` leave them
-    /// unused. [`Mesh3::compact`] drops them.
+    /// [`duplicate_of`](Mesh3::duplicate_of) they are their own duplicates. Their coordinates have to
+    /// be finite, and nothing else depends on them. Later calls of [`update`](Triangulator::update),
+    /// [`insert`](Triangulator::insert) and `remove` leave them unused. [`Mesh3::compact`] drops them.
     ///
-    /// What it costs, and when it is done from scratch, is as for [`insert`](Triangulator::insert),
-    /// where one point that is removed counts for 3 that are inserted, or 12 in 2D.
+    /// What it costs, and when it is done from scratch, is as for [`insert`](Triangulator::insert).
     ///
     /// # Examples
     ///
@@ -492,166 +466,65 @@ impl Triangulator {
     /// Returns the errors of [`Triangulator::delaunay3d`], [`Error::PointCount`] if the mesh is not
     /// one of as many points, and [`Error::BadIndex`] if an index is not below their number, is given
     /// twice, or was removed before. After an error the mesh is what it was before.
-    pub fn remove<'a, M: Moving>(
+    pub fn remove<'a, const D: usize, M: Editable<D>>(
         &self,
         mesh: &mut M,
-        points: impl Into<M::Points<'a>>,
+        points: impl Into<Points<'a, D>>,
         indices: &[u32],
     ) -> Result<(), Error> {
-        mesh.edit(self, mesh.as_many(points.into())?, indices)
+        wait(self.for_blocking()?.remove_async(mesh, points, indices))
     }
 
-    /// Does the same as [`remove`](Triangulator::remove), and waits for the GPU without blocking the
-    /// thread.
+    /// Does the same as [`remove`](Triangulator::remove) without blocking the thread while the GPU
+    /// works.
     ///
     /// # Errors
     ///
     /// Returns the errors of [`Triangulator::remove`].
-    pub async fn remove_async<'a, M: Moving>(
+    pub async fn remove_async<'a, const D: usize, M: Editable<D>>(
         &self,
         mesh: &mut M,
-        points: impl Into<M::Points<'a>>,
+        points: impl Into<Points<'a, D>>,
         indices: &[u32],
     ) -> Result<(), Error> {
-        mesh.edit_async(self, mesh.as_many(points.into())?, indices).await
+        let points = points.into();
+        editable::check_count(mesh, points.len())?;
+        mesh.edit(self, points, indices).await
     }
 
-    /// Returns the 3D Delaunay triangulation of `points` as a mesh that stays on the device, which
-    /// is opened whatever the backend is. Blocks the thread.
-    ///
-    /// What is left to the CPU, because of the backend or [`Stats::fallback`], is uploaded.
-    ///
-    /// [`Stats::fallback`]: crate::stats::Stats::fallback
+    /// Opens the device, unless that was done, and returns what triangulates into meshes that stay
+    /// there, with these options. Blocks the thread.
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`Triangulator::delaunay3d`], and those of the GPU with every backend.
-    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-    pub fn delaunay3d_on_device<'a>(&self, points: impl Into<Points3<'a>>) -> Result<DeviceMesh3, Error> {
-        pollster::block_on(self.delaunay3d_on_device_async(points))
-    }
-
-    /// Does the same as `delaunay3d_on_device`, and waits for the GPU without blocking the thread.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of `delaunay3d_on_device`.
+    /// Returns the errors of the GPU, as [`Triangulator::delaunay3d`] lists them.
     #[cfg(feature = "gpu")]
-    pub async fn delaunay3d_on_device_async<'a>(&self, points: impl Into<Points3<'a>>) -> Result<DeviceMesh3, Error> {
-        self.device.delaunay3d_on_device(points.into(), &self.options).await
+    pub fn device(&self) -> Result<DeviceTriangulator, Error> {
+        wait(self.device_async())
     }
 
-    /// Returns the 2D Delaunay triangulation of `points` as a mesh that stays on the device, which
-    /// is opened whatever the backend is. Blocks the thread.
+    /// Does the same as [`device`](Triangulator::device) without blocking the thread.
     ///
     /// # Errors
     ///
-    /// Returns the errors of `delaunay3d_on_device`.
-    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-    pub fn delaunay2d_on_device<'a>(&self, points: impl Into<Points2<'a>>) -> Result<DeviceMesh2, Error> {
-        pollster::block_on(self.delaunay2d_on_device_async(points))
-    }
-
-    /// Does the same as `delaunay2d_on_device`, and waits for the GPU without blocking the thread.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of `delaunay3d_on_device`.
+    /// Returns the errors of [`Triangulator::device`].
     #[cfg(feature = "gpu")]
-    pub async fn delaunay2d_on_device_async<'a>(&self, points: impl Into<Points2<'a>>) -> Result<DeviceMesh2, Error> {
-        self.device.delaunay2d_on_device(points.into(), &self.options).await
+    pub async fn device_async(&self) -> Result<DeviceTriangulator, Error> {
+        DeviceTriangulator::open(self.clone()).await
     }
 
-    /// Returns the 3D Delaunay triangulation of the points in a buffer of the device that this
-    /// triangulator was [created from](Triangulator::from_device), as a mesh that stays there.
-    /// Blocks the thread.
-    ///
-    /// `points` is an array of `f32`, three per point and nothing else, of the usage
-    /// [`COPY_SRC`](wgpu::BufferUsages::COPY_SRC). Commands that write it have to be submitted
-    /// before. It is read back, since the host decides what rounding leaves open.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`Triangulator::delaunay3d_on_device`], [`Error::NotWholePoints`], and
-    /// [`Error::Gpu`] for a buffer of another device or usage.
-    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-    pub fn delaunay3d_of_buffer(&self, points: &wgpu::Buffer) -> Result<DeviceMesh3, Error> {
-        pollster::block_on(self.delaunay3d_of_buffer_async(points))
+    /// Returns the triangulator that calls use which block.
+    fn for_blocking(&self) -> Result<Self, Error> {
+        let device = self.device.for_blocking(self.options.backend)?;
+        Ok(Triangulator { options: self.options.clone(), device })
     }
 
-    /// Does the same as `delaunay3d_of_buffer`, and waits for the GPU without blocking the thread.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of `delaunay3d_of_buffer`.
-    #[cfg(feature = "gpu")]
-    pub async fn delaunay3d_of_buffer_async(&self, points: &wgpu::Buffer) -> Result<DeviceMesh3, Error> {
-        self.device.delaunay3d_of_buffer(points, &self.options).await
-    }
-
-    /// [Updates](Triangulator::update) a 3D mesh to the points in a buffer of its device, which are
-    /// as [`delaunay3d_of_buffer`](Triangulator::delaunay3d_of_buffer) takes them. Blocks the
-    /// thread.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`Triangulator::update`] and of
-    /// [`Triangulator::delaunay3d_of_buffer`].
-    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-    pub fn update3d_of_buffer(&self, mesh: &mut DeviceMesh3, points: &wgpu::Buffer) -> Result<(), Error> {
-        pollster::block_on(self.update3d_of_buffer_async(mesh, points))
-    }
-
-    /// Does the same as `update3d_of_buffer`, and waits for the GPU without blocking the thread.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of `update3d_of_buffer`.
-    #[cfg(feature = "gpu")]
-    pub async fn update3d_of_buffer_async(&self, mesh: &mut DeviceMesh3, points: &wgpu::Buffer) -> Result<(), Error> {
-        let points = self.device.read_points(points).await?;
-        mesh.follow_async(self, (&points).into()).await
-    }
-
-    /// Does the same in 2D, with two coordinates per point.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`Triangulator::update3d_of_buffer`].
-    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-    pub fn update2d_of_buffer(&self, mesh: &mut DeviceMesh2, points: &wgpu::Buffer) -> Result<(), Error> {
-        pollster::block_on(self.update2d_of_buffer_async(mesh, points))
-    }
-
-    /// Does the same as `update2d_of_buffer`, and waits for the GPU without blocking the thread.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of `update3d_of_buffer`.
-    #[cfg(feature = "gpu")]
-    pub async fn update2d_of_buffer_async(&self, mesh: &mut DeviceMesh2, points: &wgpu::Buffer) -> Result<(), Error> {
-        let points = self.device.read_points(points).await?;
-        mesh.follow_async(self, (&points).into()).await
-    }
-
-    /// Does the same in 2D, with two coordinates per point.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`Triangulator::delaunay3d_of_buffer`].
-    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-    pub fn delaunay2d_of_buffer(&self, points: &wgpu::Buffer) -> Result<DeviceMesh2, Error> {
-        pollster::block_on(self.delaunay2d_of_buffer_async(points))
-    }
-
-    /// Does the same as `delaunay2d_of_buffer`, and waits for the GPU without blocking the thread.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of `delaunay2d_of_buffer`.
-    #[cfg(feature = "gpu")]
-    pub async fn delaunay2d_of_buffer_async(&self, points: &wgpu::Buffer) -> Result<DeviceMesh2, Error> {
-        self.device.delaunay2d_of_buffer(points, &self.options).await
+    /// Makes `mesh` that of `points`. After an error the mesh is empty.
+    async fn triangulate<const D: usize>(&self, points: Points<'_, D>, mesh: &mut MeshOf<D>) -> Result<(), Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        self.device.triangulate(points, &self.options, mesh).await
     }
 
     /// Triangulates in 3D, and has `deliver` take the mesh where it was made, or, if `resident`, on
@@ -697,38 +570,24 @@ impl Triangulator {
     }
 }
 
-/// Shares a device among clones.
-#[cfg(feature = "gpu")]
-#[cfg_attr(
-    target_arch = "wasm32",
-    expect(clippy::arc_with_non_send_sync, reason = "only in browsers do wgpu's types belong to one thread")
-)]
-fn shared(device: SharedDevice) -> Arc<SharedDevice> {
-    Arc::new(device)
+/// Points with new ones at the end, which are taken off again unless they are kept.
+struct Appended<'a, T> {
+    points: &'a mut Vec<T>,
+    first: usize,
 }
 
-/// Makes `mesh` that of `points` where no GPU can be used: because it is not compiled in, or because a
-/// browser's cannot be waited for. After an error the mesh is empty.
-#[cfg(any(not(feature = "gpu"), target_arch = "wasm32"))]
-fn without_gpu<const D: usize>(points: Points<'_, D>, options: &Options, mesh: &mut MeshOf<D>) -> Result<(), Error>
-where
-    Dimension<D>: Incremental<D>,
-{
-    *mesh = MeshOf::<D>::default();
-    #[cfg(feature = "gpu")]
-    let reason = "a browser's GPU cannot be waited for; use the methods that end in `_async`";
-    #[cfg(not(feature = "gpu"))]
-    let reason = "gdel was built without the feature `gpu`";
-    let unavailable = Error::GpuUnavailable { reason };
-    match options.backend {
-        Backend::Cpu => *mesh = cpu::delaunay(points, options)?,
-        Backend::Gpu => return Err(unavailable),
-        Backend::Auto => {
-            *mesh = cpu::delaunay(points, options)?;
-            mesh.stats_mut().fallback = Some(Fallback::NoGpu(unavailable));
-        }
+impl<T> Appended<'_, T> {
+    /// Keeps the new points. Returns their indices.
+    fn keep(mut self) -> Range<u32> {
+        let first = std::mem::replace(&mut self.first, self.points.len());
+        first as u32..self.points.len() as u32
     }
-    Ok(())
+}
+
+impl<T> Drop for Appended<'_, T> {
+    fn drop(&mut self) {
+        self.points.truncate(self.first);
+    }
 }
 
 /// Returns the GPU adapters of this machine, in the order that [`AdapterChoice::Index`] counts.

@@ -2,7 +2,7 @@
 
 use crate::{clouds, degenerate, motions};
 use gdel::{
-    Backend, Error, Mesh2, Mesh3, Moving, Points2, Points3, Triangulator,
+    Backend, Editable, Error, Mesh2, Mesh3, Points2, Points3, Triangulator,
     internals::{
         Options,
         cpu::edit::{Again, edit},
@@ -32,7 +32,7 @@ struct Answer {
 }
 
 /// A dimension's meshes.
-trait Case<const D: usize>: Moving + Clone {
+trait Case<const D: usize>: Editable<D> + Clone {
     fn scratch(points: &[[f64; D]]) -> Self;
     /// Inserts the points that the mesh does not have, whether that pays or not, or removes some.
     fn attempt(&mut self, points: &[[f64; D]], removed: &[u32], options: &Options) -> Result<Option<Again>, Error>;
@@ -62,7 +62,12 @@ macro_rules! case {
             }
 
             fn insert(&mut self, triangulator: &Triangulator, points: &[[f64; $D]]) -> Result<(), Error> {
-                triangulator.insert(self, $points::from(points))
+                let known = self.duplicate_of.len().min(points.len());
+                let mut before = points[..known].to_vec();
+                let inserted = triangulator.insert(self, &mut before, &points[known..]);
+                let expected = if inserted.is_ok() { points.len() } else { known };
+                assert_eq!(before.len(), expected);
+                inserted.map(|inserted| assert_eq!(inserted, known as u32..points.len() as u32))
             }
 
             fn remove(
@@ -476,7 +481,7 @@ fn errors_leave_the_mesh<const D: usize, M: Case<D>>() {
     model.remove([4]);
     let before = model.mesh.answer();
     let mut mesh = model.mesh;
-    let bad = |index: u32, why: &'static str| Err(Error::BadIndex { index, why });
+    let bad = |index: u32, reason: &'static str| Err(Error::BadIndex { index, reason });
     assert_eq!(mesh.remove(&cpu(), &points, &[3, 20]), bad(20, "there is no such point"));
     assert_eq!(mesh.remove(&cpu(), &points, &[u32::MAX]), bad(u32::MAX, "there is no such point"));
     assert_eq!(mesh.remove(&cpu(), &points, &[3, 5, 3]), bad(3, "it is given twice"));

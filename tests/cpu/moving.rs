@@ -1,7 +1,7 @@
 //! A mesh that follows its points is the one of a run from scratch.
 
 use crate::motions;
-use gdel::{Backend, Error, Mesh2, Mesh3, Moving, Points2, Points3, Triangulator, stats::Restart};
+use gdel::{Backend, Editable, Error, Mesh2, Mesh3, Points2, Points3, Triangulator, stats::Restart};
 use std::ops::ControlFlow;
 
 fn cpu() -> Triangulator {
@@ -12,7 +12,7 @@ fn cpu() -> Triangulator {
 type Answer = (Vec<Vec<u32>>, Vec<Vec<u32>>, Vec<i32>, u8);
 
 /// A dimension's meshes.
-trait Case<const D: usize>: Moving + Clone {
+trait Case<const D: usize>: Editable<D> + Clone {
     fn scratch(points: &[[f64; D]]) -> Self;
     fn go_to(&mut self, triangulator: &Triangulator, points: &[[f64; D]]) -> Result<(), Error>;
     fn answer(&self) -> Answer;

@@ -3,7 +3,7 @@
 
 use crate::inputs::{inputs2, inputs3, mesh2, mesh3, queries};
 use gdel::{
-    AlphaShape, Backend, Clip, Interpolation, Interpolator, Location, Locator, Mesh2, Mesh3, Moving, Points, Points2,
+    AlphaShape, Backend, Clip, Editable, Interpolation, Interpolator, Location, Locator, Mesh2, Mesh3, Points, Points2,
     Points3, SpanningTree, Triangulator, Voronoi,
 };
 
@@ -99,6 +99,6 @@ macro_rules! check {
 check!(of_tetrahedra, inputs3, mesh3, Mesh3, Points3, 3);
 check!(of_triangles, inputs2, mesh2, Mesh2, Points2, 2);
 
-fn remove<'a, M: Moving>(mesh: &mut M, points: M::Points<'a>, indices: &[u32]) {
+fn remove<const D: usize>(mesh: &mut impl Editable<D>, points: Points<'_, D>, indices: &[u32]) {
     Triangulator::new().backend(Backend::Cpu).remove(mesh, points, indices).expect("removes");
 }

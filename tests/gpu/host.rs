@@ -182,5 +182,5 @@ fn mistakes_are_reported_and_do_not_panic() {
         Ok(())
     }))
     .unwrap_err();
-    assert!(matches!(&error, Error::Gpu { message } if message.contains("undefined")), "{error:?}");
+    assert!(matches!(&error, Error::Gpu { reason } if reason.contains("undefined")), "{error:?}");
 }

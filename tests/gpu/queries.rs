@@ -49,7 +49,7 @@ macro_rules! check {
 fn locations_are_those_of_the_host_in_3d() {
     let triangulator = triangulator();
     for (name, points) in inputs3() {
-        let mesh = triangulator.delaunay3d_on_device(&points).unwrap();
+        let mesh = triangulator.device().expect("opens").delaunay3d(&points).unwrap();
         let queries = queries(&points);
         let open = check!(name, mesh, &points, &queries);
         println!("{name}: {open} of {} by the host", queries.len());
@@ -60,7 +60,7 @@ fn locations_are_those_of_the_host_in_3d() {
 fn locations_are_those_of_the_host_in_2d() {
     let triangulator = triangulator();
     for (name, points) in inputs2() {
-        let mesh = triangulator.delaunay2d_on_device(&points).unwrap();
+        let mesh = triangulator.device().expect("opens").delaunay2d(&points).unwrap();
         let queries = queries(&points);
         let open = check!(name, mesh, &points, &queries);
         println!("{name}: {open} of {} by the host", queries.len());
@@ -73,7 +73,7 @@ fn locations_are_those_of_the_host_in_2d() {
 fn locations_of_many_queries_are_found_by_the_device() {
     let triangulator = triangulator();
     let points = generate3d(Distribution3::Uniform, 20_000, 3);
-    let mesh = triangulator.delaunay3d_on_device(&points).unwrap();
+    let mesh = triangulator.device().expect("opens").delaunay3d(&points).unwrap();
     let around = |r: f64| 1.5 * r - 0.25;
     let queries: Vec<[f64; 3]> = generate3d(Distribution3::Uniform, 40_000, 4).iter().map(|q| q.map(around)).collect();
     assert_eq!(check!("doubles", mesh, &points, &queries), 0);
@@ -81,13 +81,13 @@ fn locations_of_many_queries_are_found_by_the_device() {
     assert_eq!(check!("single queries", mesh, &points, &single), 0);
 
     let points: Vec<[f32; 3]> = points.iter().map(|p| p.map(|x| x as f32)).collect();
-    let mesh = triangulator.delaunay3d_on_device(&points).unwrap();
+    let mesh = triangulator.device().expect("opens").delaunay3d(&points).unwrap();
     assert_eq!(check!("single points", mesh, &points, &queries), 0);
     assert_eq!(check!("single", mesh, &points, &single), 0);
 
     for distribution in [Distribution3::Sphere, Distribution3::Gaussian, Distribution3::Grid] {
         let points = generate3d(distribution, 5_000, 3);
-        let mesh = triangulator.delaunay3d_on_device(&points).unwrap();
+        let mesh = triangulator.device().expect("opens").delaunay3d(&points).unwrap();
         let queries = generate3d(distribution, 40_000, 4);
         let open = check!(distribution.name(), mesh, &points, &queries);
         assert!(open < 40, "{distribution:?}: the host has answered {open} queries");
@@ -99,7 +99,7 @@ fn locations_of_many_queries_are_found_by_the_device_in_2d() {
     let triangulator = triangulator();
     for distribution in Distribution2::ALL {
         let points = generate2d(distribution, 20_000, 3);
-        let mesh = triangulator.delaunay2d_on_device(&points).unwrap();
+        let mesh = triangulator.device().expect("opens").delaunay2d(&points).unwrap();
         let queries = generate2d(distribution, 40_000, 4);
         let open = check!(distribution.name(), mesh, &points, &queries);
         println!("{distribution:?}: {open} of {} by the host", queries.len());
@@ -114,7 +114,7 @@ fn locations_of_many_queries_are_found_by_the_device_in_2d() {
 fn locations_of_several_batches() {
     const BATCH: usize = 1 << 20;
     let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 4.0], [1.0, 1.5f32]];
-    let mesh = triangulator().delaunay2d_on_device(&points).unwrap();
+    let mesh = triangulator().device().expect("opens").delaunay2d(&points).unwrap();
     let place = |i: usize| [(i % 977) as f32 / 200.0, (i % 1009) as f32 / 210.0];
     let mut queries = Vec::from_iter((0..4 * BATCH + 77).map(place));
     for i in [3, BATCH + 5, 4 * BATCH + 76] {
@@ -132,7 +132,7 @@ fn locations_in_buffers() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let points: Vec<[f32; 3]> =
         generate3d(Distribution3::Uniform, 1_000, 3).iter().map(|p| p.map(|x| x as f32)).collect();
-    let mesh = on(&gpu).delaunay3d_on_device(&points).unwrap();
+    let mesh = on(&gpu).device().expect("opens").delaunay3d(&points).unwrap();
     let mut queries = points[..300].to_vec();
     queries.extend([[1e10, 0.5, 0.5], [0.25, 0.5, 0.75], [-1e30, 1e-30, 0.0]]);
     let locator = DeviceLocator::new(&mesh, &points).unwrap();
@@ -186,7 +186,7 @@ fn read(gpu: &Gpu, buffer: &wgpu::Buffer) -> Vec<i32> {
 fn meshes_without_simplices_contain_nothing() {
     let triangulator = triangulator();
     for points in [vec![], vec![[1.0, 2.0]], vec![[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]] {
-        let mesh = triangulator.delaunay2d_on_device(&points).unwrap();
+        let mesh = triangulator.device().expect("opens").delaunay2d(&points).unwrap();
         let locator = DeviceLocator::new(&mesh, &points).unwrap();
         assert_eq!(locator.locate_many(&[[0.0, 0.0f32]]).unwrap().get(0), Location::Nowhere);
         assert!(matches!(locator.locate_many(&[[0.0, f64::NAN]]), Err(Error::NotFinite { index: 0, axis: 'y', .. })));
@@ -198,7 +198,7 @@ fn meshes_without_simplices_contain_nothing() {
 fn what_are_not_the_points_of_the_mesh_is_an_error() {
     let triangulator = triangulator();
     let points = generate2d(Distribution2::Uniform, 300, 3);
-    let mesh = triangulator.delaunay2d_on_device(&points).unwrap();
+    let mesh = triangulator.device().expect("opens").delaunay2d(&points).unwrap();
     let few = DeviceLocator::new(&mesh, &points[..2]).unwrap_err();
     assert_eq!(few, Error::PointCount { points: 2, expected: 300 });
     let mut bad = points.clone();
@@ -233,11 +233,11 @@ macro_rules! check_values {
 fn linear_interpolation_is_that_of_the_host() {
     let triangulator = triangulator();
     for (name, points) in inputs3() {
-        let mesh = triangulator.delaunay3d_on_device(&points).unwrap();
+        let mesh = triangulator.device().expect("opens").delaunay3d(&points).unwrap();
         check_values!(name, mesh, &points, &queries(&points));
     }
     for (name, points) in inputs2() {
-        let mesh = triangulator.delaunay2d_on_device(&points).unwrap();
+        let mesh = triangulator.device().expect("opens").delaunay2d(&points).unwrap();
         check_values!(name, mesh, &points, &queries(&points));
     }
 }
@@ -248,7 +248,7 @@ fn values_at_vertices_and_beside_what_is_no_number() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let points: Vec<[f32; 2]> =
         generate2d(Distribution2::Uniform, 500, 3).iter().map(|p| p.map(|x| x as f32)).collect();
-    let mesh = on(&gpu).delaunay2d_on_device(&points).unwrap();
+    let mesh = on(&gpu).device().expect("opens").delaunay2d(&points).unwrap();
     let locator = DeviceLocator::new(&mesh, &points).unwrap();
     let mut values: Vec<f32> = (0..points.len()).map(|i| 1.0 / (1.0 + i as f32)).collect();
     assert_eq!(locator.interpolate_many(&values, &points).unwrap(), values);
@@ -289,11 +289,11 @@ macro_rules! check_nearest {
 fn nearest_vertices_and_edges_are_those_of_the_host() {
     let triangulator = triangulator();
     for (name, points) in inputs3() {
-        let mesh = triangulator.delaunay3d_on_device(&points).unwrap();
+        let mesh = triangulator.device().expect("opens").delaunay3d(&points).unwrap();
         check_nearest!(name, mesh, &points, &queries(&points));
     }
     for (name, points) in inputs2() {
-        let mesh = triangulator.delaunay2d_on_device(&points).unwrap();
+        let mesh = triangulator.device().expect("opens").delaunay2d(&points).unwrap();
         check_nearest!(name, mesh, &points, &queries(&points));
     }
 }
@@ -303,12 +303,12 @@ fn nearest_vertices_of_many_queries_are_found_by_the_device() {
     let triangulator = triangulator();
     for distribution in [Distribution3::Uniform, Distribution3::Gaussian, Distribution3::Grid] {
         let points = generate3d(distribution, 10_000, 3);
-        let mesh = triangulator.delaunay3d_on_device(&points).unwrap();
+        let mesh = triangulator.device().expect("opens").delaunay3d(&points).unwrap();
         let open = check_nearest!(distribution.name(), mesh, &points, &generate3d(distribution, 20_000, 4));
         assert!(open < 20, "{distribution:?}: the host has answered {open} queries");
     }
     let points = generate2d(Distribution2::Uniform, 20_000, 3);
-    let mesh = triangulator.delaunay2d_on_device(&points).unwrap();
+    let mesh = triangulator.device().expect("opens").delaunay2d(&points).unwrap();
     assert_eq!(check_nearest!("2D", mesh, &points, &generate2d(Distribution2::Uniform, 20_000, 4)), 0);
 }
 
@@ -368,7 +368,7 @@ fn circumspheres_are_those_of_the_host() {
         ("nearer than the lattice", near_a_plane(1e-17)),
     ]);
     for (name, points) in inputs {
-        let mesh = triangulator.delaunay3d_on_device(&points).unwrap();
+        let mesh = triangulator.device().expect("opens").delaunay3d(&points).unwrap();
         let read = mesh.read(Outputs::SIMPLICES).unwrap();
         let locator = DeviceLocator::new(&mesh, &points).unwrap();
         let open = check_spheres(&gpu, name, &locator, &read.tetrahedra, &points);
@@ -394,7 +394,7 @@ fn circumscribed_circles_are_those_of_the_host() {
         ("nearer than the lattice", near_a_line(1e-17)),
     ]);
     for (name, points) in inputs {
-        let mesh = triangulator.delaunay2d_on_device(&points).unwrap();
+        let mesh = triangulator.device().expect("opens").delaunay2d(&points).unwrap();
         let read = mesh.read(Outputs::SIMPLICES).unwrap();
         let locator = DeviceLocator::new(&mesh, &points).unwrap();
         let open = check_spheres(&gpu, name, &locator, &read.triangles, &points);
@@ -412,7 +412,7 @@ fn circumscribed_circles_are_those_of_the_host() {
 fn futures_can_be_sent() {
     fn assert_send(_: impl Send) {}
     let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0f64]];
-    let mesh = triangulator().delaunay2d_on_device(&points).unwrap();
+    let mesh = triangulator().device().expect("opens").delaunay2d(&points).unwrap();
     let locator = DeviceLocator::new(&mesh, &points).unwrap();
     assert_send(DeviceLocator::new_async(&mesh, &points));
     assert_send(locator.locate_many_async(&points));

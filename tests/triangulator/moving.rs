@@ -169,7 +169,7 @@ macro_rules! begins_anew_until_steps_are_short {
         fn $name() {
             let mut points = motions::uniform::<$D>(2000, 14);
             let triangulator = Triangulator::new().backend(Backend::Gpu);
-            let mut mesh = triangulator.$triangulate(&points).expect("triangulates");
+            let mut mesh = triangulator.device().expect("opens").$triangulate(&points).expect("triangulates");
             let (near, far) = (1e-3, 0.5);
             let steps = [near, far, near, far, far, near, near, near, near, far, far, far, far, far, near, near];
             let mut begun_anew = 0;
@@ -187,18 +187,12 @@ macro_rules! begins_anew_until_steps_are_short {
         }
     };
 }
-begins_anew_until_steps_are_short!(begins_anew_until_steps_are_short3, 3, delaunay3d_on_device, Points3, same);
-begins_anew_until_steps_are_short!(
-    begins_anew_until_steps_are_short2,
-    2,
-    delaunay2d_on_device,
-    Points2,
-    crate::d2::same
-);
+begins_anew_until_steps_are_short!(begins_anew_until_steps_are_short3, 3, delaunay3d, Points3, same);
+begins_anew_until_steps_are_short!(begins_anew_until_steps_are_short2, 2, delaunay2d, Points2, crate::d2::same);
 
 fn on_device(points: &[[f64; 3]]) -> (Triangulator, DeviceMesh3) {
     let triangulator = Triangulator::new().backend(Backend::Gpu);
-    let mesh = triangulator.delaunay3d_on_device(points).expect("triangulates");
+    let mesh = triangulator.device().expect("opens").delaunay3d(points).expect("triangulates");
     (triangulator, mesh)
 }
 

@@ -26,7 +26,7 @@ fn a_mesh_on_the_device_is_that_of_the_host() {
     let triangulator = on(&device());
     for distribution in [Distribution3::Uniform, Distribution3::Sphere, Distribution3::Grid] {
         let points = generate3d(distribution, 2_000, 5);
-        let mesh = triangulator.delaunay3d_on_device(&points).expect("triangulates");
+        let mesh = triangulator.device().expect("opens").delaunay3d(&points).expect("triangulates");
         assert_eq!((mesh.stats().fallback.as_ref(), mesh.stats().backend), (None, Backend::Gpu));
         let read = mesh.read(Outputs::ALL).expect("reads");
         same(&points, &read);
@@ -47,7 +47,7 @@ fn a_mesh_on_the_device_is_that_of_the_host_in_2d() {
     let triangulator = on(&device());
     for distribution in [Distribution2::Uniform, Distribution2::Circle, Distribution2::Grid] {
         let points = generate2d(distribution, 2_000, 5);
-        let mesh = triangulator.delaunay2d_on_device(&points).expect("triangulates");
+        let mesh = triangulator.device().expect("opens").delaunay2d(&points).expect("triangulates");
         assert_eq!((mesh.stats().fallback.as_ref(), mesh.stats().backend), (None, Backend::Gpu));
         let read = mesh.read(Outputs::ALL).expect("reads");
         let expected = triangulator.delaunay2d(&points).expect("triangulates");
@@ -72,7 +72,7 @@ fn what_the_host_has_flipped_is_on_the_device_in_2d() {
     let mut points = generate2d(Distribution2::Uniform, 500, 7);
     // Closer to each other than the points of the lattice.
     points.extend([[1e-25, 2e-25], [3e-25, 1e-25], [2e-25, 5e-25]]);
-    let mesh = triangulator.delaunay2d_on_device(&points).expect("triangulates");
+    let mesh = triangulator.device().expect("opens").delaunay2d(&points).expect("triangulates");
     assert_eq!((mesh.stats().fallback.as_ref(), mesh.stats().backend), (None, Backend::Gpu));
     assert!(mesh.stats().phases.iter().any(|&(phase, _)| phase == Phase::Flip), "{:?}", mesh.stats().phases);
     let read = mesh.read(Outputs::ALL).expect("reads");
@@ -85,7 +85,7 @@ fn only_what_is_asked_for_is_read() {
     let triangulator = on(&device());
     let mut points = generate3d(Distribution3::Uniform, 500, 3);
     points.extend_from_within(..10);
-    let mesh = triangulator.delaunay3d_on_device(&points).expect("triangulates");
+    let mesh = triangulator.device().expect("opens").delaunay3d(&points).expect("triangulates");
     let all = mesh.read(Outputs::ALL).expect("reads");
     for outputs in [Outputs::NONE, Outputs::SIMPLICES, Outputs::NEIGHBORS, Outputs::HULL | Outputs::SIMPLICES] {
         let read = mesh.read(outputs).expect("reads");
@@ -104,8 +104,16 @@ fn only_what_is_asked_for_is_read() {
 #[test]
 fn arrays_are_reused() {
     let triangulator = on(&device());
-    let large = triangulator.delaunay3d_on_device(&generate3d(Distribution3::Uniform, 1_000, 3)).expect("triangulates");
-    let small = triangulator.delaunay3d_on_device(&generate3d(Distribution3::Uniform, 500, 4)).expect("triangulates");
+    let large = triangulator
+        .device()
+        .expect("opens")
+        .delaunay3d(&generate3d(Distribution3::Uniform, 1_000, 3))
+        .expect("triangulates");
+    let small = triangulator
+        .device()
+        .expect("opens")
+        .delaunay3d(&generate3d(Distribution3::Uniform, 500, 4))
+        .expect("triangulates");
     let mut mesh = Mesh3::default();
     large.read_into(Outputs::ALL, &mut mesh).expect("reads");
     let memory = |mesh: &Mesh3| (mesh.tetrahedra.as_ptr(), mesh.neighbors.as_ptr(), mesh.hull.as_ptr());
@@ -126,7 +134,8 @@ fn arrays_are_reused() {
 fn a_mesh_outlives_later_runs_and_its_triangulator() {
     let triangulator = on(&device());
     let inputs: Vec<_> = (0..3).map(|seed| generate3d(Distribution3::Uniform, 800, seed)).collect();
-    let meshes: Vec<_> = inputs.iter().map(|p| triangulator.delaunay3d_on_device(p).expect("triangulates")).collect();
+    let meshes: Vec<_> =
+        inputs.iter().map(|p| triangulator.device().expect("opens").delaunay3d(p).expect("triangulates")).collect();
     drop(triangulator);
     for (points, mesh) in inputs.iter().zip(&meshes) {
         same(points, &mesh.read(Outputs::ALL).expect("reads"));
@@ -138,25 +147,25 @@ fn a_mesh_outlives_later_runs_and_its_triangulator() {
 fn what_the_cpu_has_made_is_on_the_device_too() {
     let triangulator = on(&device());
     let flat = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 1.0f64]];
-    let mesh = triangulator.delaunay3d_on_device(&flat).expect("triangulates");
+    let mesh = triangulator.device().expect("opens").delaunay3d(&flat).expect("triangulates");
     assert_eq!(mesh.stats().fallback, Some(Fallback::Coplanar));
     assert_eq!((mesh.dimension(), mesh.simplex_count(), mesh.hull_count(), mesh.point_count()), (2, 0, 0, 4));
     same(&flat, &mesh.read(Outputs::ALL).expect("reads"));
     assert_eq!(mesh.read_vertex_simplex().expect("reads"), [-1; 4]);
 
     let line = [[2.0, 0.0], [0.0, 0.0], [1.0, 0.0f64]];
-    let mesh = triangulator.delaunay2d_on_device(&line).expect("triangulates");
+    let mesh = triangulator.device().expect("opens").delaunay2d(&line).expect("triangulates");
     assert_eq!((mesh.dimension(), mesh.simplex_count(), mesh.hull_count()), (1, 0, 3));
     assert_eq!(mesh.read(Outputs::ALL).expect("reads").hull, [1, 2, 0]);
 
-    let empty = triangulator.delaunay3d_on_device(&Vec::<[f64; 3]>::new()).expect("triangulates");
+    let empty = triangulator.device().expect("opens").delaunay3d(&Vec::<[f64; 3]>::new()).expect("triangulates");
     assert_eq!((empty.point_count(), empty.read(Outputs::ALL).expect("reads").dimension), (0, 0));
 
     // The device is opened for the mesh, and once.
     let points = generate3d(Distribution3::Uniform, 300, 1);
     let triangulator = Triangulator::new().backend(Backend::Cpu);
     for _ in 0..2 {
-        let mesh = triangulator.delaunay3d_on_device(&points).expect("triangulates");
+        let mesh = triangulator.device().expect("opens").delaunay3d(&points).expect("triangulates");
         assert_eq!(mesh.stats().backend, Backend::Cpu);
         same(&points, &mesh.read(Outputs::ALL).expect("reads"));
     }
@@ -180,18 +189,26 @@ fn points_in_a_buffer_of_the_device() {
         buffer
     };
     let source = buffer(bytemuck::cast_slice(&points), wgpu::BufferUsages::COPY_SRC);
-    let mesh = triangulator.delaunay3d_of_buffer(&source).expect("triangulates");
+    let mesh = triangulator.device().expect("opens").delaunay3d_from_buffer(&source).expect("triangulates");
     same(&points, &mesh.read(Outputs::ALL).expect("reads"));
 
     let flat: Vec<[f32; 2]> = points.iter().map(|&[x, y, _]| [x, y]).collect();
     let source = buffer(bytemuck::cast_slice(&flat), wgpu::BufferUsages::COPY_SRC);
-    let mesh = triangulator.delaunay2d_of_buffer(&source).expect("triangulates");
+    let mesh = triangulator.device().expect("opens").delaunay2d_from_buffer(&source).expect("triangulates");
     let expected: Mesh2 = triangulator.delaunay2d(&flat).expect("triangulates");
     assert!(mesh.read(Outputs::ALL).expect("reads").canonical() == expected.canonical());
 
-    let error = triangulator.delaunay3d_of_buffer(&buffer(&[0; 16], wgpu::BufferUsages::COPY_SRC)).expect_err("16");
+    let error = triangulator
+        .device()
+        .expect("opens")
+        .delaunay3d_from_buffer(&buffer(&[0; 16], wgpu::BufferUsages::COPY_SRC))
+        .expect_err("16");
     assert_eq!(error, Error::NotWholePoints { length: 4, dimension: 3 });
-    let error = triangulator.delaunay3d_of_buffer(&buffer(&[0; 48], wgpu::BufferUsages::STORAGE)).expect_err("usage");
+    let error = triangulator
+        .device()
+        .expect("opens")
+        .delaunay3d_from_buffer(&buffer(&[0; 48], wgpu::BufferUsages::STORAGE))
+        .expect_err("usage");
     assert!(matches!(error, Error::Gpu { .. }), "{error:?}");
     // The triangulator can still be used.
     same(&points, &triangulator.delaunay3d(&points).expect("triangulates"));
@@ -202,18 +219,21 @@ fn reading_after_the_loss_of_the_device_is_an_error() {
     let gpu = device();
     let triangulator = Triangulator::from_gpu(gpu.clone()).backend(Backend::Gpu);
     let points = generate3d(Distribution3::Uniform, 200, 1);
-    let mesh = triangulator.delaunay3d_on_device(&points).expect("triangulates");
+    let mesh = triangulator.device().expect("opens").delaunay3d(&points).expect("triangulates");
     gpu.device().destroy();
     assert!(matches!(mesh.read(Outputs::ALL), Err(Error::DeviceLost { .. })));
     assert!(matches!(mesh.read_vertex_simplex(), Err(Error::DeviceLost { .. })));
-    assert!(matches!(triangulator.delaunay3d_on_device(&points), Err(Error::DeviceLost { .. })));
+    assert!(matches!(
+        triangulator.device().and_then(|device| device.delaunay3d(&points)),
+        Err(Error::DeviceLost { .. })
+    ));
     // The next run opens another device.
-    let again = triangulator.delaunay3d_on_device(&points).expect("triangulates");
+    let again = triangulator.device().expect("opens").delaunay3d(&points).expect("triangulates");
     same(&points, &again.read(Outputs::ALL).expect("reads"));
 
     // The caller's handlers are left alone, so there it is an error of the GPU.
     let gpu = device();
-    let mesh = on(&gpu).delaunay3d_on_device(&points).expect("triangulates");
+    let mesh = on(&gpu).device().expect("opens").delaunay3d(&points).expect("triangulates");
     gpu.device().destroy();
     assert!(matches!(mesh.read(Outputs::ALL), Err(Error::Gpu { .. } | Error::DeviceLost { .. })));
 }

@@ -42,7 +42,6 @@ fn the_statistics_add_up() {
     assert!(gpu.rounds.iter().all(|round| !round.time.is_zero()));
     assert!(gpu.failed_vertices > 0 && gpu.not_locally_delaunay >= gpu.failed_vertices / 3);
     assert!(splay.failed >= gpu.failed_vertices as usize && splay.built >= splay.failed);
-    assert_eq!(gpu.long_walks, 0);
     assert!(gpu.dispatches > gpu.submits && gpu.readbacks > gpu.submits);
     assert!(gpu.exact_tests > 0 && gpu.bytes > 500 * 8_000);
     assert_eq!(mesh.stats.trace, None);
@@ -78,21 +77,18 @@ fn phase_1_starts_with_points_that_the_cpu_has_triangulated() {
 }
 
 /// The kernel that does iterations of few tetrahedra in one workgroup may not be compiled yet in a
-/// first run. Both ways make the same mesh, and the statistics say which it was.
+/// first run. Both ways make the same mesh.
 #[test]
-fn iterations_in_one_workgroup_are_counted() {
+fn iterations_in_one_workgroup_make_the_same_mesh() {
     let points = generate3d(Distribution3::Uniform, 20_000, 1);
     let mut engine = engine();
     block_on(engine.finish_compiling()).expect("the kernels compile");
-    let mut meshes = [0, Settings::<3>::default().few].map(|few| {
+    let [none, some] = [0, Settings::<3>::default().few].map(|few| {
         engine.set_settings(Settings { few, ..Settings::default() });
         block_on(engine.triangulate((&points).into(), &Options::default())).expect("triangulates")
     });
     engine.set_settings(Settings::default());
-    let [none, some] = meshes.each_mut().map(|mesh| mesh.stats.gpu.take().expect("the GPU worked"));
-    assert!(none.few_iterations == 0 && none.flip_iterations > 0, "{none:?}");
-    assert!(some.few_iterations > 0 && some.few_iterations < some.flip_iterations, "{some:?}");
-    assert!(meshes[0].canonical() == meshes[1].canonical());
+    assert!(none.canonical() == some.canonical());
 }
 
 #[test]

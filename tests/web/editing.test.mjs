@@ -48,7 +48,7 @@ for (const [key, { triangulate, blocking, generate, verify, arrays }] of Object.
     const before = arraysOf(mesh);
     const copies = before.map((array) => array.slice());
     const [first, second] = [all.slice(600 * D, 601 * D), all.slice(601 * D)];
-    assert.equal(await mesh.insert(first), undefined);
+    assert.deepEqual(await mesh.insert(first), Uint32Array.of(600));
     const update = (removed, inserted) =>
       assert.deepEqual(
         [mesh.stats.update.removed, mesh.stats.update.inserted, mesh.stats.update.restarted],

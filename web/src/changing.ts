@@ -54,12 +54,15 @@ export abstract class Mesh {
    */
   abstract _source(): Source;
 
-  /** Has the mesh replaced. `edit` says what is removed; without it, the points have moved. */
+  /**
+   * Has the mesh replaced. `edit` says what is removed; without it, the points have moved. Returns the
+   * indices of new points; or, of those that are left where some were dropped, what they were.
+   */
   #change(
     points: unknown,
     options: UpdateOptions | undefined,
     edit?: Omit<Edit, 'before'>,
-  ): Promise<Indices | undefined> {
+  ): Promise<Indices> {
     return this.#updating.run(async () => {
       const { points: before, mesh } = this._source();
       const { hull, dimension, stats } = this;
@@ -67,7 +70,9 @@ export abstract class Mesh {
       const done = await this.#update(points, options, moved, stats, edit && { ...edit, before });
       const { kept, ...result } = done.result as typeof done.result & { kept?: Indices };
       this._take({ ...done, result } as Done<Task>);
-      return kept;
+      const first = mesh.duplicateOf.length;
+      const length = this._source().mesh.duplicateOf.length - first;
+      return kept ?? Uint32Array.from({ length }, (_, i) => first + i);
     });
   }
 
@@ -93,20 +98,20 @@ export abstract class Mesh {
   }
 
   /**
-   * Adds points to the mesh, after those that it has. It becomes the same as a run from scratch makes of
-   * all, except for the order of its simplices: also if new points lie outside the hull, equal others,
-   * or are the first that are not flat. A few points take little more than copies of the arrays. The CPU
-   * does it; else as for {@link update}.
+   * Inserts points into the mesh, after those that it has, and returns their indices. It becomes the same
+   * as a run from scratch makes of all, except for the order of its simplices: also if new points lie
+   * outside the hull, equal others, or are the first that are not flat. A few points take little more
+   * than copies of the arrays. The CPU does it; else as for {@link update}.
    *
    * @throws {@link GdelError} as {@link update}; the `index` in `NOT_FINITE` is among the new points.
    */
-  insert(points: Points, options?: UpdateOptions): Promise<void>;
+  insert(points: Points, options?: UpdateOptions): Promise<Indices>;
   insert<P>(
     points: ArrayLike<P>,
     options: UpdateOptions & Pick<AccessorOptions<P>, 'point'>,
-  ): Promise<void>;
-  async insert(points: unknown, options?: UpdateOptions): Promise<void> {
-    await this.#change(points, options, { removed: new Float64Array(0) });
+  ): Promise<Indices>;
+  async insert(points: unknown, options?: UpdateOptions): Promise<Indices> {
+    return this.#change(points, options, { removed: new Float64Array(0) });
   }
 
   /**
@@ -132,7 +137,7 @@ export abstract class Mesh {
    * @throws {@link GdelError} as {@link update}.
    */
   async compact(options?: TaskOptions): Promise<Indices> {
-    return (await this.#change([], options, {}))!;
+    return this.#change([], options, {});
   }
 
   /**

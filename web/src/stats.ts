@@ -51,12 +51,6 @@ export interface GpuStats {
    * sample has duplicates.
    */
   startPoints: number;
-  /**
-   * The number of points for which the walk to their simplex of this start took so many steps that
-   * all simplices were looked at in turn: 0 as a rule. Where it is not, the points were inserted
-   * anew into one simplex.
-   */
-  longWalks: number;
   /** The number of flips of two tetrahedra into three. */
   flips23: number;
   /** The number of flips of three tetrahedra into two. */
@@ -65,11 +59,6 @@ export interface GpuStats {
   flips22: number;
   /** The number of flip iterations that had something to do. */
   flipIterations: number;
-  /**
-   * The number of them that were done in one workgroup, in 3D: those with few active tetrahedra,
-   * and none while the kernel for that is being compiled, which a first run does not wait for.
-   */
-  fewIterations: number;
   /** The number of predicate evaluations that took exact arithmetic. */
   exactTests: number;
   /**

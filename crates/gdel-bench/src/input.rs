@@ -113,7 +113,7 @@ impl Space<2> for Dimension<2> {
     }
 
     fn triangulate_resident(triangulator: &Triangulator, points: Points<'_, 2>) -> Result<DeviceMesh2, Error> {
-        triangulator.delaunay2d_on_device(points)
+        triangulator.device()?.delaunay2d(points)
     }
 
     fn summary(mesh: &Mesh2) -> (usize, &[i32], &Stats) {
@@ -134,7 +134,7 @@ impl Space<3> for Dimension<3> {
     }
 
     fn triangulate_resident(triangulator: &Triangulator, points: Points<'_, 3>) -> Result<DeviceMesh3, Error> {
-        triangulator.delaunay3d_on_device(points)
+        triangulator.device()?.delaunay3d(points)
     }
 
     fn summary(mesh: &Mesh3) -> (usize, &[i32], &Stats) {

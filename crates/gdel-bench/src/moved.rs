@@ -5,7 +5,7 @@ use crate::{
     row::{Row, try_timed},
 };
 use clap::Args;
-use gdel::{Backend, DeviceMesh, Moving, Points, internals::dimension::Dimension};
+use gdel::{Backend, DeviceMesh, Editable, Points, internals::dimension::Dimension};
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 use std::{array, error::Error, f64::consts::TAU};
 
@@ -49,8 +49,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
 fn follow<const D: usize>(arguments: &Arguments, points: usize, share: f64) -> Result<Row, gdel::Error>
 where
     Dimension<D>: Space<D>,
-    DeviceMesh<D>: Moving,
-    for<'a> <DeviceMesh<D> as Moving>::Points<'a>: From<&'a [[f64; D]]>,
+    DeviceMesh<D>: Editable<D>,
 {
     let mut random = StdRng::seed_from_u64(1);
     let mut at: Vec<[f64; D]> = (0..points).map(|_| array::from_fn(|_| random.random())).collect();
@@ -68,7 +67,7 @@ where
     let (mut updates, mut scratches) = (Vec::new(), Vec::new());
     for _ in 0..WARM_UP + arguments.runs {
         displace(&mut at);
-        let (time, ()) = try_timed(|| triangulator.update(&mut mesh, &at[..]))?;
+        let (time, ()) = try_timed(|| triangulator.update(&mut mesh, Points::F64(&at)))?;
         updates.push(time);
         restarts.push(mesh.stats().update.is_some_and(|update| update.restarted.is_some()));
     }

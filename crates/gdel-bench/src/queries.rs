@@ -40,7 +40,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     };
     let (points, queries) = (single(arguments.points, 1), single(arguments.queries, 2));
     let triangulator = Triangulator::from_device(gpu.device().clone(), gpu.queue().clone());
-    let mesh = triangulator.delaunay3d_on_device(&points)?;
+    let mesh = triangulator.device()?.delaunay3d(&points)?;
 
     let runs = arguments.runs;
     let (create, locator) = repeated(runs, 1.0, || try_timed(|| DeviceLocator::new(&mesh, &points)))?;

@@ -58,7 +58,7 @@ pub trait Edit<const D: usize, const N: usize>: Incremental<D, Triangulation: Sl
     /// Changes a mesh, for whose simplices there is room.
     fn apply(mesh: &mut Self::Mesh, patch: Patch<N, Self::Hull>, winding: Winding);
 
-    /// Makes room for so many simplices.
+    /// Makes room for `simplices` simplices.
     ///
     /// # Errors
     ///

@@ -80,13 +80,13 @@ impl Plan {
 pub(super) fn check_indices(duplicate_of: &[i32], removed: &[u32]) -> Result<(), Error> {
     let mut seen = FxHashSet::default();
     for &index in removed {
-        let why = match duplicate_of.get(index as usize) {
+        let reason = match duplicate_of.get(index as usize) {
             None => "there is no such point",
             Some(&first) if first == index as i32 => "it was removed before",
             Some(_) if !seen.insert(index) => "it is given twice",
             Some(_) => continue,
         };
-        return Err(Error::BadIndex { index, why });
+        return Err(Error::BadIndex { index, reason });
     }
     Ok(())
 }

@@ -25,8 +25,8 @@ pub type HullOf<const D: usize, const N: usize> = <Dimension<D> as Edit<D, N>>::
 /// The two highest bits of the first vertex are for marks.
 const MARKS: u32 = 3 << 30;
 
-/// So many times the simplices of a mesh are looked at while one vertex is inserted or removed, at
-/// most: fewer in every Delaunay triangulation.
+/// The largest number of looks at simplices, by their number, while one vertex is inserted or removed.
+/// Every Delaunay triangulation needs fewer.
 const FUEL: usize = 64;
 
 /// A slot that has been looked at.
@@ -34,15 +34,15 @@ const FUEL: usize = 64;
 struct Slot<const N: usize> {
     /// The vertices; [`NO_INDEX`] in a slot that is not used.
     simplex: [u32; N],
-    /// The neighbours. Those of ghosts are [`NO_INDEX`] until somebody asks for them, except for the
+    /// The neighbours. Those of ghosts are [`NO_INDEX`] until they are asked for, except for the
     /// simplex inside.
     neighbors: [u32; N],
-    /// Whether the mesh has something else.
+    /// Whether the mesh has other vertices or neighbours here.
     has_changed: bool,
 }
 
 impl<const N: usize> Slot<N> {
-    /// What is seen of a mesh that is none: a simplex that contains nothing.
+    /// Placeholder in a mesh that is broken: a simplex that contains nothing.
     const NONE: Slot<N> = Slot { simplex: [0; N], neighbors: [0; N], has_changed: false };
 
     fn vertices(&self) -> [u32; N] {
@@ -61,7 +61,7 @@ impl<const N: usize> Slot<N> {
     }
 }
 
-/// What has been looked at, and changed.
+/// The slots that have been looked at or changed.
 struct State<const N: usize> {
     /// Simplices of the mesh, by their numbers.
     slots: FxHashMap<u32, Slot<N>>,
@@ -73,13 +73,13 @@ struct State<const N: usize> {
     hull: Vec<[u32; N]>,
     /// The slots that were filled by the insertion or removal that is going on.
     filled: Vec<u32>,
-    /// How many simplices it may still look at.
+    /// The number of looks at simplices that it has left.
     fuel: usize,
     /// Whether the mesh has turned out not to be the triangulation of its points.
     is_broken: bool,
 }
 
-/// A mesh that seems to have changed.
+/// A mesh with changes that are not applied to it yet.
 pub struct Sparse<'m, 'p, const D: usize, const N: usize>
 where
     Dimension<D>: Edit<D, N>,
@@ -235,7 +235,7 @@ where
         gaps.sort_unstable();
         let new_count = count + movers.len() as u32 - gaps.len() as u32;
         gaps.extend(count..new_count);
-        // What is beyond the new end moves into the gaps before it.
+        // Simplices beyond the new end move into the gaps before it.
         let beyond = new_count.min(count)..count;
         movers.extend(beyond.filter(|&t| self.with(t, |slot| finite(slot))));
         gaps.truncate(gaps.partition_point(|&t| t < new_count));
@@ -299,7 +299,7 @@ where
             let state = &mut *self.state.borrow_mut();
             match state.fuel.checked_sub(1) {
                 Some(fuel) if !state.is_broken => state.fuel = fuel,
-                // What walks over a mesh that is none sees nothing that it would have to go to.
+                // A walk ends at a simplex that contains nothing.
                 _ => {
                     state.is_broken = true;
                     return [0; N];

@@ -13,7 +13,7 @@ use crate::{
 };
 use std::num::NonZeroUsize;
 
-/// What it takes to triangulate the points of a mesh from scratch, some of which are unused.
+/// Why the points of a mesh have to be triangulated from scratch, and which of them are unused.
 #[derive(Debug)]
 pub struct Again {
     /// Why the mesh was not changed.
@@ -63,7 +63,7 @@ impl<const D: usize> Used<D> {
         Points::F64(&self.points)
     }
 
-    /// Makes the mesh of these points that of all points, with at most so many threads.
+    /// Makes the mesh of these points that of all points, with at most `threads` threads.
     ///
     /// # Errors
     ///

@@ -147,8 +147,8 @@ impl OutputStage {
             None => Vec::new(),
         };
         if (counted[0], on_hull[0]) != (finite, hull) {
-            let message = "the device and the host count the tetrahedra of the mesh differently".to_owned();
-            return Err(Error::Gpu { message });
+            let reason = "the device and the host count the tetrahedra of the mesh differently".to_owned();
+            return Err(Error::Gpu { reason });
         }
         let hull = hull_words.as_chunks().0.to_vec();
         Ok(Made { arrays, hull, dispatches })

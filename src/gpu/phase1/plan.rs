@@ -235,7 +235,7 @@ impl Plan {
                 ..stats::Round::default()
             });
             if known.inserted == known.inserted_before && known.waiting > 0 {
-                return Err(Error::Gpu { message: "an insertion round inserted nothing".to_owned() });
+                return Err(Error::Gpu { reason: "an insertion round inserted nothing".to_owned() });
             }
             self.iterations.plan(known);
             last = now;

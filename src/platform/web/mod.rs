@@ -16,3 +16,9 @@ pub(crate) use web_time::Instant;
 /// WebAssembly, and reach JavaScript with one copy.
 #[cfg(feature = "gpu")]
 pub(crate) const MESHES_STAY_ON_DEVICE: bool = true;
+
+/// Whether a thread can wait for a GPU: its events come only when the thread is idle.
+#[cfg(feature = "gpu")]
+pub(crate) const CAN_WAIT: bool = false;
+
+pub(crate) use super::if_ready as wait;
