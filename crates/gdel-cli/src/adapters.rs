@@ -1,6 +1,6 @@
 //! `gdel adapters`: the GPUs of this machine.
 
-use super::Failure;
+use super::failure::Failure;
 use std::io::{self, Write};
 
 pub(super) fn run() -> Result<(), Failure> {

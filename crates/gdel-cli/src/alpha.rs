@@ -1,10 +1,9 @@
 //! `gdel alpha`: the alpha shape of points.
 
 use super::{
-    Failure,
     derive::{Common, Found, Number, write},
     dimension::{Dimension, Triangulation},
-    usage,
+    failure::Failure,
 };
 use clap::{Args, builder::TypedValueParser, error::ErrorKind};
 use gdel::{
@@ -82,7 +81,7 @@ where
 {
     let Arguments { common, alpha, components, output } = arguments;
     if let (Alpha::Radius(_), Some(_)) = (alpha, components) {
-        usage(ErrorKind::ArgumentConflict, "--components needs --alpha auto");
+        return Err(Failure::Usage(ErrorKind::ArgumentConflict, "--components needs --alpha auto".into()));
     }
     let components = components.map_or(1, NonZeroUsize::get);
     let input = common.input()?;

@@ -1,12 +1,10 @@
 //! The frame of the commands that derive something from a triangulation.
 
 use super::{
-    Failure,
     dimension::{Counts, Dimension, Triangulation, format_parser, read},
-    input,
+    failure::Failure,
     progress::Progress,
     triangulate::{BackendName, StatsForm, print, triangulate},
-    usage,
 };
 use clap::{
     Args,
@@ -70,13 +68,15 @@ impl Queries {
         let standard_input = Path::new("-");
         if self.queries == standard_input {
             if self.queries_format.is_none() {
-                usage(MissingRequiredArgument, "give the format of the queries with `--queries-format`");
+                let what = "give the format of the queries with `--queries-format`";
+                return Err(Failure::Usage(MissingRequiredArgument, what.into()));
             }
             if points.path() == standard_input {
-                usage(ArgumentConflict, "only one of the points and the queries can be standard input");
+                let what = "only one of the points and the queries can be standard input";
+                return Err(Failure::Usage(ArgumentConflict, what.into()));
             }
         }
-        Ok(input(&self.queries, self.queries_format)?)
+        Ok(Input::new(&self.queries, self.queries_format)?)
     }
 
     /// Reads the queries, and checks that all are finite.
@@ -146,7 +146,7 @@ pub(super) struct Found<T> {
 impl Common {
     /// Creates the input of the points.
     pub(super) fn input(&self) -> Result<Input, Failure> {
-        Ok(input(&self.points, self.format)?)
+        Ok(Input::new(&self.points, self.format)?)
     }
 
     /// Checks early that the output can be written and is none of the inputs.

@@ -1,6 +1,6 @@
 //! `--dim`, and the operations on meshes of either dimension.
 
-use super::Failure;
+use super::failure::Failure;
 use clap::{ValueEnum, builder::PossibleValuesParser, builder::TypedValueParser};
 use gdel::{Error, Mesh2, Mesh3, Points, Points2, Points3, Triangulator, internals::mesh, verify::Report as Proof};
 use gdel_io::{

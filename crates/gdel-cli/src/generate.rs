@@ -1,6 +1,6 @@
 //! `gdel generate`: random point clouds.
 
-use super::{Failure, dimension::Dimension, progress::Progress, usage};
+use super::{dimension::Dimension, failure::Failure, progress::Progress};
 use clap::{Args, builder::PossibleValuesParser, error::ErrorKind};
 use gdel::internals::{
     d2::generate::{Distribution2, generate2d},
@@ -56,13 +56,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     match arguments.dim {
         Dimension::Three => match Distribution3::ALL.into_iter().find(|d| d.name() == name) {
             Some(distribution) => output.write((&generate3d(distribution, count, seed)).into())?,
-            None => usage(ErrorKind::InvalidValue, &format!("{name} is a distribution in 2D: add --dim 2")),
+            None => {
+                let what = format!("{name} is a distribution in 2D: add --dim 2");
+                return Err(Failure::Usage(ErrorKind::InvalidValue, what));
+            }
         },
         Dimension::Two => match Distribution2::ALL.into_iter().find(|d| d.name() == name) {
             Some(distribution) => output.write((&generate2d(distribution, count, seed)).into())?,
             None => {
                 let known = Distribution2::ALL.map(Distribution2::name).join(", ");
-                usage(ErrorKind::InvalidValue, &format!("{name} is a distribution in 3D; those in 2D are {known}"))
+                let what = format!("{name} is a distribution in 3D; those in 2D are {known}");
+                return Err(Failure::Usage(ErrorKind::InvalidValue, what));
             }
         },
     }

@@ -1,9 +1,9 @@
 //! `gdel interpolate`: values at the points in, values at queries out.
 
 use super::{
-    Failure,
     derive::{Common, Found, Number, Queries},
     dimension::{Dimension, Triangulation},
+    failure::Failure,
     locate::{parse_table, write_table},
 };
 use clap::{Args, ValueEnum};

@@ -1,9 +1,9 @@
 //! `gdel locate`: which simplex contains each query, and which vertex is nearest.
 
 use super::{
-    Failure,
     derive::{Common, Found, Number, Queries, write},
     dimension::{Dimension, Triangulation},
+    failure::Failure,
 };
 use clap::Args;
 use gdel::{

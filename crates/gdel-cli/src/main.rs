@@ -5,6 +5,7 @@ mod adapters;
 mod alpha;
 mod derive;
 mod dimension;
+mod failure;
 mod generate;
 mod interpolate;
 mod locate;
@@ -19,16 +20,12 @@ mod verify;
 mod voronoi;
 
 use clap::{CommandFactory, Parser, Subcommand, error::ErrorKind};
-use gdel_io::{
-    PointFormat,
-    files::{FileError, Input, shown},
-    printable,
-};
+use failure::Failure;
+use gdel_io::{files::FileError, printable};
 use std::{
     env,
     ffi::OsString,
     io, panic,
-    path::{Path, PathBuf},
     process::{self, ExitCode},
 };
 
@@ -58,26 +55,6 @@ enum Command {
     Adapters,
 }
 
-/// Why a command failed. The text is one line of printable characters.
-#[derive(Debug, thiserror::Error)]
-enum Failure {
-    #[error(transparent)]
-    File(#[from] FileError),
-    #[error("{}: {source}", shown(path))]
-    Points { path: PathBuf, source: gdel::Error },
-    #[error("{}: not the Delaunay triangulation: {what}", shown(path))]
-    Mesh { path: PathBuf, what: String },
-    #[error("{}: not a mesh of the points in {}: {what}", shown(path), shown(input))]
-    OtherPoints { path: PathBuf, input: PathBuf, what: String },
-    #[error(
-        "{}: this file holds no points: name the file that does first, as in `gdel verify POINTS MESH`",
-        shown(path)
-    )]
-    NoPoints { path: PathBuf },
-    #[error("standard output: {0}")]
-    StandardOutput(#[from] io::Error),
-}
-
 /// Parses the arguments and runs the command.
 fn main() -> ExitCode {
     #[cfg(target_os = "linux")]
@@ -104,6 +81,10 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         // The reader of the output has closed it: `gdel … | head -1` is not a failure.
         Err(Failure::StandardOutput(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(Failure::Usage(kind, what)) => Cli::command().error(kind, what).exit(),
+        Err(Failure::File(error @ FileError::NoFormat)) => {
+            Cli::command().error(ErrorKind::MissingRequiredArgument, error).exit()
+        }
         Err(failure) => {
             eprintln!("gdel: {failure}");
             ExitCode::FAILURE
@@ -123,17 +104,4 @@ fn parse() -> Cli {
         }
         error.exit()
     })
-}
-
-/// Creates the input at `path`; without a format, standard input is wrong usage.
-fn input(path: &Path, format: Option<PointFormat>) -> Result<Input, FileError> {
-    match Input::new(path, format) {
-        Err(error @ FileError::NoFormat) => usage(ErrorKind::MissingRequiredArgument, &error.to_string()),
-        input => input,
-    }
-}
-
-/// Exits with an error about the usage.
-fn usage(kind: ErrorKind, what: &str) -> ! {
-    Cli::command().error(kind, what).exit()
 }

@@ -1,9 +1,9 @@
 //! `gdel tree`: the Euclidean minimum spanning tree of points.
 
 use super::{
-    Failure,
     derive::{Common, Found, Number, write},
     dimension::{Dimension, Triangulation},
+    failure::Failure,
 };
 use clap::Args;
 use gdel::{

@@ -1,16 +1,18 @@
 //! `gdel triangulate`: a point cloud in, its Delaunay triangulation out.
 
 use super::{
-    Failure,
     dimension::{Dimension, Triangulation, format_parser, read},
-    input,
+    failure::Failure,
     progress::Progress,
     report::Report,
     verify,
 };
 use clap::{Args, ValueEnum};
 use gdel::{Backend, Mesh2, Mesh3, Points, Triangulator};
-use gdel_io::{PointFormat, files::Output};
+use gdel_io::{
+    PointFormat,
+    files::{Input, Output},
+};
 use serde::Serialize;
 use std::{
     fmt::Display,
@@ -95,7 +97,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure> {
-    let input = input(&arguments.input, arguments.format)?;
+    let input = Input::new(&arguments.input, arguments.format)?;
     arguments.outputs.iter().try_for_each(|output| output.check(&[input.path()], arguments.force))?;
     let cloud = {
         let _progress = Progress::new("reading");

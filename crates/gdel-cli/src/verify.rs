@@ -1,9 +1,8 @@
 //! `gdel verify`: the proof that a mesh is the Delaunay triangulation of its points.
 
 use super::{
-    Failure,
     dimension::{Dimension, Triangulation, format_parser, read},
-    input,
+    failure::Failure,
     progress::Progress,
 };
 use clap::Args;
@@ -43,7 +42,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure> {
     let path = &arguments.mesh;
-    let points = arguments.points.as_ref().map(|path| input(path, arguments.format)).transpose()?;
+    let points = arguments.points.as_ref().map(|path| Input::new(path, arguments.format)).transpose()?;
     let reading = Progress::new("reading");
     let given = points.as_ref().map(read::<D>).transpose()?;
     let mut mesh = read_mesh::<M, D, N>(path)?;

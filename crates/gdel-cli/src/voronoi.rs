@@ -1,9 +1,9 @@
 //! `gdel voronoi`: the Voronoi cells of points.
 
 use super::{
-    Failure,
     derive::{Common, Found, Number, write},
     dimension::{Dimension, Triangulation},
+    failure::Failure,
 };
 use clap::{Args, ValueEnum};
 use gdel::{

@@ -1,0 +1,28 @@
+//! How commands fail.
+
+use clap::error::ErrorKind;
+use gdel_io::files::{FileError, shown};
+use std::{io, path::PathBuf};
+
+/// Why a command failed. The text is one line of printable characters.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Failure {
+    /// Wrong usage, which ends the program with 2.
+    #[error("{1}")]
+    Usage(ErrorKind, String),
+    #[error(transparent)]
+    File(#[from] FileError),
+    #[error("{}: {source}", shown(path))]
+    Points { path: PathBuf, source: gdel::Error },
+    #[error("{}: not the Delaunay triangulation: {what}", shown(path))]
+    Mesh { path: PathBuf, what: String },
+    #[error("{}: not a mesh of the points in {}: {what}", shown(path), shown(input))]
+    OtherPoints { path: PathBuf, input: PathBuf, what: String },
+    #[error(
+        "{}: this file holds no points: name the file that does first, as in `gdel verify POINTS MESH`",
+        shown(path)
+    )]
+    NoPoints { path: PathBuf },
+    #[error("standard output: {0}")]
+    StandardOutput(#[from] io::Error),
+}
