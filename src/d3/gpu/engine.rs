@@ -26,10 +26,9 @@ use crate::{
     },
     options::Options,
     parallel::Threads,
-    predicates::filter::{PredicateContext, PredicateContext3},
+    predicates::filter::PredicateContext,
     stats::{Fallback, Phase},
 };
-use std::ops::ControlFlow::{Break, Continue};
 
 impl Complete<3> for Dimension<3> {
     type Tracer = Option<Tracer>;
@@ -77,7 +76,7 @@ async fn complete_with_stars(
     let Near { points, lattice, options, adapter, moved, stats, stopwatch, .. } = near;
     options.report(Phase::Splay, progress::COMPLETION)?;
 
-    let mut vertices = PredicateContext::of_input(points, lattice);
+    let vertices = PredicateContext::of_input(points, lattice);
     let slots = device.ended.len();
     if let Some(tracer) = &mut tracer {
         let [tetrahedra, neighbors] = device.read().await?;
@@ -87,34 +86,28 @@ async fn complete_with_stars(
     let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
     let max_evaluations = splay::evaluations_from_scratch(slots);
     let terms = || Terms { max_evaluations, threads: Threads::All, report: &report };
-    // A step goes on as far as the stars suffice that were gathered before. The vertices are borrowed for it by
-    // the thread that takes it.
-    let advance = |splay: &mut Splay, vertices: &PredicateContext3<'_>, terms: Terms<'_>| -> Result<_, Stop> {
-        let lacking = splay.advance(vertices, terms)?;
-        let is_done = lacking.is_empty();
-        let patch = is_done.then(|| splay.region().patch(slots, terms.threads));
-        Ok(patch.map_or(Continue(lacking), Break))
-    };
-    let context = &mut vertices;
-    let first = move |terms: Terms<'_>| {
-        let Begun { region, doubts } = start.begin()?;
-        let mut splay = Splay::begin(context, region, Doubts { missing, ..doubts }, terms)?;
-        Ok((advance(&mut splay, context, terms)?, splay))
-    };
-    let mut step: Result<_, Stop> = first(terms());
-    let splayed = loop {
-        let (mut splay, lacking) = match step {
-            Ok((Continue(lacking), splay)) => (splay, lacking),
-            Ok((Break(patch), splay)) => break Ok((splay.finish(), patch)),
-            Err(stop) => break Err(stop),
-        };
-        let gathered = device.gather(&lacking, splay.region()).await?;
-        let context = &mut vertices;
-        let next = move |terms: Terms<'_>| {
-            splay.add(lacking, gathered)?;
-            Ok((advance(&mut splay, context, terms)?, splay))
-        };
-        step = next(terms());
+    let begun = start
+        .begin()
+        .map_err(Stop::from)
+        .and_then(|Begun { region, doubts }| Splay::begin(&vertices, region, Doubts { missing, ..doubts }, terms()));
+    let splayed = match begun {
+        Err(stop) => Err(stop),
+        // Splaying goes on as far as the stars suffice that were gathered before.
+        Ok(mut splay) => loop {
+            match splay.advance(&vertices, terms()) {
+                Err(stop) => break Err(stop),
+                Ok(lacking) if lacking.is_empty() => {
+                    let patch = splay.region().patch(slots, Threads::All);
+                    break Ok((splay.finish(), patch));
+                }
+                Ok(lacking) => {
+                    let gathered = device.gather(&lacking, splay.region()).await?;
+                    if let Err(stop) = splay.add(lacking, gathered) {
+                        break Err(stop);
+                    }
+                }
+            }
+        },
     };
     let patch = match splayed {
         Ok(((region, splay), patch)) => {

@@ -21,7 +21,9 @@ fn gdel(folder: &Path, arguments: &[&str]) -> Output {
 fn command(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_gdel"));
     // Without these, libraries of graphics drivers complain on standard error.
-    ["XDG_RUNTIME_DIR", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].map(|name| command.env_remove(name));
+    for name in ["XDG_RUNTIME_DIR", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
+        command.env_remove(name);
+    }
     command.current_dir(folder).args(arguments).stdin(Stdio::null());
     command
 }
