@@ -8,13 +8,11 @@ use crate::{
     d3::{
         Mesh3,
         gpu::{
-            exchange::{Begun, Device},
+            exchange::{Device, spare},
+            host::{Advanced, Begin, Begun, Encloses, Facets, Stars, Step},
             trace::Tracer,
             whole,
         },
-        hull::encloses_once,
-        splay::{self, Doubts, Splay, Stop, Terms},
-        triangulation::Triangulation3,
     },
     dimension::Dimension,
     error::Error,
@@ -22,14 +20,12 @@ use crate::{
         Gpu,
         device_mesh::{DeviceMesh, Outputs},
         engine::{Complete, Made, Moved, Near, progress},
+        host::Host,
         phase1::Run,
     },
     options::Options,
-    parallel::Threads,
-    predicates::filter::{PredicateContext, PredicateContext3},
     stats::{Fallback, Phase},
 };
-use std::ops::ControlFlow::{Break, Continue};
 
 impl Complete<3> for Dimension<3> {
     type Tracer = Option<Tracer>;
@@ -52,9 +48,9 @@ impl Complete<3> for Dimension<3> {
         }
     }
 
-    async fn complete(
+    async fn complete<H: Host<3>>(
         run: Run<'_, 3>,
-        near: Near<'_, 3>,
+        near: Near<'_, H, 3>,
         tracer: Option<Tracer>,
     ) -> Result<Result<Made<3>, Fallback>, Error> {
         match near.resident {
@@ -65,70 +61,36 @@ impl Complete<3> for Dimension<3> {
 }
 
 /// Makes the mesh with the stars that splaying needs on the host.
-async fn complete_with_stars(
+async fn complete_with_stars<H: Host<3>>(
     run: Run<'_, 3>,
-    mut near: Near<'_, 3>,
+    mut near: Near<'_, H, 3>,
     mut tracer: Option<Tracer>,
 ) -> Result<Result<Made<3>, Fallback>, Error> {
-    let count = near.points.len();
-    let (mut device, start) = Device::end(run, || near.prepare()).await?;
+    let (mut device, begin) = Device::end(run, near.host).await?;
     near.end_of_phase1(&device.ended.stats);
-    let (missing, duplicate_of) = near.missing(&device.ended.read_merged().await?);
-    let Near { points, lattice, options, adapter, moved, stats, stopwatch, .. } = near;
-    options.report(Phase::Splay, progress::COMPLETION)?;
-
-    let mut vertices = PredicateContext::of_input(points, lattice);
-    let slots = device.ended.len();
+    let merged = near.merged(device.ended.read_merged().await?);
+    near.options.report(Phase::Splay, progress::COMPLETION)?;
     if let Some(tracer) = &mut tracer {
         let [tetrahedra, neighbors] = device.read().await?;
-        tracer.facets(&Triangulation3::new(tetrahedra, neighbors, count as u32), &vertices);
+        tracer.facets(near.host.ask(Facets { tetrahedra, neighbors }).await?);
     }
-    let share = progress::FINISH - progress::COMPLETION;
-    let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
-    let max_evaluations = splay::evaluations_from_scratch(slots);
-    let terms = || Terms { max_evaluations, threads: Threads::All, report: &report };
-    // A step goes on as far as the stars suffice that were gathered before. The vertices are borrowed for it by
-    // the thread that takes it.
-    let advance = |splay: &mut Splay, vertices: &PredicateContext3<'_>, terms: Terms<'_>| -> Result<_, Stop> {
-        let lacking = splay.advance(vertices, terms)?;
-        let is_done = lacking.is_empty();
-        let patch = is_done.then(|| splay.region().patch(slots, terms.threads));
-        Ok(patch.map_or(Continue(lacking), Break))
-    };
-    let context = &mut vertices;
-    let first = move |terms: Terms<'_>| {
-        let Begun { region, doubts } = start.begin()?;
-        let mut splay = Splay::begin(context, region, Doubts { missing, ..doubts }, terms)?;
-        Ok((advance(&mut splay, context, terms)?, splay))
-    };
-    let mut step: Result<_, Stop> = first(terms());
-    let splayed = loop {
-        let (mut splay, lacking) = match step {
-            Ok((Continue(lacking), splay)) => (splay, lacking),
-            Ok((Break(patch), splay)) => break Ok((splay.finish(), patch)),
-            Err(stop) => break Err(stop),
+    let Begun { mut step, missing, duplicate_of, mut exact } = near.host.ask(Begin { merged, ..begin }).await?;
+    near.note_inserted(missing);
+    let (patch, splayed) = loop {
+        let (vertices, next) = match step {
+            Ok(Step::Splayed(patch, splayed)) => break (patch, splayed),
+            Ok(Step::Lacking { vertices, next }) => (vertices, next),
+            Err(reason) => {
+                near.stats.gpu = Some(device.ended.release().summary(near.adapter));
+                return Ok(Err(reason.into()));
+            }
         };
-        let gathered = device.gather(&lacking, splay.region()).await?;
-        let context = &mut vertices;
-        let next = move |terms: Terms<'_>| {
-            splay.add(lacking, gathered)?;
-            Ok((advance(&mut splay, context, terms)?, splay))
-        };
-        step = next(terms());
+        let gathered = device.gather(&vertices, next, spare(near.host)).await?;
+        let advanced: Advanced = near.host.ask(Stars(gathered)).await?;
+        (step, exact) = (advanced.step, exact + advanced.exact);
     };
-    let patch = match splayed {
-        Ok(((region, splay), patch)) => {
-            stats.splay = Some(splay);
-            device.ended.host.keep(region);
-            patch
-        }
-        Err(Stop::Error(error)) => return Err(error),
-        Err(Stop::Aborted(reason)) => {
-            stats.gpu = Some(device.ended.release().summary(adapter));
-            return Ok(Err(reason.into()));
-        }
-    };
-    stats.exact = vertices.exact_counts();
+    let Near { host, options, adapter, moved, stats, stopwatch, .. } = near;
+    (stats.splay, stats.exact) = (Some(splayed), exact);
     if let Err(error) = device.patch(&patch).await {
         stats.gpu = Some(device.ended.release().summary(adapter));
         return match error {
@@ -146,7 +108,7 @@ async fn complete_with_stars(
     let mesh = Mesh3 { duplicate_of, dimension: 3, ..Mesh3::default() };
     let mesh = DeviceMesh::<3>::new(gpu, &readback, arrays, mesh);
     if let Some(Moved { spanning, .. }) = moved
-        && !encloses_once(points, lattice, &hull, spanning)
+        && !host.ask(Encloses { hull, spanning }).await?
     {
         return Ok(Err(Fallback::Inconsistent("the hull does not enclose its inside once")));
     }

@@ -1,14 +1,19 @@
 //! 2D triangulation, in delaunator's orientation.
 
 use gdel::{
-    Backend, DeviceMesh2, Triangulator,
-    internals::{Winding, gpu::engine::Made, triangulator::MIN_POINTS_2D},
+    Backend, DeviceMesh2, Mesh2, Triangulator,
+    internals::{
+        Winding,
+        gpu::{engine::Made, host::Elsewhere},
+        triangulator::MIN_POINTS_2D,
+    },
 };
 use js_sys::{Function, Int32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
     arrays::d2::mesh2,
+    host::{JsCarrier, for_device, left_to_cpu},
     objects::{Thrown, set},
     points::Coordinates,
     resident,
@@ -35,6 +40,41 @@ impl WasmTriangulator {
     ) -> Result<JsValue, Thrown> {
         run(self.for_run(backend, report), points, (!on_device).then_some(memory), None).await
     }
+}
+
+#[wasm_bindgen]
+impl WasmTriangulator {
+    /// Triangulates in 2D the points that another thread has. The mesh stays on the device.
+    pub async fn drive2d(&self, carrier: JsCarrier, report: Function) -> Result<JsValue, Thrown> {
+        drive(&for_device(&self.triangulator, report), carrier, None).await
+    }
+
+    /// Creates the buffers of a mesh that the caller fills.
+    pub async fn room2d(
+        &self,
+        triangles: usize,
+        hull: usize,
+        duplicate_of: Vec<i32>,
+        dimension: u8,
+    ) -> Result<JsValue, Thrown> {
+        let mut info = Mesh2::default();
+        (info.duplicate_of, info.dimension) = (duplicate_of, dimension);
+        let mesh = self.triangulator.room2d([triangles, hull], info).await?;
+        Ok(resident::hand_over(mesh, |mesh| WasmMesh2(mesh).into()))
+    }
+}
+
+/// Triangulates the points that another thread has.
+async fn drive(
+    triangulator: &Triangulator,
+    carrier: JsCarrier,
+    moved: Option<&DeviceMesh2>,
+) -> Result<JsValue, Thrown> {
+    let triangulator = triangulator.clone().winding(Winding::Clockwise);
+    Ok(match triangulator.drive2d(&mut Elsewhere(carrier), moved).await? {
+        Ok(mesh) => resident::hand_over(mesh, |mesh| WasmMesh2(mesh).into()),
+        Err(before) => left_to_cpu(&before),
+    })
 }
 
 /// Triangulates. The mesh stays on the device if no memory for its arrays is given, and then goes on
@@ -71,6 +111,16 @@ impl WasmMesh2 {
     /// point, by these numbers, in what `memory` returns for a number of them.
     pub async fn read(&self, array: usize, memory: Function) -> Result<JsValue, Thrown> {
         resident::read_one(&self.0, array, &memory).await
+    }
+
+    /// Returns the mesh of the points after they have moved, which another thread has.
+    pub async fn drive(
+        &self,
+        triangulator: &WasmTriangulator,
+        carrier: JsCarrier,
+        report: Function,
+    ) -> Result<JsValue, Thrown> {
+        drive(&for_device(&triangulator.triangulator, report), carrier, Some(&self.0)).await
     }
 
     /// Returns the mesh of the points after they have moved, which stays on the device, too.

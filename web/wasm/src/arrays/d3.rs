@@ -59,7 +59,8 @@ pub(crate) fn set_extras(result: &JsValue, stats: &Stats, duplicate_of: &[i32], 
     }
 }
 
-fn trace(trace: &Trace) -> JsValue {
+/// Returns the steps in which a mesh came about.
+pub(crate) fn trace(trace: &Trace) -> JsValue {
     let round =
         |round: &Vec<[u32; 4]>| object([("tetrahedra", Uint32Array::new_from_slice(round.as_flattened()).into())]);
     let rounds: Array = trace.rounds.iter().map(round).collect();
