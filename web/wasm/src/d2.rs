@@ -29,16 +29,18 @@ pub fn min_gpu_points_2d() -> u32 {
 #[wasm_bindgen]
 impl WasmTriangulator {
     /// Triangulates in 2D. With `on_device`, the mesh stays on the device; else its arrays are read
-    /// into what `memory` returns for a number of bytes.
+    /// into what `memory` returns for a number of bytes. A mesh of the CPU has a triangle of each point if
+    /// `vertex_simplex`.
     pub async fn delaunay2d(
         &self,
         points: JsValue,
         backend: &str,
+        vertex_simplex: bool,
         on_device: bool,
         memory: Function,
         report: Function,
     ) -> Result<JsValue, Thrown> {
-        run(self.for_run(backend, report), points, (!on_device).then_some(memory), None).await
+        run(self.for_run(backend, report), points, (!on_device).then_some(memory), None, vertex_simplex).await
     }
 }
 
@@ -84,12 +86,20 @@ async fn run(
     points: JsValue,
     memory: Option<Function>,
     moved: Option<&DeviceMesh2>,
+    vertex_simplex: bool,
 ) -> Result<JsValue, Thrown> {
     let coordinates = Coordinates::new(&points)?;
     drop(points);
     let triangulator = triangulator.winding(Winding::Clockwise);
     let deliver = async |mesh: Made<2>| match (mesh, &memory) {
-        (Made::Host(mesh), _) => Ok(mesh2(mesh, true)),
+        (Made::Host(mesh), _) => {
+            let vertex_simplex = vertex_simplex.then(|| Int32Array::new_from_slice(&mesh.vertex_triangle()));
+            let result = mesh2(mesh, true);
+            if let Some(array) = vertex_simplex {
+                set(&result, "vertexSimplex", array);
+            }
+            Ok(result)
+        }
         (Made::Device(mesh), Some(memory)) => {
             let arrays = [(0, "triangles"), (1, "halfedges"), (2, "hull")];
             let (result, _) = resident::read(&mesh, &arrays, memory).await?;
@@ -131,7 +141,7 @@ impl WasmMesh2 {
         backend: &str,
         report: Function,
     ) -> Result<JsValue, Thrown> {
-        run(triangulator.for_run(backend, report), points, None, Some(&self.0)).await
+        run(triangulator.for_run(backend, report), points, None, Some(&self.0), false).await
     }
 }
 
