@@ -378,6 +378,7 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, { gpu, device }
     let mesh: any;
     if (info?.backend === 'gpu') {
       const before = meshes.get(moved ?? key!);
+      if (key === undefined) drop();
       try {
         const made = await carrier.use(() =>
           before ? before.drive(triangulator, carrier, report) : begin(carrier, report),
@@ -398,7 +399,7 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, { gpu, device }
       } catch (thrown) {
         const error = toPlainError(carrier.failure ?? thrown, memory.buffer.byteLength);
         // The CPU takes over from a device that failed.
-        if (backend === 'gpu' || !GPU_ERRORS.has(error.code))
+        if (carrier.failure || backend === 'gpu' || !GPU_ERRORS.has(error.code))
           throw { ...error, points: carrier.points };
         left = { fallback: error.message, gpu: null, update: null };
       }
