@@ -680,29 +680,47 @@ function toolsTasks(module: WebAssembly.Module): ModuleTasks {
   return { handlers: Object.fromEntries(handlers), memory, dispose() {} };
 }
 
-const DERIVED: readonly TaskName[] = [
-  'locate',
-  'nearest',
-  'interpolate',
-  'voronoi',
-  'alphaShape',
-  'spanningTree',
-  'topology',
-  'geometry',
-];
+/** The tasks that derive something from a mesh. */
+type DerivedTask =
+  | 'locate'
+  | 'nearest'
+  | 'interpolate'
+  | 'voronoi'
+  | 'alphaShape'
+  | 'spanningTree'
+  | 'topology'
+  | 'geometry';
 
 function derivedTasks(module: WebAssembly.Module): ModuleTasks {
   const { glue, memory } = instantiate('derived', module);
-  // The functions of the module take the arguments of their tasks in the order in which these name
-  // them.
-  const handlers = DERIVED.map((name) => [
+  const tasks: {
+    [T in DerivedTask]: (args: Tasks[T]['args'], report: Report) => Tasks[T]['result'];
+  } = {
+    locate: ({ dimension, points, mesh, queries }, report) =>
+      glue.locate(dimension, points, mesh, queries, report),
+    nearest: ({ dimension, points, mesh, queries, k }, report) =>
+      glue.nearest(dimension, points, mesh, queries, k, report),
+    interpolate: ({ dimension, points, mesh, queries, values, method }, report) =>
+      glue.interpolate(dimension, points, mesh, queries, values, method, report),
+    voronoi: ({ dimension, points, mesh, clip, bounds }, report) =>
+      glue.voronoi(dimension, points, mesh, clip, bounds, report),
+    alphaShape: ({ dimension, points, mesh, alpha, components, criticalValues }, report) =>
+      glue.alphaShape(dimension, points, mesh, alpha, components, criticalValues, report),
+    spanningTree: ({ dimension, points, mesh }, report) =>
+      glue.spanningTree(dimension, points, mesh, report),
+    topology: ({ dimension, points, mesh }, report) =>
+      glue.topology(dimension, points, mesh, report),
+    geometry: ({ dimension, points, mesh }, report) =>
+      glue.geometry(dimension, points, mesh, report),
+  };
+  const handlers = Object.entries(tasks).map(([name, task]) => [
     name,
-    async (args: object, control: Control) => {
+    async (args: never, control: Control) => {
       control.onBlocking();
       let last = '';
       const reported = reporting(control);
       const report: Report = (phase, fraction) => reported((last = phase), fraction);
-      const result = glue[name](...Object.values(args), report);
+      const result = task(args, report);
       control.onProgress({ phase: last, fraction: 1 });
       return result;
     },
