@@ -4,7 +4,7 @@ use crate::{
     d3::{
         gpu::{
             buffers::Gathering,
-            host::Begin,
+            host::{Begin, Work3},
             outputs::{Made, OutputParams, SlotMesh},
         },
         splay::{Gathered, INCIDENT_SHIFT, Patch, SLOT},
@@ -298,5 +298,5 @@ impl<'a> Device<'a> {
 
 /// Returns memory that the host has for what is gathered.
 pub(super) fn spare(host: &mut impl Host<3>) -> Gathered {
-    host.work().map_or_else(Gathered::default, |work| work.spare())
+    host.work().map_or_else(Gathered::default, Work3::spare)
 }
