@@ -91,7 +91,7 @@ pub mod gpu {
         pub use crate::gpu::dim::{Corners, Dim, Flip, OwnBuffers};
     }
     pub mod engine {
-        pub use crate::gpu::engine::{GpuEngine, Made};
+        pub use crate::gpu::engine::{Complete, Destination, GpuEngine, Made, Outcome};
     }
     pub mod layout {
         pub use crate::gpu::layout::{
@@ -101,13 +101,16 @@ pub mod gpu {
             Waiting,
         };
     }
+    pub mod host {
+        pub use crate::gpu::host::{Answer, Carrier, Elsewhere, Fit, Here, Host, Side, State};
+    }
     pub mod phase1 {
         pub use crate::gpu::phase1::{
-            Aliases, Budget, Buffers, Finish, Input, MemorySettings, Phase1, Phase1Output, Run, Settings, Sizes,
+            Aliases, Begin, Budget, Buffers, Finish, MemorySettings, Phase1, Phase1Output, Run, Settings, Sizes,
         };
     }
     pub mod points {
-        pub use crate::gpu::points::{DevicePoints, InputCounts, PointInput, PointStage};
+        pub use crate::gpu::points::{DevicePoints, InputCounts, InputParams, PointStage};
     }
     pub mod primitives {
         pub mod compact {

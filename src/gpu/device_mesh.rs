@@ -365,6 +365,21 @@ where
         }
     }
 
+    /// Creates the buffers of a mesh that somebody else fills: of so many simplices and elements of the hull. Every
+    /// point is used.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Gpu::with_error_scope`] and [`Storage::new`].
+    #[cfg(target_arch = "wasm32")]
+    pub(crate) async fn with_room(gpu: &Gpu, [simplices, hull]: [usize; 2], info: MeshOf<D>) -> Result<Self, Error> {
+        let allocate = || {
+            let arrays = DeviceArrays::new(gpu, D + 1, simplices, hull, info.duplicate_of().len())?;
+            Ok(DeviceMesh::new(gpu, &Readback::default(), arrays, info))
+        };
+        gpu.with_error_scope("the mesh", allocate).await
+    }
+
     /// Uploads a mesh that the host has made.
     ///
     /// # Errors

@@ -14,16 +14,12 @@ use crate::{
         Gpu,
         device_mesh::{DeviceMesh, MeshArrays},
         dim::{Corners, Dim},
-        phase1::{Finish, Input, Phase1, Phase1Stats, Run, Settings},
-        start::{Start, first_simplex},
+        host::{Answer, Fit, Fitted, Here, Host, Merged, Work},
+        phase1::{Begin, Finish, Phase1, Phase1Stats, Run, Settings},
         update::PARTED,
     },
     index::NONE,
-    input::{
-        lattice::{Lattice, Width},
-        order::missing_points,
-        points::Points,
-    },
+    input::{lattice::Width, points::Points},
     mesh::MeshInfo,
     options::Options,
     parallel::{self, Threads},
@@ -40,11 +36,16 @@ pub mod progress {
     pub const COMPLETION: f64 = 0.8;
     /// The mesh for the caller.
     pub const FINISH: f64 = 0.95;
+
+    /// Returns the share of a run at which so much of the completion is done.
+    pub(crate) fn of_completion(share: f64) -> f64 {
+        COMPLETION + (FINISH - COMPLETION) * share
+    }
 }
 
 /// How a dimension's engine completes what Phase 1 leaves.
 #[expect(async_fn_in_trait, reason = "only this crate implements it, and no caller is generic over threads")]
-pub trait Complete<const D: usize>: Finish<D> + MeshArrays<D>
+pub trait Complete<const D: usize>: Finish<D> + MeshArrays<D> + Answer<D>
 where
     Dimension<D>: Finish<D> + MeshArrays<D>,
 {
@@ -75,9 +76,9 @@ where
     /// # Errors
     ///
     /// Returns [`Error::Cancelled`], [`Error::OutOfMemory`], and those of the device.
-    async fn complete(
+    async fn complete<H: Host<D>>(
         run: Run<'_, D>,
-        near: Near<'_, D>,
+        near: Near<'_, H, D>,
         tracer: Self::Tracer,
     ) -> Result<Result<Made<D>, Fallback>, Error>;
 }
@@ -130,7 +131,7 @@ where
 }
 
 /// Where a mesh is to be made.
-pub(crate) enum Destination<'a, const D: usize>
+pub enum Destination<'a, const D: usize>
 where
     Dimension<D>: Incremental<D>,
 {
@@ -155,14 +156,12 @@ where
 }
 
 /// What goes with a run of Phase 1 that is to be completed.
-pub struct Near<'a, const D: usize>
+pub struct Near<'a, H, const D: usize>
 where
     Dimension<D>: Dim<D>,
 {
-    /// The points of the run.
-    pub(crate) points: Points<'a, D>,
-    /// The lattice that is fitted to them.
-    pub(crate) lattice: &'a Lattice<D>,
+    /// Whoever has the coordinates.
+    pub(crate) host: &'a mut H,
     /// The options of the run.
     pub(crate) options: &'a Options,
     /// The name of the adapter.
@@ -171,17 +170,15 @@ where
     pub(crate) resident: bool,
     /// For a mesh whose points have moved, what is known of it.
     pub(crate) moved: Option<Moved<'a, D>>,
-    /// The field `duplicate_of` of a mesh without duplicates, once it is prepared.
-    pub(crate) duplicate_of: Vec<i32>,
     /// Receives the statistics.
     pub(crate) stats: &'a mut Stats,
     /// Times the phases.
     pub(crate) stopwatch: &'a mut Stopwatch,
 }
 
-impl<const D: usize> Near<'_, D>
+impl<H: Host<D>, const D: usize> Near<'_, H, D>
 where
-    Dimension<D>: Dim<D>,
+    Dimension<D>: Answer<D>,
 {
     /// Takes what Phase 1 did into the statistics, at its end.
     pub(crate) fn end_of_phase1(&mut self, phase1: &Phase1Stats) {
@@ -193,27 +190,28 @@ where
         }
     }
 
-    /// Prepares what takes memory for each point, while the device is at work.
-    pub(crate) fn prepare(&mut self) {
-        self.duplicate_of = parallel::filled(Threads::All, self.points.len(), NONE);
+    /// Returns the points that share their place on the lattice with these vertices, for the host.
+    pub(crate) fn merged(&mut self, merged: Vec<[u32; 2]>) -> Merged {
+        Merged { merged, duplicates: self.moved.as_mut().map(|moved| std::mem::take(&mut moved.duplicates)) }
     }
 
-    /// Returns the points that Phase 1 did not insert although they are not duplicates, each with
-    /// the vertex at the same place of the lattice, and the field `duplicate_of` of the mesh.
-    pub(crate) fn missing(&mut self, merged: &[[u32; 2]]) -> (Vec<[u32; 2]>, Vec<i32>) {
-        if self.duplicate_of.is_empty() {
-            self.prepare();
-        }
-        let mut duplicate_of = std::mem::take(&mut self.duplicate_of);
-        let mut missing = missing_points(self.points, merged, &mut duplicate_of);
+    /// Notes how many points of a mesh that has moved were inserted.
+    pub(crate) fn note_inserted(&mut self, points: usize) {
         if let Some(moved) = &mut self.moved {
-            // The mesh lacks what was a duplicate. The vertex of its place then is still one.
-            let parted = moved.duplicates.iter().filter(|&&[v, _]| duplicate_of[v as usize] == NONE);
-            missing = parted.copied().collect();
-            moved.update.inserted = missing.len();
+            moved.update.inserted = points;
         }
-        (missing, duplicate_of)
     }
+}
+
+/// What a run has come to.
+pub enum Outcome<const D: usize>
+where
+    Dimension<D>: Incremental<D>,
+{
+    /// The mesh.
+    Made(Made<D>),
+    /// The CPU engine has to make the mesh; [`Stats::fallback`] says why, and the others what was done before.
+    LeftToCpu(Box<Stats>),
 }
 
 /// A device with the kernels of `D` dimensions compiled for it: create one and use it for many
@@ -232,6 +230,8 @@ where
     /// them.
     in_parts: Option<(Width, Phase1<D>)>,
     settings: Settings<D>,
+    /// What the host keeps between runs.
+    work: <Dimension<D> as Work<D>>::Work,
 }
 
 impl<const D: usize> GpuEngine<D>
@@ -245,7 +245,14 @@ where
     /// Returns the errors of [`Gpu::with_error_scope`].
     pub async fn new(gpu: Gpu) -> Result<Self, Error> {
         let wide = Phase1::new(&gpu, Width::Wide).await?;
-        Ok(GpuEngine { gpu, wide, narrow: None, in_parts: None, settings: Settings::default() })
+        Ok(GpuEngine {
+            gpu,
+            wide,
+            narrow: None,
+            in_parts: None,
+            settings: Settings::default(),
+            work: Default::default(),
+        })
     }
 
     /// Returns when also the kernels are compiled that a first run does without.
@@ -351,24 +358,50 @@ where
         options: &Options,
         to: Destination<'_, D>,
     ) -> Result<Made<D>, Error> {
+        let mut host = Here::new(points, options, std::mem::take(&mut self.work));
+        let outcome = self.drive(&mut host, options, to).await;
+        self.work = host.into_work();
+        match outcome? {
+            Outcome::Made(made) => Ok(made),
+            Outcome::LeftToCpu(before) => {
+                let mut mesh = cpu::delaunay(points, options)?;
+                let stats = mesh.stats_mut();
+                (stats.fallback, stats.gpu, stats.update) = (before.fallback, before.gpu, before.update);
+                Ok(Made::Host(mesh))
+            }
+        }
+    }
+
+    /// Drives the device, which makes the mesh of the points that `host` has.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`GpuEngine::update_on_device`], and of [`Host::ask`].
+    pub async fn drive(
+        &mut self,
+        host: &mut impl Host<D>,
+        options: &Options,
+        to: Destination<'_, D>,
+    ) -> Result<Outcome<D>, Error> {
         let (mut used, moved) = match to {
             Destination::Host(used) => (Some(used), None),
             Destination::Device(moved) => (None, moved),
         };
         let mut stopwatch = Stopwatch::start();
         options.report(Phase::Lattice, 0.0)?;
-        if let Some(mesh) = moved.filter(|mesh| mesh.point_count() != points.len()) {
-            return Err(Error::PointCount { points: points.len(), expected: mesh.point_count() });
+        let points = host.point_count();
+        if let Some(mesh) = moved.filter(|mesh| mesh.point_count() != points) {
+            return Err(Error::PointCount { points, expected: mesh.point_count() });
         }
         let mut update = moved.map(|_| UpdateStats::default());
         let mut from = moved.filter(|mesh| self.settings.budget.limits.looks_after(mesh.begun_anew()));
         if let Some((mesh, update)) = moved.zip(update.as_mut()).filter(|_| from.is_none()) {
             update.restarted = mesh.stats().update.and_then(|update| update.restarted);
         }
-        let mut made = loop {
+        let mut outcome = loop {
             let before = from.zip(update.as_mut());
-            match self.attempt(points, options, used.as_mut(), before, &mut stopwatch).await? {
-                Ok(made) => break made,
+            match self.attempt(host, options, used.as_mut(), before, &mut stopwatch).await? {
+                Ok(outcome) => break outcome,
                 Err(why) => {
                     if let Some(update) = &mut update {
                         update.restarted = Some(why);
@@ -377,45 +410,45 @@ where
                 }
             }
         };
-        let stats = made.stats_mut();
+        let stats = match &mut outcome {
+            Outcome::Made(made) => made.stats_mut(),
+            Outcome::LeftToCpu(stats) => stats,
+        };
         if let Some(update) = &mut update {
             if update.restarted.is_none() {
                 update.stars = stats.splay.as_ref().map_or(0, |splay| splay.built);
             }
             stats.update = Some(*update);
         }
-        if let (Made::Device(mesh), Some(before)) = (&mut made, moved) {
+        if let (Outcome::Made(Made::Device(mesh)), Some(before)) = (&mut outcome, moved) {
             mesh.follows(before);
         }
-        Ok(made)
+        Ok(outcome)
     }
 
     /// Does the same, in the memory of the mesh `used` if the destination is the host, or says why it takes a
     /// run from scratch.
     async fn attempt(
         &mut self,
-        points: Points<'_, D>,
+        host: &mut impl Host<D>,
         options: &Options,
         used: Option<&mut MeshOf<D>>,
         moved: Option<(&DeviceMesh<D>, &mut UpdateStats)>,
         stopwatch: &mut Stopwatch,
-    ) -> Result<Result<Made<D>, Restart>, Error> {
-        let lattice = Lattice::fit_by(Threads::All, points)?;
-        let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
+    ) -> Result<Result<Outcome<D>, Restart>, Error> {
+        let points = host.point_count();
         // Points that had moved too far before will do so again, as a rule.
         let stays = |mesh: &&DeviceMesh<D>| mesh.begun_anew() == 0;
         let repaired = moved.as_ref().map(|&(mesh, _)| mesh).filter(stays);
-        let first = repaired.map(DeviceMesh::first).filter(|first| !first.is_empty());
-        let start = first
-            .and_then(|first| Start::of(lattice.width(), first, &position))
-            .or_else(|| first_simplex(lattice.width(), points.len(), position));
-        let Some(start) = start else {
+        let first = repaired.map_or_else(Vec::new, |mesh| mesh.first().to_vec());
+        let Fitted { params, start } = host.ask(Fit { first }).await?;
+        let mut stats = Stats::new(Backend::Gpu);
+        let Some(first) = start else {
             if let Some((_, update)) = moved {
                 update.restarted = Some(Restart::Degenerate);
             }
-            return fall_back(points, options, Dimension::<D>::DEGENERATE, Stats::default()).map(Ok);
+            return Ok(Ok(left_to_cpu(Dimension::<D>::DEGENERATE, stats)));
         };
-        let mut stats = Stats::new(Backend::Gpu);
         let mut tracer = Dimension::<D>::tracer(options);
         stats.phases.push((Phase::Lattice, stopwatch.lap()));
 
@@ -425,11 +458,11 @@ where
             // What is traced is the triangulation after each round.
             (settings.rounds, settings.batches, settings.start_points) = (1, 1, Some(0));
         }
-        let (gpu, phase1) = self.kernels(lattice.width(), points.len()).await?;
-        let input = Input { points, lattice: &lattice, start, starts_later: repaired.is_some() };
-        let mut run = Run::new(phase1, gpu, input, settings, None).await?;
+        let (gpu, phase1) = self.kernels(params.width(), points).await?;
+        let begin = Begin { params, first, starts_later: repaired.is_some() };
+        let mut run = Run::new(phase1, gpu, host, begin, settings, None).await?;
         let mut moved = match moved {
-            Some((mesh, update)) => take(&mut run, &input, mesh, update).await?,
+            Some((mesh, update)) => take(&mut run, host, &begin, mesh, update).await?,
             None => None,
         };
         let resident = settings.sparse || used.is_none();
@@ -440,43 +473,34 @@ where
         while more {
             more = run.advance().await?;
             Dimension::<D>::trace_round(&mut tracer, gpu, &run).await?;
-            let inserted = 1.0 - f64::from(run.waiting()) / points.len() as f64;
+            let inserted = 1.0 - f64::from(run.waiting()) / points as f64;
             options.report(Phase::Phase1, progress::PHASE_1 + Dimension::<D>::ROUNDS_SHARE * inserted)?;
             if more && settings.is_slow(&run.control().1) {
                 stats.gpu = Some(run.abandon().summary(&self.gpu.adapter().name));
-                return match moved {
-                    Some(_) => Ok(Err(Restart::Stuck)),
-                    None => fall_back(points, options, Fallback::Flips, stats).map(Ok),
-                };
+                return Ok(match moved {
+                    Some(_) => Err(Restart::Stuck),
+                    None => Ok(left_to_cpu(Fallback::Flips, stats)),
+                });
             }
         }
         if let Some(moved) = &mut moved {
             moved.update.flips = run.control().1.flips().into();
         }
         let has_moved = moved.is_some();
-        let near = Near {
-            points,
-            lattice: &lattice,
-            options,
-            adapter: &gpu.adapter().name,
-            resident,
-            moved,
-            duplicate_of: Vec::new(),
-            stats: &mut stats,
-            stopwatch,
-        };
-        match Dimension::<D>::complete(run, near, tracer).await? {
+        let adapter = &gpu.adapter().name;
+        let near = Near { host, options, adapter, resident, moved, stats: &mut stats, stopwatch };
+        Ok(match Dimension::<D>::complete(run, near, tracer).await? {
             Ok(mut made) => {
                 *made.stats_mut() = stats;
                 if let Made::Device(mesh) = &mut made {
-                    mesh.set_first(input.start.first.as_ref());
+                    mesh.set_first(first.first.as_ref());
                 }
-                Ok(Ok(made))
+                Ok(Outcome::Made(made))
             }
-            Err(Fallback::Splaying) if has_moved => Ok(Err(Restart::Changed)),
-            Err(_) if has_moved => Ok(Err(Restart::Stuck)),
-            Err(why) => fall_back(points, options, why, stats).map(Ok),
-        }
+            Err(Fallback::Splaying) if has_moved => Err(Restart::Changed),
+            Err(_) if has_moved => Err(Restart::Stuck),
+            Err(why) => Ok(left_to_cpu(why, stats)),
+        })
     }
 
     /// Returns the device with the kernels for so many points of this width, compiled if they are not,
@@ -522,7 +546,8 @@ where
 /// Has a run go on from `mesh` if that pays. Returns what goes with it then.
 async fn take<'a, const D: usize>(
     run: &mut Run<'_, D>,
-    input: &Input<'_, D>,
+    host: &mut impl Host<D>,
+    begin: &Begin<D>,
     mesh: &DeviceMesh<D>,
     update: &'a mut UpdateStats,
 ) -> Result<Option<Moved<'a, D>>, Error>
@@ -536,7 +561,7 @@ where
     } else if !mesh.gpu().is_same(run.gpu()) {
         Err(Restart::NotResident)
     } else {
-        match run.take(mesh, input.starts_later).await? {
+        match run.take(mesh, begin.starts_later).await? {
             None => Err(Restart::Broken),
             Some([inverted, changed]) => {
                 (update.inverted, update.not_locally_delaunay) = (inverted, changed);
@@ -550,10 +575,10 @@ where
         }
     };
     match restarted {
-        Ok(()) => Ok(Some(Moved { duplicates, spanning: input.start.first, update })),
+        Ok(()) => Ok(Some(Moved { duplicates, spanning: begin.first.first, update })),
         Err(why) => {
             update.restarted = Some(why);
-            run.forget(input);
+            run.forget(host, begin.starts_later).await?;
             Ok(None)
         }
     }
@@ -586,18 +611,10 @@ fn check_duplicates<const D: usize>(
     Ok(())
 }
 
-/// Returns the CPU engine's mesh, with what the GPU did before.
-fn fall_back<const D: usize>(
-    points: Points<'_, D>,
-    options: &Options,
-    why: Fallback,
-    before: Stats,
-) -> Result<Made<D>, Error>
+/// Returns that the CPU engine has to make the mesh, with what the GPU did before.
+fn left_to_cpu<const D: usize>(why: Fallback, before: Stats) -> Outcome<D>
 where
-    Dimension<D>: Complete<D>,
+    Dimension<D>: Incremental<D>,
 {
-    let mut mesh = cpu::delaunay(points, options)?;
-    let stats = mesh.stats_mut();
-    (stats.fallback, stats.gpu) = (Some(why), before.gpu);
-    Ok(Made::Host(mesh))
+    Outcome::LeftToCpu(Box::new(Stats { fallback: Some(why), ..before }))
 }

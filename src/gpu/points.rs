@@ -58,6 +58,37 @@ pub struct InputParams {
 }
 assert_layout!(InputParams);
 
+impl InputParams {
+    /// Returns the parameters of points on a lattice, without the size of the table.
+    pub fn new<const D: usize>(points: Points<'_, D>, lattice: &Lattice<D>) -> Self {
+        let along: [_; 3] = std::array::from_fn(|axis| lattice.origin().get(axis).copied().flatten());
+        let origin = along.map(|origin| origin.unwrap_or(0));
+        InputParams {
+            count: points.len() as u32,
+            exponent: lattice.exponent(),
+            doubles: u32::from(bits_of(points).1),
+            varies: (0..3).map(|axis| u32::from(along[axis].is_some()) << axis).sum(),
+            origin_low: origin.map(|origin| origin as u32),
+            table_mask: 0,
+            origin_high: origin.map(|origin| (origin >> 32) as u32),
+            width: lattice.width().bits(),
+            dimension: D as u32,
+            unused: [0; 3],
+        }
+    }
+
+    /// Returns the width of the lattice.
+    pub fn width(&self) -> Width {
+        if self.width == Width::Narrow.bits() { Width::Narrow } else { Width::Wide }
+    }
+
+    /// Returns the number of points and of the words of their coordinates, and the width of the lattice.
+    fn form(&self) -> (usize, usize, Width) {
+        let points = self.count as usize;
+        (points, points * self.dimension as usize * (1 + self.doubles as usize), self.width())
+    }
+}
+
 /// The counters of the kernels.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
@@ -95,17 +126,6 @@ pub struct PointStage<const D: usize> {
     gather: Steps,
     /// The parts of the large arrays, if they are in parts.
     parts: Option<Parts>,
-}
-
-/// The input of [`PointStage`].
-#[derive(Debug, Clone, Copy)]
-pub struct PointInput<'a, const D: usize = 3> {
-    /// The points.
-    pub points: Points<'a, D>,
-    /// The lattice that is fitted to them.
-    pub lattice: &'a Lattice<D>,
-    /// Whether to sort along the Hilbert curve; else the vertices are in the order of the points.
-    pub sort: bool,
 }
 
 /// The points on the device. Valid when the recorded commands have run.
@@ -153,60 +173,39 @@ where
         }
     }
 
-    /// Uploads the points, and records the kernels that make vertices of them. `kept` has the buffers of the
-    /// last run, and receives those of this one.
-    ///
-    /// # Errors
-    ///
-    /// Returns [`Error::TooManyPoints`] beyond 2³⁰, and those of [`Storage::new`].
+    /// Records what makes vertices of the points that are uploaded to the buffers: along the Hilbert curve if they
+    /// are to be sorted, else in the order of the points.
     pub fn record(
         &self,
         gpu: &Gpu,
         recorder: &mut Recorder<'_>,
-        kept: &mut Option<PointBuffers>,
-        input: PointInput<'_, D>,
-    ) -> Result<DevicePoints, Error> {
-        let PointInput { points, lattice, sort } = input;
-        let n = points.len();
-        let (bits, doubles) = bits_of(points);
-        let form = (n, bits.len(), lattice.width());
-        let buffers = match kept.take() {
-            Some(buffers) if buffers.form == form => buffers,
-            _ => self.allocate(gpu, form)?,
-        };
-        let along: [_; 3] = std::array::from_fn(|axis| lattice.origin().get(axis).copied().flatten());
-        let origin = along.map(|origin| origin.unwrap_or(0));
-        let params = InputParams {
-            count: n as u32,
-            exponent: lattice.exponent(),
-            doubles: u32::from(doubles),
-            varies: (0..3).map(|axis| u32::from(along[axis].is_some()) << axis).sum(),
-            origin_low: origin.map(|origin| origin as u32),
-            table_mask: buffers.table.len() as u32 - 1,
-            origin_high: origin.map(|origin| (origin >> 32) as u32),
-            width: lattice.width().bits(),
-            dimension: D as u32,
-            unused: [0; 3],
-        };
+        buffers: &PointBuffers,
+        params: InputParams,
+        sorts: bool,
+    ) -> DevicePoints {
+        let groups = workgroups(params.count);
+        let params = InputParams { table_mask: buffers.table.len() as u32 - 1, ..params };
         buffers.params.write(gpu, 0, &[params]);
-        buffers.input.write(gpu, 0, bits);
         let encoder = recorder.encoder();
         encoder.clear_buffer(buffers.table.buffer(), 0, None);
         encoder.clear_buffer(buffers.device.counts.buffer(), 0, None);
-        let groups = workgroups(n as u32);
         buffers.key.record(recorder, groups);
-        if sort {
+        if sorts {
             recorder.stage("sort");
             self.sort.record(recorder, &buffers.sort);
         }
         buffers.gather.record(recorder, groups);
-        let device = buffers.device.clone();
-        *kept = Some(buffers);
-        Ok(device)
+        buffers.device.clone()
     }
 
-    fn allocate(&self, gpu: &Gpu, form: (usize, usize, Width)) -> Result<PointBuffers, Error> {
+    /// Creates the buffers for points of this form.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::TooManyPoints`] beyond 2³⁰, and those of [`Storage::new`].
+    pub fn buffers(&self, gpu: &Gpu, params: &InputParams) -> Result<PointBuffers, Error> {
         const LIMIT: usize = 1 << 30;
+        let form = params.form();
         let (n, words, width) = form;
         if n > LIMIT {
             return Err(Error::TooManyPoints { points: n, limit: LIMIT });
@@ -256,6 +255,21 @@ pub(crate) fn bits_of<const D: usize>(points: Points<'_, D>) -> (&[u32], bool) {
 }
 
 impl PointBuffers {
+    /// Returns whether they are for points of this form.
+    pub(crate) fn fits(&self, params: &InputParams) -> bool {
+        self.form == params.form()
+    }
+
+    /// Returns where the bits of the coordinates go.
+    pub(crate) fn input(&self) -> &Storage<u32> {
+        &self.input
+    }
+
+    /// Uploads the points.
+    pub fn upload<const D: usize>(&self, gpu: &Gpu, points: Points<'_, D>) {
+        self.input.write(gpu, 0, bits_of(points).0);
+    }
+
     /// Returns the bytes that they take on the device.
     pub fn bytes(&self) -> u64 {
         self.bytes

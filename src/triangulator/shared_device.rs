@@ -21,6 +21,11 @@ use crate::{
         wait::CANNOT_WAIT,
     },
 };
+#[cfg(target_arch = "wasm32")]
+use crate::{
+    gpu::{engine::Outcome, host::Host},
+    stats::Stats,
+};
 use async_lock::Mutex;
 use std::sync::Arc;
 
@@ -240,6 +245,42 @@ impl SharedDevice {
         check_count(points, moved)?;
         let on_device = resident.then_some(ToDevice { device: self, moved });
         self.run(points, options, &mut ToCaller { on_device, take, result: std::marker::PhantomData }).await
+    }
+
+    /// Drives the GPU engine with a host in another thread, from `moved` on if there is such a mesh. Returns the
+    /// mesh on the device, or, if the CPU engine has to make it, what was done before.
+    #[cfg(target_arch = "wasm32")]
+    pub(super) async fn drive<const D: usize>(
+        &self,
+        host: &mut impl Host<D>,
+        options: &Options,
+        moved: Option<&DeviceMesh<D>>,
+    ) -> Result<Result<DeviceMesh<D>, Box<Stats>>, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let mut state = self.state.lock().await;
+        let engine = state.open::<D>(&self.adapter).await?;
+        let options = &options.monotone();
+        let driven = async {
+            Ok(match engine.drive(host, options, Destination::Device(moved)).await? {
+                Outcome::Made(made) => Ok(made.into_device(engine.gpu()).await?),
+                Outcome::LeftToCpu(before) => Err(before),
+            })
+        };
+        let result = driven.await;
+        state.forget_if_lost(&result);
+        result
+    }
+
+    /// Creates the buffers of a mesh on the device that somebody else fills.
+    #[cfg(target_arch = "wasm32")]
+    pub(super) async fn room<const D: usize>(&self, lens: [usize; 2], info: MeshOf<D>) -> Result<DeviceMesh<D>, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let gpu = self.state.lock().await.device(&self.adapter).await?;
+        DeviceMesh::with_room(&gpu, lens, info).await
     }
 
     /// Triangulates `points`, and leaves the mesh on the device.

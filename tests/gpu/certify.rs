@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use gdel::internals::gpu::phase1::{Input, Phase1, Settings};
+use gdel::internals::Options;
+use gdel::internals::gpu::host::Here;
+use gdel::internals::gpu::phase1::{Phase1, Settings};
 use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::gpu::{AdapterChoice, Gpu};
 use gdel::internals::input::lattice::{Lattice, Width};
@@ -24,8 +26,9 @@ fn signs_that_are_not_listed_are_those_of_the_true_coordinates() {
     let start = first_simplex(Width::Wide, points.len(), position).expect("not coplanar");
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let mut kernels = block_on(Phase1::new(&gpu, Width::Wide)).unwrap();
-    let input = Input { points: (&points).into(), lattice: &lattice, start, starts_later: false };
-    let output = block_on(kernels.run(&gpu, input, &Settings::default(), None)).unwrap().result;
+    let options = Options::default();
+    let mut host = Here::new((&points).into(), &options, Default::default());
+    let output = block_on(kernels.run(&gpu, &mut host, &Settings::default(), None)).unwrap().result;
 
     let infinite = points.len() as u32;
     let open: HashMap<u32, u32> = output.uncertain.iter().map(|&[t, open]| (t, open)).collect();

@@ -4,10 +4,11 @@
 use crate::states::{download, read};
 use std::collections::HashSet;
 
+use gdel::internals::Options;
 use gdel::internals::d2::gpu::vertex;
+use gdel::internals::gpu::host::{Fit, Here, Host};
 use gdel::internals::gpu::layout::Pick;
-use gdel::internals::gpu::phase1::{Input, MemorySettings, Phase1, Run, Settings};
-use gdel::internals::gpu::start::first_simplex;
+use gdel::internals::gpu::phase1::{Begin, MemorySettings, Phase1, Run, Settings};
 use gdel::internals::gpu::{AdapterChoice, Gpu};
 use gdel::internals::input::lattice::{Lattice, Width};
 use gdel::internals::{dimension::Dimension, gpu::dim::Dim};
@@ -33,10 +34,10 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<2>; 2], name: &str, points:
     let lattice = Lattice::<2>::fit(points.into());
     let width = lattice.width();
     let kernels = &mut kernels[usize::from(width == Width::Wide)];
-    let position = |i: usize| lattice.coordinates(points[i]).map(|c| c.value);
-    let start = first_simplex(lattice.width(), points.len(), position).expect("not collinear");
-    let input = Input { points: points.into(), lattice: &lattice, start, starts_later: false };
-    let mut run = block_on(Run::new(kernels, gpu, input, settings, None)).unwrap();
+    let options = Options::default();
+    let mut host = Here::new(points.into(), &options, Default::default());
+    let begin = Begin::of(block_on(host.ask(Fit::default())).unwrap());
+    let mut run = block_on(Run::new(kernels, gpu, &mut host, begin, settings, None)).unwrap();
     let mut more = true;
     while more {
         more = block_on(run.advance()).unwrap();

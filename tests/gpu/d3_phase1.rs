@@ -6,14 +6,15 @@ use std::collections::BTreeSet;
 
 use crate::d3_inputs::{self as inputs, Input as Points};
 use gdel::internals::d3::mesh::FACETS;
-use gdel::internals::gpu::start::first_simplex;
 use gdel::internals::input::lattice::{Lattice, Width};
 use gdel::internals::{
+    Options,
     d3::gpu::vertex,
     gpu::{
         AdapterChoice, Gpu, Parts,
+        host::{Fit, Here, Host},
         layout::{Counters, Pick},
-        phase1::{Input, MemorySettings, Phase1, Phase1Output, Run, Settings},
+        phase1::{Begin, MemorySettings, Phase1, Phase1Output, Run, Settings},
     },
 };
 use gdel::internals::{dimension::Dimension, gpu::dim::Dim};
@@ -49,10 +50,10 @@ fn begin<'a>(
     let lattice = Lattice::fit((&points.positions).into());
     let width = lattice.width();
     let kernels = &mut kernels[usize::from(width == Width::Wide)];
-    let position = |i: usize| lattice.coordinates(points.positions[i]).map(|c| c.value);
-    let start = first_simplex(width, points.positions.len(), position).expect("not coplanar");
-    let input = Input { points: (&points.positions).into(), lattice: &lattice, start, starts_later: false };
-    (width, block_on(Run::new(kernels, gpu, input, settings, None)).unwrap())
+    let options = Options::default();
+    let mut host = Here::new((&points.positions).into(), &options, Default::default());
+    let begin = Begin::of(block_on(host.ask(Fit::default())).unwrap());
+    (width, block_on(Run::new(kernels, gpu, &mut host, begin, settings, None)).unwrap())
 }
 
 /// Returns the counters of the run.

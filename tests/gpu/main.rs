@@ -33,6 +33,7 @@ mod d3_predicates;
 mod d3_reference;
 mod d3_reference_predicates;
 mod host;
+mod messages;
 mod moved;
 mod points;
 mod primitives;

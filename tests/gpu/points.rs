@@ -9,7 +9,7 @@ use gdel::{
         gpu::{
             AdapterChoice, Compiler, Gpu, Readback, Recorder,
             dim::Dim,
-            points::{InputCounts, PointInput, PointStage},
+            points::{InputCounts, InputParams, PointStage},
         },
         input::lattice::{Lattice, Width},
     },
@@ -39,14 +39,12 @@ where
         let gpu = &self.gpu;
         let n = points.len();
         let lattice = Lattice::fit(points);
+        let params = InputParams::new(points, &lattice);
         let device = block_on(gpu.with_error_scope("test", || {
+            let buffers = self.stage.buffers(gpu, &params)?;
+            buffers.upload(gpu, points);
             let mut recorder = Recorder::new(gpu, None);
-            let device = self.stage.record(
-                gpu,
-                &mut recorder,
-                &mut None,
-                PointInput { points, lattice: &lattice, sort: true },
-            )?;
+            let device = self.stage.record(gpu, &mut recorder, &buffers, params, true);
             recorder.submit(gpu);
             Ok(device)
         }))

@@ -237,3 +237,13 @@ fn reading_after_the_loss_of_the_device_is_an_error() {
     gpu.device().destroy();
     assert!(matches!(mesh.read(Outputs::ALL), Err(Error::Gpu { .. } | Error::DeviceLost { .. })));
 }
+
+#[test]
+fn an_adapter_for_the_callers_device_is_an_error() {
+    let points = generate3d(Distribution3::Uniform, 10, 8);
+    let triangulator = on(&device()).adapter(AdapterChoice::Default);
+    assert_eq!(triangulator.device().expect_err("a contradiction"), Error::AdapterOfDevice);
+    for backend in [Backend::Gpu, Backend::Auto, Backend::Cpu] {
+        assert_eq!(triangulator.clone().backend(backend).delaunay3d(&points).expect_err("too"), Error::AdapterOfDevice);
+    }
+}

@@ -95,7 +95,7 @@ function elsewhere(work) {
 
 test('pipelines are compiled aside, unless one is needed before the next or the end of the scope', async () => {
   const { device, settling, pass, taken } = notedDevice();
-  const calls = wgpuCalls();
+  const calls = wgpuCalls(true);
   const [a, b] = ['a', 'b'].map((label) => calls.createComputePipeline(device, { label }));
   assert.deepEqual(taken(), [['compile aside', 'a']]);
   calls.setPipeline(pass, b);
@@ -139,7 +139,7 @@ test('in Node, this thread compiles every third pipeline, before the scope ends'
     assert.deepEqual(device.scopes, []);
     return createComputePipeline(descriptor);
   };
-  const calls = wgpuCalls();
+  const calls = wgpuCalls(true);
   const labels = [...'abcdefg'];
   const pipelines = labels.map((label) => calls.createComputePipeline(device, { label }));
   const aside = (label) => ['compile aside', label];
@@ -158,7 +158,7 @@ test('in Node, this thread compiles every third pipeline, before the scope ends'
 
 test('who needs a pipeline while it is compiled aside does not wait', async () => {
   const { device, settling, pass, taken } = notedDevice();
-  const calls = wgpuCalls();
+  const calls = wgpuCalls(true);
   const pipeline = calls.createComputePipeline(device, { label: 'a' });
   const answered = calls.popErrorScope(device);
   calls.setPipeline(pass, pipeline);
@@ -173,7 +173,7 @@ test('who needs a pipeline while it is compiled aside does not wait', async () =
 
 test('a scope has the errors of its pipelines, as wgpu tells them apart', async () => {
   const { device, settling } = notedDevice();
-  const calls = wgpuCalls();
+  const calls = wgpuCalls(true);
   calls.createComputePipeline(device, { label: 'a' });
   const answered = calls.popErrorScope(device);
   settling.shift().reject(new Error('too large'));
@@ -188,7 +188,7 @@ test('a scope has the errors of its pipelines, as wgpu tells them apart', async 
 
 test('large arrays that come again are written through a buffer that stays', async () => {
   const { device, settling, taken } = notedDevice();
-  const calls = wgpuCalls();
+  const calls = wgpuCalls(true);
   const queue = calls.queue(device);
   const large = (value) => new Uint8Array(2 ** 17).fill(value);
   const run = (value) => {
@@ -250,32 +250,6 @@ test('large arrays that come again are written through a buffer that stays', asy
   assert.deepEqual(run(8), plain(8));
   calls.end();
   assert.deepEqual(taken(), [['destroy', 'staging 1']]);
-});
-
-test('the calls of a worker for another thread are made there', async () => {
-  const { notes, pass, taken } = notedDevice();
-  const queue = {
-    remote: 1,
-    writeBuffer: (...call) => notes.push(['write', ...call]),
-    submit: (commands) => notes.push(['submit', ...commands]),
-  };
-  const device = {
-    remote: 0,
-    queue,
-    createComputePipeline: ({ label }) => ({ remote: 2, label }),
-    popErrorScope: async () => null,
-  };
-  const calls = wgpuCalls();
-  assert.equal(calls.queue(device), queue);
-  calls.setPipeline(pass, calls.createComputePipeline(device, { label: 'a' }));
-  const bytes = new Uint8Array(2 ** 17);
-  const call = ['points', 0, bytes, 0, 2 ** 17];
-  for (let run = 0; run < 3; run++) calls.writeBuffer(queue, ...call);
-  calls.submit(queue, ['run']);
-  assert.equal(await calls.popErrorScope(device), null);
-  const write = ['write', ...call];
-  assert.deepEqual(taken(), [['pipeline', 'a'], write, write, write, ['submit', 'run']]);
-  calls.end();
 });
 
 for (const worker of [false, true])

@@ -1,7 +1,6 @@
 // A place where tasks run, one at a time: a worker or the calling thread.
 
 import { allInThisRealm } from './arrays.js';
-import type { Device } from './device.js';
 import type { PlainError } from './errors.js';
 import type { FromWorker, ModuleName, TaskName, Tasks } from './protocol.js';
 import type { Loaded, WorkerThread } from './runtime.js';
@@ -27,19 +26,15 @@ export interface Connection extends Place {
     transfer: ArrayBuffer[],
     stop: Stop,
   ): Promise<Tasks[T]['result']>;
-  /** Frees a mesh that stays on the device of the caller. */
-  free(name: ModuleName, key: number): void;
+  /** Frees a mesh that stays on the device of the caller, if this is the thread that has it. */
+  free?(name: ModuleName, key: number): void;
   close(): void;
 }
 
 type TaskCode = typeof import('./core.js');
 
-/** Runs tasks in a worker, and lets it use a device. */
-export function workerConnection(
-  { value: thread, whyInlined }: Loaded<WorkerThread>,
-  code?: TaskCode,
-  device?: Device,
-): Connection {
+/** Runs tasks in a worker. */
+export function workerConnection({ value: thread, whyInlined }: Loaded<WorkerThread>): Connection {
   let next = 0;
   let isAlive = true;
   let pending:
@@ -51,10 +46,8 @@ export function workerConnection(
     const message = `the worker failed: ${error.message}`;
     pending?.fail({ code: 'INTERNAL', message, fatal: true });
   };
-  const served = device && code?.serveDevice(device, (...args) => thread.post(...args), fail);
   thread.onMessage((message) => {
-    if (message.type === 'calls') void served!.take(message.calls);
-    else if (message.type !== 'ready' && message.id === pending?.id) pending.handle(message);
+    if (message.type !== 'ready' && message.id === pending?.id) pending.handle(message);
   });
   thread.onError(fail);
 
@@ -66,11 +59,9 @@ export function workerConnection(
       return isAlive;
     },
     load: (name, module) => thread.post({ type: 'load', name, module }, []),
-    free: (name, key) => thread.post({ type: 'free', name, key }, []),
     close() {
       isAlive = false;
       thread.terminate();
-      served?.end();
       const message = 'the triangulator was disposed of';
       pending?.fail({ code: 'DISPOSED', message, fatal: false });
     },
@@ -94,12 +85,8 @@ export function workerConnection(
           fail: reject,
           handle(message) {
             if (message.type === 'progress') stop.report(message.progress);
-            else if (message.type === 'done') {
-              const result: any = allInThisRealm(message.result);
-              if (result.resident)
-                result.resident.buffers = served!.handOver(result.resident.buffers);
-              resolve(result);
-            } else if (message.type === 'failed') reject(allInThisRealm(message.error));
+            else if (message.type === 'done') resolve(allInThisRealm(message.result));
+            else if (message.type === 'failed') reject(allInThisRealm(message.error));
             else if (message.type === 'blocking') {
               isBlocking = true;
               if (stop.isStopped) end();

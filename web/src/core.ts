@@ -2,21 +2,24 @@
 
 import makeGlue from 'glue';
 import type { Coordinates } from './arrays.js';
+import { PointCarrier, writeInSlices } from './carrier.js';
+import type { Device } from './device.js';
 import { GPU_ERRORS, type PlainError, toPlainError } from './errors.js';
+import { bytesOf } from './held.js';
 import { Memory, MemoryThreads } from './memory.js';
 import type {
   Control,
   CoreInfo,
   CoreStats,
+  Helper,
   MadeResident,
   ModuleName,
+  Task,
   TaskName,
   Tasks,
 } from './protocol.js';
 import type { AdapterInfo, Backend, Output } from './types.js';
 import { wgpuCalls } from './wgpu-calls.js';
-
-export { serveDevice } from './calls.js';
 
 /** The shortest time between two progress reports, since each is a message to the page. */
 const PROGRESS_MILLISECONDS = 20;
@@ -25,12 +28,19 @@ const PROGRESS_MILLISECONDS = 20;
 interface ModuleTasks {
   handlers: Handlers;
   memory: WebAssembly.Memory;
-  table?: WebAssembly.Table;
   dispose(): void;
   free?(key: number): void;
 }
 
-const TASKS: Record<ModuleName, (module: WebAssembly.Module, gpu?: object) => ModuleTasks> = {
+/** The device that an instance uses. */
+interface Uses {
+  /** The GPU object in which wgpu looks for it. */
+  gpu?: object | undefined;
+  /** The caller's device, while a worker has the points. */
+  device?: Device | undefined;
+}
+
+const TASKS: Record<ModuleName, (module: WebAssembly.Module, uses: Uses) => ModuleTasks> = {
   d3: tasks3d,
   d2: tasks2d,
   edit: editTasks,
@@ -39,7 +49,11 @@ const TASKS: Record<ModuleName, (module: WebAssembly.Module, gpu?: object) => Mo
 };
 
 type Handlers = {
-  [T in TaskName]?: (args: Tasks[T]['args'], control: Control) => Promise<Tasks[T]['result']>;
+  [T in TaskName]?: (
+    args: Tasks[T]['args'],
+    control: Control,
+    helper?: Helper,
+  ) => Promise<Tasks[T]['result']>;
 };
 
 /** One WebAssembly instance and its tasks. */
@@ -49,18 +63,26 @@ export interface Core {
     task: T,
     args: Tasks[T]['args'],
     control: Control,
+    helper?: Helper,
   ): Promise<Tasks[T]['result']>;
   dispose(): void;
-  /** What the instance of a module that uses a device refers to. */
-  table: WebAssembly.Table | undefined;
   /** Frees a mesh that stays on the caller's device. */
   free(key: number): void;
 }
 
-export function makeCore(name: ModuleName, module: WebAssembly.Module, gpu?: object): Core {
-  const { handlers, memory, table, dispose, free } = TASKS[name](module, gpu);
+/**
+ * Creates the core of a module. With a `gpu`, it uses that, and with the caller's `device` in it, only drives
+ * that: a helper has to compute.
+ */
+export function makeCore(
+  name: ModuleName,
+  module: WebAssembly.Module,
+  gpu?: object,
+  device?: Device,
+): Core {
+  const { handlers, memory, dispose, free } = TASKS[name](module, { gpu, device });
   return {
-    async run(task, args, control) {
+    async run(task, args, control, helper) {
       let last = -Infinity;
       const throttled: Control = {
         ...control,
@@ -74,15 +96,14 @@ export function makeCore(name: ModuleName, module: WebAssembly.Module, gpu?: obj
       try {
         const handler = handlers[task];
         if (!handler) throw new TypeError(`${name} has no task ${task}`);
-        return await handler(args, throttled);
+        return await handler(args, throttled, helper);
       } catch (thrown) {
         const error = toPlainError(thrown, memory.buffer.byteLength);
         // They go back, since the caller may have given them away.
-        throw 'points' in args ? { ...error, points: args.points } : error;
+        throw 'points' in args ? { points: args.points, ...error } : error;
       }
     },
     dispose,
-    table,
     free: (key) => free?.(key),
   };
 }
@@ -118,11 +139,11 @@ function instantiate(
   module: WebAssembly.Module,
   scope: object = globalThis,
   calls?: object,
-): { glue: any; memory: WebAssembly.Memory; table: WebAssembly.Table } {
+): { glue: any; memory: WebAssembly.Memory } {
   try {
     const glue = makeGlue(name, calls, scope);
-    const { memory, __wbindgen_externrefs: table } = glue.initSync({ module });
-    return { glue, memory, table };
+    const { memory } = glue.initSync({ module });
+    return { glue, memory };
   } catch (error) {
     const why = `WebAssembly cannot be started: ${String(error)}`;
     if (error instanceof RangeError) throw { code: 'OUT_OF_MEMORY', message: why, fatal: true };
@@ -143,6 +164,7 @@ const reporting =
 
 /** A mesh on the device. */
 interface WasmMesh {
+  drive(triangulator: object, carrier: PointCarrier, report: Report): Promise<any>;
   read(array: number, memory: (bytes: number) => Uint8Array): Promise<Uint8Array<ArrayBuffer>>;
   update(triangulator: object, points: Coordinates, backend: string, report: Report): Promise<any>;
   free(): void;
@@ -158,10 +180,11 @@ const ARRAYS = {
 type RunArgs = Tasks['delaunay2d']['args'];
 
 /** What 3D and 2D tasks share: an instance, its triangulator, and the choice of the backend. */
-function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | undefined) {
-  const calls = wgpuCalls();
+function instance(name: 'd3' | 'd2', module: WebAssembly.Module, { gpu, device }: Uses) {
+  // Nothing is to hold up the thread of a caller whose worker computes.
+  const calls = wgpuCalls(!device);
   const scope = gpu ? scopeWith(gpu) : globalThis;
-  const { glue, memory, table } = instantiate(name, module, scope, calls);
+  const { glue, memory } = instantiate(name, module, scope, calls);
   const triangulator = new glue.WasmTriangulator();
   let looking: Promise<AdapterInfo> | undefined;
   const memoryThreads = new MemoryThreads();
@@ -245,11 +268,7 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
     const run = (onDevice: boolean) => triangulate(chosen, onDevice, ready.take, report);
     const runOrUpdate = async (onDevice: boolean) => {
       const made = await (before?.update(triangulator, points, chosen, report) ?? run(onDevice));
-      if (made.resident) {
-        const { mesh, ...resident } = made.resident;
-        made.resident = { ...resident, key: newKey };
-        meshes.set(newKey, mesh);
-      }
+      if (made.resident) remember(made, newKey);
       return made;
     };
     let mesh: any;
@@ -296,22 +315,159 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
     meshes.delete(key);
   }
 
-  /** Returns the arrays of a mesh on the device, which keeps it. */
-  async function keep(made: any, outputs: readonly string[], { take }: Memory): Promise<any> {
-    const resident = made.resident as MadeResident;
-    const { dimension, duplicateOf, key } = resident;
-    const mesh = meshes.get(key)!;
+  /** Returns those arrays of a mesh on the device that are wanted, and always the simplices. */
+  async function read(
+    { buffers, counts }: MadeResident,
+    mesh: WasmMesh,
+    outputs: readonly string[],
+    { take }: Memory,
+  ): Promise<any> {
     const arrays = ARRAYS[name].map(async (array, i) => {
       if (i > 0 && !outputs.includes(array)) return [];
-      const { buffer, length } = await mesh.read(i, take);
+      const size = counts[i === 2 ? 1 : 0] && buffers[i]!.size;
+      const { buffer, length } = await (device
+        ? bytesOf(device, buffers[i]!, size, take)
+        : mesh.read(i, take));
       return [[array, new (i === 1 ? Int32Array : Uint32Array)(buffer, 0, length / 4)]];
     });
-    const read = Object.fromEntries((await Promise.all(arrays)).flat());
+    return Object.fromEntries((await Promise.all(arrays)).flat());
+  }
+
+  /** Returns the arrays of a mesh on the device, which keeps it. */
+  async function keep(made: any, outputs: readonly string[], ready: Memory): Promise<any> {
+    const resident = made.resident as MadeResident;
+    const { dimension, duplicateOf, key } = resident;
+    const arrays = await read(resident, meshes.get(key)!, outputs, ready);
     drop();
     kept = resident;
-    if (outputs.includes('duplicateOf')) read.duplicateOf = duplicateOf;
-    return { ...read, dimension, stats: made.stats, key };
+    if (outputs.includes('duplicateOf')) arrays.duplicateOf = duplicateOf;
+    return { ...arrays, dimension, stats: made.stats, key };
   }
+
+  /** Remembers the mesh that a run has left on the device. */
+  function remember(made: any, key: number): void {
+    const { mesh, ...resident } = made.resident;
+    made.resident = { ...resident, key };
+    meshes.set(key, mesh);
+  }
+
+  /** Drives the device, while the helper has the points; or has it triangulate them. */
+  async function drive(
+    task: Task,
+    args: RunArgs,
+    minGpuCoordinates: number,
+    control: Control,
+    helper: Helper,
+    begin: (carrier: PointCarrier, report: Report) => Promise<any>,
+  ): Promise<any> {
+    const started = performance.now();
+    const { backend, resident, spare, moved, key, newKey, outputs = [] } = args;
+    const isDecided =
+      backend === 'cpu' || (backend === 'auto' && args.points.length < minGpuCoordinates);
+    const info = isDecided ? null : await choose(backend);
+    const carrier = new PointCarrier(
+      args.points,
+      helper,
+      device!,
+      name === 'd3' ? 3 : 2,
+      calls.writeBuffer,
+    );
+    const ready = new Memory(spare);
+    const report = reporting(control);
+    let left: { fallback: string | null; gpu: null; update: null } | undefined;
+    let mesh: any;
+    if (info?.backend === 'gpu') {
+      const before = meshes.get(moved ?? key!);
+      if (key === undefined) drop();
+      try {
+        const made = await carrier.use(() =>
+          before ? before.drive(triangulator, carrier, report) : begin(carrier, report),
+        );
+        left = made.leftToCpu;
+        if (!left) {
+          remember(made, newKey);
+          mesh = made;
+          if (!resident) {
+            mesh = await keep(made, outputs, ready);
+            if (made.trace) mesh.trace = made.trace;
+            if (key === undefined) {
+              drop();
+              delete mesh.key;
+            }
+          }
+        }
+      } catch (thrown) {
+        const error = toPlainError(carrier.failure ?? thrown, memory.buffer.byteLength);
+        // The CPU takes over from a device that failed.
+        if (carrier.failure || backend === 'gpu' || !GPU_ERRORS.has(error.code))
+          throw { ...error, points: carrier.points };
+        left = { fallback: error.message, gpu: null, update: null };
+      }
+    }
+    if (!mesh) {
+      mesh = await helper.run(
+        task,
+        {
+          points: carrier.points,
+          backend: 'cpu',
+          outputs: (resident ? [...ARRAYS[name], 'duplicateOf'] : outputs) as Output[],
+          spare: [],
+          newKey,
+          vertexSimplex: resident ?? false,
+        },
+        [carrier.points.buffer],
+      );
+      carrier.points = mesh.points;
+      if (resident) mesh = await upload(mesh, newKey);
+      const { fallback, gpu, update } = { ...mesh.stats, ...left };
+      mesh.stats = { ...mesh.stats, fallback, gpu, update };
+    }
+    const stats: CoreStats = {
+      ...mesh.stats,
+      fallback: mesh.stats.fallback ?? info?.fallback ?? null,
+      adapter: mesh.stats.backend === 'gpu' ? (info?.adapter ?? null) : null,
+      milliseconds: performance.now() - started,
+      wasmBytes: memory.buffer.byteLength,
+      readyBytes: ready.readyBytes,
+    };
+    return { ...mesh, points: carrier.points, stats };
+  }
+
+  /** Moves a mesh of the CPU to the device. */
+  async function upload(mesh: any, key: number): Promise<any> {
+    const [simplices, neighbors, hull] = ARRAYS[name].map((array) => mesh[array]);
+    const [corners, ofHull] = name === 'd3' ? [4, 3] : [3, 1];
+    const room = name === 'd3' ? triangulator.room3d : triangulator.room2d;
+    const { duplicateOf, dimension } = mesh;
+    const lens = [simplices.length / corners, hull.length / ofHull];
+    const made = await room.call(triangulator, ...lens, duplicateOf, dimension);
+    remember(made, key);
+    for (const [i, array] of [simplices, neighbors, hull, mesh.vertexSimplex].entries())
+      await writeInSlices(made.resident.buffers[i], array, device!.queue, calls.writeBuffer);
+    device!.queue.submit([]);
+    return { resident: made.resident, stats: mesh.stats };
+  }
+
+  // The points of a run that another thread drives.
+  let session: any;
+  const hosting: Handlers = {
+    async begin({ points }, control) {
+      control.onBlocking();
+      session?.free();
+      session = undefined;
+      session = new (name === 'd3' ? glue.Session3 : glue.Session2)(points, reporting(control));
+      return { points };
+    },
+    async answer({ kind, request }, control) {
+      control.onBlocking();
+      return { answer: session.answer(kind, request) };
+    },
+    async end() {
+      session?.free();
+      session = undefined;
+      return {};
+    },
+  };
 
   const dispose = () => {
     drop();
@@ -319,13 +475,19 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, gpu: object | u
     calls.end();
     if (!(gpu as Gpu | undefined)?.isGiven) void triangulator.close();
   };
-  return { glue, memory, table, triangulator, choose, run, dispose, free };
+  return { glue, memory, triangulator, choose, run, drive, hosting, dispose, free };
 }
 
-function tasks3d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
-  const { glue, memory, triangulator, choose, run, ...rest } = instance('d3', module, gpu);
+function tasks3d(module: WebAssembly.Module, uses: Uses): ModuleTasks {
+  const { glue, memory, triangulator, choose, run, drive, hosting, ...rest } = instance(
+    'd3',
+    module,
+    uses,
+  );
 
   const handlers: Handlers = {
+    ...hosting,
+
     async open({ backend }) {
       const info = await choose(backend);
       if (info.backend === 'cpu') return info;
@@ -339,12 +501,19 @@ function tasks3d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
       }
     },
 
-    async delaunay3d(args, control) {
+    async delaunay3d(args, control, helper) {
       const minGpuCoordinates = 3 * glue.min_gpu_points_3d();
-      const { points, outputs } = args;
+      const { points, outputs, vertexSimplex } = args;
+      if (helper) {
+        const begin = (carrier: PointCarrier, report: Report) =>
+          triangulator.drive3d(carrier, outputs.includes('trace'), report);
+        return withEmpty(
+          await drive('delaunay3d', args, minGpuCoordinates, control, helper, begin),
+        );
+      }
       const large = outputs.includes('neighbors') ? 2 : 1;
       const mesh = await run(args, minGpuCoordinates, large, control, (backend, ...to) =>
-        triangulator.delaunay3d(points, backend, outputsOf(glue, outputs), ...to),
+        triangulator.delaunay3d(points, backend, outputsOf(glue, outputs, vertexSimplex), ...to),
       );
       return withEmpty(mesh);
     },
@@ -352,9 +521,10 @@ function tasks3d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
   return { handlers, memory, ...rest };
 }
 
-function outputsOf(glue: any, outputs: readonly Output[]): any {
+function outputsOf(glue: any, outputs: readonly Output[], vertexSimplex = false): any {
   const has = (output: Output) => outputs.includes(output);
-  return new glue.Outputs(has('neighbors'), has('hull'), has('duplicateOf'), has('trace'));
+  const wanted = [has('neighbors'), has('hull'), has('duplicateOf'), has('trace')];
+  return new glue.Outputs(...wanted, vertexSimplex);
 }
 
 /** Adds empty arrays for those that were not requested. */
@@ -365,15 +535,25 @@ function withEmpty(mesh: any): any {
   return mesh;
 }
 
-function tasks2d(module: WebAssembly.Module, gpu?: object): ModuleTasks {
-  const { glue, memory, triangulator, run, ...rest } = instance('d2', module, gpu);
+function tasks2d(module: WebAssembly.Module, uses: Uses): ModuleTasks {
+  const { glue, memory, triangulator, choose, run, drive, hosting, ...rest } = instance(
+    'd2',
+    module,
+    uses,
+  );
 
   const handlers: Handlers = {
-    delaunay2d(args, control) {
+    ...hosting,
+
+    delaunay2d(args, control, helper) {
       const minGpuCoordinates = 2 * glue.min_gpu_points_2d();
       const all = { ...args, outputs: [...ARRAYS.d2, 'duplicateOf'] };
+      if (helper)
+        return drive('delaunay2d', all, minGpuCoordinates, control, helper, (...to) =>
+          triangulator.drive2d(...to),
+        );
       return run(all, minGpuCoordinates, 2, control, (backend, ...to) =>
-        triangulator.delaunay2d(args.points, backend, ...to),
+        triangulator.delaunay2d(args.points, backend, args.vertexSimplex ?? false, ...to),
       );
     },
   };
@@ -500,29 +680,47 @@ function toolsTasks(module: WebAssembly.Module): ModuleTasks {
   return { handlers: Object.fromEntries(handlers), memory, dispose() {} };
 }
 
-const DERIVED: readonly TaskName[] = [
-  'locate',
-  'nearest',
-  'interpolate',
-  'voronoi',
-  'alphaShape',
-  'spanningTree',
-  'topology',
-  'geometry',
-];
+/** The tasks that derive something from a mesh. */
+type DerivedTask =
+  | 'locate'
+  | 'nearest'
+  | 'interpolate'
+  | 'voronoi'
+  | 'alphaShape'
+  | 'spanningTree'
+  | 'topology'
+  | 'geometry';
 
 function derivedTasks(module: WebAssembly.Module): ModuleTasks {
   const { glue, memory } = instantiate('derived', module);
-  // The functions of the module take the arguments of their tasks in the order in which these name
-  // them.
-  const handlers = DERIVED.map((name) => [
+  const tasks: {
+    [T in DerivedTask]: (args: Tasks[T]['args'], report: Report) => Tasks[T]['result'];
+  } = {
+    locate: ({ dimension, points, mesh, queries }, report) =>
+      glue.locate(dimension, points, mesh, queries, report),
+    nearest: ({ dimension, points, mesh, queries, k }, report) =>
+      glue.nearest(dimension, points, mesh, queries, k, report),
+    interpolate: ({ dimension, points, mesh, queries, values, method }, report) =>
+      glue.interpolate(dimension, points, mesh, queries, values, method, report),
+    voronoi: ({ dimension, points, mesh, clip, bounds }, report) =>
+      glue.voronoi(dimension, points, mesh, clip, bounds, report),
+    alphaShape: ({ dimension, points, mesh, alpha, components, criticalValues }, report) =>
+      glue.alphaShape(dimension, points, mesh, alpha, components, criticalValues, report),
+    spanningTree: ({ dimension, points, mesh }, report) =>
+      glue.spanningTree(dimension, points, mesh, report),
+    topology: ({ dimension, points, mesh }, report) =>
+      glue.topology(dimension, points, mesh, report),
+    geometry: ({ dimension, points, mesh }, report) =>
+      glue.geometry(dimension, points, mesh, report),
+  };
+  const handlers = Object.entries(tasks).map(([name, task]) => [
     name,
-    async (args: object, control: Control) => {
+    async (args: never, control: Control) => {
       control.onBlocking();
       let last = '';
       const reported = reporting(control);
       const report: Report = (phase, fraction) => reported((last = phase), fraction);
-      const result = glue[name](...Object.values(args), report);
+      const result = task(args, report);
       control.onProgress({ phase: last, fraction: 1 });
       return result;
     },

@@ -104,7 +104,7 @@ export function giveBack(error: GdelError, points: Coordinates): void {
  * or a trap, which ends the instance.
  */
 export function toPlainError(thrown: unknown, memoryBytes: number): PlainError {
-  const { code, message, index } = (
+  const { code, message, index, fatal } = (
     typeof thrown === 'object' && thrown ? thrown : {}
   ) as Partial<PlainError>;
   if (typeof code === 'string') {
@@ -112,7 +112,8 @@ export function toPlainError(thrown: unknown, memoryBytes: number): PlainError {
       code,
       message: String(message),
       ...(index === undefined ? {} : { index }),
-      fatal: code === 'BAD_FILE',
+      // What another thread threw says so.
+      fatal: fatal ?? code === 'BAD_FILE',
     };
   }
   // Rust traps without a message if an allocation fails: so a trap in a memory of nearly 4 GB

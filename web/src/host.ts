@@ -8,10 +8,12 @@ import { type Connection, callerConnection, workerConnection } from './connectio
 import { type Device, gpuOf } from './device.js';
 import { GdelError, giveBack, type PlainError, toGdelError } from './errors.js';
 import { compiled } from './modules.js';
-import type { Done, TaskName, Tasks } from './protocol.js';
+import type { Done, Helper, ModuleName, TaskName, Tasks } from './protocol.js';
 import { loadCode, messageOf, startWorker, type WasmAsset } from './runtime.js';
 import { Stop } from './stop.js';
-import type { TaskOptions } from './types.js';
+import type { Progress, TaskOptions } from './types.js';
+
+type Core = ReturnType<typeof import('./core.js').makeCore>;
 
 /** A run that can be aborted and takes longer than this has a second worker started beside it. */
 const WARM_MILLISECONDS = 100;
@@ -32,6 +34,8 @@ export interface Sending {
 export class Host {
   readonly #gpu: object | undefined;
   readonly #device: Device | undefined;
+  /** The instances that drive the device in this thread, while a worker computes. */
+  readonly #drivers = new Map<ModuleName, Core>();
   #connection: Promise<Connection> | undefined;
   /** A worker that waits for the first one to be ended. */
   #spare: Promise<Connection> | undefined;
@@ -94,15 +98,62 @@ export class Host {
       stop.onStop(warm);
     }
     try {
-      const result = await connection.run(asset.name, task, args, transfer, stop);
       const { thread, whyThread } = connection;
-      const free = (key: number) => connection.free(asset.name, key);
-      return { result, place: { thread, whyThread, whyInlined }, free };
+      const place = { thread, whyThread, whyInlined };
+      if (this.#device && thread === 'worker' && isDriven(task)) {
+        const driver = await this.#driver(asset);
+        const result = await this.#drive(driver, connection, asset, task, args, stop);
+        return { result, place, free: driver.free };
+      }
+      const result = await connection.run(asset.name, task, args, transfer, stop);
+      return { result, place, free: (key) => connection.free?.(asset.name, key) };
     } catch (thrown) {
       if ((thrown as PlainError).fatal) this.#drop(connection);
       throw thrown;
     } finally {
       clearTimeout(timer);
+    }
+  }
+
+  /** Returns the instance of a module that drives the device. */
+  async #driver({ name, ...asset }: WasmAsset): Promise<Core> {
+    const { value } = await compiled({ name, ...asset });
+    const { makeCore } = await loadCode(taskCode);
+    const driver = this.#drivers.get(name) ?? makeCore(name, value, this.#gpu, this.#device);
+    this.#drivers.set(name, driver);
+    return driver;
+  }
+
+  /** Runs a task on the device, with the help of the worker. */
+  async #drive<T extends TaskName>(
+    driver: Core,
+    connection: Connection,
+    { name }: WasmAsset,
+    task: T,
+    args: Tasks[T]['args'],
+    stop: Stop,
+  ): Promise<Tasks[T]['result']> {
+    let isOfWorker = false;
+    const helper: Helper = {
+      run: (...task) =>
+        connection.run(name, ...task, stop).catch((error) => {
+          isOfWorker = true;
+          throw error;
+        }),
+    };
+    const control = {
+      onProgress: (progress: Progress) => stop.report(progress),
+      onBlocking() {},
+      isAborted: () => stop.isStopped,
+    };
+    try {
+      return await driver.run(task, args, control, helper);
+    } catch (thrown) {
+      if (isOfWorker) throw thrown;
+      // What breaks here does not break the worker.
+      const { fatal, ...error } = thrown as PlainError;
+      if (fatal) this.#drivers.delete(name);
+      throw { ...error, fatal: false } satisfies PlainError;
     }
   }
 
@@ -119,6 +170,7 @@ export class Host {
       );
     }
     this.#connection = this.#spare = undefined;
+    for (const driver of this.#drivers.values()) driver.dispose();
   }
 
   #drop(connection: Connection): void {
@@ -162,12 +214,7 @@ export class Host {
 
   /** Starts a worker. */
   async #start(): Promise<Connection> {
-    const device = this.#device;
-    return workerConnection(
-      await startWorker(workerCode),
-      device && (await loadCode(taskCode)),
-      device,
-    );
+    return workerConnection(await startWorker(workerCode));
   }
 
   async #open(): Promise<Connection> {
@@ -182,6 +229,10 @@ export class Host {
     return callerConnection(await loadCode(taskCode), this.#gpu, this.#noWorker);
   }
 }
+
+/** Returns whether a task uses the device. */
+const isDriven = (task: TaskName): boolean =>
+  task === 'open' || task === 'delaunay3d' || task === 'delaunay2d';
 
 /** Returns what a run is rejected with, and where its points are. */
 function failureOf(

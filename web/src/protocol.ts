@@ -2,7 +2,7 @@
 
 import type { AlphaShape, Geometry, Topology, VoronoiArrays } from './answers.js';
 import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
-import type { Buffer, DeviceInfo } from './device.js';
+import type { Buffer } from './device.js';
 import type { PlainError } from './errors.js';
 import type {
   Backend,
@@ -88,6 +88,8 @@ export interface Tasks {
       key?: number;
       /** The key of the mesh if it stays on the device, which no other mesh has. */
       newKey: number;
+      /** Whether to return a simplex of each point. */
+      vertexSimplex?: boolean;
     };
     result: {
       points: Coordinates;
@@ -101,6 +103,7 @@ export interface Tasks {
       resident?: MadeResident;
       /** The key of what the device keeps for the next update, if this was one. */
       key?: number;
+      vertexSimplex?: SignedIndices;
       stats: CoreStats;
     };
   };
@@ -113,6 +116,7 @@ export interface Tasks {
       moved?: number;
       key?: number;
       newKey: number;
+      vertexSimplex?: boolean;
       outputs?: readonly string[];
     };
     result: {
@@ -125,9 +129,16 @@ export interface Tasks {
       /** Instead of the arrays, if it was requested. */
       resident?: MadeResident;
       key?: number;
+      vertexSimplex?: SignedIndices;
       stats: CoreStats;
     };
   };
+  /** Takes the points of a run that the calling thread drives on its device, and returns them. */
+  begin: { args: { points: Coordinates }; result: { points: Coordinates } };
+  /** Answers a request of this kind about these points, in lists of words. */
+  answer: { args: { kind: number; request: Indices[] }; result: { answer: Indices[] } };
+  /** Forgets the points. */
+  end: { args: object; result: object };
   change: {
     args: {
       dimension: 2 | 3;
@@ -182,6 +193,15 @@ export interface Done<T extends TaskName> {
   free?(key: number): void;
 }
 
+/** A worker that helps a thread which drives a device: it has a module of the same name. */
+export interface Helper {
+  run<T extends TaskName>(
+    task: T,
+    args: Tasks[T]['args'],
+    transfer: ArrayBuffer[],
+  ): Promise<Tasks[T]['result']>;
+}
+
 /** The connection of a task to its caller. */
 export interface Control {
   onProgress(progress: Progress): void;
@@ -190,22 +210,8 @@ export interface Control {
   isAborted(): boolean;
 }
 
-/**
- * A call that wgpu makes on a device of the calling thread: the number of an object, the method, its
- * arguments, in which `{ remote: number }` stands for an object, and the number of what it returns. Or
- * a dispatch, which is nearly all calls: the numbers of the pass, of the pipeline and of its bindings,
- * and the workgroups.
- */
-export type Call = [object: number, method: string | number, args: any, id: number];
-
 export type ToWorker =
-  /** The device that the modules use which come later. */
-  | { type: 'device'; info: DeviceInfo }
-  /** What a call has returned as a promise; for the number 0, how the device was lost. */
-  | { type: 'answer'; id: number; value: unknown; error: string | undefined }
   | { type: 'load'; name: ModuleName; module: WebAssembly.Module }
-  /** Frees a mesh that stays on the device. */
-  | { type: 'free'; name: ModuleName; key: number }
   | {
       type: 'run';
       id: number;
@@ -219,7 +225,6 @@ export type ToWorker =
 
 export type FromWorker =
   | { type: 'ready' }
-  | { type: 'calls'; calls: Call[] }
   | { type: 'progress'; id: number; progress: Progress }
   | { type: 'blocking'; id: number }
   | { type: 'done'; id: number; result: Tasks[TaskName]['result'] }

@@ -34,28 +34,26 @@ export const notCompiled = ({ message }: { message: string }) => ({
   constructor: { name: 'GPUValidationError' },
 });
 
-/** Whether the calling thread makes the calls (`remote.ts`), in these ways. */
-const isRemote = (object: object) => 'remote' in object;
-
-/** Returns the calls of an instance of WebAssembly, each with the object of which it is a method. */
-export function wgpuCalls() {
+/**
+ * Returns the calls of an instance of WebAssembly, each with the object of which it is a method. If it `mayWait`,
+ * its thread compiles some of the pipelines.
+ */
+export function wgpuCalls(mayWait: boolean) {
   /** The pipelines of the innermost scope. */
   let created: Pipeline[] = [];
   // Whether this thread compiles a pipeline in Node, where the device is part of the process: Dawn has two
   // threads for that, and this one would only wait. In a browser, it would hold up the process that draws.
-  const isForThisThread = (i: number) => i % 3 === 1;
+  const isForThisThread = (i: number) => mayWait && i % 3 === 1;
   let staging: Staging | undefined;
   const stagingOf = (queue: Queue): Queue => (queue === staging?.queue ? staging : queue);
 
   return {
     queue(device: Device): Queue {
-      if (isRemote(device)) return device.queue;
       staging?.end();
       staging = new Staging(device);
       return staging.queue;
     },
     createComputePipeline(device: Device, descriptor: object): object {
-      if (isRemote(device)) return device.createComputePipeline(descriptor);
       // What is needed at once is so before the next one is created.
       if (!isForThisThread(created.length - 1)) created.at(-1)?.compile();
       const pipeline = pipelineOf(device, descriptor);
@@ -63,7 +61,7 @@ export function wgpuCalls() {
       return pipeline;
     },
     setPipeline(pass: { setPipeline(pipeline: object): void }, pipeline: object): void {
-      pass.setPipeline(isRemote(pipeline) ? pipeline : (pipeline as Pipeline).now);
+      pass.setPipeline((pipeline as Pipeline).now);
     },
     popErrorScope(device: Device): Promise<{ message: string } | null> {
       const compiled = created.map((pipeline, i) =>

@@ -5,7 +5,6 @@ import { builtin } from './builtin.js';
 import { type Core, makeCore } from './core.js';
 import type { PlainError } from './errors.js';
 import type { FromWorker, ModuleName, ToWorker } from './protocol.js';
-import { remoteGpu } from './remote.js';
 
 /** The port to whoever started this worker. */
 interface Port {
@@ -14,12 +13,9 @@ interface Port {
 }
 
 /** Returns the core of a module, or why there is none. */
-function coreOf(
-  { name, module }: ToWorker & { type: 'load' },
-  gpu: object | undefined,
-): Core | PlainError {
+function coreOf({ name, module }: ToWorker & { type: 'load' }): Core | PlainError {
   try {
-    return makeCore(name, module, gpu);
+    return makeCore(name, module);
   } catch (error) {
     return error as PlainError;
   }
@@ -30,8 +26,6 @@ function serve(port: Port): void {
   /** The modules that were sent, instantiated or not. */
   const cores = new Map<ModuleName, Core | PlainError>();
   const aborted = new Set<number>();
-  /** The caller's device, if the modules are to use that. */
-  let device: ReturnType<typeof remoteGpu> | undefined;
 
   async function run({ id, module, task, args, isWatched }: ToWorker & { type: 'run' }) {
     try {
@@ -52,24 +46,13 @@ function serve(port: Port): void {
       port.post({ type: 'failed', id, error }, buffersOf(error.points));
     } finally {
       aborted.delete(id);
-      device?.sweep([...cores.values()].flatMap((core) => (core as Core).table ?? []));
     }
   }
 
   port.listen((message) => {
-    if (message.type === 'load') {
-      cores.set(message.name, coreOf(message, device?.gpu));
-    } else if (message.type === 'run') {
-      void run(message);
-    } else if (message.type === 'abort') {
-      aborted.add(message.id);
-    } else if (message.type === 'answer') {
-      device!.answer(message);
-    } else if (message.type === 'free') {
-      (cores.get(message.name) as Core).free(message.key);
-    } else {
-      device = remoteGpu(message.info, port.post);
-    }
+    if (message.type === 'load') cores.set(message.name, coreOf(message));
+    else if (message.type === 'run') void run(message);
+    else aborted.add(message.id);
   });
   port.post({ type: 'ready' }, []);
 }

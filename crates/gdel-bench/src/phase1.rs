@@ -6,12 +6,13 @@ use crate::{
 };
 use clap::{Args, ValueEnum};
 use gdel::internals::{
+    Options,
     dimension::Dimension,
     gpu::{
         Gpu, Profiler,
+        host::Here,
         layout::Pick,
-        phase1::{Finish, Input, MemorySettings, Phase1, Phase1Output, Settings},
-        start::first_simplex,
+        phase1::{Finish, MemorySettings, Phase1, Phase1Output, Settings},
     },
     input::lattice::Lattice,
 };
@@ -82,18 +83,17 @@ where
         let cloud = cloud?;
         let points = cloud.points();
         let lattice = Lattice::fit(points);
-        let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
-        let start = first_simplex(lattice.width(), points.len(), position).ok_or("the points are flat")?;
-        let input = Input { points, lattice: &lattice, start, starts_later: false };
+        let options = Options::default();
+        let mut host = Here::new(points, &options, Default::default());
         let mut phase1 = block_on(Phase1::in_parts(&gpu, lattice.width(), settings.parts(&gpu, points.len())))?;
         block_on(phase1.finish_compiling(&gpu))?;
         let (times, output) = repeated(arguments.runs, 1.0, || {
-            let output = block_on(phase1.run(&gpu, input, &settings, None))?;
+            let output = block_on(phase1.run(&gpu, &mut host, &settings, None))?;
             Ok::<_, gdel::Error>((milliseconds(output.stats.time), output))
         })?;
         let mut stages = Map::new();
         if let Some(mut profiler) = Profiler::new(&gpu)? {
-            block_on(phase1.run(&gpu, input, &settings, Some(&mut profiler)))?;
+            block_on(phase1.run(&gpu, &mut host, &settings, Some(&mut profiler)))?;
             let last = gpu.queue().submit([]);
             for &(name, time) in block_on(profiler.milliseconds(&gpu, &last))? {
                 stages.insert(name.to_owned(), json!(microseconds(time)));

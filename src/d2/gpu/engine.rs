@@ -8,25 +8,24 @@
 
 use crate::{
     d2::{
-        Mesh2, Triangulation2,
+        Mesh2,
         gpu::{
-            certify::{failed_tests, near_delaunay},
             finish::{Mesh, NearMesh, Open},
+            host::{Check, Checked, Flip, Flipped},
             layout::UncertainTest,
         },
-        lawson::{self, Aborted, LawsonOutcome, turns_once},
+        lawson::Aborted,
     },
     dimension::Dimension,
     error::Error,
     gpu::{
         Gpu, Recorder,
-        device_mesh::{DeviceArrays, DeviceMesh},
+        device_mesh::DeviceMesh,
         engine::{Complete, Made, Near, progress},
+        host::{Host, Work},
         phase1::{Copied, Copies, Ended, Run},
     },
     options::Options,
-    parallel::Threads,
-    predicates::filter::PredicateContext2,
     stats::{Fallback, Phase, Stats},
 };
 
@@ -47,23 +46,36 @@ impl Complete<2> for Dimension<2> {
         Ok(())
     }
 
-    async fn complete(run: Run<'_, 2>, mut near: Near<'_, 2>, _tracer: ()) -> Result<Result<Made<2>, Fallback>, Error> {
-        let (mut ended, _, (), ()) = run.end(|_, _| (), || near.prepare()).await?;
+    async fn complete<H: Host<2>>(
+        run: Run<'_, 2>,
+        mut near: Near<'_, H, 2>,
+        _tracer: (),
+    ) -> Result<Result<Made<2>, Fallback>, Error> {
+        let prepare = || {
+            let points = near.host.point_count();
+            near.host.work().map(|work| Dimension::<2>::prepare(work, points))
+        };
+        let (mut ended, _, (), _) = run.end(|_, _| (), prepare).await?;
         if near.moved.is_some() && ended.counters.failed > 0 {
             // Triangles are still inverted.
             near.stats.gpu = Some(ended.release().summary(near.adapter));
             return Ok(Err(Fallback::Folded));
         }
+        let mut checked = None;
         if near.resident {
             near.end_of_phase1(&ended.stats);
-            if let Some((arrays, duplicate_of)) = complete_on_device(&mut ended, &mut near).await? {
-                let readback = ended.kernels.readback.clone();
-                let mesh = Mesh2 { duplicate_of, dimension: 2, ..Mesh2::default() };
-                let mesh = DeviceMesh::<2>::new(ended.gpu, &readback, arrays, mesh);
+            let Open { hull, uncertain } = read_open(&mut ended).await?;
+            let merged = ended.read_merged().await?;
+            near.stats.phases.push((Phase::Readback, near.stopwatch.lap()));
+            let now = check(&mut near, hull, uncertain, merged).await?;
+            if near.moved.is_some() && now.is_proven && !now.turns_once {
                 near.stats.gpu = Some(ended.release().summary(near.adapter));
-                near.stats.phases.push((Phase::Finish, near.stopwatch.lap()));
-                return Ok(Ok(Made::Device(Box::new(mesh))));
+                return Ok(Err(Fallback::Folded));
             }
+            if now.is_proven {
+                return complete_on_device(ended, near, now).await;
+            }
+            checked = Some(now);
         }
         let (result, merged) = ended.read().await?;
         let phase1 = ended.release();
@@ -73,76 +85,68 @@ impl Complete<2> for Dimension<2> {
         } else {
             near.end_of_phase1(&phase1);
         }
-        let (missing, duplicate_of) = near.missing(&merged);
-        let Near { points, lattice, options, moved, stats, stopwatch, .. } = near;
         let NearMesh { mesh: Mesh { mut triangles, mut halfedges, hull }, uncertain } = result;
-        options.report(Phase::Finish, progress::COMPLETION)?;
-        let mut failed = uncertain;
-        if let Some(tests) = failed.as_mut().filter(|tests| !tests.is_empty()) {
-            (*tests, stats.exact) = failed_tests(points, lattice, tests);
-            stats.phases.push((Phase::Check, stopwatch.lap()));
-        }
-        let mut hull = in_order(&hull, points.len());
-        if !missing.is_empty() || !failed.as_ref().is_some_and(Vec::is_empty) {
-            let share = progress::FINISH - progress::COMPLETION;
-            let report = |done: f64| options.report(Phase::Flip, progress::COMPLETION + share * done);
-            let vertices = PredicateContext2::of_input(points, lattice);
-            let triangulation =
-                Triangulation2::from_mesh(triangles, halfedges, &hull, points.len() as u32, options.winding);
-            let near = near_delaunay(triangulation, failed.as_deref(), &missing);
-            let max_flips = FLIPS_PER_POINT * points.len() as u64;
-            let triangulation = match lawson::lawson(&vertices, near, max_flips, &report)? {
-                LawsonOutcome::Delaunay(triangulation, _) => triangulation,
-                LawsonOutcome::Aborted(Aborted::BudgetExceeded) => return Ok(Err(Fallback::Flips)),
-                LawsonOutcome::Aborted(Aborted::Folded) => return Ok(Err(Fallback::Folded)),
+        let checked = match checked {
+            Some(checked) => checked,
+            None => check(&mut near, hull, uncertain, merged).await?,
+        };
+        let Checked { mut hull, is_proven, mut turns_once, duplicate_of, .. } = checked;
+        if !is_proven {
+            let flipped = match near.host.ask(Flip { triangles, halfedges }).await? {
+                Ok(flipped) => flipped,
+                Err(Aborted::BudgetExceeded) => return Ok(Err(Fallback::Flips)),
+                Err(Aborted::Folded) => return Ok(Err(Fallback::Folded)),
             };
-            stats.exact = stats.exact + vertices.exact_counts();
-            (triangles, halfedges, hull) =
-                triangulation.into_mesh(&(0..points.len() as u32).collect::<Vec<_>>(), options.winding, Threads::All);
-            stats.phases.push((Phase::Flip, stopwatch.lap()));
+            near.stats.exact = near.stats.exact + flipped.exact;
+            Flipped { triangles, halfedges, hull, turns_once, .. } = flipped;
+            near.stats.phases.push((Phase::Flip, near.stopwatch.lap()));
         }
-        let vertices = PredicateContext2::of_input(points, lattice);
-        if moved.is_some() && !turns_once(&vertices, &hull, options.winding) {
+        if near.moved.is_some() && !turns_once {
             return Ok(Err(Fallback::Folded));
         }
-        stats.phases.push((Phase::Finish, stopwatch.lap()));
+        near.stats.phases.push((Phase::Finish, near.stopwatch.lap()));
         let mesh = Mesh2 { triangles, halfedges, hull, duplicate_of, dimension: 2, stats: Stats::default() };
         Ok(Ok(Made::Host(mesh)))
     }
 }
 
-/// Makes the arrays of the mesh on the device, if nothing is left to flips. Returns them with
-/// [`Mesh2::duplicate_of`].
-async fn complete_on_device(
-    ended: &mut Ended<'_, 2>,
-    near: &mut Near<'_, 2>,
-) -> Result<Option<(DeviceArrays, Vec<i32>)>, Error> {
-    let Open { hull, uncertain } = read_open(ended).await?;
-    let (missing, duplicate_of) = near.missing(&ended.read_merged().await?);
-    near.stats.phases.push((Phase::Readback, near.stopwatch.lap()));
-    let Some(tests) = uncertain.filter(|_| missing.is_empty()) else { return Ok(None) };
+/// Asks the host whether the mesh is that of the true points.
+async fn check<H: Host<2>>(
+    near: &mut Near<'_, H, 2>,
+    hull: Vec<[u32; 2]>,
+    uncertain: Option<Vec<UncertainTest>>,
+    merged: Vec<[u32; 2]>,
+) -> Result<Checked, Error> {
     near.options.report(Phase::Finish, progress::COMPLETION)?;
-    if !tests.is_empty() {
-        let (failed, exact) = failed_tests(near.points, near.lattice, &tests);
+    let has_tests = uncertain.as_ref().is_some_and(|tests| !tests.is_empty());
+    let merged = near.merged(merged);
+    let checked = near.host.ask(Check { hull, uncertain, merged }).await?;
+    near.note_inserted(checked.missing);
+    near.stats.exact = checked.exact;
+    if has_tests {
         near.stats.phases.push((Phase::Check, near.stopwatch.lap()));
-        if !failed.is_empty() {
-            return Ok(None);
-        }
-        near.stats.exact = exact;
     }
-    let points = near.points.len();
-    let hull = in_order(&hull, points);
-    // The triangles of points that have moved may go round more than once.
-    let vertices = PredicateContext2::of_input(near.points, near.lattice);
-    if near.moved.is_some() && !turns_once(&vertices, &hull, near.options.winding) {
-        return Ok(None);
-    }
-    let Ended { gpu, kernels, memory, stats, finite, .. } = ended;
+    Ok(checked)
+}
+
+/// Makes the arrays of a mesh to which nothing is to be done any more on the device.
+async fn complete_on_device<H: Host<2>>(
+    mut ended: Ended<'_, 2>,
+    near: Near<'_, H, 2>,
+    Checked { hull, duplicate_of, .. }: Checked,
+) -> Result<Result<Made<2>, Fallback>, Error> {
+    let Ended { gpu, kernels, memory, stats, finite, .. } = &mut ended;
     let aliases = &memory.bound.aliases;
-    let made = kernels.outputs.run(gpu, aliases, *finite, points, &hull).await?;
-    stats.dispatches += made.1;
+    let points = near.host.point_count();
+    let (arrays, dispatches) = kernels.outputs.run(gpu, aliases, *finite, points, &hull).await?;
+    stats.dispatches += dispatches;
     stats.submits += 1;
-    Ok(Some((made.0, duplicate_of)))
+    let readback = ended.kernels.readback.clone();
+    let mesh = Mesh2 { duplicate_of, dimension: 2, ..Mesh2::default() };
+    let mesh = DeviceMesh::<2>::new(ended.gpu, &readback, arrays, mesh);
+    near.stats.gpu = Some(ended.release().summary(near.adapter));
+    near.stats.phases.push((Phase::Finish, near.stopwatch.lap()));
+    Ok(Ok(Made::Device(Box::new(mesh))))
 }
 
 /// Reads what the host has to see of any mesh.
@@ -159,18 +163,4 @@ async fn read_open(ended: &mut Ended<'_, 2>) -> Result<Open<Vec<[u32; 2]>, Vec<U
         .await?;
     stats.submits += 1;
     open.receive(&mut Copied { readback: &mut kernels.readback, gpu, submission }).await
-}
-
-/// The flips per point after which the CPU engine finishes sooner: about as many as it takes from
-/// nothing.
-const FLIPS_PER_POINT: u64 = 3;
-
-/// Returns the vertices of the hull, from the lowest index, by its edges.
-fn in_order(edges: &[[u32; 2]], points: usize) -> Vec<u32> {
-    let mut next = vec![u32::MAX; points];
-    for &[from, to] in edges {
-        next[from as usize] = to;
-    }
-    let lowest = edges.iter().map(|&[from, _]| from).min();
-    std::iter::successors(lowest, |&v| Some(next[v as usize])).take(edges.len()).collect()
 }

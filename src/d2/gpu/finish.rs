@@ -79,7 +79,6 @@ impl Finish<2> for Dimension<2> {
     type Reading = Reading;
     type Result = NearMesh;
     type Outputs = OutputStage;
-    type Host = ();
 
     fn outputs(compiler: &Compiler<'_>) -> OutputStage {
         OutputStage::new(compiler)

@@ -5,6 +5,7 @@ pub(crate) mod certify;
 mod dim;
 mod engine;
 pub mod finish;
+mod host;
 pub mod layout;
 pub mod outputs;
 pub mod vertex;

@@ -8,13 +8,11 @@ use crate::{
     d3::{
         Mesh3,
         gpu::{
-            exchange::{Begun, Device},
+            exchange::{Device, spare},
+            host::{Advanced, Begin, Begun, Encloses, Facets, Stars, Step},
             trace::Tracer,
             whole,
         },
-        hull::encloses_once,
-        splay::{self, Doubts, Splay, Stop, Terms},
-        triangulation::Triangulation3,
     },
     dimension::Dimension,
     error::Error,
@@ -22,11 +20,10 @@ use crate::{
         Gpu,
         device_mesh::{DeviceMesh, Outputs},
         engine::{Complete, Made, Moved, Near, progress},
+        host::Host,
         phase1::Run,
     },
     options::Options,
-    parallel::Threads,
-    predicates::filter::PredicateContext,
     stats::{Fallback, Phase},
 };
 
@@ -51,9 +48,9 @@ impl Complete<3> for Dimension<3> {
         }
     }
 
-    async fn complete(
+    async fn complete<H: Host<3>>(
         run: Run<'_, 3>,
-        near: Near<'_, 3>,
+        near: Near<'_, H, 3>,
         tracer: Option<Tracer>,
     ) -> Result<Result<Made<3>, Fallback>, Error> {
         match near.resident {
@@ -64,64 +61,36 @@ impl Complete<3> for Dimension<3> {
 }
 
 /// Makes the mesh with the stars that splaying needs on the host.
-async fn complete_with_stars(
+async fn complete_with_stars<H: Host<3>>(
     run: Run<'_, 3>,
-    mut near: Near<'_, 3>,
+    mut near: Near<'_, H, 3>,
     mut tracer: Option<Tracer>,
 ) -> Result<Result<Made<3>, Fallback>, Error> {
-    let count = near.points.len();
-    let (mut device, start) = Device::end(run, || near.prepare()).await?;
+    let (mut device, begin) = Device::end(run, near.host).await?;
     near.end_of_phase1(&device.ended.stats);
-    let (missing, duplicate_of) = near.missing(&device.ended.read_merged().await?);
-    let Near { points, lattice, options, adapter, moved, stats, stopwatch, .. } = near;
-    options.report(Phase::Splay, progress::COMPLETION)?;
-
-    let vertices = PredicateContext::of_input(points, lattice);
-    let slots = device.ended.len();
+    let merged = near.merged(device.ended.read_merged().await?);
+    near.options.report(Phase::Splay, progress::COMPLETION)?;
     if let Some(tracer) = &mut tracer {
         let [tetrahedra, neighbors] = device.read().await?;
-        tracer.facets(&Triangulation3::new(tetrahedra, neighbors, count as u32), &vertices);
+        tracer.facets(near.host.ask(Facets { tetrahedra, neighbors }).await?);
     }
-    let share = progress::FINISH - progress::COMPLETION;
-    let report = |done: f64| options.report(Phase::Splay, progress::COMPLETION + share * done);
-    let max_evaluations = splay::evaluations_from_scratch(slots);
-    let terms = || Terms { max_evaluations, threads: Threads::All, report: &report };
-    let begun = start
-        .begin()
-        .map_err(Stop::from)
-        .and_then(|Begun { region, doubts }| Splay::begin(&vertices, region, Doubts { missing, ..doubts }, terms()));
-    let splayed = match begun {
-        Err(stop) => Err(stop),
-        // Splaying goes on as far as the stars suffice that were gathered before.
-        Ok(mut splay) => loop {
-            match splay.advance(&vertices, terms()) {
-                Err(stop) => break Err(stop),
-                Ok(lacking) if lacking.is_empty() => {
-                    let patch = splay.region().patch(slots, Threads::All);
-                    break Ok((splay.finish(), patch));
-                }
-                Ok(lacking) => {
-                    let gathered = device.gather(&lacking, splay.region()).await?;
-                    if let Err(stop) = splay.add(lacking, gathered) {
-                        break Err(stop);
-                    }
-                }
+    let Begun { mut step, missing, duplicate_of, mut exact } = near.host.ask(Begin { merged, ..begin }).await?;
+    near.note_inserted(missing);
+    let (patch, splayed) = loop {
+        let (vertices, next) = match step {
+            Ok(Step::Splayed(patch, splayed)) => break (patch, splayed),
+            Ok(Step::Lacking { vertices, next }) => (vertices, next),
+            Err(reason) => {
+                near.stats.gpu = Some(device.ended.release().summary(near.adapter));
+                return Ok(Err(reason.into()));
             }
-        },
+        };
+        let gathered = device.gather(&vertices, next, spare(near.host)).await?;
+        let advanced: Advanced = near.host.ask(Stars(gathered)).await?;
+        (step, exact) = (advanced.step, exact + advanced.exact);
     };
-    let patch = match splayed {
-        Ok(((region, splay), patch)) => {
-            stats.splay = Some(splay);
-            device.ended.host.keep(region);
-            patch
-        }
-        Err(Stop::Error(error)) => return Err(error),
-        Err(Stop::Aborted(reason)) => {
-            stats.gpu = Some(device.ended.release().summary(adapter));
-            return Ok(Err(reason.into()));
-        }
-    };
-    stats.exact = vertices.exact_counts();
+    let Near { host, options, adapter, moved, stats, stopwatch, .. } = near;
+    (stats.splay, stats.exact) = (Some(splayed), exact);
     if let Err(error) = device.patch(&patch).await {
         stats.gpu = Some(device.ended.release().summary(adapter));
         return match error {
@@ -139,7 +108,7 @@ async fn complete_with_stars(
     let mesh = Mesh3 { duplicate_of, dimension: 3, ..Mesh3::default() };
     let mesh = DeviceMesh::<3>::new(gpu, &readback, arrays, mesh);
     if let Some(Moved { spanning, .. }) = moved
-        && !encloses_once(points, lattice, &hull, spanning)
+        && !host.ask(Encloses { hull, spanning }).await?
     {
         return Ok(Err(Fallback::Inconsistent("the hull does not enclose its inside once")));
     }

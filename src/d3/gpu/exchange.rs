@@ -4,21 +4,22 @@ use crate::{
     d3::{
         gpu::{
             buffers::Gathering,
+            host::{Begin, Work3},
             outputs::{Made, OutputParams, SlotMesh},
         },
-        splay::{Aborted, Doubts, Gathered, INCIDENT_SHIFT, IndexSet, Patch, Region, SLOT},
+        splay::{Gathered, INCIDENT_SHIFT, Patch, SLOT},
     },
+    dimension::Dimension,
     error::Error,
     gpu::{
         Gpu, Pending, Recorder, Storage,
         device_mesh::DeviceArrays,
+        host::{Host, Merged, Work},
         layout::{Active, Counters, PARAM_WORDS},
         phase1::{Copied, Copies, Ended, Memory, Run, Slot, Stage},
         shader::constants::d3,
         workgroups,
     },
-    index::NO_INDEX,
-    parallel::Threads,
 };
 use bytemuck::Pod;
 
@@ -82,36 +83,18 @@ impl Gathering3 {
     }
 }
 
-/// What splaying begins with, as it comes from the device.
-pub(crate) struct Start {
-    region: Region,
-    gathered: Gathered,
-    /// The failed vertices.
-    failed: Vec<u32>,
-    /// The slots of the uncertain tetrahedra, ascending.
-    uncertain: Vec<u32>,
-}
-
-/// The same, in a region.
-pub(crate) struct Begun {
-    /// The stars of the failed vertices and of those of uncertain tetrahedra.
-    pub(crate) region: Region,
-    /// Where the mesh may not be Delaunay; nothing is missing yet.
-    pub(crate) doubts: Doubts,
-}
-
 /// The mesh on the device at the end of Phase 1.
 pub(crate) struct Device<'a> {
     pub(crate) ended: Ended<'a, 3>,
 }
 
 impl<'a> Device<'a> {
-    /// Ends the run, and gathers what splaying begins with. The host does `meanwhile` before it waits for the device.
+    /// Ends the run, and gathers what splaying begins with. `host` prepares while the device is at work.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub(crate) async fn end(mut run: Run<'a, 3>, meanwhile: impl FnOnce()) -> Result<(Self, Start), Error> {
+    pub(super) async fn end(run: Run<'a, 3>, host: &mut impl Host<3>) -> Result<(Self, Begin), Error> {
         let gather = Gathering { first: 1, patched: 0 };
         let (gpu, points) = (run.gpu(), run.control().0.infinite as usize);
         let workgroups = run.workgroups();
@@ -123,34 +106,31 @@ impl<'a> Device<'a> {
             let (failed, uncertain) = (&aliases.failed, &aliases.uncertain);
             (gathering, Ahead::copy(copies, failed, ahead), Ahead::copy(copies, uncertain, ahead))
         };
-        let kept = run.take_host().take();
-        let prepare = || {
-            meanwhile();
-            Region::again(kept, points, Threads::All)
-        };
-        let (ended, submission, (gathering, failed, uncertain), mut region) = run.end(record, prepare).await?;
-        if ended.len() > SLOT as usize {
+        let prepare = || host.work().map(|work| Dimension::<3>::prepare(work, points));
+        let (ended, submission, (gathering, failed, uncertain), _) = run.end(record, prepare).await?;
+        let slots = ended.len();
+        if slots > SLOT as usize {
             return Err(Error::TooManySimplices { limit: SLOT as usize });
         }
         let (failed_len, uncertain_len) = (ended.counters.failed as usize, ended.counters.uncertain as usize);
         let mut device = Device { ended };
-        let gathered = device.receive(&submission, gathering, &mut region).await?;
+        let gathered = device.receive(&submission, gathering, spare(host)).await?;
         let mut failed = device.receive_list(&submission, failed, failed_len).await?;
         let uncertain: Vec<Active> = device.receive_list(&submission, uncertain, uncertain_len).await?;
 
         failed.sort_unstable();
         let mut uncertain: Vec<u32> = uncertain.into_iter().map(|Active { tet, .. }| tet).collect();
         uncertain.sort_unstable();
-        Ok((device, Start { region, gathered, failed, uncertain }))
+        Ok((device, Begin { gathered, failed, uncertain, merged: Merged::default(), slots }))
     }
 
-    /// Receives what is gathered, in memory that `region` has for it, and reads the rest of it if there is more than
-    /// was read ahead.
+    /// Receives what is gathered, in the memory of `spare`, and reads the rest of it if there is more than was read
+    /// ahead.
     async fn receive(
         &mut self,
         submission: &wgpu::SubmissionIndex,
         gathering: Gathering3,
-        region: &mut Region,
+        spare: Gathered,
     ) -> Result<Gathered, Error> {
         let Gathering3 { count, tetrahedra, neighbors, slots } = gathering;
         let Ended { gpu, kernels, stats, .. } = &mut self.ended;
@@ -184,7 +164,6 @@ impl<'a> Device<'a> {
             }
             None => (tetrahedra, neighbors, slots),
         };
-        let spare = region.spare();
         Ok(Gathered {
             tetrahedra: copied.receive_into(tetrahedra, spare.tetrahedra).await?,
             neighbors: copied.receive_into(neighbors, spare.neighbors).await?,
@@ -208,12 +187,13 @@ impl<'a> Device<'a> {
         Ok(list)
     }
 
-    /// Returns the tetrahedra at `vertices` that it has not returned before, numbered on from those of `region`.
+    /// Returns the tetrahedra at `vertices` that it has not returned before, numbered from `first` on, in the memory
+    /// of `spare`.
     ///
     /// # Errors
     ///
     /// Those of [`Run::advance`].
-    pub(crate) async fn gather(&mut self, vertices: &[u32], region: &mut Region) -> Result<Gathered, Error> {
+    pub(crate) async fn gather(&mut self, vertices: &[u32], first: u32, spare: Gathered) -> Result<Gathered, Error> {
         let Ended { gpu, kernels, memory, stats, workgroups, .. } = &mut self.ended;
         let gpu: &Gpu = gpu;
         let own = &memory.buffers.own;
@@ -223,7 +203,7 @@ impl<'a> Device<'a> {
         let (submission, gathering) = gpu
             .with_error_scope("gathering stars", || {
                 own.wanted.write(gpu, 0, &wanted);
-                own.gathering.write(gpu, 0, &[Gathering { first: region.next(), patched: 0 }]);
+                own.gathering.write(gpu, 0, &[Gathering { first, patched: 0 }]);
                 let mut copies = Copies { readback: &mut kernels.readback, gpu, recorder: Recorder::new(gpu, None) };
                 let gathering = Gathering3::record(&mut copies, memory, ahead, *workgroups);
                 stats.dispatches += copies.recorder.dispatches();
@@ -231,7 +211,7 @@ impl<'a> Device<'a> {
                 Ok((copies.recorder.submit(gpu), gathering))
             })
             .await?;
-        self.receive(&submission, gathering, region).await
+        self.receive(&submission, gathering, spare).await
     }
 
     /// Writes back what splaying has changed.
@@ -316,32 +296,7 @@ impl<'a> Device<'a> {
     }
 }
 
-impl Start {
-    /// Adds what was gathered to the region, which has nothing yet. Returns it with the doubts by its numbers.
-    ///
-    /// # Errors
-    ///
-    /// Returns [`Aborted::Inconsistent`] if what was gathered does not fit.
-    pub(crate) fn begin(self) -> Result<Begun, Aborted> {
-        let Start { mut region, gathered, failed, uncertain } = self;
-        let infinite = region.infinite();
-        let first = region.next();
-        let mut numbers = vec![NO_INDEX; uncertain.len()];
-        // Most tetrahedra are certain, which a bit tells sooner than a search.
-        let mut is_uncertain = IndexSet::new(uncertain.last().map_or(0, |&t| t as usize + 1));
-        uncertain.iter().for_each(|&t| is_uncertain.insert(t));
-        for (number, word) in (first..).zip(&gathered.slots).filter(|(_, word)| is_uncertain.has(**word & SLOT)) {
-            if let Ok(i) = uncertain.binary_search(&(word & SLOT)) {
-                numbers[i] = number;
-            }
-        }
-        if numbers.contains(&NO_INDEX) {
-            return Err(Aborted::Inconsistent("an uncertain tetrahedron was not gathered"));
-        }
-        let uncertain = numbers;
-        let corners = uncertain.iter().flat_map(|&t| gathered.tetrahedra[(t - first) as usize]);
-        let stars: Vec<u32> = corners.filter(|&v| v != infinite).chain(failed.iter().copied()).collect();
-        region.add(stars, gathered, Threads::All)?;
-        Ok(Begun { region, doubts: Doubts { failed, uncertain, missing: Vec::new() } })
-    }
+/// Returns memory that the host has for what is gathered.
+pub(super) fn spare(host: &mut impl Host<3>) -> Gathered {
+    host.work().map_or_else(Gathered::default, Work3::spare)
 }

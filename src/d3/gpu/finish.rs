@@ -2,10 +2,7 @@
 //! open by rounding.
 
 use crate::{
-    d3::{
-        gpu::{aliases::Aliases, outputs::OutputStage},
-        splay::KeptRegion,
-    },
+    d3::gpu::{aliases::Aliases, outputs::OutputStage},
     dimension::Dimension,
     error::Error,
     gpu::{
@@ -51,8 +48,6 @@ impl Finish<3> for Dimension<3> {
     type Reading = Reading;
     type Result = NearMesh;
     type Outputs = OutputStage;
-    /// The region of the run before.
-    type Host = KeptRegion;
 
     fn outputs(compiler: &Compiler<'_>) -> OutputStage {
         OutputStage::new(compiler)

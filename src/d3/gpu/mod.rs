@@ -6,6 +6,7 @@ mod dim;
 mod engine;
 pub(crate) mod exchange;
 pub mod finish;
+mod host;
 pub mod outputs;
 pub mod trace;
 pub mod vertex;

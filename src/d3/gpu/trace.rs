@@ -34,33 +34,9 @@ impl Tracer {
         Ok(())
     }
 
-    /// Finds the facets that are not locally Delaunay, before splaying.
-    pub(crate) fn facets(&mut self, mesh: &Triangulation3, vertices: &PredicateContext3<'_>) {
-        let finite = |t: u32| mesh.state(t) != state::FREE && !mesh.is_ghost(t);
-        let is_oriented = |t: u32| {
-            let [a, b, c, d] = mesh.vertices(t);
-            vertices.orient3d(a, b, c, d) > 0
-        };
-        for t in (0..mesh.tetrahedra().len() as u32).filter(|&t| finite(t)) {
-            for (k, facet) in FACETS.iter().enumerate() {
-                let across = mesh.neighbors()[t as usize][k];
-                let other = across >> 2;
-                if other < t || !finite(other) {
-                    continue;
-                }
-                // A flat tetrahedron has no circumsphere; then that on the other side decides.
-                let apex = |of: u32, at: u32| mesh.vertices(of)[at as usize & 3];
-                let is_inside = if is_oriented(t) {
-                    vertices.insphere(mesh.vertices(t), apex(other, across)) > 0
-                } else {
-                    is_oriented(other) && vertices.insphere(mesh.vertices(other), apex(t, k as u32)) > 0
-                };
-                if is_inside {
-                    let corners = facet.map(|i| vertices.input_index(mesh.vertices(t)[i]));
-                    self.trace.not_locally_delaunay.push(corners);
-                }
-            }
-        }
+    /// Takes the facets that are not locally Delaunay, before splaying.
+    pub(crate) fn facets(&mut self, facets: Vec<[u32; 3]>) {
+        self.trace.not_locally_delaunay = facets;
     }
 
     /// Finds the tetrahedra that splaying has added, at the end.
@@ -74,4 +50,35 @@ impl Tracer {
         self.trace.splayed = tetrahedra.iter().map(|&v| before.binary_search(&sorted(v)).is_err()).collect();
         self.trace
     }
+}
+
+/// Returns the facets between finite tetrahedra that are not locally Delaunay, as input indices.
+pub(super) fn facets_not_delaunay(mesh: &Triangulation3, vertices: &PredicateContext3<'_>) -> Vec<[u32; 3]> {
+    let mut facets = Vec::new();
+    let finite = |t: u32| mesh.state(t) != state::FREE && !mesh.is_ghost(t);
+    let is_oriented = |t: u32| {
+        let [a, b, c, d] = mesh.vertices(t);
+        vertices.orient3d(a, b, c, d) > 0
+    };
+    for t in (0..mesh.tetrahedra().len() as u32).filter(|&t| finite(t)) {
+        for (k, facet) in FACETS.iter().enumerate() {
+            let across = mesh.neighbors()[t as usize][k];
+            let other = across >> 2;
+            if other < t || !finite(other) {
+                continue;
+            }
+            // A flat tetrahedron has no circumsphere; then that on the other side decides.
+            let apex = |of: u32, at: u32| mesh.vertices(of)[at as usize & 3];
+            let is_inside = if is_oriented(t) {
+                vertices.insphere(mesh.vertices(t), apex(other, across)) > 0
+            } else {
+                is_oriented(other) && vertices.insphere(mesh.vertices(other), apex(t, k as u32)) > 0
+            };
+            if is_inside {
+                let corners = facet.map(|i| vertices.input_index(mesh.vertices(t)[i]));
+                facets.push(corners);
+            }
+        }
+    }
+    facets
 }

@@ -5,7 +5,9 @@ use crate::{
     error::Error,
     gpu::{
         Gpu, Profiler, Recorder,
+        device::ErrorScope,
         dim::Dim,
+        host::{Fitted, Host, MakeStart},
         layout::Params,
         phase1::{
             buffers::Sizes,
@@ -20,12 +22,10 @@ use crate::{
             stages::Stage,
             stats::{Meter, Phase1Stats},
         },
-        points::PointInput,
+        points::InputParams,
         start::{Start, StartMesh},
     },
-    input::{lattice::Lattice, points::Points},
     options::Winding,
-    parallel,
     stats::Stopwatch,
 };
 use std::collections::VecDeque;
@@ -38,21 +38,33 @@ const FEW_LIMIT: u32 = 4;
 /// input takes, and so few that a run is not far beyond them when it is found to be slow.
 const FEW_ITERATIONS: u32 = 128;
 
-/// The points of a run.
+/// How a run begins.
 #[derive(Debug, Clone, Copy)]
-pub struct Input<'a, const D: usize>
+pub struct Begin<const D: usize>
 where
     Dimension<D>: Dim<D>,
 {
-    /// The points, in input order.
-    pub points: Points<'a, D>,
-    /// The lattice that is fitted to them.
-    pub lattice: &'a Lattice<D>,
+    /// Where the points are on the lattice.
+    pub params: InputParams,
     /// The first simplex, by input indices.
-    pub start: Start<D>,
+    pub first: Start<D>,
     /// Whether as a rule no points are inserted, because [`Run::take`] comes next: then what they
     /// would be inserted into is made only by [`Run::forget`].
     pub starts_later: bool,
+}
+
+impl<const D: usize> Begin<D>
+where
+    Dimension<D>: Dim<D>,
+{
+    /// Returns how a run on points begins that span all dimensions.
+    ///
+    /// # Panics
+    ///
+    /// Panics if they do not.
+    pub fn of(Fitted { params, start }: Fitted<D>) -> Self {
+        Begin { params, first: start.expect("the points span all dimensions"), starts_later: false }
+    }
 }
 
 impl<'a, const D: usize> Run<'a, D>
@@ -71,43 +83,50 @@ where
     pub async fn new(
         kernels: &'a mut Phase1<D>,
         gpu: &'a Gpu,
-        input: Input<'_, D>,
+        host: &mut impl Host<D>,
+        begin: Begin<D>,
         settings: Settings<D>,
         mut profiler: Option<&'a mut Profiler>,
     ) -> Result<Self, Error> {
         let (clock, round_clock) = (Stopwatch::start(), Stopwatch::start());
-        let count = input.points.len();
+        let count = host.point_count();
         let sizes = first_sizes(gpu, kernels.parts, &settings, count)?;
         // What is kept is lost if the run fails.
-        let Kept { mut points, memory: kept, needed, host } = std::mem::take(&mut kernels.kept);
+        let Kept { points: kept_points, memory: kept, needed } = std::mem::take(&mut kernels.kept);
         let before = if needed.points == count as u32 { needed } else { Default::default() };
-        let Input { points: input, lattice, start: first, starts_later } = input;
-        let triangulate = || match starts_later {
-            true => StartMesh::of_first(&first),
-            false => StartMesh::new(input, lattice, &first, sizes.start_points),
+        let Begin { params: on_lattice, first, starts_later } = begin;
+        let points = match kept_points.filter(|kept| kept.fits(&on_lattice)) {
+            Some(kept) => kept,
+            None => gpu.with_error_scope("the points", || kernels.points.buffers(gpu, &on_lattice)).await?,
         };
+        host.upload(gpu, points.input()).await?;
+        // The device orders the points while the host makes the other buffers.
+        let mut uploaded = None;
         let upload = || {
-            // The device orders the points while the host makes the other buffers.
+            let scope = ErrorScope::open(gpu, "Phase 1");
             let mut recorder = Recorder::new(gpu, profiler.as_deref_mut());
-            let input = PointInput { points: input, lattice, sort: settings.sort };
-            let device = kernels.points.record(gpu, &mut recorder, &mut points, input)?;
+            let device = kernels.points.record(gpu, &mut recorder, &points, on_lattice, settings.sort);
             let mut words = Vec::new();
-            Dimension::<D>::append_vertex(&mut words, lattice.width(), first.interior_point, count as u32, false);
+            let (width, inside) = (on_lattice.width(), first.interior_point);
+            Dimension::<D>::append_vertex(&mut words, width, inside, count as u32, false);
             device.vertices.write(gpu, count * words.len(), &words);
             let dispatches = recorder.dispatches();
             recorder.submit(gpu);
-            Ok((Memory::new(&kernels.stages, gpu, kept, device, sizes)?, dispatches))
+            let memory = Memory::new(&kernels.stages, gpu, kept, device, sizes);
+            uploaded = Some((memory, dispatches, scope.close()));
         };
-        let (mut start, (memory, dispatches)) = gpu
-            .with_error_scope("Phase 1", || {
-                let (uploaded, start) = parallel::beside(upload, vec![triangulate]);
-                Ok((start, uploaded?))
-            })
-            .await?;
-        let start = start.swap_remove(0);
+        let start = if starts_later {
+            upload();
+            StartMesh::of_first(&first)
+        } else {
+            host.ask_while(MakeStart { wanted: sizes.start_points }, upload).await?
+        };
+        let (memory, dispatches, report) = uploaded.ok_or(Error::Cancelled)?;
+        report.await?;
+        let memory = memory?;
         let few = if kernels.stages.can(Stage::FlipFew) { settings.few } else { 0 };
         let params = params(&settings, Sizes { blocks: memory.buffers.blocks(), ..sizes }, count as u32, few);
-        let mut device = DeviceRun { params, memory, points, settings, parts: kernels.parts };
+        let mut device = DeviceRun { params, memory, points: Some(points), settings, parts: kernels.parts };
         device.set_start(&start);
         let rules = Rules {
             params: device.params,
@@ -122,7 +141,6 @@ where
             gpu,
             profiler,
             device,
-            host,
             meter: Meter {
                 stats: Phase1Stats { start_points, dispatches, submits: 1, ..Phase1Stats::default() },
                 read_before: (kernels.readback.count(), kernels.readback.bytes()),

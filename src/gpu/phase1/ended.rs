@@ -40,10 +40,10 @@ where
     /// far as that is known.
     pub fn abandon(mut self) -> Phase1Stats {
         self.keep_needed();
-        let Run { kernels, device, host, plan, mut meter, .. } = self;
+        let Run { kernels, device, plan, mut meter, .. } = self;
         meter.end(*plan.counters());
         kernels.kept.points = device.points;
-        keep(kernels, device.memory, host, meter.read_before, meter.stats)
+        keep(kernels, device.memory, meter.read_before, meter.stats)
     }
 
     /// Makes the mesh and reads it back.
@@ -112,7 +112,6 @@ where
             workgroups,
             kernels: self.kernels,
             memory: self.device.memory,
-            host: self.host,
             rooms: self.rooms,
             read_before: self.meter.read_before,
             stats: self.meter.stats,
@@ -130,7 +129,6 @@ where
 fn keep<const D: usize>(
     kernels: &mut Phase1<D>,
     memory: Memory<D>,
-    host: <Dimension<D> as Finish<D>>::Host,
     read_before: (usize, u64),
     mut stats: Phase1Stats,
 ) -> Phase1Stats
@@ -140,7 +138,7 @@ where
     stats.readbacks = kernels.readback.count() - read_before.0;
     stats.bytes_read = kernels.readback.bytes() - read_before.1;
     stats.bytes = memory.bytes() + kernels.kept.points.as_ref().map_or(0, PointBuffers::bytes);
-    (kernels.kept.memory, kernels.kept.host) = (Some(memory), host);
+    kernels.kept.memory = Some(memory);
     stats
 }
 
@@ -152,8 +150,6 @@ where
     pub(crate) kernels: &'a mut Phase1<D>,
     pub(crate) gpu: &'a Gpu,
     pub(crate) memory: Memory<D>,
-    /// The memory of the host that the next run gets.
-    pub(crate) host: <Dimension<D> as Finish<D>>::Host,
     pub(crate) counters: Counters,
     /// The number of finite simplices.
     pub(crate) finite: usize,
@@ -220,7 +216,7 @@ where
 
     /// Keeps the buffers for the next run. Returns what this one did.
     pub(crate) fn release(self) -> Phase1Stats {
-        keep(self.kernels, self.memory, self.host, self.read_before, self.stats)
+        keep(self.kernels, self.memory, self.read_before, self.stats)
     }
 }
 

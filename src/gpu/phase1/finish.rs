@@ -10,6 +10,7 @@ use crate::{
     gpu::{
         Binding, Compiler, Gpu, Pending, Readback, Recorder, Storage,
         dim::{Corners, Dim},
+        host::Work,
         layout::Counters,
         phase1::{buffers::Buffers, memory::Memory},
     },
@@ -17,9 +18,9 @@ use crate::{
 
 /// How Phase 1 ends in `D` dimensions.
 #[expect(async_fn_in_trait, reason = "only this crate implements it, and no caller is generic over threads")]
-pub trait Finish<const D: usize>: Dim<D>
+pub trait Finish<const D: usize>: Work<D>
 where
-    Dimension<D>: Dim<D>,
+    Dimension<D>: Work<D>,
 {
     /// The names of the buffers of the rounds that the end writes over.
     type Aliases: Aliases<D>;
@@ -29,8 +30,6 @@ where
     type Result: Debug + Clone + PartialEq;
     /// The kernels that make the arrays of the caller's mesh.
     type Outputs: Debug;
-    /// The memory of the host that a run leaves to the next one.
-    type Host: Debug + Default + Send;
 
     /// Creates the kernels that make the arrays of the caller's mesh.
     fn outputs(compiler: &Compiler<'_>) -> Self::Outputs;

@@ -35,8 +35,6 @@ where
     pub(crate) memory: Option<Memory<D>>,
     /// The flip iterations that the last run that inserted points needed.
     pub(crate) needed: Needed,
-    /// What the host has.
-    pub(crate) host: <Dimension<D> as Finish<D>>::Host,
 }
 
 impl<const D: usize> Default for Kept<D>
@@ -44,7 +42,7 @@ where
     Dimension<D>: Finish<D>,
 {
     fn default() -> Self {
-        Kept { points: None, memory: None, needed: Needed::default(), host: Default::default() }
+        Kept { points: None, memory: None, needed: Needed::default() }
     }
 }
 

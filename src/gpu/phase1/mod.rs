@@ -45,7 +45,7 @@ mod settings;
 mod stages;
 mod stats;
 
-pub use begin::Input;
+pub use begin::Begin;
 pub use buffers::{Buffers, Sizes, Slot};
 pub use ended::Ended;
 pub use finish::{Aliases, Copied, Copies, Finish};

@@ -6,12 +6,9 @@ use crate::{
     gpu::{
         Recorder,
         device_mesh::DeviceMesh,
+        host::{Host, MakeStart},
         layout::Counters,
-        phase1::{
-            begin::Input, capacity::MAX_SIMPLICES, ended::pairs, finish::Finish, plan::Plan, record::counters_in,
-            run::Run,
-        },
-        start::StartMesh,
+        phase1::{capacity::MAX_SIMPLICES, ended::pairs, finish::Finish, plan::Plan, record::counters_in, run::Run},
     },
 };
 
@@ -60,14 +57,21 @@ where
         Ok((inverted < MAX_SIMPLICES).then_some([inverted as usize, violated as usize]))
     }
 
-    /// Forgets the mesh that was taken: all points of the input wait to be inserted.
-    pub(crate) fn forget(&mut self, input: &Input<'_, D>) {
-        let Input { points, lattice, start, starts_later, .. } = input;
-        let start = match starts_later {
-            true => StartMesh::new(*points, lattice, start, self.settings().start_points(points.len())),
-            false => std::mem::take(&mut self.start),
+    /// Forgets the mesh that was taken: all points of the input wait to be inserted. `starts_later` is that of
+    /// [`Begin`](crate::gpu::phase1::Begin).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Host::ask`].
+    pub(crate) async fn forget(&mut self, host: &mut impl Host<D>, starts_later: bool) -> Result<(), Error> {
+        let start = if starts_later {
+            let wanted = self.settings().start_points(host.point_count());
+            host.ask(MakeStart { wanted }).await?
+        } else {
+            std::mem::take(&mut self.start)
         };
         self.begin_with(start);
+        Ok(())
     }
 
     /// Reads the points that are vertices of no simplex, as

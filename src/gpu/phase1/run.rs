@@ -5,9 +5,10 @@ use crate::{
     error::Error,
     gpu::{
         Gpu, Pending, Profiler, Recorder,
+        host::{Fit, Host},
         layout::{Counters, Params},
         phase1::{
-            begin::Input,
+            begin::Begin,
             buffers::Buffers,
             ended::Rooms,
             finish::Finish,
@@ -49,7 +50,6 @@ where
     pub(super) gpu: &'a Gpu,
     pub(super) profiler: Option<&'a mut Profiler>,
     pub(super) device: DeviceRun<D>,
-    pub(super) host: <Dimension<D> as Finish<D>>::Host,
     pub(super) first: Start<D>,
     pub(super) start: StartMesh,
     pub(super) plan: Plan,
@@ -80,11 +80,6 @@ where
     /// Returns whether the run goes on from a mesh whose points have moved.
     pub(crate) fn has_moved(&self) -> bool {
         self.plan.has_moved()
-    }
-
-    /// Takes the memory of the host that the run before left.
-    pub(crate) fn take_host(&mut self) -> <Dimension<D> as Finish<D>>::Host {
-        std::mem::take(&mut self.host)
     }
 
     /// Returns the settings.
@@ -195,14 +190,19 @@ where
     /// # Errors
     ///
     /// Those of [`Run::new`], [`Run::advance`] and [`Run::finish`].
+    ///
+    /// # Panics
+    ///
+    /// Those of [`Begin::of`].
     pub async fn run(
         &mut self,
         gpu: &Gpu,
-        input: Input<'_, D>,
+        host: &mut impl Host<D>,
         settings: &Settings<D>,
         profiler: Option<&mut Profiler>,
     ) -> Result<Phase1Output<D>, Error> {
-        let mut run = Run::new(self, gpu, input, *settings, profiler).await?;
+        let begin = Begin::of(host.ask(Fit::default()).await?);
+        let mut run = Run::new(self, gpu, host, begin, *settings, profiler).await?;
         while run.advance().await? {}
         run.finish().await
     }

@@ -1,14 +1,19 @@
 //! 2D triangulation, in delaunator's orientation.
 
 use gdel::{
-    Backend, DeviceMesh2, Triangulator,
-    internals::{Winding, gpu::engine::Made, triangulator::MIN_POINTS_2D},
+    Backend, DeviceMesh2, Mesh2, Triangulator,
+    internals::{
+        Winding,
+        gpu::{engine::Made, host::Elsewhere},
+        triangulator::MIN_POINTS_2D,
+    },
 };
 use js_sys::{Function, Int32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
     arrays::d2::mesh2,
+    host::{JsCarrier, for_device, left_to_cpu},
     objects::{Thrown, set},
     points::Coordinates,
     resident,
@@ -24,17 +29,54 @@ pub fn min_gpu_points_2d() -> u32 {
 #[wasm_bindgen]
 impl WasmTriangulator {
     /// Triangulates in 2D. With `on_device`, the mesh stays on the device; else its arrays are read
-    /// into what `memory` returns for a number of bytes.
+    /// into what `memory` returns for a number of bytes. A mesh of the CPU has a triangle of each point if
+    /// `vertex_simplex`.
     pub async fn delaunay2d(
         &self,
         points: JsValue,
         backend: &str,
+        vertex_simplex: bool,
         on_device: bool,
         memory: Function,
         report: Function,
     ) -> Result<JsValue, Thrown> {
-        run(self.for_run(backend, report), points, (!on_device).then_some(memory), None).await
+        run(self.for_run(backend, report), points, (!on_device).then_some(memory), None, vertex_simplex).await
     }
+}
+
+#[wasm_bindgen]
+impl WasmTriangulator {
+    /// Triangulates in 2D the points that another thread has. The mesh stays on the device.
+    pub async fn drive2d(&self, carrier: JsCarrier, report: Function) -> Result<JsValue, Thrown> {
+        drive(&for_device(&self.triangulator, report), carrier, None).await
+    }
+
+    /// Creates the buffers of a mesh that the caller fills.
+    pub async fn room2d(
+        &self,
+        triangles: usize,
+        hull: usize,
+        duplicate_of: Vec<i32>,
+        dimension: u8,
+    ) -> Result<JsValue, Thrown> {
+        let mut info = Mesh2::default();
+        (info.duplicate_of, info.dimension) = (duplicate_of, dimension);
+        let mesh = self.triangulator.room2d([triangles, hull], info).await?;
+        Ok(resident::hand_over(mesh, |mesh| WasmMesh2(mesh).into()))
+    }
+}
+
+/// Triangulates the points that another thread has.
+async fn drive(
+    triangulator: &Triangulator,
+    carrier: JsCarrier,
+    moved: Option<&DeviceMesh2>,
+) -> Result<JsValue, Thrown> {
+    let triangulator = triangulator.clone().winding(Winding::Clockwise);
+    Ok(match triangulator.drive2d(&mut Elsewhere(carrier), moved).await? {
+        Ok(mesh) => resident::hand_over(mesh, |mesh| WasmMesh2(mesh).into()),
+        Err(before) => left_to_cpu(&before),
+    })
 }
 
 /// Triangulates. The mesh stays on the device if no memory for its arrays is given, and then goes on
@@ -44,12 +86,20 @@ async fn run(
     points: JsValue,
     memory: Option<Function>,
     moved: Option<&DeviceMesh2>,
+    vertex_simplex: bool,
 ) -> Result<JsValue, Thrown> {
     let coordinates = Coordinates::new(&points)?;
     drop(points);
     let triangulator = triangulator.winding(Winding::Clockwise);
     let deliver = async |mesh: Made<2>| match (mesh, &memory) {
-        (Made::Host(mesh), _) => Ok(mesh2(mesh, true)),
+        (Made::Host(mesh), _) => {
+            let vertex_simplex = vertex_simplex.then(|| Int32Array::new_from_slice(&mesh.vertex_triangle()));
+            let result = mesh2(mesh, true);
+            if let Some(array) = vertex_simplex {
+                set(&result, "vertexSimplex", array);
+            }
+            Ok(result)
+        }
         (Made::Device(mesh), Some(memory)) => {
             let arrays = [(0, "triangles"), (1, "halfedges"), (2, "hull")];
             let (result, _) = resident::read(&mesh, &arrays, memory).await?;
@@ -73,6 +123,16 @@ impl WasmMesh2 {
         resident::read_one(&self.0, array, &memory).await
     }
 
+    /// Returns the mesh of the points after they have moved, which another thread has.
+    pub async fn drive(
+        &self,
+        triangulator: &WasmTriangulator,
+        carrier: JsCarrier,
+        report: Function,
+    ) -> Result<JsValue, Thrown> {
+        drive(&for_device(&triangulator.triangulator, report), carrier, Some(&self.0)).await
+    }
+
     /// Returns the mesh of the points after they have moved, which stays on the device, too.
     pub async fn update(
         &self,
@@ -81,7 +141,7 @@ impl WasmMesh2 {
         backend: &str,
         report: Function,
     ) -> Result<JsValue, Thrown> {
-        run(triangulator.for_run(backend, report), points, None, Some(&self.0)).await
+        run(triangulator.for_run(backend, report), points, None, Some(&self.0), false).await
     }
 }
 

@@ -1,15 +1,19 @@
 //! 3D triangulation.
 
 use gdel::{
-    Backend, DeviceMesh3, Error, Triangulator,
-    internals::{gpu::engine::Made, triangulator::MIN_POINTS_3D},
+    Backend, DeviceMesh3, Error, Mesh3, Triangulator,
+    internals::{
+        gpu::{engine::Made, host::Elsewhere},
+        triangulator::MIN_POINTS_3D,
+    },
 };
 use js_sys::Function;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
-    arrays::d3::{Outputs, mesh3, set_extras},
-    objects::Thrown,
+    arrays::d3::{Outputs, mesh3, set_extras, trace},
+    host::{JsCarrier, for_device, left_to_cpu},
+    objects::{Thrown, set},
     points::Coordinates,
     resident,
     triangulator::WasmTriangulator,
@@ -46,6 +50,47 @@ impl WasmTriangulator {
     }
 }
 
+#[wasm_bindgen]
+impl WasmTriangulator {
+    /// Triangulates in 3D the points that another thread has. The mesh stays on the device.
+    pub async fn drive3d(&self, carrier: JsCarrier, trace: bool, report: Function) -> Result<JsValue, Thrown> {
+        drive(&for_device(&self.triangulator, report).trace(trace), carrier, None).await
+    }
+
+    /// Creates the buffers of a mesh that the caller fills.
+    pub async fn room3d(
+        &self,
+        tetrahedra: usize,
+        hull: usize,
+        duplicate_of: Vec<i32>,
+        dimension: u8,
+    ) -> Result<JsValue, Thrown> {
+        let mut info = Mesh3::default();
+        (info.duplicate_of, info.dimension) = (duplicate_of, dimension);
+        let mesh = self.triangulator.room3d([tetrahedra, 3 * hull], info).await?;
+        Ok(resident::hand_over(mesh, |mesh| WasmMesh3(mesh).into()))
+    }
+}
+
+/// Triangulates the points that another thread has.
+async fn drive(
+    triangulator: &Triangulator,
+    carrier: JsCarrier,
+    moved: Option<&DeviceMesh3>,
+) -> Result<JsValue, Thrown> {
+    Ok(match triangulator.drive3d(&mut Elsewhere(carrier), moved).await? {
+        Ok(mesh) => {
+            let trace = mesh.stats().trace.as_ref().map(trace);
+            let made = resident::hand_over(mesh, |mesh| WasmMesh3(mesh).into());
+            if let Some(trace) = trace {
+                set(&made, "trace", trace);
+            }
+            made
+        }
+        Err(before) => left_to_cpu(&before),
+    })
+}
+
 /// Triangulates. The mesh stays on the device if no arrays of it are read into memory, and then goes on
 /// from `moved`.
 async fn run(
@@ -77,6 +122,16 @@ impl WasmMesh3 {
     /// of each point, by these numbers, in what `memory` returns for a number of them.
     pub async fn read(&self, array: usize, memory: Function) -> Result<JsValue, Thrown> {
         resident::read_one(&self.0, array, &memory).await
+    }
+
+    /// Returns the mesh of the points after they have moved, which another thread has.
+    pub async fn drive(
+        &self,
+        triangulator: &WasmTriangulator,
+        carrier: JsCarrier,
+        report: Function,
+    ) -> Result<JsValue, Thrown> {
+        drive(&for_device(&triangulator.triangulator, report), carrier, Some(&self.0)).await
     }
 
     /// Returns the mesh of the points after they have moved, which stays on the device, too.

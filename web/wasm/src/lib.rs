@@ -14,6 +14,8 @@ mod d3;
 mod derived;
 #[cfg(feature = "edit")]
 mod edit;
+#[cfg(any(feature = "d2", feature = "d3"))]
+mod host;
 #[cfg(any(feature = "tools", feature = "derived", feature = "edit"))]
 mod mesh;
 mod objects;

@@ -21,21 +21,26 @@ pub struct Outputs {
     duplicate_of: bool,
     #[cfg_attr(not(feature = "d3"), expect(dead_code, reason = "the CPU traces nothing"))]
     pub(crate) trace: bool,
+    vertex_simplex: bool,
 }
 
 #[wasm_bindgen]
 impl Outputs {
     #[wasm_bindgen(constructor)]
-    pub fn new(neighbors: bool, hull: bool, duplicate_of: bool, trace: bool) -> Self {
-        Outputs { neighbors, hull, duplicate_of, trace }
+    pub fn new(neighbors: bool, hull: bool, duplicate_of: bool, trace: bool, vertex_simplex: bool) -> Self {
+        Outputs { neighbors, hull, duplicate_of, trace, vertex_simplex }
     }
 }
 
 /// Copies a mesh. Each array is freed as soon as it is copied: a mesh is large, and WebAssembly's
 /// memory never shrinks.
 pub(crate) fn mesh3(mesh: Mesh3, outputs: Outputs) -> JsValue {
+    let vertex_simplex = outputs.vertex_simplex.then(|| Int32Array::new_from_slice(&mesh.vertex_tetrahedron()));
     let Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension, stats, .. } = mesh;
     let result = object([("dimension", dimension.into()), ("stats", statistics(&stats))]);
+    if let Some(array) = vertex_simplex {
+        set(&result, "vertexSimplex", array);
+    }
     set(&result, "tetrahedra", Uint32Array::new_from_slice(tetrahedra.as_flattened()));
     drop(tetrahedra);
     if outputs.neighbors {
@@ -59,7 +64,8 @@ pub(crate) fn set_extras(result: &JsValue, stats: &Stats, duplicate_of: &[i32], 
     }
 }
 
-fn trace(trace: &Trace) -> JsValue {
+/// Returns the steps in which a mesh came about.
+pub(crate) fn trace(trace: &Trace) -> JsValue {
     let round =
         |round: &Vec<[u32; 4]>| object([("tetrahedra", Uint32Array::new_from_slice(round.as_flattened()).into())]);
     let rounds: Array = trace.rounds.iter().map(round).collect();

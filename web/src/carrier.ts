@@ -1,0 +1,91 @@
+// What the thread that has the device sends to the worker that has the points.
+
+import type { Coordinates, Indices } from './arrays.js';
+import type { Buffer, Device, Queue } from './device.js';
+import type { Helper } from './protocol.js';
+import { Slice, STEP_BYTES } from './slices.js';
+
+/** Writes bytes to a buffer. */
+type Write = (queue: Queue, ...call: Parameters<Queue['writeBuffer']>) => void;
+
+/** Writes an array to a buffer of the device, giving way to other events after each slice. */
+export async function writeInSlices(
+  buffer: Buffer,
+  array: ArrayBufferView,
+  queue: Queue,
+  write: Write,
+): Promise<void> {
+  const slice = new Slice();
+  const { byteOffset, byteLength } = array;
+  for (let at = 0; at < byteLength; at += STEP_BYTES) {
+    if (slice.isOver) await slice.next();
+    const size = Math.min(STEP_BYTES, byteLength - at);
+    write(queue, buffer, at, new Uint8Array(array.buffer, byteOffset + at, size), 0, size);
+  }
+}
+
+/** Carries the requests of one run to a worker. */
+export class PointCarrier {
+  readonly pointCount: number;
+  /** The coordinates: here, except while the worker copies them. */
+  points: Coordinates;
+  /** Why the worker did not answer. */
+  failure: unknown;
+  readonly #helper: Helper;
+  readonly #device: Device;
+  readonly #write: Write;
+  #slice = new Slice();
+
+  constructor(
+    points: Coordinates,
+    helper: Helper,
+    device: Device,
+    dimension: number,
+    write: Write,
+  ) {
+    this.points = points;
+    this.pointCount = points.length / dimension;
+    this.#helper = helper;
+    this.#device = device;
+    this.#write = write;
+  }
+
+  /** Does something while the worker has a copy of the points. */
+  async use<R>(work: () => Promise<R>): Promise<R> {
+    await this.#ask('begin', { points: this.points }, [this.points.buffer]).then(({ points }) => {
+      this.points = points;
+    });
+    this.#slice = new Slice();
+    try {
+      return await work();
+    } finally {
+      if (!this.failure) await this.#ask('end', {}, []);
+    }
+  }
+
+  async send(kind: number, request: Indices[]): Promise<Indices[]> {
+    const transfer = request.map(({ buffer }) => buffer);
+    const { answer } = await this.#ask('answer', { kind, request }, transfer);
+    this.#slice = new Slice();
+    return answer;
+  }
+
+  async upload(buffer: Buffer): Promise<void> {
+    await writeInSlices(buffer, this.points, this.#device.queue, this.#write);
+    this.#slice = new Slice();
+  }
+
+  /** Returns a promise if the thread has been busy for long. */
+  pause(): Promise<void> | undefined {
+    return this.#slice.isOver ? this.#slice.next() : undefined;
+  }
+
+  readonly #ask: Helper['run'] = async (...task) => {
+    try {
+      return await this.#helper.run(...task);
+    } catch (error) {
+      this.failure = error;
+      throw error;
+    }
+  };
+}
