@@ -26,7 +26,7 @@ on_lavapipe() {
   fi
 }
 
-targets=(--all-features --lib --bins --tests)
+targets=(--all-features --tests)
 build_crate() {
   cargo test --locked --no-run "${targets[@]}" &&
     cargo build --locked --all-features --examples
