@@ -1,5 +1,6 @@
+import type { Dimension } from './geometry/dimension';
 import { unpack } from './model/packed';
-import { type Dimension, type Source, titleOf } from './model/source';
+import { type Source, titleOf } from './model/source';
 import { fileIn, fromHash, type LinkedFile, type Settings, toHash } from './settings';
 
 /** What the address says, and the files that it can only name. */

@@ -1,9 +1,10 @@
 import * as Comlink from 'comlink';
 import { Address, haveSamePoints, wholeHash } from './address';
+import type { Dimension } from './geometry/dimension';
 import { connect } from './model/client';
 import type { Edit } from './model/edits';
 import type { Drawing, Summary } from './model/model';
-import { type Dimension, type Source, titleOf } from './model/source';
+import { type Source, titleOf } from './model/source';
 import type { Progress } from './model/worker';
 import type { Page, Part } from './page';
 import {

@@ -1,7 +1,8 @@
+import type { Dimension } from './geometry/dimension';
 import type { ModelClient } from './model/client';
 import type { Edit } from './model/edits';
 import type { Drawing, Summary } from './model/model';
-import type { Dimension, Source } from './model/source';
+import type { Source } from './model/source';
 import type { Settings, Tool, viewOf } from './settings';
 import type { Viewer } from './view/viewer';
 

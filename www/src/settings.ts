@@ -1,4 +1,5 @@
 import type { Backend } from 'gdel-wasm';
+import type { Dimension } from './geometry/dimension';
 import type { FilterKind } from './geometry/filter';
 import type { ColorBy } from './geometry/scale';
 import { AZIMUTH, axisFacing, UPS, type Up } from './geometry/up';
@@ -6,7 +7,6 @@ import { type Edit, editsFromText, editsToText } from './model/edits';
 import type { Summary } from './model/model';
 import {
   DISTRIBUTIONS,
-  type Dimension,
   type Distribution,
   SAMPLES,
   type Sample,

@@ -1,6 +1,6 @@
 import Delaunator from 'delaunator';
 import { orient2d } from 'robust-predicates';
-import type { OtherResult } from './other';
+import type { OtherResult } from './result';
 
 // One run a worker: whoever wants to cancel it, ends the worker.
 self.onmessage = ({ data: points }: MessageEvent<Float64Array>) => {

@@ -1,14 +1,7 @@
 import { startWorker } from '../model/client';
 import delaunator from './delaunator.worker?worker&url';
 import qhull from './qhull.worker?worker&url';
-
-/** What another library made of the points. */
-export interface OtherResult {
-  milliseconds: number;
-  simplices: number;
-  /** Those of volume or area zero, by exact arithmetic. */
-  flat: number;
-}
+import type { OtherResult } from './result';
 
 const WORKERS = {
   'qhull-wasm': qhull,

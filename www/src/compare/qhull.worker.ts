@@ -1,7 +1,7 @@
 import { loadQhull } from 'qhull-wasm';
 import wasm from 'qhull-wasm/dist/qhull.wasm?url';
 import { orient3d } from 'robust-predicates';
-import type { OtherResult } from './other';
+import type { OtherResult } from './result';
 
 // One run a worker: whoever wants to cancel it, ends the worker.
 self.onmessage = async ({ data: points }: MessageEvent<Float64Array>) => {

@@ -7,11 +7,12 @@ import {
   type Triangulator,
   type UpdateStats,
 } from 'gdel-wasm';
+import type { Dimension } from '../geometry/dimension';
 import { frameOf } from '../geometry/mesh';
-import { type Drawing, type DrawRequest, type Model, NOTHING_ABOUT } from './model';
+import { NOTHING_ABOUT } from './about';
+import type { Drawing, DrawRequest, Model } from './model';
 import { Model2d } from './model2d';
 import { Model3d } from './model3d';
-import type { Dimension } from './source';
 
 /** One frame of the live mode. */
 export interface LiveFrame {

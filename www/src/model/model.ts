@@ -1,5 +1,6 @@
 import type { ColorSource, Stats } from 'gdel-wasm';
 import type { CutOf, CutPart } from '../geometry/cut';
+import type { Dimension } from '../geometry/dimension';
 import type { Filter } from '../geometry/filter';
 import type { Frame } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
@@ -7,10 +8,10 @@ import type { Pieces } from '../geometry/pieces';
 import type { Plane } from '../geometry/plane';
 import type { ColorBy, ColorScale } from '../geometry/scale';
 import type { Surface } from '../geometry/surface';
-import type { Custom, Up } from '../geometry/up';
+import type { Up } from '../geometry/up';
 import type { Voronoi } from '../geometry/voronoi';
 import type { CameraPose } from '../view/viewer';
-import type { Dimension } from './source';
+import type { About } from './about';
 
 /** At most so many tetrahedra are drawn one by one when they are pulled apart. */
 export const MAX_PIECES = 300_000;
@@ -131,28 +132,6 @@ export interface Picked {
   /** Its edges as drawn, in 2D with its circumcircle: two ends of three coordinates per line. */
   outline: Float32Array;
 }
-
-/** What a source says about its points. */
-export interface About {
-  /** How many points the file has besides, which hold no measurement. */
-  noReturn: number;
-  /** How many points there are on the faces of a coarse model, and whether they are among these. */
-  onFaces: { points: number; taken: boolean } | null;
-  /** Which axis points up. */
-  up: Custom;
-  /** The points' own colours: red, green and blue each. */
-  colors: { rgb: Uint8Array; source: ColorSource } | null;
-  /** In 2D the z coordinates of the file, unless all are the same. */
-  heights: Float32Array | Float64Array | null;
-}
-
-export const NOTHING_ABOUT: About = {
-  noReturn: 0,
-  onFaces: null,
-  up: { axis: 'y', unless: 'never' },
-  colors: null,
-  heights: null,
-};
 
 /** One set of points, its mesh, and what has been worked out about it so far. */
 export interface Model {

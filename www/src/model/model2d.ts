@@ -6,9 +6,9 @@ import { mapping, scaleFor } from '../geometry/scale';
 import { flatSurface, measureTriangles, type Triangulation } from '../geometry/triangles';
 import { type Box, type Voronoi, voronoiEdges } from '../geometry/voronoi';
 import type { CameraPose } from '../view/viewer';
+import type { About } from './about';
 import { AlphaRadii } from './alpha';
 import {
-  type About,
   cornersOf,
   type Drawing,
   type DrawRequest,

@@ -10,9 +10,9 @@ import { type Heights, heightsAlong, keepOf, levelOf, type Plane } from '../geom
 import { type ColorScale, mapping, positionOn, scaleFor, scaleOf } from '../geometry/scale';
 import { boundaryOf, type Surface, surfaceOf } from '../geometry/surface';
 import { detectUp, poseFor } from '../geometry/up';
+import type { About } from './about';
 import { AlphaRadii } from './alpha';
 import {
-  type About,
   cornersOf,
   type Drawing,
   type DrawRequest,

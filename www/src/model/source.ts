@@ -1,13 +1,11 @@
 import { generate, generate2d, readPoints } from 'gdel-wasm';
 import bunny from '../../samples/bunny.f32.gz?url';
 import dragon from '../../samples/dragon.f32.gz?url';
+import type { Dimension } from '../geometry/dimension';
 import { MANY_CORNERS, pointsOnFaces } from '../geometry/faces';
+import { type About, NOTHING_ABOUT } from './about';
 import { facesOf } from './faceFiles';
-import { type About, NOTHING_ABOUT } from './model';
 import { landColors, OBJECTS } from './objects';
-
-/** 3D or 2D. */
-export type Dimension = 2 | 3;
 
 /**
  * The synthetic distributions: in 3D those of section 5.1 of the paper, in 2D those of 5.6 and some

@@ -8,26 +8,20 @@ import {
   verify2d,
 } from 'gdel-wasm';
 import type { CutPart } from '../geometry/cut';
+import type { Dimension } from '../geometry/dimension';
 import type { Filter } from '../geometry/filter';
 import { frameOf } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
 import type { Surface } from '../geometry/surface';
+import { type About, NOTHING_ABOUT } from './about';
 import { applyEdits, colorsAfter, type Edit } from './edits';
 import { Live, type LiveFrame } from './live';
-import {
-  type About,
-  type Drawing,
-  type DrawRequest,
-  type Model,
-  NOTHING_ABOUT,
-  type Picked,
-  type Summary,
-} from './model';
+import type { Drawing, DrawRequest, Model, Picked, Summary } from './model';
 import { Model2d } from './model2d';
 import { Model3d } from './model3d';
 import { type Format, type SavedFile, save } from './save';
 import { Shown } from './shown';
-import { type Dimension, load, type Source } from './source';
+import { load, type Source } from './source';
 
 export type Progress = (progress: { phase: string; fraction: number }) => void;
 

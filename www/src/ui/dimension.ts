@@ -1,4 +1,4 @@
-import type { Dimension } from '../model/source';
+import type { Dimension } from '../geometry/dimension';
 import type { Page, Part } from '../page';
 import { radios } from './dom';
 

@@ -1,6 +1,6 @@
+import type { Dimension } from '../geometry/dimension';
 import type { ColorBy } from '../geometry/scale';
 import type { Drawing } from '../model/model';
-import type { Dimension } from '../model/source';
 import type { Settings } from '../settings';
 import { gradient, PHASE_COLORS } from '../view/colormap';
 import { byId, count, measured } from './dom';

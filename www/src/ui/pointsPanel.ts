@@ -1,5 +1,6 @@
 import type { Backend } from 'gdel-wasm';
-import { DISTRIBUTIONS, type Dimension, filesSource, SAMPLES, type Sample } from '../model/source';
+import type { Dimension } from '../geometry/dimension';
+import { DISTRIBUTIONS, filesSource, SAMPLES, type Sample } from '../model/source';
 import type { Page, Part } from '../page';
 import { generator } from '../settings';
 import { byId, count, create, radios } from './dom';

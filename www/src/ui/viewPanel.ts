@@ -1,8 +1,8 @@
 import type { ColorSource } from 'gdel-wasm';
+import type { Dimension } from '../geometry/dimension';
 import type { FilterKind } from '../geometry/filter';
 import type { ColorBy } from '../geometry/scale';
 import { UPS } from '../geometry/up';
-import type { Dimension } from '../model/source';
 import type { Page, Part } from '../page';
 import { colorsIn, LAYERS, type Layer, type Settings } from '../settings';
 import { COLOR_MAPS, type ColorMapName } from '../view/colormap';

@@ -27,13 +27,13 @@ import {
   Vector3,
   WebGPURenderer,
 } from 'three/webgpu';
+import type { Dimension } from '../geometry/dimension';
 import { FACETS } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
 import type { Pieces } from '../geometry/pieces';
 import type { Surface } from '../geometry/surface';
 import { fromScreen, HALF_VIEW, type Up } from '../geometry/up';
 import type { Voronoi } from '../geometry/voronoi';
-import type { Dimension } from '../model/source';
 import type { ColorMapName } from './colormap';
 import type { Cut } from './cut';
 import {
