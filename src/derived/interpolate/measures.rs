@@ -3,8 +3,8 @@
 
 use super::{
     super::{Interpolation, Locator},
+    cavity::{Cavity, CavityFacet},
     hull,
-    natural::{Cavity, CavityFacet},
     numeric::{dot, length},
 };
 use crate::{

@@ -1,5 +1,6 @@
 //! Interpolation of values at the vertices.
 
+mod cavity;
 mod hull;
 mod measures;
 mod natural;
