@@ -49,13 +49,14 @@ count_instructions() {
 
 # * lavapipe's threads: with one, the invocations of a kernel always race in the same way.
 # * Its vectors, which otherwise are as wide as the processor's: they are what it runs at a time.
+# * A folder without which a library of Mesa complains.
 # * The cores that are seen, since kernels that stride have two workgroups for each. The profile for
 #   tests, with which the tests have compiled nearly all of it: optimisation changes no count.
 count_gpu() {
   local lavapipe
   lavapipe=$(compgen -G '/usr/share/vulkan/icd.d/lvp_icd.*.json' | head -n 1)
   cargo test --quiet --locked --all-features --bench gpu_counts --no-run
-  VK_DRIVER_FILES=$lavapipe LP_NUM_THREADS=1 LP_NATIVE_VECTOR_WIDTH=256 \
+  XDG_RUNTIME_DIR=${XDG_RUNTIME_DIR:-$PWD/$counts} VK_DRIVER_FILES=$lavapipe LP_NUM_THREADS=1 LP_NATIVE_VECTOR_WIDTH=256 \
     taskset --cpu-list "$(two_cores)" cargo test --quiet --locked --all-features --bench gpu_counts >"$counts/gpu.txt"
 }
 

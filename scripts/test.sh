@@ -16,6 +16,9 @@ scratch=$(mktemp -d)
 # What still runs when a step has failed ends, too.
 trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$scratch"' EXIT
 
+# Without this folder, a library of Mesa complains on standard error as soon as somebody looks for a GPU.
+export XDG_RUNTIME_DIR=${XDG_RUNTIME_DIR:-$scratch}
+
 on_lavapipe() {
   local lavapipe
   lavapipe=$(compgen -G '/usr/share/vulkan/icd.d/lvp_icd.*.json' | head -n 1 || true)

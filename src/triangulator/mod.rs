@@ -448,6 +448,11 @@ impl Triangulator {
 
 /// Returns the GPU adapters of this machine, in the order that [`AdapterChoice::Index`] counts.
 ///
+/// On Linux without a desktop, a library of Mesa writes `error: XDG_RUNTIME_DIR is invalid or not set in the
+/// environment` when a program looks for a GPU, here or in a [`Triangulator`]. The line is harmless. A program
+/// avoids it by being started with `XDG_RUNTIME_DIR` or `WAYLAND_DISPLAY` set to an absolute path; the program
+/// `gdel` starts itself again with the latter.
+///
 /// # Examples
 ///
 /// ```

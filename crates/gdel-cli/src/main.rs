@@ -9,6 +9,8 @@ mod generate;
 mod interpolate;
 mod locate;
 mod progress;
+#[cfg(target_os = "linux")]
+mod quiet;
 mod report;
 mod signals;
 mod tree;
@@ -78,6 +80,8 @@ enum Failure {
 
 /// Parses the arguments and runs the command.
 fn main() -> ExitCode {
+    #[cfg(target_os = "linux")]
+    quiet::restart();
     let report = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
         if !gdel_io::panics_are_caught() {
