@@ -164,15 +164,14 @@ fn every_round_is_valid() {
 }
 
 /// Facets that cannot be flipped are removed with those beside them, when nothing else is left to do. Then fewer vertices
-/// fail.
+/// fail. When all points are inserted before the first flip, hundreds of facets get stuck, whatever the order in which
+/// a device flips.
 #[test]
 fn facets_that_cannot_be_flipped_are_removed() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let mut kernels = kernels(&gpu);
-    let settings = Settings { rounds: 1, batches: 1, ..Settings::default() };
-    let uniform = |width| inputs::uniform(width, 40_000);
-    let mut failed = [0, 0];
-    for points in [uniform(Width::Narrow), uniform(Width::Wide), inputs::sphere(Width::Wide, 12_000)] {
+    let settings = Settings { insert_all: true, rounds: 1, batches: 1, ..Settings::default() };
+    for points in [inputs::uniform(Width::Narrow, 10_000), inputs::sphere(Width::Wide, 10_000)] {
         let (width, mut run) = begin(&gpu, &mut kernels, &points, settings);
         let mut before = None;
         while block_on(run.advance()).unwrap() {
@@ -187,9 +186,8 @@ fn facets_that_cannot_be_flipped_are_removed() {
         let before = before.expect("facets are removed after a round that leaves nothing active");
         println!("{}: {before} failed, then {}; {:?}", points.name, result.failed.len(), stats.counters);
         assert!(stats.counters.removals == 1 && stats.counters.removed > 0, "{}: {:?}", points.name, stats.counters);
-        failed = [failed[0] + before, failed[1] + result.failed.len()];
+        assert!(result.failed.len() < before, "{}: {before} failed, then {}", points.name, result.failed.len());
     }
-    assert!(4 * failed[1] < 3 * failed[0], "{failed:?} failed before and after");
 }
 
 /// Returns the same settings with far too few slots and a far too small history.

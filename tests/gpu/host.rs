@@ -49,7 +49,7 @@ fn many_dispatches_in_one_submission_and_a_readback() {
     if let Some(profiler) = &mut profiler {
         let times = block_on(profiler.milliseconds(&gpu, &submission)).unwrap();
         assert_eq!(times.iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["first", "second"]);
-        assert!(times.iter().all(|(_, ms)| (0.0..10_000.0).contains(ms)), "{times:?}");
+        assert!(times.iter().all(|(_, ms)| ms.is_finite() && *ms >= 0.0), "{times:?}");
     }
 }
 
