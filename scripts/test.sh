@@ -29,8 +29,11 @@ on_lavapipe() {
   fi
 }
 
-targets=(--all-features --lib --bins --tests)
-build_crate() { cargo test --locked --no-run "${targets[@]}" --examples; }
+targets=(--all-features --tests)
+build_crate() {
+  cargo test --locked --no-run "${targets[@]}" &&
+    cargo build --locked --all-features --examples
+}
 test_crate() {
   build_crate &&
     on_lavapipe cargo test --locked "${targets[@]}" &&

@@ -221,7 +221,7 @@ pub trait Carrier {
     /// Returns [`Error::Cancelled`].
     async fn upload(&mut self, gpu: &Gpu, to: &Storage<u32>) -> Result<(), Error>;
 
-    /// Sends a request, does something `meanwhile`, and returns what [`answer`] returns for it there.
+    /// Sends a request, does something `meanwhile`, and returns what [`Side`] answers there.
     ///
     /// # Errors
     ///

@@ -122,7 +122,9 @@ fn rounds_on_rasters_grids_and_lines() {
             let state = run(Width::Narrow, along_a_curve(sites), &Settings::default()).expect("not flat");
             state.validate_end();
             let rounds = state.counters.round;
-            println!("{name}, order {order}: {rounds} rounds, {} flip iterations", state.counters.iterations);
+            let iterations = state.counters.iterations;
+            println!("{name}, order {order}: {rounds} rounds, {iterations} flip iterations");
+            assert!(iterations <= 600, "{name}, order {order}: {iterations} flip iterations");
             assert!(f64::from(rounds) <= 1.5 * (n as f64).log2() + 2.0, "{name}, order {order}: {rounds} rounds");
         }
     }

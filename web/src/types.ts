@@ -109,13 +109,13 @@ export interface TriangulatorOptions {
   gpu?: object | undefined;
   /**
    * A `GPUDevice` to use. It remains the caller's, and allows the option `resident` and points in a
-   * `GPUBuffer`. The calling thread makes the calls on it, in slices of a few milliseconds; all else
-   * is done in the worker. WebGPU's default limits suffice; larger buffers allow larger inputs.
+   * `GPUBuffer`. The calling thread drives it, while a worker does what takes long. WebGPU's default
+   * limits suffice; larger buffers allow larger inputs.
    */
   device?: object | undefined;
   /**
-   * Whether to work in a worker, default true. Where nothing else waits for the calling thread, `false`
-   * makes runs with the option `device` a fifth to a third faster.
+   * Whether to work in a worker, default true. With `false`, the calling thread does everything, which
+   * blocks it.
    */
   worker?: boolean | undefined;
 }

@@ -24,26 +24,3 @@ pub fn hilbert_key<const D: usize>(mut x: [u32; D]) -> u32 {
     let x = x.map(|x| x ^ flips);
     (0..bits).rev().fold(0, |key, bit| x.iter().fold(key, |key, x| key << 1 | x >> bit & 1))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The curve visits each cell once and goes from each to a neighbour.
-    fn is_a_hilbert_curve<const D: usize>(side: u32) {
-        let cells = (0..side.pow(D as u32)).map(|i| std::array::from_fn(|axis| i / side.pow(axis as u32) % side));
-        let mut cells: Vec<(u32, [u32; D])> = cells.map(|cell| (hilbert_key(cell), cell)).collect();
-        cells.sort_unstable();
-        for pair in cells.windows(2) {
-            let [(k, a), (l, b)] = [pair[0], pair[1]];
-            assert_eq!(k + 1, l);
-            assert_eq!((0..D).map(|i| a[i].abs_diff(b[i])).sum::<u32>(), 1, "{a:?} {b:?}");
-        }
-    }
-
-    #[test]
-    fn it_is_a_hilbert_curve() {
-        is_a_hilbert_curve::<3>(16);
-        is_a_hilbert_curve::<2>(64);
-    }
-}
