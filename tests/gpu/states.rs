@@ -77,8 +77,8 @@ where
     b.active.write(gpu, 0, &state.active.concat());
     b.messages.write(gpu, 0, &state.messages);
     b.history.write(gpu, 0, &state.history);
-    b.waiting.write(gpu, waiting_range(state).start, &state.waiting);
-    b.scores.write(gpu, 0, &state.scores);
+    b.waiting.list.write(gpu, waiting_range(state).start, &state.waiting);
+    b.waiting.scores.write(gpu, 0, &state.scores);
     Dimension::<D>::write(gpu, b, &state.own);
 }
 
@@ -90,7 +90,7 @@ where
 {
     let active = read(gpu, &b.active);
     let (even, odd) = active.split_at(active.len() / 2);
-    let waiting = read(gpu, &b.waiting)[waiting_range(like)].to_vec();
+    let waiting = read(gpu, &b.waiting.list)[waiting_range(like)].to_vec();
     let Counters { exact, failed, taken, .. } = like.counters;
     State {
         simplices: read(gpu, &b.simplices),
@@ -100,7 +100,7 @@ where
         active: [even.to_vec(), odd.to_vec()],
         history: read(gpu, &b.history),
         waiting,
-        scores: read(gpu, &b.scores),
+        scores: read(gpu, &b.waiting.scores),
         own: Dimension::<D>::read(gpu, b),
         counters: Counters { exact, failed, taken, ..read_counters(gpu, &b.control) },
         ..like.clone()

@@ -43,7 +43,7 @@ impl phase1::Aliases<2> for Aliases {
         Aliases {
             triangles: b.messages.cast(),
             halfedges: b.status.cast(),
-            hull: b.waiting.cast(),
+            hull: b.waiting.list.cast(),
             uncertain: b.active.cast(),
         }
     }

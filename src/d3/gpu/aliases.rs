@@ -46,7 +46,7 @@ impl phase1::Aliases<3> for Aliases {
             neighbors: b.active.cast(),
             uncertain: b.status.cast(),
             // There is a score per point, and no vertex is listed twice.
-            failed: b.scores.clone(),
+            failed: b.waiting.scores.clone(),
             gathered_tetrahedra: b.simplices.clone(),
             gathered_neighbors: b.neighbors.clone(),
         }

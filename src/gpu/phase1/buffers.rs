@@ -40,16 +40,23 @@ where
     pub messages: Storage<Slot>,
     /// The flips of a round.
     pub history: Storage<Flip<D>>,
-    /// Both halves of the list of waiting points.
-    pub waiting: Storage<Waiting>,
-    /// Scores of the waiting points.
-    pub scores: Storage<u32>,
+    /// The points that wait to be inserted.
+    pub waiting: WaitingBuffers,
     /// What Phase 1 starts with.
     pub start: StartBuffers,
     /// The order of the simplices in the mesh, at the end.
     pub numbering: NumberingBuffers,
     /// The buffers that only this dimension has.
     pub own: <Dimension<D> as Dim<D>>::OwnBuffers,
+}
+
+/// The points that wait to be inserted.
+#[derive(Debug, Clone)]
+pub struct WaitingBuffers {
+    /// Both halves of the list.
+    pub list: Storage<Waiting>,
+    /// The score of each entry.
+    pub scores: Storage<u32>,
 }
 
 /// The triangulation of some of the points, as [`StartMesh`](crate::gpu::start::StartMesh) has it.
@@ -119,8 +126,10 @@ where
             active: Storage::in_parts(gpu, "active list", 2 * slots, parts)?,
             messages: Storage::in_parts(gpu, "messages", slots, parts)?,
             history: Storage::in_parts(gpu, "history", history as usize, parts)?,
-            waiting: Storage::new(gpu, "waiting points", 2 * count)?,
-            scores: Storage::new(gpu, "scores", count)?,
+            waiting: WaitingBuffers {
+                list: Storage::new(gpu, "waiting points", 2 * count)?,
+                scores: Storage::new(gpu, "scores", count)?,
+            },
             start: StartBuffers::new(gpu, start_points, Dimension::<D>::SLOTS_PER_POINT as usize)?,
             numbering: NumberingBuffers::new(gpu, slots, parts)?,
             own: OwnBuffers::new(gpu, count, blocks, parts)?,
@@ -184,8 +193,8 @@ where
             ("counts", self.points.counts.buffer()),
             ("merged_into", self.points.merged_into.buffer()),
             ("vertex_of", self.points.vertex_of.buffer()),
-            ("waiting", self.waiting.buffer()),
-            ("scores", self.scores.buffer()),
+            ("waiting", self.waiting.list.buffer()),
+            ("scores", self.waiting.scores.buffer()),
             ("start_points", self.start.points.buffer()),
             ("start_simplices", self.start.simplices.buffer()),
             ("start_vertices", self.start.vertices.buffer()),
@@ -230,14 +239,13 @@ where
             messages,
             history,
             waiting,
-            scores,
             start,
             numbering,
             own,
         } = self;
         let StartBuffers { points: start_points, simplices: start_simplices, vertices, near } = start;
         let NumberingBuffers { marks, numbers } = numbering;
-        let words = control.bytes() + waiting.bytes() + scores.bytes();
+        let words = control.bytes() + waiting.list.bytes() + waiting.scores.bytes();
         let slots = simplices.bytes() + neighbors.bytes() + status.bytes() + active.bytes() + messages.bytes();
         let mesh = marks.bytes() + numbers.bytes();
         let start = start_points.bytes() + start_simplices.bytes() + vertices.bytes() + near.bytes();
