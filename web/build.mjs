@@ -50,11 +50,7 @@ const remapped = Object.entries(sources).map(
 );
 const given =
   process.env.CARGO_ENCODED_RUSTFLAGS?.split('\x1f') ?? process.env.RUSTFLAGS?.split(/\s+/) ?? [];
-/** What functions may grow to by inlining: less than by `opt-level = "s"`, which is 50. */
-const INLINE = '-Cllvm-args=-inline-threshold=45';
-/** Tetrahedra are copied as a whole. */
-const SIMD = '-Ctarget-feature=+simd128';
-const flags = (...more) => [...given, ...remapped, ...more].filter(Boolean).join('\x1f');
+const CARGO_ENCODED_RUSTFLAGS = [...given, ...remapped].filter(Boolean).join('\x1f');
 const env = { ...process.env, PATH };
 const run = (command, args, more) =>
   execFileSync(command, args, {
@@ -70,10 +66,6 @@ function buildWasm() {
     const to = ['--out-dir', pkg(name), '--out-name', 'gdel'];
     const args = ['build', '--mode', 'no-install', ...packing, ...to, join(web, 'wasm')];
     const cargo = ['--locked', '--features', name];
-    // The largest module inlines what says that it is to be inlined, and little else: 2.5 % less
-    // gzipped, at the same speed. The others would be up to 8 % slower. Vectors take off
-    // 1.4 % more, and make its CPU engine up to 5 % slower.
-    const CARGO_ENCODED_RUSTFLAGS = name === 'd3' ? flags(INLINE, SIMD) : flags();
     run('wasm-pack', ['--log-level', 'warn', ...args, '--', ...cargo], { CARGO_ENCODED_RUSTFLAGS });
   }
 }
