@@ -1,8 +1,8 @@
 //! How the GPU engine of 3D completes what Phase 1 leaves: star splaying on the CPU (the paper's
 //! §3).
 //!
-//! `stars → splay → patch → arrays of the mesh, on the device`, or, for a mesh that the host wants and has
-//! memory for, `stars → splay → patch of the arrays, which the host reads meanwhile → drop the ghosts → mesh`
+//! `stars → splay → patch → arrays of the mesh, on the device`, or, for a mesh that a native host wants to have,
+//! `read the mesh → splay → drop the ghosts → mesh`
 
 use crate::{
     d3::{
@@ -24,6 +24,7 @@ use crate::{
         phase1::Run,
     },
     options::Options,
+    platform::MESHES_STAY_ON_DEVICE,
     stats::{Fallback, Phase},
 };
 
@@ -53,9 +54,10 @@ impl Complete<3> for Dimension<3> {
         near: Near<'_, H, 3>,
         tracer: Option<Tracer>,
     ) -> Result<Result<Made<3>, Fallback>, Error> {
-        match near.resident {
-            true => complete_with_stars(run, near, tracer).await,
-            false => whole::complete(run, near, tracer).await,
+        if MESHES_STAY_ON_DEVICE || near.resident {
+            complete_with_stars(run, near, tracer).await
+        } else {
+            whole::complete(run, near, tracer).await
         }
     }
 }
