@@ -10,7 +10,7 @@ mod web;
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) use native::*;
 #[cfg(target_arch = "wasm32")]
-pub(crate) use web::*;
+pub use web::*;
 
 #[cfg(any(target_arch = "wasm32", not(feature = "threads")))]
 pub(crate) mod single;

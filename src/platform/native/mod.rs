@@ -10,6 +10,8 @@ pub(crate) use pool as threads;
 #[cfg(feature = "threads")]
 pub(crate) mod pool;
 
+#[cfg(feature = "gpu")]
+pub(crate) use crate::gpu::host::Here as LocalHost;
 pub(crate) use std::time::Instant;
 
 /// Whether 3D meshes are made on the device even where the host wants to have them. Memory of the host is plentiful.

@@ -2,11 +2,15 @@
 
 #[cfg(feature = "gpu")]
 pub(crate) mod gpu;
+#[cfg(feature = "gpu")]
+mod host;
 pub(crate) use super::single as threads;
 
 #[cfg(not(feature = "gpu"))]
 mod no_clock;
 
+#[cfg(feature = "gpu")]
+pub use host::LocalHost;
 #[cfg(not(feature = "gpu"))]
 pub(crate) use no_clock::Instant;
 #[cfg(feature = "gpu")]

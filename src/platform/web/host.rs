@@ -1,0 +1,146 @@
+//! A host of either kind, so that the engine is compiled once: its code is the largest part of a module.
+
+use crate::{
+    dimension::Dimension,
+    error::Error,
+    gpu::{
+        Gpu, Storage,
+        host::{Carrier, Elsewhere, Here, Host, Request, Work},
+    },
+};
+use std::pin::Pin;
+
+/// What a carrier does, sooner or later.
+type Done<'f, T> = Pin<Box<dyn Future<Output = Result<T, Error>> + 'f>>;
+
+/// The object-safe form of [`Carrier`].
+trait DynCarrier {
+    fn point_count(&self) -> usize;
+    fn upload<'f>(&'f mut self, gpu: &'f Gpu, to: &'f Storage<u32>) -> Done<'f, ()>;
+    fn carry<'f>(
+        &'f mut self,
+        kind: u32,
+        request: Vec<Vec<u32>>,
+        meanwhile: &'f mut dyn FnMut(),
+    ) -> Done<'f, Vec<Vec<u32>>>;
+}
+
+impl<C: Carrier> DynCarrier for C {
+    fn point_count(&self) -> usize {
+        Carrier::point_count(self)
+    }
+
+    fn upload<'f>(&'f mut self, gpu: &'f Gpu, to: &'f Storage<u32>) -> Done<'f, ()> {
+        Box::pin(Carrier::upload(self, gpu, to))
+    }
+
+    fn carry<'f>(
+        &'f mut self,
+        kind: u32,
+        request: Vec<Vec<u32>>,
+        meanwhile: &'f mut dyn FnMut(),
+    ) -> Done<'f, Vec<Vec<u32>>> {
+        Box::pin(Carrier::carry(self, kind, request, meanwhile))
+    }
+}
+
+/// Any carrier.
+pub struct AnyCarrier<'a>(Box<dyn DynCarrier + 'a>);
+
+impl Carrier for AnyCarrier<'_> {
+    fn point_count(&self) -> usize {
+        self.0.point_count()
+    }
+
+    async fn upload(&mut self, gpu: &Gpu, to: &Storage<u32>) -> Result<(), Error> {
+        self.0.upload(gpu, to).await
+    }
+
+    async fn carry(
+        &mut self,
+        kind: u32,
+        request: Vec<Vec<u32>>,
+        meanwhile: impl FnOnce(),
+    ) -> Result<Vec<Vec<u32>>, Error> {
+        let mut meanwhile = Some(meanwhile);
+        self.0.carry(kind, request, &mut || meanwhile.take().into_iter().for_each(|work| work())).await
+    }
+}
+
+/// A host in the same thread, or in another one.
+pub enum LocalHost<'a, const D: usize>
+where
+    Dimension<D>: Work<D>,
+{
+    /// In the same thread.
+    Here(Here<'a, D>),
+    /// In another thread.
+    Elsewhere(Elsewhere<AnyCarrier<'a>>),
+}
+
+impl<'a, const D: usize> LocalHost<'a, D>
+where
+    Dimension<D>: Work<D>,
+{
+    /// Returns the host that a carrier leads to.
+    pub fn elsewhere(carrier: impl Carrier + 'a) -> Self {
+        LocalHost::Elsewhere(Elsewhere(AnyCarrier(Box::new(carrier))))
+    }
+
+    /// Returns what the next run gets.
+    pub(crate) fn into_work(self) -> <Dimension<D> as Work<D>>::Work {
+        match self {
+            LocalHost::Here(host) => host.into_work(),
+            LocalHost::Elsewhere(_) => Default::default(),
+        }
+    }
+}
+
+impl<'a, const D: usize> From<Here<'a, D>> for LocalHost<'a, D>
+where
+    Dimension<D>: Work<D>,
+{
+    fn from(host: Here<'a, D>) -> Self {
+        LocalHost::Here(host)
+    }
+}
+
+impl<const D: usize> Host<D> for LocalHost<'_, D>
+where
+    Dimension<D>: Work<D>,
+{
+    fn point_count(&self) -> usize {
+        match self {
+            LocalHost::Here(host) => host.point_count(),
+            LocalHost::Elsewhere(host) => Host::<D>::point_count(host),
+        }
+    }
+
+    async fn upload(&mut self, gpu: &Gpu, to: &Storage<u32>) -> Result<(), Error> {
+        match self {
+            LocalHost::Here(host) => host.upload(gpu, to).await,
+            LocalHost::Elsewhere(host) => Host::<D>::upload(host, gpu, to).await,
+        }
+    }
+
+    fn work(&mut self) -> Option<&mut <Dimension<D> as Work<D>>::Work> {
+        match self {
+            LocalHost::Here(host) => host.work(),
+            LocalHost::Elsewhere(_) => None,
+        }
+    }
+
+    async fn ask_while<R: Request<D>>(&mut self, request: R, meanwhile: impl FnOnce()) -> Result<R::Answer, Error> {
+        match self {
+            LocalHost::Here(host) => host.ask_while(request, meanwhile).await,
+            LocalHost::Elsewhere(host) => host.ask_while(request, meanwhile).await,
+        }
+    }
+
+    async fn ask<R: Request<D>>(&mut self, request: R) -> Result<R::Answer, Error> {
+        match self {
+            LocalHost::Here(host) => host.ask(request).await,
+            LocalHost::Elsewhere(host) => host.ask(request).await,
+        }
+    }
+}
