@@ -5,7 +5,13 @@
 //! several files with the same functions. The order of declarations means nothing in WGSL, so a
 //! shader is its files one after the other.
 
-use std::{collections::BTreeMap, fs, io, path::Path};
+use std::{cmp::Reverse, collections::BTreeMap, fs, io, path::Path};
+
+/// The entry point, the constant that [`check`](crate::check::check) asks for, and a keyword that a
+/// colon follows.
+const KEPT: [&str; 3] = ["main", "WORKGROUP", "default"];
+/// Scalar types that are like short names.
+const SCALARS: [&str; 6] = ["f16", "f32", "i32", "i64", "u32", "u64"];
 
 /// The files of `shaders/`, by name: `common/split`.
 pub struct Sources(BTreeMap<String, File>);
@@ -62,6 +68,38 @@ impl Sources {
         let mut parts = Vec::new();
         self.append(file, values, &mut parts)?;
         Ok(parts)
+    }
+
+    /// Returns the files as one line each, with short names for what they declare: the same in all
+    /// files, and the shortest for what is named most often.
+    ///
+    /// Names of one or two characters stay, which swizzles have, too. Where a declaration shadows
+    /// something built in, that is renamed as well, so validate the result.
+    pub fn shortened(&self) -> Self {
+        let mut uses = BTreeMap::<&str, (usize, bool)>::new();
+        for (_, line) in self.files().flat_map(|file| &file.lines) {
+            let tokens: Vec<&str> = tokens(line).filter(|token| *token != " ").collect();
+            for (i, &token) in tokens.iter().enumerate().filter(|(_, token)| is_name(token)) {
+                let is_declared = tokens.get(i + 1) == Some(&":")
+                    || i > 0 && ["alias", "const", "fn", "let", "struct", "var"].contains(&tokens[i - 1]);
+                let (count, declared) = uses.entry(token).or_default();
+                *count += 1;
+                *declared |= is_declared && token.len() > 2 && !KEPT.contains(&token);
+            }
+        }
+        let mut names: Vec<&str> = uses.iter().filter(|(_, (_, declared))| *declared).map(|(&name, _)| name).collect();
+        names.sort_by_key(|name| Reverse(uses[name].0));
+        let is_free =
+            |name: &String| !SCALARS.contains(&&**name) && uses.get(&**name).is_none_or(|(_, declared)| *declared);
+        let short: BTreeMap<&str, String> = names.into_iter().zip(short_names().filter(is_free)).collect();
+        let shortened =
+            |line: &str| -> String { tokens(line).map(|token| short.get(token).map_or(token, |name| name)).collect() };
+        let files = self.files().map(|file| {
+            let lines: Vec<String> = file.lines.iter().map(|(_, line)| shortened(line)).collect();
+            let lines = vec![(1, compact(&lines.join(" ")))];
+            (file.name.clone(), File { name: file.name.clone(), lines, includes: file.includes.clone() })
+        });
+        Sources(files.collect())
     }
 
     fn append<'a>(&'a self, file: &'a File, values: &[(&str, &str)], parts: &mut Vec<&'a File>) -> Result<(), String> {
@@ -143,4 +181,28 @@ fn compact(line: &str) -> String {
         code.push_str(word);
     }
     code
+}
+
+/// Returns the tokens of a line: words and numbers, and every other character by itself.
+fn tokens(line: &str) -> impl Iterator<Item = &str> {
+    // Attributes are none of the names.
+    let is_part_of_word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '@';
+    let mut rest = line;
+    std::iter::from_fn(move || {
+        let len = rest.find(|c| !is_part_of_word(c)).unwrap_or(rest.len());
+        let first = rest.chars().next()?;
+        let (token, others) = rest.split_at(len.max(first.len_utf8()));
+        rest = others;
+        Some(token)
+    })
+}
+
+fn is_name(token: &str) -> bool {
+    token.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+}
+
+/// Returns letters, then letters with one digit, then with two: no keyword is among them.
+fn short_names() -> impl Iterator<Item = String> {
+    let digits = std::iter::once(String::new()).chain((0..100u32).map(|i| i.to_string()));
+    digits.flat_map(|digits| ('a'..='z').chain('A'..='Z').map(move |letter| format!("{letter}{digits}")))
 }

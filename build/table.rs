@@ -91,7 +91,8 @@ pub fn write() -> Result<(), String> {
     if !is_downloaded {
         check_int64(&sources, &tables)?;
     }
-    let module = module(&sources, &tables, &declarations, &in_parts).expect("strings can be written to");
+    let sources = if is_downloaded { &shortened(&sources, &tables)? } else { &sources };
+    let module = module(sources, &tables, &declarations, &in_parts).expect("strings can be written to");
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it")).join("shaders.rs");
     fs::write(&out, module).map_err(|e| format!("{}: {e}", out.display()))
 }
@@ -123,6 +124,17 @@ fn check_int64(sources: &Sources, tables: &[Vec<Shader<'_>>; 3]) -> Result<(), S
         }
     }
     Ok(())
+}
+
+/// Returns the sources with short names, with which the shaders are validated once more.
+fn shortened(sources: &Sources, tables: &[Vec<Shader<'_>>; 3]) -> Result<Sources, String> {
+    let short = sources.shortened();
+    for parts in tables.iter().flatten().flat_map(|shader| &shader.parts) {
+        let parts: Vec<&File> =
+            parts.iter().map(|file| short.get(&file.name).expect("it has the same files")).collect();
+        check(&parts, Capabilities::empty())?;
+    }
+    Ok(short)
 }
 
 fn names<'a>(parts: &'a [Vec<&File>; 2]) -> Vec<&'a str> {

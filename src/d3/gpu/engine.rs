@@ -11,7 +11,6 @@ use crate::{
             exchange::{Device, spare},
             host::{Advanced, Begin, Begun, Encloses, Facets, Stars, Step},
             trace::Tracer,
-            whole,
         },
     },
     dimension::Dimension,
@@ -24,7 +23,6 @@ use crate::{
         phase1::Run,
     },
     options::Options,
-    platform::MESHES_STAY_ON_DEVICE,
     stats::{Fallback, Phase},
 };
 
@@ -54,11 +52,11 @@ impl Complete<3> for Dimension<3> {
         near: Near<'_, H, 3>,
         tracer: Option<Tracer>,
     ) -> Result<Result<Made<3>, Fallback>, Error> {
-        if MESHES_STAY_ON_DEVICE || near.resident {
-            complete_with_stars(run, near, tracer).await
-        } else {
-            whole::complete(run, near, tracer).await
+        #[cfg(not(target_arch = "wasm32"))]
+        if !near.resident {
+            return super::whole::complete(run, near, tracer).await;
         }
+        complete_with_stars(run, near, tracer).await
     }
 }
 

@@ -10,4 +10,5 @@ mod host;
 pub mod outputs;
 pub mod trace;
 pub mod vertex;
+#[cfg(not(target_arch = "wasm32"))]
 mod whole;
