@@ -264,7 +264,11 @@ impl SharedDevice {
         let options = &options.monotone();
         let driven = async {
             Ok(match engine.drive(host, options, Destination::Device(moved)).await? {
-                Outcome::Made(made) => Ok(made.into_device(engine.gpu()).await?),
+                Outcome::Made(made) => {
+                    let mesh = made.into_device(engine.gpu()).await?;
+                    options.report(Phase::Finish, 1.0)?;
+                    Ok(mesh)
+                }
                 Outcome::LeftToCpu(before) => Err(before),
             })
         };

@@ -297,7 +297,7 @@ test('every file that the package names is in it', () => {
     'gdel-derived.wasm',
     'inline-3d.js',
     'inline-2d.js',
-    'inline-update.js',
+    'inline-edit.js',
     'inline-tools.js',
     'inline-derived.js',
     'inline-worker.js',

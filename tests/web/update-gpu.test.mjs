@@ -236,7 +236,7 @@ for (const [key, { triangulate, generate, arrays, count }] of Object.entries(DIM
     await mesh.update(flat);
     assert.deepEqual([mesh.dimension, mesh.stats.backend], [D - 1, 'cpu']);
     await mesh.update(points);
-    assert.equal(mesh.stats.update.restarted, 'degenerate');
+    assert.equal(mesh.stats.update.restarted, 'not-resident');
     triangulator.dispose();
   });
 }
