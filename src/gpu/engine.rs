@@ -358,7 +358,7 @@ where
         options: &Options,
         to: Destination<'_, D>,
     ) -> Result<Made<D>, Error> {
-        let mut host = platform::LocalHost::from(Here::new(points, options, std::mem::take(&mut self.work)));
+        let mut host = platform::local_host(Here::new(points, options, std::mem::take(&mut self.work)));
         let outcome = self.drive(&mut host, options, to).await;
         self.work = host.into_work();
         match outcome? {

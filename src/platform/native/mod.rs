@@ -10,8 +10,6 @@ pub(crate) use pool as threads;
 #[cfg(feature = "threads")]
 pub(crate) mod pool;
 
-#[cfg(feature = "gpu")]
-pub(crate) use crate::gpu::host::Here as LocalHost;
 pub(crate) use std::time::Instant;
 
 /// Whether 3D meshes are made on the device even where the host wants to have them. Memory of the host is plentiful.
@@ -29,4 +27,10 @@ pub(crate) use super::if_ready as wait;
 #[cfg(feature = "gpu")]
 pub(crate) fn wait<T>(work: impl Future<Output = T>) -> Option<T> {
     Some(pollster::block_on(work))
+}
+
+/// Returns the host as the engine takes it: natively there is only one kind.
+#[cfg(feature = "gpu")]
+pub(crate) fn local_host<H>(here: H) -> H {
+    here
 }

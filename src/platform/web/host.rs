@@ -96,13 +96,12 @@ where
     }
 }
 
-impl<'a, const D: usize> From<Here<'a, D>> for LocalHost<'a, D>
+/// Returns the host as the engine takes it.
+pub(crate) fn local_host<const D: usize>(here: Here<'_, D>) -> LocalHost<'_, D>
 where
     Dimension<D>: Work<D>,
 {
-    fn from(host: Here<'a, D>) -> Self {
-        LocalHost::Here(host)
-    }
+    LocalHost::Here(here)
 }
 
 impl<const D: usize> Host<D> for LocalHost<'_, D>

@@ -11,6 +11,8 @@ mod no_clock;
 
 #[cfg(feature = "gpu")]
 pub use host::LocalHost;
+#[cfg(feature = "gpu")]
+pub(crate) use host::local_host;
 #[cfg(not(feature = "gpu"))]
 pub(crate) use no_clock::Instant;
 #[cfg(feature = "gpu")]
