@@ -104,7 +104,7 @@ pub mod gpu {
     pub mod host {
         pub use crate::gpu::host::{Answer, Carrier, Elsewhere, Fit, Here, Host, Side, State};
         #[cfg(target_arch = "wasm32")]
-        pub use crate::platform::LocalHost;
+        pub use crate::platform::AnyHost;
     }
     pub mod phase1 {
         pub use crate::gpu::phase1::{

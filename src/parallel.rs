@@ -1,5 +1,7 @@
 //! Work on slices, shared among the machine's threads if it has several.
 
+use crate::platform::sharing::CHUNK;
+pub use crate::platform::sharing::Threads;
 #[cfg(feature = "gpu")]
 pub(crate) use crate::platform::threads::Ahead;
 pub(crate) use crate::platform::threads::{
@@ -10,20 +12,6 @@ use std::{
     ops::Range,
     sync::{Mutex, PoisonError},
 };
-
-/// Which threads share a piece of work.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Threads {
-    /// The calling thread only.
-    One,
-    /// The threads of rayon's pool, or the calling thread if there are no others, as in the
-    /// browser.
-    All,
-}
-
-/// The number of elements that is worth handing to another thread if the work per element is a few
-/// instructions.
-pub(crate) const CHUNK: usize = 1 << 13;
 
 /// With fewer keys than this, sorting by comparison is faster.
 const FEW: usize = 256;

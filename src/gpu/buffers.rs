@@ -145,7 +145,7 @@ impl<T: Pod> Storage<T> {
         while !bytes.is_empty() {
             let (buffer, offset, left) = self.place(at);
             let (part, rest) = bytes.split_at(bytes.len().min(left as usize));
-            platform::gpu::write(gpu, buffer, offset, part);
+            platform::gpu::write(gpu.queue(), buffer, offset, part);
             (at, bytes) = (at + part.len() as u64, rest);
         }
     }

@@ -16,6 +16,7 @@ use crate::{
         dim::{Corners, Dim},
         host::{Answer, Fit, Fitted, Here, Host, Merged, Work},
         phase1::{Begin, Finish, Phase1, Phase1Stats, Run, Settings},
+        progress,
         update::PARTED,
     },
     index::NONE,
@@ -26,22 +27,6 @@ use crate::{
     platform,
     stats::{Fallback, Phase, Restart, Stats, Stopwatch, UpdateStats},
 };
-
-/// The shares of a run at which its phases begin, as progress reports them: about those of the time
-/// that it takes uniform points, and between Phase 1 and its completion lies the readback.
-pub mod progress {
-    /// Phase 1, after the lattice.
-    pub const PHASE_1: f64 = 0.05;
-    /// What the CPU does with the result of Phase 1.
-    pub const COMPLETION: f64 = 0.8;
-    /// The mesh for the caller.
-    pub const FINISH: f64 = 0.95;
-
-    /// Returns the share of a run at which so much of the completion is done.
-    pub(crate) fn of_completion(share: f64) -> f64 {
-        COMPLETION + (FINISH - COMPLETION) * share
-    }
-}
 
 /// How a dimension's engine completes what Phase 1 leaves.
 #[expect(async_fn_in_trait, reason = "only this crate implements it, and no caller is generic over threads")]
@@ -358,7 +343,7 @@ where
         options: &Options,
         to: Destination<'_, D>,
     ) -> Result<Made<D>, Error> {
-        let mut host = platform::local_host(Here::new(points, options, std::mem::take(&mut self.work)));
+        let mut host = platform::any_host(Here::new(points, options, std::mem::take(&mut self.work)));
         let outcome = self.drive(&mut host, options, to).await;
         self.work = host.into_work();
         match outcome? {

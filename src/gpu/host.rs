@@ -11,9 +11,9 @@ use crate::{
     gpu::{
         Gpu, Storage,
         dim::{Corners, Dim},
-        engine::progress,
         message::{Message, Packer, Unpacker, message},
         points::{InputParams, bits_of},
+        progress,
         start::{Start, StartMesh, first_simplex},
     },
     index::NONE,

@@ -290,7 +290,7 @@ impl<'a> Compiler<'a> {
     /// Returns the errors of [`Gpu::with_error_scope`].
     pub async fn finish(self) -> Result<(), Error> {
         let Compiler { gpu, kernels, .. } = self;
-        platform::gpu::compile(gpu, kernels.into_inner()).await
+        platform::gpu::compile(kernels.into_inner(), async |kernels| compile_all(gpu, kernels).await).await
     }
 }
 

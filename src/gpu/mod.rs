@@ -31,6 +31,7 @@ pub mod phase1;
 pub mod points;
 pub mod primitives;
 mod profiler;
+pub(crate) mod progress;
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) mod queries;
 pub(crate) mod readback;

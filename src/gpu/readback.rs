@@ -398,7 +398,7 @@ async fn arrived(
     submission: &wgpu::SubmissionIndex,
     Staged { staging, bytes, mapped }: Staged,
 ) -> Result<(wgpu::Buffer, wgpu::BufferView), Error> {
-    platform::gpu::wait(gpu, submission)?;
+    platform::gpu::wait(gpu.device(), gpu.adapter().software, submission).map_err(|e| gpu.failure(&e.to_string()))?;
     match mapped.await {
         Ok(Ok(())) => {}
         Ok(Err(e)) => return Err(gpu.failure(&e.to_string())),

@@ -2,6 +2,8 @@
 //!
 //! `native` and `web` have the same items.
 
+pub(crate) mod sharing;
+
 #[cfg(not(target_arch = "wasm32"))]
 mod native;
 #[cfg(target_arch = "wasm32")]

@@ -1,6 +1,6 @@
 //! Work on slices, in the calling thread.
 
-use crate::{error::Error, parallel::Threads};
+use crate::{error::Error, platform::sharing::Threads};
 use std::{cmp::Ordering, num::NonZeroUsize, ops::Range};
 
 /// Calls `work` with `items` and the index of the first one.

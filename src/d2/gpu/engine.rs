@@ -21,9 +21,10 @@ use crate::{
     gpu::{
         Gpu, Recorder,
         device_mesh::DeviceMesh,
-        engine::{Complete, Made, Near, progress},
+        engine::{Complete, Made, Near},
         host::{Host, Work},
         phase1::{Copied, Copies, Ended, Run},
+        progress,
     },
     options::Options,
     stats::{Fallback, Phase, Stats},

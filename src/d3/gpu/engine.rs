@@ -18,9 +18,10 @@ use crate::{
     gpu::{
         Gpu,
         device_mesh::{DeviceMesh, Outputs},
-        engine::{Complete, Made, Moved, Near, progress},
+        engine::{Complete, Made, Moved, Near},
         host::Host,
         phase1::Run,
+        progress,
     },
     options::Options,
     stats::{Fallback, Phase},

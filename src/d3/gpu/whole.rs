@@ -10,9 +10,10 @@ use crate::{
     },
     error::Error,
     gpu::{
-        engine::{Made, Near, progress},
+        engine::{Made, Near},
         host::Host,
         phase1::Run,
+        progress,
     },
     stats::{Fallback, Phase, Stats},
 };

@@ -52,7 +52,10 @@ where
     /// Those of [`Phase1::new`].
     pub async fn in_parts(gpu: &Gpu, width: Width, parts: Option<Parts>) -> Result<Self, Error> {
         let (phase1, compiler) = Self::uncompiled(gpu, width, parts);
-        platform::gpu::compile_beside(gpu, &phase1.deferred);
+        let device = gpu.clone();
+        platform::gpu::compile_beside(phase1.deferred.clone(), async move |kernels| {
+            compile_all(&device, kernels).await
+        });
         compiler.finish().await?;
         Ok(phase1)
     }

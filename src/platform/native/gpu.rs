@@ -2,8 +2,10 @@
 
 use crate::{
     error::Error,
-    gpu::{Gpu, Kernel, compile_all},
-    parallel::{self, Threads, for_chunks, for_parts},
+    platform::{
+        sharing::Threads,
+        threads::{for_chunks, for_parts, map_mut},
+    },
 };
 use std::{
     cell::RefCell,
@@ -30,30 +32,25 @@ const PART: usize = 1 << 12;
 /// 0.1 ms.
 const SPIN: Duration = Duration::from_micros(300);
 
-/// Waits until the device has carried out `submission`.
+/// Waits until the device has carried out `submission`. A software device needs the processors itself, so the host does
+/// not poll it.
 ///
 /// # Errors
 ///
-/// Returns [`Error::DeviceLost`] and [`Error::Gpu`].
-pub(crate) fn wait(gpu: &Gpu, submission: &wgpu::SubmissionIndex) -> Result<(), Error> {
+/// Returns what [`wgpu::Device::poll`] returns.
+pub(crate) fn wait(
+    device: &wgpu::Device,
+    is_software: bool,
+    submission: &wgpu::SubmissionIndex,
+) -> Result<(), wgpu::PollError> {
     let began = Instant::now();
     loop {
-        // A software device needs the processors itself.
-        let is_busy = !gpu.adapter().software && began.elapsed() < SPIN;
-        if is_done(gpu, submission, is_busy.then_some(Duration::ZERO))? {
-            return Ok(());
+        let timeout = (!is_software && began.elapsed() < SPIN).then_some(Duration::ZERO);
+        let wait = wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout };
+        match device.poll(wait) {
+            Err(wgpu::PollError::Timeout) if timeout.is_some() => std::hint::spin_loop(),
+            done => return done.map(drop),
         }
-        std::hint::spin_loop();
-    }
-}
-
-/// Returns whether the device has carried out `submission`, for which it has until the timeout, if there is one.
-fn is_done(gpu: &Gpu, submission: &wgpu::SubmissionIndex, timeout: Option<Duration>) -> Result<bool, Error> {
-    let wait = wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout };
-    match gpu.device().poll(wait) {
-        Ok(_) => Ok(true),
-        Err(wgpu::PollError::Timeout) if timeout.is_some() => Ok(false),
-        Err(e) => Err(gpu.failure(&e.to_string())),
     }
 }
 
@@ -65,13 +62,13 @@ pub(crate) fn copy(from: &wgpu::BufferView, to: &mut [u8]) {
 }
 
 /// Writes to a buffer, before the commands of the next submission.
-pub(crate) fn write(gpu: &Gpu, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) {
+pub(crate) fn write(queue: &wgpu::Queue, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) {
     if bytes.len() < SHARED_FROM {
-        return gpu.queue().write_buffer(buffer, offset, bytes);
+        return queue.write_buffer(buffer, offset, bytes);
     }
     // The staging memory is fresh each time, so threads share its page faults. Without a view, the size or the offset is
     // wrong, and the device has reported that.
-    let view = NonZero::new(bytes.len() as u64).and_then(|size| gpu.queue().write_buffer_with(buffer, offset, size));
+    let view = NonZero::new(bytes.len() as u64).and_then(|size| queue.write_buffer_with(buffer, offset, size));
     let Some(mut view) = view else { return };
     let (parts, rest) = bytes.as_chunks::<PART>();
     let (targets, mut target_of_rest) = view.slice(..).into_chunks::<PART>();
@@ -82,29 +79,34 @@ pub(crate) fn write(gpu: &Gpu, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8])
     });
 }
 
-/// Compiles kernels, in all threads.
+/// Calls `compile` for each of the kernels, in all threads.
 ///
 /// # Errors
 ///
-/// Returns the errors of [`Gpu::with_error_scope`].
-pub(crate) async fn compile(gpu: &Gpu, mut kernels: Vec<Kernel>) -> Result<(), Error> {
+/// Returns the errors of `compile`.
+pub(crate) async fn compile<K: Send>(
+    mut kernels: Vec<K>,
+    compile: impl AsyncFn(&[K]) -> Result<(), Error> + Sync,
+) -> Result<(), Error> {
     // Error scopes belong to threads, and report at once.
-    let compile = |_, kernel: &mut Kernel| pollster::block_on(compile_all(gpu, std::slice::from_ref(kernel)));
-    parallel::map_mut(Threads::All, &mut kernels, compile).into_iter().collect()
+    let compile = |_, kernel: &mut K| pollster::block_on(compile(std::slice::from_ref(kernel)));
+    map_mut(Threads::All, &mut kernels, compile).into_iter().collect()
 }
 
 /// Whether [`compile_beside`] does anything.
 pub(crate) const COMPILES_BESIDE: bool = true;
 
-/// Lets a thread compile kernels.
-pub(crate) fn compile_beside(gpu: &Gpu, kernels: &[Kernel]) {
+/// Lets a thread call `compile`, unless there are no kernels.
+pub(crate) fn compile_beside<K: Send + 'static>(
+    kernels: Vec<K>,
+    compile: impl AsyncFn(&[K]) -> Result<(), Error> + Send + 'static,
+) {
     if kernels.is_empty() {
         return;
     }
-    let (gpu, kernels) = (gpu.clone(), kernels.to_vec());
     // An error here comes up again where a kernel is used, and is reported there. If no thread can be started,
     // kernels are compiled when somebody waits for them.
-    let compile = move || _ = pollster::block_on(compile_all(&gpu, &kernels));
+    let compile = move || _ = pollster::block_on(compile(&kernels));
     if let Ok(thread) = std::thread::Builder::new().name("gdel pipelines".to_owned()).spawn(compile) {
         COMPILING.with_borrow_mut(|Compiling(threads)| {
             threads.retain(|thread| !thread.is_finished());

@@ -31,6 +31,6 @@ pub(crate) fn wait<T>(work: impl Future<Output = T>) -> Option<T> {
 
 /// Returns the host as the engine takes it: natively there is only one kind.
 #[cfg(feature = "gpu")]
-pub(crate) fn local_host<H>(here: H) -> H {
+pub(crate) fn any_host<H>(here: H) -> H {
     here
 }

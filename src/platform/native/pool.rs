@@ -2,7 +2,7 @@
 
 use crate::{
     error::Error,
-    parallel::{CHUNK, Threads},
+    platform::sharing::{CHUNK, Threads},
 };
 use rayon::prelude::*;
 #[cfg(feature = "gpu")]

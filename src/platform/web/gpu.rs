@@ -1,9 +1,6 @@
 //! How the host and a device exchange data in browsers.
 
-use crate::{
-    error::Error,
-    gpu::{Gpu, Kernel, compile_all, readback::Target},
-};
+use crate::error::Error;
 use std::pin::Pin;
 
 /// What an error scope reports.
@@ -17,7 +14,7 @@ pub(crate) const PIECE: u64 = 8 << 20;
 /// # Errors
 ///
 /// Returns none.
-pub(crate) fn wait(_: &Gpu, _: &wgpu::SubmissionIndex) -> Result<(), Error> {
+pub(crate) fn wait(_: &wgpu::Device, _: bool, _: &wgpu::SubmissionIndex) -> Result<(), wgpu::PollError> {
     Ok(())
 }
 
@@ -27,32 +24,21 @@ pub(crate) fn copy(from: &wgpu::BufferView, to: &mut [u8]) {
 }
 
 /// Writes to a buffer, before the commands of the next submission.
-pub(crate) fn write(gpu: &Gpu, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) {
-    gpu.queue().write_buffer(buffer, offset, bytes);
+pub(crate) fn write(queue: &wgpu::Queue, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) {
+    queue.write_buffer(buffer, offset, bytes);
 }
 
-/// Compiles kernels. Browsers compile them in threads of their own.
+/// Calls `compile` for the kernels. Browsers compile them in threads of their own.
 ///
 /// # Errors
 ///
-/// Returns the errors of [`Gpu::with_error_scope`].
-pub(crate) async fn compile(gpu: &Gpu, kernels: Vec<Kernel>) -> Result<(), Error> {
-    compile_all(gpu, &kernels).await
+/// Returns the errors of `compile`.
+pub(crate) async fn compile<K>(kernels: Vec<K>, compile: impl AsyncFn(&[K]) -> Result<(), Error>) -> Result<(), Error> {
+    compile(&kernels).await
 }
 
 /// Whether [`compile_beside`] does anything.
 pub(crate) const COMPILES_BESIDE: bool = false;
 
 /// Does nothing: a program may end while a driver compiles, and a driver that is unloaded then may crash.
-pub(crate) fn compile_beside(_: &Gpu, _: &[Kernel]) {}
-
-/// Memory outside of that of WebAssembly: the bytes get there with one copy.
-impl Target for js_sys::Uint8Array {
-    fn bytes(&self) -> u64 {
-        self.byte_length().into()
-    }
-
-    fn take(&mut self, start: u64, len: u64, piece: &wgpu::BufferView) {
-        self.set(&piece.as_uint8array().subarray(0, len as u32), start as u32);
-    }
-}
+pub(crate) fn compile_beside<K>(_: Vec<K>, _: impl AsyncFn(&[K]) -> Result<(), Error> + 'static) {}

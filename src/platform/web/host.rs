@@ -14,7 +14,7 @@ use std::pin::Pin;
 type Done<'f, T> = Pin<Box<dyn Future<Output = Result<T, Error>> + 'f>>;
 
 /// The object-safe form of [`Carrier`].
-trait DynCarrier {
+pub trait DynCarrier {
     fn point_count(&self) -> usize;
     fn upload<'f>(&'f mut self, gpu: &'f Gpu, to: &'f Storage<u32>) -> Done<'f, ()>;
     fn carry<'f>(
@@ -44,16 +44,13 @@ impl<C: Carrier> DynCarrier for C {
     }
 }
 
-/// Any carrier.
-pub struct AnyCarrier<'a>(Box<dyn DynCarrier + 'a>);
-
-impl Carrier for AnyCarrier<'_> {
+impl<'a> Carrier for Box<dyn DynCarrier + 'a> {
     fn point_count(&self) -> usize {
-        self.0.point_count()
+        (**self).point_count()
     }
 
     async fn upload(&mut self, gpu: &Gpu, to: &Storage<u32>) -> Result<(), Error> {
-        self.0.upload(gpu, to).await
+        (**self).upload(gpu, to).await
     }
 
     async fn carry(
@@ -63,83 +60,83 @@ impl Carrier for AnyCarrier<'_> {
         meanwhile: impl FnOnce(),
     ) -> Result<Vec<Vec<u32>>, Error> {
         let mut meanwhile = Some(meanwhile);
-        self.0.carry(kind, request, &mut || meanwhile.take().into_iter().for_each(|work| work())).await
+        (**self).carry(kind, request, &mut || meanwhile.take().into_iter().for_each(|work| work())).await
     }
 }
 
 /// A host in the same thread, or in another one.
-pub enum LocalHost<'a, const D: usize>
+pub enum AnyHost<'a, const D: usize>
 where
     Dimension<D>: Work<D>,
 {
     /// In the same thread.
     Here(Here<'a, D>),
     /// In another thread.
-    Elsewhere(Elsewhere<AnyCarrier<'a>>),
+    Elsewhere(Elsewhere<Box<dyn DynCarrier + 'a>>),
 }
 
-impl<'a, const D: usize> LocalHost<'a, D>
+impl<'a, const D: usize> AnyHost<'a, D>
 where
     Dimension<D>: Work<D>,
 {
     /// Returns the host that a carrier leads to.
     pub fn elsewhere(carrier: impl Carrier + 'a) -> Self {
-        LocalHost::Elsewhere(Elsewhere(AnyCarrier(Box::new(carrier))))
+        AnyHost::Elsewhere(Elsewhere(Box::new(carrier)))
     }
 
     /// Returns what the next run gets.
     pub(crate) fn into_work(self) -> <Dimension<D> as Work<D>>::Work {
         match self {
-            LocalHost::Here(host) => host.into_work(),
-            LocalHost::Elsewhere(_) => Default::default(),
+            AnyHost::Here(host) => host.into_work(),
+            AnyHost::Elsewhere(_) => Default::default(),
         }
     }
 }
 
 /// Returns the host as the engine takes it.
-pub(crate) fn local_host<const D: usize>(here: Here<'_, D>) -> LocalHost<'_, D>
+pub(crate) fn any_host<const D: usize>(here: Here<'_, D>) -> AnyHost<'_, D>
 where
     Dimension<D>: Work<D>,
 {
-    LocalHost::Here(here)
+    AnyHost::Here(here)
 }
 
-impl<const D: usize> Host<D> for LocalHost<'_, D>
+impl<const D: usize> Host<D> for AnyHost<'_, D>
 where
     Dimension<D>: Work<D>,
 {
     fn point_count(&self) -> usize {
         match self {
-            LocalHost::Here(host) => host.point_count(),
-            LocalHost::Elsewhere(host) => Host::<D>::point_count(host),
+            AnyHost::Here(host) => host.point_count(),
+            AnyHost::Elsewhere(host) => Host::<D>::point_count(host),
         }
     }
 
     async fn upload(&mut self, gpu: &Gpu, to: &Storage<u32>) -> Result<(), Error> {
         match self {
-            LocalHost::Here(host) => host.upload(gpu, to).await,
-            LocalHost::Elsewhere(host) => Host::<D>::upload(host, gpu, to).await,
+            AnyHost::Here(host) => host.upload(gpu, to).await,
+            AnyHost::Elsewhere(host) => Host::<D>::upload(host, gpu, to).await,
         }
     }
 
     fn work(&mut self) -> Option<&mut <Dimension<D> as Work<D>>::Work> {
         match self {
-            LocalHost::Here(host) => host.work(),
-            LocalHost::Elsewhere(_) => None,
+            AnyHost::Here(host) => host.work(),
+            AnyHost::Elsewhere(_) => None,
         }
     }
 
     async fn ask_while<R: Request<D>>(&mut self, request: R, meanwhile: impl FnOnce()) -> Result<R::Answer, Error> {
         match self {
-            LocalHost::Here(host) => host.ask_while(request, meanwhile).await,
-            LocalHost::Elsewhere(host) => host.ask_while(request, meanwhile).await,
+            AnyHost::Here(host) => host.ask_while(request, meanwhile).await,
+            AnyHost::Elsewhere(host) => host.ask_while(request, meanwhile).await,
         }
     }
 
     async fn ask<R: Request<D>>(&mut self, request: R) -> Result<R::Answer, Error> {
         match self {
-            LocalHost::Here(host) => host.ask(request).await,
-            LocalHost::Elsewhere(host) => host.ask(request).await,
+            AnyHost::Here(host) => host.ask(request).await,
+            AnyHost::Elsewhere(host) => host.ask(request).await,
         }
     }
 }

@@ -4,15 +4,17 @@
 pub(crate) mod gpu;
 #[cfg(feature = "gpu")]
 mod host;
+#[cfg(feature = "gpu")]
+mod target;
 pub(crate) use super::single as threads;
 
 #[cfg(not(feature = "gpu"))]
 mod no_clock;
 
 #[cfg(feature = "gpu")]
-pub use host::LocalHost;
+pub use host::AnyHost;
 #[cfg(feature = "gpu")]
-pub(crate) use host::local_host;
+pub(crate) use host::any_host;
 #[cfg(not(feature = "gpu"))]
 pub(crate) use no_clock::Instant;
 #[cfg(feature = "gpu")]

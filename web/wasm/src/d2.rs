@@ -4,7 +4,7 @@ use gdel::{
     Backend, DeviceMesh2, Mesh2, Triangulator,
     internals::{
         Winding,
-        gpu::{engine::Made, host::LocalHost},
+        gpu::{engine::Made, host::AnyHost},
         triangulator::MIN_POINTS_2D,
     },
 };
@@ -73,7 +73,7 @@ async fn drive(
     moved: Option<&DeviceMesh2>,
 ) -> Result<JsValue, Thrown> {
     let triangulator = triangulator.clone().winding(Winding::Clockwise);
-    Ok(match triangulator.drive2d(&mut LocalHost::elsewhere(carrier), moved).await? {
+    Ok(match triangulator.drive2d(&mut AnyHost::elsewhere(carrier), moved).await? {
         Ok(mesh) => resident::hand_over(mesh, |mesh| WasmMesh2(mesh).into()),
         Err(before) => left_to_cpu(&before),
     })

@@ -3,7 +3,7 @@
 use gdel::{
     Backend, DeviceMesh3, Error, Mesh3, Triangulator,
     internals::{
-        gpu::{engine::Made, host::LocalHost},
+        gpu::{engine::Made, host::AnyHost},
         triangulator::MIN_POINTS_3D,
     },
 };
@@ -78,7 +78,7 @@ async fn drive(
     carrier: JsCarrier,
     moved: Option<&DeviceMesh3>,
 ) -> Result<JsValue, Thrown> {
-    Ok(match triangulator.drive3d(&mut LocalHost::elsewhere(carrier), moved).await? {
+    Ok(match triangulator.drive3d(&mut AnyHost::elsewhere(carrier), moved).await? {
         Ok(mesh) => {
             let trace = mesh.stats().trace.as_ref().map(trace);
             let made = resident::hand_over(mesh, |mesh| WasmMesh3(mesh).into());
