@@ -1,11 +1,10 @@
 // Fails where files of a Rust crate import each other in a circle.
 //
-//   node scripts/circles.mjs [--report]
+//   node scripts/circles.mjs
 //
 // An import is a path of a `use`, or one that begins with `crate::`; it leads to the file in which
 // what it names is defined, through re-exports. A module and those inside it belong together: what
-// they import of each other does not count. Tests inside a file do not, either. `--report` lists
-// circles without failing.
+// they import of each other does not count. Tests inside a file do not, either.
 
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { dirname, join, relative } from 'node:path';
@@ -163,4 +162,4 @@ for (const source of sources.map((folder) => join(root, folder)).filter(existsSy
     }
   }
 }
-if (count > 0 && !process.argv.includes('--report')) process.exit(1);
+if (count > 0) process.exit(1);

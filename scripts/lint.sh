@@ -31,7 +31,7 @@ CUSTOM_LIBFUZZER_PATH=target/libfuzzer.a step cargo check --locked --manifest-pa
 RUSTDOCFLAGS="-D warnings" step cargo doc --locked --workspace --no-deps --all-features
 step typos
 step npm run lint --silent
-step node scripts/circles.mjs --report
+step node scripts/circles.mjs
 step node scripts/benchmarks.mjs --check
 if $online; then
   step cargo deny --all-features check

@@ -147,7 +147,7 @@ where
                     ("counts", counts.buffer()),
                 ];
                 let mut recorder = Recorder::new(gpu, None);
-                recorder.dispatch(&mark, &mark.bind(gpu, &buffers), workgroups(simplices as u32));
+                recorder.dispatch(&mark, &mark.bind(&buffers), workgroups(simplices as u32));
                 bound.record(&mut recorder);
                 let total = readback.copy(gpu, recorder.encoder(), bound.sums(), GROUPS, 1);
                 Ok((listed, offsets, recorder.submit(gpu), total))
@@ -170,15 +170,15 @@ where
                 ];
                 let bits = usize::BITS - points.leading_zeros();
                 let mut recorder = Recorder::new(gpu, None);
-                recorder.dispatch(&write, &write.bind(gpu, &buffers), gpu.workgroups(simplices));
+                recorder.dispatch(&write, &write.bind(&buffers), gpu.workgroups(simplices));
                 let first = sort.bind(gpu, &mut pairs, &mut scratch, bits)?;
                 sort.record(&mut recorder, &first);
-                recorder.dispatch(&turn, &turn.bind(gpu, &[("pairs", pairs.buffer())]), gpu.workgroups(2 * count));
+                recorder.dispatch(&turn, &turn.bind(&[("pairs", pairs.buffer())]), gpu.workgroups(2 * count));
                 let second = sort.bind(gpu, &mut pairs, &mut scratch, bits)?;
                 sort.record(&mut recorder, &second);
                 let buffers =
                     [("pairs", pairs.buffer()), ("ring_offsets", ring_offsets.buffer()), ("ring", ring.buffer())];
-                recorder.dispatch(&rings, &rings.bind(gpu, &buffers), gpu.workgroups((2 * count).max(points + 1)));
+                recorder.dispatch(&rings, &rings.bind(&buffers), gpu.workgroups((2 * count).max(points + 1)));
                 recorder.submit(gpu);
                 Ok((edges.cast(), ring_offsets, ring))
             })

@@ -1,18 +1,13 @@
 //! Compute pipelines.
 
 use crate::{
-    error::Error,
     gpu::{
-        Gpu, Parts,
+        Parts,
         shader::{PART_STRIDE, Shader, Variable, with_int64},
     },
     input::lattice::Width,
-    platform,
 };
-use std::{
-    cell::RefCell,
-    sync::{Arc, OnceLock},
-};
+use std::sync::{Arc, OnceLock};
 
 /// The size of the placeholder for an absent part: no element in a shader is larger.
 const EMPTY_BYTES: u64 = 48;
@@ -66,7 +61,8 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    fn new(gpu: &Gpu, shader: &'static Shader, width: Width, parts: Option<Parts>) -> Self {
+    /// Creates the kernel of a shader, whose pipeline is not compiled yet.
+    pub(crate) fn new(device: &wgpu::Device, shader: &'static Shader, width: Width, parts: Option<Parts>) -> Self {
         let variables = bound(shader, parts);
         let entry = |&Bound { binding, read_only, .. }: &Bound| wgpu::BindGroupLayoutEntry {
             binding,
@@ -78,7 +74,7 @@ impl Kernel {
             },
             count: None,
         };
-        let layout = gpu.device().create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(shader.name()),
             entries: &variables.iter().map(entry).collect::<Vec<_>>(),
         });
@@ -86,7 +82,7 @@ impl Kernel {
             label: shader.name().to_owned(),
             variables,
             layout,
-            device: gpu.device().clone(),
+            device: device.clone(),
             shader: Some((shader, width)),
             parts,
             pipeline: Arc::default(),
@@ -97,13 +93,13 @@ impl Kernel {
     /// `variables` are the names of its storage buffers, by binding, and `constants` the values of
     /// its `override` declarations.
     pub fn from_wgsl(
-        gpu: &Gpu,
+        device: &wgpu::Device,
         label: &str,
         wgsl: &str,
         variables: &[&'static str],
         constants: &[(&str, f64)],
     ) -> Self {
-        let pipeline = compile(gpu.device(), label, wgsl, None, constants);
+        let pipeline = compile(device, label, wgsl, None, constants);
         Kernel {
             label: label.to_owned(),
             variables: variables
@@ -112,7 +108,7 @@ impl Kernel {
                 .map(|(&name, binding)| Bound { name, binding, part: 0, is_last: true, read_only: false })
                 .collect(),
             layout: pipeline.get_bind_group_layout(0),
-            device: gpu.device().clone(),
+            device: device.clone(),
             shader: None,
             parts: None,
             pipeline: Arc::new(OnceLock::from(pipeline)),
@@ -125,7 +121,7 @@ impl Kernel {
     /// # Panics
     ///
     /// Panics if there is no buffer for a variable, or there are too many: a mistake in this crate.
-    pub fn bind(&self, gpu: &Gpu, buffers: &[Binding<'_>]) -> wgpu::BindGroup {
+    pub fn bind(&self, buffers: &[Binding<'_>]) -> wgpu::BindGroup {
         let of_variable = |&Bound { name, part, is_last, .. }: &Bound| {
             let mut named = buffers.iter().filter(|(other, _)| *other == name).skip(part);
             let buffer = named.next().map(|&(_, buffer)| buffer);
@@ -142,14 +138,14 @@ impl Kernel {
             usage: wgpu::BufferUsages::STORAGE,
             mapped_at_creation: false,
         };
-        let missing: Vec<wgpu::Buffer> = (0..missing).map(|_| gpu.device().create_buffer(&descriptor)).collect();
+        let missing: Vec<wgpu::Buffer> = (0..missing).map(|_| self.device.create_buffer(&descriptor)).collect();
         let mut missing = missing.iter();
         let buffers = found.into_iter().map(|buffer| buffer.or_else(|| missing.next()));
         let entries = self.variables.iter().zip(buffers).map(|(variable, buffer)| wgpu::BindGroupEntry {
             binding: variable.binding,
             resource: buffer.expect("there is one for each that is missing").as_entire_binding(),
         });
-        gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&self.label),
             layout: &self.layout,
             entries: &entries.collect::<Vec<_>>(),
@@ -215,94 +211,4 @@ fn compile(
         },
         cache: None,
     })
-}
-
-/// Creates kernels and compiles them together.
-#[derive(Debug)]
-pub struct Compiler<'a> {
-    gpu: &'a Gpu,
-    /// Those to be compiled.
-    kernels: RefCell<Vec<Kernel>>,
-    /// Those that the first run does not wait for.
-    deferred: RefCell<Vec<Kernel>>,
-    /// Whether the device keeps the kernels.
-    kept: bool,
-    /// The parts of large arrays, if these are in parts.
-    parts: Option<Parts>,
-}
-
-impl<'a> Compiler<'a> {
-    /// Starts without any kernels.
-    pub fn new(gpu: &'a Gpu) -> Self {
-        Self::in_parts(gpu, None)
-    }
-
-    /// Starts without any kernels. The large arrays of those that it creates are in parts, if these
-    /// are given.
-    pub(crate) fn in_parts(gpu: &'a Gpu, parts: Option<Parts>) -> Self {
-        Compiler { gpu, kernels: RefCell::default(), deferred: RefCell::default(), kept: false, parts }
-    }
-
-    /// Returns the parts of large arrays, if these are in parts.
-    pub(crate) fn parts(&self) -> Option<Parts> {
-        self.parts
-    }
-
-    /// Starts without any kernels. The device keeps them, so that they are compiled only once.
-    pub fn keeping(gpu: &'a Gpu) -> Self {
-        Compiler { kept: true, ..Compiler::new(gpu) }
-    }
-
-    /// Creates the kernel of a shader. It is compiled by [`Compiler::finish`], or when it is used
-    /// before.
-    pub fn kernel(&self, shader: &'static Shader, width: Width) -> Kernel {
-        let kernel = self.on_demand(shader, width);
-        self.kernels.borrow_mut().push(kernel.clone());
-        kernel
-    }
-
-    /// Creates the kernel of a shader that the first run does not wait for: runs do without it until
-    /// [`Kernel::is_compiled`]. [`Compiler::take_deferred`] returns these kernels.
-    pub fn deferred(&self, shader: &'static Shader, width: Width) -> Kernel {
-        let kernel = self.on_demand(shader, width);
-        self.deferred.borrow_mut().push(kernel.clone());
-        kernel
-    }
-
-    /// Creates the kernel of a shader that few runs need. It is compiled when it is used.
-    pub fn on_demand(&self, shader: &'static Shader, width: Width) -> Kernel {
-        let new = || Kernel::new(self.gpu, shader, width, self.parts);
-        match self.kept {
-            true => self.gpu.kept_kernel(shader.name(), width, new),
-            false => new(),
-        }
-    }
-
-    /// Returns the kernels that the first run does not wait for.
-    pub fn take_deferred(&self) -> Vec<Kernel> {
-        self.deferred.take()
-    }
-
-    /// Compiles the kernels that runs need, where there are threads on all of them.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`Gpu::with_error_scope`].
-    pub async fn finish(self) -> Result<(), Error> {
-        let Compiler { gpu, kernels, .. } = self;
-        platform::gpu::compile(kernels.into_inner(), async |kernels| compile_all(gpu, kernels).await).await
-    }
-}
-
-/// Compiles the kernels that are not compiled yet, in the calling thread.
-///
-/// # Errors
-///
-/// Returns the errors of [`Gpu::with_error_scope`].
-pub(crate) async fn compile_all(gpu: &Gpu, kernels: &[Kernel]) -> Result<(), Error> {
-    gpu.with_error_scope("pipelines", || {
-        kernels.iter().for_each(|kernel| _ = kernel.pipeline());
-        Ok(())
-    })
-    .await
 }

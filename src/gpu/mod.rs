@@ -16,6 +16,7 @@
 #[cfg(not(target_arch = "wasm32"))]
 mod blocking;
 mod buffers;
+mod compiler;
 mod device;
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) mod device_edges;
@@ -45,14 +46,15 @@ pub(crate) mod vertex_simplices;
 
 pub use buffers::Storage;
 pub(crate) use buffers::append_bindings;
+pub use compiler::Compiler;
+pub(crate) use compiler::compile_all;
 pub use device::{AdapterChoice, AdapterSummary, Gpu, adapters};
-pub(crate) use kernel::compile_all;
-pub use kernel::{Binding, Compiler, Kernel};
+pub use kernel::{Binding, Kernel};
 pub use parts::Parts;
 pub use profiler::Profiler;
 pub use readback::{Pending, Readback};
 pub use recorder::Recorder;
-pub(crate) use room::Room;
+pub(crate) use room::{Room, Rooms};
 
 /// The number of invocations in a workgroup.
 pub const WORKGROUP: u32 = shader::constants::primitives::WORKGROUP;

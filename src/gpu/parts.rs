@@ -5,7 +5,6 @@
 //! the index, which `build/parts.rs` generates from the others. How many parts there can be depends on
 //! how many buffers the device binds.
 
-use crate::gpu::Gpu;
 use crate::gpu::shader::{MAX_BUFFERS, PART_UNIT, PARTS};
 
 /// How large the parts of large arrays are. WebAssembly, which has no memory for so many points, has only the kernels for
@@ -19,16 +18,11 @@ pub struct Parts {
 }
 
 impl Parts {
-    /// Returns parts as large as the device can bind; `None` if it can bind too few buffers.
-    pub fn of(gpu: &Gpu) -> Option<Self> {
-        Self::with_bytes(gpu, gpu.max_storage_bytes())
-    }
-
-    /// Returns parts of no more than so many bytes; `None` if that is too little, or the device can
-    /// bind too few buffers.
-    pub fn with_bytes(gpu: &Gpu, bytes: u64) -> Option<Self> {
+    /// Returns parts of no more than so many bytes, for a device with these limits; `None` if that is too little, or
+    /// the device can bind too few buffers.
+    pub fn with_bytes(limits: &wgpu::Limits, bytes: u64) -> Option<Self> {
         let units = u32::try_from(bytes / PART_UNIT).unwrap_or(u32::MAX);
-        let count = buffers(&gpu.device().limits()) / MAX_BUFFERS;
+        let count = buffers(limits) / MAX_BUFFERS;
         (count > 1 && units > 0).then_some(Parts { units, count })
     }
 
@@ -70,9 +64,4 @@ pub(crate) fn limits(limits: &wgpu::Limits) -> wgpu::Limits {
             .max(defaults.max_buffers_and_acceleration_structures_per_shader_stage),
         ..defaults
     }
-}
-
-/// Returns the size of the largest array that can be in parts, in bytes.
-pub(crate) fn limit(gpu: &Gpu, parts: Option<Parts>) -> u64 {
-    parts.map_or_else(|| gpu.max_storage_bytes(), Parts::limit)
 }

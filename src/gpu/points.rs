@@ -231,7 +231,7 @@ where
             ("counts", counts.buffer()),
         ];
         append_bindings(&mut buffers, &[input.named("input"), vertices.named("vertices")]);
-        let [key, gather] = [&self.key, &self.gather].map(|steps| steps.bind(gpu, &buffers));
+        let [key, gather] = [&self.key, &self.gather].map(|steps| steps.bind(&buffers));
         // An even number of passes: the pairs end up where they were.
         let sort = self.sort.bind(gpu, &mut pairs, &mut scratch, KEY_BITS)?;
         let bytes = params.bytes()

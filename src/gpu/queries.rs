@@ -194,7 +194,7 @@ where
                 ("simplices", mesh.simplices()),
                 ("pairs", pairs.buffer()),
             ];
-            let bound = [&vertices, &starts].map(|kernel| kernel.bind(gpu, &buffers));
+            let bound = [&vertices, &starts].map(|kernel| kernel.bind(&buffers));
             let sorted = sort.bind(gpu, &mut pairs, &mut scratch, KEY_BITS)?;
             let mut recorder = Recorder::new(gpu, None);
             recorder.dispatch(&vertices, &bound[0], gpu.workgroups(points.len()));
@@ -254,7 +254,7 @@ where
             for kernel in [&self.walk, &self.settle] {
                 // One invocation per query on every device: software devices end loops after 65,535
                 // steps, counted over all loops of an invocation.
-                recorder.dispatch(kernel, &kernel.bind(gpu, &buffers), workgroups(queries.count as u32));
+                recorder.dispatch(kernel, &kernel.bind(&buffers), workgroups(queries.count as u32));
             }
             let counts = readback.copy(gpu, recorder.encoder(), &params, 0, 1);
             let answers = (read > 0).then(|| readback.copy(gpu, recorder.encoder(), answers, 0, read));
@@ -291,7 +291,7 @@ where
                     ("answers", answers.buffer()),
                 ];
                 let mut recorder = Recorder::new(gpu, None);
-                recorder.dispatch(&self.nearest, &self.nearest.bind(gpu, &buffers), workgroups(queries.count as u32));
+                recorder.dispatch(&self.nearest, &self.nearest.bind(&buffers), workgroups(queries.count as u32));
                 let pending = readback.copy(gpu, recorder.encoder(), &params, 0, 1);
                 Ok((recorder.submit(gpu), pending))
             })
@@ -326,7 +326,7 @@ where
                 ("results", results.buffer()),
             ];
             let mut recorder = Recorder::new(gpu, None);
-            recorder.dispatch(&self.interpolate, &self.interpolate.bind(gpu, &buffers), gpu.workgroups(queries.count));
+            recorder.dispatch(&self.interpolate, &self.interpolate.bind(&buffers), gpu.workgroups(queries.count));
             recorder.submit(gpu);
             Ok(())
         })
@@ -354,7 +354,7 @@ where
                     ("results", results.buffer()),
                 ];
                 let mut recorder = Recorder::new(gpu, None);
-                let bound = self.circumspheres.bind(gpu, &buffers);
+                let bound = self.circumspheres.bind(&buffers);
                 recorder.dispatch(&self.circumspheres, &bound, gpu.workgroups(mesh.simplex_count()));
                 let pending = readback.copy(gpu, recorder.encoder(), &params, 0, 1);
                 Ok((recorder.submit(gpu), pending))

@@ -18,6 +18,9 @@ pub(crate) enum Room<T> {
     Ahead(Ahead<Vec<T>>),
 }
 
+/// Memory for the simplices of a mesh, and for their neighbours.
+pub(crate) type Rooms<T> = [Option<Room<T>>; 2];
+
 impl<T: Pod + Send> Room<T> {
     /// Returns room for about `len` elements: the memory of `used` if it holds at least half of them, otherwise
     /// memory that other threads allocate; `None` for small results.

@@ -6,7 +6,7 @@
 use crate::{
     dimension::Dimension,
     gpu::{
-        Binding, Compiler, Gpu, Kernel, Recorder,
+        Binding, Compiler, Kernel, Recorder,
         dim::Dim,
         shader::{self, Shaders},
     },
@@ -112,8 +112,8 @@ impl Steps {
     }
 
     /// Binds the kernels to the buffers that have the names of their variables.
-    pub(crate) fn bind(&self, gpu: &Gpu, buffers: &[Binding<'_>]) -> BoundSteps {
-        let bind = |(step, kernel): &(Step, Kernel)| (*step, kernel.clone(), kernel.bind(gpu, buffers));
+    pub(crate) fn bind(&self, buffers: &[Binding<'_>]) -> BoundSteps {
+        let bind = |(step, kernel): &(Step, Kernel)| (*step, kernel.clone(), kernel.bind(buffers));
         BoundSteps(self.0.iter().map(bind).collect())
     }
 

@@ -26,9 +26,9 @@ impl VertexSimplices {
     /// Records the search for the lowest simplex of each point of `arrays`.
     pub(crate) fn record(&self, gpu: &Gpu, recorder: &mut Recorder<'_>, arrays: &DeviceArrays) {
         let buffers = [("corners", arrays.simplices.buffer()), ("vertex_simplices", arrays.vertex_simplices.buffer())];
-        recorder.dispatch(&self.clear, &self.clear.bind(gpu, &buffers), gpu.workgroups(arrays.vertex_simplices.len()));
+        recorder.dispatch(&self.clear, &self.clear.bind(&buffers), gpu.workgroups(arrays.vertex_simplices.len()));
         if !arrays.simplices.is_empty() {
-            recorder.dispatch(&self.minimum, &self.minimum.bind(gpu, &buffers), gpu.workgroups(arrays.simplices.len()));
+            recorder.dispatch(&self.minimum, &self.minimum.bind(&buffers), gpu.workgroups(arrays.simplices.len()));
         }
     }
 }

@@ -26,11 +26,6 @@ pub use state::{MIN_POINTS_2D, MIN_POINTS_3D};
 
 #[cfg(feature = "gpu")]
 use crate::gpu::{AdapterChoice, Gpu};
-#[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-use crate::gpu::{
-    device_mesh::{DeviceMesh2, DeviceMesh3},
-    engine::Made,
-};
 use crate::{
     backend::Backend,
     cpu::MeshOf,
@@ -41,8 +36,6 @@ use crate::{
     input::points::{Points, Points2, Points3},
     options::{Options, Progress, Winding},
 };
-#[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-use crate::{gpu::host::Host, stats::Stats};
 use std::{num::NonZeroUsize, ops::ControlFlow, sync::Arc};
 use wait::wait;
 
@@ -347,88 +340,6 @@ impl Triangulator {
         Dimension<D>: Choice<D>,
     {
         self.device.triangulate(points, &self.options, mesh).await
-    }
-
-    /// Triangulates in 3D, and has `deliver` take the mesh where it was made, or, if `resident`, on
-    /// the device: [`Backend::Auto`] takes the CPU if the GPU fails before that is done. A mesh that
-    /// is `resident` goes on from `moved`, the mesh of the points where they were, if there is one.
-    #[doc(hidden)]
-    #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-    pub async fn deliver3d<R>(
-        &self,
-        points: Points3<'_>,
-        resident: bool,
-        moved: Option<&DeviceMesh3>,
-        deliver: impl AsyncFn(Made<3>) -> Result<R, Error>,
-    ) -> Result<R, Error> {
-        self.device.deliver(points, &self.options, resident, moved, deliver).await
-    }
-
-    /// Does the same in 2D.
-    #[doc(hidden)]
-    #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-    pub async fn deliver2d<R>(
-        &self,
-        points: Points2<'_>,
-        resident: bool,
-        moved: Option<&DeviceMesh2>,
-        deliver: impl AsyncFn(Made<2>) -> Result<R, Error>,
-    ) -> Result<R, Error> {
-        self.device.deliver(points, &self.options, resident, moved, deliver).await
-    }
-
-    /// Triangulates in 3D the points that `host` has, in another thread. The mesh goes on from `moved`, and stays on
-    /// the device. Returns what was done if the CPU engine has to make it.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`delaunay3d_on_device_async`](Self::delaunay3d_on_device_async), and of `host`.
-    #[doc(hidden)]
-    #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-    pub async fn drive3d(
-        &self,
-        host: &mut impl Host<3>,
-        moved: Option<&DeviceMesh3>,
-    ) -> Result<Result<DeviceMesh3, Box<Stats>>, Error> {
-        self.device.drive(host, &self.options, moved).await
-    }
-
-    /// Does the same in 2D.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`drive3d`](Self::drive3d).
-    #[doc(hidden)]
-    #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-    pub async fn drive2d(
-        &self,
-        host: &mut impl Host<2>,
-        moved: Option<&DeviceMesh2>,
-    ) -> Result<Result<DeviceMesh2, Box<Stats>>, Error> {
-        self.device.drive(host, &self.options, moved).await
-    }
-
-    /// Creates the buffers of a 3D mesh of so many tetrahedra and triangles of the hull, which the caller fills.
-    /// `info` says the rest.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`delaunay3d_on_device_async`](Self::delaunay3d_on_device_async).
-    #[doc(hidden)]
-    #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-    pub async fn room3d(&self, lens: [usize; 2], info: Mesh3) -> Result<DeviceMesh3, Error> {
-        self.device.room(lens, info).await
-    }
-
-    /// Does the same in 2D, with triangles and vertices of the hull.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`room3d`](Self::room3d).
-    #[doc(hidden)]
-    #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
-    pub async fn room2d(&self, lens: [usize; 2], info: Mesh2) -> Result<DeviceMesh2, Error> {
-        self.device.room(lens, info).await
     }
 
     /// Opens the device and compiles the kernels for 3D, unless that was done.

@@ -21,13 +21,11 @@ use crate::{
         wait::CANNOT_WAIT,
     },
 };
-#[cfg(target_arch = "wasm32")]
-use crate::{
-    gpu::{engine::Outcome, host::Host},
-    stats::Stats,
-};
 use async_lock::Mutex;
 use std::sync::Arc;
+
+#[cfg(target_arch = "wasm32")]
+mod web;
 
 /// What clones of a [`Triangulator`](crate::Triangulator) share. The device does one run at a time;
 /// others wait for it.
@@ -103,48 +101,6 @@ where
         let result = mesh.into_device(&gpu).await;
         state.forget_if_lost(&result);
         result
-    }
-}
-
-/// To a function of the caller's: from where it was made, or from the device.
-#[cfg(target_arch = "wasm32")]
-struct ToCaller<'a, F, R, const D: usize> {
-    on_device: Option<ToDevice<'a, D>>,
-    take: F,
-    result: std::marker::PhantomData<R>,
-}
-
-#[cfg(target_arch = "wasm32")]
-impl<const D: usize, F, R> ToCaller<'_, F, R, D>
-where
-    Dimension<D>: Choice<D>,
-{
-    /// Returns the mesh of the points where they were, if they have moved.
-    fn moved(&self) -> Option<&DeviceMesh<D>> {
-        self.on_device.as_ref()?.moved
-    }
-}
-
-#[cfg(target_arch = "wasm32")]
-impl<const D: usize, R, F: AsyncFn(Made<D>) -> Result<R, Error>> Deliver<D> for ToCaller<'_, F, R, D>
-where
-    Dimension<D>: Choice<D>,
-{
-    type Output = R;
-
-    fn destination(&mut self) -> Destination<'_, D> {
-        Destination::Device(self.moved())
-    }
-
-    async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<R, Error> {
-        let mut mesh = match (mesh, &self.on_device) {
-            (mesh @ Made::Host(_), Some(on_device)) => Made::Device(Box::new(on_device.deliver(mesh, gpu).await?)),
-            (mesh, _) => mesh,
-        };
-        if self.moved().is_some() {
-            mesh.stats_mut().update.get_or_insert_with(|| UpdateStats::from_scratch(Restart::NotResident));
-        }
-        (self.take)(mesh).await
     }
 }
 
@@ -225,66 +181,6 @@ impl SharedDevice {
         let used = std::mem::take(mesh);
         *mesh = self.run(points, options, &mut ToHost(used)).await?;
         Ok(())
-    }
-
-    /// Triangulates `points`, and has `take` take the mesh where it was made, or, if `resident`, on
-    /// the device; there it goes on from `moved`, the mesh of the points where they were, if there is
-    /// one.
-    #[cfg(target_arch = "wasm32")]
-    pub(super) async fn deliver<const D: usize, R>(
-        &self,
-        points: Points<'_, D>,
-        options: &Options,
-        resident: bool,
-        moved: Option<&DeviceMesh<D>>,
-        take: impl AsyncFn(Made<D>) -> Result<R, Error>,
-    ) -> Result<R, Error>
-    where
-        Dimension<D>: Choice<D>,
-    {
-        check_count(points, moved)?;
-        let on_device = resident.then_some(ToDevice { device: self, moved });
-        self.run(points, options, &mut ToCaller { on_device, take, result: std::marker::PhantomData }).await
-    }
-
-    /// Drives the GPU engine with a host in another thread, from `moved` on if there is such a mesh. Returns the
-    /// mesh on the device, or, if the CPU engine has to make it, what was done before.
-    #[cfg(target_arch = "wasm32")]
-    pub(super) async fn drive<const D: usize>(
-        &self,
-        host: &mut impl Host<D>,
-        options: &Options,
-        moved: Option<&DeviceMesh<D>>,
-    ) -> Result<Result<DeviceMesh<D>, Box<Stats>>, Error>
-    where
-        Dimension<D>: Choice<D>,
-    {
-        let mut state = self.state.lock().await;
-        let engine = state.open::<D>(&self.adapter).await?;
-        let options = &options.monotone();
-        let driven = async {
-            Ok(match engine.drive(host, options, Destination::Device(moved)).await? {
-                Outcome::Made(made) => {
-                    let mesh = made.into_device(engine.gpu()).await?;
-                    options.report(Phase::Finish, 1.0)?;
-                    Ok(mesh)
-                }
-                Outcome::LeftToCpu(before) => Err(before),
-            })
-        };
-        let result = driven.await;
-        state.forget_if_lost(&result);
-        result
-    }
-
-    /// Creates the buffers of a mesh on the device that somebody else fills.
-    #[cfg(target_arch = "wasm32")]
-    pub(super) async fn room<const D: usize>(&self, lens: [usize; 2], info: MeshOf<D>) -> Result<DeviceMesh<D>, Error>
-    where
-        Dimension<D>: Choice<D>,
-    {
-        let gpu = self.state.lock().await.device(&self.adapter).await?;
-        DeviceMesh::with_room(&gpu, lens, info).await
     }
 
     /// Triangulates `points`, and leaves the mesh on the device.

@@ -274,7 +274,7 @@ fn arrays_in_parts() {
         (inputs::two_lines(Width::Narrow, 100), tight(Settings::default()), 130),
     ] {
         let bytes = 8 * 16 * blocks_per_part;
-        let parts = Parts::with_bytes(&gpu, bytes).expect("lavapipe binds 32 buffers");
+        let parts = Parts::with_bytes(&gpu.device().limits(), bytes).expect("lavapipe binds 32 buffers");
         let memory = MemorySettings { part_bytes: Some(bytes), ..settings.memory };
         let settings = Settings { memory, ..settings };
         let mut kernels = [Width::Narrow, Width::Wide]

@@ -28,8 +28,8 @@ fn many_dispatches_in_one_submission_and_a_readback() {
     let input: Vec<u32> = (0..100_000).collect();
     let (values, kernel, bindings) = block_on(gpu.with_error_scope("test", || {
         let values = Storage::with_contents(&gpu, "values", &input)?;
-        let kernel = Kernel::from_wgsl(&gpu, "double", DOUBLE, &["values"], &[("FACTOR", 3.0)]);
-        let bindings = kernel.bind(&gpu, &[("values", values.buffer())]);
+        let kernel = Kernel::from_wgsl(gpu.device(), "double", DOUBLE, &["values"], &[("FACTOR", 3.0)]);
+        let bindings = kernel.bind(&[("values", values.buffer())]);
         Ok((values, kernel, bindings))
     }))
     .unwrap();
@@ -58,8 +58,8 @@ fn many_dispatches_in_one_submission_and_a_readback() {
 fn a_readback_sees_its_own_submission_only() {
     let gpu = open();
     let values = Storage::with_contents(&gpu, "values", &[1u32; 1000]).unwrap();
-    let kernel = Kernel::from_wgsl(&gpu, "double", DOUBLE, &["values"], &[]);
-    let bindings = kernel.bind(&gpu, &[("values", values.buffer())]);
+    let kernel = Kernel::from_wgsl(gpu.device(), "double", DOUBLE, &["values"], &[]);
+    let bindings = kernel.bind(&[("values", values.buffer())]);
     let mut readback = Readback::default();
     let mut inflight = Vec::new();
     for _ in 0..5 {
@@ -114,8 +114,8 @@ fn empty_buffers_can_be_bound_and_read() {
     let gpu = open();
     let values = Storage::<u32>::with_contents(&gpu, "values", &[]).unwrap();
     assert!(values.is_empty() && values.bytes() == 16);
-    let kernel = Kernel::from_wgsl(&gpu, "double", DOUBLE, &["values"], &[]);
-    kernel.bind(&gpu, &[("values", values.buffer())]);
+    let kernel = Kernel::from_wgsl(gpu.device(), "double", DOUBLE, &["values"], &[]);
+    kernel.bind(&[("values", values.buffer())]);
     assert!(block_on(Readback::default().read(&gpu, &values, 0, 0)).unwrap().is_empty());
 }
 
@@ -178,7 +178,7 @@ fn a_lost_device_is_a_typed_error() {
 fn mistakes_are_reported_and_do_not_panic() {
     let gpu = open();
     let error = block_on(gpu.with_error_scope("test", || {
-        Kernel::from_wgsl(&gpu, "broken", "@compute @workgroup_size(1) fn main() { undefined(); }", &[], &[]);
+        Kernel::from_wgsl(gpu.device(), "broken", "@compute @workgroup_size(1) fn main() { undefined(); }", &[], &[]);
         Ok(())
     }))
     .unwrap_err();

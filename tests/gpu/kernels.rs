@@ -44,7 +44,7 @@ impl Kernels {
         let mut compiled = self.compiled.borrow_mut();
         let kernel =
             compiled.entry(shader.name()).or_insert_with(|| Compiler::new(&self.gpu).kernel(shader, self.width));
-        let bindings = kernel.bind(&self.gpu, buffers);
+        let bindings = kernel.bind(buffers);
         let mut recorder = Recorder::new(&self.gpu, None);
         recorder.dispatch(kernel, &bindings, 3);
         recorder.submit(&self.gpu);

@@ -77,5 +77,5 @@ fn a_missing_buffer_is_named() {
     let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
     let control = Storage::<u32>::new(&gpu, "control", 64).unwrap();
     let kernel = Compiler::new(&gpu).on_demand(shader::D3.get("flip_link"), Width::Narrow);
-    kernel.bind(&gpu, &[("control", control.buffer())]);
+    kernel.bind(&[("control", control.buffer())]);
 }

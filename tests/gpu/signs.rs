@@ -28,7 +28,7 @@ impl SignKernel {
         let has_int64 = gpu.device().features().contains(wgpu::Features::SHADER_INT64);
         let forms = if has_int64 { vec![portable, int64] } else { vec![portable] };
         let compiled = |wgsl: String| {
-            let compile = || Ok(Kernel::from_wgsl(&gpu, "predicates", &wgsl, variables, &[]));
+            let compile = || Ok(Kernel::from_wgsl(gpu.device(), "predicates", &wgsl, variables, &[]));
             let kernel = block_on(gpu.with_error_scope("test", compile)).unwrap();
             SignKernel { gpu: gpu.clone(), kernel }
         };
@@ -39,7 +39,7 @@ impl SignKernel {
     pub fn signs<T: Pod>(&self, inputs: &[Binding<'_>], cases: usize) -> Vec<T> {
         let gpu = &self.gpu;
         let signs = Storage::<T>::new(gpu, "signs", cases).unwrap();
-        let bindings = self.kernel.bind(gpu, &[inputs, &[("signs", signs.buffer())]].concat());
+        let bindings = self.kernel.bind(&[inputs, &[("signs", signs.buffer())]].concat());
         let mut recorder = Recorder::new(gpu, None);
         recorder.dispatch(&self.kernel, &bindings, workgroups(cases as u32));
         recorder.submit(gpu);

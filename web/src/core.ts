@@ -236,6 +236,21 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, { gpu, device }
     }
   }
 
+  /** Returns the statistics of a run with what is only known in JavaScript. */
+  const complete = (
+    stats: any,
+    info: CoreInfo | null,
+    started: number,
+    { readyBytes }: Memory,
+  ): CoreStats => ({
+    ...stats,
+    fallback: stats.fallback ?? info?.fallback ?? null,
+    adapter: stats.backend === 'gpu' ? (info?.adapter ?? null) : null,
+    milliseconds: performance.now() - started,
+    wasmBytes: memory.buffer.byteLength,
+    readyBytes,
+  });
+
   /**
    * Triangulates, and adds to the mesh what is only known in JavaScript. Of its arrays, `large` are
    * those of simplices and neighbours.
@@ -291,15 +306,7 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, { gpu, device }
     const { byteLength } = mesh.tetrahedra ?? mesh.triangles ?? points;
     // The next run may have a few more of them.
     if (isOnGpu && !resident) bytesPerCoordinate = (1.02 * byteLength) / (points.length || 1);
-    const stats: CoreStats = {
-      ...mesh.stats,
-      fallback: mesh.stats.fallback ?? info?.fallback ?? null,
-      adapter: mesh.stats.backend === 'gpu' ? (info?.adapter ?? null) : null,
-      milliseconds: performance.now() - started,
-      wasmBytes: memory.buffer.byteLength,
-      readyBytes: ready.readyBytes,
-    };
-    return { ...mesh, points, stats };
+    return { ...mesh, points, stats: complete(mesh.stats, info, started, ready) };
   }
 
   /** Frees what the device keeps. */
@@ -422,15 +429,7 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, { gpu, device }
       const { fallback, gpu, update } = { ...mesh.stats, ...left };
       mesh.stats = { ...mesh.stats, fallback, gpu, update };
     }
-    const stats: CoreStats = {
-      ...mesh.stats,
-      fallback: mesh.stats.fallback ?? info?.fallback ?? null,
-      adapter: mesh.stats.backend === 'gpu' ? (info?.adapter ?? null) : null,
-      milliseconds: performance.now() - started,
-      wasmBytes: memory.buffer.byteLength,
-      readyBytes: ready.readyBytes,
-    };
-    return { ...mesh, points: carrier.points, stats };
+    return { ...mesh, points: carrier.points, stats: complete(mesh.stats, info, started, ready) };
   }
 
   /** Moves a mesh of the CPU to the device. */

@@ -126,7 +126,7 @@ impl OutputStage {
                 let scan = self.scan.bind(gpu, &params.cast(), mesh.marks, mesh.numbers)?;
                 let mut recorder = Recorder::new(gpu, None);
                 let run = |recorder: &mut Recorder<'_>, kernel: &Kernel, items: u32| {
-                    recorder.dispatch(kernel, &kernel.bind(gpu, &buffers), gpu.workgroups(items as usize));
+                    recorder.dispatch(kernel, &kernel.bind(&buffers), gpu.workgroups(items as usize));
                 };
                 run(&mut recorder, &self.mark, count);
                 scan.record(&mut recorder);

@@ -7,7 +7,6 @@ use crate::{
         Gpu, Parts,
         dim::{Dim, Flip},
         layout::{BLOCK, DONE, SLOT_SHIFT},
-        parts,
         phase1::{
             buffers::{Sizes, largest_bytes},
             settings::Settings,
@@ -45,7 +44,7 @@ where
     }
     let points = count as u32;
     let blocks = settings.first_blocks(points);
-    let (bytes, limit) = (largest_bytes(blocks), parts::limit(gpu, parts));
+    let (bytes, limit) = (largest_bytes(blocks), largest_array(gpu, parts));
     if bytes > limit.into() {
         let points = Some(max_points(limit, settings));
         return Err(Error::BufferTooLarge { label: Dimension::<D>::SIMPLICES, bytes, limit, points });
@@ -76,7 +75,7 @@ where
     if blocks <= before {
         return Err(Error::TooManySimplices { limit: MAX_SIMPLICES as usize });
     }
-    let (bytes, limit) = (largest_bytes(blocks), parts::limit(gpu, parts));
+    let (bytes, limit) = (largest_bytes(blocks), largest_array(gpu, parts));
     if bytes > limit.into() {
         let points = Some((u128::from(points) * u128::from(limit) / bytes) as usize);
         return Err(Error::BufferTooLarge { label: Dimension::<D>::SIMPLICES, bytes, limit, points });
@@ -96,4 +95,9 @@ where
         *(if fits(&middle) { &mut fitting } else { &mut too_many }) = middle;
     }
     fitting as usize
+}
+
+/// Returns the size of the largest array, in bytes: of one buffer, or of all its parts.
+fn largest_array(gpu: &Gpu, parts: Option<Parts>) -> u64 {
+    parts.map_or_else(|| gpu.max_storage_bytes(), Parts::limit)
 }

@@ -4,15 +4,18 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Gpu, Pending, Recorder, Room,
+        Gpu, Pending, Profiler, Recorder, Room, Rooms,
         dim::{Corners, Dim},
+        host::{Fit, Host},
         layout::{COUNTER_WORDS, Counters, NONE, PARAM_WORDS},
         phase1::{
-            finish::{self, Copies, Finish},
+            begin::Begin,
+            finish::{Aliases, Copied, Copies, Finish},
             kernels::Phase1,
             memory::Memory,
             record::counters_in,
-            run::{Phase1Output, Run, Submitted},
+            run::{Run, Submitted},
+            settings::Settings,
             stats::Phase1Stats,
         },
         points::PointBuffers,
@@ -22,8 +25,21 @@ use crate::{
     stats::Stopwatch,
 };
 
-/// Memory for the simplices of a mesh, and for their neighbours.
-pub(super) type Rooms<const D: usize> = [Option<Room<Corners<D>>>; 2];
+/// The output of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Phase1Output<const D: usize>
+where
+    Dimension<D>: Finish<D>,
+{
+    /// The mesh, and what is to be repaired or checked of it.
+    pub result: <Dimension<D> as Finish<D>>::Result,
+    /// Points that are vertices of no simplex, with that of the point at the same place of the
+    /// lattice: exact duplicates, and points that were rounded to the same place, which are
+    /// inserted afterwards.
+    pub merged: Vec<[u32; 2]>,
+    /// What the run did.
+    pub stats: Phase1Stats,
+}
 
 impl<'a, const D: usize> Run<'a, D>
 where
@@ -125,6 +141,33 @@ where
     }
 }
 
+impl<const D: usize> Phase1<D>
+where
+    Dimension<D>: Finish<D>,
+{
+    /// Runs Phase 1.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::new`], [`Run::advance`] and [`Run::finish`].
+    ///
+    /// # Panics
+    ///
+    /// Those of [`Begin::of`].
+    pub async fn run(
+        &mut self,
+        gpu: &Gpu,
+        host: &mut impl Host<D>,
+        settings: &Settings<D>,
+        profiler: Option<&mut Profiler>,
+    ) -> Result<Phase1Output<D>, Error> {
+        let begin = Begin::of(host.ask(Fit::default()).await?);
+        let mut run = Run::new(self, gpu, host, begin, *settings, profiler).await?;
+        while run.advance().await? {}
+        run.finish().await
+    }
+}
+
 /// Keeps the buffers of a run for the next one. Returns what the run did.
 fn keep<const D: usize>(
     kernels: &mut Phase1<D>,
@@ -155,7 +198,7 @@ where
     pub(crate) finite: usize,
     merged: Merged,
     pub(crate) workgroups: u32,
-    rooms: Rooms<D>,
+    rooms: Rooms<Corners<D>>,
     read_before: (usize, u64),
     pub(crate) stats: Phase1Stats,
 }
@@ -184,14 +227,24 @@ where
     /// Those of [`Run::advance`].
     pub(crate) async fn read(&mut self) -> Result<(<Dimension<D> as Finish<D>>::Result, Vec<[u32; 2]>), Error> {
         let mut clock = Stopwatch::start();
-        let rooms = take_rooms(&mut self.rooms);
-        let readback = &mut self.kernels.readback;
-        let (result, submissions) =
-            finish::read(self.gpu, readback, &self.memory, self.finite, &self.counters, rooms).await?;
+        let (gpu, readback, Memory { buffers, bound }) = (self.gpu, &mut self.kernels.readback, &self.memory);
+        let (submission, reading) = gpu
+            .with_error_scope("the result of Phase 1", || {
+                let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, None) };
+                let reading = Dimension::<D>::copy(&mut copies, buffers, &bound.aliases, &self.counters);
+                Ok((copies.recorder.submit(gpu), reading))
+            })
+            .await?;
+        let before = readback.count();
+        let len = Dimension::<D>::mesh_len(self.finite, &self.counters);
+        let arrays = readback.read_arrays(gpu, &bound.aliases.arrays(), take_rooms(&mut self.rooms), len).await?;
+        self.stats.submits += 1 + readback.count() - before;
+        let mut copied = Copied { readback, gpu, submission };
+        let result = Dimension::<D>::receive(&mut copied, reading, arrays, self.finite).await?;
         let merged = self.read_merged().await?;
         self.stats.readback_time += clock.lap();
-        self.stats.submits += submissions;
-        self.stats.stalls += finish::STALLS;
+        // The device has nothing to do while the host waits for the last submission.
+        self.stats.stalls += 1;
         Ok((result, merged))
     }
 
@@ -201,17 +254,14 @@ where
     ///
     /// Those of [`Run::advance`].
     pub(crate) async fn read_merged(&mut self) -> Result<Vec<[u32; 2]>, Error> {
-        match std::mem::replace(&mut self.merged, Merged::Known(Vec::new())) {
+        let merged = match std::mem::replace(&mut self.merged, Merged::Known(Vec::new())) {
             Merged::Coming(submission, merged) => {
-                let merged = pairs(self.kernels.readback.receive(self.gpu, &submission, merged).await?);
-                self.merged = Merged::Known(merged.clone());
-                Ok(merged)
+                pairs(self.kernels.readback.receive(self.gpu, &submission, merged).await?)
             }
-            Merged::Known(merged) => {
-                self.merged = Merged::Known(merged.clone());
-                Ok(merged)
-            }
-        }
+            Merged::Known(merged) => merged,
+        };
+        self.merged = Merged::Known(merged.clone());
+        Ok(merged)
     }
 
     /// Keeps the buffers for the next run. Returns what this one did.
@@ -221,7 +271,7 @@ where
 }
 
 /// Returns the memory that there is for the simplices and for their neighbours by now.
-fn take_rooms<const D: usize>(rooms: &mut Rooms<D>) -> [Vec<Corners<D>>; 2]
+fn take_rooms<const D: usize>(rooms: &mut Rooms<Corners<D>>) -> [Vec<Corners<D>>; 2]
 where
     Dimension<D>: Dim<D>,
 {

@@ -12,7 +12,7 @@ use crate::{
         dim::{Corners, Dim},
         host::Work,
         layout::Counters,
-        phase1::{buffers::Buffers, memory::Memory},
+        phase1::buffers::Buffers,
     },
 };
 
@@ -117,41 +117,4 @@ impl Copied<'_> {
     ) -> impl Future<Output = Result<Vec<T>, Error>> {
         self.readback.receive_into(self.gpu, &self.submission, pending, list)
     }
-}
-
-/// How often [`read`] waits while the device has nothing to do: for the last submission.
-pub(crate) const STALLS: usize = 1;
-
-/// Reads the mesh back, of which `finite` simplices are finite. There are `rooms` for the simplices and
-/// for their neighbours. Returns the number of submissions as well.
-///
-/// # Errors
-///
-/// Returns the errors of [`Gpu::with_error_scope`] and [`Readback::receive`].
-pub(crate) async fn read<const D: usize>(
-    gpu: &Gpu,
-    readback: &mut Readback,
-    memory: &Memory<D>,
-    finite: usize,
-    counters: &Counters,
-    rooms: [Vec<Corners<D>>; 2],
-) -> Result<(<Dimension<D> as Finish<D>>::Result, usize), Error>
-where
-    Dimension<D>: Finish<D>,
-{
-    let Memory { buffers, bound } = memory;
-    let len = Dimension::<D>::mesh_len(finite, counters);
-    let (submission, reading) = gpu
-        .with_error_scope("the result of Phase 1", || {
-            let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, None) };
-            let reading = Dimension::<D>::copy(&mut copies, buffers, &bound.aliases, counters);
-            Ok((copies.recorder.submit(gpu), reading))
-        })
-        .await?;
-    let before = readback.count();
-    let arrays = readback.read_arrays(gpu, &bound.aliases.arrays(), rooms, len).await?;
-    let submissions = 1 + readback.count() - before;
-    let mut copied = Copied { readback, gpu, submission };
-    let result = Dimension::<D>::receive(&mut copied, reading, arrays, finite).await?;
-    Ok((result, submissions))
 }

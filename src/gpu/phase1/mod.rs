@@ -47,11 +47,11 @@ mod stats;
 
 pub use begin::Begin;
 pub use buffers::{Buffers, Sizes, Slot};
-pub use ended::Ended;
+pub use ended::{Ended, Phase1Output};
 pub use finish::{Aliases, Copied, Copies, Finish};
 pub use kernels::Phase1;
 pub(crate) use memory::Memory;
-pub use run::{Phase1Output, Run};
+pub use run::Run;
 pub use settings::{Budget, MemorySettings, Settings};
 pub(crate) use stages::Stage;
 pub use stats::Phase1Stats;

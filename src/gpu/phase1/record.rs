@@ -162,7 +162,7 @@ where
         self.record(gpu, recorder, Stage::FillFree);
         let mut bindings = buffers.bindings();
         bindings.extend([("moved_simplices", mesh.simplices()), ("moved_neighbors", mesh.neighbors())]);
-        stages.moved.bind(gpu, &bindings).record(recorder, self.workgroups(gpu));
+        stages.moved.bind(&bindings).record(recorder, self.workgroups(gpu));
         Ok(())
     }
 

@@ -4,42 +4,24 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Gpu, Pending, Profiler, Recorder,
-        host::{Fit, Host},
+        Gpu, Pending, Profiler, Recorder, Rooms,
+        dim::Corners,
         layout::{Counters, Params},
         phase1::{
-            begin::Begin,
             buffers::Buffers,
-            ended::Rooms,
             finish::Finish,
             iterations::Needed,
             kernels::Phase1,
             plan::{Plan, first_counters},
             record::{DeviceRun, counters_in},
             settings::Settings,
-            stats::{Meter, Phase1Stats},
+            stats::Meter,
         },
         start::{Start, StartMesh},
     },
     stats::Round,
 };
 use std::collections::VecDeque;
-
-/// The output of a run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Phase1Output<const D: usize>
-where
-    Dimension<D>: Finish<D>,
-{
-    /// The mesh, and what is to be repaired or checked of it.
-    pub result: <Dimension<D> as Finish<D>>::Result,
-    /// Points that are vertices of no simplex, with that of the point at the same place of the
-    /// lattice: exact duplicates, and points that were rounded to the same place, which are
-    /// inserted afterwards.
-    pub merged: Vec<[u32; 2]>,
-    /// What the run did.
-    pub stats: Phase1Stats,
-}
 
 /// A run in progress.
 pub struct Run<'a, const D: usize>
@@ -58,7 +40,7 @@ where
     /// Batches of rounds whose counters are not read yet, oldest first.
     pub(super) submitted: VecDeque<Submitted>,
     /// Memory for the simplices and their neighbours, if the host is to have them.
-    pub(super) rooms: Rooms<D>,
+    pub(super) rooms: Rooms<Corners<D>>,
     pub(super) meter: Meter,
 }
 
@@ -178,32 +160,5 @@ where
         self.meter.stats.rounds.clear();
         self.meter.stats.start_points = start_points;
         self.start = start;
-    }
-}
-
-impl<const D: usize> Phase1<D>
-where
-    Dimension<D>: Finish<D>,
-{
-    /// Runs Phase 1.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Run::new`], [`Run::advance`] and [`Run::finish`].
-    ///
-    /// # Panics
-    ///
-    /// Those of [`Begin::of`].
-    pub async fn run(
-        &mut self,
-        gpu: &Gpu,
-        host: &mut impl Host<D>,
-        settings: &Settings<D>,
-        profiler: Option<&mut Profiler>,
-    ) -> Result<Phase1Output<D>, Error> {
-        let begin = Begin::of(host.ask(Fit::default()).await?);
-        let mut run = Run::new(self, gpu, host, begin, *settings, profiler).await?;
-        while run.advance().await? {}
-        run.finish().await
     }
 }

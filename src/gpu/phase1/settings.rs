@@ -138,10 +138,12 @@ impl<const D: usize> Settings<D> {
             return None;
         }
         match self.memory.part_bytes {
-            Some(bytes) => Parts::with_bytes(gpu, bytes),
+            Some(bytes) => Parts::with_bytes(&gpu.device().limits(), bytes),
             None => {
                 let bytes = largest_bytes(self.first_blocks(points));
-                Parts::of(gpu).filter(|_| bytes + bytes / 8 > gpu.max_storage_bytes().into())
+                let largest = gpu.max_storage_bytes();
+                let is_too_much = bytes + bytes / 8 > largest.into();
+                if is_too_much { Parts::with_bytes(&gpu.device().limits(), largest) } else { None }
             }
         }
     }

@@ -203,7 +203,7 @@ impl Stages {
         let mut buffers = b.bindings();
         buffers.extend(aliases.bindings());
         buffers.push(("sums", scan.sums().buffer()));
-        let steps = self.steps.each_ref().map(|steps| steps.bind(gpu, &buffers));
+        let steps = self.steps.each_ref().map(|steps| steps.bind(&buffers));
         Ok(BoundStages { steps, scan, aliases })
     }
 }

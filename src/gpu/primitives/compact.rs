@@ -48,7 +48,7 @@ impl Compact {
         let scan = self.scan.bind(gpu, params, marks, &offsets)?;
         let mut buffers = vec![("params", params.buffer()), ("offsets", offsets.buffer()), ("kept", kept.buffer())];
         append_bindings(&mut buffers, &[marks.named("marks")]);
-        let scatter = self.scatter.bind(gpu, &buffers);
+        let scatter = self.scatter.bind(&buffers);
         Ok(BoundCompact { scan, scatter, workgroups: workgroups(marks.len() as u32) })
     }
 }

@@ -69,7 +69,7 @@ impl Scan {
         let mut buffers = vec![("params", params.buffer()), ("sums", sums.buffer())];
         append_bindings(&mut buffers, &[values.named("values"), offsets.named("offsets")]);
         let groups = values.len().div_ceil(STEP).clamp(1, GROUPS) as u32;
-        Ok(BoundScan { steps: self.0.bind(gpu, &buffers), sums, groups })
+        Ok(BoundScan { steps: self.0.bind(&buffers), sums, groups })
     }
 }
 

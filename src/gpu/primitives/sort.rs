@@ -85,7 +85,7 @@ impl Sort {
                 ("totals", totals.buffer()),
                 ("sorted", scratch.buffer()),
             ];
-            passes.push([&self.count, &self.scan, &self.scatter].map(|kernel| kernel.bind(gpu, &buffers)));
+            passes.push([&self.count, &self.scan, &self.scatter].map(|kernel| kernel.bind(&buffers)));
             std::mem::swap(pairs, scratch);
         }
         Ok(BoundSort { passes, tiles: tiles as u32 })
